@@ -1,0 +1,107 @@
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "app/report/chart.h"
+
+namespace halyard::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Okabe and Ito's palette, colour-blind safe; yellow, pale on white, last.
+constexpr std::array<const char*, 8> kPalette = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                 "#56B4E9", "#E69F00", "#000000", "#F0E442"};
+
+/// To 12 significant digits: finer than any pixel, also where time counts from 1970.
+double rounded(double value) {
+  std::array<char, 32> text;
+  const auto [end, error] =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 12);
+  double result = value;
+  std::from_chars(text.data(), end, result);
+  return result;
+}
+
+Json number(double value) { return std::isfinite(value) ? Json(rounded(value)) : Json(nullptr); }
+
+Json numbers(const std::vector<double>& values) {
+  Json array = Json::array();
+  for (const double value : values) array.push_back(number(value));
+  return array;
+}
+
+Json to_object(const Points& points) { return {{"x", numbers(points.x)}, {"y", numbers(points.y)}}; }
+
+const char* name_of(ChartKind kind) {
+  switch (kind) {
+    case ChartKind::line: return "line";
+    case ChartKind::scatter: return "scatter";
+    case ChartKind::bar: return "bar";
+    case ChartKind::histogram: return "histogram";
+  }
+  throw std::invalid_argument("unknown kind of chart");
+}
+
+void check_lengths(const Chart& chart, const Series& series) {
+  const bool bar = chart.kind == ChartKind::bar;
+  const std::size_t expected = bar ? chart.categories.size() : series.x.size();
+  const auto check = [&](std::size_t length, const char* what) {
+    if (length == expected) return;
+    throw std::invalid_argument("chart \"" + chart.title + "\", series \"" + series.name +
+                                "\": " + std::to_string(length) + " values of " + what + ", expected " +
+                                std::to_string(expected) + ", one per " + (bar ? "category" : "x"));
+  };
+  check(series.y.size(), "y");
+  if (!series.band) return;
+  check(series.band->lower.size(), "band.lower");
+  check(series.band->upper.size(), "band.upper");
+}
+
+Json to_object(const Chart& chart, const Series& series, std::size_t place) {
+  check_lengths(chart, series);
+  Json object = {{"name", series.name},
+                 {"colour", kPalette[series.colour.value_or(place) % kPalette.size()]},
+                 {"dashed", series.dashed}};
+  switch (chart.kind) {
+    case ChartKind::line:
+      object.update(to_object(decimate(series.x, series.y)));
+      if (!series.band) break;
+      object["lower"] = to_object(decimate(series.x, series.band->lower));
+      object["upper"] = to_object(decimate(series.x, series.band->upper));
+      break;
+    case ChartKind::scatter: object.update(to_object(thin(series.x, series.y))); break;
+    case ChartKind::bar:
+    case ChartKind::histogram: object.update(to_object({series.x, series.y})); break;
+  }
+  return object;
+}
+
+}  // namespace
+
+std::string to_json(const Chart& chart) {
+  Json object = {{"kind", name_of(chart.kind)}, {"x_label", chart.x_label}, {"y_label", chart.y_label},
+                 {"log_x", chart.log_x},        {"log_y", chart.log_y},     {"categories", chart.categories},
+                 {"regions", Json::array()},    {"series", Json::array()}};
+  for (const Region& region : chart.regions) {
+    object["regions"].push_back({{"from", number(region.from)}, {"to", number(region.to)}, {"label", region.label}});
+  }
+  for (std::size_t place = 0; place < chart.series.size(); ++place) {
+    object["series"].push_back(to_object(chart, chart.series[place], place));
+  }
+
+  // Outside strings JSON has no '<'; inside, this escape means the same and cannot close the script element.
+  std::string safe;
+  for (const char c : object.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    if (c == '<') {
+      safe += "\\u003c";
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+}  // namespace halyard::report

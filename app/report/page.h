@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/report/chart.h"
+
+namespace halyard::report {
+
+/// One table cell; a number comes formatted.
+struct Cell {
+  Cell(std::string content, bool is_best = false) : text(std::move(content)), best(is_best) {}
+  Cell(const char* content, bool is_best = false) : text(content), best(is_best) {}
+
+  std::string text;
+  bool best;  ///< highlighted
+};
+
+enum class Align { left, right };
+
+struct Table {
+  std::string caption = {};
+  std::vector<std::string> header = {};
+  std::vector<std::vector<Cell>> rows = {};  ///< each as long as the header
+  std::vector<Align> align = {};             ///< one per column; empty: first column left, others right
+};
+
+enum class VerdictKind { good, warning, bad, neutral };
+
+/// A report in one HTML file that loads nothing else: style, Chart.js and data are inside. Parts appear in the order
+/// of the calls. All text is UTF-8 and escaped. Equal calls give equal bytes.
+class Page {
+ public:
+  Page(std::string title, std::string subtitle);
+
+  void heading(const std::string& text);
+  void paragraph(const std::string& text);
+  void verdict(VerdictKind kind, const std::string& text);
+
+  /// Throws std::invalid_argument, naming table and row, if a row or the alignment is not as long as the header.
+  void table(const Table& table);
+
+  /// Throws as to_json() does.
+  void chart(const Chart& chart);
+
+  /// Charts side by side, wrapping where the window is narrow. Throws as to_json() does.
+  void figure_row(const std::vector<Chart>& charts);
+
+  std::string html() const;
+
+  /// Throws std::runtime_error with path and reason; the file is then as it was.
+  void write(const std::filesystem::path& path) const;
+
+ private:
+  std::string title_;
+  std::string subtitle_;
+  std::string body_;
+};
+
+}  // namespace halyard::report

@@ -1,0 +1,182 @@
+"use strict";
+// Draws the JSON of chart_json.cpp in every figure of the page.
+
+const text = "#1c2430", muted = "#5b6675", grid = "#e6e9ee";
+const short = (value, digits = 6) => String(Number(value.toPrecision(digits)));
+
+Chart.defaults.animation = false;
+Chart.defaults.locale = "en-US";
+Chart.defaults.color = muted;
+Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
+Chart.defaults.devicePixelRatio = Math.max(2, window.devicePixelRatio);
+
+const joined = (points) => points.x.map((x, i) => ({x: x, y: points.y[i]}));
+
+// A sample between two gaps has no line to show it.
+const lonely = (y) => y.map((v, i) => v !== null && (y[i - 1] ?? null) === null && (y[i + 1] ?? null) === null);
+
+function line(series, place) {
+  const common = {label: series.name, place: place, borderColor: series.colour};
+  const edge = {...common, band: true, order: 1, borderWidth: 0, pointRadius: 0, pointHitRadius: 0};
+  const band = !series.lower ? [] : [
+    {...edge, data: joined(series.lower)},
+    {...edge, data: joined(series.upper), fill: "-1", backgroundColor: series.colour + "2e"},
+  ];
+  return [...band, {
+    ...common,
+    data: joined(series),
+    order: -place,
+    backgroundColor: series.colour,
+    borderWidth: 1.6,
+    borderDash: series.dashed ? [6, 4] : [],
+    borderJoinStyle: "round",
+    pointRadius: lonely(series.y).map((alone) => alone ? 1.6 : 0),
+    pointHoverRadius: 3.5,
+  }];
+}
+
+function scatter(series, place) {
+  return [{
+    label: series.name, place: place, data: joined(series), order: -place,
+    backgroundColor: series.colour + "80", borderWidth: 0, pointRadius: 2, pointHoverRadius: 4,
+  }];
+}
+
+function bars(series, place) {
+  return [{
+    label: series.name, place: place, data: series.y, order: place,
+    backgroundColor: series.colour, maxBarThickness: 48,
+  }];
+}
+
+function histogram(series, place) {
+  return [{
+    label: series.name, place: place, data: joined(series), order: -place, grouped: false,
+    backgroundColor: series.colour + "73", borderColor: series.colour, borderWidth: 1,
+    barPercentage: 1, categoryPercentage: 1,
+  }];
+}
+
+const makers = {line: line, scatter: scatter, bar: bars, histogram: histogram};
+
+const power = (value) => value < 1e-3 || value > 1e4 ? value.toExponential().replace("+", "") : short(value);
+
+// Powers of ten, and with few decades 2 and 5 of each.
+function logTick(value, index, ticks) {
+  const decades = Math.log10(ticks[ticks.length - 1].value / ticks[0].value);
+  const mantissa = Math.round(value / 10 ** Math.floor(Math.log10(value) + 1e-9));
+  return mantissa === 1 || (decades < 2.5 && (mantissa === 2 || mantissa === 5)) ? power(value) : "";
+}
+
+function axis(label, log) {
+  return {
+    type: log ? "logarithmic" : "linear",
+    title: {display: label !== "", text: label, color: text},
+    grid: {color: grid, borderColor: muted},
+    ticks: log ? {callback: logTick, maxRotation: 0} : {maxRotation: 0},
+  };
+}
+
+function axes(chart) {
+  const x = axis(chart.x_label, chart.log_x);
+  const y = axis(chart.y_label, chart.log_y);
+  if (chart.kind === "line") x.bounds = "data";
+  if (chart.kind === "bar") {
+    x.type = "category";
+    x.grid = {display: false, borderColor: muted};
+  }
+  if (chart.kind === "bar" || chart.kind === "histogram") y.grace = "5%";
+  const centres = chart.series.map((series) => series.x).find((centres) => centres.length > 1);
+  if (chart.kind === "histogram" && centres) {
+    const half = (centres[1] - centres[0]) / 2;
+    x.min = centres[0] - half;
+    x.max = centres[centres.length - 1] + half;
+    x.ticks.includeBounds = false;
+  }
+  return {x: x, y: y};
+}
+
+const shading = (regions) => ({
+  id: "regions",
+  beforeDatasetsDraw(chart) {
+    const {ctx, chartArea: area, scales: {x}} = chart;
+    const inside = (pixel) => Math.min(Math.max(pixel, area.left), area.right);
+    for (const region of regions) {
+      const left = region.from === null ? area.left : inside(x.getPixelForValue(region.from));
+      const right = region.to === null ? area.right : inside(x.getPixelForValue(region.to));
+      if (right <= left) continue;
+      ctx.save();
+      ctx.fillStyle = "rgba(91, 102, 117, 0.13)";
+      ctx.fillRect(left, area.top, right - left, area.bottom - area.top);
+      ctx.fillStyle = muted;
+      ctx.font = "12px " + Chart.defaults.font.family;
+      ctx.textBaseline = "top";
+      ctx.fillText(region.label, left + 6, area.top + 5, right - left - 8);
+      ctx.restore();
+    }
+  },
+});
+
+// A series and its band go together.
+function toggle(event, item, legend) {
+  const chart = legend.chart;
+  const visible = !chart.isDatasetVisible(item.datasetIndex);
+  const place = chart.data.datasets[item.datasetIndex].place;
+  chart.data.datasets.forEach((set, i) => {
+    if (set.place === place) chart.setDatasetVisibility(i, visible);
+  });
+  chart.update();
+}
+
+// Chart.js shows the style of the points; a line's legend shows the line.
+function lineLabels(chart) {
+  return Chart.defaults.plugins.legend.labels.generateLabels(chart).map((item) => (
+    {...item, lineDash: chart.data.datasets[item.datasetIndex].borderDash, lineWidth: 2}));
+}
+
+function plugins(chart) {
+  const numeric = chart.kind !== "bar";
+  return {
+    legend: {
+      display: chart.series.some((series) => series.name !== ""),
+      align: "start",
+      onClick: toggle,
+      labels: {
+        color: text,
+        usePointStyle: true,
+        pointStyleWidth: chart.kind === "line" ? 28 : 10,
+        boxHeight: 7,
+        ...(chart.kind === "line" ? {generateLabels: lineLabels} : {}),
+        pointStyle: chart.kind === "line" ? "line" : chart.kind === "scatter" ? "circle" : "rect",
+        filter: (item, data) => item.text !== "" && !data.datasets[item.datasetIndex].band,
+        sort: (a, b) => a.datasetIndex - b.datasetIndex,
+      },
+    },
+    tooltip: {
+      filter: (item) => !item.dataset.band,
+      callbacks: {
+        title: (items) => !items.length ? "" : numeric ? chart.x_label + ": " + short(items[0].parsed.x, 10) : items[0].label,
+        label: (item) => (item.dataset.label ? item.dataset.label + ": " : "") + short(item.parsed.y),
+      },
+    },
+  };
+}
+
+function draw(figure) {
+  const chart = JSON.parse(figure.querySelector("script").textContent);
+  return new Chart(figure.querySelector("canvas"), {
+    type: chart.kind === "histogram" ? "bar" : chart.kind,
+    data: {labels: chart.kind === "bar" ? chart.categories : undefined,
+           datasets: chart.series.flatMap(makers[chart.kind])},
+    options: {
+      maintainAspectRatio: false,
+      interaction: {mode: "nearest", intersect: false},
+      scales: axes(chart),
+      plugins: plugins(chart),
+    },
+    plugins: [shading(chart.regions)],
+  });
+}
+
+const charts = Array.from(document.querySelectorAll("figure.chart"), draw);
+addEventListener("beforeprint", () => charts.forEach((chart) => chart.resize()));

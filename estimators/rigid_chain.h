@@ -1,0 +1,186 @@
+#pragma once
+/// Newton-Euler dynamics of a serial chain whose joints move about or along the z axis of their own
+/// frame: the forces that a motion needs, and the mass matrix by unit accelerations (paper, II-B).
+///
+///   M(q) q'' + h(q, q') = F       h: velocity and gravity forces
+///
+///   q, q', q''   joint position, rate, acceleration    [n]      rad | m ...
+///   F            joint force                            [n]      N m | N
+///   M            mass matrix                            [n x n]  kg m² | kg m | kg
+///
+/// All vectors of link i are in its own frame. Source: Luh, Walker, Paul 1980; Craig, chapter 6.
+
+#include "transmission/arm_parameters.h"
+
+namespace halyard {
+
+/// Pose of each link in its parent: x_parent = R x + p.
+template <class T>
+struct ChainPose {
+  T R[kMaxJoints][3][3];
+  T p[kMaxJoints][3];
+};
+
+template <class T>
+HALYARD_INLINE void cross_add(const T* a, const T* b, T* sum) {
+  sum[0] += a[1] * b[2] - a[2] * b[1];
+  sum[1] += a[2] * b[0] - a[0] * b[2];
+  sum[2] += a[0] * b[1] - a[1] * b[0];
+}
+
+/// out = Rᵀ v: from the parent's frame into the link's.
+template <class T>
+HALYARD_INLINE void into_link(const T R[3][3], const T* v, T* out) {
+  for (int i = 0; i < 3; ++i) out[i] = R[0][i] * v[0] + R[1][i] * v[1] + R[2][i] * v[2];
+}
+
+/// out = R v: from the link's frame into the parent's.
+template <class T>
+HALYARD_INLINE void into_parent(const T R[3][3], const T* v, T* out) {
+  for (int i = 0; i < 3; ++i) out[i] = R[i][0] * v[0] + R[i][1] * v[1] + R[i][2] * v[2];
+}
+
+template <class T>
+HALYARD_INLINE ChainPose<T> chain_pose(const ArmParameters<T>& arm, const T* q) {
+  ChainPose<T> pose;
+  for (int i = 0; i < arm.n; ++i) {
+    const JointParameters<T>& j = arm.joint[i];
+    if (j.type == JointType::revolute) {
+      const T c = cos(q[i]), s = sin(q[i]);
+      for (int r = 0; r < 3; ++r) {
+        pose.R[i][r][0] = j.frame_R[r][0] * c + j.frame_R[r][1] * s;
+        pose.R[i][r][1] = j.frame_R[r][1] * c - j.frame_R[r][0] * s;
+        pose.R[i][r][2] = j.frame_R[r][2];
+        pose.p[i][r] = j.frame_p[r];
+      }
+    } else {
+      for (int r = 0; r < 3; ++r) {
+        for (int k = 0; k < 3; ++k) pose.R[i][r][k] = j.frame_R[r][k];
+        pose.p[i][r] = j.frame_p[r] + j.frame_R[r][2] * q[i];
+      }
+    }
+  }
+  return pose;
+}
+
+/// Inertia times vector, about the centre of mass.
+template <class T>
+HALYARD_INLINE void inertia_times(const T* I, const T* w, T* out) {
+  out[0] = I[0] * w[0] + I[3] * w[1] + I[4] * w[2];
+  out[1] = I[3] * w[0] + I[1] * w[1] + I[5] * w[2];
+  out[2] = I[4] * w[0] + I[5] * w[1] + I[2] * w[2];
+}
+
+/// Sums the links' forces f and moments m (each about its own frame's origin) down the chain onto
+/// the joints first..n-1.
+template <class T>
+HALYARD_INLINE void forces_to_joints(const ArmParameters<T>& arm, const ChainPose<T>& pose, T f[][3], T m[][3],
+                                     T* force) {
+  for (int i = arm.n - 1; i >= 0; --i) {
+    force[i] = arm.joint[i].type == JointType::revolute ? m[i][2] : f[i][2];
+    if (i == 0) break;
+    T fp[3], mp[3];
+    into_parent(pose.R[i], f[i], fp);
+    into_parent(pose.R[i], m[i], mp);
+    cross_add(pose.p[i], fp, mp);
+    for (int k = 0; k < 3; ++k) f[i - 1][k] += fp[k], m[i - 1][k] += mp[k];
+  }
+}
+
+/// F = M(q) a + h(q, v), h with the arm's gravity.
+template <class T>
+HALYARD_INLINE void inverse_dynamics(const ArmParameters<T>& arm, const ChainPose<T>& pose, const T* v, const T* a,
+                                     T* force) {
+  T w[3] = {T(0.0), T(0.0), T(0.0)}, dw[3] = {T(0.0), T(0.0), T(0.0)};
+  T acc[3] = {-arm.gravity[0], -arm.gravity[1], -arm.gravity[2]};
+  T f[kMaxJoints][3], m[kMaxJoints][3];
+  for (int i = 0; i < arm.n; ++i) {
+    const JointParameters<T>& j = arm.joint[i];
+    T at[3] = {acc[0], acc[1], acc[2]};        // acceleration of this frame's origin, parent's frame
+    T wp[3] = {T(0.0), T(0.0), T(0.0)};
+    cross_add(w, pose.p[i], wp);
+    cross_add(dw, pose.p[i], at);
+    cross_add(w, wp, at);
+    T w1[3], dw1[3];
+    into_link(pose.R[i], w, w1);
+    into_link(pose.R[i], dw, dw1);
+    into_link(pose.R[i], at, acc);
+    if (j.type == JointType::revolute) {
+      dw1[0] += w1[1] * v[i];
+      dw1[1] -= w1[0] * v[i];
+      dw1[2] += a[i];
+      w1[2] += v[i];
+    } else {
+      acc[0] += T(2.0) * w1[1] * v[i];
+      acc[1] -= T(2.0) * w1[0] * v[i];
+      acc[2] += a[i];
+    }
+    for (int k = 0; k < 3; ++k) w[k] = w1[k], dw[k] = dw1[k];
+
+    T ac[3] = {acc[0], acc[1], acc[2]};
+    T wc[3] = {T(0.0), T(0.0), T(0.0)};
+    cross_add(w, j.com, wc);
+    cross_add(dw, j.com, ac);
+    cross_add(w, wc, ac);
+    T Iw[3];
+    inertia_times(j.inertia, w, Iw);
+    inertia_times(j.inertia, dw, m[i]);
+    cross_add(w, Iw, m[i]);
+    for (int k = 0; k < 3; ++k) f[i][k] = j.mass * ac[k];
+    cross_add(j.com, f[i], m[i]);
+  }
+  forces_to_joints(arm, pose, f, m, force);
+}
+
+/// M(q), column by column: the forces of one unit acceleration each, at rest, without gravity.
+template <class T>
+HALYARD_INLINE void mass_matrix(const ArmParameters<T>& arm, const ChainPose<T>& pose, T M[][kMaxJoints]) {
+  for (int c = 0; c < arm.n; ++c) {
+    T f[kMaxJoints][3], m[kMaxJoints][3], dw[3], acc[3];
+    for (int i = 0; i < c; ++i)
+      for (int k = 0; k < 3; ++k) f[i][k] = m[i][k] = T(0.0);
+    for (int k = 0; k < 3; ++k) dw[k] = acc[k] = T(0.0);
+    for (int i = c; i < arm.n; ++i) {
+      const JointParameters<T>& j = arm.joint[i];
+      if (i == c) {
+        (j.type == JointType::revolute ? dw : acc)[2] = T(1.0);
+      } else {
+        T at[3] = {acc[0], acc[1], acc[2]}, before[3] = {dw[0], dw[1], dw[2]};
+        cross_add(dw, pose.p[i], at);
+        into_link(pose.R[i], at, acc);
+        into_link(pose.R[i], before, dw);
+      }
+      T ac[3] = {acc[0], acc[1], acc[2]};
+      cross_add(dw, j.com, ac);
+      inertia_times(j.inertia, dw, m[i]);
+      for (int k = 0; k < 3; ++k) f[i][k] = j.mass * ac[k];
+      cross_add(j.com, f[i], m[i]);
+    }
+    T column[kMaxJoints];
+    forces_to_joints(arm, pose, f, m, column);
+    for (int r = 0; r <= c; ++r) M[r][c] = M[c][r] = column[r];
+  }
+}
+
+/// Solves A x = b in place for a symmetric positive definite A, by L D Lᵀ; A is overwritten by its
+/// factors, so that further right-hand sides need ldl_solve alone.
+template <class T, int Stride>
+HALYARD_INLINE void ldl_factor(int n, T A[][Stride]) {
+  for (int j = 0; j < n; ++j)
+    for (int i = j; i < n; ++i) {
+      T sum = A[i][j];
+      for (int k = 0; k < j; ++k) sum -= A[i][k] * A[j][k] * A[k][k];
+      A[i][j] = i == j ? sum : sum / A[j][j];
+    }
+}
+
+template <class T, int Stride>
+HALYARD_INLINE void ldl_solve(int n, const T A[][Stride], T* x) {
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < i; ++k) x[i] -= A[i][k] * x[k];
+  for (int i = 0; i < n; ++i) x[i] /= A[i][i];
+  for (int i = n - 1; i >= 0; --i)
+    for (int k = i + 1; k < n; ++k) x[i] -= A[k][i] * x[k];
+}
+
+}  // namespace halyard

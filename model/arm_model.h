@@ -1,0 +1,61 @@
+#pragma once
+/// A cable-driven serial arm as a model file describes it: the numbers of the equations, the effects
+/// that are placed on it, its controller, how foreign logs of it are read, and options of estimators.
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "model/column_map.h"
+#include "transmission/effect.h"
+
+namespace halyard {
+
+/// PD control of one motor at the motor shaft: τ = kp (q_m,d - q_m) + kd (q_m,d' - q_m'), |τ| <= limit.
+struct ControllerParameters {
+  double kp = 0;             ///< N m/rad
+  double kd = 0;             ///< N m s/rad
+  double torque_limit = 0;   ///< N m; 0: none
+};
+
+/// What a model says of a joint beside its equations' numbers.
+struct JointDescription {
+  std::string name;
+  double lower = 0, upper = 0;   ///< range, rad | m
+  double home = 0;               ///< where motor angles are counted from and where runs start, rad | m
+  ControllerParameters controller;
+};
+
+/// Options of one estimator, by name, as text; the estimator checks them.
+using EstimatorOptions = std::map<std::string, std::string>;
+
+struct ArmModel {
+  std::string name;
+  ArmParameters<double> nominal;              ///< without the effects
+  std::vector<PlacedEffect> effects;
+  std::vector<JointDescription> joints;       ///< [n]
+  ColumnMap columns;                          ///< empty: halyard's own column names
+  std::map<std::string, EstimatorOptions> estimators;
+  std::string source;                         ///< path, for messages
+
+  int n() const { return nominal.n; }
+  Eigen::VectorXd home() const;
+};
+
+/// One number of the arm that a study may vary and a diagnosis may refit.
+struct ParameterInfo {
+  std::string name;                      ///< "joint 2 cable stiffness"
+  std::string key;                       ///< "joint2.cable.stiffness", as sweeps name it
+  std::string unit;
+  int joint;                             ///< 0-based; -1: the arm
+  double tolerance;                      ///< relative, from the model
+  double* value;                         ///< into the ArmParameters it was listed from
+};
+
+/// The named numbers of an arm: per joint link mass; motor inertia, coulomb, viscous, gear_ratio, capstan_radius,
+/// torque_scale, torque_bias; cable stiffness, damping, tension, pulley_radius; coupling coefficients with inboard
+/// joints; friction coulomb, viscous. Numbers that do not exist at a joint (a cable of a rigid drive) are left out.
+std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm);
+
+}  // namespace halyard

@@ -1,0 +1,183 @@
+#include "model/column_map.h"
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "model/input_error.h"
+
+namespace halyard {
+namespace {
+
+enum class Quantity { kTime, kPosition, kVelocity, kEffort };
+
+struct Unit {
+  std::string_view name;
+  Quantity quantity;
+  double si;  // SI unit per unit
+};
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+constexpr std::array kUnits = {
+    Unit{"s", Quantity::kTime, 1},
+    Unit{"ms", Quantity::kTime, 1e-3},
+    Unit{"us", Quantity::kTime, 1e-6},
+    Unit{"rad", Quantity::kPosition, 1},
+    Unit{"deg", Quantity::kPosition, kTurn / 360},
+    Unit{"turn", Quantity::kPosition, kTurn},
+    Unit{"m", Quantity::kPosition, 1},
+    Unit{"mm", Quantity::kPosition, 1e-3},
+    Unit{"um", Quantity::kPosition, 1e-6},
+    Unit{"rad/s", Quantity::kVelocity, 1},
+    Unit{"deg/s", Quantity::kVelocity, kTurn / 360},
+    Unit{"rpm", Quantity::kVelocity, kTurn / 60},
+    Unit{"m/s", Quantity::kVelocity, 1},
+    Unit{"mm/s", Quantity::kVelocity, 1e-3},
+    Unit{"N.m", Quantity::kEffort, 1},
+    Unit{"mN.m", Quantity::kEffort, 1e-3},
+    Unit{"N.mm", Quantity::kEffort, 1e-3},
+    Unit{"N", Quantity::kEffort, 1},
+};
+
+/// "1", "2", ... without leading zeros, of at most 9 digits.
+bool is_joint_number(std::string_view text) {
+  return !text.empty() && text.size() < 10 && text.front() != '0' &&
+         text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+std::optional<Quantity> quantity_of(std::string_view name) {
+  if (name == "time") return Quantity::kTime;
+  const auto split = name.rfind('_');
+  if (split == std::string_view::npos || !is_joint_number(name.substr(split + 1))) return std::nullopt;
+  const std::string_view signal = name.substr(0, split);
+  for (const std::string_view known : kSignalNames) {
+    if (signal != known) continue;
+    if (signal.ends_with("position")) return Quantity::kPosition;
+    return signal.ends_with("velocity") ? Quantity::kVelocity : Quantity::kEffort;
+  }
+  return std::nullopt;
+}
+
+std::string standard_names() {
+  std::string names = "time";
+  for (const std::string_view signal : kSignalNames) names.append(", ").append(signal).append("_k");
+  return names + " (k = 1 for the first joint)";
+}
+
+double unit_factor(std::string_view unit, Quantity quantity) {
+  if (unit.empty()) return 1;
+  std::string fitting;
+  for (const Unit& known : kUnits) {
+    if (known.quantity != quantity) continue;
+    if (known.name == unit) return known.si;
+    fitting.append(fitting.empty() ? "" : ", ").append(known.name);
+  }
+  throw InputError("unit " + in_quotes(unit) + ": expected one of " + fitting +
+                   "; for any other unit leave it out and give a scale to SI");
+}
+
+double number_of(std::string_view key, std::string_view text) {
+  const std::optional<double> number = parse_number(text);
+  if (!number) throw InputError(std::string(key) + " " + in_quotes(text) + ": expected a number, such as 0.0816");
+  return *number;
+}
+
+/// The trimmed texts before and after the first '='; throws if there is none.
+std::pair<std::string_view, std::string_view> key_and_value(std::string_view text) {
+  const auto equals = text.find('=');
+  if (equals == std::string_view::npos) {
+    throw InputError(in_quotes(text) +
+                     " has no '='; expected NAME=COLUMN, such as motor_position_1=spindle_rad,sign=-1");
+  }
+  return {trim(text.substr(0, equals)), trim(text.substr(equals + 1))};
+}
+
+void add_parsed(ColumnMap& map, std::string_view entry) {
+  std::vector<std::string_view> parts;
+  split(entry, parts);
+  const auto [name, column] = key_and_value(parts.front());
+  std::string_view unit;
+  std::map<std::string_view, double> numbers = {{"sign", 1}, {"scale", 1}, {"offset", 0}};
+  std::set<std::string_view> given;
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const auto [key, value] = key_and_value(parts[i]);
+    if (!given.insert(key).second) throw InputError(in_quotes(key) + " is given twice; give it once");
+    if (key == "unit") {
+      unit = value;
+    } else if (numbers.contains(key)) {
+      numbers[key] = number_of(key, value);
+    } else {
+      throw InputError(in_quotes(key) + " is no setting of a column; expected unit=, sign=, scale= or offset=");
+    }
+  }
+  map.add(name, column, unit, numbers["sign"], numbers["scale"], numbers["offset"]);
+}
+
+}  // namespace
+
+void ColumnMap::add(std::string_view name, std::string_view column, std::string_view unit, double sign, double scale,
+                    double offset) {
+  const std::optional<Quantity> quantity = quantity_of(name);
+  if (!quantity) throw InputError(in_quotes(name) + " is no column of a log; expected one of " + standard_names());
+  try {
+    if (trim(column).empty()) throw InputError("no column is named; name the column of the file that it comes from");
+    if (sign != 1 && sign != -1) throw InputError("expected sign 1 or -1; other factors belong in scale");
+    const double factor = sign * scale * unit_factor(trim(unit), *quantity);
+    if (!std::isfinite(factor) || factor == 0) throw InputError("expected a finite scale other than 0");
+    if (!std::isfinite(offset)) throw InputError("expected a finite offset, in SI units");
+    const bool is_new = sources_.emplace(name, ColumnSource{std::string(trim(column)), factor, offset}).second;
+    if (!is_new) throw InputError("is mapped twice; remove one of the two");
+  } catch (const InputError& error) {
+    throw InputError("column " + in_quotes(name) + ": " + error.what());
+  }
+}
+
+void ColumnMap::add_entry(std::string_view entry) {
+  try {
+    add_parsed(*this, entry);
+  } catch (const InputError& error) {
+    throw InputError("column map " + in_quotes(entry) + ": " + error.what());
+  }
+}
+
+void ColumnMap::override_with(const ColumnMap& other) {
+  for (const auto& [name, source] : other.sources_) sources_.insert_or_assign(name, source);
+}
+
+void ColumnMap::check_joints(int n_joints) const {
+  for (const auto& [name, source] : sources_) {
+    if (name == "time" || std::stoi(name.substr(name.rfind('_') + 1)) <= n_joints) continue;
+    throw InputError("column map: " + in_quotes(name) + ": the last joint of the arm is " + std::to_string(n_joints) +
+                     "; remove this column from the map");
+  }
+}
+
+std::string_view trim(std::string_view text) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+void split(std::string_view line, std::vector<std::string_view>& cells) {
+  cells.clear();
+  for (auto comma = line.find(','); comma != std::string_view::npos; comma = line.find(',')) {
+    cells.push_back(trim(line.substr(0, comma)));
+    line.remove_prefix(comma + 1);
+  }
+  cells.push_back(trim(line));
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  // std::from_chars takes no plus sign, but loggers write it.
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+}  // namespace halyard

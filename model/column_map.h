@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace halyard {
+
+/// The standard columns of a log are `time` and, for joints k = 1..n, each of these names followed by `_k`.
+inline constexpr std::array<std::string_view, 5> kSignalNames = {"motor_torque", "motor_position", "joint_position",
+                                                                 "joint_velocity", "joint_torque"};
+
+/// Where a standard column comes from: SI value = scale · raw + offset.
+struct ColumnSource {
+  std::string column;  ///< name in the header of the file
+  double scale = 1;    ///< SI unit per raw unit: unit, sign and scale in one factor, never zero
+  double offset = 0;   ///< SI unit (s, rad or m, rad/s or m/s, N·m or N)
+};
+
+/// Says which column of a foreign log is which standard column, and in which unit. Several standard columns may come
+/// from one column of the file. Standard columns that the map does not name keep their own name.
+///
+///   time              s, ms, us
+///   *_position_k      rad, deg, turn, m, mm, um
+///   *_velocity_k      rad/s, deg/s, rpm, m/s, mm/s
+///   *_torque_k        N.m, mN.m, N.mm, N
+///
+/// An empty unit is the SI unit. Angles and lengths are not told apart, nor are torques and forces: a scale may turn
+/// one into the other (a linear motor, a spindle).
+class ColumnMap {
+ public:
+  /// SI value = sign · scale · unit · raw + offset, with the offset in SI units.
+  /// Throws InputError, without a place: for a name that is no standard column or is already mapped, an empty column,
+  /// a unit that is unknown or of another quantity, a sign other than 1 or -1, a scale of zero, or a number that is
+  /// not finite.
+  void add(std::string_view name, std::string_view column, std::string_view unit = "", double sign = 1,
+           double scale = 1, double offset = 0);
+
+  /// Adds one command-line entry; all but NAME=COLUMN is optional:
+  ///   motor_torque_1=capstan_torque_1_Nm,unit=N.m,sign=-1,scale=0.0816,offset=0.1
+  /// Throws InputError that quotes the entry: as add(), or for text that has not this form.
+  void add_entry(std::string_view entry);
+
+  /// Takes all sources of `other`; where both maps name a standard column, `other` wins.
+  void override_with(const ColumnMap& other);
+
+  /// Throws InputError if the map names a joint beyond n_joints.
+  void check_joints(int n_joints) const;
+
+  /// By standard name. Writing `scale` and `offset` of a source with an empty unit gives the same map again.
+  const std::map<std::string, ColumnSource, std::less<>>& sources() const { return sources_; }
+
+ private:
+  std::map<std::string, ColumnSource, std::less<>> sources_;
+};
+
+/// `text` without blanks, tabs and carriage returns at either end.
+std::string_view trim(std::string_view text);
+
+/// Replaces `cells` by the trimmed texts between the commas of `line`; at least one.
+void split(std::string_view line, std::vector<std::string_view>& cells);
+
+/// The finite decimal number that `text` is from its first to its last character; nothing for any other text, which
+/// includes "nan", "inf", an empty text and numbers beyond the range of double.
+std::optional<double> parse_number(std::string_view text);
+
+}  // namespace halyard

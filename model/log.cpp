@@ -1,0 +1,249 @@
+#include "model/log.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "model/input_error.h"
+#include "model/output_file.h"
+
+namespace halyard {
+namespace {
+
+std::string read_text(const std::filesystem::path& path) {
+  const auto fail = [&](const char* what) { throw InputError(path.string() + ": " + what); };
+  std::error_code unknown;
+  const auto status = std::filesystem::status(path, unknown);
+  if (!std::filesystem::exists(status)) fail("no such file; give the path of a CSV log");
+  if (std::filesystem::is_directory(status)) fail("is a directory; give the path of a CSV log");
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  if (!file || text.bad()) fail("cannot be read; check its permissions and its disk");
+  return std::move(text).str();
+}
+
+bool is_binary(unsigned char c) { return c < 0x20 && c != '\t' && c != '\n' && c != '\r'; }
+
+/// The lines of a text without blank and comment lines, numbered from 1 as an editor does.
+class Lines {
+ public:
+  Lines(std::string_view text, std::string source) : rest_(text), source_(std::move(source)) {
+    if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
+  }
+
+  /// False at the end of the text.
+  bool next() {
+    while (!rest_.empty()) {
+      const auto end = std::min(rest_.find('\n'), rest_.size());
+      line_ = trim(rest_.substr(0, end));
+      rest_.remove_prefix(std::min(end + 1, rest_.size()));
+      ++number_;
+      if (!line_.empty() && line_.front() != '#') return true;
+    }
+    return false;
+  }
+
+  std::string_view line() const { return line_; }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(source_ + ":" + std::to_string(number_) + ": " + what);
+  }
+
+ private:
+  std::string_view rest_, line_;
+  std::string source_;
+  std::size_t number_ = 0;
+};
+
+struct Column {
+  struct Target {
+    std::vector<double>* values;
+    double scale, offset;
+  };
+  std::string name;
+  std::vector<Target> targets;  // none: the column is ignored
+};
+
+std::vector<Column> read_header(const Lines& header) {
+  std::vector<std::string_view> names;
+  split(header.line(), names);
+  if (names.size() == 1 && names[0].find_first_of(";\t") != std::string_view::npos) {
+    header.fail("the columns are separated by semicolons or tabs; separate them by commas");
+  }
+  if (parse_number(names[0])) {
+    header.fail("the first row starts with the number " + in_quotes(names[0]) + "; put a row of column names above it");
+  }
+  std::vector<Column> columns;
+  for (std::string_view name : names) {
+    const bool has_quotes = name.size() > 1 && name.front() == '"' && name.back() == '"';
+    columns.push_back({std::string(has_quotes ? trim(name.substr(1, name.size() - 2)) : name), {}});
+  }
+  return columns;
+}
+
+bool is_required(const std::string& name, const ReadOptions& options) {
+  return name.starts_with("motor_position_") || (options.torque_required && name.starts_with("motor_torque_"));
+}
+
+/// Connects the columns of a file to those of a log.
+void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, const ReadOptions& options,
+                  const Lines& header) {
+  const auto append = [](std::string& list, const std::string& text) { list += (list.empty() ? "" : ", ") + text; };
+  std::string missing, present;
+  const auto bind_one = [&](const std::string& name, std::vector<double>& values) {
+    const auto mapped = map.sources().find(name);
+    const bool is_mapped = mapped != map.sources().end();
+    const ColumnSource source = is_mapped ? mapped->second : ColumnSource{name};
+    const auto n_found = std::ranges::count(columns, source.column, &Column::name);
+    if (n_found > 1) {
+      header.fail("column " + in_quotes(source.column) + " stands twice in the header; rename one of the two");
+    } else if (n_found == 1) {
+      const auto found = std::ranges::find(columns, source.column, &Column::name);
+      found->targets.push_back({&values, source.scale, source.offset});
+    } else if (is_mapped) {
+      append(missing, in_quotes(source.column) + " (mapped to " + name + ")");
+    } else if (name == "time" || is_required(name, options)) {
+      append(missing, in_quotes(name));
+    }
+  };
+  bind_one("time", log.time);
+  for_each_column(log, bind_one);
+  if (missing.empty()) return;
+  for (const Column& column : columns) append(present, in_quotes(column.name));
+  header.fail("no column " + missing + "; the file has " + present +
+              "; say which column is which by a column map, such as motor_position_1=NAME,unit=rad, in the model file "
+              "or on the command line");
+}
+
+void read_cell(std::string_view cell, const Column& column, const Lines& row) {
+  const auto fail = [&](const char* what) {
+    row.fail("column " + in_quotes(column.name) + ": " + in_quotes(cell) + what +
+             "; write a finite decimal number, or leave the cell empty for a missing sample");
+  };
+  const std::optional<double> number = parse_number(cell);
+  if (!number && !cell.empty()) fail(" is not a number");
+  const double raw = number.value_or(std::numeric_limits<double>::quiet_NaN());
+  for (const auto& [values, scale, offset] : column.targets) {
+    values->push_back(scale * raw + offset);
+    if (std::isinf(values->back())) fail(" is too large once scaled");
+  }
+}
+
+void read_row(const std::vector<Column>& columns, const Lines& row, std::vector<std::string_view>& cells) {
+  split(row.line(), cells);
+  if (cells.size() != columns.size()) {
+    row.fail("the row has " + std::to_string(cells.size()) + " cells, the header " + std::to_string(columns.size()) +
+             "; complete the row, or remove it if the recording was cut off there");
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (!columns[i].targets.empty()) read_cell(cells[i], columns[i], row);
+  }
+}
+
+std::string number_text(double value, std::chars_format format, int digits) {
+  std::array<char, 400> buffer;  // the largest double has 309 digits before the point
+  return {buffer.begin(), std::to_chars(buffer.begin(), buffer.end(), value, format, digits).ptr};
+}
+
+std::string time_text(double time) {
+  std::string text = number_text(time, std::chars_format::fixed, 6);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+void check_last_time(const std::vector<double>& time, const Lines& row) {
+  if (std::isnan(time.back())) row.fail("the time is missing; give every row its time, or remove the row");
+  if (time.size() > 1 && !(time.back() > time.end()[-2])) {
+    row.fail("time " + time_text(time.back()) + " s follows " + time_text(time.end()[-2]) +
+             " s; time must increase: sort the rows and remove repeated ones");
+  }
+}
+
+}  // namespace
+
+Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& map, const ReadOptions& options) {
+  if (n_joints < 1) throw std::invalid_argument("read_log: n_joints must be at least 1");
+  map.check_joints(n_joints);
+  const std::string text = read_text(path);
+  Log log(n_joints);
+  log.source = path.string();
+  if (std::ranges::any_of(text, is_binary)) throw InputError(log.source + ": is not text; give a CSV log in UTF-8");
+  Lines lines(text, log.source);
+  if (!lines.next()) throw InputError(log.source + ": is empty; give a CSV log with a header row and samples");
+  std::vector<Column> columns = read_header(lines);
+  bind_columns(columns, log, map, options, lines);
+  for (const Column& column : columns) {
+    if (column.targets.empty()) log.ignored_columns.emplace_back(column.name);
+  }
+
+  std::vector<std::string_view> cells;
+  while (lines.next()) {
+    read_row(columns, lines, cells);
+    check_last_time(log.time, lines);
+  }
+  if (log.time.empty()) throw InputError(log.source + ": has a header but no samples; give a log with samples");
+  for_each_column(log, [&](const std::string& name, std::vector<double>& values) {
+    if (!std::ranges::all_of(values, [](double value) { return std::isnan(value); })) return;
+    if (!values.empty() && is_required(name, options)) {
+      throw InputError(log.source + ": " + name + " is empty in every row; give a log that has this signal");
+    }
+    values = {};
+  });
+  return log;
+}
+
+void write_log(const std::filesystem::path& path, const Log& log, const std::string& comment) {
+  std::string text;
+  std::istringstream comment_lines(comment);
+  for (std::string line; std::getline(comment_lines, line);) text += "# " + line + "\n";
+  text += "time";
+  std::vector<const std::vector<double>*> columns;
+  for_each_column(log, [&](const std::string& name, const std::vector<double>& values) {
+    if (values.empty()) return;
+    if (values.size() != log.size() || std::ranges::any_of(values, [](double value) { return std::isinf(value); })) {
+      throw std::invalid_argument("write_log: " + name + " has an infinite value or not one value for each time");
+    }
+    text += "," + name;
+    columns.push_back(&values);
+  });
+  text += "\n";
+
+  std::string previous;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    std::string time = time_text(log.time[i]);
+    if (!std::isfinite(log.time[i]) || (i > 0 && (log.time[i] <= log.time[i - 1] || time == previous))) {
+      throw std::invalid_argument("write_log: time " + time + " s after " + previous + " s does not increase");
+    }
+    text += time;
+    for (const auto* values : columns) {
+      text += ',';
+      if (!std::isnan((*values)[i])) text += number_text((*values)[i], std::chars_format::general, 9);
+    }
+    text += "\n";
+    previous = std::move(time);
+  }
+  write_file_whole(path, text);
+}
+
+Log slice(const Log& log, std::size_t begin, std::size_t end) {
+  if (begin > end || end > log.size()) throw std::out_of_range("slice: expected begin <= end <= size of the log");
+  const auto cut = [&](std::vector<double>& values) {
+    if (!values.empty()) values = std::vector<double>(values.begin() + begin, values.begin() + end);
+  };
+  Log part = log;
+  cut(part.time);
+  for_each_column(part, [&](const std::string&, std::vector<double>& values) { cut(values); });
+  return part;
+}
+
+}  // namespace halyard

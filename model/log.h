@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "model/column_map.h"
+
+namespace halyard {
+
+/// One signal of every joint: [n_joints] of [n_samples]. An empty inner vector is a column that the record does not
+/// have; NaN is a missing sample.
+using Signals = std::vector<std::vector<double>>;
+
+/// One record of an arm. Joints count from 0 here and from 1 in the names of columns.
+///
+///   member           column of a file          unit
+///   time             time                      s, strictly increasing, gaps allowed
+///   motor_torque     motor_torque_k            N·m at the motor shaft
+///   motor_position   motor_position_k          rad at the motor shaft
+///   joint_position   joint_position_k          rad | m
+///   joint_velocity   joint_velocity_k          rad/s | m/s
+///   joint_torque     joint_torque_k            N·m | N, external load on the joint
+struct Log {
+  Log() = default;
+  /// A log without samples; every column absent.
+  explicit Log(int joints)
+      : n_joints(joints),
+        motor_torque(joints),
+        motor_position(joints),
+        joint_position(joints),
+        joint_velocity(joints),
+        joint_torque(joints) {}
+
+  int n_joints = 0;
+  std::vector<double> time;
+  Signals motor_torque, motor_position, joint_position, joint_velocity, joint_torque;
+  std::vector<std::string> ignored_columns;  ///< columns of the file that are not in this log, in the file's order
+  std::string source;                        ///< path as given to read_log, for messages
+
+  std::size_t size() const { return time.size(); }
+  /// Last time less first, s; 0 without samples.
+  double duration() const { return time.empty() ? 0 : time.back() - time.front(); }
+
+  /// Whether the record has the column of joint k = 0..n_joints-1. Throws std::out_of_range for any other k.
+  bool has_motor_torque(int k) const { return !motor_torque.at(k).empty(); }
+  bool has_motor_position(int k) const { return !motor_position.at(k).empty(); }
+  bool has_joint_position(int k) const { return !joint_position.at(k).empty(); }
+  bool has_joint_velocity(int k) const { return !joint_velocity.at(k).empty(); }
+  bool has_joint_torque(int k) const { return !joint_torque.at(k).empty(); }
+};
+
+/// Calls visit(name, values) for the column of every signal and joint, absent ones too, in the order of the table.
+template <class AnyLog, class Visit>
+void for_each_column(AnyLog& log, Visit visit) {
+  constexpr std::array kSignals = {&Log::motor_torque, &Log::motor_position, &Log::joint_position, &Log::joint_velocity,
+                                   &Log::joint_torque};
+  static_assert(kSignals.size() == kSignalNames.size());
+  for (std::size_t s = 0; s < kSignals.size(); ++s) {
+    for (int k = 0; k < log.n_joints; ++k) {
+      visit(std::string(kSignalNames[s]) + "_" + std::to_string(k + 1), (log.*kSignals[s]).at(k));
+    }
+  }
+}
+
+struct ReadOptions {
+  bool torque_required = true;  ///< motor_torque_k of every joint; motor_position_k is always required
+};
+
+/// Reads a CSV file: UTF-8, one header row, commas, `#` starts a comment line, an empty cell is a missing sample. A
+/// byte-order mark, carriage returns, blank lines and a missing last line break are accepted. Columns that the map and
+/// the standard names do not call for are never looked into. An optional column without one sample counts as absent.
+///
+/// Throws InputError `file:line: what; remedy` for a file that is missing, unreadable, empty, without samples or not
+/// text; a required or mapped column that is absent; one that stands twice; a required column without one sample; a
+/// mapped joint beyond n_joints; a row with more or fewer cells than the header; a cell that is no finite number; a
+/// time that is missing or does not increase.
+/// Throws std::invalid_argument if n_joints < 1.
+Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& map = {},
+             const ReadOptions& options = {});
+
+/// Writes the columns that the log has, in the order of the table above: time with up to 6 decimals, other values with
+/// 9 significant digits. Each line of `comment` becomes a comment line at the top. The file is complete or absent.
+///
+/// Throws std::invalid_argument for a column of another length than time, an infinite value, or times that do not
+/// increase as printed; and what write_file_whole throws if the file cannot be written.
+void write_log(const std::filesystem::path& path, const Log& log, const std::string& comment = "");
+
+/// Samples begin..end-1; without samples, every column is absent. Throws std::out_of_range unless begin <= end <=
+/// log.size().
+Log slice(const Log& log, std::size_t begin, std::size_t end);
+
+}  // namespace halyard

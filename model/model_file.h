@@ -1,0 +1,20 @@
+#pragma once
+/// Model files: an arm in XML.
+
+#include <filesystem>
+#include <string>
+
+#include "model/arm_model.h"
+
+namespace halyard {
+
+/// Reads a model file. Throws InputError `file:line: <element attribute="...">: expected ...; remedy`.
+ArmModel read_model(const std::filesystem::path& path);
+
+/// The same from text, as plug-ins receive it; source is used in messages.
+ArmModel parse_model(const std::string& xml, const std::string& source);
+
+/// The model as XML that read_model gives back to the last bit.
+std::string model_to_xml(const ArmModel& model);
+
+}  // namespace halyard

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <string_view>
+
+namespace halyard {
+
+/// A file that appears complete or not at all: written as a temporary sibling, renamed by commit().
+/// Until then, and for good if commit() is never reached, an older file of that name stays as it was.
+/// Numbers are written in the classic locale, whatever the global one is.
+class OutputFile {
+ public:
+  /// Creates missing parent folders. A link to a file is followed.
+  /// Throws std::runtime_error with path and reason, also if the path is a folder or a device.
+  explicit OutputFile(const std::filesystem::path& path);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile();
+
+  std::ostream& stream() { return stream_; }
+
+  /// Call once, last. Throws std::runtime_error with path and reason if any write failed or the rename does.
+  void commit();
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  std::ofstream stream_;
+};
+
+/// An OutputFile with this content, committed. Throws as it does.
+void write_file_whole(const std::filesystem::path& path, std::string_view content);
+
+}  // namespace halyard

@@ -1,0 +1,63 @@
+#pragma once
+/// A scenario: a robot, its true effects, what it is asked to do, and how that is computed. The struct has the
+/// defaults; a scenario file mirrors it.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/arm_model.h"
+#include "model/log.h"
+
+namespace halyard {
+
+/// How the plant is integrated; docs/architecture.md says what each is for.
+enum class Treatment {
+  dirk,            ///< ARKODE, diagonally implicit third order: all implicit (default)
+  imex,            ///< ARKODE, fourth order: cables and friction implicit, the rest explicit
+  imex_link1,      ///< ARKODE, fourth order: the first link's cable alone implicit
+  bdf,             ///< CVODE, tight: the reference
+  explicit_rk,     ///< ARKODE, explicit fourth order
+  simbody_rkm,     ///< Simbody's RungeKuttaMerson
+  simbody_cpodes,  ///< Simbody's CPodes
+};
+
+struct IntegratorOptions {
+  Treatment treatment = Treatment::dirk;
+  double relative_tolerance = 1e-6;
+  double absolute_tolerance = 1e-9;
+};
+
+/// One sine of a joint: amplitude sin(2π f t + phase).
+struct Sine { double amplitude = 0, frequency_hz = 0, phase = 0; };
+
+/// What one joint is asked to follow: center + the sines, or moves between points with dwells, or samples.
+struct JointTrajectory {
+  enum class Kind { hold, sines, point_to_point, samples } kind = Kind::hold;
+  double center = 0;                        ///< rad | m
+  std::vector<Sine> sines;
+  std::vector<double> points;               ///< visited in order, minimum-jerk moves
+  double move_s = 1, dwell_s = 0.5;
+  std::vector<double> sample_time, sample_position;   ///< linear between, held outside
+};
+
+struct Scenario {
+  ArmModel robot;                               ///< effects of the scenario's truth included
+  std::filesystem::path model;                  ///< the file that the robot was read from
+  std::string name;
+  double duration_s = 20;
+  double control_period_s = 1e-3;
+  double fade_in_s = 2;                         ///< sines grow from nothing over this time
+  std::vector<JointTrajectory> trajectory;      ///< [n]
+  IntegratorOptions integrator;
+  bool quantise = true;                         ///< round encoders to their resolution
+  double torque_noise = 0;                      ///< standard deviation, N m at the shaft, of a disturbance per tick
+  std::uint64_t seed = 1;
+};
+
+/// Reads a scenario file; paths in it are relative to it. Throws InputError.
+Scenario read_scenario(const std::filesystem::path& path);
+
+}  // namespace halyard

@@ -1,0 +1,32 @@
+#pragma once
+/// Finds, checks and opens estimator plug-ins.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "estimators/estimator.h"
+#include "model/arm_model.h"
+
+namespace halyard {
+
+/// A loadable estimator.
+struct PluginInfo {
+  std::string name;
+  std::string description;
+  std::filesystem::path path;
+};
+
+/// All loadable estimators in the plug-in folders: beside the program (../lib/halyard/plugins and plugins/ of a build),
+/// and each folder of the environment variable HALYARD_PLUGIN_PATH. Modules that are refused are not listed; their
+/// one-line reasons are appended to refused if given.
+std::vector<PluginInfo> find_plugins(std::vector<std::string>* refused = nullptr);
+
+/// An estimator for the model, by the name of a found plug-in or the path of a module (anything with a '/' or ending in
+/// .so). Options of the model under the estimator's name are handed to it. The module stays open as long as the
+/// estimator lives. Throws InputError with one line for a name that is not found (lists those that are), a file that is
+/// no module, one built for another interface version, or one that refuses the model or its options.
+std::unique_ptr<Estimator> make_estimator(const std::string& name_or_path, const ArmModel& model);
+
+}  // namespace halyard

@@ -1,0 +1,98 @@
+#pragma once
+/// Every number of a cable-driven serial arm that its equations read, over a scalar type T.
+///
+/// A joint k moves link k about (revolute) or along (prismatic) the z axis of its own frame. SI
+/// units; where a joint is revolute | prismatic the unit is given as "revolute | prismatic".
+/// The motor's numbers are at the motor shaft (the "consistent reading" of the paper's Table I).
+
+#include "transmission/scalar.h"
+
+namespace halyard {
+
+inline constexpr int kMaxJoints = 7;
+
+enum class JointType { revolute, prismatic };
+
+/// What moves a joint: an elastic cable from a motor, a rigid transmission from a motor (the cable
+/// does not stretch), or nothing.
+enum class Drive { cable, rigid, none };
+
+/// Tension of a cable over its stretch; see cable_law.h.
+enum class CableLaw { paper, exponential, linear };
+
+/// How well a joint's numbers are known: relative, 1 = not at all. A change within it is a refit,
+/// beyond it an effect.
+struct Tolerances {
+  double length = 0.005;     ///< radii, ratios, lengths
+  double mass = 0.05;        ///< masses and inertias, of rotors too
+  double stiffness = 0.10;   ///< stiffness and damping of cables
+  double friction = 0.20;    ///< Coulomb and viscous
+  double coupling = 0.02;
+};
+
+template <class T>
+struct JointParameters {
+  JointType type = JointType::revolute;
+  Drive drive = Drive::cable;
+  CableLaw law = CableLaw::paper;
+
+  // Rigid link. Joint frame at q = 0 seen from the parent's frame, x_parent = R x + p.
+  double frame_R[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  double frame_p[3] = {0, 0, 0};
+  T mass = 0.0;                                    ///< kg
+  T com[3] = {T(0.0), T(0.0), T(0.0)};             ///< centre of mass, own frame, m
+  /// Inertia about the centre of mass, own axes: xx, yy, zz, xy, xz, yz entries, kg m².
+  T inertia[6] = {T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)};
+
+  // Motor and gear.
+  T rotor_inertia = 0.0;    ///< kg m²
+  T motor_coulomb = 0.0;    ///< N m
+  T motor_viscous = 0.0;    ///< N m s/rad
+  T motor_smoothing = 0.5;  ///< v_s of tanh(v / v_s), rad/s
+  T gear_ratio = 1.0;       ///< motor turns per capstan turn
+  T capstan_radius = 1.0;   ///< r_m, m
+  T torque_scale = 1.0;     ///< torque at the shaft per commanded torque
+  T torque_bias = 0.0;      ///< N m, added after the scale
+
+  // Cable.
+  T pulley_radius = 1.0;    ///< r_l, m | 1
+  /// What one unit of joint j adds to this cable's path, in units of this joint (C_ji of the
+  /// paper); the own entry is 1.
+  T coupling[kMaxJoints] = {T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)};
+  T stiffness = 0.0;        ///< k_e of each run, N/m
+  T damping = 0.0;          ///< b_e of each run, N s/m
+  T tension = 0.0;          ///< T_0 of each run at rest, N
+
+  // Joint friction.
+  T joint_coulomb = 0.0;      ///< N m | N
+  T joint_viscous = 0.0;      ///< N m s/rad | N s/m
+  T joint_smoothing = 5e-3;   ///< v_s, rad/s | m/s
+
+  // Sensors: reading = truth + offset, rounded to the resolution (0: not rounded).
+  T motor_encoder_offset = 0.0;          ///< rad
+  T joint_encoder_offset = 0.0;          ///< rad | m
+  double motor_encoder_resolution = 0;   ///< rad
+  double joint_encoder_resolution = 0;   ///< rad | m
+
+  Tolerances tolerance;
+
+  /// Cable travel per motor angle, r_m / N, m/rad.
+  HALYARD_INLINE T motor_travel() const { return capstan_radius / gear_ratio; }
+};
+
+template <class T>
+struct ArmParameters {
+  int n = 0;                                            ///< joints, 1..kMaxJoints
+  T gravity[3] = {T(-9.81), T(0.0), T(0.0)};            ///< in the base frame, m/s²
+  double payload_point[3] = {0, 0, 0};                  ///< in the last link's frame, m
+  JointParameters<T> joint[kMaxJoints];
+};
+
+/// The same arm over another scalar type, all lanes equal, all derivatives zero.
+template <class T>
+ArmParameters<T> lift(const ArmParameters<double>& arm);
+
+/// Arms of one structure side by side, lane i from arms[i]; arms: [kLaneWidth].
+ArmParameters<Lanes> pack(const ArmParameters<double>* arms);
+
+}  // namespace halyard

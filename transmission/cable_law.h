@@ -1,0 +1,60 @@
+#pragma once
+/// The cable's tension over its stretch. A joint is driven by two runs of one cable; what counts
+/// is the force difference g of the pair, positive when it pulls the joint forward:
+///
+///   paper        g = k_e (exp(x) - exp(-x)) + 2 b_e x'                        (paper, Eq. 6)
+///   exponential  each run T = T_0 exp(±a x), a = k_e / T_0, plus ±b_e x', and T >= 0
+///   linear       each run T = T_0 ± k_e x ± b_e x', and T >= 0
+///
+///   x, x'   stretch of the cable, its rate      m, m/s
+///   k_e     stiffness of one run at rest        N/m
+///   b_e     damping of one run                  N s/m
+///   T_0     tension of each run at rest         N
+///
+/// All three have the slope 2 k_e at rest. Eq. 6 takes the exponential of metres: it is linear to
+/// 1e-6 at millimetres, and carries no tension, so it never goes slack. In the other two a run
+/// whose tension would be negative is slack and carries none.
+
+#include "transmission/arm_parameters.h"
+
+namespace halyard {
+
+/// Tension of the run that pulls the joint forward, and of the one that pulls it back, N. Under
+/// the paper's law they are T_0 ± g/2, which it does not clamp.
+template <class T>
+struct RunTensions {
+  T forward, backward;
+};
+
+template <class T>
+HALYARD_INLINE RunTensions<T> run_tensions(const JointParameters<T>& j, const T& x, const T& x_dot) {
+  const T damping = j.damping * x_dot;
+  switch (j.law) {
+    case CableLaw::exponential: {
+      // Beyond 30 e-folds any cable is broken: the bound keeps a wild sigma point finite.
+      const T u = max(T(-30.0), min(T(30.0), T(j.stiffness / j.tension * x)));
+      return {max(T(0.0), T(j.tension * exp(u) + damping)), max(T(0.0), T(j.tension * exp(T(-u)) - damping))};
+    }
+    case CableLaw::linear: {
+      const T pull = j.stiffness * x + damping;
+      return {max(T(0.0), T(j.tension + pull)), max(T(0.0), T(j.tension - pull))};
+    }
+    case CableLaw::paper: break;
+  }
+  const T half = T(0.5) * j.stiffness * (exp(x) - exp(T(-x))) + damping;
+  return {j.tension + half, j.tension - half};
+}
+
+/// The force difference g, N.
+template <class T>
+HALYARD_INLINE T cable_force(const JointParameters<T>& j, const T& x, const T& x_dot) {
+  if (j.law == CableLaw::paper)
+    return j.stiffness * (exp(x) - exp(T(-x))) + T(2.0) * j.damping * x_dot;
+  const RunTensions<T> t = run_tensions(j, x, x_dot);
+  return t.forward - t.backward;
+}
+
+/// Energy that the pair stores at stretch x, J: the integral of g at rest (x' = 0) from 0.
+double cable_energy(const JointParameters<double>& j, double x);
+
+}  // namespace halyard

@@ -1,0 +1,53 @@
+#include "transmission/effect.h"
+
+#include <stdexcept>
+
+#include "transmission/effects/library.h"
+
+namespace halyard {
+namespace {
+
+struct Library {
+  std::vector<std::unique_ptr<const Effect>> owned = built_in_effects();
+  std::vector<const Effect*> all;
+  Library() {
+    for (const auto& e : owned) all.push_back(e.get());
+  }
+};
+
+Library& library() {
+  static Library instance;
+  return instance;
+}
+
+}  // namespace
+
+const std::vector<const Effect*>& effect_library() { return library().all; }
+
+const Effect* find_effect(const std::string& name) {
+  for (const Effect* e : effect_library())
+    if (e->name() == name) return e;
+  return nullptr;
+}
+
+void register_effect(std::unique_ptr<const Effect> effect) {
+  if (find_effect(effect->name()))
+    throw std::invalid_argument("effect \"" + effect->name() + "\" is already in the library: give yours another name");
+  library().all.push_back(effect.get());
+  library().owned.push_back(std::move(effect));
+}
+
+PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, int joint) {
+  if (effect.is_of_arm() ? joint != -1 : joint < 0 || joint >= arm.n || !effect.applies(arm, joint))
+    throw std::invalid_argument("effect " + effect.name() +
+                                (effect.is_of_arm() ? " belongs to the whole arm: name no joint"
+                                                    : " cannot be at joint " + std::to_string(joint + 1) + " of this arm"));
+  PlacedEffect placed;
+  placed.effect = &effect;
+  placed.joint = joint;
+  const auto parameters = effect.parameters(arm, joint);
+  for (std::size_t i = 0; i < parameters.size(); ++i) placed.p[i] = parameters[i].typical;
+  return placed;
+}
+
+}  // namespace halyard

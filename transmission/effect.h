@@ -1,0 +1,170 @@
+#pragma once
+/// An effect: something physical that a nominal model of an arm lacks. It is written once and
+/// serves as truth in the plant, inside the estimators' process model, and as a candidate of the
+/// diagnosis.
+///
+/// An effect has named parameters, may have internal states z with their own derivative, and acts
+/// at any of these places, in the order in which signals run from command to joint:
+///
+///   parameters    change_parameters()  once, before a run: chain, motors, cables, sensors
+///   command       on_command()         s.motor_torque, from s.command and past commands
+///   stretch       on_stretch()         s.stretch, s.stretch_rate
+///   cable force   on_cable_force()     s.cable_force_motor, s.cable_force_joint
+///   motor         on_motor()           s.motor_torque, after the motor's own friction
+///   joint         on_joint()           s.joint_force, after the joint's own friction
+///   sensors       on_sensors()         s.motor_error, s.joint_error: reading minus truth
+///   states        state_rate()         z_dot
+///
+/// To write one, derive from EffectOf<Yours> and give the members that you need as templates
+/// over the scalar T (scalar.h): see effects/backlash.cpp for one without states and
+/// effects/hysteresis.cpp for one with.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "transmission/arm_parameters.h"
+#include "transmission/command_history.h"
+
+namespace halyard {
+
+inline constexpr int kMaxEffectParameters = 8;
+inline constexpr int kMaxEffectStates = 8;   ///< of one effect
+
+/// One number of an effect. The effect is absent when all its parameters are neutral.
+struct EffectParameter {
+  std::string name;      ///< as in model files and diagnosis.json
+  std::string unit;
+  double neutral = 0;    ///< no influence
+  double typical = 0;    ///< where a search starts, and the default in a model file
+  double lower = 0;      ///< physical bounds
+  double upper = 0;
+  /// What the model's own tolerance allows this number to be off its neutral value without
+  /// being an effect; 0 where the model has no such number.
+  double tolerance = 0;
+};
+
+/// What is known at one joint at one instant. Torque and position signs are the joint's own.
+template <class T>
+struct JointSignals {
+  T command = 0.0;             ///< commanded motor torque, N m
+  T motor_angle = 0.0;         ///< q_m, rad
+  T motor_rate = 0.0;          ///< q_m', rad/s
+  T joint_position = 0.0;      ///< q, rad | m
+  T joint_rate = 0.0;          ///< q', rad/s | m/s
+  T external_force = 0.0;      ///< measured external load on the joint, N m | N
+  T motor_torque = 0.0;        ///< on the rotor, cable excluded, N m
+  T stretch = 0.0;             ///< x, m
+  T stretch_rate = 0.0;        ///< x', m/s
+  T cable_force_motor = 0.0;   ///< g as the capstan feels it, N
+  T cable_force_joint = 0.0;   ///< g as the joint's pulley feels it, N
+  T joint_force = 0.0;         ///< Γ + friction + external, N m | N
+  T motor_error = 0.0;         ///< motor encoder's reading minus truth, rad
+  T joint_error = 0.0;         ///< joint encoder's reading minus truth, rad | m
+};
+
+/// What an effect may look at.
+template <class T>
+struct EffectContext {
+  const ArmParameters<T>& arm;     ///< all changes of parameters done
+  int joint;                       ///< 0-based; -1: the whole arm
+  const T* p;                      ///< the effect's parameters
+  const T* z;                      ///< the effect's states
+  double time;                     ///< s
+  const CommandHistory* history;   ///< past commands, or null
+};
+
+enum class EffectStage : unsigned { command = 1, stretch = 2, cable_force = 4, motor = 8, joint = 16, sensors = 32 };
+
+class Effect {
+ public:
+  virtual ~Effect() = default;
+
+  virtual std::string name() const = 0;
+  /// One sentence: what the effect is, with its equation's source.
+  virtual std::string summary() const = 0;
+  /// True if the effect belongs to the arm as a whole rather than to a joint.
+  virtual bool is_of_arm() const { return false; }
+  /// False if the joint cannot have the effect (no cable, no inboard joint, ...).
+  virtual bool applies(const ArmParameters<double>&, int /*joint*/) const { return true; }
+  virtual std::vector<EffectParameter> parameters(const ArmParameters<double>&, int joint) const = 0;
+  virtual int n_states() const { return 0; }
+  /// Typical size of each internal state: the filters' initial and process noise come from it.
+  virtual std::vector<double> state_scale(const ArmParameters<double>&, int /*joint*/, const double* /*p*/) const {
+    return std::vector<double>(n_states(), 1.0);
+  }
+  /// Stages at which the effect acts, or-ed.
+  virtual unsigned stages() const { return 0; }
+
+  virtual void change_parameters(ArmParameters<double>&, int joint, const double* p) const = 0;
+  virtual void change_parameters(ArmParameters<Dual>&, int joint, const Dual* p) const = 0;
+  virtual void change_parameters(ArmParameters<Lanes>&, int joint, const Lanes* p) const = 0;
+
+  /// s: signals of all joints, [arm.n]; an effect of a joint reads and writes s[joint].
+  virtual void act(EffectStage, const EffectContext<double>&, JointSignals<double>* s) const = 0;
+  virtual void act(EffectStage, const EffectContext<Dual>&, JointSignals<Dual>* s) const = 0;
+  virtual void act(EffectStage, const EffectContext<Lanes>&, JointSignals<Lanes>* s) const = 0;
+
+  virtual void rates(const EffectContext<double>&, const JointSignals<double>* s, double* z_dot) const = 0;
+  virtual void rates(const EffectContext<Dual>&, const JointSignals<Dual>* s, Dual* z_dot) const = 0;
+  virtual void rates(const EffectContext<Lanes>&, const JointSignals<Lanes>* s, Lanes* z_dot) const = 0;
+};
+
+/// Gives a class with templated members the interface above.
+template <class Derived>
+class EffectOf : public Effect {
+ public:
+  template <class T> void change(ArmParameters<T>&, int, const T*) const {}
+  template <class T> void on_command(const EffectContext<T>&, JointSignals<T>*) const {}
+  template <class T> void on_stretch(const EffectContext<T>&, JointSignals<T>*) const {}
+  template <class T> void on_cable_force(const EffectContext<T>&, JointSignals<T>*) const {}
+  template <class T> void on_motor(const EffectContext<T>&, JointSignals<T>*) const {}
+  template <class T> void on_joint(const EffectContext<T>&, JointSignals<T>*) const {}
+  template <class T> void on_sensors(const EffectContext<T>&, JointSignals<T>*) const {}
+  template <class T> void state_rate(const EffectContext<T>&, const JointSignals<T>*, T*) const {}
+
+  void change_parameters(ArmParameters<double>& a, int k, const double* p) const final { self().change(a, k, p); }
+  void change_parameters(ArmParameters<Dual>& a, int k, const Dual* p) const final { self().change(a, k, p); }
+  void change_parameters(ArmParameters<Lanes>& a, int k, const Lanes* p) const final { self().change(a, k, p); }
+  void act(EffectStage g, const EffectContext<double>& c, JointSignals<double>* s) const final { dispatch(g, c, s); }
+  void act(EffectStage g, const EffectContext<Dual>& c, JointSignals<Dual>* s) const final { dispatch(g, c, s); }
+  void act(EffectStage g, const EffectContext<Lanes>& c, JointSignals<Lanes>* s) const final { dispatch(g, c, s); }
+  void rates(const EffectContext<double>& c, const JointSignals<double>* s, double* r) const final { self().state_rate(c, s, r); }
+  void rates(const EffectContext<Dual>& c, const JointSignals<Dual>* s, Dual* r) const final { self().state_rate(c, s, r); }
+  void rates(const EffectContext<Lanes>& c, const JointSignals<Lanes>* s, Lanes* r) const final { self().state_rate(c, s, r); }
+
+ private:
+  const Derived& self() const { return static_cast<const Derived&>(*this); }
+  template <class T>
+  void dispatch(EffectStage stage, const EffectContext<T>& c, JointSignals<T>* s) const {
+    switch (stage) {
+      case EffectStage::command: return self().on_command(c, s);
+      case EffectStage::stretch: return self().on_stretch(c, s);
+      case EffectStage::cable_force: return self().on_cable_force(c, s);
+      case EffectStage::motor: return self().on_motor(c, s);
+      case EffectStage::joint: return self().on_joint(c, s);
+      case EffectStage::sensors: return self().on_sensors(c, s);
+    }
+  }
+};
+
+/// An effect at a joint, with values: what a model file lists and the diagnosis adds.
+template <class T>
+struct EffectInstance {
+  const Effect* effect = nullptr;
+  int joint = -1;                     ///< 0-based; -1: the whole arm
+  T p[kMaxEffectParameters] = {};
+};
+using PlacedEffect = EffectInstance<double>;
+
+/// All effects, in a fixed order.
+const std::vector<const Effect*>& effect_library();
+/// By name; null if there is none.
+const Effect* find_effect(const std::string& name);
+/// Adds a user's effect to the library. Throws std::invalid_argument if the name is taken.
+void register_effect(std::unique_ptr<const Effect> effect);
+
+/// The effect with its typical parameters. Throws std::invalid_argument if it cannot be there.
+PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);
+
+}  // namespace halyard

@@ -1,0 +1,41 @@
+#include "transmission/effects/library.h"
+
+/// A dead zone in the path from motor to joint: the cable is stretched only beyond the gap,
+///
+///   x_eff = x - min(max(x, -h), h),   x'_eff = x' outside the gap, 0 inside
+///
+///   h   half of the gap     m
+///
+/// Source: Nordin and Gutman, "Controlling mechanical systems with backlash", Automatica 38 (2002),
+/// dead-zone model with a damped shaft.
+
+namespace halyard {
+namespace {
+
+class Backlash : public EffectOf<Backlash> {
+ public:
+  std::string name() const override { return "backlash"; }
+  std::string summary() const override { return "a dead zone in the path from motor to joint"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::stretch); }
+  bool applies(const ArmParameters<double>& arm, int joint) const override {
+    return arm.joint[joint].drive == Drive::cable;
+  }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const double radius = arm.joint[joint].capstan_radius;
+    return {{"half_gap", "m", 0, 0.03 * radius, 0, 2 * radius, 0}};
+  }
+
+  template <class T>
+  void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
+    JointSignals<T>& own = s[c.joint];
+    const T inside = min(max(own.stretch, T(-c.p[0])), c.p[0]);
+    own.stretch_rate = select(abs(own.stretch) > c.p[0], own.stretch_rate, T(0.0));
+    own.stretch -= inside;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_backlash() { return std::make_unique<Backlash>(); }
+
+}  // namespace halyard

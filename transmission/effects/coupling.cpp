@@ -1,0 +1,42 @@
+#include "transmission/effects/library.h"
+
+/// Other coupling coefficients of a cable with the joints inboard of it: C_kj' = C_kj + ΔC_kj.
+///
+///   ΔC_kj   what joint j adds to the path of cable k, beyond the model      rad/rad | m/rad
+///
+/// Source: the paper's Eq. 8 and Section III-B, which estimates these coefficients.
+
+namespace halyard {
+namespace {
+
+class CouplingError : public EffectOf<CouplingError> {
+ public:
+  std::string name() const override { return "coupling"; }
+  std::string summary() const override { return "other coupling coefficients with the inboard joints"; }
+  bool applies(const ArmParameters<double>& arm, int joint) const override {
+    return joint > 0 && arm.joint[joint].drive != Drive::none;
+  }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const JointParameters<double>& j = arm.joint[joint];
+    std::vector<EffectParameter> all;
+    for (int i = 0; i < joint; ++i) {
+      const bool length = j.type == JointType::prismatic, per_length = arm.joint[i].type == JointType::prismatic;
+      const double reach = length ? 0.1 : 1.0;   // a pulley of 0.1 m, or as much as the joint itself
+      all.push_back({"from_joint_" + std::to_string(i + 1), length == per_length ? "1" : length ? "m/rad" : "rad/m", 0,
+                     0.1 * std::max(std::abs(j.coupling[i]), 0.1 * reach), -reach, reach,
+                     j.tolerance.coupling * std::abs(j.coupling[i])});
+    }
+    return all;
+  }
+
+  template <class T>
+  void change(ArmParameters<T>& arm, int joint, const T* p) const {
+    for (int i = 0; i < joint; ++i) arm.joint[joint].coupling[i] += p[i];
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_coupling_error() { return std::make_unique<CouplingError>(); }
+
+}  // namespace halyard

@@ -1,0 +1,39 @@
+#include "transmission/effects/library.h"
+
+/// A zero error of the motor's encoder against its joint, as homing leaves it, told in joint units:
+///
+///   reading = q_m + δ r_l N / r_m
+///
+///   δ   how far the joint seems to stand from where it is      rad | m
+///
+/// The joint's sensor is taken as the reference; an error of its own zero is the same thing seen
+/// from the other side.
+
+namespace halyard {
+namespace {
+
+class EncoderOffset : public EffectOf<EncoderOffset> {
+ public:
+  std::string name() const override { return "encoder_offset"; }
+  std::string summary() const override { return "a zero error between motor and joint encoder"; }
+  bool applies(const ArmParameters<double>& arm, int joint) const override {
+    return arm.joint[joint].drive != Drive::none;
+  }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const bool turns = arm.joint[joint].type == JointType::revolute;
+    const double reach = turns ? 0.5 : 0.05;
+    return {{"offset", turns ? "rad" : "m", 0, 0.01 * reach, -reach, reach, 0}};
+  }
+
+  template <class T>
+  void change(ArmParameters<T>& arm, int joint, const T* p) const {
+    JointParameters<T>& j = arm.joint[joint];
+    j.motor_encoder_offset += p[0] * j.pulley_radius / j.motor_travel();
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_encoder_offset() { return std::make_unique<EncoderOffset>(); }
+
+}  // namespace halyard

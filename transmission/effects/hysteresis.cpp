@@ -1,0 +1,53 @@
+#include "transmission/effects/library.h"
+
+/// A rate-independent loop of the cable's force over its stretch, of Bouc-Wen type: the share ρ of
+/// the stiffness sits in an element that yields,
+///
+///   g' = g + 2 k_e ρ (z - x),   z' = x' - |x'| z / z_y  where x' z > 0,   z' = x'  elsewhere
+///
+///   z     elastic stretch of the element that yields       m
+///   z_y   where it yields: |z| < z_y                        m
+///   ρ     its share of the stiffness                        -
+///
+/// This is Bouc-Wen with n = 1, β = γ = 1 / (2 z_y): passive, and closed for every cycle.
+/// Source: Wen, J. Eng. Mech. 102 (1976); of robot cables Miyasaka et al., ICRA 2016.
+
+namespace halyard {
+namespace {
+
+class Hysteresis : public EffectOf<Hysteresis> {
+ public:
+  std::string name() const override { return "hysteresis"; }
+  std::string summary() const override { return "a rate-independent loop of the cable's force over its stretch"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::cable_force); }
+  bool applies(const ArmParameters<double>& arm, int joint) const override {
+    return arm.joint[joint].drive == Drive::cable;
+  }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const JointParameters<double>& j = arm.joint[joint];
+    // A cable that carries twice its rest tension is stretched by about this much.
+    const double stretch = std::max(j.tension / std::max(j.stiffness, 1.0), 1e-7);
+    return {{"share", "1", 0, 0.4, 0, 0.95, 0}, {"yield_stretch", "m", 0.1 * stretch, 0.1 * stretch, 1e-4 * stretch, 10 * stretch, 0}};
+  }
+  int n_states() const override { return 1; }
+  std::vector<double> state_scale(const ArmParameters<double>&, int, const double* p) const override { return {p[1]}; }
+
+  template <class T>
+  void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const T change = T(2.0) * c.arm.joint[c.joint].stiffness * c.p[0] * (c.z[0] - s[c.joint].stretch);
+    s[c.joint].cable_force_motor += change;
+    s[c.joint].cable_force_joint += change;
+  }
+  template <class T>
+  void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
+    const T rate = s[c.joint].stretch_rate;
+    const T loading = rate * c.z[0];
+    z_dot[0] = rate - select(loading > T(0.0), T(abs(rate) * c.z[0] / c.p[1]), T(0.0));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_hysteresis() { return std::make_unique<Hysteresis>(); }
+
+}  // namespace halyard

@@ -1,0 +1,47 @@
+#include "transmission/effects/library.h"
+#include "transmission/friction.h"
+
+/// Another friction at the joint than the model has, and its asymmetry:
+///
+///   F' = F + ΔF_c tanh(v / v_s) + ΔF_v v + A tanh²(v / v_s)
+///
+///   ΔF_c, ΔF_v   change of the Coulomb level, of the viscous coefficient    N m | N, N m s/rad | N s/m
+///   A            half the difference of the Coulomb levels of both ways     N m | N
+///
+/// Source: the paper's Eq. 4; asymmetry as in Armstrong-Helouvry et al., Automatica 30 (1994).
+
+namespace halyard {
+namespace {
+
+class JointFriction : public EffectOf<JointFriction> {
+ public:
+  std::string name() const override { return "joint_friction"; }
+  std::string summary() const override { return "another Coulomb or viscous friction at the joint, or its asymmetry"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const JointParameters<double>& j = arm.joint[joint];
+    const bool turns = j.type == JointType::revolute;
+    const double level = std::max(j.joint_coulomb, 1e-6);
+    const double viscous = std::max(j.joint_viscous, 0.02 * level);
+    return {{"coulomb_change", turns ? "N m" : "N", 0, 0.3 * level, -j.joint_coulomb, 30 * level, j.tolerance.friction * j.joint_coulomb},
+            {"viscous_change", turns ? "N m s/rad" : "N s/m", 0, 0.3 * viscous, -j.joint_viscous, 300 * viscous, j.tolerance.friction * j.joint_viscous},
+            {"asymmetry", turns ? "N m" : "N", 0, 0.1 * level, -10 * level, 10 * level, 0}};
+  }
+
+  template <class T>
+  void change(ArmParameters<T>& arm, int joint, const T* p) const {
+    arm.joint[joint].joint_coulomb += p[0];
+    arm.joint[joint].joint_viscous += p[1];
+  }
+  template <class T>
+  void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const T sign = smooth_sign(s[c.joint].joint_rate, c.arm.joint[c.joint].joint_smoothing);
+    s[c.joint].joint_force -= c.p[2] * sign * sign;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_joint_friction() { return std::make_unique<JointFriction>(); }
+
+}  // namespace halyard

@@ -1,0 +1,49 @@
+#include "transmission/effects/library.h"
+#include "transmission/friction.h"
+
+/// Another friction at the motor than the model has, and its asymmetry:
+///
+///   F' = F + ΔF_c tanh(v / v_s) + ΔF_v v + A tanh²(v / v_s)
+///
+///   ΔF_c, ΔF_v   change of the Coulomb level, of the viscous coefficient    N m, N m s/rad
+///   A            half the difference of the Coulomb levels of both ways     N m
+///
+/// Source: the paper's Eq. 5; asymmetry as in Armstrong-Helouvry et al., Automatica 30 (1994).
+
+namespace halyard {
+namespace {
+
+class MotorFriction : public EffectOf<MotorFriction> {
+ public:
+  std::string name() const override { return "motor_friction"; }
+  std::string summary() const override { return "another Coulomb or viscous friction at the motor, or its asymmetry"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::motor); }
+  bool applies(const ArmParameters<double>& arm, int joint) const override {
+    return arm.joint[joint].drive != Drive::none;
+  }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const JointParameters<double>& j = arm.joint[joint];
+    const double level = std::max(j.motor_coulomb, 1e-6);
+    const double viscous = std::max(j.motor_viscous, 0.002 * level);
+    return {{"coulomb_change", "N m", 0, 0.3 * level, -j.motor_coulomb, 30 * level, j.tolerance.friction * j.motor_coulomb},
+            {"viscous_change", "N m s/rad", 0, 0.3 * viscous, -j.motor_viscous, 30 * viscous, j.tolerance.friction * j.motor_viscous},
+            {"asymmetry", "N m", 0, 0.1 * level, -10 * level, 10 * level, 0}};
+  }
+
+  template <class T>
+  void change(ArmParameters<T>& arm, int joint, const T* p) const {
+    arm.joint[joint].motor_coulomb += p[0];
+    arm.joint[joint].motor_viscous += p[1];
+  }
+  template <class T>
+  void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const T sign = smooth_sign(s[c.joint].motor_rate, c.arm.joint[c.joint].motor_smoothing);
+    s[c.joint].motor_torque -= c.p[2] * sign * sign;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_motor_friction() { return std::make_unique<MotorFriction>(); }
+
+}  // namespace halyard

@@ -1,0 +1,48 @@
+#include "transmission/effects/library.h"
+
+/// A point mass m at the tool: the last link's mass, centre of mass and inertia with it.
+///
+///   M' = M + m,  c' = (M c + m r) / M',  I' = I + μ (|d|² E - d dᵀ),  μ = M m / M',  d = r - c
+///
+///   r   the model's payload point, in the last link's frame     m
+///
+/// Source: parallel axis theorem for two bodies.
+
+namespace halyard {
+namespace {
+
+class Payload : public EffectOf<Payload> {
+ public:
+  std::string name() const override { return "payload"; }
+  std::string summary() const override { return "a point mass at the tool"; }
+  bool is_of_arm() const override { return true; }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int) const override {
+    const JointParameters<double>& last = arm.joint[arm.n - 1];
+    const double whole = std::max(last.mass, 1e-3);
+    return {{"mass", "kg", 0, 0.1 * whole, -0.9 * whole, 20 * whole, last.tolerance.mass * whole}};
+  }
+
+  template <class T>
+  void change(ArmParameters<T>& arm, int, const T* p) const {
+    JointParameters<T>& last = arm.joint[arm.n - 1];
+    const T total = last.mass + p[0], reduced = last.mass * p[0] / total;
+    T d[3];
+    for (int i = 0; i < 3; ++i) {
+      d[i] = arm.payload_point[i] - last.com[i];
+      last.com[i] += p[0] / total * d[i];
+    }
+    last.inertia[0] += reduced * (d[1] * d[1] + d[2] * d[2]);
+    last.inertia[1] += reduced * (d[0] * d[0] + d[2] * d[2]);
+    last.inertia[2] += reduced * (d[0] * d[0] + d[1] * d[1]);
+    last.inertia[3] -= reduced * d[0] * d[1];
+    last.inertia[4] -= reduced * d[0] * d[2];
+    last.inertia[5] -= reduced * d[1] * d[2];
+    last.mass = total;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_payload() { return std::make_unique<Payload>(); }
+
+}  // namespace halyard

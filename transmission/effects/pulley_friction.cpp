@@ -1,0 +1,48 @@
+#include "transmission/effects/library.h"
+#include "transmission/friction.h"
+
+/// Friction of the cable on its pulleys, which grows with tension and load and not with speed:
+///
+///   F = μ (2 T_0 + |g|) sign(s')
+///   g_motor = g + σ F(motor's cable speed),   g_joint = g - (1 - σ) F(joint's cable speed)
+///
+///   μ      friction coefficient, wrap angle included       -
+///   σ      share of it that lies on the motor's side        -
+///   g      force difference of the two runs                 N
+///   s'     speed of the cable on that side                   m/s
+///
+/// Source: Miyasaka et al., "Measurement of the cable-pulley Coulomb and viscous friction for a
+/// cable-driven surgical robotic system", IROS 2015.
+
+namespace halyard {
+namespace {
+
+class PulleyFriction : public EffectOf<PulleyFriction> {
+ public:
+  std::string name() const override { return "pulley_friction"; }
+  std::string summary() const override { return "cable friction on the pulleys that grows with tension and load"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::cable_force); }
+  bool applies(const ArmParameters<double>& arm, int joint) const override {
+    return arm.joint[joint].drive == Drive::cable;
+  }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+    return {{"coefficient", "1", 0, 0.05, 0, 1, 0}, {"motor_share", "1", 0.5, 0.5, 0, 1, 0}};
+  }
+
+  template <class T>
+  void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const JointParameters<T>& j = c.arm.joint[c.joint];
+    JointSignals<T>& own = s[c.joint];
+    T path_rate = 0.0;
+    for (int i = 0; i < c.arm.n; ++i) path_rate += j.coupling[i] * s[i].joint_rate;
+    const T level = c.p[0] * (T(2.0) * j.tension + abs(own.cable_force_joint));
+    own.cable_force_motor += c.p[1] * level * smooth_sign(own.motor_rate, j.motor_smoothing);
+    own.cable_force_joint -= (T(1.0) - c.p[1]) * level * smooth_sign(path_rate, j.joint_smoothing);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_pulley_friction() { return std::make_unique<PulleyFriction>(); }
+
+}  // namespace halyard

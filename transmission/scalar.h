@@ -1,0 +1,186 @@
+#pragma once
+/// The scalar types that the arm's equations are written over.
+///
+///   double   one value
+///   Dual     value and kDualWidth directional derivatives: exact Jacobians
+///   Lanes    kLaneWidth values side by side in vector registers: many sigma points, or many
+///            parameter sets, for little more than the price of one
+///
+/// Code over a scalar T branches with select(condition, a, b) and uses min, max, abs, tanh, exp,
+/// sin, cos, sqrt, log of this header. A library's automatic differentiation type would serve as
+/// Dual, but expression templates do not pass through a virtual function and have no lanes.
+///
+/// The vector operations are forced inline, so that a file compiled for a wider instruction set
+/// leaves no copy of them for others to call.
+
+#include <cmath>
+#include <cstddef>
+
+#define HALYARD_INLINE inline __attribute__((always_inline))
+
+namespace halyard {
+
+inline constexpr int kLaneWidth = 8;
+inline constexpr int kDualWidth = 4;
+
+// ------------------------------------------------------------------------------------- Lanes
+
+struct LaneMask {
+  typedef long long Vector __attribute__((vector_size(8 * kLaneWidth)));
+  Vector m;
+};
+
+struct Lanes {
+  typedef double Vector __attribute__((vector_size(8 * kLaneWidth)));
+  Vector v;
+
+  HALYARD_INLINE Lanes() = default;
+  HALYARD_INLINE Lanes(double s) : v(s - Vector{}) {}  // NOLINT: a constant is a scalar too
+  HALYARD_INLINE double operator[](int i) const { return v[i]; }
+  HALYARD_INLINE void set(int i, double s) { v[i] = s; }
+
+  HALYARD_INLINE Lanes& operator+=(const Lanes& b) { v += b.v; return *this; }
+  HALYARD_INLINE Lanes& operator-=(const Lanes& b) { v -= b.v; return *this; }
+  HALYARD_INLINE Lanes& operator*=(const Lanes& b) { v *= b.v; return *this; }
+  HALYARD_INLINE Lanes& operator/=(const Lanes& b) { v /= b.v; return *this; }
+};
+
+HALYARD_INLINE Lanes operator+(Lanes a, const Lanes& b) { return a += b; }
+HALYARD_INLINE Lanes operator-(Lanes a, const Lanes& b) { return a -= b; }
+HALYARD_INLINE Lanes operator*(Lanes a, const Lanes& b) { return a *= b; }
+HALYARD_INLINE Lanes operator/(Lanes a, const Lanes& b) { return a /= b; }
+HALYARD_INLINE Lanes operator-(Lanes a) { a.v = -a.v; return a; }
+HALYARD_INLINE LaneMask operator<(const Lanes& a, const Lanes& b) { return {a.v < b.v}; }
+HALYARD_INLINE LaneMask operator>(const Lanes& a, const Lanes& b) { return {a.v > b.v}; }
+HALYARD_INLINE LaneMask operator<=(const Lanes& a, const Lanes& b) { return {a.v <= b.v}; }
+HALYARD_INLINE LaneMask operator>=(const Lanes& a, const Lanes& b) { return {a.v >= b.v}; }
+HALYARD_INLINE LaneMask operator&&(const LaneMask& a, const LaneMask& b) { return {a.m & b.m}; }
+HALYARD_INLINE LaneMask operator||(const LaneMask& a, const LaneMask& b) { return {a.m | b.m}; }
+HALYARD_INLINE Lanes select(const LaneMask& c, const Lanes& a, const Lanes& b) {
+  Lanes r;
+  r.v = c.m ? a.v : b.v;
+  return r;
+}
+
+/// Vector mathematics of the C library, at the width that this file is compiled for.
+#if defined(__AVX512F__)
+#define HALYARD_VECTOR_PREFIX(name) _ZGVeN8v_##name
+inline constexpr int kNativeWidth = 8;
+#elif defined(__AVX2__)
+#define HALYARD_VECTOR_PREFIX(name) _ZGVdN4v_##name
+inline constexpr int kNativeWidth = 4;
+#elif defined(__x86_64__)
+#define HALYARD_VECTOR_PREFIX(name) _ZGVbN2v_##name
+inline constexpr int kNativeWidth = 2;
+#endif
+
+#if defined(HALYARD_VECTOR_PREFIX)
+typedef double NativeVector __attribute__((vector_size(8 * kNativeWidth)));
+#define HALYARD_LANE_FUNCTION(name)                                              \
+  extern "C" NativeVector HALYARD_VECTOR_PREFIX(name)(NativeVector);             \
+  HALYARD_INLINE Lanes name(const Lanes& a) {                                    \
+    Lanes r;                                                                     \
+    NativeVector part[kLaneWidth / kNativeWidth];                                \
+    __builtin_memcpy(part, &a.v, sizeof a.v);                                    \
+    for (NativeVector& p : part) p = HALYARD_VECTOR_PREFIX(name)(p);             \
+    __builtin_memcpy(&r.v, part, sizeof r.v);                                    \
+    return r;                                                                    \
+  }
+#else
+#define HALYARD_LANE_FUNCTION(name)                                              \
+  HALYARD_INLINE Lanes name(const Lanes& a) {                                    \
+    Lanes r;                                                                     \
+    for (int i = 0; i < kLaneWidth; ++i) r.v[i] = std::name(a.v[i]);             \
+    return r;                                                                    \
+  }
+#endif
+HALYARD_LANE_FUNCTION(sin)
+HALYARD_LANE_FUNCTION(cos)
+HALYARD_LANE_FUNCTION(tanh)
+HALYARD_LANE_FUNCTION(exp)
+HALYARD_LANE_FUNCTION(log)
+#undef HALYARD_LANE_FUNCTION
+
+HALYARD_INLINE Lanes sqrt(const Lanes& a) {
+  Lanes r;
+  for (int i = 0; i < kLaneWidth; ++i) r.v[i] = __builtin_sqrt(a.v[i]);
+  return r;
+}
+
+// -------------------------------------------------------------------------------------- Dual
+
+/// a + b eps with eps² = 0, for kDualWidth directions at once.
+struct Dual {
+  typedef double Vector __attribute__((vector_size(8 * kDualWidth)));
+  double a;
+  Vector d;
+
+  HALYARD_INLINE Dual() = default;
+  HALYARD_INLINE Dual(double value) : a(value), d{} {}  // NOLINT: a constant is a scalar too
+  HALYARD_INLINE Dual(double value, const Vector& derivative) : a(value), d(derivative) {}
+  HALYARD_INLINE static Dual seed(double value, int direction) {
+    Dual x(value);
+    x.d[direction] = 1;
+    return x;
+  }
+
+  HALYARD_INLINE Dual& operator+=(const Dual& b) { a += b.a; d += b.d; return *this; }
+  HALYARD_INLINE Dual& operator-=(const Dual& b) { a -= b.a; d -= b.d; return *this; }
+  HALYARD_INLINE Dual& operator*=(const Dual& b) { d = d * b.a + b.d * a; a *= b.a; return *this; }
+  HALYARD_INLINE Dual& operator/=(const Dual& b) {
+    a /= b.a;
+    d = (d - b.d * a) / b.a;
+    return *this;
+  }
+};
+
+HALYARD_INLINE Dual operator+(Dual x, const Dual& y) { return x += y; }
+HALYARD_INLINE Dual operator-(Dual x, const Dual& y) { return x -= y; }
+HALYARD_INLINE Dual operator*(Dual x, const Dual& y) { return x *= y; }
+HALYARD_INLINE Dual operator/(Dual x, const Dual& y) { return x /= y; }
+HALYARD_INLINE Dual operator-(Dual x) { x.a = -x.a; x.d = -x.d; return x; }
+HALYARD_INLINE bool operator<(const Dual& x, const Dual& y) { return x.a < y.a; }
+HALYARD_INLINE bool operator>(const Dual& x, const Dual& y) { return x.a > y.a; }
+HALYARD_INLINE bool operator<=(const Dual& x, const Dual& y) { return x.a <= y.a; }
+HALYARD_INLINE bool operator>=(const Dual& x, const Dual& y) { return x.a >= y.a; }
+HALYARD_INLINE Dual sin(const Dual& x) { return {std::sin(x.a), x.d * std::cos(x.a)}; }
+HALYARD_INLINE Dual cos(const Dual& x) { return {std::cos(x.a), -x.d * std::sin(x.a)}; }
+HALYARD_INLINE Dual tanh(const Dual& x) {
+  const double t = std::tanh(x.a);
+  return {t, x.d * (1 - t * t)};
+}
+HALYARD_INLINE Dual exp(const Dual& x) {
+  const double e = std::exp(x.a);
+  return {e, x.d * e};
+}
+HALYARD_INLINE Dual log(const Dual& x) { return {std::log(x.a), x.d / x.a}; }
+HALYARD_INLINE Dual sqrt(const Dual& x) {
+  const double s = std::sqrt(x.a);
+  return {s, x.d / (2 * s)};
+}
+
+// ------------------------------------------------------------------- the same words for all
+
+using std::cos;
+using std::exp;
+using std::log;
+using std::sin;
+using std::sqrt;
+using std::tanh;
+
+HALYARD_INLINE double select(bool c, double a, double b) { return c ? a : b; }
+HALYARD_INLINE Dual select(bool c, const Dual& a, const Dual& b) { return c ? a : b; }
+
+template <class T>
+HALYARD_INLINE T max(const T& a, const T& b) { return select(a > b, a, b); }
+template <class T>
+HALYARD_INLINE T min(const T& a, const T& b) { return select(a < b, a, b); }
+template <class T>
+HALYARD_INLINE T abs(const T& a) { return select(a < T(0.0), T(-a), a); }
+
+/// The plain value: of a Dual its value, of Lanes lane 0.
+HALYARD_INLINE double value(double x) { return x; }
+HALYARD_INLINE double value(const Dual& x) { return x.a; }
+HALYARD_INLINE double value(const Lanes& x) { return x.v[0]; }
+
+}  // namespace halyard

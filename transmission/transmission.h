@@ -1,0 +1,127 @@
+#pragma once
+/// From motors to joints: everything between the commanded torque and the force on a joint.
+///
+///   x  = (r_m / N) q_m - R q,  x' likewise                                     (Eq. 8)
+///   g  = cable law(x, x')                                                      (Eq. 6)
+///   τ  = scale·command + bias - friction(q_m')      the cable's pull (r_m/N) g excluded (Eq. 5)
+///   F  = Rᵀ g - friction(q') + external                                        (Eqs. 4, 7)
+///
+/// and the effects at each place. The plant and the estimators both evaluate this one source.
+
+#include "transmission/cable_law.h"
+#include "transmission/coupling.h"
+#include "transmission/effect.h"
+#include "transmission/friction.h"
+
+namespace halyard {
+
+/// The arm with effects, over scalar T.
+template <class T>
+class Transmission {
+ public:
+  Transmission(const ArmParameters<T>& nominal, std::vector<EffectInstance<T>> effects)
+      : arm_(nominal), owned_(std::move(effects)) {
+    for (const EffectInstance<T>& e : owned_) {
+      e.effect->change_parameters(arm_, e.joint, e.p);
+      n_states_ += e.effect->n_states();
+      stages_ |= e.effect->stages();
+    }
+  }
+
+  /// The parameters with the changes that the effects make to them.
+  const ArmParameters<T>& arm() const { return arm_; }
+  const std::vector<EffectInstance<T>>& effects() const { return owned_; }
+  /// Internal states of all effects, in the order of the effects.
+  int n_states() const { return n_states_; }
+
+  /// Fills s from s.command, s.motor_angle, s.motor_rate, s.joint_position, s.joint_rate and
+  /// s.external_force [n], the internal states z, and z_dot [n_states].
+  HALYARD_INLINE void evaluate(double time, const CommandHistory* history, const T* z,
+                               JointSignals<T>* s, T* z_dot) const;
+
+  /// s.motor_error and s.joint_error: what the sensors add to the truth.
+  HALYARD_INLINE void sensor_errors(double time, const T* z, JointSignals<T>* s) const {
+    for (int i = 0; i < arm_.n; ++i) {
+      s[i].motor_error = arm_.joint[i].motor_encoder_offset;
+      s[i].joint_error = arm_.joint[i].joint_encoder_offset;
+    }
+    apply(EffectStage::sensors, time, nullptr, z, s);
+  }
+
+  /// The command stage alone: s.motor_torque from s.command, no friction.
+  HALYARD_INLINE void commanded_torque(double time, const CommandHistory* history, const T* z, JointSignals<T>* s) const {
+    for (int i = 0; i < arm_.n; ++i)
+      s[i].motor_torque = arm_.joint[i].torque_scale * s[i].command + arm_.joint[i].torque_bias;
+    apply(EffectStage::command, time, history, z, s);
+  }
+
+ private:
+  HALYARD_INLINE void apply(EffectStage stage, double time, const CommandHistory* history, const T* z,
+                            JointSignals<T>* s) const {
+    if (!(stages_ & static_cast<unsigned>(stage))) return;
+    const EffectInstance<T>* e = owned_.data();
+    for (int i = 0, n = static_cast<int>(owned_.size()); i < n; z += e[i].effect->n_states(), ++i)
+      if (e[i].effect->stages() & static_cast<unsigned>(stage))
+        e[i].effect->act(stage, EffectContext<T>{arm_, e[i].joint, e[i].p, z, time, history}, s);
+  }
+
+  ArmParameters<T> arm_;
+  std::vector<EffectInstance<T>> owned_;
+  int n_states_ = 0;
+  unsigned stages_ = 0;
+};
+
+template <class T>
+HALYARD_INLINE void Transmission<T>::evaluate(double time, const CommandHistory* history, const T* z,
+                                              JointSignals<T>* s, T* z_dot) const {
+  const int n = arm_.n;
+  commanded_torque(time, history, z, s);
+
+  T q[kMaxJoints], v[kMaxJoints], path[kMaxJoints], path_rate[kMaxJoints];
+  for (int i = 0; i < n; ++i) q[i] = s[i].joint_position, v[i] = s[i].joint_rate;
+  cable_path(arm_, q, path);
+  cable_path(arm_, v, path_rate);
+  for (int i = 0; i < n; ++i) {
+    const JointParameters<T>& j = arm_.joint[i];
+    if (j.drive == Drive::cable) {
+      s[i].stretch = j.motor_travel() * s[i].motor_angle - path[i];
+      s[i].stretch_rate = j.motor_travel() * s[i].motor_rate - path_rate[i];
+    } else {
+      s[i].stretch = s[i].stretch_rate = T(0.0);
+    }
+  }
+  apply(EffectStage::stretch, time, history, z, s);
+
+  for (int i = 0; i < n; ++i)
+    s[i].cable_force_motor = s[i].cable_force_joint =
+        arm_.joint[i].drive == Drive::cable ? cable_force(arm_.joint[i], s[i].stretch, s[i].stretch_rate) : T(0.0);
+  apply(EffectStage::cable_force, time, history, z, s);
+
+  for (int i = 0; i < n; ++i) {
+    const JointParameters<T>& j = arm_.joint[i];
+    if (j.drive == Drive::none) { s[i].motor_torque = T(0.0); continue; }
+    s[i].motor_torque -= friction(j.motor_coulomb, j.motor_viscous, j.motor_smoothing, s[i].motor_rate);
+  }
+  apply(EffectStage::motor, time, history, z, s);
+
+  T g[kMaxJoints], reaction[kMaxJoints];
+  for (int i = 0; i < n; ++i) g[i] = s[i].cable_force_joint;
+  joint_reaction(arm_, g, reaction);
+  for (int i = 0; i < n; ++i) {
+    const JointParameters<T>& j = arm_.joint[i];
+    s[i].joint_force = reaction[i] - friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, v[i]) +
+                       s[i].external_force;
+  }
+  apply(EffectStage::joint, time, history, z, s);
+
+  const EffectInstance<T>* e = owned_.data();
+  for (int i = 0, m = static_cast<int>(owned_.size()); i < m; ++i) {
+    const int k = e[i].effect->n_states();
+    if (k == 0) continue;
+    e[i].effect->rates(EffectContext<T>{arm_, e[i].joint, e[i].p, z, time, history}, s, z_dot);
+    z += k;
+    z_dot += k;
+  }
+}
+
+}  // namespace halyard
