@@ -1,0 +1,369 @@
+#include "model/model_file.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "model/input_error.h"
+#include "model/xml_reader.h"
+#include "transmission/path_matrix.h"
+
+namespace halyard {
+namespace {
+
+using Matrix3 = Eigen::Matrix3d;
+using Joint = JointParameters<double>;
+
+/// Units of a joint's coordinate and of what acts on it.
+struct JointUnits {
+  const char *position, *rate, *force, *viscous, *radius;
+};
+
+JointUnits units_of(const Joint& joint) {
+  if (joint.type == JointType::revolute) return {"rad", "rad/s", "N m", "N m s/rad", "m"};
+  return {"m", "m/s", "N", "N s/m", ""};
+}
+
+void set_frame(Joint& joint, const Matrix3& R, const Eigen::Vector3d& p) {
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(&joint.frame_R[0][0]) = R;
+  Eigen::Map<Eigen::Vector3d>(joint.frame_p) = p;
+}
+
+Matrix3 rotation(double angle, const Eigen::Vector3d& axis) {
+  return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+}
+
+/// T(i-1,i) = Rx(alpha) Tx(a) Rz(theta) Tz(d) at q = 0 (Craig).
+void read_dh(const XmlElement& dh, Joint& joint) {
+  dh.only({"alpha", "a", "theta", "d"});
+  const Matrix3 Rx = rotation(dh.number("alpha", "rad"), Eigen::Vector3d::UnitX());
+  const Matrix3 R = Rx * rotation(dh.number("theta", "rad"), Eigen::Vector3d::UnitZ());
+  set_frame(joint, R, Rx * Eigen::Vector3d(dh.number("a", "m"), 0, dh.number("d", "m")));
+}
+
+void read_frame(const XmlElement& frame, Joint& joint) {
+  frame.only({"xyz", "rpy", "matrix"});
+  if (frame.has("rpy") == frame.has("matrix")) frame.fail("expected one of rpy and matrix; give the rotation once");
+  const std::vector<double> xyz = frame.numbers("xyz", "m", 3);
+  Matrix3 R;
+  if (frame.has("matrix")) {
+    const std::vector<double> rows = frame.numbers("matrix", "", 9);
+    R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
+    // A matrix typed with 6 digits passes, one with a wrong sign or scale does not.
+    if (!(R * R.transpose()).isApprox(Matrix3::Identity(), 1e-5) || R.determinant() < 0) {
+      frame.fail("matrix", "expected a rotation matrix, row by row; its rows are not orthonormal and right-handed");
+    }
+  } else {
+    const std::vector<double> rpy = frame.numbers("rpy", "rad", 3);
+    R = rotation(rpy[2], Eigen::Vector3d::UnitZ()) * rotation(rpy[1], Eigen::Vector3d::UnitY()) *
+        rotation(rpy[0], Eigen::Vector3d::UnitX());
+  }
+  set_frame(joint, R, {xyz[0], xyz[1], xyz[2]});
+}
+
+/// A body's principal moments are not negative and none exceeds the sum of the other two.
+void check_inertia(const XmlElement& link, const Joint& joint, const std::string& name) {
+  const double* I = joint.inertia;
+  Matrix3 tensor;
+  tensor << I[0], I[3], I[4], I[3], I[1], I[5], I[4], I[5], I[2];
+  const Eigen::Vector3d moments =
+      Eigen::SelfAdjointEigenSolver<Matrix3>(tensor, Eigen::EigenvaluesOnly).eigenvalues();  // ascending
+  const double rounding = 1e-9 * moments.cwiseAbs().maxCoeff();
+  const std::string principal = "joint " + in_quotes(name) + " has principal moments " + exact_text(moments(0)) + ", " +
+                                exact_text(moments(1)) + ", " + exact_text(moments(2)) + " kg m^2; expected ";
+  if (moments(0) < -rounding) link.fail("inertia", principal + "none below 0; check the signs of xy, xz, yz");
+  if (moments(2) > moments(0) + moments(1) + rounding) {
+    link.fail("inertia", principal + "none above the sum of the other two (no body has that); check the entries, which "
+                                     "are xx yy zz xy xz yz about the centre of mass");
+  }
+}
+
+void read_link(const XmlElement& link, Joint& joint, const std::string& name) {
+  link.only({"mass", "com", "inertia"});
+  joint.mass = link.number("mass", "kg", Sign::non_negative);
+  const std::vector<double> com = link.numbers("com", "m", 3);
+  const std::vector<double> inertia = link.numbers("inertia", "kg m^2", 6);
+  std::ranges::copy(com, joint.com);
+  std::ranges::copy(inertia, joint.inertia);
+  check_inertia(link, joint, name);
+}
+
+void read_motor(const XmlElement& motor, Joint& joint) {
+  motor.only({"inertia", "coulomb", "viscous", "smoothing", "gear_ratio", "capstan_radius", "torque_scale",
+              "torque_bias"});
+  // Behind a rigid drive the link's inertia is enough; a rotor on an elastic cable moves on its own.
+  joint.rotor_inertia =
+      motor.number("inertia", "kg m^2", joint.drive == Drive::cable ? Sign::positive : Sign::non_negative);
+  joint.motor_coulomb = motor.number("coulomb", "N m", Sign::non_negative);
+  joint.motor_viscous = motor.number("viscous", "N m s/rad", Sign::non_negative);
+  joint.motor_smoothing = motor.number_or("smoothing", joint.motor_smoothing, "rad/s", Sign::positive);
+  joint.gear_ratio = motor.number("gear_ratio", "", Sign::positive);
+  joint.capstan_radius = motor.number("capstan_radius", "m", Sign::positive);
+  joint.torque_scale = motor.number_or("torque_scale", joint.torque_scale, "", Sign::positive);
+  joint.torque_bias = motor.number_or("torque_bias", joint.torque_bias, "N m");
+}
+
+void read_cable(const XmlElement& cable, Joint& joint) {
+  cable.only({"law", "stiffness", "damping", "tension", "pulley_radius"});
+  joint.law = cable.choice<CableLaw>(
+      "law", {{"paper", CableLaw::paper}, {"exponential", CableLaw::exponential}, {"linear", CableLaw::linear}});
+  joint.stiffness = cable.number("stiffness", "N/m", Sign::positive);
+  joint.damping = cable.number("damping", "N s/m", Sign::non_negative);
+  joint.tension = joint.law == CableLaw::paper ? cable.number_or("tension", 0, "N", Sign::non_negative)
+                                               : cable.number("tension", "N", Sign::positive);
+  joint.pulley_radius = cable.number("pulley_radius", units_of(joint).radius, Sign::positive);
+}
+
+void read_coupling(const XmlElement& coupling, Joint& joint, int k) {
+  coupling.only({"joint", "coefficient"});
+  if (k == 0) coupling.fail("the first joint has no inboard joint that could move its cable; remove it");
+  const auto inboard = coupling.integer("joint", 1, k);
+  double& coefficient = joint.coupling[inboard - 1];
+  if (coefficient != 0) coupling.fail("joint", "coupling with this joint is given twice; give it once");
+  coefficient = coupling.number("coefficient", "");
+}
+
+void read_friction(const XmlElement& friction, Joint& joint) {
+  const JointUnits unit = units_of(joint);
+  friction.only({"coulomb", "viscous", "smoothing"});
+  joint.joint_coulomb = friction.number("coulomb", unit.force, Sign::non_negative);
+  joint.joint_viscous = friction.number("viscous", unit.viscous, Sign::non_negative);
+  joint.joint_smoothing = friction.number_or("smoothing", joint.joint_smoothing, unit.rate, Sign::positive);
+}
+
+/// From counts a turn or the resolution itself.
+double read_resolution(const XmlElement& encoders, const std::string& side, const char* unit) {
+  const std::string counts = side + "_counts", resolution = side + "_resolution";
+  if (!encoders.has(counts)) return encoders.number_or(resolution, 0, unit, Sign::non_negative);
+  if (encoders.has(resolution)) encoders.fail(counts, "expected one of " + counts + " and " + resolution);
+  if (std::string(unit) != "rad") encoders.fail(counts, "a prismatic joint has no turn; give " + resolution + " in m");
+  return 2 * std::numbers::pi / encoders.number(counts, "", Sign::positive);
+}
+
+void read_encoders(const XmlElement& encoders, Joint& joint) {
+  const char* unit = units_of(joint).position;
+  XmlNames attributes = {"joint_counts", "joint_resolution", "joint_offset"};
+  if (joint.drive != Drive::none) attributes.insert(attributes.begin(), {"motor_counts", "motor_resolution", "motor_offset"});
+  encoders.only(attributes);
+  joint.motor_encoder_resolution = read_resolution(encoders, "motor", "rad");
+  joint.motor_encoder_offset = encoders.number_or("motor_offset", 0, "rad");
+  joint.joint_encoder_resolution = read_resolution(encoders, "joint", unit);
+  joint.joint_encoder_offset = encoders.number_or("joint_offset", 0, unit);
+}
+
+ControllerParameters read_controller(const XmlElement& controller) {
+  controller.only({"kp", "kd", "torque_limit"});
+  ControllerParameters gains;
+  gains.kp = controller.number("kp", "N m/rad", Sign::non_negative);
+  gains.kd = controller.number("kd", "N m s/rad", Sign::non_negative);
+  gains.torque_limit = controller.number_or("torque_limit", 0, "N m", Sign::non_negative);
+  return gains;
+}
+
+void read_range(const XmlElement& range, const char* unit, JointDescription& description) {
+  range.only({"lower", "upper", "home"});
+  description.lower = range.number("lower", unit);
+  description.upper = range.number("upper", unit);
+  description.home = range.number("home", unit);
+  if (!(description.lower < description.upper)) range.fail("upper", "expected an upper end above the lower one");
+  if (description.home < description.lower || description.home > description.upper) {
+    range.fail("home", "expected a position from lower to upper");
+  }
+}
+
+Tolerances read_tolerances(const XmlElement& element, Tolerances tolerances) {
+  element.only({"length", "mass", "stiffness", "friction", "coupling"});
+  const auto read = [&](const char* name, double& value) {
+    value = element.number_or(name, value, "", Sign::non_negative);
+  };
+  read("length", tolerances.length);
+  read("mass", tolerances.mass);
+  read("stiffness", tolerances.stiffness);
+  read("friction", tolerances.friction);
+  read("coupling", tolerances.coupling);
+  return tolerances;
+}
+
+void read_drive(const XmlElement& element, Joint& joint, int k, ControllerParameters& controller) {
+  const auto refuse = [&](const char* tag, const char* drive) {
+    if (const auto found = element.optional_child(tag)) {
+      found->fail(std::string("a joint with drive=\"") + drive + "\" has none; remove it, or change the drive");
+    }
+  };
+  if (joint.drive == Drive::none) {
+    for (const char* tag : {"motor", "cable", "rigid", "coupling", "controller"}) refuse(tag, "none");
+    return;
+  }
+  read_motor(element.child("motor"), joint);
+  if (joint.drive == Drive::cable) {
+    refuse("rigid", "cable");
+    read_cable(element.child("cable"), joint);
+  } else {
+    refuse("cable", "rigid");
+    const XmlElement rigid = element.child("rigid");
+    rigid.only({"pulley_radius"});
+    joint.pulley_radius = rigid.number("pulley_radius", units_of(joint).radius, Sign::positive);
+  }
+  for (const XmlElement& coupling : element.children("coupling")) read_coupling(coupling, joint, k);
+  if (const auto found = element.optional_child("controller")) controller = read_controller(*found);
+}
+
+JointDescription read_joint(const XmlElement& element, Joint& joint, int k, const Tolerances& tolerances) {
+  element.only({"name", "type", "drive"}, {"dh", "frame", "link", "motor", "cable", "rigid", "coupling", "friction",
+                                           "encoders", "controller", "range", "tolerances"});
+  JointDescription description;
+  description.name = element.text("name");
+  joint.type = element.choice<JointType>(
+      "type", {{"revolute", JointType::revolute}, {"prismatic", JointType::prismatic}});
+  joint.drive = element.choice<Drive>("drive", {{"cable", Drive::cable}, {"rigid", Drive::rigid}, {"none", Drive::none}});
+  joint.tolerance = tolerances;
+  joint.coupling[k] = 1;
+
+  const auto dh = element.optional_child("dh"), frame = element.optional_child("frame");
+  if (dh.has_value() == frame.has_value()) element.fail("expected one of <dh> and <frame>; give the joint's frame once");
+  if (dh) read_dh(*dh, joint);
+  if (frame) read_frame(*frame, joint);
+  read_link(element.child("link"), joint, description.name);
+  read_drive(element, joint, k, description.controller);
+  read_friction(element.child("friction"), joint);
+  if (const auto found = element.optional_child("encoders")) read_encoders(*found, joint);
+  read_range(element.child("range"), units_of(joint).position, description);
+  if (const auto found = element.optional_child("tolerances")) joint.tolerance = read_tolerances(*found, tolerances);
+  return description;
+}
+
+/// Every joint has something to move, or its acceleration would be undefined.
+void check_inertia_of_motion(const ArmParameters<double>& arm, const std::vector<XmlElement>& elements) {
+  double mass = 0, inertia = 0;
+  for (int k = arm.n - 1; k >= 0; --k) {
+    const Joint& joint = arm.joint[k];
+    mass += joint.mass;
+    inertia += joint.inertia[0] + joint.inertia[1] + joint.inertia[2];
+    const bool has_rotor = joint.drive == Drive::rigid && joint.rotor_inertia > 0;
+    if (has_rotor || mass > 0 || (joint.type == JointType::revolute && inertia > 0)) continue;
+    elements[k].fail("this joint moves no mass; give its link or a link outboard of it a mass");
+  }
+}
+
+void check_coupling(const ArmParameters<double>& arm, const XmlElement& element) {
+  try {
+    unstretched_joints(arm, Eigen::VectorXd::Zero(arm.n), Eigen::VectorXd::Zero(arm.n));
+  } catch (const std::invalid_argument& error) {
+    element.fail(error.what());
+  }
+}
+
+void read_joints(const XmlElement& arm, const Tolerances& tolerances, ArmModel& model) {
+  const std::vector<XmlElement> elements = arm.children("joint");
+  if (elements.empty()) arm.fail("element <joint> is missing; give 1 to " + std::to_string(kMaxJoints));
+  if (elements.size() > kMaxJoints) {
+    elements[kMaxJoints].fail("the arm has " + std::to_string(elements.size()) + " joints; expected 1 to " +
+                              std::to_string(kMaxJoints));
+  }
+  model.nominal.n = static_cast<int>(elements.size());
+  for (int k = 0; k < model.nominal.n; ++k) {
+    JointDescription description = read_joint(elements[k], model.nominal.joint[k], k, tolerances);
+    for (const JointDescription& inboard : model.joints) {
+      if (inboard.name == description.name) elements[k].fail("name", "another joint has this name; give it its own");
+    }
+    model.joints.push_back(std::move(description));
+  }
+  check_inertia_of_motion(model.nominal, elements);
+  check_coupling(model.nominal, arm);
+}
+
+PlacedEffect read_effect(const XmlElement& element, const ArmParameters<double>& arm) {
+  const Effect* effect = find_effect(element.text("name"));
+  if (!effect) {
+    std::string known;
+    for (const Effect* each : effect_library()) known += (known.empty() ? "" : ", ") + each->name();
+    element.fail("name", "unknown effect; expected one of " + known);
+  }
+  if (effect->is_of_arm() && element.has("joint")) {
+    element.fail("joint", "effect " + effect->name() + " is of the whole arm; remove the joint");
+  }
+  const int joint = effect->is_of_arm() ? -1 : static_cast<int>(element.integer("joint", 1, arm.n)) - 1;
+  PlacedEffect placed;
+  try {
+    placed = place_effect(*effect, arm, joint);
+  } catch (const std::invalid_argument& error) {
+    element.fail("joint", std::string(error.what()) + "; remove the effect");
+  }
+
+  const std::vector<EffectParameter> parameters = effect->parameters(arm, joint);
+  XmlNames attributes = {"name", "joint"};
+  for (const EffectParameter& parameter : parameters) attributes.push_back(parameter.name);
+  element.only(attributes);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const EffectParameter& p = parameters[i];
+    placed.p[i] = element.number_or(p.name, placed.p[i], p.unit);
+    if (placed.p[i] >= p.lower && placed.p[i] <= p.upper) continue;
+    element.fail(p.name, "expected a number from " + exact_text(p.lower) + " to " + exact_text(p.upper) +
+                             (p.unit.empty() ? "" : " " + p.unit));
+  }
+  return placed;
+}
+
+void read_columns(const XmlElement& columns, ArmModel& model) {
+  columns.only({}, {"column"});
+  for (const XmlElement& column : columns.children()) {
+    column.only({"name", "from", "unit", "sign", "scale", "offset"});
+    const std::string name = column.text("name"), from = column.text("from"), unit = column.text_or("unit", "");
+    const double sign = column.number_or("sign", 1, ""), scale = column.number_or("scale", 1, "");
+    const double offset = column.number_or("offset", 0, "");
+    try {
+      model.columns.add(name, from, unit, sign, scale, offset);
+      model.columns.check_joints(model.n());
+    } catch (const InputError& error) {
+      column.fail(error.what());
+    }
+  }
+}
+
+void read_estimator(const XmlElement& element, ArmModel& model) {
+  element.only_children({});
+  const std::string name = element.text("name");
+  EstimatorOptions options;
+  for (const auto& [key, value] : element.attributes()) {
+    if (!options.emplace(key, value).second) element.fail(key, "attribute " + key + " is given twice; give it once");
+  }
+  options.erase("name");
+  if (!model.estimators.emplace(name, options).second) {
+    element.fail("name", "options of this estimator are given twice; put them in one element");
+  }
+}
+
+ArmModel read_arm(const XmlElement& arm) {
+  arm.only({"name"}, {"gravity", "payload", "tolerances", "joint", "effects", "columns", "estimator"});
+  ArmModel model;
+  model.source = arm.source();
+  model.name = arm.text("name");
+  std::ranges::copy(arm.child("gravity").text_numbers("m/s^2", 3), model.nominal.gravity);
+  if (const auto payload = arm.optional_child("payload")) {
+    payload->only({"point"});
+    std::ranges::copy(payload->numbers("point", "m", 3), model.nominal.payload_point);
+  }
+  Tolerances tolerances;
+  if (const auto found = arm.optional_child("tolerances")) tolerances = read_tolerances(*found, tolerances);
+  read_joints(arm, tolerances, model);
+  if (const auto effects = arm.optional_child("effects")) {
+    effects->only({}, {"effect"});
+    for (const XmlElement& effect : effects->children()) model.effects.push_back(read_effect(effect, model.nominal));
+  }
+  if (const auto columns = arm.optional_child("columns")) read_columns(*columns, model);
+  for (const XmlElement& estimator : arm.children("estimator")) read_estimator(estimator, model);
+  return model;
+}
+
+}  // namespace
+
+ArmModel read_model(const std::filesystem::path& path) { return read_arm(XmlElement::read_file(path, "arm")); }
+
+ArmModel parse_model(const std::string& xml, const std::string& source) {
+  return read_arm(XmlElement::parse(xml, source, "arm"));
+}
+
+}  // namespace halyard

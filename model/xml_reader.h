@@ -1,0 +1,114 @@
+#pragma once
+/// Reads XML files strictly: an unknown element or attribute, a missing one or a malformed number is an InputError
+/// `file:line: <element attribute="text">: expected ...; remedy`.
+///
+///   const XmlElement cable = XmlElement::read_file(path, "cable");   // the root element, <cable>
+///   cable.only({"law", "stiffness", "slack"}, {"run"});              // first: nothing but these
+///   const double k_e = cable.number("stiffness", "N/m", Sign::positive);
+///   const double slack = cable.number_or("slack", 0.0, "m");         // slack="2 mm" is 0.002
+///   const auto law = cable.choice<CableLaw>("law", {{"paper", CableLaw::paper}, {"linear", CableLaw::linear}});
+///   for (const XmlElement& run : cable.children("run")) ...
+///
+/// Numbers are SI and finite. With unit "rad" a text may end in " deg", with unit "m" in " mm"; a unit of "" is a pure
+/// number. Element and attribute names are in the order of the file; comments are skipped.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace tinyxml2 {
+class XMLElement;
+}
+
+namespace halyard {
+
+enum class Sign { any, non_negative, positive };
+
+using XmlNames = std::vector<std::string>;
+
+/// An element of a document; keeps the document alive. All failures are InputErrors.
+class XmlElement {
+ public:
+  /// The root element of a file. Throws if the file cannot be read, is not well-formed or has another root.
+  static XmlElement read_file(const std::filesystem::path& path, std::string_view root);
+  /// The same without asking for a certain root: tag() tells what kind of file it is.
+  static XmlElement read_file(const std::filesystem::path& path);
+  /// From text; source stands for the file in messages.
+  static XmlElement parse(const std::string& xml, const std::string& source, std::string_view root);
+
+  std::string tag() const;
+  /// The file, as given.
+  const std::string& source() const;
+
+  /// Throws `file:line: <tag>: what`.
+  [[noreturn]] void fail(const std::string& what) const;
+  /// Throws `file:line: <tag attribute="text">: what`.
+  [[noreturn]] void fail(std::string_view attribute, const std::string& what) const;
+
+  /// Throws unless attributes and child elements are among these, each attribute once, and there is no text.
+  void only(const XmlNames& attributes, const XmlNames& children = {}) const;
+  /// As only(), for an element whose attributes are free.
+  void only_children(const XmlNames& children) const;
+
+  bool has(std::string_view attribute) const;
+  /// All attributes.
+  std::vector<std::pair<std::string, std::string>> attributes() const;
+
+  /// Required; not blank.
+  std::string text(std::string_view attribute) const;
+  std::string text_or(std::string_view attribute, const std::string& fallback) const;
+  double number(std::string_view attribute, std::string_view unit, Sign sign = Sign::any) const;
+  double number_or(std::string_view attribute, double fallback, std::string_view unit, Sign sign = Sign::any) const;
+  /// Numbers between blanks; count 0: one or more. A suffix at the end is of all of them: "0 0 90 deg".
+  std::vector<double> numbers(std::string_view attribute, std::string_view unit, std::size_t count = 0) const;
+  /// The element's own text, <gravity>-9.81 0 0</gravity>, as numbers; throws if it has attributes or children too.
+  std::vector<double> text_numbers(std::string_view unit, std::size_t count = 0) const;
+  /// A whole number, lower..upper.
+  std::int64_t integer(std::string_view attribute, std::int64_t lower, std::int64_t upper) const;
+  std::int64_t integer_or(std::string_view attribute, std::int64_t fallback, std::int64_t lower,
+                          std::int64_t upper) const;
+  /// "true" or "false".
+  bool flag_or(std::string_view attribute, bool fallback) const;
+
+  /// One of the names.
+  template <class E>
+  E choice(std::string_view attribute, const std::vector<std::pair<std::string, E>>& values) const {
+    XmlNames names;
+    for (const auto& [name, value] : values) names.push_back(name);
+    return values[index_of(attribute, names)].second;
+  }
+  template <class E>
+  E choice_or(std::string_view attribute, E fallback, const std::vector<std::pair<std::string, E>>& values) const {
+    return has(attribute) ? choice(attribute, values) : fallback;
+  }
+
+  std::vector<XmlElement> children() const;
+  std::vector<XmlElement> children(std::string_view tag) const;
+  /// Required and alone.
+  XmlElement child(std::string_view tag) const;
+  /// At most one.
+  std::optional<XmlElement> optional_child(std::string_view tag) const;
+
+ private:
+  struct Document;
+  XmlElement(std::shared_ptr<const Document> document, const tinyxml2::XMLElement* element)
+      : document_(std::move(document)), element_(element) {}
+
+  static XmlElement root_of(const std::string& xml, const std::string& source);
+  XmlElement expect_root(std::string_view root) const;
+  std::size_t index_of(std::string_view attribute, const XmlNames& names) const;
+  [[noreturn]] void fail_missing(std::string_view attribute, const std::string& expected) const;
+
+  std::shared_ptr<const Document> document_;
+  const tinyxml2::XMLElement* element_;
+};
+
+/// The shortest text that reads back as the same double.
+std::string exact_text(double value);
+
+}  // namespace halyard
