@@ -44,7 +44,8 @@ struct JointTrajectory {
 };
 
 struct Scenario {
-  ArmModel robot;                               ///< effects of the scenario's truth included
+  ArmModel robot;                               ///< the true one: effects and changed numbers of the truth included
+  std::optional<ArmParameters<double>> assumed; ///< what the controller takes the arm for; none: robot.nominal
   std::filesystem::path model;                  ///< the file that the robot was read from
   std::string name;
   double duration_s = 20;
@@ -57,7 +58,10 @@ struct Scenario {
   std::uint64_t seed = 1;
 };
 
-/// Reads a scenario file; paths in it are relative to it. Throws InputError.
+/// Throws InputError if the scenario cannot be run: numbers out of range, desired motion beyond a joint's range.
+void check_scenario(const Scenario& scenario);
+
+/// Reads and checks a scenario file; paths in it are relative to it. Throws InputError.
 Scenario read_scenario(const std::filesystem::path& path);
 
 }  // namespace halyard

@@ -1,0 +1,62 @@
+#pragma once
+/// The arm as a system of differential equations: Simbody's rigid chain, moved by a drive train.
+///
+///   (M(q) + M_rotors) q'' + h(q, q') = F(q, q', z),   z' = of the drive train
+///
+///   y     state [q, q', z]; see PlantLayout        [size]
+///   M     mass matrix of the chain                  [n x n]
+///   h     velocity and gravity forces                [n]
+///
+/// One mobilized body a joint: it turns about, or slides along, the z axis of its own frame. A rigid drive's rotor
+/// enters as the force -M_rotors q'' on the chain. An ArmPlant belongs to one thread at a time.
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "plant/drive_train.h"
+
+namespace halyard {
+
+struct SimbodyArm;
+
+class ArmPlant {
+ public:
+  /// Throws std::invalid_argument for an arm that cannot be: see DriveTrain, and link inertias that no body has.
+  explicit ArmPlant(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects = {});
+  ~ArmPlant();
+
+  const DriveTrain& drive() const;
+  const PlantLayout& layout() const { return drive().layout(); }
+
+  /// Commanded motor torques and external loads on the joints, [n] each, from time_s on.
+  void set_inputs(double time_s, const double* command, const double* external);
+
+  void derivative(double time_s, const double* y, double* y_dot);
+  /// What a share of the drive's forces contributes to y', with q' = v for the joints that it moves.
+  void share_derivative(Share share, double time_s, const double* y, double* y_dot);
+  /// Jacobian of share_derivative at fixed M and h: [0 I; M⁻¹ ∂F; ∂z']. Exact in what is stiff. J: [size x size].
+  void share_jacobian(Share share, double time_s, const double* y, Eigen::Ref<Eigen::MatrixXd> J);
+
+  /// Of the chain without rotors.
+  Eigen::MatrixXd mass_matrix(const Eigen::VectorXd& q);
+  /// Joint forces that hold the chain against gravity.
+  Eigen::VectorXd holding_force(const Eigen::VectorXd& q);
+  /// h without gravity.
+  Eigen::VectorXd velocity_force(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+
+  /// Kinetic, gravity and elastic energy, J; gravity's from an arbitrary zero.
+  double stored_energy(double time_s, const double* y);
+
+  /// Calls of derivative(), also through the integrators.
+  long derivative_evaluations() const { return evaluations_; }
+  void count_evaluations(long n) { evaluations_ += n; }
+
+  /// For code that speaks Simbody: plant/simbody_arm.h.
+  SimbodyArm& simbody() { return *arm_; }
+
+ private:
+  std::unique_ptr<SimbodyArm> arm_;
+  long evaluations_ = 0;
+};
+
+}  // namespace halyard

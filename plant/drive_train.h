@@ -1,0 +1,84 @@
+#pragma once
+/// Everything of the plant but its rigid chain: motors, transmission with effects, and two energy meters.
+///
+///   cable drive   q_m' = ω,   J ω' = τ - (r_m/N) g
+///   rigid drive   q_m = R_k q N/r_m; the joints feel R_kᵀ τ N/r_m, and the chain carries the rotor:
+///                 M gains J R_kᵀ R_k (N/r_m)²
+///   meters        E_in' = Σ τ_c ω + Σ F_e q',   E_lost' = power that goes into motors, cables and joints less
+///                 what comes out of them or is stored in a stretched cable
+///
+///   τ_c    torque at the shaft after the command stage, friction not yet taken off    N m
+///   F_e    external load on a joint                                                     N m | N
+///   z      [q_m, ω of each cable drive; internal states of the effects; E_in, E_lost]    [n_z]
+///
+/// What an effect does at the joint (an external force, say) counts in E_lost, as a loss or, negative, a gain.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "transmission/transmission.h"
+
+namespace halyard {
+
+/// Room for z of one plant.
+inline constexpr int kMaxAuxiliaryStates = 80;
+
+/// Where things stand in the plant's state y = [q, q', z]; indices count from the start of z, -1: not there.
+struct PlantLayout {
+  int n = 0;                       ///< joints
+  int motor_angle[kMaxJoints];
+  int motor_rate[kMaxJoints];
+  int effect_states = 0;           ///< the first one
+  int n_effect_states = 0;
+  int input_energy = 0, lost_energy = 0;
+  int n_z = 0;
+  int size() const { return 2 * n + n_z; }
+};
+
+/// Which of the drive's forces and rates are meant.
+enum class Share {
+  all,
+  cables_and_friction,   ///< of all axes: what is stiff
+  first_cable,           ///< the pull of the first joint's cable alone
+};
+
+class DriveTrain {
+ public:
+  /// Throws std::invalid_argument if a cable drive's rotor has no inertia, or the effects have too many states.
+  DriveTrain(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects);
+
+  const PlantLayout& layout() const { return layout_; }
+  /// The parameters with the changes that the effects make to them.
+  const ArmParameters<double>& arm() const { return transmission_.arm(); }
+  const Transmission<double>& transmission() const { return transmission_; }
+
+  /// Commanded motor torques and external loads on the joints, [n] each, from time_s on.
+  void set_inputs(double time_s, const double* command, const double* external);
+
+  /// joint_force [n] and z_dot [n_z] at q, v [n], z [n_z].
+  void rates(Share share, double time_s, const double* q, const double* v, const double* z, double* joint_force,
+             double* z_dot) const;
+
+  /// Exact derivatives of rates(): rows joint_force and z_dot, columns q, v, z; [n + n_z x size].
+  void slopes(Share share, double time_s, const double* q, const double* v, const double* z,
+              Eigen::MatrixXd& slopes) const;
+
+  /// The signals of all joints, sensor errors included; s: [n].
+  void signals(double time_s, const double* q, const double* v, const double* z, JointSignals<double>* s) const;
+
+  /// What rotors of rigid drives add to the mass matrix, [n x n]; zero if there are none.
+  const Eigen::MatrixXd& rotor_mass() const { return rotor_mass_; }
+
+  /// Energy in stretched cables and in the turning of rotors, J.
+  double stored_energy(double time_s, const double* q, const double* v, const double* z) const;
+
+ private:
+  Transmission<double> transmission_;
+  Transmission<Dual> slope_transmission_;
+  PlantLayout layout_;
+  Eigen::MatrixXd rotor_mass_;
+  CommandHistory history_;
+  double command_[kMaxJoints] = {}, external_[kMaxJoints] = {};
+};
+
+}  // namespace halyard

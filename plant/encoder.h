@@ -1,0 +1,18 @@
+#pragma once
+/// Encoders: reading = truth + error of the transmission's sensors, rounded to the resolution.
+
+#include <Eigen/Core>
+
+#include "plant/drive_train.h"
+
+namespace halyard {
+
+struct Readings {
+  Eigen::VectorXd motor;   ///< [n] rad; 0 at a joint without a motor
+  Eigen::VectorXd joint;   ///< [n] rad | m
+};
+
+/// Readings of the encoders from the signals of all joints; resolutions of 0 do not round.
+Readings read_encoders(const ArmParameters<double>& arm, const JointSignals<double>* s, bool quantise);
+
+}  // namespace halyard

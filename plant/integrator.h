@@ -1,0 +1,30 @@
+#pragma once
+/// Carries a plant from one control tick to the next. Inputs are constant between ticks and jump at them, so that
+/// no step may reach over a tick.
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "plant/arm_plant.h"
+#include "plant/scenario.h"
+
+namespace halyard {
+
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  /// To this time, under the inputs that the plant has now. Throws std::runtime_error with the time if it fails.
+  virtual void advance(double until_s) = 0;
+  /// y at the time reached.
+  virtual const Eigen::VectorXd& state() const = 0;
+};
+
+/// The plant must outlive the integrator. Energy meters are not error-controlled: they follow the motion's steps.
+std::unique_ptr<Integrator> make_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,
+                                            const Eigen::VectorXd& y);
+
+/// For the treatments simbody_*.
+std::unique_ptr<Integrator> make_simbody_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,
+                                                    const Eigen::VectorXd& y);
+
+}  // namespace halyard

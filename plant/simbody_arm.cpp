@@ -1,0 +1,122 @@
+#include "plant/simbody_arm.h"
+
+#include <Eigen/Cholesky>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+namespace halyard {
+namespace {
+
+using SimTK::Mat33;
+using SimTK::Rotation;
+using SimTK::SpatialVec;
+using SimTK::Stage;
+using SimTK::State;
+using SimTK::Transform;
+using SimTK::Vec3;
+using SimTK::Vector;
+using SimTK::Vector_;
+
+/// Puts the drive train into the System: forces on the joints, and z with its derivatives.
+class DriveForce : public SimTK::Force::Custom::Implementation {
+ public:
+  explicit DriveForce(const SimbodyArm& arm) : arm_(arm) {}
+
+  void realizeTopology(State& state) const override {
+    const PlantLayout& l = arm_.drive.layout();
+    arm_.forces.allocateZ(state, Vector(l.n_z, 0.0));
+    rates_ = arm_.forces.allocateCacheEntry(state, Stage::Dynamics, new SimTK::Value<Vector>(Vector(l.n + l.n_z)));
+  }
+
+  void calcForce(const State& state, Vector_<SpatialVec>&, Vector_<Vec3>&, Vector& mobility_forces) const override {
+    const PlantLayout& l = arm_.drive.layout();
+    const Vector &q = state.getQ(), &u = state.getU(), &z = state.getZ();
+    Vector& rates = SimTK::Value<Vector>::updDowncast(arm_.forces.updCacheEntry(state, rates_));
+    arm_.drive.rates(Share::all, state.getTime(), &q[0], &u[0], &z[0], &rates[0], &rates[l.n]);
+    Vector force = rates(0, l.n);
+    if (!arm_.drive.rotor_mass().isZero(0)) add_rotors(state, force);
+    mobility_forces += force;
+  }
+
+  void realizeAcceleration(const State& state) const override {
+    const PlantLayout& l = arm_.drive.layout();
+    const Vector& rates = SimTK::Value<Vector>::downcast(arm_.forces.getCacheEntry(state, rates_));
+    arm_.forces.updZDot(state) = rates(l.n, l.n_z);
+  }
+
+  double calcPotentialEnergy(const State&) const override { return 0; }   // ArmPlant::stored_energy adds the cables'
+
+ private:
+  /// F becomes F - M_rotors q'', where q'' solves (M + M_rotors) q'' = F - h.
+  void add_rotors(const State& state, Vector& force) const {
+    Vector residual;   // h - F
+    arm_.matter.calcResidualForceIgnoringConstraints(state, force, arm_.gravity.getBodyForces(state), Vector(), residual);
+    const Eigen::Map<const Eigen::VectorXd> h(&residual[0], residual.size());
+    const Eigen::VectorXd rotors = arm_.drive.rotor_mass() * arm_.total_mass(state).llt().solve(-h);
+    for (int k = 0; k < force.size(); ++k) force[k] -= rotors(k);
+  }
+
+  const SimbodyArm& arm_;
+  mutable SimTK::CacheEntryIndex rates_;
+};
+
+SimTK::MassProperties mass_properties(const JointParameters<double>& j, int k) {
+  const Vec3 com(j.com[0], j.com[1], j.com[2]);
+  const double* I = j.inertia;
+  try {
+    const SimTK::Inertia central(I[0], I[1], I[2], I[3], I[4], I[5]);
+    return SimTK::MassProperties(j.mass, com, central.shiftFromMassCenter(com, j.mass));
+  } catch (const std::exception&) {
+    throw std::invalid_argument("link " + std::to_string(k + 1) +
+                                ": no body has this inertia: each of xx, yy, zz must be at most the sum of the others");
+  }
+}
+
+void build_chain(const ArmParameters<double>& arm, SimTK::SimbodyMatterSubsystem& matter) {
+  // Simbody's slider moves along x: turned so that it moves along the joint frame's z.
+  const Transform x_to_z(Rotation(-SimTK::Pi / 2, SimTK::YAxis));
+  SimTK::MobilizedBody parent = matter.updGround();
+  for (int k = 0; k < arm.n; ++k) {
+    const JointParameters<double>& j = arm.joint[k];
+    Mat33 R;
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) R(r, c) = j.frame_R[r][c];
+    const Transform frame(Rotation(R, true), Vec3(j.frame_p[0], j.frame_p[1], j.frame_p[2]));
+    const SimTK::Body::Rigid body(mass_properties(j, k));
+    if (j.type == JointType::revolute)
+      parent = SimTK::MobilizedBody::Pin(parent, frame, body, Transform());
+    else
+      parent = SimTK::MobilizedBody::Slider(parent, frame * x_to_z, body, x_to_z);
+  }
+}
+
+}  // namespace
+
+SimbodyArm::SimbodyArm(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects)
+    : drive(nominal, effects),
+      matter(system),
+      forces(system),
+      gravity(forces, matter, Vec3(drive.arm().gravity[0], drive.arm().gravity[1], drive.arm().gravity[2])) {
+  build_chain(drive.arm(), matter);
+  SimTK::Force::Custom(forces, new DriveForce(*this));
+  state = system.realizeTopology();
+  system.realizeModel(state);
+}
+
+void SimbodyArm::set_state(double time_s, const double* y) {
+  const SimTK::Vector& now = state.getY();
+  if (state.getTime() == time_s && std::memcmp(&now[0], y, now.size() * sizeof(double)) == 0) return;
+  state.setTime(time_s);
+  std::memcpy(&state.updY()[0], y, drive.layout().size() * sizeof(double));
+}
+
+const Eigen::MatrixXd& SimbodyArm::total_mass(const SimTK::State& s) const {
+  matter.calcM(s, M_);
+  total_ = drive.rotor_mass();
+  for (int r = 0; r < M_.nrow(); ++r)
+    for (int c = 0; c < M_.ncol(); ++c) total_(r, c) += M_(r, c);
+  return total_;
+}
+
+}  // namespace halyard

@@ -1,0 +1,142 @@
+#include "plant/simulate.h"
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include "model/input_error.h"
+#include "plant/controller.h"
+#include "plant/encoder.h"
+#include "plant/equilibrium.h"
+#include "plant/integrator.h"
+#include "plant/trajectory.h"
+#include "transmission/path_matrix.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kProgressPeriod = 0.1;   // s of simulated time
+
+Eigen::VectorXd desired_joints(const Scenario& scenario, double time_s) {
+  Eigen::VectorXd q(scenario.robot.n());
+  for (int k = 0; k < q.size(); ++k) q(k) = desired_position(scenario.trajectory[k], scenario.fade_in_s, time_s);
+  return q;
+}
+
+long number_of_ticks(const Scenario& scenario) { return std::lround(scenario.duration_s / scenario.control_period_s); }
+
+Log empty_log(const Scenario& scenario, long rows, bool with_velocity) {
+  const int n = scenario.robot.n();
+  Log log(n);
+  log.time.resize(rows);
+  for (int k = 0; k < n; ++k) {
+    log.motor_torque[k].resize(rows);
+    log.motor_position[k].resize(rows);
+    log.joint_position[k].resize(rows);
+    if (with_velocity) log.joint_velocity[k].resize(rows);
+  }
+  return log;
+}
+
+std::vector<ControllerParameters> controller_parameters(const ArmModel& robot) {
+  std::vector<ControllerParameters> parameters;
+  for (const JointDescription& j : robot.joints) parameters.push_back(j.controller);
+  return parameters;
+}
+
+std::unique_ptr<ArmPlant> make_plant(const Scenario& scenario) {
+  try {
+    return std::make_unique<ArmPlant>(scenario.robot.nominal, scenario.robot.effects);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(scenario.robot.source + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+void check_scenario(const Scenario& scenario) {
+  const std::string where = "scenario " + in_quotes(scenario.name) + ": ";
+  const int n = scenario.robot.n();
+  if (!(scenario.duration_s > 0) || !(scenario.control_period_s > 0) ||
+      !(scenario.duration_s >= scenario.control_period_s))
+    throw InputError(where + "the duration must be at least one control period, and both above 0 s");
+  if (!(scenario.integrator.relative_tolerance > 0) || !(scenario.integrator.absolute_tolerance > 0))
+    throw InputError(where + "the integrator's tolerances must be above 0");
+  if (static_cast<int>(scenario.trajectory.size()) != n || static_cast<int>(scenario.robot.joints.size()) != n)
+    throw InputError(where + "there must be one trajectory for each of the " + std::to_string(n) + " joints");
+  for (int k = 0; k < n; ++k) {
+    const std::string joint = where + "trajectory of joint " + std::to_string(k + 1) + ": ";
+    try {
+      check_trajectory(scenario.trajectory[k]);
+    } catch (const InputError& error) {
+      throw InputError(joint + error.what());
+    }
+    const JointDescription& range = scenario.robot.joints[k];
+    if (!(range.lower < range.upper)) continue;
+    for (long i = 0; i <= number_of_ticks(scenario); ++i) {
+      const double t = i * scenario.control_period_s;
+      const double q = desired_position(scenario.trajectory[k], scenario.fade_in_s, t);
+      if (!(q >= range.lower && q <= range.upper))
+        throw InputError(joint + "asks for " + std::to_string(q) + " at " + std::to_string(t) +
+                         " s, outside the joint's range " + std::to_string(range.lower) + " to " +
+                         std::to_string(range.upper) + "; make it smaller or move its center");
+    }
+  }
+}
+
+SimulationResult simulate(const Scenario& scenario, const std::function<void(double)>& progress) {
+  check_scenario(scenario);
+  const int n = scenario.robot.n();
+  const double period = scenario.control_period_s;
+  const long ticks = number_of_ticks(scenario);
+  const long ticks_per_report = std::max(1L, std::lround(kProgressPeriod / period));
+
+  const std::unique_ptr<ArmPlant> plant = make_plant(scenario);
+  const DriveTrain& drive = plant->drive();
+  const ArmParameters<double>& assumed = scenario.assumed ? *scenario.assumed : scenario.robot.nominal;
+  const Eigen::VectorXd start = resting_state(*plant, 0, desired_joints(scenario, 0));
+  const std::unique_ptr<Integrator> integrator = make_integrator(*plant, scenario.integrator, 0, start);
+  PdController controller(controller_parameters(scenario.robot), period);
+  std::mt19937_64 random(scenario.seed);
+  std::normal_distribution<double> disturbance(0, 1);
+  const Eigen::VectorXd no_load = Eigen::VectorXd::Zero(n);
+
+  SimulationResult result{empty_log(scenario, ticks + 1, false), empty_log(scenario, ticks + 1, true), {}, 0};
+  for (long i = 0; i <= ticks; ++i) {
+    const double t = i * period;
+    const Eigen::VectorXd& y = integrator->state();
+    JointSignals<double> s[kMaxJoints];
+    drive.signals(t, y.data(), y.data() + n, y.data() + 2 * n, s);
+    const Readings readings = read_encoders(drive.arm(), s, scenario.quantise);
+    const Eigen::VectorXd command =
+        controller.torque(unstretched_motors(assumed, desired_joints(scenario, t)), readings.motor);
+    Eigen::VectorXd applied = command;
+    if (scenario.torque_noise > 0)
+      for (int k = 0; k < n; ++k) applied(k) += scenario.torque_noise * disturbance(random);
+
+    result.measured.time[i] = result.truth.time[i] = t;
+    for (int k = 0; k < n; ++k) {
+      result.measured.motor_torque[k][i] = command(k);
+      result.measured.motor_position[k][i] = readings.motor(k);
+      result.measured.joint_position[k][i] = readings.joint(k);
+      result.truth.motor_torque[k][i] = applied(k);
+      result.truth.motor_position[k][i] = s[k].motor_angle;
+      result.truth.joint_position[k][i] = s[k].joint_position;
+      result.truth.joint_velocity[k][i] = s[k].joint_rate;
+    }
+    if (progress && i % ticks_per_report == 0) progress(static_cast<double>(i) / ticks);
+    if (i == ticks) break;
+    plant->set_inputs(t, applied.data(), no_load.data());
+    integrator->advance((i + 1) * period);
+  }
+
+  const Eigen::VectorXd& end = integrator->state();
+  result.energy.input = end(2 * n + plant->layout().input_energy);
+  result.energy.dissipated = end(2 * n + plant->layout().lost_energy);
+  result.energy.stored = plant->stored_energy(ticks * period, end.data()) - plant->stored_energy(0, start.data());
+  result.derivative_evaluations = plant->derivative_evaluations();
+  return result;
+}
+
+}  // namespace halyard
