@@ -3,9 +3,9 @@
 namespace halyard {
 namespace {
 
-/// Unit of what joint j adds to joint i's cable path, per unit of joint j.
+/// Unit of what joint j adds to joint i's cable path, in units of joint i per unit of joint j.
 std::string coupling_unit(JointType i, JointType j) {
-  if (i == j) return "";
+  if (i == j) return "1";
   return i == JointType::prismatic ? "m/rad" : "rad/m";
 }
 
@@ -23,9 +23,9 @@ class Lister {
       add("motor inertia", "motor.inertia", "kg m^2", t.mass, joint_.rotor_inertia);
       add("motor Coulomb friction", "motor.coulomb", "N m", t.friction, joint_.motor_coulomb);
       add("motor viscous friction", "motor.viscous", "N m s/rad", t.friction, joint_.motor_viscous);
-      add("motor gear ratio", "motor.gear_ratio", "", t.length, joint_.gear_ratio);
+      add("motor gear ratio", "motor.gear_ratio", "1", t.length, joint_.gear_ratio);
       add("motor capstan radius", "motor.capstan_radius", "m", t.length, joint_.capstan_radius);
-      add("motor torque scale", "motor.torque_scale", "", t.length, joint_.torque_scale);
+      add("motor torque scale", "motor.torque_scale", "1", t.length, joint_.torque_scale);
       add("motor torque bias", "motor.torque_bias", "N m", 0, joint_.torque_bias);
     }
     if (joint_.drive == Drive::cable) {
@@ -35,7 +35,7 @@ class Lister {
     }
     if (joint_.drive != Drive::none) {
       const std::string drive = joint_.drive == Drive::cable ? "cable" : "rigid";
-      add(drive + " pulley radius", drive + ".pulley_radius", revolute ? "m" : "", t.length, joint_.pulley_radius);
+      add(drive + " pulley radius", drive + ".pulley_radius", revolute ? "m" : "1", t.length, joint_.pulley_radius);
       for (int j = 0; j < k_; ++j) {
         const std::string other = std::to_string(j + 1);
         add("coupling with joint " + other, "coupling.joint" + other, coupling_unit(joint_.type, arm_.joint[j].type),

@@ -3,8 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 
 #include "model/input_error.h"
@@ -46,7 +47,7 @@ void read_dh(const XmlElement& dh, Joint& joint) {
 
 void read_frame(const XmlElement& frame, Joint& joint) {
   frame.only({"xyz", "rpy", "matrix"});
-  if (frame.has("rpy") == frame.has("matrix")) frame.fail("expected one of rpy and matrix; give the rotation once");
+  if (frame.has("rpy") == frame.has("matrix")) frame.fail("expected one of rpy and matrix; give one rotation");
   const std::vector<double> xyz = frame.numbers("xyz", "m", 3);
   Matrix3 R;
   if (frame.has("matrix")) {
@@ -117,13 +118,15 @@ void read_cable(const XmlElement& cable, Joint& joint) {
   joint.pulley_radius = cable.number("pulley_radius", units_of(joint).radius, Sign::positive);
 }
 
-void read_coupling(const XmlElement& coupling, Joint& joint, int k) {
-  coupling.only({"joint", "coefficient"});
-  if (k == 0) coupling.fail("the first joint has no inboard joint that could move its cable; remove it");
-  const auto inboard = coupling.integer("joint", 1, k);
-  double& coefficient = joint.coupling[inboard - 1];
-  if (coefficient != 0) coupling.fail("joint", "coupling with this joint is given twice; give it once");
-  coefficient = coupling.number("coefficient", "");
+void read_couplings(const std::vector<XmlElement>& couplings, Joint& joint, int k) {
+  std::set<std::int64_t> given;
+  for (const XmlElement& coupling : couplings) {
+    coupling.only({"joint", "coefficient"});
+    if (k == 0) coupling.fail("the first joint has no inboard joint that could move its cable; remove it");
+    const std::int64_t inboard = coupling.integer("joint", 1, k);
+    if (!given.insert(inboard).second) coupling.fail("joint", "coupling with this joint is given twice; give it once");
+    joint.coupling[inboard - 1] = coupling.number("coefficient", "");
+  }
 }
 
 void read_friction(const XmlElement& friction, Joint& joint) {
@@ -146,7 +149,8 @@ double read_resolution(const XmlElement& encoders, const std::string& side, cons
 void read_encoders(const XmlElement& encoders, Joint& joint) {
   const char* unit = units_of(joint).position;
   XmlNames attributes = {"joint_counts", "joint_resolution", "joint_offset"};
-  if (joint.drive != Drive::none) attributes.insert(attributes.begin(), {"motor_counts", "motor_resolution", "motor_offset"});
+  const XmlNames of_motor = {"motor_counts", "motor_resolution", "motor_offset"};
+  if (joint.drive != Drive::none) attributes.insert(attributes.begin(), of_motor.begin(), of_motor.end());
   encoders.only(attributes);
   joint.motor_encoder_resolution = read_resolution(encoders, "motor", "rad");
   joint.motor_encoder_offset = encoders.number_or("motor_offset", 0, "rad");
@@ -207,7 +211,7 @@ void read_drive(const XmlElement& element, Joint& joint, int k, ControllerParame
     rigid.only({"pulley_radius"});
     joint.pulley_radius = rigid.number("pulley_radius", units_of(joint).radius, Sign::positive);
   }
-  for (const XmlElement& coupling : element.children("coupling")) read_coupling(coupling, joint, k);
+  read_couplings(element.children("coupling"), joint, k);
   if (const auto found = element.optional_child("controller")) controller = read_controller(*found);
 }
 
@@ -216,14 +220,15 @@ JointDescription read_joint(const XmlElement& element, Joint& joint, int k, cons
                                            "encoders", "controller", "range", "tolerances"});
   JointDescription description;
   description.name = element.text("name");
-  joint.type = element.choice<JointType>(
-      "type", {{"revolute", JointType::revolute}, {"prismatic", JointType::prismatic}});
-  joint.drive = element.choice<Drive>("drive", {{"cable", Drive::cable}, {"rigid", Drive::rigid}, {"none", Drive::none}});
+  joint.type =
+      element.choice<JointType>("type", {{"revolute", JointType::revolute}, {"prismatic", JointType::prismatic}});
+  joint.drive =
+      element.choice<Drive>("drive", {{"cable", Drive::cable}, {"rigid", Drive::rigid}, {"none", Drive::none}});
   joint.tolerance = tolerances;
   joint.coupling[k] = 1;
 
   const auto dh = element.optional_child("dh"), frame = element.optional_child("frame");
-  if (dh.has_value() == frame.has_value()) element.fail("expected one of <dh> and <frame>; give the joint's frame once");
+  if (dh.has_value() == frame.has_value()) element.fail("expected one of <dh> and <frame>; give one frame");
   if (dh) read_dh(*dh, joint);
   if (frame) read_frame(*frame, joint);
   read_link(element.child("link"), joint, description.name);
@@ -299,10 +304,11 @@ PlacedEffect read_effect(const XmlElement& element, const ArmParameters<double>&
   element.only(attributes);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const EffectParameter& p = parameters[i];
-    placed.p[i] = element.number_or(p.name, placed.p[i], p.unit);
+    const std::string unit = p.unit == "1" ? "" : p.unit;
+    placed.p[i] = element.number_or(p.name, placed.p[i], unit);
     if (placed.p[i] >= p.lower && placed.p[i] <= p.upper) continue;
     element.fail(p.name, "expected a number from " + exact_text(p.lower) + " to " + exact_text(p.upper) +
-                             (p.unit.empty() ? "" : " " + p.unit));
+                             (unit.empty() ? "" : " " + unit));
   }
   return placed;
 }
@@ -328,9 +334,8 @@ void read_estimator(const XmlElement& element, ArmModel& model) {
   const std::string name = element.text("name");
   EstimatorOptions options;
   for (const auto& [key, value] : element.attributes()) {
-    if (!options.emplace(key, value).second) element.fail(key, "attribute " + key + " is given twice; give it once");
+    if (key != "name") options.emplace(key, value);
   }
-  options.erase("name");
   if (!model.estimators.emplace(name, options).second) {
     element.fail("name", "options of this estimator are given twice; put them in one element");
   }

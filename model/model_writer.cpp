@@ -52,8 +52,9 @@ void write_drive(Writer& xml, const Joint& j, int k, const ControllerParameters&
   if (j.drive == Drive::rigid) {
     xml.element("rigid", {{"pulley_radius", j.pulley_radius}});
   } else {
+    const bool exponential = j.law == CableLaw::exponential;
     xml.open("cable");
-    xml.attribute("law", j.law == CableLaw::paper ? "paper" : j.law == CableLaw::exponential ? "exponential" : "linear");
+    xml.attribute("law", j.law == CableLaw::paper ? "paper" : exponential ? "exponential" : "linear");
     xml.attribute("stiffness", j.stiffness);
     xml.attribute("damping", j.damping);
     xml.attribute("tension", j.tension);

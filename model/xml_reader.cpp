@@ -8,7 +8,6 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
-#include <set>
 #include <sstream>
 
 #include "model/column_map.h"
@@ -30,8 +29,8 @@ std::string joined(const XmlNames& names) {
 }
 
 std::string one_of(const char* what, const XmlNames& names) {
-  if (names.empty()) return std::string("expected no ") + what + " here; remove it";
-  return std::string("unknown ") + what + "; expected one of " + joined(names);
+  const std::string expected = names.empty() ? "none" : names.size() == 1 ? names.front() : "one of " + joined(names);
+  return std::string("unknown ") + what + "; expected " + expected;
 }
 
 bool contains(const XmlNames& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
@@ -112,7 +111,7 @@ std::string read_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (file) text << file.rdbuf();
-  if (!file || text.bad()) fail("cannot be read or is empty; check its permissions and its content");
+  if (!file || text.bad()) fail("cannot be read; check its permissions and its disk");
   return std::move(text).str();
 }
 
@@ -127,12 +126,15 @@ std::string reason(const tinyxml2::XMLDocument& xml) {
 }  // namespace
 
 XmlElement XmlElement::root_of(const std::string& xml, const std::string& source) {
+  if (trimmed(xml).empty()) throw InputError(source + ": is empty; give an XML file in UTF-8");
   if (xml.find('\0') != xml.npos) throw InputError(source + ": is not text; give an XML file in UTF-8");
   auto document = std::make_shared<Document>();
   document->source = source;
   if (document->xml.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS) {
     throw InputError(source + ":" + std::to_string(std::max(1, document->xml.ErrorLineNum())) +
-                     ": is not well-formed XML (" + reason(document->xml) + "); correct the tags near this line");
+                     ": is not well-formed XML (" + reason(document->xml) +
+                     "); correct the tags and attributes near this line: each tag closed, each attribute once, " +
+                     "in quotes");
   }
   const tinyxml2::XMLElement* root = document->xml.RootElement();
   if (!root) throw InputError(source + ":1: has no XML element; give an XML file");
@@ -180,12 +182,13 @@ void XmlElement::fail_missing(std::string_view attribute, const std::string& exp
   fail("attribute " + std::string(attribute) + " is missing; expected " + expected);
 }
 
+void XmlElement::fail_child(const tinyxml2::XMLElement* child, const XmlNames& known) const {
+  XmlElement(document_, child).fail(one_of("element", known) + " inside <" + tag() + ">");
+}
+
 void XmlElement::only(const XmlNames& attributes, const XmlNames& children) const {
-  std::set<std::string_view> given;
   for (const auto* attribute = element_->FirstAttribute(); attribute; attribute = attribute->Next()) {
-    const std::string_view name = attribute->Name();
-    if (!contains(attributes, name)) fail(name, one_of("attribute", attributes));
-    if (!given.insert(name).second) fail(name, "attribute " + shown(name) + " is given twice; give it once");
+    if (!contains(attributes, attribute->Name())) fail(attribute->Name(), one_of("attribute", attributes));
   }
   only_children(children);
 }
@@ -193,9 +196,7 @@ void XmlElement::only(const XmlNames& attributes, const XmlNames& children) cons
 void XmlElement::only_children(const XmlNames& children) const {
   for (const tinyxml2::XMLNode* node = element_->FirstChild(); node; node = node->NextSibling()) {
     if (const tinyxml2::XMLElement* element = node->ToElement()) {
-      if (!contains(children, element->Name())) {
-        XmlElement(document_, element).fail("inside <" + tag() + ">: " + one_of("element", children));
-      }
+      if (!contains(children, element->Name())) fail_child(element, children);
     } else if (node->ToText() && !trimmed(node->Value()).empty()) {
       fail("text " + in_quotes(trimmed(node->Value())) + ": expected none here; values are attributes, name=\"value\"");
     }
@@ -223,6 +224,10 @@ std::string XmlElement::text(std::string_view attribute) const {
 
 std::string XmlElement::text_or(std::string_view attribute, const std::string& fallback) const {
   return has(attribute) ? text(attribute) : fallback;
+}
+
+std::filesystem::path XmlElement::path(std::string_view attribute) const {
+  return std::filesystem::path(source()).parent_path() / text(attribute);
 }
 
 double XmlElement::number(std::string_view attribute, std::string_view unit, Sign sign) const {
@@ -254,7 +259,7 @@ std::vector<double> XmlElement::text_numbers(std::string_view unit, std::size_t 
   std::string text;
   for (const tinyxml2::XMLNode* node = element_->FirstChild(); node; node = node->NextSibling()) {
     if (node->ToText()) text.append(" ").append(node->Value());
-    if (node->ToElement()) XmlElement(document_, node->ToElement()).fail("inside <" + tag() + ">: " + one_of("element", {}));
+    if (const tinyxml2::XMLElement* element = node->ToElement()) fail_child(element, {});
   }
   if (const auto* attribute = element_->FirstAttribute()) fail(attribute->Name(), one_of("attribute", {}));
   auto values = parse_numbers(text, unit);

@@ -10,7 +10,7 @@
 ///   for (const XmlElement& run : cable.children("run")) ...
 ///
 /// Numbers are SI and finite. With unit "rad" a text may end in " deg", with unit "m" in " mm"; a unit of "" is a pure
-/// number. Element and attribute names are in the order of the file; comments are skipped.
+/// number. Lists of attributes and elements are in the order of the file; comments are skipped.
 
 #include <cstdint>
 #include <filesystem>
@@ -50,7 +50,7 @@ class XmlElement {
   /// Throws `file:line: <tag attribute="text">: what`.
   [[noreturn]] void fail(std::string_view attribute, const std::string& what) const;
 
-  /// Throws unless attributes and child elements are among these, each attribute once, and there is no text.
+  /// Throws unless attributes and child elements are among these and there is no text.
   void only(const XmlNames& attributes, const XmlNames& children = {}) const;
   /// As only(), for an element whose attributes are free.
   void only_children(const XmlNames& children) const;
@@ -62,6 +62,8 @@ class XmlElement {
   /// Required; not blank.
   std::string text(std::string_view attribute) const;
   std::string text_or(std::string_view attribute, const std::string& fallback) const;
+  /// Required; a relative path is relative to the folder of this file.
+  std::filesystem::path path(std::string_view attribute) const;
   double number(std::string_view attribute, std::string_view unit, Sign sign = Sign::any) const;
   double number_or(std::string_view attribute, double fallback, std::string_view unit, Sign sign = Sign::any) const;
   /// Numbers between blanks; count 0: one or more. A suffix at the end is of all of them: "0 0 90 deg".
@@ -102,6 +104,7 @@ class XmlElement {
   static XmlElement root_of(const std::string& xml, const std::string& source);
   XmlElement expect_root(std::string_view root) const;
   std::size_t index_of(std::string_view attribute, const XmlNames& names) const;
+  [[noreturn]] void fail_child(const tinyxml2::XMLElement* child, const XmlNames& known) const;
   [[noreturn]] void fail_missing(std::string_view attribute, const std::string& expected) const;
 
   std::shared_ptr<const Document> document_;
