@@ -25,12 +25,13 @@ inline constexpr int kDualWidth = 4;
 
 // ------------------------------------------------------------------------------------- Lanes
 
-struct LaneMask {
+// The alignment is said outright: a vector's own differs between instruction sets.
+struct alignas(8 * kLaneWidth) LaneMask {
   typedef long long Vector __attribute__((vector_size(8 * kLaneWidth)));
   Vector m;
 };
 
-struct Lanes {
+struct alignas(8 * kLaneWidth) Lanes {
   typedef double Vector __attribute__((vector_size(8 * kLaneWidth)));
   Vector v;
 
@@ -110,7 +111,7 @@ HALYARD_INLINE Lanes sqrt(const Lanes& a) {
 // -------------------------------------------------------------------------------------- Dual
 
 /// a + b eps with eps² = 0, for kDualWidth directions at once.
-struct Dual {
+struct alignas(8 * kDualWidth) Dual {
   typedef double Vector __attribute__((vector_size(8 * kDualWidth)));
   double a;
   Vector d;
