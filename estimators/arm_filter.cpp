@@ -1,0 +1,185 @@
+#include "estimators/arm_filter.h"
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "estimators/static_equilibrium.h"
+#include "transmission/path_matrix.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kHistorySpan = 2;   // s, longer than any delay
+
+class ArmProcess final : public DiscreteProcess {
+ public:
+  ArmProcess(const ProcessModel& model, const Step& step) : model_(model), step_(step) {}
+  void advance(Eigen::MatrixXd& X) const override { model_.advance_many(step_, X); }
+  void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const override {
+    model_.advance_with_jacobian(step_, x.data(), F);
+  }
+  std::string name_of(int state) const override {
+    std::ostringstream text;
+    text << model_.state_name(state) << " at " << step_.time_s + step_.dt_s << " s";
+    return text.str();
+  }
+
+ private:
+  const ProcessModel& model_;
+  Step step_;
+};
+
+/// The readings of some of the motors.
+class MotorReadings final : public MeasurementModel {
+ public:
+  MotorReadings(const ProcessModel& model, double time_s, const std::vector<int>& motors)
+      : model_(model), time_(time_s), motors_(motors) {}
+  bool is_affine() const override { return model_.readings_are_linear(); }
+  Eigen::VectorXd read(const Eigen::VectorXd& x) const override { return model_.motor_readings(time_, x)(motors_); }
+  Eigen::VectorXd linearise(const Eigen::VectorXd& x, Eigen::MatrixXd& H) const override {
+    Eigen::MatrixXd all;
+    const Eigen::VectorXd z = model_.motor_readings(time_, x, &all);
+    H = all(motors_, Eigen::all);
+    return z(motors_);
+  }
+
+ private:
+  const ProcessModel& model_;
+  double time_;
+  const std::vector<int>& motors_;
+};
+
+}  // namespace
+
+ArmFilterOptions read_arm_filter_options(OptionReader& options, const ArmModel& model, const ProcessModel& process) {
+  ArmFilterOptions o;
+  o.noise = read_noise(options, model, process);
+  o.max_step = options.number("max_step", o.max_step, 1e-6, kInfinity);
+  o.restart_gap = options.number("restart_gap", o.restart_gap, 1e-3, kInfinity);
+  o.gate = options.number("gate", o.gate, 0.5, 1);
+  return o;
+}
+
+ArmFilter::ArmFilter(const ArmModel& model, std::shared_ptr<const ProcessModel> process,
+                     const ArmFilterOptions& options, std::unique_ptr<GaussianFilter> filter)
+    : model_(model),
+      process_(std::move(process)),
+      options_(options),
+      noise_(model_, *process_, options.noise),
+      filter_(std::move(filter)),
+      history_(model.n(), kHistorySpan) {
+  for (int k = 0; k < model.n(); ++k)
+    if (process_->arm().joint[k].drive != Drive::none) motors_.push_back(k);
+}
+
+void ArmFilter::reset(const Sample& first) {
+  const int n = process_->n_joints();
+  started_ = false;
+  reading_ = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+  torque_ = external_ = Eigen::VectorXd::Zero(n);
+  history_ = CommandHistory(n, kHistorySpan);
+  report_ = {};
+  const Eigen::VectorXd home = model_.home();
+  const Eigen::VectorXd x = process_->state_at_rest(unstretched_motors(process_->arm(), home), home);
+  filter_->reset(x, noise_.initial_root(x));
+  start(first);
+}
+
+void ArmFilter::remember(const Sample& sample) {
+  for (int k = 0; k < process_->n_joints(); ++k) {
+    if (std::isfinite(sample.motor_torque(k))) torque_(k) = sample.motor_torque(k);
+    if (std::isfinite(sample.motor_position(k))) reading_(k) = sample.motor_position(k);
+    if (sample.joint_torque.size() > 0 && std::isfinite(sample.joint_torque(k))) external_(k) = sample.joint_torque(k);
+  }
+  history_.push(sample.time_s, torque_.data());
+  time_ = sample.time_s;
+}
+
+void ArmFilter::start(const Sample& sample) {
+  remember(sample);
+  if (!reading_(motors_).allFinite()) return;
+  const Eigen::VectorXd home = model_.home();
+  Eigen::VectorXd angle = unstretched_motors(process_->arm(), home);
+  angle(motors_) = reading_(motors_);
+  // The readings' error may depend on the angle, slowly: one correction is enough.
+  Eigen::VectorXd x = process_->state_at_rest(angle, unstretched_joints(process_->arm(), angle, home));
+  angle(motors_) -= (process_->motor_readings(sample.time_s, x) - angle)(motors_);
+  const Eigen::VectorXd z = Eigen::VectorXd::Zero(process_->layout().n_effect_states);
+  const Eigen::VectorXd q = static_equilibrium(*process_, sample.time_s, angle, external_, z,
+                                               unstretched_joints(process_->arm(), angle, home));
+  x = process_->state_at_rest(angle, q);
+  filter_->reset(x, noise_.initial_root(x));
+  started_ = true;
+}
+
+void ArmFilter::predict(double to_time_s) {
+  const double span = to_time_s - time_;
+  const int pieces = static_cast<int>(std::ceil(span / options_.max_step - 1e-9));
+  Step step;
+  step.dt_s = span / pieces;
+  step.motor_torque = torque_.data();
+  step.external_force = external_.data();
+  step.history = &history_;
+  for (int i = 0; i < pieces; ++i) {
+    step.time_s = time_ + i * step.dt_s;
+    filter_->predict(ArmProcess(*process_, step), noise_.process_root(step.dt_s));
+  }
+}
+
+double ArmFilter::gate_threshold(int m) const {
+  return options_.gate < 1 ? boost::math::quantile(boost::math::chi_squared(m), options_.gate) : kInfinity;
+}
+
+Innovation ArmFilter::correct(const Sample& sample) {
+  std::vector<int> read;
+  for (const int k : motors_)
+    if (std::isfinite(sample.motor_position(k))) read.push_back(k);
+  if (read.empty()) return {};
+  const Eigen::MatrixXd R_root = Eigen::VectorXd(noise_.encoder()(read)).asDiagonal();
+  return filter_->update(MotorReadings(*process_, sample.time_s, read), sample.motor_position(read), R_root,
+                         gate_threshold(static_cast<int>(read.size())));
+}
+
+Innovation ArmFilter::update(const Sample& sample) {
+  if (!(sample.time_s > time_))
+    throw std::invalid_argument("filter: time does not increase at " + std::to_string(sample.time_s) + " s");
+  Innovation innovation;
+  if (!started_ || sample.time_s - time_ > options_.restart_gap) {
+    start(sample);
+  } else {
+    predict(sample.time_s);
+    innovation = correct(sample);
+    if (!innovation.accepted) ++report_.gated;
+    remember(sample);
+  }
+  innovation.time_s = sample.time_s;
+  ++report_.steps;
+  return innovation;
+}
+
+Estimate ArmFilter::estimate() const {
+  const StateLayout& l = process_->layout();
+  const int n = process_->n_joints();
+  Estimate e;
+  e.joint_position.resize(n);
+  e.joint_velocity.resize(n);
+  e.joint_position_std.resize(n);
+  for (int k = 0; k < n; ++k) {
+    e.joint_position(k) = filter_->x()(l.position[k]);
+    e.joint_velocity(k) = filter_->x()(l.rate[k]);
+    e.joint_position_std(k) = filter_->S().row(l.position[k]).norm();
+  }
+  return e;
+}
+
+EstimatorReport ArmFilter::report() const {
+  EstimatorReport r = report_;
+  r.repaired_factors = filter_->repaired();
+  return r;
+}
+
+}  // namespace halyard

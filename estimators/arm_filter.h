@@ -1,0 +1,64 @@
+#pragma once
+/// A Gaussian filter on an arm: the process model between samples, motor encoders as measurement, and what logs are
+/// like: gaps, missing samples, a start at rest.
+///
+///   start      joints from kinematics, then to static equilibrium under the motors' readings; samples before all
+///              motors have been read once are passed over
+///   a step     the time between two samples, cut into equal pieces of at most `max_step`
+///   a gap      longer than `restart_gap`: a new start
+///   NaN        torque: the last one is held; position of a motor: no correction from it
+///   gate       an innovation that is less probable than 1 - `gate` is not accepted; 1 accepts all
+
+#include <memory>
+
+#include "estimators/gaussian_filter.h"
+#include "estimators/noise.h"
+
+namespace halyard {
+
+struct ArmFilterOptions {
+  NoiseLevels noise;
+  double max_step = 0.01;       ///< s
+  double restart_gap = 1;       ///< s
+  double gate = 1;              ///< probability
+};
+
+/// The noise options, max_step, restart_gap and gate.
+ArmFilterOptions read_arm_filter_options(OptionReader& options, const ArmModel& model, const ProcessModel& process);
+
+class ArmFilter final : public Estimator {
+ public:
+  ArmFilter(const ArmModel& model, std::shared_ptr<const ProcessModel> process, const ArmFilterOptions& options,
+            std::unique_ptr<GaussianFilter> filter);
+
+  void reset(const Sample& first) override;
+  /// Throws std::invalid_argument if time does not increase.
+  Innovation update(const Sample& sample) override;
+  Estimate estimate() const override;
+  EstimatorReport report() const override;
+
+  /// The belief, for those who look inside.
+  const GaussianFilter& filter() const { return *filter_; }
+
+ private:
+  void start(const Sample& sample);
+  void predict(double to_time_s);
+  Innovation correct(const Sample& sample);
+  void remember(const Sample& sample);
+  double gate_threshold(int m) const;
+
+  ArmModel model_;
+  std::shared_ptr<const ProcessModel> process_;
+  ArmFilterOptions options_;
+  ArmNoise noise_;
+  std::unique_ptr<GaussianFilter> filter_;
+  std::vector<int> motors_;            // joints that have a motor
+  CommandHistory history_;
+  bool started_ = false;
+  double time_ = 0;
+  Eigen::VectorXd reading_;            // last of each motor, NaN before
+  Eigen::VectorXd torque_, external_;  // held
+  EstimatorReport report_;
+};
+
+}  // namespace halyard

@@ -1,0 +1,17 @@
+#pragma once
+/// The built-in estimators of an arm. All options have defaults; see README.md of each plug-in for what they mean.
+
+#include <memory>
+
+#include "estimators/estimator.h"
+#include "model/arm_model.h"
+
+namespace halyard {
+
+/// These throw InputError for an unknown option or a bad value, and std::runtime_error if the model's equations cannot
+/// be evaluated.
+std::unique_ptr<Estimator> make_sr_ukf(const ArmModel& model, const EstimatorOptions& options);
+std::unique_ptr<Estimator> make_ekf(const ArmModel& model, const EstimatorOptions& options);
+std::unique_ptr<Estimator> make_kinematics(const ArmModel& model, const EstimatorOptions& options);
+
+}  // namespace halyard

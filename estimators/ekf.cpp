@@ -1,0 +1,23 @@
+#include "estimators/ekf.h"
+
+namespace halyard {
+
+void ExtendedKalmanFilter::predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) {
+  const Eigen::Index n = x_.size();
+  F_.resize(n, n);
+  process.advance_with_jacobian(x_, F_);
+  columns_.resize(n, n + Q_root.cols());
+  columns_.leftCols(n).noalias() = F_ * S_;
+  columns_.rightCols(Q_root.cols()) = Q_root;
+  root_.compute(columns_, S_);
+  check_finite(process);
+}
+
+Innovation ExtendedKalmanFilter::update(const MeasurementModel& measurement, const Eigen::VectorXd& z,
+                                        const Eigen::MatrixXd& R_root, double gate) {
+  Eigen::MatrixXd H;
+  const Eigen::VectorXd predicted = measurement.linearise(x_, H);
+  return update_linear(z - predicted, H, R_root, gate);
+}
+
+}  // namespace halyard

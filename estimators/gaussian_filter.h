@@ -1,0 +1,91 @@
+#pragma once
+/// What the nonlinear Kalman filters share: a Gaussian belief in square-root form, and the models that they ask.
+///
+///   x_k = f(x_k-1) + w,  w ~ N(0, Q)       z_k = h(x_k) + v,  v ~ N(0, R)
+///
+///   x, S    mean, and a square root of its covariance, P = S Sᵀ, lower triangular after a step   [n], [n x n]
+///   Q, R    by roots Q_root [n x any], R_root [m x m]
+///
+/// The filters know no robot. All covariances come from orthogonal triangularisation of their roots, which cannot
+/// lose definiteness.
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+#include <string>
+
+#include "estimators/estimator.h"
+
+namespace halyard {
+
+/// x_k = f(x_k-1), for the step that is due.
+class DiscreteProcess {
+ public:
+  virtual ~DiscreteProcess() = default;
+  /// Every column of X [n x count] becomes f(column).
+  virtual void advance(Eigen::MatrixXd& X) const = 0;
+  /// x becomes f(x), F [n x n] becomes ∂f/∂x there.
+  virtual void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const = 0;
+  /// For messages: "joint_rate_2 at 3.1 s".
+  virtual std::string name_of(int state) const = 0;
+};
+
+/// z = h(x).
+class MeasurementModel {
+ public:
+  virtual ~MeasurementModel() = default;
+  /// Whether h is affine, so that its linearisation is exact.
+  virtual bool is_affine() const = 0;
+  virtual Eigen::VectorXd read(const Eigen::VectorXd& x) const = 0;
+  /// h(x), and H = ∂h/∂x [m x n].
+  virtual Eigen::VectorXd linearise(const Eigen::VectorXd& x, Eigen::MatrixXd& H) const = 0;
+};
+
+/// Lower L with L Lᵀ = A Aᵀ and a diagonal that is not negative, by Householder reflections of Aᵀ. A: [n x m], m >= n.
+class LowerRoot {
+ public:
+  void compute(const Eigen::MatrixXd& A, Eigen::MatrixXd& L);
+
+ private:
+  Eigen::HouseholderQR<Eigen::MatrixXd> qr_;   // kept for its memory
+};
+
+class GaussianFilter {
+ public:
+  virtual ~GaussianFilter() = default;
+
+  void reset(const Eigen::VectorXd& x, const Eigen::MatrixXd& S) { x_ = x, S_ = S; }
+  /// Throws std::runtime_error naming the state if the belief is not finite any more.
+  virtual void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) = 0;
+  /// A measurement whose νᵀ S⁻¹ ν is beyond `gate` is not accepted: the belief stays. Throws std::runtime_error if z is
+  /// not finite. The innovation's time is left to the caller.
+  virtual Innovation update(const MeasurementModel& measurement, const Eigen::VectorXd& z,
+                            const Eigen::MatrixXd& R_root, double gate) = 0;
+
+  const Eigen::VectorXd& x() const { return x_; }
+  const Eigen::MatrixXd& S() const { return S_; }
+  /// Roots that were lost and rebuilt.
+  long repaired() const { return repaired_; }
+
+ protected:
+  /// The update of a linear measurement, exact: the triangular root of
+  ///
+  ///   [ R_root  H S ]     gives    [ S_y      0  ]
+  ///   [   0      S  ]              [ P_xy S_y⁻ᵀ  S' ]
+  ///
+  /// and x' = x + (P_xy S_y⁻ᵀ) S_y⁻¹ ν. Source: Kailath, Sayed, Hassibi, "Linear Estimation", chapter 12.
+  Innovation update_linear(const Eigen::VectorXd& nu, const Eigen::MatrixXd& H, const Eigen::MatrixXd& R_root,
+                           double gate);
+  void check_finite(const DiscreteProcess& process) const;
+  static void check_measurement(const Eigen::VectorXd& nu);
+
+  Eigen::VectorXd x_;
+  Eigen::MatrixXd S_;
+  long repaired_ = 0;
+  LowerRoot root_;
+
+ private:
+  Eigen::MatrixXd array_, triangle_;
+  LowerRoot array_root_;
+};
+
+}  // namespace halyard

@@ -1,0 +1,8 @@
+#include "estimators/lane_kernel_body.h"
+
+namespace halyard {
+
+extern const LaneKernels kLanes_avx2;
+const LaneKernels kLanes_avx2 = {"avx2", advance_lanes};
+
+}  // namespace halyard

@@ -1,0 +1,8 @@
+#include "estimators/lane_kernel_body.h"
+
+namespace halyard {
+
+extern const LaneKernels kLanes_generic;
+const LaneKernels kLanes_generic = {"generic", advance_lanes};
+
+}  // namespace halyard
