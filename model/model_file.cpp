@@ -354,16 +354,20 @@ ArmModel read_arm(const XmlElement& arm) {
   Tolerances tolerances;
   if (const auto found = arm.optional_child("tolerances")) tolerances = read_tolerances(*found, tolerances);
   read_joints(arm, tolerances, model);
-  if (const auto effects = arm.optional_child("effects")) {
-    effects->only({}, {"effect"});
-    for (const XmlElement& effect : effects->children()) model.effects.push_back(read_effect(effect, model.nominal));
-  }
+  if (const auto effects = arm.optional_child("effects")) model.effects = read_effects(*effects, model.nominal);
   if (const auto columns = arm.optional_child("columns")) read_columns(*columns, model);
   for (const XmlElement& estimator : arm.children("estimator")) read_estimator(estimator, model);
   return model;
 }
 
 }  // namespace
+
+std::vector<PlacedEffect> read_effects(const XmlElement& effects, const ArmParameters<double>& arm) {
+  effects.only({}, {"effect"});
+  std::vector<PlacedEffect> placed;
+  for (const XmlElement& effect : effects.children()) placed.push_back(read_effect(effect, arm));
+  return placed;
+}
 
 ArmModel read_model(const std::filesystem::path& path) { return read_arm(XmlElement::read_file(path, "arm")); }
 

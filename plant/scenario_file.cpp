@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "model/input_error.h"
+#include "model/model_file.h"
+#include "model/xml_reader.h"
+#include "plant/scenario.h"
+
+namespace halyard {
+namespace {
+
+/// <set parameter="joint1.cable.tension" value="27.5"/>
+void read_change(const XmlElement& set, ArmModel& robot) {
+  set.only({"parameter", "value"});
+  const std::string key = set.text("parameter");
+  const std::vector<ParameterInfo> all = named_parameters(robot.nominal);
+  const auto found = std::ranges::find(all, key, &ParameterInfo::key);
+  if (found == all.end()) {
+    std::string known;
+    for (const ParameterInfo& p : all) known += (known.empty() ? "" : ", ") + p.key;
+    set.fail("parameter", "the model has no such number; expected one of " + known);
+  }
+  *found->value = set.number("value", found->unit == "1" ? "" : found->unit);
+  try {   // what a model file may not say, a scenario may not either
+    parse_model(model_to_xml(robot), "the model so changed");
+  } catch (const InputError& error) {
+    set.fail("value", error.what());
+  }
+}
+
+void read_sines(const XmlElement& element, const std::string& unit, JointTrajectory& t) {
+  element.only({"joint", "kind", "center"}, {"sine"});
+  t.center = element.number("center", unit);
+  for (const XmlElement& sine : element.children()) {
+    sine.only({"amplitude", "frequency", "phase"});
+    t.sines.push_back({sine.number("amplitude", unit), sine.number("frequency", "Hz", Sign::positive),
+                       sine.number_or("phase", 0, "rad")});
+  }
+  if (t.sines.empty()) element.fail("expected at least one <sine amplitude=\"\" frequency=\"\"/>");
+}
+
+void read_samples(const XmlElement& element, int joint, JointTrajectory& t) {
+  element.only({"joint", "kind", "file", "column"});
+  // Read as a log of one joint, so that numbers, gaps and times are checked as everywhere.
+  ColumnMap columns;
+  columns.add("motor_position_1",
+              element.text_or("column", "joint_position_" + std::to_string(joint + 1)));
+  const Log log = read_log(element.path("file"), 1, columns, ReadOptions{.torque_required = false});
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    if (std::isnan(log.motor_position[0][i])) continue;
+    t.sample_time.push_back(log.time[i] - log.time[0]);
+    t.sample_position.push_back(log.motor_position[0][i]);
+  }
+}
+
+void read_trajectory(const XmlElement& element, Scenario& scenario, std::vector<bool>& given) {
+  using Kind = JointTrajectory::Kind;
+  const int joint = static_cast<int>(element.integer("joint", 1, scenario.robot.n())) - 1;
+  if (given[joint]) element.fail("joint", "another <trajectory> is of this joint; remove one of them");
+  given[joint] = true;
+  const std::string unit = scenario.robot.nominal.joint[joint].type == JointType::revolute ? "rad" : "m";
+  JointTrajectory t;
+  t.kind = element.choice<Kind>("kind", {{"hold", Kind::hold},
+                                         {"sines", Kind::sines},
+                                         {"point_to_point", Kind::point_to_point},
+                                         {"samples", Kind::samples}});
+  switch (t.kind) {
+    case Kind::hold:
+      element.only({"joint", "kind", "center"});
+      t.center = element.number("center", unit);
+      break;
+    case Kind::sines: read_sines(element, unit, t); break;
+    case Kind::point_to_point:
+      element.only({"joint", "kind", "points", "move", "dwell"});
+      t.points = element.numbers("points", unit);
+      t.move_s = element.number_or("move", t.move_s, "s", Sign::positive);
+      t.dwell_s = element.number_or("dwell", t.dwell_s, "s", Sign::non_negative);
+      break;
+    case Kind::samples: read_samples(element, joint, t); break;
+  }
+  scenario.trajectory[joint] = std::move(t);
+}
+
+void read_integrator(const XmlElement& element, IntegratorOptions& options) {
+  element.only({"treatment", "relative_tolerance", "absolute_tolerance"});
+  options.treatment = element.choice_or<Treatment>("treatment", options.treatment,
+                                                   {{"dirk", Treatment::dirk},
+                                                    {"imex", Treatment::imex},
+                                                    {"imex_link1", Treatment::imex_link1},
+                                                    {"bdf", Treatment::bdf},
+                                                    {"explicit_rk", Treatment::explicit_rk},
+                                                    {"simbody_rkm", Treatment::simbody_rkm},
+                                                    {"simbody_cpodes", Treatment::simbody_cpodes}});
+  options.relative_tolerance = element.number_or("relative_tolerance", options.relative_tolerance, "", Sign::positive);
+  options.absolute_tolerance = element.number_or("absolute_tolerance", options.absolute_tolerance, "", Sign::positive);
+}
+
+}  // namespace
+
+Scenario read_scenario(const std::filesystem::path& path) {
+  const XmlElement root = XmlElement::read_file(path, "scenario");
+  root.only({"name", "model", "duration", "seed"},
+            {"set", "effects", "trajectory", "control", "integrator", "sensors"});
+  Scenario scenario;
+  scenario.name = root.text("name");
+  scenario.model = root.path("model");
+  scenario.robot = read_model(scenario.model);
+  scenario.assumed = scenario.robot.nominal;
+  scenario.duration_s = root.number_or("duration", scenario.duration_s, "s", Sign::positive);
+  scenario.seed = static_cast<std::uint64_t>(root.integer_or("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
+  for (const XmlElement& set : root.children("set")) read_change(set, scenario.robot);
+  if (const auto effects = root.optional_child("effects"))
+    for (const PlacedEffect& e : read_effects(*effects, scenario.robot.nominal)) scenario.robot.effects.push_back(e);
+
+  scenario.trajectory.resize(scenario.robot.n());
+  std::vector<bool> given(scenario.robot.n(), false);
+  for (const XmlElement& element : root.children("trajectory")) read_trajectory(element, scenario, given);
+  for (int k = 0; k < scenario.robot.n(); ++k)   // a joint that is not told anything stays at home
+    if (!given[k]) scenario.trajectory[k].center = scenario.robot.joints[k].home;
+
+  if (const auto control = root.optional_child("control")) {
+    control->only({"period", "fade_in"});
+    scenario.control_period_s = control->number_or("period", scenario.control_period_s, "s", Sign::positive);
+    scenario.fade_in_s = control->number_or("fade_in", scenario.fade_in_s, "s", Sign::non_negative);
+  }
+  if (const auto integrator = root.optional_child("integrator")) read_integrator(*integrator, scenario.integrator);
+  if (const auto sensors = root.optional_child("sensors")) {
+    sensors->only({"quantise", "torque_noise"});
+    scenario.quantise = sensors->flag_or("quantise", scenario.quantise);
+    scenario.torque_noise = sensors->number_or("torque_noise", scenario.torque_noise, "N m", Sign::non_negative);
+  }
+  try {
+    check_scenario(scenario);
+  } catch (const InputError& error) {
+    throw InputError(path.string() + ": " + error.what());
+  }
+  return scenario;
+}
+
+}  // namespace halyard
