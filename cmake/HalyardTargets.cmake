@@ -8,7 +8,8 @@ target_compile_options(halyard_warnings INTERFACE -Wall -Wextra -Wno-psabi)
 function(halyard_library room)
   add_library(halyard_${room} ${ARGN})
   add_library(halyard::${room} ALIAS halyard_${room})
-  set_target_properties(halyard_${room} PROPERTIES EXPORT_NAME ${room} VERSION ${PROJECT_VERSION} SOVERSION 0)
+  set_target_properties(halyard_${room} PROPERTIES EXPORT_NAME ${room} VERSION ${PROJECT_VERSION} SOVERSION 0
+    INSTALL_RPATH "\$ORIGIN")
   target_include_directories(halyard_${room} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/halyard>)
   target_link_libraries(halyard_${room} PRIVATE $<BUILD_INTERFACE:halyard_warnings>)

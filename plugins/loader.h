@@ -19,9 +19,13 @@ struct PluginInfo {
 };
 
 /// All loadable estimators in the plug-in folders: beside the program (../lib/halyard/plugins and plugins/ of a build),
-/// and each folder of the environment variable HALYARD_PLUGIN_PATH. Modules that are refused are not listed; their
-/// one-line reasons are appended to refused if given.
+/// beside halyard's libraries (for programs that live elsewhere), and each folder of the environment variable
+/// HALYARD_PLUGIN_PATH, whose folders are separated by ':'. Of two with the same name the first counts. Modules that are
+/// refused are not listed; their one-line reasons are appended to refused if given.
 std::vector<PluginInfo> find_plugins(std::vector<std::string>* refused = nullptr);
+
+/// The plug-in that make_estimator takes for a name or path. Throws InputError as it does.
+PluginInfo find_plugin(const std::string& name_or_path);
 
 /// An estimator for the model, by the name of a found plug-in or the path of a module (anything with a '/' or ending in
 /// .so). Options of the model under the estimator's name are handed to it. The module stays open as long as the

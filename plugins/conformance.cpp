@@ -1,0 +1,167 @@
+#include "plugins/conformance.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "model/input_error.h"
+#include "plugins/loader.h"
+#include "transmission/path_matrix.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr int kSamples = 200;
+constexpr double kPeriod = 1e-3;   // s
+
+Sample swing(const ArmModel& model, int i) {
+  const double time = i * kPeriod;
+  Eigen::VectorXd q = model.home();
+  for (int k = 0; k < model.n(); ++k) {
+    const JointDescription& joint = model.joints[k];
+    q(k) += 0.02 * (joint.upper - joint.lower) * std::sin(2 * std::numbers::pi * (1 + k) * time);
+  }
+  return {time, Eigen::VectorXd::Zero(model.n()), unstretched_motors(model.nominal, q), Eigen::VectorXd()};
+}
+
+using Record = std::vector<Sample>;
+
+Record swings(const ArmModel& model) {
+  Record record;
+  for (int i = 0; i < kSamples; ++i) record.push_back(swing(model, i));
+  return record;
+}
+
+bool same(const Estimate& a, const Estimate& b) {
+  return a.joint_position == b.joint_position && a.joint_velocity == b.joint_velocity &&
+         a.joint_position_std == b.joint_position_std;
+}
+
+bool same(const std::vector<Estimate>& a, const std::vector<Estimate>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (!same(a[i], b[i])) return false;
+  return true;
+}
+
+/// The estimates, that of the start first. Throws if a motor that was not measured has an innovation.
+std::vector<Estimate> run(Estimator& estimator, const Record& record) {
+  estimator.reset(record.front());
+  std::vector<Estimate> estimates = {estimator.estimate()};
+  for (std::size_t i = 1; i < record.size(); ++i) {
+    const Innovation innovation = estimator.update(record[i]);
+    const auto measured = (!record[i].motor_position.array().isNaN()).count();
+    if (innovation.nu.size() > measured)
+      throw std::runtime_error("gives an innovation for a motor whose position is missing");
+    estimates.push_back(estimator.estimate());
+  }
+  return estimates;
+}
+
+class Examination {
+ public:
+  Examination(const std::string& name_or_path, const ArmModel& model)
+      : name_(name_or_path), model_(model), record_(swings(model)), estimator_(make()) {}
+
+  std::vector<std::string> faults() {
+    check("plain record", [this] { expected_ = run(*estimator_, record_); });
+    if (!faults_.empty()) return faults_;   // the others compare with this run
+
+    check("report", [this] {
+      const long steps = estimator_->report().steps;
+      require(steps == kSamples - 1, "counts " + std::to_string(steps) + " steps of " + std::to_string(kSamples - 1));
+    });
+    check("estimate", [this] { require(same(estimator_->estimate(), expected_.back()), "changes when asked again"); });
+    check("reset",
+          [this] { require(same(run(*estimator_, record_), expected_), "leaves something of the run before"); });
+    check("two instances", [this] { two_instances(); });
+    check("missing samples", [this] { missing_samples(); });
+    check("missing first sample", [this] { missing_first_sample(); });
+    check("gap", [this] { gap(); });
+    check("external load", [this] {
+      Record loaded = record_;
+      for (Sample& sample : loaded) sample.joint_torque = Eigen::VectorXd::Zero(model_.n());
+      run(*make(), loaded);
+    });
+    check("unknown option", [this] { unknown_option(); });
+    return faults_;
+  }
+
+ private:
+  std::unique_ptr<Estimator> make() const { return make_estimator(name_, model_); }
+
+  static void require(bool kept, const std::string& otherwise) {
+    if (!kept) throw std::runtime_error(otherwise);
+  }
+
+  void check(const std::string& promise, const std::function<void()>& run) {
+    try {
+      run();
+    } catch (const std::exception& fault) {
+      faults_.push_back(promise + ": " + fault.what());
+    }
+  }
+
+  void two_instances() {
+    const auto first = make(), second = make();
+    first->reset(record_.front());
+    second->reset(record_.front());
+    for (std::size_t i = 1; i < record_.size(); ++i) {
+      first->update(record_[i]);
+      second->update(record_[i]);
+      require(same(first->estimate(), expected_[i]) && same(second->estimate(), expected_[i]),
+              "one of two, fed in turn, differs from one alone at sample " + std::to_string(i));
+    }
+  }
+
+  void missing_samples() {
+    Record holes = record_;
+    for (std::size_t i = 10; i < holes.size(); i += 3)
+      holes[i].motor_position(static_cast<int>(i) % model_.n()) = kMissing;
+    for (std::size_t i = 50; i < 70; ++i) holes[i].motor_position.setConstant(kMissing);
+    for (std::size_t i = 60; i < 80; ++i) holes[i].motor_torque.setConstant(kMissing);
+    run(*make(), holes);
+  }
+
+  void missing_first_sample() {
+    Record late = record_;
+    for (std::size_t i = 0; i < 5; ++i) {
+      late[i].motor_position.setConstant(kMissing);
+      late[i].motor_torque.setConstant(kMissing);
+    }
+    run(*make(), late);
+  }
+
+  void gap() {
+    Record torn = record_;
+    for (std::size_t i = torn.size() / 2; i < torn.size(); ++i) torn[i].time_s += 5;
+    run(*make(), torn);
+  }
+
+  void unknown_option() {
+    ArmModel model = model_;
+    model.estimators[find_plugin(name_).name]["no_estimator_has_this"] = "1";
+    try {
+      make_estimator(name_, model);
+    } catch (const InputError&) {
+      return;
+    }
+    throw std::runtime_error("is not refused");
+  }
+
+  std::string name_;
+  const ArmModel& model_;
+  Record record_;
+  std::unique_ptr<Estimator> estimator_;
+  std::vector<Estimate> expected_;
+  std::vector<std::string> faults_;
+};
+
+}  // namespace
+
+std::vector<std::string> conformance_faults(const std::string& name_or_path, const ArmModel& model) {
+  return Examination(name_or_path, model).faults();
+}
+
+}  // namespace halyard

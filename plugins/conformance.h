@@ -1,0 +1,27 @@
+#pragma once
+/// What every estimator has to keep, for the tests of those who write one:
+///
+///   EXPECT_EQ(halyard::conformance_faults("./my_estimator.so", model), std::vector<std::string>());
+
+#include <string>
+#include <vector>
+
+#include "model/arm_model.h"
+
+namespace halyard {
+
+/// Runs the estimator over a synthetic record of 0.2 s: each joint swings about home by 2 % of its range, the motors
+/// follow without stretch, no torque. Returns one line for each promise of estimator.h that it breaks:
+///
+///   - estimates are finite and repeatable, and asking for one changes nothing
+///   - two instances fed in turn do not disturb each other and give the same numbers to the last bit
+///   - reset() starts anew, with nothing left of the run before
+///   - missing samples, at the start too, and gaps do not stop it; a missing motor has no innovation
+///   - an external load may be given or not
+///   - report() counts the samples
+///   - an unknown option is refused
+///
+/// Says nothing of how good the estimates are. Throws what make_estimator throws if there is no such estimator.
+std::vector<std::string> conformance_faults(const std::string& name_or_path, const ArmModel& model);
+
+}  // namespace halyard

@@ -1,0 +1,175 @@
+#pragma once
+/// For authors of estimators in C++: the table of halyard_estimator.h from a class. A module is the class and
+///
+///   extern "C" const halyard_estimator_table* halyard_estimator() {
+///     static const auto table = halyard::estimator_table<MyEstimator>("my_estimator", "what it is, in one line");
+///     return &table;
+///   }
+///
+/// where MyEstimator derives from halyard::Estimator (or halyard::Observer, observer.h) and is constructed from
+/// (const ArmModel&, const EstimatorOptions&). In place of the class may stand a function that makes one.
+///
+/// No exception leaves the module: InputError becomes HALYARD_REFUSED, any other HALYARD_FAILED, what() the message.
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "estimators/estimator.h"
+#include "model/arm_model.h"
+#include "model/input_error.h"
+#include "model/model_file.h"
+#include "plugins/eigen_alignment.h"
+#include "plugins/halyard_estimator.h"
+
+namespace halyard {
+
+using EstimatorFactory = std::unique_ptr<Estimator> (*)(const ArmModel&, const EstimatorOptions&);
+
+namespace plugin {
+
+using Vector = Eigen::Map<Eigen::VectorXd>;
+using ConstVector = Eigen::Map<const Eigen::VectorXd>;
+using RowMajorMatrix = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
+inline void copy_message(const char* text, char* message, std::size_t message_size) {
+  if (message_size == 0) return;
+  const std::size_t length = std::min(std::strlen(text), message_size - 1);
+  std::memcpy(message, text, length);
+  message[length] = '\0';
+}
+
+/// Runs body; what it throws becomes a code and a message.
+template <class Body>
+int guarded(char* message, std::size_t message_size, const Body& body) noexcept {
+  try {
+    body();
+    return HALYARD_OK;
+  } catch (const InputError& error) {
+    copy_message(error.what(), message, message_size);
+    return HALYARD_REFUSED;
+  } catch (const std::exception& error) {
+    copy_message(error.what(), message, message_size);
+  } catch (...) {
+    copy_message("unknown exception", message, message_size);
+  }
+  return HALYARD_FAILED;
+}
+
+/// A C++ estimator behind the table's functions.
+class Instance {
+ public:
+  Instance(std::unique_ptr<Estimator> estimator, std::size_t n_joints)
+      : estimator_(std::move(estimator)), n_(static_cast<Eigen::Index>(n_joints)) {
+    if (!estimator_) throw std::logic_error("the factory made no estimator");
+  }
+
+  void reset(const halyard_sample& first) { estimator_->reset(take(first)); }
+
+  void update(const halyard_sample& sample, halyard_innovation& out) {
+    const Innovation innovation = estimator_->update(take(sample));
+    const Eigen::Index m = innovation.nu.size();
+    check(m <= n_, "nu", m);
+    check(innovation.S_root.rows() == m && innovation.S_root.cols() == m, "S_root", innovation.S_root.rows());
+    out.m = static_cast<std::size_t>(m);
+    Vector(out.nu, m) = innovation.nu;
+    RowMajorMatrix(out.S_root, m, m) = innovation.S_root;
+    out.accepted = innovation.accepted;
+  }
+
+  void estimate(halyard_estimate& out) const {
+    const Estimate estimate = estimator_->estimate();
+    copy("joint_position", estimate.joint_position, out.joint_position);
+    copy("joint_velocity", estimate.joint_velocity, out.joint_velocity);
+    copy("joint_position_std", estimate.joint_position_std, out.joint_position_std);
+  }
+
+  void report(halyard_report& out) const {
+    const EstimatorReport report = estimator_->report();
+    out.steps = report.steps;
+    out.repaired_factors = report.repaired_factors;
+    out.gated = report.gated;
+  }
+
+ private:
+  const Sample& take(const halyard_sample& sample) {
+    sample_.time_s = sample.time_s;
+    sample_.motor_torque = ConstVector(sample.motor_torque, n_);
+    sample_.motor_position = ConstVector(sample.motor_position, n_);
+    sample_.joint_torque = ConstVector(sample.joint_torque, sample.joint_torque ? n_ : 0);
+    return sample_;
+  }
+
+  void copy(const char* what, const Eigen::VectorXd& from, double* to) const {
+    check(from.size() == n_, what, from.size());
+    Vector(to, n_) = from;
+  }
+
+  void check(bool fits, const char* what, Eigen::Index size) const {
+    if (fits) return;
+    throw std::logic_error(std::string(what) + " has size " + std::to_string(size) + " for " + std::to_string(n_) +
+                           " joints");
+  }
+
+  std::unique_ptr<Estimator> estimator_;
+  Eigen::Index n_;
+  Sample sample_;
+};
+
+template <EstimatorFactory make>
+int create(const halyard_config* config, void** instance, char* message, std::size_t message_size) noexcept {
+  return guarded(message, message_size, [&] {
+    check_eigen_alignment(EIGEN_DEFAULT_ALIGN_BYTES);
+    EstimatorOptions options;
+    for (std::size_t i = 0; i < config->n_options; ++i) options[config->option_names[i]] = config->option_values[i];
+    const ArmModel model = parse_model(config->model_xml, config->model_source);
+    *instance = new Instance(make(model, options), config->n_joints);
+  });
+}
+
+inline void destroy(void* instance) noexcept { delete static_cast<Instance*>(instance); }
+
+inline int reset(void* instance, const halyard_sample* first, char* message, std::size_t message_size) noexcept {
+  return guarded(message, message_size, [&] { static_cast<Instance*>(instance)->reset(*first); });
+}
+
+inline int update(void* instance, const halyard_sample* sample, halyard_innovation* innovation, char* message,
+                  std::size_t message_size) noexcept {
+  return guarded(message, message_size, [&] { static_cast<Instance*>(instance)->update(*sample, *innovation); });
+}
+
+inline int estimate(void* instance, halyard_estimate* out, char* message, std::size_t message_size) noexcept {
+  return guarded(message, message_size, [&] { static_cast<Instance*>(instance)->estimate(*out); });
+}
+
+inline int report(void* instance, halyard_report* out, char* message, std::size_t message_size) noexcept {
+  return guarded(message, message_size, [&] { static_cast<Instance*>(instance)->report(*out); });
+}
+
+template <class E>
+std::unique_ptr<Estimator> construct(const ArmModel& model, const EstimatorOptions& options) {
+  return std::make_unique<E>(model, options);
+}
+
+}  // namespace plugin
+
+/// The table of the estimator that a function makes. name and description outlive the module's use: string literals.
+template <EstimatorFactory make>
+halyard_estimator_table estimator_table(const char* name, const char* description) {
+  return {HALYARD_ESTIMATOR_INTERFACE, sizeof(halyard_estimator_table),
+          name,                        description,
+          plugin::create<make>,        plugin::destroy,
+          plugin::reset,               plugin::update,
+          plugin::estimate,            plugin::report};
+}
+
+/// The same for a class.
+template <class E>
+halyard_estimator_table estimator_table(const char* name, const char* description) {
+  return estimator_table<plugin::construct<E>>(name, description);
+}
+
+}  // namespace halyard

@@ -1,0 +1,12 @@
+#include "well_formed.h"
+
+static int update_seven(void* instance, const halyard_sample* sample, halyard_innovation* innovation, char* message,
+                        size_t message_size) {
+  update(instance, sample, innovation, message, message_size);
+  return 7;
+}
+
+const halyard_estimator_table* halyard_estimator(void) {
+  table.update = update_seven;
+  return &table;
+}
