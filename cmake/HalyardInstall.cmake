@@ -7,9 +7,12 @@ set(HALYARD_DATA_DIR ${CMAKE_INSTALL_DATADIR}/halyard)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/raven2 DESTINATION ${HALYARD_DATA_DIR}
   FILES_MATCHING PATTERN "*.xml" PATTERN "*.csv" PATTERN "*.md")
 
-# A static library's users link what it links; a shared one brings it along.
+# A shared library brings along what it links, a static one leaves that to its users.
+set(HALYARD_STATIC_DEPENDENCIES "")
 if(NOT BUILD_SHARED_LIBS)
-  set(HALYARD_STATIC_DEPENDENCIES "find_dependency(tinyxml2)")
+  foreach(package tinyxml2 Boost TBB Ceres)
+    string(APPEND HALYARD_STATIC_DEPENDENCIES "find_dependency(${package})\n")
+  endforeach()
 endif()
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/halyard)

@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kSymbol = "halyard_estimator";
 constexpr const char* kRebuild = "; rebuild it against the installed headers";
+constexpr const char* kUpgrade = "; install a newer halyard, or rebuild it against these headers";
 
 /// As PluginInfo promises: a name that can stand in a list of names and is no path.
 bool is_plain_name(std::string_view name) {
@@ -35,7 +36,7 @@ const halyard_estimator_table* checked_table(const SharedModule& module) {
   if (version != HALYARD_ESTIMATOR_INTERFACE) {
     refuse("built for interface " + std::to_string(version) + ", this program speaks " +
            std::to_string(HALYARD_ESTIMATOR_INTERFACE) +
-           (version < HALYARD_ESTIMATOR_INTERFACE ? kRebuild : "; install a newer halyard, or rebuild it against these headers"));
+           (version < HALYARD_ESTIMATOR_INTERFACE ? kRebuild : kUpgrade));
   }
   if (table->table_size < sizeof *table) {
     refuse("its table has " + std::to_string(table->table_size) + " bytes, interface " + std::to_string(version) +

@@ -293,8 +293,9 @@ TEST(PluginSearch, FoldersOfTheUserComeLastAndTheFirstOfANameCounts) {
 
   ASSERT_EQ(refused.size(), 3u);
   EXPECT_EQ(refused[0], "HALYARD_PLUGIN_PATH: '/no/such/folder' is no folder; correct it or take it out");
-  EXPECT_EQ(refused[1], "plugin " + fs::canonical(second / "another_file.so").string() + ": the name 'fixture' is taken by " +
-                            fs::canonical(first / "fixture.so").string() + "; rename it, or call it by its path");
+  EXPECT_EQ(refused[1], "plugin " + fs::canonical(second / "another_file.so").string() +
+                            ": the name 'fixture' is taken by " + fs::canonical(first / "fixture.so").string() +
+                            "; rename it, or call it by its path");
   EXPECT_EQ(refused[2], "plugin " + fs::canonical(second / "too_new.so").string() +
                             ": built for interface 2, this program speaks 1; install a newer halyard, or rebuild it "
                             "against these headers");
