@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <string>
 
 #include "model/input_error.h"
+#include "model/log.h"
 #include "model/model_file.h"
 #include "model/xml_reader.h"
 #include "plant/scenario.h"
@@ -18,8 +20,11 @@ void read_change(const XmlElement& set, ArmModel& robot) {
   const std::vector<ParameterInfo> all = named_parameters(robot.nominal);
   const auto found = std::ranges::find(all, key, &ParameterInfo::key);
   if (found == all.end()) {
+    const std::string joint = key.substr(0, key.find('.') + 1);   // of a right joint, its numbers will do
+    const bool right = std::ranges::any_of(all, [&](const auto& p) { return !joint.empty() && p.key.starts_with(joint); });
     std::string known;
-    for (const ParameterInfo& p : all) known += (known.empty() ? "" : ", ") + p.key;
+    for (const ParameterInfo& p : all)
+      if (!right || p.key.starts_with(joint)) known += (known.empty() ? "" : ", ") + p.key;
     set.fail("parameter", "the model has no such number; expected one of " + known);
   }
   *found->value = set.number("value", found->unit == "1" ? "" : found->unit);
@@ -41,13 +46,29 @@ void read_sines(const XmlElement& element, const std::string& unit, JointTraject
   if (t.sines.empty()) element.fail("expected at least one <sine amplitude=\"\" frequency=\"\"/>");
 }
 
+void check_column(const XmlElement& element, const std::filesystem::path& file, const std::string& column) {
+  std::ifstream stream(file);
+  std::string header;
+  while (std::getline(stream, header) && header.starts_with('#')) {
+  }
+  if (!stream) return;   // read_log says why
+  std::vector<std::string_view> names;
+  split(header, names);
+  if (std::ranges::find(names, column) != names.end()) return;
+  std::string known;
+  for (const std::string_view name : names) known += (known.empty() ? "" : ", ") + in_quotes(name);
+  element.fail("column", file.string() + " has no column " + in_quotes(column) + "; it has " + known);
+}
+
+/// Read as a log of one joint, so that numbers, gaps and times are checked as everywhere.
 void read_samples(const XmlElement& element, int joint, JointTrajectory& t) {
   element.only({"joint", "kind", "file", "column"});
-  // Read as a log of one joint, so that numbers, gaps and times are checked as everywhere.
+  const std::filesystem::path file = element.path("file");
+  const std::string column = element.text_or("column", "joint_position_" + std::to_string(joint + 1));
+  check_column(element, file, column);
   ColumnMap columns;
-  columns.add("motor_position_1",
-              element.text_or("column", "joint_position_" + std::to_string(joint + 1)));
-  const Log log = read_log(element.path("file"), 1, columns, ReadOptions{.torque_required = false});
+  columns.add("motor_position_1", column);
+  const Log log = read_log(file, 1, columns, ReadOptions{.torque_required = false});
   for (std::size_t i = 0; i < log.size(); ++i) {
     if (std::isnan(log.motor_position[0][i])) continue;
     t.sample_time.push_back(log.time[i] - log.time[0]);

@@ -34,6 +34,8 @@ class DriveForce : public SimTK::Force::Custom::Implementation {
     const Vector &q = state.getQ(), &u = state.getU(), &z = state.getZ();
     Vector& rates = SimTK::Value<Vector>::updDowncast(arm_.forces.updCacheEntry(state, rates_));
     arm_.drive.rates(Share::all, state.getTime(), &q[0], &u[0], &z[0], &rates[0], &rates[l.n]);
+    if (!Eigen::Map<const Eigen::VectorXd>(&rates[0], rates.size()).allFinite())
+      throw std::runtime_error("a force or rate of the drive train is not finite");
     Vector force = rates(0, l.n);
     if (!arm_.drive.rotor_mass().isZero(0)) add_rotors(state, force);
     mobility_forces += force;

@@ -45,18 +45,28 @@ std::vector<ControllerParameters> controller_parameters(const ArmModel& robot) {
   return parameters;
 }
 
+std::string place(const Scenario& scenario) { return "scenario " + in_quotes(scenario.name) + ": "; }
+
 std::unique_ptr<ArmPlant> make_plant(const Scenario& scenario) {
   try {
     return std::make_unique<ArmPlant>(scenario.robot.nominal, scenario.robot.effects);
   } catch (const std::invalid_argument& error) {
-    throw InputError(scenario.robot.source + ": " + error.what());
+    throw InputError(place(scenario) + error.what());
+  }
+}
+
+Eigen::VectorXd starting_state(const Scenario& scenario, ArmPlant& plant) {
+  try {
+    return resting_state(plant, 0, desired_joints(scenario, 0));
+  } catch (const InputError& error) {
+    throw InputError(place(scenario) + error.what());
   }
 }
 
 }  // namespace
 
 void check_scenario(const Scenario& scenario) {
-  const std::string where = "scenario " + in_quotes(scenario.name) + ": ";
+  const std::string where = place(scenario);
   const int n = scenario.robot.n();
   if (!(scenario.duration_s > 0) || !(scenario.control_period_s > 0) ||
       !(scenario.duration_s >= scenario.control_period_s))
@@ -74,13 +84,14 @@ void check_scenario(const Scenario& scenario) {
     }
     const JointDescription& range = scenario.robot.joints[k];
     if (!(range.lower < range.upper)) continue;
+    const std::string unit = scenario.robot.nominal.joint[k].type == JointType::revolute ? " rad" : " m";
     for (long i = 0; i <= number_of_ticks(scenario); ++i) {
       const double t = i * scenario.control_period_s;
       const double q = desired_position(scenario.trajectory[k], scenario.fade_in_s, t);
       if (!(q >= range.lower && q <= range.upper))
-        throw InputError(joint + "asks for " + std::to_string(q) + " at " + std::to_string(t) +
+        throw InputError(joint + "asks for " + std::to_string(q) + unit + " at " + std::to_string(t) +
                          " s, outside the joint's range " + std::to_string(range.lower) + " to " +
-                         std::to_string(range.upper) + "; make it smaller or move its center");
+                         std::to_string(range.upper) + unit + "; make it smaller or move its center");
     }
   }
 }
@@ -95,7 +106,7 @@ SimulationResult simulate(const Scenario& scenario, const std::function<void(dou
   const std::unique_ptr<ArmPlant> plant = make_plant(scenario);
   const DriveTrain& drive = plant->drive();
   const ArmParameters<double>& assumed = scenario.assumed ? *scenario.assumed : scenario.robot.nominal;
-  const Eigen::VectorXd start = resting_state(*plant, 0, desired_joints(scenario, 0));
+  const Eigen::VectorXd start = starting_state(scenario, *plant);
   const std::unique_ptr<Integrator> integrator = make_integrator(*plant, scenario.integrator, 0, start);
   PdController controller(controller_parameters(scenario.robot), period);
   std::mt19937_64 random(scenario.seed);
