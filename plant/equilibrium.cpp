@@ -60,8 +60,8 @@ Eigen::VectorXd resting_state(ArmPlant& plant, double time_s, const Eigen::Vecto
       throw InputError("joint " + std::to_string(k + 1) + ": no stretch of its cable gives the " +
                        std::to_string(needed(k)) + " N that hold the arm; give it more stiffness or tension");
     std::uintmax_t iterations = 200;
-    const auto bracket =
-        boost::math::tools::toms748_solve(missing, -reach, reach, boost::math::tools::eps_tolerance<double>(), iterations);
+    const boost::math::tools::eps_tolerance<double> to_rounding;
+    const auto bracket = boost::math::tools::toms748_solve(missing, -reach, reach, to_rounding, iterations);
     const double low = std::abs(missing(bracket.first)), high = std::abs(missing(bracket.second));
     missing(low < high ? bracket.first : bracket.second);
   }

@@ -26,7 +26,8 @@ constexpr double kNewtonShare = 0.01;
 constexpr double kUncontrolled = 1e30;
 /// Absolute tolerance of rates over that of positions: a rate may be off by what moves a position by its own tolerance
 /// within a millisecond. A tolerance of rates as small as that of positions buys no accuracy of the motion (measured
-/// on RAVEN-II, dirk, sines of 2 s: largest error 6e-9 rad either way) and costs twice the time where the arm stands still.
+/// on RAVEN-II, dirk, sines of 2 s: largest error 6e-9 rad either way) and costs twice the time where the arm stands
+/// still.
 constexpr double kRateTolerance = 1e3;
 
 Eigen::VectorXd absolute_tolerances(const PlantLayout& l, double tolerance) {

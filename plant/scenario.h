@@ -18,7 +18,7 @@ enum class Treatment {
   dirk,            ///< ARKODE, diagonally implicit third order: all implicit (default)
   imex,            ///< ARKODE, fourth order: cables and friction implicit, the rest explicit
   imex_link1,      ///< ARKODE, fourth order: the first link's cable alone implicit
-  bdf,             ///< CVODE, tight: the reference
+  bdf,             ///< CVODE at 1e-5 of the tolerances asked for: the reference
   explicit_rk,     ///< ARKODE, explicit fourth order
   simbody_rkm,     ///< Simbody's RungeKuttaMerson
   simbody_cpodes,  ///< Simbody's CPodes
@@ -38,7 +38,7 @@ struct JointTrajectory {
   enum class Kind { hold, sines, point_to_point, samples } kind = Kind::hold;
   double center = 0;                        ///< rad | m
   std::vector<Sine> sines;
-  std::vector<double> points;               ///< visited in order, minimum-jerk moves
+  std::vector<double> points;               ///< visited in order, over again, by minimum-jerk moves
   double move_s = 1, dwell_s = 0.5;
   std::vector<double> sample_time, sample_position;   ///< linear between, held outside
 };

@@ -21,10 +21,11 @@ void read_change(const XmlElement& set, ArmModel& robot) {
   const auto found = std::ranges::find(all, key, &ParameterInfo::key);
   if (found == all.end()) {
     const std::string joint = key.substr(0, key.find('.') + 1);   // of a right joint, its numbers will do
-    const bool right = std::ranges::any_of(all, [&](const auto& p) { return !joint.empty() && p.key.starts_with(joint); });
+    const auto is_of_joint = [&](const ParameterInfo& p) { return !joint.empty() && p.key.starts_with(joint); };
+    const bool right = std::ranges::any_of(all, is_of_joint);
     std::string known;
     for (const ParameterInfo& p : all)
-      if (!right || p.key.starts_with(joint)) known += (known.empty() ? "" : ", ") + p.key;
+      if (!right || is_of_joint(p)) known += (known.empty() ? "" : ", ") + p.key;
     set.fail("parameter", "the model has no such number; expected one of " + known);
   }
   *found->value = set.number("value", found->unit == "1" ? "" : found->unit);

@@ -53,7 +53,8 @@ class DriveForce : public SimTK::Force::Custom::Implementation {
   /// F becomes F - M_rotors q'', where q'' solves (M + M_rotors) q'' = F - h.
   void add_rotors(const State& state, Vector& force) const {
     Vector residual;   // h - F
-    arm_.matter.calcResidualForceIgnoringConstraints(state, force, arm_.gravity.getBodyForces(state), Vector(), residual);
+    arm_.matter.calcResidualForceIgnoringConstraints(state, force, arm_.gravity.getBodyForces(state), Vector(),
+                                                     residual);
     const Eigen::Map<const Eigen::VectorXd> h(&residual[0], residual.size());
     const Eigen::VectorXd rotors = arm_.drive.rotor_mass() * arm_.total_mass(state).llt().solve(-h);
     for (int k = 0; k < force.size(); ++k) force[k] -= rotors(k);

@@ -102,8 +102,8 @@ TEST_F(ScenarioFile, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(message(R"(<trajectory joint="4" kind="hold" center="0"/>)"),
             "s.xml:2: <trajectory joint=\"4\">: expected a whole number from 1 to 3");
   EXPECT_EQ(message(R"(<trajectory joint="1" kind="hold" center="100 deg"/>)"),
-            "s.xml: scenario 's': trajectory of joint 1: asks for 1.745329 rad at 0.000000 s, outside the joint's range "
-            "0.000000 to 1.570796 rad; make it smaller or move its center");
+            "s.xml: scenario 's': trajectory of joint 1: asks for 1.745329 rad at 0.000000 s, outside the joint's "
+            "range 0.000000 to 1.570796 rad; make it smaller or move its center");
   EXPECT_EQ(message("<trajectory joint=\"3\" kind=\"hold\" center=\"0.4\"/>\n"
                     "<trajectory joint=\"3\" kind=\"hold\" center=\"0.4\"/>"),
             "s.xml:3: <trajectory joint=\"3\">: another <trajectory> is of this joint; remove one of them");
@@ -121,7 +121,8 @@ TEST_F(ScenarioFile, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(message(R"(<integrator treatment="euler"/>)"),
             "s.xml:2: <integrator treatment=\"euler\">: expected one of dirk, imex, imex_link1, bdf, explicit_rk, "
             "simbody_rkm, simbody_cpodes");
-  EXPECT_NE(message(R"(<trajectory joint="1" kind="hold" centre="0"/>)").find("<trajectory centre="), std::string::npos);
+  EXPECT_NE(message(R"(<trajectory joint="1" kind="hold" centre="0"/>)").find("<trajectory centre="),
+            std::string::npos);
   EXPECT_NE(message(R"(<control period="2"/>)").find("the duration must be at least one control period"),
             std::string::npos);
   EXPECT_NE(message("", "duration=\"-1\"").find("s.xml:1: <scenario duration=\"-1\">"), std::string::npos);
@@ -136,8 +137,8 @@ TEST_F(ScenarioFile, SaysWhatIsWrongWithASampleFile) {
   EXPECT_EQ(message(R"(<trajectory joint="1" kind="samples" file="x.csv"/>)"),
             "s.xml:2: <trajectory>: x.csv has no column 'joint_position_1'; it has 'time', 'path'");
   write("x.csv", "time,path\n0,1\n1,one\n");
-  EXPECT_NE(message(R"(<trajectory joint="1" kind="samples" file="x.csv" column="path"/>)").find("x.csv:3: column 'path'"),
-            std::string::npos);
+  const std::string cell = message(R"(<trajectory joint="1" kind="samples" file="x.csv" column="path"/>)");
+  EXPECT_NE(cell.find("x.csv:3: column 'path'"), std::string::npos) << cell;
 }
 
 TEST(Trajectory, OfSinesStartsAtItsCenterAtRest) {
@@ -269,6 +270,23 @@ TEST(Simulate, TakesEffectsAsTruth) {
   EXPECT_NE(soft_log.joint_position, log.joint_position);
   const auto [offset, offset_log] = run("encoder_offset", 1, {0.01, 0});
   EXPECT_NE(offset_log.motor_position, log.motor_position);
+}
+
+TEST(Simulate, RunsWithEveryEffectOfTheLibrary) {
+  for (const Effect* effect : effect_library()) {
+    Scenario scenario = experiment("a", 0.1);
+    scenario.fade_in_s = 0.05;
+    const ArmParameters<double>& arm = scenario.robot.nominal;
+    int joint = effect->is_of_arm() ? -1 : 0;
+    while (joint >= 0 && joint < arm.n - 1 && !effect->applies(arm, joint)) ++joint;
+    scenario.robot.effects = {place_effect(*effect, arm, joint)};
+    const SimulationResult result = simulate(scenario);
+    const JointDescription& range = scenario.robot.joints[0];
+    for (const double q : result.truth.joint_position[0]) {
+      ASSERT_GT(q, range.lower) << effect->name();
+      ASSERT_LT(q, range.upper) << effect->name();
+    }
+  }
 }
 
 TEST(Simulate, ControlsTheTrueArmByTheModelItAssumes) {
