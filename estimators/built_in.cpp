@@ -17,6 +17,7 @@ std::unique_ptr<Estimator> make_sr_ukf(const ArmModel& model, const EstimatorOpt
   weights.alpha = reader.number("alpha", weights.alpha, 1e-5, 10);
   weights.beta = reader.number("beta", weights.beta, 0, kInfinity);
   weights.kappa = reader.number("kappa", weights.kappa, 1e-3 - process->n_states(), kInfinity);
+  weights.curvature_limit = reader.number("curvature_limit", 0.03, 0, kInfinity);
   const ArmFilterOptions arm_options = read_arm_filter_options(reader, model, *process);
   reader.finish();
   return std::make_unique<ArmFilter>(model, process, arm_options, std::make_unique<SquareRootUkf>(weights));

@@ -3,6 +3,6 @@
 namespace halyard {
 
 extern const LaneKernels kLanes_avx2;
-const LaneKernels kLanes_avx2 = {"avx2", advance_lanes};
+const LaneKernels kLanes_avx2 = kernels_named("avx2");
 
 }  // namespace halyard

@@ -3,6 +3,6 @@
 namespace halyard {
 
 extern const LaneKernels kLanes_avx512;
-const LaneKernels kLanes_avx512 = {"avx512", advance_lanes};
+const LaneKernels kLanes_avx512 = kernels_named("avx512");
 
 }  // namespace halyard

@@ -3,6 +3,6 @@
 namespace halyard {
 
 extern const LaneKernels kLanes_generic;
-const LaneKernels kLanes_generic = {"generic", advance_lanes};
+const LaneKernels kLanes_generic = kernels_named("generic");
 
 }  // namespace halyard

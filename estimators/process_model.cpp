@@ -151,14 +151,13 @@ void ProcessModel::advance_many(const Step& step, Eigen::Ref<Eigen::MatrixXd> X,
   }
 }
 
-void ProcessModel::advance_with_jacobian(const Step& step, double* x, Eigen::Ref<Eigen::MatrixXd> F) const {
+void ProcessModel::advance_with_jacobian(const Step& step, double* x, Eigen::Ref<Eigen::MatrixXd> F,
+                                         const LaneKernels& kernels) const {
   const StepInputs<Dual> in(step, n_joints());
   const int parts = substeps(step.dt_s), n = n_states();
-  const double h = step.dt_s / parts;
   double next[kMaxStates];
   for_each_direction(n, x, [&](Dual* at, int first) {
-    for (int i = 0; i < parts; ++i)
-      runge_kutta_4(dual_, layout_, step.time_s + i * h, h, step.history, in.command, in.external, at);
+    kernels.advance_dual(dual_, layout_, step.time_s, step.dt_s, parts, step.history, in.command, in.external, at);
     for (int i = 0; i < n; ++i) {
       next[i] = at[i].a;
       for (int d = 0; d < kDualWidth && first + d < n; ++d) F(i, first + d) = at[i].d[d];
@@ -183,7 +182,7 @@ Eigen::VectorXd ProcessModel::derivative(const Step& step, const Eigen::VectorXd
   A->resize(n, n);
   for_each_direction(n, x.data(), [&](const Dual* at, int first) {
     Dual rate[kMaxStates];
-    state_derivative(dual_, layout_, step.time_s, step.history, in.command, in.external, at, rate);
+    lane_kernels()[0].derivative_dual(dual_, layout_, step.time_s, step.history, in.command, in.external, at, rate);
     for (int i = 0; i < n; ++i) {
       x_dot(i) = rate[i].a;
       for (int d = 0; d < kDualWidth && first + d < n; ++d) (*A)(i, first + d) = rate[i].d[d];

@@ -56,14 +56,18 @@ class ProcessModel {
   /// Throws std::runtime_error naming state and rate if more than kMaxSubsteps are needed.
   int substeps(double dt_s) const;
 
-  /// All four throw std::runtime_error with time and state name if a result is not finite.
+  /// All of these throw std::runtime_error with time and state name if a result is not finite.
   /// x becomes f(x).
   void advance(const Step& step, double* x) const;
   /// Every column of X [n_states x count] becomes f(column), eight at a time.
   void advance_many(const Step& step, Eigen::Ref<Eigen::MatrixXd> X) const { advance_many(step, X, lane_kernels()[0]); }
   void advance_many(const Step& step, Eigen::Ref<Eigen::MatrixXd> X, const LaneKernels& kernels) const;
   /// x becomes f(x), and F the Jacobian there.
-  void advance_with_jacobian(const Step& step, double* x, Eigen::Ref<Eigen::MatrixXd> F) const;
+  void advance_with_jacobian(const Step& step, double* x, Eigen::Ref<Eigen::MatrixXd> F) const {
+    advance_with_jacobian(step, x, F, lane_kernels()[0]);
+  }
+  void advance_with_jacobian(const Step& step, double* x, Eigen::Ref<Eigen::MatrixXd> F,
+                             const LaneKernels& kernels) const;
 
   /// x' at x, and its Jacobian A = ∂x'/∂x [n_states x n_states].
   Eigen::VectorXd derivative(const Step& step, const Eigen::VectorXd& x, Eigen::MatrixXd* A = nullptr) const;

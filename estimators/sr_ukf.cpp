@@ -55,7 +55,9 @@ void SquareRootUkf::predict(const DiscreteProcess& process, const Eigen::MatrixX
   columns_.resize(n, points + Q_root.cols() + 1);
   auto d = columns_.leftCols(points);
   d = X_.rightCols(points).colwise() - X_.col(0);
-  const Eigen::VectorXd delta = W * d.rowwise().sum();
+  Eigen::VectorXd delta = W * d.rowwise().sum();
+  const Eigen::VectorXd spread = (W * d.rowwise().squaredNorm()).cwiseSqrt();
+  delta = (delta.array().abs() <= weights_.curvature_limit * spread.array()).select(delta, 0.0);
   x_ = X_.col(0) + delta;
   d *= std::sqrt(W);
   columns_.middleCols(points, Q_root.cols()) = Q_root;

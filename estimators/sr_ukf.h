@@ -17,6 +17,8 @@
 /// Source: van der Merwe and Wan, "The square-root unscented Kalman filter for state and parameter-estimation",
 /// ICASSP 2001; weights of Haghighipanah et al., IROS 2015.
 
+#include <limits>
+
 #include "estimators/gaussian_filter.h"
 
 namespace halyard {
@@ -26,6 +28,11 @@ struct UkfWeights {
   double alpha = 1e-3;
   double beta = 2;
   double kappa = 0;
+  /// δ of a state that is more than this share of √(W Σ d_i²) is left out. Spread over a kink (a cable that goes slack,
+  /// a gap that closes), sigma points with a small alpha see a curvature of slope difference / γ: δ grows without bound
+  /// although Jensen's inequality, δ² <= W Σ d_i², limits it, and even below that limit it is no Taylor term that
+  /// could be trusted unless it is small.
+  double curvature_limit = std::numeric_limits<double>::infinity();
 };
 
 class SquareRootUkf final : public GaussianFilter {
