@@ -42,6 +42,9 @@ struct EffectParameter {
   /// What the model's own tolerance allows this number to be off its neutral value without
   /// being an effect; 0 where the model has no such number.
   double tolerance = 0;
+  /// True if a bound is a limit of nature that may well be reached (a friction of nothing, a share of
+  /// one) rather than the end of what is plausible, where a fit explains nothing.
+  bool natural_bounds = false;
 };
 
 /// What is known at one joint at one instant. Torque and position signs are the joint's own.

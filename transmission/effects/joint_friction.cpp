@@ -23,8 +23,8 @@ class JointFriction : public EffectOf<JointFriction> {
     const bool turns = j.type == JointType::revolute;
     const double level = std::max(j.joint_coulomb, 1e-6);
     const double viscous = std::max(j.joint_viscous, 0.02 * level);
-    return {{"coulomb_change", turns ? "N m" : "N", 0, 0.3 * level, -j.joint_coulomb, 30 * level, j.tolerance.friction * j.joint_coulomb},
-            {"viscous_change", turns ? "N m s/rad" : "N s/m", 0, 0.3 * viscous, -j.joint_viscous, 300 * viscous, j.tolerance.friction * j.joint_viscous},
+    return {{"coulomb_change", turns ? "N m" : "N", 0, 0.3 * level, -j.joint_coulomb, 30 * level, j.tolerance.friction * j.joint_coulomb, true},
+            {"viscous_change", turns ? "N m s/rad" : "N s/m", 0, 0.3 * viscous, -j.joint_viscous, 300 * viscous, j.tolerance.friction * j.joint_viscous, true},
             {"asymmetry", turns ? "N m" : "N", 0, 0.1 * level, -10 * level, 10 * level, 0}};
   }
 

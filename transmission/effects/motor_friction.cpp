@@ -25,8 +25,8 @@ class MotorFriction : public EffectOf<MotorFriction> {
     const JointParameters<double>& j = arm.joint[joint];
     const double level = std::max(j.motor_coulomb, 1e-6);
     const double viscous = std::max(j.motor_viscous, 0.002 * level);
-    return {{"coulomb_change", "N m", 0, 0.3 * level, -j.motor_coulomb, 30 * level, j.tolerance.friction * j.motor_coulomb},
-            {"viscous_change", "N m s/rad", 0, 0.3 * viscous, -j.motor_viscous, 30 * viscous, j.tolerance.friction * j.motor_viscous},
+    return {{"coulomb_change", "N m", 0, 0.3 * level, -j.motor_coulomb, 30 * level, j.tolerance.friction * j.motor_coulomb, true},
+            {"viscous_change", "N m s/rad", 0, 0.3 * viscous, -j.motor_viscous, 30 * viscous, j.tolerance.friction * j.motor_viscous, true},
             {"asymmetry", "N m", 0, 0.1 * level, -10 * level, 10 * level, 0}};
   }
 

@@ -1,0 +1,358 @@
+#include "diagnosis/attribution.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+
+namespace halyard {
+namespace {
+
+/// An effect has to take this share of a channel's first mean square: less is the misfit of another
+/// effect's functional form, which is told as an unexplained rest and not chased.
+constexpr double kMattersShare = 0.05;
+/// What is left matters above this many times the floor of its channel.
+constexpr double kRestFactor = 4;
+/// A candidate whose quick look is less significant than this is not fitted whole.
+constexpr double kWorthAFit = 0.05;
+/// Two candidates whose gains differ by less than this many standard errors cannot be told apart.
+constexpr double kTellApart = 2.0;
+
+std::vector<double> log_likelihood(const Evidence& evidence, const Score& score) {
+  const auto& count = evidence.block_count();
+  std::vector<double> ln(count.size(), 0);
+  for (std::size_t b = 0; b < count.size(); ++b)
+    for (int c = 0; c < evidence.channels(); ++c) {
+      if (count[b][c] == 0) continue;
+      const double floor = evidence.floor()[c];
+      ln[b] -= 0.5 * count[b][c] / evidence.correlated_rows() * std::log(score.block_sum[b][c] / count[b][c] + floor * floor);
+    }
+  return ln;
+}
+
+/// Sum of the paired differences, and how many standard errors they lie above zero.
+struct Paired { double sum, t; int blocks; };
+
+Paired paired(const std::vector<double>& with, const std::vector<double>& without, const Evidence& evidence) {
+  std::vector<double> d;
+  for (std::size_t b = 0; b < with.size(); ++b) {
+    int rows = 0;
+    for (const int n : evidence.block_count()[b]) rows += n;
+    if (rows > 0) d.push_back(with[b] - without[b]);
+  }
+  double mean = 0, square = 0;
+  for (const double x : d) mean += x / d.size();
+  for (const double x : d) square += (x - mean) * (x - mean);
+  const double blocks = static_cast<double>(d.size());
+  const double error = d.size() > 1 ? std::sqrt(square / (blocks * (blocks - 1))) : 0;
+  return {mean * blocks, error > 0 ? mean / error : 0, static_cast<int>(d.size())};
+}
+
+double p_value(const Paired& p) {
+  if (p.blocks < 3) return 1;
+  const boost::math::students_t distribution(p.blocks - 1);
+  return boost::math::cdf(boost::math::complement(distribution, p.t));
+}
+
+Trial unusable(const PlacedEffect& effect) {
+  Trial t;
+  t.effect = effect;
+  return t;
+}
+
+class Search {
+ public:
+  Search(const Evidence& evidence, const ArmModel& model, const AttributionOptions& options,
+         const std::function<void(const std::string&, double)>& progress)
+      : evidence_(evidence), model_(model), options_(options), progress_(progress) {}
+
+  Attribution run() {
+    const Hypothesis nominal{model_.nominal, model_.effects};
+    given_ = nominal.effects.size();
+    say("nominal model", 0);
+    result_.nominal_score = evidence_.score(nominal);
+    if (!result_.nominal_score.finite)
+      throw std::runtime_error("the nominal model cannot be integrated along the measured motion: its cables or frictions are too stiff");
+    keep_sensitive_numbers(nominal);
+    result_.baseline = refit(nominal, result_.nominal_score);
+    result_.baseline_score = evidence_.score(result_.baseline.hypothesis);
+
+    Fit current = result_.baseline;
+    Score score = result_.baseline_score;
+    for (int round = 0; round < options_.most_effects; ++round)
+      if (!add_one(current, score)) break;
+    remove_idle(current, score);
+
+    result_.final_fit = current;
+    result_.final_score = score;
+    result_.significant_rest.assign(evidence_.channels(), false);
+    for (int c = 0; c < evidence_.channels(); ++c)
+      result_.significant_rest[c] = evidence_.has_channel(c) && std::sqrt(score.mean_square[c]) > kRestFactor * evidence_.floor()[c];
+    return std::move(result_);
+  }
+
+ private:
+  void say(const std::string& what, double fraction) const {
+    if (progress_) progress_(what, fraction);
+  }
+
+  /// A number whose whole tolerance moves no channel by a tenth of its floor cannot be learnt from these data.
+  void keep_sensitive_numbers(const Hypothesis& nominal) {
+    const std::vector<FitParameter> all = baseline_parameters(model_.nominal);
+    const auto columns = sensitivities(evidence_, nominal, all);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      std::vector<double> square(evidence_.channels(), 0), count(evidence_.channels(), 0);
+      for (std::size_t r = 0; r < columns[i].size(); ++r) {
+        const double change = columns[i][r] * (all[i].upper - all[i].nominal) / all[i].scale;
+        square[evidence_.row_channel()[r]] += change * change;
+        count[evidence_.row_channel()[r]] += 1;
+      }
+      bool seen = false;
+      for (int c = 0; c < evidence_.channels(); ++c)
+        seen = seen || (count[c] > 0 && std::sqrt(square[c] / count[c]) > 0.1 * evidence_.floor()[c]);
+      if (seen) numbers_.push_back(all[i]);
+    }
+  }
+
+  /// Baseline numbers that no effect of the hypothesis speaks for, and the parameters of its added effects.
+  std::vector<FitParameter> all_parameters(const Hypothesis& h) const {
+    std::vector<FitParameter> all;
+    for (const FitParameter& b : numbers_) {
+      bool covered = false;
+      for (std::size_t e = given_; e < h.effects.size(); ++e) covered = covered || effect_covers(h.effects[e], model_.nominal, b);
+      if (!covered) all.push_back(b);
+    }
+    for (std::size_t e = given_; e < h.effects.size(); ++e)
+      for (const FitParameter& p : effect_parameters(h, model_.nominal, static_cast<int>(e))) all.push_back(p);
+    return all;
+  }
+
+  /// A number that an effect speaks for goes back to the model's value.
+  Hypothesis with_effect(Hypothesis h, const PlacedEffect& effect) const {
+    h.effects.push_back(effect);
+    for (const FitParameter& b : baseline_parameters(model_.nominal))
+      if (effect_covers(effect, model_.nominal, b)) set_parameter(h, b, b.nominal);
+    return h;
+  }
+
+  /// Fits all numbers until it no longer helps: each pass weighs the channels by what the last one left.
+  Fit refit(const Hypothesis& h, const Score& before) const {
+    constexpr int kMostPasses = 5;
+    constexpr double kWorthAPass = 0.02;
+    Fit best;
+    Hypothesis at = h;
+    Score score = before;
+    double last = std::numeric_limits<double>::infinity();
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      const std::vector<FitParameter> parameters = all_parameters(at);
+      std::vector<FitParameter> numbers;
+      for (const FitParameter& p : parameters)
+        if (p.effect < 0) numbers.push_back(p);
+      FitOptions options;
+      options.frozen_baseline = true;
+      const Fit f = fit(evidence_, at, parameters, channel_scale(evidence_, score.fit_mean_square), options,
+                        sensitivities(evidence_, at, numbers));
+      if (!f.usable) break;
+      score = evidence_.score(f.hypothesis);
+      if (!score.finite) break;
+      double now = 0;
+      for (int c = 0; c < evidence_.channels(); ++c)
+        if (evidence_.has_channel(c)) now += std::log(score.fit_mean_square[c] + evidence_.floor()[c] * evidence_.floor()[c]);
+      if (now < last) best = f;
+      at = f.hypothesis;
+      if (now > last - kWorthAPass) break;
+      last = now;
+    }
+    return best;
+  }
+
+  std::vector<PlacedEffect> candidates(const Hypothesis& h) const {
+    std::vector<PlacedEffect> all;
+    for (const Effect* effect : effect_library()) {
+      for (int joint = effect->is_of_arm() ? -1 : 0; joint < (effect->is_of_arm() ? 0 : model_.n()); ++joint) {
+        if (joint >= 0 && !effect->applies(model_.nominal, joint)) continue;
+        const bool there = std::any_of(h.effects.begin(), h.effects.end(), [&](const PlacedEffect& e) {
+          return e.effect == effect && e.joint == joint;
+        });
+        if (!there) all.push_back(place_effect(*effect, model_.nominal, joint));
+      }
+    }
+    return all;
+  }
+
+  bool at_bound(const Hypothesis& h, int place) const {
+    for (const FitParameter& p : effect_parameters(h, model_.nominal, place)) {
+      const double value = parameter_value(h, p), reach = 1e-3 * (p.upper - p.lower);
+      // Its neutral value may be a bound as well: there a parameter is idle, not exhausted.
+      const bool idle = std::abs(value - p.nominal) <= reach;
+      if (!p.natural_bounds && !idle && (value < p.lower + reach || value > p.upper - reach)) return true;
+    }
+    return false;
+  }
+
+  /// The effect takes a share of a residual, and what it does to some signal is well above what its sensor resolves.
+  bool matters(const Score& before, const Score& after, const Hypothesis& h, int place) const {
+    bool share = false;
+    for (int c = 0; c < evidence_.channels(); ++c)
+      share = share || (evidence_.has_channel(c) && before.mean_square[c] - after.mean_square[c] >
+                                                        kMattersShare * result_.baseline_score.mean_square[c]);
+    if (!share) return false;
+    Hypothesis without = h;
+    without.effects.erase(without.effects.begin() + place);
+    const auto rows = evidence_.fit_rows({h}), bare = evidence_.fit_rows({without});
+    if (rows[0].empty() || bare[0].empty()) return !rows[0].empty();
+    std::vector<double> square(evidence_.channels(), 0), count(evidence_.channels(), 0);
+    for (std::size_t r = 0; r < rows[0].size(); ++r) {
+      const double change = rows[0][r] - bare[0][r];
+      square[evidence_.row_channel()[r]] += change * change;
+      count[evidence_.row_channel()[r]] += 1;
+    }
+    for (int c = 0; c < evidence_.channels(); ++c)
+      if (count[c] > 0 && std::sqrt(square[c] / count[c]) > kRestFactor * evidence_.floor()[c]) return true;
+    return false;
+  }
+
+  /// What the refit of the baseline costs: ½ Σ ((θ - nominal) / (tolerance / 2))².
+  double stretch(const Hypothesis& h) const {
+    double sum = 0;
+    for (const FitParameter& b : numbers_) {
+      const double u = (parameter_value(h, b) - b.nominal) / b.scale;
+      sum += 0.5 * u * u;
+    }
+    return sum;
+  }
+
+  Trial judge(const Hypothesis& h, const Score& before, const std::vector<double>& ln_before, double stretch_before,
+              const PlacedEffect& effect) const {
+    Trial t = unusable(effect);
+    const Score score = evidence_.score(h);
+    if (!score.finite) return t;
+    t.usable = true;
+    t.effect = h.effects.back();
+    t.at_bound = at_bound(h, static_cast<int>(h.effects.size()) - 1);
+    t.log_likelihood = log_likelihood(evidence_, score);
+    const Paired p = paired(t.log_likelihood, ln_before, evidence_);
+    t.gain = p.sum + stretch_before - stretch(h);
+    t.p_value = p_value(p);
+    t.matters = t.p_value < kWorthAFit && matters(before, score, h, static_cast<int>(h.effects.size()) - 1);
+    return t;
+  }
+
+  bool convincing(const Trial& t, std::size_t candidates) const {
+    return t.usable && !t.at_bound && t.matters && t.gain > 0 && t.p_value * static_cast<double>(candidates) < options_.significance;
+  }
+
+  /// One round: a quick look at every candidate, a full fit of the best, and the best of those.
+  bool add_one(Fit& current, Score& score) {
+    const std::vector<double> ln_before = log_likelihood(evidence_, score);
+    const std::vector<double> scale = channel_scale(evidence_, score.fit_mean_square);
+    // Before any effect is named the baseline's refit is bent by what is missing: the look starts at the model's numbers.
+    Fit from = current;
+    if (result_.rounds.empty()) from.hypothesis = {model_.nominal, model_.effects};
+    std::vector<FitParameter> numbers;
+    for (const FitParameter& p : all_parameters(from.hypothesis))
+      if (p.effect < 0) numbers.push_back(p);
+    const auto columns = sensitivities(evidence_, from.hypothesis, numbers);
+    if (columns.empty() && !numbers.empty()) return false;
+
+    const std::vector<PlacedEffect> all = candidates(current.hypothesis);
+    std::vector<Trial> trials(all.size());
+    std::atomic<std::size_t> done{0};
+    tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+      trials[i] = quick_look(from, numbers, columns, scale, score, ln_before, stretch(current.hypothesis), all[i]);
+      say("candidates of round " + std::to_string(result_.rounds.size() + 1), static_cast<double>(++done) / all.size());
+    });
+    const auto better = [](const Trial& a, const Trial& b) { return a.gain > b.gain; };
+    std::stable_sort(trials.begin(), trials.end(), better);
+
+    // The quick look holds baseline sensitivities fixed; the leaders are fitted whole.
+    constexpr std::size_t kLeaders = 5;
+    std::vector<Fit> fits(std::min(kLeaders, trials.size()));
+    std::vector<Trial> leaders(trials.begin(), trials.begin() + fits.size());
+    for (std::size_t i = 0; i < fits.size(); ++i) {
+      if (!(trials[i].gain > 0) || trials[i].p_value > kWorthAFit) continue;
+      say("best candidates of round " + std::to_string(result_.rounds.size() + 1), static_cast<double>(i) / fits.size());
+      fits[i] = refit(with_effect(from.hypothesis, trials[i].effect), score);
+      leaders[i] = fits[i].usable ? judge(fits[i].hypothesis, score, ln_before, stretch(current.hypothesis), trials[i].effect) : unusable(trials[i].effect);
+    }
+    std::size_t best = leaders.size();
+    for (std::size_t i = 0; i < leaders.size(); ++i)
+      if (convincing(leaders[i], all.size()) && (best == leaders.size() || leaders[i].gain > leaders[best].gain)) best = i;
+
+    Round round;
+    std::copy(leaders.begin(), leaders.end(), trials.begin());
+    if (best < leaders.size()) {
+      std::vector<PlacedEffect> like;
+      for (std::size_t i = 0; i < leaders.size(); ++i) {
+        if (i == best || !convincing(leaders[i], all.size())) continue;
+        const Paired p = paired(leaders[best].log_likelihood, leaders[i].log_likelihood, evidence_);
+        if (p.t < kTellApart) like.push_back(leaders[i].effect);
+      }
+      result_.alternatives.push_back(like);
+      current = fits[best];
+      score = evidence_.score(current.hypothesis);
+      round.accepted = true;
+      std::swap(trials[0], trials[best]);
+    }
+    round.trials = std::move(trials);
+    result_.rounds.push_back(std::move(round));
+    return best < leaders.size();
+  }
+
+  Trial quick_look(const Fit& current, const std::vector<FitParameter>& numbers, const std::vector<std::vector<double>>& columns,
+                   const std::vector<double>& scale, const Score& before, const std::vector<double>& ln_before,
+                   double stretch_before, const PlacedEffect& effect) const {
+    const Hypothesis start = with_effect(current.hypothesis, effect);
+    std::vector<FitParameter> parameters;
+    std::vector<std::vector<double>> kept;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (effect_covers(effect, model_.nominal, numbers[i])) continue;
+      parameters.push_back(numbers[i]);
+      kept.push_back(columns[i]);
+    }
+    for (const FitParameter& p : all_parameters(start))
+      if (p.effect >= 0) parameters.push_back(p);
+    FitOptions options;
+    options.iterations = 8;
+    options.frozen_baseline = true;
+    const Fit f = fit(evidence_, start, parameters, scale, options, kept);
+    return f.usable ? judge(f.hypothesis, before, ln_before, stretch_before, effect) : unusable(effect);
+  }
+
+  /// Each effect is tried for removal: one that a later one made idle goes.
+  void remove_idle(Fit& current, Score& score) {
+    for (std::size_t e = given_; e < current.hypothesis.effects.size() && current.hypothesis.effects.size() > given_ + 1;) {
+      Hypothesis without = current.hypothesis;
+      without.effects.erase(without.effects.begin() + e);
+      const Fit f = refit(without, score);
+      const Score s = f.usable ? evidence_.score(f.hypothesis) : Score{};
+      const bool idle = f.usable && s.finite &&
+                        (!matters(s, score, current.hypothesis, static_cast<int>(e)) ||
+                         p_value(paired(log_likelihood(evidence_, score), log_likelihood(evidence_, s), evidence_)) > options_.significance);
+      if (!idle) { ++e; continue; }
+      current = f;
+      score = s;
+      result_.alternatives.erase(result_.alternatives.begin() + (e - given_));
+    }
+  }
+
+  const Evidence& evidence_;
+  const ArmModel& model_;
+  const AttributionOptions& options_;
+  const std::function<void(const std::string&, double)>& progress_;
+  std::vector<FitParameter> numbers_;   ///< baseline numbers that the data can tell something of
+  std::size_t given_ = 0;   ///< effects that the model came with
+  Attribution result_;
+};
+
+}  // namespace
+
+Attribution attribute(const Evidence& evidence, const ArmModel& model, const AttributionOptions& options,
+                      const std::function<void(const std::string&, double)>& progress) {
+  return Search(evidence, model, options, progress).run();
+}
+
+}  // namespace halyard

@@ -1,0 +1,60 @@
+#pragma once
+/// Which effects explain the residual: candidates are fitted beside the baseline's numbers on the
+/// fitting blocks and judged on the deciding ones, one after another until none helps significantly.
+///
+///   ln L_b = -1/2 Σ_c n_bc/m ln(MSE_bc + floor_c²)       score of deciding block b
+///   gain   = Σ_b (ln L_b with the candidate - ln L_b without), and what it saves in stretching the baseline's
+///            numbers: ½ Σ ((θ - nominal) / (tolerance / 2))² without minus with
+///
+///   n_bc, MSE_bc   rows of channel c in block b, their mean square
+///   m              rows that are worth one independent sample
+///
+/// Each block has its own variance: no single block can carry or spoil a verdict.
+///
+/// A candidate is named if its gain is significant (paired t test over blocks, with the number of
+/// candidates respected), if it matters (a residual shrinks by more than what the model's tolerance
+/// and the sensors leave open), and if no parameter ends at the end of what is plausible.
+
+#include <functional>
+#include <string>
+
+#include "diagnosis/fit.h"
+
+namespace halyard {
+
+/// A candidate as it was judged.
+struct Trial {
+  PlacedEffect effect;
+  bool usable = false;           ///< it could be fitted
+  bool at_bound = false;
+  bool matters = false;
+  double gain = 0;               ///< on the deciding blocks, above the baseline of its round
+  double p_value = 1;            ///< of no gain
+  std::vector<double> log_likelihood;   ///< of each deciding block
+};
+
+/// One round of the search: all candidates against the same baseline.
+struct Round {
+  std::vector<Trial> trials;     ///< best first
+  bool accepted = false;         ///< the first one was added
+};
+
+struct Attribution {
+  Fit baseline;                              ///< numbers refitted within their tolerance, no effect
+  Fit final_fit;                             ///< with the effects that were named
+  std::vector<std::vector<PlacedEffect>> alternatives;   ///< for each effect of final_fit
+  std::vector<Round> rounds;
+  Score nominal_score, baseline_score, final_score;
+  std::vector<bool> significant_rest;        ///< [2n] what is left in the channel matters
+};
+
+struct AttributionOptions {
+  int most_effects = 6;
+  double significance = 0.01;    ///< of a round, over all its candidates
+};
+
+/// progress(text, fraction): what is being done, how far.
+Attribution attribute(const Evidence& evidence, const ArmModel& model, const AttributionOptions& options,
+                      const std::function<void(const std::string&, double)>& progress);
+
+}  // namespace halyard

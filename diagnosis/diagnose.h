@@ -1,0 +1,64 @@
+#pragma once
+/// Closes the loop: from a model and measured logs to what the model lacks, and the model with it.
+
+#include <optional>
+
+#include "diagnosis/attribution.h"
+
+namespace halyard {
+
+struct DiagnosisOptions {
+  RecordOptions record;
+  AttributionOptions attribution;
+};
+
+/// A number with its unit and 95 % interval.
+struct Estimated {
+  std::string name, unit;
+  double value = 0, lower = 0, upper = 0;
+  double nominal = 0;
+};
+
+struct NamedEffect {
+  PlacedEffect effect;
+  std::vector<Estimated> parameters;
+  std::vector<PlacedEffect> alternatives;
+};
+
+struct Unexplained {
+  int joint;                ///< 0-based
+  std::string signature;    ///< what the rest looks like
+};
+
+struct NotExcited {
+  std::string effect;
+  int joint;
+  std::string why;
+};
+
+/// Errors per joint, [n]; NaN where there is no sensor.
+struct PredictionError {
+  std::vector<double> joint_rms, joint_peak, torque_rms;
+};
+
+struct Diagnosis {
+  enum class Verdict { clean, effects, unknown } verdict = Verdict::clean;
+  std::vector<NamedEffect> effects;
+  std::vector<Estimated> refitted;
+  std::vector<Unexplained> unexplained;
+  std::vector<NotExcited> not_excited;
+  ArmModel revised;
+  std::string holdout;                   ///< what the errors were measured on
+  PredictionError before, after;         ///< on the hold-out, by the given and by the revised model
+  Attribution attribution;
+  std::vector<Record> holdout_records;
+  std::vector<FullPrediction> holdout_before, holdout_after;
+};
+
+/// Diagnoses a model by training logs. The hold-out decides nothing: it only tells the errors. Without one the last
+/// third of each training log is held out.
+/// Throws InputError for logs that cannot be compared with the model.
+Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, const std::optional<Log>& holdout,
+                   const DiagnosisOptions& options, const std::function<void(const std::string&, double)>& progress = {});
+
+}  // namespace halyard

@@ -1,0 +1,57 @@
+#pragma once
+/// The data that a diagnosis weighs: records cut into blocks of time, every other block for fitting
+/// and the rest for deciding, so that no decision rests on data that the fit saw.
+
+#include <span>
+
+#include "diagnosis/prediction.h"
+
+namespace halyard {
+
+/// Mean squares of residuals, one entry a channel (0..n-1 torque, n..2n-1 joint); and of each block.
+struct Score {
+  std::vector<double> mean_square;                 ///< [2n] over the deciding blocks; 0 without data
+  std::vector<double> fit_mean_square;             ///< [2n] over the fitting blocks
+  std::vector<std::vector<double>> block_sum;      ///< [deciding block][2n] sums of squares
+  bool finite = true;
+};
+
+class Evidence {
+ public:
+  Evidence(std::vector<Record> records, const ArmModel& model);
+
+  int n() const { return n_; }
+  int channels() const { return 2 * n_; }
+  const std::vector<Record>& records() const { return records_; }
+
+  /// Stacked residuals of the fitting blocks for each hypothesis, [hypothesis][row]; empty if not finite.
+  std::vector<std::vector<double>> fit_rows(const std::vector<Hypothesis>& hypotheses) const;
+  /// The channel of each fitting row.
+  const std::vector<int>& row_channel() const { return row_channel_; }
+  /// Mean squares on both kinds of blocks.
+  Score score(const Hypothesis& hypothesis) const;
+  /// Samples in each deciding block and channel: [block][2n].
+  const std::vector<std::vector<int>>& block_count() const { return block_count_; }
+
+  /// Below this root mean square a residual of the channel does not matter: encoder resolution for
+  /// joints, a fraction of the torque's own size for motors. [2n]
+  const std::vector<double>& floor() const { return floor_; }
+  /// Rows that carry as much information as one independent sample: residuals are correlated.
+  double correlated_rows() const { return correlated_rows_; }
+  bool has_channel(int c) const { return channel_rows_[c] > 0; }
+
+ private:
+  struct Place { int record; int channel; int index; int block; bool fit; };
+
+  int n_;
+  int stride_;
+  double correlated_rows_;
+  std::vector<Record> records_;
+  std::vector<Place> places_;
+  std::vector<int> row_channel_;
+  std::vector<int> channel_rows_;
+  std::vector<std::vector<int>> block_count_;
+  std::vector<double> floor_;
+};
+
+}  // namespace halyard

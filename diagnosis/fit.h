@@ -1,0 +1,64 @@
+#pragma once
+/// Fits numbers of a hypothesis to the fitting blocks: bounded least squares by Ceres, with sensitivities from
+/// hypotheses that run side by side.
+///
+///   minimise  Σ_c Σ_i (e_ci / s_c)² / m  +  Σ_b ((θ_b - nominal) / (tolerance / 2))²
+///
+///   e_ci   residual i of channel c            s_c   its scale: the channel's residual before the fit, or its floor
+///   m      rows that are worth one independent sample
+///   θ_b    baseline numbers, each kept within its tolerance; effects' parameters have bounds and no prior
+
+#include <string>
+
+#include "diagnosis/evidence.h"
+
+namespace halyard {
+
+/// One number that a fit may move.
+struct FitParameter {
+  std::string name;
+  std::string unit;
+  int effect = -1;        ///< place in Hypothesis::effects, or -1: a baseline number
+  int index = 0;          ///< parameter of the effect, or place in named_parameters()
+  double nominal = 0;     ///< baseline: the model's value
+  double lower = 0, upper = 0;
+  double scale = 1;       ///< one unit of the optimiser
+  bool natural_bounds = false;
+};
+
+double parameter_value(const Hypothesis& h, const FitParameter& p);
+void set_parameter(Hypothesis& h, const FitParameter& p, double value);
+
+/// Baseline numbers that the model knows within a tolerance. The ratio of a drive is one number, the capstan's radius.
+std::vector<FitParameter> baseline_parameters(const ArmParameters<double>& nominal);
+/// The numbers of the effect at `place` of the hypothesis.
+std::vector<FitParameter> effect_parameters(const Hypothesis& h, const ArmParameters<double>& nominal, int place);
+/// True if a change of the effect's parameters is a change of that baseline number: it then speaks for both.
+bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline);
+
+struct FitOptions {
+  int iterations = 10;
+  /// Sensitivities of baseline numbers are taken once, at the start: for a quick look at many candidates.
+  bool frozen_baseline = false;
+};
+
+struct Fit {
+  Hypothesis hypothesis;
+  std::vector<FitParameter> parameters;
+  std::vector<double> value, std_deviation;   ///< [parameters]; deviation from the curvature at the end
+  bool usable = false;                        ///< false: the start could not be integrated
+};
+
+/// Channel scales from residuals: sqrt(max(mean square, floor²)). [2n]
+std::vector<double> channel_scale(const Evidence& evidence, const std::vector<double>& mean_square);
+
+/// Sensitivities of the fitting rows to parameters, by central differences; empty if one could not be integrated.
+std::vector<std::vector<double>> sensitivities(const Evidence& evidence, const Hypothesis& at,
+                                               const std::vector<FitParameter>& parameters);
+
+/// baseline_sensitivities: of the baseline parameters in `parameters`, in their order, for frozen_baseline.
+Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& parameters,
+        const std::vector<double>& scale, const FitOptions& options = {},
+        const std::vector<std::vector<double>>& baseline_sensitivities = {});
+
+}  // namespace halyard

@@ -1,0 +1,18 @@
+#pragma once
+/// drive_record over lanes, compiled once per instruction set; the widest that the processor has is
+/// chosen at run time.
+
+#include "diagnosis/motion_kernel.h"
+
+namespace halyard {
+
+using LaneDrive = void (*)(const Transmission<Lanes>&, const DrivenInput*, std::size_t size, double start, double dt,
+                           const Chebyshev& scheme, int stride, const CommandHistory*, DrivenState<Lanes>&, Lanes* out);
+
+LaneDrive generic_lane_drive();
+#if defined(__x86_64__)
+LaneDrive avx2_lane_drive();
+LaneDrive avx512_lane_drive();
+#endif
+
+}  // namespace halyard

@@ -1,0 +1,223 @@
+#pragma once
+/// The arm driven by a measured motor motion: the joints follow through the cables, and the motor
+/// torque that the motion needs comes out. Stable whatever the model lacks, because nothing drifts.
+///
+///   given q_m(t), q_m'(t), q_m''(t):
+///   M(q) q'' + h(q, q') = F(q_m, q_m', q, q')           integrated: predicted joint position
+///   ε = τ(command) - (r_m / N) g - J q_m''               torque residual at the motor shaft
+///
+/// A rigidly driven joint has its motion prescribed; its transmission force λ follows from
+/// R q'' = (r_m / N) q_m'' and takes the place of g.
+
+#include "estimators/arm_dynamics.h"
+
+namespace halyard {
+
+/// Motor motion and known torques at one instant, [n].
+struct DrivenInput {
+  double motor_angle[kMaxJoints], motor_rate[kMaxJoints], motor_acceleration[kMaxJoints];
+  double torque[kMaxJoints], external[kMaxJoints];
+};
+
+/// State of the driven arm: [q, q'] of each joint, then the internal states of the effects.
+template <class T>
+struct DrivenState {
+  T q[kMaxJoints], v[kMaxJoints], z[kMaxStates];
+};
+
+/// Puts rigidly driven joints where their motors are; coupling comes from inboard joints only.
+template <class T>
+HALYARD_INLINE void prescribe_rigid(const ArmParameters<T>& arm, const DrivenInput& u, DrivenState<T>& x) {
+  for (int k = 0; k < arm.n; ++k) {
+    const JointParameters<T>& j = arm.joint[k];
+    if (j.drive != Drive::rigid) continue;
+    const T turns = j.motor_travel() / j.pulley_radius;
+    T q = turns * (u.motor_angle[k] - j.motor_encoder_offset), v = turns * u.motor_rate[k];
+    for (int i = 0; i < k; ++i) q -= j.coupling[i] * x.q[i], v -= j.coupling[i] * x.v[i];
+    x.q[k] = q;
+    x.v[k] = v;
+  }
+}
+
+/// The rigid chain over one step: it changes so little within 2 ms that it is taken once, half a step ahead.
+template <class T>
+struct ChainOverStep {
+  T M[kMaxJoints][kMaxJoints];        ///< factored mass matrix
+  T bias[kMaxJoints];                 ///< velocity and gravity forces
+  int n_rigid = 0;
+  int rigid[kMaxJoints];              ///< joints with a rigid drive
+  T response[kMaxJoints][kMaxJoints]; ///< M⁻¹ R_rᵀ of rigid drive r
+  T A[kMaxJoints][kMaxJoints];        ///< factored R M⁻¹ Rᵀ of the rigid drives
+};
+
+template <class T>
+HALYARD_INLINE void chain_over_step(const ArmParameters<T>& arm, const DrivenState<T>& x, double ahead,
+                                    ChainOverStep<T>& chain) {
+  const int n = arm.n;
+  T q[kMaxJoints], zero[kMaxJoints];
+  for (int k = 0; k < n; ++k) q[k] = x.q[k] + T(ahead) * x.v[k], zero[k] = T(0.0);
+  const ChainPose<T> pose = chain_pose(arm, q);
+  inverse_dynamics(arm, pose, x.v, zero, chain.bias);
+  mass_matrix(arm, pose, chain.M);
+  ldl_factor<T, kMaxJoints>(n, chain.M);
+  chain.n_rigid = 0;
+  for (int k = 0; k < n; ++k)
+    if (arm.joint[k].drive == Drive::rigid) chain.rigid[chain.n_rigid++] = k;
+  for (int r = 0; r < chain.n_rigid; ++r) {
+    const JointParameters<T>& j = arm.joint[chain.rigid[r]];
+    for (int i = 0; i < n; ++i) chain.response[r][i] = j.pulley_radius * j.coupling[i];
+    ldl_solve<T, kMaxJoints>(n, chain.M, chain.response[r]);
+    for (int c = 0; c < chain.n_rigid; ++c) {
+      const JointParameters<T>& other = arm.joint[chain.rigid[c]];
+      T sum = 0.0;
+      for (int i = 0; i < n; ++i) sum += other.pulley_radius * other.coupling[i] * chain.response[r][i];
+      chain.A[c][r] = sum;
+    }
+  }
+  ldl_factor<T, kMaxJoints>(chain.n_rigid, chain.A);
+}
+
+/// Rates of x; torque_residual [n] and joint_reading [n] if not null.
+template <class T>
+HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const ChainOverStep<T>& chain, double time,
+                                      const CommandHistory* history, const DrivenInput& u, const DrivenState<T>& x,
+                                      DrivenState<T>& rate, T* torque_residual, T* joint_reading) {
+  const ArmParameters<T>& arm = transmission.arm();
+  const int n = arm.n;
+  JointSignals<T> s[kMaxJoints];
+  for (int k = 0; k < n; ++k) {
+    s[k].command = u.torque[k];
+    s[k].motor_angle = u.motor_angle[k];
+    s[k].motor_rate = u.motor_rate[k];
+    s[k].joint_position = x.q[k];
+    s[k].joint_rate = x.v[k];
+    s[k].external_force = u.external[k];
+  }
+  // The encoder's reading is known, the angle is wanted: errors are small, one correction does.
+  transmission.sensor_errors(time, x.z, s);
+  for (int k = 0; k < n; ++k) {
+    s[k].motor_angle -= s[k].motor_error;
+    if (joint_reading) joint_reading[k] = x.q[k] + s[k].joint_error;
+  }
+  transmission.evaluate(time, history, x.z, s, rate.z);
+
+  T a[kMaxJoints];
+  for (int k = 0; k < n; ++k) a[k] = s[k].joint_force - chain.bias[k];
+  ldl_solve<T, kMaxJoints>(n, chain.M, a);
+
+  // Rigid drives: λ from (R M⁻¹ Rᵀ) λ = (r_m/N) q_m'' - R a, then a += M⁻¹ Rᵀ λ.
+  if (chain.n_rigid > 0) {
+    T lambda[kMaxJoints];
+    for (int r = 0; r < chain.n_rigid; ++r) {
+      const JointParameters<T>& j = arm.joint[chain.rigid[r]];
+      lambda[r] = j.motor_travel() * u.motor_acceleration[chain.rigid[r]];
+      for (int i = 0; i < n; ++i) lambda[r] -= j.pulley_radius * j.coupling[i] * a[i];
+    }
+    ldl_solve<T, kMaxJoints>(chain.n_rigid, chain.A, lambda);
+    for (int r = 0; r < chain.n_rigid; ++r) {
+      for (int i = 0; i < n; ++i) a[i] += chain.response[r][i] * lambda[r];
+      s[chain.rigid[r]].cable_force_motor = lambda[r];
+    }
+  }
+
+  for (int k = 0; k < n; ++k) {
+    rate.q[k] = x.v[k];
+    rate.v[k] = a[k];
+    if (!torque_residual) continue;
+    const JointParameters<T>& j = arm.joint[k];
+    torque_residual[k] = s[k].motor_torque - j.motor_travel() * s[k].cable_force_motor -
+                         j.rotor_inertia * u.motor_acceleration[k];
+  }
+}
+
+template <class T>
+HALYARD_INLINE void axpy(int n, int m, double h, const DrivenState<T>& x, const DrivenState<T>& rate, DrivenState<T>& y) {
+  for (int k = 0; k < n; ++k) {
+    y.q[k] = x.q[k] + T(h) * rate.q[k];
+    y.v[k] = x.v[k] + T(h) * rate.v[k];
+  }
+  for (int k = 0; k < m; ++k) y.z[k] = x.z[k] + T(h) * rate.z[k];
+}
+
+template <class T>
+HALYARD_INLINE void copy_state(int n, int m, const DrivenState<T>& from, DrivenState<T>& to) {
+  for (int k = 0; k < n; ++k) to.q[k] = from.q[k], to.v[k] = from.v[k];
+  for (int k = 0; k < m; ++k) to.z[k] = from.z[k];
+}
+
+/// Coefficients of the second-order Runge-Kutta-Chebyshev method with s stages: explicit, and stable for
+/// -|λ| h down to 2/3 (s² - 1) along the negative real axis, which is where friction and cable damping
+/// put the arm's fast eigenvalues. Source: Sommeijer, Shampine, Verwer, J. Comput. Appl. Math. 88 (1998).
+struct Chebyshev {
+  static constexpr int kMostStages = 48;
+  int stages;
+  double mu[kMostStages + 1], nu[kMostStages + 1], mu_h[kMostStages + 1], gamma_h[kMostStages + 1], node[kMostStages + 1];
+};
+
+/// One step of x from time over h; input(t) gives the DrivenInput.
+template <class T, class Input>
+HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time, double h, const Chebyshev& c,
+                                const CommandHistory* history, const Input& input, DrivenState<T>& x) {
+  const int n = transmission.arm().n, m = transmission.n_states();
+  ChainOverStep<T> chain;
+  chain_over_step(transmission.arm(), x, 0.5 * h, chain);
+  DrivenState<T> f0, f, before, now;
+  driven_derivative<T>(transmission, chain, time, history, input(time), x, f0, nullptr, nullptr);
+  copy_state(n, m, x, before);
+  axpy(n, m, c.mu_h[1] * h, x, f0, now);
+  for (int j = 2; j <= c.stages; ++j) {
+    const double at = time + c.node[j - 1] * h;
+    driven_derivative<T>(transmission, chain, at, history, input(at), now, f, nullptr, nullptr);
+    const T stay = 1 - c.mu[j] - c.nu[j], mu = c.mu[j], nu = c.nu[j], mu_h = c.mu_h[j] * h, gamma_h = c.gamma_h[j] * h;
+    const auto next = [&](const T& x0, const T& y1, T& y2, const T& rate, const T& rate0) {
+      y2 = stay * x0 + mu * y1 + nu * y2 + mu_h * rate + gamma_h * rate0;
+    };
+    for (int k = 0; k < n; ++k) {
+      next(x.q[k], now.q[k], before.q[k], f.q[k], f0.q[k]);
+      next(x.v[k], now.v[k], before.v[k], f.v[k], f0.v[k]);
+    }
+    for (int k = 0; k < m; ++k) next(x.z[k], now.z[k], before.z[k], f.z[k], f0.z[k]);
+    copy_state(n, m, now, f);       // f is free: it carries the stage over
+    copy_state(n, m, before, now);
+    copy_state(n, m, f, before);
+  }
+  copy_state(n, m, now, x);
+}
+
+/// A whole record. Every `stride`-th sample writes torque residual and predicted joint reading:
+/// out[(i / stride) * 2n + k] and [... + n + k]. x holds the initial state and ends as the final one.
+template <class T>
+HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
+                                 double start, double dt, const Chebyshev& scheme, int stride,
+                                 const CommandHistory* history,
+                                 DrivenState<T>& x, T* out) {
+  const ArmParameters<T>& arm = transmission.arm();
+  const int n = arm.n;
+  for (std::size_t i = 0; i < size; ++i) {
+    const double time = start + dt * static_cast<double>(i);
+    prescribe_rigid(arm, samples[i], x);
+    if (i % stride == 0) {
+      DrivenState<T> rate;
+      ChainOverStep<T> chain;
+      chain_over_step(arm, x, 0.0, chain);
+      T* row = out + i / stride * 2 * n;
+      driven_derivative<T>(transmission, chain, time, history, samples[i], x, rate, row, row + n);
+    }
+    if (i + 1 == size) break;
+    const DrivenInput &a = samples[i], &b = samples[i + 1];
+    const auto input = [&](double t) {
+      const double u = (t - time) / dt;
+      DrivenInput at = a;
+      for (int k = 0; k < n; ++k) {
+        at.motor_angle[k] += u * (b.motor_angle[k] - a.motor_angle[k]);
+        at.motor_rate[k] += u * (b.motor_rate[k] - a.motor_rate[k]);
+        at.motor_acceleration[k] += u * (b.motor_acceleration[k] - a.motor_acceleration[k]);
+        at.external[k] += u * (b.external[k] - a.external[k]);
+      }
+      return at;
+    };
+    driven_step(transmission, time, dt, scheme, history, input, x);
+  }
+}
+
+}  // namespace halyard

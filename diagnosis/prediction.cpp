@@ -1,0 +1,243 @@
+#include "diagnosis/prediction.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/lane_drive.h"
+#include "transmission/path_matrix.h"
+
+namespace halyard {
+namespace {
+
+LaneDrive lane_drive() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) return avx512_lane_drive();
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return avx2_lane_drive();
+#endif
+  return generic_lane_drive();
+}
+
+std::vector<DrivenInput> driven_inputs(const Record& record) {
+  std::vector<DrivenInput> inputs(record.size);
+  for (std::size_t i = 0; i < record.size; ++i)
+    for (int k = 0; k < record.n; ++k) {
+      inputs[i].motor_angle[k] = record.motor_angle[k][i];
+      inputs[i].motor_rate[k] = record.motor_rate[k][i];
+      inputs[i].motor_acceleration[k] = record.motor_acceleration[k][i];
+      inputs[i].torque[k] = record.has_torque(k) ? record.torque[k][i] : 0.0;
+      inputs[i].external[k] = record.external[k].empty() ? 0.0 : record.external[k][i];
+    }
+  return inputs;
+}
+
+CommandHistory whole_history(const Record& record, const std::vector<DrivenInput>& inputs) {
+  CommandHistory history(record.n, std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < record.size; ++i) history.push(record.time(i), inputs[i].torque);
+  return history;
+}
+
+template <class T>
+Transmission<T> make_transmission(const Hypothesis& h) {
+  std::vector<EffectInstance<T>> effects;
+  for (const PlacedEffect& e : h.effects) {
+    EffectInstance<T> lifted{e.effect, e.joint, {}};
+    for (int i = 0; i < kMaxEffectParameters; ++i) lifted.p[i] = e.p[i];
+    effects.push_back(lifted);
+  }
+  return Transmission<T>(lift<T>(h.nominal), std::move(effects));
+}
+
+Transmission<Lanes> pack_hypotheses(const Hypothesis* const* lane) {
+  ArmParameters<double> arms[kLaneWidth];
+  std::vector<EffectInstance<Lanes>> effects;
+  for (const PlacedEffect& e : lane[0]->effects) effects.push_back({e.effect, e.joint, {}});
+  for (int l = 0; l < kLaneWidth; ++l) {
+    arms[l] = lane[l]->nominal;
+    for (std::size_t e = 0; e < effects.size(); ++e)
+      for (int i = 0; i < kMaxEffectParameters; ++i) effects[e].p[i].set(l, lane[l]->effects[e].p[i]);
+  }
+  return Transmission<Lanes>(pack(arms), std::move(effects));
+}
+
+/// Jacobian of the driven state [q, q', z] at x, and its rates there.
+Eigen::MatrixXd driven_jacobian(const Transmission<Dual>& transmission, const Record& record, const DrivenInput& u,
+                                const DrivenState<double>& x, Eigen::VectorXd& rates) {
+  const int n = record.n, m = transmission.n_states(), size = 2 * n + m;
+  Eigen::MatrixXd J(size, size);
+  rates.resize(size);
+  for (int first = 0; first < size; first += kDualWidth) {
+    DrivenState<Dual> at, rate;
+    const auto entry = [&](DrivenState<Dual>& s, int i) -> Dual& { return i < n ? s.q[i] : i < 2 * n ? s.v[i - n] : s.z[i - 2 * n]; };
+    for (int i = 0; i < size; ++i) {
+      const double value = i < n ? x.q[i] : i < 2 * n ? x.v[i - n] : x.z[i - 2 * n];
+      entry(at, i) = i >= first && i < first + kDualWidth ? Dual::seed(value, i - first) : Dual(value);
+    }
+    ChainOverStep<Dual> chain;
+    chain_over_step(transmission.arm(), at, 0.0, chain);
+    driven_derivative<Dual>(transmission, chain, record.start, nullptr, u, at, rate, nullptr, nullptr);
+    for (int r = 0; r < size; ++r) {
+      rates(r) = entry(rate, r).a;
+      for (int c = first; c < std::min(size, first + kDualWidth); ++c) J(r, c) = entry(rate, r).d[c - first];
+    }
+  }
+  return J;
+}
+
+/// Where the joints rest at the record's first sample with the motors held and friction ignored.
+DrivenState<double> rest_state(const Hypothesis& h, const Transmission<Dual>& transmission, const Record& record,
+                               DrivenInput u) {
+  const int n = record.n;
+  const ArmParameters<double> arm = make_transmission<double>(h).arm();
+  DrivenState<double> x = {};
+  Eigen::VectorXd q_m(n), q0(n);
+  for (int k = 0; k < n; ++k) {
+    q_m(k) = u.motor_angle[k] - arm.joint[k].motor_encoder_offset;
+    q0(k) = record.has_joint(k) ? record.joint[k][0] - arm.joint[k].joint_encoder_offset : 0.0;
+    u.motor_rate[k] = u.motor_acceleration[k] = 0;
+  }
+  const Eigen::VectorXd start = unstretched_joints(arm, q_m, q0);
+  for (int k = 0; k < n; ++k) x.q[k] = start(k);
+  prescribe_rigid(arm, u, x);
+
+  std::vector<int> free;
+  for (int k = 0; k < n; ++k)
+    if (arm.joint[k].drive == Drive::cable) free.push_back(k);
+  const int f = static_cast<int>(free.size());
+  for (int iteration = 0; f > 0 && iteration < 20; ++iteration) {
+    Eigen::VectorXd rates;
+    const Eigen::MatrixXd J = driven_jacobian(transmission, record, u, x, rates);
+    Eigen::MatrixXd A(f, f);
+    Eigen::VectorXd a(f);
+    for (int r = 0; r < f; ++r) {
+      a(r) = rates(n + free[r]);
+      for (int c = 0; c < f; ++c) A(r, c) = J(n + free[r], free[c]);
+    }
+    const Eigen::VectorXd step = A.fullPivLu().solve(-a);
+    // A slack cable or a dead zone carries nothing: then the settling time has to find the rest.
+    if (!step.allFinite() || step.cwiseAbs().maxCoeff() > 0.5) break;
+    for (int r = 0; r < f; ++r) x.q[free[r]] += step(r);
+    if (step.cwiseAbs().maxCoeff() < 1e-12) break;
+  }
+  return x;
+}
+
+/// The method with just enough stages for an eigenvalue of that size over a step dt.
+Chebyshev chebyshev(int stages) {
+  Chebyshev c;
+  c.stages = stages;
+  const double w0 = 1 + 2.0 / 13 / (stages * stages);
+  // Chebyshev polynomials and their first two derivatives at w0.
+  std::vector<double> T = {1, w0}, d = {0, 1}, dd = {0, 0};
+  for (int j = 2; j <= stages; ++j) {
+    T.push_back(2 * w0 * T[j - 1] - T[j - 2]);
+    d.push_back(2 * T[j - 1] + 2 * w0 * d[j - 1] - d[j - 2]);
+    dd.push_back(4 * d[j - 1] + 2 * w0 * dd[j - 1] - dd[j - 2]);
+  }
+  const double w1 = d[stages] / dd[stages];
+  std::vector<double> b(stages + 1), a(stages + 1);
+  for (int j = 2; j <= stages; ++j) b[j] = dd[j] / (d[j] * d[j]);
+  b[0] = b[1] = b[2];
+  for (int j = 0; j <= stages; ++j) a[j] = 1 - b[j] * T[j];
+  c.mu_h[1] = b[1] * w1;
+  for (int j = 2; j <= stages; ++j) {
+    c.mu[j] = 2 * b[j] * w0 / b[j - 1];
+    c.nu[j] = -b[j] / b[j - 2];
+    c.mu_h[j] = 2 * b[j] * w1 / b[j - 1];
+    c.gamma_h[j] = -a[j - 1] * c.mu_h[j];
+    c.node[j] = w1 * dd[j] / d[j];
+  }
+  c.node[1] = c.node[2] / d[2];
+  return c;
+}
+
+/// Stages that keep one step of the record stable; 0 if it would take too many.
+int stable_stages(const Transmission<Dual>& transmission, const Record& record, DrivenInput u,
+                  const DrivenState<double>& x) {
+  for (int k = 0; k < record.n; ++k) u.motor_rate[k] = u.motor_acceleration[k] = 0;
+  Eigen::VectorXd rates;
+  const Eigen::MatrixXd J = driven_jacobian(transmission, record, u, x, rates);
+  if (!J.allFinite()) return 0;
+  // The mass matrix changes along the motion: a fifth in reserve.
+  const double reach = 1.2 * J.eigenvalues().cwiseAbs().maxCoeff() * record.dt;
+  const double stages = std::ceil(std::sqrt(1 + 1.5 * reach)) + 1;
+  return stages > Chebyshev::kMostStages ? 0 : static_cast<int>(stages);
+}
+
+}  // namespace
+
+std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesis>& hypotheses, int stride) {
+  static const LaneDrive drive = lane_drive();
+  const int n = record.n;
+  const std::size_t rows = (record.size + stride - 1) / stride;
+  const std::vector<DrivenInput> inputs = driven_inputs(record);
+  const CommandHistory history = whole_history(record, inputs);
+  std::vector<Residuals> all(hypotheses.size());
+
+  const std::size_t batches = (hypotheses.size() + kLaneWidth - 1) / kLaneWidth;
+  tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t b) {
+    const std::size_t first = b * kLaneWidth, count = std::min<std::size_t>(kLaneWidth, hypotheses.size() - first);
+    const Hypothesis* lane[kLaneWidth];
+    DrivenState<Lanes> x;
+    const Transmission<Dual> shape = make_transmission<Dual>(hypotheses[first]);
+    for (int k = 0; k < n; ++k) x.q[k] = x.v[k] = 0.0;
+    for (int k = 0; k < shape.n_states(); ++k) x.z[k] = 0.0;
+    int stages = 2;
+    for (std::size_t l = 0; l < kLaneWidth; ++l) {
+      lane[l] = &hypotheses[first + std::min(l, count - 1)];
+      const Transmission<Dual> transmission = make_transmission<Dual>(*lane[l]);
+      const DrivenState<double> rest = rest_state(*lane[l], transmission, record, inputs[0]);
+      for (int k = 0; k < n; ++k) x.q[k].set(static_cast<int>(l), rest.q[k]);
+      const int needed = stable_stages(transmission, record, inputs[0], rest);
+      if (needed == 0) lane[l] = nullptr;
+      stages = std::max(stages, needed);
+    }
+    // A lane that cannot be integrated is replaced by one that can, and reported.
+    const Hypothesis* able = nullptr;
+    for (std::size_t l = 0; l < count; ++l)
+      if (lane[l]) able = lane[l];
+    std::vector<Lanes> out(rows * 2 * n);
+    if (able) {
+      const Hypothesis* filled[kLaneWidth];
+      for (int l = 0; l < kLaneWidth; ++l) filled[l] = lane[l] ? lane[l] : able;
+      drive(pack_hypotheses(filled), inputs.data(), record.size, record.start, record.dt, chebyshev(stages), stride, &history, x,
+            out.data());
+    }
+    for (std::size_t l = 0; l < count; ++l) {
+      Residuals& r = all[first + l];
+      r.finite = lane[l] != nullptr;
+      r.channel.assign(2 * n, {});
+      for (int k = 0; k < n; ++k) {
+        std::vector<double>&torque = r.channel[k], &joint = r.channel[n + k];
+        if (record.has_torque(k)) torque.assign(rows, std::numeric_limits<double>::quiet_NaN());
+        if (record.has_joint(k)) joint.assign(rows, std::numeric_limits<double>::quiet_NaN());
+        for (std::size_t i = 0; r.finite && i < rows; ++i) {
+          const std::size_t at = i * stride;
+          const double tau = out[i * 2 * n + k][static_cast<int>(l)], q = out[i * 2 * n + n + k][static_cast<int>(l)];
+          if (!std::isfinite(tau) || !std::isfinite(q)) r.finite = false;
+          if (!torque.empty() && record.torque_valid[k][at] > 0) torque[i] = tau;
+          if (!joint.empty() && record.joint_valid[k][at] > 0) joint[i] = record.joint[k][at] - q;
+        }
+      }
+    }
+  });
+  return all;
+}
+
+FullPrediction predict_fully(const Record& record, const Hypothesis& hypothesis) {
+  const Residuals r = predict(record, {hypothesis}, 1)[0];
+  FullPrediction full;
+  full.torque_residual.assign(r.channel.begin(), r.channel.begin() + record.n);
+  full.joint_reading.resize(record.n);
+  for (int k = 0; k < record.n; ++k) {
+    if (!record.has_joint(k)) continue;
+    full.joint_reading[k].resize(record.size);
+    for (std::size_t i = 0; i < record.size; ++i) full.joint_reading[k][i] = record.joint[k][i] - r.channel[record.n + k][i];
+  }
+  return full;
+}
+
+}  // namespace halyard

@@ -1,0 +1,35 @@
+#pragma once
+/// What hypotheses about an arm predict of a record, many at a time.
+
+#include <functional>
+#include <vector>
+
+#include "diagnosis/record.h"
+
+namespace halyard {
+
+/// An arm as it may be: numbers and effects.
+struct Hypothesis {
+  ArmParameters<double> nominal;
+  std::vector<PlacedEffect> effects;
+};
+
+/// Residuals of one record under one hypothesis, every stride-th sample: [2n][ceil(size / stride)].
+/// Channel k < n: torque residual of motor k, N m. Channel n + k: measured minus predicted reading of
+/// joint k, rad | m. NaN where the record has no such signal or the sample cannot be compared.
+struct Residuals {
+  std::vector<std::vector<double>> channel;
+  bool finite = true;    ///< false: the hypothesis is so far off that its motion cannot be integrated
+};
+
+/// Residuals of each hypothesis over a record. All hypotheses must have the same effects at the same
+/// joints; only numbers differ. Deterministic, whatever the number of threads.
+std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesis>& hypotheses, int stride);
+
+/// Joint readings predicted at every sample, [n][size], beside the torque residuals: for the report.
+struct FullPrediction {
+  Signals joint_reading, torque_residual;
+};
+FullPrediction predict_fully(const Record& record, const Hypothesis& hypothesis);
+
+}  // namespace halyard

@@ -1,0 +1,52 @@
+#pragma once
+/// A log made ready for diagnosis: one uniform time grid, and motions, rates, accelerations and
+/// torques that all went through one zero-phase low-pass filter, so that they stay comparable.
+///
+///   q_m = K * reading,  q_m' = K' * reading,  q_m'' = K'' * reading,  τ = K * command
+///
+///   K   Gaussian kernel of standard deviation σ_t = 1 / (2π f_c), normalised so that constants,
+///       ramps and parabolas keep their value, slope and curvature
+///
+/// Differentiating the kernel instead of the reading is what keeps encoder quantisation out of
+/// q_m''; filtering the torque with the same kernel keeps J q_m'' = τ - ... true (Gautier, 1997).
+
+#include <vector>
+
+#include "model/arm_model.h"
+#include "model/log.h"
+
+namespace halyard {
+
+/// [n_joints][n_samples] everywhere; weights are 0 or 1.
+struct Record {
+  int n = 0;
+  double dt = 0;                                    ///< s
+  double start = 0;                                 ///< time of the first sample, s
+  std::size_t size = 0;
+  Signals motor_angle, motor_rate, motor_acceleration;   ///< readings: encoder offsets still inside
+  Signals torque;                                   ///< commanded, N m; the hold's half sample of delay removed
+  Signals joint;                                    ///< smoothed joint reading; empty: no sensor
+  Signals joint_raw;                                ///< the reading itself; NaN: missing
+  Signals external;                                 ///< measured load on the joint; empty: none
+  Signals joint_valid, torque_valid;                ///< 0 where a sample cannot be compared
+  std::string source;
+
+  double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
+  bool has_joint(int k) const { return !joint[k].empty(); }
+  bool has_torque(int k) const { return !torque[k].empty(); }
+};
+
+struct RecordOptions {
+  double cutoff_hz = 20;      ///< f_c
+  double settle_s = 0.5;      ///< from the start of a record: its unknown past fades out, not compared
+  double step_s = 0.002;      ///< grid, a whole number of the log's own samples of at most this length, at least one
+  double longest_gap_s = 0.05;   ///< longer gaps split a log into several records
+};
+
+/// One record per stretch of the log without a long gap. Throws InputError if no stretch is longer than a second.
+std::vector<Record> make_records(const Log& log, const ArmModel& model, const RecordOptions& options);
+
+/// Splits a log in time: the first part and the rest from `fraction` on.
+std::pair<Log, Log> split_log(const Log& log, double fraction);
+
+}  // namespace halyard

@@ -1,0 +1,109 @@
+#include "diagnosis/signature.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace halyard {
+namespace {
+
+struct Regressor { const char* name; std::vector<double> value; };
+
+/// Share of the variance of y that a regressor explains beyond a constant; of the constant itself, the share of the
+/// mean square.
+double explained(const std::vector<double>& y, const std::vector<double>& x) {
+  double my = 0, mx = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) my += y[i] / y.size(), mx += x[i] / x.size();
+  double xy = 0, xx = 0, yy = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    xy += (x[i] - mx) * (y[i] - my);
+    xx += (x[i] - mx) * (x[i] - mx);
+    yy += y[i] * y[i];
+  }
+  if (xx <= 0) return yy > 0 ? my * my * y.size() / yy : 0;
+  return yy > 0 ? xy * xy / xx / yy : 0;
+}
+
+/// Share of the power of the motor's motion, its mean removed, in its strongest line and that line's neighbours.
+struct Line { double share = 0, frequency = 0, amplitude = 0; };
+
+Line strongest_line(const Record& record, int k) {
+  const std::vector<double>& x = record.motor_angle[k];
+  const int stride = std::max(1, static_cast<int>(0.02 / record.dt));
+  std::vector<double> y;
+  for (std::size_t i = 0; i < x.size(); i += stride) y.push_back(x[i]);
+  const double n = static_cast<double>(y.size()), dt = record.dt * stride;
+  double mean = 0, power = 0;
+  for (const double v : y) mean += v / n;
+  for (double& v : y) v -= mean, power += v * v / n;
+  Line best;
+  if (power <= 0) return best;
+  // Least squares of one sine at each of a grid of frequencies, four to a resolution cell.
+  for (double f = 0.5 / (n * dt); f < 5; f += 0.25 / (n * dt)) {
+    Eigen::MatrixXd A(y.size(), 3);
+    Eigen::VectorXd b(y.size());
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      const double phase = 2 * std::numbers::pi * f * dt * static_cast<double>(i);
+      A.row(i) << std::cos(phase), std::sin(phase), 1;
+      b(i) = y[i];
+    }
+    const Eigen::Vector3d c = (A.transpose() * A).ldlt().solve(A.transpose() * b);
+    const double share = 1 - (b - A * c).squaredNorm() / (n * power);
+    if (share > best.share) best = {share, f, std::hypot(c(0), c(1))};
+  }
+  return best;
+}
+
+}  // namespace
+
+std::string signature(const Evidence& evidence, const Hypothesis& hypothesis, int joint) {
+  const int n = evidence.n();
+  std::string text;
+  for (const bool of_joint : {true, false}) {
+    const int c = of_joint ? n + joint : joint;
+    if (!evidence.has_channel(c)) continue;
+    std::vector<double> y, constant;
+    std::vector<Regressor> regressors = {{"a constant", {}}, {"position", {}}, {"rate", {}}, {"direction of motion", {}}, {"acceleration", {}}};
+    double square = 0;
+    for (const Record& record : evidence.records()) {
+      const int stride = std::max(1, static_cast<int>(0.02 / record.dt));
+      const Residuals r = predict(record, {hypothesis}, stride)[0];
+      if (r.channel[c].empty()) continue;
+      for (std::size_t i = 0; i < r.channel[c].size(); ++i) {
+        if (!std::isfinite(r.channel[c][i])) continue;
+        const std::size_t at = i * stride;
+        y.push_back(r.channel[c][i]);
+        square += y.back() * y.back();
+        const double rate = record.motor_rate[joint][at];
+        regressors[0].value.push_back(1);
+        regressors[1].value.push_back(record.motor_angle[joint][at]);
+        regressors[2].value.push_back(rate);
+        regressors[3].value.push_back(rate > 0 ? 1 : -1);
+        regressors[4].value.push_back(record.motor_acceleration[joint][at]);
+      }
+    }
+    if (y.empty()) continue;
+    const Regressor* most = nullptr;
+    double share = 0;
+    for (const Regressor& g : regressors)
+      if (const double e = explained(y, g.value); e > share) share = e, most = &g;
+    const double rms = std::sqrt(square / static_cast<double>(y.size()));
+    if (!text.empty()) text += "; ";
+    const bool turns = hypothesis.nominal.joint[joint].type == JointType::revolute;
+    text += fmt::format("{} residual {:.3g} {} RMS, {:.1f} times its floor", of_joint ? "joint" : "torque", rms,
+                        of_joint ? (turns ? "rad" : "m") : "N m", rms / evidence.floor()[c]);
+    if (most) text += fmt::format(", goes with {} ({:.0f} % of it)", most->name, 100 * share);
+  }
+  return text;
+}
+
+bool is_one_sinusoid(const std::vector<Record>& records, int joint) {
+  if (records.size() != 1) return false;
+  return strongest_line(records.front(), joint).share > 0.98;
+}
+
+}  // namespace halyard
