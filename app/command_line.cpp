@@ -1,0 +1,201 @@
+#include "app/command_line.h"
+
+// The one file that includes CLI11: it takes seconds to compile.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/check_command.h"
+#include "app/compare_command.h"
+#include "app/estimate_command.h"
+#include "app/estimator_list.h"
+#include "app/experiments_command.h"
+#include "app/plugins_command.h"
+#include "app/simulate_command.h"
+#include "app/sweep_command.h"
+#include "model/input_error.h"
+
+namespace halyard {
+namespace {
+
+/// A command is an add_..._command function: it declares options that write into a struct and says what runs. The
+/// struct lives in the callback.
+using Run = std::function<void()>;
+
+void finish(CLI::App& command, Run run) { command.callback(std::move(run)); }
+
+void add_columns_option(CLI::App& command, std::vector<std::string>& columns) {
+  command
+      .add_option("--column", columns,
+                  "where a column of the log comes from, over the model's own map; may be repeated")
+      ->type_name("NAME=COLUMN[,unit=U][,sign=-1][,scale=S][,offset=O]")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+std::string not_negative(const std::string& text) {
+  double value = 0;
+  const bool good = CLI::detail::lexical_cast(text, value) && value >= 0 && std::isfinite(value);
+  return good ? "" : in_quotes(text) + ": expected a number, 0 or more";
+}
+
+void add_skip_option(CLI::App& command, double& skip_s) {
+  command.add_option("--skip", skip_s, "start of the record that errors leave out, in s")
+      ->type_name("S")
+      ->check(not_negative)
+      ->capture_default_str();
+}
+
+void add_joint_torque_flag(CLI::App& command, bool& flag) {
+  command.add_flag("--use-joint-torque", flag, "give the estimators the log's measured external loads too");
+}
+
+void add_simulate_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("simulate", "run a scenario's plant, write a log and its ground truth");
+  const auto options = std::make_shared<SimulateOptions>();
+  command.add_option("SCENARIO.xml", options->scenario, "scenario file")->type_name("")->required();
+  command.add_option("--out", options->out, "log; the truth goes to LOG.truth.csv")->type_name("LOG.csv")->required();
+  finish(command, [options] { run_simulate(*options); });
+}
+
+void add_estimate_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("estimate", "run one estimator over a log, from motor signals alone");
+  const auto options = std::make_shared<EstimateCommandOptions>();
+  command.add_option("--model", options->model, "model file")->type_name("M.xml")->required();
+  command.add_option("--estimator", options->estimator, "name or path of a plug-in")
+      ->type_name("NAME_OR_PLUGIN.so")
+      ->required();
+  command.add_option("--data", options->data, "log")->type_name("LOG.csv")->required();
+  command.add_option("--out", options->out, "estimates")->type_name("EST.csv")->required();
+  add_columns_option(command, options->columns);
+  add_joint_torque_flag(command, options->use_joint_torque);
+  add_skip_option(command, options->skip_s);
+  finish(command, [options] { run_estimate(*options); });
+}
+
+void add_compare_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("compare", "run estimators head-to-head on the same data");
+  const auto options = std::make_shared<CompareCommandOptions>();
+  const auto estimators = std::make_shared<std::string>();
+  command.add_option("SCENARIO_OR_LOG", options->data, "scenario (.xml), which is simulated, or log")
+      ->type_name("")
+      ->required();
+  command.add_option("--model", options->model, "model file; default: the scenario's own")->type_name("M.xml");
+  command.add_option("--estimators", *estimators, "names or paths of plug-ins")->type_name("a,b,./c.so")->required();
+  command.add_option("--out", options->out, "folder of the report")->type_name("DIR")->required();
+  add_columns_option(command, options->columns);
+  add_joint_torque_flag(command, options->use_joint_torque);
+  add_skip_option(command, options->skip_s);
+  finish(command, [options, estimators] {
+    options->estimators = split_estimators(*estimators);
+    run_compare(*options);
+  });
+}
+
+void add_experiments_command(CLI::App& app) {
+  CLI::App& command =
+      *app.add_subcommand("experiments", "the paper's experiments A, B and C on the simulated RAVEN-II");
+  const auto options = std::make_shared<ExperimentsOptions>();
+  command.add_option("--out", options->out, "folder of the report")->type_name("DIR")->required();
+  command.add_option("--examples", options->examples, "folder of the examples; default: those of this program")
+      ->type_name("DIR");
+  finish(command, [options] { run_experiments(*options); });
+}
+
+void add_sweep_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("sweep", "a parameter study over a grid");
+  const auto options = std::make_shared<SweepCommandOptions>();
+  const auto shard = std::make_shared<std::string>();
+  command.add_option("SWEEP.xml", options->sweep, "sweep file")->type_name("")->required();
+  command.add_option("--out", options->out, "folder of the results")->type_name("DIR")->required();
+  command.add_option("--jobs", options->run.jobs, "threads; default: one per core")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  command.add_option("--shard", *shard, "compute part i of n, for halyard merge")->type_name("i/n");
+  command.add_flag("--resume", options->run.resume, "keep what is finished, compute the rest");
+  finish(command, [options, shard] {
+    if (!shard->empty()) options->run.shard = parse_shard(*shard);
+    run_sweep_command(*options);
+  });
+}
+
+void add_merge_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("merge", "put the parts of a sweep together");
+  const auto options = std::make_shared<MergeCommandOptions>();
+  command.add_option("DIR", options->parts, "folders that halyard sweep --shard wrote")->type_name("")->required();
+  command.add_option("--out", options->out, "folder of the whole; default: the first part")->type_name("DIR");
+  finish(command, [options] {
+    if (options->out.empty()) options->out = options->parts.front();
+    run_merge_command(*options);
+  });
+}
+
+void add_plugins_command(CLI::App& app) {
+  finish(*app.add_subcommand("plugins", "list the estimators, built-in and found"), run_plugins);
+}
+
+void add_check_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("check", "validate a model, scenario or sweep");
+  const auto file = std::make_shared<std::filesystem::path>();
+  command.add_option("FILE.xml", *file, "model, scenario or sweep")->type_name("")->required();
+  finish(command, [file] { run_check(*file); });
+}
+
+std::string command_names(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.append(names.empty() ? "" : ", ").append(command->get_name());
+  }
+  return names;
+}
+
+/// CLI11 takes a wrong command for a superfluous argument of a missing one.
+void check_command_name(const CLI::App& app, int argc, char** argv) {
+  const std::string name = argc < 2 ? "-" : argv[1];
+  if (name.starts_with("-")) return;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == name) return;
+  }
+  throw InputError("halyard: no command " + in_quotes(name) + "; expected one of " + command_names(app) +
+                   "; see halyard --help");
+}
+
+[[noreturn]] void fail_usage(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  const std::string command = parsed.empty() ? "halyard" : "halyard " + parsed.front()->get_name();
+  throw InputError(command + ": " + error.what() + "; see " + command + " --help" +
+                   (parsed.empty() ? "" : " or halyard --help"));
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app("Joint positions of cable-driven arms from motor signals: simulate, estimate, compare, diagnose.",
+               "halyard");
+  app.set_version_flag("--version", "halyard " HALYARD_VERSION);
+  add_simulate_command(app);
+  add_estimate_command(app);
+  add_compare_command(app);
+  add_experiments_command(app);
+  add_sweep_command(app);
+  add_merge_command(app);
+  add_plugins_command(app);
+  add_check_command(app);
+  check_command_name(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    fail_usage(app, error);
+  }
+  if (app.get_subcommands().empty()) {
+    throw InputError("halyard: a command is missing; expected one of " + command_names(app) + "; see halyard --help");
+  }
+  return 0;
+}
+
+}  // namespace halyard

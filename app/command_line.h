@@ -1,0 +1,9 @@
+#pragma once
+
+namespace halyard {
+
+/// Parses the arguments and runs the command. Returns 0 when it is done or help was asked for.
+/// Throws InputError for wrong usage or input, anything else for other failures.
+int run_command_line(int argc, char** argv);
+
+}  // namespace halyard

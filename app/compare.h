@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/error_statistics.h"
+#include "app/estimate.h"
+#include "app/joint_unit.h"
+#include "model/arm_model.h"
+#include "model/log.h"
+
+namespace halyard {
+
+/// Estimators head-to-head on the same data.
+struct Comparison {
+  std::string data;                     ///< scenario or log, as given
+  std::string model;                    ///< what the estimators believe, as given
+  std::string truth_from;               ///< what the errors are counted against; empty: nothing, no errors
+  double skip_s = 0;                    ///< errors count from this time after the first sample on
+  std::vector<JointUnit> units;         ///< [n]
+  Log truth;                            ///< joint_position, where known
+  std::vector<EstimatorRun> runs;
+  std::vector<std::vector<ErrorStatistics>> errors;   ///< [run][joint]
+
+  int n_joints() const { return static_cast<int>(units.size()); }
+  bool has_truth(int k) const { return truth.has_joint_position(k); }
+  /// The run named "kinematics", which the others are measured by; -1: none.
+  int baseline() const;
+  /// 1 - mean absolute error / that of the baseline; NaN without one.
+  double improvement_of(std::size_t run, int k) const;
+};
+
+struct CompareOptions {
+  double skip_s = 0.5;
+  bool use_joint_torque = false;
+  std::function<void(double)> progress = {};   ///< called with the fraction done
+};
+
+/// Runs each estimator over `measured` and counts its errors against the joint positions of `truth`, which has the same
+/// times. The strings of the result are the caller's to fill.
+/// Throws what make_estimator and run_estimator throw, std::invalid_argument if the times differ.
+Comparison compare_estimators(const ArmModel& model, const std::vector<std::string>& estimators, const Log& measured,
+                              const Log& truth, const CompareOptions& options = {});
+
+}  // namespace halyard

@@ -1,0 +1,109 @@
+#include "app/compare_command.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "app/comparison_figures.h"
+#include "app/comparison_output.h"
+#include "app/log_input.h"
+#include "app/output_check.h"
+#include "app/progress.h"
+#include "model/input_error.h"
+#include "model/model_file.h"
+#include "plant/scenario.h"
+#include "plant/simulate.h"
+
+namespace halyard {
+namespace {
+
+/// What the estimators get and what they are judged by.
+struct Data {
+  ArmModel model;
+  std::string model_path;
+  Log measured, truth;
+  std::string truth_from;
+};
+
+Data simulated_data(const CompareCommandOptions& options) {
+  if (!options.columns.empty()) {
+    throw InputError("halyard compare: --column is for logs, and " + in_quotes(options.data.string()) +
+                     " is a scenario; leave it out");
+  }
+  const Scenario scenario = read_scenario(options.data);
+  Data data;
+  const std::filesystem::path model = options.model.empty() ? scenario.model : options.model;
+  data.model = read_model(model);
+  data.model_path = model.string();
+  if (data.model.n() != scenario.robot.n()) {
+    throw InputError(fmt::format("{}: has {} joints and the scenario's robot {}; give a model of the same robot",
+                                 model.string(), data.model.n(), scenario.robot.n()));
+  }
+  Progress progress("simulate", scenario.duration_s, "s");
+  SimulationResult result = simulate(scenario, [&](double f) { progress.set(f * scenario.duration_s); });
+  data.measured = std::move(result.measured);
+  data.measured.source = options.data.string();
+  data.truth = std::move(result.truth);
+  data.truth_from = "truth of the simulation";
+  return data;
+}
+
+Data logged_data(const CompareCommandOptions& options) {
+  if (options.model.empty()) {
+    throw InputError("halyard compare: --model is missing; a log needs the model file of its robot, --model M.xml");
+  }
+  Data data;
+  data.model = read_model(options.model);
+  data.model_path = options.model.string();
+  data.measured = read_log_of(data.model, options.data, options.columns);
+  data.truth = data.measured;
+  const auto& sensors = data.truth.joint_position;
+  if (std::ranges::any_of(sensors, [](const auto& column) { return !column.empty(); }))
+    data.truth_from = "joint sensors";
+  if (const std::string note = ignored_columns_note(data.measured); !note.empty()) fmt::print("{}\n", note);
+  return data;
+}
+
+void print_errors(const Comparison& comparison) {
+  for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
+    const EstimatorRun& run = comparison.runs[i];
+    fmt::print("{} ({:.3g} us a step)\n", run.name, run.microseconds_per_step);
+    for (int k = 0; k < comparison.n_joints(); ++k) {
+      if (!comparison.has_truth(k)) continue;
+      const ErrorStatistics& error = comparison.errors[i][k];
+      const JointUnit& unit = comparison.units[k];
+      fmt::print("  joint {}: mean absolute error {} {}, RMS {} {}, peak {} {}", k + 1,
+                 shown_number(error.mean_absolute, unit), unit.shown, shown_number(error.rms, unit), unit.shown,
+                 shown_number(error.peak, unit), unit.shown);
+      if (int(i) != comparison.baseline() && comparison.baseline() >= 0) {
+        fmt::print(", {} better than kinematics", shown_percent(comparison.improvement_of(i, k)));
+      }
+      fmt::print("\n");
+    }
+  }
+}
+
+}  // namespace
+
+void run_compare(const CompareCommandOptions& options) {
+  check_output_folder(options.out);
+  const Data data = options.data.extension() == ".xml" ? simulated_data(options) : logged_data(options);
+  Comparison comparison;
+  {
+    const double work_s = data.measured.duration() * double(options.estimators.size());
+    Progress progress("estimate", work_s, "s");
+    comparison = compare_estimators(data.model, options.estimators, data.measured, data.truth,
+                                    {.skip_s = options.skip_s,
+                                     .use_joint_torque = options.use_joint_torque,
+                                     .progress = [&](double fraction) { progress.set(fraction * work_s); }});
+  }
+  comparison.data = options.data.string();
+  comparison.model = data.model_path;
+  comparison.truth_from = data.truth_from;
+  write_comparison(options.out, comparison);
+  print_errors(comparison);
+  fmt::print("report: {}\n", (options.out / "report.html").string());
+}
+
+}  // namespace halyard

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace halyard {
+
+struct CompareCommandOptions {
+  std::filesystem::path data;             ///< a scenario if it ends in .xml, otherwise a log
+  std::filesystem::path model;            ///< what the estimators believe; empty: the scenario's own model file
+  std::vector<std::string> estimators;
+  std::filesystem::path out;              ///< folder
+  std::vector<std::string> columns;       ///< entries of --column
+  bool use_joint_torque = false;
+  double skip_s = 0.5;
+};
+
+/// halyard compare: estimators head-to-head on a simulated scenario, against its truth, or on a log, against its joint
+/// sensors.
+void run_compare(const CompareCommandOptions& options);
+
+}  // namespace halyard

@@ -1,0 +1,30 @@
+#pragma once
+/// The parts of a report that show a comparison. Joints count from 0 here, from 1 in what is shown; positions and
+/// errors are shown in degrees or millimetres.
+
+#include <string>
+
+#include "app/compare.h"
+#include "app/report/chart.h"
+#include "app/report/page.h"
+
+namespace halyard {
+
+/// "1.234 deg" without the unit; "-" for NaN.
+std::string shown_number(double si_value, const JointUnit& unit);
+/// "36.8 %"; "-" for NaN.
+std::string shown_percent(double fraction);
+
+/// Truth, where known, and every estimate over time.
+report::Chart trajectory_chart(const Comparison& comparison, int k);
+/// Estimate minus truth over time.
+report::Chart error_chart(const Comparison& comparison, int k);
+/// Share of the counted samples by error.
+report::Chart error_histogram(const Comparison& comparison, int k);
+/// One row per joint and estimator; the least mean absolute error of a joint is marked.
+report::Table error_table(const Comparison& comparison);
+
+/// For every joint: a heading "<prefix>Joint 1", the trajectories, and where truth is known the errors.
+void add_joint_figures(report::Page& page, const Comparison& comparison, const std::string& prefix = "");
+
+}  // namespace halyard

@@ -1,0 +1,31 @@
+#pragma once
+/// What a comparison leaves behind. None of it holds wall times: the same inputs give the same bytes.
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "app/compare.h"
+#include "app/csv.h"
+
+namespace halyard {
+
+/// SI units; null where a number is not known.
+nlohmann::ordered_json to_json(const Comparison& comparison);
+
+/// JSON has no NaN: it becomes null.
+nlohmann::ordered_json number_or_null(double value);
+
+/// Indented, with a last line break; bytes of paths that are no UTF-8 become U+FFFD.
+std::string json_text(const nlohmann::ordered_json& json);
+
+/// Columns of error statistics, after whatever names the row: joint, unit, mean_absolute_error, ...
+std::vector<std::string> error_columns();
+/// Adds these cells for one run and joint.
+void add_error_cells(CsvTable& table, const Comparison& comparison, std::size_t run, int k);
+
+/// Writes report.html, comparison.json and comparison.csv into the folder.
+void write_comparison(const std::filesystem::path& folder, const Comparison& comparison);
+
+}  // namespace halyard

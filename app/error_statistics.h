@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+
+namespace halyard {
+
+/// How far an estimate x̂ is from the truth x, e = x̂ - x, over the samples that both have.
+///
+///   mean_absolute   Σ|e| / N          the paper's Eq. 18, which it calls RMS
+///   rms             sqrt(Σe² / N)
+///   peak            max |e|
+///   bias            Σe / N
+///   within_two_std  share of samples with |e| <= 2 σ, where the estimator gives a standard deviation σ > 0
+///
+/// All in the unit of x, but the last; NaN where no sample counts.
+struct ErrorStatistics {
+  std::size_t samples = 0;  ///< N
+  double mean_absolute = std::numeric_limits<double>::quiet_NaN();
+  double rms = std::numeric_limits<double>::quiet_NaN();
+  double peak = std::numeric_limits<double>::quiet_NaN();
+  double bias = std::numeric_limits<double>::quiet_NaN();
+  double within_two_std = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Samples where either is NaN do not count. std_deviation may be empty.
+/// Throws std::invalid_argument if the lengths differ.
+ErrorStatistics error_statistics(std::span<const double> estimate, std::span<const double> truth,
+                                 std::span<const double> std_deviation = {});
+
+/// By how much the mean absolute error is smaller than a baseline's: 1 - error / baseline. NaN without a baseline.
+double improvement(const ErrorStatistics& error, const ErrorStatistics& baseline);
+
+/// Index of the first time that is at least skip_s after the first; time.size() if there is none.
+std::size_t first_counted_sample(std::span<const double> time, double skip_s);
+
+}  // namespace halyard

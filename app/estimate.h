@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "estimators/estimator.h"
+#include "model/log.h"
+
+namespace halyard {
+
+/// What an estimator said of a log, sample by sample.
+struct EstimatorRun {
+  std::string name;
+  Log estimates;                      ///< time of the log, joint_position, joint_velocity; NaN before the start
+  Signals joint_position_std;         ///< [n] one standard deviation; 0 where the estimator has none
+  EstimatorReport report;
+  double mean_nis = 0;                ///< mean of νᵀ S⁻¹ ν over the motors measured, ~ 1 if the model is right
+  double microseconds_per_step = 0;   ///< wall time: differs from run to run
+};
+
+struct EstimateOptions {
+  /// Hands the log's measured external loads to the estimator. Otherwise it gets motor signals alone.
+  bool use_joint_torque = false;
+  /// Called about a hundred times a run, with the fraction done.
+  std::function<void(double)> progress = {};
+};
+
+/// Runs the estimator over all samples of the log: motor torque and position, and what the options add. It starts at
+/// the first sample that has the position of every motor.
+///
+/// Throws InputError if no sample has, std::runtime_error, naming estimator and time, if the estimator fails or gives
+/// an estimate that is not finite.
+EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const Log& log,
+                           const EstimateOptions& options = {});
+
+/// Writes time, joint_position_k, joint_velocity_k, joint_position_std_k as CSV; the file is complete or absent.
+void write_estimates(const std::filesystem::path& path, const EstimatorRun& run, const std::string& comment = "");
+
+}  // namespace halyard

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace halyard {
+
+/// "kinematics, sr_ukf,./mine.so" taken apart at the commas. Throws InputError for an empty name or one given twice.
+std::vector<std::string> split_estimators(std::string_view text);
+
+}  // namespace halyard

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "model/arm_model.h"
+
+namespace halyard {
+
+/// How a joint's position is written in files and shown in reports.
+struct JointUnit {
+  std::string si;            ///< rad | m
+  std::string shown;         ///< deg | mm
+  double shown_per_si = 1;
+};
+
+/// Of every joint of the arm.
+inline std::vector<JointUnit> joint_units(const ArmModel& model) {
+  std::vector<JointUnit> units;
+  for (int k = 0; k < model.n(); ++k) {
+    const bool revolute = model.nominal.joint[k].type == JointType::revolute;
+    units.push_back(revolute ? JointUnit{"rad", "deg", 180 / std::numbers::pi} : JointUnit{"m", "mm", 1e3});
+  }
+  return units;
+}
+
+}  // namespace halyard

@@ -1,0 +1,44 @@
+/// halyard: joint positions of cable-driven arms from motor signals.
+///
+/// Exit codes: 0 done; 2 wrong usage or unreadable or invalid input; 1 anything else. A failure is one line on stderr.
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+#include "app/command_line.h"
+#include "model/input_error.h"
+
+namespace {
+
+int fail(const std::exception& error, int code) {
+  std::string line = error.what();
+  std::ranges::replace_if(line, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  std::fprintf(stderr, "%s\n", line.c_str());
+  return code;
+}
+
+/// What was printed may still wait in a buffer: a full disk behind stdout is a failure too.
+void flush_stdout() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+    throw std::runtime_error(std::string("stdout: cannot be written: ") + std::strerror(errno));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const int code = halyard::run_command_line(argc, argv);
+    flush_stdout();
+    return code;
+  } catch (const halyard::InputError& error) {
+    return fail(error, 2);
+  } catch (const std::exception& error) {
+    return fail(error, 1);
+  }
+}

@@ -1,0 +1,48 @@
+#include "app/output_check.h"
+
+#include <unistd.h>
+
+#include <string>
+#include <system_error>
+
+#include "model/input_error.h"
+
+namespace halyard {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what) {
+  throw InputError("--out " + in_quotes(path.string()) + ": " + what);
+}
+
+}  // namespace
+
+void check_output_folder(const fs::path& path) {
+  if (path.empty()) fail(path, "is empty; give a path");
+  std::error_code error;
+  // Missing folders are created: the nearest one that exists decides.
+  fs::path existing = fs::absolute(path, error);
+  while (!fs::exists(existing, error) && existing.has_parent_path() && existing != existing.parent_path()) {
+    existing = existing.parent_path();
+  }
+  if (!fs::is_directory(existing, error))
+    fail(path, in_quotes(existing.string()) + " is not a folder; give another path");
+  if (::access(existing.c_str(), W_OK | X_OK) != 0) {
+    fail(path, "no permission to write in " + in_quotes(existing.string()) + "; give another path");
+  }
+}
+
+void check_output_file(const fs::path& path) {
+  if (path.empty()) fail(path, "is empty; give a file name");
+  std::error_code error;
+  if (fs::is_directory(path, error) || !path.has_filename()) fail(path, "is a folder; give a file name");
+  check_output_folder(path.has_parent_path() ? path.parent_path() : fs::path("."));
+}
+
+void check_not_input(const fs::path& out, const fs::path& input) {
+  std::error_code error;
+  if (fs::equivalent(out, input, error) && !error) fail(out, "would replace the input; give another file name");
+}
+
+}  // namespace halyard

@@ -1,0 +1,17 @@
+#pragma once
+/// Finds before long work what would keep its results from being written.
+
+#include <filesystem>
+
+namespace halyard {
+
+/// Throws InputError for an empty path, a folder, a parent that is a file, or one without permission to write.
+void check_output_file(const std::filesystem::path& path);
+
+/// Throws InputError if out is the same file as input, which it would replace.
+void check_not_input(const std::filesystem::path& out, const std::filesystem::path& input);
+
+/// Throws InputError unless files can be written into that folder, which need not exist yet.
+void check_output_folder(const std::filesystem::path& path);
+
+}  // namespace halyard

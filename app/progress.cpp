@@ -1,0 +1,65 @@
+#include "app/progress.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+namespace halyard {
+namespace {
+
+constexpr std::chrono::milliseconds kDrawEvery{100};
+constexpr const char* kWipeLine = "\r\033[K";
+
+std::string duration_text(double seconds) {
+  if (seconds < 100) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+}  // namespace
+
+Progress::Progress(std::string label, double total, std::string unit)
+    : label_(std::move(label)),
+      total_(total),
+      unit_(std::move(unit)),
+      visible_(total > 0 && ::isatty(STDERR_FILENO)),
+      start_(Clock::now()),
+      last_drawn_(start_) {}
+
+Progress::~Progress() {
+  if (drawn_) {
+    std::fputs(kWipeLine, stderr);
+    std::fflush(stderr);
+  }
+}
+
+void Progress::set(double done) {
+  if (!visible_) return;
+  const std::lock_guard lock(mutex_);
+  done_ = done;
+  draw();
+}
+
+void Progress::add(double amount) {
+  if (!visible_) return;
+  const std::lock_guard lock(mutex_);
+  done_ += amount;
+  draw();
+}
+
+void Progress::draw() {
+  const Clock::time_point now = Clock::now();
+  if (now - last_drawn_ < kDrawEvery || done_ <= 0) return;
+  last_drawn_ = now;
+  drawn_ = true;
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const double rate = done_ / elapsed;
+  fmt::print(stderr, "{}{}: {:3.0f} %   {:.3g} {}/s   {} left", kWipeLine, label_,
+             100 * std::min(1.0, done_ / total_), rate, unit_, duration_text(std::max(0.0, total_ - done_) / rate));
+  std::fflush(stderr);
+}
+
+}  // namespace halyard
