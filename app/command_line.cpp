@@ -10,6 +10,7 @@
 
 #include "app/check_command.h"
 #include "app/compare_command.h"
+#include "app/diagnose_command.h"
 #include "app/estimate_command.h"
 #include "app/estimator_list.h"
 #include "app/experiments_command.h"
@@ -93,6 +94,24 @@ void add_compare_command(CLI::App& app) {
     options->estimators = split_estimators(*estimators);
     run_compare(*options);
   });
+}
+
+void add_diagnose_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("diagnose", "find what the model lacks by measured data, and add it");
+  const auto options = std::make_shared<DiagnoseCommandOptions>();
+  command.add_option("--model", options->model, "model file")->type_name("M.xml")->required();
+  command.add_option("--data", options->data, "log to learn from; may be repeated")
+      ->type_name("LOG.csv")
+      ->required()
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_option("--holdout", options->holdout, "log to tell the errors on; default: the last third of each log")
+      ->type_name("LOG.csv");
+  command.add_option("--out", options->out, "folder of model.xml, diagnosis.json and report.html")
+      ->type_name("DIR")
+      ->required();
+  add_columns_option(command, options->columns);
+  finish(command, [options] { run_diagnose(*options); });
 }
 
 void add_experiments_command(CLI::App& app) {
@@ -179,6 +198,7 @@ int run_command_line(int argc, char** argv) {
   add_simulate_command(app);
   add_estimate_command(app);
   add_compare_command(app);
+  add_diagnose_command(app);
   add_experiments_command(app);
   add_sweep_command(app);
   add_merge_command(app);

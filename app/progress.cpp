@@ -62,4 +62,29 @@ void Progress::draw() {
   std::fflush(stderr);
 }
 
+StageProgress::StageProgress(std::string label)
+    : label_(std::move(label)), visible_(::isatty(STDERR_FILENO)), stage_start_(Clock::now()) {}
+
+StageProgress::~StageProgress() {
+  if (drawn_) {
+    std::fputs(kWipeLine, stderr);
+    std::fflush(stderr);
+  }
+}
+
+void StageProgress::set(const std::string& stage, double fraction) {
+  if (!visible_) return;
+  const std::lock_guard lock(mutex_);
+  const Clock::time_point now = Clock::now();
+  if (stage != stage_) {
+    stage_ = stage;
+    stage_start_ = now;
+  }
+  const double elapsed = std::chrono::duration<double>(now - stage_start_).count();
+  fmt::print(stderr, "{}{}: {}: {:3.0f} %", kWipeLine, label_, stage, 100 * std::min(1.0, fraction));
+  if (fraction > 0) fmt::print(stderr, "   {} left", duration_text(elapsed * (1 - fraction) / fraction));
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
 }  // namespace halyard

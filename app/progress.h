@@ -39,4 +39,28 @@ class Progress {
   bool drawn_ = false;
 };
 
+/// The same for work in stages whose length is not known beforehand:
+///
+///   diagnose: candidates of round 1:  42 %   3.1 s left
+class StageProgress {
+ public:
+  explicit StageProgress(std::string label);
+  StageProgress(const StageProgress&) = delete;
+  StageProgress& operator=(const StageProgress&) = delete;
+  ~StageProgress();
+
+  /// What is being done and which part of it is done, 0 to 1.
+  void set(const std::string& stage, double fraction);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  const std::string label_;
+  const bool visible_;
+  std::mutex mutex_;
+  std::string stage_;
+  Clock::time_point stage_start_;
+  bool drawn_ = false;
+};
+
 }  // namespace halyard

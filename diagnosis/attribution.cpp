@@ -185,10 +185,10 @@ class Search {
 
   bool at_bound(const Hypothesis& h, int place) const {
     for (const FitParameter& p : effect_parameters(h, model_.nominal, place)) {
-      const double value = parameter_value(h, p), reach = 1e-3 * (p.upper - p.lower);
+      const double value = parameter_value(h, p);
+      const auto close = [&](double bound) { return std::abs(value - bound) <= 1e-3 * std::max(std::abs(bound), 1e-3 * p.scale); };
       // Its neutral value may be a bound as well: there a parameter is idle, not exhausted.
-      const bool idle = std::abs(value - p.nominal) <= reach;
-      if (!p.natural_bounds && !idle && (value < p.lower + reach || value > p.upper - reach)) return true;
+      if (!p.natural_bounds && !close(p.nominal) && (close(p.lower) || close(p.upper))) return true;
     }
     return false;
   }
@@ -302,10 +302,37 @@ class Search {
     return best < leaders.size();
   }
 
+  /// Sizes that may lie anywhere over decades are tried over decades first: least squares finds only the nearest valley.
+  Hypothesis best_start(const Hypothesis& h, const std::vector<double>& scale) const {
+    constexpr double kDecades = 1e-4;
+    Hypothesis best = h;
+    const auto cost = [&](const std::vector<double>& rows) {
+      double sum = rows.empty() ? std::numeric_limits<double>::infinity() : 0;
+      for (std::size_t r = 0; r < rows.size(); ++r) {
+        const double e = rows[r] / scale[evidence_.row_channel()[r]];
+        sum += e * e;
+      }
+      return sum;
+    };
+    for (const FitParameter& p : effect_parameters(h, model_.nominal, static_cast<int>(h.effects.size()) - 1)) {
+      if (p.natural_bounds || p.lower < 0) continue;
+      std::vector<Hypothesis> tried(kLaneWidth, best);
+      const double low = std::max(p.lower, kDecades * p.upper);
+      for (int i = 1; i < kLaneWidth; ++i)
+        set_parameter(tried[i], p, low * std::pow(p.upper / low, (i - 0.5) / (kLaneWidth - 1)));
+      const auto rows = evidence_.fit_rows(tried);
+      std::size_t least = 0;
+      for (std::size_t i = 1; i < rows.size(); ++i)
+        if (cost(rows[i]) < cost(rows[least])) least = i;
+      best = tried[least];
+    }
+    return best;
+  }
+
   Trial quick_look(const Fit& current, const std::vector<FitParameter>& numbers, const std::vector<std::vector<double>>& columns,
                    const std::vector<double>& scale, const Score& before, const std::vector<double>& ln_before,
                    double stretch_before, const PlacedEffect& effect) const {
-    const Hypothesis start = with_effect(current.hypothesis, effect);
+    const Hypothesis start = best_start(with_effect(current.hypothesis, effect), scale);
     std::vector<FitParameter> parameters;
     std::vector<std::vector<double>> kept;
     for (std::size_t i = 0; i < numbers.size(); ++i) {

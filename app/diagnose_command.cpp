@@ -1,0 +1,57 @@
+#include "app/diagnose_command.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "app/diagnosis_output.h"
+#include "app/joint_unit.h"
+#include "app/log_input.h"
+#include "app/output_check.h"
+#include "app/progress.h"
+#include "diagnosis/diagnose.h"
+#include "model/model_file.h"
+#include "model/output_file.h"
+
+namespace halyard {
+
+void run_diagnose(const DiagnoseCommandOptions& options) {
+  check_output_folder(options.out);
+  const ArmModel model = read_model(options.model);
+  const auto read = [&](const std::filesystem::path& path) {
+    Log log = read_log_of(model, path, options.columns, /*torque_required=*/false);
+    if (const std::string note = ignored_columns_note(log); !note.empty()) fmt::print("{}\n", note);
+    return log;
+  };
+  std::vector<Log> training;
+  for (const auto& path : options.data) training.push_back(read(path));
+  std::optional<Log> holdout;
+  if (!options.holdout.empty()) holdout = read(options.holdout);
+
+  Diagnosis d;
+  {
+    StageProgress progress("diagnose");
+    d = diagnose(model, training, holdout, {}, [&](const std::string& what, double fraction) { progress.set(what, fraction); });
+  }
+  const bool given = d.effects.empty() && d.refitted.empty();
+  write_file_whole(options.out / "model.xml", model_to_xml(given ? model : d.revised));
+  write_file_whole(options.out / "diagnosis.json", diagnosis_json(d));
+  diagnosis_page(model, d).write(options.out / "report.html");
+
+  fmt::print("{}\n", verdict_line(d));
+  for (const NamedEffect& e : d.effects)
+    for (const Estimated& p : e.parameters)
+      fmt::print("  {} {}: {:.4g} {} (95 %: {:.4g} to {:.4g})\n", effect_label(e.effect), p.name, p.value, p.unit, p.lower, p.upper);
+  const std::vector<JointUnit> units = joint_units(model);
+  for (int k = 0; k < model.n(); ++k) {
+    if (std::isfinite(d.before.joint_rms[k]))
+      fmt::print("  joint {} position RMS on the hold-out: {:.4g} -> {:.4g} {}\n", k + 1,
+                 units[k].shown_per_si * d.before.joint_rms[k], units[k].shown_per_si * d.after.joint_rms[k], units[k].shown);
+    if (std::isfinite(d.before.torque_rms[k]))
+      fmt::print("  joint {} motor torque RMS on the hold-out: {:.4g} -> {:.4g} N m\n", k + 1, d.before.torque_rms[k],
+                 d.after.torque_rms[k]);
+  }
+  fmt::print("report: {}\n", (options.out / "report.html").string());
+}
+
+}  // namespace halyard
