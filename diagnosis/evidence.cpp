@@ -30,7 +30,7 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model) : n_(mode
   for (const Record& r : records_) total += r.dt * static_cast<double>(r.size), dt = std::min(dt, r.dt);
   stride_ = std::max(1, static_cast<int>(std::lround(1 / (kRowRate * dt))));
   correlated_rows_ = std::max(1.0, kCorrelationTime / (stride_ * dt));
-  const double block_s = std::clamp(total / 40, kCorrelationTime, 1.0);
+  const double block_s = std::clamp(total / 60, kCorrelationTime, 1.0);
 
   channel_rows_.assign(channels(), 0);
   int first_block = 0;

@@ -1,6 +1,7 @@
 #include "diagnosis/fit.h"
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -210,6 +211,8 @@ Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<Fit
   solver.parameter_tolerance = 1e-6;
   solver.logging_type = ceres::SILENT;
   solver.num_threads = 1;
+  // A trial step that cannot be integrated is foreseen; Ceres would warn of it on stderr.
+  FLAGS_minloglevel = google::GLOG_FATAL;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
   if (summary.termination_type == ceres::FAILURE) return result;

@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +11,10 @@
 
 namespace halyard {
 namespace {
+
+/// Before a record starts the arm is let down onto its cables with the motors held, for this long: what the cables
+/// remember of loading (hysteresis, slack, a dead zone) is then as after a real start.
+constexpr double kLetDown = 0.8;
 
 LaneDrive lane_drive() {
 #if defined(__x86_64__)
@@ -32,6 +35,12 @@ std::vector<DrivenInput> driven_inputs(const Record& record) {
       inputs[i].external[k] = record.external[k].empty() ? 0.0 : record.external[k][i];
     }
   return inputs;
+}
+
+/// The input with the motors at rest.
+DrivenInput standing(DrivenInput u) {
+  for (int k = 0; k < kMaxJoints; ++k) u.motor_rate[k] = u.motor_acceleration[k] = 0;
+  return u;
 }
 
 CommandHistory whole_history(const Record& record, const std::vector<DrivenInput>& inputs) {
@@ -87,41 +96,18 @@ Eigen::MatrixXd driven_jacobian(const Transmission<Dual>& transmission, const Re
   return J;
 }
 
-/// Where the joints rest at the record's first sample with the motors held and friction ignored.
-DrivenState<double> rest_state(const Hypothesis& h, const Transmission<Dual>& transmission, const Record& record,
-                               DrivenInput u) {
+/// Where the joints stand at the record's first sample if no cable is stretched; at rest, effects without a past.
+DrivenState<double> unstretched_state(const Hypothesis& h, const Record& record, const DrivenInput& u) {
   const int n = record.n;
   const ArmParameters<double> arm = make_transmission<double>(h).arm();
-  DrivenState<double> x = {};
-  Eigen::VectorXd q_m(n), q0(n);
+  Eigen::VectorXd q_m(n), q_undriven(n);
   for (int k = 0; k < n; ++k) {
     q_m(k) = u.motor_angle[k] - arm.joint[k].motor_encoder_offset;
-    q0(k) = record.has_joint(k) ? record.joint[k][0] - arm.joint[k].joint_encoder_offset : 0.0;
-    u.motor_rate[k] = u.motor_acceleration[k] = 0;
+    q_undriven(k) = record.has_joint(k) ? record.joint[k][0] - arm.joint[k].joint_encoder_offset : 0.0;
   }
-  const Eigen::VectorXd start = unstretched_joints(arm, q_m, q0);
-  for (int k = 0; k < n; ++k) x.q[k] = start(k);
-  prescribe_rigid(arm, u, x);
-
-  std::vector<int> free;
-  for (int k = 0; k < n; ++k)
-    if (arm.joint[k].drive == Drive::cable) free.push_back(k);
-  const int f = static_cast<int>(free.size());
-  for (int iteration = 0; f > 0 && iteration < 20; ++iteration) {
-    Eigen::VectorXd rates;
-    const Eigen::MatrixXd J = driven_jacobian(transmission, record, u, x, rates);
-    Eigen::MatrixXd A(f, f);
-    Eigen::VectorXd a(f);
-    for (int r = 0; r < f; ++r) {
-      a(r) = rates(n + free[r]);
-      for (int c = 0; c < f; ++c) A(r, c) = J(n + free[r], free[c]);
-    }
-    const Eigen::VectorXd step = A.fullPivLu().solve(-a);
-    // A slack cable or a dead zone carries nothing: then the settling time has to find the rest.
-    if (!step.allFinite() || step.cwiseAbs().maxCoeff() > 0.5) break;
-    for (int r = 0; r < f; ++r) x.q[free[r]] += step(r);
-    if (step.cwiseAbs().maxCoeff() < 1e-12) break;
-  }
+  const Eigen::VectorXd q = unstretched_joints(arm, q_m, q_undriven);
+  DrivenState<double> x = {};
+  for (int k = 0; k < n; ++k) x.q[k] = q(k);
   return x;
 }
 
@@ -155,9 +141,8 @@ Chebyshev chebyshev(int stages) {
 }
 
 /// Stages that keep one step of the record stable; 0 if it would take too many.
-int stable_stages(const Transmission<Dual>& transmission, const Record& record, DrivenInput u,
+int stable_stages(const Transmission<Dual>& transmission, const Record& record, const DrivenInput& u,
                   const DrivenState<double>& x) {
-  for (int k = 0; k < record.n; ++k) u.motor_rate[k] = u.motor_acceleration[k] = 0;
   Eigen::VectorXd rates;
   const Eigen::MatrixXd J = driven_jacobian(transmission, record, u, x, rates);
   if (!J.allFinite()) return 0;
@@ -189,9 +174,9 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
     for (std::size_t l = 0; l < kLaneWidth; ++l) {
       lane[l] = &hypotheses[first + std::min(l, count - 1)];
       const Transmission<Dual> transmission = make_transmission<Dual>(*lane[l]);
-      const DrivenState<double> rest = rest_state(*lane[l], transmission, record, inputs[0]);
-      for (int k = 0; k < n; ++k) x.q[k].set(static_cast<int>(l), rest.q[k]);
-      const int needed = stable_stages(transmission, record, inputs[0], rest);
+      const DrivenState<double> start = unstretched_state(*lane[l], record, inputs[0]);
+      for (int k = 0; k < n; ++k) x.q[k].set(static_cast<int>(l), start.q[k]);
+      const int needed = stable_stages(transmission, record, standing(inputs[0]), start);
       if (needed == 0) lane[l] = nullptr;
       stages = std::max(stages, needed);
     }
@@ -203,7 +188,13 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
     if (able) {
       const Hypothesis* filled[kLaneWidth];
       for (int l = 0; l < kLaneWidth; ++l) filled[l] = lane[l] ? lane[l] : able;
-      drive(pack_hypotheses(filled), inputs.data(), record.size, record.start, record.dt, chebyshev(stages), stride, &history, x,
+      const Transmission<Lanes> transmission = pack_hypotheses(filled);
+      const Chebyshev scheme = chebyshev(stages);
+      const std::vector<DrivenInput> held(static_cast<std::size_t>(kLetDown / record.dt) + 1, standing(inputs[0]));
+      std::vector<Lanes> unused(2 * n * 2);
+      drive(transmission, held.data(), held.size(), record.start, record.dt, scheme, static_cast<int>(held.size()), &history, x,
+            unused.data());
+      drive(transmission, inputs.data(), record.size, record.start, record.dt, scheme, stride, &history, x,
             out.data());
     }
     for (std::size_t l = 0; l < count; ++l) {

@@ -29,7 +29,7 @@ class Backlash : public EffectOf<Backlash> {
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
     JointSignals<T>& own = s[c.joint];
     const T inside = min(max(own.stretch, T(-c.p[0])), c.p[0]);
-    own.stretch_rate = select(abs(own.stretch) > c.p[0], own.stretch_rate, T(0.0));
+    own.stretch_rate = select(abs(own.stretch) >= c.p[0], own.stretch_rate, T(0.0));
     own.stretch -= inside;
   }
 };

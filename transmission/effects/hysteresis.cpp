@@ -9,7 +9,8 @@
 ///   z_y   where it yields: |z| < z_y                        m
 ///   ρ     its share of the stiffness                        -
 ///
-/// This is Bouc-Wen with n = 1, β = γ = 1 / (2 z_y): passive, and closed for every cycle.
+/// This is Bouc-Wen with n = 1, β = γ = 1 / (2 z_y): passive, and any cycle of stretch closes once it has been
+/// repeated.
 /// Source: Wen, J. Eng. Mech. 102 (1976); of robot cables Miyasaka et al., ICRA 2016.
 
 namespace halyard {

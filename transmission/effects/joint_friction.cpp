@@ -3,10 +3,10 @@
 
 /// Another friction at the joint than the model has, and its asymmetry:
 ///
-///   F' = F + ΔF_c tanh(v / v_s) + ΔF_v v + A tanh²(v / v_s)
+///   F' = F + ΔF_c tanh(v / v_s) + ΔF_v v + α F_c' tanh²(v / v_s)
 ///
 ///   ΔF_c, ΔF_v   change of the Coulomb level, of the viscous coefficient    N m | N, N m s/rad | N s/m
-///   A            half the difference of the Coulomb levels of both ways     N m | N
+///   α            asymmetry: the Coulomb level F_c' = F_c + ΔF_c is (1 + α) F_c' forward, (1 - α) F_c' backward
 ///
 /// Source: the paper's Eq. 4; asymmetry as in Armstrong-Helouvry et al., Automatica 30 (1994).
 
@@ -25,7 +25,7 @@ class JointFriction : public EffectOf<JointFriction> {
     const double viscous = std::max(j.joint_viscous, 0.02 * level);
     return {{"coulomb_change", turns ? "N m" : "N", 0, 0.3 * level, -j.joint_coulomb, 30 * level, j.tolerance.friction * j.joint_coulomb, true},
             {"viscous_change", turns ? "N m s/rad" : "N s/m", 0, 0.3 * viscous, -j.joint_viscous, 300 * viscous, j.tolerance.friction * j.joint_viscous, true},
-            {"asymmetry", turns ? "N m" : "N", 0, 0.1 * level, -10 * level, 10 * level, 0}};
+            {"asymmetry", "1", 0, 0.1, -1, 1, 0}};
   }
 
   template <class T>
@@ -36,7 +36,7 @@ class JointFriction : public EffectOf<JointFriction> {
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
     const T sign = smooth_sign(s[c.joint].joint_rate, c.arm.joint[c.joint].joint_smoothing);
-    s[c.joint].joint_force -= c.p[2] * sign * sign;
+    s[c.joint].joint_force -= c.p[2] * c.arm.joint[c.joint].joint_coulomb * sign * sign;
   }
 };
 

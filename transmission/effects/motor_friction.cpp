@@ -3,10 +3,10 @@
 
 /// Another friction at the motor than the model has, and its asymmetry:
 ///
-///   F' = F + ΔF_c tanh(v / v_s) + ΔF_v v + A tanh²(v / v_s)
+///   F' = F + ΔF_c tanh(v / v_s) + ΔF_v v + α F_c' tanh²(v / v_s)
 ///
 ///   ΔF_c, ΔF_v   change of the Coulomb level, of the viscous coefficient    N m, N m s/rad
-///   A            half the difference of the Coulomb levels of both ways     N m
+///   α            asymmetry: the Coulomb level F_c' = F_c + ΔF_c is (1 + α) F_c' forward, (1 - α) F_c' backward
 ///
 /// Source: the paper's Eq. 5; asymmetry as in Armstrong-Helouvry et al., Automatica 30 (1994).
 
@@ -27,7 +27,7 @@ class MotorFriction : public EffectOf<MotorFriction> {
     const double viscous = std::max(j.motor_viscous, 0.002 * level);
     return {{"coulomb_change", "N m", 0, 0.3 * level, -j.motor_coulomb, 30 * level, j.tolerance.friction * j.motor_coulomb, true},
             {"viscous_change", "N m s/rad", 0, 0.3 * viscous, -j.motor_viscous, 30 * viscous, j.tolerance.friction * j.motor_viscous, true},
-            {"asymmetry", "N m", 0, 0.1 * level, -10 * level, 10 * level, 0}};
+            {"asymmetry", "1", 0, 0.1, -1, 1, 0}};
   }
 
   template <class T>
@@ -38,7 +38,7 @@ class MotorFriction : public EffectOf<MotorFriction> {
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
     const T sign = smooth_sign(s[c.joint].motor_rate, c.arm.joint[c.joint].motor_smoothing);
-    s[c.joint].motor_torque -= c.p[2] * sign * sign;
+    s[c.joint].motor_torque -= c.p[2] * c.arm.joint[c.joint].motor_coulomb * sign * sign;
   }
 };
 
