@@ -1,5 +1,6 @@
 #pragma once
-/// The built-in estimators of an arm. All options have defaults; see README.md of each plug-in for what they mean.
+/// The built-in estimators of an arm. All options have defaults. Options of sr_ukf and ekf: those of noise.h and
+/// arm_filter.h; of sr_ukf besides: alpha, beta, kappa and curvature_limit (0.03) of sr_ukf.h.
 
 #include <memory>
 

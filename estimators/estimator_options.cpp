@@ -43,8 +43,8 @@ Eigen::VectorXd OptionReader::per_joint(const std::string& name, const Eigen::Ve
   const auto found = options_.find(name);
   if (found == options_.end()) return standard;
   const Eigen::Index n = standard.size();
-  const std::string expected = "one number, or one for each of the " + std::to_string(n) + " joints with blanks between, " +
-                               range_text(lower, upper);
+  const std::string expected = "one number, or one for each of the " + std::to_string(n) +
+                               " joints with blanks between, " + range_text(lower, upper);
   std::istringstream words(found->second);
   std::vector<double> values;
   for (std::string word; words >> word;) {

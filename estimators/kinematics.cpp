@@ -28,7 +28,8 @@ void KinematicsEstimator::reset(const Sample& first) {
 
 Innovation KinematicsEstimator::update(const Sample& sample) {
   const double dt = sample.time_s - time_;
-  if (!(dt > 0)) throw std::invalid_argument("kinematics: time does not increase at " + std::to_string(sample.time_s) + " s");
+  if (!(dt > 0))
+    throw std::invalid_argument("kinematics: time does not increase at " + std::to_string(sample.time_s) + " s");
   const Eigen::VectorXd q = joint_position(sample);
   estimate_.joint_velocity = (q - estimate_.joint_position) / dt;
   estimate_.joint_position = q;

@@ -9,11 +9,15 @@
 ///   t_f, t_m   the model's tolerances of friction and masses: what it may be wrong by without being another model
 ///   F_c,m, F_c,q   Coulomb levels of motor and joint
 ///
-/// A model that is wrong stays wrong for a while: the errors of torque and force have the correlation time τ, and a
+/// A model that is wrong stays wrong for a while: the errors of torque and force have a correlation time τ, and a
 /// filter with white noise needs the spectral density 2 σ² τ for them. Over a step dt they act as a constant
 /// acceleration of that density (Bar-Shalom, Li, Kirubarajan 2001, section 6.3.2):
 ///
 ///   Q_root = [½ dt² ; dt] B σ √(2 τ / dt),   B: accelerations of motors and joints per torque and force
+///
+/// τ = 1 ms by default. With it νᵀS⁻¹ν of the RAVEN-II's three motors, which ought to be 3, is 2.6 where the model is
+/// exact and 2.7 to 3.2 where all frictions or masses are off by their tolerances; with 0.1 ms it is 2.8 and 3.5 to 8.5,
+/// with 10 ms 2.3 in all cases. Joint errors on exact records hardly change from 0.01 to 10 ms.
 ///
 /// The start is at rest in static equilibrium. How far gravity stretches the cables, and how far friction may hold the
 /// joints off, is uncertain: σ of the stretch = t_s |x| + F_c,q / (√3 K), K the stiffness of the cable.

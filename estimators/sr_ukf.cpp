@@ -7,6 +7,21 @@
 #include <stdexcept>
 
 namespace halyard {
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kRoundings = 4;   // of one evaluation of f or h, relative to result and argument
+
+/// W Σ d_i over the columns of d, less what is rounding of numbers of that `size` or beyond the limit.
+Eigen::VectorXd mean_shift(const Eigen::Ref<const Eigen::MatrixXd>& d, const Eigen::VectorXd& size, double W,
+                           double curvature_limit) {
+  const Eigen::VectorXd sum = W * d.rowwise().sum();
+  const Eigen::ArrayXd rounding = kRoundings * kEps * W * static_cast<double>(d.cols()) * size.array();
+  const Eigen::ArrayXd spread = (W * d.rowwise().squaredNorm()).cwiseSqrt();
+  return (sum.array().abs() > rounding && sum.array().abs() <= curvature_limit * spread).select(sum, 0.0);
+}
+
+}  // namespace
 
 SquareRootUkf::SquareRootUkf(const UkfWeights& weights) : weights_(weights) {
   if (!(weights.alpha > 0)) throw std::invalid_argument("unscented transform: alpha must be positive");
@@ -24,7 +39,8 @@ void SquareRootUkf::place_sigma_points(Eigen::MatrixXd& X) const {
   X.resize(n, 2 * n + 1);
   X.col(0) = x_;
   X.middleCols(1, n) = (gamma * S_).colwise() + x_;
-  X.rightCols(n) = (-gamma * S_).colwise() + x_;
+  // Opposite to what the first half was rounded to: a pair that is not symmetric would tell of a curvature.
+  X.rightCols(n) = (-(X.middleCols(1, n).colwise() - x_)).colwise() + x_;
 }
 
 void SquareRootUkf::root_with_central(Eigen::MatrixXd& columns, const Eigen::VectorXd& v, Eigen::MatrixXd& L) {
@@ -41,7 +57,7 @@ void SquareRootUkf::root_with_central(Eigen::MatrixXd& columns, const Eigen::Vec
   }
   ++repaired_;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(P);
-  const double floor = std::numeric_limits<double>::epsilon() * modes.eigenvalues().cwiseAbs().maxCoeff();
+  const double floor = kEps * modes.eigenvalues().cwiseAbs().maxCoeff();
   columns.leftCols(P.rows()) = modes.eigenvectors() * modes.eigenvalues().cwiseMax(floor).cwiseSqrt().asDiagonal();
   columns.rightCols(columns.cols() - P.cols()).setZero();
   root_.compute(columns, L);
@@ -55,9 +71,8 @@ void SquareRootUkf::predict(const DiscreteProcess& process, const Eigen::MatrixX
   columns_.resize(n, points + Q_root.cols() + 1);
   auto d = columns_.leftCols(points);
   d = X_.rightCols(points).colwise() - X_.col(0);
-  Eigen::VectorXd delta = W * d.rowwise().sum();
-  const Eigen::VectorXd spread = (W * d.rowwise().squaredNorm()).cwiseSqrt();
-  delta = (delta.array().abs() <= weights_.curvature_limit * spread.array()).select(delta, 0.0);
+  const Eigen::VectorXd size = x_.cwiseAbs().cwiseMax(X_.cwiseAbs().rowwise().maxCoeff());
+  const Eigen::VectorXd delta = mean_shift(d, size, W, weights_.curvature_limit);
   x_ = X_.col(0) + delta;
   d *= std::sqrt(W);
   columns_.middleCols(points, Q_root.cols()) = Q_root;
@@ -78,7 +93,7 @@ Innovation SquareRootUkf::update(const MeasurementModel& measurement, const Eige
   const Eigen::VectorXd z_0 = measurement.read(X_.col(0));
   Eigen::MatrixXd e(m, points + m + 1);
   for (Eigen::Index i = 0; i < points; ++i) e.col(i) = measurement.read(X_.col(i + 1)) - z_0;
-  const Eigen::VectorXd epsilon = W * e.leftCols(points).rowwise().sum();
+  const Eigen::VectorXd epsilon = mean_shift(e.leftCols(points), z_0.cwiseAbs(), W, weights_.curvature_limit);
   const Eigen::VectorXd nu = z - z_0 - epsilon;
   check_measurement(nu);
 
@@ -96,7 +111,8 @@ Innovation SquareRootUkf::update(const MeasurementModel& measurement, const Eige
   auto d = columns_.leftCols(points);
   d = root_W * (X_.rightCols(points).colwise() - x_);
   const Eigen::MatrixXd P_yx = e.leftCols(points) * d.transpose();
-  const Eigen::MatrixXd K = innovation.S_root.transpose().triangularView<Eigen::Upper>().solve(S_y.solve(P_yx)).transpose();
+  const auto S_y_transposed = innovation.S_root.transpose().triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd K = S_y_transposed.solve(S_y.solve(P_yx)).transpose();
   x_ += K * nu;
   d -= K * e.leftCols(points);
   columns_.middleCols(points, m) = K * R_root;

@@ -1,13 +1,15 @@
 #pragma once
 /// The square-root unscented Kalman filter. Sigma points X_0 = x and X_±i = x ± γ S_i, γ² = n + λ = α² (n + κ), share
-/// one weight W = 1 / (2 (n + λ)); the central point's are W_0m = 1 - 2nW and W_0c = W_0m + 1 - α² + β. With the paper's
-/// α = 1e-3 these are -1e6 and 4e4, and sums with them lose a motor angle of 431 rad. Written relative to
-/// the central point the large weight cancels exactly:
+/// one weight W = 1 / (2 (n + λ)); the central point's are W_0m = 1 - 2nW and W_0c = W_0m + 1 - α² + β. With the
+/// paper's α = 1e-3 and 12 states these are 4e4 and -1e6, and sums with them lose a motor angle of 431 rad. Written
+/// relative to the central point the large weight cancels exactly:
 ///
 ///   d_i = f(X_i) - f(X_0),   δ = W Σ d_i
 ///   x = f(X_0) + δ,   P = W Σ d_i d_iᵀ + (β - α²) δ δᵀ + Q
 ///
-/// so that S is one triangularisation of [√W d_i, √(β - α²) δ, Q_root]: a down-date is left only where β < α².
+/// so that S is one triangularisation of [√W d_i, √(β - α²) δ, Q_root]: a down-date is left only where β < α². A δ no
+/// larger than what the rounding of 2n points can add up to, 2n W · 4 eps |X|, is taken as none.
+///
 /// A measurement that is affine is taken exactly. Otherwise, with e_i = h(X_i) - h(X_0) at sigma points of the
 /// prediction and ε = W Σ e_i,
 ///

@@ -91,7 +91,8 @@ Eigen::VectorXd static_equilibrium(const ProcessModel& process, double time_s, c
   (F + held).cwiseAbs().maxCoeff(&k);
   std::ostringstream text;
   text << "static equilibrium: none found for the motor angles at " << time_s << " s: joint " << k + 1
-       << " is left with a force of " << F(k) + held(k) << "; check its cable's stiffness and the motor encoder's offset";
+       << " is left with a force of " << F(k) + held(k)
+       << "; check its cable's stiffness and the motor encoder's offset";
   throw std::runtime_error(text.str());
 }
 

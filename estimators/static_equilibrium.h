@@ -15,9 +15,9 @@
 
 namespace halyard {
 
-/// The equilibrium q [n] for motor angles q_m [n] and an external joint force [n], from `start` on, with internal states
-/// of the effects z [n_effect_states]. Throws std::runtime_error naming the joint with the largest rest of force if
-/// there is none within reach.
+/// The equilibrium q [n] for motor angles q_m [n] and an external joint force [n], from `start` on, with internal
+/// states of the effects z [n_effect_states]. Throws std::runtime_error naming the joint with the largest rest of
+/// force if there is none within reach.
 Eigen::VectorXd static_equilibrium(const ProcessModel& process, double time_s, const Eigen::VectorXd& motor_angle,
                                    const Eigen::VectorXd& external, const Eigen::VectorXd& z,
                                    const Eigen::VectorXd& start);

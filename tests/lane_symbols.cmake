@@ -1,0 +1,19 @@
+# Fails if one of OBJECTS whose name has "lanes_" defines a symbol that the linker may share with other files (weak,
+# unique): code of a wider instruction set would run where it cannot.
+#   cmake -DNM=<nm> -DOBJECTS=<list> -P lane_symbols.cmake
+set(checked 0)
+foreach(object IN LISTS OBJECTS)
+  if(NOT object MATCHES "lanes_[a-z0-9]+\\.cpp")
+    continue()
+  endif()
+  execute_process(COMMAND ${NM} -C ${object} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "[0-9a-f]+ [WVu] [^\n]*" shared "${symbols}")
+  if(shared)
+    message(FATAL_ERROR "${object} shares code: ${shared}")
+  endif()
+  math(EXPR checked "${checked} + 1")
+endforeach()
+if(checked EQUAL 0)
+  message(FATAL_ERROR "no lanes_<set> object among: ${OBJECTS}")
+endif()
+message("${checked} files share no code")
