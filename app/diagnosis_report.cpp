@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
+#include <limits>
 
 #include "app/diagnosis_output.h"
 #include "app/joint_unit.h"
@@ -34,63 +36,66 @@ void add_numbers(report::Page& page, const Diagnosis& d) {
   }
 }
 
-/// Residuals over time, before and after, and the one view over which the effect shows as a loop.
+/// What a chart draws of one joint: a value of each sample, NaN where there is none, over another value.
+using Value = std::function<double(const Record&, const FullPrediction&, std::size_t)>;
+
+report::Series drawn(const char* name, const std::vector<Record>& records, const std::vector<FullPrediction>& predictions,
+                     const Value& x, const Value& y) {
+  report::Series s;
+  s.name = name;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    for (std::size_t i = 0; i < records[r].size; ++i) {
+      const double value = y(records[r], predictions[r], i);
+      if (std::isnan(value)) continue;
+      s.x.push_back(x(records[r], predictions[r], i));
+      s.y.push_back(value);
+    }
+  return s;
+}
+
+report::Chart before_and_after(const std::string& title, const HoldOut& view, const Value& x, const Value& y) {
+  report::Chart chart;
+  chart.title = title;
+  chart.series = {drawn("before", view.records, view.before, x, y), drawn("after", view.records, view.after, x, y)};
+  return chart;
+}
+
+/// Residuals over time, before and after, and over the motor's rate, where friction and dead zones show as loops.
 void add_residuals(report::Page& page, const Diagnosis& d) {
   const std::vector<JointUnit> units = joint_units(d.revised);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
   for (int k = 0; k < d.revised.n(); ++k) {
-    report::Chart joint, torque, loop;
-    joint.title = fmt::format("Joint {}: position error on the hold-out", k + 1);
-    joint.x_label = "time [s]";
-    joint.y_label = "measured - predicted [" + units[k].shown + "]";
-    torque.title = fmt::format("Joint {}: motor torque residual", k + 1);
-    torque.x_label = "time [s]";
-    torque.y_label = "residual [mN m]";
-    loop.title = fmt::format("Joint {}: residual over motor rate", k + 1);
-    loop.x_label = "motor rate [rad/s]";
-    loop.kind = report::ChartKind::scatter;
-    const auto series = [](const char* name) {
-      report::Series s;
-      s.name = name;
-      return s;
+    const double scale = units[k].shown_per_si;
+    const Value time = [](const Record& r, const FullPrediction&, std::size_t i) { return r.time(i); };
+    const Value rate = [k](const Record& r, const FullPrediction&, std::size_t i) { return r.motor_rate[k][i]; };
+    const Value joint = [=](const Record& r, const FullPrediction& p, std::size_t i) {
+      return r.has_joint(k) && r.joint_valid[k][i] > 0 ? scale * (r.joint_raw[k][i] - p.joint_reading[k][i]) : nan;
     };
-    report::Series before[3] = {series("before"), series("before"), series("before")};
-    report::Series after[3] = {series("after"), series("after"), series("after")};
-    bool has_joint = false, has_torque = false;
-    for (std::size_t r = 0; r < d.holdout_records.size(); ++r) {
-      const Record& record = d.holdout_records[r];
-      has_joint = has_joint || record.has_joint(k);
-      has_torque = has_torque || record.has_torque(k);
-      for (std::size_t i = 0; i < record.size; ++i) {
-        const double t = record.time(i);
-        if (record.has_joint(k) && record.joint_valid[k][i] > 0) {
-          const double scale = units[k].shown_per_si;
-          const double e0 = scale * (record.joint_raw[k][i] - d.holdout_before[r].joint_reading[k][i]);
-          const double e1 = scale * (record.joint_raw[k][i] - d.holdout_after[r].joint_reading[k][i]);
-          before[0].x.push_back(t), before[0].y.push_back(e0);
-          after[0].x.push_back(t), after[0].y.push_back(e1);
-          before[2].x.push_back(record.motor_rate[k][i]), before[2].y.push_back(e0);
-          after[2].x.push_back(record.motor_rate[k][i]), after[2].y.push_back(e1);
-        }
-        if (record.has_torque(k) && record.torque_valid[k][i] > 0) {
-          const double e0 = 1e3 * d.holdout_before[r].torque_residual[k][i], e1 = 1e3 * d.holdout_after[r].torque_residual[k][i];
-          before[1].x.push_back(t), before[1].y.push_back(e0);
-          after[1].x.push_back(t), after[1].y.push_back(e1);
-          if (!record.has_joint(k)) {
-            before[2].x.push_back(record.motor_rate[k][i]), before[2].y.push_back(e0);
-            after[2].x.push_back(record.motor_rate[k][i]), after[2].y.push_back(e1);
-          }
-        }
-      }
-    }
-    loop.y_label = has_joint ? joint.y_label : torque.y_label;
-    joint.series = {before[0], after[0]};
-    torque.series = {before[1], after[1]};
-    loop.series = {before[2], after[2]};
+    const Value torque = [=](const Record& r, const FullPrediction& p, std::size_t i) {
+      return r.has_torque(k) && r.torque_valid[k][i] > 0 ? 1e3 * p.torque_residual[k][i] : nan;
+    };
     std::vector<report::Chart> row;
-    if (has_joint) row.push_back(joint);
-    if (has_torque) row.push_back(torque);
-    row.push_back(loop);
-    if (has_joint || has_torque) page.figure_row(row);
+    const auto add = [&](report::Chart chart, const std::string& x, const std::string& y, report::ChartKind kind) {
+      chart.x_label = x;
+      chart.y_label = y;
+      chart.kind = kind;
+      row.push_back(std::move(chart));
+    };
+    const std::string joint_label = "measured - predicted [" + units[k].shown + "]", torque_label = "residual [mN m]";
+    const bool has_joint = std::isfinite(d.before.joint_rms[k]), has_torque = std::isfinite(d.before.torque_rms[k]);
+    if (has_joint)
+      add(before_and_after(fmt::format("Joint {}: position error", k + 1), d.joint_view, time, joint), "time [s]", joint_label,
+          report::ChartKind::line);
+    if (has_torque)
+      add(before_and_after(fmt::format("Joint {}: motor torque residual", k + 1), d.torque_view, time, torque), "time [s]",
+          torque_label, report::ChartKind::line);
+    if (has_joint)
+      add(before_and_after(fmt::format("Joint {}: position error over motor rate", k + 1), d.joint_view, rate, joint),
+          "motor rate [rad/s]", joint_label, report::ChartKind::scatter);
+    else if (has_torque)
+      add(before_and_after(fmt::format("Joint {}: torque residual over motor rate", k + 1), d.torque_view, rate, torque),
+          "motor rate [rad/s]", torque_label, report::ChartKind::scatter);
+    if (!row.empty()) page.figure_row(row);
   }
 }
 

@@ -140,7 +140,7 @@ class Search {
 
   /// Fits all numbers until it no longer helps: each pass weighs the channels by what the last one left.
   Fit refit(const Hypothesis& h, const Score& before) const {
-    constexpr int kMostPasses = 5;
+    constexpr int kMostPasses = 4;
     constexpr double kWorthAPass = 0.02;
     Fit best;
     Hypothesis at = h;
@@ -151,10 +151,11 @@ class Search {
       std::vector<FitParameter> numbers;
       for (const FitParameter& p : parameters)
         if (p.effect < 0) numbers.push_back(p);
+      const auto columns = sensitivities(evidence_, at, numbers);
+      if (columns.empty() && !numbers.empty()) break;
       FitOptions options;
       options.frozen_baseline = true;
-      const Fit f = fit(evidence_, at, parameters, channel_scale(evidence_, score.fit_mean_square), options,
-                        sensitivities(evidence_, at, numbers));
+      const Fit f = fit(evidence_, at, parameters, channel_scale(evidence_, score.fit_mean_square), options, columns);
       if (!f.usable) break;
       score = evidence_.score(f.hypothesis);
       if (!score.finite) break;
@@ -272,12 +273,13 @@ class Search {
     constexpr std::size_t kLeaders = 5;
     std::vector<Fit> fits(std::min(kLeaders, trials.size()));
     std::vector<Trial> leaders(trials.begin(), trials.begin() + fits.size());
-    for (std::size_t i = 0; i < fits.size(); ++i) {
-      if (!(trials[i].gain > 0) || trials[i].p_value > kWorthAFit) continue;
-      say("best candidates of round " + std::to_string(result_.rounds.size() + 1), static_cast<double>(i) / fits.size());
+    done = 0;
+    tbb::parallel_for(std::size_t{0}, fits.size(), [&](std::size_t i) {
+      if (!(trials[i].gain > 0) || trials[i].p_value > kWorthAFit) return;
       fits[i] = refit(with_effect(from.hypothesis, trials[i].effect), score);
       leaders[i] = fits[i].usable ? judge(fits[i].hypothesis, score, ln_before, stretch(current.hypothesis), trials[i].effect) : unusable(trials[i].effect);
-    }
+      say("best candidates of round " + std::to_string(result_.rounds.size() + 1), static_cast<double>(++done) / fits.size());
+    });
     std::size_t best = leaders.size();
     for (std::size_t i = 0; i < leaders.size(); ++i)
       if (convincing(leaders[i], all.size()) && (best == leaders.size() || leaders[i].gain > leaders[best].gain)) best = i;

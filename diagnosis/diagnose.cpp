@@ -11,26 +11,34 @@ namespace halyard {
 namespace {
 
 constexpr double kTwoSided95 = 1.959964;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-PredictionError errors(const std::vector<Record>& records, const std::vector<FullPrediction>& predictions, int n) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  PredictionError e{std::vector<double>(n, nan), std::vector<double>(n, nan), std::vector<double>(n, nan)};
-  for (int k = 0; k < n; ++k) {
-    double joint = 0, joints = 0, peak = 0, torque = 0, torques = 0;
-    for (std::size_t r = 0; r < records.size(); ++r) {
-      for (std::size_t i = 0; i < records[r].size; ++i) {
-        if (records[r].has_joint(k) && records[r].joint_valid[k][i] > 0) {
-          const double d = records[r].joint_raw[k][i] - predictions[r].joint_reading[k][i];
-          joint += d * d, joints += 1, peak = std::max(peak, std::abs(d));
-        }
-        if (records[r].has_torque(k) && records[r].torque_valid[k][i] > 0) {
-          const double d = predictions[r].torque_residual[k][i];
-          torque += d * d, torques += 1;
-        }
-      }
+/// Root mean square and peak of what sample(record, prediction, i) gives, where it is not NaN.
+template <class Sample>
+std::pair<double, double> size_of(const std::vector<Record>& records, const std::vector<FullPrediction>& predictions,
+                                  const Sample& sample) {
+  double square = 0, count = 0, peak = 0;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    for (std::size_t i = 0; i < records[r].size; ++i) {
+      const double e = sample(records[r], predictions[r], i);
+      if (std::isnan(e)) continue;
+      square += e * e, count += 1, peak = std::max(peak, std::abs(e));
     }
-    if (joints > 0) e.joint_rms[k] = std::sqrt(joint / joints), e.joint_peak[k] = peak;
-    if (torques > 0) e.torque_rms[k] = std::sqrt(torque / torques);
+  return count > 0 ? std::pair(std::sqrt(square / count), peak) : std::pair(kNone, kNone);
+}
+
+PredictionError errors(const HoldOut& joints, const HoldOut& torques, int n, std::vector<FullPrediction> HoldOut::*which) {
+  PredictionError e;
+  for (int k = 0; k < n; ++k) {
+    const auto [joint_rms, joint_peak] = size_of(joints.records, joints.*which, [k](const Record& r, const FullPrediction& p, std::size_t i) {
+      return r.has_joint(k) && r.joint_valid[k][i] > 0 ? r.joint_raw[k][i] - p.joint_reading[k][i] : kNone;
+    });
+    const auto [torque_rms, torque_peak] = size_of(torques.records, torques.*which, [k](const Record& r, const FullPrediction& p, std::size_t i) {
+      return r.has_torque(k) && r.torque_valid[k][i] > 0 ? p.torque_residual[k][i] : kNone;
+    });
+    e.joint_rms.push_back(joint_rms);
+    e.joint_peak.push_back(joint_peak);
+    e.torque_rms.push_back(torque_rms);
   }
   return e;
 }
@@ -105,19 +113,23 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
   };
   Diagnosis d;
   std::vector<Record> records;
-  const auto append = [&](std::vector<Record>& to, const Log& log) {
-    for (Record& r : make_records(log, model, options.record)) to.push_back(std::move(r));
+  const auto append = [&](std::vector<Record>& to, const Log& log, const RecordOptions& how) {
+    for (Record& r : make_records(log, model, how)) to.push_back(std::move(r));
+  };
+  const auto hold_out = [&](const Log& log) {
+    append(d.joint_view.records, log, options.joint_error);
+    append(d.torque_view.records, log, options.record);
   };
   for (const Log& log : training) {
     if (holdout) {
-      append(records, log);
+      append(records, log, options.record);
     } else {
       const auto [first, last] = split_log(log, 2.0 / 3);
-      append(records, first);
-      append(d.holdout_records, last);
+      append(records, first, options.record);
+      hold_out(last);
     }
   }
-  if (holdout) append(d.holdout_records, *holdout);
+  if (holdout) hold_out(*holdout);
   d.holdout = holdout ? holdout->source : "last third of the training data";
 
   const Evidence evidence(std::move(records), model);
@@ -160,10 +172,12 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
     d.revised.effects = h.effects;
   }
   say("hold-out", 0);
-  d.holdout_before = predict_all(d.holdout_records, {model.nominal, model.effects});
-  d.holdout_after = predict_all(d.holdout_records, {d.revised.nominal, d.revised.effects});
-  d.before = errors(d.holdout_records, d.holdout_before, model.n());
-  d.after = errors(d.holdout_records, d.holdout_after, model.n());
+  for (HoldOut* view : {&d.joint_view, &d.torque_view}) {
+    view->before = predict_all(view->records, {model.nominal, model.effects});
+    view->after = predict_all(view->records, {d.revised.nominal, d.revised.effects});
+  }
+  d.before = errors(d.joint_view, d.torque_view, model.n(), &HoldOut::before);
+  d.after = errors(d.joint_view, d.torque_view, model.n(), &HoldOut::after);
   return d;
 }
 

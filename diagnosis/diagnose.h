@@ -9,6 +9,9 @@ namespace halyard {
 
 struct DiagnosisOptions {
   RecordOptions record;
+  /// For the joint errors that are told: the band in which the joints move, vibrations of the cables included. Torques
+  /// are told in the band of the fit, where their second derivative of a rounded angle still means something.
+  RecordOptions joint_error = {.cutoff_hz = 100, .settle_s = 0.5, .step_s = 0.001};
   AttributionOptions attribution;
 };
 
@@ -41,6 +44,12 @@ struct PredictionError {
   std::vector<double> joint_rms, joint_peak, torque_rms;
 };
 
+/// Records of the hold-out and what the given and the revised model predict of them.
+struct HoldOut {
+  std::vector<Record> records;
+  std::vector<FullPrediction> before, after;
+};
+
 struct Diagnosis {
   enum class Verdict { clean, effects, unknown } verdict = Verdict::clean;
   std::vector<NamedEffect> effects;
@@ -51,8 +60,7 @@ struct Diagnosis {
   std::string holdout;                   ///< what the errors were measured on
   PredictionError before, after;         ///< on the hold-out, by the given and by the revised model
   Attribution attribution;
-  std::vector<Record> holdout_records;
-  std::vector<FullPrediction> holdout_before, holdout_after;
+  HoldOut joint_view, torque_view;       ///< in the bands of DiagnosisOptions::joint_error and ::record
 };
 
 /// Diagnoses a model by training logs. The hold-out decides nothing: it only tells the errors. Without one the last

@@ -1,4 +1,5 @@
 #include "transmission/effects/library.h"
+#include "transmission/effects/typical_size.h"
 
 /// A rate-independent loop of the cable's force over its stretch, of Bouc-Wen type: the share ρ of
 /// the stiffness sits in an element that yields,
@@ -25,9 +26,7 @@ class Hysteresis : public EffectOf<Hysteresis> {
     return arm.joint[joint].drive == Drive::cable;
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const JointParameters<double>& j = arm.joint[joint];
-    // A cable that carries twice its rest tension is stretched by about this much.
-    const double stretch = std::max(j.tension / std::max(j.stiffness, 1.0), 1e-7);
+    const double stretch = typical_stretch(arm.joint[joint]);
     return {{"share", "1", 0, 0.4, 0, 0.95, 0}, {"yield_stretch", "m", 0.1 * stretch, 0.1 * stretch, 1e-4 * stretch, 10 * stretch, 0}};
   }
   int n_states() const override { return 1; }

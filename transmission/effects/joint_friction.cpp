@@ -1,4 +1,5 @@
 #include "transmission/effects/library.h"
+#include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
 
 /// Another friction at the joint than the model has, and its asymmetry:
@@ -21,7 +22,7 @@ class JointFriction : public EffectOf<JointFriction> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const JointParameters<double>& j = arm.joint[joint];
     const bool turns = j.type == JointType::revolute;
-    const double level = std::max(j.joint_coulomb, 1e-6);
+    const double level = typical_joint_friction(j);
     const double viscous = std::max(j.joint_viscous, 0.02 * level);
     return {{"coulomb_change", turns ? "N m" : "N", 0, 0.3 * level, -j.joint_coulomb, 30 * level, j.tolerance.friction * j.joint_coulomb, true},
             {"viscous_change", turns ? "N m s/rad" : "N s/m", 0, 0.3 * viscous, -j.joint_viscous, 300 * viscous, j.tolerance.friction * j.joint_viscous, true},

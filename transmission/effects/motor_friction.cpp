@@ -1,4 +1,5 @@
 #include "transmission/effects/library.h"
+#include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
 
 /// Another friction at the motor than the model has, and its asymmetry:
@@ -23,7 +24,7 @@ class MotorFriction : public EffectOf<MotorFriction> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const JointParameters<double>& j = arm.joint[joint];
-    const double level = std::max(j.motor_coulomb, 1e-6);
+    const double level = typical_motor_friction(j);
     const double viscous = std::max(j.motor_viscous, 0.002 * level);
     return {{"coulomb_change", "N m", 0, 0.3 * level, -j.motor_coulomb, 30 * level, j.tolerance.friction * j.motor_coulomb, true},
             {"viscous_change", "N m s/rad", 0, 0.3 * viscous, -j.motor_viscous, 30 * viscous, j.tolerance.friction * j.motor_viscous, true},
