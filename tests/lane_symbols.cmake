@@ -1,4 +1,4 @@
-# Fails if one of OBJECTS whose name has "lanes_" defines a symbol that the linker may share with other files (weak,
+# Fails if one of OBJECTS whose name has "lanes_" defines a symbol that the linker may share with other files (weak code,
 # unique): code of a wider instruction set would run where it cannot.
 #   cmake -DNM=<nm> -DOBJECTS=<list> -P lane_symbols.cmake
 set(checked 0)
@@ -7,7 +7,7 @@ foreach(object IN LISTS OBJECTS)
     continue()
   endif()
   execute_process(COMMAND ${NM} -C ${object} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
-  string(REGEX MATCHALL "[0-9a-f]+ [WVu] [^\n]*" shared "${symbols}")
+  string(REGEX MATCHALL "[0-9a-f]+ [Wu] [^\n]*" shared "${symbols}")
   if(shared)
     message(FATAL_ERROR "${object} shares code: ${shared}")
   endif()
