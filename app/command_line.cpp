@@ -17,6 +17,7 @@
 #include "app/plugins_command.h"
 #include "app/simulate_command.h"
 #include "app/sweep_command.h"
+#include "app/tour_command.h"
 #include "model/input_error.h"
 
 namespace halyard {
@@ -163,6 +164,20 @@ void add_check_command(CLI::App& app) {
   finish(command, [file] { run_check(*file); });
 }
 
+void add_tour_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand(
+      "tour", "the main job: experiments, a diagnosis, and recordings of real rigs, in one report");
+  const auto options = std::make_shared<TourOptions>();
+  command.add_option("--out", options->out, "folder of the report")->type_name("DIR")->required();
+  command.add_option("--examples", options->examples, "folder of the examples; default: those of this program")
+      ->type_name("DIR");
+  command
+      .add_option("--recordings", options->recordings,
+                  "folder with a folder for each rig; default: shared/data beside the project, where it exists")
+      ->type_name("DIR");
+  finish(command, [options] { run_tour(*options); });
+}
+
 std::string command_names(const CLI::App& app) {
   std::string names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
@@ -204,6 +219,7 @@ int run_command_line(int argc, char** argv) {
   add_merge_command(app);
   add_plugins_command(app);
   add_check_command(app);
+  add_tour_command(app);
   check_command_name(app, argc, argv);
   try {
     app.parse(argc, argv);

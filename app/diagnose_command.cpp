@@ -11,7 +11,6 @@
 #include "app/progress.h"
 #include "diagnosis/diagnose.h"
 #include "model/model_file.h"
-#include "model/output_file.h"
 
 namespace halyard {
 
@@ -33,10 +32,7 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
     StageProgress progress("diagnose");
     d = diagnose(model, training, holdout, {}, [&](const std::string& what, double fraction) { progress.set(what, fraction); });
   }
-  const bool given = d.effects.empty() && d.refitted.empty();
-  write_file_whole(options.out / "model.xml", model_to_xml(given ? model : d.revised));
-  write_file_whole(options.out / "diagnosis.json", diagnosis_json(d));
-  diagnosis_page(model, d).write(options.out / "report.html");
+  write_diagnosis(options.out, model, d);
 
   fmt::print("{}\n", verdict_line(d));
   for (const NamedEffect& e : d.effects)

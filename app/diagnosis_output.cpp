@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/joint_unit.h"
+#include "model/model_file.h"
+#include "model/output_file.h"
 
 namespace halyard {
 namespace {
@@ -129,6 +131,13 @@ void add_error_table(report::Page& page, const Diagnosis& d) {
                           {cell(d.after.torque_rms[k], 1, ""), better(d.before.torque_rms[k], d.after.torque_rms[k])}});
   }
   page.table(table);
+}
+
+void write_diagnosis(const std::filesystem::path& folder, const ArmModel& model, const Diagnosis& d) {
+  const bool given = d.effects.empty() && d.refitted.empty();
+  write_file_whole(folder / "model.xml", model_to_xml(given ? model : d.revised));
+  write_file_whole(folder / "diagnosis.json", diagnosis_json(d));
+  diagnosis_page(model, d).write(folder / "report.html");
 }
 
 }  // namespace halyard

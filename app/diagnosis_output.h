@@ -1,7 +1,9 @@
 #pragma once
 /// What a diagnosis is told as: diagnosis.json, report.html and lines on the terminal.
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "app/report/page.h"
 #include "diagnosis/diagnose.h"
@@ -21,7 +23,14 @@ std::string verdict_line(const Diagnosis& diagnosis);
 void add_verdict(report::Page& page, const Diagnosis& diagnosis);
 void add_error_table(report::Page& page, const Diagnosis& diagnosis);
 
+/// Joint k's residuals on the hold-out before and after: position over time, torque over time, and over the motor's rate,
+/// where friction and gaps show as loops. Without a sensor there is no chart of it.
+std::vector<report::Chart> residual_charts(const Diagnosis& diagnosis, int k);
+
 /// The whole report.
 report::Page diagnosis_page(const ArmModel& model, const Diagnosis& diagnosis);
+
+/// Writes model.xml, diagnosis.json and report.html into the folder; model.xml is the given model if nothing changed.
+void write_diagnosis(const std::filesystem::path& folder, const ArmModel& model, const Diagnosis& diagnosis);
 
 }  // namespace halyard

@@ -60,43 +60,9 @@ report::Chart before_and_after(const std::string& title, const HoldOut& view, co
   return chart;
 }
 
-/// Residuals over time, before and after, and over the motor's rate, where friction and dead zones show as loops.
 void add_residuals(report::Page& page, const Diagnosis& d) {
-  const std::vector<JointUnit> units = joint_units(d.revised);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (int k = 0; k < d.revised.n(); ++k) {
-    const double scale = units[k].shown_per_si;
-    const Value time = [](const Record& r, const FullPrediction&, std::size_t i) { return r.time(i); };
-    const Value rate = [k](const Record& r, const FullPrediction&, std::size_t i) { return r.motor_rate[k][i]; };
-    const Value joint = [=](const Record& r, const FullPrediction& p, std::size_t i) {
-      return r.has_joint(k) && r.joint_valid[k][i] > 0 ? scale * (r.joint_raw[k][i] - p.joint_reading[k][i]) : nan;
-    };
-    const Value torque = [=](const Record& r, const FullPrediction& p, std::size_t i) {
-      return r.has_torque(k) && r.torque_valid[k][i] > 0 ? 1e3 * p.torque_residual[k][i] : nan;
-    };
-    std::vector<report::Chart> row;
-    const auto add = [&](report::Chart chart, const std::string& x, const std::string& y, report::ChartKind kind) {
-      chart.x_label = x;
-      chart.y_label = y;
-      chart.kind = kind;
-      row.push_back(std::move(chart));
-    };
-    const std::string joint_label = "measured - predicted [" + units[k].shown + "]", torque_label = "residual [mN m]";
-    const bool has_joint = std::isfinite(d.before.joint_rms[k]), has_torque = std::isfinite(d.before.torque_rms[k]);
-    if (has_joint)
-      add(before_and_after(fmt::format("Joint {}: position error", k + 1), d.joint_view, time, joint), "time [s]", joint_label,
-          report::ChartKind::line);
-    if (has_torque)
-      add(before_and_after(fmt::format("Joint {}: motor torque residual", k + 1), d.torque_view, time, torque), "time [s]",
-          torque_label, report::ChartKind::line);
-    if (has_joint)
-      add(before_and_after(fmt::format("Joint {}: position error over motor rate", k + 1), d.joint_view, rate, joint),
-          "motor rate [rad/s]", joint_label, report::ChartKind::scatter);
-    else if (has_torque)
-      add(before_and_after(fmt::format("Joint {}: torque residual over motor rate", k + 1), d.torque_view, rate, torque),
-          "motor rate [rad/s]", torque_label, report::ChartKind::scatter);
-    if (!row.empty()) page.figure_row(row);
-  }
+  for (int k = 0; k < d.revised.n(); ++k)
+    if (const auto charts = residual_charts(d, k); !charts.empty()) page.figure_row(charts);
 }
 
 void add_candidates(report::Page& page, const Diagnosis& d) {
@@ -127,6 +93,42 @@ void add_candidates(report::Page& page, const Diagnosis& d) {
 }
 
 }  // namespace
+
+std::vector<report::Chart> residual_charts(const Diagnosis& d, int k) {
+  const JointUnit unit = joint_units(d.revised)[k];
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double scale = unit.shown_per_si;
+  const Value time = [](const Record& r, const FullPrediction&, std::size_t i) { return r.time(i); };
+  const Value rate = [k](const Record& r, const FullPrediction&, std::size_t i) { return r.motor_rate[k][i]; };
+  const Value joint = [=](const Record& r, const FullPrediction& p, std::size_t i) {
+    return r.has_joint(k) && r.joint_valid[k][i] > 0 ? scale * (r.joint_raw[k][i] - p.joint_reading[k][i]) : nan;
+  };
+  const Value torque = [=](const Record& r, const FullPrediction& p, std::size_t i) {
+    return r.has_torque(k) && r.torque_valid[k][i] > 0 ? 1e3 * p.torque_residual[k][i] : nan;
+  };
+  std::vector<report::Chart> charts;
+  const auto add = [&](report::Chart chart, const std::string& x, const std::string& y, report::ChartKind kind) {
+    chart.x_label = x;
+    chart.y_label = y;
+    chart.kind = kind;
+    charts.push_back(std::move(chart));
+  };
+  const std::string joint_label = "measured - predicted [" + unit.shown + "]", torque_label = "residual [mN m]";
+  const bool has_joint = std::isfinite(d.before.joint_rms[k]), has_torque = std::isfinite(d.before.torque_rms[k]);
+  if (has_joint)
+    add(before_and_after(fmt::format("Joint {}: position error", k + 1), d.joint_view, time, joint), "time [s]", joint_label,
+        report::ChartKind::line);
+  if (has_torque)
+    add(before_and_after(fmt::format("Joint {}: motor torque residual", k + 1), d.torque_view, time, torque), "time [s]",
+        torque_label, report::ChartKind::line);
+  if (has_joint)
+    add(before_and_after(fmt::format("Joint {}: position error over motor rate", k + 1), d.joint_view, rate, joint),
+        "motor rate [rad/s]", joint_label, report::ChartKind::scatter);
+  else if (has_torque)
+    add(before_and_after(fmt::format("Joint {}: torque residual over motor rate", k + 1), d.torque_view, rate, torque),
+        "motor rate [rad/s]", torque_label, report::ChartKind::scatter);
+  return charts;
+}
 
 report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d) {
   report::Page page("Diagnosis of " + model.name, "What the model lacks, by measured data");

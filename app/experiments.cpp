@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/parallel_for.h>
 
-#include "app/progress.h"
+#include <atomic>
+#include <numeric>
+
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "plant/scenario.h"
@@ -14,16 +16,15 @@ namespace {
 
 const std::vector<std::string> kEstimators = {"kinematics", "ekf", "sr_ukf"};
 
-std::vector<SimulationResult> simulate_all(const std::vector<Scenario>& scenarios) {
-  double total = 0;
-  for (const Scenario& scenario : scenarios) total += scenario.duration_s;
-  Progress progress("simulate", total, "s");
+using StageCallback = std::function<void(const std::string&, double)>;
+
+std::vector<SimulationResult> simulate_all(const std::vector<Scenario>& scenarios, const StageCallback& progress) {
   std::vector<SimulationResult> results(scenarios.size());
+  std::vector<std::atomic<double>> done(scenarios.size());
   oneapi::tbb::parallel_for(std::size_t{0}, scenarios.size(), [&](std::size_t i) {
-    double seen = 0;
     results[i] = simulate(scenarios[i], [&](double fraction) {
-      progress.add((fraction - seen) * scenarios[i].duration_s);
-      seen = fraction;
+      done[i] = fraction;
+      if (progress) progress("simulate", std::accumulate(done.begin(), done.end(), 0.0) / double(done.size()));
     });
   });
   return results;
@@ -40,7 +41,7 @@ const std::vector<PublishedErrors>& published_errors() {
   return errors;
 }
 
-std::vector<Experiment> compute_experiments(const std::filesystem::path& raven2_folder) {
+std::vector<Experiment> compute_experiments(const std::filesystem::path& raven2_folder, const StageCallback& progress) {
   const std::vector<std::string> files = {"experiment_a.xml", "experiment_b.xml", "experiment_c.xml"};
   std::vector<Scenario> scenarios;
   for (const std::string& file : files) scenarios.push_back(read_scenario(raven2_folder / file));
@@ -49,15 +50,16 @@ std::vector<Experiment> compute_experiments(const std::filesystem::path& raven2_
     throw InputError(
         fmt::format("{}: has {} joints; the experiments need the RAVEN-II's three", model.source, model.n()));
   }
-  const std::vector<SimulationResult> data = simulate_all(scenarios);
+  const std::vector<SimulationResult> data = simulate_all(scenarios, progress);
 
   std::vector<Experiment> experiments;
-  Progress progress("estimate", double(files.size()), "experiments");
   for (std::size_t i = 0; i < files.size(); ++i) {
     Log measured = data[i].measured;
     measured.source = files[i];
     CompareOptions options;
-    options.progress = [&](double fraction) { progress.set(double(i) + fraction); };
+    options.progress = [&](double fraction) {
+      if (progress) progress("estimate", (double(i) + fraction) / double(files.size()));
+    };
     Experiment experiment{scenarios[i].name, compare_estimators(model, kEstimators, measured, data[i].truth, options)};
     experiment.comparison.data = files[i];
     experiment.comparison.model = "raven2.xml";

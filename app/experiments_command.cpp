@@ -2,27 +2,14 @@
 
 #include <fmt/core.h>
 
+#include "app/bundled_files.h"
 #include "app/comparison_figures.h"
 #include "app/experiments.h"
 #include "app/output_check.h"
-#include "model/input_error.h"
+#include "app/progress.h"
 
 namespace halyard {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// The folder raven2 of the examples: as given, of the installation, or of the source tree.
-fs::path raven2_folder(const fs::path& given) {
-  if (!given.empty()) return given / "raven2";
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& examples : {program / HALYARD_EXAMPLES_FROM_PROGRAM, fs::path(HALYARD_EXAMPLES_IN_SOURCE)}) {
-    if (fs::exists(examples / "raven2" / "raven2.xml", error)) return examples / "raven2";
-  }
-  throw InputError(
-      "halyard experiments: the examples of this program are not found; give their folder with --examples DIR");
-}
 
 void print_summary(const std::vector<Experiment>& experiments) {
   const Comparison& first = experiments.front().comparison;
@@ -42,7 +29,12 @@ void print_summary(const std::vector<Experiment>& experiments) {
 
 void run_experiments(const ExperimentsOptions& options) {
   check_output_folder(options.out);
-  const std::vector<Experiment> experiments = compute_experiments(raven2_folder(options.examples));
+  std::vector<Experiment> experiments;
+  {
+    StageProgress progress("experiments");
+    experiments = compute_experiments(examples_folder(options.examples, "experiments") / "raven2",
+                                      [&](const std::string& stage, double done) { progress.set(stage, done); });
+  }
   write_experiments(options.out, experiments);
   print_summary(experiments);
   fmt::print("report: {}\n", (options.out / "report.html").string());

@@ -17,31 +17,6 @@ using report::Cell;
 
 const Comparison& first(const std::vector<Experiment>& experiments) { return experiments.front().comparison; }
 
-report::Table mean_table(const std::vector<Experiment>& experiments) {
-  const Comparison& comparison = first(experiments);
-  report::Table table;
-  table.caption = "Mean absolute error (the paper's Eq. 18), mean of experiments A, B and C";
-  table.header = {"where", "estimator"};
-  table.align = {report::Align::left, report::Align::left};
-  for (int k = 0; k < comparison.n_joints(); ++k) {
-    table.header.push_back(fmt::format("joint {} [{}]", k + 1, comparison.units[k].shown));
-    table.align.push_back(report::Align::right);
-  }
-  for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
-    std::vector<Cell> row = {"simulated here", comparison.runs[i].name};
-    for (int k = 0; k < comparison.n_joints(); ++k) {
-      row.emplace_back(shown_number(mean_error(experiments, i, k), comparison.units[k]));
-    }
-    table.rows.push_back(std::move(row));
-  }
-  for (const PublishedErrors& published : published_errors()) {
-    std::vector<Cell> row = {"measured on the robot", published.source};
-    for (const double error : published.error) row.emplace_back(fmt::format("{:.4g}", error));
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
 /// Experiments A and B of the nominal model differ in nothing but a tension that its cable law does not carry.
 bool equal_errors(const Comparison& a, const Comparison& b) {
   for (std::size_t i = 0; i < a.errors.size(); ++i) {
@@ -50,17 +25,6 @@ bool equal_errors(const Comparison& a, const Comparison& b) {
     }
   }
   return true;
-}
-
-/// "1/91, 1/34, 1/13": the kinematics estimator's errors here over those of the robot.
-std::string share_of_published(const std::vector<Experiment>& experiments) {
-  const Comparison& comparison = first(experiments);
-  std::string text;
-  for (int k = 0; k < comparison.n_joints(); ++k) {
-    const double here = comparison.units[k].shown_per_si * mean_error(experiments, comparison.baseline(), k);
-    text += fmt::format("{}1/{:.0f}", text.empty() ? "" : ", ", published_errors()[0].error[k] / here);
-  }
-  return text;
 }
 
 void add_meaning(report::Page& page, const std::vector<Experiment>& experiments) {
@@ -94,7 +58,7 @@ report::Page experiments_page(const std::vector<Experiment>& experiments) {
       fmt::format("Sines on all joints, {:g} s each. Every estimator gets motor torques and quantised motor positions "
                   "and nothing of the joints. Errors are estimate minus the truth of the simulation, from {:g} s on.",
                   first(experiments).truth.duration(), first(experiments).skip_s));
-  page.table(mean_table(experiments));
+  page.table(mean_error_table(experiments));
   add_meaning(page, experiments);
   for (const Experiment& experiment : experiments) {
     page.heading("Experiment " + experiment.name);
@@ -145,6 +109,41 @@ CsvTable experiments_table(const std::vector<Experiment>& experiments) {
 }
 
 }  // namespace
+
+report::Table mean_error_table(const std::vector<Experiment>& experiments) {
+  const Comparison& comparison = first(experiments);
+  report::Table table;
+  table.caption = "Mean absolute error (the paper's Eq. 18), mean of experiments A, B and C";
+  table.header = {"where", "estimator"};
+  table.align = {report::Align::left, report::Align::left};
+  for (int k = 0; k < comparison.n_joints(); ++k) {
+    table.header.push_back(fmt::format("joint {} [{}]", k + 1, comparison.units[k].shown));
+    table.align.push_back(report::Align::right);
+  }
+  for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
+    std::vector<Cell> row = {"simulated here", comparison.runs[i].name};
+    for (int k = 0; k < comparison.n_joints(); ++k) {
+      row.emplace_back(shown_number(mean_error(experiments, i, k), comparison.units[k]));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  for (const PublishedErrors& published : published_errors()) {
+    std::vector<Cell> row = {"measured on the robot", published.source};
+    for (const double error : published.error) row.emplace_back(fmt::format("{:.4g}", error));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string share_of_published(const std::vector<Experiment>& experiments) {
+  const Comparison& comparison = first(experiments);
+  std::string text;
+  for (int k = 0; k < comparison.n_joints(); ++k) {
+    const double here = comparison.units[k].shown_per_si * mean_error(experiments, comparison.baseline(), k);
+    text += fmt::format("{}1/{:.0f}", text.empty() ? "" : ", ", published_errors()[0].error[k] / here);
+  }
+  return text;
+}
 
 void write_experiments(const std::filesystem::path& folder, const std::vector<Experiment>& experiments) {
   const CsvTable table = experiments_table(experiments);

@@ -30,6 +30,10 @@ std::string element(const std::string& name, const std::string& text) {
   return "<" + name + ">" + escaped(text) + "</" + name + ">\n";
 }
 
+std::string anchor(const std::string& text, const std::string& address) {
+  return "<a href=\"" + escaped(address) + "\">" + escaped(text) + "</a>";
+}
+
 /// Says so where a chart shows fewer points than there are samples.
 std::string decimation_note(const Chart& chart) {
   const bool line = chart.kind == ChartKind::line;
@@ -70,6 +74,10 @@ void Page::verdict(VerdictKind kind, const std::string& text) {
   body_ += std::string("<p class=\"verdict ") + class_of(kind) + "\">" + escaped(text) + "</p>\n";
 }
 
+void Page::link(const std::string& text, const std::string& address) {
+  body_ += "<p>" + anchor(text, address) + "</p>\n";
+}
+
 void Page::table(const Table& table) {
   const std::size_t columns = table.header.size();
   const auto check = [&](std::size_t length, const std::string& what) {
@@ -79,22 +87,23 @@ void Page::table(const Table& table) {
   };
   if (!table.align.empty()) check(table.align.size(), "the alignment");
 
-  const auto cell = [&](const char* tag, std::size_t column, const std::string& text, bool best) {
+  const auto cell = [&](const char* tag, std::size_t column, const Cell& content) {
     const bool right = table.align.empty() ? column > 0 : table.align[column] == Align::right;
     std::string classes = right ? "right" : "left";
-    if (best) classes += " best";
-    return std::string("<") + tag + " class=\"" + classes + "\">" + escaped(text) + "</" + tag + ">";
+    if (content.best) classes += " best";
+    return std::string("<") + tag + " class=\"" + classes + "\">" +
+           (content.href.empty() ? escaped(content.text) : anchor(content.text, content.href)) + "</" + tag + ">";
   };
 
   std::string html = "<div class=\"table\"><table>\n";
   if (!table.caption.empty()) html += element("caption", table.caption);
   html += "<thead><tr>";
-  for (std::size_t i = 0; i < columns; ++i) html += cell("th", i, table.header[i], false);
+  for (std::size_t i = 0; i < columns; ++i) html += cell("th", i, table.header[i]);
   html += "</tr></thead>\n<tbody>\n";
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     check(table.rows[row].size(), "row " + std::to_string(row + 1));
     html += "<tr>";
-    for (std::size_t i = 0; i < columns; ++i) html += cell("td", i, table.rows[row][i].text, table.rows[row][i].best);
+    for (std::size_t i = 0; i < columns; ++i) html += cell("td", i, table.rows[row][i]);
     html += "</tr>\n";
   }
   body_ += html + "</tbody>\n</table></div>\n";

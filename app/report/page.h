@@ -15,8 +15,16 @@ struct Cell {
   Cell(std::string content, bool is_best = false) : text(std::move(content)), best(is_best) {}
   Cell(const char* content, bool is_best = false) : text(content), best(is_best) {}
 
+  /// A relative address, such as "experiments/report.html".
+  static Cell link(std::string content, std::string address) {
+    Cell cell(std::move(content));
+    cell.href = std::move(address);
+    return cell;
+  }
+
   std::string text;
-  bool best;  ///< highlighted
+  bool best;         ///< highlighted
+  std::string href;  ///< where the text leads; empty: nowhere
 };
 
 enum class Align { left, right };
@@ -39,6 +47,8 @@ class Page {
   void heading(const std::string& text);
   void paragraph(const std::string& text);
   void verdict(VerdictKind kind, const std::string& text);
+  /// A paragraph that leads to another file; the address is relative to this page.
+  void link(const std::string& text, const std::string& address);
 
   /// Throws std::invalid_argument, naming table and row, if a row or the alignment is not as long as the header.
   void table(const Table& table);

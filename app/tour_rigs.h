@@ -1,0 +1,27 @@
+#pragma once
+/// The recordings of real rigs that the tour diagnoses where they are at hand. Models and column maps are in the
+/// examples, folder measured; the recordings are not the project's to give away: measured/RIG/README.md says where each
+/// comes from.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace halyard {
+
+struct Rig {
+  std::string name;                    ///< folder of its results
+  std::string title;
+  std::string folder;                  ///< below measured, and below the recordings
+  std::string model;                   ///< file in measured/folder
+  std::vector<std::string> training;   ///< files in the recordings' folder
+  std::string holdout;                 ///< the same; empty: the last third of the training data
+  std::string torque_unit = "N m";     ///< of what the motor is driven by
+};
+
+const std::vector<Rig>& measured_rigs();
+
+/// True if all files of the rig are in the folder of recordings.
+bool is_at_hand(const Rig& rig, const std::filesystem::path& recordings);
+
+}  // namespace halyard
