@@ -1,0 +1,72 @@
+#pragma once
+/// What the examples share: the RAVEN-II arm on sines, and records turned into samples and errors.
+
+#include <fmt/core.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "estimators/estimator.h"
+#include "model/model_file.h"
+#include "plant/simulate.h"
+
+namespace halyard {
+
+inline ArmModel raven2() { return read_model(HALYARD_EXAMPLES "/raven2/raven2.xml"); }
+
+/// The arm on the paper's sines, faded in over a second, encoders rounded. Deterministic.
+inline Scenario on_sines(const ArmModel& robot, double duration_s) {
+  Scenario scenario;
+  scenario.robot = robot;
+  scenario.duration_s = duration_s;
+  scenario.fade_in_s = 1;
+  const double frequency_hz[] = {0.3424, 0.3852, 0.4565};
+  for (int k = 0; k < robot.n(); ++k) {
+    JointTrajectory path;
+    path.kind = JointTrajectory::Kind::sines;
+    path.center = robot.joints[k].home;
+    const bool turns = robot.nominal.joint[k].type == JointType::revolute;
+    path.sines = {{turns ? 25 * std::numbers::pi / 180 : 0.040, frequency_hz[k % 3], 0}};
+    scenario.trajectory.push_back(path);
+  }
+  return scenario;
+}
+
+/// Row i of a log, as an estimator sees it.
+inline Sample sample(const Log& log, std::size_t i) {
+  Sample s;
+  s.time_s = log.time[i];
+  s.motor_torque.resize(log.n_joints);
+  s.motor_position.resize(log.n_joints);
+  for (int k = 0; k < log.n_joints; ++k) {
+    s.motor_torque(k) = log.motor_torque[k][i];
+    s.motor_position(k) = log.motor_position[k][i];
+  }
+  return s;
+}
+
+/// RMS error of an estimator's joint positions over a run, [n], rad | m; the first half second is left out.
+inline Eigen::VectorXd rms_error(Estimator& estimator, const SimulationResult& run) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(run.truth.n_joints);
+  long count = 0;
+  estimator.reset(sample(run.measured, 0));
+  for (std::size_t i = 1; i < run.measured.size(); ++i) {
+    estimator.update(sample(run.measured, i));
+    if (run.measured.time[i] < 0.5) continue;
+    const Eigen::VectorXd q = estimator.estimate().joint_position;
+    for (int k = 0; k < q.size(); ++k) sum(k) += std::pow(q(k) - run.truth.joint_position[k][i], 2);
+    ++count;
+  }
+  return (sum / static_cast<double>(count)).cwiseSqrt();
+}
+
+/// A joint coordinate as a reader likes it: "0.231 deg", "0.22 mm".
+inline std::string in_units(const ArmModel& arm, int k, double value) {
+  return arm.nominal.joint[k].type == JointType::revolute ? fmt::format("{:.4f} deg", value * 180 / std::numbers::pi)
+                                                          : fmt::format("{:.4f} mm", value * 1e3);
+}
+
+}  // namespace halyard
