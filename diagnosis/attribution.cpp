@@ -346,6 +346,7 @@ class Search {
       if (p.effect >= 0) parameters.push_back(p);
     FitOptions options;
     options.iterations = 8;
+    options.cost_tolerance = 3e-4;
     options.frozen_baseline = true;
     const Fit f = fit(evidence_, start, parameters, scale, options, kept);
     return f.usable ? judge(f.hypothesis, before, ln_before, stretch_before, effect) : unusable(effect);

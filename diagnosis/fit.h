@@ -38,6 +38,7 @@ bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nomi
 
 struct FitOptions {
   int iterations = 10;
+  double cost_tolerance = 1e-5;   ///< a step that lowers the cost by a smaller share is the last
   /// Sensitivities of baseline numbers are taken once, at the start: for a quick look at many candidates.
   bool frozen_baseline = false;
 };

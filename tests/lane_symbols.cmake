@@ -1,9 +1,9 @@
-# Fails if one of OBJECTS whose name has "lanes_" defines a symbol that the linker may share with other files (weak code,
+# Fails if one of OBJECTS that is compiled once per instruction set defines a symbol that the linker may share with other files (weak code,
 # unique): code of a wider instruction set would run where it cannot.
 #   cmake -DNM=<nm> -DOBJECTS=<list> -P lane_symbols.cmake
 set(checked 0)
 foreach(object IN LISTS OBJECTS)
-  if(NOT object MATCHES "lanes_[a-z0-9]+\\.cpp")
+  if(NOT object MATCHES "_(generic|avx2|avx512)\\.cpp")
     continue()
   endif()
   execute_process(COMMAND ${NM} -C ${object} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
@@ -14,6 +14,6 @@ foreach(object IN LISTS OBJECTS)
   math(EXPR checked "${checked} + 1")
 endforeach()
 if(checked EQUAL 0)
-  message(FATAL_ERROR "no lanes_<set> object among: ${OBJECTS}")
+  message(FATAL_ERROR "no object of one instruction set among: ${OBJECTS}")
 endif()
 message("${checked} files share no code")
