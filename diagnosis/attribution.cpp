@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/screen.h"
+
 namespace halyard {
 namespace {
 
@@ -16,6 +18,8 @@ namespace {
 constexpr double kMattersShare = 0.05;
 /// What is left matters above this many times the floor of its channel.
 constexpr double kRestFactor = 4;
+/// A candidate that promises less than this share of the residual, to first order, is not fitted at all.
+constexpr double kPromise = 0.02;
 /// A candidate whose quick look is less significant than this is not fitted whole.
 constexpr double kWorthAFit = 0.05;
 /// Two candidates whose gains differ by less than this many standard errors cannot be told apart.
@@ -259,11 +263,13 @@ class Search {
     const auto columns = sensitivities(evidence_, from.hypothesis, numbers);
     if (columns.empty() && !numbers.empty()) return false;
 
+    const Screen screen(evidence_, from.hypothesis, columns, scale);
+
     const std::vector<PlacedEffect> all = candidates(current.hypothesis);
     std::vector<Trial> trials(all.size());
     std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-      trials[i] = quick_look(from, numbers, columns, scale, score, ln_before, stretch(current.hypothesis), all[i]);
+      trials[i] = quick_look(from, screen, numbers, columns, scale, score, ln_before, stretch(current.hypothesis), all[i]);
       say("candidates of round " + std::to_string(result_.rounds.size() + 1), static_cast<double>(++done) / all.size());
     });
     const auto better = [](const Trial& a, const Trial& b) { return a.gain > b.gain; };
@@ -304,37 +310,44 @@ class Search {
     return best < leaders.size();
   }
 
-  /// Sizes that may lie anywhere over decades are tried over decades first: least squares finds only the nearest valley.
-  Hypothesis best_start(const Hypothesis& h, const std::vector<double>& scale) const {
+  /// The candidate at the sizes that it may have: each parameter both ways from neutral, and those that may lie
+  /// anywhere over decades at several sizes. The first is the candidate as it is.
+  std::vector<Hypothesis> sizes(const Hypothesis& h) const {
     constexpr double kDecades = 1e-4;
-    Hypothesis best = h;
-    const auto cost = [&](const std::vector<double>& rows) {
-      double sum = rows.empty() ? std::numeric_limits<double>::infinity() : 0;
-      for (std::size_t r = 0; r < rows.size(); ++r) {
-        const double e = rows[r] / scale[evidence_.row_channel()[r]];
-        sum += e * e;
+    constexpr int kSizes = 7;
+    std::vector<Hypothesis> all = {h};
+    const auto parameters = effect_parameters(h, model_.nominal, static_cast<int>(h.effects.size()) - 1);
+    for (const FitParameter& p : parameters) {
+      const auto add = [&](double value) {
+        all.push_back(h);
+        set_parameter(all.back(), p, std::clamp(value, p.lower, p.upper));
+      };
+      if (p.natural_bounds || p.lower < 0) {
+        add(p.nominal + p.scale);
+        add(p.nominal - p.scale);
+        continue;
       }
-      return sum;
-    };
-    for (const FitParameter& p : effect_parameters(h, model_.nominal, static_cast<int>(h.effects.size()) - 1)) {
-      if (p.natural_bounds || p.lower < 0) continue;
-      std::vector<Hypothesis> tried(kLaneWidth, best);
       const double low = std::max(p.lower, kDecades * p.upper);
-      for (int i = 1; i < kLaneWidth; ++i)
-        set_parameter(tried[i], p, low * std::pow(p.upper / low, (i - 0.5) / (kLaneWidth - 1)));
-      const auto rows = evidence_.fit_rows(tried);
-      std::size_t least = 0;
-      for (std::size_t i = 1; i < rows.size(); ++i)
-        if (cost(rows[i]) < cost(rows[least])) least = i;
-      best = tried[least];
+      for (int i = 0; i < kSizes; ++i) add(low * std::pow(p.upper / low, (i + 0.5) / kSizes));
     }
-    return best;
+    return all;
   }
 
-  Trial quick_look(const Fit& current, const std::vector<FitParameter>& numbers, const std::vector<std::vector<double>>& columns,
+  Trial quick_look(const Fit& current, const Screen& screen, const std::vector<FitParameter>& numbers, const std::vector<std::vector<double>>& columns,
                    const std::vector<double>& scale, const Score& before, const std::vector<double>& ln_before,
                    double stretch_before, const PlacedEffect& effect) const {
-    const Hypothesis start = best_start(with_effect(current.hypothesis, effect), scale);
+    Hypothesis start = with_effect(current.hypothesis, effect);
+    const std::vector<Hypothesis> tried = sizes(start);
+    const auto rows = evidence_.fit_rows(tried);
+    if (screen.promise(rows) < kPromise) return unusable(effect);
+    // Least squares finds only the nearest valley: it starts from the size that fits best by itself.
+    const auto cost = [&](const std::vector<double>& row) {
+      double sum = row.empty() ? std::numeric_limits<double>::infinity() : 0;
+      for (std::size_t r = 0; r < row.size(); ++r) sum += std::pow(row[r] / scale[evidence_.row_channel()[r]], 2);
+      return sum;
+    };
+    const auto least = std::min_element(rows.begin(), rows.end(), [&](const auto& a, const auto& b) { return cost(a) < cost(b); });
+    start = tried[least - rows.begin()];
     std::vector<FitParameter> parameters;
     std::vector<std::vector<double>> kept;
     for (std::size_t i = 0; i < numbers.size(); ++i) {

@@ -1,0 +1,50 @@
+#include "diagnosis/screen.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halyard {
+
+Screen::Screen(const Evidence& evidence, const Hypothesis& at, const std::vector<std::vector<double>>& columns,
+               const std::vector<double>& scale)
+    : evidence_(evidence), scale_(scale), numbers_(static_cast<int>(columns.size())) {
+  const auto rows = static_cast<Eigen::Index>(evidence.row_channel().size());
+  // The prior is a row more for each number: with it the projection is that of the penalised fit.
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows + numbers_, numbers_);
+  for (int i = 0; i < numbers_; ++i) {
+    J.col(i).head(rows) = weighted(columns[i]);
+    J(rows + i, i) = 1;
+  }
+  qr_.compute(J);
+  r_ = weighted(evidence.fit_rows({at})[0]);
+  r_beyond_ = beyond_baseline(r_);
+}
+
+Eigen::VectorXd Screen::weighted(const std::vector<double>& rows) const {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    x(static_cast<Eigen::Index>(r)) = rows[r] / (scale_[evidence_.row_channel()[r]] * std::sqrt(evidence_.correlated_rows()));
+  return x;
+}
+
+Eigen::VectorXd Screen::beyond_baseline(Eigen::VectorXd x) const {
+  const Eigen::Index rows = x.size();
+  x.conservativeResize(rows + numbers_);
+  x.tail(numbers_).setZero();
+  x = qr_.householderQ().adjoint() * x;
+  x.head(numbers_).setZero();
+  return qr_.householderQ() * x;
+}
+
+double Screen::promise(const std::vector<std::vector<double>>& rows) const {
+  double best = 0;
+  for (const auto& row : rows) {
+    if (row.empty()) continue;
+    const Eigen::VectorXd d = beyond_baseline(weighted(row) - r_);
+    const double size = d.squaredNorm() * r_beyond_.squaredNorm();
+    if (size > 0) best = std::max(best, std::pow(r_beyond_.dot(d), 2) / size);
+  }
+  return best;
+}
+
+}  // namespace halyard
