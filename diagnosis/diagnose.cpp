@@ -142,7 +142,7 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
 
   // One sine fits many effects alike: a name taken from it would be a guess.
   std::vector<bool> one_sine(model.n());
-  for (int k = 0; k < model.n(); ++k) one_sine[k] = is_one_sinusoid(evidence.records(), k);
+  for (int k = 0; k < model.n(); ++k) one_sine[k] = is_one_sinusoid(evidence.records(), model.nominal, k);
   const bool all_one_sine = std::all_of(one_sine.begin(), one_sine.end(), [](bool b) { return b; });
 
   for (std::size_t e = given; e < h.effects.size() && !all_one_sine; ++e) {

@@ -9,7 +9,8 @@ namespace halyard {
 /// direction, acceleration or a constant it goes together most.
 std::string signature(const Evidence& evidence, const Hypothesis& hypothesis, int joint);
 
-/// True if every record moves joint k along one and the same sine: a fit of one sine cannot tell effects apart.
-bool is_one_sinusoid(const std::vector<Record>& records, int joint);
+/// True if joint k moves along one sine, or stands still, in the one record there is: such a motion cannot tell effects
+/// of the joint apart. What counts is the joint's own motion: its motor also makes up for the inboard joints.
+bool is_one_sinusoid(const std::vector<Record>& records, const ArmParameters<double>& arm, int joint);
 
 }  // namespace halyard

@@ -1,0 +1,196 @@
+#include "diagnosis/record.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "model/input_error.h"
+#include "model/model_file.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+ArmModel raven2() { return read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml"); }
+
+/// A log of three joints in which every signal is the same function of time.
+Log log_of(const std::function<double(double)>& x, double duration, double rate_hz, double start = 0) {
+  Log log(3);
+  log.source = "some.csv";
+  for (long i = 0; i <= std::lround(duration * rate_hz); ++i)
+    log.time.push_back(start + static_cast<double>(i) / rate_hz);
+  for (Signals* signals : {&log.motor_position, &log.motor_torque, &log.joint_position, &log.joint_torque})
+    for (std::vector<double>& column : *signals)
+      for (const double t : log.time) column.push_back(x(t));
+  return log;
+}
+
+/// Far enough from the ends for the kernel not to see them.
+bool inside(const Record& r, std::size_t i) { return i * r.dt > 0.1 && (r.size - 1 - i) * r.dt > 0.1; }
+
+// σ_t is 8 ms: kernels of slope and curvature weigh readings below 10, ten roundings each, by 1 / σ_t and 2 / σ_t².
+constexpr double kValueRounding = 10 * 10 * kEps;
+constexpr double kSlopeRounding = kValueRounding / 8e-3;
+constexpr double kCurvatureRounding = 2 * kValueRounding / 8e-3 / 8e-3;
+
+TEST(Record, RampsKeepTheirValueAndSlopeUpToTheEnds) {
+  const auto ramp = [](double t) { return 1.5 - 0.8 * t; };
+  const Record r = make_records(log_of(ramp, 4, 1000), raven2(), {})[0];
+  for (std::size_t i = 0; i < r.size; ++i) {
+    EXPECT_NEAR(r.motor_angle[1][i], ramp(r.time(i)), kValueRounding);
+    EXPECT_NEAR(r.motor_rate[1][i], -0.8, kSlopeRounding);
+    EXPECT_NEAR(r.motor_acceleration[1][i], 0, kCurvatureRounding);
+    EXPECT_NEAR(r.joint[1][i], ramp(r.time(i)), kValueRounding);
+    EXPECT_NEAR(r.external[1][i], ramp(r.time(i)), kValueRounding);
+  }
+}
+
+TEST(Record, ParabolasKeepTheirSlopeAndCurvature) {
+  const auto parabola = [](double t) { return 1 + 0.3 * t - 0.7 * t * t; };
+  const Record r = make_records(log_of(parabola, 4, 1000), raven2(), {})[0];
+  for (std::size_t i = 0; i < r.size; ++i) {
+    if (!inside(r, i)) continue;
+    EXPECT_NEAR(r.motor_rate[0][i], 0.3 - 1.4 * r.time(i), kSlopeRounding);
+    EXPECT_NEAR(r.motor_acceleration[0][i], -1.4, kCurvatureRounding);
+  }
+}
+
+TEST(Record, TorqueIsThatOfTheMiddleOfTheHold) {
+  // A command is held until the next sample: what acts at a sample is the mean of what was held before and after it.
+  const auto ramp = [](double t) { return 2 * t; };
+  const Record r = make_records(log_of(ramp, 4, 1000), raven2(), {})[0];
+  for (std::size_t i = 1; i < r.size; ++i) EXPECT_NEAR(r.torque[2][i], ramp(r.time(i) - 0.5e-3), kValueRounding);
+}
+
+TEST(Record, EverySignalPassesOneFilterWhateverTheSampleRate) {
+  const double f = 2, w = 2 * std::numbers::pi * f;
+  const auto sine = [&](double t) { return std::sin(w * t); };
+  // A Gaussian of cut-off f_c passes exp(-(f / f_c)² / 2); cut off at four deviations it is wrong by 1e-4 at most.
+  const double gain = std::exp(-0.5 * (f / 20) * (f / 20));
+  const std::pair<double, double> rate_and_step[] = {{250, 4e-3}, {400, 2.5e-3}, {1000, 2e-3}, {3000, 2e-3}};
+  for (const auto& [rate, step] : rate_and_step) {
+    const Record r = make_records(log_of(sine, 3, rate, 0.25), raven2(), {})[0];
+    EXPECT_NEAR(r.dt, step, 1e-12) << rate;
+    EXPECT_EQ(r.start, 0.25);
+    EXPECT_EQ(r.size, static_cast<std::size_t>(std::lround(3 / step)) + 1) << rate;
+    for (std::size_t i = 0; i < r.size; ++i) {
+      if (!inside(r, i)) continue;
+      const double t = r.time(i);
+      EXPECT_NEAR(r.motor_angle[0][i], gain * std::sin(w * t), 2e-4);
+      EXPECT_NEAR(r.motor_rate[0][i], gain * w * std::cos(w * t), 2e-4 * w);
+      EXPECT_NEAR(r.motor_acceleration[0][i], -gain * w * w * std::sin(w * t), 2e-4 * w * w);
+      // The mean of two samples passes cos(ω Δt / 2).
+      EXPECT_NEAR(r.torque[0][i], gain * std::cos(w * 0.5 / rate) * std::sin(w * (t - 0.5 / rate)), 2e-4);
+      EXPECT_NEAR(r.joint[0][i], r.motor_angle[0][i], 1e-12);
+    }
+  }
+}
+
+TEST(Record, LongGapsSplitALogAndShortOnesDoNot) {
+  for (const double gap : {0.03, 0.2}) {
+    Log whole = log_of([](double t) { return t; }, 6, 1000), log(3);
+    log.source = whole.source;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      if (whole.time[i] > 2 && whole.time[i] < 2 + gap) continue;
+      log.time.push_back(whole.time[i]);
+      for (int k = 0; k < 3; ++k) {
+        log.motor_position[k].push_back(whole.motor_position[k][i]);
+        log.motor_torque[k].push_back(whole.motor_torque[k][i]);
+        log.joint_position[k].push_back(whole.joint_position[k][i]);
+      }
+    }
+    const std::vector<Record> records = make_records(log, raven2(), {});
+    if (gap < 0.05) {
+      ASSERT_EQ(records.size(), 1u);
+      const std::size_t middle = static_cast<std::size_t>(std::lround(2.016 / records[0].dt));
+      EXPECT_EQ(records[0].torque_valid[0][middle], 0) << "nothing was measured there";
+      EXPECT_NEAR(records[0].motor_angle[0][middle], 2.016, 1e-12) << "a ramp goes on through a short gap";
+    } else {
+      ASSERT_EQ(records.size(), 2u);
+      EXPECT_NEAR(records[0].time(records[0].size - 1), 2.0, 1e-9);
+      EXPECT_NEAR(records[1].start, 2.2, 1e-3);
+      EXPECT_EQ(records[1].torque_valid[0][10], 0) << "settles anew";
+    }
+  }
+}
+
+TEST(Record, StretchesTooShortToCompareAreLeftOut) {
+  Log log = log_of([](double t) { return t; }, 4, 1000);
+  for (std::size_t i = 0; i < log.size(); ++i)
+    if (log.time[i] > 1.0005) log.time[i] += 1;   // the first second alone
+  const std::vector<Record> records = make_records(log, raven2(), {});
+  ASSERT_EQ(records.size(), 1u);
+  EXPECT_NEAR(records[0].start, 2.001, 1e-9);
+}
+
+TEST(Record, SaysThatALogIsTooShort) {
+  const auto message = [](const Log& log) -> std::string {
+    try {
+      make_records(log, raven2(), {});
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message(log_of([](double t) { return t; }, 1.4, 1000)),
+            "some.csv: no stretch without gaps is longer than 1.500000 s; expected a longer record");
+  EXPECT_EQ(message(log_of([](double t) { return t; }, 0, 1000)),
+            "some.csv: has fewer than two samples; expected a record of at least a second");
+}
+
+TEST(Record, DropOutsAreMaskedInTheSignalsThatNeedThem) {
+  Log log = log_of([](double t) { return std::sin(t); }, 4, 1000);
+  for (int i = 2000; i < 2020; ++i) log.joint_position[0][i] = kNan;
+  for (int i = 2500; i < 2520; ++i) log.motor_torque[0][i] = kNan;
+  for (int i = 3000; i < 3020; ++i) log.motor_position[0][i] = kNan;
+  const Record r = make_records(log, raven2(), {})[0];
+  for (std::size_t i = 0; i < r.size; ++i) {
+    const double t = r.time(i);
+    const bool settled = t >= 0.5 - 1e-9;
+    const auto in = [&](double from) { return t > from + 1.5e-3 && t < from + 0.0175; };
+    const auto near = [&](double from) { return t > from - 1.5e-3 && t < from + 0.0215; };
+    // At a sample next to a drop-out either is right: it lies within one sample of one that is there.
+    const bool joint_there = !near(2) && !near(3), torque_there = !near(2.5) && !near(3);
+    EXPECT_TRUE(!joint_there || r.joint_valid[0][i] == settled) << t;
+    EXPECT_TRUE(!torque_there || r.torque_valid[0][i] == settled) << t;
+    EXPECT_TRUE(!(in(2) || in(3)) || r.joint_valid[0][i] == 0) << t;
+    EXPECT_TRUE(!(in(2.5) || in(3)) || r.torque_valid[0][i] == 0) << t;
+    EXPECT_EQ(r.joint_valid[1][i], settled) << "another joint";
+    for (const Signals* x : {&r.motor_acceleration, &r.joint, &r.torque}) EXPECT_TRUE(std::isfinite((*x)[0][i])) << t;
+  }
+}
+
+TEST(Record, AbsentColumnsAndJointsWithoutMotorHaveNothingToCompare) {
+  ArmModel model = raven2();
+  model.nominal.joint[2].drive = Drive::none;
+  Log log = log_of([](double t) { return std::sin(t); }, 4, 1000);
+  log.joint_position[1].clear();
+  log.motor_torque[0].clear();
+  log.joint_torque[0].clear();
+  const Record r = make_records(log, model, {})[0];
+  EXPECT_FALSE(r.has_joint(1));
+  EXPECT_FALSE(r.has_torque(0));
+  EXPECT_FALSE(r.has_torque(2));
+  EXPECT_TRUE(r.external[0].empty());
+  for (std::size_t i = 0; i < r.size; ++i) {
+    EXPECT_EQ(r.motor_angle[2][i], 0);
+    EXPECT_EQ(r.torque_valid[0][i] + r.torque_valid[2][i] + r.joint_valid[1][i], 0);
+  }
+}
+
+TEST(SplitLog, CutsInTime) {
+  const Log log = log_of([](double t) { return t; }, 3, 1000);
+  const auto [first, rest] = split_log(log, 2.0 / 3);
+  EXPECT_EQ(first.size() + rest.size(), log.size());
+  EXPECT_NEAR(rest.time.front(), 2.0, 1e-9);
+  EXPECT_LT(first.time.back(), rest.time.front());
+  EXPECT_EQ(rest.motor_position[2].front(), log.motor_position[2][first.size()]);
+}
+
+}  // namespace
+}  // namespace halyard
