@@ -161,7 +161,7 @@ TEST(Coupling, MotorPowerIsJointPowerAndWhatStretchesTheCables) {
       }
       // About 10 roundings of terms no larger than |g| (|ω| + Σ|C q'|).
       EXPECT_NEAR(motors, joints + cables, 10 * kEps * size);
-      // Without what the coupling gives back, power would come from nothing.
+      // The balance is one of powers that are there.
       EXPECT_GT(std::abs(joints), 1e3 * 10 * kEps * size);
     }
   }

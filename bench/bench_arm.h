@@ -1,0 +1,27 @@
+#pragma once
+/// The arm and the motion that all benchmarks use.
+
+#include "model/model_file.h"
+#include "plant/simulate.h"
+
+namespace halyard {
+
+inline ArmModel raven2() { return read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml"); }
+
+/// Sines of all joints around home.
+inline Scenario sines(const ArmModel& robot, double duration_s) {
+  Scenario s;
+  s.robot = robot;
+  s.name = "benchmark";
+  s.duration_s = duration_s;
+  s.fade_in_s = 0.5;
+  s.trajectory.resize(robot.n());
+  for (int k = 0; k < robot.n(); ++k) {
+    s.trajectory[k].kind = JointTrajectory::Kind::sines;
+    s.trajectory[k].center = robot.joints[k].home;
+    s.trajectory[k].sines = {{robot.nominal.joint[k].type == JointType::revolute ? 0.2 : 0.02, 0.5 + 0.2 * k, 0}};
+  }
+  return s;
+}
+
+}  // namespace halyard
