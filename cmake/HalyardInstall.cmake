@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 
 set(HALYARD_PLUGIN_DIR ${CMAKE_INSTALL_LIBDIR}/halyard/plugins)
 set(HALYARD_DATA_DIR ${CMAKE_INSTALL_DATADIR}/halyard)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/raven2 DESTINATION ${HALYARD_DATA_DIR}
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/raven2 ${PROJECT_SOURCE_DIR}/examples/measured DESTINATION ${HALYARD_DATA_DIR}
   FILES_MATCHING PATTERN "*.xml" PATTERN "*.csv" PATTERN "*.md")
 
 # A shared library brings along what it links, a static one leaves that to its users.
