@@ -276,12 +276,13 @@ class Search {
     std::stable_sort(trials.begin(), trials.end(), better);
 
     // The quick look holds baseline sensitivities fixed; the leaders are fitted whole.
-    constexpr std::size_t kLeaders = 5;
+    constexpr std::size_t kLeaders = 4;
+    constexpr double kLeads = 0.25;   // of the best gain
     std::vector<Fit> fits(std::min(kLeaders, trials.size()));
     std::vector<Trial> leaders(trials.begin(), trials.begin() + fits.size());
     done = 0;
     tbb::parallel_for(std::size_t{0}, fits.size(), [&](std::size_t i) {
-      if (!(trials[i].gain > 0) || trials[i].p_value > kWorthAFit) return;
+      if (!(trials[i].gain > kLeads * trials[0].gain) || trials[i].p_value > kWorthAFit) return;
       fits[i] = refit(with_effect(from.hypothesis, trials[i].effect), score);
       leaders[i] = fits[i].usable ? judge(fits[i].hypothesis, score, ln_before, stretch(current.hypothesis), trials[i].effect) : unusable(trials[i].effect);
       say("best candidates of round " + std::to_string(result_.rounds.size() + 1), static_cast<double>(++done) / fits.size());
@@ -310,11 +311,11 @@ class Search {
     return best < leaders.size();
   }
 
-  /// The candidate at the sizes that it may have: each parameter both ways from neutral, and those that may lie
-  /// anywhere over decades at several sizes. The first is the candidate as it is.
+  /// The candidate at the sizes that it may have: each parameter both ways from neutral, and those that count from
+  /// nothing or as a ratio over some decades around their typical size. The first is the candidate as it is.
   std::vector<Hypothesis> sizes(const Hypothesis& h) const {
-    constexpr double kDecades = 1e-4;
     constexpr int kSizes = 7;
+    constexpr double kSizeSpan = 30, kRatioSpan = 5;
     std::vector<Hypothesis> all = {h};
     const auto parameters = effect_parameters(h, model_.nominal, static_cast<int>(h.effects.size()) - 1);
     for (const FitParameter& p : parameters) {
@@ -327,8 +328,9 @@ class Search {
         add(p.nominal - p.scale);
         continue;
       }
-      const double low = std::max(p.lower, kDecades * p.upper);
-      for (int i = 0; i < kSizes; ++i) add(low * std::pow(p.upper / low, (i + 0.5) / kSizes));
+      const bool ratio = p.nominal == 1;
+      const double typical = ratio ? 1 : parameter_value(h, p), span = ratio ? kRatioSpan : kSizeSpan;
+      for (int i = 0; i < kSizes; ++i) add(typical * std::pow(span, (2.0 * i + 1) / kSizes - 1));
     }
     return all;
   }

@@ -52,7 +52,8 @@ std::vector<FullPrediction> predict_all(const std::vector<Record>& records, cons
 Estimated estimated(const Fit& f, std::size_t i) {
   const FitParameter& p = f.parameters[i];
   const double half = kTwoSided95 * f.std_deviation[i];
-  return {p.name, p.unit, f.value[i], f.value[i] - half, f.value[i] + half, p.nominal};
+  // No interval reaches beyond what the number can be.
+  return {p.name, p.unit, f.value[i], std::max(f.value[i] - half, p.lower), std::min(f.value[i] + half, p.upper), p.nominal};
 }
 
 /// A refit that is told: the model's number lies far outside its interval. Of some thirty numbers one in a thousand

@@ -162,23 +162,29 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
   const CommandHistory history = whole_history(record, inputs);
   std::vector<Residuals> all(hypotheses.size());
 
+  // All hypotheses of a call take the same number of stages: they differ by their numbers alone.
+  std::vector<DrivenState<double>> starts(hypotheses.size());
+  std::vector<int> needed(hypotheses.size());
+  tbb::parallel_for(std::size_t{0}, hypotheses.size(), [&](std::size_t h) {
+    starts[h] = unstretched_state(hypotheses[h], record, inputs[0]);
+    needed[h] = stable_stages(make_transmission<Dual>(hypotheses[h]), record, standing(inputs[0]), starts[h]);
+  });
+  int stages = 2;
+  for (const int s : needed) stages = std::max(stages, s);
+  const Chebyshev scheme = chebyshev(stages);
+  const int n_states = hypotheses.empty() ? 0 : make_transmission<double>(hypotheses[0]).n_states();
+
   const std::size_t batches = (hypotheses.size() + kLaneWidth - 1) / kLaneWidth;
   tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t b) {
     const std::size_t first = b * kLaneWidth, count = std::min<std::size_t>(kLaneWidth, hypotheses.size() - first);
     const Hypothesis* lane[kLaneWidth];
     DrivenState<Lanes> x;
-    const Transmission<Dual> shape = make_transmission<Dual>(hypotheses[first]);
     for (int k = 0; k < n; ++k) x.q[k] = x.v[k] = 0.0;
-    for (int k = 0; k < shape.n_states(); ++k) x.z[k] = 0.0;
-    int stages = 2;
+    for (int k = 0; k < n_states; ++k) x.z[k] = 0.0;
     for (std::size_t l = 0; l < kLaneWidth; ++l) {
-      lane[l] = &hypotheses[first + std::min(l, count - 1)];
-      const Transmission<Dual> transmission = make_transmission<Dual>(*lane[l]);
-      const DrivenState<double> start = unstretched_state(*lane[l], record, inputs[0]);
-      for (int k = 0; k < n; ++k) x.q[k].set(static_cast<int>(l), start.q[k]);
-      const int needed = stable_stages(transmission, record, standing(inputs[0]), start);
-      if (needed == 0) lane[l] = nullptr;
-      stages = std::max(stages, needed);
+      const std::size_t h = first + std::min(l, count - 1);
+      lane[l] = needed[h] > 0 ? &hypotheses[h] : nullptr;
+      for (int k = 0; k < n; ++k) x.q[k].set(static_cast<int>(l), starts[h].q[k]);
     }
     // A lane that cannot be integrated is replaced by one that can, and reported.
     const Hypothesis* able = nullptr;
@@ -189,7 +195,6 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
       const Hypothesis* filled[kLaneWidth];
       for (int l = 0; l < kLaneWidth; ++l) filled[l] = lane[l] ? lane[l] : able;
       const Transmission<Lanes> transmission = pack_hypotheses(filled);
-      const Chebyshev scheme = chebyshev(stages);
       const std::vector<DrivenInput> held(static_cast<std::size_t>(kLetDown / record.dt) + 1, standing(inputs[0]));
       std::vector<Lanes> unused(2 * n * 2);
       drive(transmission, held.data(), held.size(), record.start, record.dt, scheme, static_cast<int>(held.size()), &history, x,
