@@ -116,7 +116,7 @@ void add_error_table(report::Page& page, const Diagnosis& d) {
   const std::vector<JointUnit> units = joint_units(d.revised);
   report::Table table;
   table.caption = "Error on the hold-out (" + d.holdout + "), which no decision has seen";
-  table.header = {"joint", "position RMS before", "after", "position peak before", "after", "torque RMS before [N m]", "after [N m]"};
+  table.header = {"joint", "position RMS before", "after", "position peak before", "after", "torque RMS before [N\u00a0m]", "after [N\u00a0m]"};
   const auto cell = [](double v, double scale, const std::string& unit) {
     return std::isfinite(v) ? fmt::format("{:.4g}{}", v * scale, unit.empty() ? "" : " " + unit) : std::string("no sensor");
   };

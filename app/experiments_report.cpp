@@ -113,7 +113,7 @@ CsvTable experiments_table(const std::vector<Experiment>& experiments) {
 report::Table mean_error_table(const std::vector<Experiment>& experiments) {
   const Comparison& comparison = first(experiments);
   report::Table table;
-  table.caption = "Mean absolute error (the paper's Eq. 18), mean of experiments A, B and C";
+  table.caption = "Mean absolute error (the paper's Eq. 18), mean of experiments A, B and C; robot: measured";
   table.header = {"where", "estimator"};
   table.align = {report::Align::left, report::Align::left};
   for (int k = 0; k < comparison.n_joints(); ++k) {
@@ -121,14 +121,14 @@ report::Table mean_error_table(const std::vector<Experiment>& experiments) {
     table.align.push_back(report::Align::right);
   }
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
-    std::vector<Cell> row = {"simulated here", comparison.runs[i].name};
+    std::vector<Cell> row = {"simulated", comparison.runs[i].name};
     for (int k = 0; k < comparison.n_joints(); ++k) {
       row.emplace_back(shown_number(mean_error(experiments, i, k), comparison.units[k]));
     }
     table.rows.push_back(std::move(row));
   }
   for (const PublishedErrors& published : published_errors()) {
-    std::vector<Cell> row = {"measured on the robot", published.source};
+    std::vector<Cell> row = {"robot", published.source};
     for (const double error : published.error) row.emplace_back(fmt::format("{:.4g}", error));
     table.rows.push_back(std::move(row));
   }

@@ -190,8 +190,9 @@ void add_rigs(Page& page, const Tour& tour) {
 }  // namespace
 
 void write_tour(const std::filesystem::path& folder, const Tour& tour) {
-  Page page("Halyard: joint positions of cable-driven arms from motor signals",
-            "The paper's experiments, a diagnosis, and recordings of real rigs");
+  Page page("Halyard on one page",
+            "Joint positions of cable-driven arms from motor signals: the paper's experiments, a diagnosis, and "
+            "recordings of real rigs");
   add_experiments(page, tour.experiments);
   add_bundled(page, tour);
   add_rigs(page, tour);
