@@ -80,7 +80,8 @@ void add_candidates(report::Page& page, const Diagnosis& d) {
       table.rows.push_back({{effect_label(t.effect), taken},
                             t.usable ? fmt::format("{:.1f}", t.gain) : std::string("-"),
                             t.usable ? fmt::format("{:.2g}", t.p_value) : std::string("-"),
-                            !t.usable      ? "cannot be integrated"
+                            !t.promising   ? "takes nothing of the residual"
+                            : !t.usable    ? "cannot be integrated"
                             : taken        ? "added"
                             : t.gain <= 0  ? "does not help on data that the fit did not see"
                             : t.at_bound   ? "ends at the end of what is plausible"

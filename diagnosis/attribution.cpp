@@ -341,7 +341,11 @@ class Search {
     Hypothesis start = with_effect(current.hypothesis, effect);
     const std::vector<Hypothesis> tried = sizes(start);
     const auto rows = evidence_.fit_rows(tried);
-    if (screen.promise(rows) < kPromise) return unusable(effect);
+    if (screen.promise(rows) < kPromise) {
+      Trial t = unusable(effect);
+      t.promising = false;
+      return t;
+    }
     // Least squares finds only the nearest valley: it starts from the size that fits best by itself.
     const auto cost = [&](const std::vector<double>& row) {
       double sum = row.empty() ? std::numeric_limits<double>::infinity() : 0;

@@ -25,6 +25,7 @@ namespace halyard {
 /// A candidate as it was judged.
 struct Trial {
   PlacedEffect effect;
+  bool promising = true;         ///< false: to first order it takes nothing of the residual, and was not fitted
   bool usable = false;           ///< it could be fitted
   bool at_bound = false;
   bool matters = false;

@@ -110,7 +110,7 @@ Record make_record(const Log& log, const ArmModel& model, const RecordOptions& o
   const auto grid = [&](const std::vector<double>& x, std::vector<double>* valid = nullptr) {
     return on_grid(log.time, x, r.start, dt, r.size, valid);
   };
-  const auto settled = static_cast<std::size_t>(options.settle_s / dt);
+  const auto settled = static_cast<std::size_t>(options.settle_s / dt), reach = static_cast<std::size_t>(kernel.reach);
 
   for (int k = 0; k < r.n; ++k) {
     const JointParameters<double>& j = model.nominal.joint[k];
@@ -130,7 +130,9 @@ Record make_record(const Log& log, const ArmModel& model, const RecordOptions& o
         r.torque[k].resize(r.size);
         for (std::size_t i = 0; i < r.size; ++i) {
           r.torque[k][i] = 0.5 * (torque[i] + torque[i > 0 ? i - 1 : 0]);
-          r.torque_valid[k][i] = torque_there[i] * motor_there[i] * (i >= settled);
+          // Near an end the filters see a signal that was made up.
+          const bool inside = i >= reach && i + reach < r.size;
+          r.torque_valid[k][i] = torque_there[i] * motor_there[i] * (i >= settled && inside);
         }
       }
     }
