@@ -157,7 +157,9 @@ TEST(Record, DropOutsAreMaskedInTheSignalsThatNeedThem) {
     // At a sample next to a drop-out either is right: it lies within one sample of one that is there.
     const bool joint_there = !near(2) && !near(3), torque_there = !near(2.5) && !near(3);
     EXPECT_TRUE(!joint_there || r.joint_valid[0][i] == settled) << t;
-    EXPECT_TRUE(!torque_there || r.torque_valid[0][i] == settled) << t;
+    // Near the end the filter of the torque, 4 σ_t = 32 ms wide, sees a signal that was made up.
+    const bool at_the_edge = std::abs(t - (4 - 0.032)) < 2.5e-3, inside = t < 4 - 0.032;
+    EXPECT_TRUE(!torque_there || at_the_edge || r.torque_valid[0][i] == (settled && inside)) << t;
     EXPECT_TRUE(!(in(2) || in(3)) || r.joint_valid[0][i] == 0) << t;
     EXPECT_TRUE(!(in(2.5) || in(3)) || r.torque_valid[0][i] == 0) << t;
     EXPECT_EQ(r.joint_valid[1][i], settled) << "another joint";
