@@ -89,9 +89,9 @@ std::string peak_sentence(const std::vector<Experiment>& experiments) {
 void add_experiments(Page& page, const std::vector<Experiment>& experiments) {
   page.heading("1. The paper's experiments, simulated");
   page.paragraph(
-      "The RAVEN-II's first three joints follow sines: A with high tension, B with low tension, C with a payload of "
-      "100 g that the estimators do not know of. They get motor torques and quantised motor positions and nothing of "
-      "the joints.");
+      "The RAVEN-II's first three joints follow sines: A with high tension, B with low tension (which the paper's cable "
+      "law, Eq. 6, does not carry), C with a payload of 100 g that the estimators do not know of. They get motor torques "
+      "and quantised motor positions and nothing of the joints.");
   page.table(mean_error_table(experiments));
   page.table(gain_table(experiments));
   page.paragraph(fmt::format(
