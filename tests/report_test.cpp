@@ -89,6 +89,16 @@ TEST(ReportPage, EscapesTextEverywhere) {
   EXPECT_EQ(count(html, safe), 11u);
 }
 
+TEST(ReportPage, LinksLeadFromParagraphsAndCellsAndAreEscaped) {
+  Page page("t", "");
+  page.link("a & b", "x/\"y\".html");
+  page.table({.caption = "c", .header = {"h"}, .rows = {{report::Cell::link("rig", "rig/report.html")}, {"plain"}}});
+  const std::string html = page.html();
+  EXPECT_TRUE(contains(html, "<p><a href=\"x/&quot;y&quot;.html\">a &amp; b</a></p>"));
+  EXPECT_TRUE(contains(html, "<td class=\"left\"><a href=\"rig/report.html\">rig</a></td>"));
+  EXPECT_EQ(count(html, "<a href="), 2u);
+}
+
 TEST(ReportPage, DataCannotCloseTheirScriptElement) {
   Chart chart = line_chart({0, 1}, {0, 1});
   const std::string nasty = "</script><!-- <script>";
