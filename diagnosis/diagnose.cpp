@@ -63,15 +63,25 @@ bool is_refit(const Fit& f, std::size_t i) {
   return f.parameters[i].effect < 0 && std::abs(f.value[i] - f.parameters[i].nominal) > kFar * f.std_deviation[i];
 }
 
-/// Numbers that the data did not move for certain go back to the model's, and the rest is fitted again.
+/// Numbers that the data did not move for certain go back to the model's, parameters of an effect to neutral as long as
+/// another of its parameters stays; the rest is fitted again.
 Fit keep_certain_numbers(const Evidence& evidence, const Fit& f, const Score& score) {
+  const auto certain = [&](std::size_t i) {
+    return std::abs(f.value[i] - f.parameters[i].nominal) > kTwoSided95 * f.std_deviation[i];
+  };
+  const auto effect_keeps_another = [&](std::size_t i) {
+    for (std::size_t j = 0; j < f.parameters.size(); ++j)
+      if (j != i && f.parameters[j].effect == f.parameters[i].effect && certain(j)) return true;
+    return false;
+  };
   Hypothesis h = f.hypothesis;
   std::vector<FitParameter> kept;
   for (std::size_t i = 0; i < f.parameters.size(); ++i) {
-    if (f.parameters[i].effect >= 0 || is_refit(f, i))
-      kept.push_back(f.parameters[i]);
+    const FitParameter& p = f.parameters[i];
+    if (p.effect >= 0 ? certain(i) || !effect_keeps_another(i) : is_refit(f, i))
+      kept.push_back(p);
     else
-      set_parameter(h, f.parameters[i], f.parameters[i].nominal);
+      set_parameter(h, p, p.nominal);
   }
   const Fit again = fit(evidence, h, kept, channel_scale(evidence, score.fit_mean_square));
   return again.usable ? again : f;
