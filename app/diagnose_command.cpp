@@ -10,6 +10,7 @@
 #include "app/output_check.h"
 #include "app/progress.h"
 #include "diagnosis/diagnose.h"
+#include "model/input_error.h"
 #include "model/model_file.h"
 
 namespace halyard {
@@ -22,6 +23,15 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
     if (const std::string note = ignored_columns_note(log); !note.empty()) fmt::print("{}\n", note);
     return log;
   };
+  // A log that counts twice would look like twice the evidence.
+  std::vector<std::filesystem::path> all = options.data;
+  if (!options.holdout.empty()) all.push_back(options.holdout);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      std::error_code error;
+      if (std::filesystem::equivalent(all[i], all[j], error) && !error)
+        throw InputError(all[i].string() + ": is given twice among --data and --holdout; give each log once");
+    }
   std::vector<Log> training;
   for (const auto& path : options.data) training.push_back(read(path));
   std::optional<Log> holdout;
@@ -38,6 +48,10 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
   for (const NamedEffect& e : d.effects)
     for (const Estimated& p : e.parameters)
       fmt::print("  {} {}: {:.4g} {} (95 %: {:.4g} to {:.4g})\n", effect_label(e.effect), p.name, p.value, p.unit, p.lower, p.upper);
+  for (const NamedEffect& e : d.effects)
+    for (const PlacedEffect& a : e.alternatives) fmt::print("  {}: or {}\n", effect_label(e.effect), effect_label(a));
+  for (const Estimated& p : d.refitted) fmt::print("  refitted {}: {:.5g} -> {:.5g} {}\n", p.name, p.nominal, p.value, p.unit);
+  for (const Unexplained& u : d.unexplained) fmt::print("  unexplained, joint {}: {}\n", u.joint + 1, u.signature);
   const std::vector<JointUnit> units = joint_units(model);
   for (int k = 0; k < model.n(); ++k) {
     if (std::isfinite(d.before.joint_rms[k]))
@@ -47,6 +61,7 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
       fmt::print("  joint {} motor torque RMS on the hold-out: {:.4g} -> {:.4g} N m\n", k + 1, d.before.torque_rms[k],
                  d.after.torque_rms[k]);
   }
+  fmt::print("model: {}\n", (options.out / "model.xml").string());
   fmt::print("report: {}\n", (options.out / "report.html").string());
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "diagnosis/screen.h"
+#include "model/input_error.h"
 
 namespace halyard {
 namespace {
@@ -79,7 +80,7 @@ class Search {
     say("nominal model", 0);
     result_.nominal_score = evidence_.score(nominal);
     if (!result_.nominal_score.finite)
-      throw std::runtime_error("the nominal model cannot be integrated along the measured motion: its cables or frictions are too stiff");
+      throw InputError(model_.source + ": cannot be integrated along the measured motion; expected frictions and cables that settle more slowly: take larger smoothing speeds, or less damping");
     keep_sensitive_numbers(nominal);
     result_.baseline = refit(nominal, result_.nominal_score);
     result_.baseline_score = evidence_.score(result_.baseline.hypothesis);
@@ -92,9 +93,6 @@ class Search {
 
     result_.final_fit = current;
     result_.final_score = score;
-    result_.significant_rest.assign(evidence_.channels(), false);
-    for (int c = 0; c < evidence_.channels(); ++c)
-      result_.significant_rest[c] = evidence_.has_channel(c) && std::sqrt(score.mean_square[c]) > kRestFactor * evidence_.floor()[c];
     return std::move(result_);
   }
 
@@ -151,6 +149,8 @@ class Search {
     Score score = before;
     double last = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < kMostPasses; ++pass) {
+      const std::vector<double> scale = channel_scale(evidence_, score.fit_mean_square);
+      at = nudged(at, scale);
       const std::vector<FitParameter> parameters = all_parameters(at);
       std::vector<FitParameter> numbers;
       for (const FitParameter& p : parameters)
@@ -159,7 +159,7 @@ class Search {
       if (columns.empty() && !numbers.empty()) break;
       FitOptions options;
       options.frozen_baseline = true;
-      const Fit f = fit(evidence_, at, parameters, channel_scale(evidence_, score.fit_mean_square), options, columns);
+      const Fit f = fit(evidence_, at, parameters, scale, options, columns);
       if (!f.usable) break;
       score = evidence_.score(f.hypothesis);
       if (!score.finite) break;
@@ -275,7 +275,7 @@ class Search {
     const auto better = [](const Trial& a, const Trial& b) { return a.gain > b.gain; };
     std::stable_sort(trials.begin(), trials.end(), better);
 
-    // The quick look holds baseline sensitivities fixed; the leaders are fitted whole.
+    // The quick look takes the baseline's sensitivities once; for the leaders they are renewed until nothing changes.
     constexpr std::size_t kLeaders = 4;
     constexpr double kLeads = 0.25;   // of the best gain
     std::vector<Fit> fits(std::min(kLeaders, trials.size()));
@@ -335,6 +335,35 @@ class Search {
     return all;
   }
 
+  /// Which of the fitting rows have the least sum of squares, each channel over its scale.
+  std::size_t least_cost(const std::vector<std::vector<double>>& rows, const std::vector<double>& scale) const {
+    const auto cost = [&](const std::vector<double>& row) {
+      double sum = row.empty() ? std::numeric_limits<double>::infinity() : 0;
+      for (std::size_t r = 0; r < row.size(); ++r) sum += std::pow(row[r] / scale[evidence_.row_channel()[r]], 2);
+      return sum;
+    };
+    std::size_t least = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      if (cost(rows[i]) < cost(rows[least])) least = i;
+    return least;
+  }
+
+  /// The best of the hypothesis and its likes with a size of an effect somewhat changed: impacts make the residual rough
+  /// in such a size, and least squares stops in the folds.
+  Hypothesis nudged(Hypothesis h, const std::vector<double>& scale) const {
+    for (std::size_t e = given_; e < h.effects.size(); ++e)
+      for (const FitParameter& p : effect_parameters(h, model_.nominal, static_cast<int>(e))) {
+        if (p.natural_bounds || p.lower < 0) continue;
+        std::vector<Hypothesis> tried = {h};
+        for (const double factor : {0.7, 0.85, 0.95, 1.05, 1.15, 1.3, 1.6}) {
+          tried.push_back(h);
+          set_parameter(tried.back(), p, std::clamp(factor * parameter_value(h, p), p.lower, p.upper));
+        }
+        h = tried[least_cost(evidence_.fit_rows(tried), scale)];
+      }
+    return h;
+  }
+
   Trial quick_look(const Fit& current, const Screen& screen, const std::vector<FitParameter>& numbers, const std::vector<std::vector<double>>& columns,
                    const std::vector<double>& scale, const Score& before, const std::vector<double>& ln_before,
                    double stretch_before, const PlacedEffect& effect) const {
@@ -347,13 +376,7 @@ class Search {
       return t;
     }
     // Least squares finds only the nearest valley: it starts from the size that fits best by itself.
-    const auto cost = [&](const std::vector<double>& row) {
-      double sum = row.empty() ? std::numeric_limits<double>::infinity() : 0;
-      for (std::size_t r = 0; r < row.size(); ++r) sum += std::pow(row[r] / scale[evidence_.row_channel()[r]], 2);
-      return sum;
-    };
-    const auto least = std::min_element(rows.begin(), rows.end(), [&](const auto& a, const auto& b) { return cost(a) < cost(b); });
-    start = tried[least - rows.begin()];
+    start = tried[least_cost(rows, scale)];
     std::vector<FitParameter> parameters;
     std::vector<std::vector<double>> kept;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -398,6 +421,13 @@ class Search {
 };
 
 }  // namespace
+
+std::vector<bool> significant_rest(const Evidence& evidence, const Score& score) {
+  std::vector<bool> rest(evidence.channels(), false);
+  for (int c = 0; c < evidence.channels(); ++c)
+    rest[c] = evidence.has_channel(c) && std::sqrt(score.mean_square[c]) > kRestFactor * evidence.floor()[c];
+  return rest;
+}
 
 Attribution attribute(const Evidence& evidence, const ArmModel& model, const AttributionOptions& options,
                       const std::function<void(const std::string&, double)>& progress) {

@@ -46,8 +46,10 @@ struct Attribution {
   std::vector<std::vector<PlacedEffect>> alternatives;   ///< for each effect of final_fit
   std::vector<Round> rounds;
   Score nominal_score, baseline_score, final_score;
-  std::vector<bool> significant_rest;        ///< [2n] what is left in the channel matters
 };
+
+/// [2n] Channels in which what is left matters: on the deciding blocks it is well above the channel's floor.
+std::vector<bool> significant_rest(const Evidence& evidence, const Score& score);
 
 struct AttributionOptions {
   int most_effects = 6;

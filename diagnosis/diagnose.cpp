@@ -149,6 +149,7 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
   const std::size_t given = model.effects.size();
   const Fit final_fit = keep_certain_numbers(evidence, d.attribution.final_fit, d.attribution.final_score);
   d.attribution.final_fit = final_fit;
+  d.attribution.final_score = evidence.score(final_fit.hypothesis);
   const Hypothesis& h = final_fit.hypothesis;
 
   // One sine fits many effects alike: a name taken from it would be a guess.
@@ -162,12 +163,13 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
       if (final_fit.parameters[i].effect == static_cast<int>(e)) named.parameters.push_back(estimated(final_fit, i));
     d.effects.push_back(std::move(named));
   }
-  for (std::size_t i = 0; i < final_fit.parameters.size(); ++i)
+  const bool would_name = h.effects.size() > given;
+  for (std::size_t i = 0; i < final_fit.parameters.size() && !(all_one_sine && would_name); ++i)
     if (is_refit(final_fit, i)) d.refitted.push_back(estimated(final_fit, i));
 
-  const bool would_name = h.effects.size() > given;
+  const std::vector<bool> rest_of = significant_rest(evidence, d.attribution.final_score);
   for (int k = 0; k < model.n(); ++k) {
-    const bool rest = d.attribution.significant_rest[k] || d.attribution.significant_rest[model.n() + k];
+    const bool rest = rest_of[k] || rest_of[model.n() + k];
     if (all_one_sine && would_name)
       d.unexplained.push_back({k, "the record is one sine, along which several effects look alike; record other motions or loads"});
     else if (rest)

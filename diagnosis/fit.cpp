@@ -47,11 +47,10 @@ class Residual : public ceres::CostFunction {
     const double* u = blocks[0];
     const std::size_t rows = weight_.size(), p = parameters_.size();
     const bool wanted = jacobians && jacobians[0];
-    // Sensitivities ride along for nothing while they fit into the lanes of the value itself.
-    const bool along = frozen_;
+    // With the baseline frozen the few sensitivities that are left ride in the lanes beside the value.
     std::vector<Hypothesis> all = {hypothesis(u)};
     std::vector<double> step(p, 0);
-    for (std::size_t i = 0; (wanted || along) && i < p; ++i) {
+    for (std::size_t i = 0; (wanted || frozen_) && i < p; ++i) {
       if (is_frozen(i)) continue;
       all.push_back(moved(all[0], parameters_[i], kStep));
       step[i] = (parameter_value(all.back(), parameters_[i]) - parameter_value(all[0], parameters_[i])) / parameters_[i].scale;
@@ -213,7 +212,8 @@ Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<Fit
   solver.logging_type = ceres::SILENT;
   solver.num_threads = 1;
   // A trial step that cannot be integrated is foreseen; Ceres would warn of it on stderr.
-  FLAGS_minloglevel = google::GLOG_FATAL;
+  static const int silent = FLAGS_minloglevel = google::GLOG_FATAL;
+  (void)silent;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
   if (summary.termination_type == ceres::FAILURE) return result;

@@ -39,7 +39,7 @@ bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nomi
 struct FitOptions {
   int iterations = 10;
   double cost_tolerance = 1e-5;   ///< a step that lowers the cost by a smaller share is the last
-  /// Sensitivities of baseline numbers are taken once, at the start: for a quick look at many candidates.
+  /// Sensitivities of baseline numbers are taken once, at the start, and not in every iteration.
   bool frozen_baseline = false;
 };
 
@@ -53,7 +53,7 @@ struct Fit {
 /// Channel scales from residuals: sqrt(max(mean square, floor²)). [2n]
 std::vector<double> channel_scale(const Evidence& evidence, const std::vector<double>& mean_square);
 
-/// Sensitivities of the fitting rows to parameters, by central differences; empty if one could not be integrated.
+/// Sensitivities of the fitting rows to parameters, by one-sided differences; empty if one could not be integrated.
 std::vector<std::vector<double>> sensitivities(const Evidence& evidence, const Hypothesis& at,
                                                const std::vector<FitParameter>& parameters);
 

@@ -59,8 +59,8 @@ std::vector<double> correlate(const std::vector<double>& x, const std::vector<do
   return y;
 }
 
-/// A column on the uniform grid, linear between its samples that are there; missing[i] says that the
-/// grid point lies further than one sample from any.
+/// A column on the uniform grid, linear between its samples that are there; valid[i] is 1 where the
+/// grid point lies within one sample of one.
 std::vector<double> on_grid(const std::vector<double>& time, const std::vector<double>& x, double start, double dt,
                             std::size_t size, std::vector<double>* valid) {
   std::vector<double> t, v;
@@ -106,7 +106,8 @@ Record make_record(const Log& log, const ArmModel& model, const RecordOptions& o
   for (Signals* s : {&r.motor_angle, &r.motor_rate, &r.motor_acceleration, &r.torque, &r.joint, &r.joint_raw, &r.external,
                      &r.joint_valid, &r.torque_valid})
     s->resize(r.n);
-  const Kernel kernel = gaussian_kernel(1 / (2 * std::numbers::pi * options.cutoff_hz * dt), dt);
+  r.sigma = 1 / (2 * std::numbers::pi * options.cutoff_hz);
+  const Kernel kernel = gaussian_kernel(r.sigma / dt, dt);
   const auto grid = [&](const std::vector<double>& x, std::vector<double>* valid = nullptr) {
     return on_grid(log.time, x, r.start, dt, r.size, valid);
   };
@@ -166,8 +167,8 @@ std::vector<Record> make_records(const Log& log, const ArmModel& model, const Re
     begin = i;
   }
   if (records.empty())
-    throw InputError(log.source + ": no stretch without gaps is longer than " + std::to_string(1 + options.settle_s) +
-                     " s; expected a longer record");
+    throw InputError(log.source + ": no stretch to learn from or to hold out is longer than 1.5 s without gaps; expected a longer record, or a "
+                     "hold-out log of its own");
   return records;
 }
 

@@ -22,6 +22,7 @@ struct Record {
   int n = 0;
   double dt = 0;                                    ///< s
   double start = 0;                                 ///< time of the first sample, s
+  double sigma = 0;                                 ///< σ_t of the filter, s
   std::size_t size = 0;
   Signals motor_angle, motor_rate, motor_acceleration;   ///< readings: encoder offsets still inside
   Signals torque;                                   ///< commanded, N m; the hold's half sample of delay removed
@@ -43,7 +44,8 @@ struct RecordOptions {
   double longest_gap_s = 0.05;   ///< longer gaps split a log into several records
 };
 
-/// One record per stretch of the log without a long gap. Throws InputError if no stretch is longer than a second.
+/// One record per stretch of the log without a long gap. Throws InputError if no stretch is longer than a second beyond
+/// the settling time.
 std::vector<Record> make_records(const Log& log, const ArmModel& model, const RecordOptions& options);
 
 /// Splits a log in time: the first part and the rest from `fraction` on.

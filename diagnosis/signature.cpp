@@ -114,7 +114,11 @@ std::string signature(const Evidence& evidence, const Hypothesis& hypothesis, in
     const bool turns = hypothesis.nominal.joint[joint].type == JointType::revolute;
     text += fmt::format("{} residual {:.3g} {} RMS, {:.1f} times its floor", of_joint ? "joint" : "torque", rms,
                         of_joint ? (turns ? "rad" : "m") : "N m", rms / evidence.floor()[c]);
-    if (most) text += fmt::format(", goes with {} ({:.0f} % of it)", most->name, 100 * share);
+    constexpr double kGoesWith = 0.2;
+    if (most && share > kGoesWith)
+      text += fmt::format(", goes with {} ({:.0f} % of it)", most->name, 100 * share);
+    else
+      text += ", goes with none of position, rate, direction and acceleration";
   }
   return text;
 }
@@ -124,7 +128,10 @@ bool is_one_sinusoid(const std::vector<Record>& records, const ArmParameters<dou
   const Record& record = records.front();
   if (stands_still(record, arm, joint)) return true;
   const int stride = std::max(1, static_cast<int>(0.02 / record.dt));
-  return strongest_line(joint_motion(record, arm, joint, stride), record.dt * stride).share > 0.98;
+  // Sines are often faded in: what counts is how the motion goes on.
+  std::vector<double> motion = joint_motion(record, arm, joint, stride);
+  motion.erase(motion.begin(), motion.begin() + static_cast<std::ptrdiff_t>(motion.size() / 3));
+  return strongest_line(std::move(motion), record.dt * stride).share > 0.98;
 }
 
 }  // namespace halyard

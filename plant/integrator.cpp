@@ -81,7 +81,7 @@ class Sundials : public Integrator {
     char text[96];
     std::snprintf(text, sizeof text, "integration failed between t = %.6f s and %.6f s: ", time_, until_s);
     throw std::runtime_error(text + (thrown_.empty() ? message_ : thrown_) +
-                             "; check the scenario's stiffness, damping and friction, or tighten its tolerances");
+                             "; check the scenario's stiffness, damping and friction, or set other tolerances");
   }
 
   /// Runs a callback; an exception must not cross SUNDIALS' C code, and asks for a smaller step instead.

@@ -211,7 +211,8 @@ TEST(Prediction, OfEverySampleIsTheReadingLessItsResidual) {
   const Hypothesis h{model.nominal, {}};
   const FullPrediction full = predict_fully(record, h);
   const Residuals each = predict(record, {h}, 1)[0], fourth = predict(record, {h}, 4)[0];
-  for (std::size_t i = 300; i < record.size; ++i) {
+  // The torque's last 32 ms do not count: its filter sees beyond the end there.
+  for (std::size_t i = 300; i + 20 < record.size; ++i) {
     EXPECT_EQ(full.joint_reading[1][i], record.joint[1][i] - each.channel[3][i]);
     EXPECT_EQ(full.torque_residual[0][i], each.channel[0][i]);
     EXPECT_EQ(fourth.channel[3][i / 4], each.channel[3][i / 4 * 4]);

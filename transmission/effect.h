@@ -84,7 +84,7 @@ class Effect {
   virtual ~Effect() = default;
 
   virtual std::string name() const = 0;
-  /// One sentence: what the effect is, with its equation's source.
+  /// What the effect is, in half a sentence.
   virtual std::string summary() const = 0;
   /// True if the effect belongs to the arm as a whole rather than to a joint.
   virtual bool is_of_arm() const { return false; }

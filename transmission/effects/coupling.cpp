@@ -2,7 +2,7 @@
 
 /// Other coupling coefficients of a cable with the joints inboard of it: C_kj' = C_kj + ΔC_kj.
 ///
-///   ΔC_kj   what joint j adds to the path of cable k, beyond the model      rad/rad | m/rad
+///   ΔC_kj   what joint j adds to the path of cable k, beyond the model      rad/rad | m/rad | rad/m
 ///
 /// Source: the paper's Eq. 8 and Section III-B, which estimates these coefficients.
 
