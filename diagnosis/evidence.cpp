@@ -47,10 +47,8 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model) : n_(mode
       const double v_s = model.nominal.joint[k].motor_smoothing;
       for (std::size_t i = 0; i < record.size; i += stride_) {
         if (valid[i] == 0) continue;
-        // At standstill friction takes any value that balance asks for: the torque says nothing. Around a reversal the
-        // filter mixes friction of both directions.
-        const double mixed = 2 * record.sigma * std::abs(record.motor_acceleration[k][i]);
-        if (!joint && std::abs(record.motor_rate[k][i]) < 2 * v_s + mixed) continue;
+        // At standstill friction takes any value that balance asks for: the torque says nothing.
+        if (!joint && std::abs(record.motor_rate[k][i]) < 2 * v_s) continue;
         const int block = static_cast<int>(record.dt * static_cast<double>(i) / block_s);
         const bool fit = (first_block + block) % 2 == 0;
         places_.push_back({static_cast<int>(r), c, static_cast<int>(i) / stride_, (first_block + block) / 2, fit});

@@ -106,8 +106,7 @@ Record make_record(const Log& log, const ArmModel& model, const RecordOptions& o
   for (Signals* s : {&r.motor_angle, &r.motor_rate, &r.motor_acceleration, &r.torque, &r.joint, &r.joint_raw, &r.external,
                      &r.joint_valid, &r.torque_valid})
     s->resize(r.n);
-  r.sigma = 1 / (2 * std::numbers::pi * options.cutoff_hz);
-  const Kernel kernel = gaussian_kernel(r.sigma / dt, dt);
+  const Kernel kernel = gaussian_kernel(1 / (2 * std::numbers::pi * options.cutoff_hz * dt), dt);
   const auto grid = [&](const std::vector<double>& x, std::vector<double>* valid = nullptr) {
     return on_grid(log.time, x, r.start, dt, r.size, valid);
   };

@@ -22,7 +22,6 @@ struct Record {
   int n = 0;
   double dt = 0;                                    ///< s
   double start = 0;                                 ///< time of the first sample, s
-  double sigma = 0;                                 ///< σ_t of the filter, s
   std::size_t size = 0;
   Signals motor_angle, motor_rate, motor_acceleration;   ///< readings: encoder offsets still inside
   Signals torque;                                   ///< commanded, N m; the hold's half sample of delay removed
