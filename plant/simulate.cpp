@@ -71,6 +71,9 @@ void check_scenario(const Scenario& scenario) {
   if (!(scenario.duration_s > 0) || !(scenario.control_period_s > 0) ||
       !(scenario.duration_s >= scenario.control_period_s))
     throw InputError(where + "the duration must be at least one control period, and both above 0 s");
+  constexpr double kMostTicks = 1e8;   // a day at 1 kHz; more does not fit into memory
+  if (scenario.duration_s / scenario.control_period_s > kMostTicks)
+    throw InputError(where + "the run has more than 1e8 control periods; take a shorter duration or a longer period");
   if (!(scenario.integrator.relative_tolerance > 0) || !(scenario.integrator.absolute_tolerance > 0))
     throw InputError(where + "the integrator's tolerances must be above 0");
   if (static_cast<int>(scenario.trajectory.size()) != n || static_cast<int>(scenario.robot.joints.size()) != n)
