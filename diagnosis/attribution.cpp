@@ -106,16 +106,9 @@ class Search {
     const std::vector<FitParameter> all = baseline_parameters(model_.nominal);
     const auto columns = sensitivities(evidence_, nominal, all);
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      std::vector<double> square(evidence_.channels(), 0), count(evidence_.channels(), 0);
-      for (std::size_t r = 0; r < columns[i].size(); ++r) {
-        const double change = columns[i][r] * (all[i].upper - all[i].nominal) / all[i].scale;
-        square[evidence_.row_channel()[r]] += change * change;
-        count[evidence_.row_channel()[r]] += 1;
-      }
-      bool seen = false;
-      for (int c = 0; c < evidence_.channels(); ++c)
-        seen = seen || (count[c] > 0 && std::sqrt(square[c] / count[c]) > 0.1 * evidence_.floor()[c]);
-      if (seen) numbers_.push_back(all[i]);
+      std::vector<double> change = columns[i];
+      for (double& x : change) x = x * (all[i].upper - all[i].nominal) / all[i].scale;
+      if (evidence_.exceeds_floor(change, 0.1)) numbers_.push_back(all[i]);
     }
   }
 
@@ -175,16 +168,12 @@ class Search {
   }
 
   std::vector<PlacedEffect> candidates(const Hypothesis& h) const {
-    std::vector<PlacedEffect> all;
-    for (const Effect* effect : effect_library()) {
-      for (int joint = effect->is_of_arm() ? -1 : 0; joint < (effect->is_of_arm() ? 0 : model_.n()); ++joint) {
-        if (joint >= 0 && !effect->applies(model_.nominal, joint)) continue;
-        const bool there = std::any_of(h.effects.begin(), h.effects.end(), [&](const PlacedEffect& e) {
-          return e.effect == effect && e.joint == joint;
-        });
-        if (!there) all.push_back(place_effect(*effect, model_.nominal, joint));
-      }
-    }
+    std::vector<PlacedEffect> all = all_candidates(model_.nominal);
+    std::erase_if(all, [&](const PlacedEffect& candidate) {
+      return std::any_of(h.effects.begin(), h.effects.end(), [&](const PlacedEffect& e) {
+        return e.effect == candidate.effect && e.joint == candidate.joint;
+      });
+    });
     return all;
   }
 
@@ -209,15 +198,7 @@ class Search {
     without.effects.erase(without.effects.begin() + place);
     const auto rows = evidence_.fit_rows({h}), bare = evidence_.fit_rows({without});
     if (rows[0].empty() || bare[0].empty()) return !rows[0].empty();
-    std::vector<double> square(evidence_.channels(), 0), count(evidence_.channels(), 0);
-    for (std::size_t r = 0; r < rows[0].size(); ++r) {
-      const double change = rows[0][r] - bare[0][r];
-      square[evidence_.row_channel()[r]] += change * change;
-      count[evidence_.row_channel()[r]] += 1;
-    }
-    for (int c = 0; c < evidence_.channels(); ++c)
-      if (count[c] > 0 && std::sqrt(square[c] / count[c]) > kRestFactor * evidence_.floor()[c]) return true;
-    return false;
+    return evidence_.exceeds_floor(difference(rows[0], bare[0]), kRestFactor);
   }
 
   /// What the refit of the baseline costs: ½ Σ ((θ - nominal) / (tolerance / 2))².
@@ -421,6 +402,24 @@ class Search {
 };
 
 }  // namespace
+
+std::vector<PlacedEffect> all_candidates(const ArmParameters<double>& arm) {
+  std::vector<PlacedEffect> all;
+  for (const Effect* effect : effect_library()) {
+    if (effect->is_of_arm()) {
+      all.push_back(place_effect(*effect, arm, -1));
+      continue;
+    }
+    for (int joint = 0; joint < arm.n; ++joint)
+      if (effect->applies(arm, joint)) all.push_back(place_effect(*effect, arm, joint));
+  }
+  return all;
+}
+
+std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
+  for (std::size_t r = 0; r < a.size(); ++r) a[r] -= b[r];
+  return a;
+}
 
 std::vector<bool> significant_rest(const Evidence& evidence, const Score& score) {
   std::vector<bool> rest(evidence.channels(), false);

@@ -48,6 +48,12 @@ struct Attribution {
   Score nominal_score, baseline_score, final_score;
 };
 
+/// Every effect of the library wherever the arm can have it, at its typical size, in a fixed order.
+std::vector<PlacedEffect> all_candidates(const ArmParameters<double>& arm);
+
+/// a - b, row by row; as long as each other.
+std::vector<double> difference(std::vector<double> a, const std::vector<double>& b);
+
 /// [2n] Channels in which what is left matters: on the deciding blocks it is well above the channel's floor.
 std::vector<bool> significant_rest(const Evidence& evidence, const Score& score);
 

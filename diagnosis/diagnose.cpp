@@ -91,24 +91,13 @@ Fit keep_certain_numbers(const Evidence& evidence, const Fit& f, const Score& sc
 std::vector<NotExcited> not_excited(const Evidence& evidence, const ArmModel& model, const Hypothesis& at) {
   std::vector<NotExcited> all;
   const auto base = evidence.fit_rows({at})[0];
-  for (const Effect* effect : effect_library()) {
-    for (int joint = effect->is_of_arm() ? -1 : 0; joint < (effect->is_of_arm() ? 0 : model.n()); ++joint) {
-      if (joint >= 0 && !effect->applies(model.nominal, joint)) continue;
-      Hypothesis with = at;
-      with.effects.push_back(place_effect(*effect, model.nominal, joint));
-      const auto rows = evidence.fit_rows({with})[0];
-      if (rows.empty()) continue;
-      std::vector<double> square(evidence.channels(), 0), count(evidence.channels(), 0);
-      for (std::size_t r = 0; r < rows.size(); ++r) {
-        const int c = evidence.row_channel()[r];
-        square[c] += (rows[r] - base[r]) * (rows[r] - base[r]);
-        count[c] += 1;
-      }
-      bool seen = false;
-      for (int c = 0; c < evidence.channels(); ++c)
-        seen = seen || (count[c] > 0 && std::sqrt(square[c] / count[c]) > evidence.floor()[c]);
-      if (!seen) all.push_back({effect->name(), joint, "at its typical size it changes no signal of these data by more than the sensors resolve"});
-    }
+  for (const PlacedEffect& candidate : all_candidates(model.nominal)) {
+    Hypothesis with = at;
+    with.effects.push_back(candidate);
+    const auto rows = evidence.fit_rows({with})[0];
+    if (!rows.empty() && !evidence.exceeds_floor(difference(rows, base), 1))
+      all.push_back({candidate.effect->name(), candidate.joint,
+                     "at its typical size it changes no signal of these data by more than the sensors resolve"});
   }
   return all;
 }

@@ -36,6 +36,8 @@ class Evidence {
   /// Below this root mean square a residual of the channel does not matter: encoder resolution for
   /// joints, a fraction of the torque's own size for motors. [2n]
   const std::vector<double>& floor() const { return floor_; }
+  /// True if a change of the fitting rows has in some channel a root mean square above so many times its floor.
+  bool exceeds_floor(const std::vector<double>& change, double times) const;
   /// Rows that carry as much information as one independent sample: residuals are correlated.
   double correlated_rows() const { return correlated_rows_; }
   bool has_channel(int c) const { return channel_rows_[c] > 0; }

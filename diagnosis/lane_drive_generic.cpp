@@ -1,15 +1,7 @@
-#include "diagnosis/lane_drive.h"
+#include "diagnosis/lane_drive_body.h"
 
 namespace halyard {
-namespace {
 
-void drive(const Transmission<Lanes>& transmission, const DrivenInput* samples, std::size_t size, double start, double dt,
-           const Chebyshev& scheme, int stride, const CommandHistory* history, DrivenState<Lanes>& x, Lanes* out) {
-  drive_record(transmission, samples, size, start, dt, scheme, stride, history, x, out);
-}
-
-}  // namespace
-
-LaneDrive generic_lane_drive() { return drive; }
+LaneDrive generic_lane_drive() { return drive_lanes; }
 
 }  // namespace halyard

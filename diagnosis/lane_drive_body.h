@@ -1,0 +1,17 @@
+#pragma once
+/// What each lane_drive_<set>.cpp compiles for its instruction set: in an unnamed namespace, so that no other file can
+/// be given its code.
+
+#include "diagnosis/lane_drive.h"
+
+namespace halyard {
+namespace {
+
+void drive_lanes(const Transmission<Lanes>& transmission, const DrivenInput* samples, std::size_t size, double start,
+                 double dt, const Chebyshev& scheme, int stride, const CommandHistory* history, DrivenState<Lanes>& x,
+                 Lanes* out) {
+  drive_record(transmission, samples, size, start, dt, scheme, stride, history, x, out);
+}
+
+}  // namespace
+}  // namespace halyard
