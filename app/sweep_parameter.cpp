@@ -53,8 +53,9 @@ std::pair<double*, std::string> effect_parameter(ArmModel& model, const EffectKe
     for (const Effect* known : effect_library()) names.push_back(known->name());
     fail(fmt::format("unknown effect; expected one of {}", fmt::join(names, ", ")));
   }
-  if (effect->is_of_arm() != (key.joint < 0) || key.joint >= model.n()) {
-    fail(effect->is_of_arm()
+  const EffectScope scope = effect->scope();
+  if ((key.joint < 0 ? scope == EffectScope::joint : scope == EffectScope::arm) || key.joint >= model.n()) {
+    fail(scope == EffectScope::arm
              ? fmt::format("the effect is of the whole arm; write arm.effect.{}.{}", key.effect, key.parameter)
              : fmt::format("the effect is of a joint; write jointK.effect.{}.{} with K from 1 to {}", key.effect,
                            key.parameter, model.n()));

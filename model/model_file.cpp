@@ -287,10 +287,11 @@ PlacedEffect read_effect(const XmlElement& element, const ArmParameters<double>&
     for (const Effect* each : effect_library()) known += (known.empty() ? "" : ", ") + each->name();
     element.fail("name", "unknown effect; expected one of " + known);
   }
-  if (effect->is_of_arm() && element.has("joint")) {
+  if (effect->scope() == EffectScope::arm && element.has("joint")) {
     element.fail("joint", "effect " + effect->name() + " is of the whole arm; remove the joint");
   }
-  const int joint = effect->is_of_arm() ? -1 : static_cast<int>(element.integer("joint", 1, arm.n)) - 1;
+  const bool of_arm = effect->scope() != EffectScope::joint && !element.has("joint");
+  const int joint = of_arm ? -1 : static_cast<int>(element.integer("joint", 1, arm.n)) - 1;
   PlacedEffect placed;
   try {
     placed = place_effect(*effect, arm, joint);

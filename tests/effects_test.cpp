@@ -27,8 +27,7 @@ std::vector<PlacedEffect> built_in_everywhere(const ArmParameters<double>& arm) 
   std::vector<PlacedEffect> all;
   for (const auto& made : built_in_effects()) {
     const Effect* effect = find_effect(made->name());
-    for (int joint = effect->is_of_arm() ? -1 : 0; joint < (effect->is_of_arm() ? 0 : arm.n); ++joint)
-      if (joint < 0 || effect->applies(arm, joint)) all.push_back(place_effect(*effect, arm, joint));
+    for (const int joint : effect_places(*effect, arm)) all.push_back(place_effect(*effect, arm, joint));
   }
   return all;
 }
@@ -128,7 +127,7 @@ TEST(EffectLibrary, TypicalParametersChangeSomething) {
   const ArmParameters<double> arm = random_arm(2, CableLaw::linear);
   const EvaluatedArm<double> bare{arm, {}};
   for (const PlacedEffect& e : built_in_everywhere(arm)) {
-    if (e.effect->is_of_arm()) continue;   // a payload changes the chain; see below
+    if (e.joint < 0) continue;   // a payload changes the chain; see below
     const EvaluatedArm<double> with{arm, e};
     std::mt19937_64 random(3);
     const std::vector<double> u = random_inputs(with, random), expected = bare(u), got = with(u);

@@ -278,9 +278,7 @@ TEST(Simulate, RunsWithEveryEffectOfTheLibrary) {
     Scenario scenario = experiment("a", 0.1);
     scenario.fade_in_s = 0.05;
     const ArmParameters<double>& arm = scenario.robot.nominal;
-    int joint = effect->is_of_arm() ? -1 : 0;
-    while (joint >= 0 && joint < arm.n - 1 && !effect->applies(arm, joint)) ++joint;
-    scenario.robot.effects = {place_effect(*effect, arm, joint)};
+    scenario.robot.effects = {place_effect(*effect, arm, effect_places(*effect, arm).front())};
     const SimulationResult result = simulate(scenario);
     const JointDescription& range = scenario.robot.joints[0];
     for (const double q : result.truth.joint_position[0]) {

@@ -37,8 +37,7 @@ JointParameters<Dual> dual_cable(CableLaw law) {
 std::vector<PlacedEffect> every_effect(const ArmParameters<double>& arm) {
   std::vector<PlacedEffect> all = {PlacedEffect{}};
   for (const Effect* effect : effect_library())
-    for (int joint = effect->is_of_arm() ? -1 : 0; joint < (effect->is_of_arm() ? 0 : arm.n); ++joint)
-      if (joint < 0 || effect->applies(arm, joint)) all.push_back(place_effect(*effect, arm, joint));
+    for (const int joint : effect_places(*effect, arm)) all.push_back(place_effect(*effect, arm, joint));
   return all;
 }
 

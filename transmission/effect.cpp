@@ -1,5 +1,6 @@
 #include "transmission/effect.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "transmission/effects/library.h"
@@ -37,11 +38,22 @@ void register_effect(std::unique_ptr<const Effect> effect) {
   library().owned.push_back(std::move(effect));
 }
 
+std::vector<int> effect_places(const Effect& effect, const ArmParameters<double>& arm) {
+  std::vector<int> places;
+  if (effect.scope() != EffectScope::joint) places.push_back(-1);
+  for (int joint = 0; joint < arm.n && effect.scope() != EffectScope::arm; ++joint)
+    if (effect.applies(arm, joint)) places.push_back(joint);
+  return places;
+}
+
 PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, int joint) {
-  if (effect.is_of_arm() ? joint != -1 : joint < 0 || joint >= arm.n || !effect.applies(arm, joint))
-    throw std::invalid_argument("effect " + effect.name() +
-                                (effect.is_of_arm() ? " belongs to the whole arm: name no joint"
-                                                    : " cannot be at joint " + std::to_string(joint + 1) + " of this arm"));
+  const std::vector<int> places = effect_places(effect, arm);
+  if (std::find(places.begin(), places.end(), joint) == places.end())
+    throw std::invalid_argument(
+        "effect " + effect.name() +
+        (effect.scope() == EffectScope::arm ? " belongs to the whole arm: name no joint"
+         : joint < 0                        ? " belongs to a joint: name one"
+                                            : " cannot be at joint " + std::to_string(joint + 1) + " of this arm"));
   PlacedEffect placed;
   placed.effect = &effect;
   placed.joint = joint;

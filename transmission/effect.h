@@ -31,6 +31,13 @@ namespace halyard {
 inline constexpr int kMaxEffectParameters = 8;
 inline constexpr int kMaxEffectStates = 8;   ///< of one effect
 
+/// Where a search takes a parameter's bounds and starts from.
+enum class SearchRange {
+  own,             ///< its own lower, upper, starts
+  record_time,     ///< an instant on the log's clock, s: within the record
+  joint_position,  ///< a position of the effect's joint: within the motion of the record
+};
+
 /// One number of an effect. The effect is absent when all its parameters are neutral.
 struct EffectParameter {
   std::string name;      ///< as in model files and diagnosis.json
@@ -45,6 +52,21 @@ struct EffectParameter {
   /// True if a bound is a limit of nature that may well be reached (a friction of nothing, a share of
   /// one) rather than the end of what is plausible, where a fit explains nothing.
   bool natural_bounds = false;
+  /// Values from which a search sets out, where a good start cannot be told from the size alone: orders of a ripple,
+  /// decades of a time constant. Empty: the typical value.
+  std::vector<double> starts;
+  SearchRange range = SearchRange::own;
+
+  /// A number that shapes an effect and does not size it; its neutral value is the typical one. It follows the sizes
+  /// that it shapes: cosine, sine, order.
+  bool is_shape() const { return neutral == typical; }
+};
+
+/// Where an effect may be placed.
+enum class EffectScope {
+  joint,    ///< at one joint
+  arm,      ///< the whole arm
+  either,   ///< at one joint, or at all joints alike: then placed as an effect of the arm
 };
 
 /// What is known at one joint at one instant. Torque and position signs are the joint's own.
@@ -86,8 +108,7 @@ class Effect {
   virtual std::string name() const = 0;
   /// What the effect is, in half a sentence.
   virtual std::string summary() const = 0;
-  /// True if the effect belongs to the arm as a whole rather than to a joint.
-  virtual bool is_of_arm() const { return false; }
+  virtual EffectScope scope() const { return EffectScope::joint; }
   /// False if the joint cannot have the effect (no cable, no inboard joint, ...).
   virtual bool applies(const ArmParameters<double>&, int /*joint*/) const { return true; }
   virtual std::vector<EffectParameter> parameters(const ArmParameters<double>&, int joint) const = 0;
@@ -166,6 +187,9 @@ const std::vector<const Effect*>& effect_library();
 const Effect* find_effect(const std::string& name);
 /// Adds a user's effect to the library. Throws std::invalid_argument if the name is taken.
 void register_effect(std::unique_ptr<const Effect> effect);
+
+/// The joints where the arm can have the effect, 0-based; -1 stands for the whole arm.
+std::vector<int> effect_places(const Effect& effect, const ArmParameters<double>& arm);
 
 /// The effect with its typical parameters. Throws std::invalid_argument if it cannot be there.
 PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);

@@ -15,7 +15,7 @@ class Payload : public EffectOf<Payload> {
  public:
   std::string name() const override { return "payload"; }
   std::string summary() const override { return "a point mass at the tool"; }
-  bool is_of_arm() const override { return true; }
+  EffectScope scope() const override { return EffectScope::arm; }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int) const override {
     const JointParameters<double>& last = arm.joint[arm.n - 1];
     const double whole = std::max(last.mass, 1e-3);
