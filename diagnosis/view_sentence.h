@@ -1,0 +1,34 @@
+#pragma once
+/// Views in words: names, units, and a sentence that says why.
+
+#include <string>
+
+#include "diagnosis/views.h"
+
+namespace halyard {
+
+/// How a number is shown: 0.35 deg.
+struct ShownUnit {
+  std::string name;
+  double per_si = 1;
+};
+
+/// A motor whose angle is the position of a prismatic joint, a metre a radian, gives a force in N.
+ShownUnit residual_unit(const ArmParameters<double>& arm, int joint, ResidualKind residual);
+ShownUnit abscissa_unit(const ArmParameters<double>& arm, int joint, ResidualKind residual, Abscissa abscissa);
+
+/// "position residual", "motor torque residual" | "motor force residual", ...
+std::string residual_name(const ArmParameters<double>& arm, int joint, ResidualKind residual);
+/// "load", "motor rate", ...
+std::string abscissa_name(ResidualKind residual, Abscissa abscissa);
+
+/// A value in SI: "0.35 deg"
+std::string shown(double value, const ShownUnit& unit);
+/// "81 %", "0.4 %", "less than 0.1 %"
+std::string shown_share(double share);
+
+/// What a residual does before: "steps by ±0.35 deg at each reversal: 81 % of it goes with the direction of motion". Shares are
+/// of the mean square.
+std::string view_phrase(const View& view, const ArmParameters<double>& arm, int joint);
+
+}  // namespace halyard

@@ -1,0 +1,155 @@
+#include "diagnosis/views.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "diagnosis/view_sentence.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// 30 s of a joint that moves along two sines, its motor forty times as far; y(i, signals) is its position residual.
+ResidualSignals joint_with(const std::function<double(std::size_t, const ResidualSignals&)>& y) {
+  ResidualSignals s;
+  s.dt = 0.01;
+  for (int i = 0; i < 3000; ++i) {
+    const double t = s.dt * i;
+    s.time.push_back(t);
+    s.joint_position.push_back(0.4 * std::sin(1.7 * t) + 0.3 * std::sin(0.53 * t));
+    s.joint_rate.push_back(0.68 * std::cos(1.7 * t) + 0.159 * std::cos(0.53 * t));
+    s.motor_angle.push_back(40 * s.joint_position.back());
+    s.motor_rate.push_back(40 * s.joint_rate.back());
+    s.capstan_angle.push_back(s.motor_angle.back() / 10);
+    s.load.push_back(20 * std::sin(s.joint_position.back() + 0.5));
+    s.joint_direction.push_back(s.joint_rate.back() > 0 ? 1 : -1);
+    s.motor_direction.push_back(s.joint_direction.back());
+  }
+  std::vector<double>& residual = s.residual[static_cast<std::size_t>(ResidualKind::joint_position)];
+  for (std::size_t i = 0; i < s.time.size(); ++i) residual.push_back(y(i, s));
+  return s;
+}
+
+/// White noise, the same on every run.
+std::function<double(std::size_t, const ResidualSignals&)> noise(double deviation, unsigned seed) {
+  return [random = std::mt19937(seed), normal = std::normal_distribution<>(0, deviation)](std::size_t, const ResidualSignals&) mutable {
+    return normal(random);
+  };
+}
+
+/// Noise with a correlation time of a fifth of a second, as residuals of a motion have it.
+std::function<double(std::size_t, const ResidualSignals&)> slow_noise(unsigned seed) {
+  return [random = std::mt19937(seed), normal = std::normal_distribution<>(), y = 0.0](std::size_t, const ResidualSignals&) mutable {
+    return y = 0.95 * y + normal(random);
+  };
+}
+
+ArmParameters<double> one_joint() {
+  ArmParameters<double> arm;
+  arm.n = 1;
+  return arm;
+}
+
+TEST(Views, AStepAtReversalsIsSeenOverTheDirectionOfMotion) {
+  auto rest = noise(2e-4, 1);
+  const ResidualSignals before = joint_with([&](std::size_t i, const ResidualSignals& s) {
+    return 1e-3 * s.joint_direction[i] + rest(i, s);
+  });
+  const ResidualSignals after = joint_with(noise(2e-4, 2));
+  const std::vector<View> views = telling_views(before, after);
+  ASSERT_FALSE(views.empty());
+  EXPECT_EQ(views[0].abscissa, Abscissa::direction);
+  EXPECT_FALSE(views[0].loop);
+  // 1 of 1.04 is the step's; 3000 samples of noise leave each mean open by 2e-4 / sqrt(1500), five of that a side.
+  EXPECT_NEAR(views[0].explained_before, 1 / 1.04, 0.01);
+  EXPECT_NEAR(views[0].swing, 2e-3, 2 * 5 * 2e-4 / std::sqrt(1500));
+  EXPECT_NEAR(views[0].left, 0.04 / 1.04, 0.005);
+  EXPECT_EQ(view_phrase(views[0], one_joint(), 0),
+            "steps by ±0.0573 deg at each reversal: 96 % of it goes with the direction of motion");
+}
+
+TEST(Views, ARippleOfTheMotorIsALineOfItsOrder) {
+  auto rest = noise(2e-4, 3);
+  const ResidualSignals before = joint_with([&](std::size_t i, const ResidualSignals& s) {
+    return 1e-3 * std::sin(6 * s.motor_angle[i] + 0.4) + rest(i, s);
+  });
+  const ResidualSignals after = joint_with(noise(2e-4, 4));
+  const std::vector<View> views = telling_views(before, after);
+  ASSERT_FALSE(views.empty());
+  EXPECT_EQ(views[0].abscissa, Abscissa::motor_angle);
+  // Half a resolution cell: the motor goes through 28 rad a side, nearly 9 turns.
+  EXPECT_NEAR(views[0].line.frequency, 6, 0.5 / 8.5);
+  EXPECT_NEAR(views[0].line.amplitude, 1e-3, 5e-5);
+  EXPECT_GT(views[0].line.share, 0.85);
+}
+
+TEST(Views, ALoopIsSeenOverLoadAndDirection) {
+  // Its width grows with the load: neither load nor direction alone tell most of it.
+  const ResidualSignals before = joint_with([](std::size_t i, const ResidualSignals& s) {
+    return 1e-4 * s.load[i] * s.joint_direction[i] + 0.5e-4 * s.load[i];
+  });
+  const std::vector<View> views = telling_views(before, joint_with(noise(1e-5, 5)));
+  ASSERT_FALSE(views.empty());
+  EXPECT_TRUE(views[0].loop);
+  EXPECT_TRUE(views[0].abscissa == Abscissa::load || views[0].abscissa == Abscissa::joint_position);
+  // A handful of bins on each side: within one the residual still follows the load.
+  EXPECT_GT(views[0].explained_before, 0.75);
+  const std::vector<BinMeans> sides =
+      bin_means(before, {.residual = ResidualKind::joint_position, .abscissa = Abscissa::load, .loop = true});
+  ASSERT_EQ(sides.size(), 2u);
+  // The mean of what is proportional to the load is proportional to the mean load: rounding of sums of 3000.
+  for (const BinMeans& side : sides)
+    for (std::size_t b = 0; b < side.x.size(); ++b)
+      EXPECT_NEAR(side.mean[b], (1e-4 * side.direction + 0.5e-4) * side.x[b], 3000 * 3e-3 * 2.3e-16);
+}
+
+TEST(Views, AConstantIsToldAsOne) {
+  auto rest = slow_noise(6);
+  const ResidualSignals before = joint_with([&](std::size_t i, const ResidualSignals& s) { return 0.02 + 1e-3 * rest(i, s); });
+  const std::vector<View> views = telling_views(before, joint_with(noise(1e-3, 7)));
+  ASSERT_FALSE(views.empty());
+  EXPECT_EQ(views[0].abscissa, Abscissa::constant);
+}
+
+TEST(Views, NoiseHasNoTellingView) {
+  for (unsigned seed = 10; seed < 40; ++seed) {
+    EXPECT_TRUE(telling_views(joint_with(noise(1, seed))).empty()) << "white noise, seed " << seed;
+    EXPECT_TRUE(telling_views(joint_with(slow_noise(seed))).empty()) << "slow noise, seed " << seed;
+  }
+}
+
+TEST(Views, WhatStaysIsNoEvidenceForWhatWasAdded) {
+  const auto step = [](std::size_t i, const ResidualSignals& s) { return s.joint_direction[i]; };
+  EXPECT_TRUE(telling_views(joint_with(step), joint_with(step)).empty());
+  EXPECT_FALSE(telling_views(joint_with(step)).empty());
+}
+
+TEST(Spectrum, ASineOffsetByAConstantHasAllOfTheVarianceAtItsFrequency) {
+  std::vector<double> x, y;
+  for (int i = 0; i < 500; ++i) {
+    x.push_back(0.02 * i + 0.006 * std::sin(3.0 * i));   // uneven
+    y.push_back(7 + 0.3 * std::cos(2 * kPi * 1.5 * x.back() + 1));
+  }
+  const Line line = strongest_line(spectrum(x, y, 0.5, 4, 0.025));
+  EXPECT_NEAR(line.frequency, 1.5, 1e-12);
+  // Phasors turned 140 times at 500 samples each.
+  EXPECT_NEAR(line.share, 1, 1e-10);
+  EXPECT_NEAR(line.amplitude, 0.3, 1e-10);
+}
+
+TEST(Spectrum, GapsDoNotCount) {
+  std::vector<double> x, y;
+  for (int i = 0; i < 300; ++i) {
+    x.push_back(0.02 * i);
+    y.push_back(i % 3 == 0 ? std::nan("") : std::sin(2 * kPi * x.back()));
+  }
+  EXPECT_NEAR(strongest_line(spectrum(x, y, 0.5, 2, 0.1)).share, 1, 1e-10);
+}
+
+}  // namespace
+}  // namespace halyard
