@@ -11,7 +11,7 @@ struct DiagnosisOptions {
   RecordOptions record;
   /// For the joint errors that are told: the band in which the joints move, vibrations of the cables included. Torques
   /// are told in the band of the fit, where their second derivative of a rounded angle still means something.
-  RecordOptions joint_error = {.cutoff_hz = 100, .settle_s = 0.5, .step_s = 0.001};
+  RecordOptions joint_error = {.motion_hz = 100, .compare_hz = 0, .settle_s = 0.5, .step_s = 0.001};
   AttributionOptions attribution;
 };
 

@@ -23,6 +23,16 @@ double smallest_step(const std::vector<double>& x) {
   return step;
 }
 
+/// True if the motor stands still for most of what the comparing kernel sees about a sample: friction then takes any
+/// value that balance asks for, and the torque says nothing. A motor that turns round without a stop does not rest.
+bool rests(const Record& record, int k, std::size_t at, double v_s) {
+  const std::size_t reach = record.compare.size() / 2;
+  double still = 0;
+  for (std::size_t t = at - std::min(at, reach); t <= std::min(at + reach, record.size - 1); ++t)
+    if (std::abs(record.motor_rate[k][t]) < 2 * v_s) still += record.compare[t + reach - at];
+  return still > 0.5;
+}
+
 }  // namespace
 
 Evidence::Evidence(std::vector<Record> records, const ArmModel& model) : n_(model.n()), records_(std::move(records)) {
@@ -47,8 +57,7 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model) : n_(mode
       const double v_s = model.nominal.joint[k].motor_smoothing;
       for (std::size_t i = 0; i < record.size; i += stride_) {
         if (valid[i] == 0) continue;
-        // At standstill friction takes any value that balance asks for: the torque says nothing.
-        if (!joint && std::abs(record.motor_rate[k][i]) < 2 * v_s) continue;
+        if (!joint && rests(record, k, i, v_s)) continue;
         const int block = static_cast<int>(record.dt * static_cast<double>(i) / block_s);
         const bool fit = (first_block + block) % 2 == 0;
         places_.push_back({static_cast<int>(r), c, static_cast<int>(i) / stride_, (first_block + block) / 2, fit});

@@ -7,7 +7,7 @@
 namespace halyard {
 
 using LaneDrive = void (*)(const Transmission<Lanes>&, const DrivenInput*, std::size_t size, double start, double dt,
-                           const Chebyshev& scheme, int stride, const CommandHistory*, DrivenState<Lanes>&, Lanes* out);
+                           const Chebyshev& scheme, const CommandHistory*, DrivenState<Lanes>&, Lanes* out);
 
 LaneDrive generic_lane_drive();
 #if defined(__x86_64__)

@@ -8,9 +8,9 @@ namespace halyard {
 namespace {
 
 void drive_lanes(const Transmission<Lanes>& transmission, const DrivenInput* samples, std::size_t size, double start,
-                 double dt, const Chebyshev& scheme, int stride, const CommandHistory* history, DrivenState<Lanes>& x,
+                 double dt, const Chebyshev& scheme, const CommandHistory* history, DrivenState<Lanes>& x,
                  Lanes* out) {
-  drive_record(transmission, samples, size, start, dt, scheme, stride, history, x, out);
+  drive_record(transmission, samples, size, start, dt, scheme, history, x, out);
 }
 
 }  // namespace

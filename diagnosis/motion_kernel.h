@@ -154,15 +154,16 @@ struct Chebyshev {
   double mu[kMostStages + 1], nu[kMostStages + 1], mu_h[kMostStages + 1], gamma_h[kMostStages + 1], node[kMostStages + 1];
 };
 
-/// One step of x from time over h; input(t) gives the DrivenInput.
+/// One step of x from time over h; input(t) gives the DrivenInput. row: torque residual [n] and joint reading [n] at the
+/// start of the step.
 template <class T, class Input>
 HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time, double h, const Chebyshev& c,
-                                const CommandHistory* history, const Input& input, DrivenState<T>& x) {
+                                const CommandHistory* history, const Input& input, DrivenState<T>& x, T* row) {
   const int n = transmission.arm().n, m = transmission.n_states();
   ChainOverStep<T> chain;
   chain_over_step(transmission.arm(), x, 0.5 * h, chain);
   DrivenState<T> f0, f, before, now;
-  driven_derivative<T>(transmission, chain, time, history, input(time), x, f0, nullptr, nullptr);
+  driven_derivative<T>(transmission, chain, time, history, input(time), x, f0, row, row + n);
   copy_state(n, m, x, before);
   axpy(n, m, c.mu_h[1] * h, x, f0, now);
   for (int j = 2; j <= c.stages; ++j) {
@@ -184,27 +185,19 @@ HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time
   copy_state(n, m, now, x);
 }
 
-/// A whole record. Every `stride`-th sample writes torque residual and predicted joint reading:
-/// out[(i / stride) * 2n + k] and [... + n + k]. x holds the initial state and ends as the final one.
+/// A whole record. Sample i writes torque residual and predicted joint reading: out[i * 2n + k] and [... + n + k]. x holds
+/// the initial state and ends as the final one.
 template <class T>
 HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
-                                 double start, double dt, const Chebyshev& scheme, int stride,
-                                 const CommandHistory* history,
+                                 double start, double dt, const Chebyshev& scheme, const CommandHistory* history,
                                  DrivenState<T>& x, T* out) {
   const ArmParameters<T>& arm = transmission.arm();
   const int n = arm.n;
   for (std::size_t i = 0; i < size; ++i) {
     const double time = start + dt * static_cast<double>(i);
-    prescribe_rigid(arm, samples[i], x);
-    if (i % stride == 0) {
-      DrivenState<T> rate;
-      ChainOverStep<T> chain;
-      chain_over_step(arm, x, 0.0, chain);
-      T* row = out + i / stride * 2 * n;
-      driven_derivative<T>(transmission, chain, time, history, samples[i], x, rate, row, row + n);
-    }
-    if (i + 1 == size) break;
-    const DrivenInput &a = samples[i], &b = samples[i + 1];
+    // The last sample ends where it stands.
+    const DrivenInput &a = samples[i], &b = samples[std::min(i + 1, size - 1)];
+    prescribe_rigid(arm, a, x);
     const auto input = [&](double t) {
       const double u = (t - time) / dt;
       DrivenInput at = a;
@@ -216,7 +209,7 @@ HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const Driv
       }
       return at;
     };
-    driven_step(transmission, time, dt, scheme, history, input, x);
+    driven_step(transmission, time, dt, scheme, history, input, x, out + i * 2 * n);
   }
 }
 

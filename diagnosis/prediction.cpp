@@ -152,6 +152,19 @@ int stable_stages(const Transmission<Dual>& transmission, const Record& record, 
   return stages > Chebyshev::kMostStages ? 0 : static_cast<int>(stages);
 }
 
+/// K_c * x around a sample that can be compared.
+template <class Signal>
+double compared(const Record& record, std::size_t at, const Signal& x) {
+  const std::size_t reach = record.compare.size() / 2, size = record.size;
+  double sum = 0, weight = 0;
+  for (std::size_t t = at - std::min(at, reach); t <= std::min(at + reach, size - 1); ++t) {
+    const double w = record.compare[t + reach - at];
+    sum += w * x(t);
+    weight += w;
+  }
+  return sum / weight;
+}
+
 }  // namespace
 
 std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesis>& hypotheses, int stride) {
@@ -190,17 +203,15 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
     const Hypothesis* able = nullptr;
     for (std::size_t l = 0; l < count; ++l)
       if (lane[l]) able = lane[l];
-    std::vector<Lanes> out(rows * 2 * n);
+    std::vector<Lanes> out(record.size * 2 * n);
     if (able) {
       const Hypothesis* filled[kLaneWidth];
       for (int l = 0; l < kLaneWidth; ++l) filled[l] = lane[l] ? lane[l] : able;
       const Transmission<Lanes> transmission = pack_hypotheses(filled);
       const std::vector<DrivenInput> held(static_cast<std::size_t>(kLetDown / record.dt) + 1, standing(inputs[0]));
-      std::vector<Lanes> unused(2 * n * 2);
-      drive(transmission, held.data(), held.size(), record.start, record.dt, scheme, static_cast<int>(held.size()), &history, x,
-            unused.data());
-      drive(transmission, inputs.data(), record.size, record.start, record.dt, scheme, stride, &history, x,
-            out.data());
+      std::vector<Lanes> unused(held.size() * 2 * n);
+      drive(transmission, held.data(), held.size(), record.start, record.dt, scheme, &history, x, unused.data());
+      drive(transmission, inputs.data(), record.size, record.start, record.dt, scheme, &history, x, out.data());
     }
     for (std::size_t l = 0; l < count; ++l) {
       Residuals& r = all[first + l];
@@ -208,14 +219,16 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
       r.channel.assign(2 * n, {});
       for (int k = 0; k < n; ++k) {
         std::vector<double>&torque = r.channel[k], &joint = r.channel[n + k];
+        const int lane_of = static_cast<int>(l);
         if (record.has_torque(k)) torque.assign(rows, std::numeric_limits<double>::quiet_NaN());
         if (record.has_joint(k)) joint.assign(rows, std::numeric_limits<double>::quiet_NaN());
         for (std::size_t i = 0; r.finite && i < rows; ++i) {
           const std::size_t at = i * stride;
-          const double tau = out[i * 2 * n + k][static_cast<int>(l)], q = out[i * 2 * n + n + k][static_cast<int>(l)];
-          if (!std::isfinite(tau) || !std::isfinite(q)) r.finite = false;
-          if (!torque.empty() && record.torque_valid[k][at] > 0) torque[i] = tau;
-          if (!joint.empty() && record.joint_valid[k][at] > 0) joint[i] = record.joint[k][at] - q;
+          const auto tau = [&](std::size_t t) { return out[t * 2 * n + k][lane_of]; };
+          const auto error = [&](std::size_t t) { return record.joint[k][t] - out[t * 2 * n + n + k][lane_of]; };
+          if (!std::isfinite(tau(at)) || !std::isfinite(out[at * 2 * n + n + k][lane_of])) r.finite = false;
+          if (!torque.empty() && record.torque_valid[k][at] > 0) torque[i] = compared(record, at, tau);
+          if (!joint.empty() && record.joint_valid[k][at] > 0) joint[i] = compared(record, at, error);
         }
       }
     }

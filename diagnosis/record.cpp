@@ -9,13 +9,14 @@
 namespace halyard {
 namespace {
 
-/// Gaussian kernel and its first two derivatives on the sample grid, as correlation weights.
+/// Gaussian kernel of a cut-off and its first two derivatives on the sample grid, as correlation weights.
 struct Kernel {
   std::vector<double> value, slope, curvature;   ///< [2 reach + 1]
   int reach;
 };
 
-Kernel gaussian_kernel(double sigma_samples, double dt) {
+Kernel gaussian_kernel(double cutoff_hz, double dt) {
+  const double sigma_samples = 1 / (2 * std::numbers::pi * cutoff_hz * dt);
   Kernel k;
   k.reach = std::max(2, static_cast<int>(std::ceil(4 * sigma_samples)));
   double mass = 0, second = 0, fourth = 0;
@@ -96,6 +97,19 @@ void keep_every(Record& r, std::size_t stride) {
   r.dt *= static_cast<double>(stride);
 }
 
+/// Takes out the samples about which the comparing kernel sees too few that are there.
+void keep_comparable(std::vector<double>& valid, const std::vector<double>& kernel) {
+  constexpr double kEnough = 0.95;   // of the kernel's weight
+  const std::vector<double> there = valid;
+  const auto size = static_cast<std::ptrdiff_t>(there.size()), reach = static_cast<std::ptrdiff_t>(kernel.size() / 2);
+  for (std::ptrdiff_t i = 0; i < size; ++i) {
+    double weight = 0;
+    for (std::ptrdiff_t t = std::max<std::ptrdiff_t>(0, i - reach); t < std::min(size, i + reach + 1); ++t)
+      weight += kernel[t - i + reach] * there[t];
+    if (weight < kEnough) valid[i] = 0;
+  }
+}
+
 Record make_record(const Log& log, const ArmModel& model, const RecordOptions& options, double dt) {
   Record r;
   r.n = log.n_joints;
@@ -106,7 +120,7 @@ Record make_record(const Log& log, const ArmModel& model, const RecordOptions& o
   for (Signals* s : {&r.motor_angle, &r.motor_rate, &r.motor_acceleration, &r.torque, &r.joint, &r.joint_raw, &r.external,
                      &r.joint_valid, &r.torque_valid})
     s->resize(r.n);
-  const Kernel kernel = gaussian_kernel(1 / (2 * std::numbers::pi * options.cutoff_hz * dt), dt);
+  const Kernel kernel = gaussian_kernel(options.motion_hz, dt);
   const auto grid = [&](const std::vector<double>& x, std::vector<double>* valid = nullptr) {
     return on_grid(log.time, x, r.start, dt, r.size, valid);
   };
@@ -145,6 +159,10 @@ Record make_record(const Log& log, const ArmModel& model, const RecordOptions& o
     if (log.has_joint_torque(k)) r.external[k] = correlate(grid(log.joint_torque[k]), kernel.value, kernel.reach);
   }
   keep_every(r, static_cast<std::size_t>(std::max(1.0, std::floor(options.step_s / dt + 1e-6))));
+  r.compare = {1};
+  if (options.compare_hz > 0) r.compare = gaussian_kernel(options.compare_hz, r.dt).value;
+  for (Signals* valid : {&r.joint_valid, &r.torque_valid})
+    for (std::vector<double>& x : *valid) keep_comparable(x, r.compare);
   return r;
 }
 

@@ -2,13 +2,15 @@
 /// A log made ready for diagnosis: one uniform time grid, and motions, rates, accelerations and
 /// torques that all went through one zero-phase low-pass filter, so that they stay comparable.
 ///
-///   q_m = K * reading,  q_m' = K' * reading,  q_m'' = K'' * reading,  τ = K * command
+///   q_m = K_m * reading,  q_m' = K_m' * reading,  q_m'' = K_m'' * reading,  τ = K_m * command
+///   e   = K_c * (measured - predicted)
 ///
-///   K   Gaussian kernel of standard deviation σ_t = 1 / (2π f_c), normalised so that constants,
-///       ramps and parabolas keep their value, slope and curvature
+///   K_m, K_c   Gaussian kernels of standard deviation σ_t = 1 / (2π f), f = motion_hz and compare_hz, normalised
+///              so that constants, ramps and parabolas keep their value, slope and curvature
 ///
 /// Differentiating the kernel instead of the reading is what keeps encoder quantisation out of
-/// q_m''; filtering the torque with the same kernel keeps J q_m'' = τ - ... true (Gautier, 1997).
+/// q_m''; filtering the torque with the same kernel keeps J q_m'' = τ - ... true (Gautier, 1997). The band of the motion
+/// is wide, so that friction turns where the motor turns; what noise that lets in, K_c takes out of the residual.
 
 #include <vector>
 
@@ -25,10 +27,11 @@ struct Record {
   std::size_t size = 0;
   Signals motor_angle, motor_rate, motor_acceleration;   ///< readings: encoder offsets still inside
   Signals torque;                                   ///< commanded, N m; the hold's half sample of delay removed
-  Signals joint;                                    ///< smoothed joint reading; empty: no sensor
+  Signals joint;                                    ///< joint reading through K_m; empty: no sensor
   Signals joint_raw;                                ///< the reading itself; NaN: missing
   Signals external;                                 ///< measured load on the joint; empty: none
   Signals joint_valid, torque_valid;                ///< 0 where a sample cannot be compared
+  std::vector<double> compare;                      ///< K_c on this grid, [2 reach + 1]
   std::string source;
 
   double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
@@ -37,7 +40,8 @@ struct Record {
 };
 
 struct RecordOptions {
-  double cutoff_hz = 20;      ///< f_c
+  double motion_hz = 60;      ///< of K_m
+  double compare_hz = 20;     ///< of K_c; 0: residuals as they are
   double settle_s = 0.5;      ///< from the start of a record: its unknown past fades out, not compared
   double step_s = 0.002;      ///< grid, a whole number of the log's own samples of at most this length, at least one
   double longest_gap_s = 0.05;   ///< longer gaps split a log into several records

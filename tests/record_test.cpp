@@ -14,6 +14,8 @@ namespace halyard {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
+/// One kernel, of 20 Hz.
+const RecordOptions kOneKernel{.motion_hz = 20, .compare_hz = 0};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 ArmModel raven2() { return read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml"); }
@@ -40,7 +42,7 @@ constexpr double kCurvatureRounding = 2 * kValueRounding / 8e-3 / 8e-3;
 
 TEST(Record, RampsKeepTheirValueAndSlopeUpToTheEnds) {
   const auto ramp = [](double t) { return 1.5 - 0.8 * t; };
-  const Record r = make_records(log_of(ramp, 4, 1000), raven2(), {})[0];
+  const Record r = make_records(log_of(ramp, 4, 1000), raven2(), kOneKernel)[0];
   for (std::size_t i = 0; i < r.size; ++i) {
     EXPECT_NEAR(r.motor_angle[1][i], ramp(r.time(i)), kValueRounding);
     EXPECT_NEAR(r.motor_rate[1][i], -0.8, kSlopeRounding);
@@ -52,7 +54,7 @@ TEST(Record, RampsKeepTheirValueAndSlopeUpToTheEnds) {
 
 TEST(Record, ParabolasKeepTheirSlopeAndCurvature) {
   const auto parabola = [](double t) { return 1 + 0.3 * t - 0.7 * t * t; };
-  const Record r = make_records(log_of(parabola, 4, 1000), raven2(), {})[0];
+  const Record r = make_records(log_of(parabola, 4, 1000), raven2(), kOneKernel)[0];
   for (std::size_t i = 0; i < r.size; ++i) {
     if (!inside(r, i)) continue;
     EXPECT_NEAR(r.motor_rate[0][i], 0.3 - 1.4 * r.time(i), kSlopeRounding);
@@ -63,7 +65,7 @@ TEST(Record, ParabolasKeepTheirSlopeAndCurvature) {
 TEST(Record, TorqueIsThatOfTheMiddleOfTheHold) {
   // A command is held until the next sample: what acts at a sample is the mean of what was held before and after it.
   const auto ramp = [](double t) { return 2 * t; };
-  const Record r = make_records(log_of(ramp, 4, 1000), raven2(), {})[0];
+  const Record r = make_records(log_of(ramp, 4, 1000), raven2(), kOneKernel)[0];
   for (std::size_t i = 1; i < r.size; ++i) EXPECT_NEAR(r.torque[2][i], ramp(r.time(i) - 0.5e-3), kValueRounding);
 }
 
@@ -74,7 +76,7 @@ TEST(Record, EverySignalPassesOneFilterWhateverTheSampleRate) {
   const double gain = std::exp(-0.5 * (f / 20) * (f / 20));
   const std::pair<double, double> rate_and_step[] = {{250, 4e-3}, {400, 2.5e-3}, {1000, 2e-3}, {3000, 2e-3}};
   for (const auto& [rate, step] : rate_and_step) {
-    const Record r = make_records(log_of(sine, 3, rate, 0.25), raven2(), {})[0];
+    const Record r = make_records(log_of(sine, 3, rate, 0.25), raven2(), kOneKernel)[0];
     EXPECT_NEAR(r.dt, step, 1e-12) << rate;
     EXPECT_EQ(r.start, 0.25);
     EXPECT_EQ(r.size, static_cast<std::size_t>(std::lround(3 / step)) + 1) << rate;
@@ -104,7 +106,7 @@ TEST(Record, LongGapsSplitALogAndShortOnesDoNot) {
         log.joint_position[k].push_back(whole.joint_position[k][i]);
       }
     }
-    const std::vector<Record> records = make_records(log, raven2(), {});
+    const std::vector<Record> records = make_records(log, raven2(), kOneKernel);
     if (gap < 0.05) {
       ASSERT_EQ(records.size(), 1u);
       const std::size_t middle = static_cast<std::size_t>(std::lround(2.016 / records[0].dt));
@@ -123,7 +125,7 @@ TEST(Record, StretchesTooShortToCompareAreLeftOut) {
   Log log = log_of([](double t) { return t; }, 4, 1000);
   for (std::size_t i = 0; i < log.size(); ++i)
     if (log.time[i] > 1.0005) log.time[i] += 1;   // the first second alone
-  const std::vector<Record> records = make_records(log, raven2(), {});
+  const std::vector<Record> records = make_records(log, raven2(), kOneKernel);
   ASSERT_EQ(records.size(), 1u);
   EXPECT_NEAR(records[0].start, 2.001, 1e-9);
 }
@@ -131,7 +133,7 @@ TEST(Record, StretchesTooShortToCompareAreLeftOut) {
 TEST(Record, SaysThatALogIsTooShort) {
   const auto message = [](const Log& log) -> std::string {
     try {
-      make_records(log, raven2(), {});
+      make_records(log, raven2(), kOneKernel);
     } catch (const InputError& e) {
       return e.what();
     }
@@ -149,7 +151,7 @@ TEST(Record, DropOutsAreMaskedInTheSignalsThatNeedThem) {
   for (int i = 2000; i < 2020; ++i) log.joint_position[0][i] = kNan;
   for (int i = 2500; i < 2520; ++i) log.motor_torque[0][i] = kNan;
   for (int i = 3000; i < 3020; ++i) log.motor_position[0][i] = kNan;
-  const Record r = make_records(log, raven2(), {})[0];
+  const Record r = make_records(log, raven2(), kOneKernel)[0];
   for (std::size_t i = 0; i < r.size; ++i) {
     const double t = r.time(i);
     const bool settled = t >= 0.5 - 1e-9;

@@ -54,7 +54,7 @@ struct EffectParameter {
   bool natural_bounds = false;
   /// Values from which a search sets out, where a good start cannot be told from the size alone: orders of a ripple,
   /// decades of a time constant. Empty: the typical value.
-  std::vector<double> starts;
+  std::vector<double> starts = {};
   SearchRange range = SearchRange::own;
 
   /// A number that shapes an effect and does not size it; its neutral value is the typical one. It follows the sizes
