@@ -3,24 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "model/arm_model.h"
-#include "tests/random_arm.h"
-#include "transmission/path_matrix.h"
+#include "tests/effect_runs.h"
 
 namespace halyard {
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr CableLaw kLaws[] = {CableLaw::paper, CableLaw::exponential, CableLaw::linear};
-
-PlacedEffect placed(const std::string& name, const ArmParameters<double>& arm, int joint,
-                    const std::vector<double>& p) {
-  PlacedEffect e = place_effect(*find_effect(name), arm, joint);
-  for (std::size_t i = 0; i < p.size(); ++i) e.p[i] = p[i];
-  return e;
-}
 
 /// All built-in effects at all places where they can be.
 std::vector<PlacedEffect> built_in_everywhere(const ArmParameters<double>& arm) {
@@ -30,44 +18,6 @@ std::vector<PlacedEffect> built_in_everywhere(const ArmParameters<double>& arm) 
     for (const int joint : effect_places(*effect, arm)) all.push_back(place_effect(*effect, arm, joint));
   }
   return all;
-}
-
-/// Signals of an arm at a motion.
-struct Motion {
-  double motor_angle[3] = {}, motor_rate[3] = {}, joint_position[3] = {}, joint_rate[3] = {};
-};
-struct Evaluated {
-  JointSignals<double> s[kMaxJoints];
-  double z_dot[kMaxEffectStates] = {};
-};
-Evaluated evaluate(const Transmission<double>& transmission, const Motion& m, const double* z = nullptr) {
-  Evaluated e;
-  for (int k = 0; k < transmission.arm().n; ++k) {
-    e.s[k].motor_angle = m.motor_angle[k];
-    e.s[k].motor_rate = m.motor_rate[k];
-    e.s[k].joint_position = m.joint_position[k];
-    e.s[k].joint_rate = m.joint_rate[k];
-  }
-  evaluate_all(transmission, 0, nullptr, z, e.s, e.z_dot);
-  return e;
-}
-
-/// The motion that stretches joint k's cable by x at the rate x', all joints at rest at zero.
-Motion stretched(const ArmParameters<double>& arm, int k, double x, double x_dot) {
-  Motion m;
-  m.motor_angle[k] = x / arm.joint[k].motor_travel();
-  m.motor_rate[k] = x_dot / arm.joint[k].motor_travel();
-  return m;
-}
-
-Motion random_motion(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> unit(-1, 1);
-  Motion m;
-  for (int k = 0; k < 3; ++k) {
-    m.motor_angle[k] = 0.3 * unit(random), m.motor_rate[k] = unit(random);
-    m.joint_position[k] = 0.3 * unit(random), m.joint_rate[k] = unit(random);
-  }
-  return m;
 }
 
 // -------------------------------------------------------------------------------------- all effects
@@ -111,7 +61,12 @@ TEST(EffectLibrary, NeutralParametersChangeNothing) {
         if (trial == 0) std::fill(u.begin(), u.begin() + 6 * arm.n, 0.0);   // at rest, unstretched
         if (trial == 1)                                                     // unstretched, moving
           for (int k = 0; k < arm.n; ++k) u[6 * k + 1] = u[6 * k + 3] = 0;
-        const std::vector<double> expected = bare(u), got = with(u);
+        double command[3];
+        for (int k = 0; k < arm.n; ++k) command[k] = u[6 * k];
+        CommandHistory history(arm.n, 1);
+        history.push(0, command);
+        const double time = trial;
+        const std::vector<double> expected = bare(u, time, &history), got = with(u, time, &history);
         const int m = with.n_states();   // the rates of its own states come first
         for (std::size_t r = 0; r < expected.size(); ++r) EXPECT_EQ(got[r + m], expected[r]) << "output " << r;
       }
@@ -127,14 +82,62 @@ TEST(EffectLibrary, TypicalParametersChangeSomething) {
   const ArmParameters<double> arm = random_arm(2, CableLaw::linear);
   const EvaluatedArm<double> bare{arm, {}};
   for (const PlacedEffect& e : built_in_everywhere(arm)) {
-    if (e.joint < 0) continue;   // a payload changes the chain; see below
+    if (e.effect->scope() == EffectScope::arm) {   // it changes the chain alone
+      ArmParameters<double> changed = arm;
+      e.effect->change_parameters(changed, e.joint, e.p);
+      EXPECT_TRUE(changed.joint[2].mass != arm.joint[2].mass || changed.gravity[0] != arm.gravity[0]) << e.effect->name();
+      continue;
+    }
     const EvaluatedArm<double> with{arm, e};
     std::mt19937_64 random(3);
-    const std::vector<double> u = random_inputs(with, random), expected = bare(u), got = with(u);
+    std::vector<double> u = random_inputs(with, random);
+    for (int k = 0; k < arm.n; ++k) u[6 * k] *= 50;   // a command that saturates, at a time when slow things have begun
+    const std::vector<double> expected = bare(u, 1.5), got = with(u, 1.5);
     bool differs = false;
     for (std::size_t r = 0; r < expected.size(); ++r) differs = differs || got[r + with.n_states()] != expected[r];
     EXPECT_TRUE(differs) << e.effect->name() << " at joint " << e.joint + 1;
   }
+}
+
+TEST(EffectLibrary, StartsLieInsideTheirBounds) {
+  for (const PlacedEffect& e : built_in_everywhere(random_arm(1, CableLaw::linear)))
+    for (const EffectParameter& p : e.effect->parameters(random_arm(1, CableLaw::linear), e.joint))
+      for (const double start : p.starts) {
+        EXPECT_LT(p.lower, start) << e.effect->name() << " " << p.name;
+        EXPECT_GT(p.upper, start) << e.effect->name() << " " << p.name;
+      }
+}
+
+TEST(EffectLibrary, AShapeFollowsASizeAndDoesNothingWithoutIt) {
+  const ArmParameters<double> arm = random_arm(2, CableLaw::linear);
+  const EvaluatedArm<double> bare{arm, {}};
+  std::mt19937_64 random(8);
+  for (PlacedEffect e : built_in_everywhere(arm)) {
+    const auto parameters = e.effect->parameters(arm, e.joint);
+    EXPECT_FALSE(parameters[0].is_shape()) << e.effect->name();
+    for (std::size_t i = 0; i < parameters.size(); ++i) e.p[i] = parameters[i].neutral;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      if (!parameters[i].is_shape() || parameters[i].range != SearchRange::own) continue;
+      const double step = 0.3 * (parameters[i].upper - parameters[i].lower);
+      PlacedEffect moved = e;
+      moved.p[i] = parameters[i].lower + step;
+      const EvaluatedArm<double> with{arm, moved};
+      const std::vector<double> u = random_inputs(with, random), expected = bare(u, 1.5), got = with(u, 1.5);
+      for (std::size_t r = 0; r < expected.size(); ++r)
+        EXPECT_EQ(got[r + with.n_states()], expected[r]) << e.effect->name() << " " << parameters[i].name;
+    }
+  }
+}
+
+TEST(EffectLibrary, HasTheEffectsInTheOrderOfTheirNamesTable) {
+  const char* names[] = {"payload", "gravity_tilt", "motor_friction", "joint_friction", "stribeck", "pulley_friction",
+                         "hysteresis", "backlash", "slack", "stiffness", "coupling", "creep", "capstan_ratio",
+                         "capstan_eccentricity", "encoder_offset", "encoder_eccentricity", "torque_ripple",
+                         "torque_scale", "delay", "cable_slip", "external_force", "friction_drift",
+                         "actuator_saturation"};
+  const auto built_in = built_in_effects();
+  ASSERT_EQ(built_in.size(), std::size(names));
+  for (std::size_t i = 0; i < built_in.size(); ++i) EXPECT_EQ(built_in[i]->name(), names[i]);
 }
 
 TEST(EffectLibrary, EffectsAreFoundByNameAndRefusedWhereTheyCannotBe) {
@@ -143,9 +146,11 @@ TEST(EffectLibrary, EffectsAreFoundByNameAndRefusedWhereTheyCannotBe) {
   EXPECT_FALSE(find_effect("coupling")->applies(arm, 0)) << "no joint is inboard of the first";
   arm.joint[1].drive = Drive::rigid;
   arm.joint[2].drive = Drive::none;
-  for (const char* of_cable : {"backlash", "hysteresis", "stiffness", "pulley_friction"})
+  for (const char* of_cable : {"backlash", "hysteresis", "stiffness", "pulley_friction", "slack", "creep",
+                               "capstan_eccentricity", "cable_slip"})
     EXPECT_FALSE(find_effect(of_cable)->applies(arm, 1)) << of_cable;
-  for (const char* of_motor : {"motor_friction", "capstan_ratio", "encoder_offset", "coupling"}) {
+  for (const char* of_motor : {"motor_friction", "capstan_ratio", "encoder_offset", "coupling", "torque_ripple",
+                               "torque_scale", "actuator_saturation"}) {
     EXPECT_TRUE(find_effect(of_motor)->applies(arm, 1)) << of_motor;
     EXPECT_FALSE(find_effect(of_motor)->applies(arm, 2)) << of_motor;
   }
@@ -162,282 +167,6 @@ TEST(EffectLibrary, EffectsAreFoundByNameAndRefusedWhereTheyCannotBe) {
   EXPECT_EQ(message("backlash", 1), "effect backlash cannot be at joint 2 of this arm");
   EXPECT_EQ(message("backlash", 3), "effect backlash cannot be at joint 4 of this arm");
   EXPECT_EQ(message("payload", 0), "effect payload belongs to the whole arm: name no joint");
-}
-
-// -------------------------------------------------------------------------------------- one by one
-
-TEST(Payload, IsTheDirectSumOfTwoBodies) {
-  const ArmParameters<double> arm = random_arm(4, CableLaw::linear);
-  for (const double mass : {0.3, -0.2}) {
-    const Transmission<double> with(arm, {placed("payload", arm, -1, {mass})});
-    const JointParameters<double>&before = arm.joint[2], &after = with.arm().joint[2];
-    const double* r = arm.payload_point;
-    EXPECT_NEAR(after.mass, before.mass + mass, 2 * kEps * before.mass);
-    // The static moment, and the inertia about the frame's origin: sums over both bodies. A few roundings of numbers
-    // below 2.
-    for (int i = 0; i < 3; ++i)
-      EXPECT_NEAR(after.mass * after.com[i], before.mass * before.com[i] + mass * r[i], 8 * kEps);
-    const int row[] = {0, 1, 2, 0, 0, 1}, column[] = {0, 1, 2, 1, 2, 2};
-    const auto about_origin = [&](double m, const double* c, int i) {
-      const double square = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
-      return m * ((row[i] == column[i] ? square : 0) - c[row[i]] * c[column[i]]);
-    };
-    for (int i = 0; i < 6; ++i)
-      EXPECT_NEAR(after.inertia[i] + about_origin(after.mass, after.com, i),
-                  before.inertia[i] + about_origin(before.mass, before.com, i) + about_origin(mass, r, i), 20 * kEps)
-          << i;
-    EXPECT_EQ(with.arm().joint[1].mass, arm.joint[1].mass);
-  }
-}
-
-/// Parameters of a friction effect, anywhere in its bounds or at one of them.
-std::vector<double> within_bounds(const std::vector<EffectParameter>& parameters, std::mt19937_64& random) {
-  std::uniform_real_distribution<double> share(-0.5, 1.5);
-  std::vector<double> p;
-  for (const EffectParameter& e : parameters)
-    p.push_back(e.lower + std::clamp(share(random), 0.0, 1.0) * (e.upper - e.lower));
-  return p;
-}
-
-TEST(MotorFriction, NeverGivesPowerWithinItsBounds) {
-  ArmParameters<double> arm = random_arm(5, CableLaw::linear);
-  arm.joint[1].torque_bias = 0;
-  std::mt19937_64 random(1);
-  for (int trial = 0; trial < 500; ++trial) {
-    const std::vector<double> p = within_bounds(find_effect("motor_friction")->parameters(arm, 1), random);
-    const Transmission<double> t(arm, {placed("motor_friction", arm, 1, p)});
-    const Motion m = random_motion(random);
-    // The level can be zero, or its asymmetry one: what is left is the rounding of two equal terms of 10 N m at most.
-    EXPECT_LE(evaluate(t, m).s[1].motor_torque * m.motor_rate[1], 10 * 2 * kEps);
-  }
-}
-
-TEST(JointFriction, NeverGivesPowerWithinItsBounds) {
-  const ArmParameters<double> arm = random_arm(5, CableLaw::linear);
-  ArmParameters<double> frictionless = arm;
-  frictionless.joint[1].joint_coulomb = frictionless.joint[1].joint_viscous = 0;
-  const Transmission<double> none(frictionless, {});
-  std::mt19937_64 random(1);
-  for (int trial = 0; trial < 500; ++trial) {
-    const std::vector<double> p = within_bounds(find_effect("joint_friction")->parameters(arm, 1), random);
-    const Transmission<double> t(arm, {placed("joint_friction", arm, 1, p)});
-    const Motion m = random_motion(random);
-    const double friction = evaluate(t, m).s[1].joint_force - evaluate(none, m).s[1].joint_force;
-    // The reaction of cables, up to 50 N m, is subtracted again.
-    EXPECT_LE(friction * m.joint_rate[1], 50 * 4 * kEps);
-  }
-}
-
-TEST(Friction, AsymmetryPartsTheLevelsOfBothWaysByItsShare) {
-  ArmParameters<double> arm = random_arm(5, CableLaw::linear);
-  JointParameters<double>& j = arm.joint[0];
-  j.motor_viscous = j.joint_viscous = j.torque_bias = 0;
-  const double change = 0.1, alpha = 0.2;
-  const Transmission<double> motor(arm, {placed("motor_friction", arm, 0, {change, 0, alpha})});
-  const Transmission<double> joint(arm, {placed("joint_friction", arm, 0, {change, 0, alpha})});
-  const Transmission<double> none(arm, {});
-  for (const double way : {1.0, -1.0}) {
-    Motion m;
-    m.motor_rate[0] = way * 40 * j.motor_smoothing;   // tanh(40) is 1
-    EXPECT_NEAR(-way * evaluate(motor, m).s[0].motor_torque, (j.motor_coulomb + change) * (1 + way * alpha), 4 * kEps);
-    m = Motion{};
-    m.joint_rate[0] = way * 40 * j.joint_smoothing;
-    const double more = evaluate(none, m).s[0].joint_force - evaluate(joint, m).s[0].joint_force;
-    // Damping forces reach 100 N m.
-    EXPECT_NEAR(way * more, change + (j.joint_coulomb + change) * way * alpha, 100 * 4 * kEps);
-  }
-}
-
-TEST(PulleyFriction, GrowsWithTensionAndLoadAndNotWithSpeed) {
-  ArmParameters<double> arm = random_arm(6, CableLaw::linear);
-  arm.joint[0].damping = 0;
-  const double mu = 0.05, share = 0.3;
-  const auto forces = [&](double tension, double stretch, double speed) {
-    arm.joint[0].tension = tension;
-    const Transmission<double> bare(arm, {}), with(arm, {placed("pulley_friction", arm, 0, {mu, share})});
-    Motion m = stretched(arm, 0, stretch, 0);
-    m.motor_rate[0] = speed * arm.joint[0].motor_smoothing;
-    m.joint_rate[0] = speed * arm.joint[0].joint_smoothing;
-    const Evaluated a = evaluate(with, m), b = evaluate(bare, m);
-    return std::pair(a.s[0].cable_force_motor - b.s[0].cable_force_motor,
-                     a.s[0].cable_force_joint - b.s[0].cable_force_joint);
-  };
-  // Speeds of 40 v_s and above slide fully.
-  for (const double tension : {20.0, 40.0})
-    for (const double stretch : {0.0, 0.1, -0.1}) {
-      const double level = mu * (2 * tension + 2 * arm.joint[0].stiffness * std::abs(stretch));
-      for (const double speed : {40.0, 80.0, -40.0}) {
-        const auto [motor, joint] = forces(tension, stretch, speed);
-        const double sign = speed > 0 ? 1 : -1;
-        EXPECT_NEAR(motor, sign * share * level, 100 * 4 * kEps);
-        EXPECT_NEAR(joint, -sign * (1 - share) * level, 100 * 4 * kEps);
-      }
-    }
-}
-
-TEST(PulleyFriction, TakesPowerFromEveryMotion) {
-  std::mt19937_64 random(1);
-  for (const CableLaw law : kLaws) {
-    const ArmParameters<double> arm = random_arm(6, law);
-    for (const double share : {0.0, 0.4, 1.0}) {
-      const Transmission<double> bare(arm, {}), with(arm, {placed("pulley_friction", arm, 1, {0.3, share})});
-      for (int trial = 0; trial < 50; ++trial) {
-        const Motion m = random_motion(random);
-        const Evaluated a = evaluate(with, m), b = evaluate(bare, m);
-        double power = 0;   // that the friction gives to motors and joints
-        for (int k = 0; k < 3; ++k) {
-          const double taken = a.s[k].cable_force_motor - b.s[k].cable_force_motor;
-          power -= arm.joint[k].motor_travel() * taken * m.motor_rate[k];
-          power += (a.s[k].joint_force - b.s[k].joint_force) * m.joint_rate[k];
-        }
-        EXPECT_LT(power, 0);
-      }
-    }
-  }
-}
-
-/// The loop that the hysteresis of joint 1 goes through when its stretch goes to and fro between two values.
-struct Loop {
-  double work = 0;         ///< of the force on the stretch over the last cycle
-  double opening = 0;      ///< of the force over the last cycle: end less start
-  double least_work = 0;   ///< of all sums of work since the start at zero stretch and zero state
-};
-Loop hysteresis_loop(const ArmParameters<double>& arm, const PlacedEffect& hysteresis, double low, double high,
-                     double speed, int cycles) {
-  const Transmission<double> t(arm, {hysteresis});
-  constexpr int kSteps = 20000;   // a cycle
-  double x = 0, z = 0, sum = 0;
-  Loop loop;
-  const auto at = [&](double stretch, double rate, double state) {
-    return evaluate(t, stretched(arm, 0, stretch, rate), &state);
-  };
-  double force = at(0, 0, 0).s[0].cable_force_motor;
-  const auto go = [&](double to, int steps) {
-    const double dx = (to - x) / steps, rate = dx > 0 ? speed : -speed, h = dx / rate;
-    for (int i = 0; i < steps; ++i) {
-      const double k1 = at(x, rate, z).z_dot[0], k2 = at(x + dx / 2, rate, z + h / 2 * k1).z_dot[0];
-      const double k3 = at(x + dx / 2, rate, z + h / 2 * k2).z_dot[0], k4 = at(x + dx, rate, z + h * k3).z_dot[0];
-      z += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-      x += dx;
-      const double next = at(x, rate, z).s[0].cable_force_motor;
-      sum += 0.5 * (force + next) * dx;
-      force = next;
-      loop.least_work = std::min(loop.least_work, sum);
-    }
-  };
-  go(low, kSteps / 4);
-  for (int c = 0; c < cycles; ++c) {
-    const double sum_before = sum, force_before = force;
-    go(high, kSteps / 2);
-    go(low, kSteps / 2);
-    loop.work = sum - sum_before;
-    loop.opening = force - force_before;
-  }
-  return loop;
-}
-
-TEST(Hysteresis, LoopClosesTakesItsTheoreticalWorkAndDoesNotDependOnSpeed) {
-  ArmParameters<double> arm = random_arm(7, CableLaw::linear);
-  arm.joint[0].damping = 0;
-  const double share = 0.4, yield = 0.01, amplitude = 0.05, stiffness = arm.joint[0].stiffness;
-  const PlacedEffect e = placed("hysteresis", arm, 0, {share, yield});
-  const Loop slow = hysteresis_loop(arm, e, -amplitude, amplitude, 0.1, 3);
-  const Loop fast = hysteresis_loop(arm, e, -amplitude, amplitude, 10, 3);
-  // In the steady loop z turns at ±z_s, z_s = z_y (1 - exp(-(2A - z_s) / z_y)), and ∮ z dx over both halves follows.
-  double turn = yield;
-  for (int i = 0; i < 100; ++i) turn = yield * (1 - std::exp(-(2 * amplitude - turn) / yield));
-  const double area = 2 * (-0.5 * turn * turn + yield * (2 * amplitude - turn - turn));
-  const double work = 2 * stiffness * share * area;
-  // Trapezoids of 5e-6 m over an exponential of 0.01 m: (5e-4)² / 12 = 2e-8 of it.
-  EXPECT_NEAR(slow.work, work, 1e-7 * work);
-  EXPECT_NEAR(fast.work, slow.work, 1e-9 * work);
-  // The first cycle forgets its start by exp(-2A / z_y) = 5e-5, the next by that again.
-  EXPECT_NEAR(slow.opening, 0, 1e-7 * 2 * stiffness * share * yield);
-}
-
-TEST(Hysteresis, TakesWorkOverEveryCycleAndNeverGivesMoreThanItStored) {
-  for (const CableLaw law : kLaws) {
-    ArmParameters<double> arm = random_arm(7, law);
-    arm.joint[0].damping = 0;
-    for (const auto& [low, high] : {std::pair(-0.05, 0.05), std::pair(0.001, 0.002), std::pair(-0.03, 0.08)}) {
-      const Loop loop = hysteresis_loop(arm, placed("hysteresis", arm, 0, {0.9, 0.01}), low, high, 1, 4);
-      EXPECT_GT(loop.work, 0) << low << ", " << high;
-      // The trapezoids' error, see above, of forces of 10 N over 0.1 m.
-      EXPECT_GT(loop.least_work, -1e-7) << low << ", " << high;
-    }
-  }
-}
-
-TEST(Backlash, HasADeadZoneTwiceTheHalfGapWide) {
-  const double half_gap = 0.02;
-  for (const CableLaw law : kLaws) {
-    const ArmParameters<double> arm = random_arm(8, law);
-    const Transmission<double> bare(arm, {}), with(arm, {placed("backlash", arm, 2, {half_gap})});
-    const auto force = [&](const Transmission<double>& t, double x, double x_dot) {
-      return evaluate(t, stretched(arm, 2, x, x_dot)).s[2].cable_force_joint;
-    };
-    for (const double x : {-0.999, -0.5, 0.0, 0.7, 0.999}) EXPECT_EQ(force(with, x * half_gap, 0.3), 0) << x;
-    // Outside it is the same cable, shifted; the stretch has rounded once more, at 2 k_e of up to 120 N/m and more.
-    for (const double x : {0.001, 0.05, 0.2})
-      for (const double side : {-1.0, 1.0})
-        EXPECT_NEAR(force(with, side * (half_gap + x), 0.3), force(bare, side * x, 0.3), 1e-13 * 100);
-  }
-}
-
-TEST(Stiffness, ScalesTheForceOfStretchAndOfItsRate) {
-  for (const CableLaw law : {CableLaw::paper, CableLaw::linear}) {   // both are proportional to stiffness
-    const ArmParameters<double> arm = random_arm(9, law);
-    const Transmission<double> bare(arm, {}), with(arm, {placed("stiffness", arm, 1, {0.8, 1.5})});
-    const auto force = [&](const Transmission<double>& t, double x, double x_dot) {
-      return evaluate(t, stretched(arm, 1, x, x_dot)).s[1].cable_force_motor;
-    };
-    EXPECT_NEAR(force(with, 0.1, 0), 0.8 * force(bare, 0.1, 0), 20 * 8 * kEps);
-    EXPECT_NEAR(force(with, 0, 0.5), 1.5 * force(bare, 0, 0.5), 20 * 8 * kEps);
-  }
-}
-
-TEST(CouplingError, MovesTheCableOfItsJointWithTheInboardOneAndPullsBackOnIt) {
-  const ArmParameters<double> arm = random_arm(10, CableLaw::linear);
-  const double change = 0.1;
-  const Transmission<double> bare(arm, {}), with(arm, {placed("coupling", arm, 2, {0, change})});
-  Motion m;
-  m.joint_position[1] = 0.2;
-  m.motor_angle[2] = 0.5;
-  const Evaluated a = evaluate(with, m), b = evaluate(bare, m);
-  const double radius = arm.joint[2].pulley_radius;
-  EXPECT_NEAR(a.s[2].stretch - b.s[2].stretch, -radius * change * 0.2, 4 * kEps);
-  EXPECT_EQ(a.s[1].stretch, b.s[1].stretch);
-  // Virtual work: joint 2 feels the cable of joint 3 with the same coefficient; forces reach 50 N.
-  const double coefficient = arm.joint[2].coupling[1];
-  EXPECT_NEAR(a.s[1].joint_force - b.s[1].joint_force,
-              radius * ((coefficient + change) * a.s[2].cable_force_joint - coefficient * b.s[2].cable_force_joint),
-              50 * 8 * kEps);
-}
-
-TEST(CapstanRatio, ScalesJointTravelPerMotorAngle) {
-  const ArmParameters<double> arm = random_arm(11, CableLaw::linear);
-  const Transmission<double> with(arm, {placed("capstan_ratio", arm, 0, {1.03})});
-  const Eigen::Vector3d q_m(1, 0, 0);
-  const Eigen::VectorXd before = unstretched_joints(arm, q_m, Eigen::Vector3d::Zero());
-  const Eigen::VectorXd after = unstretched_joints(with.arm(), q_m, Eigen::Vector3d::Zero());
-  EXPECT_LT((after - 1.03 * before).norm(), 40 * kEps);
-}
-
-TEST(EncoderOffset, ShiftsWhereKinematicsPutsTheJointByTheOffset) {
-  const double offset = -0.07;
-  for (int k = 0; k < 3; ++k) {
-    ArmParameters<double> arm = random_arm(12, CableLaw::linear);
-    for (int j = 0; j < 3; ++j) arm.joint[j].motor_encoder_offset = 0;
-    const Transmission<double> with(arm, {placed("encoder_offset", arm, k, {offset})});
-    JointSignals<double> s[kMaxJoints];
-    with.sensor_errors(0, nullptr, s);
-    // With all else at zero the reading is that of a joint at `offset`, whose coupling moves other cables that do not
-    // move: so the cable's own path counts.
-    Eigen::Vector3d q_m = Eigen::Vector3d::Zero();
-    for (int j = 0; j < 3; ++j) q_m(j) = s[j].motor_error;
-    const Eigen::VectorXd path = path_matrix(arm) * unstretched_joints(arm, q_m, Eigen::Vector3d::Zero());
-    for (int j = 0; j < 3; ++j) EXPECT_NEAR(path(j) / arm.joint[j].pulley_radius, j == k ? offset : 0, 8 * kEps);
-  }
 }
 
 // --------------------------------------------------------------------------------- a user's effect

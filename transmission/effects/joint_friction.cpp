@@ -2,12 +2,13 @@
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
 
-/// Another friction at the joint than the model has, and its asymmetry:
+/// Another friction at the joint than the model has, and its asymmetries:
 ///
-///   F' = F + ΔF_c tanh(v / v_s) + ΔF_v v + α F_c' tanh²(v / v_s)
+///   F' = F + ΔF_c tanh(v / v_s) + ΔF_v v + α F_c' tanh²(v / v_s) + α_v F_v' v tanh(v / v_s)
 ///
 ///   ΔF_c, ΔF_v   change of the Coulomb level, of the viscous coefficient    N m | N, N m s/rad | N s/m
 ///   α            asymmetry: the Coulomb level F_c' = F_c + ΔF_c is (1 + α) F_c' forward, (1 - α) F_c' backward
+///   α_v          asymmetry of the viscous coefficient F_v' = F_v + ΔF_v in the same way, `viscous_asymmetry`
 ///
 /// Source: the paper's Eq. 4; asymmetry as in Armstrong-Helouvry et al., Automatica 30 (1994).
 
@@ -26,7 +27,8 @@ class JointFriction : public EffectOf<JointFriction> {
     const double viscous = std::max(j.joint_viscous, 0.02 * level);
     return {{"coulomb_change", turns ? "N m" : "N", 0, 0.3 * level, -j.joint_coulomb, 30 * level, j.tolerance.friction * j.joint_coulomb, true},
             {"viscous_change", turns ? "N m s/rad" : "N s/m", 0, 0.3 * viscous, -j.joint_viscous, 300 * viscous, j.tolerance.friction * j.joint_viscous, true},
-            {"asymmetry", "1", 0, 0.1, -1, 1, 0, true}};
+            {"asymmetry", "1", 0, 0.1, -1, 1, 0, true},
+            {"viscous_asymmetry", "1", 0, 0.1, -1, 1, 0, true}};
   }
 
   template <class T>
@@ -36,8 +38,9 @@ class JointFriction : public EffectOf<JointFriction> {
   }
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T sign = smooth_sign(s[c.joint].joint_rate, c.arm.joint[c.joint].joint_smoothing);
-    s[c.joint].joint_force -= c.p[2] * c.arm.joint[c.joint].joint_coulomb * sign * sign;
+    const JointParameters<T>& j = c.arm.joint[c.joint];
+    const T v = s[c.joint].joint_rate, sign = smooth_sign(v, j.joint_smoothing);
+    s[c.joint].joint_force -= (c.p[2] * j.joint_coulomb * sign + c.p[3] * j.joint_viscous * v) * sign;
   }
 };
 

@@ -2,12 +2,13 @@
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
 
-/// Another friction at the motor than the model has, and its asymmetry:
+/// Another friction at the motor than the model has, and its asymmetries:
 ///
-///   F' = F + ΔF_c tanh(v / v_s) + ΔF_v v + α F_c' tanh²(v / v_s)
+///   F' = F + ΔF_c tanh(v / v_s) + ΔF_v v + α F_c' tanh²(v / v_s) + α_v F_v' v tanh(v / v_s)
 ///
 ///   ΔF_c, ΔF_v   change of the Coulomb level, of the viscous coefficient    N m, N m s/rad
 ///   α            asymmetry: the Coulomb level F_c' = F_c + ΔF_c is (1 + α) F_c' forward, (1 - α) F_c' backward
+///   α_v          asymmetry of the viscous coefficient F_v' = F_v + ΔF_v in the same way, `viscous_asymmetry`
 ///
 /// Source: the paper's Eq. 5; asymmetry as in Armstrong-Helouvry et al., Automatica 30 (1994).
 
@@ -28,7 +29,8 @@ class MotorFriction : public EffectOf<MotorFriction> {
     const double viscous = std::max(j.motor_viscous, 0.002 * level);
     return {{"coulomb_change", "N m", 0, 0.3 * level, -j.motor_coulomb, 30 * level, j.tolerance.friction * j.motor_coulomb, true},
             {"viscous_change", "N m s/rad", 0, 0.3 * viscous, -j.motor_viscous, 30 * viscous, j.tolerance.friction * j.motor_viscous, true},
-            {"asymmetry", "1", 0, 0.1, -1, 1, 0, true}};
+            {"asymmetry", "1", 0, 0.1, -1, 1, 0, true},
+            {"viscous_asymmetry", "1", 0, 0.1, -1, 1, 0, true}};
   }
 
   template <class T>
@@ -38,8 +40,9 @@ class MotorFriction : public EffectOf<MotorFriction> {
   }
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T sign = smooth_sign(s[c.joint].motor_rate, c.arm.joint[c.joint].motor_smoothing);
-    s[c.joint].motor_torque -= c.p[2] * c.arm.joint[c.joint].motor_coulomb * sign * sign;
+    const JointParameters<T>& j = c.arm.joint[c.joint];
+    const T v = s[c.joint].motor_rate, sign = smooth_sign(v, j.motor_smoothing);
+    s[c.joint].motor_torque -= (c.p[2] * j.motor_coulomb * sign + c.p[3] * j.motor_viscous * v) * sign;
   }
 };
 

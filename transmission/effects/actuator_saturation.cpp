@@ -1,0 +1,50 @@
+#include "transmission/effects/library.h"
+#include "transmission/effects/typical_size.h"
+
+/// Torque that saturates below the command, at a limit that falls with speed where the torque drives the motion:
+///
+///   τ' = τ - ρ (τ - clamp(τ, -τ_max h(-ω), τ_max h(ω))),   h(ω) = 1 - ω / ω_0 within [0, 1]
+///
+///   τ_max   `limit` at standstill                                                      N m
+///   ω_0     `no_load_speed`, where nothing is left of it                               rad/s
+///   ρ       share of the torque beyond the limit that is lost: 1 for a hard limit       -
+///
+/// The limits shape what ρ sizes: whatever they are, nothing saturates at ρ = 0. A no-load speed far above the motion's
+/// means that there is no limit of speed.
+/// Source: the torque-speed line of a motor at constant voltage, and its amplifier's limit of current.
+
+namespace halyard {
+namespace {
+
+class ActuatorSaturation : public EffectOf<ActuatorSaturation> {
+ public:
+  std::string name() const override { return "actuator_saturation"; }
+  std::string summary() const override { return "torque or speed that saturates below the command"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::command); }
+  bool applies(const ArmParameters<double>& arm, int joint) const override {
+    return arm.joint[joint].drive != Drive::none;
+  }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const double level = typical_motor_friction(arm.joint[joint]), no_limit = 1e4;
+    return {{"share", "1", 0, 1, 0, 1, 0, true},
+            {"limit", "N m", 4 * level, 4 * level, 0.1 * level, 300 * level, 0, false,
+             {level, 2 * level, 4 * level, 8 * level, 16 * level}},
+            {"no_load_speed", "rad/s", no_limit, no_limit, 1, 1e5, 0, true, {50, 200, no_limit}}};
+  }
+
+  template <class T>
+  void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
+    JointSignals<T>& own = s[c.joint];
+    const T slip = own.motor_rate / c.p[2];
+    const T forward = c.p[1] * max(T(0.0), min(T(1.0), T(T(1.0) - slip)));
+    const T backward = c.p[1] * max(T(0.0), min(T(1.0), T(T(1.0) + slip)));
+    const T torque = own.motor_torque;
+    own.motor_torque -= c.p[0] * (torque - max(T(-backward), min(forward, torque)));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_actuator_saturation() { return std::make_unique<ActuatorSaturation>(); }
+
+}  // namespace halyard

@@ -1,0 +1,43 @@
+#include "transmission/effects/library.h"
+#include "transmission/effects/smooth_step.h"
+
+/// A sudden lasting jump of the motor-to-joint relation: the cable slips on its capstan,
+///
+///   x' = x - Δ s(t - t_0)
+///
+///   Δ     cable that slips, `jump`             m
+///   t_0   when, `time`, on the log's clock      s
+///   s     smooth step of 10 ms (smooth_step.h)
+///
+/// What slips is lost: the stretch's rate has it too.
+
+namespace halyard {
+namespace {
+
+class CableSlip : public EffectOf<CableSlip> {
+ public:
+  std::string name() const override { return "cable_slip"; }
+  std::string summary() const override { return "a sudden lasting jump of the motor-to-joint relation"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::stretch); }
+  bool applies(const ArmParameters<double>& arm, int joint) const override {
+    return arm.joint[joint].drive == Drive::cable;
+  }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const double radius = arm.joint[joint].capstan_radius;
+    return {{"jump", "m", 0, 0.03 * radius, -2 * radius, 2 * radius, 0},
+            {"time", "s", 1, 1, -1e10, 1e10, 0, false, {}, SearchRange::record_time}};
+  }
+
+  template <class T>
+  void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const SmoothStep<T> step = smooth_step(c.time, c.p[1]);
+    s[c.joint].stretch -= c.p[0] * step.value;
+    s[c.joint].stretch_rate -= c.p[0] * step.rate;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_cable_slip() { return std::make_unique<CableSlip>(); }
+
+}  // namespace halyard

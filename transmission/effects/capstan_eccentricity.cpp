@@ -1,0 +1,48 @@
+#include "transmission/effects/library.h"
+
+/// A ratio that varies with the capstan's angle θ = q_m / N, as of a capstan whose axis is off its centre:
+///
+///   x' = x + r_m (e_c sin θ + e_s (1 - cos θ)),   motor's lever r_m (1 + e_c cos θ + e_s sin θ) = r_m + ∂x'/∂θ
+///
+///   e_c, e_s   `cosine` and `sine` of the variation, relative to the radius      -
+///
+/// The cable pulls the motor by the lever with which the motor stretches it, so that no power is lost.
+/// Source: geometry, to first order in the eccentricity; zero at q_m = 0, where the motor's angle counts from.
+
+namespace halyard {
+namespace {
+
+class CapstanEccentricity : public EffectOf<CapstanEccentricity> {
+ public:
+  std::string name() const override { return "capstan_eccentricity"; }
+  std::string summary() const override { return "a transmission ratio that varies with the capstan's angle"; }
+  unsigned stages() const override {
+    return static_cast<unsigned>(EffectStage::stretch) | static_cast<unsigned>(EffectStage::cable_force);
+  }
+  bool applies(const ArmParameters<double>& arm, int joint) const override {
+    return arm.joint[joint].drive == Drive::cable;
+  }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+    return {{"cosine", "1", 0, 0.02, -0.3, 0.3, 0}, {"sine", "1", 0, 0.02, -0.3, 0.3, 0}};
+  }
+
+  template <class T>
+  void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const JointParameters<T>& j = c.arm.joint[c.joint];
+    JointSignals<T>& own = s[c.joint];
+    const T theta = own.motor_angle / j.gear_ratio, cosine = cos(theta), sine = sin(theta);
+    own.stretch += j.capstan_radius * (c.p[0] * sine + c.p[1] * (T(1.0) - cosine));
+    own.stretch_rate += j.motor_travel() * (c.p[0] * cosine + c.p[1] * sine) * own.motor_rate;
+  }
+  template <class T>
+  void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const T theta = s[c.joint].motor_angle / c.arm.joint[c.joint].gear_ratio;
+    s[c.joint].cable_force_motor *= T(1.0) + c.p[0] * cos(theta) + c.p[1] * sin(theta);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_capstan_eccentricity() { return std::make_unique<CapstanEccentricity>(); }
+
+}  // namespace halyard

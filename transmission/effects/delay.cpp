@@ -1,0 +1,52 @@
+#include "transmission/effects/library.h"
+
+/// A time shift, at one joint or at all joints alike:
+///
+///   τ(t) = scale · command(t - d_c) + bias           the torque acts late
+///   joint reading(t) = q(t) - d_s q'(t)               the joint's sensor lags the motor's
+///
+///   d_c   `command_delay`, at least 0                       s
+///   d_s   `sensor_delay`; negative: the motor's lags        s
+///
+/// The sensor's is to first order: good while d_s is short against the motion. Without a history of commands the torque
+/// acts at once. A delay stands before what else changes a command's torque: place it first.
+
+namespace halyard {
+namespace {
+
+class Delay : public EffectOf<Delay> {
+ public:
+  std::string name() const override { return "delay"; }
+  std::string summary() const override { return "a time shift between command and action, or between two sensors"; }
+  EffectScope scope() const override { return EffectScope::either; }
+  unsigned stages() const override {
+    return static_cast<unsigned>(EffectStage::command) | static_cast<unsigned>(EffectStage::sensors);
+  }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+    return {{"command_delay", "s", 0, 0.005, 0, 0.05, 0}, {"sensor_delay", "s", 0, 0.005, -0.05, 0.05, 0}};
+  }
+
+  template <class T>
+  void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
+    if (!c.history) return;
+    const T then = T(c.time) - c.p[0];
+    for (int k = first(c); k < end(c); ++k)
+      s[k].motor_torque += c.arm.joint[k].torque_scale * (c.history->at(k, then) - s[k].command);
+  }
+  template <class T>
+  void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
+    for (int k = first(c); k < end(c); ++k) s[k].joint_error -= c.p[1] * s[k].joint_rate;
+  }
+
+ private:
+  template <class T>
+  static int first(const EffectContext<T>& c) { return c.joint < 0 ? 0 : c.joint; }
+  template <class T>
+  static int end(const EffectContext<T>& c) { return c.joint < 0 ? c.arm.n : c.joint + 1; }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_delay() { return std::make_unique<Delay>(); }
+
+}  // namespace halyard

@@ -1,0 +1,42 @@
+#include "transmission/effects/library.h"
+
+/// A joint sensor's error that is periodic in the joint's position:
+///
+///   reading = q + A_c cos(k q) + A_s sin(k q)
+///
+///   A_c, A_s   `cosine`, `sine`                                                       rad | m
+///   k          periods a turn, `order` | wave number of a scale, `wave_number`         - | rad/m
+///
+/// Source: a disc whose centre is off its axis by e reads wrong by e / R once a turn; two reading heads, interpolation
+/// errors and the scale of a linear encoder give higher orders.
+
+namespace halyard {
+namespace {
+
+class EncoderEccentricity : public EffectOf<EncoderEccentricity> {
+ public:
+  std::string name() const override { return "encoder_eccentricity"; }
+  std::string summary() const override { return "a joint encoder error periodic in its angle"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::sensors); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    if (arm.joint[joint].type == JointType::revolute)
+      return {{"cosine", "rad", 0, 2e-3, -0.2, 0.2, 0},
+              {"sine", "rad", 0, 2e-3, -0.2, 0.2, 0},
+              {"order", "1", 1, 1, 0.5, 64, 0, false, {1, 2, 3, 4, 6, 8, 12, 16}}};
+    return {{"cosine", "m", 0, 2e-4, -0.02, 0.02, 0},
+            {"sine", "m", 0, 2e-4, -0.02, 0.02, 0},
+            {"wave_number", "rad/m", 200, 200, 5, 5000, 0, false, {20, 43, 93, 200, 430, 930, 2000}}};
+  }
+
+  template <class T>
+  void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const T phase = c.p[2] * s[c.joint].joint_position;
+    s[c.joint].joint_error += c.p[0] * cos(phase) + c.p[1] * sin(phase);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_encoder_eccentricity() { return std::make_unique<EncoderEccentricity>(); }
+
+}  // namespace halyard

@@ -1,0 +1,49 @@
+#include "transmission/effects/library.h"
+#include "transmission/effects/smooth_step.h"
+#include "transmission/effects/typical_size.h"
+
+/// A force on a joint that the log has no column for: one during part of the record, and a contact,
+///
+///   F' = F + F_e (s(t - t_1) - s(t - t_2)) - k max(0, ±(q - q_c)),   + where k > 0, - where k < 0
+///
+///   F_e        `force`, positive where it pushes the joint forward                      N m | N
+///   t_1, t_2   `start`, `stop` on the log's clock; s: smooth step of 10 ms               s
+///   k          `contact_stiffness`. Positive: a wall above q_c that pushes back down;
+///              negative: a wall below q_c, of stiffness |k|, that pushes up              N m/rad | N/m
+///   q_c        `contact_position`                                                        rad | m
+
+namespace halyard {
+namespace {
+
+class ExternalForce : public EffectOf<ExternalForce> {
+ public:
+  std::string name() const override { return "external_force"; }
+  std::string summary() const override { return "a force on a joint during part of the record, or a contact"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const JointParameters<double>& j = arm.joint[joint];
+    const bool turns = j.type == JointType::revolute;
+    const double level = typical_joint_friction(j), reach = turns ? 0.1 : 0.01;
+    // A wall as stiff as the cable cannot be told from one that is stiffer.
+    const double own = j.drive == Drive::cable ? 2 * j.stiffness * j.pulley_radius * j.pulley_radius : 0;
+    const double stiffest = std::max(own, 100 * level / reach), far = turns ? 10 : 2;
+    return {{"force", turns ? "N m" : "N", 0, level, -100 * level, 100 * level, 0},
+            {"start", "s", 1, 1, -1e10, 1e10, 0, false, {}, SearchRange::record_time},
+            {"stop", "s", 2, 2, -1e10, 1e10, 0, false, {}, SearchRange::record_time},
+            {"contact_stiffness", turns ? "N m/rad" : "N/m", 0, 5 * level / reach, -stiffest, stiffest, 0},
+            {"contact_position", turns ? "rad" : "m", 0, 0, -far, far, 0, false, {}, SearchRange::joint_position}};
+  }
+
+  template <class T>
+  void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const T *p = c.p, beyond = s[c.joint].joint_position - p[4];
+    const T depth = max(T(0.0), select(p[3] >= T(0.0), beyond, T(-beyond)));
+    s[c.joint].joint_force += p[0] * (smooth_step(c.time, p[1]).value - smooth_step(c.time, p[2]).value) - p[3] * depth;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_external_force() { return std::make_unique<ExternalForce>(); }
+
+}  // namespace halyard

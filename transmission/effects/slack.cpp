@@ -1,0 +1,55 @@
+#include "transmission/cable_law.h"
+#include "transmission/effects/library.h"
+#include "transmission/effects/typical_size.h"
+
+/// A run of the cable pulls and cannot push: with the rest tension T each run's tension ends at zero,
+///
+///   g' = g + ρ (g_T - g),   g_T = max(0, T + p) - max(0, T - p),   p = half of the model's g
+///
+///   T   tension of each run at rest                                                N
+///   ρ   share of the push that a slack run lacks: 1 for a cable, 0 for a rod       -
+///
+/// Under the paper's law, which has no end at zero, ρ = 1 puts one at T. Under the linear and the exponential law, whose
+/// own end is at the model's T_0, g_T is the law with T in the place of T_0. T shapes what ρ sizes: whatever T, the
+/// model's law is left as it is at ρ = 0.
+///
+/// Source: the clamp of cable_law.h.
+
+namespace halyard {
+namespace {
+
+class Slack : public EffectOf<Slack> {
+ public:
+  std::string name() const override { return "slack"; }
+  std::string summary() const override { return "a cable run that goes slack at low tension"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::cable_force); }
+  bool applies(const ArmParameters<double>& arm, int joint) const override {
+    return arm.joint[joint].drive == Drive::cable;
+  }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const JointParameters<double>& j = arm.joint[joint];
+    const double tension = j.stiffness * typical_stretch(j);   // the model's, or what moves the joint
+    return {{"share", "1", 0, 1, 0, 1, 0, true},
+            {"tension", "N", 0.5 * tension, 0.5 * tension, 1e-3 * tension, 10 * tension, 0, false,
+             {0.05 * tension, 0.15 * tension, 0.5 * tension, tension}}};
+  }
+
+  template <class T>
+  void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const JointParameters<T>& j = c.arm.joint[c.joint];
+    JointSignals<T>& own = s[c.joint];
+    JointParameters<T> loose = j;
+    loose.tension = c.p[1];
+    const RunTensions<T> run = run_tensions(loose, own.stretch, own.stretch_rate);
+    const T law = j.law == CableLaw::paper ? run.forward - run.backward : cable_force(j, own.stretch, own.stretch_rate);
+    const T change = c.p[0] * (max(T(0.0), run.forward) - max(T(0.0), run.backward) - law);
+    own.cable_force_motor += change;
+    own.cable_force_joint += change;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_slack() { return std::make_unique<Slack>(); }
+
+}  // namespace halyard

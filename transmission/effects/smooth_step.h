@@ -1,0 +1,25 @@
+#pragma once
+/// A step in time that an integrator can follow: from 0 to 1 within kStepWidth around an instant,
+///
+///   s(t) = u² (3 - 2u),  u = (t - t_0) / w + 1/2  within [0, 1]
+///
+/// with a continuous rate; exactly 0 before and 1 after.
+
+#include "transmission/scalar.h"
+
+namespace halyard {
+
+inline constexpr double kStepWidth = 0.01;   ///< w, s
+
+template <class T>
+struct SmoothStep {
+  T value, rate;   ///< -, 1/s
+};
+
+template <class T>
+HALYARD_INLINE SmoothStep<T> smooth_step(double time, const T& at) {
+  const T u = max(T(0.0), min(T(1.0), T((T(time) - at) / T(kStepWidth) + T(0.5))));
+  return {u * u * (T(3.0) - T(2.0) * u), T(6.0 / kStepWidth) * u * (T(1.0) - u)};
+}
+
+}  // namespace halyard

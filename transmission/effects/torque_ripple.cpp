@@ -1,0 +1,48 @@
+#include "transmission/effects/library.h"
+#include "transmission/effects/typical_size.h"
+
+/// Motor torque that is periodic in the motor's angle (cogging, commutation):
+///
+///   τ' = τ + A_c cos(n q_m) + A_s sin(n q_m)
+///
+///   A_c, A_s   `cosine`, `sine`                    N m
+///   n          periods a turn of the shaft          -
+///
+/// It has a potential: over a whole turn it does no work.
+/// Source: Holtz and Springob, "Identification and compensation of torque ripple in high-precision permanent magnet
+/// motor drives", IEEE Trans. Ind. Electron. 43 (1996).
+
+namespace halyard {
+namespace {
+
+class TorqueRipple : public EffectOf<TorqueRipple> {
+ public:
+  std::string name() const override { return "torque_ripple"; }
+  std::string summary() const override { return "motor torque periodic in the motor's angle"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::motor); }
+  bool applies(const ArmParameters<double>& arm, int joint) const override {
+    return arm.joint[joint].drive != Drive::none;
+  }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const double level = typical_motor_friction(arm.joint[joint]);
+    // Pole pairs, slots and commutator bars, and what they have in common.
+    std::vector<double> orders;
+    for (int n = 1; n <= 24; ++n) orders.push_back(n);
+    for (const int n : {28, 30, 32, 36, 42, 48}) orders.push_back(n);
+    return {{"cosine", "N m", 0, 0.2 * level, -30 * level, 30 * level, 0},
+            {"sine", "N m", 0, 0.2 * level, -30 * level, 30 * level, 0},
+            {"order", "1", 12, 12, 0.5, 100, 0, false, orders}};
+  }
+
+  template <class T>
+  void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const T phase = c.p[2] * s[c.joint].motor_angle;
+    s[c.joint].motor_torque += c.p[0] * cos(phase) + c.p[1] * sin(phase);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_torque_ripple() { return std::make_unique<TorqueRipple>(); }
+
+}  // namespace halyard

@@ -1,0 +1,39 @@
+#include "transmission/effects/library.h"
+#include "transmission/effects/typical_size.h"
+
+/// Another torque constant of motor and amplifier, or a bias:
+///
+///   τ = κ · model's scale · command + model's bias + β
+///
+///   κ, β   `scale`, `bias`      -, N m
+///
+/// Source: a motor turns current into torque by its constant, which magnets and gains move; a current sensor's zero is
+/// the bias.
+
+namespace halyard {
+namespace {
+
+class TorqueScale : public EffectOf<TorqueScale> {
+ public:
+  std::string name() const override { return "torque_scale"; }
+  std::string summary() const override { return "another torque constant, or a torque bias"; }
+  bool applies(const ArmParameters<double>& arm, int joint) const override {
+    return arm.joint[joint].drive != Drive::none;
+  }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const double level = typical_motor_friction(arm.joint[joint]);
+    return {{"scale", "1", 1, 1.05, 0.2, 5, 0}, {"bias", "N m", 0, 0.3 * level, -30 * level, 30 * level, 0}};
+  }
+
+  template <class T>
+  void change(ArmParameters<T>& arm, int joint, const T* p) const {
+    arm.joint[joint].torque_scale *= p[0];
+    arm.joint[joint].torque_bias += p[1];
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Effect> make_torque_scale() { return std::make_unique<TorqueScale>(); }
+
+}  // namespace halyard
