@@ -19,6 +19,7 @@
 #include "app/sweep_command.h"
 #include "app/tour_command.h"
 #include "model/input_error.h"
+#include "plugins/effect_module.h"
 
 namespace halyard {
 namespace {
@@ -34,6 +35,20 @@ void add_columns_option(CLI::App& command, std::vector<std::string>& columns) {
       .add_option("--column", columns,
                   "where a column of the log comes from, over the model's own map; may be repeated")
       ->type_name("NAME=COLUMN[,unit=U][,sign=-1][,scale=S][,offset=O]")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+/// For commands that read models: their effects may be a user's own.
+void add_effects_option(CLI::App& command) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--effects",
+          [](const std::vector<std::string>& modules) {
+            for (const std::string& module : modules) load_effects(module);
+          },
+          "module with effects of your own, for the library; may be repeated")
+      ->type_name("MODULE.so")
       ->take_all()
       ->allow_extra_args(false);
 }
@@ -60,6 +75,7 @@ void add_simulate_command(CLI::App& app) {
   const auto options = std::make_shared<SimulateOptions>();
   command.add_option("SCENARIO.xml", options->scenario, "scenario file")->type_name("")->required();
   command.add_option("--out", options->out, "log; the truth goes to LOG.truth.csv")->type_name("LOG.csv")->required();
+  add_effects_option(command);
   finish(command, [options] { run_simulate(*options); });
 }
 
@@ -75,6 +91,7 @@ void add_estimate_command(CLI::App& app) {
   add_columns_option(command, options->columns);
   add_joint_torque_flag(command, options->use_joint_torque);
   add_skip_option(command, options->skip_s);
+  add_effects_option(command);
   finish(command, [options] { run_estimate(*options); });
 }
 
@@ -91,6 +108,7 @@ void add_compare_command(CLI::App& app) {
   add_columns_option(command, options->columns);
   add_joint_torque_flag(command, options->use_joint_torque);
   add_skip_option(command, options->skip_s);
+  add_effects_option(command);
   finish(command, [options, estimators] {
     options->estimators = split_estimators(*estimators);
     run_compare(*options);
@@ -112,6 +130,7 @@ void add_diagnose_command(CLI::App& app) {
       ->type_name("DIR")
       ->required();
   add_columns_option(command, options->columns);
+  add_effects_option(command);
   finish(command, [options] { run_diagnose(*options); });
 }
 
@@ -136,6 +155,7 @@ void add_sweep_command(CLI::App& app) {
       ->check(CLI::Range(1, 1024));
   command.add_option("--shard", *shard, "compute part i of n, for halyard merge")->type_name("i/n");
   command.add_flag("--resume", options->run.resume, "keep what is finished, compute the rest");
+  add_effects_option(command);
   finish(command, [options, shard] {
     if (!shard->empty()) options->run.shard = parse_shard(*shard);
     run_sweep_command(*options);
@@ -161,6 +181,7 @@ void add_check_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("check", "validate a model, scenario or sweep");
   const auto file = std::make_shared<std::filesystem::path>();
   command.add_option("FILE.xml", *file, "model, scenario or sweep")->type_name("")->required();
+  add_effects_option(command);
   finish(command, [file] { run_check(*file); });
 }
 

@@ -24,6 +24,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/halyardConfigVersion.cmak
 install(FILES
   ${PROJECT_BINARY_DIR}/halyardConfig.cmake
   ${PROJECT_BINARY_DIR}/halyardConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/HalyardEffects.cmake
   ${PROJECT_SOURCE_DIR}/cmake/HalyardEstimator.cmake
   DESTINATION ${package_folder})
 install(EXPORT halyard-targets NAMESPACE halyard:: FILE halyardTargets.cmake DESTINATION ${package_folder})

@@ -1,11 +1,10 @@
 #include "plugins/estimator_module.h"
 
-#include <algorithm>
 #include <array>
-#include <string_view>
 #include <utility>
 
 #include "model/input_error.h"
+#include "plugins/plain_name.h"
 
 namespace halyard {
 namespace {
@@ -13,15 +12,6 @@ namespace {
 constexpr const char* kSymbol = "halyard_estimator";
 constexpr const char* kRebuild = "; rebuild it against the installed headers";
 constexpr const char* kUpgrade = "; install a newer halyard, or rebuild it against these headers";
-
-/// As PluginInfo promises: a name that can stand in a list of names and is no path.
-bool is_plain_name(std::string_view name) {
-  constexpr std::size_t kMaxLength = 64;
-  const auto is_plain = [](unsigned char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  };
-  return !name.empty() && name.size() <= kMaxLength && std::all_of(name.begin(), name.end(), is_plain);
-}
 
 const halyard_estimator_table* checked_table(const SharedModule& module) {
   const auto refuse = [&](const std::string& why) { throw InputError("plugin " + module.path().string() + ": " + why); };

@@ -146,6 +146,28 @@ TEST_F(BadInput, AnEstimatorThatCannotBeLoaded) {
   expect_estimator_refused("kinematics", {"colour"});
 }
 
+TEST_F(BadInput, AModuleOfEffectsThatCannotBeLoaded) {
+  const std::string broken = HALYARD_BROKEN_PLUGINS;
+  write_text(path("text.so"), "not a module\n");
+  const auto expect_module_refused = [&](const std::string& module, const std::vector<std::string>& parts) {
+    const std::vector<std::vector<std::string>> commands = {
+        {"check", "raven2.xml"},
+        {"simulate", "experiment_a.xml", "--out", "new.csv"},
+        {"estimate", "--model", "raven2.xml", "--estimator", "kinematics", "--data", "log.csv", "--out", "e.csv"},
+        {"compare", "log.csv", "--model", "raven2.xml", "--estimators", "kinematics", "--out", "cmp"},
+        {"diagnose", "--model", "raven2.xml", "--data", "log.csv", "--out", "dia"},
+        {"sweep", "sweep.xml", "--out", "out"}};
+    for (std::vector<std::string> arguments : commands) {
+      arguments.insert(arguments.end(), {"--effects", module});
+      expect_refused(arguments, parts);
+    }
+  };
+  expect_module_refused("./text.so", {"plugin ./text.so: "});
+  expect_module_refused("./none.so", {"plugin ./none.so: "});
+  expect_module_refused(broken + "/well_formed.so", {"well_formed.so: ", "halyard_effects"});
+  expect_module_refused(broken + "/effects_older_interface.so", {"effects_older_interface.so: ", "interface 0"});
+}
+
 TEST_F(BadInput, ASweepThatCannotBeComputed) {
   const std::string good = "<axis parameter=\"joint1.cable.stiffness\" values=\"1e5 2e5\"/>";
   expect_sweep_refused("", {"bad.xml:1:", "<axis>"});
