@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/screen.h"
+#include "diagnosis/starts.h"
 #include "model/input_error.h"
 
 namespace halyard {
@@ -17,8 +17,10 @@ namespace {
 /// An effect has to take this share of a channel's first mean square: less is the misfit of another
 /// effect's functional form, which is told as an unexplained rest and not chased.
 constexpr double kMattersShare = 0.05;
-/// What is left matters above this many times the floor of its channel.
-constexpr double kRestFactor = 4;
+/// What is left matters above this many times the floor of its channel: about one resolution of a joint's encoder.
+constexpr double kRestFactor = 3;
+/// What an effect does to some signal has to be this many times the floor of its channel.
+constexpr double kMattersFactor = 2;
 /// A candidate that promises less than this share of the residual, to first order, is not fitted at all.
 constexpr double kPromise = 0.02;
 /// A candidate whose quick look is less significant than this is not fitted whole.
@@ -121,7 +123,7 @@ class Search {
       if (!covered) all.push_back(b);
     }
     for (std::size_t e = given_; e < h.effects.size(); ++e)
-      for (const FitParameter& p : effect_parameters(h, model_.nominal, static_cast<int>(e))) all.push_back(p);
+      for (const FitParameter& p : effect_parameters(evidence_, h, model_.nominal, static_cast<int>(e))) all.push_back(p);
     return all;
   }
 
@@ -143,7 +145,7 @@ class Search {
     double last = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < kMostPasses; ++pass) {
       const std::vector<double> scale = channel_scale(evidence_, score.fit_mean_square);
-      at = nudged(at, scale);
+      at = nudged(evidence_, at, given_, model_.nominal, scale);
       const std::vector<FitParameter> parameters = all_parameters(at);
       std::vector<FitParameter> numbers;
       for (const FitParameter& p : parameters)
@@ -178,7 +180,7 @@ class Search {
   }
 
   bool at_bound(const Hypothesis& h, int place) const {
-    for (const FitParameter& p : effect_parameters(h, model_.nominal, place)) {
+    for (const FitParameter& p : effect_parameters(evidence_, h, model_.nominal, place)) {
       const double value = parameter_value(h, p);
       const auto close = [&](double bound) { return std::abs(value - bound) <= 1e-3 * std::max(std::abs(bound), 1e-3 * p.scale); };
       // Its neutral value may be a bound as well: there a parameter is idle, not exhausted.
@@ -198,7 +200,7 @@ class Search {
     without.effects.erase(without.effects.begin() + place);
     const auto rows = evidence_.fit_rows({h}), bare = evidence_.fit_rows({without});
     if (rows[0].empty() || bare[0].empty()) return !rows[0].empty();
-    return evidence_.exceeds_floor(difference(rows[0], bare[0]), kRestFactor);
+    return evidence_.exceeds_floor(difference(rows[0], bare[0]), kMattersFactor);
   }
 
   /// What the refit of the baseline costs: ½ Σ ((θ - nominal) / (tolerance / 2))².
@@ -231,8 +233,18 @@ class Search {
     return t.usable && !t.at_bound && t.matters && t.gain > 0 && t.p_value * static_cast<double>(candidates) < options_.significance;
   }
 
+  /// True if no channel has a residual left that an effect could take and matter.
+  bool explained(const Score& score) const {
+    for (int c = 0; c < evidence_.channels(); ++c) {
+      const double enough = std::pow(kMattersFactor * evidence_.floor()[c], 2);
+      if (evidence_.has_channel(c) && (score.mean_square[c] > enough || score.fit_mean_square[c] > enough)) return false;
+    }
+    return true;
+  }
+
   /// One round: a quick look at every candidate, a full fit of the best, and the best of those.
   bool add_one(Fit& current, Score& score) {
+    if (explained(score)) return false;
     const std::vector<double> ln_before = log_likelihood(evidence_, score);
     const std::vector<double> scale = channel_scale(evidence_, score.fit_mean_square);
     // Before any effect is named the baseline's refit is bent by what is missing: the look starts at the model's numbers.
@@ -275,12 +287,20 @@ class Search {
     Round round;
     std::copy(leaders.begin(), leaders.end(), trials.begin());
     if (best < leaders.size()) {
-      std::vector<PlacedEffect> like;
+      std::vector<std::size_t> alike = {best};
       for (std::size_t i = 0; i < leaders.size(); ++i) {
         if (i == best || !convincing(leaders[i], all.size())) continue;
         const Paired p = paired(leaders[best].log_likelihood, leaders[i].log_likelihood, evidence_);
-        if (p.t < kTellApart) like.push_back(leaders[i].effect);
+        if (p.t < kTellApart) alike.push_back(i);
       }
+      // Of those that the data cannot tell apart the one with the fewest numbers is named.
+      const auto numbers_of = [&](std::size_t i) {
+        return leaders[i].effect.effect->parameters(model_.nominal, leaders[i].effect.joint).size();
+      };
+      best = *std::min_element(alike.begin(), alike.end(), [&](std::size_t a, std::size_t b) { return numbers_of(a) < numbers_of(b); });
+      std::vector<PlacedEffect> like;
+      for (const std::size_t i : alike)
+        if (i != best) like.push_back(leaders[i].effect);
       result_.alternatives.push_back(like);
       current = fits[best];
       score = evidence_.score(current.hypothesis);
@@ -292,72 +312,16 @@ class Search {
     return best < leaders.size();
   }
 
-  /// The candidate at the sizes that it may have: each parameter both ways from neutral, and those that count from
-  /// nothing or as a ratio over some decades around their typical size. The first is the candidate as it is.
-  std::vector<Hypothesis> sizes(const Hypothesis& h) const {
-    constexpr int kSizes = 7;
-    constexpr double kSizeSpan = 30, kRatioSpan = 5;
-    std::vector<Hypothesis> all = {h};
-    const auto parameters = effect_parameters(h, model_.nominal, static_cast<int>(h.effects.size()) - 1);
-    for (const FitParameter& p : parameters) {
-      const auto add = [&](double value) {
-        all.push_back(h);
-        set_parameter(all.back(), p, std::clamp(value, p.lower, p.upper));
-      };
-      if (p.natural_bounds || p.lower < 0) {
-        add(p.nominal + p.scale);
-        add(p.nominal - p.scale);
-        continue;
-      }
-      const bool ratio = p.nominal == 1;
-      const double typical = ratio ? 1 : parameter_value(h, p), span = ratio ? kRatioSpan : kSizeSpan;
-      for (int i = 0; i < kSizes; ++i) add(typical * std::pow(span, (2.0 * i + 1) / kSizes - 1));
-    }
-    return all;
-  }
-
-  /// Which of the fitting rows have the least sum of squares, each channel over its scale.
-  std::size_t least_cost(const std::vector<std::vector<double>>& rows, const std::vector<double>& scale) const {
-    const auto cost = [&](const std::vector<double>& row) {
-      double sum = row.empty() ? std::numeric_limits<double>::infinity() : 0;
-      for (std::size_t r = 0; r < row.size(); ++r) sum += std::pow(row[r] / scale[evidence_.row_channel()[r]], 2);
-      return sum;
-    };
-    std::size_t least = 0;
-    for (std::size_t i = 1; i < rows.size(); ++i)
-      if (cost(rows[i]) < cost(rows[least])) least = i;
-    return least;
-  }
-
-  /// The best of the hypothesis and its likes with a size of an effect somewhat changed: impacts make the residual rough
-  /// in such a size, and least squares stops in the folds.
-  Hypothesis nudged(Hypothesis h, const std::vector<double>& scale) const {
-    for (std::size_t e = given_; e < h.effects.size(); ++e)
-      for (const FitParameter& p : effect_parameters(h, model_.nominal, static_cast<int>(e))) {
-        if (p.natural_bounds || p.lower < 0) continue;
-        std::vector<Hypothesis> tried = {h};
-        for (const double factor : {0.7, 0.85, 0.95, 1.05, 1.15, 1.3, 1.6}) {
-          tried.push_back(h);
-          set_parameter(tried.back(), p, std::clamp(factor * parameter_value(h, p), p.lower, p.upper));
-        }
-        h = tried[least_cost(evidence_.fit_rows(tried), scale)];
-      }
-    return h;
-  }
-
   Trial quick_look(const Fit& current, const Screen& screen, const std::vector<FitParameter>& numbers, const std::vector<std::vector<double>>& columns,
                    const std::vector<double>& scale, const Score& before, const std::vector<double>& ln_before,
                    double stretch_before, const PlacedEffect& effect) const {
-    Hypothesis start = with_effect(current.hypothesis, effect);
-    const std::vector<Hypothesis> tried = sizes(start);
-    const auto rows = evidence_.fit_rows(tried);
-    if (screen.promise(rows) < kPromise) {
+    const Start begin = best_start(evidence_, screen, with_effect(current.hypothesis, effect), model_.nominal);
+    if (begin.promise < kPromise) {
       Trial t = unusable(effect);
       t.promising = false;
       return t;
     }
-    // Least squares finds only the nearest valley: it starts from the size that fits best by itself.
-    start = tried[least_cost(rows, scale)];
+    const Hypothesis& start = begin.hypothesis;
     std::vector<FitParameter> parameters;
     std::vector<std::vector<double>> kept;
     for (std::size_t i = 0; i < numbers.size(); ++i) {

@@ -1,5 +1,7 @@
 #include "diagnosis/diagnose.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -89,16 +91,20 @@ Fit keep_certain_numbers(const Evidence& evidence, const Fit& f, const Score& sc
 
 /// Effects whose typical size changes no signal of the training data by more than its floor.
 std::vector<NotExcited> not_excited(const Evidence& evidence, const ArmModel& model, const Hypothesis& at) {
-  std::vector<NotExcited> all;
   const auto base = evidence.fit_rows({at})[0];
-  for (const PlacedEffect& candidate : all_candidates(model.nominal)) {
+  const std::vector<PlacedEffect> candidates = all_candidates(model.nominal);
+  std::vector<char> shows(candidates.size(), 1);
+  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
     Hypothesis with = at;
-    with.effects.push_back(candidate);
+    with.effects.push_back(candidates[i]);
     const auto rows = evidence.fit_rows({with})[0];
-    if (!rows.empty() && !evidence.exceeds_floor(difference(rows, base), 1))
-      all.push_back({candidate.effect->name(), candidate.joint,
+    shows[i] = rows.empty() || evidence.exceeds_floor(difference(rows, base), 1);
+  });
+  std::vector<NotExcited> all;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (!shows[i])
+      all.push_back({candidates[i].effect->name(), candidates[i].joint,
                      "at its typical size it changes no signal of these data by more than the sensors resolve"});
-  }
   return all;
 }
 
@@ -166,7 +172,10 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
   }
   d.verdict = !d.effects.empty() ? Diagnosis::Verdict::effects
               : d.unexplained.empty() ? Diagnosis::Verdict::clean : Diagnosis::Verdict::unknown;
-  d.not_excited = not_excited(evidence, model, h);
+  if (options.tell_not_excited) {
+    say("what these data could show", 0);
+    d.not_excited = not_excited(evidence, model, h);
+  }
 
   d.revised = model;
   if (!all_one_sine || !would_name) {

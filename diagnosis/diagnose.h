@@ -13,6 +13,7 @@ struct DiagnosisOptions {
   /// are told in the band of the fit, where their second derivative of a rounded angle still means something.
   RecordOptions joint_error = {.motion_hz = 100, .compare_hz = 0, .settle_s = 0.5, .step_s = 0.001};
   AttributionOptions attribution;
+  bool tell_not_excited = true;   ///< fill Diagnosis::not_excited: a prediction for every candidate
 };
 
 /// A number with its unit and 95 % interval.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "model/input_error.h"
+#include "transmission/path_matrix.h"
 
 namespace halyard {
 namespace {
@@ -31,6 +33,24 @@ bool rests(const Record& record, int k, std::size_t at, double v_s) {
   for (std::size_t t = at - std::min(at, reach); t <= std::min(at + reach, record.size - 1); ++t)
     if (std::abs(record.motor_rate[k][t]) < 2 * v_s) still += record.compare[t + reach - at];
   return still > 0.5;
+}
+
+Span joint_span_of(const std::vector<Record>& records, const ArmParameters<double>& arm, int k) {
+  Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  const auto see = [&span](double q) { span = {std::min(span.first, q), std::max(span.last, q)}; };
+  const Eigen::VectorXd undriven = Eigen::VectorXd::Zero(arm.n);
+  for (const Record& record : records) {
+    if (record.has_joint(k)) {
+      for (const double q : record.joint[k]) see(q);
+      continue;
+    }
+    Eigen::VectorXd q_m(arm.n);
+    for (std::size_t i = 0; i < record.size; ++i) {
+      for (int j = 0; j < arm.n; ++j) q_m(j) = record.motor_angle[j][i];
+      see(unstretched_joints(arm, q_m, undriven)(k));
+    }
+  }
+  return span;
 }
 
 }  // namespace
@@ -75,6 +95,11 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model) : n_(mode
   }
   for (int k = 0; k < n_; ++k)
     if (torque_count[k] > 0) floor_[k] = kTorqueFloor * std::sqrt(torque_square[k] / torque_count[k]);
+
+  time_span_ = {records_.front().start, records_.front().start};
+  for (const Record& r : records_)
+    time_span_ = {std::min(time_span_.first, r.start), std::max(time_span_.last, r.time(r.size - 1))};
+  for (int k = 0; k < n_; ++k) joint_span_.push_back(joint_span_of(records_, model.nominal, k));
 
   block_count_.assign(first_block / 2 + 1, std::vector<int>(channels(), 0));
   for (const Place& p : places_)

@@ -8,6 +8,8 @@
 
 namespace halyard {
 
+struct Span { double first, last; };
+
 /// Mean squares of residuals, one entry a channel (0..n-1 torque, n..2n-1 joint); and of each block.
 struct Score {
   std::vector<double> mean_square;                 ///< [2n] over the deciding blocks; 0 without data
@@ -40,6 +42,10 @@ class Evidence {
   bool exceeds_floor(const std::vector<double>& change, double times) const;
   /// Rows that carry as much information as one independent sample: residuals are correlated.
   double correlated_rows() const { return correlated_rows_; }
+  /// From the first to the last sample of all records, s.
+  Span time_span() const { return time_span_; }
+  /// Where joint k was, by its sensor or as the motors tell it.
+  Span joint_span(int k) const { return joint_span_[k]; }
   bool has_channel(int c) const { return channel_rows_[c] > 0; }
 
  private:
@@ -54,6 +60,8 @@ class Evidence {
   std::vector<int> channel_rows_;
   std::vector<std::vector<int>> block_count_;
   std::vector<double> floor_;
+  Span time_span_;
+  std::vector<Span> joint_span_;
 };
 
 }  // namespace halyard

@@ -133,14 +133,25 @@ std::vector<FitParameter> baseline_parameters(const ArmParameters<double>& nomin
   return all;
 }
 
-std::vector<FitParameter> effect_parameters(const Hypothesis& h, const ArmParameters<double>& nominal, int place) {
+std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,
+                                            const ArmParameters<double>& nominal, int place) {
   const PlacedEffect& e = h.effects[place];
   std::vector<FitParameter> all;
   const auto parameters = e.effect->parameters(nominal, e.joint);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const EffectParameter& p = parameters[i];
-    const double scale = std::max({std::abs(p.typical - p.neutral), 0.1 * std::abs(p.typical), 1e-3 * (p.upper - p.lower)});
-    all.push_back({p.name, p.unit, place, static_cast<int>(i), p.neutral, p.lower, p.upper, scale, p.natural_bounds});
+    FitParameter f{p.name, p.unit, place, static_cast<int>(i), p.neutral, p.lower, p.upper, 1, p.natural_bounds};
+    f.scale = std::max({std::abs(p.typical - p.neutral), 0.1 * std::abs(p.typical), 1e-3 * (p.upper - p.lower)});
+    f.shape = p.is_shape();
+    f.starts = p.starts;
+    f.range = p.range;
+    if (p.range != SearchRange::own) {
+      const Span span = p.range == SearchRange::record_time ? evidence.time_span() : evidence.joint_span(std::max(0, e.joint));
+      f.lower = span.first;
+      f.upper = span.last;
+      f.scale = std::max(0.01 * (span.last - span.first), 1e-9);
+    }
+    all.push_back(f);
   }
   return all;
 }

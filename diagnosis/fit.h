@@ -24,6 +24,9 @@ struct FitParameter {
   double lower = 0, upper = 0;
   double scale = 1;       ///< one unit of the optimiser
   bool natural_bounds = false;
+  bool shape = false;                    ///< of an effect, see EffectParameter
+  std::vector<double> starts;
+  SearchRange range = SearchRange::own;
 };
 
 double parameter_value(const Hypothesis& h, const FitParameter& p);
@@ -31,8 +34,9 @@ void set_parameter(Hypothesis& h, const FitParameter& p, double value);
 
 /// Baseline numbers that the model knows within a tolerance. The ratio of a drive is one number, the capstan's radius.
 std::vector<FitParameter> baseline_parameters(const ArmParameters<double>& nominal);
-/// The numbers of the effect at `place` of the hypothesis.
-std::vector<FitParameter> effect_parameters(const Hypothesis& h, const ArmParameters<double>& nominal, int place);
+/// The numbers of the effect at `place` of the hypothesis; instants and positions are bound to what the records span.
+std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,
+                                            const ArmParameters<double>& nominal, int place);
 /// True if a change of the effect's parameters is a change of that baseline number: it then speaks for both.
 bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline);
 

@@ -1,13 +1,17 @@
 #pragma once
-/// drive_record over lanes, compiled once per instruction set; the widest that the processor has is
+/// drive_record and replay_record over lanes, compiled once per instruction set; the widest that the processor has is
 /// chosen at run time.
 
 #include "diagnosis/motion_kernel.h"
 
 namespace halyard {
 
-using LaneDrive = void (*)(const Transmission<Lanes>&, const DrivenInput*, std::size_t size, double start, double dt,
-                           const Chebyshev& scheme, const CommandHistory*, DrivenState<Lanes>&, Lanes* out);
+struct LaneDrive {
+  void (*drive)(const Transmission<Lanes>&, const DrivenInput*, std::size_t size, double start, double dt,
+                const Chebyshev& scheme, const CommandHistory*, DrivenState<Lanes>&, Lanes* out, Lanes* states);
+  void (*replay)(const Transmission<Lanes>&, const DrivenInput*, std::size_t size, double start, double dt,
+                 const CommandHistory*, const Lanes* states, Lanes* out);
+};
 
 LaneDrive generic_lane_drive();
 #if defined(__x86_64__)

@@ -2,6 +2,6 @@
 
 namespace halyard {
 
-LaneDrive avx2_lane_drive() { return drive_lanes; }
+LaneDrive avx2_lane_drive() { return {drive_lanes, replay_lanes}; }
 
 }  // namespace halyard

@@ -2,6 +2,6 @@
 
 namespace halyard {
 
-LaneDrive avx512_lane_drive() { return drive_lanes; }
+LaneDrive avx512_lane_drive() { return {drive_lanes, replay_lanes}; }
 
 }  // namespace halyard

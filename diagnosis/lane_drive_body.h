@@ -8,9 +8,14 @@ namespace halyard {
 namespace {
 
 void drive_lanes(const Transmission<Lanes>& transmission, const DrivenInput* samples, std::size_t size, double start,
-                 double dt, const Chebyshev& scheme, const CommandHistory* history, DrivenState<Lanes>& x,
-                 Lanes* out) {
-  drive_record(transmission, samples, size, start, dt, scheme, history, x, out);
+                 double dt, const Chebyshev& scheme, const CommandHistory* history, DrivenState<Lanes>& x, Lanes* out,
+                 Lanes* states) {
+  drive_record(transmission, samples, size, start, dt, scheme, history, x, out, states);
+}
+
+void replay_lanes(const Transmission<Lanes>& transmission, const DrivenInput* samples, std::size_t size, double start,
+                  double dt, const CommandHistory* history, const Lanes* states, Lanes* out) {
+  replay_record(transmission, samples, size, start, dt, history, states, out);
 }
 
 }  // namespace

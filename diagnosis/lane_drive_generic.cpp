@@ -2,6 +2,6 @@
 
 namespace halyard {
 
-LaneDrive generic_lane_drive() { return drive_lanes; }
+LaneDrive generic_lane_drive() { return {drive_lanes, replay_lanes}; }
 
 }  // namespace halyard

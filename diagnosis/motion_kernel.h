@@ -77,9 +77,10 @@ HALYARD_INLINE void chain_over_step(const ArmParameters<T>& arm, const DrivenSta
   ldl_factor<T, kMaxJoints>(chain.n_rigid, chain.A);
 }
 
-/// Rates of x; torque_residual [n] and joint_reading [n] if not null.
+/// Rates of x; torque_residual [n] and joint_reading [n] if not null. Without a chain, which only arms without rigid
+/// drives may go without, there are no accelerations.
 template <class T>
-HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const ChainOverStep<T>& chain, double time,
+HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const ChainOverStep<T>* chain, double time,
                                       const CommandHistory* history, const DrivenInput& u, const DrivenState<T>& x,
                                       DrivenState<T>& rate, T* torque_residual, T* joint_reading) {
   const ArmParameters<T>& arm = transmission.arm();
@@ -102,21 +103,21 @@ HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const
   transmission.evaluate(time, history, x.z, s, rate.z);
 
   T a[kMaxJoints];
-  for (int k = 0; k < n; ++k) a[k] = s[k].joint_force - chain.bias[k];
-  ldl_solve<T, kMaxJoints>(n, chain.M, a);
+  for (int k = 0; k < n; ++k) a[k] = chain ? T(s[k].joint_force - chain->bias[k]) : T(0.0);
+  if (chain) ldl_solve<T, kMaxJoints>(n, chain->M, a);
 
   // Rigid drives: λ from (R M⁻¹ Rᵀ) λ = (r_m/N) q_m'' - R a, then a += M⁻¹ Rᵀ λ.
-  if (chain.n_rigid > 0) {
+  if (chain && chain->n_rigid > 0) {
     T lambda[kMaxJoints];
-    for (int r = 0; r < chain.n_rigid; ++r) {
-      const JointParameters<T>& j = arm.joint[chain.rigid[r]];
-      lambda[r] = j.motor_travel() * u.motor_acceleration[chain.rigid[r]];
+    for (int r = 0; r < chain->n_rigid; ++r) {
+      const JointParameters<T>& j = arm.joint[chain->rigid[r]];
+      lambda[r] = j.motor_travel() * u.motor_acceleration[chain->rigid[r]];
       for (int i = 0; i < n; ++i) lambda[r] -= j.pulley_radius * j.coupling[i] * a[i];
     }
-    ldl_solve<T, kMaxJoints>(chain.n_rigid, chain.A, lambda);
-    for (int r = 0; r < chain.n_rigid; ++r) {
-      for (int i = 0; i < n; ++i) a[i] += chain.response[r][i] * lambda[r];
-      s[chain.rigid[r]].cable_force_motor = lambda[r];
+    ldl_solve<T, kMaxJoints>(chain->n_rigid, chain->A, lambda);
+    for (int r = 0; r < chain->n_rigid; ++r) {
+      for (int i = 0; i < n; ++i) a[i] += chain->response[r][i] * lambda[r];
+      s[chain->rigid[r]].cable_force_motor = lambda[r];
     }
   }
 
@@ -163,12 +164,13 @@ HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time
   ChainOverStep<T> chain;
   chain_over_step(transmission.arm(), x, 0.5 * h, chain);
   DrivenState<T> f0, f, before, now;
-  driven_derivative<T>(transmission, chain, time, history, input(time), x, f0, row, row + n);
+  driven_derivative<T>(transmission, &chain, time, history, input(time), x, f0, row, row + n);
   copy_state(n, m, x, before);
   axpy(n, m, c.mu_h[1] * h, x, f0, now);
   for (int j = 2; j <= c.stages; ++j) {
     const double at = time + c.node[j - 1] * h;
-    driven_derivative<T>(transmission, chain, at, history, input(at), now, f, nullptr, nullptr);
+    // Past commands count for the torque alone, which inner stages do not tell.
+    driven_derivative<T>(transmission, &chain, at, nullptr, input(at), now, f, nullptr, nullptr);
     const T stay = 1 - c.mu[j] - c.nu[j], mu = c.mu[j], nu = c.nu[j], mu_h = c.mu_h[j] * h, gamma_h = c.gamma_h[j] * h;
     const auto next = [&](const T& x0, const T& y1, T& y2, const T& rate, const T& rate0) {
       y2 = stay * x0 + mu * y1 + nu * y2 + mu_h * rate + gamma_h * rate0;
@@ -186,18 +188,23 @@ HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time
 }
 
 /// A whole record. Sample i writes torque residual and predicted joint reading: out[i * 2n + k] and [... + n + k]. x holds
-/// the initial state and ends as the final one.
+/// the initial state and ends as the final one; states [size][2n + effects' states], if not null, gets it at every sample.
 template <class T>
 HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
                                  double start, double dt, const Chebyshev& scheme, const CommandHistory* history,
-                                 DrivenState<T>& x, T* out) {
+                                 DrivenState<T>& x, T* out, T* states) {
   const ArmParameters<T>& arm = transmission.arm();
-  const int n = arm.n;
+  const int n = arm.n, m = transmission.n_states();
   for (std::size_t i = 0; i < size; ++i) {
     const double time = start + dt * static_cast<double>(i);
     // The last sample ends where it stands.
     const DrivenInput &a = samples[i], &b = samples[std::min(i + 1, size - 1)];
     prescribe_rigid(arm, a, x);
+    if (states) {
+      T* row = states + i * (2 * n + m);
+      for (int k = 0; k < n; ++k) row[k] = x.q[k], row[n + k] = x.v[k];
+      for (int k = 0; k < m; ++k) row[2 * n + k] = x.z[k];
+    }
     const auto input = [&](double t) {
       const double u = (t - time) / dt;
       DrivenInput at = a;
@@ -210,6 +217,28 @@ HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const Driv
       return at;
     };
     driven_step(transmission, time, dt, scheme, history, input, x, out + i * 2 * n);
+  }
+}
+
+/// What drive_record writes of an arm that is known to move as `states` say: for hypotheses that differ in what the
+/// motion does not depend on.
+template <class T>
+HALYARD_INLINE void replay_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
+                                  double start, double dt, const CommandHistory* history, const T* states, T* out) {
+  const ArmParameters<T>& arm = transmission.arm();
+  const int n = arm.n, m = transmission.n_states();
+  bool rigid = false;
+  for (int k = 0; k < n; ++k) rigid = rigid || arm.joint[k].drive == Drive::rigid;
+  for (std::size_t i = 0; i < size; ++i) {
+    const T* from = states + i * (2 * n + m);
+    DrivenState<T> x, rate;
+    for (int k = 0; k < n; ++k) x.q[k] = from[k], x.v[k] = from[n + k];
+    for (int k = 0; k < m; ++k) x.z[k] = from[2 * n + k];
+    ChainOverStep<T> chain;
+    if (rigid) chain_over_step(arm, x, 0.5 * dt, chain);
+    T* row = out + i * 2 * n;
+    driven_derivative<T>(transmission, rigid ? &chain : nullptr, start + dt * static_cast<double>(i), history,
+                         samples[i], x, rate, row, row + n);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "diagnosis/lane_drive.h"
 #include "transmission/path_matrix.h"
@@ -87,7 +88,7 @@ Eigen::MatrixXd driven_jacobian(const Transmission<Dual>& transmission, const Re
     }
     ChainOverStep<Dual> chain;
     chain_over_step(transmission.arm(), at, 0.0, chain);
-    driven_derivative<Dual>(transmission, chain, record.start, nullptr, u, at, rate, nullptr, nullptr);
+    driven_derivative<Dual>(transmission, &chain, record.start, nullptr, u, at, rate, nullptr, nullptr);
     for (int r = 0; r < size; ++r) {
       rates(r) = entry(rate, r).a;
       for (int c = first; c < std::min(size, first + kDualWidth); ++c) J(r, c) = entry(rate, r).d[c - first];
@@ -152,6 +153,28 @@ int stable_stages(const Transmission<Dual>& transmission, const Record& record, 
   return stages > Chebyshev::kMostStages ? 0 : static_cast<int>(stages);
 }
 
+/// Everything that the motion of the joints depends on if the motors move as they were measured: not what acts between
+/// the command and the rotor, nor what a joint's sensor adds.
+std::vector<double> motion_key(const Hypothesis& h) {
+  const ArmParameters<double> arm = make_transmission<double>(h).arm();
+  std::vector<double> key(arm.gravity, arm.gravity + 3);
+  for (int k = 0; k < arm.n; ++k) {
+    const JointParameters<double>& j = arm.joint[k];
+    key.insert(key.end(), {j.mass, j.com[0], j.com[1], j.com[2], j.gear_ratio, j.capstan_radius, j.pulley_radius,
+                           j.stiffness, j.damping, j.tension, j.joint_coulomb, j.joint_viscous, j.joint_smoothing,
+                           j.motor_smoothing, j.motor_encoder_offset});
+    key.insert(key.end(), j.inertia, j.inertia + 6);
+    key.insert(key.end(), j.coupling, j.coupling + arm.n);
+    // Where the record begins the joint may be taken from its sensor.
+    if (j.drive == Drive::none) key.push_back(j.joint_encoder_offset);
+  }
+  constexpr unsigned kMotor = static_cast<unsigned>(EffectStage::command) | static_cast<unsigned>(EffectStage::motor);
+  for (const PlacedEffect& e : h.effects)
+    if ((e.effect->stages() & ~kMotor) != 0 || e.effect->n_states() > 0)
+      key.insert(key.end(), e.p, e.p + kMaxEffectParameters);
+  return key;
+}
+
 /// K_c * x around a sample that can be compared.
 template <class Signal>
 double compared(const Record& record, std::size_t at, const Signal& x) {
@@ -168,69 +191,105 @@ double compared(const Record& record, std::size_t at, const Signal& x) {
 }  // namespace
 
 std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesis>& hypotheses, int stride) {
-  static const LaneDrive drive = lane_drive();
+  static const LaneDrive kernel = lane_drive();
   const int n = record.n;
   const std::size_t rows = (record.size + stride - 1) / stride;
   const std::vector<DrivenInput> inputs = driven_inputs(record);
   const CommandHistory history = whole_history(record, inputs);
   std::vector<Residuals> all(hypotheses.size());
 
+  // Hypotheses that move alike are integrated once, by the first of them, and replayed by the others.
+  std::vector<std::size_t> movers, others, mover_of(hypotheses.size());
+  std::map<std::vector<double>, std::size_t> known;
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+    const auto [entry, is_new] = known.try_emplace(motion_key(hypotheses[h]), movers.size());
+    mover_of[h] = entry->second;
+    (is_new ? movers : others).push_back(h);
+  }
+
   // All hypotheses of a call take the same number of stages: they differ by their numbers alone.
-  std::vector<DrivenState<double>> starts(hypotheses.size());
-  std::vector<int> needed(hypotheses.size());
-  tbb::parallel_for(std::size_t{0}, hypotheses.size(), [&](std::size_t h) {
-    starts[h] = unstretched_state(hypotheses[h], record, inputs[0]);
-    needed[h] = stable_stages(make_transmission<Dual>(hypotheses[h]), record, standing(inputs[0]), starts[h]);
+  std::vector<DrivenState<double>> starts(movers.size());
+  std::vector<int> needed(movers.size());
+  tbb::parallel_for(std::size_t{0}, movers.size(), [&](std::size_t i) {
+    const Hypothesis& h = hypotheses[movers[i]];
+    starts[i] = unstretched_state(h, record, inputs[0]);
+    needed[i] = stable_stages(make_transmission<Dual>(h), record, standing(inputs[0]), starts[i]);
   });
   int stages = 2;
   for (const int s : needed) stages = std::max(stages, s);
   const Chebyshev scheme = chebyshev(stages);
   const int n_states = hypotheses.empty() ? 0 : make_transmission<double>(hypotheses[0]).n_states();
+  const int state_size = 2 * n + n_states;
+  std::vector<std::vector<double>> states(others.empty() ? 0 : movers.size());   // [mover][sample][state_size]
 
-  const std::size_t batches = (hypotheses.size() + kLaneWidth - 1) / kLaneWidth;
-  tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t b) {
-    const std::size_t first = b * kLaneWidth, count = std::min<std::size_t>(kLaneWidth, hypotheses.size() - first);
+  // Residuals of one lane out of what drive and replay write.
+  const auto take = [&](const std::vector<Lanes>& out, int lane, bool able, Residuals& r) {
+    r.finite = able;
+    r.channel.assign(2 * n, {});
+    for (int k = 0; k < n; ++k) {
+      std::vector<double>&torque = r.channel[k], &joint = r.channel[n + k];
+      if (record.has_torque(k)) torque.assign(rows, std::numeric_limits<double>::quiet_NaN());
+      if (record.has_joint(k)) joint.assign(rows, std::numeric_limits<double>::quiet_NaN());
+      for (std::size_t i = 0; r.finite && i < rows; ++i) {
+        const std::size_t at = i * stride;
+        const auto tau = [&](std::size_t t) { return out[t * 2 * n + k][lane]; };
+        const auto error = [&](std::size_t t) { return record.joint[k][t] - out[t * 2 * n + n + k][lane]; };
+        if (!std::isfinite(tau(at)) || !std::isfinite(out[at * 2 * n + n + k][lane])) r.finite = false;
+        if (!torque.empty() && record.torque_valid[k][at] > 0) torque[i] = compared(record, at, tau);
+        if (!joint.empty() && record.joint_valid[k][at] > 0) joint[i] = compared(record, at, error);
+      }
+    }
+  };
+
+  const auto batches = [](std::size_t count) { return (count + kLaneWidth - 1) / kLaneWidth; };
+  tbb::parallel_for(std::size_t{0}, batches(movers.size()), [&](std::size_t b) {
+    const std::size_t first = b * kLaneWidth, count = std::min<std::size_t>(kLaneWidth, movers.size() - first);
     const Hypothesis* lane[kLaneWidth];
     DrivenState<Lanes> x;
     for (int k = 0; k < n; ++k) x.q[k] = x.v[k] = 0.0;
     for (int k = 0; k < n_states; ++k) x.z[k] = 0.0;
     for (std::size_t l = 0; l < kLaneWidth; ++l) {
-      const std::size_t h = first + std::min(l, count - 1);
-      lane[l] = needed[h] > 0 ? &hypotheses[h] : nullptr;
-      for (int k = 0; k < n; ++k) x.q[k].set(static_cast<int>(l), starts[h].q[k]);
+      const std::size_t i = first + std::min(l, count - 1);
+      lane[l] = needed[i] > 0 ? &hypotheses[movers[i]] : nullptr;
+      for (int k = 0; k < n; ++k) x.q[k].set(static_cast<int>(l), starts[i].q[k]);
     }
     // A lane that cannot be integrated is replaced by one that can, and reported.
     const Hypothesis* able = nullptr;
     for (std::size_t l = 0; l < count; ++l)
       if (lane[l]) able = lane[l];
-    std::vector<Lanes> out(record.size * 2 * n);
+    std::vector<Lanes> out(record.size * 2 * n), path(states.empty() ? 0 : record.size * state_size);
     if (able) {
       const Hypothesis* filled[kLaneWidth];
       for (int l = 0; l < kLaneWidth; ++l) filled[l] = lane[l] ? lane[l] : able;
       const Transmission<Lanes> transmission = pack_hypotheses(filled);
       const std::vector<DrivenInput> held(static_cast<std::size_t>(kLetDown / record.dt) + 1, standing(inputs[0]));
       std::vector<Lanes> unused(held.size() * 2 * n);
-      drive(transmission, held.data(), held.size(), record.start, record.dt, scheme, &history, x, unused.data());
-      drive(transmission, inputs.data(), record.size, record.start, record.dt, scheme, &history, x, out.data());
+      kernel.drive(transmission, held.data(), held.size(), record.start, record.dt, scheme, &history, x, unused.data(), nullptr);
+      kernel.drive(transmission, inputs.data(), record.size, record.start, record.dt, scheme, &history, x, out.data(),
+                   path.empty() ? nullptr : path.data());
     }
     for (std::size_t l = 0; l < count; ++l) {
-      Residuals& r = all[first + l];
-      r.finite = lane[l] != nullptr;
-      r.channel.assign(2 * n, {});
-      for (int k = 0; k < n; ++k) {
-        std::vector<double>&torque = r.channel[k], &joint = r.channel[n + k];
-        const int lane_of = static_cast<int>(l);
-        if (record.has_torque(k)) torque.assign(rows, std::numeric_limits<double>::quiet_NaN());
-        if (record.has_joint(k)) joint.assign(rows, std::numeric_limits<double>::quiet_NaN());
-        for (std::size_t i = 0; r.finite && i < rows; ++i) {
-          const std::size_t at = i * stride;
-          const auto tau = [&](std::size_t t) { return out[t * 2 * n + k][lane_of]; };
-          const auto error = [&](std::size_t t) { return record.joint[k][t] - out[t * 2 * n + n + k][lane_of]; };
-          if (!std::isfinite(tau(at)) || !std::isfinite(out[at * 2 * n + n + k][lane_of])) r.finite = false;
-          if (!torque.empty() && record.torque_valid[k][at] > 0) torque[i] = compared(record, at, tau);
-          if (!joint.empty() && record.joint_valid[k][at] > 0) joint[i] = compared(record, at, error);
-        }
-      }
+      take(out, static_cast<int>(l), lane[l] != nullptr, all[movers[first + l]]);
+      if (states.empty()) continue;
+      states[first + l].resize(path.size());
+      for (std::size_t i = 0; i < path.size(); ++i) states[first + l][i] = path[i][static_cast<int>(l)];
+    }
+  });
+
+  tbb::parallel_for(std::size_t{0}, batches(others.size()), [&](std::size_t b) {
+    const std::size_t first = b * kLaneWidth, count = std::min<std::size_t>(kLaneWidth, others.size() - first);
+    const Hypothesis* lane[kLaneWidth];
+    std::vector<Lanes> out(record.size * 2 * n), path(record.size * state_size);
+    for (std::size_t l = 0; l < kLaneWidth; ++l) {
+      const std::size_t h = others[first + std::min(l, count - 1)];
+      lane[l] = &hypotheses[h];
+      const std::vector<double>& of_mover = states[mover_of[h]];
+      for (std::size_t i = 0; i < path.size(); ++i) path[i].set(static_cast<int>(l), of_mover[i]);
+    }
+    kernel.replay(pack_hypotheses(lane), inputs.data(), record.size, record.start, record.dt, &history, path.data(), out.data());
+    for (std::size_t l = 0; l < count; ++l) {
+      const std::size_t h = others[first + l];
+      take(out, static_cast<int>(l), all[movers[mover_of[h]]].finite, all[h]);
     }
   });
   return all;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace halyard {
 
@@ -36,15 +37,16 @@ Eigen::VectorXd Screen::beyond_baseline(Eigen::VectorXd x) const {
   return qr_.householderQ() * x;
 }
 
-double Screen::promise(const std::vector<std::vector<double>>& rows) const {
-  double best = 0;
-  for (const auto& row : rows) {
-    if (row.empty()) continue;
-    const Eigen::VectorXd d = beyond_baseline(weighted(row) - r_);
-    const double size = d.squaredNorm() * r_beyond_.squaredNorm();
-    if (size > 0) best = std::max(best, std::pow(r_beyond_.dot(d), 2) / size);
-  }
-  return best;
+Screen::Direction Screen::direction(const std::vector<double>& rows) const {
+  if (rows.empty()) return {};
+  const Eigen::VectorXd d = beyond_baseline(weighted(rows) - r_);
+  const double along = r_beyond_.dot(d), square = d.squaredNorm(), size = square * r_beyond_.squaredNorm();
+  return size > 0 ? Direction{along * along / size, -along / square} : Direction{};
+}
+
+double Screen::left(const std::vector<double>& rows) const {
+  if (rows.empty()) return std::numeric_limits<double>::infinity();
+  return beyond_baseline(weighted(rows)).squaredNorm();
 }
 
 }  // namespace halyard

@@ -20,8 +20,15 @@ class Screen {
   Screen(const Evidence& evidence, const Hypothesis& at, const std::vector<std::vector<double>>& columns,
          const std::vector<double>& scale);
 
-  /// The largest promise of rows that a candidate at some size leaves, 0 to 1; empty rows count for nothing.
-  double promise(const std::vector<std::vector<double>>& rows) const;
+  /// What a candidate's change d of the residual could do.
+  struct Direction {
+    double promise = 0;   ///< 0 to 1
+    double amount = 0;    ///< how many times d takes most of the residual: -(r⊥ · d⊥) / |d⊥|²
+  };
+  /// rows: what the candidate at some size leaves; empty rows promise nothing.
+  Direction direction(const std::vector<double>& rows) const;
+  /// |r⊥ + d⊥|², infinite for empty rows.
+  double left(const std::vector<double>& rows) const;
 
  private:
   Eigen::VectorXd weighted(const std::vector<double>& rows) const;
