@@ -1,0 +1,133 @@
+#include "bench/diagnosis/unregistered.h"
+#include "transmission/effects/typical_size.h"
+#include "transmission/friction.h"
+
+/// Friction of other forms than the library's.
+
+namespace halyard::blind {
+namespace {
+
+/// More Coulomb friction at the motor, with the elastic presliding of Dahl:
+///   F = F_c z / z_y,  z' = v - |v| z / z_y
+/// Source: Dahl, "A solid friction model", Aerospace Corporation TOR-0158 (1968).
+class DahlMotorFriction : public EffectOf<DahlMotorFriction> {
+ public:
+  std::string name() const override { return "dahl_motor_friction"; }
+  std::string summary() const override { return "more friction at the motor, elastic before it slides"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::motor); }
+  bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const double level = typical_motor_friction(arm.joint[joint]);
+    return {{"coulomb", "N m", 0, 0.5 * level, 0, 30 * level, 0}, {"presliding", "rad", 0.3, 0.3, 0.01, 3, 0}};
+  }
+  int n_states() const override { return 1; }
+  template <class T>
+  void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
+    s[c.joint].motor_torque -= c.p[0] * c.z[0] / c.p[1];
+  }
+  template <class T>
+  void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
+    const T v = s[c.joint].motor_rate;
+    z_dot[0] = v - abs(v) * c.z[0] / c.p[1];
+  }
+};
+
+/// More friction at the joint, by LuGre's bristles with a constant level:
+///   F = F_c z / z_y + σ_1 z' + F_v v,  z' = v - |v| z / z_y,  σ_1 = F_c 5 ms / z_y
+/// Source: Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Automatic Control 40 (1995).
+class LuGreJointFriction : public EffectOf<LuGreJointFriction> {
+ public:
+  std::string name() const override { return "lugre_joint_friction"; }
+  std::string summary() const override { return "more friction at the joint, by bristles"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const bool turns = arm.joint[joint].type == JointType::revolute;
+    const double level = typical_joint_friction(arm.joint[joint]), z_y = turns ? 2e-3 : 2e-4;
+    return {{"coulomb", turns ? "N m" : "N", 0, 0.5 * level, 0, 30 * level, 0},
+            {"presliding", turns ? "rad" : "m", z_y, z_y, 0.1 * z_y, 10 * z_y, 0},
+            {"viscous", turns ? "N m s/rad" : "N s/m", 0, 0.1 * level, 0, 30 * level, 0}};
+  }
+  int n_states() const override { return 1; }
+  template <class T>
+  void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const T v = s[c.joint].joint_rate;
+    s[c.joint].joint_force -= c.p[0] / c.p[1] * (c.z[0] + T(5e-3) * bristle_rate(c, v)) + c.p[2] * v;
+  }
+  template <class T>
+  void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
+    z_dot[0] = bristle_rate(c, s[c.joint].joint_rate);
+  }
+
+ private:
+  template <class T>
+  static T bristle_rate(const EffectContext<T>& c, const T& v) {
+    return v - abs(v) * c.z[0] / c.p[1];
+  }
+};
+
+/// Stribeck friction of the motor with an exponential of the speed instead of its square:
+///   F = ΔF_s exp(-|v| / v_s) sign(v)
+/// Source: Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994): exponents from 1/2 to 2 are in use.
+class ExponentialStribeck : public EffectOf<ExponentialStribeck> {
+ public:
+  std::string name() const override { return "exponential_stribeck"; }
+  std::string summary() const override { return "friction that falls exponentially with speed"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::motor); }
+  bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const double level = typical_motor_friction(arm.joint[joint]);
+    return {{"static_excess", "N m", 0, 0.6 * level, 0, 10 * level, 0}, {"speed", "rad/s", 15, 15, 1, 200, 0}};
+  }
+  template <class T>
+  void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const T v = s[c.joint].motor_rate;
+    s[c.joint].motor_torque -= c.p[0] * exp(T(-abs(v) / c.p[1])) * smooth_sign(v, c.arm.joint[c.joint].motor_smoothing);
+  }
+};
+
+/// Friction of motor and joint that changes linearly in time instead of settling:
+///   F = F (1 + a t / 20 s)
+/// Source: the first-order term of warming up; Bittencourt and Gunnarsson, J. Dyn. Sys. Meas. Control 134 (2012), on
+/// the friction of robot joints over temperature.
+class LinearFrictionDrift : public EffectOf<LinearFrictionDrift> {
+ public:
+  std::string name() const override { return "linear_friction_drift"; }
+  std::string summary() const override { return "friction that changes linearly in time"; }
+  unsigned stages() const override {
+    return static_cast<unsigned>(EffectStage::motor) | static_cast<unsigned>(EffectStage::joint);
+  }
+  bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+    return {{"share", "1", 0, -0.5, -0.9, 3, 0}};
+  }
+  template <class T>
+  void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const JointParameters<T>& j = c.arm.joint[c.joint];
+    s[c.joint].motor_torque -=
+        share_now(c) * friction(j.motor_coulomb, j.motor_viscous, j.motor_smoothing, s[c.joint].motor_rate);
+  }
+  template <class T>
+  void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const JointParameters<T>& j = c.arm.joint[c.joint];
+    s[c.joint].joint_force -=
+        share_now(c) * friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, s[c.joint].joint_rate);
+  }
+
+ private:
+  template <class T>
+  static T share_now(const EffectContext<T>& c) {
+    constexpr double kSpan = 20;
+    return c.p[0] * T(c.time / kSpan);
+  }
+};
+
+}  // namespace
+
+void add_friction_forms(OwnedEffects& to) {
+  to.emplace_back(std::make_unique<DahlMotorFriction>(), "motor_friction");
+  to.emplace_back(std::make_unique<LuGreJointFriction>(), "joint_friction");
+  to.emplace_back(std::make_unique<ExponentialStribeck>(), "stribeck");
+  to.emplace_back(std::make_unique<LinearFrictionDrift>(), "friction_drift");
+}
+
+}  // namespace halyard::blind

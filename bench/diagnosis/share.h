@@ -1,0 +1,41 @@
+#pragma once
+/// So many of so many, and what that says of the chance behind it.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace halyard::blind {
+
+struct Share {
+  int hits = 0, of = 0;
+
+  void count(bool hit) { hits += hit, ++of; }
+  double value() const { return of > 0 ? static_cast<double>(hits) / of : 0; }
+  /// Clopper and Pearson, 95 %.
+  double lower() const { return of > 0 ? Binomial::find_lower_bound_on_p(of, hits, 0.025) : 0; }
+  double upper() const { return of > 0 ? Binomial::find_upper_bound_on_p(of, hits, 0.025) : 1; }
+  /// "18/20", "90.0 %", "68.3 to 98.8 %" as three cells of a table.
+  std::string cells() const {
+    if (of == 0) return "0/0 | - | -";
+    return fmt::format("{}/{} | {:.1f} % | {:.1f} to {:.1f} %", hits, of, 100 * value(), 100 * lower(), 100 * upper());
+  }
+
+ private:
+  using Binomial = boost::math::binomial_distribution<>;
+};
+
+/// NaN of nothing.
+inline double quantile(std::vector<double> x, double q) {
+  if (x.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::ranges::sort(x);
+  return x[static_cast<std::size_t>(std::lround(q * static_cast<double>(x.size() - 1)))];
+}
+inline double median(const std::vector<double>& x) { return quantile(x, 0.5); }
+
+}  // namespace halyard::blind

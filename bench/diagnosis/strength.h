@@ -1,0 +1,35 @@
+#pragma once
+/// How much an effect shows in a log, beyond what the model's own tolerances could explain.
+///
+///   d        change of the predicted residuals by the effect, each channel over its floor     [rows]
+///   d⊥       d - J u,  u = argmin |d - J u|² / m + |u|²
+///   strength max over channels of the root mean square of d⊥
+///
+///   J        sensitivities to the model's numbers, in halves of their tolerance, over the floor  [rows x numbers]
+///   m        rows that are worth one independent sample
+///
+/// At strength 1 the effect is as large as what the sensors resolve, or 1 % of the torque.
+
+#include <Eigen/QR>
+
+#include "diagnosis/evidence.h"
+#include "model/arm_model.h"
+
+namespace halyard::blind {
+
+class StrengthMeter {
+ public:
+  StrengthMeter(const Log& training, const ArmModel& model);
+
+  /// Infinite if the effect is so large that its motion cannot be predicted.
+  double strength(const PlacedEffect& effect) const;
+
+ private:
+  Evidence evidence_;
+  Hypothesis nominal_;
+  std::vector<double> base_;
+  Eigen::HouseholderQR<Eigen::MatrixXd> qr_;
+  Eigen::MatrixXd J_;
+};
+
+}  // namespace halyard::blind

@@ -1,0 +1,340 @@
+#include "bench/diagnosis/summary.h"
+
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "bench/diagnosis/share.h"
+#include "model/output_file.h"
+#include "transmission/effect.h"
+
+namespace halyard::blind {
+namespace {
+
+using Results = std::vector<const Result*>;
+using Test = std::function<bool(const Result&)>;
+
+constexpr const char* kShareHead = "count | share | 95 % interval";
+constexpr const char* kShareRule = "---:|---:|---";
+
+Share share(const Results& all, const Test& hit) {
+  Share s;
+  for (const Result* r : all) s.count(hit(*r));
+  return s;
+}
+
+/// All effects of the truth are stronger than the limit.
+bool is_strong(const Result& r, double limit) {
+  return std::ranges::all_of(r.truth, [&](const TrueEffect& t) { return t.strength >= limit; });
+}
+
+bool names_something(const Result& r) { return !r.named.empty(); }
+
+/// Effects in the library's order; then what else was hidden, by name.
+std::vector<std::string> names_of(const Results& results, const std::function<std::string(const Result&)>& name) {
+  std::set<std::string> met;
+  for (const Result* r : results) met.insert(name(*r));
+  std::vector<std::string> all;
+  for (const Effect* e : effect_library())
+    if (met.erase(e->name())) all.push_back(e->name());
+  all.insert(all.end(), met.begin(), met.end());
+  return all;
+}
+std::string right_name(const Result& r) { return r.truth[0].place.effect; }
+std::string acting_name(const Result& r) { return r.truth[0].form.empty() ? right_name(r) : r.truth[0].form; }
+
+Results those(const Results& all, const Test& wanted) {
+  Results some;
+  std::ranges::copy_if(all, std::back_inserter(some), [&](const Result* r) { return wanted(*r); });
+  return some;
+}
+
+Share least_often(const Results& trials) {
+  Share least;
+  for (const std::string& name : names_of(trials, right_name)) {
+    const Share s = share(those(trials, [&](const Result& r) { return right_name(r) == name; }), right_first);
+    if (least.of == 0 || s.value() < least.value()) least = s;
+  }
+  return least;
+}
+
+/// The smallest x above which at least 90 % of the trials are right; infinite if there is none.
+double detection_limit(const Results& trials, const std::function<double(const Result&)>& x) {
+  constexpr double kShare = 0.9;
+  constexpr int kFewest = 5;
+  Results sorted = trials;
+  std::ranges::stable_sort(sorted, [&](const Result* a, const Result* b) { return x(*a) > x(*b); });
+  double limit = std::numeric_limits<double>::infinity();
+  Share s;
+  for (const Result* r : sorted) {
+    s.count(right_first(*r));
+    if (s.of >= kFewest && s.value() >= kShare) limit = x(*r);
+  }
+  return limit;
+}
+
+double strength(const Result& r) { return r.truth[0].strength; }
+double size(const Result& r) { return r.truth[0].size; }
+
+std::string limit_text(double x) { return std::isfinite(x) ? fmt::format("{:.2g}", x) : "not reached"; }
+
+/// One line an effect: right first, right or alternative, by the name that acts.
+std::string effect_table(const Results& trials, double limit) {
+  std::string text = fmt::format("| truth | {} | or among two alternatives | median strength |\n|---|{}|---:|---:|\n",
+                                 kShareHead, kShareRule);
+  const auto line = [&](const std::string& name, const Results& some) {
+    std::vector<double> strengths;
+    for (const Result* r : some) strengths.push_back(strength(*r));
+    const Share alternative = share(some, right_or_alternative);
+    text += fmt::format("| {} | {} | {}/{} | {:.3g} |\n", name, share(some, right_first).cells(), alternative.hits,
+                        alternative.of, median(strengths));
+  };
+  const Results strong = those(trials, [&](const Result& r) { return is_strong(r, limit); });
+  for (const std::string& name : names_of(strong, acting_name)) {
+    const Results some = those(strong, [&](const Result& r) { return acting_name(r) == name; });
+    line(acting_name(*some[0]) == right_name(*some[0]) ? name : name + " (" + right_name(*some[0]) + ")", some);
+  }
+  line("**all**", strong);
+  return text + "\n";
+}
+
+/// What was named first, of each truth; right effects at a wrong joint stand apart.
+std::vector<std::vector<std::string>> confusion(const Results& trials) {
+  const auto first = [](const Result& r) {
+    const bool joint_only =
+        !r.truth.empty() && !r.named.empty() && !right_first(r) && r.named[0].place.effect == right_name(r);
+    return joint_only           ? std::string("other joint")
+           : !r.failure.empty() ? "failed"
+           : r.named.empty()    ? r.verdict
+                                : r.named[0].place.effect;
+  };
+  const auto truth = [](const Result& r) { return r.truth.empty() ? std::string("clean") : right_name(r); };
+  std::vector<std::vector<std::string>> table = {{"truth \\ named first"}};
+  const std::vector<std::string> columns = names_of(trials, first);
+  table[0].insert(table[0].end(), columns.begin(), columns.end());
+  for (const std::string& row : names_of(trials, truth)) {
+    table.push_back({row});
+    for (const std::string& column : columns) {
+      const int n = share(trials, [&](const Result& r) { return truth(r) == row && first(r) == column; }).hits;
+      table.back().push_back(n == 0 ? "" : std::to_string(n));
+    }
+  }
+  return table;
+}
+
+std::string markdown(const std::vector<std::vector<std::string>>& table) {
+  std::string text;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    text += fmt::format("| {} |\n", fmt::join(table[i], " | "));
+    if (i == 0)
+      text += "|---" + [&] {
+        std::string rule;
+        for (std::size_t c = 1; c < table[0].size(); ++c) rule += "|---:";
+        return rule;
+      }() + "|\n";
+  }
+  return text + "\n";
+}
+
+/// Error of the revised model over that of the truth, joint by joint: the worst joint, and the geometric mean.
+std::pair<double, double> error_ratio(const Result& r) {
+  double worst = 0, sum = 0;
+  for (std::size_t k = 0; k < r.after.size(); ++k) {
+    const double ratio = r.after[k] / r.true_model[k];
+    worst = std::max(worst, ratio);
+    sum += std::log(ratio);
+  }
+  return {worst, std::exp(sum / static_cast<double>(r.after.size()))};
+}
+
+/// Intervals of the effects that were named rightly, over their true parameters.
+Share coverage(const Results& trials) {
+  Share s;
+  for (const Result* r : trials)
+    for (const TrueEffect& t : r->truth)
+      for (const Named& n : r->named)
+        for (const Parameter& p : n.parameters)
+          for (const TrueParameter& truth : t.parameters)
+            if (n.place == t.place && p.name == truth.name && truth.acts)
+              s.count(p.lower <= truth.value && truth.value <= p.upper);
+  return s;
+}
+
+std::string trials_csv(const Results& all) {
+  std::string text =
+      "kind,index,seed,failure,truth,form,size,strength,truth_2,strength_2,verdict,named_first,alternatives,named_"
+      "others,unexplained,"
+      "right,right_or_alternative,error_ratio_worst,error_ratio_mean,wall_s,cpu_s\n";
+  for (const Result* r : all) {
+    const auto truth = [&](std::size_t i) { return i < r->truth.size() ? label(r->truth[i].place) : std::string(); };
+    const auto strength_of = [&](std::size_t i) {
+      return i < r->truth.size() ? fmt::format("{:.4g}", r->truth[i].strength) : std::string();
+    };
+    std::vector<std::string> alternatives, others;
+    for (std::size_t i = 0; i < r->named.size(); ++i) {
+      if (i > 0) others.push_back(label(r->named[i].place));
+      for (const Place& a : r->named[i].alternatives)
+        if (i == 0) alternatives.push_back(label(a));
+    }
+    std::string failure = r->failure;
+    std::ranges::replace_if(
+        failure, [](char c) { return c == ',' || c == '\n'; }, ';');
+    const auto [worst, mean] = error_ratio(*r);
+    text += fmt::format("{},{},{},{},{},{},{:.4g},{},{},{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.2f},{:.2f}\n",
+                        word(r->kind), r->index, r->seed, failure, truth(0), r->truth.empty() ? "" : r->truth[0].form,
+                        r->truth.empty() ? 0 : r->truth[0].size, strength_of(0), truth(1), strength_of(1), r->verdict,
+                        r->named.empty() ? "" : label(r->named[0].place), fmt::join(alternatives, "; "),
+                        fmt::join(others, "; "), fmt::join(r->unexplained, "; "), is_right(*r) ? 1 : 0,
+                        right_or_alternative(*r) ? 1 : 0, worst, mean, r->wall_s, r->cpu_s);
+  }
+  return text;
+}
+
+std::string effects_csv(const Results& effect, double limit) {
+  std::string text =
+      "effect,strong_trials,right_first,lower,upper,right_or_alternative,detection_strength,detection_size\n";
+  for (const std::string& name : names_of(effect, right_name)) {
+    const Results some = those(effect, [&](const Result& r) { return right_name(r) == name; });
+    const Results strong = those(some, [&](const Result& r) { return is_strong(r, limit); });
+    const Share s = share(strong, right_first);
+    text += fmt::format("{},{},{},{:.4f},{:.4f},{},{},{}\n", name, s.of, s.hits, s.lower(), s.upper(),
+                        share(strong, right_or_alternative).hits, limit_text(detection_limit(some, strength)),
+                        limit_text(detection_limit(some, size)));
+  }
+  return text;
+}
+
+/// Detection limits in the effects' own units: changes from neutral.
+std::string detection_csv(const Results& effect, const ArmParameters<double>& arm) {
+  std::string text = "effect,joint,parameter,unit,typical_change,detection_change\n";
+  for (const std::string& name : names_of(effect, right_name)) {
+    const Effect* e = find_effect(name);
+    if (!e) continue;  // results of a build with other effects
+    const double limit = detection_limit(those(effect, [&](const Result& r) { return right_name(r) == name; }), size);
+    for (const int joint : effect_places(*e, arm))
+      for (const EffectParameter& p : e->parameters(arm, joint)) {
+        if (p.range != SearchRange::own || p.is_shape()) continue;
+        const double typical = std::abs(p.typical - p.neutral);
+        text += fmt::format("{},{},{},{},{:.4g},{}\n", name, joint + 1, p.name, p.unit, typical,
+                            limit_text(limit * typical));
+      }
+  }
+  return text;
+}
+
+std::string detection_table(const Results& effect) {
+  std::string text =
+      "| effect | trials | strength | in typical sizes | weaker trials that it named all the same "
+      "|\n|---|---:|---:|---:|---:|\n";
+  for (const std::string& name : names_of(effect, right_name)) {
+    const Results some = those(effect, [&](const Result& r) { return right_name(r) == name; });
+    const double limit = detection_limit(some, strength);
+    const Share weaker = share(those(some, [&](const Result& r) { return strength(r) < limit; }), right_first);
+    text += fmt::format("| {} | {} | {} | {} | {}/{} |\n", name, some.size(), limit_text(limit),
+                        limit_text(detection_limit(some, size)), weaker.hits, weaker.of);
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+void write_summary(const std::filesystem::path& out, const std::vector<Result>& results,
+                   const ArmParameters<double>& arm, double limit) {
+  Results all, ran;
+  for (const Result& r : results) all.push_back(&r);
+  // A diagnosis that fails is a wrong answer; a trial that could not be drawn is none.
+  ran = those(all, [](const Result& r) { return r.failure.empty() || r.failure.starts_with("diagnose"); });
+  const auto of = [&](Kind kind) { return those(ran, [&](const Result& r) { return r.kind == kind; }); };
+  const auto strong = [&](Kind kind) { return those(of(kind), [&](const Result& r) { return is_strong(r, limit); }); };
+  const auto section = [&](const std::string& title, const std::string& text) { return "## " + title + "\n\n" + text; };
+
+  std::string text = fmt::format(
+      "# Blind trials of the diagnosis\n\n{} trials; {} could not be drawn, in {} the diagnosis failed. An effect "
+      "counts from strength {:g} on: what it changes beyond the model's tolerances, over what the sensors resolve.\n\n",
+      all.size(), all.size() - ran.size(), share(ran, [](const Result& r) { return !r.failure.empty(); }).hits, limit);
+
+  const Results effect = of(Kind::effect), mistuned = of(Kind::effect_mistuned);
+  text += fmt::format("| question | bar | {} |\n|---|---|{}|\n", kShareHead, kShareRule);
+  const auto question = [&](const std::string& what, const std::string& bar, const Share& s) {
+    text += fmt::format("| {} | {} | {} |\n", what, bar, s.cells());
+  };
+  for (const Kind kind : {Kind::clean_exact, Kind::clean_mistuned})
+    question(word(kind) + ": an effect is named", "0", share(of(kind), names_something));
+  for (const Kind kind : {Kind::clean_exact, Kind::clean_mistuned})
+    question(word(kind) + ": verdict unknown", "",
+             share(of(kind), [](const Result& r) { return r.verdict == "unknown"; }));
+  for (const Kind kind : {Kind::effect, Kind::effect_mistuned}) {
+    question(word(kind) + ": effect and joint right, first", "90 %", share(strong(kind), right_first));
+    question(word(kind) + ": right, or among at most two alternatives", "97 %",
+             share(strong(kind), right_or_alternative));
+    question(word(kind) + ": right, and nothing else named", "",
+             share(strong(kind), [](const Result& r) { return right_first(r) && r.named.size() == 1; }));
+    question(word(kind) + ": the effect found least often", "70 %", least_often(strong(kind)));
+  }
+  question("form: effect and joint right, first", "", share(strong(Kind::form), right_first));
+  question("form: right, or among at most two alternatives", "", share(strong(Kind::form), right_or_alternative));
+  question("outside: unknown, or named with an unexplained rest", "90 %", share(strong(Kind::outside), admits_rest));
+  question("pair: both named", "75 %", share(strong(Kind::pair), all_named));
+  question("pair: one or both named", "", share(strong(Kind::pair), [](const Result& r) {
+             return std::ranges::any_of(r.truth, [&](const TrueEffect& t) {
+               return std::ranges::find(r.named, t.place, &Named::place) != r.named.end();
+             });
+           }));
+  question("a true parameter lies in its 95 % interval (effect)", "", coverage(effect));
+  question("a true parameter lies in its 95 % interval (effect_mistuned)", "", coverage(mistuned));
+  text += "\n";
+
+  for (const Kind kind : {Kind::effect, Kind::effect_mistuned, Kind::form})
+    if (!strong(kind).empty()) text += section("Named first, by truth: " + word(kind), effect_table(of(kind), limit));
+  if (!strong(Kind::outside).empty()) {
+    std::string table =
+        fmt::format("| truth | unknown, or a rest: {} | clean |\n|---|{}|---:|\n", kShareHead, kShareRule);
+    for (const std::string& name : names_of(strong(Kind::outside), right_name)) {
+      const Results some = those(strong(Kind::outside), [&](const Result& r) { return right_name(r) == name; });
+      table += fmt::format("| {} | {} | {} |\n", name, share(some, admits_rest).cells(),
+                           share(some, [](const Result& r) { return r.verdict == "clean"; }).hits);
+    }
+    text += section("Effects outside the library", table + "\n");
+  }
+  if (!effect.empty()) text += section("Detection limits: above, 90 % name the effect first", detection_table(effect));
+
+  Results confused = strong(Kind::effect);
+  for (const Kind kind : {Kind::effect_mistuned, Kind::clean_exact, Kind::clean_mistuned})
+    std::ranges::copy(strong(kind), std::back_inserter(confused));
+  const auto matrix = confusion(confused);
+  text += section("Confusion: clean and effects above the limit", markdown(matrix));
+  if (!strong(Kind::form).empty())
+    text += section("Confusion: other functional forms", markdown(confusion(strong(Kind::form))));
+  if (!strong(Kind::outside).empty())
+    text += section("Confusion: outside the library", markdown(confusion(strong(Kind::outside))));
+
+  std::string ratios =
+      "Joint position RMS after, over that of the true model, on the hold-out; bar: a median of 1.15.\n\n"
+      "| kind | trials | worst joint: median | 90 % below | mean of the joints: median | 90 % below "
+      "|\n|---|---:|---:|---:|---:|---:|\n";
+  for (const Kind kind : {Kind::clean_exact, Kind::clean_mistuned, Kind::effect, Kind::effect_mistuned, Kind::pair}) {
+    std::vector<double> worst, mean;
+    for (const Result* r : strong(kind))
+      if (r->failure.empty()) worst.push_back(error_ratio(*r).first), mean.push_back(error_ratio(*r).second);
+    if (!worst.empty())
+      ratios += fmt::format("| {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n", word(kind), worst.size(),
+                            median(worst), quantile(worst, 0.9), median(mean), quantile(mean, 0.9));
+  }
+  text += section("Error on the hold-out", ratios + "\n");
+
+  std::vector<double> cpu;
+  for (const Result* r : ran)
+    if (r->failure.empty()) cpu.push_back(r->cpu_s);
+  text += section("Time", fmt::format("A diagnosis takes {:.1f} s of one processor in the median, {:.1f} s at most.\n",
+                                      median(cpu), quantile(cpu, 1)));
+
+  std::string csv;
+  for (const auto& row : matrix) csv += fmt::format("{}\n", fmt::join(row, ","));
+  write_file_whole(out / "confusion.csv", csv);
+  write_file_whole(out / "effects.csv", effects_csv(effect, limit));
+  write_file_whole(out / "detection.csv", detection_csv(effect, arm));
+  write_file_whole(out / "trials.csv", trials_csv(all));
+  write_file_whole(out / "summary.md", text);
+}
+
+}  // namespace halyard::blind

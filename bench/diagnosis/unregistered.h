@@ -1,0 +1,32 @@
+#pragma once
+/// Effects that serve as truth and never as candidate: they are not in the library.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "transmission/effect.h"
+
+namespace halyard::blind {
+
+/// The same physics as an effect of the library in another functional form of the literature.
+struct OtherForm {
+  const Effect* effect;
+  std::string like;  ///< the library's name for it, which is the right answer
+};
+
+/// Those whose name the library has.
+std::vector<OtherForm> other_forms();
+
+/// Effects for which the library has no name: the right answer is that something unknown is left.
+std::vector<const Effect*> outside_effects();
+
+using OwnedEffects = std::vector<std::pair<std::unique_ptr<const Effect>, std::string>>;
+void add_friction_forms(OwnedEffects& to);
+void add_cable_forms(OwnedEffects& to);
+void add_motor_forms(OwnedEffects& to);
+
+inline bool has_cable(const ArmParameters<double>& arm, int joint) { return arm.joint[joint].drive == Drive::cable; }
+inline bool has_motor(const ArmParameters<double>& arm, int joint) { return arm.joint[joint].drive != Drive::none; }
+
+}  // namespace halyard::blind
