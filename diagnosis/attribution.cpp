@@ -14,19 +14,14 @@
 namespace halyard {
 namespace {
 
-/// An effect has to take this share of a channel's first mean square: less is the misfit of another
-/// effect's functional form, which is told as an unexplained rest and not chased.
-constexpr double kMattersShare = 0.05;
 /// What is left matters above this many times the floor of its channel: about one resolution of a joint's encoder.
 constexpr double kRestFactor = 3;
-/// What an effect does to some signal has to be this many times the floor of its channel.
-constexpr double kMattersFactor = 2;
 /// A candidate that promises less than this share of the residual, to first order, is not fitted at all.
 constexpr double kPromise = 0.02;
+/// So many candidates are fitted in a round: those that leave least of the residual where their search sets out.
+constexpr std::size_t kMostFitted = 16;
 /// A candidate whose quick look is less significant than this is not fitted whole.
 constexpr double kWorthAFit = 0.05;
-/// Two candidates whose gains differ by less than this many standard errors cannot be told apart.
-constexpr double kTellApart = 2.0;
 
 std::vector<double> log_likelihood(const Evidence& evidence, const Score& score) {
   const auto& count = evidence.block_count();
@@ -169,6 +164,26 @@ class Search {
     return best;
   }
 
+  /// What a fit weighs, of a score: -ln L on the fitting blocks and the stretch of the baseline's numbers.
+  double cost(const Hypothesis& h, const Score& score) const {
+    double sum = stretch(h);
+    for (int c = 0; c < evidence_.channels(); ++c)
+      if (evidence_.has_channel(c))
+        sum += 0.5 * evidence_.fit_count(c) / evidence_.correlated_rows() *
+               std::log(score.fit_mean_square[c] + evidence_.floor()[c] * evidence_.floor()[c]);
+    return sum;
+  }
+
+  /// Fits again from the model's own numbers, which on the way were bent by what was missing; keeps the better fit.
+  void fit_afresh(Fit& current, Score& score) const {
+    const Fit f = refit({model_.nominal, current.hypothesis.effects}, score);
+    if (!f.usable) return;
+    const Score s = evidence_.score(f.hypothesis);
+    if (!s.finite || cost(f.hypothesis, s) >= cost(current.hypothesis, score)) return;
+    current = f;
+    score = s;
+  }
+
   std::vector<PlacedEffect> candidates(const Hypothesis& h) const {
     std::vector<PlacedEffect> all = all_candidates(model_.nominal);
     std::erase_if(all, [&](const PlacedEffect& candidate) {
@@ -259,11 +274,28 @@ class Search {
     const Screen screen(evidence_, from.hypothesis, columns, scale);
 
     const std::vector<PlacedEffect> all = candidates(current.hypothesis);
-    std::vector<Trial> trials(all.size());
+    std::vector<Start> starts(all.size());
     std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-      trials[i] = quick_look(from, screen, numbers, columns, scale, score, ln_before, stretch(current.hypothesis), all[i]);
+      starts[i] = best_start(evidence_, screen, with_effect(from.hypothesis, all[i]), model_.nominal);
       say("candidates of round " + std::to_string(result_.rounds.size() + 1), static_cast<double>(++done) / all.size());
+    });
+    std::vector<std::size_t> fitted;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (starts[i].promise >= kPromise) fitted.push_back(i);
+    std::stable_sort(fitted.begin(), fitted.end(), [&](std::size_t a, std::size_t b) { return starts[a].left < starts[b].left; });
+    if (fitted.size() > kMostFitted) fitted.resize(kMostFitted);
+
+    std::vector<Trial> trials;
+    for (const PlacedEffect& candidate : all) {
+      trials.push_back(unusable(candidate));
+      trials.back().promising = false;
+    }
+    done = 0;
+    tbb::parallel_for(std::size_t{0}, fitted.size(), [&](std::size_t f) {
+      const std::size_t i = fitted[f];
+      trials[i] = quick_look(starts[i].hypothesis, numbers, columns, scale, score, ln_before, stretch(current.hypothesis), all[i]);
+      say("fits of round " + std::to_string(result_.rounds.size() + 1), static_cast<double>(++done) / fitted.size());
     });
     const auto better = [](const Trial& a, const Trial& b) { return a.gain > b.gain; };
     std::stable_sort(trials.begin(), trials.end(), better);
@@ -304,6 +336,7 @@ class Search {
       result_.alternatives.push_back(like);
       current = fits[best];
       score = evidence_.score(current.hypothesis);
+      fit_afresh(current, score);
       round.accepted = true;
       std::swap(trials[0], trials[best]);
     }
@@ -312,16 +345,9 @@ class Search {
     return best < leaders.size();
   }
 
-  Trial quick_look(const Fit& current, const Screen& screen, const std::vector<FitParameter>& numbers, const std::vector<std::vector<double>>& columns,
+  Trial quick_look(const Hypothesis& start, const std::vector<FitParameter>& numbers, const std::vector<std::vector<double>>& columns,
                    const std::vector<double>& scale, const Score& before, const std::vector<double>& ln_before,
                    double stretch_before, const PlacedEffect& effect) const {
-    const Start begin = best_start(evidence_, screen, with_effect(current.hypothesis, effect), model_.nominal);
-    if (begin.promise < kPromise) {
-      Trial t = unusable(effect);
-      t.promising = false;
-      return t;
-    }
-    const Hypothesis& start = begin.hypothesis;
     std::vector<FitParameter> parameters;
     std::vector<std::vector<double>> kept;
     for (std::size_t i = 0; i < numbers.size(); ++i) {

@@ -22,10 +22,18 @@
 
 namespace halyard {
 
+/// An effect has to take this share of a channel's first mean square: less is the misfit of another
+/// effect's functional form, which is told as an unexplained rest and not chased.
+inline constexpr double kMattersShare = 0.05;
+/// What an effect does to some signal has to be this many times the floor of its channel.
+inline constexpr double kMattersFactor = 2;
+/// Two candidates whose gains differ by less than this many standard errors cannot be told apart.
+inline constexpr double kTellApart = 2.0;
+
 /// A candidate as it was judged.
 struct Trial {
   PlacedEffect effect;
-  bool promising = true;         ///< false: to first order it takes nothing of the residual, and was not fitted
+  bool promising = true;         ///< false: where it takes most of the residual it takes too little to be fitted
   bool usable = false;           ///< it could be fitted
   bool at_bound = false;
   bool matters = false;

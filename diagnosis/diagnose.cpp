@@ -45,6 +45,13 @@ PredictionError errors(const HoldOut& joints, const HoldOut& torques, int n, std
   return e;
 }
 
+/// Takes out what was before a time.
+void compare_from(Record& r, double from) {
+  for (Signals* valid : {&r.joint_valid, &r.torque_valid})
+    for (std::vector<double>& x : *valid)
+      for (std::size_t i = 0; i < x.size() && r.time(i) < from; ++i) x[i] = 0;
+}
+
 std::vector<FullPrediction> predict_all(const std::vector<Record>& records, const Hypothesis& h) {
   std::vector<FullPrediction> all;
   for (const Record& r : records) all.push_back(predict_fully(r, h));
@@ -119,23 +126,28 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
   };
   Diagnosis d;
   std::vector<Record> records;
-  const auto append = [&](std::vector<Record>& to, const Log& log, const RecordOptions& how) {
-    for (Record& r : make_records(log, model, how)) to.push_back(std::move(r));
+  const auto learn_from = [&](const Log& log) {
+    for (Record& r : make_records(log, model, options.record)) records.push_back(std::move(r));
   };
-  const auto hold_out = [&](const Log& log) {
-    append(d.joint_view.records, log, options.joint_error);
-    append(d.torque_view.records, log, options.record);
+  // What is held out of a log goes on from the part before it: cables remember. That part is driven along, not compared.
+  const auto hold_out = [&](const Log& log, double from) {
+    for (const auto& [view, how] : {std::pair(&d.joint_view, options.joint_error), std::pair(&d.torque_view, options.record)})
+      for (Record& r : make_records(log, model, how)) {
+        if (r.time(r.size - 1) < from) continue;
+        compare_from(r, from);
+        view->records.push_back(std::move(r));
+      }
   };
   for (const Log& log : training) {
     if (holdout) {
-      append(records, log, options.record);
+      learn_from(log);
     } else {
       const auto [first, last] = split_log(log, 2.0 / 3);
-      append(records, first, options.record);
-      hold_out(last);
+      learn_from(first);
+      hold_out(log, last.time.front());
     }
   }
-  if (holdout) hold_out(*holdout);
+  if (holdout) hold_out(*holdout, holdout->time.front());
   d.holdout = holdout ? holdout->source : "last third of the training data";
 
   const Evidence evidence(std::move(records), model);

@@ -63,6 +63,7 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model) : n_(mode
   const double block_s = std::clamp(total / 60, kCorrelationTime, 1.0);
 
   channel_rows_.assign(channels(), 0);
+  fit_count_.assign(channels(), 0);
   int first_block = 0;
   std::vector<double> torque_square(n_, 0), torque_count(n_, 0);
   floor_.assign(channels(), 0);
@@ -82,7 +83,7 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model) : n_(mode
         const bool fit = (first_block + block) % 2 == 0;
         places_.push_back({static_cast<int>(r), c, static_cast<int>(i) / stride_, (first_block + block) / 2, fit});
         ++channel_rows_[c];
-        if (fit) row_channel_.push_back(c);
+        if (fit) row_channel_.push_back(c), ++fit_count_[c];
         last = std::max(last, first_block + block + 1);
         if (!joint) torque_square[k] += record.torque[k][i] * record.torque[k][i], torque_count[k] += 1;
       }

@@ -30,6 +30,8 @@ class Evidence {
   std::vector<std::vector<double>> fit_rows(const std::vector<Hypothesis>& hypotheses) const;
   /// The channel of each fitting row.
   const std::vector<int>& row_channel() const { return row_channel_; }
+  /// The block of each fitting row; rows of all channels share their blocks.
+  const std::vector<int>& row_block() const { return row_block_; }
   /// Mean squares on both kinds of blocks.
   Score score(const Hypothesis& hypothesis) const;
   /// Samples in each deciding block and channel: [block][2n].
@@ -46,6 +48,8 @@ class Evidence {
   Span time_span() const { return time_span_; }
   /// Where joint k was, by its sensor or as the motors tell it.
   Span joint_span(int k) const { return joint_span_[k]; }
+  /// Fitting rows of a channel.
+  int fit_count(int c) const { return fit_count_[c]; }
   bool has_channel(int c) const { return channel_rows_[c] > 0; }
 
  private:
@@ -56,8 +60,8 @@ class Evidence {
   double correlated_rows_;
   std::vector<Record> records_;
   std::vector<Place> places_;
-  std::vector<int> row_channel_;
-  std::vector<int> channel_rows_;
+  std::vector<int> row_channel_, row_block_;
+  std::vector<int> channel_rows_, fit_count_;
   std::vector<std::vector<int>> block_count_;
   std::vector<double> floor_;
   Span time_span_;

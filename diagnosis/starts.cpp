@@ -94,7 +94,8 @@ Start best_start(const Evidence& evidence, const Screen& screen, const Hypothesi
   for (const Tried& t : tried) all.push_back(t.hypothesis);
   const auto rows = evidence.fit_rows(all);
 
-  Start start{with, 0};
+  Start start;
+  start.hypothesis = with;
   std::vector<double> promise(n_combinations, 0);
   std::vector<Hypothesis> asked(n_combinations, neutral);
   std::vector<int> best_of(n_combinations, -1);
@@ -128,10 +129,9 @@ Start best_start(const Evidence& evidence, const Screen& screen, const Hypothesi
     if (promise[order[i]] > 0) second.push_back(asked[order[i]]);
   const auto second_rows = evidence.fit_rows(second);
 
-  double least = std::numeric_limits<double>::infinity();
   const auto consider = [&](const Hypothesis& h, const std::vector<double>& row) {
     const double left = screen.left(row);
-    if (left < least) least = left, start.hypothesis = h;
+    if (left < start.left) start.left = left, start.hypothesis = h;
   };
   for (std::size_t i = 0; i < all.size(); ++i) consider(all[i], rows[i]);
   for (std::size_t i = 0; i < second.size(); ++i) consider(second[i], second_rows[i]);

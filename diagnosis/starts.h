@@ -2,6 +2,8 @@
 /// Where the fit of a candidate sets out: least squares finds only the nearest valley, so sizes and shapes are first
 /// tried over what the candidate may be, and impacts make the residual rough in a size, so they are tried around it again.
 
+#include <limits>
+
 #include "diagnosis/screen.h"
 
 namespace halyard {
@@ -9,6 +11,7 @@ namespace halyard {
 struct Start {
   Hypothesis hypothesis;   ///< the candidate, the last effect, where it takes most of the residual
   double promise = 0;      ///< of the best that was tried, see screen.h; 0: it takes nothing
+  double left = std::numeric_limits<double>::infinity();   ///< |r⊥ + d⊥|² there
 };
 
 /// `with`: the candidate is the last effect. Each of its sizes is tried with each start of the shapes that follow it, at
