@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "app/joint_unit.h"
@@ -34,18 +35,32 @@ Json before_after(const std::vector<double>& before, const std::vector<double>& 
 
 const char* verdict_word(Diagnosis::Verdict verdict) {
   switch (verdict) {
-    case Diagnosis::Verdict::clean: return "clean";
-    case Diagnosis::Verdict::effects: return "effects";
-    case Diagnosis::Verdict::unknown: break;
+    case Diagnosis::Verdict::clean:
+      return "clean";
+    case Diagnosis::Verdict::effects:
+      return "effects";
+    case Diagnosis::Verdict::unknown:
+      break;
   }
   return "unknown";
 }
 
+/// {"joint_position_rms": {"before": [...], "after": [...]}, ...} of each estimator; null where it failed.
+Json estimators_json(const DiagnosisEvaluation& evaluation) {
+  const auto of = [](const std::vector<double>& values) { return values.empty() ? Json(nullptr) : numbers(values); };
+  Json all = Json::object();
+  for (const EstimatorComparison& e : evaluation.estimators)
+    all[e.name] = {{"joint_position_rms", {{"before", of(e.before.rms)}, {"after", of(e.after.rms)}}},
+                   {"joint_position_peak", {{"before", of(e.before.peak)}, {"after", of(e.after.peak)}}}};
+  return all;
+}
+
 }  // namespace
 
-std::string diagnosis_json(const Diagnosis& d) {
+std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   Json effects = Json::array(), refitted = Json::array(), unexplained = Json::array(), not_excited = Json::array();
-  for (const NamedEffect& e : d.effects) {
+  for (std::size_t i = 0; i < d.effects.size(); ++i) {
+    const NamedEffect& e = d.effects[i];
     Json alternatives = Json::array(), parameters = Json::object();
     for (const PlacedEffect& a : e.alternatives)
       alternatives.push_back({{"effect", a.effect->name()}, {"joint", joint_of(a.joint)}});
@@ -55,11 +70,16 @@ std::string diagnosis_json(const Diagnosis& d) {
                        {"joint", joint_of(e.effect.joint)},
                        {"alternatives", alternatives},
                        {"parameters", parameters}});
+    if (i < evaluation.effects.size()) effects.back()["why"] = why_named(d, evaluation, i);
   }
   for (const Estimated& p : d.refitted)
-    refitted.push_back({{"parameter", p.name}, {"from", number(p.nominal)}, {"to", number(p.value)}, {"unit", p.unit},
+    refitted.push_back({{"parameter", p.name},
+                        {"from", number(p.nominal)},
+                        {"to", number(p.value)},
+                        {"unit", p.unit},
                         {"ci95", numbers({p.lower, p.upper})}});
-  for (const Unexplained& u : d.unexplained) unexplained.push_back({{"joint", u.joint + 1}, {"signature", u.signature}});
+  for (const Unexplained& u : d.unexplained)
+    unexplained.push_back({{"joint", u.joint + 1}, {"signature", u.signature}});
   for (const NotExcited& n : d.not_excited)
     not_excited.push_back({{"effect", n.effect}, {"joint", joint_of(n.joint)}, {"why", n.why}});
   const Json all = {{"verdict", verdict_word(d.verdict)},
@@ -71,7 +91,8 @@ std::string diagnosis_json(const Diagnosis& d) {
                      {{"holdout", d.holdout},
                       {"joint_position_rms", before_after(d.before.joint_rms, d.after.joint_rms)},
                       {"joint_position_peak", before_after(d.before.joint_peak, d.after.joint_peak)},
-                      {"motor_torque_rms", before_after(d.before.torque_rms, d.after.torque_rms)}}}};
+                      {"motor_torque_rms", before_after(d.before.torque_rms, d.after.torque_rms)}}},
+                    {"estimators", estimators_json(evaluation)}};
   return all.dump(2) + "\n";
 }
 
@@ -86,7 +107,15 @@ std::string verdict_line(const Diagnosis& d) {
   return line;
 }
 
-void add_verdict(report::Page& page, const Diagnosis& d) {
+std::string alternatives_sentence(const NamedEffect& effect) {
+  if (effect.alternatives.empty()) return "";
+  std::string text = " These data cannot tell it from ";
+  for (std::size_t i = 0; i < effect.alternatives.size(); ++i)
+    text += (i == 0 ? "" : ", ") + effect_label(effect.alternatives[i]);
+  return text + ".";
+}
+
+void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   switch (d.verdict) {
     case Diagnosis::Verdict::clean:
       page.verdict(report::VerdictKind::good, "Clean: the model explains the data to what its sensors resolve.");
@@ -99,13 +128,16 @@ void add_verdict(report::Page& page, const Diagnosis& d) {
     }
     case Diagnosis::Verdict::effects: {
       std::string text = "The model lacks:";
-      for (const NamedEffect& e : d.effects) {
+      for (std::size_t i = 0; i < d.effects.size(); ++i) {
+        const NamedEffect& e = d.effects[i];
         text += "\n" + effect_label(e.effect) + ": " + e.effect.effect->summary() + ".";
-        for (std::size_t i = 0; i < e.alternatives.size(); ++i)
-          text += (i == 0 ? " These data cannot tell it from " : ", ") + effect_label(e.alternatives[i]);
-        if (!e.alternatives.empty()) text += ".";
+        if (i < evaluation.effects.size())
+          text += " " + why_named(d, evaluation, i);
+        else
+          text += alternatives_sentence(e);
       }
-      for (const Unexplained& u : d.unexplained) text += fmt::format("\nLeft unexplained, joint {}: {}.", u.joint + 1, u.signature);
+      for (const Unexplained& u : d.unexplained)
+        text += fmt::format("\nLeft unexplained, joint {}: {}.", u.joint + 1, u.signature);
       page.verdict(report::VerdictKind::warning, text);
       break;
     }
@@ -115,29 +147,75 @@ void add_verdict(report::Page& page, const Diagnosis& d) {
 void add_error_table(report::Page& page, const Diagnosis& d) {
   const std::vector<JointUnit> units = joint_units(d.revised);
   report::Table table;
-  table.caption = "Error on the hold-out (" + d.holdout + "), which no decision has seen";
-  table.header = {"joint", "position RMS before", "after", "position peak before", "after", "torque RMS before [N\u00a0m]", "after [N\u00a0m]"};
-  const auto cell = [](double v, double scale, const std::string& unit) {
-    return std::isfinite(v) ? fmt::format("{:.4g}{}", v * scale, unit.empty() ? "" : " " + unit) : std::string("no sensor");
+  table.caption = "Free prediction: error on the hold-out (" + d.holdout + "), which no decision has seen";
+  table.header = {"joint", "position RMS before",     "after", "position peak before",
+                  "after", "motor torque RMS before", "after"};
+  const auto add = [](std::vector<report::Cell>& row, double before, double after, const ShownUnit& unit) {
+    const auto cell = [&](double v) { return std::isfinite(v) ? shown(v, unit) : std::string("no sensor"); };
+    row.emplace_back(cell(before));
+    row.emplace_back(cell(after), after < 0.9 * before);
   };
   for (int k = 0; k < d.revised.n(); ++k) {
-    const JointUnit& u = units[k];
-    const auto better = [](double before, double after) { return std::isfinite(after) && after < 0.9 * before; };
-    table.rows.push_back({fmt::format("{}", k + 1), cell(d.before.joint_rms[k], u.shown_per_si, u.shown),
-                          {cell(d.after.joint_rms[k], u.shown_per_si, u.shown), better(d.before.joint_rms[k], d.after.joint_rms[k])},
-                          cell(d.before.joint_peak[k], u.shown_per_si, u.shown),
-                          {cell(d.after.joint_peak[k], u.shown_per_si, u.shown), better(d.before.joint_peak[k], d.after.joint_peak[k])},
-                          cell(d.before.torque_rms[k], 1, ""),
-                          {cell(d.after.torque_rms[k], 1, ""), better(d.before.torque_rms[k], d.after.torque_rms[k])}});
+    const ShownUnit position{units[k].shown, units[k].shown_per_si};
+    std::vector<report::Cell> row = {fmt::format("{}", k + 1)};
+    add(row, d.before.joint_rms[k], d.after.joint_rms[k], position);
+    add(row, d.before.joint_peak[k], d.after.joint_peak[k], position);
+    add(row, d.before.torque_rms[k], d.after.torque_rms[k],
+        residual_unit(d.revised.nominal, k, ResidualKind::motor_torque));
+    table.rows.push_back(std::move(row));
   }
   page.table(table);
 }
 
-void write_diagnosis(const std::filesystem::path& folder, const ArmModel& model, const Diagnosis& d) {
+void add_estimator_table(report::Page& page, const ArmModel& model, const DiagnosisEvaluation& evaluation) {
+  if (evaluation.estimators.empty()) return;
+  const std::vector<JointUnit> units = joint_units(model);
+  report::Table table;
+  table.caption =
+      "Estimators on the hold-out, from motor signals and the load on the joint where it was measured: error of the "
+      "joint position";
+  table.header = {"joint", "estimator", "RMS, given model", "revised model", "peak, given model", "revised model"};
+  table.align = {report::Align::left,  report::Align::left,  report::Align::right,
+                 report::Align::right, report::Align::right, report::Align::right};
+  std::string innovations, failures;
+  for (int k = 0; k < model.n(); ++k) {
+    const ShownUnit unit{units[k].shown, units[k].shown_per_si};
+    const auto value = [k](const std::vector<double>& v) {
+      return v.empty() ? std::numeric_limits<double>::quiet_NaN() : v[k];
+    };
+    const auto cell = [&](const std::vector<double>& v) {
+      return v.empty() ? "failed" : std::isfinite(v[k]) ? shown(v[k], unit) : std::string("no sensor");
+    };
+    for (const EstimatorComparison& e : evaluation.estimators)
+      table.rows.push_back({fmt::format("{}", k + 1),
+                            e.name,
+                            cell(e.before.rms),
+                            {cell(e.after.rms), value(e.after.rms) < 0.9 * value(e.before.rms)},
+                            cell(e.before.peak),
+                            {cell(e.after.peak), value(e.after.peak) < 0.9 * value(e.before.peak)}});
+  }
+  page.table(table);
+  for (const EstimatorComparison& e : evaluation.estimators) {
+    if (e.before.mean_nis > 0 && e.after.mean_nis > 0)
+      innovations += fmt::format("{}{} {:.3g} with the given, {:.3g} with the revised model",
+                                 innovations.empty() ? "" : "; ", e.name, e.before.mean_nis, e.after.mean_nis);
+    for (const bool after : {false, true})
+      if (const std::string& failure = (after ? e.after : e.before).failure; !failure.empty())
+        failures += fmt::format("{}{} failed with the {} model: {}", failures.empty() ? "" : "; ", e.name,
+                                after ? "revised" : "given", failure);
+  }
+  if (!innovations.empty())
+    page.paragraph("Innovations, mean of their squares over their predicted variance (1 if the model is right): " +
+                   innovations + ".");
+  if (!failures.empty()) page.paragraph(failures + ".");
+}
+
+void write_diagnosis(const std::filesystem::path& folder, const ArmModel& model, const Diagnosis& d,
+                     const DiagnosisEvaluation& evaluation) {
   const bool given = d.effects.empty() && d.refitted.empty();
   write_file_whole(folder / "model.xml", model_to_xml(given ? model : d.revised));
-  write_file_whole(folder / "diagnosis.json", diagnosis_json(d));
-  diagnosis_page(model, d).write(folder / "report.html");
+  write_file_whole(folder / "diagnosis.json", diagnosis_json(d, evaluation));
+  diagnosis_page(model, d, evaluation).write(folder / "report.html");
 }
 
 }  // namespace halyard

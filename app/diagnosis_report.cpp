@@ -6,20 +6,20 @@
 
 #include "app/diagnosis_output.h"
 #include "app/joint_unit.h"
+#include "app/view_charts.h"
 
 namespace halyard {
 namespace {
 
-std::string interval(const Estimated& p) {
-  return fmt::format("{:.4g} to {:.4g}", p.lower, p.upper);
-}
+std::string interval(const Estimated& p) { return fmt::format("{:.4g} to {:.4g}", p.lower, p.upper); }
 
 void add_numbers(report::Page& page, const Diagnosis& d) {
   if (!d.effects.empty()) {
     report::Table table;
     table.caption = "Parameters of the effects that were added";
     table.header = {"effect", "parameter", "value", "95 % interval", "unit"};
-    table.align = {report::Align::left, report::Align::left, report::Align::right, report::Align::right, report::Align::left};
+    table.align = {report::Align::left, report::Align::left, report::Align::right, report::Align::right,
+                   report::Align::left};
     for (const NamedEffect& e : d.effects)
       for (const Estimated& p : e.parameters)
         table.rows.push_back({effect_label(e.effect), p.name, fmt::format("{:.4g}", p.value), interval(p), p.unit});
@@ -29,9 +29,11 @@ void add_numbers(report::Page& page, const Diagnosis& d) {
     report::Table table;
     table.caption = "Numbers of the model that were refitted within its tolerance: no effects";
     table.header = {"number", "model", "refitted", "95 % interval", "unit"};
-    table.align = {report::Align::left, report::Align::right, report::Align::right, report::Align::right, report::Align::left};
+    table.align = {report::Align::left, report::Align::right, report::Align::right, report::Align::right,
+                   report::Align::left};
     for (const Estimated& p : d.refitted)
-      table.rows.push_back({p.name, fmt::format("{:.5g}", p.nominal), fmt::format("{:.5g}", p.value), interval(p), p.unit});
+      table.rows.push_back(
+          {p.name, fmt::format("{:.5g}", p.nominal), fmt::format("{:.5g}", p.value), interval(p), p.unit});
     page.table(table);
   }
 }
@@ -39,8 +41,8 @@ void add_numbers(report::Page& page, const Diagnosis& d) {
 /// What a chart draws of one joint: a value of each sample, NaN where there is none, over another value.
 using Value = std::function<double(const Record&, const FullPrediction&, std::size_t)>;
 
-report::Series drawn(const char* name, const std::vector<Record>& records, const std::vector<FullPrediction>& predictions,
-                     const Value& x, const Value& y) {
+report::Series drawn(const char* name, const std::vector<Record>& records,
+                     const std::vector<FullPrediction>& predictions, const Value& x, const Value& y) {
   report::Series s;
   s.name = name;
   for (std::size_t r = 0; r < records.size(); ++r)
@@ -65,6 +67,25 @@ void add_residuals(report::Page& page, const Diagnosis& d) {
     if (const auto charts = residual_charts(d, k); !charts.empty()) page.figure_row(charts);
 }
 
+void add_evidence(report::Page& page, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
+  if (evaluation.effects.empty() && evaluation.unexplained.empty()) return;
+  page.heading("Residuals that point");
+  page.paragraph(
+      "Measured less predicted on the training data, on which the verdict rests, over what the residual goes with "
+      "most: by "
+      "the revised model without an effect, and with it. Shares are less what chance would give.");
+  const auto add = [&](const std::string& text, const Evidenced& evidence, bool is_rest) {
+    page.paragraph(text);
+    if (const auto charts = view_charts(evidence, d.revised.nominal, is_rest); !charts.empty()) page.figure_row(charts);
+  };
+  for (std::size_t i = 0; i < evaluation.effects.size(); ++i)
+    add(capitalised(effect_label(d.effects[i].effect)) + ": " + why_named(d, evaluation, i), evaluation.effects[i],
+        false);
+  for (std::size_t i = 0; i < evaluation.unexplained.size(); ++i)
+    add(fmt::format("Left unexplained at joint {}: {}.", d.unexplained[i].joint + 1, d.unexplained[i].signature),
+        evaluation.unexplained[i], true);
+}
+
 void add_candidates(report::Page& page, const Diagnosis& d) {
   for (std::size_t r = 0; r < d.attribution.rounds.size(); ++r) {
     const Round& round = d.attribution.rounds[r];
@@ -80,12 +101,12 @@ void add_candidates(report::Page& page, const Diagnosis& d) {
       table.rows.push_back({{effect_label(t.effect), taken},
                             t.usable ? fmt::format("{:.1f}", t.gain) : std::string("-"),
                             t.usable ? fmt::format("{:.2g}", t.p_value) : std::string("-"),
-                            !t.promising   ? "takes nothing of the residual"
-                            : !t.usable    ? "cannot be integrated"
-                            : taken        ? "added"
-                            : t.gain <= 0  ? "does not help on data that the fit did not see"
-                            : t.at_bound   ? "ends at the end of what is plausible"
-                            : !t.matters   ? "too small to matter"
+                            !t.promising     ? "takes nothing of the residual"
+                            : !t.usable      ? "cannot be integrated"
+                            : taken          ? "added"
+                            : t.gain <= 0    ? "does not help on data that the fit did not see"
+                            : t.at_bound     ? "ends at the end of what is plausible"
+                            : !t.matters     ? "too small to matter"
                             : round.accepted ? "helps less than the first"
                                              : "not significant"});
     }
@@ -99,13 +120,15 @@ std::vector<report::Chart> residual_charts(const Diagnosis& d, int k) {
   const JointUnit unit = joint_units(d.revised)[k];
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double scale = unit.shown_per_si;
+  const ShownUnit torque_unit = residual_unit(d.revised.nominal, k, ResidualKind::motor_torque);
+  const std::string torque_name = residual_name(d.revised.nominal, k, ResidualKind::motor_torque);
   const Value time = [](const Record& r, const FullPrediction&, std::size_t i) { return r.time(i); };
   const Value rate = [k](const Record& r, const FullPrediction&, std::size_t i) { return r.motor_rate[k][i]; };
   const Value joint = [=](const Record& r, const FullPrediction& p, std::size_t i) {
     return r.has_joint(k) && r.joint_valid[k][i] > 0 ? scale * (r.joint_raw[k][i] - p.joint_reading[k][i]) : nan;
   };
   const Value torque = [=](const Record& r, const FullPrediction& p, std::size_t i) {
-    return r.has_torque(k) && r.torque_valid[k][i] > 0 ? 1e3 * p.torque_residual[k][i] : nan;
+    return r.has_torque(k) && r.torque_valid[k][i] > 0 ? torque_unit.per_si * p.torque_residual[k][i] : nan;
   };
   std::vector<report::Chart> charts;
   const auto add = [&](report::Chart chart, const std::string& x, const std::string& y, report::ChartKind kind) {
@@ -114,37 +137,45 @@ std::vector<report::Chart> residual_charts(const Diagnosis& d, int k) {
     chart.kind = kind;
     charts.push_back(std::move(chart));
   };
-  const std::string joint_label = "measured - predicted [" + unit.shown + "]", torque_label = "residual [mN m]";
+  const std::string joint_label = "measured - predicted [" + unit.shown + "]",
+                    torque_label = "residual [" + torque_unit.name + "]";
+  const std::string rate_label =
+      "motor rate [" + abscissa_unit(d.revised.nominal, k, ResidualKind::motor_torque, Abscissa::rate).name + "]";
   const bool has_joint = std::isfinite(d.before.joint_rms[k]), has_torque = std::isfinite(d.before.torque_rms[k]);
   if (has_joint)
-    add(before_and_after(fmt::format("Joint {}: position error", k + 1), d.joint_view, time, joint), "time [s]", joint_label,
-        report::ChartKind::line);
+    add(before_and_after(fmt::format("Joint {}: position error", k + 1), d.joint_view, time, joint), "time [s]",
+        joint_label, report::ChartKind::line);
   if (has_torque)
-    add(before_and_after(fmt::format("Joint {}: motor torque residual", k + 1), d.torque_view, time, torque), "time [s]",
+    add(before_and_after(fmt::format("Joint {}: {}", k + 1, torque_name), d.torque_view, time, torque), "time [s]",
         torque_label, report::ChartKind::line);
   if (has_joint)
     add(before_and_after(fmt::format("Joint {}: position error over motor rate", k + 1), d.joint_view, rate, joint),
-        "motor rate [rad/s]", joint_label, report::ChartKind::scatter);
+        rate_label, joint_label, report::ChartKind::scatter);
   else if (has_torque)
-    add(before_and_after(fmt::format("Joint {}: torque residual over motor rate", k + 1), d.torque_view, rate, torque),
-        "motor rate [rad/s]", torque_label, report::ChartKind::scatter);
+    add(before_and_after(fmt::format("Joint {}: {} over motor rate", k + 1, torque_name), d.torque_view, rate, torque),
+        rate_label, torque_label, report::ChartKind::scatter);
   return charts;
 }
 
-report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d) {
+report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   report::Page page("Diagnosis of " + model.name, "What the model lacks, by measured data");
-  add_verdict(page, d);
+  add_verdict(page, d, evaluation);
   add_error_table(page, d);
   page.paragraph(
-      "Joint position is predicted from motor signals alone: the arm is driven by the measured motor motion and its joints "
+      "Joint position is predicted from motor signals alone: the arm is driven by the measured motor motion and its "
+      "joints "
       "follow through the cables. Torque is predicted from the same motion and low-pass filtered like it.");
+  add_estimator_table(page, model, evaluation);
+  add_evidence(page, d, evaluation);
   add_numbers(page, d);
   page.heading("Residuals on the hold-out");
   add_residuals(page, d);
   page.heading("How the candidates fared");
   page.paragraph(
-      "Each candidate is fitted together with the model's own numbers, kept within their tolerance, on every other block of "
-      "the training data; the gain in log-likelihood is counted on the blocks between, and p is the probability of such a "
+      "Each candidate is fitted together with the model's own numbers, kept within their tolerance, on every other "
+      "block of "
+      "the training data; the gain in log-likelihood is counted on the blocks between, and p is the probability of "
+      "such a "
       "gain if there were none (paired t test over blocks).");
   add_candidates(page, d);
   if (!d.not_excited.empty()) {

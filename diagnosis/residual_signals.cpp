@@ -13,7 +13,7 @@ namespace halyard {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kStep = 0.01;   ///< s; residuals are band-limited to 20 Hz
+constexpr double kStep = 0.01;  ///< s; residuals are band-limited to 20 Hz
 
 /// Position, rate and acceleration of all joints at one instant. [n]
 struct Motion {
@@ -23,8 +23,14 @@ struct Motion {
 class JointObserver {
  public:
   JointObserver(const Record& record, const FullPrediction& prediction, const Hypothesis& h, int joint)
-      : record_(record), prediction_(prediction), transmission_(h.nominal, h.effects), arm_(transmission_.arm()),
-        n_(arm_.n), k_(joint), z_(transmission_.n_states(), 0.0), z_dot_(z_) {
+      : record_(record),
+        prediction_(prediction),
+        transmission_(h.nominal, h.effects),
+        arm_(transmission_.arm()),
+        n_(arm_.n),
+        k_(joint),
+        z_(transmission_.n_states(), 0.0),
+        z_dot_(z_) {
     // Kinematics without stretch are linear.
     from_motors_.resize(n_, n_);
     from_undriven_.resize(n_, n_);
@@ -106,7 +112,7 @@ class JointObserver {
   const Transmission<double> transmission_;
   const ArmParameters<double>& arm_;
   const int n_, k_;
-  std::vector<double> z_, z_dot_;   ///< states of the effects along the measured motion
+  std::vector<double> z_, z_dot_;  ///< states of the effects along the measured motion
   Eigen::MatrixXd from_motors_, from_undriven_, load_of_force_;
   bool all_cables_seen_ = false;
 };
@@ -131,7 +137,8 @@ class Direction {
   double last_ = 1;
 };
 
-/// Directions along a stretch of a signal that begins at `first`; slower than a fiftieth of its usual rate is no motion.
+/// Directions along a stretch of a signal that begins at `first`; slower than a fiftieth of its usual rate is no
+/// motion.
 void append_directions(const std::vector<double>& rate, std::size_t first, double smoothing, std::vector<double>& out) {
   const std::vector<double> own(rate.begin() + static_cast<std::ptrdiff_t>(first), rate.end());
   double square = 0;
@@ -162,16 +169,20 @@ void JointObserver::observe(int stride, ResidualSignals& out) {
     }
     if (!told) continue;
     const Motion implied = unstretched(i, s);
-    const auto residual = [&](ResidualKind kind) -> std::vector<double>& { return out.residual[static_cast<std::size_t>(kind)]; };
+    const auto residual = [&](ResidualKind kind) -> std::vector<double>& {
+      return out.residual[static_cast<std::size_t>(kind)];
+    };
     if (record_.has_joint(k_)) {
       const double reading = joint_valid ? record_.joint[k_][i] : kNone;
       residual(ResidualKind::joint_position).push_back(reading - prediction_.joint_reading[k_][i]);
       if (driven) residual(ResidualKind::transmission).push_back(implied.q(k_) - (reading - s[k_].joint_error));
     }
-    if (all_cables_seen_) residual(ResidualKind::joint_torque).push_back(std::isfinite(joint_torque) ? joint_torque : kNone);
+    if (all_cables_seen_)
+      residual(ResidualKind::joint_torque).push_back(std::isfinite(joint_torque) ? joint_torque : kNone);
     if (record_.has_torque(k_)) {
       // At standstill friction takes any value that balance asks for.
-      const bool counts = record_.torque_valid[k_][i] > 0 && std::abs(record_.motor_rate[k_][i]) >= 2 * joint.motor_smoothing;
+      const bool counts =
+          record_.torque_valid[k_][i] > 0 && std::abs(record_.motor_rate[k_][i]) >= 2 * joint.motor_smoothing;
       residual(ResidualKind::motor_torque).push_back(counts ? prediction_.torque_residual[k_][i] : kNone);
     }
 

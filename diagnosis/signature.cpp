@@ -45,13 +45,14 @@ std::string signature(const Evidence& evidence, const Hypothesis& hypothesis, in
     for (const double y : rest.of(kind))
       if (std::isfinite(y)) square += y * y, count += 1;
     if (count == 0) continue;
-    const double rms = std::sqrt(square / count);
+    const double rms = std::sqrt(square / count), floor = evidence.floor()[channel];
+    if (rms <= floor) continue;
     const ArmParameters<double>& arm = hypothesis.nominal;
     text += fmt::format("{}the {}, {} RMS, is {:.1f} times what its sensor resolves, and ", text.empty() ? "" : "; ",
-                        residual_name(arm, joint, kind), shown(rms, residual_unit(arm, joint, kind)),
-                        rms / evidence.floor()[channel]);
+                        residual_name(arm, joint, kind), shown(rms, residual_unit(arm, joint, kind)), rms / floor);
     const auto view = std::find_if(views.begin(), views.end(), [&](const View& v) { return v.residual == kind; });
-    text += view == views.end() ? "goes with nothing it was drawn over" : view_phrase(*view, arm, joint);
+    text += view == views.end() ? "goes with none of direction, position, rate, load, angle and time"
+                                : view_phrase(*view, arm, joint);
   }
   return text;
 }

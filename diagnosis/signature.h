@@ -5,8 +5,8 @@
 
 namespace halyard {
 
-/// One sentence for joint k (0-based): the size of the rest of its position and its motor's torque on the training records,
-/// and the view that tells most of each (views.h).
+/// One sentence for joint k (0-based): the size of the rest of its position and its motor's torque on the training
+/// records, and the view that tells most of each (views.h).
 std::string signature(const Evidence& evidence, const Hypothesis& hypothesis, int joint);
 
 /// True if joint k moves along one sine, or stands still, in the one record there is: such a motion cannot tell effects

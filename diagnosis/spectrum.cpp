@@ -8,7 +8,8 @@
 
 namespace halyard {
 
-Spectrum spectrum(const std::vector<double>& x, const std::vector<double>& y, double lowest, double highest, double step) {
+Spectrum spectrum(const std::vector<double>& x, const std::vector<double>& y, double lowest, double highest,
+                  double step) {
   if (x.size() != y.size()) throw std::invalid_argument("spectrum: x and y differ in length");
   if (!(step > 0)) throw std::invalid_argument("spectrum: the step has to be positive");
   std::vector<double> at, value;

@@ -1,6 +1,6 @@
 #pragma once
-/// Least-squares spectrum of samples that need not be evenly spaced, over time or over an angle: at each frequency, which
-/// share of the variance does one sine take, its constant fitted along?
+/// Least-squares spectrum of samples that need not be evenly spaced, over time or over an angle: at each frequency,
+/// which share of the variance does one sine take, its constant fitted along?
 ///
 ///   y_i ≈ c + a cos(2π f x_i) + b sin(2π f x_i),   share = 1 - |y - ŷ|² / |y - ȳ|²
 ///
@@ -11,9 +11,9 @@
 namespace halyard {
 
 struct Spectrum {
-  std::vector<double> frequency;   ///< per unit of x
-  std::vector<double> share;       ///< [frequency] 0 to 1
-  std::vector<double> amplitude;   ///< [frequency] of that sine, unit of y
+  std::vector<double> frequency;  ///< per unit of x
+  std::vector<double> share;      ///< [frequency] 0 to 1
+  std::vector<double> amplitude;  ///< [frequency] of that sine, unit of y
 };
 
 /// The strongest line; share 0 without one.
@@ -23,7 +23,8 @@ struct Line {
 
 /// Frequencies lowest, lowest + step, ... up to highest. Samples where x or y is not finite do not count. Throws
 /// std::invalid_argument if x and y differ in length or step is not positive.
-Spectrum spectrum(const std::vector<double>& x, const std::vector<double>& y, double lowest, double highest, double step);
+Spectrum spectrum(const std::vector<double>& x, const std::vector<double>& y, double lowest, double highest,
+                  double step);
 
 Line strongest_line(const Spectrum& spectrum);
 

@@ -24,11 +24,11 @@ std::string abscissa_name(ResidualKind residual, Abscissa abscissa);
 
 /// A value in SI: "0.35 deg"
 std::string shown(double value, const ShownUnit& unit);
-/// "81 %", "0.4 %", "less than 0.1 %"
+/// "81 %", "0.4 %", "less than 0.1 %", "over 99 %"
 std::string shown_share(double share);
 
-/// What a residual does before: "steps by ±0.35 deg at each reversal: 81 % of it goes with the direction of motion". Shares are
-/// of the mean square.
+/// What a residual does before: "steps by ±0.35 deg at each reversal: 81 % of its variance goes with the direction of
+/// motion".
 std::string view_phrase(const View& view, const ArmParameters<double>& arm, int joint);
 
 }  // namespace halyard

@@ -1,23 +1,24 @@
 #pragma once
 /// Residuals that point: over which abscissa does a residual fall onto a curve?
 ///
-///   η² = Σ_b n_b (ȳ_b - ȳ)² / Σ_i (y_i - ȳ)²                 correlation ratio over bins b of the abscissa
-///   explained = (1 - (1 - η²) (N - 1) / (N - B)) var(y) / mean(y²)
+///   R² = 1 - Σ (y - ŷ(x))² / Σ (y - ȳ)²                    ŷ piecewise linear on B knots (curve_fit.h)
+///   explained = 1 - (1 - R²) (N - 1) / (N - B)             of the variance, less what chance gives with B numbers
+///   N = n / (2 Σ_l ρ_y(l) ρ_x(l))                          independent samples, lags l up to the first zero
 ///
-///   y   residual                             ȳ_b, n_b   mean and samples of bin b, B bins
-///   N   independent samples: those there are, over the residual's correlation time
+///   y, x   residual, abscissa    ρ_y, ρ_x   their autocorrelations, ρ(0) counts half    n   samples
 ///
-/// The second line takes off what chance gives with so many bins, and counts against the mean square, so that a constant
-/// has its own share. A loop is a view whose bins are of the abscissa and of the direction of motion.
-/// Source: Fisher, Statistical Methods for Research Workers, § 45; Kelley, Proc. Natl. Acad. Sci. 21 (1935).
+/// A constant has its own share, of the mean square. A loop has a curve for each direction of motion.
+/// Sources: Ezekiel, Methods of Correlation Analysis (1930), of R² less chance; Bartlett, J. R. Stat. Soc. 98 (1935),
+/// of N.
 
+#include "diagnosis/curve_fit.h"
 #include "diagnosis/residual_signals.h"
 #include "diagnosis/spectrum.h"
 
 namespace halyard {
 
 /// What a residual is drawn over. Rate and direction are the motor's for a motor torque, the joint's otherwise;
-/// other_residual is the motor torque's for a position, and the position's for a torque.
+/// other_residual is the position's for a motor torque, the motor torque's otherwise.
 enum class Abscissa {
   constant, direction, joint_position, rate, load, stretch, motor_angle, capstan_angle, time, other_residual
 };
@@ -27,21 +28,19 @@ struct View {
   ResidualKind residual = ResidualKind::joint_position;
   Abscissa abscissa = Abscissa::constant;
   bool loop = false;
-  double explained_before = 0;   ///< share of the mean square before that goes with the abscissa
-  double explained_after = 0;    ///< share of the mean square after that goes with it
-  double left = 0;               ///< mean square after over before
-  double chance = 0;             ///< an explained_before below is what noise may give
-  double swing = 0;              ///< of the bins' means before; after, where there is nothing before
-  Line line = {};                ///< angles: strongest line before, order a turn
-  double removed() const { return explained_before - left * explained_after; }
+  /// Share of the variance before that goes with the abscissa; of a constant: of the mean square.
+  double explained_before = 0;
+  double explained_after = 0;  ///< the same after
+  double variance_left = 0;    ///< variance after over before; a constant: mean square
+  double left = 0;             ///< mean square after over before
+  double chance = 0;           ///< an explained_before below is what noise may give
+  double swing = 0;            ///< of the curve before, end to end; the constant
+  Line line = {};              ///< angles: strongest line before, order a turn
+  double removed() const { return explained_before - variance_left * explained_after; }
 };
 
-/// Mean of a residual in each bin of the abscissa, for drawing; `direction` 1 | -1 for one side of a loop, 0 otherwise.
-struct BinMeans {
-  double direction = 0;
-  std::vector<double> x, mean;
-};
-std::vector<BinMeans> bin_means(const ResidualSignals& signals, const View& view);
+/// The residual as a function of the abscissa, for drawing; of a loop one curve a direction, of a constant none.
+std::vector<Curve> view_curves(const ResidualSignals& signals, const View& view);
 
 /// The abscissa of a view, [samples]; empty if these signals do not have it. A constant has time.
 const std::vector<double>& abscissa_of(const ResidualSignals& signals, ResidualKind residual, Abscissa abscissa);
@@ -51,8 +50,9 @@ double within_turn(Abscissa abscissa, double x);
 /// Every view that the signals allow, before and after; the abscissae are those of `after`.
 std::vector<View> all_views(const ResidualSignals& before, const ResidualSignals& after);
 
-/// The two or three views that carry the evidence for what was added between before and after: most of the residual goes
-/// with the abscissa before and no longer after. Best first, each over another abscissa. Empty if there is none.
+/// The two or three views that carry the evidence for what was added between before and after: much of the residual
+/// goes with the abscissa before and no longer after. Each is over another abscissa; a constant first, if it is most of
+/// the residual, then the best first. Empty if there is none.
 std::vector<View> telling_views(const ResidualSignals& before, const ResidualSignals& after);
 
 /// The same for a rest: the views of joint position and motor torque that explain most of it.

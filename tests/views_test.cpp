@@ -37,16 +37,14 @@ ResidualSignals joint_with(const std::function<double(std::size_t, const Residua
 
 /// White noise, the same on every run.
 std::function<double(std::size_t, const ResidualSignals&)> noise(double deviation, unsigned seed) {
-  return [random = std::mt19937(seed), normal = std::normal_distribution<>(0, deviation)](std::size_t, const ResidualSignals&) mutable {
-    return normal(random);
-  };
+  return [random = std::mt19937(seed), normal = std::normal_distribution<>(0, deviation)](
+             std::size_t, const ResidualSignals&) mutable { return normal(random); };
 }
 
-/// Noise with a correlation time of a fifth of a second, as residuals of a motion have it.
-std::function<double(std::size_t, const ResidualSignals&)> slow_noise(unsigned seed) {
-  return [random = std::mt19937(seed), normal = std::normal_distribution<>(), y = 0.0](std::size_t, const ResidualSignals&) mutable {
-    return y = 0.95 * y + normal(random);
-  };
+/// Noise with a correlation time in s.
+std::function<double(std::size_t, const ResidualSignals&)> slow_noise(double time, unsigned seed) {
+  return [keep = std::exp(-0.01 / time), random = std::mt19937(seed), normal = std::normal_distribution<>(), y = 0.0](
+             std::size_t, const ResidualSignals&) mutable { return y = keep * y + normal(random); };
 }
 
 ArmParameters<double> one_joint() {
@@ -57,9 +55,8 @@ ArmParameters<double> one_joint() {
 
 TEST(Views, AStepAtReversalsIsSeenOverTheDirectionOfMotion) {
   auto rest = noise(2e-4, 1);
-  const ResidualSignals before = joint_with([&](std::size_t i, const ResidualSignals& s) {
-    return 1e-3 * s.joint_direction[i] + rest(i, s);
-  });
+  const ResidualSignals before =
+      joint_with([&](std::size_t i, const ResidualSignals& s) { return 1e-3 * s.joint_direction[i] + rest(i, s); });
   const ResidualSignals after = joint_with(noise(2e-4, 2));
   const std::vector<View> views = telling_views(before, after);
   ASSERT_FALSE(views.empty());
@@ -70,7 +67,7 @@ TEST(Views, AStepAtReversalsIsSeenOverTheDirectionOfMotion) {
   EXPECT_NEAR(views[0].swing, 2e-3, 2 * 5 * 2e-4 / std::sqrt(1500));
   EXPECT_NEAR(views[0].left, 0.04 / 1.04, 0.005);
   EXPECT_EQ(view_phrase(views[0], one_joint(), 0),
-            "steps by ±0.0573 deg at each reversal: 96 % of it goes with the direction of motion");
+            "steps by ±0.0573 deg at each reversal: 96 % of its variance goes with the direction of motion");
 }
 
 TEST(Views, ARippleOfTheMotorIsALineOfItsOrder) {
@@ -97,29 +94,50 @@ TEST(Views, ALoopIsSeenOverLoadAndDirection) {
   ASSERT_FALSE(views.empty());
   EXPECT_TRUE(views[0].loop);
   EXPECT_TRUE(views[0].abscissa == Abscissa::load || views[0].abscissa == Abscissa::joint_position);
-  // A handful of bins on each side: within one the residual still follows the load.
-  EXPECT_GT(views[0].explained_before, 0.75);
-  const std::vector<BinMeans> sides =
-      bin_means(before, {.residual = ResidualKind::joint_position, .abscissa = Abscissa::load, .loop = true});
+  EXPECT_GT(views[0].explained_before, 0.95);
+  const std::vector<Curve> sides =
+      view_curves(before, {.residual = ResidualKind::joint_position, .abscissa = Abscissa::load, .loop = true});
   ASSERT_EQ(sides.size(), 2u);
-  // The mean of what is proportional to the load is proportional to the mean load: rounding of sums of 3000.
-  for (const BinMeans& side : sides)
+  // Each side is straight, and a curve with knots can be: rounding of sums of 3000 times 3e-3, and 1e-12 of
+  // regularisation.
+  for (const Curve& side : sides)
     for (std::size_t b = 0; b < side.x.size(); ++b)
-      EXPECT_NEAR(side.mean[b], (1e-4 * side.direction + 0.5e-4) * side.x[b], 3000 * 3e-3 * 2.3e-16);
+      EXPECT_NEAR(side.y[b], (1e-4 * side.direction + 0.5e-4) * side.x[b], 1e-11);
 }
 
 TEST(Views, AConstantIsToldAsOne) {
-  auto rest = slow_noise(6);
-  const ResidualSignals before = joint_with([&](std::size_t i, const ResidualSignals& s) { return 0.02 + 1e-3 * rest(i, s); });
+  auto rest = slow_noise(0.2, 6);
+  const ResidualSignals before =
+      joint_with([&](std::size_t i, const ResidualSignals& s) { return 0.02 + 1e-3 * rest(i, s); });
   const std::vector<View> views = telling_views(before, joint_with(noise(1e-3, 7)));
   ASSERT_FALSE(views.empty());
   EXPECT_EQ(views[0].abscissa, Abscissa::constant);
 }
 
+std::string told(const std::vector<View>& views) {
+  std::string text;
+  for (const View& v : views) text += view_phrase(v, one_joint(), 0) + "\n";
+  return text;
+}
+
 TEST(Views, NoiseHasNoTellingView) {
+  // Three standard deviations over ten views, with correlation times that are themselves estimated: 1 false alarm in 90
+  // runs was observed, of the noise of 2 s, which has few independent samples in 30 s.
+  int alarms = 0;
   for (unsigned seed = 10; seed < 40; ++seed) {
-    EXPECT_TRUE(telling_views(joint_with(noise(1, seed))).empty()) << "white noise, seed " << seed;
-    EXPECT_TRUE(telling_views(joint_with(slow_noise(seed))).empty()) << "slow noise, seed " << seed;
+    EXPECT_EQ(told(telling_views(joint_with(noise(1, seed)))), "") << "white noise, seed " << seed;
+    EXPECT_EQ(told(telling_views(joint_with(slow_noise(0.2, seed)))), "") << "noise over 0.2 s, seed " << seed;
+    alarms += !telling_views(joint_with(slow_noise(2, seed))).empty();
+  }
+  EXPECT_LE(alarms, 2);
+}
+
+TEST(Views, ADriftHasNoViewOverMotion) {
+  for (unsigned seed = 10; seed < 40; ++seed) {
+    std::vector<View> views = telling_views(joint_with(slow_noise(30, seed)));
+    std::erase_if(views,
+                  [](const View& v) { return v.abscissa == Abscissa::time || v.abscissa == Abscissa::constant; });
+    EXPECT_EQ(told(views), "") << "seed " << seed;
   }
 }
 
@@ -132,7 +150,7 @@ TEST(Views, WhatStaysIsNoEvidenceForWhatWasAdded) {
 TEST(Spectrum, ASineOffsetByAConstantHasAllOfTheVarianceAtItsFrequency) {
   std::vector<double> x, y;
   for (int i = 0; i < 500; ++i) {
-    x.push_back(0.02 * i + 0.006 * std::sin(3.0 * i));   // uneven
+    x.push_back(0.02 * i + 0.006 * std::sin(3.0 * i));  // uneven
     y.push_back(7 + 0.3 * std::cos(2 * kPi * 1.5 * x.back() + 1));
   }
   const Line line = strongest_line(spectrum(x, y, 0.5, 4, 0.025));

@@ -1,0 +1,32 @@
+#pragma once
+/// A signal as a function of another: least squares with hat functions, on knots that have as many samples on either
+/// side.
+///
+///   ŷ(x) = Σ_b c_b h_b(x),   h_b(x_b) = 1, linear to 0 at the neighbours' knots
+///
+/// One curve, or one for each direction of motion; over an angle, periodic.
+
+#include <vector>
+
+namespace halyard {
+
+/// Knots of one curve, and its values there.
+struct Curve {
+  double direction = 0;  ///< 1 | -1: of the motion for which it holds; 0: of any
+  std::vector<double> x, y;
+};
+
+struct CurveFit {
+  std::vector<Curve> curves;
+  double explained = 0;  ///< R², of the variance of y
+  int numbers = 0;       ///< that were fitted, B
+  double swing() const;  ///< greatest less least value
+};
+
+/// x, y, and direction (1 | -1; empty: one curve for both) have equal lengths; samples that are not finite do not
+/// count. Equal knots are one: over a direction of motion two are left. `period` 0: none; otherwise x lies in [0,
+/// period).
+CurveFit fit_curve(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& direction,
+                   int knots, double period);
+
+}  // namespace halyard
