@@ -248,10 +248,10 @@ class Search {
     return t.usable && !t.at_bound && t.matters && t.gain > 0 && t.p_value * static_cast<double>(candidates) < options_.significance;
   }
 
-  /// True if no channel has a residual left that an effect could take and matter.
+  /// True if no channel has a residual left above its floor.
   bool explained(const Score& score) const {
     for (int c = 0; c < evidence_.channels(); ++c) {
-      const double enough = std::pow(kMattersFactor * evidence_.floor()[c], 2);
+      const double enough = std::pow(evidence_.floor()[c], 2);
       if (evidence_.has_channel(c) && (score.mean_square[c] > enough || score.fit_mean_square[c] > enough)) return false;
     }
     return true;

@@ -65,34 +65,65 @@ Estimated estimated(const Fit& f, std::size_t i) {
   return {p.name, p.unit, f.value[i], std::max(f.value[i] - half, p.lower), std::min(f.value[i] + half, p.upper), p.nominal};
 }
 
-/// A refit that is told: the model's number lies far outside its interval. Of some thirty numbers one in a thousand
+/// A refit that is told lies so many standard deviations off the model's number. Of some thirty numbers one in a thousand
 /// clean diagnoses then shows a refit by chance.
+constexpr double kRefit = 4;
+
 bool is_refit(const Fit& f, std::size_t i) {
-  constexpr double kFar = 4;
-  return f.parameters[i].effect < 0 && std::abs(f.value[i] - f.parameters[i].nominal) > kFar * f.std_deviation[i];
+  return f.parameters[i].effect < 0 && std::abs(f.value[i] - f.parameters[i].nominal) > kRefit * f.std_deviation[i];
 }
 
-/// Numbers that the data did not move for certain go back to the model's, parameters of an effect to neutral as long as
-/// another of its parameters stays; the rest is fitted again.
+/// Numbers that the data did not move for certain go back to the model's, sizes of an effect to neutral as long as another
+/// of its sizes stays; the rest is fitted again. They go one by one, the least certain first: of two numbers that the data
+/// know only the sum of, one is needed.
 Fit keep_certain_numbers(const Evidence& evidence, const Fit& f, const Score& score) {
-  const auto certain = [&](std::size_t i) {
-    return std::abs(f.value[i] - f.parameters[i].nominal) > kTwoSided95 * f.std_deviation[i];
-  };
-  const auto effect_keeps_another = [&](std::size_t i) {
+  Eigen::VectorXd value = Eigen::Map<const Eigen::VectorXd>(f.value.data(), static_cast<Eigen::Index>(f.value.size()));
+  Eigen::MatrixXd covariance = f.covariance;
+  std::vector<bool> kept(f.parameters.size(), true);
+  const auto may_go = [&](std::size_t i) {
+    const FitParameter& p = f.parameters[i];
+    if (!kept[i] || p.shape) return false;
+    if (p.effect < 0) return true;
     for (std::size_t j = 0; j < f.parameters.size(); ++j)
-      if (j != i && f.parameters[j].effect == f.parameters[i].effect && certain(j)) return true;
+      if (j != i && kept[j] && !f.parameters[j].shape && f.parameters[j].effect == p.effect) return true;
     return false;
   };
+  while (true) {
+    std::size_t least = f.parameters.size();
+    double certainty = 1;
+    for (std::size_t i = 0; i < f.parameters.size(); ++i) {
+      if (!may_go(i)) continue;
+      const double needed = f.parameters[i].effect < 0 ? kRefit : kTwoSided95;
+      const double has = std::abs(value(i) - f.parameters[i].nominal) / (needed * std::sqrt(covariance(i, i)));
+      if (has < certainty) certainty = has, least = i;
+    }
+    if (least == f.parameters.size()) break;
+    // The others make up for it as far as they can.
+    const Eigen::VectorXd gain = covariance.col(least) / covariance(least, least);
+    value -= gain * (value(least) - f.parameters[least].nominal);
+    covariance -= gain * covariance.row(least);
+    kept[least] = false;
+  }
+  // Shapes of sizes that are gone shape nothing.
+  bool sized = false;
+  for (std::size_t i = 0; i < f.parameters.size(); ++i) {
+    if (f.parameters[i].effect < 0) continue;
+    if (f.parameters[i].shape) {
+      kept[i] = sized;
+    } else {
+      const bool starts_group = i == 0 || f.parameters[i - 1].shape || f.parameters[i - 1].effect != f.parameters[i].effect;
+      sized = (starts_group ? false : sized) || kept[i];
+    }
+  }
+
   Hypothesis h = f.hypothesis;
-  std::vector<FitParameter> kept;
+  std::vector<FitParameter> left;
   for (std::size_t i = 0; i < f.parameters.size(); ++i) {
     const FitParameter& p = f.parameters[i];
-    if (p.effect >= 0 ? certain(i) || !effect_keeps_another(i) : is_refit(f, i))
-      kept.push_back(p);
-    else
-      set_parameter(h, p, p.nominal);
+    set_parameter(h, p, kept[i] ? std::clamp(value(i), p.lower, p.upper) : p.nominal);
+    if (kept[i]) left.push_back(p);
   }
-  const Fit again = fit(evidence, h, kept, channel_scale(evidence, score.fit_mean_square));
+  const Fit again = fit(evidence, h, left, channel_scale(evidence, score.fit_mean_square));
   return again.usable ? again : f;
 }
 

@@ -237,10 +237,12 @@ Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<Fit
   if (!residual.Evaluate(&block, r.data(), &jacobian)) return result;
   Eigen::MatrixXd information = J.transpose() * J;
   information.diagonal().array() += 1e-9;
-  const Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
+  Eigen::VectorXd unit(p);
+  for (std::size_t i = 0; i < p; ++i) unit(static_cast<Eigen::Index>(i)) = parameters[i].scale;
+  result.covariance = unit.asDiagonal() * information.ldlt().solve(Eigen::MatrixXd::Identity(p, p)) * unit.asDiagonal();
   for (std::size_t i = 0; i < p; ++i) {
     result.value.push_back(u[i] * parameters[i].scale + residual.origin(i));
-    result.std_deviation.push_back(std::sqrt(std::max(0.0, covariance(i, i))) * parameters[i].scale);
+    result.std_deviation.push_back(std::sqrt(std::max(0.0, result.covariance(i, i))));
     set_parameter(result.hypothesis, parameters[i], result.value.back());
   }
   result.usable = true;

@@ -8,6 +8,7 @@
 ///   m      rows that are worth one independent sample
 ///   θ_b    baseline numbers, each kept within its tolerance; effects' parameters have bounds and no prior
 
+#include <Eigen/Core>
 #include <string>
 
 #include "diagnosis/evidence.h"
@@ -51,6 +52,7 @@ struct Fit {
   Hypothesis hypothesis;
   std::vector<FitParameter> parameters;
   std::vector<double> value, std_deviation;   ///< [parameters]; deviation from the curvature at the end
+  Eigen::MatrixXd covariance;                 ///< of the values, [parameters x parameters]
   bool usable = false;                        ///< false: the start could not be integrated
 };
 

@@ -1,5 +1,6 @@
 #include "bench/diagnosis/trial.h"
 
+#include <fmt/core.h>
 #include <time.h>
 
 #include <algorithm>
@@ -193,11 +194,20 @@ Result run_trial(const ArmModel& model, Kind kind, int index, const TrialOptions
     }
   }
 
+  if (!options.logs.empty()) {
+    const std::filesystem::path folder = options.logs / fmt::format("{}-{:06}", word(kind), index);
+    std::filesystem::create_directories(folder);
+    write_log(folder / "train.csv", recording->training);
+    if (recording->holdout) write_log(folder / "holdout.csv", *recording->holdout);
+  }
+
   const auto wall = std::chrono::steady_clock::now();
   const double cpu = thread_seconds();
   Diagnosis d;
   try {
-    d = diagnose(model, {recording->training}, recording->holdout, {});
+    DiagnosisOptions how;
+    how.tell_not_excited = false;   // is not asked for, and would take as long as a clean log's whole diagnosis
+    d = diagnose(model, {recording->training}, recording->holdout, how);
   } catch (const std::exception& error) {
     r.failure = std::string("diagnose: ") + error.what();
     return r;

@@ -21,6 +21,7 @@
 /// gains scatter by ±40 %.
 
 #include <cstdint>
+#include <filesystem>
 
 #include "bench/diagnosis/result.h"
 #include "model/arm_model.h"
@@ -30,6 +31,7 @@ namespace halyard::blind {
 struct TrialOptions {
   std::uint64_t seed = 1;
   double limit = 6;  ///< strength above which an effect has to be found
+  std::filesystem::path logs;  ///< folder for the logs that were diagnosed; empty: they are not kept
 };
 
 /// Depends on its arguments alone. A trial that cannot be run tells why in Result::failure.
