@@ -14,6 +14,7 @@
 #include "app/estimate_command.h"
 #include "app/estimator_list.h"
 #include "app/experiments_command.h"
+#include "app/plan_command.h"
 #include "app/plugins_command.h"
 #include "app/simulate_command.h"
 #include "app/sweep_command.h"
@@ -118,20 +119,48 @@ void add_compare_command(CLI::App& app) {
 void add_diagnose_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("diagnose", "find what the model lacks by measured data, and add it");
   const auto options = std::make_shared<DiagnoseCommandOptions>();
-  command.add_option("--model", options->model, "model file")->type_name("M.xml")->required();
-  command.add_option("--data", options->data, "log to learn from; may be repeated")
-      ->type_name("LOG.csv")
-      ->required()
-      ->take_all()
-      ->allow_extra_args(false);
-  command.add_option("--holdout", options->holdout, "log to tell the errors on; default: the last third of each log")
-      ->type_name("LOG.csv");
-  command.add_option("--out", options->out, "folder of model.xml, diagnosis.json and report.html")
-      ->type_name("DIR")
-      ->required();
+  const auto plan = std::make_shared<PlanCommandOptions>();
+  const auto plan_files = std::make_shared<std::vector<std::filesystem::path>>();
+  CLI::Option* model = command.add_option("--model", options->model, "model file")->type_name("M.xml");
+  CLI::Option* data = command.add_option("--data", options->data, "log to learn from; may be repeated")
+                          ->type_name("LOG.csv")
+                          ->take_all()
+                          ->allow_extra_args(false);
+  CLI::Option* holdout =
+      command.add_option("--holdout", options->holdout, "log to tell the errors on; default: the last third of each log")
+          ->type_name("LOG.csv");
+  CLI::Option* out =
+      command.add_option("--out", options->out, "folder of model.xml, diagnosis.json and report.html; of a plan")
+          ->type_name("DIR");
   add_columns_option(command, options->columns);
   add_effects_option(command);
-  finish(command, [options] { run_diagnose(*options); });
+  CLI::Option* planned = command
+                             .add_option("--plan", *plan_files,
+                                         "before there are data: which effects a diagnosis of this model in the "
+                                         "scenario's motion would see, from what size on")
+                             ->type_name("MODEL.xml SCENARIO.xml")
+                             ->expected(2)
+                             ->excludes(model)
+                             ->excludes(data)
+                             ->excludes(holdout);
+  command.add_option("--separate", plan->separate, "with --plan: propose a motion that tells these two apart")
+      ->type_name("EFFECT@JOINT,EFFECT@JOINT")
+      ->needs(planned);
+  command
+      .add_flag_callback("--no-joint-sensor", [plan] { plan->joint_sensor = false; },
+                         "with --plan: the joints will have no sensor, only the motors")
+      ->needs(planned);
+  finish(command, [=] {
+    if (planned->count() > 0) {
+      plan->model = plan_files->at(0);
+      plan->scenario = plan_files->at(1);
+      plan->out = options->out;
+      return run_plan(*plan);
+    }
+    for (const CLI::Option* required : {model, data, out})
+      if (required->count() == 0) throw CLI::RequiredError(required->get_name());
+    run_diagnose(*options);
+  });
 }
 
 void add_experiments_command(CLI::App& app) {

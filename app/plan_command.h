@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace halyard {
+
+struct PlanCommandOptions {
+  std::filesystem::path model, scenario;
+  std::string separate;       ///< "EFFECT@JOINT,EFFECT@JOINT"; empty: no motion is proposed
+  bool joint_sensor = true;   ///< false: the joints will have no sensor
+  std::filesystem::path out;  ///< folder of plan.html, plan.json and scenario.xml; empty: none
+};
+
+/// halyard diagnose --plan: which effects a diagnosis of this arm in this motion would see, and a motion that tells two
+/// of them apart. The arm is simulated as the model has it: effects and changed numbers of the scenario are left out.
+void run_plan(const PlanCommandOptions& options);
+
+}  // namespace halyard
