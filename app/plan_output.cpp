@@ -43,11 +43,11 @@ std::string confused_text(const DetectionLimit& d) {
   return text;
 }
 
-/// "|cos| 0.97, not told apart; backlash of joint 1 from half_gap 1e-05 m on, ..."
+/// "|cos| 0.97, not told apart", and a line for each effect.
 std::string separation_text(const Separation& s) {
-  std::string text = fmt::format("|cos| {:.3f}, {}", s.cosine, s.told_apart ? "told apart" : "not told apart");
+  std::string text = fmt::format("|cos| {:.3f}, {}\n", s.cosine, s.told_apart ? "told apart" : "not told apart");
   for (const DetectionLimit* d : {&s.first, &s.second})
-    text += fmt::format("; {}: {}{}", effect_label(d->effect), d->excited ? "from " : "", limit_text(*d));
+    text += fmt::format("  {} {}{}\n", effect_label(d->effect), d->excited ? "from " : "", limit_text(*d));
   return text;
 }
 
@@ -165,8 +165,8 @@ std::string plan_text(const Plan& plan) {
   if (plan.names_nothing) text += fmt::format("{}\n", kNamesNothing);
   if (!plan.separating) return text;
   const SeparatingMotion& m = *plan.separating;
-  text += fmt::format("{}, given motion: {}\n", pair_text(m), separation_text(m.given));
-  text += m.scenario ? fmt::format("{}, proposed motion: {}\n", pair_text(m), separation_text(m.proposed))
+  text += fmt::format("{}, given motion: {}", pair_text(m), separation_text(m.given));
+  text += m.scenario ? fmt::format("{}, proposed motion: {}", pair_text(m), separation_text(m.proposed))
                      : fmt::format("none of {} motions separates them better\n", m.tried);
   return text;
 }
