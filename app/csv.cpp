@@ -23,7 +23,8 @@ void CsvTable::add(double value) {
 }
 
 void CsvTable::add_time(double seconds) {
-  fmt::format_to(std::back_inserter(text_), "{:.12g}", seconds);
+  // Microseconds, on the clock of the Unix epoch too.
+  fmt::format_to(std::back_inserter(text_), fmt::runtime(std::abs(seconds) < 1e5 ? "{:.12g}" : "{:.6f}"), seconds);
   end_cell();
 }
 

@@ -33,7 +33,7 @@ class Samples {
     sample_.time_s = log_.time[i];
     for (int k = 0; k < log_.n_joints; ++k) {
       sample_.motor_torque[k] = log_.motor_torque[k].empty() ? kNan : log_.motor_torque[k][i];
-      sample_.motor_position[k] = log_.motor_position[k][i];
+      sample_.motor_position[k] = log_.motor_position[k].empty() ? 0 : log_.motor_position[k][i];  // no motor
       if (sample_.joint_torque.size() == 0 || log_.joint_torque[k].empty()) continue;
       if (!std::isnan(log_.joint_torque[k][i])) sample_.joint_torque[k] = log_.joint_torque[k][i];
     }
@@ -54,7 +54,8 @@ class Samples {
 
 std::size_t first_complete_row(const Log& log) {
   for (std::size_t i = 0; i < log.size(); ++i) {
-    if (std::ranges::none_of(log.motor_position, [i](const auto& column) { return std::isnan(column[i]); })) return i;
+    const auto misses = [i](const auto& column) { return !column.empty() && std::isnan(column[i]); };
+    if (std::ranges::none_of(log.motor_position, misses)) return i;
   }
   throw InputError(
       log.source +
@@ -82,6 +83,7 @@ EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const 
   run.name = name;
   run.estimates = Log(log.n_joints);
   run.estimates.time = log.time;
+  run.estimates.clock_start = log.clock_start;
   run.estimates.source = log.source;
   const std::vector<double> unknown(log.size(), kNan);
   run.estimates.joint_position.assign(log.n_joints, unknown);
@@ -128,7 +130,7 @@ void write_estimates(const std::filesystem::path& path, const EstimatorRun& run,
   }
   CsvTable table(header, comment);
   for (std::size_t i = 0; i < run.estimates.size(); ++i) {
-    table.add_time(run.estimates.time[i]);
+    table.add_time(run.estimates.clock_start + run.estimates.time[i]);
     for (const Signals* signal :
          {&run.estimates.joint_position, &run.estimates.joint_velocity, &run.joint_position_std}) {
       for (const auto& column : *signal) table.add(column[i]);

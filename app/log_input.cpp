@@ -1,5 +1,7 @@
 #include "app/log_input.h"
 
+#include "model/homing.h"
+
 namespace halyard {
 
 Log read_log_of(const ArmModel& model, const std::filesystem::path& path,
@@ -8,7 +10,12 @@ Log read_log_of(const ArmModel& model, const std::filesystem::path& path,
   for (const std::string& entry : column_entries) given.add_entry(entry);
   ColumnMap map = model.columns;
   map.override_with(given);
-  return read_log(path, model.n(), map, {.torque_required = torque_required});
+  ReadOptions options{.torque_required = torque_required};
+  for (int k = 0; k < model.n(); ++k)
+    if (model.nominal.joint[k].drive == Drive::none) options.without_motor.push_back(k);
+  Log log = read_log(path, model.n(), map, options);
+  home_encoders(log, model);
+  return log;
 }
 
 std::string ignored_columns_note(const Log& log) {

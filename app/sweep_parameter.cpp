@@ -36,11 +36,15 @@ std::optional<EffectKey> parse_effect_key(std::string_view key) {
   return parsed;
 }
 
-PlacedEffect& placed_effect(ArmModel& model, const Effect& effect, int joint) {
+/// The model's effect, or a new one. Placed for one of its sizes it has no other; for a shape it has typical sizes.
+PlacedEffect& placed_effect(ArmModel& model, const Effect& effect, int joint, const std::string& parameter) {
   for (PlacedEffect& placed : model.effects) {
     if (placed.effect == &effect && placed.joint == joint) return placed;
   }
-  model.effects.push_back(place_effect(effect, model.nominal, joint));
+  PlacedEffect placed = place_effect(effect, model.nominal, joint);
+  for (const EffectParameter& p : effect.parameters(model.nominal, joint))
+    if (p.name == parameter && !p.is_shape()) placed = place_neutral_effect(effect, model.nominal, joint);
+  model.effects.push_back(placed);
   return model.effects.back();
 }
 
@@ -51,7 +55,7 @@ std::pair<double*, std::string> effect_parameter(ArmModel& model, const EffectKe
   if (!effect) {
     std::vector<std::string> names;
     for (const Effect* known : effect_library()) names.push_back(known->name());
-    fail(fmt::format("unknown effect; expected one of {}", fmt::join(names, ", ")));
+    fail(fmt::format("unknown effect; expected one of {}, or one of a module given by --effects", fmt::join(names, ", ")));
   }
   const EffectScope scope = effect->scope();
   if ((key.joint < 0 ? scope == EffectScope::joint : scope == EffectScope::arm) || key.joint >= model.n()) {
@@ -62,7 +66,7 @@ std::pair<double*, std::string> effect_parameter(ArmModel& model, const EffectKe
   }
   PlacedEffect* placed = nullptr;
   try {
-    placed = &placed_effect(model, *effect, key.joint);
+    placed = &placed_effect(model, *effect, key.joint, key.parameter);
   } catch (const std::invalid_argument& error) {
     fail(std::string(error.what()) + "; name another joint");
   }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <mutex>
 
+#include "diagnosis/calibrate.h"
 #include "diagnosis/signature.h"
 
 namespace halyard {
@@ -76,14 +77,14 @@ bool is_refit(const Fit& f, std::size_t i) {
 /// Numbers that the data did not move for certain go back to the model's, sizes of an effect to neutral as long as another
 /// of its sizes stays; the rest is fitted again. They go one by one, the least certain first: of two numbers that the data
 /// know only the sum of, one is needed.
-Fit keep_certain_numbers(const Evidence& evidence, const Fit& f, const Score& score) {
+Fit keep_certain_numbers(const Evidence& evidence, const ArmModel& model, const Fit& f, const Score& score) {
   Eigen::VectorXd value = Eigen::Map<const Eigen::VectorXd>(f.value.data(), static_cast<Eigen::Index>(f.value.size()));
   Eigen::MatrixXd covariance = f.covariance;
   std::vector<bool> kept(f.parameters.size(), true);
   const auto may_go = [&](std::size_t i) {
     const FitParameter& p = f.parameters[i];
     if (!kept[i] || p.shape) return false;
-    if (p.effect < 0) return true;
+    if (p.effect < 0) return !is_unknown_scale(model, p.index);
     for (std::size_t j = 0; j < f.parameters.size(); ++j)
       if (j != i && kept[j] && !f.parameters[j].shape && f.parameters[j].effect == p.effect) return true;
     return false;
@@ -94,7 +95,11 @@ Fit keep_certain_numbers(const Evidence& evidence, const Fit& f, const Score& sc
     for (std::size_t i = 0; i < f.parameters.size(); ++i) {
       if (!may_go(i)) continue;
       const double needed = f.parameters[i].effect < 0 ? kRefit : kTwoSided95;
-      const double has = std::abs(value(i) - f.parameters[i].nominal) / (needed * std::sqrt(covariance(i, i)));
+      const FitParameter& p = f.parameters[i];
+      // At the end of what is plausible a size explains nothing.
+      const double margin = 1e-3 * (p.upper - p.lower);
+      const bool at_end = p.effect >= 0 && !p.natural_bounds && (value(i) < p.lower + margin || value(i) > p.upper - margin);
+      const double has = at_end ? 0 : std::abs(value(i) - p.nominal) / (needed * std::sqrt(covariance(i, i)));
       if (has < certainty) certainty = has, least = i;
     }
     if (least == f.parameters.size()) break;
@@ -181,11 +186,12 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
   if (holdout) hold_out(*holdout, holdout->time.front());
   d.holdout = holdout ? holdout->source : "last third of the training data";
 
-  const Evidence evidence(std::move(records), model);
-  d.attribution = attribute(evidence, model, options.attribution, say);
+  d.given = calibrated(model, records);
+  const Evidence evidence(std::move(records), d.given);
+  d.attribution = attribute(evidence, d.given, options.attribution, say);
   say("final fit", 0);
   const std::size_t given = model.effects.size();
-  const Fit final_fit = keep_certain_numbers(evidence, d.attribution.final_fit, d.attribution.final_score);
+  const Fit final_fit = keep_certain_numbers(evidence, model, d.attribution.final_fit, d.attribution.final_score);
   d.attribution.final_fit = final_fit;
   d.attribution.final_score = evidence.score(final_fit.hypothesis);
   const Hypothesis& h = final_fit.hypothesis;
@@ -202,8 +208,13 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
     d.effects.push_back(std::move(named));
   }
   const bool would_name = h.effects.size() > given;
-  for (std::size_t i = 0; i < final_fit.parameters.size() && !(all_one_sine && would_name); ++i)
-    if (is_refit(final_fit, i)) d.refitted.push_back(estimated(final_fit, i));
+  for (std::size_t i = 0; i < final_fit.parameters.size() && !(all_one_sine && would_name); ++i) {
+    const FitParameter& p = final_fit.parameters[i];
+    const bool was_unknown = p.effect < 0 && is_unknown_scale(model, p.index);
+    if (!was_unknown && !is_refit(final_fit, i)) continue;
+    d.refitted.push_back(estimated(final_fit, i));
+    if (was_unknown) d.refitted.back().nominal = parameter_value({model.nominal, {}}, p);
+  }
 
   const std::vector<bool> rest_of = significant_rest(evidence, d.attribution.final_score);
   for (int k = 0; k < model.n(); ++k) {
@@ -213,6 +224,10 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
     else if (rest)
       d.unexplained.push_back({k, signature(evidence, h, k)});
   }
+  for (const Log& log : training)
+    for (const int k : stuck_joint_sensors(log, model))
+      d.unexplained.push_back({k, "its sensor stands still in " + log.source + " while its motor moves, and was left out: "
+                                  "stuck, not connected, or the joint is not driven by this motor"});
   d.verdict = !d.effects.empty() ? Diagnosis::Verdict::effects
               : d.unexplained.empty() ? Diagnosis::Verdict::clean : Diagnosis::Verdict::unknown;
   if (options.tell_not_excited) {
@@ -220,14 +235,14 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
     d.not_excited = not_excited(evidence, model, h);
   }
 
-  d.revised = model;
+  d.revised = d.given;
   if (!all_one_sine || !would_name) {
     d.revised.nominal = h.nominal;
     d.revised.effects = h.effects;
   }
   say("hold-out", 0);
   for (HoldOut* view : {&d.joint_view, &d.torque_view}) {
-    view->before = predict_all(view->records, {model.nominal, model.effects});
+    view->before = predict_all(view->records, {d.given.nominal, d.given.effects});
     view->after = predict_all(view->records, {d.revised.nominal, d.revised.effects});
   }
   d.before = errors(d.joint_view, d.torque_view, model.n(), &HoldOut::before);

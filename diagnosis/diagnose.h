@@ -57,9 +57,10 @@ struct Diagnosis {
   std::vector<Estimated> refitted;
   std::vector<Unexplained> unexplained;
   std::vector<NotExcited> not_excited;
+  ArmModel given;                        ///< the model as given, its unknown torque scales calibrated
   ArmModel revised;
   std::string holdout;                   ///< what the errors were measured on
-  PredictionError before, after;         ///< on the hold-out, by the given and by the revised model
+  PredictionError before, after;         ///< on the hold-out, by `given` and by `revised`
   Attribution attribution;
   HoldOut joint_view, torque_view;       ///< in the bands of DiagnosisOptions::joint_error and ::record
 };

@@ -95,7 +95,8 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model) : n_(mode
     first_block = last;
   }
   for (int k = 0; k < n_; ++k)
-    if (torque_count[k] > 0) floor_[k] = kTorqueFloor * std::sqrt(torque_square[k] / torque_count[k]);
+    if (torque_count[k] > 0)
+      floor_[k] = kTorqueFloor * model.nominal.joint[k].torque_scale * std::sqrt(torque_square[k] / torque_count[k]);
 
   time_span_ = {records_.front().start, records_.front().start};
   for (const Record& r : records_)

@@ -7,13 +7,14 @@
 ///   ε = τ(command) - (r_m / N) g - J q_m''               torque residual at the motor shaft
 ///
 /// A rigidly driven joint has its motion prescribed; its transmission force λ follows from
-/// R q'' = (r_m / N) q_m'' and takes the place of g.
+/// R q'' = (r_m / N) q_m'' and takes the place of g. A joint without a motor has its own motion prescribed, q'' given: it
+/// is held, or driven by somebody else, with a force λ that nothing is known of.
 
 #include "estimators/arm_dynamics.h"
 
 namespace halyard {
 
-/// Motor motion and known torques at one instant, [n].
+/// Motor motion and known torques at one instant, [n]; of a joint without a motor, the joint's own motion.
 struct DrivenInput {
   double motor_angle[kMaxJoints], motor_rate[kMaxJoints], motor_acceleration[kMaxJoints];
   double torque[kMaxJoints], external[kMaxJoints];
@@ -25,11 +26,15 @@ struct DrivenState {
   T q[kMaxJoints], v[kMaxJoints], z[kMaxStates];
 };
 
-/// Puts rigidly driven joints where their motors are; coupling comes from inboard joints only.
+/// Puts joints where their motion is prescribed; coupling comes from inboard joints only.
 template <class T>
-HALYARD_INLINE void prescribe_rigid(const ArmParameters<T>& arm, const DrivenInput& u, DrivenState<T>& x) {
+HALYARD_INLINE void prescribe(const ArmParameters<T>& arm, const DrivenInput& u, DrivenState<T>& x) {
   for (int k = 0; k < arm.n; ++k) {
     const JointParameters<T>& j = arm.joint[k];
+    if (j.drive == Drive::none) {
+      x.q[k] = T(u.motor_angle[k]) - j.joint_encoder_offset;
+      x.v[k] = u.motor_rate[k];
+    }
     if (j.drive != Drive::rigid) continue;
     const T turns = j.motor_travel() / j.pulley_radius;
     T q = turns * (u.motor_angle[k] - j.motor_encoder_offset), v = turns * u.motor_rate[k];
@@ -44,10 +49,11 @@ template <class T>
 struct ChainOverStep {
   T M[kMaxJoints][kMaxJoints];        ///< factored mass matrix
   T bias[kMaxJoints];                 ///< velocity and gravity forces
-  int n_rigid = 0;
-  int rigid[kMaxJoints];              ///< joints with a rigid drive
-  T response[kMaxJoints][kMaxJoints]; ///< M⁻¹ R_rᵀ of rigid drive r
-  T A[kMaxJoints][kMaxJoints];        ///< factored R M⁻¹ Rᵀ of the rigid drives
+  int n_prescribed = 0;
+  int prescribed[kMaxJoints];         ///< joints with a rigid drive or none
+  T row[kMaxJoints][kMaxJoints];      ///< R: a row of the path matrix, or of the unit matrix where there is no drive
+  T response[kMaxJoints][kMaxJoints]; ///< M⁻¹ R_rᵀ of each
+  T A[kMaxJoints][kMaxJoints];        ///< factored R M⁻¹ Rᵀ
 };
 
 template <class T>
@@ -60,25 +66,29 @@ HALYARD_INLINE void chain_over_step(const ArmParameters<T>& arm, const DrivenSta
   inverse_dynamics(arm, pose, x.v, zero, chain.bias);
   mass_matrix(arm, pose, chain.M);
   ldl_factor<T, kMaxJoints>(n, chain.M);
-  chain.n_rigid = 0;
+  chain.n_prescribed = 0;
   for (int k = 0; k < n; ++k)
-    if (arm.joint[k].drive == Drive::rigid) chain.rigid[chain.n_rigid++] = k;
-  for (int r = 0; r < chain.n_rigid; ++r) {
-    const JointParameters<T>& j = arm.joint[chain.rigid[r]];
-    for (int i = 0; i < n; ++i) chain.response[r][i] = j.pulley_radius * j.coupling[i];
+    if (arm.joint[k].drive != Drive::cable) chain.prescribed[chain.n_prescribed++] = k;
+  for (int r = 0; r < chain.n_prescribed; ++r) {
+    const int k = chain.prescribed[r];
+    const JointParameters<T>& j = arm.joint[k];
+    for (int i = 0; i < n; ++i) {
+      chain.row[r][i] = j.drive == Drive::rigid ? T(j.pulley_radius * j.coupling[i]) : T(i == k ? 1.0 : 0.0);
+      chain.response[r][i] = chain.row[r][i];
+    }
     ldl_solve<T, kMaxJoints>(n, chain.M, chain.response[r]);
-    for (int c = 0; c < chain.n_rigid; ++c) {
-      const JointParameters<T>& other = arm.joint[chain.rigid[c]];
+  }
+  for (int r = 0; r < chain.n_prescribed; ++r)
+    for (int c = 0; c < chain.n_prescribed; ++c) {
       T sum = 0.0;
-      for (int i = 0; i < n; ++i) sum += other.pulley_radius * other.coupling[i] * chain.response[r][i];
+      for (int i = 0; i < n; ++i) sum += chain.row[c][i] * chain.response[r][i];
       chain.A[c][r] = sum;
     }
-  }
-  ldl_factor<T, kMaxJoints>(chain.n_rigid, chain.A);
+  ldl_factor<T, kMaxJoints>(chain.n_prescribed, chain.A);
 }
 
-/// Rates of x; torque_residual [n] and joint_reading [n] if not null. Without a chain, which only arms without rigid
-/// drives may go without, there are no accelerations.
+/// Rates of x; torque_residual [n] and joint_reading [n] if not null. Without a chain, which only arms with cables
+/// at all joints may go without, there are no accelerations.
 template <class T>
 HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const ChainOverStep<T>* chain, double time,
                                       const CommandHistory* history, const DrivenInput& u, const DrivenState<T>& x,
@@ -106,18 +116,20 @@ HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const
   for (int k = 0; k < n; ++k) a[k] = chain ? T(s[k].joint_force - chain->bias[k]) : T(0.0);
   if (chain) ldl_solve<T, kMaxJoints>(n, chain->M, a);
 
-  // Rigid drives: λ from (R M⁻¹ Rᵀ) λ = (r_m/N) q_m'' - R a, then a += M⁻¹ Rᵀ λ.
-  if (chain && chain->n_rigid > 0) {
+  // Prescribed motion: λ from (R M⁻¹ Rᵀ) λ = b'' - R a with b'' = (r_m/N) q_m'' or q'', then a += M⁻¹ Rᵀ λ.
+  if (chain && chain->n_prescribed > 0) {
     T lambda[kMaxJoints];
-    for (int r = 0; r < chain->n_rigid; ++r) {
-      const JointParameters<T>& j = arm.joint[chain->rigid[r]];
-      lambda[r] = j.motor_travel() * u.motor_acceleration[chain->rigid[r]];
-      for (int i = 0; i < n; ++i) lambda[r] -= j.pulley_radius * j.coupling[i] * a[i];
+    for (int r = 0; r < chain->n_prescribed; ++r) {
+      const int k = chain->prescribed[r];
+      const bool rigid = arm.joint[k].drive == Drive::rigid;
+      lambda[r] = (rigid ? arm.joint[k].motor_travel() : T(1.0)) * u.motor_acceleration[k];
+      for (int i = 0; i < n; ++i) lambda[r] -= chain->row[r][i] * a[i];
     }
-    ldl_solve<T, kMaxJoints>(chain->n_rigid, chain->A, lambda);
-    for (int r = 0; r < chain->n_rigid; ++r) {
+    ldl_solve<T, kMaxJoints>(chain->n_prescribed, chain->A, lambda);
+    for (int r = 0; r < chain->n_prescribed; ++r) {
+      const int k = chain->prescribed[r];
       for (int i = 0; i < n; ++i) a[i] += chain->response[r][i] * lambda[r];
-      s[chain->rigid[r]].cable_force_motor = lambda[r];
+      if (arm.joint[k].drive == Drive::rigid) s[k].cable_force_motor = lambda[r];
     }
   }
 
@@ -199,7 +211,7 @@ HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const Driv
     const double time = start + dt * static_cast<double>(i);
     // The last sample ends where it stands.
     const DrivenInput &a = samples[i], &b = samples[std::min(i + 1, size - 1)];
-    prescribe_rigid(arm, a, x);
+    prescribe(arm, a, x);
     if (states) {
       T* row = states + i * (2 * n + m);
       for (int k = 0; k < n; ++k) row[k] = x.q[k], row[n + k] = x.v[k];
@@ -227,17 +239,17 @@ HALYARD_INLINE void replay_record(const Transmission<T>& transmission, const Dri
                                   double start, double dt, const CommandHistory* history, const T* states, T* out) {
   const ArmParameters<T>& arm = transmission.arm();
   const int n = arm.n, m = transmission.n_states();
-  bool rigid = false;
-  for (int k = 0; k < n; ++k) rigid = rigid || arm.joint[k].drive == Drive::rigid;
+  bool prescribed = false;
+  for (int k = 0; k < n; ++k) prescribed = prescribed || arm.joint[k].drive != Drive::cable;
   for (std::size_t i = 0; i < size; ++i) {
     const T* from = states + i * (2 * n + m);
     DrivenState<T> x, rate;
     for (int k = 0; k < n; ++k) x.q[k] = from[k], x.v[k] = from[n + k];
     for (int k = 0; k < m; ++k) x.z[k] = from[2 * n + k];
     ChainOverStep<T> chain;
-    if (rigid) chain_over_step(arm, x, 0.5 * dt, chain);
+    if (prescribed) chain_over_step(arm, x, 0.5 * dt, chain);
     T* row = out + i * 2 * n;
-    driven_derivative<T>(transmission, rigid ? &chain : nullptr, start + dt * static_cast<double>(i), history,
+    driven_derivative<T>(transmission, prescribed ? &chain : nullptr, start + dt * static_cast<double>(i), history,
                          samples[i], x, rate, row, row + n);
   }
 }

@@ -46,7 +46,8 @@ DrivenInput standing(DrivenInput u) {
 
 CommandHistory whole_history(const Record& record, const std::vector<DrivenInput>& inputs) {
   CommandHistory history(record.n, std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < record.size; ++i) history.push(record.time(i), inputs[i].torque);
+  // The history holds a command for a sample; the record's are those of the instant.
+  for (std::size_t i = 0; i < record.size; ++i) history.push(record.time(i) - 0.5 * record.dt, inputs[i].torque);
   return history;
 }
 
@@ -104,7 +105,7 @@ DrivenState<double> unstretched_state(const Hypothesis& h, const Record& record,
   Eigen::VectorXd q_m(n), q_undriven(n);
   for (int k = 0; k < n; ++k) {
     q_m(k) = u.motor_angle[k] - arm.joint[k].motor_encoder_offset;
-    q_undriven(k) = record.has_joint(k) ? record.joint[k][0] - arm.joint[k].joint_encoder_offset : 0.0;
+    q_undriven(k) = u.motor_angle[k] - arm.joint[k].joint_encoder_offset;
   }
   const Eigen::VectorXd q = unstretched_joints(arm, q_m, q_undriven);
   DrivenState<double> x = {};
@@ -165,7 +166,7 @@ std::vector<double> motion_key(const Hypothesis& h) {
                            j.motor_smoothing, j.motor_encoder_offset});
     key.insert(key.end(), j.inertia, j.inertia + 6);
     key.insert(key.end(), j.coupling, j.coupling + arm.n);
-    // Where the record begins the joint may be taken from its sensor.
+    // The joint's motion is that of its sensor.
     if (j.drive == Drive::none) key.push_back(j.joint_encoder_offset);
   }
   constexpr unsigned kMotor = static_cast<unsigned>(EffectStage::command) | static_cast<unsigned>(EffectStage::motor);
@@ -175,14 +176,22 @@ std::vector<double> motion_key(const Hypothesis& h) {
   return key;
 }
 
-/// K_c * x around a sample that can be compared.
+/// Takes off the mean: where the zero of an encoder is unknown, that is what it says.
+void take_off_mean(std::vector<double>& residual) {
+  double sum = 0, count = 0;
+  for (const double e : residual)
+    if (!std::isnan(e)) sum += e, count += 1;
+  for (double& e : residual) e -= sum / count;
+}
+
+/// K_c * x around a sample that can be compared, over the samples that were measured.
 template <class Signal>
-double compared(const Record& record, std::size_t at, const Signal& x) {
+double compared(const Record& record, const std::vector<double>& measured, std::size_t at, const Signal& x) {
   const std::size_t reach = record.compare.size() / 2, size = record.size;
   double sum = 0, weight = 0;
   for (std::size_t t = at - std::min(at, reach); t <= std::min(at + reach, size - 1); ++t) {
-    const double w = record.compare[t + reach - at];
-    sum += w * x(t);
+    const double w = record.compare[t + reach - at] * measured[t];
+    if (w > 0) sum += w * x(t);
     weight += w;
   }
   return sum / weight;
@@ -235,9 +244,11 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
         const auto tau = [&](std::size_t t) { return out[t * 2 * n + k][lane]; };
         const auto error = [&](std::size_t t) { return record.joint[k][t] - out[t * 2 * n + n + k][lane]; };
         if (!std::isfinite(tau(at)) || !std::isfinite(out[at * 2 * n + n + k][lane])) r.finite = false;
-        if (!torque.empty() && record.torque_valid[k][at] > 0) torque[i] = compared(record, at, tau);
-        if (!joint.empty() && record.joint_valid[k][at] > 0) joint[i] = compared(record, at, error);
+        if (!torque.empty() && record.torque_valid[k][at] > 0) torque[i] = compared(record, record.torque_measured[k], at, tau);
+        if (!joint.empty() && record.joint_valid[k][at] > 0) joint[i] = compared(record, record.joint_measured[k], at, error);
       }
+      const JointParameters<double>& sensors = hypotheses[0].nominal.joint[k];
+      if (!sensors.motor_zero_known || !sensors.joint_zero_known) take_off_mean(joint);
     }
   };
 

@@ -1,10 +1,16 @@
 #include "diagnosis/record.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "diagnosis/sampled_column.h"
+#include "model/homing.h"
 #include "model/input_error.h"
+#include "transmission/path_matrix.h"
 
 namespace halyard {
 namespace {
@@ -60,132 +66,220 @@ std::vector<double> correlate(const std::vector<double>& x, const std::vector<do
   return y;
 }
 
-/// A column on the uniform grid, linear between its samples that are there; valid[i] is 1 where the
-/// grid point lies within one sample of one.
-std::vector<double> on_grid(const std::vector<double>& time, const std::vector<double>& x, double start, double dt,
-                            std::size_t size, std::vector<double>* valid) {
-  std::vector<double> t, v;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if (std::isfinite(x[i])) t.push_back(time[i]), v.push_back(x[i]);
-  std::vector<double> y(size, 0);
-  if (valid) valid->assign(size, 0);
-  if (t.empty()) return y;
-  std::size_t j = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    const double now = start + dt * static_cast<double>(i);
-    while (j + 1 < t.size() && t[j + 1] <= now) ++j;
-    if (j + 1 < t.size() && now > t[j])
-      y[i] = v[j] + (v[j + 1] - v[j]) * (now - t[j]) / (t[j + 1] - t[j]);
-    else
-      y[i] = v[j];
-    const double nearest = std::min(std::abs(now - t[j]), j + 1 < t.size() ? std::abs(t[j + 1] - now) : 1e300);
-    if (valid) (*valid)[i] = nearest <= 1.01 * dt ? 1 : 0;
-  }
-  return y;
-}
-
-void keep_every(Record& r, std::size_t stride) {
-  if (stride <= 1) return;
-  for (Signals* signals : {&r.motor_angle, &r.motor_rate, &r.motor_acceleration, &r.torque, &r.joint, &r.joint_raw, &r.external,
-                           &r.joint_valid, &r.torque_valid})
-    for (std::vector<double>& x : *signals) {
-      std::size_t kept = 0;
-      for (std::size_t i = 0; i < x.size(); i += stride) x[kept++] = x[i];
-      x.resize(kept);
+/// A stretch of a log: its columns, and the fine grid on which they are filtered.
+class Stretch {
+ public:
+  Stretch(Log part, const ArmModel& model, const RecordOptions& options)
+      : log_(std::move(part)), model_(model), options_(options) {
+    const Log& log = log_;
+    double fastest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < log.n_joints; ++k) {
+      const bool driven = model.nominal.joint[k].drive != Drive::none;
+      motion_.emplace_back(log.time, driven ? log.motor_position[k] : log.joint_position[k]);
+      torque_.emplace_back(log.time, log.motor_torque[k]);
+      joint_.emplace_back(log.time, log.joint_position[k]);
+      external_.emplace_back(log.time, log.joint_torque[k]);
+      for (const SampledColumn* c : {&motion_[k], &torque_[k], &joint_[k]})
+        if (c->is_there()) fastest = std::min(fastest, c->interval());
     }
-  r.size = (r.size + stride - 1) / stride;
-  r.dt *= static_cast<double>(stride);
-}
-
-/// Takes out the samples about which the comparing kernel sees too few that are there.
-void keep_comparable(std::vector<double>& valid, const std::vector<double>& kernel) {
-  constexpr double kEnough = 0.95;   // of the kernel's weight
-  const std::vector<double> there = valid;
-  const auto size = static_cast<std::ptrdiff_t>(there.size()), reach = static_cast<std::ptrdiff_t>(kernel.size() / 2);
-  for (std::ptrdiff_t i = 0; i < size; ++i) {
-    double weight = 0;
-    for (std::ptrdiff_t t = std::max<std::ptrdiff_t>(0, i - reach); t < std::min(size, i + reach + 1); ++t)
-      weight += kernel[t - i + reach] * there[t];
-    if (weight < kEnough) valid[i] = 0;
+    start_ = log.time.front();
+    // Whole samples to a step of the grid, or whole steps to a sample.
+    const double ratio = options.step_s / fastest;
+    stride_ = static_cast<std::size_t>(std::max(1.0, std::floor(ratio + 1e-6)));
+    dt_ = ratio >= 1 ? fastest : fastest / std::ceil(1 / ratio - 1e-6);
+    size_ = static_cast<std::size_t>(std::floor(log.duration() / dt_ + 0.5)) + 1;
+    kernel_ = gaussian_kernel(options.motion_hz, dt_);
   }
+
+  Record record() const {
+    Record r;
+    r.n = log_.n_joints;
+    r.dt = dt_ * static_cast<double>(stride_);
+    r.start = start_;
+    r.size = (size_ + stride_ - 1) / stride_;
+    r.source = log_.source;
+    r.compare = {1};
+    if (options_.compare_hz > 0) r.compare = gaussian_kernel(options_.compare_hz, r.dt).value;
+    for (Signals* s : {&r.motor_angle, &r.motor_rate, &r.motor_acceleration, &r.torque, &r.joint, &r.joint_raw,
+                       &r.external, &r.joint_measured, &r.torque_measured, &r.joint_valid, &r.torque_valid})
+      s->resize(r.n);
+    for (int k = 0; k < r.n; ++k) add_joint(k, r);
+    return r;
+  }
+
+ private:
+  void add_joint(int k, Record& r) const {
+    const JointParameters<double>& j = model_.nominal.joint[k];
+    const bool driven = j.drive != Drive::none, moves = motion_[k].is_there();
+    std::vector<double> angle(size_, driven ? 0 : model_.joints[k].home + j.joint_encoder_offset);
+    if (moves) angle = on_grid(motion_[k], 0);
+    r.motor_angle[k] = filtered(angle, kernel_.value);
+    r.motor_rate[k] = filtered(angle, kernel_.slope);
+    r.motor_acceleration[k] = filtered(angle, kernel_.curvature);
+    if (external_[k].is_there()) r.external[k] = filtered(on_grid(external_[k], 0), kernel_.value);
+    if (torque_[k].is_there() && driven) {
+      const double hold = std::min(torque_[k].interval(), kLongestHold);
+      r.torque[k] = filtered(on_grid(torque_[k], -0.5 * hold), kernel_.value);
+    }
+    if (joint_[k].is_there()) {
+      const std::vector<double> reading = on_grid(joint_[k], 0);
+      r.joint[k] = filtered(reading, kernel_.value);
+      r.joint_raw[k] = every_stride(reading);
+    }
+
+    r.torque_measured[k] = r.joint_measured[k] = r.torque_valid[k] = r.joint_valid[k] = std::vector<double>(r.size, 0);
+    for (std::size_t i = 0; i < r.size; ++i) {
+      const double t = r.time(i);
+      // An undriven joint's motion is given, and with it nothing is left to compare.
+      if (!driven || t < start_ + options_.settle_s - 1e-9 || !is_known(motion_[k], t)) continue;
+      if (external_[k].is_there() && !is_known(external_[k], t)) continue;
+      const auto measured = [&](const SampledColumn& c) { return c.is_there() && c.distance(t) <= 0.51 * r.dt ? 1 : 0; };
+      r.joint_measured[k][i] = measured(joint_[k]);
+      // Near an end the torque's filter sees a signal that was made up.
+      const double reach = dt_ * kernel_.reach - 1e-9;
+      if (t >= start_ + reach && t <= log_.time.back() - reach) r.torque_measured[k][i] = measured(torque_[k]);
+    }
+    r.joint_valid[k] = comparable(r.joint_measured[k], r, joint_[k].interval());
+    r.torque_valid[k] = comparable(r.torque_measured[k], r, torque_[k].interval());
+  }
+
+  /// False in a hole between samples that the kernel does not bridge.
+  bool is_known(const SampledColumn& c, double time) const {
+    const double sigma = 1 / (2 * std::numbers::pi * options_.motion_hz);
+    return c.hole_at(time) <= std::max(1.5 * c.interval(), sigma);
+  }
+
+  /// Where the comparing kernel sees enough samples of a signal about it.
+  static std::vector<double> comparable(const std::vector<double>& measured, const Record& r, double interval) {
+    constexpr double kEnough = 0.7;   // of what it would see of a signal without holes
+    const double usual = std::min(1.0, r.dt / std::max(interval, 1e-12));
+    const auto size = static_cast<std::ptrdiff_t>(r.size), reach = static_cast<std::ptrdiff_t>(r.compare.size() / 2);
+    std::vector<double> valid(r.size, 0);
+    for (std::ptrdiff_t i = 0; i < size; ++i) {
+      double weight = 0;
+      for (std::ptrdiff_t t = std::max<std::ptrdiff_t>(0, i - reach); t < std::min(size, i + reach + 1); ++t)
+        weight += r.compare[t - i + reach] * measured[t];
+      valid[i] = weight >= kEnough * usual;
+    }
+    return valid;
+  }
+
+  std::vector<double> on_grid(const SampledColumn& c, double later) const {
+    std::vector<double> y(size_);
+    for (std::size_t i = 0; i < size_; ++i) y[i] = c.at(start_ + dt_ * static_cast<double>(i) + later);
+    return y;
+  }
+  std::vector<double> filtered(const std::vector<double>& x, const std::vector<double>& kernel) const {
+    return every_stride(correlate(x, kernel, kernel_.reach));
+  }
+  std::vector<double> every_stride(const std::vector<double>& x) const {
+    std::vector<double> y;
+    for (std::size_t i = 0; i < x.size(); i += stride_) y.push_back(x[i]);
+    return y;
+  }
+
+  const Log log_;
+  const ArmModel& model_;
+  const RecordOptions& options_;
+  std::vector<SampledColumn> motion_, torque_, joint_, external_;
+  double start_, dt_;
+  std::size_t stride_, size_;
+  Kernel kernel_;
+};
+
+std::pair<double, double> range_of(const std::vector<double>& x) {
+  std::pair range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const double v : x)
+    if (std::isfinite(v)) range = {std::min(range.first, v), std::max(range.second, v)};
+  return range;
 }
 
-Record make_record(const Log& log, const ArmModel& model, const RecordOptions& options, double dt) {
-  Record r;
-  r.n = log.n_joints;
-  r.dt = dt;
-  r.start = log.time.front();
-  r.size = static_cast<std::size_t>(std::floor(log.duration() / dt + 0.5)) + 1;
-  r.source = log.source;
-  for (Signals* s : {&r.motor_angle, &r.motor_rate, &r.motor_acceleration, &r.torque, &r.joint, &r.joint_raw, &r.external,
-                     &r.joint_valid, &r.torque_valid})
-    s->resize(r.n);
-  const Kernel kernel = gaussian_kernel(options.motion_hz, dt);
-  const auto grid = [&](const std::vector<double>& x, std::vector<double>* valid = nullptr) {
-    return on_grid(log.time, x, r.start, dt, r.size, valid);
-  };
-  const auto settled = static_cast<std::size_t>(options.settle_s / dt), reach = static_cast<std::size_t>(kernel.reach);
+bool never_changes(const std::vector<double>& x) {
+  const auto [low, high] = range_of(x);
+  return low == high;
+}
 
-  for (int k = 0; k < r.n; ++k) {
+/// The log with its zeros found, and without columns that tell nothing.
+Log usable(Log log, const ArmModel& model) {
+  for (const int k : stuck_joint_sensors(log, model)) log.joint_position[k].clear();
+  for (int k = 0; k < log.n_joints; ++k) {
     const JointParameters<double>& j = model.nominal.joint[k];
-    r.torque_valid[k].assign(r.size, 0);
-    r.joint_valid[k].assign(r.size, 0);
-    std::vector<double> motor_there(r.size, 1);
-    if (j.drive == Drive::none) {
-      r.motor_angle[k] = r.motor_rate[k] = r.motor_acceleration[k] = std::vector<double>(r.size, 0.0);
-    } else {
-      const std::vector<double> angle = grid(log.motor_position[k], &motor_there);
-      r.motor_angle[k] = correlate(angle, kernel.value, kernel.reach);
-      r.motor_rate[k] = correlate(angle, kernel.slope, kernel.reach);
-      r.motor_acceleration[k] = correlate(angle, kernel.curvature, kernel.reach);
-      if (log.has_motor_torque(k)) {
-        std::vector<double> torque_there;
-        const std::vector<double> torque = correlate(grid(log.motor_torque[k], &torque_there), kernel.value, kernel.reach);
-        r.torque[k].resize(r.size);
-        for (std::size_t i = 0; i < r.size; ++i) {
-          r.torque[k][i] = 0.5 * (torque[i] + torque[i > 0 ? i - 1 : 0]);
-          // Near an end the filters see a signal that was made up.
-          const bool inside = i >= reach && i + reach < r.size;
-          r.torque_valid[k][i] = torque_there[i] * motor_there[i] * (i >= settled && inside);
-        }
-      }
-    }
-    if (log.has_joint_position(k)) {
-      std::vector<double> there;
-      r.joint_raw[k] = grid(log.joint_position[k], &there);
-      r.joint[k] = correlate(r.joint_raw[k], kernel.value, kernel.reach);
-      for (std::size_t i = 0; i < r.size; ++i) r.joint_valid[k][i] = there[i] * motor_there[i] * (i >= settled);
-    }
-    if (log.has_joint_torque(k)) r.external[k] = correlate(grid(log.joint_torque[k]), kernel.value, kernel.reach);
+    const bool told = j.drive == Drive::none || j.joint_encoder_resolution > 0;
+    if (!told && never_changes(log.joint_position[k])) log.joint_position[k].clear();
+    if (range_of(log.motor_torque[k]) == std::pair(0.0, 0.0)) log.motor_torque[k].clear();
   }
-  keep_every(r, static_cast<std::size_t>(std::max(1.0, std::floor(options.step_s / dt + 1e-6))));
-  r.compare = {1};
-  if (options.compare_hz > 0) r.compare = gaussian_kernel(options.compare_hz, r.dt).value;
-  for (Signals* valid : {&r.joint_valid, &r.torque_valid})
-    for (std::vector<double>& x : *valid) keep_comparable(x, r.compare);
-  return r;
+  home_encoders(log, model);
+  return log;
+}
+
+/// What a row is to the stretches of a log that have no long gap in what tells the motion.
+enum class Row { goes_on, begins, lost };
+
+std::vector<Row> mark_gaps(const Log& log, const ArmModel& model, double longest_gap) {
+  std::vector<Row> mark(log.size(), Row::goes_on);
+  const auto look_at = [&](const std::vector<double>& x) {
+    const double allowed = std::max(longest_gap, 1.5 * SampledColumn(log.time, x).interval());
+    std::ptrdiff_t last = -1;
+    for (std::size_t i = 0; i <= log.size(); ++i) {
+      if (i < log.size() && std::isnan(x[i])) continue;
+      const double from = log.time[std::max<std::ptrdiff_t>(last, 0)], to = log.time[std::min(i, log.size() - 1)];
+      if (to - from > allowed) {
+        for (std::size_t g = last + 1; g < i; ++g) mark[g] = Row::lost;
+        if (i < log.size()) mark[i] = std::max(mark[i], Row::begins);
+      }
+      last = static_cast<std::ptrdiff_t>(i);
+    }
+  };
+  for (int k = 0; k < log.n_joints; ++k)
+    if (model.nominal.joint[k].drive != Drive::none)
+      look_at(log.motor_position[k]);
+    else if (log.has_joint_position(k))
+      look_at(log.joint_position[k]);
+  look_at(log.time);
+  return mark;
 }
 
 }  // namespace
 
-std::vector<Record> make_records(const Log& log, const ArmModel& model, const RecordOptions& options) {
-  if (log.size() < 2) throw InputError(log.source + ": has fewer than two samples; expected a record of at least a second");
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < log.size(); ++i) steps.push_back(log.time[i] - log.time[i - 1]);
-  std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
-  const double dt = steps[steps.size() / 2];
+std::vector<int> stuck_joint_sensors(const Log& log, const ArmModel& model) {
+  constexpr double kMotion = 0.05;      // of the joint's range
+  constexpr std::size_t kEvery = 10;    // rows
+  const int n = log.n_joints;
+  std::vector<int> stuck;
+  for (int k = 0; k < n; ++k) {
+    if (model.nominal.joint[k].drive == Drive::none || !never_changes(log.joint_position[k])) continue;
+    std::vector<double> by_motors;
+    Eigen::VectorXd q_m = Eigen::VectorXd::Zero(n);
+    for (std::size_t i = 0; i < log.size(); i += kEvery) {
+      for (int j = 0; j < n; ++j) q_m(j) = log.motor_position[j].empty() ? 0 : log.motor_position[j][i];
+      by_motors.push_back(unstretched_joints(model.nominal, q_m, model.home())(k));
+    }
+    const auto [low, high] = range_of(by_motors);
+    if (high - low > kMotion * (model.joints[k].upper - model.joints[k].lower)) stuck.push_back(k);
+  }
+  return stuck;
+}
+
+std::vector<Record> make_records(const Log& given, const ArmModel& model, const RecordOptions& options) {
+  if (given.size() < 2)
+    throw InputError(given.source + ": has fewer than two samples; expected a record of at least a second");
+  constexpr double kSlowest = 0.1;   // s a sample
+  const double dt = SampledColumn(given.time, given.time).interval();
+  if (dt > kSlowest * (1 + 1e-6))
+    throw InputError(fmt::format("{}: a sample follows another after {:.4g} s; expected at least 10 samples a second; if its "
+                                 "time is not in s, say so by a column map, such as time=NAME,unit=ms", given.source, dt));
+  const Log log = usable(given, model);
+  const std::vector<Row> mark = mark_gaps(log, model, options.longest_gap_s);
 
   std::vector<Record> records;
-  std::size_t begin = 0;
-  for (std::size_t i = 1; i <= log.size(); ++i) {
-    if (i < log.size() && log.time[i] - log.time[i - 1] <= std::max(options.longest_gap_s, 1.5 * dt)) continue;
-    const Log part = slice(log, begin, i);
-    if (part.duration() >= 1 + options.settle_s) records.push_back(make_record(part, model, options, dt));
-    begin = i;
+  for (std::size_t begin = 0, end = 0; begin < log.size(); begin = end) {
+    for (end = begin + 1; end < log.size() && mark[end] == Row::goes_on;) ++end;
+    if (mark[begin] == Row::lost || log.time[end - 1] - log.time[begin] < 1 + options.settle_s) continue;
+    records.push_back(Stretch(slice(log, begin, end), model, options).record());
   }
   if (records.empty())
-    throw InputError(log.source + ": no stretch to learn from or to hold out is longer than 1.5 s without gaps; expected a longer record, or a "
-                     "hold-out log of its own");
+    throw InputError(log.source + ": no stretch to learn from or to hold out is longer than 1.5 s without gaps; expected a "
+                     "longer record, or a hold-out log of its own");
   return records;
 }
 

@@ -25,7 +25,7 @@ class Lister {
       add("motor viscous friction", "motor.viscous", "N m s/rad", t.friction, joint_.motor_viscous);
       add("motor gear ratio", "motor.gear_ratio", "1", t.length, joint_.gear_ratio);
       add("motor capstan radius", "motor.capstan_radius", "m", t.length, joint_.capstan_radius);
-      add("motor torque scale", "motor.torque_scale", "1", t.length, joint_.torque_scale);
+      add("motor torque scale", "motor.torque_scale", "1", t.torque_scale, joint_.torque_scale);
       add("motor torque bias", "motor.torque_bias", "N m", 0, joint_.torque_bias);
     }
     if (joint_.drive == Drive::cable) {

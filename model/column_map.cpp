@@ -40,6 +40,10 @@ constexpr std::array kUnits = {
     Unit{"mN.m", Quantity::kEffort, 1e-3},
     Unit{"N.mm", Quantity::kEffort, 1e-3},
     Unit{"N", Quantity::kEffort, 1},
+    Unit{"A", Quantity::kEffort, 1},
+    Unit{"mA", Quantity::kEffort, 1e-3},
+    Unit{"V", Quantity::kEffort, 1},
+    Unit{"mV", Quantity::kEffort, 1e-3},
 };
 
 /// "1", "2", ... without leading zeros, of at most 9 digits.

@@ -27,7 +27,8 @@ struct ColumnSource {
 ///   time              s, ms, us
 ///   *_position_k      rad, deg, turn, m, mm, um
 ///   *_velocity_k      rad/s, deg/s, rpm, m/s, mm/s
-///   *_torque_k        N.m, mN.m, N.mm, N
+///   *_torque_k        N.m, mN.m, N.mm, N; A, mA, V, mV, with a scale in N m per A or V here, or as the model's
+///                     torque_scale
 ///
 /// An empty unit is the SI unit. Angles and lengths are not told apart, nor are torques and forces: a scale may turn
 /// one into the other (a linear motor, a spindle).

@@ -91,7 +91,10 @@ std::vector<Column> read_header(const Lines& header) {
 }
 
 bool is_required(const std::string& name, const ReadOptions& options) {
-  return name.starts_with("motor_position_") || (options.torque_required && name.starts_with("motor_torque_"));
+  const std::string_view joint = std::string_view(name).substr(name.rfind('_') + 1);
+  const bool of_motor = std::ranges::none_of(options.without_motor, [&](int k) { return joint == std::to_string(k + 1); });
+  return of_motor && (name.starts_with("motor_position_") ||
+                      (options.torque_required && name.starts_with("motor_torque_")));
 }
 
 /// Connects the columns of a file to those of a log.
@@ -192,6 +195,11 @@ Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& m
     check_last_time(log.time, lines);
   }
   if (log.time.empty()) throw InputError(log.source + ": has a header but no samples; give a log with samples");
+  constexpr double kFarFromZero = 1e6;   // s: what counts from zero and what does not, with years between them
+  if (std::abs(log.time.front()) > kFarFromZero) {
+    log.clock_start = log.time.front();
+    for (double& t : log.time) t -= log.clock_start;
+  }
   for_each_column(log, [&](const std::string& name, std::vector<double>& values) {
     if (!std::ranges::all_of(values, [](double value) { return std::isnan(value); })) return;
     if (!values.empty() && is_required(name, options)) {

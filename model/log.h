@@ -36,6 +36,7 @@ struct Log {
 
   int n_joints = 0;
   std::vector<double> time;
+  double clock_start = 0;   ///< what was taken off the file's times, s: see read_log
   Signals motor_torque, motor_position, joint_position, joint_velocity, joint_torque;
   std::vector<std::string> ignored_columns;  ///< columns of the file that are not in this log, in the file's order
   std::string source;                        ///< path as given to read_log, for messages
@@ -46,9 +47,7 @@ struct Log {
 
   /// Whether the record has the column of joint k = 0..n_joints-1. Throws std::out_of_range for any other k.
   bool has_motor_torque(int k) const { return !motor_torque.at(k).empty(); }
-  bool has_motor_position(int k) const { return !motor_position.at(k).empty(); }
   bool has_joint_position(int k) const { return !joint_position.at(k).empty(); }
-  bool has_joint_velocity(int k) const { return !joint_velocity.at(k).empty(); }
   bool has_joint_torque(int k) const { return !joint_torque.at(k).empty(); }
 };
 
@@ -66,12 +65,14 @@ void for_each_column(AnyLog& log, Visit visit) {
 }
 
 struct ReadOptions {
-  bool torque_required = true;  ///< motor_torque_k of every joint; motor_position_k is always required
+  bool torque_required = true;      ///< motor_torque_k of every joint with a motor
+  std::vector<int> without_motor = {};   ///< joints, from 0, whose motor_position_k and motor_torque_k may be absent
 };
 
 /// Reads a CSV file: UTF-8, one header row, commas, `#` starts a comment line, an empty cell is a missing sample. A
 /// byte-order mark, carriage returns, blank lines and a missing last line break are accepted. Columns that the map and
 /// the standard names do not call for are never looked into. An optional column without one sample counts as absent.
+/// A clock whose first time is more than 1e6 s from zero, as that of the Unix epoch, is counted from the first sample.
 ///
 /// Throws InputError `file:line: what; remedy` for a file that is missing, unreadable, empty, without samples or not
 /// text; a required or mapped column that is absent; one that stands twice; a required column without one sample; a

@@ -153,9 +153,16 @@ void read_encoders(const XmlElement& encoders, Joint& joint) {
   if (joint.drive != Drive::none) attributes.insert(attributes.begin(), of_motor.begin(), of_motor.end());
   encoders.only(attributes);
   joint.motor_encoder_resolution = read_resolution(encoders, "motor", "rad");
-  joint.motor_encoder_offset = encoders.number_or("motor_offset", 0, "rad");
+  const auto read_offset = [&](const char* name, const char* of_unit, bool& known) {
+    known = encoders.text_or(name, "0") != "unknown";
+    return known ? encoders.number_or(name, 0, of_unit) : 0;
+  };
+  joint.motor_encoder_offset = read_offset("motor_offset", "rad", joint.motor_zero_known);
   joint.joint_encoder_resolution = read_resolution(encoders, "joint", unit);
-  joint.joint_encoder_offset = encoders.number_or("joint_offset", 0, unit);
+  joint.joint_encoder_offset = read_offset("joint_offset", unit, joint.joint_zero_known);
+  if (!joint.joint_zero_known && (joint.drive == Drive::none || !joint.motor_zero_known)) {
+    encoders.fail("joint_offset", "there is no other sensor whose zero is known; give this one's");
+  }
 }
 
 ControllerParameters read_controller(const XmlElement& controller) {
@@ -179,7 +186,7 @@ void read_range(const XmlElement& range, const char* unit, JointDescription& des
 }
 
 Tolerances read_tolerances(const XmlElement& element, Tolerances tolerances) {
-  element.only({"length", "mass", "stiffness", "friction", "coupling"});
+  element.only({"length", "mass", "stiffness", "friction", "coupling", "torque_scale"});
   const auto read = [&](const char* name, double& value) {
     value = element.number_or(name, value, "", Sign::non_negative);
   };
@@ -188,6 +195,7 @@ Tolerances read_tolerances(const XmlElement& element, Tolerances tolerances) {
   read("stiffness", tolerances.stiffness);
   read("friction", tolerances.friction);
   read("coupling", tolerances.coupling);
+  read("torque_scale", tolerances.torque_scale);
   return tolerances;
 }
 
@@ -285,7 +293,7 @@ PlacedEffect read_effect(const XmlElement& element, const ArmParameters<double>&
   if (!effect) {
     std::string known;
     for (const Effect* each : effect_library()) known += (known.empty() ? "" : ", ") + each->name();
-    element.fail("name", "unknown effect; expected one of " + known);
+    element.fail("name", "unknown effect; expected one of " + known + ", or one of a module given by --effects");
   }
   if (effect->scope() == EffectScope::arm && element.has("joint")) {
     element.fail("joint", "effect " + effect->name() + " is of the whole arm; remove the joint");
@@ -293,13 +301,16 @@ PlacedEffect read_effect(const XmlElement& element, const ArmParameters<double>&
   const bool of_arm = effect->scope() != EffectScope::joint && !element.has("joint");
   const int joint = of_arm ? -1 : static_cast<int>(element.integer("joint", 1, arm.n)) - 1;
   PlacedEffect placed;
+  std::vector<EffectParameter> parameters;
   try {
     placed = place_effect(*effect, arm, joint);
+    parameters = effect->parameters(arm, joint);
+    const auto sizes = [&](const EffectParameter& p) { return !p.is_shape() && element.has(p.name); };
+    if (std::ranges::any_of(parameters, sizes)) placed = place_neutral_effect(*effect, arm, joint);
   } catch (const std::invalid_argument& error) {
     element.fail("joint", std::string(error.what()) + "; remove the effect");
   }
 
-  const std::vector<EffectParameter> parameters = effect->parameters(arm, joint);
   XmlNames attributes = {"name", "joint"};
   for (const EffectParameter& parameter : parameters) attributes.push_back(parameter.name);
   element.only(attributes);

@@ -70,13 +70,16 @@ void write_drive(Writer& xml, const Joint& j, int k, const ControllerParameters&
 }
 
 void write_encoders(Writer& xml, const Joint& j) {
+  const auto offset = [&](const char* name, double value, bool known) {
+    xml.attribute(name, known ? exact_text(value) : "unknown");
+  };
   xml.open("encoders");
   if (j.drive != Drive::none) {
     xml.attribute("motor_resolution", j.motor_encoder_resolution);
-    xml.attribute("motor_offset", j.motor_encoder_offset);
+    offset("motor_offset", j.motor_encoder_offset, j.motor_zero_known);
   }
   xml.attribute("joint_resolution", j.joint_encoder_resolution);
-  xml.attribute("joint_offset", j.joint_encoder_offset);
+  offset("joint_offset", j.joint_encoder_offset, j.joint_zero_known);
   xml.close();
 }
 
@@ -104,7 +107,8 @@ void write_joint(Writer& xml, const Joint& j, int k, const JointDescription& des
                              {"mass", t.mass},
                              {"stiffness", t.stiffness},
                              {"friction", t.friction},
-                             {"coupling", t.coupling}});
+                             {"coupling", t.coupling},
+                             {"torque_scale", t.torque_scale}});
   xml.close();
 }
 

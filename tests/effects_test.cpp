@@ -219,8 +219,8 @@ TEST(UsersEffect, WithStateTimeAndPastCommandsWorksOverEveryScalarWithoutTheLibr
   u[6 * arm.n] = state;
   const std::vector<double> out = plain(u, time, &history);
   const int torque = 1 + 8;   // after the state's rate and joint 1's signals
-  // 10 N m/s times the time that has passed since the ramp began.
-  EXPECT_NEAR(out[0], (10 * (time - delay) - state) / time_constant, 20 * 8 * kEps);
+  // 10 N m/s times the time that has passed since the ramp began, less half a hold.
+  EXPECT_NEAR(out[0], (10 * (time - delay - 0.5e-3) - state) / time_constant, 20 * 8 * kEps);
   EXPECT_NEAR(out[torque], state + 0.1 * std::sin(SlowMotor::kMains * time), 4 * kEps);
   EXPECT_NE(out[torque], plain(u, time + 1e-3, &history)[torque]) << "depends on time";
 
@@ -275,6 +275,24 @@ TEST(UsersEffect, JoinsTheLibraryOnceUnderANameOfItsOwn) {
     }
   }
   EXPECT_EQ(effect_library().size(), before + 1);
+}
+
+class ManyNumbers : public EffectOf<ManyNumbers> {
+ public:
+  std::string name() const override { return "many_numbers"; }
+  std::string summary() const override { return "more parameters than an effect can have"; }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+    return std::vector<EffectParameter>(kMaxEffectParameters + 1, EffectParameter{"p", "1", 0, 1, 0, 2});
+  }
+};
+
+TEST(UsersEffect, WithMoreParametersThanThereIsRoomForIsRefused) {
+  try {
+    place_effect(ManyNumbers(), random_arm(16, CableLaw::linear), 0);
+    FAIL() << "was placed";
+  } catch (const std::invalid_argument& e) {
+    EXPECT_STREQ(e.what(), "effect many_numbers has 9 parameters: expected at most 8");
+  }
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(ReadLog, TakesStandardColumnsInAnyOrder) {
   EXPECT_EQ(log.motor_position[0], (std::vector<double>{3, 7}));
   EXPECT_EQ(log.joint_position[0], (std::vector<double>{4, 8}));
   EXPECT_TRUE(log.has_joint_position(0));
-  EXPECT_FALSE(log.has_joint_velocity(0));
+  EXPECT_TRUE(log.joint_velocity[0].empty());
   EXPECT_EQ(log.duration(), 4.5);
   EXPECT_EQ(log.source, temporary_path().string());
 }
@@ -90,6 +90,22 @@ TEST(ReadLog, IgnoresOtherColumnsAndNamesThem) {
 TEST(ReadLog, TorqueIsOptionalOnRequest) {
   EXPECT_HAS(message_for("time,motor_position_1\n0,1\n"), ":1: no column 'motor_torque_1'; the file has 'time', ");
   EXPECT_FALSE(read_text("time,motor_position_1\n0,1\n", {}, {.torque_required = false}).has_motor_torque(0));
+}
+
+TEST(ReadLog, AJointWithoutMotorNeedsNoColumnsOfOne) {
+  const std::string text = "time,joint_position_1\n0,1\n1,2\n";
+  EXPECT_HAS(message_for(text), ": no column 'motor_torque_1', 'motor_position_1'; ");
+  const Log log = read_text(text, {}, {.without_motor = {0}});
+  EXPECT_TRUE(log.motor_position[0].empty());
+  EXPECT_EQ(log.joint_position[0], (std::vector<double>{1, 2}));
+}
+
+TEST(ReadLog, ClockOfTheEpochCountsFromTheFirstSample) {
+  const Log log = read_text(kHeader + "1763700000.25,1,2\n1763700000.5,1,2\n");
+  EXPECT_EQ(log.clock_start, 1763700000.25);
+  EXPECT_EQ(log.time, (std::vector<double>{0, 0.25}));
+  EXPECT_EQ(read_text(kHeader + "12.5,1,2\n").clock_start, 0);
+  EXPECT_EQ(read_text(kHeader + "12.5,1,2\n").time[0], 12.5);
 }
 
 TEST(ReadLog, SaysWhatIsWrongWithTheFile) {
@@ -158,7 +174,7 @@ TEST(ColumnMap, SaysWhatIsWrongWithAnEntry) {
   const auto message = [](const std::string& entry) { return message_of([&] { map_of({entry}); }); };
   EXPECT_EQ(message("motor_torque_1=tau,unit=deg"),
             "column map 'motor_torque_1=tau,unit=deg': column 'motor_torque_1': unit 'deg': expected one of N.m, mN.m, "
-            "N.mm, N; for any other unit leave it out and give a scale to SI");
+            "N.mm, N, A, mA, V, mV; for any other unit leave it out and give a scale to SI");
   EXPECT_HAS(message("time=t,unit=h"), "unit 'h': expected one of s, ms, us; ");
   EXPECT_HAS(message("motor_pos_1=a"),
              "'motor_pos_1' is no column of a log; expected one of time, motor_torque_k, motor_position_k, "
@@ -221,7 +237,7 @@ TEST(WriteLog, ReadsBackWhatItWrote) {
     EXPECT_NEAR(back.joint_velocity[2][i], log.joint_velocity[2][i], 0.5e-8 * log.joint_velocity[2][i]);
     EXPECT_EQ(std::isnan(back.motor_position[0][i]), i == 50);
   }
-  EXPECT_FALSE(back.has_joint_velocity(0));
+  EXPECT_TRUE(back.joint_velocity[0].empty());
 }
 
 TEST(WriteLog, RefusesWhatCouldNotBeReadBack) {

@@ -27,7 +27,7 @@ const std::filesystem::path kExamples = std::filesystem::path(HALYARD_SOURCE_DIR
 const std::string kArm = R"(<arm name="small">
 <gravity>0 0 -9.81</gravity>
 <payload point="0 0 300 mm"/>
-<tolerances length="0.01" coupling="0.03"/>
+<tolerances length="0.02" coupling="0.03" torque_scale="0.01"/>
 <joint name="swing" type="revolute" drive="cable">
 <dh alpha="90 deg" a="0.2" theta="0.3" d="100 mm"/>
 <link mass="0.5" com="0.1 0 0" inertia="1e-3 2e-3 2.5e-3 1e-4 0 0"/>
@@ -221,7 +221,8 @@ TEST(ModelFile, ReadsEveryElement) {
   EXPECT_DOUBLE_EQ(swing.capstan_radius, 5.5e-3);
   EXPECT_DOUBLE_EQ(swing.joint_encoder_offset, -kDegree);
   EXPECT_EQ(swing.motor_encoder_offset, 0.1);
-  EXPECT_EQ(swing.tolerance.length, 0.01);
+  EXPECT_EQ(swing.tolerance.length, 0.02);
+  EXPECT_EQ(swing.tolerance.torque_scale, 0.01);
   EXPECT_EQ(swing.tolerance.stiffness, 0.3);
   EXPECT_EQ(slide.tolerance.stiffness, Tolerances().stiffness);
   EXPECT_EQ(slide.tolerance.coupling, 0.03);
@@ -245,6 +246,34 @@ TEST(ModelFile, ReadsEveryElement) {
   EXPECT_DOUBLE_EQ(source.scale, -2 * kDegree);
   EXPECT_EQ(source.offset, 0.5);
   EXPECT_EQ(model.estimators.at("sr_ukf"), (EstimatorOptions{{"alpha", "1e-3"}, {"notes", "as in the paper"}}));
+}
+
+TEST(ModelFile, EffectWithOneOfItsSizesGivenHasNoOther) {
+  const auto effect = [](const std::string& attributes) {
+    const ArmModel model = parse_model(
+        replaced("<effect name=\"payload\"/>", "<effect name=\"external_force\" joint=\"2\" " + attributes + "/>"), "arm.xml");
+    return std::pair(model.effects[1], model.effects[1].effect->parameters(model.nominal, 1));
+  };
+  const auto [typical, p] = effect("");
+  const auto [forced, same] = effect("force=\"7\" start=\"1\"");
+  ASSERT_EQ(p[0].name, "force");
+  EXPECT_EQ(forced.p[0], 7);
+  EXPECT_EQ(forced.p[1], 1);
+  EXPECT_EQ(forced.p[2], p[2].typical) << "a shape";
+  ASSERT_EQ(p[3].name, "contact_stiffness");
+  EXPECT_NE(typical.p[3], 0);
+  EXPECT_EQ(forced.p[3], 0);
+  // A shape alone shapes typical sizes.
+  EXPECT_EQ(effect("start=\"1\"").first.p[0], p[0].typical);
+}
+
+TEST(ModelFile, UnknownZeroOfAnEncoderLastsThroughWritingAndReading) {
+  const ArmModel model = parse_model(replaced("motor_offset=\"0.1\"", "motor_offset=\"unknown\""), "arm.xml");
+  EXPECT_FALSE(model.nominal.joint[0].motor_zero_known);
+  EXPECT_TRUE(model.nominal.joint[0].joint_zero_known);
+  EXPECT_EQ(model.nominal.joint[0].motor_encoder_offset, 0);
+  EXPECT_FALSE(parse_model(model_to_xml(model), "again.xml").nominal.joint[0].motor_zero_known);
+  EXPECT_FALSE(find_effect("encoder_offset")->applies(model.nominal, 0)) << "means nothing there";
 }
 
 TEST(ModelFile, DhRowIsCraigsConvention) {
@@ -281,7 +310,8 @@ std::vector<double> numbers_of(const JointParameters<double>& j) {
        {j.mass, j.rotor_inertia, j.motor_coulomb, j.motor_viscous, j.motor_smoothing, j.gear_ratio, j.capstan_radius,
         j.torque_scale, j.torque_bias, j.pulley_radius, j.stiffness, j.damping, j.tension, j.joint_coulomb,
         j.joint_viscous, j.joint_smoothing, j.motor_encoder_offset, j.joint_encoder_offset, j.motor_encoder_resolution,
-        j.joint_encoder_resolution, t.length, t.mass, t.stiffness, t.friction, t.coupling}) {
+        j.joint_encoder_resolution, t.length, t.mass, t.stiffness, t.friction, t.coupling, t.torque_scale,
+        double(j.motor_zero_known), double(j.joint_zero_known)}) {
     all.push_back(x);
   }
   all.push_back(static_cast<double>(j.type));
@@ -379,6 +409,8 @@ TEST(ModelFile, BadInputSaysWhereWhatAndWhatWasExpected) {
        "arm.xml:10: <friction smoothing=\"0\">: expected a number greater than 0"},
       {"motor_counts=\"4000\"", "motor_counts=\"4000\" motor_resolution=\"0.1\"",
        "arm.xml:11: <encoders motor_counts=\"4000\">: expected one of motor_counts and motor_resolution"},
+      {"motor_offset=\"0.1\" joint_offset=\"-1 deg\"", "motor_offset=\"unknown\" joint_offset=\"unknown\"",
+       "arm.xml:11: <encoders joint_offset=\"unknown\">: there is no other sensor whose zero is known; give this one's"},
       {"upper=\"90 deg\"", "upper=\"-100 deg\"",
        "arm.xml:13: <range upper=\"-100 deg\">: expected an upper end above the lower one"},
       {"home=\"10 deg\"", "home=\"91 deg\"",

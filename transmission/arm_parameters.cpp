@@ -24,6 +24,8 @@ void copy_structure(const ArmParameters<double>& from, ArmParameters<T>& to) {
     }
     b.motor_encoder_resolution = a.motor_encoder_resolution;
     b.joint_encoder_resolution = a.joint_encoder_resolution;
+    b.motor_zero_known = a.motor_zero_known;
+    b.joint_zero_known = a.joint_zero_known;
   }
 }
 

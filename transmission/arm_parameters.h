@@ -28,6 +28,7 @@ struct Tolerances {
   double stiffness = 0.10;   ///< stiffness and damping of cables
   double friction = 0.20;    ///< Coulomb and viscous
   double coupling = 0.02;
+  double torque_scale = 0.005; ///< of a motor: 1 where the record's torque is a current or a voltage of unknown scale
 };
 
 template <class T>
@@ -73,6 +74,9 @@ struct JointParameters {
   T joint_encoder_offset = 0.0;          ///< rad | m
   double motor_encoder_resolution = 0;   ///< rad
   double joint_encoder_resolution = 0;   ///< rad | m
+  /// False: each log has a zero of its own, as an incremental encoder's that counts from where it was switched on.
+  bool motor_zero_known = true;
+  bool joint_zero_known = true;
 
   Tolerances tolerance;
 

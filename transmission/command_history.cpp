@@ -9,7 +9,7 @@ CommandHistory::CommandHistory(int n_joints, double span_s) : n_(n_joints), span
 void CommandHistory::push(double time_s, const double* command) {
   time_.push_back(time_s);
   command_.insert(command_.end(), command, command + n_);
-  while (first_ + 2 < time_.size() && time_[first_ + 1] < time_s - span_) ++first_;
+  while (first_ + 3 < time_.size() && time_[first_ + 2] < time_s - span_) ++first_;
   if (first_ > 1024 && first_ > time_.size() / 2) {   // amortised: each sample is moved once
     time_.erase(time_.begin(), time_.begin() + first_);
     command_.erase(command_.begin(), command_.begin() + first_ * n_);
@@ -17,16 +17,21 @@ void CommandHistory::push(double time_s, const double* command) {
   }
 }
 
+double CommandHistory::middle(std::size_t i) const {
+  if (i + 1 < time_.size()) return 0.5 * (time_[i] + time_[i + 1]);
+  return i > first_ ? time_[i] + 0.5 * (time_[i] - time_[i - 1]) : time_[i];
+}
+
 CommandHistory::Segment CommandHistory::segment(int joint, double time_s) const {
-  const auto begin = time_.begin() + first_;
-  if (begin == time_.end()) return {0, 0};
-  const auto next = std::upper_bound(begin, time_.end(), time_s);
-  const auto value = [&](auto it) { return command_[(it - time_.begin()) * n_ + joint]; };
-  if (next == begin) return {value(begin), 0};
-  const auto last = next - 1;
-  if (next == time_.end()) return {value(last), 0};
-  const double slope = (value(next) - value(last)) / (*next - *last);
-  return {value(last) + slope * (time_s - *last), slope};
+  if (first_ == time_.size()) return {0, 0};
+  const auto value = [&](std::size_t i) { return command_[i * n_ + joint]; };
+  const auto after = std::upper_bound(time_.begin() + first_, time_.end(), time_s) - time_.begin();
+  auto next = static_cast<std::size_t>(after);   // the first whose hold's middle is later than time_s
+  if (next > first_ && middle(next - 1) > time_s) --next;
+  if (next == first_) return {value(first_), 0};
+  if (next == time_.size()) return {value(next - 1), 0};
+  const double from = middle(next - 1), slope = (value(next) - value(next - 1)) / (middle(next) - from);
+  return {value(next - 1) + slope * (time_s - from), slope};
 }
 
 double CommandHistory::at(int joint, double time_s) const { return segment(joint, time_s).value; }

@@ -15,8 +15,9 @@ class CommandHistory {
   /// The command from time_s on, until the next one. Times increase.
   void push(double time_s, const double* command);
 
-  /// Command of a joint at a time, linear between samples so that it can be differentiated;
-  /// before the first sample the first, after the last the last.
+  /// Command of a joint at a time, linear between the middles of the holds so that it can be differentiated and is late
+  /// by nothing on average; before the first middle the first command, after the last the last. The last command's hold
+  /// is taken to be as long as the one before.
   double at(int joint, double time_s) const;
   Dual at(int joint, const Dual& time_s) const;
   Lanes at(int joint, const Lanes& time_s) const;
@@ -24,6 +25,7 @@ class CommandHistory {
  private:
   struct Segment { double value, slope; };
   Segment segment(int joint, double time_s) const;
+  double middle(std::size_t sample) const;   ///< of its hold
 
   int n_;
   double span_;

@@ -34,6 +34,9 @@ const Effect* find_effect(const std::string& name) {
 void register_effect(std::unique_ptr<const Effect> effect) {
   if (find_effect(effect->name()))
     throw std::invalid_argument("effect \"" + effect->name() + "\" is already in the library: give yours another name");
+  if (effect->n_states() > kMaxEffectStates)
+    throw std::invalid_argument("effect \"" + effect->name() + "\" has " + std::to_string(effect->n_states()) +
+                                " states: expected at most " + std::to_string(kMaxEffectStates));
   library().all.push_back(effect.get());
   library().owned.push_back(std::move(effect));
 }
@@ -46,7 +49,10 @@ std::vector<int> effect_places(const Effect& effect, const ArmParameters<double>
   return places;
 }
 
-PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, int joint) {
+namespace {
+
+PlacedEffect place_with(double EffectParameter::*value, const Effect& effect, const ArmParameters<double>& arm,
+                        int joint) {
   const std::vector<int> places = effect_places(effect, arm);
   if (std::find(places.begin(), places.end(), joint) == places.end())
     throw std::invalid_argument(
@@ -58,8 +64,21 @@ PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm
   placed.effect = &effect;
   placed.joint = joint;
   const auto parameters = effect.parameters(arm, joint);
-  for (std::size_t i = 0; i < parameters.size(); ++i) placed.p[i] = parameters[i].typical;
+  if (parameters.size() > static_cast<std::size_t>(kMaxEffectParameters))
+    throw std::invalid_argument("effect " + effect.name() + " has " + std::to_string(parameters.size()) +
+                                " parameters: expected at most " + std::to_string(kMaxEffectParameters));
+  for (std::size_t i = 0; i < parameters.size(); ++i) placed.p[i] = parameters[i].*value;
   return placed;
+}
+
+}  // namespace
+
+PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, int joint) {
+  return place_with(&EffectParameter::typical, effect, arm, joint);
+}
+
+PlacedEffect place_neutral_effect(const Effect& effect, const ArmParameters<double>& arm, int joint) {
+  return place_with(&EffectParameter::neutral, effect, arm, joint);
 }
 
 }  // namespace halyard

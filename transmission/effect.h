@@ -185,13 +185,17 @@ using PlacedEffect = EffectInstance<double>;
 const std::vector<const Effect*>& effect_library();
 /// By name; null if there is none.
 const Effect* find_effect(const std::string& name);
-/// Adds a user's effect to the library. Throws std::invalid_argument if the name is taken.
+/// Adds a user's effect to the library. Throws std::invalid_argument if the name is taken or the effect has more than
+/// kMaxEffectStates states.
 void register_effect(std::unique_ptr<const Effect> effect);
 
 /// The joints where the arm can have the effect, 0-based; -1 stands for the whole arm.
 std::vector<int> effect_places(const Effect& effect, const ArmParameters<double>& arm);
 
-/// The effect with its typical parameters. Throws std::invalid_argument if it cannot be there.
+/// The effect with its typical parameters. Throws std::invalid_argument if it cannot be there or has more than
+/// kMaxEffectParameters parameters.
 PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);
+/// The effect with its sizes neutral, ready to be given some of them, and its shapes typical. Throws as place_effect().
+PlacedEffect place_neutral_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);
 
 }  // namespace halyard

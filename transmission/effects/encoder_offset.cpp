@@ -7,7 +7,7 @@
 ///   δ   how far the joint seems to stand from where it is      rad | m
 ///
 /// The joint's sensor is taken as the reference; an error of its own zero is the same thing seen
-/// from the other side.
+/// from the other side. Where one of the two zeros is unknown anyway the effect has no meaning.
 
 namespace halyard {
 namespace {
@@ -17,7 +17,8 @@ class EncoderOffset : public EffectOf<EncoderOffset> {
   std::string name() const override { return "encoder_offset"; }
   std::string summary() const override { return "a zero error between motor and joint encoder"; }
   bool applies(const ArmParameters<double>& arm, int joint) const override {
-    return arm.joint[joint].drive != Drive::none;
+    const JointParameters<double>& j = arm.joint[joint];
+    return j.drive != Drive::none && j.motor_zero_known && j.joint_zero_known;
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const bool turns = arm.joint[joint].type == JointType::revolute;
