@@ -23,16 +23,29 @@ constexpr std::size_t kMostFitted = 16;
 /// A candidate whose quick look is less significant than this is not fitted whole.
 constexpr double kWorthAFit = 0.05;
 
-std::vector<double> log_likelihood(const Evidence& evidence, const Score& score) {
+/// ln L of each deciding block. least: [2n] mean squares that are added, below which residuals count alike.
+std::vector<double> log_likelihood(const Evidence& evidence, const Score& score, const std::vector<double>& least) {
   const auto& count = evidence.block_count();
   std::vector<double> ln(count.size(), 0);
   for (std::size_t b = 0; b < count.size(); ++b)
-    for (int c = 0; c < evidence.channels(); ++c) {
-      if (count[b][c] == 0) continue;
-      const double floor = evidence.floor()[c];
-      ln[b] -= 0.5 * count[b][c] / evidence.correlated_rows() * std::log(score.block_sum[b][c] / count[b][c] + floor * floor);
-    }
+    for (int c = 0; c < evidence.channels(); ++c)
+      if (count[b][c] > 0)
+        ln[b] -= 0.5 * count[b][c] / evidence.correlated_rows() * std::log(score.block_sum[b][c] / count[b][c] + least[c]);
   return ln;
+}
+
+std::vector<double> floors(const Evidence& evidence) {
+  std::vector<double> least;
+  for (const double floor : evidence.floor()) least.push_back(floor * floor);
+  return least;
+}
+
+/// For the significance of a gain: blocks that had next to no residual, a motor's rest say, neither carry nor spoil it.
+std::vector<double> floors_beside(const Evidence& evidence, const Score& before) {
+  constexpr double kNextToNone = 0.1;   // of the residual's root mean square
+  std::vector<double> least = floors(evidence);
+  for (std::size_t c = 0; c < least.size(); ++c) least[c] += kNextToNone * kNextToNone * before.mean_square[c];
+  return least;
 }
 
 /// Sum of the paired differences, and how many standard errors they lie above zero.
@@ -236,12 +249,16 @@ class Search {
     t.usable = true;
     t.effect = h.effects.back();
     t.at_bound = at_bound(h, static_cast<int>(h.effects.size()) - 1);
-    t.log_likelihood = log_likelihood(evidence_, score);
-    const Paired p = paired(t.log_likelihood, ln_before, evidence_);
-    t.gain = p.sum + stretch_before - stretch(h);
-    t.p_value = p_value(p);
+    t.log_likelihood = log_likelihood(evidence_, score, floors(evidence_));
+    t.gain = paired(t.log_likelihood, ln_before, evidence_).sum + stretch_before - stretch(h);
+    t.p_value = p_of_gain(score, before);
     t.matters = t.p_value < kWorthAFit && matters(before, score, h, static_cast<int>(h.effects.size()) - 1);
     return t;
+  }
+
+  double p_of_gain(const Score& with, const Score& without) const {
+    const std::vector<double> least = floors_beside(evidence_, without);
+    return p_value(paired(log_likelihood(evidence_, with, least), log_likelihood(evidence_, without, least), evidence_));
   }
 
   bool convincing(const Trial& t, std::size_t candidates) const {
@@ -260,7 +277,7 @@ class Search {
   /// One round: a quick look at every candidate, a full fit of the best, and the best of those.
   bool add_one(Fit& current, Score& score) {
     if (explained(score)) return false;
-    const std::vector<double> ln_before = log_likelihood(evidence_, score);
+    const std::vector<double> ln_before = log_likelihood(evidence_, score, floors(evidence_));
     const std::vector<double> scale = channel_scale(evidence_, score.fit_mean_square);
     // Before any effect is named the baseline's refit is bent by what is missing: the look starts at the model's numbers.
     Fit from = current;
@@ -314,16 +331,16 @@ class Search {
     });
     std::size_t best = leaders.size();
     for (std::size_t i = 0; i < leaders.size(); ++i)
-      if (convincing(leaders[i], all.size()) && (best == leaders.size() || leaders[i].gain > leaders[best].gain)) best = i;
+      if (convincing(leaders[i], fitted.size()) && (best == leaders.size() || leaders[i].gain > leaders[best].gain)) best = i;
 
     Round round;
     std::copy(leaders.begin(), leaders.end(), trials.begin());
     if (best < leaders.size()) {
       std::vector<std::size_t> alike = {best};
       for (std::size_t i = 0; i < leaders.size(); ++i) {
-        if (i == best || !convincing(leaders[i], all.size())) continue;
+        if (i == best || !convincing(leaders[i], fitted.size())) continue;
         const Paired p = paired(leaders[best].log_likelihood, leaders[i].log_likelihood, evidence_);
-        if (p.t < kTellApart) alike.push_back(i);
+        if (p.t < kTellApart || p.sum < 2 * kTellApart * kTellApart) alike.push_back(i);
       }
       // Of those that the data cannot tell apart the one with the fewest numbers is named.
       const auto numbers_of = [&](std::size_t i) {
@@ -374,7 +391,7 @@ class Search {
       const Score s = f.usable ? evidence_.score(f.hypothesis) : Score{};
       const bool idle = f.usable && s.finite &&
                         (!matters(s, score, current.hypothesis, static_cast<int>(e)) ||
-                         p_value(paired(log_likelihood(evidence_, score), log_likelihood(evidence_, s), evidence_)) > options_.significance);
+                         p_of_gain(score, s) > options_.significance);
       if (!idle) { ++e; continue; }
       current = f;
       score = s;

@@ -26,7 +26,7 @@ namespace halyard {
 /// effect's functional form, which is told as an unexplained rest and not chased.
 inline constexpr double kMattersShare = 0.05;
 /// What an effect does to some signal has to be this many times the floor of its channel.
-inline constexpr double kMattersFactor = 2;
+inline constexpr double kMattersFactor = 1.5;
 /// Two candidates whose gains differ by less than this many standard errors cannot be told apart.
 inline constexpr double kTellApart = 2.0;
 

@@ -74,6 +74,13 @@ bool is_refit(const Fit& f, std::size_t i) {
   return f.parameters[i].effect < 0 && std::abs(f.value[i] - f.parameters[i].nominal) > kRefit * f.std_deviation[i];
 }
 
+/// At the end of what is plausible a size of an effect explains nothing.
+bool ends_at_bound(const FitParameter& p, double value) {
+  const double margin = 1e-3 * (p.upper - p.lower);
+  return p.effect >= 0 && !p.shape && !p.natural_bounds && std::abs(value - p.nominal) > margin &&
+         (value < p.lower + margin || value > p.upper - margin);
+}
+
 /// Numbers that the data did not move for certain go back to the model's, sizes of an effect to neutral as long as another
 /// of its sizes stays; the rest is fitted again. They go one by one, the least certain first: of two numbers that the data
 /// know only the sum of, one is needed.
@@ -96,10 +103,7 @@ Fit keep_certain_numbers(const Evidence& evidence, const ArmModel& model, const 
       if (!may_go(i)) continue;
       const double needed = f.parameters[i].effect < 0 ? kRefit : kTwoSided95;
       const FitParameter& p = f.parameters[i];
-      // At the end of what is plausible a size explains nothing.
-      const double margin = 1e-3 * (p.upper - p.lower);
-      const bool at_end = p.effect >= 0 && !p.natural_bounds && (value(i) < p.lower + margin || value(i) > p.upper - margin);
-      const double has = at_end ? 0 : std::abs(value(i) - p.nominal) / (needed * std::sqrt(covariance(i, i)));
+      const double has = ends_at_bound(p, value(i)) ? 0 : std::abs(value(i) - p.nominal) / (needed * std::sqrt(covariance(i, i)));
       if (has < certainty) certainty = has, least = i;
     }
     if (least == f.parameters.size()) break;
@@ -129,7 +133,10 @@ Fit keep_certain_numbers(const Evidence& evidence, const ArmModel& model, const 
     if (kept[i]) left.push_back(p);
   }
   const Fit again = fit(evidence, h, left, channel_scale(evidence, score.fit_mean_square));
-  return again.usable ? again : f;
+  if (!again.usable) return f;
+  bool at_bound = false;
+  for (std::size_t i = 0; i < left.size(); ++i) at_bound = at_bound || ends_at_bound(left[i], again.value[i]);
+  return at_bound && left.size() < f.parameters.size() ? keep_certain_numbers(evidence, model, again, score) : again;
 }
 
 /// Effects whose typical size changes no signal of the training data by more than its floor.

@@ -4,11 +4,11 @@
 /// Friction that changes in time, as of a drive that warms up: Coulomb level and viscous coefficient, of motor and
 /// joint, all times
 ///
-///   1 + δ (1 - exp(-t / τ)),   t >= 0
+///   max(0, 1 + ρ τ (1 - exp(-t / τ))),   t >= 0
 ///
-///   δ   `drift`, the change in the end, relative      -
-///   τ   `time_constant`                                s
-///   t   on the log's clock                             s
+///   ρ   `rate`, the relative change per time at the start; in the end it is ρ τ      1/s
+///   τ   `time_constant`; much longer than a record: a change linear in time          s
+///   t   on the log's clock                                                            s
 ///
 /// Source: Bittencourt and Axelsson, IEEE/ASME Trans. Mechatronics 19 (2014), friction over temperature; a body that
 /// warms at constant power settles exponentially.
@@ -18,7 +18,7 @@ namespace {
 
 template <class T>
 T growth(const EffectContext<T>& c) {
-  return c.p[0] * (T(1.0) - exp(T(T(-std::max(c.time, 0.0)) / c.p[1])));
+  return max(T(-1.0), T(c.p[0] * c.p[1] * (T(1.0) - exp(T(T(-std::max(c.time, 0.0)) / c.p[1])))));
 }
 
 class FrictionDrift : public EffectOf<FrictionDrift> {
@@ -29,8 +29,8 @@ class FrictionDrift : public EffectOf<FrictionDrift> {
     return static_cast<unsigned>(EffectStage::motor) | static_cast<unsigned>(EffectStage::joint);
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"drift", "1", 0, -0.3, -1, 5, 0},
-            {"time_constant", "s", 30, 30, 0.5, 1000, 0, false, {3, 10, 30, 100}}};
+    return {{"rate", "1/s", 0, -0.01, -2, 2, 0},
+            {"time_constant", "s", 30, 30, 0.5, 1e4, 0, true, {3, 10, 30, 1000}}};
   }
 
   template <class T>
