@@ -19,7 +19,7 @@ constexpr double kRestFactor = 3;
 /// A candidate that promises less than this share of the residual, to first order, is not fitted at all.
 constexpr double kPromise = 0.02;
 /// So many candidates are fitted in a round: those that leave least of the residual where their search sets out.
-constexpr std::size_t kMostFitted = 16;
+constexpr std::size_t kMostFitted = 10;
 /// A candidate whose quick look is less significant than this is not fitted whole.
 constexpr double kWorthAFit = 0.05;
 
@@ -375,7 +375,7 @@ class Search {
     for (const FitParameter& p : all_parameters(start))
       if (p.effect >= 0) parameters.push_back(p);
     FitOptions options;
-    options.iterations = 8;
+    options.iterations = 6;
     options.cost_tolerance = 3e-4;
     options.frozen_baseline = true;
     const Fit f = fit(evidence_, start, parameters, scale, options, kept);

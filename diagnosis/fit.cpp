@@ -55,9 +55,13 @@ class Residual : public ceres::CostFunction {
       all.push_back(moved(all[0], parameters_[i], kStep));
       step[i] = (parameter_value(all.back(), parameters_[i]) - parameter_value(all[0], parameters_[i])) / parameters_[i].scale;
     }
-    if (last_point_ != std::vector<double>(u, u + p) || last_.size() < all.size()) {
+    // What is frozen moves no hypothesis.
+    std::vector<double> point;
+    for (std::size_t i = 0; i < p; ++i)
+      if (!is_frozen(i)) point.push_back(u[i]);
+    if (last_point_ != point || last_.size() < all.size()) {
       last_ = evidence_.fit_rows(all);
-      last_point_.assign(u, u + p);
+      last_point_ = point;
     }
     const auto& out = last_;
     for (const auto& column : out)
