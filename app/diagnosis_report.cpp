@@ -106,6 +106,7 @@ void add_candidates(report::Page& page, const Diagnosis& d) {
                             : taken          ? "added"
                             : t.gain <= 0    ? "does not help on data that the fit did not see"
                             : t.at_bound     ? "ends at the end of what is plausible"
+                            : t.is_refit     ? "within the tolerance of the model's numbers"
                             : !t.matters     ? "too small to matter"
                             : round.accepted ? "helps less than the first"
                                              : "not significant"});

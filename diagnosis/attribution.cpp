@@ -145,7 +145,7 @@ class Search {
 
   /// Fits all numbers until it no longer helps: each pass weighs the channels by what the last one left.
   Fit refit(const Hypothesis& h, const Score& before) const {
-    constexpr int kMostPasses = 4;
+    constexpr int kMostPasses = 12;
     constexpr double kWorthAPass = 0.02;
     Fit best;
     Hypothesis at = h;
@@ -217,6 +217,19 @@ class Search {
     return false;
   }
 
+  /// True if all sizes of the effect stay within what the model's own tolerance allows: a refit and no effect.
+  bool within_tolerance(const Hypothesis& h, int place) const {
+    const PlacedEffect& e = h.effects[place];
+    const auto parameters = e.effect->parameters(model_.nominal, e.joint);
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      const EffectParameter& p = parameters[i];
+      // Of a number without tolerance a hundredth of its typical size is nothing.
+      const double allowed = p.tolerance > 0 ? p.tolerance : 0.01 * std::abs(p.typical - p.neutral);
+      if (!p.is_shape() && std::abs(e.p[i] - p.neutral) > allowed) return false;
+    }
+    return true;
+  }
+
   /// The effect takes a share of a residual, and what it does to some signal is well above what its sensor resolves.
   bool matters(const Score& before, const Score& after, const Hypothesis& h, int place) const {
     bool share = false;
@@ -249,6 +262,7 @@ class Search {
     t.usable = true;
     t.effect = h.effects.back();
     t.at_bound = at_bound(h, static_cast<int>(h.effects.size()) - 1);
+    t.is_refit = within_tolerance(h, static_cast<int>(h.effects.size()) - 1);
     t.log_likelihood = log_likelihood(evidence_, score, floors(evidence_));
     t.gain = paired(t.log_likelihood, ln_before, evidence_).sum + stretch_before - stretch(h);
     t.p_value = p_of_gain(score, before);
@@ -262,7 +276,7 @@ class Search {
   }
 
   bool convincing(const Trial& t, std::size_t candidates) const {
-    return t.usable && !t.at_bound && t.matters && t.gain > 0 && t.p_value * static_cast<double>(candidates) < options_.significance;
+    return t.usable && !t.at_bound && !t.is_refit && t.matters && t.gain > 0 && t.p_value * static_cast<double>(candidates) < options_.significance;
   }
 
   /// True if no channel has a residual left above its floor.
@@ -384,13 +398,14 @@ class Search {
 
   /// Each effect is tried for removal: one that a later one made idle goes.
   void remove_idle(Fit& current, Score& score) {
-    for (std::size_t e = given_; e < current.hypothesis.effects.size() && current.hypothesis.effects.size() > given_ + 1;) {
+    for (std::size_t e = given_; e < current.hypothesis.effects.size();) {
       Hypothesis without = current.hypothesis;
       without.effects.erase(without.effects.begin() + e);
       const Fit f = refit(without, score);
       const Score s = f.usable ? evidence_.score(f.hypothesis) : Score{};
       const bool idle = f.usable && s.finite &&
-                        (!matters(s, score, current.hypothesis, static_cast<int>(e)) ||
+                        (within_tolerance(current.hypothesis, static_cast<int>(e)) ||
+                         !matters(s, score, current.hypothesis, static_cast<int>(e)) ||
                          p_of_gain(score, s) > options_.significance);
       if (!idle) { ++e; continue; }
       current = f;

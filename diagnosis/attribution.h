@@ -36,6 +36,7 @@ struct Trial {
   bool promising = true;         ///< false: where it takes most of the residual it takes too little to be fitted
   bool usable = false;           ///< it could be fitted
   bool at_bound = false;
+  bool is_refit = false;         ///< its sizes stay within the model's tolerance
   bool matters = false;
   double gain = 0;               ///< on the deciding blocks, above the baseline of its round
   double p_value = 1;            ///< of no gain
