@@ -132,7 +132,7 @@ DiagnosisEvaluation evaluate_diagnosis(const ArmModel& model, const Diagnosis& d
   oneapi::tbb::parallel_for(std::size_t{0}, 2 * kEstimators.size(), [&](std::size_t job) {
     EstimatorComparison& of = result.estimators[job / 2];
     const bool after = job % 2 == 1;
-    EstimatorErrors errors = errors_of(kEstimators[job / 2], after ? d.revised : model, held_out);
+    EstimatorErrors errors = errors_of(kEstimators[job / 2], after ? d.revised : d.given, held_out);
     const std::lock_guard lock(mutex);
     of.name = kEstimators[job / 2];
     (after ? of.after : of.before) = std::move(errors);
