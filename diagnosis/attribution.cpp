@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/paired_t.h"
 #include "diagnosis/starts.h"
 #include "model/input_error.h"
 
@@ -19,7 +19,7 @@ constexpr double kRestFactor = 3;
 /// A candidate that promises less than this share of the residual, to first order, is not fitted at all.
 constexpr double kPromise = 0.02;
 /// So many candidates are fitted in a round: those that leave least of the residual where their search sets out.
-constexpr std::size_t kMostFitted = 10;
+constexpr std::size_t kMostFitted = 16;
 /// A candidate whose quick look is less significant than this is not fitted whole.
 constexpr double kWorthAFit = 0.05;
 
@@ -48,28 +48,15 @@ std::vector<double> floors_beside(const Evidence& evidence, const Score& before)
   return least;
 }
 
-/// Sum of the paired differences, and how many standard errors they lie above zero.
-struct Paired { double sum, t; int blocks; };
-
+/// By how much one lies above the other in each deciding block that has rows.
 Paired paired(const std::vector<double>& with, const std::vector<double>& without, const Evidence& evidence) {
-  std::vector<double> d;
+  std::vector<double> differences;
   for (std::size_t b = 0; b < with.size(); ++b) {
     int rows = 0;
     for (const int n : evidence.block_count()[b]) rows += n;
-    if (rows > 0) d.push_back(with[b] - without[b]);
+    if (rows > 0) differences.push_back(with[b] - without[b]);
   }
-  double mean = 0, square = 0;
-  for (const double x : d) mean += x / d.size();
-  for (const double x : d) square += (x - mean) * (x - mean);
-  const double blocks = static_cast<double>(d.size());
-  const double error = d.size() > 1 ? std::sqrt(square / (blocks * (blocks - 1))) : 0;
-  return {mean * blocks, error > 0 ? mean / error : 0, static_cast<int>(d.size())};
-}
-
-double p_value(const Paired& p) {
-  if (p.blocks < 3) return 1;
-  const boost::math::students_t distribution(p.blocks - 1);
-  return boost::math::cdf(boost::math::complement(distribution, p.t));
+  return halyard::paired(differences);
 }
 
 Trial unusable(const PlacedEffect& effect) {

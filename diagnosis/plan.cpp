@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "diagnosis/baseline_reach.h"
+#include "diagnosis/paired_t.h"
 #include "diagnosis/signature.h"
 #include "model/input_error.h"
 
@@ -148,7 +149,7 @@ class Planner {
       if (!at_end && t.cost < best.cost) best = std::move(t);
     }
     if (!std::isfinite(best.cost)) return false;
-    const Paired p = paired(reference_ln_, log_likelihood(best.left));
+    const Paired p = compared(reference_ln_, log_likelihood(best.left));
     return p.t < kTellApart || p.sum < 2 * kTellApart * kTellApart;
   }
 
@@ -281,7 +282,7 @@ class Planner {
     bool share = false;
     for (std::size_t c = 0; c < square.size(); ++c)
       share = share || square[c] - reference_square_[c] > kMattersShare * square[c];
-    return share && paired(reference_ln_, log_likelihood(left)).t > significant_t_;
+    return share && compared(reference_ln_, log_likelihood(left)).t > significant_t_;
   }
 
   std::vector<double> mean_squares(const std::vector<double>& rows) const {
@@ -319,16 +320,10 @@ class Planner {
     return ln;
   }
 
-  struct Paired {
-    double sum, t;
-  };
-  static Paired paired(const std::vector<double>& with, const std::vector<double>& without) {
-    const double n = static_cast<double>(with.size());
-    double sum = 0, square = 0;
-    for (std::size_t b = 0; b < with.size(); ++b) sum += with[b] - without[b];
-    for (std::size_t b = 0; b < with.size(); ++b) square += std::pow(with[b] - without[b] - sum / n, 2);
-    const double error = std::sqrt(square / (n * (n - 1)));
-    return {sum, error > 0 ? sum / n / error : 0};
+  static Paired compared(const std::vector<double>& with, const std::vector<double>& without) {
+    std::vector<double> differences;
+    for (std::size_t b = 0; b < with.size(); ++b) differences.push_back(with[b] - without[b]);
+    return paired(differences);
   }
 
   const ArmModel& model_;
