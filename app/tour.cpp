@@ -67,7 +67,7 @@ void compute_all(const std::vector<Part>& parts, const StageCallback& tell) {
 
 DiagnosedModel diagnose_rig(const Rig& rig, const fs::path& examples, const fs::path& recordings,
                             const StageCallback& progress) {
-  DiagnosedModel result{read_model(examples / "measured" / rig.folder / rig.model), {}};
+  DiagnosedModel result{read_model(examples / "measured" / rig.folder / rig.model), {}, {}};
   const auto read = [&](const std::string& file) {
     return read_log_of(result.model, recordings / rig.folder / file, {}, /*torque_required=*/false);
   };
@@ -75,7 +75,10 @@ DiagnosedModel diagnose_rig(const Rig& rig, const fs::path& examples, const fs::
   for (const std::string& file : rig.training) training.push_back(read(file));
   std::optional<Log> holdout;
   if (!rig.holdout.empty()) holdout = read(rig.holdout);
-  result.diagnosis = diagnose(result.model, training, holdout, {}, progress);
+  DiagnosisOptions options;
+  options.attribution.most_effects = kMostEffectsOfRig;
+  result.diagnosis = diagnose(result.model, training, holdout, options, progress);
+  result.evaluation = evaluate_diagnosis(result.model, result.diagnosis, training, holdout, progress);
   if (holdout) result.diagnosis.holdout = rig.holdout;   // the same bytes wherever the recordings are
   return result;
 }
@@ -93,9 +96,11 @@ Tour compute_tour(const fs::path& examples, const fs::path& recordings, const St
                      tour.experiments = compute_experiments(raven2, tell);
                    }});
   parts.push_back({"undeclared_effect", [&](const StageCallback& tell) {
-                     tour.bundled.model = read_model(raven2 / "raven2.xml");
-                     const Log log = read_log_of(tour.bundled.model, raven2 / "undeclared_effect.csv", {});
-                     tour.bundled.diagnosis = diagnose(tour.bundled.model, {log}, std::nullopt, {}, tell);
+                     auto& [model, diagnosis, evaluation] = tour.bundled;
+                     model = read_model(raven2 / "raven2.xml");
+                     const std::vector<Log> logs = {read_log_of(model, raven2 / "undeclared_effect.csv", {})};
+                     diagnosis = diagnose(model, logs, std::nullopt, {}, tell);
+                     evaluation = evaluate_diagnosis(model, diagnosis, logs, std::nullopt, tell);
                    }});
   for (RigResult& result : tour.rigs) {
     if (!is_at_hand(result.rig, recordings)) continue;

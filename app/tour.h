@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/diagnosis_evaluation.h"
 #include "app/experiments.h"
 #include "app/tour_rigs.h"
 #include "diagnosis/diagnose.h"
@@ -15,11 +16,15 @@
 
 namespace halyard {
 
-/// A model and what a diagnosis found that it lacks.
+/// A model, what a diagnosis found that it lacks, and why.
 struct DiagnosedModel {
   ArmModel model;
   Diagnosis diagnosis;
+  DiagnosisEvaluation evaluation;
 };
+
+/// The tour looks for one effect a recording, to be done within a minute; halyard diagnose goes on.
+inline constexpr int kMostEffectsOfRig = 1;
 
 struct RigResult {
   Rig rig;

@@ -44,7 +44,7 @@ void print_experiments(const std::vector<Experiment>& experiments) {
   }
 }
 
-void print_errors(const DiagnosedModel& diagnosed, const std::string& torque_unit = "N m") {
+void print_errors(const DiagnosedModel& diagnosed) {
   const std::vector<JointUnit> units = joint_units(diagnosed.model);
   const Diagnosis& d = diagnosed.diagnosis;
   for (int k = 0; k < diagnosed.model.n(); ++k) {
@@ -54,9 +54,10 @@ void print_errors(const DiagnosedModel& diagnosed, const std::string& torque_uni
                  shown_number(d.after.joint_rms[k], units[k]), units[k].shown);
     }
     if (std::isfinite(d.before.torque_rms[k])) {
+      const ShownUnit unit = residual_unit(diagnosed.model.nominal, k, ResidualKind::motor_torque);
       fmt::print("{} {} RMS {:.4g} -> {:.4g} {}", std::isfinite(d.before.joint_rms[k]) ? "," : "",
-                 torque_unit == "N" ? "motor force" : "motor torque", d.before.torque_rms[k], d.after.torque_rms[k],
-                 torque_unit);
+                 residual_name(diagnosed.model.nominal, k, ResidualKind::motor_torque),
+                 unit.per_si * d.before.torque_rms[k], unit.per_si * d.after.torque_rms[k], unit.name);
     }
     fmt::print("\n");
   }
@@ -80,7 +81,7 @@ void print_rigs(const Tour& tour) {
   for (const RigResult& result : tour.rigs) {
     if (result.diagnosed) {
       fmt::print("  {}: {}\n", result.rig.title, verdict_line(result.diagnosed->diagnosis));
-      print_errors(*result.diagnosed, result.rig.torque_unit);
+      print_errors(*result.diagnosed);
     } else {
       fmt::print("  {}: not at hand; examples/measured/{}/README.md says where to get it\n", result.rig.title,
                  result.rig.folder);

@@ -130,7 +130,7 @@ void add_bundled(Page& page, const Tour& tour) {
   page.paragraph(
       "examples/raven2/undeclared_effect.csv is a log of a simulated RAVEN-II that differs from raven2.xml. The "
       "diagnosis gets the model and the log, not the scenario that the log was made from.");
-  add_verdict(page, tour.bundled.diagnosis);
+  add_verdict(page, tour.bundled.diagnosis, tour.bundled.evaluation);
   page.table(found_table(tour));
   add_error_table(page, tour.bundled.diagnosis);
   for (const PlacedEffect& effect : tour.undeclared) {
@@ -140,8 +140,8 @@ void add_bundled(Page& page, const Tour& tour) {
   page.link("The revised model, ready for every other command", "undeclared_effect/model.xml");
 }
 
-std::string number_of(double value, double shown_per_si, const std::string& unit) {
-  return std::isfinite(value) ? fmt::format("{:.4g} {}", shown_per_si * value, unit) : std::string("no sensor");
+std::string number_of(double value, const ShownUnit& unit) {
+  return std::isfinite(value) ? shown(value, unit) : std::string("no sensor");
 }
 
 void add_rig_rows(report::Table& table, const RigResult& result) {
@@ -149,15 +149,15 @@ void add_rig_rows(report::Table& table, const RigResult& result) {
   const std::vector<JointUnit> units = joint_units(result.diagnosed->model);
   const auto less = [](double before, double after) { return after < 0.9 * before; };
   for (int k = 0; k < result.diagnosed->model.n(); ++k) {
-    const JointUnit& u = units[k];
-    const std::string& torque = result.rig.torque_unit;
+    const ShownUnit position{units[k].shown, units[k].shown_per_si};
+    const ShownUnit torque = residual_unit(result.diagnosed->model.nominal, k, ResidualKind::motor_torque);
     table.rows.push_back(
         {k == 0 ? Cell::link(result.rig.title, result.rig.name + "/report.html") : Cell(""),
          Cell(k == 0 ? verdict_line(d) : ""), Cell(std::to_string(k + 1)),
-         number_of(d.before.joint_rms[k], u.shown_per_si, u.shown),
-         Cell(number_of(d.after.joint_rms[k], u.shown_per_si, u.shown), less(d.before.joint_rms[k], d.after.joint_rms[k])),
-         number_of(d.before.torque_rms[k], 1, torque),
-         Cell(number_of(d.after.torque_rms[k], 1, torque), less(d.before.torque_rms[k], d.after.torque_rms[k]))});
+         number_of(d.before.joint_rms[k], position),
+         Cell(number_of(d.after.joint_rms[k], position), less(d.before.joint_rms[k], d.after.joint_rms[k])),
+         number_of(d.before.torque_rms[k], torque),
+         Cell(number_of(d.after.torque_rms[k], torque), less(d.before.torque_rms[k], d.after.torque_rms[k]))});
   }
 }
 
@@ -198,11 +198,11 @@ void write_tour(const std::filesystem::path& folder, const Tour& tour) {
   add_rigs(page, tour);
 
   write_experiments(folder / "experiments", tour.experiments);
-  write_diagnosis(folder / "undeclared_effect", tour.bundled.model, tour.bundled.diagnosis);
+  write_diagnosis(folder / "undeclared_effect", tour.bundled.model, tour.bundled.diagnosis, tour.bundled.evaluation);
   for (const RigResult& result : tour.rigs) {
-    if (result.diagnosed) {
-      write_diagnosis(folder / result.rig.name, result.diagnosed->model, result.diagnosed->diagnosis);
-    }
+    if (!result.diagnosed) continue;
+    const auto& [model, diagnosis, evaluation] = *result.diagnosed;
+    write_diagnosis(folder / result.rig.name, model, diagnosis, evaluation);
   }
   page.write(folder / "report.html");
 }

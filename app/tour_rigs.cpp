@@ -12,7 +12,7 @@ const std::vector<Rig>& measured_rigs() {
       {"kuka_kr300_axis1", "KUKA KR300, axis 1", "kuka_kr300", "axis1.xml", {"traj_A_axis1.csv"}, "traj_B_axis1.csv"},
       {"kuka_kr300_axis2", "KUKA KR300, axis 2", "kuka_kr300", "axis2.xml", {"traj_A_axis2.csv"}, "traj_B_axis2.csv"},
       {"kuka_kr300_axis3", "KUKA KR300, axis 3", "kuka_kr300", "axis3.xml", {"traj_A_axis3.csv"}, "traj_B_axis3.csv"},
-      {"emps", "EMPS, ball-screw axis", "emps", "emps.xml", {"data_emps.csv"}, "data_emps_pulses.csv", "N"},
+      {"emps", "EMPS, ball-screw axis", "emps", "emps.xml", {"data_emps.csv"}, "data_emps_pulses.csv"},
   };
   return rigs;
 }

@@ -16,7 +16,6 @@ struct Rig {
   std::string model;                   ///< file in measured/folder
   std::vector<std::string> training;   ///< files in the recordings' folder
   std::string holdout;                 ///< the same; empty: the last third of the training data
-  std::string torque_unit = "N m";     ///< of what the motor is driven by
 };
 
 const std::vector<Rig>& measured_rigs();
