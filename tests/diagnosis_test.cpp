@@ -11,45 +11,20 @@
 #include "model/model_file.h"
 #include "plant/simulate.h"
 #include "transmission/path_matrix.h"
+#include "tests/short_arm.h"
 
 namespace halyard {
 namespace {
 
 ArmModel raven2() { return read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml"); }
 
-/// Shoulder and elbow of the RAVEN-II alone.
-ArmModel two_joints() {
-  ArmModel model = raven2();
-  model.nominal.n = 2;
-  model.joints.resize(2);
-  return model;
-}
+/// Shoulder and elbow alone.
+ArmModel two_joints() { return first_joints(2); }
 
 PlacedEffect placed(const std::string& name, const ArmModel& model, int joint, const std::vector<double>& p) {
   PlacedEffect e = place_effect(*find_effect(name), model.nominal, joint);
   for (std::size_t i = 0; i < p.size(); ++i) e.p[i] = p[i];
   return e;
-}
-
-/// The arm on a few sines of each joint around home, under stiffer control than its own, so that it follows.
-Scenario motion(const ArmModel& robot, double duration, int variant = 0) {
-  Scenario s;
-  s.robot = robot;
-  s.name = "test";
-  s.duration_s = duration;
-  s.fade_in_s = 0.5;
-  s.trajectory.resize(robot.n());
-  for (int k = 0; k < robot.n(); ++k) {
-    s.robot.joints[k].controller.kp *= 4;
-    s.robot.joints[k].controller.kd *= 2;
-    JointTrajectory& t = s.trajectory[k];
-    t.kind = JointTrajectory::Kind::sines;
-    t.center = robot.joints[k].home;
-    t.sines = {{0.25, 0.31 + 0.07 * k, 0.3 * variant},
-               {0.12, 0.83 - 0.09 * k, 1.0 + variant},
-               {0.05, 1.7 + 0.21 * k, 2.0 - variant}};
-  }
-  return s;
 }
 
 Log unquantised_log(const ArmModel& robot, double duration) {

@@ -15,18 +15,12 @@
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
+#include "tests/short_arm.h"
 
 namespace halyard {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-ArmModel raven2(int joints) {
-  ArmModel model = read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml");
-  model.nominal.n = joints;
-  model.joints.resize(joints);
-  return model;
-}
 
 /// EMPS-like: one mass on a screw, rigid, no sensor but the motor's.
 ArmModel screw() { return read_model(HALYARD_SOURCE_DIR "/examples/measured/emps/emps.xml"); }
@@ -35,26 +29,6 @@ PlacedEffect placed(const std::string& name, const ArmModel& model, int joint, c
   PlacedEffect e = place_neutral_effect(*find_effect(name), model.nominal, joint);
   for (std::size_t i = 0; i < p.size(); ++i) e.p[i] = p[i];
   return e;
-}
-
-Scenario motion(const ArmModel& robot, double duration, int variant = 0) {
-  Scenario s;
-  s.robot = robot;
-  s.name = "odd";
-  s.duration_s = duration;
-  s.fade_in_s = 0.5;
-  s.trajectory.resize(robot.n());
-  for (int k = 0; k < robot.n(); ++k) {
-    s.robot.joints[k].controller.kp *= 4;
-    s.robot.joints[k].controller.kd *= 2;
-    JointTrajectory& t = s.trajectory[k];
-    t.kind = JointTrajectory::Kind::sines;
-    t.center = robot.joints[k].home;
-    t.sines = {{0.25, 0.31 + 0.07 * k, 0.3 * variant},
-               {0.12, 0.83 - 0.09 * k, 1.0 + variant},
-               {0.05, 1.7 + 0.21 * k, 2.0 - variant}};
-  }
-  return s;
 }
 
 struct Logs { Log train, holdout; };
@@ -79,12 +53,12 @@ Diagnosis diagnosis_of(const ArmModel& model, const Logs& logs) {
 /// The one-joint arm's logs are simulated once: as the model says, and with a capstan that is 2 % larger.
 constexpr double kRatio = 1.02;
 const Logs& clean_logs() {
-  static const Logs logs = logs_of(raven2(1));
+  static const Logs logs = logs_of(first_joints(1));
   return logs;
 }
 const Logs& larger_logs() {
   static const Logs logs = [] {
-    ArmModel truth = raven2(1);
+    ArmModel truth = first_joints(1);
     truth.effects.push_back(placed("capstan_ratio", truth, 0, {kRatio}));
     return logs_of(truth);
   }();
@@ -152,15 +126,15 @@ std::string message_of(const std::function<void()>& action) {
 // ------------------------------------------------------------------------------------------- sensors
 
 TEST(LogWithoutJointSensor, IsClean) {
-  expect_clean_of(raven2(1), [](Log& log) { log.joint_position[0].clear(); });
+  expect_clean_of(first_joints(1), [](Log& log) { log.joint_position[0].clear(); });
 }
 
 TEST(LogWithoutTorque, IsClean) {
-  expect_clean_of(raven2(1), [](Log& log) { log.motor_torque[0].clear(); });
+  expect_clean_of(first_joints(1), [](Log& log) { log.motor_torque[0].clear(); });
 }
 
 TEST(LogWithATorqueOfZeros, HasNoTorque) {
-  expect_clean_of(raven2(1), [](Log& log) { log.motor_torque[0].assign(log.size(), 0.0); });
+  expect_clean_of(first_joints(1), [](Log& log) { log.motor_torque[0].assign(log.size(), 0.0); });
 }
 
 TEST(LogOfAScrewWithItsMotorAlone, IsCleanAndShowsFrictionOfTheScrew) {
@@ -187,20 +161,20 @@ TEST(LogOfAScrewWithItsMotorAlone, IsCleanAndShowsFrictionOfTheScrew) {
 }
 
 TEST(LogWithAMeasuredLoad, IsCleanAndWithoutTheMeasurementNot) {
-  ArmModel truth = raven2(1);
+  ArmModel truth = first_joints(1);
   truth.effects.push_back(placed("external_force", truth, 0, {2.0, 1.0, 4.0}));
   Logs logs = logs_of(truth);
   logs.holdout = clean_logs().holdout;
-  EXPECT_NE(diagnosis_of(raven2(1), logs).verdict, Diagnosis::Verdict::clean);
+  EXPECT_NE(diagnosis_of(first_joints(1), logs).verdict, Diagnosis::Verdict::clean);
   for (const double t : logs.train.time) logs.train.joint_torque[0].push_back(t > 1 && t < 4 ? 2.0 : 0.0);
-  expect_clean(diagnosis_of(raven2(1), logs));
+  expect_clean(diagnosis_of(first_joints(1), logs));
 }
 
 TEST(StuckJointSensor, IsLeftOutAndTold) {
   Logs logs = clean_logs();
   logs.train.joint_position[0].assign(logs.train.size(), 0.7);
   logs.train.source = "rig.csv";
-  const Diagnosis d = diagnosis_of(raven2(1), logs);
+  const Diagnosis d = diagnosis_of(first_joints(1), logs);
   EXPECT_EQ(d.verdict, Diagnosis::Verdict::unknown);
   EXPECT_TRUE(d.effects.empty());
   ASSERT_EQ(d.unexplained.size(), 1u);
@@ -210,21 +184,21 @@ TEST(StuckJointSensor, IsLeftOutAndTold) {
 // -------------------------------------------------------------------------------- rates and drop-outs
 
 TEST(SlowJointSensor, IsComparedAtItsOwnSamples) {
-  expect_clean_of(raven2(1), [&](Log& log) { thin(log.joint_position[0], 20, 3); });   // 50 Hz in 1 kHz
+  expect_clean_of(first_joints(1), [&](Log& log) { thin(log.joint_position[0], 20, 3); });   // 50 Hz in 1 kHz
 }
 
 TEST(SlowLog, IsClean) {
   // Without rounding: the controller turns each step of the encoder into a spike of torque, and of those a slow logger
   // takes every tenth.
-  Scenario train = motion(raven2(1), kDuration), holdout = motion(raven2(1), 2.5, 1);
+  Scenario train = motion(first_joints(1), kDuration), holdout = motion(first_joints(1), 2.5, 1);
   train.quantise = holdout.quantise = false;
   const Logs logs{simulate(train).measured, simulate(holdout).measured};
-  expect_clean(diagnosis_of(raven2(1), {slower(logs.train, 10), slower(logs.holdout, 10)}));   // 100 Hz
+  expect_clean(diagnosis_of(first_joints(1), {slower(logs.train, 10), slower(logs.holdout, 10)}));   // 100 Hz
 }
 
 TEST(RowsOfEachSensorItsOwn, AreOneLog) {
   // The joint's sensor is read between the others: its cells are empty in their rows, and theirs in its.
-  expect_clean_of(raven2(1), [](Log& log) {
+  expect_clean_of(first_joints(1), [](Log& log) {
     thin(log.motor_position[0], 2, 0), thin(log.motor_torque[0], 2, 0), thin(log.joint_position[0], 2, 1);
   });
 }
@@ -240,8 +214,8 @@ TEST(DropOuts, AtRandomAndInBurstsLeaveTheRest) {
         if (burst > 0) --burst;
       }
   };
-  expect_clean_of(raven2(1), spoil);
-  expect_larger_of(raven2(1), spoil);
+  expect_clean_of(first_joints(1), spoil);
+  expect_larger_of(first_joints(1), spoil);
 }
 
 TEST(SeveralLogs, OfOtherRatesAndSensorsCountTogether) {
@@ -249,7 +223,7 @@ TEST(SeveralLogs, OfOtherRatesAndSensorsCountTogether) {
   Log slow_without_torque = slower(logs.train, 4), blind = logs.holdout;
   slow_without_torque.motor_torque[0].clear();
   blind.joint_position[0].clear();
-  const Diagnosis d = diagnose(raven2(1), {slow_without_torque, blind}, logs.holdout, quick());
+  const Diagnosis d = diagnose(first_joints(1), {slow_without_torque, blind}, logs.holdout, quick());
   expect_named(d, "capstan_ratio", 0, kRatio, 1e-3);
 }
 
@@ -262,7 +236,7 @@ TEST(ClockOffsetBetweenSensors, IsNamedDelay) {
     q.insert(q.begin(), 8, q.front());   // 8 ms late
     q.resize(log->size());
   }
-  const Diagnosis d = diagnosis_of(raven2(1), logs);
+  const Diagnosis d = diagnosis_of(first_joints(1), logs);
   ASSERT_EQ(d.effects.size(), 1u);
   EXPECT_EQ(d.effects[0].effect.effect->name(), "delay");
   EXPECT_NEAR(d.effects[0].effect.p[1], 8e-3, 0.5e-3);
@@ -285,25 +259,25 @@ TEST(Clock, OfTheUnixEpochAndInMillisecondsIsTheLogsOwn) {
   EXPECT_EQ(read.clock_start, 1763700000.0);
   // Seconds of the epoch as doubles are a quarter of a microsecond apart.
   for (std::size_t i = 0; i < read.size(); i += 100) EXPECT_NEAR(read.time[i], log.time[i], 3e-7);
-  expect_clean(diagnosis_of(raven2(1), {read, clean_logs().holdout}));
+  expect_clean(diagnosis_of(first_joints(1), {read, clean_logs().holdout}));
   ColumnMap seconds;
   seconds.add("time", "t_ms");
-  const std::string message = message_of([&] { make_records(read_log(path, 1, seconds), raven2(1), {}); });
+  const std::string message = message_of([&] { make_records(read_log(path, 1, seconds), first_joints(1), {}); });
   EXPECT_NE(message.find("say so by a column map, such as time=NAME,unit=ms"), std::string::npos) << message;
 }
 
 // ---------------------------------------------------------------------------------------------- zeros
 
 TEST(EncoderZero, OffByAFewDegreesIsNamed) {
-  ArmModel truth = raven2(1);
+  ArmModel truth = first_joints(1);
   JointParameters<double>& j = truth.nominal.joint[0];
   j.motor_encoder_offset = 0.05 * j.pulley_radius / j.motor_travel();
-  expect_named(diagnosis_of(raven2(1), logs_of(truth)), "encoder_offset", 0, 0.05, 0.02);
+  expect_named(diagnosis_of(first_joints(1), logs_of(truth)), "encoder_offset", 0, 0.05, 0.02);
 }
 
 TEST(UnknownEncoderZero, IsFoundInEachLog) {
   for (const bool motor : {true, false}) {
-    ArmModel model = raven2(1);
+    ArmModel model = first_joints(1);
     (motor ? model.nominal.joint[0].motor_zero_known : model.nominal.joint[0].joint_zero_known) = false;
     double zero = 40;   // rad, another one in each log
     const auto spoil = [&](Log& log) {
@@ -315,7 +289,7 @@ TEST(UnknownEncoderZero, IsFoundInEachLog) {
 }
 
 TEST(UnknownEncoderZero, CannotBeToldWithoutTheJointsSensor) {
-  ArmModel model = raven2(1);
+  ArmModel model = first_joints(1);
   model.nominal.joint[0].motor_zero_known = false;
   Log log = clean_logs().train;
   log.source = "rig.csv";
@@ -328,7 +302,7 @@ TEST(UnknownEncoderZero, CannotBeToldWithoutTheJointsSensor) {
 // --------------------------------------------------------------------------------------- torque scales
 
 TEST(TorqueOfUnknownScale, IsRefitted) {
-  ArmModel model = raven2(1);
+  ArmModel model = first_joints(1);
   model.nominal.joint[0].tolerance.torque_scale = 1;
   for (const double amperes : {1000.0, 1e-3}) {   // per N m
     Logs logs = clean_logs();
@@ -347,7 +321,7 @@ TEST(TorqueOfUnknownScale, IsRefitted) {
 }
 
 TEST(TorqueOfUnknownScale, AgainstTheMotionOrOfAnotherMotorIsAnError) {
-  ArmModel model = raven2(1);
+  ArmModel model = first_joints(1);
   model.nominal.joint[0].tolerance.torque_scale = 1;
   Logs logs = clean_logs();
   logs.train.source = "rig.csv";
@@ -365,14 +339,14 @@ TEST(TorqueOfUnknownScale, AgainstTheMotionOrOfAnotherMotorIsAnError) {
 
 /// The two-joint arm with an elbow in need of a diagnosis and a shoulder whose drive is nobody's business.
 ArmModel elbow_alone() {
-  ArmModel model = raven2(2);
+  ArmModel model = first_joints(2);
   model.nominal.joint[0].drive = Drive::none;
   return model;
 }
 
 TEST(JointDrivenBySomebodyElse, FollowsItsSensor) {
   constexpr double kHalfGap = 3e-4;
-  ArmModel truth = raven2(2);
+  ArmModel truth = first_joints(2);
   truth.effects.push_back(placed("backlash", truth, 1, {kHalfGap}));
   Logs logs = logs_of(truth);
   for (Log* log : {&logs.train, &logs.holdout}) log->motor_position[0].clear(), log->motor_torque[0].clear();
@@ -383,7 +357,7 @@ TEST(JointDrivenBySomebodyElse, FollowsItsSensor) {
 }
 
 TEST(JointHeldFixed, StandsAtHome) {
-  ArmModel truth = raven2(2);
+  ArmModel truth = first_joints(2);
   truth.nominal.joint[0].joint_coulomb = 500;   // clamped: creeps by less than its sensor's step
   const auto logs = [&](int variant) {
     Scenario s = motion(truth, kDuration, variant);
