@@ -72,8 +72,7 @@ void add_evidence(report::Page& page, const Diagnosis& d, const DiagnosisEvaluat
   page.heading("Residuals that point");
   page.paragraph(
       "Measured less predicted on the training data, on which the verdict rests, over what the residual goes with "
-      "most: by "
-      "the revised model without an effect, and with it. Shares are less what chance would give.");
+      "most: by the revised model without an effect, and with it. Shares are less what chance would give.");
   const auto add = [&](const std::string& text, const Evidenced& evidence, bool is_rest) {
     page.paragraph(text);
     if (const auto charts = view_charts(evidence, d.revised.nominal, is_rest); !charts.empty()) page.figure_row(charts);
@@ -150,7 +149,7 @@ std::vector<report::Chart> residual_charts(const Diagnosis& d, int k) {
     add(before_and_after(fmt::format("Joint {}: {}", k + 1, torque_name), d.torque_view, time, torque), "time [s]",
         torque_label, report::ChartKind::line);
   if (has_joint)
-    add(before_and_after(fmt::format("Joint {}: position error over motor rate", k + 1), d.joint_view, rate, joint),
+    add(before_and_after(fmt::format("Joint {}: error over motor rate", k + 1), d.joint_view, rate, joint),
         rate_label, joint_label, report::ChartKind::scatter);
   else if (has_torque)
     add(before_and_after(fmt::format("Joint {}: {} over motor rate", k + 1, torque_name), d.torque_view, rate, torque),
@@ -164,8 +163,7 @@ report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d, const Dia
   add_error_table(page, d);
   page.paragraph(
       "Joint position is predicted from motor signals alone: the arm is driven by the measured motor motion and its "
-      "joints "
-      "follow through the cables. Torque is predicted from the same motion and low-pass filtered like it.");
+      "joints follow through the cables. Torque is predicted from the same motion and low-pass filtered like it.");
   add_estimator_table(page, model, evaluation);
   add_evidence(page, d, evaluation);
   add_numbers(page, d);
@@ -174,10 +172,8 @@ report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d, const Dia
   page.heading("How the candidates fared");
   page.paragraph(
       "Each candidate is fitted together with the model's own numbers, kept within their tolerance, on every other "
-      "block of "
-      "the training data; the gain in log-likelihood is counted on the blocks between, and p is the probability of "
-      "such a "
-      "gain if there were none (paired t test over blocks).");
+      "block of the training data; the gain in log-likelihood is counted on the blocks between, and p is the "
+      "probability of such a gain if there were none (paired t test over blocks).");
   add_candidates(page, d);
   if (!d.not_excited.empty()) {
     std::string text = "Effects that these data could not show at their typical size: ";

@@ -77,7 +77,9 @@ void print_bundled(const Tour& tour) {
 }
 
 void print_rigs(const Tour& tour) {
-  fmt::print("\nRecordings of real rigs, errors on the hold-out:\n");
+  fmt::print(
+      "\nRecordings of real rigs, at most one effect each (halyard diagnose looks for more), errors on the "
+      "hold-out:\n");
   for (const RigResult& result : tour.rigs) {
     if (result.diagnosed) {
       fmt::print("  {}: {}\n", result.rig.title, verdict_line(result.diagnosed->diagnosis));

@@ -133,6 +133,7 @@ void add_bundled(Page& page, const Tour& tour) {
   add_verdict(page, tour.bundled.diagnosis, tour.bundled.evaluation);
   page.table(found_table(tour));
   add_error_table(page, tour.bundled.diagnosis);
+  add_estimator_table(page, tour.bundled.model, tour.bundled.evaluation);
   for (const PlacedEffect& effect : tour.undeclared) {
     page.figure_row(residual_charts(tour.bundled.diagnosis, std::max(effect.joint, 0)));
   }
@@ -178,7 +179,8 @@ void add_rigs(Page& page, const Tour& tour) {
   if (!table.rows.empty()) {
     page.paragraph(
         "Their models are data sheets and published numbers at best. Position is predicted from motor signals alone, "
-        "torque from the motion.");
+        "torque from the motion. To be done within a minute, this page asks of each recording only which single effect "
+        "explains most; halyard diagnose asks on, and the README of each rig has its command line.");
     page.table(table);
   }
   if (!missing.empty()) {

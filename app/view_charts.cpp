@@ -103,6 +103,26 @@ report::Chart loop_chart(const Evidenced& e, const ArmParameters<double>& arm) {
   return chart;
 }
 
+/// What is drawn if no view says much: over time, the residual that the effect takes most of; nothing if it takes none.
+std::vector<View> over_time_only(const Evidenced& e) {
+  std::vector<View> best;
+  double least = 1;
+  for (const ResidualKind kind : kResidualKinds) {
+    const std::vector<double>&before = e.without.of(kind), &after = e.with.of(kind);
+    double sum_before = 0, sum_after = 0;
+    for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
+      if (!std::isfinite(before[i]) || !std::isfinite(after[i])) continue;
+      sum_before += before[i] * before[i];
+      sum_after += after[i] * after[i];
+    }
+    if (sum_after < least * sum_before) {
+      least = sum_after / sum_before;
+      best = {View{.residual = kind, .abscissa = Abscissa::time}};
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 std::string capitalised(std::string text) {
@@ -112,7 +132,7 @@ std::string capitalised(std::string text) {
 
 std::vector<report::Chart> view_charts(const Evidenced& e, const ArmParameters<double>& arm, bool is_rest) {
   std::vector<report::Chart> charts;
-  for (const View& v : e.views) {
+  for (const View& v : e.views.empty() && !is_rest ? over_time_only(e) : e.views) {
     const Abscissa abscissa = drawn_abscissa(v);
     const ShownUnit x = abscissa_unit(arm, e.joint, v.residual, abscissa), y = residual_unit(arm, e.joint, v.residual);
     const std::string residual = residual_name(arm, e.joint, v.residual), over = abscissa_name(v.residual, abscissa);
