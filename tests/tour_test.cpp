@@ -57,6 +57,11 @@ TEST_F(Tour, ShowsTheExperimentsAndFindsTheUndeclaredEffectWithoutAnyRecordings)
   EXPECT_NEAR(effect.at("parameters").at("half_gap").at("value").get<double>(), 2e-4, 0.05 * 2e-4);
   const json& error = diagnosis.at("error").at("joint_position_rms");
   EXPECT_LT(error.at("after").at(1).get<double>(), 0.1 * error.at("before").at(1).get<double>());
+  EXPECT_TRUE(contains(effect.at("why").get<std::string>(), "position residual of joint 2")) << effect.dump(2);
+  for (const char* estimator : {"ekf", "sr_ukf"}) {
+    const json& of = diagnosis.at("estimators").at(estimator).at("joint_position_rms");
+    EXPECT_LT(of.at("after").at(1).get<double>(), 0.1 * of.at("before").at(1).get<double>()) << estimator;
+  }
   EXPECT_TRUE(contains(done({"check", "out/undeclared_effect/model.xml"}), "effects: backlash (joint 2)"));
 }
 
