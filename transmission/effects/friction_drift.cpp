@@ -30,7 +30,7 @@ class FrictionDrift : public EffectOf<FrictionDrift> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
     return {{"rate", "1/s", 0, -0.01, -2, 2, 0},
-            {"time_constant", "s", 30, 30, 0.5, 1e4, 0, true, {3, 10, 30, 1000}}};
+            {"time_constant", "s", 30, 30, 1, 1e4, 0, false, {3, 10, 30, 1000}}};
   }
 
   template <class T>
