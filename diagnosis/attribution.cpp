@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "diagnosis/paired_t.h"
 #include "diagnosis/starts.h"
@@ -23,14 +24,14 @@ constexpr std::size_t kMostFitted = 16;
 /// A candidate whose quick look is less significant than this is not fitted whole.
 constexpr double kWorthAFit = 0.05;
 
-/// ln L of each deciding block. least: [2n] mean squares that are added, below which residuals count alike.
-std::vector<double> log_likelihood(const Evidence& evidence, const Score& score, const std::vector<double>& least) {
+/// ln L of each deciding block and channel. least: [2n] mean squares that are added, below which residuals count alike.
+Likelihood log_likelihood(const Evidence& evidence, const Score& score, const std::vector<double>& least) {
   const auto& count = evidence.block_count();
-  std::vector<double> ln(count.size(), 0);
+  Likelihood ln(count.size(), std::vector<double>(evidence.channels(), 0));
   for (std::size_t b = 0; b < count.size(); ++b)
     for (int c = 0; c < evidence.channels(); ++c)
       if (count[b][c] > 0)
-        ln[b] -= 0.5 * count[b][c] / evidence.correlated_rows() * std::log(score.block_sum[b][c] / count[b][c] + least[c]);
+        ln[b][c] = -0.5 * count[b][c] / evidence.correlated_rows() * std::log(score.block_sum[b][c] / count[b][c] + least[c]);
   return ln;
 }
 
@@ -49,14 +50,24 @@ std::vector<double> floors_beside(const Evidence& evidence, const Score& before)
 }
 
 /// By how much one lies above the other in each deciding block that has rows.
-Paired paired(const std::vector<double>& with, const std::vector<double>& without, const Evidence& evidence) {
+Paired paired(const Likelihood& with, const Likelihood& without, const Evidence& evidence) {
   std::vector<double> differences;
   for (std::size_t b = 0; b < with.size(); ++b) {
-    int rows = 0;
-    for (const int n : evidence.block_count()[b]) rows += n;
-    if (rows > 0) differences.push_back(with[b] - without[b]);
+    const auto total = [](const auto& all) { return std::reduce(all.begin(), all.end()); };
+    if (total(evidence.block_count()[b]) > 0) differences.push_back(total(with[b]) - total(without[b]));
   }
   return halyard::paired(differences);
+}
+
+/// How much of what the lesser of two candidates gains, block by block and channel by channel, the other gains as well.
+double shared_gain(const Likelihood& a, const Likelihood& b, const Likelihood& without) {
+  double of_a = 0, of_b = 0, of_both = 0;
+  for (std::size_t i = 0; i < without.size(); ++i)
+    for (std::size_t c = 0; c < without[i].size(); ++c) {
+      const double gain_a = std::max(0.0, a[i][c] - without[i][c]), gain_b = std::max(0.0, b[i][c] - without[i][c]);
+      of_a += gain_a, of_b += gain_b, of_both += std::min(gain_a, gain_b);
+    }
+  return of_both / std::max(std::min(of_a, of_b), 1e-300);
 }
 
 Trial unusable(const PlacedEffect& effect) {
@@ -194,12 +205,17 @@ class Search {
     return all;
   }
 
-  bool at_bound(const Hypothesis& h, int place) const {
-    for (const FitParameter& p : effect_parameters(evidence_, h, model_.nominal, place)) {
-      const double value = parameter_value(h, p);
-      const auto close = [&](double bound) { return std::abs(value - bound) <= 1e-3 * std::max(std::abs(bound), 1e-3 * p.scale); };
-      // Its neutral value may be a bound as well: there a parameter is idle, not exhausted.
-      if (!p.natural_bounds && !close(p.nominal) && (close(p.lower) || close(p.upper))) return true;
+  /// True if a number ends at its bound, and its group of sizes and shapes does more there than one number by chance.
+  bool at_bound(const Hypothesis& h, const Score& score, int place) const {
+    constexpr double kByChance = 2;   // in log-likelihood: two standard deviations
+    const auto parameters = effect_parameters(evidence_, h, model_.nominal, place);
+    const auto ends = [&](std::size_t i) { return ends_at_bound(parameters[i], parameter_value(h, parameters[i])); };
+    for (const ParameterGroup& group : groups_of(parameters)) {
+      if (std::ranges::none_of(group.sizes, ends) && std::ranges::none_of(group.shapes, ends)) continue;
+      Hypothesis without = h;
+      for (const std::size_t i : group.sizes) set_parameter(without, parameters[i], parameters[i].nominal);
+      const Score s = evidence_.score(without);
+      if (!s.finite || cost(without, s) > cost(h, score) + kByChance) return true;
     }
     return false;
   }
@@ -241,25 +257,41 @@ class Search {
     return sum;
   }
 
-  Trial judge(const Hypothesis& h, const Score& before, const std::vector<double>& ln_before, double stretch_before,
+  Trial judge(const Hypothesis& h, const Score& before, const Likelihood& ln_before, double stretch_before,
               const PlacedEffect& effect) const {
     Trial t = unusable(effect);
     const Score score = evidence_.score(h);
     if (!score.finite) return t;
     t.usable = true;
     t.effect = h.effects.back();
-    t.at_bound = at_bound(h, static_cast<int>(h.effects.size()) - 1);
+    t.at_bound = at_bound(h, score, static_cast<int>(h.effects.size()) - 1);
     t.is_refit = within_tolerance(h, static_cast<int>(h.effects.size()) - 1);
     t.log_likelihood = log_likelihood(evidence_, score, floors(evidence_));
     t.gain = paired(t.log_likelihood, ln_before, evidence_).sum + stretch_before - stretch(h);
-    t.p_value = p_of_gain(score, before);
+    t.p_value = p_of_gain(score, before, t.gain);
     t.matters = t.p_value < kWorthAFit && matters(before, score, h, static_cast<int>(h.effects.size()) - 1);
     return t;
   }
 
-  double p_of_gain(const Score& with, const Score& without) const {
+  /// The probability of such a gain by chance: by the scatter of the blocks, or, of an effect that explains a rest whole, by
+  /// the likelihood ratio, so that a few moments are enough.
+  double p_of_gain(const Score& with, const Score& without, double gain) const {
     const std::vector<double> least = floors_beside(evidence_, without);
-    return p_value(paired(log_likelihood(evidence_, with, least), log_likelihood(evidence_, without, least), evidence_));
+    const double by_blocks =
+        p_value(paired(log_likelihood(evidence_, with, least), log_likelihood(evidence_, without, least), evidence_));
+    return explains_a_rest(without, with) ? std::min(by_blocks, std::exp(-gain)) : by_blocks;
+  }
+
+  /// True if the effect takes a share of what had to be explained, and leaves nothing of that kind where it takes a share.
+  bool explains_a_rest(const Score& before, const Score& after) const {
+    const std::vector<bool> had = significant_rest(evidence_, before), has = significant_rest(evidence_, after);
+    bool explains = false;
+    for (int c = 0; c < evidence_.channels(); ++c) {
+      if (before.mean_square[c] - after.mean_square[c] <= kMattersShare * before.mean_square[c]) continue;
+      if (has[c]) return false;
+      explains = explains || had[c];
+    }
+    return explains;
   }
 
   bool convincing(const Trial& t, std::size_t candidates) const {
@@ -278,7 +310,7 @@ class Search {
   /// One round: a quick look at every candidate, a full fit of the best, and the best of those.
   bool add_one(Fit& current, Score& score) {
     if (explained(score)) return false;
-    const std::vector<double> ln_before = log_likelihood(evidence_, score, floors(evidence_));
+    const Likelihood ln_before = log_likelihood(evidence_, score, floors(evidence_));
     const std::vector<double> scale = channel_scale(evidence_, score.fit_mean_square);
     // Before any effect is named the baseline's refit is bent by what is missing: the look starts at the model's numbers.
     Fit from = current;
@@ -341,6 +373,7 @@ class Search {
       for (std::size_t i = 0; i < leaders.size(); ++i) {
         if (i == best || !convincing(leaders[i], fitted.size())) continue;
         const Paired p = paired(leaders[best].log_likelihood, leaders[i].log_likelihood, evidence_);
+        if (shared_gain(leaders[best].log_likelihood, leaders[i].log_likelihood, ln_before) < kSharedGain) continue;
         if (p.t < kTellApart || p.sum < 2 * kTellApart * kTellApart) alike.push_back(i);
       }
       // Of those that the data cannot tell apart the one with the fewest numbers is named.
@@ -354,7 +387,7 @@ class Search {
       result_.alternatives.push_back(like);
       current = fits[best];
       score = evidence_.score(current.hypothesis);
-      fit_afresh(current, score);
+      if (!result_.rounds.empty()) fit_afresh(current, score);
       round.accepted = true;
       std::swap(trials[0], trials[best]);
     }
@@ -364,7 +397,7 @@ class Search {
   }
 
   Trial quick_look(const Hypothesis& start, const std::vector<FitParameter>& numbers, const std::vector<std::vector<double>>& columns,
-                   const std::vector<double>& scale, const Score& before, const std::vector<double>& ln_before,
+                   const std::vector<double>& scale, const Score& before, const Likelihood& ln_before,
                    double stretch_before, const PlacedEffect& effect) const {
     std::vector<FitParameter> parameters;
     std::vector<std::vector<double>> kept;
@@ -385,20 +418,38 @@ class Search {
 
   /// Each effect is tried for removal: one that a later one made idle goes.
   void remove_idle(Fit& current, Score& score) {
-    for (std::size_t e = given_; e < current.hypothesis.effects.size();) {
-      Hypothesis without = current.hypothesis;
-      without.effects.erase(without.effects.begin() + e);
-      const Fit f = refit(without, score);
-      const Score s = f.usable ? evidence_.score(f.hypothesis) : Score{};
-      const bool idle = f.usable && s.finite &&
-                        (within_tolerance(current.hypothesis, static_cast<int>(e)) ||
-                         !matters(s, score, current.hypothesis, static_cast<int>(e)) ||
-                         p_of_gain(score, s) > options_.significance);
-      if (!idle) { ++e; continue; }
-      current = f;
-      score = s;
-      result_.alternatives.erase(result_.alternatives.begin() + (e - given_));
+    while (current.hypothesis.effects.size() > given_) {
+      const std::size_t n = current.hypothesis.effects.size() - given_;
+      std::vector<Fit> without(n, result_.baseline);
+      if (n > 1)
+        tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+          Hypothesis h = current.hypothesis;
+          h.effects.erase(h.effects.begin() + given_ + i);
+          without[i] = refit(h, score);
+        });
+      std::size_t gone = n;
+      Score left;
+      for (std::size_t i = 0; i < n && gone == n; ++i) {
+        if (!without[i].usable) continue;
+        left = evidence_.score(without[i].hypothesis);
+        if (left.finite && is_idle(current.hypothesis, score, without[i].hypothesis, left, i)) gone = i;
+      }
+      if (gone == n) break;
+      current = without[gone];
+      score = left;
+      result_.alternatives.erase(result_.alternatives.begin() + gone);
     }
+  }
+
+  /// True if the i-th of the added effects is not needed, by what is left with it and without.
+  bool is_idle(const Hypothesis& with, const Score& with_score, const Hypothesis& without, const Score& without_score,
+               std::size_t i) const {
+    const int place = static_cast<int>(given_ + i);
+    const std::vector<double> least = floors(evidence_);
+    const double gain = paired(log_likelihood(evidence_, with_score, least), log_likelihood(evidence_, without_score, least), evidence_).sum +
+                        stretch(without) - stretch(with);
+    return within_tolerance(with, place) || !matters(without_score, with_score, with, place) ||
+           p_of_gain(with_score, without_score, gain) > options_.significance;
   }
 
   const Evidence& evidence_;

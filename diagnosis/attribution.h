@@ -11,9 +11,14 @@
 ///
 /// Each block has its own variance: no single block can carry or spoil a verdict.
 ///
-/// A candidate is named if its gain is significant (paired t test over blocks, with the number of
-/// candidates respected), if it matters (a residual shrinks by more than what the model's tolerance
-/// and the sensors leave open), and if no parameter ends at the end of what is plausible.
+/// A candidate is named if
+///
+/// - its gain is significant, with the number of candidates respected: by a paired t test over blocks; or, where it explains
+///   a rest whole, by the likelihood ratio itself, p <= exp(-gain), which holds on data that the fit did not see
+///   (Wasserman, Ramdas and Balakrishnan, PNAS 117 (2020), split likelihood ratio): a force during two of sixty blocks is
+///   not lost among blocks that it never touched;
+/// - it matters: a residual shrinks by more than what the model's tolerance and the sensors leave open;
+/// - no parameter ends at the end of what is plausible, and does something there.
 
 #include <functional>
 #include <string>
@@ -30,6 +35,13 @@ inline constexpr double kMattersFactor = 1.5;
 /// Two candidates whose gains differ by less than this many standard errors cannot be told apart.
 inline constexpr double kTellApart = 2.0;
 
+/// Two candidates are alternatives if of what the lesser gains the other gains so much as well: those that gain elsewhere
+/// stand beside each other.
+inline constexpr double kSharedGain = 0.5;
+
+/// ln L, [deciding block][channel].
+using Likelihood = std::vector<std::vector<double>>;
+
 /// A candidate as it was judged.
 struct Trial {
   PlacedEffect effect;
@@ -40,7 +52,7 @@ struct Trial {
   bool matters = false;
   double gain = 0;               ///< on the deciding blocks, above the baseline of its round
   double p_value = 1;            ///< of no gain
-  std::vector<double> log_likelihood;   ///< of each deciding block
+  Likelihood log_likelihood;
 };
 
 /// One round of the search: all candidates against the same baseline.

@@ -74,13 +74,6 @@ bool is_refit(const Fit& f, std::size_t i) {
   return f.parameters[i].effect < 0 && std::abs(f.value[i] - f.parameters[i].nominal) > kRefit * f.std_deviation[i];
 }
 
-/// At the end of what is plausible a size of an effect explains nothing.
-bool ends_at_bound(const FitParameter& p, double value) {
-  const double margin = 1e-3 * (p.upper - p.lower);
-  return p.effect >= 0 && !p.shape && !p.natural_bounds && std::abs(value - p.nominal) > margin &&
-         (value < p.lower + margin || value > p.upper - margin);
-}
-
 /// Numbers that the data did not move for certain go back to the model's, sizes of an effect to neutral as long as another
 /// of its sizes stays; the rest is fitted again. They go one by one, the least certain first: of two numbers that the data
 /// know only the sum of, one is needed.
@@ -114,16 +107,9 @@ Fit keep_certain_numbers(const Evidence& evidence, const ArmModel& model, const 
     kept[least] = false;
   }
   // Shapes of sizes that are gone shape nothing.
-  bool sized = false;
-  for (std::size_t i = 0; i < f.parameters.size(); ++i) {
-    if (f.parameters[i].effect < 0) continue;
-    if (f.parameters[i].shape) {
-      kept[i] = sized;
-    } else {
-      const bool starts_group = i == 0 || f.parameters[i - 1].shape || f.parameters[i - 1].effect != f.parameters[i].effect;
-      sized = (starts_group ? false : sized) || kept[i];
-    }
-  }
+  for (const ParameterGroup& group : groups_of(f.parameters))
+    if (std::ranges::none_of(group.sizes, [&](std::size_t i) { return kept[i]; }))
+      for (const std::size_t i : group.shapes) kept[i] = false;
 
   Hypothesis h = f.hypothesis;
   std::vector<FitParameter> left;
@@ -135,7 +121,7 @@ Fit keep_certain_numbers(const Evidence& evidence, const ArmModel& model, const 
   const Fit again = fit(evidence, h, left, channel_scale(evidence, score.fit_mean_square));
   if (!again.usable) return f;
   bool at_bound = false;
-  for (std::size_t i = 0; i < left.size(); ++i) at_bound = at_bound || ends_at_bound(left[i], again.value[i]);
+  for (std::size_t i = 0; i < left.size(); ++i) at_bound = at_bound || (!left[i].shape && ends_at_bound(left[i], again.value[i]));
   return at_bound && left.size() < f.parameters.size() ? keep_certain_numbers(evidence, model, again, score) : again;
 }
 

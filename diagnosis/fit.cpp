@@ -160,6 +160,24 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
   return all;
 }
 
+std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameters) {
+  std::vector<ParameterGroup> groups;
+  int effect = -1;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const FitParameter& p = parameters[i];
+    if (p.effect < 0) continue;
+    if (p.effect != effect || (!p.shape && !groups.back().shapes.empty())) groups.emplace_back();
+    effect = p.effect;
+    (p.shape ? groups.back().shapes : groups.back().sizes).push_back(i);
+  }
+  return groups;
+}
+
+bool ends_at_bound(const FitParameter& p, double value) {
+  const auto close = [&](double bound) { return std::abs(value - bound) <= 1e-3 * std::max(std::abs(bound), 1e-3 * p.scale); };
+  return p.effect >= 0 && !p.natural_bounds && !close(p.nominal) && (close(p.lower) || close(p.upper));
+}
+
 bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline) {
   PlacedEffect e = effect;
   const auto parameters = e.effect->parameters(nominal, e.joint);

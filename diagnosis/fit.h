@@ -38,6 +38,13 @@ std::vector<FitParameter> baseline_parameters(const ArmParameters<double>& nomin
 /// The numbers of the effect at `place` of the hypothesis; instants and positions are bound to what the records span.
 std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,
                                             const ArmParameters<double>& nominal, int place);
+/// Sizes of an effect and the shapes that follow them, as places in a list of parameters.
+struct ParameterGroup { std::vector<std::size_t> sizes, shapes; };
+/// The groups of all effects in the list; baseline numbers are in none.
+std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameters);
+/// True of a number of an effect that went to the end of what is plausible. Its neutral value may be a bound as well: there
+/// it is idle, not exhausted.
+bool ends_at_bound(const FitParameter& p, double value);
 /// True if a change of the effect's parameters is a change of that baseline number: it then speaks for both.
 bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline);
 

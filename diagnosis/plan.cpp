@@ -58,6 +58,7 @@ class Planner {
     const double blocks = static_cast<double>(reference_ln_.size());
     if (blocks < 3) throw InputError(logs.front().source + ": too short to judge by; expected some seconds");
     const double level = AttributionOptions{}.significance / static_cast<double>(candidates_.size());
+    significant_gain_ = -std::log(level);
     significant_t_ = boost::math::quantile(boost::math::complement(boost::math::students_t(blocks - 1), level));
   }
 
@@ -282,7 +283,8 @@ class Planner {
     bool share = false;
     for (std::size_t c = 0; c < square.size(); ++c)
       share = share || square[c] - reference_square_[c] > kMattersShare * square[c];
-    return share && compared(reference_ln_, log_likelihood(left)).t > significant_t_;
+    const Paired gain = compared(reference_ln_, log_likelihood(left));
+    return share && (gain.t > significant_t_ || gain.sum > significant_gain_);
   }
 
   std::vector<double> mean_squares(const std::vector<double>& rows) const {
@@ -335,7 +337,7 @@ class Planner {
   Eigen::VectorXd residual_;        ///< r0
   BaselineReach::Taken reference_;  ///< r0⊥
   std::vector<double> reference_square_, reference_ln_;
-  double significant_t_ = 0;
+  double significant_t_ = 0, significant_gain_ = 0;
 };
 
 }  // namespace

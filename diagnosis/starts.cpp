@@ -10,19 +10,6 @@ namespace {
 constexpr int kTimes = 10;       ///< instants of a record that are tried
 constexpr int kPositions = 6;    ///< positions of a joint's range
 
-/// Sizes and the shapes that follow them, as places in the effect's parameters.
-struct Group { std::vector<std::size_t> sizes, shapes; };
-
-std::vector<Group> groups_of(const std::vector<FitParameter>& parameters) {
-  std::vector<Group> groups;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (!parameters[i].shape && (groups.empty() || !groups.back().shapes.empty())) groups.emplace_back();
-    if (groups.empty()) continue;
-    (parameters[i].shape ? groups.back().shapes : groups.back().sizes).push_back(i);
-  }
-  return groups;
-}
-
 std::vector<double> starts_of(const FitParameter& p, double typical) {
   if (p.range == SearchRange::own) return p.starts.empty() ? std::vector<double>{typical} : p.starts;
   const int n = p.range == SearchRange::record_time ? kTimes : kPositions;
@@ -64,7 +51,7 @@ Start best_start(const Evidence& evidence, const Screen& screen, const Hypothesi
   struct Tried { Hypothesis hypothesis; std::size_t combination, size; };
   std::vector<Tried> tried;
   std::size_t n_combinations = 0;
-  for (const Group& group : groups_of(parameters)) {
+  for (const ParameterGroup& group : groups_of(parameters)) {
     const auto shapes = combinations(with, parameters, group.shapes);
     const bool one_sided = std::any_of(group.shapes.begin(), group.shapes.end(), [&](std::size_t s) {
       return parameters[s].range == SearchRange::joint_position;

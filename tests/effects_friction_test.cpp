@@ -192,7 +192,7 @@ TEST(FrictionDrift, ScalesAllFrictionOfMotorAndJointFromOnceToItsEnd) {
     ASSERT_GT(std::abs(joint), 0.01);
     for (const double time : {-5.0, 0.0, 20.0, 60.0, 2000.0}) {
       const double share = time <= 0 ? 0 : 1 - std::exp(-time / tau);
-      const AddedFriction f = added_friction(arm, placed("friction_drift", arm, 0, {drift / tau, tau}), m, time);
+      const AddedFriction f = added_friction(arm, placed("friction_drift", arm, 0, {drift / tau, 1 / tau}), m, time);
       EXPECT_NEAR(f.motor, drift * share * motor, 10 * 4 * kEps) << time;
       EXPECT_NEAR(f.joint, drift * share * joint, 100 * 4 * kEps) << time;   // cables pull with up to 100 N
     }

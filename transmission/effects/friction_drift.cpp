@@ -4,11 +4,11 @@
 /// Friction that changes in time, as of a drive that warms up: Coulomb level and viscous coefficient, of motor and
 /// joint, all times
 ///
-///   max(0, 1 + ρ τ (1 - exp(-t / τ))),   t >= 0
+///   max(0, 1 + ρ (1 - exp(-λ t)) / λ),   t >= 0
 ///
-///   ρ   `rate`, the relative change per time at the start; in the end it is ρ τ      1/s
-///   τ   `time_constant`; much longer than a record: a change linear in time          s
-///   t   on the log's clock                                                            s
+///   ρ   `rate`, the relative change per time at the start; in the end it is ρ / λ        1/s
+///   λ   `settling_rate`, one over the time constant; 0: a change linear in time           1/s
+///   t   on the log's clock                                                                 s
 ///
 /// Source: Bittencourt and Axelsson, IEEE/ASME Trans. Mechatronics 19 (2014), friction over temperature; a body that
 /// warms at constant power settles exponentially.
@@ -16,9 +16,13 @@
 namespace halyard {
 namespace {
 
+/// Far slower than any record, and far from where 1 - exp(-λ t) loses its digits.
+constexpr double kSlowest = 1e-6;
+
 template <class T>
 T growth(const EffectContext<T>& c) {
-  return max(T(-1.0), T(c.p[0] * c.p[1] * (T(1.0) - exp(T(T(-std::max(c.time, 0.0)) / c.p[1])))));
+  const T settling = max(T(kSlowest), c.p[1]);
+  return max(T(-1.0), T(c.p[0] * (T(1.0) - exp(T(T(-std::max(c.time, 0.0)) * settling))) / settling));
 }
 
 class FrictionDrift : public EffectOf<FrictionDrift> {
@@ -30,7 +34,7 @@ class FrictionDrift : public EffectOf<FrictionDrift> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
     return {{"rate", "1/s", 0, -0.01, -2, 2, 0},
-            {"time_constant", "s", 30, 30, 1, 1e4, 0, false, {3, 10, 30, 1000}}};
+            {"settling_rate", "1/s", 0, 0, 0, 1, 0, false, {0, 0.03, 0.1, 0.3}}};
   }
 
   template <class T>
