@@ -109,6 +109,13 @@ void add_compare_command(CLI::App& app) {
   add_columns_option(command, options->columns);
   add_joint_torque_flag(command, options->use_joint_torque);
   add_skip_option(command, options->skip_s);
+  command.add_option("--runs", options->runs, "of a scenario: simulate so many seeds, and judge by all of them")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command.add_option("--noise", options->noise,
+                     "of a scenario: disturb the arm by so many times the process and measurement noise that the filters "
+                     "assume")
+      ->check(CLI::NonNegativeNumber);
   add_effects_option(command);
   finish(command, [options, estimators] {
     options->estimators = split_estimators(*estimators);

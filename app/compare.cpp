@@ -1,25 +1,59 @@
 #include "app/compare.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <span>
 #include <stdexcept>
 
+#include "app/sensor_readings.h"
 #include "plugins/loader.h"
 
 namespace halyard {
 namespace {
 
-std::vector<ErrorStatistics> joint_errors(const EstimatorRun& run, const Log& truth, double skip_s) {
-  const std::size_t first = first_counted_sample(truth.time, skip_s);
-  std::vector<ErrorStatistics> errors(truth.n_joints);
-  for (int k = 0; k < truth.n_joints; ++k) {
-    if (!truth.has_joint_position(k)) continue;
-    const auto counted = [first](const std::vector<double>& column) { return std::span(column).subspan(first); };
-    errors[k] = error_statistics(counted(run.estimates.joint_position[k]), counted(truth.joint_position[k]),
-                                 counted(run.joint_position_std[k]));
+/// What counts: from skip_s after the first sample on.
+class Counted {
+ public:
+  Counted(const Log& truth, double skip_s) : first_(first_counted_sample(truth.time, skip_s)) {}
+  std::span<const double> operator()(const std::vector<double>& column) const {
+    return std::span(column).subspan(std::min(first_, column.size()));
   }
+
+ private:
+  std::size_t first_;
+};
+
+std::vector<ErrorStatistics> joint_errors(const EstimatorRun& run, const Signals& compared, const Log& truth,
+                                          const Counted& counted) {
+  std::vector<ErrorStatistics> errors(truth.n_joints);
+  for (int k = 0; k < truth.n_joints; ++k)
+    if (truth.has_joint_position(k))
+      errors[k] = error_statistics(counted(compared[k]), counted(truth.joint_position[k]),
+                                   counted(run.joint_position_std[k]));
+  return errors;
+}
+
+Judgement judge(const EstimatorRun& run, const Signals& compared, const Log& measured, const Log& truth,
+                const Counted& counted) {
+  Judgement judgement;
+  judgement.nis = consistency(counted(run.nis));
+  for (int k = 0; k < truth.n_joints; ++k) {
+    std::vector<double> squares;
+    if (truth.has_joint_position(k))
+      squares = normalised_squares(counted(compared[k]), counted(truth.joint_position[k]),
+                                   counted(run.joint_position_std[k]));
+    judgement.nees.push_back(consistency(squares));
+    judgement.whiteness.push_back(whiteness(counted(run.innovation[k]), counted(measured.motor_torque[k])));
+  }
+  return judgement;
+}
+
+std::vector<double> errors_of(const Signals& compared, const Log& truth, int k, const Counted& counted) {
+  const auto estimate = counted(compared[k]), right = counted(truth.joint_position[k]);
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < estimate.size(); ++i) errors.push_back(estimate[i] - right[i]);
   return errors;
 }
 
@@ -45,6 +79,7 @@ Comparison compare_estimators(const ArmModel& model, const std::vector<std::stri
   result.skip_s = options.skip_s;
   result.units = joint_units(model);
   result.truth = truth;
+  const Counted counted(truth, options.skip_s);
 
   // All are made first: a wrong name must not cost the time of the others' runs.
   std::vector<std::unique_ptr<Estimator>> made;
@@ -58,7 +93,18 @@ Comparison compare_estimators(const ArmModel& model, const std::vector<std::stri
     }
     result.runs.push_back(run_estimator(*made[i], estimators[i], measured, estimate));
     made[i].reset();
-    result.errors.push_back(joint_errors(result.runs.back(), truth, options.skip_s));
+    const EstimatorRun& run = result.runs.back();
+    result.compared.push_back(options.truth_is_sensed ? sensor_readings(model, run) : run.estimates.joint_position);
+    result.errors.push_back(joint_errors(run, result.compared.back(), truth, counted));
+    result.judgements.push_back(judge(run, result.compared.back(), measured, truth, counted));
+  }
+  for (std::size_t a = 0; a < result.runs.size(); ++a) {
+    result.paired.emplace_back(result.runs.size(), std::vector<PairedRatio>(result.units.size()));
+    for (std::size_t b = 0; b < result.runs.size(); ++b)
+      for (int k = 0; k < result.n_joints() && a != b; ++k)
+        if (result.has_truth(k))
+          result.paired[a][b][k] = paired_ratio(errors_of(result.compared[a], truth, k, counted),
+                                                errors_of(result.compared[b], truth, k, counted));
   }
   return result;
 }

@@ -4,13 +4,21 @@
 #include <string>
 #include <vector>
 
-#include "app/error_statistics.h"
+#include "app/judgement/consistency.h"
+#include "app/judgement/error_statistics.h"
 #include "app/estimate.h"
 #include "app/joint_unit.h"
 #include "model/arm_model.h"
 #include "model/log.h"
 
 namespace halyard {
+
+/// Whether an estimator is as good as it says.
+struct Judgement {
+  Consistency nis;                      ///< of all motors together
+  std::vector<Consistency> nees;        ///< [joint]; NaN where the truth is not known
+  std::vector<Whiteness> whiteness;     ///< [motor]
+};
 
 /// Estimators head-to-head on the same data.
 struct Comparison {
@@ -21,7 +29,10 @@ struct Comparison {
   std::vector<JointUnit> units;         ///< [n]
   Log truth;                            ///< joint_position, where known
   std::vector<EstimatorRun> runs;
+  std::vector<Signals> compared;        ///< [run][joint] what is held against the truth: positions, or sensors' readings of them
   std::vector<std::vector<ErrorStatistics>> errors;   ///< [run][joint]
+  std::vector<Judgement> judgements;    ///< [run]
+  std::vector<std::vector<std::vector<PairedRatio>>> paired;   ///< [run][other run][joint] RMS error over the other's
 
   int n_joints() const { return static_cast<int>(units.size()); }
   bool has_truth(int k) const { return truth.has_joint_position(k); }
@@ -34,6 +45,8 @@ struct Comparison {
 struct CompareOptions {
   double skip_s = 0.5;
   bool use_joint_torque = false;
+  /// The truth is what joint sensors read, with the errors that the model says they make; otherwise the joints' own.
+  bool truth_is_sensed = false;
   std::function<void(double)> progress = {};   ///< called with the fraction done
 };
 

@@ -3,10 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "app/comparison_figures.h"
 #include "app/comparison_output.h"
+#include "app/judgement_tables.h"
 #include "app/log_input.h"
 #include "app/output_check.h"
 #include "app/progress.h"
@@ -24,6 +26,8 @@ struct Data {
   std::string model_path;
   Log measured, truth;
   std::string truth_from;
+  bool truth_is_sensed = false;   ///< by joint sensors, with their errors
+  std::optional<Scenario> scenario;
 };
 
 Data simulated_data(const CompareCommandOptions& options) {
@@ -31,7 +35,7 @@ Data simulated_data(const CompareCommandOptions& options) {
     throw InputError("halyard compare: --column is for logs, and " + in_quotes(options.data.string()) +
                      " is a scenario; leave it out");
   }
-  const Scenario scenario = read_scenario(options.data);
+  Scenario scenario = read_scenario(options.data);
   Data data;
   const std::filesystem::path model = options.model.empty() ? scenario.model : options.model;
   data.model = read_model(model);
@@ -40,12 +44,19 @@ Data simulated_data(const CompareCommandOptions& options) {
     throw InputError(fmt::format("{}: has {} joints and the scenario's robot {}; give a model of the same robot",
                                  model.string(), data.model.n(), scenario.robot.n()));
   }
+  if (options.noise >= 0) {
+    scenario.noise = assumed_noise(data.model, scenario.control_period_s);
+    for (std::vector<double>* deviations : {&scenario.noise.motor_torque, &scenario.noise.joint_force, &scenario.noise.motor_reading})
+      for (double& x : *deviations) x *= options.noise;
+    scenario.quantise = false;
+  }
   Progress progress("simulate", scenario.duration_s, "s");
   SimulationResult result = simulate(scenario, [&](double f) { progress.set(f * scenario.duration_s); });
   data.measured = std::move(result.measured);
   data.measured.source = options.data.string();
   data.truth = std::move(result.truth);
   data.truth_from = "truth of the simulation";
+  data.scenario = std::move(scenario);
   return data;
 }
 
@@ -53,11 +64,16 @@ Data logged_data(const CompareCommandOptions& options) {
   if (options.model.empty()) {
     throw InputError("halyard compare: --model is missing; a log needs the model file of its robot, --model M.xml");
   }
+  if (options.runs > 1 || options.noise >= 0) {
+    throw InputError("halyard compare: --runs and --noise are for scenarios, and " + in_quotes(options.data.string()) +
+                     " is a log; leave them out");
+  }
   Data data;
   data.model = read_model(options.model);
   data.model_path = options.model.string();
   data.measured = read_log_of(data.model, options.data, options.columns);
   data.truth = data.measured;
+  data.truth_is_sensed = true;
   const auto& sensors = data.truth.joint_position;
   if (std::ranges::any_of(sensors, [](const auto& column) { return !column.empty(); }))
     data.truth_from = "joint sensors";
@@ -78,9 +94,21 @@ void print_errors(const Comparison& comparison) {
                  shown_number(error.peak, unit), unit.shown);
       if (int(i) != comparison.baseline() && comparison.baseline() >= 0) {
         fmt::print(", {} better than kinematics", shown_percent(comparison.improvement_of(i, k)));
+        fmt::print(", RMS over its {}", in_words(comparison.paired[i][comparison.baseline()][k]));
       }
       fmt::print("\n");
     }
+  }
+}
+
+void print_runs(const MonteCarlo& runs, const std::vector<JointUnit>& units) {
+  fmt::print("{} runs\n", runs.runs);
+  for (const RunsOfEstimator& e : runs.estimators) {
+    fmt::print("{}: {} failed\n", e.name, e.failures);
+    for (std::size_t k = 0; k < units.size(); ++k)
+      fmt::print("  joint {}: RMS {} {}, NEES {:.3g}, {} of the instants in its band, {}\n", k + 1,
+                 shown_number(e.errors[k].rms, units[k]), units[k].shown, e.nees[k].mean, shown_percent(e.in_band[k]),
+                 in_words(e.nees[k]));
   }
 }
 
@@ -96,13 +124,24 @@ void run_compare(const CompareCommandOptions& options) {
     comparison = compare_estimators(data.model, options.estimators, data.measured, data.truth,
                                     {.skip_s = options.skip_s,
                                      .use_joint_torque = options.use_joint_torque,
+                                     .truth_is_sensed = data.truth_is_sensed,
                                      .progress = [&](double fraction) { progress.set(fraction * work_s); }});
   }
   comparison.data = options.data.string();
   comparison.model = data.model_path;
   comparison.truth_from = data.truth_from;
-  write_comparison(options.out, comparison);
+  std::optional<MonteCarlo> runs;
+  if (options.runs > 1) {
+    Progress progress("runs", options.runs, "runs");
+    runs = run_monte_carlo(*data.scenario, data.model, options.estimators,
+                           {.runs = options.runs,
+                            .skip_s = options.skip_s,
+                            .noise = options.noise,
+                            .run_done = [&](double amount) { progress.add(amount); }});
+  }
+  write_comparison(options.out, comparison, runs);
   print_errors(comparison);
+  if (runs) print_runs(*runs, comparison.units);
   fmt::print("report: {}\n", (options.out / "report.html").string());
 }
 

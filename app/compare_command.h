@@ -14,6 +14,8 @@ struct CompareCommandOptions {
   std::vector<std::string> columns;       ///< entries of --column
   bool use_joint_torque = false;
   double skip_s = 0.5;
+  int runs = 1;                           ///< of a scenario: seeds that are simulated
+  double noise = -1;                      ///< of what the filters assume; < 0: the scenario's own
 };
 
 /// halyard compare: estimators head-to-head on a simulated scenario, against its truth, or on a log, against its joint

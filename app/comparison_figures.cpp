@@ -25,7 +25,7 @@ std::vector<double> scaled(const std::vector<double>& values, double factor) {
 }
 
 std::vector<double> shown_errors(const Comparison& comparison, std::size_t run, int k) {
-  const std::vector<double>& estimate = comparison.runs[run].estimates.joint_position[k];
+  const std::vector<double>& estimate = comparison.compared[run][k];
   const std::vector<double>& truth = comparison.truth.joint_position[k];
   std::vector<double> errors(estimate.size());
   for (std::size_t i = 0; i < errors.size(); ++i) {

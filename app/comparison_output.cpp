@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/comparison_figures.h"
+#include "app/judgement_tables.h"
 #include "app/report/page.h"
 #include "model/output_file.h"
 
@@ -27,17 +28,32 @@ ordered_json run_json(const Comparison& comparison, std::size_t i) {
                       {"peak_error", number_or_null(error.peak)},
                       {"bias", number_or_null(error.bias)},
                       {"improvement_over_kinematics", number_or_null(comparison.improvement_of(i, k))},
-                      {"within_two_std", number_or_null(error.within_two_std)}});
+                      {"within_two_std", number_or_null(error.within_two_std)},
+                      {"nees", to_json(comparison.judgements[i].nees[k])}});
   }
   return {{"estimator", run.name},
           {"steps", run.report.steps},
           {"gated_measurements", run.report.gated},
           {"repaired_factors", run.report.repaired_factors},
-          {"mean_nis", number_or_null(run.mean_nis)},
+          {"mean_nis", number_or_null(mean_of(run.nis))},
+          {"nis", to_json(comparison.judgements[i].nis)},
           {"joints", joints}};
 }
 
-report::Page comparison_page(const Comparison& comparison) {
+ordered_json paired_json(const Comparison& comparison) {
+  ordered_json all = ordered_json::array();
+  for (std::size_t a = 0; a < comparison.runs.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      for (int k = 0; k < comparison.n_joints(); ++k) {
+        if (!comparison.has_truth(k)) continue;
+        ordered_json pair = {{"estimator", comparison.runs[a].name}, {"against", comparison.runs[b].name}, {"joint", k + 1}};
+        pair.update(to_json(comparison.paired[a][b][k]));
+        all.push_back(pair);
+      }
+  return all;
+}
+
+report::Page comparison_page(const Comparison& comparison, const std::optional<MonteCarlo>& runs) {
   const std::size_t samples = comparison.truth.size();
   report::Page page("Estimators compared", fmt::format("{} with {}: {} samples, {:.6g} s", comparison.data,
                                                        comparison.model, samples, comparison.truth.duration()));
@@ -55,6 +71,25 @@ report::Page comparison_page(const Comparison& comparison) {
         "Improvement is 1 - mean absolute error / that of the kinematics estimator. Within 2 sigma: the share of "
         "errors of at most two of the estimator's own standard deviations. About 95 % is right; less says that the "
         "estimator trusts its model too much, more that it is better than it says.");
+  }
+  if (!comparison.truth_from.empty() && comparison.runs.size() > 1) {
+    page.table(paired_table(comparison));
+    page.paragraph(
+        "Errors that follow each other say partly the same. So blocks of the record are drawn with replacement, all "
+        "estimators' errors together, and the ratio is taken anew, 2000 times: the interval holds 95 % of them. Better or "
+        "worse is said where it leaves out 1.");
+  }
+  page.table(consistency_table(comparison));
+  page.paragraph(
+      "An innovation is what a measurement said beyond the prediction, over its own standard deviation; an error is that of "
+      "the estimate over what the estimator says of it. Their mean squares ought to be 1. The band is where 95 % of such "
+      "means lie by chance, samples of a run that say the same counted once. White innovations hold nothing that could have "
+      "been predicted.");
+  if (runs) {
+    page.table(monte_carlo_table(*runs, comparison.units));
+    page.paragraph(fmt::format(
+        "Instants in band: at how many of the record's instants the mean NEES over the runs lies in the band of {} independent "
+        "squares; 95 % is right. The figures and tables above and below are those of the first seed.", runs->runs));
   }
   add_joint_figures(page, comparison);
   return page;
@@ -79,7 +114,8 @@ ordered_json to_json(const Comparison& comparison) {
           {"samples", comparison.truth.size()},
           {"duration_s", comparison.truth.duration()},
           {"errors_counted_after_s", comparison.skip_s},
-          {"estimators", estimators}};
+          {"estimators", estimators},
+          {"paired", paired_json(comparison)}};
 }
 
 std::vector<std::string> error_columns() {
@@ -99,7 +135,8 @@ void add_error_cells(CsvTable& table, const Comparison& comparison, std::size_t 
   }
 }
 
-void write_comparison(const std::filesystem::path& folder, const Comparison& comparison) {
+void write_comparison(const std::filesystem::path& folder, const Comparison& comparison,
+                      const std::optional<MonteCarlo>& runs) {
   std::vector<std::string> header = error_columns();
   header.insert(header.begin(), "estimator");
   CsvTable table(header);
@@ -109,8 +146,10 @@ void write_comparison(const std::filesystem::path& folder, const Comparison& com
       add_error_cells(table, comparison, i, k);
     }
   }
-  const report::Page page = comparison_page(comparison);
-  const std::string json = json_text(to_json(comparison));
+  const report::Page page = comparison_page(comparison, runs);
+  ordered_json all = to_json(comparison);
+  if (runs) all["monte_carlo"] = to_json(*runs);
+  const std::string json = json_text(all);
   table.write(folder / "comparison.csv");
   write_file_whole(folder / "comparison.json", json);
   page.write(folder / "report.html");

@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/compare.h"
 #include "app/csv.h"
+#include "app/monte_carlo.h"
 
 namespace halyard {
 
@@ -25,7 +27,8 @@ std::vector<std::string> error_columns();
 /// Adds these cells for one run and joint.
 void add_error_cells(CsvTable& table, const Comparison& comparison, std::size_t run, int k);
 
-/// Writes report.html, comparison.json and comparison.csv into the folder.
-void write_comparison(const std::filesystem::path& folder, const Comparison& comparison);
+/// Writes report.html, comparison.json and comparison.csv into the folder. runs: the same over many seeds.
+void write_comparison(const std::filesystem::path& folder, const Comparison& comparison,
+                      const std::optional<MonteCarlo>& runs = std::nullopt);
 
 }  // namespace halyard

@@ -11,8 +11,9 @@
 #include <numbers>
 
 #include "app/diagnosis_output.h"
-#include "app/error_statistics.h"
+#include "app/judgement/error_statistics.h"
 #include "app/estimate.h"
+#include "app/sensor_readings.h"
 #include "plugins/loader.h"
 
 namespace halyard {
@@ -37,16 +38,17 @@ EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const 
     for (const auto& [held, from] : logs) {
       const Log& log = *held;
       const EstimatorRun run = run_estimator(*make_estimator(name, model), name, log, {.use_joint_torque = true});
+      const Signals readings = sensor_readings(model, run);
       const std::size_t first = first_counted_sample(log.time, std::max(kSkip, from - log.time.front()));
       for (std::size_t k = 0; k < n; ++k) {
         if (log.joint_position[k].empty()) continue;
         const auto append = [first](const std::vector<double>& from, std::vector<double>& to) {
           to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
         };
-        append(run.estimates.joint_position[k], estimate[k]);
+        append(readings[k], estimate[k]);
         append(log.joint_position[k], truth[k]);
       }
-      result.mean_nis += run.mean_nis / static_cast<double>(logs.size());
+      result.mean_nis += mean_of(run.nis) / static_cast<double>(logs.size());
     }
   } catch (const std::exception& e) {
     return {{}, {}, 0, e.what()};

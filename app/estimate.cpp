@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -74,7 +75,23 @@ void record(EstimatorRun& run, const Estimate& estimate, std::size_t i) {
   }
 }
 
+void record(EstimatorRun& run, const Innovation& innovation, const Log& log, std::size_t i) {
+  const Eigen::VectorXd white = innovation.S_root.triangularView<Eigen::Lower>().solve(innovation.nu);
+  run.nis[i] = innovation.nis() / double(innovation.nu.size());
+  // Its entries belong to the motors that were read, in their order.
+  Eigen::Index entry = 0;
+  for (int k = 0; k < log.n_joints && entry < white.size(); ++k)
+    if (!log.motor_position[k].empty() && !std::isnan(log.motor_position[k][i])) run.innovation[k][i] = white(entry++);
+}
+
 }  // namespace
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0, count = 0;
+  for (const double v : values)
+    if (!std::isnan(v)) sum += v, count += 1;
+  return count > 0 ? sum / count : kNan;
+}
 
 EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const Log& log,
                            const EstimateOptions& options) {
@@ -89,11 +106,11 @@ EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const 
   run.estimates.joint_position.assign(log.n_joints, unknown);
   run.estimates.joint_velocity.assign(log.n_joints, unknown);
   run.joint_position_std.assign(log.n_joints, unknown);
+  run.nis = unknown;
+  run.innovation.assign(log.n_joints, unknown);
 
   Samples samples(log, options.use_joint_torque);
   const std::size_t report_every = std::max<std::size_t>(1, log.size() / 100);
-  double nis = 0;
-  long measured = 0;
   const auto begin = std::chrono::steady_clock::now();
   std::size_t i = start;
   try {
@@ -103,10 +120,7 @@ EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const 
       const Innovation innovation = estimator.update(samples.at(i));
       record(run, estimator.estimate(), i);
       // An estimator without a covariance has no innovation to judge.
-      if (innovation.nu.size() > 0 && innovation.S_root.size() > 0) {
-        nis += innovation.nis();
-        measured += innovation.nu.size();
-      }
+      if (innovation.nu.size() > 0 && innovation.S_root.size() > 0) record(run, innovation, log, i);
       if (options.progress && i % report_every == 0) options.progress(double(i) / double(log.size()));
     }
   } catch (const InputError&) {
@@ -117,7 +131,6 @@ EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const 
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   run.microseconds_per_step = 1e6 * seconds / double(log.size() - start);
-  run.mean_nis = measured > 0 ? nis / double(measured) : kNan;
   run.report = estimator.report();
   return run;
 }

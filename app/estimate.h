@@ -15,9 +15,13 @@ struct EstimatorRun {
   Log estimates;                      ///< time of the log, joint_position, joint_velocity; NaN before the start
   Signals joint_position_std;         ///< [n] one standard deviation; 0 where the estimator has none
   EstimatorReport report;
-  double mean_nis = 0;                ///< mean of νᵀ S⁻¹ ν over the motors measured, ~ 1 if the model is right
+  std::vector<double> nis;            ///< νᵀ S⁻¹ ν over the motors measured, ~ 1 if the model is right; NaN: none
+  Signals innovation;                 ///< [n] S_root⁻¹ ν, ~ N(0, 1) each if the model is right; NaN: none
   double microseconds_per_step = 0;   ///< wall time: differs from run to run
 };
+
+/// Mean of what is not NaN; NaN without any.
+double mean_of(const std::vector<double>& values);
 
 struct EstimateOptions {
   /// Hands the log's measured external loads to the estimator. Otherwise it gets motor signals alone.

@@ -171,7 +171,7 @@ std::string proposal_xml(const Scenario& scenario, const std::string& model) {
   number("fade_in", scenario.fade_in_s);
   xml.CloseElement();
   xml.OpenElement("sensors");
-  number("torque_noise", scenario.torque_noise);
+  number("torque_noise", scenario.noise.motor_torque.empty() ? 0 : scenario.noise.motor_torque[0]);
   xml.CloseElement();
   xml.CloseElement();
   return xml.CStr();

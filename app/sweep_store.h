@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/error_statistics.h"
+#include "app/judgement/error_statistics.h"
 #include "app/sweep_grid.h"
 
 namespace halyard {

@@ -17,6 +17,10 @@ namespace {
 
 /// What is left matters above this many times the floor of its channel: about one resolution of a joint's encoder.
 constexpr double kRestFactor = 3;
+/// So little of a residual's root mean square is next to nothing.
+constexpr double kNextToNone = 0.1;
+/// What one number more gains in log-likelihood by chance: two standard deviations.
+constexpr double kByChance = 2;
 /// A candidate that promises less than this share of the residual, to first order, is not fitted at all.
 constexpr double kPromise = 0.02;
 /// So many candidates are fitted in a round: those that leave least of the residual where their search sets out.
@@ -43,7 +47,6 @@ std::vector<double> floors(const Evidence& evidence) {
 
 /// For the significance of a gain: blocks that had next to no residual, a motor's rest say, neither carry nor spoil it.
 std::vector<double> floors_beside(const Evidence& evidence, const Score& before) {
-  constexpr double kNextToNone = 0.1;   // of the residual's root mean square
   std::vector<double> least = floors(evidence);
   for (std::size_t c = 0; c < least.size(); ++c) least[c] += kNextToNone * kNextToNone * before.mean_square[c];
   return least;
@@ -207,7 +210,6 @@ class Search {
 
   /// True if a number ends at its bound, and its group of sizes and shapes does more there than one number by chance.
   bool at_bound(const Hypothesis& h, const Score& score, int place) const {
-    constexpr double kByChance = 2;   // in log-likelihood: two standard deviations
     const auto parameters = effect_parameters(evidence_, h, model_.nominal, place);
     const auto ends = [&](std::size_t i) { return ends_at_bound(parameters[i], parameter_value(h, parameters[i])); };
     for (const ParameterGroup& group : groups_of(parameters)) {
@@ -282,16 +284,14 @@ class Search {
     return explains_a_rest(without, with) ? std::min(by_blocks, std::exp(-gain)) : by_blocks;
   }
 
-  /// True if the effect takes a share of what had to be explained, and leaves nothing of that kind where it takes a share.
+  /// True if, in the channel with a rest that the effect takes most of, nothing that matters is left or next to nothing.
   bool explains_a_rest(const Score& before, const Score& after) const {
     const std::vector<bool> had = significant_rest(evidence_, before), has = significant_rest(evidence_, after);
-    bool explains = false;
-    for (int c = 0; c < evidence_.channels(); ++c) {
-      if (before.mean_square[c] - after.mean_square[c] <= kMattersShare * before.mean_square[c]) continue;
-      if (has[c]) return false;
-      explains = explains || had[c];
-    }
-    return explains;
+    int most = -1;
+    const auto left = [&](int c) { return after.mean_square[c] / before.mean_square[c]; };
+    for (int c = 0; c < evidence_.channels(); ++c)
+      if (had[c] && (most < 0 || left(c) < left(most))) most = c;
+    return most >= 0 && (!has[most] || left(most) < kNextToNone * kNextToNone);
   }
 
   bool convincing(const Trial& t, std::size_t candidates) const {
@@ -376,11 +376,15 @@ class Search {
         if (shared_gain(leaders[best].log_likelihood, leaders[i].log_likelihood, ln_before) < kSharedGain) continue;
         if (p.t < kTellApart || p.sum < 2 * kTellApart * kTellApart) alike.push_back(i);
       }
-      // Of those that the data cannot tell apart the one with the fewest numbers is named.
-      const auto numbers_of = [&](std::size_t i) {
-        return leaders[i].effect.effect->parameters(model_.nominal, leaders[i].effect.joint).size();
+      // Of those that cannot be told apart the best is named; of those that are as good one that only changes the model's own
+      // numbers, and then the one with the fewest numbers of its own.
+      const auto simplicity = [&](std::size_t i) {
+        const PlacedEffect& e = leaders[i].effect;
+        return std::pair(e.effect->stages() != 0, e.effect->parameters(model_.nominal, e.joint).size());
       };
-      best = *std::min_element(alike.begin(), alike.end(), [&](std::size_t a, std::size_t b) { return numbers_of(a) < numbers_of(b); });
+      std::vector<std::size_t> as_good = alike;
+      std::erase_if(as_good, [&](std::size_t i) { return leaders[i].gain < leaders[best].gain - kByChance; });
+      best = *std::ranges::min_element(as_good, {}, simplicity);
       std::vector<PlacedEffect> like;
       for (const std::size_t i : alike)
         if (i != best) like.push_back(leaders[i].effect);

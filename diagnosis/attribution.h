@@ -14,7 +14,7 @@
 /// A candidate is named if
 ///
 /// - its gain is significant, with the number of candidates respected: by a paired t test over blocks; or, where it explains
-///   a rest whole, by the likelihood ratio itself, p <= exp(-gain), which holds on data that the fit did not see
+///   nearly all of a rest, by the likelihood ratio itself, p <= exp(-gain), which holds on data that the fit did not see
 ///   (Wasserman, Ramdas and Balakrishnan, PNAS 117 (2020), split likelihood ratio): a force during two of sixty blocks is
 ///   not lost among blocks that it never touched;
 /// - it matters: a residual shrinks by more than what the model's tolerance and the sensors leave open;

@@ -48,7 +48,7 @@ NoiseLevels read_noise(OptionReader& options, const ArmModel& model, const Proce
   levels.torque = options.per_joint("torque_noise", levels.torque, 0, kInfinity);
   levels.joint_force = options.per_joint("joint_force_noise", levels.joint_force, 0, kInfinity);
   levels.correlation_time = options.number("noise_time", 0.001, 0, kInfinity);
-  levels.effect_time = options.number("effect_noise_time", 10, 1e-6, kInfinity);
+  levels.effect_time = options.number("effect_noise_time", 1e4, 1e-6, kInfinity);
   return levels;
 }
 

@@ -4,7 +4,8 @@
 ///   encoder        σ_z = max(resolution / √12, 1e-5 rad)                                  (rounding is uniform)
 ///   torque         σ_τ = t_f F_c,m                                     N m at the shaft
 ///   joint force    σ_F = t_f F_c,q + t_m max |gravity force|            N m | N
-///   effect states  each wanders by its scale within `effect_time`
+///   effect states  each wanders by its scale within `effect_time`, 1e4 s unless told: they follow equations of their own,
+///                  and motors hardly show them (slow creep with 10 s: joint errors of several times the stretch)
 ///
 ///   t_f, t_m   the model's tolerances of friction and masses: what it may be wrong by without being another model
 ///   F_c,m, F_c,q   Coulomb levels of motor and joint

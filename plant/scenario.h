@@ -43,6 +43,13 @@ struct JointTrajectory {
   std::vector<double> sample_time, sample_position;   ///< linear between, held outside
 };
 
+/// Standard deviations of normal numbers that are drawn afresh at every tick, [n]; empty: none.
+struct TickNoise {
+  std::vector<double> motor_torque;    ///< N m at the shaft, beside the command
+  std::vector<double> joint_force;     ///< N m | N
+  std::vector<double> motor_reading;   ///< rad, before it is rounded
+};
+
 struct Scenario {
   ArmModel robot;                               ///< the true one: effects and changed numbers of the truth included
   std::optional<ArmParameters<double>> assumed; ///< what the controller takes the arm for; none: robot.nominal
@@ -54,7 +61,7 @@ struct Scenario {
   std::vector<JointTrajectory> trajectory;      ///< [n]
   IntegratorOptions integrator;
   bool quantise = true;                         ///< round encoders to their resolution
-  double torque_noise = 0;                      ///< standard deviation, N m at the shaft, of a disturbance per tick
+  TickNoise noise;
   std::uint64_t seed = 1;
 };
 

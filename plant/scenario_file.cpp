@@ -151,7 +151,8 @@ Scenario read_scenario(const std::filesystem::path& path) {
   if (const auto sensors = root.optional_child("sensors")) {
     sensors->only({"quantise", "torque_noise"});
     scenario.quantise = sensors->flag_or("quantise", scenario.quantise);
-    scenario.torque_noise = sensors->number_or("torque_noise", scenario.torque_noise, "N m", Sign::non_negative);
+    const double torque = sensors->number_or("torque_noise", 0, "N m", Sign::non_negative);
+    if (torque > 0) scenario.noise.motor_torque.assign(scenario.robot.n(), torque);
   }
   try {
     check_scenario(scenario);

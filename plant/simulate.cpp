@@ -114,7 +114,9 @@ SimulationResult simulate(const Scenario& scenario, const std::function<void(dou
   PdController controller(controller_parameters(scenario.robot), period);
   std::mt19937_64 random(scenario.seed);
   std::normal_distribution<double> disturbance(0, 1);
-  const Eigen::VectorXd no_load = Eigen::VectorXd::Zero(n);
+  const auto add = [&](const std::vector<double>& deviation, auto& to) {
+    for (std::size_t k = 0; k < deviation.size(); ++k) to[k] += deviation[k] * disturbance(random);
+  };
 
   SimulationResult result{empty_log(scenario, ticks + 1, false), empty_log(scenario, ticks + 1, true), {}, 0};
   for (long i = 0; i <= ticks; ++i) {
@@ -122,12 +124,15 @@ SimulationResult simulate(const Scenario& scenario, const std::function<void(dou
     const Eigen::VectorXd& y = integrator->state();
     JointSignals<double> s[kMaxJoints];
     drive.signals(t, y.data(), y.data() + n, y.data() + 2 * n, s);
+    for (std::size_t k = 0; k < scenario.noise.motor_reading.size(); ++k)
+      s[k].motor_error += scenario.noise.motor_reading[k] * disturbance(random);
     const Readings readings = read_encoders(drive.arm(), s, scenario.quantise);
     const Eigen::VectorXd command =
         controller.torque(unstretched_motors(assumed, desired_joints(scenario, t)), readings.motor);
     Eigen::VectorXd applied = command;
-    if (scenario.torque_noise > 0)
-      for (int k = 0; k < n; ++k) applied(k) += scenario.torque_noise * disturbance(random);
+    add(scenario.noise.motor_torque, applied);
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(n);
+    add(scenario.noise.joint_force, load);
 
     result.measured.time[i] = result.truth.time[i] = t;
     for (int k = 0; k < n; ++k) {
@@ -141,7 +146,7 @@ SimulationResult simulate(const Scenario& scenario, const std::function<void(dou
     }
     if (progress && i % ticks_per_report == 0) progress(static_cast<double>(i) / ticks);
     if (i == ticks) break;
-    plant->set_inputs(t, applied.data(), no_load.data());
+    plant->set_inputs(t, applied.data(), load.data());
     integrator->advance((i + 1) * period);
   }
 

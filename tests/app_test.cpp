@@ -225,11 +225,37 @@ TEST_F(App, CompareJudgesEstimatorsByTheTruthOfASimulatedScenario) {
   EXPECT_TRUE(contains(report, "Joint 3: errors"));
 }
 
+TEST_F(App, CompareSaysWhichIsBetterAndWhetherEachKnowsHowFarOffItIs) {
+  write_short_scenario("experiment_a.xml", "1.5");
+  const std::vector<std::string> ask = {"compare", "experiment_a.xml", "--estimators", "kinematics,ekf", "--runs", "3", "--noise"};
+  const auto run = [&](const std::string& noise) {
+    std::vector<std::string> arguments = ask;
+    for (const std::string& more : {noise, std::string("--out"), "noise_" + noise}) arguments.push_back(more);
+    done(arguments);
+    return json::parse(text_of(path("noise_" + noise + "/comparison.json")));
+  };
+  const json right = run("1"), ten = run("10");
+  for (int k = 0; k < 3; ++k) {
+    const json& pair = right.at("paired").at(k);
+    EXPECT_EQ(pair.at("verdict"), "better") << "joint " << k + 1;
+    EXPECT_LT(pair.at("ci95").at(1), 0.5);
+    EXPECT_EQ(right.at("estimators").at(0).at("joints").at(k).at("nees").at("verdict"), "none");
+    const json& of_ten = ten.at("monte_carlo").at("estimators").at(1).at("joints").at(k);
+    EXPECT_EQ(of_ten.at("nees").at("verdict"), "too sure") << "joint " << k + 1;
+    EXPECT_LT(of_ten.at("instants_in_band"), 0.5);
+  }
+  const json& ekf = right.at("monte_carlo").at("estimators").at(1);
+  EXPECT_EQ(ekf.at("failures"), 0);
+  EXPECT_NEAR(ekf.at("nis").at("mean"), 1, 0.1);
+  EXPECT_GT(ten.at("monte_carlo").at("estimators").at(1).at("nis").at("mean"), 10);
+  EXPECT_TRUE(contains(text_of(path("noise_1/report.html")), "3 runs with seeds of their own"));
+}
+
 TEST_F(App, TheSameComparisonGivesTheSameBytes) {
   write_short_scenario("experiment_a.xml", "0.6");
   for (const char* out : {"1", "2"}) {
-    done({"compare", "experiment_a.xml", "--model", "raven2.xml", "--estimators", "kinematics,ekf,sr_ukf", "--out",
-          out});
+    done({"compare", "experiment_a.xml", "--model", "raven2.xml", "--estimators", "kinematics,ekf,sr_ukf", "--runs", "2",
+          "--out", out});
   }
   EXPECT_TRUE(files_in(path("1")) == files_in(path("2")));
 }

@@ -231,6 +231,8 @@ TEST_F(BadInput, ArgumentsThatDoNotFit) {
   expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", "ekf,ekf", "--out", "cmp"},
                  {"listed twice"});
   expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", "", "--out", "cmp"}, {"estimators"});
+  expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", "ekf", "--out", "cmp", "--runs", "3"},
+                 {"--runs", "log.csv", "leave"});
   expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", "ekf", "--out", "cmp", "--skip", "-1"},
                  {"--skip", "'-1'"});
   expect_refused({"sweep", "sweep.xml", "--out", "out", "--jobs", "0"}, {"--jobs"});

@@ -85,7 +85,7 @@ TEST_F(ScenarioFile, HasDefaultsAndKeepsUnnamedJointsAtHome) {
   EXPECT_EQ(s.fade_in_s, 2);
   EXPECT_EQ(s.trajectory[0].kind, JointTrajectory::Kind::hold);
   EXPECT_DOUBLE_EQ(s.trajectory[0].center, 45 * kDegree);
-  EXPECT_EQ(s.torque_noise, 0);
+  EXPECT_TRUE(s.noise.motor_torque.empty());
 }
 
 TEST_F(ScenarioFile, MayGiveSamplesOfAnotherLog) {
@@ -173,7 +173,7 @@ TEST(Trajectory, BetweenPointsMovesWithMinimumJerkAndDwells) {
 TEST(Simulate, LogsReadingsAndTheTorquesThatFollowFromThem) {
   Scenario scenario = experiment("a", 0.2);
   scenario.fade_in_s = 0.05;
-  scenario.torque_noise = 1e-3;   // disturbs the arm, is not in the log
+  scenario.noise.motor_torque.assign(3, 1e-3);   // disturbs the arm, is not in the log
   const SimulationResult result = simulate(scenario);
   const Log &log = result.measured, &truth = result.truth;
   ASSERT_EQ(log.size(), 201u);
@@ -220,7 +220,7 @@ TEST(Simulate, StartsAtRestWithTheCablesHoldingTheArm) {
 
 TEST(Simulate, RepeatsToTheLastBitAndFollowsItsSeed) {
   Scenario scenario = experiment("c", 0.1);
-  scenario.torque_noise = 1e-3;
+  scenario.noise.motor_torque.assign(3, 1e-3);
   const Log first = simulate(scenario).truth, again = simulate(scenario).truth;
   EXPECT_EQ(first.motor_position, again.motor_position);
   EXPECT_EQ(first.joint_velocity, again.joint_velocity);

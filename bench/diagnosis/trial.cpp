@@ -50,7 +50,7 @@ Scenario random_run(const ArmModel& robot, const ArmModel& model, double length_
   s.duration_s = kFadeIn + length_s;
   s.fade_in_s = kFadeIn;
   s.trajectory = random_motion(model, random);
-  s.torque_noise = random.uniform(0, 0.2e-3);
+  s.noise.motor_torque.assign(robot.n(), random.uniform(0, 0.2e-3));
   s.seed = random.seed();
   return s;
 }
@@ -104,7 +104,7 @@ Recording draw_recording(const ArmModel& model, Kind kind, double limit, Random&
 
   Scenario training = random_run(r.robot, model, one_log ? kTraining + kHoldOut : kTraining, random);
   Scenario holdout = random_run(r.robot, model, kHoldOut, random);
-  holdout.torque_noise = training.torque_noise;
+  holdout.noise = training.noise;
   if (effects > 0) {
     const Log probe = training_part(record(training), one_log);
     const StrengthMeter meter(probe, model);

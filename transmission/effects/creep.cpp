@@ -27,7 +27,7 @@ class Creep : public EffectOf<Creep> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
     return {{"compliance_share", "1", 0, 0.3, 0, 5, 0},
-            {"time_constant", "s", 3, 3, 0.03, 300, 0, false, {0.3, 1, 3, 10, 30}}};
+            {"time_constant", "s", 3, 3, 0.2, 300, 0, false, {0.3, 1, 3, 10, 30}}};
   }
   int n_states() const override { return 1; }
   std::vector<double> state_scale(const ArmParameters<double>& arm, int joint, const double*) const override {

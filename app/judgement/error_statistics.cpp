@@ -1,4 +1,4 @@
-#include "app/error_statistics.h"
+#include "app/judgement/error_statistics.h"
 
 #include <algorithm>
 #include <cmath>

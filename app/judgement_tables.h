@@ -1,0 +1,26 @@
+#pragma once
+/// The parts of a comparison that say which estimator is better, and whether each is as good as it says.
+
+#include <nlohmann/json.hpp>
+
+#include "app/compare.h"
+#include "app/monte_carlo.h"
+#include "app/report/page.h"
+
+namespace halyard {
+
+/// "0.0123 (95 %: 0.011 to 0.014): better".
+std::string in_words(const PairedRatio& ratio);
+
+/// NIS, NEES of each joint, whiteness of each motor's innovation, with verdicts.
+report::Table consistency_table(const Comparison& comparison);
+/// Each pair of estimators and each joint once.
+report::Table paired_table(const Comparison& comparison);
+/// Errors, consistency and failures over many runs; one row per joint and estimator.
+report::Table monte_carlo_table(const MonteCarlo& runs, const std::vector<JointUnit>& units);
+
+nlohmann::ordered_json to_json(const Consistency& c);
+nlohmann::ordered_json to_json(const PairedRatio& ratio);
+nlohmann::ordered_json to_json(const MonteCarlo& runs);
+
+}  // namespace halyard
