@@ -109,6 +109,9 @@ void add_compare_command(CLI::App& app) {
   add_columns_option(command, options->columns);
   add_joint_torque_flag(command, options->use_joint_torque);
   add_skip_option(command, options->skip_s);
+  command.add_option("--step-limit", options->step_limit_s, "an estimator that takes longer for a step is ended, in s")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command.add_option("--runs", options->runs, "of a scenario: simulate so many seeds, and judge by all of them")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();

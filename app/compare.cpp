@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <span>
 #include <stdexcept>
 
 #include "app/sensor_readings.h"
-#include "plugins/loader.h"
+#include "model/input_error.h"
 
 namespace halyard {
 namespace {
@@ -81,9 +80,25 @@ Comparison compare_estimators(const ArmModel& model, const std::vector<std::stri
   result.truth = truth;
   const Counted counted(truth, options.skip_s);
 
+  const auto attempt = [&](const std::string& name, const auto& action) {
+    try {
+      return action();
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::exception& error) {
+      if (!options.keep_going) throw;
+      EstimatorRun none = no_run(name, measured);
+      none.failure = error.what();
+      return none;
+    }
+  };
   // All are made first: a wrong name must not cost the time of the others' runs.
-  std::vector<std::unique_ptr<Estimator>> made;
-  for (const std::string& name : estimators) made.push_back(make_estimator(name, model));
+  std::vector<EstimatorRun> tried;
+  for (const std::string& name : estimators)
+    tried.push_back(attempt(name, [&] {
+      check_estimator(name, model, options.containment);
+      return EstimatorRun{};
+    }));
   for (std::size_t i = 0; i < estimators.size(); ++i) {
     EstimateOptions estimate{.use_joint_torque = options.use_joint_torque, .progress = {}};
     if (options.progress) {
@@ -91,8 +106,9 @@ Comparison compare_estimators(const ArmModel& model, const std::vector<std::stri
         options.progress((double(i) + fraction) / double(estimators.size()));
       };
     }
-    result.runs.push_back(run_estimator(*made[i], estimators[i], measured, estimate));
-    made[i].reset();
+    result.runs.push_back(!tried[i].failure.empty() ? tried[i] : attempt(estimators[i], [&] {
+      return run_contained(estimators[i], model, measured, estimate, options.containment);
+    }));
     const EstimatorRun& run = result.runs.back();
     result.compared.push_back(options.truth_is_sensed ? sensor_readings(model, run) : run.estimates.joint_position);
     result.errors.push_back(joint_errors(run, result.compared.back(), truth, counted));

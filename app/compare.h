@@ -6,6 +6,7 @@
 
 #include "app/judgement/consistency.h"
 #include "app/judgement/error_statistics.h"
+#include "app/contained_run.h"
 #include "app/estimate.h"
 #include "app/joint_unit.h"
 #include "model/arm_model.h"
@@ -47,11 +48,14 @@ struct CompareOptions {
   bool use_joint_torque = false;
   /// The truth is what joint sensors read, with the errors that the model says they make; otherwise the joints' own.
   bool truth_is_sensed = false;
+  /// An estimator that fails leaves a row without numbers; otherwise its failure is thrown.
+  bool keep_going = false;
+  ContainmentOptions containment = {};
   std::function<void(double)> progress = {};   ///< called with the fraction done
 };
 
 /// Runs each estimator over `measured` and counts its errors against the joint positions of `truth`, which has the same
-/// times. The strings of the result are the caller's to fill.
+/// times. Each runs in a process of its own. The strings of the result are the caller's to fill.
 /// Throws what make_estimator and run_estimator throw, std::invalid_argument if the times differ.
 Comparison compare_estimators(const ArmModel& model, const std::vector<std::string>& estimators, const Log& measured,
                               const Log& truth, const CompareOptions& options = {});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "app/comparison_figures.h"
@@ -84,6 +85,11 @@ Data logged_data(const CompareCommandOptions& options) {
 void print_errors(const Comparison& comparison) {
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
     const EstimatorRun& run = comparison.runs[i];
+    if (!run.failure.empty()) {
+      fmt::print("{}: failed\n", run.name);
+      fmt::print(stderr, "{}\n", run.failure);
+      continue;
+    }
     fmt::print("{} ({:.3g} us a step)\n", run.name, run.microseconds_per_step);
     for (int k = 0; k < comparison.n_joints(); ++k) {
       if (!comparison.has_truth(k)) continue;
@@ -125,8 +131,12 @@ void run_compare(const CompareCommandOptions& options) {
                                     {.skip_s = options.skip_s,
                                      .use_joint_torque = options.use_joint_torque,
                                      .truth_is_sensed = data.truth_is_sensed,
+                                     .keep_going = true,
+                                     .containment = {.step_limit_s = options.step_limit_s},
                                      .progress = [&](double fraction) { progress.set(fraction * work_s); }});
   }
+  if (std::ranges::none_of(comparison.runs, &std::string::empty, &EstimatorRun::failure))
+    throw std::runtime_error(comparison.runs[0].failure);
   comparison.data = options.data.string();
   comparison.model = data.model_path;
   comparison.truth_from = data.truth_from;

@@ -14,6 +14,7 @@ struct CompareCommandOptions {
   std::vector<std::string> columns;       ///< entries of --column
   bool use_joint_torque = false;
   double skip_s = 0.5;
+  double step_limit_s = 10;               ///< of an estimator's step
   int runs = 1;                           ///< of a scenario: seeds that are simulated
   double noise = -1;                      ///< of what the filters assume; < 0: the scenario's own
 };

@@ -32,6 +32,7 @@ ordered_json run_json(const Comparison& comparison, std::size_t i) {
                       {"nees", to_json(comparison.judgements[i].nees[k])}});
   }
   return {{"estimator", run.name},
+          {"failure", run.failure.empty() ? ordered_json(nullptr) : ordered_json(run.failure)},
           {"steps", run.report.steps},
           {"gated_measurements", run.report.gated},
           {"repaired_factors", run.report.repaired_factors},
@@ -57,6 +58,8 @@ report::Page comparison_page(const Comparison& comparison, const std::optional<M
   const std::size_t samples = comparison.truth.size();
   report::Page page("Estimators compared", fmt::format("{} with {}: {} samples, {:.6g} s", comparison.data,
                                                        comparison.model, samples, comparison.truth.duration()));
+  for (const EstimatorRun& run : comparison.runs)
+    if (!run.failure.empty()) page.verdict(report::VerdictKind::warning, "Failed: " + run.failure);
   if (comparison.truth_from.empty()) {
     page.verdict(report::VerdictKind::warning,
                  "The record has no joint sensors: the estimates are shown, but there is nothing to judge them by.");

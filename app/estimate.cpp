@@ -93,9 +93,7 @@ double mean_of(const std::vector<double>& values) {
   return count > 0 ? sum / count : kNan;
 }
 
-EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const Log& log,
-                           const EstimateOptions& options) {
-  const std::size_t start = first_complete_row(log);
+EstimatorRun no_run(const std::string& name, const Log& log) {
   EstimatorRun run;
   run.name = name;
   run.estimates = Log(log.n_joints);
@@ -108,7 +106,14 @@ EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const 
   run.joint_position_std.assign(log.n_joints, unknown);
   run.nis = unknown;
   run.innovation.assign(log.n_joints, unknown);
+  run.microseconds_per_step = kNan;
+  return run;
+}
 
+EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const Log& log,
+                           const EstimateOptions& options) {
+  const std::size_t start = first_complete_row(log);
+  EstimatorRun run = no_run(name, log);
   Samples samples(log, options.use_joint_torque);
   const std::size_t report_every = std::max<std::size_t>(1, log.size() / 100);
   const auto begin = std::chrono::steady_clock::now();
@@ -116,11 +121,13 @@ EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const 
   try {
     estimator.reset(samples.first(start));
     record(run, estimator.estimate(), start);
+    if (options.row_done) options.row_done(start);
     for (i = start + 1; i < log.size(); ++i) {
       const Innovation innovation = estimator.update(samples.at(i));
       record(run, estimator.estimate(), i);
       // An estimator without a covariance has no innovation to judge.
       if (innovation.nu.size() > 0 && innovation.S_root.size() > 0) record(run, innovation, log, i);
+      if (options.row_done) options.row_done(i);
       if (options.progress && i % report_every == 0) options.progress(double(i) / double(log.size()));
     }
   } catch (const InputError&) {

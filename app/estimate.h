@@ -18,6 +18,7 @@ struct EstimatorRun {
   std::vector<double> nis;            ///< νᵀ S⁻¹ ν over the motors measured, ~ 1 if the model is right; NaN: none
   Signals innovation;                 ///< [n] S_root⁻¹ ν, ~ N(0, 1) each if the model is right; NaN: none
   double microseconds_per_step = 0;   ///< wall time: differs from run to run
+  std::string failure;                ///< why there is no estimate; empty: there is
 };
 
 /// Mean of what is not NaN; NaN without any.
@@ -28,7 +29,12 @@ struct EstimateOptions {
   bool use_joint_torque = false;
   /// Called about a hundred times a run, with the fraction done.
   std::function<void(double)> progress = {};
+  /// Called after each sample with its row of the log.
+  std::function<void(std::size_t)> row_done = {};
 };
+
+/// A run without any estimate: all NaN.
+EstimatorRun no_run(const std::string& name, const Log& log);
 
 /// Runs the estimator over all samples of the log: motor torque and position, and what the options add. It starts at
 /// the first sample that has the position of every motor.

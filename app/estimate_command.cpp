@@ -39,6 +39,7 @@ void run_estimate(const EstimateCommandOptions& options) {
     comparison = compare_estimators(model, {options.estimator}, log, log,
                                     {.skip_s = options.skip_s,
                                      .use_joint_torque = options.use_joint_torque,
+                                     .truth_is_sensed = true,
                                      .progress = [&](double fraction) { progress.set(fraction * log.duration()); }});
   }
   const EstimatorRun& run = comparison.runs[0];

@@ -50,6 +50,7 @@ report::Table consistency_table(const Comparison& comparison) {
   table.align.back() = report::Align::left;
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
     const Judgement& j = comparison.judgements[i];
+    if (!comparison.runs[i].failure.empty()) continue;
     const Cell name(comparison.runs[i].name);
     if (j.nis.trust() != Trust::none)
       table.rows.push_back({name, Cell("innovations (NIS)"), Cell(mean_in_band(j.nis)), Cell(in_words(j.nis))});

@@ -10,7 +10,6 @@
 #include "estimators/noise.h"
 #include "model/input_error.h"
 #include "plant/simulate.h"
-#include "plugins/loader.h"
 
 namespace halyard {
 namespace {
@@ -138,7 +137,7 @@ TickNoise assumed_noise(const ArmModel& model, double tick_s) {
 
 MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, const std::vector<std::string>& estimators,
                            const MonteCarloOptions& options) {
-  for (const std::string& name : estimators) make_estimator(name, model);   // a wrong name must not cost the runs' time
+  for (const std::string& name : estimators) check_estimator(name, model);   // a wrong name must not cost the runs' time
   std::vector<std::vector<OneRun>> all(estimators.size(), std::vector<OneRun>(options.runs));
   tbb::parallel_for(0, options.runs, [&](int r) {
     Scenario of_run = scenario;

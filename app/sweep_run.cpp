@@ -7,10 +7,10 @@
 #include <exception>
 
 #include "app/compare.h"
+#include "app/contained_run.h"
 #include "app/progress.h"
 #include "model/input_error.h"
 #include "plant/simulate.h"
-#include "plugins/loader.h"
 
 namespace halyard {
 namespace {
@@ -61,7 +61,7 @@ SweepCell run_point(const Sweep& sweep, std::size_t point) {
 
 void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions& options) {
   // A wrong estimator is found now, not in every cell.
-  for (const std::string& estimator : sweep.grid.estimators) make_estimator(estimator, sweep.model_at(0));
+  for (const std::string& estimator : sweep.grid.estimators) check_estimator(estimator, sweep.model_at(0));
 
   if (options.resume && holds_other_sweep(folder, sweep.grid)) {
     throw InputError(

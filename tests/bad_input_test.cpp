@@ -1,6 +1,7 @@
 // What a user can get wrong: one line on stderr that says where and what, exit code 2, and no output, not even a part.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "tests/program_run.h"
@@ -262,9 +263,31 @@ TEST_F(BadInput, AFailureThatIsNotTheUsersIsExitCode1AndLeavesNothing) {
   const std::string broken = std::string(HALYARD_BROKEN_PLUGINS) + "/throws_in_update.so";
   expect_refused({"estimate", "--model", "raven2.xml", "--estimator", broken, "--data", "log.csv", "--out", "e.csv"},
                  {"throws_in_update", "log.csv at 0.002 s"}, 1);
-  expect_refused(
-      {"compare", "log.csv", "--model", "raven2.xml", "--estimators", "kinematics," + broken, "--out", "cmp"},
-      {"throws_in_update"}, 1);
+  expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", broken, "--out", "cmp"},
+                 {"throws_in_update"}, 1);
+}
+
+TEST_F(BadInput, AnEstimatorThatFailsEndsItsOwnRowOfTheComparison) {
+  std::string rows, names = "kinematics";
+  for (const char* time : {"0", "0.001", "0.002", "0.003"}) rows += std::string(time) + ",0,0,0,107,204,904\n";
+  write_text(path("log.csv"), kHeader + rows);
+  const std::vector<std::pair<std::string, std::string>> broken = {{"throws_in_update", "at 0.002 s"},
+                                                                   {"crashes_in_create", "being made: crashed: Segm"},
+                                                                   {"crashes_in_update", "at 0.002 s: crashed: Segm"},
+                                                                   {"never_returns", "at 0.002 s: took more than 0.3 s"}};
+  for (const auto& [module, failure] : broken) names += "," + std::string(HALYARD_BROKEN_PLUGINS) + "/" + module + ".so";
+  const RunResult run = this->run({"compare", "log.csv", "--model", "raven2.xml", "--estimators", names + ",ekf", "--out", "cmp",
+                                  "--skip", "0", "--step-limit", "0.3"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json result = nlohmann::json::parse(text_of(path("cmp/comparison.json"))).at("estimators");
+  ASSERT_EQ(result.size(), broken.size() + 2);
+  EXPECT_TRUE(result.front().at("failure").is_null());
+  EXPECT_TRUE(result.back().at("failure").is_null());
+  for (std::size_t i = 0; i < broken.size(); ++i) {
+    EXPECT_TRUE(contains(run.err, broken[i].second)) << run.err;
+    EXPECT_TRUE(contains(result.at(i + 1).at("failure").get<std::string>(), broken[i].second));
+    EXPECT_TRUE(contains(text_of(path("cmp/report.html")), broken[i].second));
+  }
 }
 
 TEST_F(BadInput, NoDamagedFileEndsTheProgramByASignal) {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "app/estimate.h"
+#include "model/arm_model.h"
+
+namespace halyard {
+
+struct ContainmentOptions {
+  double step_limit_s = 10;   ///< a step, or the making, that takes longer is the end of the run
+};
+
+/// Makes the estimator and runs it over the log as run_estimator does, in a child process: a module that crashes, or never
+/// returns, ends its run and nothing else.
+/// Throws InputError where the estimator cannot be made (name, module, options) or the log cannot be run over,
+/// std::runtime_error, naming estimator, log and time, where the run fails, crashes, or exceeds the limit.
+EstimatorRun run_contained(const std::string& name, const ArmModel& model, const Log& log,
+                           const EstimateOptions& options = {}, const ContainmentOptions& containment = {});
+
+/// Makes the estimator in a child process and lets go of it: throws as run_contained does where it cannot be made.
+void check_estimator(const std::string& name, const ArmModel& model, const ContainmentOptions& containment = {});
+
+}  // namespace halyard

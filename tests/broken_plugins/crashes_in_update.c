@@ -1,0 +1,13 @@
+#include "well_formed.h"
+
+/* Good at first; then it writes where nothing is. */
+static int update_crash(void* instance, const halyard_sample* sample, halyard_innovation* innovation, char* message,
+                        size_t message_size) {
+  if (((state*)instance)->steps >= 1) *(volatile int*)8 = 1;
+  return update(instance, sample, innovation, message, message_size);
+}
+
+const halyard_estimator_table* halyard_estimator(void) {
+  table.update = update_crash;
+  return &table;
+}
