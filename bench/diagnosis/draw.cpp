@@ -34,7 +34,7 @@ double draw_shape(const EffectParameter& p, Random& random) {
 
 }  // namespace
 
-Hidden draw_effect(const ArmModel& model, Kind kind, const std::vector<Hidden>& beside, Random& random) {
+Hidden draw_effect(const ArmModel& model, Kind kind, int index, const std::vector<Hidden>& beside, Random& random) {
   std::vector<Hidden> all;
   if (kind == Kind::form) {
     for (const OtherForm& form : other_forms()) all.push_back({{form.effect}, form.like});
@@ -43,11 +43,10 @@ Hidden draw_effect(const ArmModel& model, Kind kind, const std::vector<Hidden>& 
   } else {
     for (const Effect* effect : effect_library()) all.push_back({{effect}, effect->name()});
   }
+  std::erase_if(all, [&](const Hidden& h) { return effect_places(*h.acts.effect, model.nominal).empty(); });
   for (;;) {
-    Hidden hidden = random.one_of(all);
-    const std::vector<int> places = effect_places(*hidden.acts.effect, model.nominal);
-    if (places.empty()) continue;
-    hidden.acts.joint = random.one_of(places);
+    Hidden hidden = kind == Kind::each_effect ? all[index % all.size()] : random.one_of(all);
+    hidden.acts.joint = random.one_of(effect_places(*hidden.acts.effect, model.nominal));
     const bool free = std::ranges::none_of(beside, [&](const Hidden& other) {
       return other.acts.effect == hidden.acts.effect || other.acts.joint == hidden.acts.joint;
     });

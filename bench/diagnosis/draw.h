@@ -22,8 +22,9 @@ struct Ranges {
   std::vector<Range> joint;  ///< [n]
 };
 
-/// An effect and its place for a trial of this kind; no effect for the clean ones. `beside`: what is hidden already.
-Hidden draw_effect(const ArmModel& model, Kind kind, const std::vector<Hidden>& beside, Random& random);
+/// An effect and its place for trial `index` of this kind; no effect for the clean ones. `beside`: what is hidden
+/// already.
+Hidden draw_effect(const ArmModel& model, Kind kind, int index, const std::vector<Hidden>& beside, Random& random);
 void draw_parameters(PlacedEffect& effect, const ArmModel& model, const Ranges& ranges, Random& random);
 
 /// Moves all sizes away from neutral; false if they are at the end of what may be.

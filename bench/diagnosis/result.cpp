@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kWords[kKinds] = {"clean_exact", "clean_mistuned", "effect", "effect_mistuned",
-                                        "form",        "outside",        "pair"};
+                                        "form",        "outside",        "pair",   "each_effect"};
 
 /// JSON has neither infinities nor NaN.
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }

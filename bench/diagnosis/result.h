@@ -9,8 +9,8 @@
 
 namespace halyard::blind {
 
-enum class Kind { clean_exact, clean_mistuned, effect, effect_mistuned, form, outside, pair };
-inline constexpr int kKinds = 7;
+enum class Kind { clean_exact, clean_mistuned, effect, effect_mistuned, form, outside, pair, each_effect };
+inline constexpr int kKinds = 8;
 std::string word(Kind kind);
 /// Throws InputError for a word that is none.
 Kind kind_of(const std::string& word);

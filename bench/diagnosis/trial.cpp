@@ -89,14 +89,14 @@ bool draw_strength(PlacedEffect& effect, const ArmModel& model, Kind kind, const
   return false;
 }
 
-Recording draw_recording(const ArmModel& model, Kind kind, double limit, Random& random) {
+Recording draw_recording(const ArmModel& model, Kind kind, int index, double limit, Random& random) {
   Recording r;
   r.robot = model;
   scatter_gains(r.robot, random);
   if (is_mistuned(kind)) mistune(r.robot.nominal, random);
 
   const int effects = is_clean(kind) ? 0 : kind == Kind::pair ? 2 : 1;
-  for (int i = 0; i < effects; ++i) r.hidden.push_back(draw_effect(model, kind, r.hidden, random));
+  for (int i = 0; i < effects; ++i) r.hidden.push_back(draw_effect(model, kind, index, r.hidden, random));
   // A delay acts on what comes before it.
   std::ranges::stable_partition(r.hidden, [](const Hidden& h) { return h.right_name == "delay"; });
   const bool one_log =
@@ -174,7 +174,7 @@ Result run_trial(const ArmModel& model, Kind kind, int index, const TrialOptions
   std::optional<Recording> recording;
   for (int attempt = 0; attempt < kAttempts && !recording; ++attempt) {
     try {
-      recording = draw_recording(model, kind, options.limit, random);
+      recording = draw_recording(model, kind, index, options.limit, random);
     } catch (const std::runtime_error& error) {
       r.failure = error.what();
     }

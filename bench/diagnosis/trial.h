@@ -8,8 +8,9 @@
 ///   form             one effect in another functional form than the library's
 ///   outside          one effect for which the library has no name
 ///   pair             two effects of the library at different places
+///   each_effect      one effect of the library, every one in turn, so that each is asked for equally often
 ///
-/// Effects are drawn uniformly, then their place. Each of an effect's sizes is present with probability 1/2, at least
+/// Effects are drawn uniformly (in `each_effect` the trial's number tells), then their place. Each of an effect's sizes is present with probability 1/2, at least
 /// one is: typical size times log-uniform 0.5 to 3, of random sign where the bounds allow both, at most 95 % of the way
 /// to a bound that is no limit of nature. Shapes are one of the effect's starts, or typical times log-uniform 0.5 to 2.
 /// An instant lies in the first 10 to 70 % of the training, a position in the middle 60 % of the joint's motion.
