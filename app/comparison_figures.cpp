@@ -110,7 +110,7 @@ Chart error_histogram(const Comparison& comparison, int k) {
 report::Table error_table(const Comparison& comparison) {
   report::Table table;
   table.caption = fmt::format("Error of the joint position after the first {:g} s", comparison.skip_s);
-  table.header = {"joint", "estimator", "unit", "mean absolute error", "RMS", "peak", "bias",
+  table.header = {"joint", "estimator", "unit", "mean absolute error", "RMS", "median", "95 % below", "peak", "bias",
                   "improvement over kinematics", "within 2 sigma"};
   table.align = {report::Align::left, report::Align::left, report::Align::left};
   table.align.resize(table.header.size(), report::Align::right);
@@ -122,7 +122,8 @@ report::Table error_table(const Comparison& comparison) {
       const bool is_baseline = int(i) == comparison.baseline();
       table.rows.push_back({Cell(std::to_string(k + 1)), Cell(comparison.runs[i].name), Cell(unit.shown),
                             Cell(shown_number(error.mean_absolute, unit), int(i) == best),
-                            Cell(shown_number(error.rms, unit)), Cell(shown_number(error.peak, unit)),
+                            Cell(shown_number(error.rms, unit)), Cell(shown_number(error.median_absolute, unit)),
+                            Cell(shown_number(error.percentile_95, unit)), Cell(shown_number(error.peak, unit)),
                             Cell(shown_number(error.bias, unit)),
                             Cell(is_baseline ? "-" : shown_percent(comparison.improvement_of(i, k))),
                             Cell(shown_percent(error.within_two_std))});

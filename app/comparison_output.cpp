@@ -25,6 +25,8 @@ ordered_json run_json(const Comparison& comparison, std::size_t i) {
                       {"samples", error.samples},
                       {"mean_absolute_error", number_or_null(error.mean_absolute)},
                       {"rms_error", number_or_null(error.rms)},
+                      {"median_absolute_error", number_or_null(error.median_absolute)},
+                      {"percentile_95_error", number_or_null(error.percentile_95)},
                       {"peak_error", number_or_null(error.peak)},
                       {"bias", number_or_null(error.bias)},
                       {"improvement_over_kinematics", number_or_null(comparison.improvement_of(i, k))},
@@ -122,9 +124,9 @@ ordered_json to_json(const Comparison& comparison) {
 }
 
 std::vector<std::string> error_columns() {
-  return {"joint",         "unit",       "samples", "mean_absolute_error",
-          "rms_error",     "peak_error", "bias",    "improvement_over_kinematics",
-          "within_two_std"};
+  return {"joint",         "unit",       "samples",        "mean_absolute_error",
+          "rms_error",     "peak_error", "bias",           "improvement_over_kinematics",
+          "within_two_std", "median_absolute_error", "percentile_95_error"};
 }
 
 void add_error_cells(CsvTable& table, const Comparison& comparison, std::size_t run, int k) {
@@ -133,7 +135,7 @@ void add_error_cells(CsvTable& table, const Comparison& comparison, std::size_t 
   table.add(comparison.units[k].si);
   table.add(std::to_string(error.samples));
   for (const double value : {error.mean_absolute, error.rms, error.peak, error.bias, comparison.improvement_of(run, k),
-                             error.within_two_std}) {
+                             error.within_two_std, error.median_absolute, error.percentile_95}) {
     table.add(value);
   }
 }

@@ -83,9 +83,10 @@ void ArmFilter::reset(const Sample& first) {
   torque_ = external_ = Eigen::VectorXd::Zero(n);
   history_ = CommandHistory(n, kHistorySpan);
   report_ = {};
+  noise_.reset();
   const Eigen::VectorXd home = model_.home();
   const Eigen::VectorXd x = process_->state_at_rest(unstretched_motors(process_->arm(), home), home);
-  filter_->reset(x, noise_.initial_root(x));
+  filter_->reset(x, noise_.initial_root(x, kInfinity));
   start(first);
 }
 
@@ -100,6 +101,8 @@ void ArmFilter::remember(const Sample& sample) {
 }
 
 void ArmFilter::start(const Sample& sample) {
+  const Eigen::VectorXd before = reading_;
+  const double since = sample.time_s - time_;
   remember(sample);
   if (!reading_(motors_).allFinite()) return;
   const Eigen::VectorXd home = model_.home();
@@ -112,8 +115,20 @@ void ArmFilter::start(const Sample& sample) {
   const Eigen::VectorXd q = static_equilibrium(*process_, sample.time_s, angle, external_, z,
                                                unstretched_joints(process_->arm(), angle, home));
   x = process_->state_at_rest(angle, q);
-  filter_->reset(x, noise_.initial_root(x));
+  // At rest, unless the motors were read just before.
+  const bool seen_moving = before(motors_).allFinite() && since <= options_.max_step;
+  if (seen_moving) {
+    const Eigen::VectorXd moved = reading_ - before;
+    const Eigen::VectorXd path = unstretched_joints(process_->arm(), angle, home) -
+                                 unstretched_joints(process_->arm(), angle - moved, home);
+    for (int k = 0; k < process_->n_joints(); ++k) {
+      x(process_->layout().rate[k]) = path(k) / since;
+      if (process_->layout().motor_rate[k] >= 0) x(process_->layout().motor_rate[k]) = moved(k) / since;
+    }
+  }
+  filter_->reset(x, noise_.initial_root(x, seen_moving ? since : kInfinity));
   started_ = true;
+  refused_since_ = kInfinity;
 }
 
 void ArmFilter::predict(double to_time_s) {
@@ -126,7 +141,7 @@ void ArmFilter::predict(double to_time_s) {
   step.history = &history_;
   for (int i = 0; i < pieces; ++i) {
     step.time_s = time_ + i * step.dt_s;
-    filter_->predict(ArmProcess(*process_, step), noise_.process_root(step.dt_s));
+    filter_->predict(ArmProcess(*process_, step), noise_.process_root(step, filter_->x()));
   }
 }
 
@@ -140,15 +155,20 @@ Innovation ArmFilter::correct(const Sample& sample) {
     if (std::isfinite(sample.motor_position(k))) read.push_back(k);
   if (read.empty()) return {};
   const Eigen::MatrixXd R_root = Eigen::VectorXd(noise_.encoder()(read)).asDiagonal();
-  return filter_->update(MotorReadings(*process_, sample.time_s, read), sample.motor_position(read), R_root,
-                         gate_threshold(static_cast<int>(read.size())));
+  const Innovation innovation = filter_->update(MotorReadings(*process_, sample.time_s, read),
+                                                sample.motor_position(read), R_root,
+                                                gate_threshold(static_cast<int>(read.size())));
+  noise_.adapt(read, innovation, sample.time_s - time_);
+  refused_since_ = innovation.accepted ? kInfinity : std::min(refused_since_, sample.time_s);
+  return innovation;
 }
 
 Innovation ArmFilter::update(const Sample& sample) {
   if (!(sample.time_s > time_))
     throw std::invalid_argument("filter: time does not increase at " + std::to_string(sample.time_s) + " s");
   Innovation innovation;
-  if (!started_ || sample.time_s - time_ > options_.restart_gap) {
+  const bool lost = sample.time_s - std::min(time_, refused_since_) > options_.restart_gap;
+  if (!started_ || lost) {
     start(sample);
   } else {
     predict(sample.time_s);

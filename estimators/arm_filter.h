@@ -2,10 +2,10 @@
 /// A Gaussian filter on an arm: the process model between samples, motor encoders as measurement, and what logs are
 /// like: gaps, missing samples, a start at rest.
 ///
-///   start      joints from kinematics, then to static equilibrium under the motors' readings; samples before all
-///              motors have been read once are passed over
+///   start      joints from kinematics, then to static equilibrium under the motors' readings, at rest; a start amid a
+///              record takes the speed from two readings; samples before all motors have been read once are passed over
 ///   a step     the time between two samples, cut into equal pieces of at most `max_step`
-///   a gap      longer than `restart_gap`: a new start
+///   a gap      longer than `restart_gap`: a new start; so are readings that all were refused for as long
 ///   NaN        torque: the last one is held; position of a motor: no correction from it
 ///   gate       an innovation that is less probable than 1 - `gate` is not accepted; 1 accepts all
 
@@ -56,6 +56,7 @@ class ArmFilter final : public Estimator {
   CommandHistory history_;
   bool started_ = false;
   double time_ = 0;
+  double refused_since_ = 0;           // first of the readings refused without one accepted since; infinite: none is
   Eigen::VectorXd reading_;            // last of each motor, NaN before
   Eigen::VectorXd torque_, external_;  // held
   EstimatorReport report_;

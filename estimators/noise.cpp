@@ -1,6 +1,7 @@
 #include "estimators/noise.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -49,11 +50,12 @@ NoiseLevels read_noise(OptionReader& options, const ArmModel& model, const Proce
   levels.joint_force = options.per_joint("joint_force_noise", levels.joint_force, 0, kInfinity);
   levels.correlation_time = options.number("noise_time", 0.001, 0, kInfinity);
   levels.effect_time = options.number("effect_noise_time", 1e4, 1e-6, kInfinity);
+  levels.adaptation_time = options.number("adaptation_time", 0, 0, kInfinity);
   return levels;
 }
 
 ArmNoise::ArmNoise(const ArmModel& model, const ProcessModel& process, const NoiseLevels& levels)
-    : process_(process), levels_(levels) {
+    : process_(process), levels_(levels), adapted_(Eigen::VectorXd::Ones(process.n_joints())) {
   const ArmParameters<double>& arm = process.arm();
   const StateLayout& l = process.layout();
   const int n = arm.n;
@@ -69,36 +71,59 @@ ArmNoise::ArmNoise(const ArmModel& model, const ProcessModel& process, const Noi
   }
   for (const auto& e : process.transmission().effects())
     for (const double scale : e.effect->state_scale(arm, e.joint, e.p)) effect_scale_.push_back(scale);
+}
 
-  const double density = std::sqrt(2 * levels.correlation_time);
-  const Eigen::MatrixXd M_inverse = mobility(arm, model.home());
-  const int n_z = static_cast<int>(effect_scale_.size()), sources = 2 * n + n_z;
-  rate_.setZero(l.size, sources);
-  position_.setZero(l.size, sources);
+const Eigen::MatrixXd& ArmNoise::process_root(const Step& step, const Eigen::VectorXd& x) {
+  const ArmParameters<double>& arm = process_.arm();
+  const StateLayout& l = process_.layout();
+  const int n = arm.n, n_z = l.n_effect_states, forces = 2 * n;
+  const double impulse = std::sqrt(2 * levels_.correlation_time * step.dt_s);
+  Eigen::VectorXd q(n);
+  for (int k = 0; k < n; ++k) q(k) = x(l.position[k]);
+  const Eigen::MatrixXd M_inverse = mobility(arm, q);
+  G_.setZero(l.size, forces);
   for (int k = 0; k < n; ++k) {
     const JointParameters<double>& j = arm.joint[k];
-    for (int i = 0; i < n; ++i) rate_(l.rate[i], n + k) = M_inverse(i, k) * levels.joint_force(k) * density;
-    if (j.drive == Drive::cable) rate_(l.motor_rate[k], k) = levels.torque(k) / j.rotor_inertia * density;
+    const double force = adapted_(k) * levels_.joint_force(k) * impulse, torque = adapted_(k) * levels_.torque(k) * impulse;
+    for (int i = 0; i < n; ++i) G_(l.rate[i], n + k) = M_inverse(i, k) * force;
+    if (j.drive == Drive::cable) G_(l.motor_rate[k], k) = torque / j.rotor_inertia;
     if (j.drive != Drive::rigid) continue;
     for (int i = 0; i < n; ++i)
       for (int c = 0; c < n; ++c)
-        rate_(l.rate[i], k) += M_inverse(i, c) * j.coupling[c] * j.pulley_radius / j.motor_travel() *
-                               levels.torque(k) * density;
+        G_(l.rate[i], k) += M_inverse(i, c) * j.coupling[c] * j.pulley_radius / j.motor_travel() * torque;
   }
-  for (int k = 0; k < n; ++k) {
-    position_.row(l.position[k]) = 0.5 * rate_.row(l.rate[k]);
-    if (l.motor_angle[k] >= 0) position_.row(l.motor_angle[k]) = 0.5 * rate_.row(l.motor_rate[k]);
+  points_.resize(l.size, forces + 1);
+  points_.col(0) = x;
+  points_.rightCols(forces) = G_.colwise() + x;
+  Q_root_.setZero(l.size, forces + n_z);
+  auto Gamma = Q_root_.leftCols(forces);
+  Gamma = G_ / 6;
+  Step half = step;
+  half.dt_s = step.dt_s / 2;
+  for (const double weight : {4.0 / 6, 1.0 / 6}) {
+    process_.advance_many(half, points_);
+    half.time_s += half.dt_s;
+    Gamma += weight * (points_.rightCols(forces).colwise() - points_.col(0));
   }
   for (int i = 0; i < n_z; ++i)
-    rate_(l.effect_states + i, 2 * n + i) = effect_scale_[i] / std::sqrt(levels.effect_time);
-}
-
-const Eigen::MatrixXd& ArmNoise::process_root(double dt_s) {
-  Q_root_ = std::sqrt(dt_s) * rate_ + (dt_s * std::sqrt(dt_s)) * position_;
+    Q_root_(l.effect_states + i, forces + i) = effect_scale_[i] * std::sqrt(step.dt_s / levels_.effect_time);
   return Q_root_;
 }
 
-Eigen::MatrixXd ArmNoise::initial_root(const Eigen::VectorXd& x) const {
+void ArmNoise::adapt(const std::vector<int>& motors, const Innovation& innovation, double dt_s) {
+  constexpr double kMost = 9;        // of ν² / S: an outlier counts as three deviations
+  constexpr double kRange = 30;
+  if (!(levels_.adaptation_time > 0)) return;
+  for (std::size_t i = 0; i < motors.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const double square = std::pow(innovation.nu(row), 2) / innovation.S_root.row(row).squaredNorm();
+    const double change = 0.5 * dt_s / levels_.adaptation_time * (std::min(square, kMost) - 1);
+    double& c = adapted_(motors[i]);
+    c = std::clamp(c * std::exp(change), 1 / kRange, kRange);
+  }
+}
+
+Eigen::MatrixXd ArmNoise::initial_root(const Eigen::VectorXd& x, double dt_s) const {
   const ArmParameters<double>& arm = process_.arm();
   const StateLayout& l = process_.layout();
   const int n = arm.n;
@@ -122,9 +147,10 @@ Eigen::MatrixXd ArmNoise::initial_root(const Eigen::VectorXd& x) const {
       const double stretch = travel * x(l.motor_angle[k]) - path(k);
       path_std(k) = encoder + tolerance_(k) * std::abs(stretch) + friction_stretch_(k);
       S(l.motor_angle[k], l.motor_angle[k]) = levels_.encoder(k);
-      S(l.motor_rate[k], l.motor_rate[k]) = j.motor_smoothing;
+      S(l.motor_rate[k], l.motor_rate[k]) = std::max(j.motor_smoothing, std::sqrt(2) * levels_.encoder(k) / dt_s);
     }
-    S(l.rate[k], l.rate[k]) = j.joint_smoothing;
+    const double joint_per_travel = j.drive == Drive::none ? 0 : 1 / std::abs(j.pulley_radius);
+    S(l.rate[k], l.rate[k]) = std::max(j.joint_smoothing, std::sqrt(2) * encoder * joint_per_travel / dt_s);
   }
   const Eigen::MatrixXd position_root = joints_per_path.fullPivLu().solve(Eigen::MatrixXd(path_std.asDiagonal()));
   for (int r = 0; r < n; ++r)

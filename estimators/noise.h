@@ -11,20 +11,37 @@
 ///   F_c,m, F_c,q   Coulomb levels of motor and joint
 ///
 /// A model that is wrong stays wrong for a while: the errors of torque and force have a correlation time τ, and a
-/// filter with white noise needs the spectral density 2 σ² τ for them. Over a step dt they act as a constant
-/// acceleration of that density (Bar-Shalom, Li, Kirubarajan 2001, section 6.3.2):
+/// filter with white noise needs the spectral density 2 σ² τ for them. Over a step dt they act as a constant force of
+/// that density, by Simpson's rule as impulses before, amid and after the step:
 ///
-///   Q_root = [½ dt² ; dt] B σ √(2 τ / dt),   B: accelerations of motors and joints per torque and force
+///   Q_root = (Δ_dt + 4 Δ_dt/2 + G) / 6,   Δ_h = f_h(x + G) - f_h(x),   G = B σ √(2 τ dt)
 ///
-/// τ = 1 ms by default. With it νᵀS⁻¹ν of the RAVEN-II's three motors, which ought to be 3, is 2.6 where the model is
-/// exact and 2.7 to 3.2 where all frictions or masses are off by their tolerances; with 0.1 ms it is 2.8 and 3.5 to 8.5,
-/// with 10 ms 2.3 in all cases. Joint errors on exact records hardly change from 0.01 to 10 ms.
+///   f_h   the process model's step of length h               B   accelerations of motors and joints per torque and force
+///
+/// Where nothing damps within a step this is [½ dt² ; dt] B σ √(2 τ / dt) (Bar-Shalom, Li, Kirubarajan 2001, section
+/// 6.3.2). A cable's damper with a rate λ of some 1/dt carries a joint only 1/λ per unit of speed instead: that formula
+/// had the RAVEN-II's third joint (λ = 2000 1/s, dt = 1 ms) wander twice as far as it does, this one has it right.
+///
+/// τ = 1 ms by default. With it νᵀS⁻¹ν of the RAVEN-II's three motors in the paper's experiment A, which ought to be 3,
+/// is 2.6 where the model is exact, 2.7 where all masses are off by their tolerance, and 7 to 12 where all frictions are;
+/// with 0.1 ms it is 2.8, 3.3 and 47 to 96, with 10 ms 2.4, 2.4 and 2.7 to 3.3. From 0.1 to 10 ms joint errors grow
+/// fourfold where the model is exact, and twofold where frictions are off.
+///
+/// By hand, as the paper does: the options below, per joint. Adapted to the record: with an adaptation time T > 0 the
+/// deviations of motor k's torque and joint k's force are c_k times the levels, and each innovation moves
+///
+///   ln c_k² += dt / T (min(ν_k² / S_kk, 9) - 1),   1/30 <= c_k <= 30
+///
+/// so that innovations become as large as they are said to be (covariance matching, Mehra 1972). What the motors do not
+/// show, an error of the joint behind a stiff cable, it cannot find.
 ///
 /// The start is at rest in static equilibrium. How far gravity stretches the cables, and how far friction may hold the
 /// joints off, is uncertain: σ of the stretch = t_s |x| + F_c,q / (√3 K), K the stiffness of the cable.
 
 #include <Eigen/Core>
+#include <vector>
 
+#include "estimators/estimator.h"
 #include "estimators/estimator_options.h"
 #include "estimators/process_model.h"
 
@@ -36,31 +53,36 @@ struct NoiseLevels {
   Eigen::VectorXd joint_force;    ///< [n] N m | N
   double correlation_time = 0;    ///< τ, s
   double effect_time = 0;         ///< s
+  double adaptation_time = 0;     ///< T, s; 0: none
 };
 
-/// The rule above, overridden by the options encoder_noise, torque_noise, joint_force_noise (per joint), noise_time and
-/// effect_noise_time.
+/// The rule above, overridden by the options encoder_noise, torque_noise, joint_force_noise (per joint), noise_time,
+/// effect_noise_time and adaptation_time.
 NoiseLevels read_noise(OptionReader& options, const ArmModel& model, const ProcessModel& process);
 
-/// Roots of the noise covariances of an arm.
+/// Roots of the noise covariances of an arm. Not for two threads at a time.
 class ArmNoise {
  public:
   ArmNoise(const ArmModel& model, const ProcessModel& process, const NoiseLevels& levels);
 
-  /// Q_root [n_states x sources] of a step.
-  const Eigen::MatrixXd& process_root(double dt_s);
+  /// Q_root [n_states x sources] of a step that begins at x.
+  const Eigen::MatrixXd& process_root(const Step& step, const Eigen::VectorXd& x);
+  /// Learns from the innovation of these motors, dt_s after the one before.
+  void adapt(const std::vector<int>& motors, const Innovation& innovation, double dt_s);
+  /// Forgets what was learnt.
+  void reset() { adapted_.setOnes(); }
   /// σ_z [n].
   const Eigen::VectorXd& encoder() const { return levels_.encoder; }
-  /// S [n_states x n_states] at rest in equilibrium at x.
-  Eigen::MatrixXd initial_root(const Eigen::VectorXd& x) const;
+  /// S [n_states x n_states] in equilibrium at x; rates are at rest, or from two readings dt_s apart: infinite, or finite.
+  Eigen::MatrixXd initial_root(const Eigen::VectorXd& x, double dt_s) const;
 
  private:
   const ProcessModel& process_;
   NoiseLevels levels_;
   std::vector<double> effect_scale_;
   Eigen::VectorXd tolerance_, friction_stretch_, undriven_;
-  Eigen::MatrixXd rate_, position_;   // per √s and per √s³: Q_root = rate √dt + position √dt³
-  Eigen::MatrixXd Q_root_;
+  Eigen::VectorXd adapted_;   // c [n]
+  Eigen::MatrixXd G_, points_, Q_root_;
 };
 
 }  // namespace halyard

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "app/judgement/consistency.h"
+#include "app/judgement/error_statistics.h"
 
 namespace halyard {
 namespace {
@@ -25,6 +26,20 @@ std::vector<double> autoregressive(std::size_t n, double rho, std::uint64_t seed
 std::vector<double> squared(std::vector<double> x, double scale = 1) {
   for (double& v : x) v = scale * v * v;
   return x;
+}
+
+TEST(ErrorStatistics, OfAHundredErrors) {
+  std::vector<double> estimate, truth(100, 1);
+  for (int i = 0; i < 100; ++i) estimate.push_back(1 + (i % 2 ? -1 : 1) * (100 - i));   // sizes 1 to 100
+  estimate.push_back(std::nan("")), truth.push_back(1);
+  const ErrorStatistics e = error_statistics(estimate, truth);
+  EXPECT_EQ(e.samples, 100);
+  EXPECT_EQ(e.median_absolute, 50);
+  EXPECT_EQ(e.percentile_95, 95);
+  EXPECT_EQ(e.peak, 100);
+  EXPECT_EQ(e.mean_absolute, 50.5);
+  EXPECT_EQ(e.bias, 0.5);
+  EXPECT_TRUE(std::isnan(error_statistics({}, {}).percentile_95));
 }
 
 TEST(EffectiveSamples, OfAnAutoregressionAreThoseOfTheory) {

@@ -10,6 +10,7 @@ namespace halyard {
 ///
 ///   mean_absolute   Σ|e| / N          the paper's Eq. 18, which it calls RMS
 ///   rms             sqrt(Σe² / N)
+///   median_absolute, percentile_95   of |e|: half of the samples, 95 % of them have a smaller one
 ///   peak            max |e|
 ///   bias            Σe / N
 ///   within_two_std  share of samples with |e| <= 2 σ, where the estimator gives a standard deviation σ > 0
@@ -19,6 +20,8 @@ struct ErrorStatistics {
   std::size_t samples = 0;  ///< N
   double mean_absolute = std::numeric_limits<double>::quiet_NaN();
   double rms = std::numeric_limits<double>::quiet_NaN();
+  double median_absolute = std::numeric_limits<double>::quiet_NaN();
+  double percentile_95 = std::numeric_limits<double>::quiet_NaN();
   double peak = std::numeric_limits<double>::quiet_NaN();
   double bias = std::numeric_limits<double>::quiet_NaN();
   double within_two_std = std::numeric_limits<double>::quiet_NaN();
