@@ -78,7 +78,7 @@ ArmFilter::ArmFilter(const ArmModel& model, std::shared_ptr<const ProcessModel> 
 
 void ArmFilter::reset(const Sample& first) {
   const int n = process_->n_joints();
-  started_ = false;
+  started_ = speed_is_due_ = false;
   reading_ = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
   torque_ = external_ = Eigen::VectorXd::Zero(n);
   history_ = CommandHistory(n, kHistorySpan);
@@ -167,9 +167,11 @@ Innovation ArmFilter::update(const Sample& sample) {
   if (!(sample.time_s > time_))
     throw std::invalid_argument("filter: time does not increase at " + std::to_string(sample.time_s) + " s");
   Innovation innovation;
-  const bool lost = sample.time_s - std::min(time_, refused_since_) > options_.restart_gap;
-  if (!started_ || lost) {
+  const bool after_gap = sample.time_s - time_ > options_.restart_gap;
+  const bool locked_out = sample.time_s - refused_since_ > options_.restart_gap;
+  if (!started_ || after_gap || locked_out || speed_is_due_) {
     start(sample);
+    speed_is_due_ = after_gap;
   } else {
     predict(sample.time_s);
     innovation = correct(sample);

@@ -3,7 +3,7 @@
 /// like: gaps, missing samples, a start at rest.
 ///
 ///   start      joints from kinematics, then to static equilibrium under the motors' readings, at rest; a start amid a
-///              record takes the speed from two readings; samples before all motors have been read once are passed over
+///              record takes the speed from two readings, after a gap with the second; samples before all motors have been read once are passed over
 ///   a step     the time between two samples, cut into equal pieces of at most `max_step`
 ///   a gap      longer than `restart_gap`: a new start; so are readings that all were refused for as long
 ///   NaN        torque: the last one is held; position of a motor: no correction from it
@@ -55,6 +55,7 @@ class ArmFilter final : public Estimator {
   std::vector<int> motors_;            // joints that have a motor
   CommandHistory history_;
   bool started_ = false;
+  bool speed_is_due_ = false;          // the start was from the first reading after a gap
   double time_ = 0;
   double refused_since_ = 0;           // first of the readings refused without one accepted since; infinite: none is
   Eigen::VectorXd reading_;            // last of each motor, NaN before

@@ -25,46 +25,87 @@ inline void add_effect(ArmModel& model, const std::string& name, int joint, cons
   model.effects.push_back(placed);
 }
 
+/// The first joints of a chain of the RAVEN-II's, one after another: n = 1 to 7. Links further out are lighter, so that
+/// the motors carry them. Cables are `stiffer` times as stiff and damped.
+inline ArmModel chain_of(int n, double stiffer) {
+  ArmModel model = raven2();
+  const ArmModel raven = model;
+  model.nominal.n = n;
+  model.joints.resize(n);
+  for (int k = 0; k < n; ++k) {
+    JointParameters<double>& j = model.nominal.joint[k];
+    j = raven.nominal.joint[k % 3];
+    model.joints[k] = raven.joints[k % 3];
+    if (k >= 3) std::fill(j.coupling, j.coupling + kMaxJoints, 0.0), j.coupling[k] = 1;
+    const double lighter = std::pow(0.3, k / 3);
+    j.mass *= lighter;
+    for (double& moment : j.inertia) moment *= lighter;
+    j.stiffness *= stiffer;
+    j.damping *= stiffer;
+  }
+  return model;
+}
+
+/// The arm's own process model under PD control on sines around home, 1 kHz, encoders rounded, no noise. Starts in static
+/// equilibrium.
+class DrivenArm {
+ public:
+  explicit DrivenArm(const ArmModel& model) : model_(model), process_(model), history_(model.n(), 1) {
+    const Eigen::VectorXd home = model.home(), none = Eigen::VectorXd::Zero(model.n());
+    const Eigen::VectorXd q_m0 = unstretched_motors(process_.arm(), home);
+    x_ = process_.state_at_rest(q_m0, static_equilibrium(process_, 0, q_m0, none,
+                                                         Eigen::VectorXd::Zero(process_.layout().n_effect_states), home));
+  }
+
+  Eigen::VectorXd joint_position() const { return x_(index(process_.layout().position)); }
+  Eigen::VectorXd joint_velocity() const { return x_(index(process_.layout().rate)); }
+
+  /// What the motors see now, and a step ahead.
+  Sample next() {
+    const int n = model_.n();
+    Sample s;
+    s.time_s = static_cast<double>(tick_++) * 1e-3;
+    s.motor_torque.resize(n);
+    s.motor_position = process_.motor_readings(s.time_s, x_);
+    Eigen::VectorXd q_d = model_.home();
+    for (int k = 0; k < n; ++k)
+      q_d(k) += (model_.nominal.joint[k].type == JointType::revolute ? 0.2 : 0.02) * std::sin(2.5 * (k + 1) * s.time_s);
+    const Eigen::VectorXd wanted = unstretched_motors(process_.arm(), q_d);
+    for (int k = 0; k < n; ++k) {
+      const ControllerParameters& c = model_.joints[k].controller;
+      const double torque = 3 * c.kp * (wanted(k) - s.motor_position(k)) - c.kd * x_(process_.layout().motor_rate[k]);
+      s.motor_torque(k) = std::min(c.torque_limit, std::max(-c.torque_limit, torque));
+      const double resolution = model_.nominal.joint[k].motor_encoder_resolution;
+      s.motor_position(k) = resolution * std::round(s.motor_position(k) / resolution);
+    }
+    history_.push(s.time_s, s.motor_torque.data());
+    process_.advance({s.time_s, 1e-3, s.motor_torque.data(), nullptr, &history_}, x_.data());
+    return s;
+  }
+
+ private:
+  std::vector<int> index(const int* states) const { return {states, states + model_.n()}; }
+
+  ArmModel model_;
+  ProcessModel process_;
+  CommandHistory history_;
+  Eigen::VectorXd x_;
+  long tick_ = 0;
+};
+
 /// What the motors see, and where the joints truly are.
 struct ArmRun {
   std::vector<Sample> samples;
   std::vector<Eigen::VectorXd> joint_position, joint_velocity;
 };
 
-/// The arm under PD control on sines around home, 1 kHz, encoders rounded, no noise. Starts in static equilibrium.
 inline ArmRun run_arm(const ArmModel& model, double duration_s) {
-  const ProcessModel process(model);
-  const StateLayout& l = process.layout();
-  const int n = model.n();
-  const Eigen::VectorXd home = model.home(), none = Eigen::VectorXd::Zero(n);
-  const Eigen::VectorXd q_m0 = unstretched_motors(process.arm(), home);
-  Eigen::VectorXd x = process.state_at_rest(
-      q_m0, static_equilibrium(process, 0, q_m0, none, Eigen::VectorXd::Zero(l.n_effect_states), home));
+  DrivenArm arm(model);
   ArmRun run;
-  CommandHistory history(n, 1);
-  for (int i = 0; i <= static_cast<int>(std::lround(duration_s * 1000)); ++i) {
-    Sample s;
-    s.time_s = i * 1e-3;
-    s.motor_torque.resize(n);
-    s.motor_position = process.motor_readings(s.time_s, x);
-    Eigen::VectorXd q_d = home;
-    for (int k = 0; k < n; ++k)
-      q_d(k) += (model.nominal.joint[k].type == JointType::revolute ? 0.2 : 0.02) * std::sin(2.5 * (k + 1) * s.time_s);
-    const Eigen::VectorXd wanted = unstretched_motors(process.arm(), q_d);
-    Eigen::VectorXd q(n), v(n);
-    for (int k = 0; k < n; ++k) {
-      const ControllerParameters& c = model.joints[k].controller;
-      const double torque = 3 * c.kp * (wanted(k) - s.motor_position(k)) - c.kd * x(l.motor_rate[k]);
-      s.motor_torque(k) = std::min(c.torque_limit, std::max(-c.torque_limit, torque));
-      const double resolution = model.nominal.joint[k].motor_encoder_resolution;
-      s.motor_position(k) = resolution * std::round(s.motor_position(k) / resolution);
-      q(k) = x(l.position[k]), v(k) = x(l.rate[k]);
-    }
-    run.samples.push_back(s);
-    run.joint_position.push_back(q);
-    run.joint_velocity.push_back(v);
-    history.push(s.time_s, s.motor_torque.data());
-    process.advance({s.time_s, 1e-3, s.motor_torque.data(), nullptr, &history}, x.data());
+  for (long i = 0; i <= std::lround(duration_s * 1000); ++i) {
+    run.joint_position.push_back(arm.joint_position());
+    run.joint_velocity.push_back(arm.joint_velocity());
+    run.samples.push_back(arm.next());
   }
   return run;
 }

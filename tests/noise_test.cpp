@@ -39,14 +39,16 @@ TEST(ProcessNoise, IsWhatAForceHeldOverTheStepDoes) {
     Eigen::VectorXd torque = Eigen::VectorXd::Zero(3), force = Eigen::VectorXd::Zero(3);
     Eigen::VectorXd free = x, forced = x;
     process.advance({0, dt, torque.data(), force.data()}, free.data());
-    (source < 3 ? torque(source) = held * levels.torque(source)
-                : force(source - 3) = held * levels.joint_force(source - 3));
+    (source < 3 ? torque(source) : force(source - 3)) =
+        held * (source < 3 ? levels.torque(source) : levels.joint_force(source - 3));
     process.advance({0, dt, torque.data(), force.data()}, forced.data());
     const Eigen::VectorXd moved = forced - free;
     EXPECT_LT((Q_root.col(source) - moved).norm(), 0.02 * moved.norm()) << "source " << source;
     // The joint's own displacement by it, which the stiff damper of joint 3 halves.
     const int position = process.layout().position[source % 3];
-    if (source >= 3) EXPECT_NEAR(Q_root(position, source) / moved(position), 1, 0.02) << "source " << source;
+    if (source >= 3) {
+      EXPECT_NEAR(Q_root(position, source) / moved(position), 1, 0.02) << "source " << source;
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include "estimators/built_in.h"
 #include "model/input_error.h"
 #include "tests/arm_runs.h"
+#include "tests/torn_record.h"
 #include "tests/linear_gaussian.h"
 
 namespace halyard {
@@ -286,10 +287,36 @@ TEST(SrUkfOnTheArm, AGateThatRefusesEverythingForTooLongStartsItAnew) {
   EXPECT_NEAR(ukf->estimate().joint_position(0) - run.joint_position[0](0), 1, 1e-3);
   for (std::size_t i = 1; i < run.samples.size(); ++i) {
     ukf->update(run.samples[i]);
-    if (i <= 100) EXPECT_EQ(ukf->report().gated, static_cast<long>(i));
+    if (i <= 100) {
+      EXPECT_EQ(ukf->report().gated, static_cast<long>(i));
+    }
   }
   EXPECT_LE(ukf->report().gated, 101);
   EXPECT_LT((ukf->estimate().joint_position - run.joint_position.back()).norm(), 2e-4);
+}
+
+TEST(SrUkfOnTheArm, StaysSaneOverTornRecordsOfOneToSevenJoints) {
+  for (int n = 1; n <= 7; ++n)
+    for (const char* alpha : {"1e-3", "1"}) {
+      if (n != 3 && alpha == std::string("1")) continue;   // to save time
+      const ArmModel model = chain_of(n, 1);
+      DrivenArm arm(model);
+      TornRecord record(model, 3);
+      const auto ukf = make_sr_ukf(model, {{"alpha", alpha}, {"gate", "0.999999"}, {"restart_gap", "0.05"}});
+      for (int i = 0; i < 300; ++i) {
+        const Eigen::VectorXd truth = arm.joint_position();
+        const std::optional<Sample> s = record.torn(arm.next());
+        if (i == 0) ukf->reset(*s);
+        if (i == 0 || !s) continue;
+        ukf->update(*s);
+        const Estimate e = ukf->estimate();
+        ASSERT_TRUE(e.joint_position.allFinite() && e.joint_velocity.allFinite()) << n << " joints, row " << i;
+        ASSERT_GT(e.joint_position_std.minCoeff(), 0);
+        if (i > 260) {
+          ASSERT_LT((e.joint_position - truth).cwiseAbs().maxCoeff(), 1e-3) << n << " joints, row " << i;
+        }
+      }
+    }
 }
 
 TEST(SrUkfOnTheArm, ExternalForcesAreFelt) {

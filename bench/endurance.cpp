@@ -1,0 +1,132 @@
+/// halyard_endurance: filters over torn records (tests/torn_record.h) of long runs, on chains of 1 to 7 joints with soft
+/// and stiff cables, with the paper's weights and with wide ones. See bench/README.md.
+///
+/// Exit codes: 0 every filter stayed sane; 1 one threw, or gave a number that is not finite or a deviation of none;
+/// 2 wrong usage.
+
+#include <fmt/core.h>
+#include <tbb/parallel_for_each.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <mutex>
+
+#include "estimators/built_in.h"
+#include "estimators/kinematics.h"
+#include "tests/arm_runs.h"
+#include "tests/torn_record.h"
+
+namespace halyard {
+namespace {
+
+struct Filter {
+  const char* name;
+  std::unique_ptr<Estimator> (*make)(const ArmModel&, const EstimatorOptions&);
+  EstimatorOptions options;
+};
+
+const std::vector<Filter>& filters() {
+  static const std::vector<Filter> all = {{"sr_ukf, paper's weights", make_sr_ukf, {{"gate", "0.999999"}}},
+                                          {"sr_ukf, alpha 1", make_sr_ukf, {{"gate", "0.999999"}, {"alpha", "1"}}},
+                                          {"ekf", make_ekf, {{"gate", "0.999999"}}}};
+  return all;
+}
+
+struct Case {
+  int joints;
+  double stiffer;
+  const Filter* filter;
+};
+
+struct Outcome {
+  std::string failure;
+  EstimatorReport report;
+  double worst = 0, rms = 0, naive = 0;   ///< largest std; RMS of joint 1, of the filter and of the kinematics
+};
+
+Outcome endure(const Case& c, long steps, std::uint64_t seed) {
+  const ArmModel model = chain_of(c.joints, c.stiffer);
+  Outcome outcome;
+  DrivenArm arm(model);
+  TornRecord record(model, seed);
+  const auto filter = c.filter->make(model, c.filter->options), naive = make_kinematics(model, {});
+  double square = 0, naive_square = 0;
+  long counted = 0;
+  try {
+    for (long i = 0; i <= steps; ++i) {
+      const Eigen::VectorXd truth = arm.joint_position();
+      const Sample whole = arm.next();
+      const std::optional<Sample> s = record.torn(whole);
+      if (i == 0) naive->reset(whole), filter->reset(*s);
+      if (i == 0 || !s) continue;
+      filter->update(*s);
+      naive->update(whole);
+      const Estimate e = filter->estimate();
+      if (!e.joint_position.allFinite() || !e.joint_velocity.allFinite() || !(e.joint_position_std.minCoeff() > 0) ||
+          !e.joint_position_std.allFinite())
+        throw std::runtime_error(fmt::format("no sane estimate at {:.3f} s", s->time_s));
+      outcome.worst = std::max(outcome.worst, e.joint_position_std.maxCoeff());
+      if (s->time_s < 2) continue;   // the wrong start
+      square += std::pow(e.joint_position(0) - truth(0), 2);
+      naive_square += std::pow(naive->estimate().joint_position(0) - truth(0), 2);
+      ++counted;
+    }
+  } catch (const std::exception& error) {
+    outcome.failure = error.what();
+  }
+  outcome.report = filter->report();
+  outcome.rms = std::sqrt(square / static_cast<double>(counted));
+  outcome.naive = std::sqrt(naive_square / static_cast<double>(counted));
+  return outcome;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Filters over long torn records.");
+  long steps = 20000;
+  int joints = 0;
+  double stiffer = 0;
+  std::uint64_t seed = 1;
+  app.add_option("--steps", steps, "samples of each case")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--joints", joints, "of this chain alone; default: 1 to 7")->check(CLI::Range(1, kMaxJoints));
+  app.add_option("--stiffer", stiffer, "cables so many times as stiff; default: 0.1, 1 and 10")->check(CLI::PositiveNumber);
+  app.add_option("--seed", seed, "of the tearing")->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  std::vector<Case> cases;
+  for (int n = 1; n <= kMaxJoints; ++n)
+    for (const double s : {0.1, 1.0, 10.0})
+      for (const Filter& filter : filters())
+        if ((joints == 0 || n == joints) && (stiffer == 0 || s == stiffer)) cases.push_back({n, s, &filter});
+  if (cases.empty())
+    for (const Filter& filter : filters()) cases.push_back({joints == 0 ? 3 : joints, stiffer, &filter});
+
+  fmt::print("{:>6} {:>8}  {:<24} {:>9} {:>6} {:>8} {:>11} {:>11} {:>11}\n", "joints", "cables", "filter", "steps",
+             "gated", "repaired", "largest std", "RMS, rad", "kinematics");
+  std::mutex one_at_a_time;
+  bool sane = true;
+  tbb::parallel_for_each(cases, [&](const Case& c) {
+    const Outcome o = endure(c, steps, seed);
+    const std::lock_guard<std::mutex> lock(one_at_a_time);
+    fmt::print("{:>6} {:>7}x  {:<24} {:>9} {:>6} {:>8} {:>11.3g} {:>11.3g} {:>11.3g}  {}\n", c.joints, c.stiffer,
+               c.filter->name, o.report.steps, o.report.gated, o.report.repaired_factors, o.worst, o.rms, o.naive,
+               o.failure);
+    std::fflush(stdout);
+    sane = sane && o.failure.empty();
+  });
+  return sane ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace halyard
+
+int main(int argc, char** argv) {
+  try {
+    return halyard::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
