@@ -1,6 +1,7 @@
 #include "diagnosis/views.h"
 
 #include <algorithm>
+#include <boost/math/distributions/beta.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -115,9 +116,12 @@ Explained explained(const ResidualSignals& s, const View& v) {
   const int knots = static_cast<int>(n / kSamplesPerKnot / (v.loop ? 2 : 1));
   const CurveFit fit = curve_of(s, v, std::clamp(knots, 3, most_knots(v)));
   if (fit.numbers < 2 || n <= fit.numbers) return {};
-  const double share = 1 - (1 - fit.explained) * (n - 1) / (n - fit.numbers);
-  // Of noise the share scatters by sqrt(2 (B - 1)) / N: three times that is beyond chance.
-  return {std::max(0.0, share), 3 * std::sqrt(2.0 * (fit.numbers - 1)) / n, fit.swing()};
+  const auto less_chance = [&](double r_squared) { return 1 - (1 - r_squared) * (n - 1) / (n - fit.numbers); };
+  // Of noise R² has a beta distribution (Cramér 1946): as rarely beyond this as a normal number beyond 3 deviations.
+  const boost::math::beta_distribution<> of_noise(0.5 * (fit.numbers - 1), 0.5 * (n - fit.numbers));
+  constexpr double kRare = 0.00135;
+  return {std::max(0.0, less_chance(fit.explained)),
+          std::max(0.0, less_chance(boost::math::quantile(boost::math::complement(of_noise, kRare)))), fit.swing()};
 }
 
 bool is_told(const ResidualSignals& s, const View& v) {
@@ -148,8 +152,11 @@ template <class Share>
 std::vector<View> best_views(std::vector<View> views, const ResidualSignals& before, const Share& share) {
   constexpr double kMostOfIt = 0.8;
   const auto constant = [&](const View& v) { return v.abscissa == Abscissa::constant; };
+  // What falls onto a curve almost wholly and is gone with the effect needs no statistics, however short the record.
+  constexpr double kWholly = 0.9;
   std::erase_if(views, [&](const View& v) {
-    return share(v) < (constant(v) ? kMostOfIt : kTold) || v.explained_before < v.chance;
+    const bool by_chance = v.explained_before < v.chance && v.removed() < kWholly;
+    return share(v) < (constant(v) ? kMostOfIt : kTold) || by_chance;
   });
   std::stable_sort(views.begin(), views.end(), [&](const View& a, const View& b) { return share(a) > share(b); });
   std::stable_partition(views.begin(), views.end(), constant);
