@@ -31,8 +31,10 @@ struct HeldOut {
 /// The errors over all logs together. A load that was measured is no part of the model, and is handed on as to the
 /// prediction.
 EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const std::vector<HeldOut>& logs) {
-  EstimatorErrors result;
   const auto n = static_cast<std::size_t>(model.n());
+  EstimatorErrors result;
+  result.innovation.resize(n);
+  result.joint_rate.resize(n);
   Signals estimate(n), truth(n);
   try {
     for (const auto& [held, from] : logs) {
@@ -40,18 +42,23 @@ EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const 
       const EstimatorRun run = run_estimator(*make_estimator(name, model), name, log, {.use_joint_torque = true});
       const Signals readings = sensor_readings(model, run);
       const std::size_t first = first_counted_sample(log.time, std::max(kSkip, from - log.time.front()));
+      const auto append = [first](const std::vector<double>& from, std::vector<double>& to) {
+        to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
+      };
+      append(log.time, result.time);
       for (std::size_t k = 0; k < n; ++k) {
+        append(run.innovation[k], result.innovation[k]);
+        append(run.estimates.joint_velocity[k], result.joint_rate[k]);
         if (log.joint_position[k].empty()) continue;
-        const auto append = [first](const std::vector<double>& from, std::vector<double>& to) {
-          to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
-        };
         append(readings[k], estimate[k]);
         append(log.joint_position[k], truth[k]);
       }
       result.mean_nis += mean_of(run.nis) / static_cast<double>(logs.size());
     }
   } catch (const std::exception& e) {
-    return {{}, {}, 0, e.what()};
+    EstimatorErrors failed;
+    failed.failure = e.what();
+    return failed;
   }
   for (std::size_t k = 0; k < n; ++k) {
     const ErrorStatistics error = error_statistics(estimate[k], truth[k]);

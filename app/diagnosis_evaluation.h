@@ -21,6 +21,9 @@ struct Evidenced {
 /// Errors of one estimator on the hold-out against the joints' sensors. [n]; NaN without a sensor.
 struct EstimatorErrors {
   std::vector<double> rms, peak;  ///< empty if it failed
+  std::vector<double> time;       ///< s, of what follows: all logs one after another
+  Signals innovation;             ///< [motor] over its predicted deviation, ~ N(0, 1) if the model is right; NaN: none
+  Signals joint_rate;             ///< [n] as estimated
   double mean_nis = 0;            ///< of its innovations, ~ 1 if the model is right; 0: it has none
   std::string failure;            ///< why it failed
 };

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -65,6 +66,39 @@ report::Chart before_and_after(const std::string& title, const HoldOut& view, co
 void add_residuals(report::Page& page, const Diagnosis& d) {
   for (int k = 0; k < d.revised.n(); ++k)
     if (const auto charts = residual_charts(d, k); !charts.empty()) page.figure_row(charts);
+}
+
+/// What a filter's next reading said that the filter had not expected, of each motor.
+void add_innovations(report::Page& page, const ArmModel& model, const DiagnosisEvaluation& evaluation) {
+  const auto filter = std::ranges::find(evaluation.estimators, "ekf", &EstimatorComparison::name);
+  if (filter == evaluation.estimators.end() || filter->before.time.empty() || filter->after.time.empty()) return;
+  const std::vector<JointUnit> units = joint_units(model);
+  page.heading("Innovations on the hold-out");
+  page.paragraph(
+      "Each motor's reading less what ekf had predicted of it, over the deviation that it had predicted: 95 % lie within "
+      "2 and nothing is left to see if the model is right.");
+  for (int k = 0; k < model.n(); ++k) {
+    const auto chart = [&](const std::string& over, const std::string& x_label, report::ChartKind kind, const auto& x_of) {
+      report::Chart c{.title = fmt::format("Motor {}: innovation over {}", k + 1, over),
+                      .x_label = x_label,
+                      .y_label = "innovation [its deviations]",
+                      .kind = kind};
+      for (const bool after : {false, true}) {
+        const EstimatorErrors& e = after ? filter->after : filter->before;
+        report::Series s{.name = after ? "revised model" : "given model"};
+        for (std::size_t i = 0; i < e.time.size(); ++i)
+          if (std::isfinite(e.innovation[k][i])) s.x.push_back(x_of(e, i)), s.y.push_back(e.innovation[k][i]);
+        c.series.push_back(std::move(s));
+      }
+      return c;
+    };
+    const double scale = units[k].shown_per_si;
+    std::vector<report::Chart> row = {
+        chart("time", "time [s]", report::ChartKind::line, [](const EstimatorErrors& e, std::size_t i) { return e.time[i]; }),
+        chart("the joint's rate", "joint rate [" + units[k].shown + "/s]", report::ChartKind::scatter,
+              [&](const EstimatorErrors& e, std::size_t i) { return scale * e.joint_rate[k][i]; })};
+    if (!row[0].series[0].x.empty()) page.figure_row(std::move(row));
+  }
 }
 
 void add_evidence(report::Page& page, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
@@ -169,6 +203,7 @@ report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d, const Dia
   add_numbers(page, d);
   page.heading("Residuals on the hold-out");
   add_residuals(page, d);
+  add_innovations(page, model, evaluation);
   page.heading("How the candidates fared");
   page.paragraph(
       "Each candidate is fitted together with the model's own numbers, kept within their tolerance, on every other "
