@@ -1,7 +1,9 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/bench_arm.h"
+#include "estimators/arm_filter.h"
 #include "estimators/built_in.h"
+#include "estimators/sr_ukf.h"
 
 namespace halyard {
 namespace {
@@ -35,6 +37,64 @@ void estimator_step(benchmark::State& state, Make make) {
 BENCHMARK_CAPTURE(estimator_step, kinematics, &make_kinematics)->Name("EstimatorStep/kinematics");
 BENCHMARK_CAPTURE(estimator_step, ekf, &make_ekf)->Name("EstimatorStep/ekf");
 BENCHMARK_CAPTURE(estimator_step, sr_ukf, &make_sr_ukf)->Name("EstimatorStep/sr_ukf");
+
+/// The process model's step, all sigma points side by side in lanes, or one by one in scalar code.
+class Points final : public DiscreteProcess {
+ public:
+  Points(const ProcessModel& model, const Step& step, bool in_lanes) : model_(model), step_(step), in_lanes_(in_lanes) {}
+  void advance(Eigen::MatrixXd& X) const override {
+    if (in_lanes_) return model_.advance_many(step_, X);
+    for (Eigen::Index c = 0; c < X.cols(); ++c) model_.advance(step_, X.col(c).data());
+  }
+  void advance_with_jacobian(Eigen::VectorXd&, Eigen::MatrixXd&) const override {}
+  std::string name_of(int state) const override { return model_.state_name(state); }
+
+ private:
+  const ProcessModel& model_;
+  Step step_;
+  bool in_lanes_;
+};
+
+class LinearReadings final : public MeasurementModel {
+ public:
+  explicit LinearReadings(const ProcessModel& model) : model_(model) {}
+  bool is_affine() const override { return true; }
+  Eigen::VectorXd read(const Eigen::VectorXd& x) const override { return model_.motor_readings(0, x); }
+  Eigen::VectorXd linearise(const Eigen::VectorXd& x, Eigen::MatrixXd& H) const override {
+    return model_.motor_readings(0, x, &H);
+  }
+
+ private:
+  const ProcessModel& model_;
+};
+
+/// Prediction and correction of the square-root UKF, the noise of the step given.
+void sr_ukf_step(benchmark::State& state, bool in_lanes) {
+  const ArmModel model = raven2();
+  static const std::vector<Sample> samples = samples_of(simulate(sines(model, 2)).measured);
+  const ProcessModel process(model);
+  const EstimatorOptions none;
+  OptionReader reader("sr_ukf", none);
+  const ArmFilterOptions options = read_arm_filter_options(reader, model, process);
+  ArmNoise noise(model, process, options.noise);
+  const Eigen::VectorXd home = model.home();
+  const Eigen::VectorXd start = process.state_at_rest(samples[0].motor_position, home);
+  const Eigen::MatrixXd S = noise.initial_root(start, std::numeric_limits<double>::infinity());
+  const Eigen::MatrixXd R_root = noise.encoder().asDiagonal();
+  const Eigen::MatrixXd Q_root = noise.process_root({0, 1e-3}, start);
+  SquareRootUkf filter;
+  std::size_t next = samples.size();
+  for (auto _ : state) {
+    if (next == samples.size()) filter.reset(start, S), next = 1;
+    const Step step{samples[next - 1].time_s, 1e-3, samples[next - 1].motor_torque.data()};
+    filter.predict(Points(process, step, in_lanes), Q_root);
+    filter.update(LinearReadings(process), samples[next].motor_position, R_root, 1e9);
+    benchmark::DoNotOptimize(filter.x());
+    ++next;
+  }
+}
+BENCHMARK_CAPTURE(sr_ukf_step, lanes, true)->Name("SrUkfStep/lanes");
+BENCHMARK_CAPTURE(sr_ukf_step, scalar, false)->Name("SrUkfStep/scalar");
 
 }  // namespace
 }  // namespace halyard
