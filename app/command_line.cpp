@@ -71,10 +71,18 @@ void add_joint_torque_flag(CLI::App& command, bool& flag) {
   command.add_flag("--use-joint-torque", flag, "give the estimators the log's measured external loads too");
 }
 
+void add_robot_option(CLI::App& command, std::filesystem::path& robot) {
+  command
+      .add_option("--robot", robot,
+                  "of a scenario: model file of the true robot, with its effects; default: that of the scenario's model")
+      ->type_name("ROBOT.xml");
+}
+
 void add_simulate_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("simulate", "run a scenario's plant, write a log and its ground truth");
   const auto options = std::make_shared<SimulateOptions>();
   command.add_option("SCENARIO.xml", options->scenario, "scenario file")->type_name("")->required();
+  add_robot_option(command, options->robot);
   command.add_option("--out", options->out, "log; the truth goes to LOG.truth.csv")->type_name("LOG.csv")->required();
   add_effects_option(command);
   finish(command, [options] { run_simulate(*options); });
@@ -104,6 +112,7 @@ void add_compare_command(CLI::App& app) {
       ->type_name("")
       ->required();
   command.add_option("--model", options->model, "model file; default: the scenario's own")->type_name("M.xml");
+  add_robot_option(command, options->robot);
   command.add_option("--estimators", *estimators, "names or paths of plug-ins")->type_name("a,b,./c.so")->required();
   command.add_option("--out", options->out, "folder of the report")->type_name("DIR")->required();
   add_columns_option(command, options->columns);
@@ -180,6 +189,15 @@ void add_experiments_command(CLI::App& app) {
   command.add_option("--out", options->out, "folder of the report")->type_name("DIR")->required();
   command.add_option("--examples", options->examples, "folder of the examples; default: those of this program")
       ->type_name("DIR");
+  command
+      .add_option("--calibrated", options->calibrated,
+                  "a model that was calibrated by data (identify, diagnose): run kinematics and sr_ukf with it too")
+      ->type_name("M.xml");
+  command.add_option("--duration", options->duration_s, "of each experiment, in s; default: the scenarios'")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber);
+  command.add_flag_callback("--no-effect-study", [options] { options->effect_study = false; },
+                            "leave out which effect makes how much of the error, which takes most of the time");
   finish(command, [options] { run_experiments(*options); });
 }
 

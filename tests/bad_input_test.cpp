@@ -94,6 +94,24 @@ TEST_F(BadInput, AColumnEntryThatCannotBeMeant) {
                  {"--column is for logs"});
 }
 
+TEST_F(BadInput, ARobotThatIsNotOfTheScenario) {
+  const std::string robot = text_of(path("raven2.xml"));
+  const std::size_t last = robot.find("<joint name=\"insertion\"");
+  write_text(path("two_joints.xml"), robot.substr(0, last) + "</arm>");
+  for (const char* command : {"simulate", "compare"}) {
+    const auto ask = [&](const char* file) {
+      std::vector<std::string> all = {command, "experiment_a.xml", "--robot", file, "--out", "new.csv"};
+      if (std::string(command) == "compare") all.insert(all.end(), {"--estimators", "kinematics"});
+      return all;
+    };
+    expect_refused(ask("two_joints.xml"), {"two_joints.xml: its joints are not those of", "raven2.xml"});
+    expect_refused(ask("none.xml"), {"none.xml: no such file"});
+  }
+  expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--robot", "raven2.xml", "--estimators", "kinematics",
+                  "--out", "cmp"},
+                 {"--robot, --runs and --noise are for scenarios"});
+}
+
 TEST_F(BadInput, AModelThatIsNotOne) {
   const std::string model = text_of(path("raven2.xml"));
   const auto expect_model_refused = [&](const std::string& text, const std::vector<std::string>& parts) {
