@@ -14,6 +14,7 @@
 #include "app/estimate_command.h"
 #include "app/estimator_list.h"
 #include "app/experiments_command.h"
+#include "app/identify_command.h"
 #include "app/plan_command.h"
 #include "app/plugins_command.h"
 #include "app/simulate_command.h"
@@ -182,6 +183,32 @@ void add_diagnose_command(CLI::App& app) {
   });
 }
 
+void add_identify_command(CLI::App& app) {
+  CLI::App& command =
+      *app.add_subcommand("identify", "find numbers of the model from logs with joint sensors, by a dual filter");
+  const auto options = std::make_shared<IdentifyCommandOptions>();
+  command.add_option("--model", options->model, "model file")->type_name("M.xml")->required();
+  command.add_option("--data", options->data, "log with joint sensors; may be repeated")
+      ->type_name("LOG.csv")
+      ->required()
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_option("--holdout", options->holdout, "log to tell the errors on; default: the last third of each log")
+      ->type_name("LOG.csv");
+  command
+      .add_option("--parameters", options->parameters,
+                  "coupling, stiffness, damping, tension, motor_friction, joint_friction, or keys of single numbers as "
+                  "sweeps name them")
+      ->type_name("a,b,joint2.cable.stiffness")
+      ->required();
+  command.add_option("--out", options->out, "folder of model.xml, identify.json, convergence.csv and report.html")
+      ->type_name("DIR")
+      ->required();
+  add_columns_option(command, options->columns);
+  add_effects_option(command);
+  finish(command, [options] { run_identify(*options); });
+}
+
 void add_experiments_command(CLI::App& app) {
   CLI::App& command =
       *app.add_subcommand("experiments", "the paper's experiments A, B and C on the simulated RAVEN-II");
@@ -292,6 +319,7 @@ int run_command_line(int argc, char** argv) {
   add_estimate_command(app);
   add_compare_command(app);
   add_diagnose_command(app);
+  add_identify_command(app);
   add_experiments_command(app);
   add_sweep_command(app);
   add_merge_command(app);
