@@ -218,7 +218,7 @@ void add_experiments_command(CLI::App& app) {
       ->type_name("DIR");
   command
       .add_option("--calibrated", options->calibrated,
-                  "a model that was calibrated by data (identify, diagnose): run kinematics and sr_ukf with it too")
+                  "calibrated model that kinematics and sr_ukf are run with too; default: its couplings identified here")
       ->type_name("M.xml");
   command.add_option("--duration", options->duration_s, "of each experiment, in s; default: the scenarios'")
       ->type_name("S")

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 
+#include "diagnosis/identify.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array kFiles = {"experiment_a.xml", "experiment_b.xml", "experiment_c.xml"};
+constexpr const char* kCalibration = "calibration.xml";
 constexpr const char* kModel = "raven2.xml";
 constexpr const char* kRobot = "raven2_likely.xml";
 
@@ -57,33 +58,55 @@ std::vector<Scenario> experiment_scenarios(const ExperimentsSetup& setup) {
   return scenarios;
 }
 
+ArmModel calibrate(const ExperimentsSetup& setup) {
+  ArmModel model = read_three_joints(setup.raven2 / kModel);
+  Log log = simulate(read_scenario(setup.raven2 / kCalibration, setup.raven2 / kRobot)).measured;
+  log.source = kCalibration;
+  const Identification found = identify(model, {log}, identified_keys(model, "coupling"));
+  for (const ParameterInfo& p : named_parameters(model.nominal)) {
+    const auto number = std::ranges::find(found.numbers, p.key, &IdentifiedNumber::key);
+    if (number != found.numbers.end()) *p.value = number->trace.back();
+  }
+  return model;
+}
+
 std::vector<Experiment> compute_experiments(const ExperimentsSetup& setup, const std::function<void(double)>& progress) {
   const ArmModel model = read_three_joints(setup.raven2 / kModel);
-  std::vector<Contestant> contestants = {{"kinematics", &model, "kinematics"}};
-  std::optional<ArmModel> calibrated;
-  if (!setup.calibrated.empty()) {
-    calibrated = read_three_joints(setup.calibrated);
-    contestants.push_back({"kinematics", &*calibrated, "kinematics, calibrated"});
-  }
-  contestants.push_back({"ekf", &model, "ekf"});
-  contestants.push_back({"sr_ukf", &model, "sr_ukf"});
-  if (calibrated) contestants.push_back({"sr_ukf", &*calibrated, "sr_ukf, calibrated"});
-
   const std::vector<Scenario> scenarios = experiment_scenarios(setup);
+  ArmModel calibrated;
+  std::vector<SimulationResult> data(scenarios.size());
+  std::vector<std::atomic<double>> simulated(scenarios.size()), estimated(scenarios.size());
+  const auto tell = [&](std::atomic<double>& done, double fraction) {
+    done = fraction;
+    double sum = 0;
+    for (std::size_t i = 0; i < scenarios.size(); ++i) sum += simulated[i] + estimated[i];
+    if (progress) progress(sum / double(2 * scenarios.size()));
+  };
+  oneapi::tbb::parallel_for(std::size_t{0}, scenarios.size() + 1, [&](std::size_t job) {
+    if (job == 0) {
+      calibrated = setup.calibrated.empty() ? calibrate(setup) : read_three_joints(setup.calibrated);
+      return;
+    }
+    const std::size_t i = job - 1;
+    data[i] = simulate(scenarios[i], [&](double fraction) { tell(simulated[i], fraction); });
+    data[i].measured.source = kFiles[i];
+  });
+
+  const std::vector<Contestant> contestants = {{"kinematics", &model, "kinematics"},
+                                               {"kinematics", &calibrated, "kinematics, calibrated"},
+                                               {"ekf", &model, "ekf"},
+                                               {"sr_ukf", &model, "sr_ukf"},
+                                               {"sr_ukf", &calibrated, "sr_ukf, calibrated"}};
   std::vector<Experiment> experiments(scenarios.size());
-  std::vector<std::atomic<double>> done(scenarios.size());
   oneapi::tbb::parallel_for(std::size_t{0}, scenarios.size(), [&](std::size_t i) {
-    constexpr double kSimulation = 0.5;   // of the work
-    const auto tell = [&](double fraction) {
-      done[i] = fraction;
-      if (progress) progress(std::accumulate(done.begin(), done.end(), 0.0) / double(done.size()));
-    };
-    SimulationResult data = simulate(scenarios[i], [&](double fraction) { tell(kSimulation * fraction); });
-    data.measured.source = kFiles[i];
     CompareOptions options;
-    options.progress = [&](double fraction) { tell(kSimulation + (1 - kSimulation) * fraction); };
-    experiments[i] = {scenarios[i].name, scenarios[i].robot, desired_positions(scenarios[i], data.truth.time),
-                      compare_estimators(contestants, data.measured, data.truth, options)};
+    options.progress = [&](double fraction) { tell(estimated[i], fraction); };
+    experiments[i] = {scenarios[i].name,
+                      scenarios[i].robot,
+                      model,
+                      calibrated,
+                      desired_positions(scenarios[i], data[i].truth.time),
+                      compare_estimators(contestants, data[i].measured, data[i].truth, options)};
     experiments[i].comparison.data = kFiles[i];
     experiments[i].comparison.model = kModel;
     experiments[i].comparison.truth_from = "truth of the simulation";

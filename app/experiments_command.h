@@ -7,7 +7,7 @@ namespace halyard {
 struct ExperimentsOptions {
   std::filesystem::path out;          ///< folder
   std::filesystem::path examples;     ///< empty: the examples that belong to this program
-  std::filesystem::path calibrated;   ///< model file that estimators are run with too; empty: none
+  std::filesystem::path calibrated;   ///< model file that estimators are run with too; empty: identified here
   double duration_s = 0;              ///< of each experiment; 0: the scenarios' own
   bool effect_study = true;           ///< which effect makes how much of the error: most of the time
 };

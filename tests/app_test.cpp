@@ -425,12 +425,13 @@ class Experiments : public App {
 
 TEST_F(Experiments, StandBesideThePublishedErrors) {
   const std::string printed =
-      done({"experiments", "--examples", ".", "--duration", "0.7", "--no-effect-study", "--out", "out"});
+      done({"experiments", "--examples", ".", "--duration", "0.7", "--no-effect-study", "--calibrated",
+            "raven2/raven2.xml", "--out", "out"});
   EXPECT_TRUE(contains(printed, "sr_ukf")) << printed;
   EXPECT_TRUE(contains(printed, "joint 1 < joint 2 < joint 3")) << printed;
   const auto files = files_in(path("out"));
   ASSERT_EQ(files.size(), 3u);
-  EXPECT_EQ(lines_of(files.at("experiments.csv")).size(), 1u + 3 * 3 * 3);
+  EXPECT_EQ(lines_of(files.at("experiments.csv")).size(), 1u + 3 * 5 * 3);
   const json result = json::parse(files.at("experiments.json"));
   const json& published = result.at("measured_on_the_robot").at(0).at("mean_absolute_error");
   EXPECT_NEAR(published.at(1).get<double>(), 2.6383 * M_PI / 180, 1e-12);   // rounding
@@ -458,7 +459,7 @@ TEST_F(Experiments, RunACalibratedModelBesideTheGivenOne) {
 }
 
 TEST_F(Experiments, TellWhichEffectMakesTheError) {
-  done({"experiments", "--examples", ".", "--duration", "0.6", "--out", "out"});
+  done({"experiments", "--examples", ".", "--duration", "0.6", "--calibrated", "raven2/raven2.xml", "--out", "out"});
   const CsvFile table(path("out/effects.csv"));
   const auto error = [&](const char* effects, const char* estimator) {
     return table.number(table.row_with({{"effects", effects}, {"estimator", estimator}, {"joint", "2"}}),
