@@ -34,11 +34,12 @@ std::string letter(const Experiment& experiment) { return experiment.name.substr
 std::string shown_size(const EffectParameter& parameter, double value) {
   const ShownUnit unit = parameter.unit == "m"     ? ShownUnit{"mm", 1e3}
                          : parameter.unit == "rad" ? ShownUnit{"deg", 180 / std::numbers::pi}
+                         : parameter.unit == "1"   ? ShownUnit{"", 1}
                                                    : ShownUnit{parameter.unit, 1};
-  return parameter.name + " " + shown(value, unit);
+  return fmt::format("{} {:.5g}{}{}", parameter.name, unit.per_si * value, unit.name.empty() ? "" : " ", unit.name);
 }
 
-/// "joint 1 ratio 1.056; joint 2 ratio 1.056"
+/// "joint 1: ratio 1.056; joint 2: ratio 1.056"
 std::string sizes(const ArmModel& robot, const std::string& effect) {
   std::string text;
   for (const PlacedEffect& e : robot.effects) {
@@ -91,12 +92,15 @@ std::string calibration_sentence(const std::vector<Experiment>& experiments) {
     changes += fmt::format("{}{} {:.4g} to {:.4g}{}", changes.empty() ? "" : ", ", before[i].name, *before[i].value,
                            *after[i].value, before[i].unit == "1" ? "" : " " + before[i].unit);
   }
-  const std::size_t run = run_named(experiments, "kinematics, calibrated");
+  const auto gains = [&](const char* name) {
+    const std::size_t run = run_named(experiments, name);
+    return fmt::format("{}, {} and {}", shown_percent(mean_gain(experiments, run, 0)),
+                       shown_percent(mean_gain(experiments, run, 1)), shown_percent(mean_gain(experiments, run, 2)));
+  };
   return fmt::format(
       "Calibrated is a model whose numbers were identified with joint sensors on the same robot, as the paper identified its "
-      "couplings: {}. It gains {}, {} and {} over kinematics as it is (joints 1, 2, 3), with no filter at all.",
-      changes.empty() ? "the given model itself" : changes, shown_percent(mean_gain(experiments, run, 0)),
-      shown_percent(mean_gain(experiments, run, 1)), shown_percent(mean_gain(experiments, run, 2)));
+      "couplings: {}. Kinematics gains {} by it (joints 1, 2, 3), without any filter, and the filter with it gains {}.",
+      changes.empty() ? "the given model itself" : changes, gains("kinematics, calibrated"), gains("sr_ukf, calibrated"));
 }
 
 void add_meaning(report::Page& page, const std::vector<Experiment>& experiments) {
@@ -312,7 +316,7 @@ report::Table experiment_table(const std::vector<Experiment>& experiments) {
   table.caption = "Mean absolute error by joint and experiment, and the filter's gain over kinematics here and on the robot";
   table.header = {"joint", "experiment", "unit"};
   for (const EstimatorRun& run : all.runs) table.header.push_back(run.name);
-  table.header.insert(table.header.end(), {"gain", "gain, robot"});
+  table.header.insert(table.header.end(), {"gain of sr_ukf", "of the paper's UKF, robot"});
   table.align.assign(table.header.size(), Align::right);
   std::fill_n(table.align.begin(), 3, Align::left);
   for (int k = 0; k < all.n_joints(); ++k) {
