@@ -25,6 +25,7 @@ constexpr double kCouplingSpread = 0.3, kSpread = 0.5;   // relative, of what is
 constexpr double kZeroSpread = 0.05, kZeroSpreadLength = 0.01;   // rad | m at the joint
 constexpr double kRoutingRadius = 0.01;  // m, of a pulley that a cable passes; scale of a coupling of 0
 constexpr double kChance = 3;            // standard deviations
+constexpr double kMatters = 0.1;         // of a tolerance: a drift by less is none
 
 struct Kind {
   const char* word;
@@ -205,19 +206,25 @@ LeastSquares solve(const std::vector<Block>& blocks, const Eigen::VectorXd& u) {
   const Eigen::MatrixXd inverse = A.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
   LeastSquares e;
   e.u = u + A.ldlt().solve(g);
-  e.deviation = ((count - 1) / count * (without.colwise() - mean).rowwise().squaredNorm() +
-                 inverse.rowwise().squaredNorm()).cwiseSqrt();
+  const Eigen::VectorXd jackknife = (count - 1) / count * (without.colwise() - mean).rowwise().squaredNorm() +
+                                    inverse.rowwise().squaredNorm();
+  e.deviation = jackknife.cwiseMax(inverse.diagonal()).cwiseSqrt();
   e.blocks = static_cast<int>(blocks.size());
   return e;
 }
 
-Convergence convergence_of(const IdentifiedNumber& number, double deviation, double tolerance,
-                           const std::vector<double>& time) {
+/// The first row of the trace's last third.
+std::size_t last_third(const std::vector<double>& time) {
+  return static_cast<std::size_t>(std::ranges::lower_bound(time, 2.0 / 3 * time.back()) - time.begin());
+}
+
+/// deviation: of the estimate, in prior deviations; own: the filter's own at the last third's start, in SI.
+Convergence convergence_of(const IdentifiedNumber& number, double deviation, double tolerance, double own,
+                           std::size_t from) {
   if (deviation > kExcited) return Convergence::not_excited;
-  const auto at = static_cast<std::size_t>(std::ranges::lower_bound(time, 2.0 / 3 * time.back()) - time.begin());
-  const double moved = std::abs(number.trace.back() - number.trace[at]);
-  const bool matters = moved > 0.1 * tolerance * std::abs(number.nominal);
-  return matters && moved > kChance * number.trace_std[at] ? Convergence::drifting : Convergence::converged;
+  const double moved = std::abs(number.trace.back() - number.trace[from]);
+  const bool matters = moved > kMatters * tolerance * std::abs(number.nominal);
+  return matters && moved > kChance * own ? Convergence::drifting : Convergence::converged;
 }
 
 }  // namespace
@@ -318,7 +325,9 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
       const double own = std::min(1.0, trace_deviation[r](i));
       number.trace_std.push_back(std::abs(weights[i].slope(trace_u[r](i))) * own * (own * own + (1 - own * own) * widened));
     }
-    number.convergence = convergence_of(number, estimate.deviation(i), tolerance[i], result.time);
+    const std::size_t from = last_third(result.time);
+    const double own = std::abs(weights[i].slope(trace_u[from](i))) * trace_deviation[from](i);
+    number.convergence = convergence_of(number, estimate.deviation(i), tolerance[i], own, from);
   }
   ArmParameters<double> given = model.nominal;
   const std::vector<ParameterInfo> all = named_parameters(given);

@@ -9,12 +9,14 @@
 ///
 ///   A_b = Σ Yᵀ S⁻¹ Y,   g_b = Σ Yᵀ S⁻¹ ν,   A = Σ A_b + I,   u ← u + A⁻¹ (Σ g_b - u)          (Gauss and Newton)
 ///
-/// until u stands, and the covariance of its end is that of estimates that leave out one block each, so that whatever is
-/// alike within a block is counted once (Efron's jackknife), and what is left of the prior u ~ N(0, I):
+/// until u of the numbers asked for stands. Its variance is that of estimates u_-b that leave out one block each, so that
+/// whatever is alike within a block is counted once (a block jackknife), and of what is left of the prior u ~ N(0, I):
 ///
-///   cov(u) = (B-1)/B Σ_b (u_-b - mean) (u_-b - mean)ᵀ + A⁻¹ A⁻¹,   u_-b = A_-b⁻¹ (g_-b + A_-b's own start)
+///   var(u) = max( (B-1)/B Σ_b (u_-b - mean)² + |rows of A⁻¹|²,  diag A⁻¹ )
 ///
-/// with intervals by Student's t of B - 1. That u of the other numbers is estimated along, within half its tolerance as
+/// with intervals by Student's t of B - 1. A⁻¹, the filter's own word, is a floor: where the arm is quieter than the
+/// noise that the filter assumes, blocks agree better with each other than with the truth, because rounded encoders are
+/// no noise that averages out. That u of the other numbers is estimated along, within half its tolerance as
 /// a standard deviation, makes the numbers asked for right, and their intervals wide enough, where a cable's stiffness
 /// is off by its tolerance. The other numbers themselves are left as they are in the model.
 ///
@@ -38,7 +40,7 @@ std::vector<std::string> identified_keys(const ArmModel& model, const std::strin
 
 enum class Convergence {
   converged,
-  drifting,      ///< the filter's estimate moved in the last third of the log by more than its band allows
+  drifting,      ///< the filter's estimate moved in the last third of the logs, by a tenth of its tolerance or more
   not_excited    ///< the interval is not much narrower than what was known before
 };
 

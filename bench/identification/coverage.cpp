@@ -96,7 +96,14 @@ void run(const Options& options) {
   const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   std::vector<std::vector<Outcome>> runs(options.runs);
-  tbb::parallel_for(0, options.runs, [&](int i) { runs[i] = run_one(model, options, i); });
+  tbb::parallel_for(0, options.runs, [&](int i) {
+    runs[i] = run_one(model, options, i);
+    std::string line = fmt::format("run {}:", i);
+    for (const Outcome& o : runs[i])
+      line += fmt::format(" {:+.2g} of {:.2g} %{}", 100 * (o.value - o.truth) / o.nominal,
+                          50 * (o.upper - o.lower) / std::abs(o.nominal), o.in_interval() ? "," : " missed,");
+    fmt::print(stderr, "{}\n", line);
+  });
 
   fmt::print("| number | held in its 95 % interval | share | Clopper-Pearson 95 % | median half width | RMS error |\n");
   fmt::print("|---|---|---|---|---|---|\n");
