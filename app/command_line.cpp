@@ -75,7 +75,7 @@ void add_joint_torque_flag(CLI::App& command, bool& flag) {
 void add_robot_option(CLI::App& command, std::filesystem::path& robot) {
   command
       .add_option("--robot", robot,
-                  "of a scenario: model file of the true robot, with its effects; default: that of the scenario's model")
+                  "of a scenario: model file of the true robot, with its effects; default: the scenario's model")
       ->type_name("ROBOT.xml");
 }
 
@@ -218,7 +218,7 @@ void add_experiments_command(CLI::App& app) {
       ->type_name("DIR");
   command
       .add_option("--calibrated", options->calibrated,
-                  "calibrated model that kinematics and sr_ukf are run with too; default: its couplings identified here")
+                  "calibrated model that kinematics and sr_ukf are run with too; default: couplings identified here")
       ->type_name("M.xml");
   command.add_option("--duration", options->duration_s, "of each experiment, in s; default: the scenarios'")
       ->type_name("S")

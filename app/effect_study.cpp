@@ -17,7 +17,9 @@ namespace {
 
 using Has = StudiedRobot::Has;
 
-bool names(const std::vector<std::string>& all, const std::string& name) { return std::ranges::find(all, name) != all.end(); }
+bool names(const std::vector<std::string>& all, const std::string& name) {
+  return std::ranges::find(all, name) != all.end();
+}
 
 std::vector<std::string> switched_on(const StudiedRobot& robot, const std::vector<std::string>& effects) {
   switch (robot.has) {

@@ -70,7 +70,8 @@ ArmModel calibrate(const ExperimentsSetup& setup) {
   return model;
 }
 
-std::vector<Experiment> compute_experiments(const ExperimentsSetup& setup, const std::function<void(double)>& progress) {
+std::vector<Experiment> compute_experiments(const ExperimentsSetup& setup,
+                                            const std::function<void(double)>& progress) {
   const ArmModel model = read_three_joints(setup.raven2 / kModel);
   const std::vector<Scenario> scenarios = experiment_scenarios(setup);
   ArmModel calibrated;

@@ -49,8 +49,8 @@ struct Experiment {
 std::vector<Scenario> experiment_scenarios(const ExperimentsSetup& setup);
 
 /// raven2.xml with couplings that a dual filter learnt, as the paper's did, with joint sensors and in another motion:
-/// calibration.xml, with the same true robot. They are those that the dual filter ends with. halyard identify goes on to
-/// estimate the model's other numbers along, within their tolerances, and this robot's are beyond them.
+/// calibration.xml, with the same true robot. They are those that the dual filter ends with. halyard identify goes on
+/// to estimate the model's other numbers along, within their tolerances, and this robot's are beyond them.
 /// Throws as read_scenario, simulate and identify do.
 ArmModel calibrate(const ExperimentsSetup& setup);
 
@@ -78,7 +78,8 @@ report::Table mean_error_table(const std::vector<Experiment>& experiments);
 /// As the paper's Table III: each experiment and joint, beside what is known of it.
 report::Table experiment_table(const std::vector<Experiment>& experiments);
 
-/// Whether the filter's gains are ordered as on the robot, joint 1 < joint 2 < joint 3, in the mean and in each experiment.
+/// Whether the filter's gains are ordered as on the robot, joint 1 < joint 2 < joint 3, in the mean and in each
+/// experiment.
 std::string order_of_gains(const std::vector<Experiment>& experiments);
 
 /// Joint 1's peak error, which the paper's filter made worse in each experiment.

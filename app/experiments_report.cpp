@@ -98,34 +98,37 @@ std::string calibration_sentence(const std::vector<Experiment>& experiments) {
                        shown_percent(mean_gain(experiments, run, 1)), shown_percent(mean_gain(experiments, run, 2)));
   };
   return fmt::format(
-      "Calibrated is a model whose numbers were identified with joint sensors on the same robot, as the paper identified its "
-      "couplings: {}. Kinematics gains {} by it (joints 1, 2, 3), without any filter, and the filter with it gains {}.",
-      changes.empty() ? "the given model itself" : changes, gains("kinematics, calibrated"), gains("sr_ukf, calibrated"));
+      "Calibrated is a model whose numbers were identified with joint sensors on the same robot, as the paper "
+      "identified its couplings: {}. Kinematics gains {} by it (joints 1, 2, 3), without any filter, and the "
+      "filter with it gains {}.",
+      changes.empty() ? "the given model itself" : changes, gains("kinematics, calibrated"),
+      gains("sr_ukf, calibrated"));
 }
 
 void add_meaning(report::Page& page, const std::vector<Experiment>& experiments) {
   page.heading("What the numbers mean");
   page.paragraph(
-      "These are simulations. The robot has the effects of the table below, which the paper's robot is likely to have had; "
-      "their sizes come from the robot's dimensions or are assumed, and none was fitted to the paper's errors. The "
-      "estimators believe the paper's Table I and are told of none.");
+      "These are simulations. The robot has the effects of the table below, which the paper's robot is likely to have "
+      "had; their sizes come from the robot's dimensions or are assumed, and none was fitted to the paper's errors. "
+      "The estimators believe the paper's Table I and are told of none.");
   page.table(robot_table(experiments));
   page.paragraph(
-      fmt::format("Kinematics takes the cables as rigid. Its error here is {} that on the robot (joints 1, 2, 3). {} {}",
+      fmt::format("Kinematics takes the cables as rigid. Its error here is {} that on the robot (joints 1, 2, 3). {} "
+                  "{}",
                   share_of_published(experiments), order_of_gains(experiments), peaks_of_joint_one(experiments)));
   page.paragraph(calibration_sentence(experiments));
   page.paragraph(
       "An estimator that gets motor signals alone infers the stretch of its cables from forces. It cannot see a wrong "
-      "ratio between motor and joint, nor a zero that homing left off: the motors read the same. To see which effects a "
-      "robot has takes joint sensors for once, and halyard diagnose.");
+      "ratio between motor and joint, nor a zero that homing left off: the motors read the same. To see which effects "
+      "a robot has takes joint sensors for once, and halyard diagnose.");
 }
 
 /// Errors of each robot of the study, [estimator] and joint side by side.
 report::Table study_table(const EffectStudy& study, const std::vector<JointUnit>& units) {
   report::Table table;
   table.caption =
-      "Mean absolute error with the robot's effects switched on one by one and off one by one, mean of experiments A, B "
-      "and C";
+      "Mean absolute error with the robot's effects switched on one by one and off one by one, mean of experiments A, "
+      "B and C";
   table.header = {"effects"};
   for (const std::string& name : study.estimators)
     for (std::size_t k = 0; k < units.size(); ++k)
@@ -150,8 +153,8 @@ std::string study_sentence(const EffectStudy& study, int k, const JointUnit& uni
   const auto shown = [&](double value) { return shown_number(value, unit) + " " + unit.shown; };
   return fmt::format(
       "Joint {}: kinematics errs {} with none of the effects and {} with all of them; {} makes the most, {} alone, and "
-      "without it {} are left. {} takes {} off kinematics' error where the robot has none of the effects, {} where it has "
-      "all, and {} where it has all but {}.",
+      "without it {} are left. {} takes {} off kinematics' error where the robot has none of the effects, {} where it "
+      "has all, and {} where it has all but {}.",
       k + 1, shown(error(0, Has::none)), shown(error(0, Has::all)), *most, shown(error(0, Has::one, *most)),
       shown(error(0, Has::all_but_one, *most)), study.estimators[1],
       shown_percent(1 - error(1, Has::none) / error(0, Has::none)),
@@ -164,8 +167,8 @@ void add_study(report::Page& page, const EffectStudy& study, const std::vector<J
   page.table(study_table(study, units));
   for (std::size_t k = 0; k < units.size(); ++k) page.paragraph(study_sentence(study, int(k), units[k]));
   page.paragraph(
-      "Errors do not add up: two effects may cancel where they differ in sign, and one may act through another, as friction "
-      "on the pulleys does through the cable's stretch. An effect counts for all joints together.");
+      "Errors do not add up: two effects may cancel where they differ in sign, and one may act through another, as "
+      "friction on the pulleys does through the cable's stretch. An effect counts for all joints together.");
 }
 
 void add_figures(report::Page& page, const Experiment& experiment) {
@@ -281,7 +284,8 @@ report::Table mean_error_table(const std::vector<Experiment>& experiments) {
   const Comparison& comparison = first(experiments);
   report::Table table;
   table.caption =
-      "Mean absolute error (the paper's Eq. 18) and gain over kinematics, mean of experiments A, B and C; robot: measured";
+      "Mean absolute error (the paper's Eq. 18) and gain over kinematics, mean of experiments A, B and C; robot: "
+      "measured";
   table.header = {"where", "estimator"};
   table.align = {Align::left, Align::left};
   for (int k = 0; k < comparison.n_joints(); ++k) {
@@ -313,7 +317,8 @@ report::Table experiment_table(const std::vector<Experiment>& experiments) {
   const Comparison& all = first(experiments);
   const std::size_t filter = run_named(experiments, "sr_ukf");
   report::Table table;
-  table.caption = "Mean absolute error by joint and experiment, and the filter's gain over kinematics here and on the robot";
+  table.caption =
+      "Mean absolute error by joint and experiment, and the filter's gain over kinematics here and on the robot";
   table.header = {"joint", "experiment", "unit"};
   for (const EstimatorRun& run : all.runs) table.header.push_back(run.name);
   table.header.insert(table.header.end(), {"gain of sr_ukf", "of the paper's UKF, robot"});
@@ -323,7 +328,8 @@ report::Table experiment_table(const std::vector<Experiment>& experiments) {
     for (std::size_t e = 0; e < experiments.size(); ++e) {
       const Comparison& comparison = experiments[e].comparison;
       std::vector<Cell> row = {std::to_string(k + 1), experiments[e].name, all.units[k].shown};
-      for (const auto& errors : comparison.errors) row.emplace_back(shown_number(errors[k].mean_absolute, all.units[k]));
+      for (const auto& errors : comparison.errors)
+        row.emplace_back(shown_number(errors[k].mean_absolute, all.units[k]));
       row.emplace_back(shown_percent(comparison.improvement_of(filter, k)));
       row.emplace_back(shown_percent(k == 1 ? kTableThreeJointTwoGain[e] : kNan));
       table.rows.push_back(std::move(row));
@@ -349,8 +355,8 @@ std::string order_of_gains(const std::vector<Experiment>& experiments) {
   }
   const auto gain = [&](int k) { return mean_gain(experiments, filter, k); };
   return fmt::format(
-      "The filter gains {}, {} and {} (joints 1, 2, 3) here, {}, {} and {} on the robot. The robot's order, joint 1 < joint "
-      "2 < joint 3, {} in the mean ({}).",
+      "The filter gains {}, {} and {} (joints 1, 2, 3) here, {}, {} and {} on the robot. The robot's order, joint 1 < "
+      "joint 2 < joint 3, {} in the mean ({}).",
       shown_percent(gain(0)), shown_percent(gain(1)), shown_percent(gain(2)), shown_percent(published_gain(0)),
       shown_percent(published_gain(1)), shown_percent(published_gain(2)),
       ordered(gain(0), gain(1), gain(2)) ? "holds" : "does not hold", where);

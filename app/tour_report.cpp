@@ -25,8 +25,7 @@ Chart joint_chart(const std::vector<Experiment>& experiments, int k) {
   Chart chart{.title = fmt::format("Joint {}: mean absolute error", k + 1),
               .y_label = fmt::format("error [{}]", first.units[k].shown),
               .kind = report::ChartKind::bar,
-              .categories = {"A", "B", "C", "robot"},
-              .log_y = true};
+              .categories = {"A", "B", "C", "robot"}};
   for (std::size_t i = 0; i < first.runs.size(); ++i) {
     Series series{.name = first.runs[i].name};
     for (const Experiment& e : experiments) {
@@ -44,10 +43,11 @@ Chart joint_chart(const std::vector<Experiment>& experiments, int k) {
 void add_experiments(Page& page, const std::vector<Experiment>& experiments) {
   page.heading("1. The paper's experiments, simulated");
   page.paragraph(
-      "The RAVEN-II's first three joints follow sines: A with high tension, B with low tension, C with a payload of 100 g. "
-      "The robot has what the paper's is likely to have had beyond its model: other capstans, zeros that homing left off, "
-      "friction on pulleys, hysteresis, runs that go slack. The estimators believe the paper's Table I and get motor "
-      "torques and quantised motor positions, nothing of the joints.");
+      "The RAVEN-II's first three joints follow sines: A with high tension, B with low tension, C with a payload of "
+      "100 g. The robot has what the paper's is likely to have had beyond its model: other capstans, zeros that "
+      "homing left off, friction on pulleys, hysteresis, runs that go slack. The estimators believe the paper's "
+      "Table I and get motor torques and quantised motor positions, nothing of the joints. Calibrated: with "
+      "couplings that were identified with joint sensors in another motion.");
   page.table(mean_error_table(experiments));
   page.table(experiment_table(experiments));
   page.paragraph(
@@ -60,9 +60,9 @@ void add_experiments(Page& page, const std::vector<Experiment>& experiments) {
       fmt::format("Kinematics errs {} as much as on the robot (joints 1, 2, 3). {} {}", share_of_published(experiments),
                   order_of_gains(experiments), peaks_of_joint_one(experiments)));
   page.paragraph(
-      "A filter infers the stretch of cables from forces; a wrong ratio or zero between motor and joint it cannot see, since "
-      "the motors read the same. Which effects a robot has, logs with joint sensors have to tell: that is what the rest of "
-      "this page is about.");
+      "A filter infers the stretch of cables from forces; a wrong ratio or zero between motor and joint it cannot see, "
+      "since the motors read the same. Which effects a robot has, logs with joint sensors have to tell: that is what "
+      "the rest of this page is about.");
   page.link("All trajectories, errors and tables of the experiments", "experiments/report.html");
 }
 

@@ -61,8 +61,8 @@ struct Scenario {
   std::vector<JointTrajectory> trajectory;      ///< [n]
   IntegratorOptions integrator;
   bool quantise = true;                         ///< round encoders to their resolution
-  /// The motors' zeros were set at the home pose with unstretched cables, by what the controller takes the arm for: there
-  /// they read right, whatever the robot's true ratios. What an effect adds to a reading comes on top.
+  /// The motors' zeros were set at the home pose with unstretched cables, by what the controller takes the arm for:
+  /// there they read right, whatever the robot's true ratios. What an effect adds to a reading comes on top.
   bool homed = false;
   TickNoise noise;
   std::uint64_t seed = 1;
