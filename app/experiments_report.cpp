@@ -66,7 +66,7 @@ report::Table robot_table(const std::vector<Experiment>& experiments) {
       listed.push_back(name);
       std::string letters;
       for (const Experiment& other : experiments)
-        if (!sizes(other.robot, name).empty()) letters += (letters.empty() ? "" : ", ") + letter(other);
+        if (!sizes(other.robot, name).empty()) letters += fmt::format("{}{}", letters.empty() ? "" : ", ", letter(other));
       table.rows.push_back({name, e.effect->summary(), sizes(experiment.robot, name), letters});
     }
   }
@@ -76,7 +76,7 @@ report::Table robot_table(const std::vector<Experiment>& experiments) {
     const auto& joint = e.robot.nominal.joint;
     tensions += fmt::format("{}{}: {:g}, {:g}, {:g} N", tensions.empty() ? "" : "; ", letter(e), joint[0].tension,
                             joint[1].tension, joint[2].tension);
-    letters += (letters.empty() ? "" : ", ") + letter(e);
+    letters += fmt::format("{}{}", letters.empty() ? "" : ", ", letter(e));
   }
   table.rows.push_back({kCableLaw, "a run of cable that has lost its tension is slack", tensions, letters});
   return table;
