@@ -14,6 +14,7 @@
 #include "app/estimate_command.h"
 #include "app/estimator_list.h"
 #include "app/experiments_command.h"
+#include "app/identify_command.h"
 #include "app/plan_command.h"
 #include "app/plugins_command.h"
 #include "app/simulate_command.h"
@@ -71,10 +72,18 @@ void add_joint_torque_flag(CLI::App& command, bool& flag) {
   command.add_flag("--use-joint-torque", flag, "give the estimators the log's measured external loads too");
 }
 
+void add_robot_option(CLI::App& command, std::filesystem::path& robot) {
+  command
+      .add_option("--robot", robot,
+                  "of a scenario: model file of the true robot, with its effects; default: the scenario's model")
+      ->type_name("ROBOT.xml");
+}
+
 void add_simulate_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("simulate", "run a scenario's plant, write a log and its ground truth");
   const auto options = std::make_shared<SimulateOptions>();
   command.add_option("SCENARIO.xml", options->scenario, "scenario file")->type_name("")->required();
+  add_robot_option(command, options->robot);
   command.add_option("--out", options->out, "log; the truth goes to LOG.truth.csv")->type_name("LOG.csv")->required();
   add_effects_option(command);
   finish(command, [options] { run_simulate(*options); });
@@ -104,6 +113,7 @@ void add_compare_command(CLI::App& app) {
       ->type_name("")
       ->required();
   command.add_option("--model", options->model, "model file; default: the scenario's own")->type_name("M.xml");
+  add_robot_option(command, options->robot);
   command.add_option("--estimators", *estimators, "names or paths of plug-ins")->type_name("a,b,./c.so")->required();
   command.add_option("--out", options->out, "folder of the report")->type_name("DIR")->required();
   add_columns_option(command, options->columns);
@@ -173,6 +183,32 @@ void add_diagnose_command(CLI::App& app) {
   });
 }
 
+void add_identify_command(CLI::App& app) {
+  CLI::App& command =
+      *app.add_subcommand("identify", "find numbers of the model from logs with joint sensors, by a dual filter");
+  const auto options = std::make_shared<IdentifyCommandOptions>();
+  command.add_option("--model", options->model, "model file")->type_name("M.xml")->required();
+  command.add_option("--data", options->data, "log with joint sensors; may be repeated")
+      ->type_name("LOG.csv")
+      ->required()
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_option("--holdout", options->holdout, "log to tell the errors on; default: the last third of each log")
+      ->type_name("LOG.csv");
+  command
+      .add_option("--parameters", options->parameters,
+                  "coupling, stiffness, damping, tension, motor_friction, joint_friction, or keys of single numbers as "
+                  "sweeps name them")
+      ->type_name("a,b,joint2.cable.stiffness")
+      ->required();
+  command.add_option("--out", options->out, "folder of model.xml, identify.json, convergence.csv and report.html")
+      ->type_name("DIR")
+      ->required();
+  add_columns_option(command, options->columns);
+  add_effects_option(command);
+  finish(command, [options] { run_identify(*options); });
+}
+
 void add_experiments_command(CLI::App& app) {
   CLI::App& command =
       *app.add_subcommand("experiments", "the paper's experiments A, B and C on the simulated RAVEN-II");
@@ -180,6 +216,15 @@ void add_experiments_command(CLI::App& app) {
   command.add_option("--out", options->out, "folder of the report")->type_name("DIR")->required();
   command.add_option("--examples", options->examples, "folder of the examples; default: those of this program")
       ->type_name("DIR");
+  command
+      .add_option("--calibrated", options->calibrated,
+                  "calibrated model that kinematics and sr_ukf are run with too; default: couplings identified here")
+      ->type_name("M.xml");
+  command.add_option("--duration", options->duration_s, "of each experiment, in s; default: the scenarios'")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber);
+  command.add_flag_callback("--no-effect-study", [options] { options->effect_study = false; },
+                            "leave out which effect makes how much of the error, which takes most of the time");
   finish(command, [options] { run_experiments(*options); });
 }
 
@@ -274,6 +319,7 @@ int run_command_line(int argc, char** argv) {
   add_estimate_command(app);
   add_compare_command(app);
   add_diagnose_command(app);
+  add_identify_command(app);
   add_experiments_command(app);
   add_sweep_command(app);
   add_merge_command(app);

@@ -73,10 +73,18 @@ double Comparison::improvement_of(std::size_t run, int k) const {
 
 Comparison compare_estimators(const ArmModel& model, const std::vector<std::string>& estimators, const Log& measured,
                               const Log& truth, const CompareOptions& options) {
+  std::vector<Contestant> contestants;
+  for (const std::string& name : estimators) contestants.push_back({name, &model, name});
+  return compare_estimators(contestants, measured, truth, options);
+}
+
+Comparison compare_estimators(const std::vector<Contestant>& contestants, const Log& measured, const Log& truth,
+                              const CompareOptions& options) {
+  if (contestants.empty()) throw std::invalid_argument("compare_estimators: no estimator");
   if (measured.time != truth.time) throw std::invalid_argument("compare_estimators: times of truth and log differ");
   Comparison result;
   result.skip_s = options.skip_s;
-  result.units = joint_units(model);
+  result.units = joint_units(*contestants.front().model);
   result.truth = truth;
   const Counted counted(truth, options.skip_s);
 
@@ -94,23 +102,25 @@ Comparison compare_estimators(const ArmModel& model, const std::vector<std::stri
   };
   // All are made first: a wrong name must not cost the time of the others' runs.
   std::vector<EstimatorRun> tried;
-  for (const std::string& name : estimators)
-    tried.push_back(attempt(name, [&] {
-      check_estimator(name, model, options.containment);
+  for (const Contestant& c : contestants)
+    tried.push_back(attempt(c.name, [&] {
+      check_estimator(c.estimator, *c.model, options.containment);
       return EstimatorRun{};
     }));
-  for (std::size_t i = 0; i < estimators.size(); ++i) {
+  for (std::size_t i = 0; i < contestants.size(); ++i) {
+    const Contestant& c = contestants[i];
     EstimateOptions estimate{.use_joint_torque = options.use_joint_torque, .progress = {}};
     if (options.progress) {
       estimate.progress = [&](double fraction) {
-        options.progress((double(i) + fraction) / double(estimators.size()));
+        options.progress((double(i) + fraction) / double(contestants.size()));
       };
     }
-    result.runs.push_back(!tried[i].failure.empty() ? tried[i] : attempt(estimators[i], [&] {
-      return run_contained(estimators[i], model, measured, estimate, options.containment);
+    result.runs.push_back(!tried[i].failure.empty() ? tried[i] : attempt(c.name, [&] {
+      return run_contained(c.estimator, *c.model, measured, estimate, options.containment);
     }));
-    const EstimatorRun& run = result.runs.back();
-    result.compared.push_back(options.truth_is_sensed ? sensor_readings(model, run) : run.estimates.joint_position);
+    EstimatorRun& run = result.runs.back();
+    run.name = c.name;
+    result.compared.push_back(options.truth_is_sensed ? sensor_readings(*c.model, run) : run.estimates.joint_position);
     result.errors.push_back(joint_errors(run, result.compared.back(), truth, counted));
     result.judgements.push_back(judge(run, result.compared.back(), measured, truth, counted));
   }

@@ -54,9 +54,19 @@ struct CompareOptions {
   std::function<void(double)> progress = {};   ///< called with the fraction done
 };
 
+/// An estimator, what it believes, and what its row is called.
+struct Contestant {
+  std::string estimator;                ///< name or path of a plug-in
+  const ArmModel* model = nullptr;
+  std::string name;
+};
+
 /// Runs each estimator over `measured` and counts its errors against the joint positions of `truth`, which has the same
 /// times. Each runs in a process of its own. The strings of the result are the caller's to fill.
 /// Throws what make_estimator and run_estimator throw, std::invalid_argument if the times differ.
+Comparison compare_estimators(const std::vector<Contestant>& contestants, const Log& measured, const Log& truth,
+                              const CompareOptions& options = {});
+/// The same with one model for all, and each called as the estimator is.
 Comparison compare_estimators(const ArmModel& model, const std::vector<std::string>& estimators, const Log& measured,
                               const Log& truth, const CompareOptions& options = {});
 

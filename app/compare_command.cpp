@@ -36,7 +36,7 @@ Data simulated_data(const CompareCommandOptions& options) {
     throw InputError("halyard compare: --column is for logs, and " + in_quotes(options.data.string()) +
                      " is a scenario; leave it out");
   }
-  Scenario scenario = read_scenario(options.data);
+  Scenario scenario = read_scenario(options.data, options.robot);
   Data data;
   const std::filesystem::path model = options.model.empty() ? scenario.model : options.model;
   data.model = read_model(model);
@@ -65,9 +65,9 @@ Data logged_data(const CompareCommandOptions& options) {
   if (options.model.empty()) {
     throw InputError("halyard compare: --model is missing; a log needs the model file of its robot, --model M.xml");
   }
-  if (options.runs > 1 || options.noise >= 0) {
-    throw InputError("halyard compare: --runs and --noise are for scenarios, and " + in_quotes(options.data.string()) +
-                     " is a log; leave them out");
+  if (options.runs > 1 || options.noise >= 0 || !options.robot.empty()) {
+    throw InputError("halyard compare: --robot, --runs and --noise are for scenarios, and " +
+                     in_quotes(options.data.string()) + " is a log; leave them out");
   }
   Data data;
   data.model = read_model(options.model);

@@ -9,6 +9,7 @@ namespace halyard {
 struct CompareCommandOptions {
   std::filesystem::path data;             ///< a scenario if it ends in .xml, otherwise a log
   std::filesystem::path model;            ///< what the estimators believe; empty: the scenario's own model file
+  std::filesystem::path robot;            ///< of a scenario: model file of the true robot; empty: the scenario's model
   std::vector<std::string> estimators;
   std::filesystem::path out;              ///< folder
   std::vector<std::string> columns;       ///< entries of --column

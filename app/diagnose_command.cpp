@@ -10,7 +10,6 @@
 #include "app/output_check.h"
 #include "app/progress.h"
 #include "diagnosis/diagnose.h"
-#include "model/input_error.h"
 #include "model/model_file.h"
 
 namespace halyard {
@@ -23,15 +22,9 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
     if (const std::string note = ignored_columns_note(log); !note.empty()) fmt::print("{}\n", note);
     return log;
   };
-  // A log that counts twice would look like twice the evidence.
   std::vector<std::filesystem::path> all = options.data;
   if (!options.holdout.empty()) all.push_back(options.holdout);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      std::error_code error;
-      if (std::filesystem::equivalent(all[i], all[j], error) && !error)
-        throw InputError(all[i].string() + ": is given twice among --data and --holdout; give each log once");
-    }
+  check_given_once(all);
   std::vector<Log> training;
   for (const auto& path : options.data) training.push_back(read(path));
   std::optional<Log> holdout;

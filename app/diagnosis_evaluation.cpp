@@ -22,14 +22,8 @@ namespace {
 constexpr std::array kEstimators = {"kinematics", "ekf", "sr_ukf"};
 constexpr double kSkip = 0.5;  ///< s; a filter's start is not counted
 
-/// A log, and the time from which its errors count: an estimator remembers what was before, as a cable does.
-struct HeldOut {
-  const Log* log;
-  double from;
-};
+}  // namespace
 
-/// The errors over all logs together. A load that was measured is no part of the model, and is handed on as to the
-/// prediction.
 EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const std::vector<HeldOut>& logs) {
   const auto n = static_cast<std::size_t>(model.n());
   EstimatorErrors result;
@@ -67,6 +61,8 @@ EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const 
   }
   return result;
 }
+
+namespace {
 
 Evidenced evidence_of(const std::vector<Record>& records, const Hypothesis& without, const Hypothesis& with,
                       const std::vector<FullPrediction>& predicted_with, int joint) {

@@ -27,6 +27,15 @@ struct EstimatorErrors {
   double mean_nis = 0;            ///< of its innovations, ~ 1 if the model is right; 0: it has none
   std::string failure;            ///< why it failed
 };
+/// A log, and the time from which its errors count: an estimator remembers what was before, as a cable does.
+struct HeldOut {
+  const Log* log;
+  double from;
+};
+/// The errors over all logs together. A load that was measured is no part of the model, and is handed on as to the
+/// prediction.
+EstimatorErrors errors_of(const std::string& estimator, const ArmModel& model, const std::vector<HeldOut>& logs);
+
 struct EstimatorComparison {
   std::string name;
   EstimatorErrors before, after;  ///< with the given and with the revised model

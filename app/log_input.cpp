@@ -1,6 +1,7 @@
 #include "app/log_input.h"
 
 #include "model/homing.h"
+#include "model/input_error.h"
 
 namespace halyard {
 
@@ -22,6 +23,15 @@ std::string ignored_columns_note(const Log& log) {
   std::string names;
   for (const std::string& name : log.ignored_columns) names.append(names.empty() ? "" : ", ").append(name);
   return names.empty() ? "" : "note: " + log.source + ": columns that are not used: " + names;
+}
+
+void check_given_once(const std::vector<std::filesystem::path>& logs) {
+  for (std::size_t i = 0; i < logs.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      std::error_code error;
+      if (std::filesystem::equivalent(logs[i], logs[j], error) && !error)
+        throw InputError(logs[i].string() + ": is given twice among --data and --holdout; give each log once");
+    }
 }
 
 }  // namespace halyard

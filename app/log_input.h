@@ -17,4 +17,7 @@ Log read_log_of(const ArmModel& model, const std::filesystem::path& path,
 /// "note: log.csv: columns that are not used: a, b", or nothing.
 std::string ignored_columns_note(const Log& log);
 
+/// Throws InputError if a log stands twice among those of --data and --holdout: it would look like twice the evidence.
+void check_given_once(const std::vector<std::filesystem::path>& logs);
+
 }  // namespace halyard

@@ -42,7 +42,7 @@ void run_simulate(const SimulateOptions& options) {
     check_output_file(path);
     check_not_input(path, options.scenario);
   }
-  const Scenario scenario = read_scenario(options.scenario);
+  const Scenario scenario = read_scenario(options.scenario, options.robot);
   SimulationResult result;
   {
     Progress progress("simulate", scenario.duration_s, "s");

@@ -93,7 +93,8 @@ Tour compute_tour(const fs::path& examples, const fs::path& recordings, const St
 
   std::vector<Part> parts;
   parts.push_back({"experiments", [&](const StageCallback& tell) {
-                     tour.experiments = compute_experiments(raven2, tell);
+                     tour.experiments = compute_experiments(
+                         {.raven2 = raven2}, [&](double done) { tell("simulate and estimate", done); });
                    }});
   parts.push_back({"undeclared_effect", [&](const StageCallback& tell) {
                      auto& [model, diagnosis, evaluation] = tour.bundled;

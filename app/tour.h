@@ -55,7 +55,4 @@ struct FoundParameter {
 };
 std::vector<FoundParameter> found_parameters(const Tour& tour);
 
-/// Gain of sr_ukf over kinematics that Table III of the paper gives for joint 2, in percent: experiments A, B, C.
-inline constexpr double kTableThreeJointTwoGain[] = {46, 4.7, 39};
-
 }  // namespace halyard

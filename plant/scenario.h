@@ -61,6 +61,9 @@ struct Scenario {
   std::vector<JointTrajectory> trajectory;      ///< [n]
   IntegratorOptions integrator;
   bool quantise = true;                         ///< round encoders to their resolution
+  /// The motors' zeros were set at the home pose with unstretched cables, by what the controller takes the arm for:
+  /// there they read right, whatever the robot's true ratios. What an effect adds to a reading comes on top.
+  bool homed = false;
   TickNoise noise;
   std::uint64_t seed = 1;
 };
@@ -68,7 +71,9 @@ struct Scenario {
 /// Throws InputError if the scenario cannot be run: numbers out of range, desired motion beyond a joint's range.
 void check_scenario(const Scenario& scenario);
 
-/// Reads and checks a scenario file; paths in it are relative to it. Throws InputError.
-Scenario read_scenario(const std::filesystem::path& path);
+/// Reads and checks a scenario file; paths in it are relative to it. robot: a model file of the true robot, which may
+/// differ from the scenario's model in anything but its joints; the file's changes and effects come on top. Empty: the
+/// robot is that of the model. Throws InputError.
+Scenario read_scenario(const std::filesystem::path& path, const std::filesystem::path& robot = {});
 
 }  // namespace halyard

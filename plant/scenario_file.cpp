@@ -105,6 +105,21 @@ void read_trajectory(const XmlElement& element, Scenario& scenario, std::vector<
   scenario.trajectory[joint] = std::move(t);
 }
 
+/// The true robot where it is not the one of the model.
+ArmModel read_robot(const std::filesystem::path& path, const ArmParameters<double>& assumed,
+                    const std::filesystem::path& model) {
+  ArmModel robot = read_model(path);
+  bool same = robot.n() == assumed.n;
+  for (int k = 0; same && k < assumed.n; ++k) {
+    const JointParameters<double>&a = robot.nominal.joint[k], &b = assumed.joint[k];
+    same = a.type == b.type && (a.drive == Drive::none) == (b.drive == Drive::none);
+  }
+  if (!same)
+    throw InputError(path.string() + ": its joints are not those of the scenario's model " + model.string() +
+                     "; give a robot with as many joints, of the same types and driven alike");
+  return robot;
+}
+
 void read_integrator(const XmlElement& element, IntegratorOptions& options) {
   element.only({"treatment", "relative_tolerance", "absolute_tolerance"});
   options.treatment = element.choice_or<Treatment>("treatment", options.treatment,
@@ -121,7 +136,7 @@ void read_integrator(const XmlElement& element, IntegratorOptions& options) {
 
 }  // namespace
 
-Scenario read_scenario(const std::filesystem::path& path) {
+Scenario read_scenario(const std::filesystem::path& path, const std::filesystem::path& robot) {
   const XmlElement root = XmlElement::read_file(path, "scenario");
   root.only({"name", "model", "duration", "seed"},
             {"set", "effects", "trajectory", "control", "integrator", "sensors"});
@@ -130,6 +145,7 @@ Scenario read_scenario(const std::filesystem::path& path) {
   scenario.model = root.path("model");
   scenario.robot = read_model(scenario.model);
   scenario.assumed = scenario.robot.nominal;
+  if (!robot.empty()) scenario.robot = read_robot(robot, *scenario.assumed, scenario.model);
   scenario.duration_s = root.number_or("duration", scenario.duration_s, "s", Sign::positive);
   scenario.seed = static_cast<std::uint64_t>(root.integer_or("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
   for (const XmlElement& set : root.children("set")) read_change(set, scenario.robot);
@@ -149,8 +165,9 @@ Scenario read_scenario(const std::filesystem::path& path) {
   }
   if (const auto integrator = root.optional_child("integrator")) read_integrator(*integrator, scenario.integrator);
   if (const auto sensors = root.optional_child("sensors")) {
-    sensors->only({"quantise", "torque_noise"});
+    sensors->only({"quantise", "homed", "torque_noise"});
     scenario.quantise = sensors->flag_or("quantise", scenario.quantise);
+    scenario.homed = sensors->flag_or("homed", scenario.homed);
     const double torque = sensors->number_or("torque_noise", 0, "N m", Sign::non_negative);
     if (torque > 0) scenario.noise.motor_torque.assign(scenario.robot.n(), torque);
   }

@@ -47,9 +47,24 @@ std::vector<ControllerParameters> controller_parameters(const ArmModel& robot) {
 
 std::string place(const Scenario& scenario) { return "scenario " + in_quotes(scenario.name) + ": "; }
 
+const ArmParameters<double>& assumed_arm(const Scenario& scenario) {
+  return scenario.assumed ? *scenario.assumed : scenario.robot.nominal;
+}
+
+/// The true arm, its motors' zeros as homing leaves them.
+ArmParameters<double> homed_arm(const Scenario& scenario) {
+  ArmParameters<double> arm = scenario.robot.nominal;
+  if (!scenario.homed) return arm;
+  const Eigen::VectorXd home = scenario.robot.home();
+  const Eigen::VectorXd expected = unstretched_motors(assumed_arm(scenario), home);
+  const Eigen::VectorXd there = unstretched_motors(Transmission<double>(arm, scenario.robot.effects).arm(), home);
+  for (int k = 0; k < arm.n; ++k) arm.joint[k].motor_encoder_offset += expected(k) - there(k);
+  return arm;
+}
+
 std::unique_ptr<ArmPlant> make_plant(const Scenario& scenario) {
   try {
-    return std::make_unique<ArmPlant>(scenario.robot.nominal, scenario.robot.effects);
+    return std::make_unique<ArmPlant>(homed_arm(scenario), scenario.robot.effects);
   } catch (const std::invalid_argument& error) {
     throw InputError(place(scenario) + error.what());
   }
@@ -108,7 +123,7 @@ SimulationResult simulate(const Scenario& scenario, const std::function<void(dou
 
   const std::unique_ptr<ArmPlant> plant = make_plant(scenario);
   const DriveTrain& drive = plant->drive();
-  const ArmParameters<double>& assumed = scenario.assumed ? *scenario.assumed : scenario.robot.nominal;
+  const ArmParameters<double>& assumed = assumed_arm(scenario);
   const Eigen::VectorXd start = starting_state(scenario, *plant);
   const std::unique_ptr<Integrator> integrator = make_integrator(*plant, scenario.integrator, 0, start);
   PdController controller(controller_parameters(scenario.robot), period);

@@ -94,6 +94,24 @@ TEST_F(BadInput, AColumnEntryThatCannotBeMeant) {
                  {"--column is for logs"});
 }
 
+TEST_F(BadInput, ARobotThatIsNotOfTheScenario) {
+  const std::string robot = text_of(path("raven2.xml"));
+  const std::size_t last = robot.find("<joint name=\"insertion\"");
+  write_text(path("two_joints.xml"), robot.substr(0, last) + "</arm>");
+  for (const char* command : {"simulate", "compare"}) {
+    const auto ask = [&](const char* file) {
+      std::vector<std::string> all = {command, "experiment_a.xml", "--robot", file, "--out", "new.csv"};
+      if (std::string(command) == "compare") all.insert(all.end(), {"--estimators", "kinematics"});
+      return all;
+    };
+    expect_refused(ask("two_joints.xml"), {"two_joints.xml: its joints are not those of", "raven2.xml"});
+    expect_refused(ask("none.xml"), {"none.xml: no such file"});
+  }
+  expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--robot", "raven2.xml", "--estimators", "kinematics",
+                  "--out", "cmp"},
+                 {"--robot, --runs and --noise are for scenarios"});
+}
+
 TEST_F(BadInput, AModelThatIsNotOne) {
   const std::string model = text_of(path("raven2.xml"));
   const auto expect_model_refused = [&](const std::string& text, const std::vector<std::string>& parts) {
@@ -110,6 +128,34 @@ TEST_F(BadInput, AModelThatIsNotOne) {
   expect_model_refused("", {"bad.xml"});
   expect_refused({"check", "none.xml"}, {"none.xml: no such file"});
   expect_refused({"check", "."}, {".: is a directory"});
+}
+
+TEST_F(BadInput, AnIdentificationThatCannotBe) {
+  const auto expect_identify_refused = [&](const std::vector<std::string>& more, const std::vector<std::string>& parts) {
+    std::vector<std::string> arguments = {"identify", "--data", "log.csv", "--out", "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_refused(arguments, parts);
+  };
+  expect_identify_refused({"--model", "raven2.xml", "--parameters", "coupling"},
+                          {"log.csv: column joint_position_2 is missing", "--column joint_position_2="});
+  expect_identify_refused({"--model", "raven2.xml", "--parameters", "couplings"},
+                          {"'couplings'", "raven2.xml", "coupling, stiffness", "joint1.cable.stiffness"});
+  expect_identify_refused({"--model", "raven2.xml", "--parameters", "stiffness,,coupling"}, {"''"});
+  expect_identify_refused({"--model", "raven2.xml", "--parameters", "tension"}, {"'tension'", "law=\"exponential\""});
+  expect_identify_refused({"--model", "raven2.xml", "--parameters", "joint1.motor.torque_bias"}, {"is 0 in raven2.xml"});
+  expect_identify_refused({"--model", "raven2.xml", "--parameters", "coupling", "--data", "log.csv"}, {"given twice"});
+  expect_identify_refused({"--model", "raven2.xml"}, {"--parameters"});
+  const std::string model = text_of(path("raven2.xml"));
+  const std::size_t second = model.find("<joint name=\"elbow\"");
+  write_text(path("one_joint.xml"), model.substr(0, second) + "</arm>");
+  expect_identify_refused({"--model", "one_joint.xml", "--parameters", "coupling"},
+                          {"'coupling'", "one_joint.xml has one joint"});
+  std::string header = kHeader, rows = kRows;
+  header.pop_back();
+  write_text(path("short.csv"), header + ",joint_position_1,joint_position_2,joint_position_3\n" +
+                                    "0,0,0,0,107,204,904,0.8,1.6,0.4\n0.001,0,0,0,107,204,904,0.8,1.6,0.4\n");
+  expect_refused({"identify", "--data", "short.csv", "--out", "out", "--model", "raven2.xml", "--parameters", "coupling"},
+                 {"short.csv: lasts", "3 s"});
 }
 
 TEST_F(BadInput, AScenarioThatCannotBeRun) {

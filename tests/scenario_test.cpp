@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "model/input_error.h"
+#include "model/model_file.h"
 #include "plant/simulate.h"
 #include "plant/trajectory.h"
 #include "transmission/path_matrix.h"
@@ -77,6 +78,43 @@ TEST(Experiments, AreThoseOfThePaper) {
     EXPECT_EQ(s->integrator.treatment, Treatment::dirk);
     EXPECT_TRUE(s->quantise);
   }
+}
+
+TEST(Experiments, HaveARobotThatDiffersFromItsModelByLawAndEffectsAlone) {
+  const Scenario c = read_scenario(kExamples + "experiment_c.xml", kExamples + "raven2_likely.xml");
+  ArmModel likely = c.robot;
+  ASSERT_FALSE(likely.effects.empty());
+  EXPECT_EQ(likely.effects.back().effect->name(), "payload");   // the scenario's own, after the robot's
+  const ArmModel model = read_model(kExamples + "raven2.xml");
+  likely.name = model.name;
+  likely.effects.clear();
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(likely.nominal.joint[k].law, CableLaw::linear);
+    likely.nominal.joint[k].law = model.nominal.joint[k].law;
+  }
+  EXPECT_EQ(model_to_xml(likely), model_to_xml(model));
+  EXPECT_EQ(c.assumed->joint[0].law, CableLaw::paper);
+}
+
+TEST(Experiments, AreHomedWhereTheyStart) {
+  Scenario a = read_scenario(kExamples + "experiment_a.xml", kExamples + "raven2_likely.xml");
+  a.duration_s = 0.01;
+  a.quantise = false;
+  std::erase_if(a.robot.effects, [](const PlacedEffect& e) { return e.effect->name() != "capstan_ratio"; });
+  const auto told = [&](const Scenario& s) {
+    const SimulationResult r = simulate(s);
+    Eigen::VectorXd motors(3);
+    for (int k = 0; k < 3; ++k) motors(k) = r.measured.motor_position[k][0];
+    return unstretched_joints(*s.assumed, motors, Eigen::VectorXd::Zero(3));
+  };
+  // What gravity stretches is left: 0.04 deg, 0.23 deg, 0.22 mm at most.
+  const Eigen::VectorXd error = told(a) - a.robot.home();
+  EXPECT_LT(std::abs(error(0)), 0.05 * kDegree);
+  EXPECT_LT(std::abs(error(1)), 0.3 * kDegree);
+  EXPECT_LT(std::abs(error(2)), 0.3e-3);
+  // A ratio larger by 5.64 % over 45 deg.
+  a.homed = false;
+  EXPECT_NEAR(told(a)(0) / a.robot.home()(0), 1 / 1.0564, 2e-3);
 }
 
 TEST_F(ScenarioFile, HasDefaultsAndKeepsUnnamedJointsAtHome) {

@@ -1,0 +1,94 @@
+#include "app/identify_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/comparison_output.h"
+#include "app/csv.h"
+#include "model/model_file.h"
+#include "model/output_file.h"
+
+namespace halyard {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* word(Convergence convergence) {
+  switch (convergence) {
+    case Convergence::converged: return "converged";
+    case Convergence::drifting: return "drifting";
+    case Convergence::not_excited: break;
+  }
+  return "not excited";
+}
+
+Json numbers(const std::vector<double>& values) {
+  Json all = Json::array();
+  for (const double v : values) all.push_back(number_or_null(v));
+  return all;
+}
+
+void write_convergence(const std::filesystem::path& path, const Identification& identification) {
+  std::vector<std::string> header = {"time"};
+  for (const IdentifiedNumber& number : identification.numbers) {
+    header.push_back(number.key);
+    header.push_back(number.key + ".std");
+  }
+  CsvTable table(header, "halyard identify, the dual filter's estimates; SI units");
+  for (std::size_t i = 0; i < identification.time.size(); ++i) {
+    table.add_time(identification.time[i]);
+    for (const IdentifiedNumber& number : identification.numbers) {
+      table.add(number.trace[i]);
+      table.add(number.trace_std[i]);
+    }
+  }
+  table.write(path);
+}
+
+}  // namespace
+
+std::string identify_json(const IdentifyResult& result) {
+  const Identification& found = result.identification;
+  Json parameters = Json::array(), strained = Json::array(), rms = Json::object(), peak = Json::object();
+  for (const IdentifiedNumber& n : found.numbers)
+    parameters.push_back({{"name", n.name},
+                          {"key", n.key},
+                          {"joint", n.joint + 1},
+                          {"unit", n.unit},
+                          {"from", number_or_null(n.nominal)},
+                          {"value", number_or_null(n.value)},
+                          {"ci95", numbers({n.lower, n.upper})},
+                          {"convergence", word(n.convergence)}});
+  for (const StrainedNumber& s : found.strained)
+    strained.push_back({{"name", s.name},
+                        {"unit", s.unit},
+                        {"from", number_or_null(s.nominal)},
+                        {"value", number_or_null(s.value)},
+                        {"tolerances", number_or_null(s.tolerances)}});
+  for (const EstimatorComparison& e : result.estimators) {
+    const auto both = [](const std::vector<double>& before, const std::vector<double>& after) {
+      return Json{{"before", numbers(before)}, {"after", numbers(after)}};
+    };
+    rms[e.name] = both(e.before.rms, e.after.rms);
+    peak[e.name] = both(e.before.peak, e.after.peak);
+  }
+  const Json all = {{"parameters", parameters},
+                    {"blocks", found.blocks},
+                    {"strained", strained},
+                    {"error",
+                     {{"holdout", result.holdout}, {"joint_position_rms", rms}, {"joint_position_peak", peak}}}};
+  return all.dump(2) + "\n";
+}
+
+void write_identification(const std::filesystem::path& folder, const IdentifyResult& result) {
+  const report::Page page = identify_page(result);
+  write_file_whole(folder / "model.xml", model_to_xml(result.identification.model));
+  write_file_whole(folder / "identify.json", identify_json(result));
+  write_convergence(folder / "convergence.csv", result.identification);
+  page.write(folder / "report.html");
+}
+
+}  // namespace halyard

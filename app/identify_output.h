@@ -1,0 +1,33 @@
+#pragma once
+/// What an identification is told as: identify.json, convergence.csv, report.html and sentences.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/diagnosis_evaluation.h"
+#include "app/report/page.h"
+#include "diagnosis/identify.h"
+
+namespace halyard {
+
+/// An identification, and errors of estimators that have motor signals alone, with the given model and with its.
+struct IdentifyResult {
+  ArmModel given;
+  std::string data, holdout;             ///< logs, for the reader
+  Identification identification;
+  std::vector<EstimatorComparison> estimators;
+};
+
+/// "converged", "still drifting in the last third: a longer log, ..." and what to do about it.
+std::string in_words(Convergence convergence);
+
+/// The text of identify.json.
+std::string identify_json(const IdentifyResult& result);
+
+report::Page identify_page(const IdentifyResult& result);
+
+/// Writes model.xml, identify.json, convergence.csv and report.html into the folder.
+void write_identification(const std::filesystem::path& folder, const IdentifyResult& result);
+
+}  // namespace halyard

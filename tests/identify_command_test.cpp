@@ -1,0 +1,53 @@
+// halyard identify end to end: a coupling that the model has wrong.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/program_run.h"
+
+namespace halyard::testing_program {
+namespace {
+
+using nlohmann::json;
+
+class IdentifyCommand : public ProgramTest {};
+
+TEST_F(IdentifyCommand, WritesAModelThatOtherCommandsTake) {
+  write_short_scenario("experiment_a.xml", "6");
+  write_text(path("scenario.xml"),
+             replaced(text_of(path("experiment_a.xml")), "<trajectory joint=\"1\"",
+                      "<set parameter=\"joint2.coupling.joint1\" value=\"0.152\"/><trajectory joint=\"1\""));
+  done({"simulate", "scenario.xml", "--out", "log.csv"});
+  const std::string printed = done({"identify", "--model", "raven2.xml", "--data", "log.csv", "--parameters",
+                                    "coupling", "--out", "out"});
+  EXPECT_TRUE(contains(printed, "joint 2 coupling with joint 1: 0.14545 -> 0.15")) << printed;
+
+  const json all = json::parse(text_of(path("out/identify.json")));
+  ASSERT_EQ(all.at("parameters").size(), 3u);
+  const json& c01 = all.at("parameters").at(0);
+  EXPECT_EQ(c01.at("name"), "joint 2 coupling with joint 1");
+  EXPECT_EQ(c01.at("joint"), 2);
+  EXPECT_EQ(c01.at("unit"), "1");
+  EXPECT_EQ(c01.at("from"), 0.14545);
+  EXPECT_EQ(c01.at("convergence"), "converged");
+  EXPECT_NEAR(c01.at("value"), 0.152, 1e-4);
+  EXPECT_LT(c01.at("ci95").at(0), c01.at("value"));
+  EXPECT_GT(c01.at("ci95").at(1), c01.at("value"));
+  const json& rms = all.at("error").at("joint_position_rms").at("sr_ukf");
+  EXPECT_LT(rms.at("after").at(1), 0.1 * rms.at("before").at(1).get<double>());
+
+  const CsvFile convergence(path("out/convergence.csv"));
+  EXPECT_EQ(convergence.header.size(), 7u);
+  EXPECT_LE(convergence.rows.size(), 1001u);
+  const std::vector<double> c = convergence.column("joint2.coupling.joint1");
+  EXPECT_EQ(c.front(), 0.14545);
+  EXPECT_NEAR(c.back(), 0.152, 1e-3);
+  const std::vector<double> deviation = convergence.column("joint2.coupling.joint1.std");
+  EXPECT_LT(deviation.back(), 0.01 * deviation.front());
+
+  done({"check", "out/model.xml"});
+  EXPECT_TRUE(contains(text_of(path("out/report.html")), "Joint 2 coupling with joint 1: converged."));
+}
+
+}  // namespace
+}  // namespace halyard::testing_program
