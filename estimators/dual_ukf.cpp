@@ -146,7 +146,7 @@ void DualUkf::start(double time_s) {
     if (l.motor_angle[k] >= 0) x(l.motor_angle[k]) += latest_(k) - read(k);
     if (!std::isnan(latest_(n + k))) x(l.position[k]) += latest_(n + k) - read(n + k);
   }
-  Eigen::MatrixXd S = noise_.initial_root(x);
+  Eigen::MatrixXd S = noise_.initial_root(x, kInfinity);
   // A record may begin in motion.
   for (int k = 0; k < n; ++k) {
     const double rate = std::max(model_.joints[k].upper - model_.joints[k].lower, S(l.rate[k], l.rate[k]));
@@ -235,7 +235,7 @@ DualStep DualUkf::update(const EncoderSample& sample) {
   for (int i = 0; i < pieces; ++i) {
     step.time_s = time_ + i * step.dt_s;
     points_.advance(step, substeps, X);
-    state_filter_.predict(ArmOfBelief(center_, structure_, step, substeps), noise_.process_root(step.dt_s));
+    state_filter_.predict(ArmOfBelief(center_, structure_, step, substeps), noise_.process_root(step, state_filter_.x()));
   }
   const auto triangle = E.transpose().triangularView<Eigen::Upper>();
   const auto per_weight = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
