@@ -56,7 +56,7 @@ void add_sentences(report::Page& page, const Identification& found) {
     text += fmt::format("{}{}: {}.", text.empty() ? "" : "\n", capitalised(n.name), in_words(n.convergence));
   page.verdict(all_converged ? report::VerdictKind::good : report::VerdictKind::warning, text);
   if (found.strained.empty()) return;
-  text = "The log wants other numbers elsewhere too, by more than one and a half of their tolerance:";
+  text = "The log wants other numbers elsewhere too, by more than twice their tolerance:";
   for (const StrainedNumber& s : found.strained)
     text += fmt::format("\n{}: {:.4g} instead of {:.4g} {}.", capitalised(s.name), s.value, s.nominal, s.unit);
   page.verdict(report::VerdictKind::warning,
@@ -87,7 +87,6 @@ void add_errors(report::Page& page, const IdentifyResult& result) {
                   "identified model"};
   table.align = {report::Align::left,  report::Align::left,  report::Align::right,
                  report::Align::right, report::Align::right, report::Align::right};
-  std::string failures;
   for (int k = 0; k < result.given.n(); ++k)
     for (const EstimatorComparison& e : result.estimators) {
       const auto value = [k](const std::vector<double>& v) {
@@ -103,6 +102,7 @@ void add_errors(report::Page& page, const IdentifyResult& result) {
                             {cell(e.after.peak), value(e.after.peak) < 0.9 * value(e.before.peak)}});
     }
   page.table(table);
+  page.paragraph("kinematics takes cables as rigid: a better coupling leaves it what they stretch.");
   for (const EstimatorComparison& e : result.estimators)
     for (const auto& [which, failure] : {std::pair{"given", e.before.failure}, {"identified", e.after.failure}})
       if (!failure.empty()) page.paragraph(fmt::format("{} failed with the {} model: {}.", e.name, which, failure));
