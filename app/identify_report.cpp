@@ -69,13 +69,16 @@ void add_numbers(report::Page& page, const Identification& found) {
   table.header = {"number", "model", "identified", "95 % interval", "half width", "unit", ""};
   table.align = {report::Align::left,  report::Align::right, report::Align::right, report::Align::right,
                  report::Align::right, report::Align::left,  report::Align::left};
-  for (const IdentifiedNumber& n : found.numbers)
+  for (const IdentifiedNumber& n : found.numbers) {
+    const double half_width = 50 * (n.upper - n.lower) / std::abs(n.value);   // %
     table.rows.push_back({n.name, fmt::format("{:.5g}", n.nominal), fmt::format("{:.7g}", n.value),
                           fmt::format("{:.7g} to {:.7g}", n.lower, n.upper),
-                          fmt::format("{:.2g} %", 50 * (n.upper - n.lower) / std::abs(n.value)), n.unit,
+                          half_width < 100 ? fmt::format("{:.2g} %", half_width) : fmt::format("{:.0f} %", half_width),
+                          n.unit,
                           n.convergence == Convergence::converged ? "" : n.convergence == Convergence::drifting
                                                                              ? "drifting"
                                                                              : "not excited"});
+  }
   page.table(table);
 }
 
