@@ -56,7 +56,7 @@ void add_sentences(report::Page& page, const Identification& found) {
     text += fmt::format("{}{}: {}.", text.empty() ? "" : "\n", capitalised(n.name), in_words(n.convergence));
   page.verdict(all_converged ? report::VerdictKind::good : report::VerdictKind::warning, text);
   if (found.strained.empty()) return;
-  text = "The log wants other numbers elsewhere too, by more than one and a half of their tolerance:";
+  text = "The log wants other numbers elsewhere too, by more than twice their tolerance:";
   for (const StrainedNumber& s : found.strained)
     text += fmt::format("\n{}: {:.4g} instead of {:.4g} {}.", capitalised(s.name), s.value, s.nominal, s.unit);
   page.verdict(report::VerdictKind::warning,
@@ -69,13 +69,16 @@ void add_numbers(report::Page& page, const Identification& found) {
   table.header = {"number", "model", "identified", "95 % interval", "half width", "unit", ""};
   table.align = {report::Align::left,  report::Align::right, report::Align::right, report::Align::right,
                  report::Align::right, report::Align::left,  report::Align::left};
-  for (const IdentifiedNumber& n : found.numbers)
+  for (const IdentifiedNumber& n : found.numbers) {
+    const double half_width = 50 * (n.upper - n.lower) / std::abs(n.value);   // %
     table.rows.push_back({n.name, fmt::format("{:.5g}", n.nominal), fmt::format("{:.7g}", n.value),
                           fmt::format("{:.7g} to {:.7g}", n.lower, n.upper),
-                          fmt::format("{:.2g} %", 50 * (n.upper - n.lower) / std::abs(n.value)), n.unit,
+                          half_width < 100 ? fmt::format("{:.2g} %", half_width) : fmt::format("{:.0f} %", half_width),
+                          n.unit,
                           n.convergence == Convergence::converged ? "" : n.convergence == Convergence::drifting
                                                                              ? "drifting"
                                                                              : "not excited"});
+  }
   page.table(table);
 }
 
@@ -87,7 +90,6 @@ void add_errors(report::Page& page, const IdentifyResult& result) {
                   "identified model"};
   table.align = {report::Align::left,  report::Align::left,  report::Align::right,
                  report::Align::right, report::Align::right, report::Align::right};
-  std::string failures;
   for (int k = 0; k < result.given.n(); ++k)
     for (const EstimatorComparison& e : result.estimators) {
       const auto value = [k](const std::vector<double>& v) {
@@ -103,6 +105,7 @@ void add_errors(report::Page& page, const IdentifyResult& result) {
                             {cell(e.after.peak), value(e.after.peak) < 0.9 * value(e.before.peak)}});
     }
   page.table(table);
+  page.paragraph("kinematics takes cables as rigid: a better coupling leaves it what they stretch.");
   for (const EstimatorComparison& e : result.estimators)
     for (const auto& [which, failure] : {std::pair{"given", e.before.failure}, {"identified", e.after.failure}})
       if (!failure.empty()) page.paragraph(fmt::format("{} failed with the {} model: {}.", e.name, which, failure));

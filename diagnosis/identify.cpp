@@ -25,6 +25,7 @@ constexpr double kCouplingSpread = 0.3, kSpread = 0.5;   // relative, of what is
 constexpr double kZeroSpread = 0.05, kZeroSpreadLength = 0.01;   // rad | m at the joint
 constexpr double kRoutingRadius = 0.01;  // m, of a pulley that a cable passes; scale of a coupling of 0
 constexpr double kChance = 3;            // standard deviations
+constexpr double kStrained = 2;          // tolerances: cables' damping in quiet logs comes out up to 1.6 too large
 constexpr double kMatters = 0.1;         // of a tolerance: a drift by less is none
 
 struct Kind {
@@ -333,7 +334,7 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
   const std::vector<ParameterInfo> all = named_parameters(given);
   for (Eigen::Index i = learnt; i < estimate.u.size(); ++i) {
     const double tolerances = estimate.u(i) / 2;   // the prior's deviation is half a tolerance
-    if (std::abs(tolerances) < 1.5 || std::abs(estimate.u(i)) < kChance * estimate.deviation(i)) continue;
+    if (std::abs(tolerances) < kStrained || std::abs(estimate.u(i)) < kChance * estimate.deviation(i)) continue;
     const auto info = std::ranges::find(all, weights[i].key, &ParameterInfo::key);
     result.strained.push_back({info->name, info->unit, weights[i].nominal, weights[i].value(estimate.u(i)), tolerances});
   }

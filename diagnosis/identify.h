@@ -64,7 +64,7 @@ struct StrainedNumber {
 
 struct Identification {
   std::vector<IdentifiedNumber> numbers;
-  std::vector<StrainedNumber> strained;   ///< beyond one and a half of their tolerance, and not by chance
+  std::vector<StrainedNumber> strained;   ///< beyond twice their tolerance, and not by chance
   std::vector<double> time;               ///< s of the logs one after the other
   int blocks = 0;
   ArmModel model;                         ///< with the numbers

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kHistorySpan = 2;          // s, longer than any delay
-constexpr double kLongestStep = 0.02;       // of a weight by one sample, in prior deviations: beyond, the sample is taken
+constexpr double kLongestStep = 0.02;       // of a weight by one sample, in prior deviations: beyond, it is taken
 constexpr double kCaution = 2;              // for less exact by this factor, until the step is short
 constexpr double kAlpha = 0.03;             // of the weights' sigma points: f must be stable at all of them
-constexpr double kHeldSpread = 0.03;        // of a held weight, in prior deviations: far above rounding, far below curvature
+constexpr double kHeldSpread = 0.03;        // of a held weight, in prior deviations: above rounding, below curvature
 constexpr double kSubstepTime = 1;          // s between looks at how stiff the arm has become,
 constexpr double kSubstepChange = 0.2;      // or a change of a weight by so much
 constexpr double kJointFloor = 1e-5;        // rad, as that of the motors
@@ -26,6 +26,9 @@ std::vector<std::string> keys_of(const std::vector<Weight>& weights) {
   for (const Weight& w : weights) keys.push_back(w.key);
   return keys;
 }
+
+/// Pairs of sigma points; or, around held weights, one a weight and the center.
+int count_points(std::size_t weights, bool learn) { return static_cast<int>(learn ? 2 * weights : weights + 1); }
 
 NoiseLevels noise_levels(const ArmModel& model, const ProcessModel& process) {
   const auto found = model.estimators.find("sr_ukf");
@@ -96,7 +99,7 @@ DualUkf::DualUkf(const ArmModel& model, std::vector<Weight> weights, const DualU
       noise_(model_, structure_, noise_levels(model_, structure_)),
       deviation_(encoder_deviation(noise_, structure_.arm())),
       center_(model_, structure_, keys_of(weights_), 1),
-      points_(model_, structure_, keys_of(weights_), static_cast<int>(weights_.size()) * (options.learn ? 2 : 1) + !options.learn),
+      points_(model_, structure_, keys_of(weights_), count_points(weights_.size(), options.learn)),
       state_filter_({.curvature_limit = 0.03}),
       history_(model_.n(), kHistorySpan) {
   const auto p = static_cast<Eigen::Index>(weights_.size());
@@ -217,7 +220,7 @@ DualStep DualUkf::update(const EncoderSample& sample) {
   // Time update, of the belief and of the weights' points.
   choose_substeps(time_);
   const Eigen::MatrixXd E = spread();
-  const Eigen::Index points = points_.members();   // pairs, or one a weight and the center
+  const Eigen::Index points = points_.members();
   Eigen::MatrixXd dw = Eigen::MatrixXd::Zero(p, points);
   dw.leftCols(p) = E;
   if (options_.learn) dw.rightCols(p) = -E;

@@ -20,6 +20,9 @@
 ///   Ψ' = cross(X, ω) P_w⁻¹,   Y = cross(y, ω) P_w⁻¹                  [n_states x p], [m x p]
 ///   Ψ = Ψ' - K Y,   cov(z) = Y P_w Yᵀ + S_k
 ///
+/// A sample that would move a weight by more than 0.02 at once is taken for less exact until it does not: early ones,
+/// from a wrong start, are not to be trusted to where f is another function. α = 0.03.
+///
 /// With the derivative of K left out, that is a recursive prediction-error method; held weights give, summed over a
 /// record, the gradient Σ Yᵀ S⁻¹ ν of the innovations' likelihood and its information Σ Yᵀ S⁻¹ Y.
 ///
@@ -35,7 +38,7 @@
 
 namespace halyard {
 
-/// A number θ of the arm by a weight u ~ N(0, 1): θ = nominal + scale u, or nominal exp(scale u) where its sign is known.
+/// A number θ of the arm by a weight u ~ N(0, 1): nominal + scale u, or nominal exp(scale u) if its sign is known.
 struct Weight {
   std::string key;              ///< as ArmFamily takes it
   double nominal = 0;

@@ -58,7 +58,8 @@ TEST(DualUkf, DerivativesAreThoseOfItsInnovations) {
   const ArmModel model = first_joints(2);
   const Log log = log_of(model, model, 1.5);
   std::vector<Weight> weights;
-  for (const std::string& key : {kCoupling, std::string("joint2.cable.stiffness"), std::string("joint1.friction.coulomb")}) {
+  const std::vector<std::string> keys = {kCoupling, "joint2.cable.stiffness", "joint1.friction.coulomb"};
+  for (const std::string& key : keys) {
     ArmParameters<double> arm = model.nominal;
     weights.push_back({key, *find_number(arm, key), key == kCoupling ? 0.01 : 0.1, key != kCoupling});
   }
