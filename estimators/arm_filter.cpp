@@ -64,6 +64,19 @@ ArmFilterOptions read_arm_filter_options(OptionReader& options, const ArmModel& 
   return o;
 }
 
+Estimate joint_estimate(const StateLayout& l, const Eigen::VectorXd& x, const Eigen::MatrixXd& S) {
+  Estimate e;
+  e.joint_position.resize(l.n_joints);
+  e.joint_velocity.resize(l.n_joints);
+  e.joint_position_std.resize(l.n_joints);
+  for (int k = 0; k < l.n_joints; ++k) {
+    e.joint_position(k) = x(l.position[k]);
+    e.joint_velocity(k) = x(l.rate[k]);
+    e.joint_position_std(k) = S.row(l.position[k]).norm();
+  }
+  return e;
+}
+
 ArmFilter::ArmFilter(const ArmModel& model, std::shared_ptr<const ProcessModel> process,
                      const ArmFilterOptions& options, std::unique_ptr<GaussianFilter> filter)
     : model_(model),
@@ -161,20 +174,7 @@ Innovation ArmFilter::update(const Sample& sample) {
   return innovation;
 }
 
-Estimate ArmFilter::estimate() const {
-  const StateLayout& l = process_->layout();
-  const int n = process_->n_joints();
-  Estimate e;
-  e.joint_position.resize(n);
-  e.joint_velocity.resize(n);
-  e.joint_position_std.resize(n);
-  for (int k = 0; k < n; ++k) {
-    e.joint_position(k) = filter_->x()(l.position[k]);
-    e.joint_velocity(k) = filter_->x()(l.rate[k]);
-    e.joint_position_std(k) = filter_->S().row(l.position[k]).norm();
-  }
-  return e;
-}
+Estimate ArmFilter::estimate() const { return joint_estimate(process_->layout(), filter_->x(), filter_->S()); }
 
 EstimatorReport ArmFilter::report() const {
   EstimatorReport r = report_;

@@ -26,6 +26,9 @@ struct ArmFilterOptions {
 /// The noise options, max_step, restart_gap and gate.
 ArmFilterOptions read_arm_filter_options(OptionReader& options, const ArmModel& model, const ProcessModel& process);
 
+/// What a belief x, S says of the joints.
+Estimate joint_estimate(const StateLayout& layout, const Eigen::VectorXd& x, const Eigen::MatrixXd& S);
+
 class ArmFilter final : public Estimator {
  public:
   ArmFilter(const ArmModel& model, std::shared_ptr<const ProcessModel> process, const ArmFilterOptions& options,

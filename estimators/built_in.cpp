@@ -5,8 +5,10 @@
 #include "estimators/arm_filter.h"
 #include "estimators/disturbance_filter.h"
 #include "estimators/ekf.h"
+#include "estimators/fixed_lag_smoother.h"
 #include "estimators/kinematics.h"
 #include "estimators/sr_ukf.h"
+#include "model/input_error.h"
 
 namespace halyard {
 namespace {
@@ -42,6 +44,19 @@ std::unique_ptr<Estimator> make_disturbance_sr_ukf(const ArmModel& model, const 
   reader.finish();
   return std::make_unique<DisturbanceFilter>(augmented, process, arm_options, levels,
                                              std::make_unique<SquareRootUkf>(weights));
+}
+
+std::unique_ptr<Estimator> make_smoother(const ArmModel& model, const EstimatorOptions& options) {
+  const auto process = std::make_shared<const ProcessModel>(model);
+  OptionReader reader("smoother", options);
+  const double lag_s = reader.number("lag", 0.2, 1e-3, 10);
+  const UkfWeights weights = read_weights(reader, process->n_states());
+  const ArmFilterOptions arm_options = read_arm_filter_options(reader, model, *process);
+  reader.finish();
+  if (weights.beta < weights.alpha * weights.alpha)
+    throw InputError("estimator smoother: option beta is smaller than alpha squared: a down-date cannot be smoothed; "
+                     "give a larger beta or a smaller alpha");
+  return std::make_unique<FixedLagSmoother>(model, process, arm_options, weights, lag_s);
 }
 
 std::unique_ptr<Estimator> make_ekf(const ArmModel& model, const EstimatorOptions& options) {

@@ -1,7 +1,8 @@
 #pragma once
 /// The built-in estimators of an arm. All options have defaults. Options of all but kinematics: those of noise.h and
 /// arm_filter.h; of the unscented ones besides: alpha, beta, kappa and curvature_limit (0.03) of sr_ukf.h; of
-/// disturbance_sr_ukf besides: force_start and force_wander of disturbance_filter.h.
+/// disturbance_sr_ukf besides: force_start and force_wander of disturbance_filter.h; of smoother besides: lag (0.2 s)
+/// of fixed_lag_smoother.h.
 
 #include <memory>
 
@@ -14,6 +15,7 @@ namespace halyard {
 /// be evaluated.
 std::unique_ptr<Estimator> make_sr_ukf(const ArmModel& model, const EstimatorOptions& options);
 std::unique_ptr<Estimator> make_disturbance_sr_ukf(const ArmModel& model, const EstimatorOptions& options);
+std::unique_ptr<Estimator> make_smoother(const ArmModel& model, const EstimatorOptions& options);
 std::unique_ptr<Estimator> make_ekf(const ArmModel& model, const EstimatorOptions& options);
 std::unique_ptr<Estimator> make_kinematics(const ArmModel& model, const EstimatorOptions& options);
 

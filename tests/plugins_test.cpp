@@ -358,6 +358,7 @@ INSTANTIATE_TEST_SUITE_P(All, BuiltInPlugins,
                          testing::Values(BuiltIn{"sr_ukf", halyard::make_sr_ukf, {{"alpha", "0.01"}}},
                                          BuiltIn{"disturbance_sr_ukf", halyard::make_disturbance_sr_ukf,
                                                  {{"force_wander", "2"}}},
+                                         BuiltIn{"smoother", halyard::make_smoother, {{"lag", "0.01"}}},
                                          BuiltIn{"ekf", halyard::make_ekf, {{"encoder_noise", "1e-4"}}},
                                          BuiltIn{"kinematics", halyard::make_kinematics, {}}),
                          [](const auto& info) { return info.param.name; });
@@ -425,7 +426,7 @@ TEST_P(BuiltInPlugins, RefuseAnUnknownOptionByName) {
 TEST(PluginSearch, FindsTheBuiltInEstimators) {
   std::vector<std::string> refused, names;
   for (const halyard::PluginInfo& plugin : halyard::find_plugins(&refused)) names.push_back(plugin.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"disturbance_sr_ukf", "ekf", "kinematics", "sr_ukf"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"disturbance_sr_ukf", "ekf", "kinematics", "smoother", "sr_ukf"}));
   EXPECT_EQ(refused, std::vector<std::string>());
   EXPECT_EQ(halyard::find_plugin("ekf").path.filename(), "ekf.so");
 }
