@@ -38,6 +38,10 @@ class Samples {
       if (sample_.joint_torque.size() == 0 || log_.joint_torque[k].empty()) continue;
       if (!std::isnan(log_.joint_torque[k][i])) sample_.joint_torque[k] = log_.joint_torque[k][i];
     }
+    sample_.marker.resize(0);
+    if (!log_.has_marker()) return sample_;
+    const Eigen::Vector3d marker(log_.marker[0][i], log_.marker[1][i], log_.marker[2][i]);
+    if (marker.allFinite()) sample_.marker = marker;
     return sample_;
   }
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "estimators/arm_filter.h"
+#include "estimators/camera_filter.h"
 #include "estimators/disturbance_filter.h"
 #include "estimators/ekf.h"
 #include "estimators/fixed_lag_smoother.h"
@@ -32,6 +33,19 @@ std::unique_ptr<Estimator> make_sr_ukf(const ArmModel& model, const EstimatorOpt
   const ArmFilterOptions arm_options = read_arm_filter_options(reader, model, *process);
   reader.finish();
   return std::make_unique<ArmFilter>(model, process, arm_options, std::make_unique<SquareRootUkf>(weights));
+}
+
+std::unique_ptr<Estimator> make_camera_sr_ukf(const ArmModel& model, const EstimatorOptions& options) {
+  OptionReader reader("camera_sr_ukf", options);
+  const CameraOptions camera = read_camera_options(reader, model);
+  const UnknownForceLevels levels = read_force_levels(reader, model);
+  const ArmModel augmented = with_unknown_offsets(with_unknown_forces(model, levels), camera);
+  const auto process = std::make_shared<const ProcessModel>(augmented);
+  const UkfWeights weights = read_weights(reader, process->n_states());
+  const ArmFilterOptions arm_options = read_arm_filter_options(reader, augmented, *process);
+  reader.finish();
+  return std::make_unique<CameraFilter>(augmented, process, with_force_wander(arm_options, *process, levels), camera,
+                                        std::make_unique<SquareRootUkf>(weights));
 }
 
 std::unique_ptr<Estimator> make_disturbance_sr_ukf(const ArmModel& model, const EstimatorOptions& options) {

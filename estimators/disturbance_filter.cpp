@@ -46,13 +46,6 @@ std::vector<int> force_states(const ProcessModel& process) {
   return states;
 }
 
-ArmFilterOptions with_wander(ArmFilterOptions options, const ProcessModel& process, const UnknownForceLevels& levels) {
-  const std::vector<int> states = force_states(process);
-  for (int k = 0; k < process.n_joints(); ++k)
-    if (states[k] >= 0) options.noise.wander(states[k] - process.layout().effect_states) = levels.wander(k);
-  return options;
-}
-
 }  // namespace
 
 UnknownForceLevels read_force_levels(OptionReader& options, const ArmModel& model) {
@@ -78,11 +71,19 @@ ArmModel with_unknown_forces(const ArmModel& model, const UnknownForceLevels& le
   return augmented;
 }
 
+ArmFilterOptions with_force_wander(ArmFilterOptions options, const ProcessModel& process,
+                                   const UnknownForceLevels& levels) {
+  const std::vector<int> states = force_states(process);
+  for (int k = 0; k < process.n_joints(); ++k)
+    if (states[k] >= 0) options.noise.wander(states[k] - process.layout().effect_states) = levels.wander(k);
+  return options;
+}
+
 DisturbanceFilter::DisturbanceFilter(const ArmModel& augmented, std::shared_ptr<const ProcessModel> process,
                                      ArmFilterOptions options, const UnknownForceLevels& levels,
                                      std::unique_ptr<GaussianFilter> filter)
     : process_(std::move(process)),
-      filter_(augmented, process_, with_wander(std::move(options), *process_, levels), std::move(filter)) {}
+      filter_(augmented, process_, with_force_wander(std::move(options), *process_, levels), std::move(filter)) {}
 
 void DisturbanceFilter::reset(const Sample& first) {
   filter_.reset(first);

@@ -41,6 +41,10 @@ UnknownForceLevels read_force_levels(OptionReader& options, const ArmModel& mode
 /// are in no library: nothing but a filter can use them.
 ArmModel with_unknown_forces(const ArmModel& model, const UnknownForceLevels& levels);
 
+/// The options with the forces' ρ in the noise; process: of such a model.
+ArmFilterOptions with_force_wander(ArmFilterOptions options, const ProcessModel& process,
+                                   const UnknownForceLevels& levels);
+
 class DisturbanceFilter final : public Estimator {
  public:
   /// augmented: of with_unknown_forces, and process of it.

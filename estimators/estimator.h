@@ -15,6 +15,7 @@ struct Sample {
   Eigen::VectorXd motor_torque;     ///< [n] commanded from this time on, N m; NaN: missing, the last one is held
   Eigen::VectorXd motor_position;   ///< [n] measured at this time, rad; NaN: missing, no correction from it
   Eigen::VectorXd joint_torque;     ///< [n] measured external load, N m | N; empty: none
+  Eigen::VectorXd marker = {};      ///< [3] where a camera saw the marker at the tool, m, base frame; empty: not seen
 };
 
 /// What one measurement said that the prediction did not. Only the motors whose sample is there count: m of n.

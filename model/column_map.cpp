@@ -54,6 +54,8 @@ bool is_joint_number(std::string_view text) {
 
 std::optional<Quantity> quantity_of(std::string_view name) {
   if (name == "time") return Quantity::kTime;
+  for (const std::string_view marker : kMarkerNames)
+    if (name == marker) return Quantity::kPosition;
   const auto split = name.rfind('_');
   if (split == std::string_view::npos || !is_joint_number(name.substr(split + 1))) return std::nullopt;
   const std::string_view signal = name.substr(0, split);
@@ -68,7 +70,9 @@ std::optional<Quantity> quantity_of(std::string_view name) {
 std::string standard_names() {
   std::string names = "time";
   for (const std::string_view signal : kSignalNames) names.append(", ").append(signal).append("_k");
-  return names + " (k = 1 for the first joint)";
+  names += " (k = 1 for the first joint)";
+  for (const std::string_view marker : kMarkerNames) names.append(", ").append(marker);
+  return names;
 }
 
 double unit_factor(std::string_view unit, Quantity quantity) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "estimators/rigid_chain.h"
 #include "model/input_error.h"
 #include "plugins/loader.h"
 #include "transmission/path_matrix.h"
@@ -17,21 +18,32 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr int kSamples = 200;
 constexpr double kPeriod = 1e-3;   // s
 
-Sample swing(const ArmModel& model, int i) {
-  const double time = i * kPeriod;
+Eigen::VectorXd swing_position(const ArmModel& model, std::size_t i) {
   Eigen::VectorXd q = model.home();
   for (int k = 0; k < model.n(); ++k) {
     const JointDescription& joint = model.joints[k];
-    q(k) += 0.02 * (joint.upper - joint.lower) * std::sin(2 * std::numbers::pi * (1 + k) * time);
+    q(k) += 0.02 * (joint.upper - joint.lower) *
+            std::sin(2 * std::numbers::pi * (1 + k) * kPeriod * static_cast<double>(i));
   }
-  return {time, Eigen::VectorXd::Zero(model.n()), unstretched_motors(model.nominal, q), Eigen::VectorXd()};
+  return q;
+}
+
+Sample swing(const ArmModel& model, std::size_t i) {
+  return {kPeriod * static_cast<double>(i), Eigen::VectorXd::Zero(model.n()),
+          unstretched_motors(model.nominal, swing_position(model, i)), Eigen::VectorXd()};
+}
+
+Eigen::Vector3d marker_of(const ArmModel& model, const Eigen::VectorXd& q) {
+  Eigen::Vector3d marker;
+  position_of(model.nominal, chain_pose(model.nominal, q.data()), model.nominal.payload_point, marker.data());
+  return marker;
 }
 
 using Record = std::vector<Sample>;
 
 Record swings(const ArmModel& model) {
   Record record;
-  for (int i = 0; i < kSamples; ++i) record.push_back(swing(model, i));
+  for (std::size_t i = 0; i < kSamples; ++i) record.push_back(swing(model, i));
   return record;
 }
 
@@ -103,6 +115,11 @@ class Examination {
       Record loaded = record_;
       for (Sample& sample : loaded) sample.joint_torque = Eigen::VectorXd::Zero(model_.n());
       run(*make(), loaded);
+    });
+    check("marker", [this] {
+      Record seen = record_;
+      for (std::size_t i = 0; i < seen.size(); i += 30) seen[i].marker = marker_of(model_, swing_position(model_, i));
+      run(*make(), seen);
     });
     check("unknown option", [this] { unknown_option(); });
     return faults_;

@@ -108,6 +108,7 @@ class Instance {
     sample_.motor_torque = ConstVector(sample.motor_torque, n_);
     sample_.motor_position = ConstVector(sample.motor_position, n_);
     sample_.joint_torque = ConstVector(sample.joint_torque, sample.joint_torque ? n_ : 0);
+    sample_.marker = ConstVector(sample.marker, sample.marker ? 3 : 0);
     return sample_;
   }
 

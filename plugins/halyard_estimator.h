@@ -46,6 +46,7 @@ typedef struct halyard_sample {
   const double* motor_torque;   /* [n] commanded from this time on, N m; NaN: missing, the last one is held */
   const double* motor_position; /* [n] measured at this time, rad; NaN: missing, no correction from it */
   const double* joint_torque;   /* [n] measured external load; NULL: none */
+  const double* marker;         /* [3] where a camera saw the marker at the tool, m, base frame; NULL: not seen */
 } halyard_sample;
 
 /* What one measurement said that the prediction did not. An estimator that does not know cov(nu) says m = 0. */
@@ -71,7 +72,7 @@ typedef struct halyard_report {
   int64_t gated;            /* measurements not accepted */
 } halyard_report;
 
-/* The table. All entries are needed but the last two. message: message_size bytes for one line of text, ended by a zero byte. */
+/* The table. All entries but the last two are needed. message: message_size bytes for a line, ended by a zero byte. */
 typedef struct halyard_estimator_table {
   uint32_t interface_version; /* HALYARD_ESTIMATOR_INTERFACE of the headers that the module was built with */
   uint32_t table_size;        /* sizeof(halyard_estimator_table) */

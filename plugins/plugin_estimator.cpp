@@ -190,12 +190,13 @@ EstimatorReport PluginEstimator::report() const {
 
 halyard_sample PluginEstimator::take(const Sample& sample) {
   const Eigen::Index loads = sample.joint_torque.size();
-  if (sample.motor_torque.size() != n_ || sample.motor_position.size() != n_ || (loads != 0 && loads != n_))
+  if (sample.motor_torque.size() != n_ || sample.motor_position.size() != n_ || (loads != 0 && loads != n_) ||
+      (sample.marker.size() != 0 && sample.marker.size() != 3))
     throw std::invalid_argument("estimator " + std::string(table_.name) + ": the sample is not of " +
                                 std::to_string(n_) + " joints");
   time_s_ = sample.time_s;
   return {sample.time_s, sample.motor_torque.data(), sample.motor_position.data(),
-          loads == 0 ? nullptr : sample.joint_torque.data()};
+          loads == 0 ? nullptr : sample.joint_torque.data(), sample.marker.size() == 0 ? nullptr : sample.marker.data()};
 }
 
 template <class Call>

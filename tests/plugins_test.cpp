@@ -359,6 +359,7 @@ INSTANTIATE_TEST_SUITE_P(All, BuiltInPlugins,
                                          BuiltIn{"disturbance_sr_ukf", halyard::make_disturbance_sr_ukf,
                                                  {{"force_wander", "2"}}},
                                          BuiltIn{"smoother", halyard::make_smoother, {{"lag", "0.01"}}},
+                                         BuiltIn{"camera_sr_ukf", halyard::make_camera_sr_ukf, {{"camera_latency", "0.01"}}},
                                          BuiltIn{"ekf", halyard::make_ekf, {{"encoder_noise", "1e-4"}}},
                                          BuiltIn{"kinematics", halyard::make_kinematics, {}}),
                          [](const auto& info) { return info.param.name; });
@@ -385,6 +386,7 @@ TEST_P(BuiltInPlugins, GiveTheSameNumbersAsWithoutTheBoundary) {
     sample.motor_torque.setConstant(0.01 * std::cos(0.05 * i));
     if (i > 20) sample.joint_torque = Eigen::Vector3d(0.1, 0.2, 0.3);
     if (i % 7 == 3) sample.motor_position(1) = std::nan("");
+    if (i % 10 == 9) sample.marker = Eigen::Vector3d(0.05, 0.02, -0.06);
     if (i == 0) {
       direct->reset(sample);
       plugin->reset(sample);
@@ -426,7 +428,7 @@ TEST_P(BuiltInPlugins, RefuseAnUnknownOptionByName) {
 TEST(PluginSearch, FindsTheBuiltInEstimators) {
   std::vector<std::string> refused, names;
   for (const halyard::PluginInfo& plugin : halyard::find_plugins(&refused)) names.push_back(plugin.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"disturbance_sr_ukf", "ekf", "kinematics", "smoother", "sr_ukf"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"camera_sr_ukf", "disturbance_sr_ukf", "ekf", "kinematics", "smoother", "sr_ukf"}));
   EXPECT_EQ(refused, std::vector<std::string>());
   EXPECT_EQ(halyard::find_plugin("ekf").path.filename(), "ekf.so");
 }
