@@ -50,6 +50,10 @@ class Writer {
     number(static_cast<double>(all.size()));
     bytes_.append(reinterpret_cast<const char*>(all.data()), all.size() * sizeof(double));
   }
+  void text(const std::string& all) {
+    number(static_cast<double>(all.size()));
+    bytes_.append(all);
+  }
   void signals(const Signals& all) {
     for (const auto& column : all) numbers(column);
   }
@@ -70,6 +74,11 @@ class Reader {
   std::vector<double> numbers() {
     std::vector<double> all(static_cast<std::size_t>(number()));
     copy(all.data(), all.size() * sizeof(double));
+    return all;
+  }
+  std::string text() {
+    std::string all(static_cast<std::size_t>(number()), '\0');
+    copy(all.data(), all.size());
     return all;
   }
   Signals signals(int n) {
@@ -98,6 +107,11 @@ std::string to_bytes(const EstimatorRun& run) {
   for (const double x : {double(run.report.steps), double(run.report.repaired_factors), double(run.report.gated),
                          run.microseconds_per_step})
     w.number(x);
+  w.number(static_cast<double>(run.further.size()));
+  for (std::size_t i = 0; i < run.further.size(); ++i) {
+    w.text(run.further_names[i]);
+    w.signals(run.further[i]);
+  }
   return w.take();
 }
 
@@ -114,6 +128,10 @@ EstimatorRun from_bytes(const std::string& bytes, const std::string& name, const
   run.report.repaired_factors = static_cast<long>(r.number());
   run.report.gated = static_cast<long>(r.number());
   run.microseconds_per_step = r.number();
+  for (double further = r.number(); further > 0; --further) {
+    run.further_names.push_back(r.text());
+    run.further.push_back(r.signals(n));
+  }
   return run;
 }
 

@@ -38,6 +38,10 @@ class Samples {
       if (sample_.joint_torque.size() == 0 || log_.joint_torque[k].empty()) continue;
       if (!std::isnan(log_.joint_torque[k][i])) sample_.joint_torque[k] = log_.joint_torque[k][i];
     }
+    sample_.marker.resize(0);
+    if (!log_.has_marker()) return sample_;
+    const Eigen::Vector3d marker(log_.marker[0][i], log_.marker[1][i], log_.marker[2][i]);
+    if (marker.allFinite()) sample_.marker = marker;
     return sample_;
   }
 
@@ -72,6 +76,19 @@ void record(EstimatorRun& run, const Estimate& estimate, std::size_t i) {
     run.estimates.joint_position[k][i] = estimate.joint_position[k];
     run.estimates.joint_velocity[k][i] = estimate.joint_velocity[k];
     run.joint_position_std[k][i] = estimate.joint_position_std[k];
+    for (std::size_t f = 0; f < run.further.size(); ++f)
+      run.further[f][k][i] = estimate.further(k, static_cast<Eigen::Index>(f));
+  }
+}
+
+/// What the estimator has to say of samples first..last after all.
+void record_revisions(EstimatorRun& run, Estimator& estimator, std::size_t first, std::size_t last, bool at_end) {
+  const auto begin = run.estimates.time.begin();
+  while (const std::optional<Revision> revision = estimator.revise(at_end)) {
+    const auto found = std::lower_bound(begin + first, begin + last + 1, revision->time_s);
+    if (found == begin + last + 1 || *found != revision->time_s)
+      throw std::runtime_error(fmt::format("revises its estimate of {:.12g} s, where no sample is", revision->time_s));
+    record(run, revision->estimate, static_cast<std::size_t>(found - begin));
   }
 }
 
@@ -114,6 +131,8 @@ EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const 
                            const EstimateOptions& options) {
   const std::size_t start = first_complete_row(log);
   EstimatorRun run = no_run(name, log);
+  run.further_names = estimator.further_names();
+  run.further.assign(run.further_names.size(), Signals(log.n_joints, std::vector<double>(log.size(), kNan)));
   Samples samples(log, options.use_joint_torque);
   const std::size_t report_every = std::max<std::size_t>(1, log.size() / 100);
   const auto begin = std::chrono::steady_clock::now();
@@ -121,15 +140,18 @@ EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const 
   try {
     estimator.reset(samples.first(start));
     record(run, estimator.estimate(), start);
+    record_revisions(run, estimator, start, start, false);
     if (options.row_done) options.row_done(start);
     for (i = start + 1; i < log.size(); ++i) {
       const Innovation innovation = estimator.update(samples.at(i));
       record(run, estimator.estimate(), i);
+      record_revisions(run, estimator, start, i, false);
       // An estimator without a covariance has no innovation to judge.
       if (innovation.nu.size() > 0 && innovation.S_root.size() > 0) record(run, innovation, log, i);
       if (options.row_done) options.row_done(i);
       if (options.progress && i % report_every == 0) options.progress(double(i) / double(log.size()));
     }
+    record_revisions(run, estimator, start, log.size() - 1, true);
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
@@ -144,15 +166,21 @@ EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const 
 
 void write_estimates(const std::filesystem::path& path, const EstimatorRun& run, const std::string& comment) {
   const int n = run.estimates.n_joints;
+  std::vector<std::string> names = {"joint_position", "joint_velocity", "joint_position_std"};
+  std::vector<const Signals*> signals = {&run.estimates.joint_position, &run.estimates.joint_velocity,
+                                         &run.joint_position_std};
+  for (std::size_t f = 0; f < run.further.size(); ++f) {
+    names.push_back(run.further_names[f]);
+    signals.push_back(&run.further[f]);
+  }
   std::vector<std::string> header = {"time"};
-  for (const char* signal : {"joint_position", "joint_velocity", "joint_position_std"}) {
-    for (int k = 0; k < n; ++k) header.push_back(fmt::format("{}_{}", signal, k + 1));
+  for (const std::string& name : names) {
+    for (int k = 0; k < n; ++k) header.push_back(fmt::format("{}_{}", name, k + 1));
   }
   CsvTable table(header, comment);
   for (std::size_t i = 0; i < run.estimates.size(); ++i) {
     table.add_time(run.estimates.clock_start + run.estimates.time[i]);
-    for (const Signals* signal :
-         {&run.estimates.joint_position, &run.estimates.joint_velocity, &run.joint_position_std}) {
+    for (const Signals* signal : signals) {
       for (const auto& column : *signal) table.add(column[i]);
     }
   }

@@ -14,6 +14,8 @@ struct EstimatorRun {
   std::string name;
   Log estimates;                      ///< time of the log, joint_position, joint_velocity; NaN before the start
   Signals joint_position_std;         ///< [n] one standard deviation; 0 where the estimator has none
+  std::vector<std::string> further_names;   ///< what else it estimates of every joint
+  std::vector<Signals> further;       ///< [name][n]; NaN: nothing of that joint
   EstimatorReport report;
   std::vector<double> nis;            ///< νᵀ S⁻¹ ν over the motors measured, ~ 1 if the model is right; NaN: none
   Signals innovation;                 ///< [n] S_root⁻¹ ν, ~ N(0, 1) each if the model is right; NaN: none
@@ -37,14 +39,15 @@ struct EstimateOptions {
 EstimatorRun no_run(const std::string& name, const Log& log);
 
 /// Runs the estimator over all samples of the log: motor torque and position, and what the options add. It starts at
-/// the first sample that has the position of every motor.
+/// the first sample that has the position of every motor. An estimate that the estimator revises takes the place of what
+/// it said at that sample.
 ///
-/// Throws InputError if no sample has, std::runtime_error, naming estimator and time, if the estimator fails or gives
-/// an estimate that is not finite.
+/// Throws InputError if no sample has, std::runtime_error, naming estimator and time, if the estimator fails, gives
+/// an estimate that is not finite, or revises one of an instant that is no sample's.
 EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const Log& log,
                            const EstimateOptions& options = {});
 
-/// Writes time, joint_position_k, joint_velocity_k, joint_position_std_k as CSV; the file is complete or absent.
+/// Writes time, joint_position_k, joint_velocity_k, joint_position_std_k and further estimates as CSV; whole or absent.
 void write_estimates(const std::filesystem::path& path, const EstimatorRun& run, const std::string& comment = "");
 
 }  // namespace halyard

@@ -64,6 +64,19 @@ ArmFilterOptions read_arm_filter_options(OptionReader& options, const ArmModel& 
   return o;
 }
 
+Estimate joint_estimate(const StateLayout& l, const Eigen::VectorXd& x, const Eigen::MatrixXd& S) {
+  Estimate e;
+  e.joint_position.resize(l.n_joints);
+  e.joint_velocity.resize(l.n_joints);
+  e.joint_position_std.resize(l.n_joints);
+  for (int k = 0; k < l.n_joints; ++k) {
+    e.joint_position(k) = x(l.position[k]);
+    e.joint_velocity(k) = x(l.rate[k]);
+    e.joint_position_std(k) = S.row(l.position[k]).norm();
+  }
+  return e;
+}
+
 ArmFilter::ArmFilter(const ArmModel& model, std::shared_ptr<const ProcessModel> process,
                      const ArmFilterOptions& options, std::unique_ptr<GaussianFilter> filter)
     : model_(model),
@@ -71,7 +84,8 @@ ArmFilter::ArmFilter(const ArmModel& model, std::shared_ptr<const ProcessModel> 
       options_(options),
       noise_(model_, *process_, options.noise),
       filter_(std::move(filter)),
-      history_(model.n(), kHistorySpan) {
+      history_(model.n(), kHistorySpan),
+      last_command_(-kInfinity) {
   for (int k = 0; k < model.n(); ++k)
     if (process_->arm().joint[k].drive != Drive::none) motors_.push_back(k);
 }
@@ -82,6 +96,7 @@ void ArmFilter::reset(const Sample& first) {
   reading_ = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
   torque_ = external_ = Eigen::VectorXd::Zero(n);
   history_ = CommandHistory(n, kHistorySpan);
+  last_command_ = -kInfinity;
   report_ = {};
   noise_.reset();
   const Eigen::VectorXd home = model_.home();
@@ -96,7 +111,10 @@ void ArmFilter::remember(const Sample& sample) {
     if (std::isfinite(sample.motor_position(k))) reading_(k) = sample.motor_position(k);
     if (sample.joint_torque.size() > 0 && std::isfinite(sample.joint_torque(k))) external_(k) = sample.joint_torque(k);
   }
-  history_.push(sample.time_s, torque_.data());
+  if (sample.time_s > last_command_) {
+    history_.push(sample.time_s, torque_.data());
+    last_command_ = sample.time_s;
+  }
   time_ = sample.time_s;
 }
 
@@ -126,9 +144,22 @@ void ArmFilter::start(const Sample& sample) {
       if (process_->layout().motor_rate[k] >= 0) x(process_->layout().motor_rate[k]) = moved(k) / since;
     }
   }
-  filter_->reset(x, noise_.initial_root(x, seen_moving ? since : kInfinity));
+  filter_->reset(x, start_root(x, angle, q, seen_moving ? since : kInfinity));
   started_ = true;
   refused_since_ = kInfinity;
+}
+
+Eigen::MatrixXd ArmFilter::start_root(const Eigen::VectorXd& x, const Eigen::VectorXd& angle, const Eigen::VectorXd& q,
+                                      double dt_s) const {
+  const StateLayout& l = process_->layout();
+  Eigen::MatrixXd S = noise_.initial_root(x, dt_s);
+  for (const int i : options_.settled) {
+    const int state = l.effect_states + i;
+    const Eigen::VectorXd z = S(state, state) * Eigen::VectorXd::Unit(l.n_effect_states, i);
+    const Eigen::VectorXd moved = static_equilibrium(*process_, time_, angle, external_, z, q) - q;
+    for (int k = 0; k < l.n_joints; ++k) S(l.position[k], state) = moved(k);
+  }
+  return S;
 }
 
 void ArmFilter::predict(double to_time_s) {
@@ -183,20 +214,32 @@ Innovation ArmFilter::update(const Sample& sample) {
   return innovation;
 }
 
-Estimate ArmFilter::estimate() const {
-  const StateLayout& l = process_->layout();
-  const int n = process_->n_joints();
-  Estimate e;
-  e.joint_position.resize(n);
-  e.joint_velocity.resize(n);
-  e.joint_position_std.resize(n);
-  for (int k = 0; k < n; ++k) {
-    e.joint_position(k) = filter_->x()(l.position[k]);
-    e.joint_velocity(k) = filter_->x()(l.rate[k]);
-    e.joint_position_std(k) = filter_->S().row(l.position[k]).norm();
-  }
-  return e;
+ArmFilter::Moment ArmFilter::moment() const {
+  return {started_, time_, filter_->x(), reading_, torque_, external_, filter_->S(), report_};
 }
+
+void ArmFilter::go_back(const Moment& moment) {
+  started_ = moment.started;
+  time_ = moment.time_s;
+  reading_ = moment.reading;
+  torque_ = moment.torque;
+  external_ = moment.external;
+  report_ = moment.report;
+  filter_->reset(moment.x, moment.S);
+}
+
+Innovation ArmFilter::correct_at(double time_s, const MeasurementModel& measurement, const Eigen::VectorXd& z,
+                                 const Eigen::MatrixXd& R_root) {
+  if (time_s > time_) predict(time_s);
+  time_ = time_s;
+  Innovation innovation =
+      filter_->update(measurement, z, R_root, gate_threshold(static_cast<int>(z.size())));
+  innovation.time_s = time_s;
+  if (!innovation.accepted) ++report_.gated;
+  return innovation;
+}
+
+Estimate ArmFilter::estimate() const { return joint_estimate(process_->layout(), filter_->x(), filter_->S()); }
 
 EstimatorReport ArmFilter::report() const {
   EstimatorReport r = report_;

@@ -21,10 +21,16 @@ struct ArmFilterOptions {
   double max_step = 0.01;       ///< s
   double restart_gap = 1;       ///< s
   double gate = 1;              ///< probability
+  /// Effect states to which the joints have settled when the filter starts: what it does not know of them it does not
+  /// know of the joints.
+  std::vector<int> settled = {};
 };
 
 /// The noise options, max_step, restart_gap and gate.
 ArmFilterOptions read_arm_filter_options(OptionReader& options, const ArmModel& model, const ProcessModel& process);
+
+/// What a belief x, S says of the joints.
+Estimate joint_estimate(const StateLayout& layout, const Eigen::VectorXd& x, const Eigen::MatrixXd& S);
 
 class ArmFilter final : public Estimator {
  public:
@@ -40,8 +46,26 @@ class ArmFilter final : public Estimator {
   /// The belief, for those who look inside.
   const GaussianFilter& filter() const { return *filter_; }
 
+  /// All that the filter knows at an instant, but for commands, of which no past one changes.
+  struct Moment {
+    bool started = false;
+    double time_s = 0;
+    Eigen::VectorXd x, reading, torque, external;
+    Eigen::MatrixXd S;
+    EstimatorReport report;
+  };
+  Moment moment() const;
+  /// Back to a moment since reset(); the samples after it may then be given again.
+  void go_back(const Moment& moment);
+  /// Predicts to a time and corrects by a measurement that is not the motors'. The filter must have started.
+  Innovation correct_at(double time_s, const MeasurementModel& measurement, const Eigen::VectorXd& z,
+                        const Eigen::MatrixXd& R_root);
+
  private:
   void start(const Sample& sample);
+  /// S at the start at x, where the joints are at q.
+  Eigen::MatrixXd start_root(const Eigen::VectorXd& x, const Eigen::VectorXd& angle, const Eigen::VectorXd& q,
+                             double dt_s) const;
   void predict(double to_time_s);
   Innovation correct(const Sample& sample);
   void remember(const Sample& sample);
@@ -54,6 +78,7 @@ class ArmFilter final : public Estimator {
   std::unique_ptr<GaussianFilter> filter_;
   std::vector<int> motors_;            // joints that have a motor
   CommandHistory history_;
+  double last_command_ = 0;            // its time
   bool started_ = false;
   bool speed_is_due_ = false;          // the start was from the first reading after a gap
   double time_ = 0;

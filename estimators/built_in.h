@@ -1,6 +1,8 @@
 #pragma once
-/// The built-in estimators of an arm. All options have defaults. Options of sr_ukf and ekf: those of noise.h and
-/// arm_filter.h; of sr_ukf besides: alpha, beta, kappa and curvature_limit (0.03) of sr_ukf.h.
+/// The built-in estimators of an arm. All options have defaults. Options of all but kinematics: those of noise.h and
+/// arm_filter.h; of the unscented ones besides: alpha, beta, kappa and curvature_limit (0.03) of sr_ukf.h; of
+/// disturbance_sr_ukf besides: force_start and force_wander of disturbance_filter.h; of smoother besides: lag (0.2 s)
+/// of fixed_lag_smoother.h; of camera_sr_ukf besides: those of camera_filter.h.
 
 #include <memory>
 
@@ -12,6 +14,9 @@ namespace halyard {
 /// These throw InputError for an unknown option or a bad value, and std::runtime_error if the model's equations cannot
 /// be evaluated.
 std::unique_ptr<Estimator> make_sr_ukf(const ArmModel& model, const EstimatorOptions& options);
+std::unique_ptr<Estimator> make_camera_sr_ukf(const ArmModel& model, const EstimatorOptions& options);
+std::unique_ptr<Estimator> make_disturbance_sr_ukf(const ArmModel& model, const EstimatorOptions& options);
+std::unique_ptr<Estimator> make_smoother(const ArmModel& model, const EstimatorOptions& options);
 std::unique_ptr<Estimator> make_ekf(const ArmModel& model, const EstimatorOptions& options);
 std::unique_ptr<Estimator> make_kinematics(const ArmModel& model, const EstimatorOptions& options);
 

@@ -6,10 +6,11 @@ void ExtendedKalmanFilter::predict(const DiscreteProcess& process, const Eigen::
   const Eigen::Index n = x_.size();
   F_.resize(n, n);
   process.advance_with_jacobian(x_, F_);
-  columns_.resize(n, n + Q_root.cols());
-  columns_.leftCols(n).noalias() = F_ * S_;
-  columns_.rightCols(Q_root.cols()) = Q_root;
-  root_.compute(columns_, S_);
+  predicted_columns_.resize(n, n + Q_root.cols());
+  predicted_columns_.leftCols(n).noalias() = F_ * S_;
+  predicted_columns_.rightCols(Q_root.cols()) = Q_root;
+  root_.compute(predicted_columns_, S_);
+  x_predicted_ = x_;
   check_finite(process);
 }
 

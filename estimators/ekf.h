@@ -17,7 +17,9 @@ class ExtendedKalmanFilter final : public GaussianFilter {
                     double gate) override;
 
  private:
-  Eigen::MatrixXd F_, columns_;
+  Eigen::MatrixXd columns_before(const Eigen::MatrixXd& S_0) const override { return S_0; }
+
+  Eigen::MatrixXd F_;
 };
 
 }  // namespace halyard

@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace halyard {
 
@@ -13,6 +15,7 @@ struct Sample {
   Eigen::VectorXd motor_torque;     ///< [n] commanded from this time on, N m; NaN: missing, the last one is held
   Eigen::VectorXd motor_position;   ///< [n] measured at this time, rad; NaN: missing, no correction from it
   Eigen::VectorXd joint_torque;     ///< [n] measured external load, N m | N; empty: none
+  Eigen::VectorXd marker = {};      ///< [3] where a camera saw the marker at the tool, m, base frame; empty: not seen
 };
 
 /// What one measurement said that the prediction did not. Only the motors whose sample is there count: m of n.
@@ -29,6 +32,14 @@ struct Estimate {
   Eigen::VectorXd joint_position;       ///< [n] rad | m
   Eigen::VectorXd joint_velocity;       ///< [n] rad/s | m/s
   Eigen::VectorXd joint_position_std;   ///< [n] one standard deviation; 0 where the estimator has none
+  /// What else it says of the joints, a column [n] for each of its further_names(); NaN: nothing of that joint.
+  Eigen::MatrixXd further = {};
+};
+
+/// What later samples say of an earlier one.
+struct Revision {
+  double time_s = 0;   ///< of a sample since reset()
+  Estimate estimate;
 };
 
 /// What an estimator has to say of a run.
@@ -47,6 +58,11 @@ class Estimator {
   /// Throws std::runtime_error if the state cannot be kept finite; the message names time and state.
   virtual Innovation update(const Sample& sample) = 0;
   virtual Estimate estimate() const = 0;
+  /// Names of what Estimate::further holds, as columns are called: "joint_force". They do not change.
+  virtual std::vector<std::string> further_names() const { return {}; }
+  /// The next estimate of an earlier sample that later ones have improved, for those who need not know at once. To be
+  /// asked after reset() and each update() until there is none; `at_end`: no sample follows. What a filter says stands.
+  virtual std::optional<Revision> revise(bool /*at_end*/) { return std::nullopt; }
   virtual EstimatorReport report() const = 0;
 };
 

@@ -1,5 +1,6 @@
 #include "estimators/gaussian_filter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -35,6 +36,20 @@ Innovation GaussianFilter::update_linear(const Eigen::VectorXd& nu, const Eigen:
     S_ = triangle_.bottomRightCorner(n, n);
   }
   return innovation;
+}
+
+BackwardStep GaussianFilter::backward_step(const Eigen::VectorXd& x_0, const Eigen::MatrixXd& S_0) {
+  const Eigen::Index n = x_predicted_.size();
+  const Eigen::MatrixXd before = columns_before(S_0);
+  array_.setZero(2 * n, std::max(predicted_columns_.cols(), 2 * n));
+  array_.topLeftCorner(n, predicted_columns_.cols()) = predicted_columns_;
+  array_.bottomLeftCorner(n, before.cols()) = before;
+  array_root_.compute(array_, triangle_);
+  BackwardStep step{x_0, x_predicted_, {}, triangle_.bottomRightCorner(n, n)};
+  Eigen::MatrixXd S = triangle_.topLeftCorner(n, n);
+  S.diagonal() = (S.diagonal().array() > 0).select(S.diagonal(), 1.0);   // a state without doubt has no gain either
+  step.G = S.transpose().triangularView<Eigen::Upper>().solve(triangle_.bottomLeftCorner(n, n).transpose()).transpose();
+  return step;
 }
 
 void GaussianFilter::check_finite(const DiscreteProcess& process) const {

@@ -49,6 +49,17 @@ class LowerRoot {
   Eigen::HouseholderQR<Eigen::MatrixXd> qr_;   // kept for its memory
 };
 
+/// What a prediction says of where it came from, once more is known of where it led to:
+///
+///   x = x_0 + G (x' - x⁻) + v,  v ~ N(0, V Vᵀ)        G = cov(x, x') (P⁻)⁻¹
+///
+///   x_0, x⁻   mean before and after the prediction            [n]
+///   G, V      gain, lower root of what x' leaves unknown      [n x n]
+struct BackwardStep {
+  Eigen::VectorXd x_0, x_predicted;
+  Eigen::MatrixXd G, V_root;
+};
+
 class GaussianFilter {
  public:
   virtual ~GaussianFilter() = default;
@@ -56,6 +67,12 @@ class GaussianFilter {
   void reset(const Eigen::VectorXd& x, const Eigen::MatrixXd& S) { x_ = x, S_ = S; }
   /// Throws std::runtime_error naming the state if the belief is not finite any more.
   virtual void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) = 0;
+  /// The last predict(), which began at x_0, S_0; the triangular root of
+  ///
+  ///   [ D  Q_root ]      gives    [ S⁻       0 ]        D, A: predicted points or columns F S_0 less their mean, and
+  ///   [ A    0    ]               [ G S⁻   V_root ]           what they came from
+  ///
+  BackwardStep backward_step(const Eigen::VectorXd& x_0, const Eigen::MatrixXd& S_0);
   /// A measurement whose νᵀ S⁻¹ ν is beyond `gate` is not accepted: the belief stays. Throws std::runtime_error if z is
   /// not finite. The innovation's time is left to the caller.
   virtual Innovation update(const MeasurementModel& measurement, const Eigen::VectorXd& z,
@@ -78,8 +95,13 @@ class GaussianFilter {
   void check_finite(const DiscreteProcess& process) const;
   static void check_measurement(const Eigen::VectorXd& nu);
 
+  /// A above: where the first columns of `predicted_columns_` came from, [n x any].
+  virtual Eigen::MatrixXd columns_before(const Eigen::MatrixXd& S_0) const = 0;
+
   Eigen::VectorXd x_;
   Eigen::MatrixXd S_;
+  Eigen::VectorXd x_predicted_;
+  Eigen::MatrixXd predicted_columns_;   // their triangular root is S⁻; kept from the last predict()
   long repaired_ = 0;
   LowerRoot root_;
 

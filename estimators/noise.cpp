@@ -13,11 +13,13 @@ namespace {
 
 constexpr double kEncoderFloor = 1e-5;   // rad
 
-/// Largest gravity force on each joint over its range, N m | N.
-Eigen::VectorXd largest_gravity(const ArmParameters<double>& arm, const ArmModel& model) {
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(arm.n);
-  for (const Eigen::VectorXd& q : range_poses(model)) largest = largest.cwiseMax(gravity_force(arm, q).cwiseAbs());
-  return largest;
+/// Typical size of every effect state.
+Eigen::VectorXd effect_scales(const ProcessModel& process) {
+  Eigen::VectorXd scales(process.layout().n_effect_states);
+  Eigen::Index next = 0;
+  for (const auto& e : process.transmission().effects())
+    for (const double scale : e.effect->state_scale(process.arm(), e.joint, e.p)) scales(next++) = scale;
+  return scales;
 }
 
 /// Accelerations of the joints per joint force, motors of rigid drives carried along: M(q)⁻¹.
@@ -34,7 +36,7 @@ Eigen::MatrixXd mobility(const ArmParameters<double>& arm, const Eigen::VectorXd
 NoiseLevels read_noise(OptionReader& options, const ArmModel& model, const ProcessModel& process) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const ArmParameters<double>& arm = process.arm();
-  const Eigen::VectorXd gravity = largest_gravity(arm, model);
+  const Eigen::VectorXd gravity = largest_gravity_force(arm, model);
   NoiseLevels levels;
   levels.encoder.resize(arm.n);
   levels.torque.resize(arm.n);
@@ -49,13 +51,16 @@ NoiseLevels read_noise(OptionReader& options, const ArmModel& model, const Proce
   levels.torque = options.per_joint("torque_noise", levels.torque, 0, kInfinity);
   levels.joint_force = options.per_joint("joint_force_noise", levels.joint_force, 0, kInfinity);
   levels.correlation_time = options.number("noise_time", 0.001, 0, kInfinity);
-  levels.effect_time = options.number("effect_noise_time", 1e4, 1e-6, kInfinity);
+  levels.wander = effect_scales(process) / std::sqrt(options.number("effect_noise_time", 1e4, 1e-6, kInfinity));
   levels.adaptation_time = options.number("adaptation_time", 0, 0, kInfinity);
   return levels;
 }
 
 ArmNoise::ArmNoise(const ArmModel& model, const ProcessModel& process, const NoiseLevels& levels)
-    : process_(process), levels_(levels), adapted_(Eigen::VectorXd::Ones(process.n_joints())) {
+    : process_(process),
+      levels_(levels),
+      effect_scale_(effect_scales(process)),
+      adapted_(Eigen::VectorXd::Ones(process.n_joints())) {
   const ArmParameters<double>& arm = process.arm();
   const StateLayout& l = process.layout();
   const int n = arm.n;
@@ -69,8 +74,6 @@ ArmNoise::ArmNoise(const ArmModel& model, const ProcessModel& process, const Noi
       friction_stretch_(k) = j.joint_coulomb / std::abs(j.pulley_radius) / (2 * j.stiffness) / std::sqrt(3.0);
     undriven_(k) = 0.1 * (model.joints[k].upper - model.joints[k].lower);
   }
-  for (const auto& e : process.transmission().effects())
-    for (const double scale : e.effect->state_scale(arm, e.joint, e.p)) effect_scale_.push_back(scale);
 }
 
 const Eigen::MatrixXd& ArmNoise::process_root(const Step& step, const Eigen::VectorXd& x) {
@@ -106,7 +109,7 @@ const Eigen::MatrixXd& ArmNoise::process_root(const Step& step, const Eigen::Vec
     Gamma += weight * (points_.rightCols(forces).colwise() - points_.col(0));
   }
   for (int i = 0; i < n_z; ++i)
-    Q_root_(l.effect_states + i, forces + i) = effect_scale_[i] * std::sqrt(step.dt_s / levels_.effect_time);
+    Q_root_(l.effect_states + i, forces + i) = levels_.wander(i) * std::sqrt(step.dt_s);
   return Q_root_;
 }
 
@@ -155,7 +158,7 @@ Eigen::MatrixXd ArmNoise::initial_root(const Eigen::VectorXd& x, double dt_s) co
   const Eigen::MatrixXd position_root = joints_per_path.fullPivLu().solve(Eigen::MatrixXd(path_std.asDiagonal()));
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) S(l.position[r], l.position[c]) = position_root(r, c);
-  for (int i = 0; i < l.n_effect_states; ++i) S(l.effect_states + i, l.effect_states + i) = effect_scale_[i];
+  for (int i = 0; i < l.n_effect_states; ++i) S(l.effect_states + i, l.effect_states + i) = effect_scale_(i);
   return S;
 }
 

@@ -4,7 +4,7 @@
 ///   encoder        σ_z = max(resolution / √12, 1e-5 rad)                                  (rounding is uniform)
 ///   torque         σ_τ = t_f F_c,m                                     N m at the shaft
 ///   joint force    σ_F = t_f F_c,q + t_m max |gravity force|            N m | N
-///   effect states  each wanders by its scale within `effect_time`, 1e4 s unless told: they follow equations of their own,
+///   effect states  each wanders by its scale within `effect_noise_time`, 1e4 s: they follow equations of their own,
 ///                  and motors hardly show them (slow creep with 10 s: joint errors of several times the stretch)
 ///
 ///   t_f, t_m   the model's tolerances of friction and masses: what it may be wrong by without being another model
@@ -52,8 +52,8 @@ struct NoiseLevels {
   Eigen::VectorXd torque;         ///< [n] N m
   Eigen::VectorXd joint_force;    ///< [n] N m | N
   double correlation_time = 0;    ///< τ, s
-  double effect_time = 0;         ///< s
   double adaptation_time = 0;     ///< T, s; 0: none
+  Eigen::VectorXd wander;         ///< [n_effect_states] of effect states, own unit per √s
 };
 
 /// The rule above, overridden by the options encoder_noise, torque_noise, joint_force_noise (per joint), noise_time,
@@ -79,7 +79,7 @@ class ArmNoise {
  private:
   const ProcessModel& process_;
   NoiseLevels levels_;
-  std::vector<double> effect_scale_;
+  Eigen::VectorXd effect_scale_;
   Eigen::VectorXd tolerance_, friction_stretch_, undriven_;
   Eigen::VectorXd adapted_;   // c [n]
   Eigen::MatrixXd G_, points_, Q_root_;

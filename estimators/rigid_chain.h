@@ -63,6 +63,17 @@ HALYARD_INLINE ChainPose<T> chain_pose(const ArmParameters<T>& arm, const T* q) 
   return pose;
 }
 
+/// Where a point of the last link is in the base frame.
+template <class T>
+HALYARD_INLINE void position_of(const ArmParameters<T>& arm, const ChainPose<T>& pose, const double* point, T* out) {
+  for (int r = 0; r < 3; ++r) out[r] = T(point[r]);
+  for (int i = arm.n - 1; i >= 0; --i) {
+    T at[3];
+    into_parent(pose.R[i], out, at);
+    for (int r = 0; r < 3; ++r) out[r] = at[r] + pose.p[i][r];
+  }
+}
+
 /// Inertia times vector, about the centre of mass.
 template <class T>
 HALYARD_INLINE void inertia_times(const T* I, const T* w, T* out) {

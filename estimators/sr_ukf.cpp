@@ -68,16 +68,23 @@ void SquareRootUkf::predict(const DiscreteProcess& process, const Eigen::MatrixX
   place_sigma_points(X_);
   process.advance(X_);
   const double W = 0.5 / spread_squared();
-  columns_.resize(n, points + Q_root.cols() + 1);
-  auto d = columns_.leftCols(points);
+  predicted_columns_.resize(n, points + Q_root.cols() + 1);
+  auto d = predicted_columns_.leftCols(points);
   d = X_.rightCols(points).colwise() - X_.col(0);
   const Eigen::VectorXd size = x_.cwiseAbs().cwiseMax(X_.cwiseAbs().rowwise().maxCoeff());
   const Eigen::VectorXd delta = mean_shift(d, size, W, weights_.curvature_limit);
   x_ = X_.col(0) + delta;
   d *= std::sqrt(W);
-  columns_.middleCols(points, Q_root.cols()) = Q_root;
-  root_with_central(columns_, delta, S_);
+  predicted_columns_.middleCols(points, Q_root.cols()) = Q_root;
+  root_with_central(predicted_columns_, delta, S_);
+  x_predicted_ = x_;
   check_finite(process);
+}
+
+Eigen::MatrixXd SquareRootUkf::columns_before(const Eigen::MatrixXd& S_0) const {
+  Eigen::MatrixXd columns(S_0.rows(), 2 * S_0.cols());
+  columns << S_0, -S_0;
+  return std::sqrt(0.5) * columns;   // √W γ
 }
 
 Innovation SquareRootUkf::update(const MeasurementModel& measurement, const Eigen::VectorXd& z,

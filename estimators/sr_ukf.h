@@ -37,7 +37,7 @@ struct UkfWeights {
   double curvature_limit = std::numeric_limits<double>::infinity();
 };
 
-class SquareRootUkf final : public GaussianFilter {
+class SquareRootUkf : public GaussianFilter {
  public:
   /// Throws std::invalid_argument unless alpha > 0. n + kappa must be positive for the states' number n.
   explicit SquareRootUkf(const UkfWeights& weights = {});
@@ -47,6 +47,8 @@ class SquareRootUkf final : public GaussianFilter {
                     double gate) override;
 
  private:
+  /// √W (X_±i - x) of the old sigma points.
+  Eigen::MatrixXd columns_before(const Eigen::MatrixXd& S_0) const override;
   double spread_squared() const;   // γ²
   void place_sigma_points(Eigen::MatrixXd& X) const;
   /// L = root of [A, √c v], c = β - α² of any sign; A: [n x m].

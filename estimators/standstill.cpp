@@ -66,6 +66,12 @@ Eigen::VectorXd gravity_force(const ArmParameters<double>& arm, const Eigen::Vec
   return force;
 }
 
+Eigen::VectorXd largest_gravity_force(const ArmParameters<double>& arm, const ArmModel& model) {
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(arm.n);
+  for (const Eigen::VectorXd& q : range_poses(model)) largest = largest.cwiseMax(gravity_force(arm, q).cwiseAbs());
+  return largest;
+}
+
 std::vector<StandstillPose> standstill_poses(const Transmission<double>& transmission, const ArmModel& model) {
   const ArmParameters<double>& arm = transmission.arm();
   std::vector<StandstillPose> all;

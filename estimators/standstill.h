@@ -21,6 +21,9 @@ std::vector<Eigen::VectorXd> range_poses(const ArmModel& model);
 /// Joint forces that hold the arm against gravity in pose q [n], N m | N.
 Eigen::VectorXd gravity_force(const ArmParameters<double>& arm, const Eigen::VectorXd& q);
 
+/// The largest force that gravity puts on each joint over its range [n], N m | N.
+Eigen::VectorXd largest_gravity_force(const ArmParameters<double>& arm, const ArmModel& model);
+
 /// A motor without torque limit is taken to load its cable with the rest tension and what gravity takes.
 std::vector<StandstillPose> standstill_poses(const Transmission<double>& transmission, const ArmModel& model);
 

@@ -1,5 +1,6 @@
 #include "model/column_map.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -52,8 +53,11 @@ bool is_joint_number(std::string_view text) {
          text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
+bool is_marker(std::string_view name) { return std::ranges::find(kMarkerNames, name) != kMarkerNames.end(); }
+
 std::optional<Quantity> quantity_of(std::string_view name) {
   if (name == "time") return Quantity::kTime;
+  if (is_marker(name)) return Quantity::kPosition;
   const auto split = name.rfind('_');
   if (split == std::string_view::npos || !is_joint_number(name.substr(split + 1))) return std::nullopt;
   const std::string_view signal = name.substr(0, split);
@@ -68,7 +72,9 @@ std::optional<Quantity> quantity_of(std::string_view name) {
 std::string standard_names() {
   std::string names = "time";
   for (const std::string_view signal : kSignalNames) names.append(", ").append(signal).append("_k");
-  return names + " (k = 1 for the first joint)";
+  names += " (k = 1 for the first joint)";
+  for (const std::string_view marker : kMarkerNames) names.append(", ").append(marker);
+  return names;
 }
 
 double unit_factor(std::string_view unit, Quantity quantity) {
@@ -153,7 +159,7 @@ void ColumnMap::override_with(const ColumnMap& other) {
 
 void ColumnMap::check_joints(int n_joints) const {
   for (const auto& [name, source] : sources_) {
-    if (name == "time" || std::stoi(name.substr(name.rfind('_') + 1)) <= n_joints) continue;
+    if (name == "time" || is_marker(name) || std::stoi(name.substr(name.rfind('_') + 1)) <= n_joints) continue;
     throw InputError("column map: " + in_quotes(name) + ": the last joint of the arm is " + std::to_string(n_joints) +
                      "; remove this column from the map");
   }

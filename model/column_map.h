@@ -14,6 +14,9 @@ namespace halyard {
 inline constexpr std::array<std::string_view, 5> kSignalNames = {"motor_torque", "motor_position", "joint_position",
                                                                  "joint_velocity", "joint_torque"};
 
+/// Columns of the arm as a whole: where a camera saw a marker at the tool, m in the base frame.
+inline constexpr std::array<std::string_view, 3> kMarkerNames = {"marker_x", "marker_y", "marker_z"};
+
 /// Where a standard column comes from: SI value = scale · raw + offset.
 struct ColumnSource {
   std::string column;  ///< name in the header of the file
@@ -25,7 +28,7 @@ struct ColumnSource {
 /// from one column of the file. Standard columns that the map does not name keep their own name.
 ///
 ///   time              s, ms, us
-///   *_position_k      rad, deg, turn, m, mm, um
+///   *_position_k, marker_*   rad, deg, turn, m, mm, um
 ///   *_velocity_k      rad/s, deg/s, rpm, m/s, mm/s
 ///   *_torque_k        N.m, mN.m, N.mm, N; A, mA, V, mV, with a scale in N m per A or V here, or as the model's
 ///                     torque_scale

@@ -207,6 +207,12 @@ Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& m
     }
     values = {};
   });
+  const bool sees = std::ranges::any_of(log.marker, [](const auto& axis) { return !axis.empty(); });
+  for (std::size_t i = 0; sees && i < log.marker.size(); ++i) {
+    if (!log.marker[i].empty()) continue;
+    throw InputError(log.source + ": no " + std::string(kMarkerNames[i]) +
+                     " beside the marker's other axes; give all three of marker_x, marker_y, marker_z, or none");
+  }
   return log;
 }
 

@@ -23,6 +23,7 @@ using Signals = std::vector<std::vector<double>>;
 ///   joint_position   joint_position_k          rad | m
 ///   joint_velocity   joint_velocity_k          rad/s | m/s
 ///   joint_torque     joint_torque_k            N·m | N, external load on the joint
+///   marker           marker_x, _y, _z          m, base frame; all three or none
 struct Log {
   Log() = default;
   /// A log without samples; every column absent.
@@ -32,12 +33,14 @@ struct Log {
         motor_position(joints),
         joint_position(joints),
         joint_velocity(joints),
-        joint_torque(joints) {}
+        joint_torque(joints),
+        marker(kMarkerNames.size()) {}
 
   int n_joints = 0;
   std::vector<double> time;
   double clock_start = 0;   ///< what was taken off the file's times, s: see read_log
   Signals motor_torque, motor_position, joint_position, joint_velocity, joint_torque;
+  Signals marker;           ///< x, y, z
   std::vector<std::string> ignored_columns;  ///< columns of the file that are not in this log, in the file's order
   std::string source;                        ///< path as given to read_log, for messages
 
@@ -49,9 +52,10 @@ struct Log {
   bool has_motor_torque(int k) const { return !motor_torque.at(k).empty(); }
   bool has_joint_position(int k) const { return !joint_position.at(k).empty(); }
   bool has_joint_torque(int k) const { return !joint_torque.at(k).empty(); }
+  bool has_marker() const { return !marker.empty() && !marker[0].empty(); }
 };
 
-/// Calls visit(name, values) for the column of every signal and joint, absent ones too, in the order of the table.
+/// Calls visit(name, values) for the column of every signal, joint and axis, absent ones too, in the order of the table.
 template <class AnyLog, class Visit>
 void for_each_column(AnyLog& log, Visit visit) {
   constexpr std::array kSignals = {&Log::motor_torque, &Log::motor_position, &Log::joint_position, &Log::joint_velocity,
@@ -62,6 +66,7 @@ void for_each_column(AnyLog& log, Visit visit) {
       visit(std::string(kSignalNames[s]) + "_" + std::to_string(k + 1), (log.*kSignals[s]).at(k));
     }
   }
+  for (std::size_t i = 0; i < log.marker.size(); ++i) visit(std::string(kMarkerNames[i]), log.marker[i]);
 }
 
 struct ReadOptions {
@@ -75,9 +80,9 @@ struct ReadOptions {
 /// A clock whose first time is more than 1e6 s from zero, as that of the Unix epoch, is counted from the first sample.
 ///
 /// Throws InputError `file:line: what; remedy` for a file that is missing, unreadable, empty, without samples or not
-/// text; a required or mapped column that is absent; one that stands twice; a required column without one sample; a
-/// mapped joint beyond n_joints; a row with more or fewer cells than the header; a cell that is no finite number; a
-/// time that is missing or does not increase.
+/// text; a required or mapped column that is absent, or a marker's axis; one that stands twice; a required column
+/// without one sample; a mapped joint beyond n_joints; a row with more or fewer cells than the header; a cell that is no
+/// finite number; a time that is missing or does not increase.
 /// Throws std::invalid_argument if n_joints < 1.
 Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& map = {},
              const ReadOptions& options = {});

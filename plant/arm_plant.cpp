@@ -87,6 +87,15 @@ Eigen::VectorXd ArmPlant::velocity_force(const Eigen::VectorXd& q, const Eigen::
   return to_eigen(force);
 }
 
+Eigen::Vector3d ArmPlant::position_of(const double* point, const Eigen::VectorXd& q) {
+  arm_->state.updQ() = Vector(static_cast<int>(q.size()), q.data());
+  arm_->system.realize(arm_->state, Stage::Position);
+  const SimTK::MobilizedBodyIndex last(arm_->matter.getNumBodies() - 1);
+  const SimTK::Vec3 at = arm_->matter.getMobilizedBody(last).findStationLocationInGround(
+      arm_->state, SimTK::Vec3(point[0], point[1], point[2]));
+  return {at[0], at[1], at[2]};
+}
+
 double ArmPlant::stored_energy(double time_s, const double* y) {
   const int n = layout().n;
   arm_->set_state(time_s, y);

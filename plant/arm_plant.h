@@ -44,6 +44,9 @@ class ArmPlant {
   /// h without gravity.
   Eigen::VectorXd velocity_force(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 
+  /// Where a point of the last link is in the base frame, m.
+  Eigen::Vector3d position_of(const double* point, const Eigen::VectorXd& q);
+
   /// Kinetic, gravity and elastic energy, J; gravity's from an arbitrary zero.
   double stored_energy(double time_s, const double* y);
 

@@ -50,6 +50,14 @@ struct TickNoise {
   std::vector<double> motor_reading;   ///< rad, before it is rounded
 };
 
+/// A camera that sees a marker at the tool, where the model's payload hangs. A frame is in the log's row of its arrival.
+struct Camera {
+  double rate_hz = 30;
+  double latency_s = 0.05;   ///< from exposure to arrival
+  double noise_m = 5e-4;     ///< standard deviation along each axis
+  double dropout = 0.1;      ///< share of frames without the marker, each drawn by itself
+};
+
 struct Scenario {
   ArmModel robot;                               ///< the true one: effects and changed numbers of the truth included
   std::optional<ArmParameters<double>> assumed; ///< what the controller takes the arm for; none: robot.nominal
@@ -65,6 +73,7 @@ struct Scenario {
   /// there they read right, whatever the robot's true ratios. What an effect adds to a reading comes on top.
   bool homed = false;
   TickNoise noise;
+  std::optional<Camera> camera;
   std::uint64_t seed = 1;
 };
 

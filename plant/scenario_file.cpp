@@ -139,7 +139,7 @@ void read_integrator(const XmlElement& element, IntegratorOptions& options) {
 Scenario read_scenario(const std::filesystem::path& path, const std::filesystem::path& robot) {
   const XmlElement root = XmlElement::read_file(path, "scenario");
   root.only({"name", "model", "duration", "seed"},
-            {"set", "effects", "trajectory", "control", "integrator", "sensors"});
+            {"set", "effects", "trajectory", "control", "integrator", "sensors", "camera"});
   Scenario scenario;
   scenario.name = root.text("name");
   scenario.model = root.path("model");
@@ -170,6 +170,16 @@ Scenario read_scenario(const std::filesystem::path& path, const std::filesystem:
     scenario.homed = sensors->flag_or("homed", scenario.homed);
     const double torque = sensors->number_or("torque_noise", 0, "N m", Sign::non_negative);
     if (torque > 0) scenario.noise.motor_torque.assign(scenario.robot.n(), torque);
+  }
+  if (const auto camera = root.optional_child("camera")) {
+    camera->only({"rate", "latency", "noise", "dropout"});
+    Camera c;
+    c.rate_hz = camera->number_or("rate", c.rate_hz, "Hz", Sign::positive);
+    c.latency_s = camera->number_or("latency", c.latency_s, "s", Sign::non_negative);
+    c.noise_m = camera->number_or("noise", c.noise_m, "m", Sign::non_negative);
+    c.dropout = camera->number_or("dropout", c.dropout, "", Sign::non_negative);
+    if (c.dropout > 1) camera->fail("dropout", "expected a share of the frames, from 0 to 1");
+    scenario.camera = c;
   }
   try {
     check_scenario(scenario);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "model/input_error.h"
+#include "plant/camera.h"
 #include "plant/controller.h"
 #include "plant/encoder.h"
 #include "plant/equilibrium.h"
@@ -164,6 +165,10 @@ SimulationResult simulate(const Scenario& scenario, const std::function<void(dou
     plant->set_inputs(t, applied.data(), load.data());
     integrator->advance((i + 1) * period);
   }
+
+  if (scenario.camera)
+    add_camera(*scenario.camera, scenario.robot.nominal.payload_point, result.truth, scenario.seed, *plant,
+               result.measured);
 
   const Eigen::VectorXd& end = integrator->state();
   result.energy.input = end(2 * n + plant->layout().input_energy);

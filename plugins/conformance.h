@@ -14,10 +14,11 @@ namespace halyard {
 /// follow without stretch, no torque. Returns one line for each promise of estimator.h that it breaks:
 ///
 ///   - estimates are finite and repeatable, and asking for one changes nothing
+///   - what it revises are estimates of samples, each at most as often as there are samples
 ///   - two instances fed in turn do not disturb each other and give the same numbers to the last bit
 ///   - reset() starts anew, with nothing left of the run before
 ///   - missing samples, at the start too, and gaps do not stop it; a missing motor has no innovation
-///   - an external load may be given or not
+///   - an external load may be given or not, and so may a marker
 ///   - report() counts the samples
 ///   - an unknown option is refused
 ///

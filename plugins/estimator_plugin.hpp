@@ -14,9 +14,11 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "estimators/estimator.h"
 #include "model/arm_model.h"
@@ -65,6 +67,7 @@ class Instance {
   Instance(std::unique_ptr<Estimator> estimator, std::size_t n_joints)
       : estimator_(std::move(estimator)), n_(static_cast<Eigen::Index>(n_joints)) {
     if (!estimator_) throw std::logic_error("the factory made no estimator");
+    further_names_ = estimator_->further_names();
   }
 
   void reset(const halyard_sample& first) { estimator_->reset(take(first)); }
@@ -80,11 +83,16 @@ class Instance {
     out.accepted = innovation.accepted;
   }
 
-  void estimate(halyard_estimate& out) const {
-    const Estimate estimate = estimator_->estimate();
-    copy("joint_position", estimate.joint_position, out.joint_position);
-    copy("joint_velocity", estimate.joint_velocity, out.joint_velocity);
-    copy("joint_position_std", estimate.joint_position_std, out.joint_position_std);
+  void estimate(halyard_estimate& out) const { copy(estimator_->estimate(), out); }
+
+  const char* further_name(std::size_t i) const {
+    return i < further_names_.size() ? further_names_[i].c_str() : nullptr;
+  }
+
+  void revise(bool at_end, double& time_s, halyard_estimate& out) {
+    const std::optional<Revision> revision = estimator_->revise(at_end);
+    time_s = revision ? revision->time_s : std::numeric_limits<double>::quiet_NaN();
+    if (revision) copy(revision->estimate, out);
   }
 
   void report(halyard_report& out) const {
@@ -100,7 +108,20 @@ class Instance {
     sample_.motor_torque = ConstVector(sample.motor_torque, n_);
     sample_.motor_position = ConstVector(sample.motor_position, n_);
     sample_.joint_torque = ConstVector(sample.joint_torque, sample.joint_torque ? n_ : 0);
+    sample_.marker = ConstVector(sample.marker, sample.marker ? 3 : 0);
     return sample_;
+  }
+
+  void copy(const Estimate& estimate, halyard_estimate& out) const {
+    copy("joint_position", estimate.joint_position, out.joint_position);
+    copy("joint_velocity", estimate.joint_velocity, out.joint_velocity);
+    copy("joint_position_std", estimate.joint_position_std, out.joint_position_std);
+    const auto names = static_cast<Eigen::Index>(further_names_.size());
+    if (estimate.further.cols() != names)
+      throw std::logic_error("further has " + std::to_string(estimate.further.cols()) + " columns for " +
+                             std::to_string(names) + " names");
+    for (Eigen::Index i = 0; i < names; ++i)
+      copy(further_names_[i].c_str(), estimate.further.col(i), out.further + i * n_);
   }
 
   void copy(const char* what, const Eigen::VectorXd& from, double* to) const {
@@ -116,6 +137,7 @@ class Instance {
 
   std::unique_ptr<Estimator> estimator_;
   Eigen::Index n_;
+  std::vector<std::string> further_names_;
   Sample sample_;
 };
 
@@ -149,6 +171,15 @@ inline int report(void* instance, halyard_report* out, char* message, std::size_
   return guarded(message, message_size, [&] { static_cast<Instance*>(instance)->report(*out); });
 }
 
+inline const char* further_name(void* instance, std::size_t i) noexcept {
+  return static_cast<Instance*>(instance)->further_name(i);
+}
+
+inline int revise(void* instance, std::int32_t at_end, double* time_s, halyard_estimate* out, char* message,
+                  std::size_t message_size) noexcept {
+  return guarded(message, message_size, [&] { static_cast<Instance*>(instance)->revise(at_end != 0, *time_s, *out); });
+}
+
 template <class E>
 std::unique_ptr<Estimator> construct(const ArmModel& model, const EstimatorOptions& options) {
   return std::make_unique<E>(model, options);
@@ -163,7 +194,8 @@ halyard_estimator_table estimator_table(const char* name, const char* descriptio
           name,                        description,
           plugin::create<make>,        plugin::destroy,
           plugin::reset,               plugin::update,
-          plugin::estimate,            plugin::report};
+          plugin::estimate,            plugin::report,
+          plugin::further_name,        plugin::revise};
 }
 
 /// The same for a class.

@@ -23,7 +23,7 @@ extern "C" {
 #endif
 
 /* Counts up when anything below changes its meaning or place. */
-#define HALYARD_ESTIMATOR_INTERFACE 1
+#define HALYARD_ESTIMATOR_INTERFACE 2
 
 /* Results of a call. Anything but HALYARD_OK comes with a message. */
 #define HALYARD_OK 0
@@ -46,6 +46,7 @@ typedef struct halyard_sample {
   const double* motor_torque;   /* [n] commanded from this time on, N m; NaN: missing, the last one is held */
   const double* motor_position; /* [n] measured at this time, rad; NaN: missing, no correction from it */
   const double* joint_torque;   /* [n] measured external load; NULL: none */
+  const double* marker;         /* [3] where a camera saw the marker at the tool, m, base frame; NULL: not seen */
 } halyard_sample;
 
 /* What one measurement said that the prediction did not. An estimator that does not know cov(nu) says m = 0. */
@@ -56,11 +57,12 @@ typedef struct halyard_innovation {
   int32_t accepted; /* 0: gated out, belief unchanged; 1 on entry */
 } halyard_innovation;
 
-/* What is believed of the joints at the last sample's time. */
+/* What is believed of the joints. */
 typedef struct halyard_estimate {
   double* joint_position;     /* [n] */
   double* joint_velocity;     /* [n] */
   double* joint_position_std; /* [n] one standard deviation; 0 where the estimator has none */
+  double* further;            /* [names x n] row by row, names as further_name() tells; NaN: nothing of that joint */
 } halyard_estimate;
 
 /* Counts since reset. */
@@ -70,7 +72,7 @@ typedef struct halyard_report {
   int64_t gated;            /* measurements not accepted */
 } halyard_report;
 
-/* The table. All entries are needed. message: message_size bytes for one line of text, ended by a zero byte. */
+/* The table. All entries but the last two are needed. message: message_size bytes for a line, ended by a zero byte. */
 typedef struct halyard_estimator_table {
   uint32_t interface_version; /* HALYARD_ESTIMATOR_INTERFACE of the headers that the module was built with */
   uint32_t table_size;        /* sizeof(halyard_estimator_table) */
@@ -85,8 +87,18 @@ typedef struct halyard_estimator_table {
   /* Predicts to the sample's time under the torque of the sample before, then corrects by its motor positions. */
   int (*update)(void* instance, const halyard_sample* sample, halyard_innovation* innovation, char* message,
                 size_t message_size);
+  /* At the last sample's time. */
   int (*estimate)(void* instance, halyard_estimate* estimate, char* message, size_t message_size);
   int (*report)(void* instance, halyard_report* report, char* message, size_t message_size);
+
+  /* What else is estimated of every joint, as a column is called: letters, digits, '_', '-'. NULL beyond the last name.
+   * The names of an instance do not change. NULL for the entry: nothing else. */
+  const char* (*further_name)(void* instance, size_t i);
+  /* The next estimate of an earlier sample that later ones have improved: its time, one of those given since reset(),
+   * and what is believed of it now; NaN for the time, as it is on entry: there is none. Called after reset() and each
+   * update() until there is none; at_end is 1 after the last sample. NULL for the entry: estimates are never revised. */
+  int (*revise)(void* instance, int32_t at_end, double* time_s, halyard_estimate* estimate, char* message,
+                size_t message_size);
 } halyard_estimator_table;
 
 #if defined(__GNUC__)

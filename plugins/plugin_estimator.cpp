@@ -9,6 +9,7 @@
 
 #include "model/input_error.h"
 #include "model/model_file.h"
+#include "plugins/plain_name.h"
 
 namespace halyard {
 namespace {
@@ -65,6 +66,25 @@ void* create(const halyard_estimator_table& table, const ArmModel& model) {
   throw std::runtime_error(message);
 }
 
+std::vector<std::string> further_names_of(const halyard_estimator_table& table, void* instance) {
+  constexpr std::size_t kMaxNames = 100;   // an end that never comes
+  std::vector<std::string> names;
+  const std::string start = std::string("estimator ") + table.name + ": further estimate ";
+  for (std::size_t i = 0; table.further_name; ++i) {
+    const char* name = table.further_name(instance, i);
+    if (!name) break;
+    if (i == kMaxNames) throw std::runtime_error(start + "names do not end");
+    const bool taken = name == std::string("joint_position") || name == std::string("joint_velocity") ||
+                       name == std::string("joint_position_std") ||
+                       std::find(names.begin(), names.end(), name) != names.end();
+    if (!is_plain_name(name) || taken)
+      throw std::runtime_error(start + in_quotes(name) +
+                               (taken ? ": the name is taken" : ": its name has other than letters, digits, '_', '-'"));
+    names.push_back(name);
+  }
+  return names;
+}
+
 }  // namespace
 
 PluginEstimator::PluginEstimator(std::shared_ptr<const EstimatorModule> module, const ArmModel& model)
@@ -73,9 +93,18 @@ PluginEstimator::PluginEstimator(std::shared_ptr<const EstimatorModule> module, 
       n_(model.n()),
       instance_(create(table_, model)),
       nu_(static_cast<std::size_t>(n_)),
-      S_root_(static_cast<std::size_t>(n_ * n_)) {}
+      S_root_(static_cast<std::size_t>(n_ * n_)) {
+  try {
+    further_names_ = further_names_of(table_, instance_);
+  } catch (...) {
+    destroy();
+    throw;
+  }
+}
 
-PluginEstimator::~PluginEstimator() {
+PluginEstimator::~PluginEstimator() { destroy(); }
+
+void PluginEstimator::destroy() {
   // There is no one left to tell.
   run([&](char*, std::size_t) { return table_.destroy(instance_), HALYARD_OK; });
 }
@@ -111,14 +140,41 @@ Innovation PluginEstimator::update(const Sample& next) {
 
 Estimate PluginEstimator::estimate() const {
   if (!started_) throw std::logic_error("estimator " + std::string(table_.name) + ": estimate() before reset()");
+  return *taken([&](halyard_estimate& out) {
+    call("estimate", [&](char* message, std::size_t size) { return table_.estimate(instance_, &out, message, size); });
+    return true;
+  });
+}
+
+std::optional<Revision> PluginEstimator::revise(bool at_end) {
+  if (!started_) throw std::logic_error("estimator " + std::string(table_.name) + ": revise() before reset()");
+  if (!table_.revise) return std::nullopt;
+  double time_s = kUnset;
+  const std::optional<Estimate> estimate = taken([&](halyard_estimate& out) {
+    call("revise", [&](char* message, std::size_t size) {
+      return table_.revise(instance_, at_end ? 1 : 0, &time_s, &out, message, size);
+    });
+    return !std::isnan(time_s);
+  });
+  if (!estimate) return std::nullopt;
+  return Revision{time_s, *estimate};
+}
+
+template <class Fill>
+std::optional<Estimate> PluginEstimator::taken(const Fill& fill) const {
   const Eigen::VectorXd unset = Eigen::VectorXd::Constant(n_, kUnset);
-  Estimate result{unset, unset, unset};
-  halyard_estimate out = {result.joint_position.data(), result.joint_velocity.data(), result.joint_position_std.data()};
-  call("estimate", [&](char* message, std::size_t size) { return table_.estimate(instance_, &out, message, size); });
+  Estimate result{unset, unset, unset,
+                  Eigen::MatrixXd::Constant(n_, static_cast<Eigen::Index>(further_names_.size()), kUnset)};
+  halyard_estimate out = {result.joint_position.data(), result.joint_velocity.data(), result.joint_position_std.data(),
+                          result.further.data()};
+  if (!fill(out)) return std::nullopt;
   check_finite("joint_position", result.joint_position.data(), n_);
   check_finite("joint_velocity", result.joint_velocity.data(), n_);
   check_finite("joint_position_std", result.joint_position_std.data(), n_);
   if (n_ > 0 && result.joint_position_std.minCoeff() < 0) fail("joint_position_std is negative");
+  for (Eigen::Index i = 0; i < result.further.cols(); ++i)
+    for (Eigen::Index k = 0; k < n_; ++k)
+      if (std::isinf(result.further(k, i))) fail(further_names_[i] + " " + std::to_string(k + 1) + " is infinite");
   return result;
 }
 
@@ -134,12 +190,13 @@ EstimatorReport PluginEstimator::report() const {
 
 halyard_sample PluginEstimator::take(const Sample& sample) {
   const Eigen::Index loads = sample.joint_torque.size();
-  if (sample.motor_torque.size() != n_ || sample.motor_position.size() != n_ || (loads != 0 && loads != n_))
+  if (sample.motor_torque.size() != n_ || sample.motor_position.size() != n_ || (loads != 0 && loads != n_) ||
+      (sample.marker.size() != 0 && sample.marker.size() != 3))
     throw std::invalid_argument("estimator " + std::string(table_.name) + ": the sample is not of " +
                                 std::to_string(n_) + " joints");
   time_s_ = sample.time_s;
   return {sample.time_s, sample.motor_torque.data(), sample.motor_position.data(),
-          loads == 0 ? nullptr : sample.joint_torque.data()};
+          loads == 0 ? nullptr : sample.joint_torque.data(), sample.marker.size() == 0 ? nullptr : sample.marker.data()};
 }
 
 template <class Call>

@@ -25,13 +25,19 @@ class PluginEstimator : public Estimator {
   void reset(const Sample& first) override;
   Innovation update(const Sample& sample) override;
   Estimate estimate() const override;
+  std::vector<std::string> further_names() const override { return further_names_; }
+  std::optional<Revision> revise(bool at_end) override;
   EstimatorReport report() const override;
 
  private:
   halyard_sample take(const Sample& sample);
+  /// The estimate that a function of the table fills, checked; none if `fill` says so by returning false.
+  template <class Fill>
+  std::optional<Estimate> taken(const Fill& fill) const;
   template <class Call>
   void call(const char* function, const Call& call) const;
   void check_finite(const char* what, const double* values, Eigen::Index size) const;
+  void destroy();
   [[noreturn]] void fail(const std::string& what) const;
   std::string where() const;
 
@@ -39,6 +45,7 @@ class PluginEstimator : public Estimator {
   const halyard_estimator_table& table_;
   Eigen::Index n_;
   void* instance_ = nullptr;
+  std::vector<std::string> further_names_;
   bool started_ = false;
   double time_s_ = 0;
   std::vector<double> nu_, S_root_;

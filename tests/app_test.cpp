@@ -100,6 +100,26 @@ TEST_F(App, EstimateWritesPositionVelocityAndTheirStandardDeviation) {
   EXPECT_GT(CsvFile(path("sr_ukf.csv")).number(1000, "joint_position_std_2"), 0);
 }
 
+TEST_F(App, EstimateWritesWhatElseIsEstimatedAndWhatLaterSamplesSayOfEarlierOnes) {
+  simulate_log();
+  estimate((fs::path(HALYARD_BROKEN_PLUGINS) / "looks_back.so").string(), "log.csv", "est.csv");
+  const CsvFile log(path("log.csv")), estimates(path("est.csv"));
+  EXPECT_EQ(estimates.header.size(), 16u);
+  EXPECT_EQ(estimates.header[10], "twice_1");
+  const std::string motor = "motor_position_2", joint = "joint_position_2";
+  EXPECT_NEAR(estimates.number(700, joint), 0.5 * (log.number(700, motor) + log.number(701, motor)), 1e-8);
+  EXPECT_NEAR(estimates.number(700, "twice_2"), 2 * estimates.number(700, joint), 1e-7);
+  const std::size_t last = estimates.rows.size() - 1;
+  EXPECT_NEAR(estimates.number(last, joint), log.number(last, motor), 1e-8);
+  EXPECT_EQ(estimates.rows[700][13], "");   // none_1
+
+  const RunResult nowhere = run({"estimate", "--model", "raven2.xml", "--estimator",
+                           (fs::path(HALYARD_BROKEN_PLUGINS) / "revises_nowhere.so").string(), "--data", "log.csv",
+                           "--out", "none.csv"});
+  EXPECT_EQ(nowhere.exit_code, 1);
+  EXPECT_TRUE(contains(nowhere.err, "revises its estimate of 1000000 s, where no sample is")) << nowhere.err;
+}
+
 TEST_F(App, EstimatePrintsTheRmsThatItsFileHasAfterHalfASecond) {
   simulate_log();
   const std::string printed = estimate("kinematics", "log.csv", "est.csv");
@@ -302,7 +322,7 @@ TEST_F(App, CheckAcceptsEveryExample) {
 
 TEST_F(App, PluginsListsTheBuiltInEstimators) {
   const std::string printed = done({"plugins"});
-  for (const char* name : {"kinematics ", "ekf ", "sr_ukf "})
+  for (const char* name : {"kinematics ", "disturbance_sr_ukf ", "ekf ", "sr_ukf "})
     EXPECT_TRUE(contains("\n" + printed, std::string("\n") + name));
 }
 

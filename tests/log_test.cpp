@@ -87,6 +87,17 @@ TEST(ReadLog, IgnoresOtherColumnsAndNamesThem) {
   EXPECT_EQ(log.ignored_columns, (std::vector<std::string>{"note", "motor_position_2", "note"}));
 }
 
+TEST(ReadLog, AMarkerHasThreeAxesOrNone) {
+  const std::string start = "time,motor_torque_1,motor_position_1,marker_x,marker_y";
+  const Log log = read_text(start + ",marker_z\n0,1,2,,,\n1,1,2,3,4,5\n");
+  EXPECT_TRUE(log.has_marker());
+  EXPECT_TRUE(std::isnan(log.marker[1][0]));
+  EXPECT_EQ(log.marker[2][1], 5);
+  EXPECT_FALSE(read_text("time,motor_torque_1,motor_position_1\n0,1,2\n").has_marker());
+  EXPECT_HAS(message_for(start + "\n0,1,2,3,4\n"), ": no marker_z beside the marker's other axes; give all three of ");
+  EXPECT_EQ(read_text(start + ",up_mm\n0,1,2,3,4,5\n", map_of({"marker_z=up_mm,unit=mm"})).marker[2][0], 5e-3);
+}
+
 TEST(ReadLog, TorqueIsOptionalOnRequest) {
   EXPECT_HAS(message_for("time,motor_position_1\n0,1\n"), ":1: no column 'motor_torque_1'; the file has 'time', ");
   EXPECT_FALSE(read_text("time,motor_position_1\n0,1\n", {}, {.torque_required = false}).has_motor_torque(0));

@@ -140,11 +140,11 @@ TEST(Plugins, TheHandshakeRefusesABrokenTableInOneLine) {
             "exports no function halyard_estimator; it is no estimator, or its function lacks extern \"C\"");
   EXPECT_EQ(reason("no_table"), "halyard_estimator() returns no table; return the address of a static one");
   EXPECT_EQ(reason("older_interface"),
-            "built for interface 0, this program speaks 1; rebuild it against the installed headers");
+            "built for interface 1, this program speaks 2; rebuild it against the installed headers");
   EXPECT_EQ(reason("newer_interface"),
-            "built for interface 2, this program speaks 1; install a newer halyard, or rebuild it against these headers");
+            "built for interface 3, this program speaks 2; install a newer halyard, or rebuild it against these headers");
   const std::size_t size = sizeof(halyard_estimator_table);
-  EXPECT_EQ(reason("small_table"), "its table has " + std::to_string(size - sizeof(void*)) + " bytes, interface 1 has " +
+  EXPECT_EQ(reason("small_table"), "its table has " + std::to_string(size - sizeof(void*)) + " bytes, interface 2 has " +
                                        std::to_string(size) + "; rebuild it against the installed headers");
   EXPECT_EQ(reason("missing_entry"), "its table lacks 'reset'; fill every entry");
   EXPECT_EQ(reason("missing_name"), "its table lacks 'name'; fill every entry");
@@ -241,6 +241,25 @@ TEST(Plugins, TheCallersMistakesDoNotReachThePlugin) {
             "estimator fixture: the sample is not of 3 joints");
 }
 
+TEST(Plugins, FurtherEstimatesAndRevisionsCrossByNameAndTime) {
+  EXPECT_EQ(halyard::make_estimator(fixture("well_formed"), raven2())->further_names(), std::vector<std::string>());
+  const auto estimator = halyard::make_estimator(fixture("looks_back"), raven2());
+  EXPECT_EQ(estimator->further_names(), (std::vector<std::string>{"twice", "none"}));
+  estimator->reset(sample_at(0.5, 1));
+  EXPECT_FALSE(estimator->revise(false).has_value());
+  estimator->update(sample_at(0.75, 3));
+  const Eigen::MatrixXd further = estimator->estimate().further;
+  EXPECT_EQ(further.col(0), Eigen::Vector3d::Constant(6));
+  EXPECT_TRUE(further.col(1).array().isNaN().all());
+  const auto revision = estimator->revise(false);
+  ASSERT_TRUE(revision.has_value());
+  EXPECT_EQ(revision->time_s, 0.5);
+  EXPECT_EQ(revision->estimate.joint_position, Eigen::Vector3d::Constant(2));   // between both readings
+  EXPECT_FALSE(estimator->revise(false).has_value());
+  EXPECT_EQ(failure([&] { halyard::make_estimator(fixture("taken_further_name"), raven2()); }),
+            "estimator fixture: further estimate 'joint_position': the name is taken");
+}
+
 // Without the check the process dies when the module frees a vector that it got from the library.
 TEST(Plugins, AModuleCompiledForOtherVectorsThanTheLibrariesIsRefused) {
 #if defined(__x86_64__) && EIGEN_DEFAULT_ALIGN_BYTES == 16
@@ -297,7 +316,7 @@ TEST(PluginSearch, FoldersOfTheUserComeLastAndTheFirstOfANameCounts) {
                             ": the name 'fixture' is taken by " + fs::canonical(first / "fixture.so").string() +
                             "; rename it, or call it by its path");
   EXPECT_EQ(refused[2], "plugin " + fs::canonical(second / "too_new.so").string() +
-                            ": built for interface 2, this program speaks 1; install a newer halyard, or rebuild it "
+                            ": built for interface 3, this program speaks 2; install a newer halyard, or rebuild it "
                             "against these headers");
   EXPECT_NO_THROW(halyard::make_estimator("fixture", raven2()));
 }
@@ -308,7 +327,7 @@ TEST(PluginSearch, AnUnknownNameListsTheKnownOnesAndSaysWhatWasRefused) {
   const PluginPath path((folder / "").string());
   const std::string message = refusal("wanted");
   EXPECT_TRUE(message.starts_with("no estimator is named 'wanted' (plugin ")) << message;
-  EXPECT_NE(message.find("built for interface 2, this program speaks 1"), std::string::npos) << message;
+  EXPECT_NE(message.find("built for interface 3, this program speaks 2"), std::string::npos) << message;
   EXPECT_TRUE(message.ends_with("; give one of these, or the path of a module such as ./wanted.so")) << message;
 }
 
@@ -337,6 +356,10 @@ class BuiltInPlugins : public testing::TestWithParam<BuiltIn> {};
 
 INSTANTIATE_TEST_SUITE_P(All, BuiltInPlugins,
                          testing::Values(BuiltIn{"sr_ukf", halyard::make_sr_ukf, {{"alpha", "0.01"}}},
+                                         BuiltIn{"disturbance_sr_ukf", halyard::make_disturbance_sr_ukf,
+                                                 {{"force_wander", "2"}}},
+                                         BuiltIn{"smoother", halyard::make_smoother, {{"lag", "0.01"}}},
+                                         BuiltIn{"camera_sr_ukf", halyard::make_camera_sr_ukf, {{"camera_latency", "0.01"}}},
                                          BuiltIn{"ekf", halyard::make_ekf, {{"encoder_noise", "1e-4"}}},
                                          BuiltIn{"kinematics", halyard::make_kinematics, {}}),
                          [](const auto& info) { return info.param.name; });
@@ -363,6 +386,7 @@ TEST_P(BuiltInPlugins, GiveTheSameNumbersAsWithoutTheBoundary) {
     sample.motor_torque.setConstant(0.01 * std::cos(0.05 * i));
     if (i > 20) sample.joint_torque = Eigen::Vector3d(0.1, 0.2, 0.3);
     if (i % 7 == 3) sample.motor_position(1) = std::nan("");
+    if (i % 10 == 9) sample.marker = Eigen::Vector3d(0.05, 0.02, -0.06);
     if (i == 0) {
       direct->reset(sample);
       plugin->reset(sample);
@@ -377,7 +401,18 @@ TEST_P(BuiltInPlugins, GiveTheSameNumbersAsWithoutTheBoundary) {
     ASSERT_EQ(a.joint_position, b.joint_position);
     ASSERT_EQ(a.joint_velocity, b.joint_velocity);
     ASSERT_EQ(a.joint_position_std, b.joint_position_std);
+    ASSERT_EQ(a.further, b.further);
+    for (bool more = true; more;) {
+      const auto c = direct->revise(i == 49), d = plugin->revise(i == 49);
+      more = c.has_value();
+      ASSERT_EQ(more, d.has_value());
+      if (!more) continue;
+      ASSERT_EQ(c->time_s, d->time_s);
+      ASSERT_EQ(c->estimate.joint_position, d->estimate.joint_position);
+      ASSERT_EQ(c->estimate.joint_position_std, d->estimate.joint_position_std);
+    }
   }
+  EXPECT_EQ(direct->further_names(), plugin->further_names());
   EXPECT_EQ(direct->report().steps, plugin->report().steps);
 }
 
@@ -393,7 +428,7 @@ TEST_P(BuiltInPlugins, RefuseAnUnknownOptionByName) {
 TEST(PluginSearch, FindsTheBuiltInEstimators) {
   std::vector<std::string> refused, names;
   for (const halyard::PluginInfo& plugin : halyard::find_plugins(&refused)) names.push_back(plugin.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"ekf", "kinematics", "sr_ukf"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"camera_sr_ukf", "disturbance_sr_ukf", "ekf", "kinematics", "smoother", "sr_ukf"}));
   EXPECT_EQ(refused, std::vector<std::string>());
   EXPECT_EQ(halyard::find_plugin("ekf").path.filename(), "ekf.so");
 }

@@ -126,6 +126,18 @@ TEST_F(ScenarioFile, HasDefaultsAndKeepsUnnamedJointsAtHome) {
   EXPECT_TRUE(s.noise.motor_torque.empty());
 }
 
+TEST_F(ScenarioFile, MayHaveACamera) {
+  EXPECT_FALSE(read("").camera.has_value());
+  const Scenario s = read(R"(<camera rate="60" latency="0.02" dropout="0.5"/>)");
+  ASSERT_TRUE(s.camera.has_value());
+  EXPECT_EQ(s.camera->rate_hz, 60);
+  EXPECT_EQ(s.camera->latency_s, 0.02);
+  EXPECT_EQ(s.camera->noise_m, 5e-4);
+  EXPECT_EQ(s.camera->dropout, 0.5);
+  EXPECT_EQ(message(R"(<camera dropout="2"/>)"),
+            "s.xml:2: <camera dropout=\"2\">: expected a share of the frames, from 0 to 1");
+}
+
 TEST_F(ScenarioFile, MayGiveSamplesOfAnotherLog) {
   write("x.csv", "time,path\n5,0.7\n5.5,0.8\n6,\n6.5,0.9\n");
   const Scenario s = read(R"(<trajectory joint="1" kind="samples" file="x.csv" column="path"/>)");

@@ -1,4 +1,4 @@
-// A fourth estimator: an α-β filter on each motor, joints by kinematics. What it shows: a plug-in is one class, and one
+// An estimator of your own: an α-β filter on each motor, joints by kinematics. What it shows: a plug-in is one class, and one
 // function that exports it. Look for the velocity, which plain kinematics gets from differences of encoder counts.
 //
 //   predict   x⁻ = x + dt v,  v⁻ = v

@@ -72,4 +72,6 @@ static halyard_estimator_table table = {HALYARD_ESTIMATOR_INTERFACE,
                                         reset,
                                         update,
                                         estimate,
-                                        report};
+                                        report,
+                                        NULL,
+                                        NULL};

@@ -1,0 +1,11 @@
+#include "well_formed.h"
+
+static const char* name_of(void* instance, size_t i) {
+  (void)instance;
+  return i == 0 ? "joint_position" : NULL;
+}
+
+const halyard_estimator_table* halyard_estimator(void) {
+  table.further_name = name_of;
+  return &table;
+}
