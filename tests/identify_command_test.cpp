@@ -15,7 +15,7 @@ class IdentifyCommand : public ProgramTest {};
 TEST_F(IdentifyCommand, WritesAModelThatOtherCommandsTake) {
   write_short_scenario("experiment_a.xml", "6");
   write_text(path("scenario.xml"),
-             replaced(text_of(path("experiment_a.xml")), "<trajectory joint=\"1\"",
+             replaced(replaced(text_of(path("experiment_a.xml")), " homed=\"true\"", ""), "<trajectory joint=\"1\"",
                       "<set parameter=\"joint2.coupling.joint1\" value=\"0.152\"/><trajectory joint=\"1\""));
   done({"simulate", "scenario.xml", "--out", "log.csv"});
   const std::string printed = done({"identify", "--model", "raven2.xml", "--data", "log.csv", "--parameters",

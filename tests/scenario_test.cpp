@@ -341,6 +341,7 @@ TEST(Simulate, RunsWithEveryEffectOfTheLibrary) {
 TEST(Simulate, ControlsTheTrueArmByTheModelItAssumes) {
   Scenario scenario = experiment("a", 0.05);
   scenario.robot.nominal.joint[0].capstan_radius *= 1.05;
+  scenario.homed = false;
   const Log log = simulate(scenario).measured;
   // At the start the true motor stands 5 % off the angle that the controller wants of it.
   const double wanted = unstretched_motors(*scenario.assumed, scenario.robot.home())(0);
