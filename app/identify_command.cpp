@@ -28,9 +28,7 @@ void print(const IdentifyResult& result) {
   for (const IdentifiedNumber& number : result.identification.numbers)
     fmt::print("{}: {:.5g} -> {:.7g} {} (95 %: {:.7g} to {:.7g}), {}\n", number.name, number.nominal, number.value,
                number.unit, number.lower, number.upper, in_words(number.convergence));
-  for (const StrainedNumber& s : result.identification.strained)
-    fmt::print("note: the log wants {} at {:.4g} {} too, {:.2g} of its tolerances off; see halyard diagnose\n", s.name,
-               s.value, s.unit, std::abs(s.tolerances));
+  for (const std::string& doubt : doubts(result)) fmt::print("note: {}\n", doubt);
   const std::vector<JointUnit> units = joint_units(result.given);
   for (const EstimatorComparison& e : result.estimators)
     for (int k = 0; k < result.given.n(); ++k)

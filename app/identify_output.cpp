@@ -14,6 +14,8 @@
 namespace halyard {
 namespace {
 
+constexpr double kWorse = 1.1;   // an error that has grown by more has grown
+
 using Json = nlohmann::ordered_json;
 
 const char* word(Convergence convergence) {
@@ -49,6 +51,27 @@ void write_convergence(const std::filesystem::path& path, const Identification& 
 }
 
 }  // namespace
+
+std::vector<std::string> doubts(const IdentifyResult& result) {
+  std::vector<std::string> all;
+  constexpr std::size_t kNamed = 4;
+  const std::vector<StrainedNumber>& strained = result.identification.strained;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(kNamed, strained.size()); ++i)
+    names += (i == 0 ? "" : ", ") + fmt::format("{} ({:.3g} instead of {:.3g} {})", strained[i].name, strained[i].value,
+                                                strained[i].nominal, strained[i].unit);
+  if (strained.size() > kNamed) names += fmt::format(" and {} more", strained.size() - kNamed);
+  if (!names.empty())
+    all.push_back("the log pulls other numbers beyond twice their tolerance: " + names +
+                  "; the model lacks something beside what was asked for, and halyard diagnose tells what");
+  for (const EstimatorComparison& e : result.estimators)
+    for (int k = 0; k < result.given.n() && !e.before.rms.empty() && !e.after.rms.empty(); ++k)
+      if (e.after.rms[k] > kWorse * e.before.rms[k])
+        all.push_back(fmt::format("the identified numbers predict joint {} worse on the hold-out, {} by {:.2g} times: they "
+                                  "stand for something else; leave them, and see halyard diagnose",
+                                  k + 1, e.name, e.after.rms[k] / e.before.rms[k]));
+  return all;
+}
 
 std::string identify_json(const IdentifyResult& result) {
   const Identification& found = result.identification;

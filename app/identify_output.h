@@ -22,6 +22,10 @@ struct IdentifyResult {
 /// "converged", "still drifting in the last third: a longer log, ..." and what to do about it.
 std::string in_words(Convergence convergence);
 
+/// What the identified numbers cannot be trusted for: other numbers pulled far, joints that they predict worse on the
+/// hold-out. One sentence each; none if all is well.
+std::vector<std::string> doubts(const IdentifyResult& result);
+
 /// The text of identify.json.
 std::string identify_json(const IdentifyResult& result);
 

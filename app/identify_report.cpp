@@ -48,19 +48,17 @@ report::Chart convergence_chart(const Identification& found, const IdentifiedNum
   return chart;
 }
 
-void add_sentences(report::Page& page, const Identification& found) {
+void add_sentences(report::Page& page, const IdentifyResult& result) {
+  const Identification& found = result.identification;
   const auto all_converged = std::ranges::all_of(
       found.numbers, [](const IdentifiedNumber& n) { return n.convergence == Convergence::converged; });
   std::string text;
   for (const IdentifiedNumber& n : found.numbers)
     text += fmt::format("{}{}: {}.", text.empty() ? "" : "\n", capitalised(n.name), in_words(n.convergence));
   page.verdict(all_converged ? report::VerdictKind::good : report::VerdictKind::warning, text);
-  if (found.strained.empty()) return;
-  text = "The log wants other numbers elsewhere too, by more than twice their tolerance:";
-  for (const StrainedNumber& s : found.strained)
-    text += fmt::format("\n{}: {:.4g} instead of {:.4g} {}.", capitalised(s.name), s.value, s.nominal, s.unit);
-  page.verdict(report::VerdictKind::warning,
-               text + "\nThe model lacks something beside what was asked for: halyard diagnose tells what.");
+  text.clear();
+  for (const std::string& doubt : doubts(result)) text += (text.empty() ? "" : "\n") + capitalised(doubt) + ".";
+  if (!text.empty()) page.verdict(report::VerdictKind::warning, text);
 }
 
 void add_numbers(report::Page& page, const Identification& found) {
@@ -127,7 +125,7 @@ report::Page identify_page(const IdentifyResult& result) {
   const Identification& found = result.identification;
   report::Page page("Identification of " + result.given.name,
                     fmt::format("{} of its numbers, from {}", found.numbers.size(), result.data));
-  add_sentences(page, found);
+  add_sentences(page, result);
   add_numbers(page, found);
   page.paragraph(fmt::format(
       "Intervals come from {} blocks of the data, each left out once, so that errors which last for a while are not "

@@ -7,6 +7,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "model/input_error.h"
 
@@ -193,23 +194,47 @@ struct LeastSquares {
   int blocks = 0;
 };
 
-/// The step from `u` and the jackknife around its end.
-LeastSquares solve(const std::vector<Block>& blocks, const Eigen::VectorXd& u) {
+/// How far a number that is known within a tolerance may be pulled, in prior deviations: at least a quarter of it is left,
+/// since a cable that pushes is no cable, and beyond ten tolerances it stands for something else that the model lacks.
+double bound_of(const Weight& other) { return std::min(20.0, 0.75 * std::abs(other.nominal) / other.scale); }
+
+/// The step from `u` and the jackknife around its end; |u + step| <= bound.
+LeastSquares solve(const std::vector<Block>& blocks, const Eigen::VectorXd& u, const Eigen::VectorXd& bound) {
   const auto p = u.size();
   Eigen::MatrixXd A = Eigen::MatrixXd::Identity(p, p);
   Eigen::VectorXd g = -u;
   for (const Block& b : blocks) A += b.A, g += b.g;
+
+  // One number after the other is held at its bound, the one that is furthest beyond first.
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(p);
+  std::vector<int> free(static_cast<std::size_t>(p));
+  std::iota(free.begin(), free.end(), 0);
+  for (;;) {
+    const Eigen::VectorXd rest = g - A * step;
+    step(free) += A(free, free).ldlt().solve(rest(free));
+    const auto furthest = std::ranges::max_element(free, {}, [&](int i) { return std::abs((u + step)(i)) / bound(i); });
+    if (std::abs((u + step)(*furthest)) <= bound(*furthest)) break;
+    step(*furthest) = std::copysign(bound(*furthest), (u + step)(*furthest)) - u(*furthest);
+    free.erase(furthest);
+  }
+
   const double count = static_cast<double>(blocks.size());
-  Eigen::MatrixXd without(p, static_cast<Eigen::Index>(blocks.size()));
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    without.col(static_cast<Eigen::Index>(b)) = (A - blocks[b].A).ldlt().solve(g - blocks[b].g);
+  const Eigen::MatrixXd A_free = A(free, free);
+  Eigen::VectorXd held = step;
+  held(free).setZero();
+  Eigen::MatrixXd without(A_free.rows(), static_cast<Eigen::Index>(blocks.size()));
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const Eigen::VectorXd rest = (g - blocks[b].g) - (A - blocks[b].A) * held;
+    without.col(static_cast<Eigen::Index>(b)) = (A_free - blocks[b].A(free, free)).ldlt().solve(rest(free));
+  }
   const Eigen::VectorXd mean = without.rowwise().mean();
-  const Eigen::MatrixXd inverse = A.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
-  LeastSquares e;
-  e.u = u + A.ldlt().solve(g);
+  const Eigen::MatrixXd inverse = A_free.ldlt().solve(Eigen::MatrixXd::Identity(A_free.rows(), A_free.rows()));
   const Eigen::VectorXd jackknife = (count - 1) / count * (without.colwise() - mean).rowwise().squaredNorm() +
                                     inverse.rowwise().squaredNorm();
-  e.deviation = jackknife.cwiseMax(inverse.diagonal()).cwiseSqrt();
+  LeastSquares e;
+  e.u = u + step;
+  e.deviation.setZero(p);
+  e.deviation(free) = jackknife.cwiseMax(inverse.diagonal()).cwiseSqrt();
   e.blocks = static_cast<int>(blocks.size());
   return e;
 }
@@ -302,10 +327,13 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
   for (Weight& other : other_numbers(model, keys)) weights.push_back(std::move(other));
   LeastSquares estimate;
   estimate.u = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(weights.size()));
+  Eigen::VectorXd bound = Eigen::VectorXd::Constant(estimate.u.size(), std::numeric_limits<double>::infinity());
+  for (Eigen::Index i = learnt; i < bound.size(); ++i) bound(i) = bound_of(weights[i]);
   estimate.u.head(learnt) = filter.w();
   for (int pass = 0; pass < kPasses; ++pass) {
     const Eigen::VectorXd before = estimate.u;
-    estimate = solve(sum_blocks(model, weights, before, logs, stage(fmt::format("estimate, pass {}", pass + 1))), before);
+    estimate = solve(sum_blocks(model, weights, before, logs, stage(fmt::format("estimate, pass {}", pass + 1))), before,
+                     bound);
     const Eigen::ArrayXd step = (estimate.u - before).head(asked).array().abs();
     if ((step <= kStands * estimate.deviation.head(asked).array()).all()) break;
   }
