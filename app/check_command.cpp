@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
+#include "app/bundled_files.h"
 #include "app/sweep_file.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "model/xml_reader.h"
 #include "plant/scenario.h"
+#include "plugins/conformance.h"
 
 namespace halyard {
 namespace {
@@ -55,9 +60,27 @@ void check_sweep(const std::filesystem::path& file) {
   }
 }
 
+void check_estimator_module(const CheckOptions& options) {
+  const std::string module = options.file.string();
+  const ArmModel model =
+      read_model(options.model.empty() ? examples_folder({}, "check") / "raven2" / "raven2.xml" : options.model);
+  std::vector<std::string> faults = conformance_faults(module, model);
+  if (options.kalman) std::ranges::copy(kalman_faults(module), std::back_inserter(faults));
+  if (!faults.empty())
+    throw InputError(fmt::format("{}: breaks {} of the promises of an estimator (plugins/conformance.h): {}", module,
+                                 faults.size(), fmt::join(faults, "; ")));
+  fmt::print("{}: keeps what every estimator promises{}, tried with {}\n", module,
+             options.kalman ? ", and is the Kalman filter on a linear arm" : "", model.source);
+}
+
 }  // namespace
 
-void run_check(const std::filesystem::path& file) {
+void run_check(const CheckOptions& options) {
+  const std::filesystem::path& file = options.file;
+  if (file.extension() == ".so") return check_estimator_module(options);
+  if (options.kalman || !options.model.empty())
+    throw InputError("halyard check: --model and --kalman are for an estimator's module, and " +
+                     in_quotes(file.string()) + " is none; leave them out");
   const XmlElement root = XmlElement::read_file(file);
   if (root.tag() == "arm") return check_model(file);
   if (root.tag() == "scenario") return check_scenario(file);

@@ -262,11 +262,17 @@ void add_plugins_command(CLI::App& app) {
 }
 
 void add_check_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("check", "validate a model, scenario or sweep");
-  const auto file = std::make_shared<std::filesystem::path>();
-  command.add_option("FILE.xml", *file, "model, scenario or sweep")->type_name("")->required();
+  CLI::App& command = *app.add_subcommand("check", "validate a model, scenario, sweep or estimator");
+  const auto options = std::make_shared<CheckOptions>();
+  command.add_option("FILE.xml", options->file, "model, scenario or sweep; or the module of an estimator, MODULE.so")
+      ->type_name("")
+      ->required();
+  command.add_option("--model", options->model, "of an estimator: the arm to try it with; default: the RAVEN-II")
+      ->type_name("M.xml");
+  command.add_flag("--kalman", options->kalman, "of an estimator: it is a Kalman filter with halyard's noise; hold it "
+                                                "against the textbook's on a linear arm");
   add_effects_option(command);
-  finish(command, [file] { run_check(*file); });
+  finish(command, [options] { run_check(*options); });
 }
 
 void add_tour_command(CLI::App& app) {

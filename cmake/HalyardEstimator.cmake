@@ -11,3 +11,17 @@ function(halyard_estimator name)
     CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON)
 endfunction()
+
+# halyard_estimator_test(NAME MODEL [KALMAN]): a test of CTest that runs the conformance suite over the plug-in NAME, tried
+# with the arm of MODEL.xml. KALMAN: it is a Kalman filter with halyard's noise, and is held against the textbook's.
+function(halyard_estimator_test name model)
+  cmake_parse_arguments(is "KALMAN" "" "" ${ARGN})
+  if(TARGET halyard_app)
+    set(program $<TARGET_FILE:halyard_app>)
+  else()
+    set(program ${halyard_PROGRAM})
+  endif()
+  add_test(NAME ${name}.conformance
+    COMMAND ${program} check $<TARGET_FILE:${name}_plugin> --model ${model} $<$<BOOL:${is_KALMAN}>:--kalman>
+    COMMAND_EXPAND_LISTS)
+endfunction()

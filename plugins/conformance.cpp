@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "estimators/rigid_chain.h"
+#include "estimators/noise.h"
 #include "model/input_error.h"
 #include "plugins/loader.h"
 #include "transmission/path_matrix.h"
@@ -82,7 +83,12 @@ std::vector<Estimate> run(Estimator& estimator, const Record& record) {
     const auto measured = (!record[i].motor_position.array().isNaN()).count();
     if (innovation.nu.size() > measured)
       throw std::runtime_error("gives an innovation for a motor whose position is missing");
+    if (innovation.nu.size() > 0 && !(innovation.S_root.rowwise().norm().minCoeff() > 0))
+      throw std::runtime_error("gives an innovation without a deviation");
     estimates.push_back(estimator.estimate());
+    const Eigen::VectorXd& deviation = estimates.back().joint_position_std;
+    if (!deviation.allFinite() || deviation.minCoeff() < 0)
+      throw std::runtime_error("gives a deviation that is not finite, or negative");
     take_revisions(estimator, record, i + 1, i + 1 == record.size(), estimates);
   }
   return estimates;
@@ -199,7 +205,70 @@ class Examination {
   std::vector<std::string> faults_;
 };
 
+ArmModel slider() {
+  ArmModel model;
+  model.name = "slider";
+  model.source = "the slider of the conformance suite";
+  model.joints = {{.name = "slider", .lower = -1, .upper = 1, .home = 0, .controller = {}}};
+  ArmParameters<double>& arm = model.nominal;
+  arm.n = 1;
+  for (double& g : arm.gravity) g = 0;
+  JointParameters<double>& j = arm.joint[0];
+  j.type = JointType::prismatic;
+  j.law = CableLaw::linear;
+  j.mass = 0.5;
+  j.rotor_inertia = 2e-5, j.motor_viscous = 2e-5, j.gear_ratio = 12, j.capstan_radius = 5e-3;
+  j.coupling[0] = 1;
+  j.stiffness = 9e3, j.damping = 5, j.tension = 1e3;   // never slack
+  j.joint_viscous = 0.5;
+  j.motor_encoder_resolution = 1e-3;
+  return model;
+}
+
 }  // namespace
+
+std::vector<std::string> kalman_faults(const std::string& name_or_path) {
+  const ArmModel model = slider();
+  const ProcessModel process(model);
+  const EstimatorOptions levels = {{"torque_noise", "1e-3"}, {"joint_force_noise", "0.1"}};
+  OptionReader reader("the Kalman filter", levels);
+  ArmNoise noise(model, process, read_noise(reader, model, process));
+  ArmModel asked = model;
+  asked.estimators[find_plugin(name_or_path).name] = levels;
+  const auto estimator = make_estimator(name_or_path, asked);
+
+  Sample sample{0, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1), Eigen::VectorXd(), Eigen::VectorXd()};
+  estimator->reset(sample);
+  Eigen::VectorXd x = process.state_at_rest(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1));
+  const Eigen::MatrixXd S = noise.initial_root(x, std::numeric_limits<double>::infinity());
+  Eigen::MatrixXd P = S * S.transpose(), F(x.size(), x.size()), H;
+  const double R = std::pow(noise.encoder()(0), 2);
+  for (int i = 1; i < kSamples; ++i) {
+    const Step step{sample.time_s, kPeriod, sample.motor_torque.data()};
+    const Eigen::MatrixXd Q_root = noise.process_root(step, x);
+    process.advance_with_jacobian(step, x.data(), F);
+    P = F * P * F.transpose() + Q_root * Q_root.transpose();
+    sample.time_s = i * kPeriod;
+    sample.motor_torque(0) = 2e-3 * std::sin(60 * sample.time_s);
+    sample.motor_position(0) = 0.5 * std::sin(25 * sample.time_s);
+    const double nu = sample.motor_position(0) - process.motor_readings(sample.time_s, x, &H)(0);
+    const Eigen::VectorXd K = P * H.transpose() / ((H * P * H.transpose())(0, 0) + R);
+    x += K * nu;
+    P -= K * H * P;
+    P = 0.5 * (P + P.transpose()).eval();
+    estimator->update(sample);
+    const Estimate e = estimator->estimate();
+    const int position = process.layout().position[0];
+    const double std_deviation = std::sqrt(P(position, position));
+    if (!(std::abs(e.joint_position(0) - x(position)) <= 1e-9))
+      return {"Kalman: the position at sample " + std::to_string(i) + " is off by " +
+              std::to_string(1e9 * (e.joint_position(0) - x(position))) + " nm"};
+    if (!(std::abs(e.joint_position_std(0) / std_deviation - 1) <= 1e-6))
+      return {"Kalman: the deviation at sample " + std::to_string(i) + " is " +
+              std::to_string(e.joint_position_std(0) / std_deviation) + " times the right one"};
+  }
+  return {};
+}
 
 std::vector<std::string> conformance_faults(const std::string& name_or_path, const ArmModel& model) {
   return Examination(name_or_path, model).faults();

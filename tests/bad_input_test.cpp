@@ -193,6 +193,14 @@ TEST_F(BadInput, AnEstimatorThatCannotBeLoaded) {
   expect_estimator_refused("kinematics", {"colour"});
 }
 
+TEST_F(BadInput, AnEstimatorThatBreaksItsPromises) {
+  const std::string careless = HALYARD_BROKEN_PLUGINS "/careless.so";
+  expect_refused({"check", careless, "--model", "raven2.xml"}, {"careless.so: breaks ", "of the promises of an estimator"});
+  expect_refused({"check", "raven2.xml", "--kalman"}, {"--kalman", "'raven2.xml' is none"});
+  EXPECT_TRUE(contains(done({"check", HALYARD_BROKEN_PLUGINS "/../../../plugins/ekf.so", "--kalman"}),
+                       "and is the Kalman filter on a linear arm"));
+}
+
 TEST_F(BadInput, AModuleOfEffectsThatCannotBeLoaded) {
   const std::string broken = HALYARD_BROKEN_PLUGINS;
   write_text(path("text.so"), "not a module\n");
