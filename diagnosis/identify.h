@@ -40,7 +40,8 @@ std::vector<std::string> identified_keys(const ArmModel& model, const std::strin
 
 enum class Convergence {
   converged,
-  drifting,      ///< the filter's estimate moved in the last third of the logs, by a tenth of its tolerance or more
+  drifting,      ///< the filter's estimate moved in the last third of the logs, by a tenth of its
+                 ///< tolerance and three of the filter's deviations or more
   not_excited    ///< the interval is not much narrower than what was known before
 };
 

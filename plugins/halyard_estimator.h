@@ -52,7 +52,7 @@ typedef struct halyard_sample {
 /* What one measurement said that the prediction did not. An estimator that does not know cov(nu) says m = 0. */
 typedef struct halyard_innovation {
   size_t m;         /* how many numbers of nu are given */
-  double* nu;       /* room for [n]: measured minus predicted, rad */
+  double* nu;       /* room for [n]: measured minus predicted of the motors that were measured, from the base on, rad */
   double* S_root;   /* room for [n x n]; [m x m] row by row without gaps: lower, S_root S_root' = cov(nu) */
   int32_t accepted; /* 0: gated out, belief unchanged; 1 on entry */
 } halyard_innovation;
