@@ -13,6 +13,7 @@ namespace halyard {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFastest = 0.05;      // s, for a joint to cross its range
 constexpr double kHistorySpan = 2;   // s, longer than any delay
 
 class ArmProcess final : public DiscreteProcess {
@@ -134,11 +135,19 @@ void ArmFilter::start(const Sample& sample) {
                                                unstretched_joints(process_->arm(), angle, home));
   x = process_->state_at_rest(angle, q);
   // At rest, unless the motors were read just before.
-  const bool seen_moving = before(motors_).allFinite() && since <= options_.max_step;
+  bool seen_moving = before(motors_).allFinite() && since <= options_.max_step;
+  speed_is_due_ = false;
+  Eigen::VectorXd moved, path;
   if (seen_moving) {
-    const Eigen::VectorXd moved = reading_ - before;
-    const Eigen::VectorXd path = unstretched_joints(process_->arm(), angle, home) -
-                                 unstretched_joints(process_->arm(), angle - moved, home);
+    moved = reading_ - before;
+    path = unstretched_joints(process_->arm(), angle, home) - unstretched_joints(process_->arm(), angle - moved, home);
+    for (int k = 0; k < process_->n_joints(); ++k) {
+      const double range = model_.joints[k].upper - model_.joints[k].lower;
+      if (range > 0 && std::abs(path(k)) / since > range / kFastest) seen_moving = false;
+    }
+    speed_is_due_ = !seen_moving;   // one of the two readings is wrong
+  }
+  if (seen_moving) {
     for (int k = 0; k < process_->n_joints(); ++k) {
       x(process_->layout().rate[k]) = path(k) / since;
       if (process_->layout().motor_rate[k] >= 0) x(process_->layout().motor_rate[k]) = moved(k) / since;
@@ -202,7 +211,7 @@ Innovation ArmFilter::update(const Sample& sample) {
   const bool locked_out = sample.time_s - refused_since_ > options_.restart_gap;
   if (!started_ || after_gap || locked_out || speed_is_due_) {
     start(sample);
-    speed_is_due_ = after_gap;
+    speed_is_due_ = speed_is_due_ || after_gap;
   } else {
     predict(sample.time_s);
     innovation = correct(sample);

@@ -80,7 +80,7 @@ class ArmFilter final : public Estimator {
   CommandHistory history_;
   double last_command_ = 0;            // its time
   bool started_ = false;
-  bool speed_is_due_ = false;          // the start was from the first reading after a gap
+  bool speed_is_due_ = false;          // the start was from one reading that can be trusted
   double time_ = 0;
   double refused_since_ = 0;           // first of the readings refused without one accepted since; infinite: none is
   Eigen::VectorXd reading_;            // last of each motor, NaN before

@@ -295,6 +295,20 @@ TEST(SrUkfOnTheArm, AGateThatRefusesEverythingForTooLongStartsItAnew) {
   EXPECT_LT((ukf->estimate().joint_position - run.joint_position.back()).norm(), 2e-4);
 }
 
+TEST(SrUkfOnTheArm, AnOutlierAmidAStartIsNoSpeed) {
+  const ArmModel model = raven2();
+  const ArmRun run = run_arm(model, 2.5);
+  const auto ukf = make_sr_ukf(model, {{"gate", "0.999999"}});
+  ukf->reset(run.samples[0]);
+  ukf->update(run.samples[1]);
+  for (int i = 2300; i < 2400; ++i) {   // after a gap
+    Sample s = run.samples[i];
+    if (i == 2301) s.motor_position(0) += 300;
+    ukf->update(s);
+  }
+  EXPECT_LT((ukf->estimate().joint_position - run.joint_position[2399]).norm(), 1e-3);
+}
+
 TEST(SrUkfOnTheArm, StaysSaneOverTornRecordsOfOneToSevenJoints) {
   for (int n = 1; n <= 7; ++n)
     for (const char* alpha : {"1e-3", "1"}) {
