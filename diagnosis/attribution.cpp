@@ -208,16 +208,37 @@ class Search {
     return all;
   }
 
-  /// True if a number ends at its bound, and its group of sizes and shapes does more there than one number by chance.
+  /// True if a number ends at its bound and does more there than one number by chance: a size alone, or with the shapes
+  /// that follow it.
   bool at_bound(const Hypothesis& h, const Score& score, int place) const {
     const auto parameters = effect_parameters(evidence_, h, model_.nominal, place);
     const auto ends = [&](std::size_t i) { return ends_at_bound(parameters[i], parameter_value(h, parameters[i])); };
-    for (const ParameterGroup& group : groups_of(parameters)) {
-      if (std::ranges::none_of(group.sizes, ends) && std::ranges::none_of(group.shapes, ends)) continue;
+    const auto shape_ends = [&](std::size_t i) { return ends(i) || is_as_good_at_bound(h, score, parameters[i]); };
+    const auto needed = [&](const std::vector<std::size_t>& sizes) {
       Hypothesis without = h;
-      for (const std::size_t i : group.sizes) set_parameter(without, parameters[i], parameters[i].nominal);
+      for (const std::size_t i : sizes) set_parameter(without, parameters[i], parameters[i].nominal);
       const Score s = evidence_.score(without);
-      if (!s.finite || cost(without, s) > cost(h, score) + kByChance) return true;
+      return !s.finite || cost(without, s) > cost(h, score) + kByChance;
+    };
+    for (const ParameterGroup& group : groups_of(parameters)) {
+      if (std::ranges::any_of(group.shapes, shape_ends) && needed(group.sizes)) return true;
+      for (const std::size_t i : group.sizes)
+        if (ends(i) && needed({i})) return true;
+    }
+    return false;
+  }
+
+  /// True if a shape is near the end of what is plausible, and the data cannot tell it from there.
+  bool is_as_good_at_bound(const Hypothesis& h, const Score& score, const FitParameter& p) const {
+    constexpr double kNear = 2;   // times
+    if (p.natural_bounds || p.range != SearchRange::own) return false;
+    const double value = parameter_value(h, p);
+    for (const double bound : {p.lower, p.upper}) {
+      if (bound == p.nominal || !(value * bound > 0) || std::abs(std::log(value / bound)) > std::log(kNear)) continue;
+      Hypothesis there = h;
+      set_parameter(there, p, bound);
+      const Score s = evidence_.score(there);
+      if (s.finite && cost(there, s) < cost(h, score) + kByChance) return true;
     }
     return false;
   }

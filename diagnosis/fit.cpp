@@ -14,6 +14,13 @@ namespace {
 /// half gap stayed where its search began.
 constexpr double kStep = 0.1;
 
+/// How far the starts of a search lie apart around a value: about as far as it finds its way.
+double spacing_around(const std::vector<double>& starts, double value) {
+  std::size_t i = 1;
+  while (i + 1 < starts.size() && value > starts[i]) ++i;
+  return starts[i] - starts[i - 1];
+}
+
 Hypothesis moved(const Hypothesis& h, const FitParameter& p, double by) {
   Hypothesis m = h;
   const double value = parameter_value(h, p) + by * p.scale;
@@ -146,6 +153,7 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
     const EffectParameter& p = parameters[i];
     FitParameter f{p.name, p.unit, place, static_cast<int>(i), p.neutral, p.lower, p.upper, 1, p.natural_bounds};
     f.scale = std::max({std::abs(p.typical - p.neutral), 0.1 * std::abs(p.typical), 1e-3 * (p.upper - p.lower)});
+    if (p.is_shape() && p.starts.size() > 1) f.scale = 0.1 * spacing_around(p.starts, e.p[i]);
     f.shape = p.is_shape();
     f.starts = p.starts;
     f.range = p.range;

@@ -10,6 +10,7 @@
 /// R q'' = (r_m / N) q_m'' and takes the place of g. A joint without a motor has its own motion prescribed, q'' given: it
 /// is held, or driven by somebody else, with a force λ that nothing is known of.
 
+#include "diagnosis/chebyshev.h"
 #include "estimators/arm_dynamics.h"
 
 namespace halyard {
@@ -158,17 +159,8 @@ HALYARD_INLINE void copy_state(int n, int m, const DrivenState<T>& from, DrivenS
   for (int k = 0; k < m; ++k) to.z[k] = from.z[k];
 }
 
-/// Coefficients of the second-order Runge-Kutta-Chebyshev method with s stages: explicit, and stable for
-/// -|λ| h down to 2/3 (s² - 1) along the negative real axis, which is where friction and cable damping
-/// put the arm's fast eigenvalues. Source: Sommeijer, Shampine, Verwer, J. Comput. Appl. Math. 88 (1998).
-struct Chebyshev {
-  static constexpr int kMostStages = 48;
-  int stages;
-  double mu[kMostStages + 1], nu[kMostStages + 1], mu_h[kMostStages + 1], gamma_h[kMostStages + 1], node[kMostStages + 1];
-};
-
-/// One step of x from time over h; input(t) gives the DrivenInput. row: torque residual [n] and joint reading [n] at the
-/// start of the step.
+/// One step of x from time over h; input(t) gives the DrivenInput. row, if not null: torque residual [n] and joint
+/// reading [n] at the start of the step.
 template <class T, class Input>
 HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time, double h, const Chebyshev& c,
                                 const CommandHistory* history, const Input& input, DrivenState<T>& x, T* row) {
@@ -176,7 +168,7 @@ HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time
   ChainOverStep<T> chain;
   chain_over_step(transmission.arm(), x, 0.5 * h, chain);
   DrivenState<T> f0, f, before, now;
-  driven_derivative<T>(transmission, &chain, time, history, input(time), x, f0, row, row + n);
+  driven_derivative<T>(transmission, &chain, time, history, input(time), x, f0, row, row ? row + n : nullptr);
   copy_state(n, m, x, before);
   axpy(n, m, c.mu_h[1] * h, x, f0, now);
   for (int j = 2; j <= c.stages; ++j) {
@@ -228,7 +220,9 @@ HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const Driv
       }
       return at;
     };
-    driven_step(transmission, time, dt, scheme, history, input, x, out + i * 2 * n);
+    const double h = dt / scheme.steps;
+    for (int s = 0; s < scheme.steps; ++s)
+      driven_step(transmission, time + s * h, h, scheme, history, input, x, s == 0 ? out + i * 2 * n : nullptr);
   }
 }
 

@@ -52,17 +52,17 @@ CommandHistory whole_history(const Record& record, const std::vector<DrivenInput
 }
 
 template <class T>
-Transmission<T> make_transmission(const Hypothesis& h) {
+Transmission<T> make_transmission(const Hypothesis& h, double band = 0) {
   std::vector<EffectInstance<T>> effects;
   for (const PlacedEffect& e : h.effects) {
     EffectInstance<T> lifted{e.effect, e.joint, {}};
     for (int i = 0; i < kMaxEffectParameters; ++i) lifted.p[i] = e.p[i];
     effects.push_back(lifted);
   }
-  return Transmission<T>(lift<T>(h.nominal), std::move(effects));
+  return Transmission<T>(lift<T>(h.nominal), std::move(effects), band);
 }
 
-Transmission<Lanes> pack_hypotheses(const Hypothesis* const* lane) {
+Transmission<Lanes> pack_hypotheses(const Hypothesis* const* lane, double band) {
   ArmParameters<double> arms[kLaneWidth];
   std::vector<EffectInstance<Lanes>> effects;
   for (const PlacedEffect& e : lane[0]->effects) effects.push_back({e.effect, e.joint, {}});
@@ -71,15 +71,14 @@ Transmission<Lanes> pack_hypotheses(const Hypothesis* const* lane) {
     for (std::size_t e = 0; e < effects.size(); ++e)
       for (int i = 0; i < kMaxEffectParameters; ++i) effects[e].p[i].set(l, lane[l]->effects[e].p[i]);
   }
-  return Transmission<Lanes>(pack(arms), std::move(effects));
+  return Transmission<Lanes>(pack(arms), std::move(effects), band);
 }
 
-/// Jacobian of the driven state [q, q', z] at x, and its rates there.
+/// Jacobian of the driven state [q, q', z] at x.
 Eigen::MatrixXd driven_jacobian(const Transmission<Dual>& transmission, const Record& record, const DrivenInput& u,
-                                const DrivenState<double>& x, Eigen::VectorXd& rates) {
+                                const DrivenState<double>& x) {
   const int n = record.n, m = transmission.n_states(), size = 2 * n + m;
   Eigen::MatrixXd J(size, size);
-  rates.resize(size);
   for (int first = 0; first < size; first += kDualWidth) {
     DrivenState<Dual> at, rate;
     const auto entry = [&](DrivenState<Dual>& s, int i) -> Dual& { return i < n ? s.q[i] : i < 2 * n ? s.v[i - n] : s.z[i - 2 * n]; };
@@ -91,7 +90,6 @@ Eigen::MatrixXd driven_jacobian(const Transmission<Dual>& transmission, const Re
     chain_over_step(transmission.arm(), at, 0.0, chain);
     driven_derivative<Dual>(transmission, &chain, record.start, nullptr, u, at, rate, nullptr, nullptr);
     for (int r = 0; r < size; ++r) {
-      rates(r) = entry(rate, r).a;
       for (int c = first; c < std::min(size, first + kDualWidth); ++c) J(r, c) = entry(rate, r).d[c - first];
     }
   }
@@ -113,45 +111,44 @@ DrivenState<double> unstretched_state(const Hypothesis& h, const Record& record,
   return x;
 }
 
-/// The method with just enough stages for an eigenvalue of that size over a step dt.
-Chebyshev chebyshev(int stages) {
-  Chebyshev c;
-  c.stages = stages;
-  const double w0 = 1 + 2.0 / 13 / (stages * stages);
-  // Chebyshev polynomials and their first two derivatives at w0.
-  std::vector<double> T = {1, w0}, d = {0, 1}, dd = {0, 0};
-  for (int j = 2; j <= stages; ++j) {
-    T.push_back(2 * w0 * T[j - 1] - T[j - 2]);
-    d.push_back(2 * T[j - 1] + 2 * w0 * d[j - 1] - d[j - 2]);
-    dd.push_back(4 * d[j - 1] + 2 * w0 * dd[j - 1] - dd[j - 2]);
+/// In motion, from x on, where each cable pulls as hard as its motor ever did: a cable may be stiffer there, and the
+/// joints' Coulomb friction no longer damps.
+DrivenState<double> working_state(const Hypothesis& h, const Record& record, const DrivenInput& u, DrivenState<double> x) {
+  const Transmission<double> transmission = make_transmission<double>(h);
+  const ArmParameters<double>& arm = transmission.arm();
+  for (int k = 0; k < arm.n; ++k) {
+    if (arm.joint[k].drive != Drive::cable || !record.has_torque(k)) continue;
+    double most = 0;
+    for (const double torque : record.torque[k]) most = std::max(most, std::abs(torque));
+    const double wanted = most / arm.joint[k].motor_travel(), from = x.q[k];
+    constexpr double kFirst = 1e-6;   // rad | m, then twice as far each time
+    constexpr int kMostDoublings = 18;
+    for (int i = 0; i < kMostDoublings; ++i) {
+      x.q[k] = from + std::ldexp(kFirst, i);
+      JointSignals<double> s[kMaxJoints];
+      for (int j = 0; j < arm.n; ++j) s[j].motor_angle = u.motor_angle[j], s[j].joint_position = x.q[j];
+      double z_dot[kMaxStates];
+      transmission.evaluate(record.start, nullptr, x.z, s, z_dot);
+      if (std::abs(s[k].cable_force_joint) >= wanted) break;
+    }
   }
-  const double w1 = d[stages] / dd[stages];
-  std::vector<double> b(stages + 1), a(stages + 1);
-  for (int j = 2; j <= stages; ++j) b[j] = dd[j] / (d[j] * d[j]);
-  b[0] = b[1] = b[2];
-  for (int j = 0; j <= stages; ++j) a[j] = 1 - b[j] * T[j];
-  c.mu_h[1] = b[1] * w1;
-  for (int j = 2; j <= stages; ++j) {
-    c.mu[j] = 2 * b[j] * w0 / b[j - 1];
-    c.nu[j] = -b[j] / b[j - 2];
-    c.mu_h[j] = 2 * b[j] * w1 / b[j - 1];
-    c.gamma_h[j] = -a[j - 1] * c.mu_h[j];
-    c.node[j] = w1 * dd[j] / d[j];
-  }
-  c.node[1] = c.node[2] / d[2];
-  return c;
+  constexpr double kBeyondSmoothing = 10;
+  for (int k = 0; k < arm.n; ++k) x.v[k] = kBeyondSmoothing * arm.joint[k].joint_smoothing;
+  return x;
 }
 
-/// Stages that keep one step of the record stable; 0 if it would take too many.
-int stable_stages(const Transmission<Dual>& transmission, const Record& record, const DrivenInput& u,
-                  const DrivenState<double>& x) {
-  Eigen::VectorXd rates;
-  const Eigen::MatrixXd J = driven_jacobian(transmission, record, u, x, rates);
-  if (!J.allFinite()) return 0;
-  // The mass matrix changes along the motion: a fifth in reserve.
-  const double reach = 1.2 * J.eigenvalues().cwiseAbs().maxCoeff() * record.dt;
-  const double stages = std::ceil(std::sqrt(1 + 1.5 * reach)) + 1;
-  return stages > Chebyshev::kMostStages ? 0 : static_cast<int>(stages);
+/// With the motors held: at rest at x, and as it works. Empty if they cannot be told.
+std::vector<Spectrum> spectra_of(const Hypothesis& h, const Record& record, const DrivenInput& held,
+                                 const DrivenState<double>& x) {
+  const Transmission<Dual> transmission = make_transmission<Dual>(h);
+  std::vector<Spectrum> spectra;
+  for (const DrivenState<double>& at : {x, working_state(h, record, held, x)}) {
+    const Eigen::MatrixXd J = driven_jacobian(transmission, record, held, at);
+    if (!J.allFinite()) return {};
+    const Eigen::VectorXcd eigenvalues = J.eigenvalues();
+    spectra.emplace_back(eigenvalues.begin(), eigenvalues.end());
+  }
+  return spectra;
 }
 
 /// Everything that the motion of the joints depends on if the motors move as they were measured: not what acts between
@@ -216,17 +213,18 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
     (is_new ? movers : others).push_back(h);
   }
 
-  // All hypotheses of a call take the same number of stages: they differ by their numbers alone.
   std::vector<DrivenState<double>> starts(movers.size());
-  std::vector<int> needed(movers.size());
+  std::vector<std::vector<Spectrum>> spectra(movers.size());
   tbb::parallel_for(std::size_t{0}, movers.size(), [&](std::size_t i) {
     const Hypothesis& h = hypotheses[movers[i]];
     starts[i] = unstretched_state(h, record, inputs[0]);
-    needed[i] = stable_stages(make_transmission<Dual>(h), record, standing(inputs[0]), starts[i]);
+    spectra[i] = spectra_of(h, record, standing(inputs[0]), starts[i]);
   });
-  int stages = 2;
-  for (const int s : needed) stages = std::max(stages, s);
-  const Chebyshev scheme = chebyshev(stages);
+  const auto is_able = [&](std::size_t i) { return !spectra[i].empty() && stages_for(spectra[i], record.dt) > 0; };
+  std::vector<std::vector<Spectrum>> able_spectra;
+  for (std::size_t i = 0; i < movers.size(); ++i)
+    if (is_able(i)) able_spectra.push_back(spectra[i]);
+  const Chebyshev scheme = scheme_for(able_spectra, record.dt);
   const int n_states = hypotheses.empty() ? 0 : make_transmission<double>(hypotheses[0]).n_states();
   const int state_size = 2 * n + n_states;
   std::vector<std::vector<double>> states(others.empty() ? 0 : movers.size());   // [mover][sample][state_size]
@@ -261,7 +259,7 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
     for (int k = 0; k < n_states; ++k) x.z[k] = 0.0;
     for (std::size_t l = 0; l < kLaneWidth; ++l) {
       const std::size_t i = first + std::min(l, count - 1);
-      lane[l] = needed[i] > 0 ? &hypotheses[movers[i]] : nullptr;
+      lane[l] = is_able(i) ? &hypotheses[movers[i]] : nullptr;
       for (int k = 0; k < n; ++k) x.q[k].set(static_cast<int>(l), starts[i].q[k]);
     }
     // A lane that cannot be integrated is replaced by one that can, and reported.
@@ -272,7 +270,7 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
     if (able) {
       const Hypothesis* filled[kLaneWidth];
       for (int l = 0; l < kLaneWidth; ++l) filled[l] = lane[l] ? lane[l] : able;
-      const Transmission<Lanes> transmission = pack_hypotheses(filled);
+      const Transmission<Lanes> transmission = pack_hypotheses(filled, record.motion_sigma);
       const std::vector<DrivenInput> held(static_cast<std::size_t>(kLetDown / record.dt) + 1, standing(inputs[0]));
       std::vector<Lanes> unused(held.size() * 2 * n);
       kernel.drive(transmission, held.data(), held.size(), record.start, record.dt, scheme, &history, x, unused.data(), nullptr);
@@ -297,7 +295,8 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
       const std::vector<double>& of_mover = states[mover_of[h]];
       for (std::size_t i = 0; i < path.size(); ++i) path[i].set(static_cast<int>(l), of_mover[i]);
     }
-    kernel.replay(pack_hypotheses(lane), inputs.data(), record.size, record.start, record.dt, &history, path.data(), out.data());
+    kernel.replay(pack_hypotheses(lane, record.motion_sigma), inputs.data(), record.size, record.start, record.dt, &history,
+                  path.data(), out.data());
     for (std::size_t l = 0; l < count; ++l) {
       const std::size_t h = others[first + l];
       take(out, static_cast<int>(l), all[movers[mover_of[h]]].finite, all[h]);

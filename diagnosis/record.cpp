@@ -15,6 +15,9 @@
 namespace halyard {
 namespace {
 
+/// σ_t of a cut-off, s.
+double sigma_of(double cutoff_hz) { return 1 / (2 * std::numbers::pi * cutoff_hz); }
+
 /// Gaussian kernel of a cut-off and its first two derivatives on the sample grid, as correlation weights.
 struct Kernel {
   std::vector<double> value, slope, curvature;   ///< [2 reach + 1]
@@ -22,7 +25,7 @@ struct Kernel {
 };
 
 Kernel gaussian_kernel(double cutoff_hz, double dt) {
-  const double sigma_samples = 1 / (2 * std::numbers::pi * cutoff_hz * dt);
+  const double sigma_samples = sigma_of(cutoff_hz) / dt;
   Kernel k;
   k.reach = std::max(2, static_cast<int>(std::ceil(4 * sigma_samples)));
   double mass = 0, second = 0, fourth = 0;
@@ -98,6 +101,7 @@ class Stretch {
     r.start = start_;
     r.size = (size_ + stride_ - 1) / stride_;
     r.source = log_.source;
+    r.motion_sigma = sigma_of(options_.motion_hz);
     r.compare = {1};
     if (options_.compare_hz > 0) r.compare = gaussian_kernel(options_.compare_hz, r.dt).value;
     for (Signals* s : {&r.motor_angle, &r.motor_rate, &r.motor_acceleration, &r.torque, &r.joint, &r.joint_raw,
@@ -145,8 +149,7 @@ class Stretch {
 
   /// False in a hole between samples that the kernel does not bridge.
   bool is_known(const SampledColumn& c, double time) const {
-    const double sigma = 1 / (2 * std::numbers::pi * options_.motion_hz);
-    return c.hole_at(time) <= std::max(1.5 * c.interval(), sigma);
+    return c.hole_at(time) <= std::max(1.5 * c.interval(), sigma_of(options_.motion_hz));
   }
 
   /// Where the comparing kernel sees enough samples of a signal about it.

@@ -38,6 +38,7 @@ struct Record {
   Signals external;                                 ///< measured load on the joint; empty: none
   Signals joint_measured, torque_measured;          ///< 1 at the grid points nearest to the signal's own samples
   Signals joint_valid, torque_valid;                ///< 0 where a sample cannot be compared
+  double motion_sigma = 0;                          ///< σ_t of K_m, s
   std::vector<double> compare;                      ///< K_c on this grid, [2 reach + 1]
   std::string source;
 

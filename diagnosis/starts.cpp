@@ -69,7 +69,7 @@ Start best_start(const Evidence& evidence, const Screen& screen, const Hypothesi
         if (one_sided && p.lower < p.nominal) add(p.nominal - p.scale);
         if (shapes.size() > 1 || p.natural_bounds || p.lower < 0) continue;
         constexpr int kSizes = 7;
-        constexpr double kSizeSpan = 30, kRatioSpan = 5;
+        constexpr double kSizeSpan = 30, kRatioSpan = 12;
         const bool ratio = p.nominal == 1;
         const double typical = ratio ? 1 : p.nominal + p.scale, span = ratio ? kRatioSpan : kSizeSpan;
         for (int i = 0; i < kSizes; ++i) add(typical * std::pow(span, (2.0 * i + 1) / kSizes - 1));
@@ -141,7 +141,7 @@ Hypothesis nudged(const Evidence& evidence, Hypothesis h, std::size_t first, con
         for (const double by : {0.5, 0.25, 0.1, 0.04, 0.015, 0.005, 0.002})
           for (const double sign : {-1.0, 1.0}) values.push_back(value + sign * by * spacing);
       } else if (!p.natural_bounds && p.lower >= 0) {
-        for (const double factor : {0.7, 0.85, 0.95, 0.98, 0.99, 0.995, 0.998, 1.002, 1.005, 1.01, 1.02, 1.05, 1.15, 1.3, 1.6}) values.push_back(factor * value);
+        for (const double factor : {0.1, 0.3, 0.7, 0.9, 0.97, 0.99, 0.997, 1.003, 1.01, 1.03, 1.1, 1.4, 3.0, 10.0}) values.push_back(factor * value);
       }
       if (values.empty()) continue;
       std::vector<Hypothesis> tried = {h};

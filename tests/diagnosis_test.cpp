@@ -181,6 +181,28 @@ TEST(Prediction, AHypothesisThatCannotBeIntegratedSaysSoAndLeavesItsNeighboursAl
   }
 }
 
+TEST(Prediction, OfAnArmThatRingsIsStable) {
+  const ArmModel model = two_joints();
+  const Record record = make_records(unquantised_log(model, 2), model, {})[0];
+  Hypothesis h{model.nominal, {}};
+  // A mode at 140 Hz with a hundredth of critical damping, once friction no longer damps it: 2 ms are no step for it.
+  h.nominal.joint[0].stiffness *= 7;
+  h.nominal.joint[0].damping *= 0.02;
+  const Residuals e = predict(record, {h}, 1)[0];
+  ASSERT_TRUE(e.finite);
+  // The cable stretches less than the model's: it cannot be further off than that stretches.
+  const Residuals of_model = predict(record, {{model.nominal, {}}}, 1)[0];
+  double most = 0, stretch = 0;
+  for (std::size_t i = 0; i < record.size; ++i) {
+    if (std::isfinite(e.channel[2][i])) most = std::max(most, std::abs(e.channel[2][i] - of_model.channel[2][i]));
+    Eigen::VectorXd q_m(record.n);
+    for (int k = 0; k < record.n; ++k) q_m(k) = record.motor_angle[k][i];
+    stretch = std::max(stretch, std::abs(record.joint[0][i] - unstretched_joints(model.nominal, q_m, model.home())(0)));
+  }
+  EXPECT_GT(most, 0);
+  EXPECT_LT(most, stretch);
+}
+
 TEST(Prediction, OfEverySampleIsTheReadingLessItsResidual) {
   const ArmModel model = two_joints();
   const Record record = make_records(unquantised_log(model, 2), model, {})[0];

@@ -97,6 +97,9 @@ struct EffectContext {
   const T* z;                      ///< the effect's states
   double time;                     ///< s
   const CommandHistory* history;   ///< past commands, or null
+  /// Standard deviation of the Gaussian filter through which motion and torque are seen, s; 0: as they are. What is
+  /// periodic in an angle that turns at ω is seen exp(-(ω band)² / 2) times as large.
+  double band = 0;
 };
 
 enum class EffectStage : unsigned { command = 1, stretch = 2, cable_force = 4, motor = 8, joint = 16, sensors = 32 };

@@ -37,7 +37,12 @@ class TorqueRipple : public EffectOf<TorqueRipple> {
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
     const T phase = c.p[2] * s[c.joint].motor_angle;
-    s[c.joint].motor_torque += c.p[0] * cos(phase) + c.p[1] * sin(phase);
+    T ripple = c.p[0] * cos(phase) + c.p[1] * sin(phase);
+    if (c.band > 0) {
+      const T turned = c.p[2] * s[c.joint].motor_rate * c.band;
+      ripple *= exp(T(-0.5 * turned * turned));
+    }
+    s[c.joint].motor_torque += ripple;
   }
 };
 
