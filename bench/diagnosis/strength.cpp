@@ -7,6 +7,21 @@
 #include "model/input_error.h"
 
 namespace halyard::blind {
+namespace {
+
+bool is_constant_error_of_a_sensor(const PlacedEffect& effect, const ArmParameters<double>& nominal) {
+  ArmParameters<double> arm = nominal;
+  effect.effect->change_parameters(arm, effect.joint, effect.p);
+  for (int k = 0; k < arm.n; ++k) {
+    const JointParameters<double>&with = arm.joint[k], &without = nominal.joint[k];
+    if (with.motor_encoder_offset != without.motor_encoder_offset || with.torque_bias != without.torque_bias ||
+        with.joint_encoder_offset != without.joint_encoder_offset)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 StrengthMeter::StrengthMeter(const Log& training, const ArmModel& model)
     : evidence_(make_records(training, model, {}), model),
@@ -16,12 +31,23 @@ StrengthMeter::StrengthMeter(const Log& training, const ArmModel& model)
   const auto rows = static_cast<Eigen::Index>(evidence_.row_channel().size());
   const auto numbers = static_cast<Eigen::Index>(columns.size());
   // A row more for each number: |u|².
-  J_ = Eigen::MatrixXd::Zero(rows + numbers, numbers);
+  whole_.J = Eigen::MatrixXd::Zero(rows + numbers, numbers);
   for (Eigen::Index i = 0; i < numbers; ++i) {
-    for (Eigen::Index r = 0; r < rows; ++r) J_(r, i) = columns[i][r] / evidence_.floor()[evidence_.row_channel()[r]];
-    J_(rows + i, i) = std::sqrt(evidence_.correlated_rows());
+    for (Eigen::Index r = 0; r < rows; ++r) whole_.J(r, i) = columns[i][r] / evidence_.floor()[evidence_.row_channel()[r]];
+    whole_.J(rows + i, i) = std::sqrt(evidence_.correlated_rows());
   }
-  qr_.compute(J_);
+  centred_.J = whole_.J;
+  for (Eigen::Index i = 0; i < numbers; ++i) take_off_constants(centred_.J.col(i));
+  for (Reach* reach : {&whole_, &centred_}) reach->qr.compute(reach->J);
+}
+
+void StrengthMeter::take_off_constants(Eigen::Ref<Eigen::VectorXd> rows) const {
+  const std::vector<int>& channel = evidence_.row_channel();
+  std::vector<double> sum(evidence_.channels(), 0), count(evidence_.channels(), 0);
+  for (std::size_t r = 0; r < channel.size(); ++r)
+    sum[channel[r]] += rows(static_cast<Eigen::Index>(r)), count[channel[r]] += 1;
+  for (std::size_t r = 0; r < channel.size(); ++r)
+    rows(static_cast<Eigen::Index>(r)) -= sum[channel[r]] / count[channel[r]];
 }
 
 double StrengthMeter::strength(const PlacedEffect& effect) const {
@@ -29,10 +55,13 @@ double StrengthMeter::strength(const PlacedEffect& effect) const {
   with.effects.push_back(effect);
   const std::vector<double> changed = evidence_.fit_rows({with})[0];
   if (changed.empty() || base_.empty()) return std::numeric_limits<double>::infinity();
-  Eigen::VectorXd d = Eigen::VectorXd::Zero(J_.rows());
+  const bool of_constants = is_constant_error_of_a_sensor(effect, nominal_.nominal);
+  const Reach& reach = of_constants ? whole_ : centred_;
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(reach.J.rows());
   for (std::size_t r = 0; r < changed.size(); ++r)
     d(static_cast<Eigen::Index>(r)) = (changed[r] - base_[r]) / evidence_.floor()[evidence_.row_channel()[r]];
-  d -= J_ * qr_.solve(d);
+  if (!of_constants) take_off_constants(d);
+  d -= reach.J * reach.qr.solve(d);
   std::vector<double> square(evidence_.channels(), 0), count(evidence_.channels(), 0);
   for (std::size_t r = 0; r < changed.size(); ++r) {
     square[evidence_.row_channel()[r]] += d(static_cast<Eigen::Index>(r)) * d(static_cast<Eigen::Index>(r));

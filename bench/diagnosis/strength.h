@@ -1,10 +1,12 @@
 #pragma once
-/// How much an effect shows in a log, beyond what the model's own tolerances could explain.
+/// How much an effect shows in a log, beyond what the model's own tolerances and constant errors of the sensors could
+/// explain.
 ///
 ///   d        change of the predicted residuals by the effect, each channel over its floor     [rows]
-///   d⊥       d - J u,  u = argmin |d - J u|² / m + |u|²
+///   d⊥       d - J u - c,  u, c = argmin |d - J u - c|² / m + |u|²
 ///   strength max over channels of the root mean square of d⊥
 ///
+///   c        a constant of each channel: an encoder's zero, a torque's bias; 0 for effects that are such errors
 ///   J        sensitivities to the model's numbers, in halves of their tolerance, over the floor  [rows x numbers]
 ///   m        rows that are worth one independent sample
 ///
@@ -25,11 +27,17 @@ class StrengthMeter {
   double strength(const PlacedEffect& effect) const;
 
  private:
+  /// A channel's mean taken off each of its rows.
+  void take_off_constants(Eigen::Ref<Eigen::VectorXd> rows) const;
+
   Evidence evidence_;
   Hypothesis nominal_;
   std::vector<double> base_;
-  Eigen::HouseholderQR<Eigen::MatrixXd> qr_;
-  Eigen::MatrixXd J_;
+  /// J and the rows of |u|²; in `centred` without the channels' constants.
+  struct Reach {
+    Eigen::MatrixXd J;
+    Eigen::HouseholderQR<Eigen::MatrixXd> qr;
+  } whole_, centred_;
 };
 
 }  // namespace halyard::blind
