@@ -35,7 +35,8 @@ Likelihood log_likelihood(const Evidence& evidence, const Score& score, const st
   for (std::size_t b = 0; b < count.size(); ++b)
     for (int c = 0; c < evidence.channels(); ++c)
       if (count[b][c] > 0)
-        ln[b][c] = -0.5 * count[b][c] / evidence.correlated_rows() * std::log(score.block_sum[b][c] / count[b][c] + least[c]);
+        ln[b][c] =
+            -0.5 * count[b][c] / evidence.correlated_rows() * std::log(score.block_sum[b][c] / count[b][c] + least[c]);
   return ln;
 }
 
@@ -91,7 +92,9 @@ class Search {
     say("nominal model", 0);
     result_.nominal_score = evidence_.score(nominal);
     if (!result_.nominal_score.finite)
-      throw InputError(model_.source + ": cannot be integrated along the measured motion; expected frictions and cables that settle more slowly: take larger smoothing speeds, or less damping");
+      throw InputError(model_.source +
+                       ": cannot be integrated along the measured motion; expected frictions and cables that settle "
+                       "more slowly: take larger smoothing speeds, or less damping");
     keep_sensitive_numbers(nominal);
     result_.baseline = refit(nominal, result_.nominal_score);
     result_.baseline_score = evidence_.score(result_.baseline.hypothesis);
@@ -128,11 +131,13 @@ class Search {
     std::vector<FitParameter> all;
     for (const FitParameter& b : numbers_) {
       bool covered = false;
-      for (std::size_t e = given_; e < h.effects.size(); ++e) covered = covered || effect_covers(h.effects[e], model_.nominal, b);
+      for (std::size_t e = given_; e < h.effects.size(); ++e)
+        covered = covered || effect_covers(h.effects[e], model_.nominal, b);
       if (!covered) all.push_back(b);
     }
     for (std::size_t e = given_; e < h.effects.size(); ++e)
-      for (const FitParameter& p : effect_parameters(evidence_, h, model_.nominal, static_cast<int>(e))) all.push_back(p);
+      for (const FitParameter& p : effect_parameters(evidence_, h, model_.nominal, static_cast<int>(e)))
+        all.push_back(p);
     return all;
   }
 
@@ -169,7 +174,8 @@ class Search {
       if (!score.finite) break;
       double now = 0;
       for (int c = 0; c < evidence_.channels(); ++c)
-        if (evidence_.has_channel(c)) now += std::log(score.fit_mean_square[c] + evidence_.floor()[c] * evidence_.floor()[c]);
+        if (evidence_.has_channel(c))
+          now += std::log(score.fit_mean_square[c] + evidence_.floor()[c] * evidence_.floor()[c]);
       if (now < last) best = f;
       at = f.hypothesis;
       if (now > last - kWorthAPass) break;
@@ -296,8 +302,8 @@ class Search {
     return t;
   }
 
-  /// The probability of such a gain by chance: by the scatter of the blocks, or, of an effect that explains a rest whole, by
-  /// the likelihood ratio, so that a few moments are enough.
+  /// The probability of such a gain by chance: by the scatter of the blocks, or, of an effect that explains a rest
+  /// whole, by the likelihood ratio, so that a few moments are enough.
   double p_of_gain(const Score& with, const Score& without, double gain) const {
     const std::vector<double> least = floors_beside(evidence_, without);
     const double by_blocks =
@@ -305,7 +311,8 @@ class Search {
     return explains_a_rest(without, with) ? std::min(by_blocks, std::exp(-gain)) : by_blocks;
   }
 
-  /// True if, in the channel with a rest that the effect takes most of, nothing that matters is left or next to nothing.
+  /// True if, in the channel with a rest that the effect takes most of, nothing that matters is left or next to
+  /// nothing.
   bool explains_a_rest(const Score& before, const Score& after) const {
     const std::vector<bool> had = significant_rest(evidence_, before), has = significant_rest(evidence_, after);
     int most = -1;
@@ -316,14 +323,16 @@ class Search {
   }
 
   bool convincing(const Trial& t, std::size_t candidates) const {
-    return t.usable && !t.at_bound && !t.is_refit && t.matters && t.gain > 0 && t.p_value * static_cast<double>(candidates) < options_.significance;
+    return t.usable && !t.at_bound && !t.is_refit && t.matters && t.gain > 0 &&
+           t.p_value * static_cast<double>(candidates) < options_.significance;
   }
 
   /// True if no channel has a residual left above its floor.
   bool explained(const Score& score) const {
     for (int c = 0; c < evidence_.channels(); ++c) {
       const double enough = std::pow(evidence_.floor()[c], 2);
-      if (evidence_.has_channel(c) && (score.mean_square[c] > enough || score.fit_mean_square[c] > enough)) return false;
+      if (evidence_.has_channel(c) && (score.mean_square[c] > enough || score.fit_mean_square[c] > enough))
+        return false;
     }
     return true;
   }
@@ -333,7 +342,8 @@ class Search {
     if (explained(score)) return false;
     const Likelihood ln_before = log_likelihood(evidence_, score, floors(evidence_));
     const std::vector<double> scale = channel_scale(evidence_, score.fit_mean_square);
-    // Before any effect is named the baseline's refit is bent by what is missing: the look starts at the model's numbers.
+    // Before any effect is named the baseline's refit is bent by what is missing: the look starts at the model's
+    // numbers.
     Fit from = current;
     if (result_.rounds.empty()) from.hypothesis = {model_.nominal, model_.effects};
     std::vector<FitParameter> numbers;
@@ -354,7 +364,8 @@ class Search {
     std::vector<std::size_t> fitted;
     for (std::size_t i = 0; i < all.size(); ++i)
       if (starts[i].promise >= kPromise) fitted.push_back(i);
-    std::stable_sort(fitted.begin(), fitted.end(), [&](std::size_t a, std::size_t b) { return starts[a].left < starts[b].left; });
+    std::stable_sort(fitted.begin(), fitted.end(),
+                     [&](std::size_t a, std::size_t b) { return starts[a].left < starts[b].left; });
     if (fitted.size() > kMostFitted) fitted.resize(kMostFitted);
 
     std::vector<Trial> trials;
@@ -365,7 +376,8 @@ class Search {
     done = 0;
     tbb::parallel_for(std::size_t{0}, fitted.size(), [&](std::size_t f) {
       const std::size_t i = fitted[f];
-      trials[i] = quick_look(starts[i].hypothesis, numbers, columns, scale, score, ln_before, stretch(current.hypothesis), all[i]);
+      trials[i] = quick_look(starts[i].hypothesis, numbers, columns, scale, score, ln_before,
+                             stretch(current.hypothesis), all[i]);
       say("fits of round " + std::to_string(result_.rounds.size() + 1), static_cast<double>(++done) / fitted.size());
     });
     const auto better = [](const Trial& a, const Trial& b) { return a.gain > b.gain; };
@@ -380,12 +392,16 @@ class Search {
     tbb::parallel_for(std::size_t{0}, fits.size(), [&](std::size_t i) {
       if (!(trials[i].gain > kLeads * trials[0].gain) || trials[i].p_value > kWorthAFit) return;
       fits[i] = refit(with_effect(from.hypothesis, trials[i].effect), score);
-      leaders[i] = fits[i].usable ? judge(fits[i].hypothesis, score, ln_before, stretch(current.hypothesis), trials[i].effect) : unusable(trials[i].effect);
-      say("best candidates of round " + std::to_string(result_.rounds.size() + 1), static_cast<double>(++done) / fits.size());
+      leaders[i] = fits[i].usable
+                       ? judge(fits[i].hypothesis, score, ln_before, stretch(current.hypothesis), trials[i].effect)
+                       : unusable(trials[i].effect);
+      say("best candidates of round " + std::to_string(result_.rounds.size() + 1),
+          static_cast<double>(++done) / fits.size());
     });
     std::size_t best = leaders.size();
     for (std::size_t i = 0; i < leaders.size(); ++i)
-      if (convincing(leaders[i], fitted.size()) && (best == leaders.size() || leaders[i].gain > leaders[best].gain)) best = i;
+      if (convincing(leaders[i], fitted.size()) && (best == leaders.size() || leaders[i].gain > leaders[best].gain))
+        best = i;
 
     Round round;
     std::copy(leaders.begin(), leaders.end(), trials.begin());
@@ -397,8 +413,8 @@ class Search {
         if (shared_gain(leaders[best].log_likelihood, leaders[i].log_likelihood, ln_before) < kSharedGain) continue;
         if (p.t < kTellApart || p.sum < 2 * kTellApart * kTellApart) alike.push_back(i);
       }
-      // Of those that cannot be told apart the best is named; of those that are as good one that only changes the model's own
-      // numbers, and then the one with the fewest numbers of its own.
+      // Of those that cannot be told apart the best is named; of those that are as good one that only changes the
+      // model's own numbers, and then the one with the fewest numbers of its own.
       const auto simplicity = [&](std::size_t i) {
         const PlacedEffect& e = leaders[i].effect;
         return std::pair(e.effect->stages() != 0, e.effect->parameters(model_.nominal, e.joint).size());
@@ -421,9 +437,10 @@ class Search {
     return best < leaders.size();
   }
 
-  Trial quick_look(const Hypothesis& start, const std::vector<FitParameter>& numbers, const std::vector<std::vector<double>>& columns,
-                   const std::vector<double>& scale, const Score& before, const Likelihood& ln_before,
-                   double stretch_before, const PlacedEffect& effect) const {
+  Trial quick_look(const Hypothesis& start, const std::vector<FitParameter>& numbers,
+                   const std::vector<std::vector<double>>& columns, const std::vector<double>& scale,
+                   const Score& before, const Likelihood& ln_before, double stretch_before,
+                   const PlacedEffect& effect) const {
     std::vector<FitParameter> parameters;
     std::vector<std::vector<double>> kept;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -471,8 +488,10 @@ class Search {
                std::size_t i) const {
     const int place = static_cast<int>(given_ + i);
     const std::vector<double> least = floors(evidence_);
-    const double gain = paired(log_likelihood(evidence_, with_score, least), log_likelihood(evidence_, without_score, least), evidence_).sum +
-                        stretch(without) - stretch(with);
+    const double gain =
+        paired(log_likelihood(evidence_, with_score, least), log_likelihood(evidence_, without_score, least), evidence_)
+            .sum +
+        stretch(without) - stretch(with);
     return within_tolerance(with, place) || !matters(without_score, with_score, with, place) ||
            p_of_gain(with_score, without_score, gain) > options_.significance;
   }

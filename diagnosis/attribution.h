@@ -13,10 +13,10 @@
 ///
 /// A candidate is named if
 ///
-/// - its gain is significant, with the number of candidates respected: by a paired t test over blocks; or, where it explains
-///   nearly all of a rest, by the likelihood ratio itself, p <= exp(-gain), which holds on data that the fit did not see
-///   (Wasserman, Ramdas and Balakrishnan, PNAS 117 (2020), split likelihood ratio): a force during two of sixty blocks is
-///   not lost among blocks that it never touched;
+/// - its gain is significant, with the number of candidates respected: by a paired t test over blocks; or, where it
+///   explains nearly all of a rest, by the likelihood ratio itself, p <= exp(-gain), which holds on data that the fit
+///   did not see (Wasserman, Ramdas and Balakrishnan, PNAS 117 (2020), split likelihood ratio): a force during two of
+///   sixty blocks is not lost among blocks that it never touched;
 /// - it matters: a residual shrinks by more than what the model's tolerance and the sensors leave open;
 /// - no parameter ends at the end of what is plausible, and does something there.
 
@@ -35,8 +35,8 @@ inline constexpr double kMattersFactor = 1.5;
 /// Two candidates whose gains differ by less than this many standard errors cannot be told apart.
 inline constexpr double kTellApart = 2.0;
 
-/// Two candidates are alternatives if of what the lesser gains the other gains so much as well: those that gain elsewhere
-/// stand beside each other.
+/// Two candidates are alternatives if of what the lesser gains the other gains so much as well: those that gain
+/// elsewhere stand beside each other.
 inline constexpr double kSharedGain = 0.5;
 
 /// ln L, [deciding block][channel].

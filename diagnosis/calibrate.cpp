@@ -61,8 +61,10 @@ ArmModel calibrated(const ArmModel& model, const std::vector<Record>& records) {
       fail("goes against the torque that the motion needs; give its column sign=-1, or correct the sign of the motor's "
            "position");
     if (!(correlation > kGoesWith))
-      fail(fmt::format("does not go with the motor's motion (correlation {:.2f}); give a record in which the motor moves, "
-                       "and that motor's own column", correlation));
+      fail(fmt::format(
+          "does not go with the motor's motion (correlation {:.2f}); give a record in which the motor moves, "
+          "and that motor's own column",
+          correlation));
     result.nominal.joint[k].torque_scale *= r.slope();
   }
   return result;

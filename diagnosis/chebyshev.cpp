@@ -61,7 +61,8 @@ Chebyshev scheme_for(const std::vector<std::vector<Spectrum>>& systems, double s
     c.stages = 2;
     for (const auto& spectra : systems) c.stages = std::max(c.stages, stages_for(spectra, h));
     const ChebyshevPolynomial method(c.stages);
-    if (c.steps == kMostSteps || std::ranges::all_of(systems, [&](const auto& s) { return is_stable(s, method, h); })) break;
+    if (c.steps == kMostSteps || std::ranges::all_of(systems, [&](const auto& s) { return is_stable(s, method, h); }))
+      break;
   }
   const ChebyshevPolynomial method(c.stages);
   const std::vector<double>&T = method.T, &d = method.d, &dd = method.dd;

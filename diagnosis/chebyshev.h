@@ -1,7 +1,7 @@
 #pragma once
 /// The second-order Runge-Kutta-Chebyshev method with s stages: explicit, and stable for -|λ| h down to 2/3 (s² - 1)
-/// along the negative real axis, which is where friction and cable damping put the arm's fast eigenvalues λ. Beside that
-/// axis it is not: an arm that rings takes several steps to a sample.
+/// along the negative real axis, which is where friction and cable damping put the arm's fast eigenvalues λ. Beside
+/// that axis it is not: an arm that rings takes several steps to a sample.
 ///
 ///   growth of a mode over a step h, z = λ h:   |1 - b_s T_s(w0) + b_s T_s(w0 + w1 z)|
 ///
@@ -20,17 +20,19 @@ namespace halyard {
 struct Chebyshev {
   static constexpr int kMostStages = 48;
   int stages, steps;   ///< steps to a sample
-  double mu[kMostStages + 1], nu[kMostStages + 1], mu_h[kMostStages + 1], gamma_h[kMostStages + 1], node[kMostStages + 1];
+  double mu[kMostStages + 1], nu[kMostStages + 1], mu_h[kMostStages + 1], gamma_h[kMostStages + 1],
+      node[kMostStages + 1];
 };
 
 /// Eigenvalues of a system's Jacobian, 1/s.
 using Spectrum = std::vector<std::complex<double>>;
 
-/// Stages that keep steps of h stable along the real axis, a fifth in reserve; 0 if it would take more than kMostStages.
+/// Stages that keep steps of h stable along the real axis, a fifth in reserve; 0 if it would take more than
+/// kMostStages.
 int stages_for(const std::vector<Spectrum>& spectra, double h);
 
-/// The method with just enough steps to a sample and stages to a step for several systems at once, each with the spectra
-/// of some of its states, and with stages for the sample as one step.
+/// The method with just enough steps to a sample and stages to a step for several systems at once, each with the
+/// spectra of some of its states, and with stages for the sample as one step.
 Chebyshev scheme_for(const std::vector<std::vector<Spectrum>>& systems, double sample_s);
 
 }  // namespace halyard

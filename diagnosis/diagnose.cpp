@@ -30,15 +30,18 @@ std::pair<double, double> size_of(const std::vector<Record>& records, const std:
   return count > 0 ? std::pair(std::sqrt(square / count), peak) : std::pair(kNone, kNone);
 }
 
-PredictionError errors(const HoldOut& joints, const HoldOut& torques, int n, std::vector<FullPrediction> HoldOut::*which) {
+PredictionError errors(const HoldOut& joints, const HoldOut& torques, int n,
+                       std::vector<FullPrediction> HoldOut::*which) {
   PredictionError e;
   for (int k = 0; k < n; ++k) {
-    const auto [joint_rms, joint_peak] = size_of(joints.records, joints.*which, [k](const Record& r, const FullPrediction& p, std::size_t i) {
-      return r.has_joint(k) && r.joint_valid[k][i] > 0 ? r.joint_raw[k][i] - p.joint_reading[k][i] : kNone;
-    });
-    const auto [torque_rms, torque_peak] = size_of(torques.records, torques.*which, [k](const Record& r, const FullPrediction& p, std::size_t i) {
-      return r.has_torque(k) && r.torque_valid[k][i] > 0 ? p.torque_residual[k][i] : kNone;
-    });
+    const auto [joint_rms, joint_peak] =
+        size_of(joints.records, joints.*which, [k](const Record& r, const FullPrediction& p, std::size_t i) {
+          return r.has_joint(k) && r.joint_valid[k][i] > 0 ? r.joint_raw[k][i] - p.joint_reading[k][i] : kNone;
+        });
+    const auto [torque_rms, torque_peak] =
+        size_of(torques.records, torques.*which, [k](const Record& r, const FullPrediction& p, std::size_t i) {
+          return r.has_torque(k) && r.torque_valid[k][i] > 0 ? p.torque_residual[k][i] : kNone;
+        });
     e.joint_rms.push_back(joint_rms);
     e.joint_peak.push_back(joint_peak);
     e.torque_rms.push_back(torque_rms);
@@ -63,20 +66,21 @@ Estimated estimated(const Fit& f, std::size_t i) {
   const FitParameter& p = f.parameters[i];
   const double half = kTwoSided95 * f.std_deviation[i];
   // No interval reaches beyond what the number can be.
-  return {p.name, p.unit, f.value[i], std::max(f.value[i] - half, p.lower), std::min(f.value[i] + half, p.upper), p.nominal};
+  return {p.name,   p.unit, f.value[i], std::max(f.value[i] - half, p.lower), std::min(f.value[i] + half, p.upper),
+          p.nominal};
 }
 
-/// A refit that is told lies so many standard deviations off the model's number. Of some thirty numbers one in a thousand
-/// clean diagnoses then shows a refit by chance.
+/// A refit that is told lies so many standard deviations off the model's number. Of some thirty numbers one in a
+/// thousand clean diagnoses then shows a refit by chance.
 constexpr double kRefit = 4;
 
 bool is_refit(const Fit& f, std::size_t i) {
   return f.parameters[i].effect < 0 && std::abs(f.value[i] - f.parameters[i].nominal) > kRefit * f.std_deviation[i];
 }
 
-/// Numbers that the data did not move for certain go back to the model's, sizes of an effect to neutral as long as another
-/// of its sizes stays; the rest is fitted again. They go one by one, the least certain first: of two numbers that the data
-/// know only the sum of, one is needed.
+/// Numbers that the data did not move for certain go back to the model's, sizes of an effect to neutral as long as
+/// another of its sizes stays; the rest is fitted again. They go one by one, the least certain first: of two numbers
+/// that the data know only the sum of, one is needed.
 Fit keep_certain_numbers(const Evidence& evidence, const ArmModel& model, const Fit& f, const Score& score) {
   Eigen::VectorXd value = Eigen::Map<const Eigen::VectorXd>(f.value.data(), static_cast<Eigen::Index>(f.value.size()));
   Eigen::MatrixXd covariance = f.covariance;
@@ -96,7 +100,8 @@ Fit keep_certain_numbers(const Evidence& evidence, const ArmModel& model, const 
       if (!may_go(i)) continue;
       const double needed = f.parameters[i].effect < 0 ? kRefit : kTwoSided95;
       const FitParameter& p = f.parameters[i];
-      const double has = ends_at_bound(p, value(i)) ? 0 : std::abs(value(i) - p.nominal) / (needed * std::sqrt(covariance(i, i)));
+      const double has =
+          ends_at_bound(p, value(i)) ? 0 : std::abs(value(i) - p.nominal) / (needed * std::sqrt(covariance(i, i)));
       if (has < certainty) certainty = has, least = i;
     }
     if (least == f.parameters.size()) break;
@@ -121,7 +126,8 @@ Fit keep_certain_numbers(const Evidence& evidence, const ArmModel& model, const 
   const Fit again = fit(evidence, h, left, channel_scale(evidence, score.fit_mean_square));
   if (!again.usable) return f;
   bool at_bound = false;
-  for (std::size_t i = 0; i < left.size(); ++i) at_bound = at_bound || (!left[i].shape && ends_at_bound(left[i], again.value[i]));
+  for (std::size_t i = 0; i < left.size(); ++i)
+    at_bound = at_bound || (!left[i].shape && ends_at_bound(left[i], again.value[i]));
   return at_bound && left.size() < f.parameters.size() ? keep_certain_numbers(evidence, model, again, score) : again;
 }
 
@@ -158,9 +164,11 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
   const auto learn_from = [&](const Log& log) {
     for (Record& r : make_records(log, model, options.record)) records.push_back(std::move(r));
   };
-  // What is held out of a log goes on from the part before it: cables remember. That part is driven along, not compared.
+  // What is held out of a log goes on from the part before it: cables remember. That part is driven along, not
+  // compared.
   const auto hold_out = [&](const Log& log, double from) {
-    for (const auto& [view, how] : {std::pair(&d.joint_view, options.joint_error), std::pair(&d.torque_view, options.record)})
+    for (const auto& [view, how] :
+         {std::pair(&d.joint_view, options.joint_error), std::pair(&d.torque_view, options.record)})
       for (Record& r : make_records(log, model, how)) {
         if (r.time(r.size - 1) < from) continue;
         compare_from(r, from);
@@ -213,14 +221,16 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
   for (int k = 0; k < model.n(); ++k) {
     const bool rest = rest_of[k] || rest_of[model.n() + k];
     if (all_one_sine && would_name)
-      d.unexplained.push_back({k, "the record is one sine, along which several effects look alike; record other motions or loads"});
+      d.unexplained.push_back(
+          {k, "the record is one sine, along which several effects look alike; record other motions or loads"});
     else if (rest)
       d.unexplained.push_back({k, signature(evidence, h, k)});
   }
   for (const Log& log : training)
     for (const int k : stuck_joint_sensors(log, model))
-      d.unexplained.push_back({k, "its sensor stands still in " + log.source + " while its motor moves, and was left out: "
-                                  "stuck, not connected, or the joint is not driven by this motor"});
+      d.unexplained.push_back({k, "its sensor stands still in " + log.source +
+                                      " while its motor moves, and was left out: "
+                                      "stuck, not connected, or the joint is not driven by this motor"});
   d.verdict = !d.effects.empty() ? Diagnosis::Verdict::effects
               : d.unexplained.empty() ? Diagnosis::Verdict::clean : Diagnosis::Verdict::unknown;
   if (options.tell_not_excited) {

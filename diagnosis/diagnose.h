@@ -69,6 +69,7 @@ struct Diagnosis {
 /// third of each training log is held out.
 /// Throws InputError for logs that cannot be compared with the model.
 Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, const std::optional<Log>& holdout,
-                   const DiagnosisOptions& options, const std::function<void(const std::string&, double)>& progress = {});
+                   const DiagnosisOptions& options,
+                   const std::function<void(const std::string&, double)>& progress = {});
 
 }  // namespace halyard

@@ -107,7 +107,8 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model) : n_(mode
   for (const Place& p : places_)
     if (!p.fit) ++block_count_[p.block][p.channel];
   if (row_channel_.empty())
-    throw InputError(records_.front().source + ": nothing to compare: no joint sensor, and no motor that moves with a known torque");
+    throw InputError(records_.front().source +
+                     ": nothing to compare: no joint sensor, and no motor that moves with a known torque");
 }
 
 std::vector<std::vector<double>> Evidence::fit_rows(const std::vector<Hypothesis>& hypotheses) const {

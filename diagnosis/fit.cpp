@@ -10,8 +10,8 @@
 namespace halyard {
 namespace {
 
-/// Step of a sensitivity, in units of the optimiser. It has to bridge the roughness of residuals with impacts: at 0.02 a
-/// half gap stayed where its search began.
+/// Step of a sensitivity, in units of the optimiser. It has to bridge the roughness of residuals with impacts: at 0.02
+/// a half gap stayed where its search began.
 constexpr double kStep = 0.1;
 
 /// How far the starts of a search lie apart around a value: about as far as it finds its way.
@@ -34,7 +34,8 @@ class Residual : public ceres::CostFunction {
   Residual(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& parameters,
            const std::vector<double>& scale, bool frozen, const std::vector<std::vector<double>>& frozen_columns)
       : evidence_(evidence), start_(start), parameters_(parameters), frozen_(frozen), frozen_columns_(frozen_columns) {
-    for (const int c : evidence.row_channel()) weight_.push_back(1 / (scale[c] * std::sqrt(evidence.correlated_rows())));
+    for (const int c : evidence.row_channel())
+      weight_.push_back(1 / (scale[c] * std::sqrt(evidence.correlated_rows())));
     for (std::size_t i = 0; i < parameters.size(); ++i)
       if (parameters[i].effect < 0) prior_.push_back(static_cast<int>(i));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
@@ -60,7 +61,8 @@ class Residual : public ceres::CostFunction {
     for (std::size_t i = 0; (wanted || frozen_) && i < p; ++i) {
       if (is_frozen(i)) continue;
       all.push_back(moved(all[0], parameters_[i], kStep));
-      step[i] = (parameter_value(all.back(), parameters_[i]) - parameter_value(all[0], parameters_[i])) / parameters_[i].scale;
+      step[i] = (parameter_value(all.back(), parameters_[i]) - parameter_value(all[0], parameters_[i])) /
+                parameters_[i].scale;
     }
     // What is frozen moves no hypothesis.
     std::vector<double> point;
@@ -139,7 +141,8 @@ std::vector<FitParameter> baseline_parameters(const ArmParameters<double>& nomin
     if (is("gear_ratio") || is("pulley_radius")) continue;   // one ratio, told by the capstan's radius
     const double value = *named[i].value, reach = named[i].tolerance * std::abs(value);
     if (!(reach > 0)) continue;
-    all.push_back({named[i].name, named[i].unit, -1, static_cast<int>(i), value, value - reach, value + reach, reach / 2, true});
+    all.push_back(
+        {named[i].name, named[i].unit, -1, static_cast<int>(i), value, value - reach, value + reach, reach / 2, true});
   }
   return all;
 }
@@ -158,7 +161,8 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
     f.starts = p.starts;
     f.range = p.range;
     if (p.range != SearchRange::own) {
-      const Span span = p.range == SearchRange::record_time ? evidence.time_span() : evidence.joint_span(std::max(0, e.joint));
+      const Span span =
+          p.range == SearchRange::record_time ? evidence.time_span() : evidence.joint_span(std::max(0, e.joint));
       f.lower = span.first;
       f.upper = span.last;
       f.scale = std::max(0.01 * (span.last - span.first), 1e-9);
@@ -182,7 +186,9 @@ std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameter
 }
 
 bool ends_at_bound(const FitParameter& p, double value) {
-  const auto close = [&](double bound) { return std::abs(value - bound) <= 1e-3 * std::max(std::abs(bound), 1e-3 * p.scale); };
+  const auto close = [&](double bound) {
+    return std::abs(value - bound) <= 1e-3 * std::max(std::abs(bound), 1e-3 * p.scale);
+  };
   return p.effect >= 0 && !p.natural_bounds && !close(p.nominal) && (close(p.lower) || close(p.upper));
 }
 
@@ -212,7 +218,8 @@ std::vector<std::vector<double>> sensitivities(const Evidence& evidence, const H
     if (r.empty()) return {};
   std::vector<std::vector<double>> columns;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const double step = (parameter_value(all[i + 1], parameters[i]) - parameter_value(at, parameters[i])) / parameters[i].scale;
+    const double step =
+        (parameter_value(all[i + 1], parameters[i]) - parameter_value(at, parameters[i])) / parameters[i].scale;
     for (std::size_t r = 0; r < rows[0].size(); ++r) rows[i + 1][r] = (rows[i + 1][r] - rows[0][r]) / step;
     columns.push_back(std::move(rows[i + 1]));
   }
@@ -239,8 +246,10 @@ Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<Fit
   ceres::Problem problem(ownership);
   problem.AddResidualBlock(&residual, nullptr, u.data());
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    problem.SetParameterLowerBound(u.data(), static_cast<int>(i), (parameters[i].lower - residual.origin(i)) / parameters[i].scale);
-    problem.SetParameterUpperBound(u.data(), static_cast<int>(i), (parameters[i].upper - residual.origin(i)) / parameters[i].scale);
+    problem.SetParameterLowerBound(u.data(), static_cast<int>(i),
+                                   (parameters[i].lower - residual.origin(i)) / parameters[i].scale);
+    problem.SetParameterUpperBound(u.data(), static_cast<int>(i),
+                                   (parameters[i].upper - residual.origin(i)) / parameters[i].scale);
     const double low = problem.GetParameterLowerBound(u.data(), static_cast<int>(i));
     const double high = problem.GetParameterUpperBound(u.data(), static_cast<int>(i));
     u[i] = std::clamp(u[i], low, high);

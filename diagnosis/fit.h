@@ -42,8 +42,8 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
 struct ParameterGroup { std::vector<std::size_t> sizes, shapes; };
 /// The groups of all effects in the list; baseline numbers are in none.
 std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameters);
-/// True of a number of an effect that went to the end of what is plausible. Its neutral value may be a bound as well: there
-/// it is idle, not exhausted.
+/// True of a number of an effect that went to the end of what is plausible. Its neutral value may be a bound as well:
+/// there it is idle, not exhausted.
 bool ends_at_bound(const FitParameter& p, double value);
 /// True if a change of the effect's parameters is a change of that baseline number: it then speaks for both.
 bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline);

@@ -7,8 +7,8 @@
 ///   ε = τ(command) - (r_m / N) g - J q_m''               torque residual at the motor shaft
 ///
 /// A rigidly driven joint has its motion prescribed; its transmission force λ follows from
-/// R q'' = (r_m / N) q_m'' and takes the place of g. A joint without a motor has its own motion prescribed, q'' given: it
-/// is held, or driven by somebody else, with a force λ that nothing is known of.
+/// R q'' = (r_m / N) q_m'' and takes the place of g. A joint without a motor has its own motion prescribed, q'' given:
+/// it is held, or driven by somebody else, with a force λ that nothing is known of.
 
 #include "diagnosis/chebyshev.h"
 #include "estimators/arm_dynamics.h"
@@ -145,7 +145,8 @@ HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const
 }
 
 template <class T>
-HALYARD_INLINE void axpy(int n, int m, double h, const DrivenState<T>& x, const DrivenState<T>& rate, DrivenState<T>& y) {
+HALYARD_INLINE void axpy(int n, int m, double h, const DrivenState<T>& x, const DrivenState<T>& rate,
+                         DrivenState<T>& y) {
   for (int k = 0; k < n; ++k) {
     y.q[k] = x.q[k] + T(h) * rate.q[k];
     y.v[k] = x.v[k] + T(h) * rate.v[k];
@@ -191,8 +192,9 @@ HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time
   copy_state(n, m, now, x);
 }
 
-/// A whole record. Sample i writes torque residual and predicted joint reading: out[i * 2n + k] and [... + n + k]. x holds
-/// the initial state and ends as the final one; states [size][2n + effects' states], if not null, gets it at every sample.
+/// A whole record. Sample i writes torque residual and predicted joint reading: out[i * 2n + k] and [... + n + k]. x
+/// holds the initial state and ends as the final one; states [size][2n + effects' states], if not null, gets it at
+/// every sample.
 template <class T>
 HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
                                  double start, double dt, const Chebyshev& scheme, const CommandHistory* history,

@@ -81,7 +81,9 @@ Eigen::MatrixXd driven_jacobian(const Transmission<Dual>& transmission, const Re
   Eigen::MatrixXd J(size, size);
   for (int first = 0; first < size; first += kDualWidth) {
     DrivenState<Dual> at, rate;
-    const auto entry = [&](DrivenState<Dual>& s, int i) -> Dual& { return i < n ? s.q[i] : i < 2 * n ? s.v[i - n] : s.z[i - 2 * n]; };
+    const auto entry = [&](DrivenState<Dual>& s, int i) -> Dual& {
+      return i < n ? s.q[i] : i < 2 * n ? s.v[i - n] : s.z[i - 2 * n];
+    };
     for (int i = 0; i < size; ++i) {
       const double value = i < n ? x.q[i] : i < 2 * n ? x.v[i - n] : x.z[i - 2 * n];
       entry(at, i) = i >= first && i < first + kDualWidth ? Dual::seed(value, i - first) : Dual(value);
@@ -113,7 +115,8 @@ DrivenState<double> unstretched_state(const Hypothesis& h, const Record& record,
 
 /// In motion, from x on, where each cable pulls as hard as its motor ever did: a cable may be stiffer there, and the
 /// joints' Coulomb friction no longer damps.
-DrivenState<double> working_state(const Hypothesis& h, const Record& record, const DrivenInput& u, DrivenState<double> x) {
+DrivenState<double> working_state(const Hypothesis& h, const Record& record, const DrivenInput& u,
+                                  DrivenState<double> x) {
   const Transmission<double> transmission = make_transmission<double>(h);
   const ArmParameters<double>& arm = transmission.arm();
   for (int k = 0; k < arm.n; ++k) {
@@ -242,8 +245,10 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
         const auto tau = [&](std::size_t t) { return out[t * 2 * n + k][lane]; };
         const auto error = [&](std::size_t t) { return record.joint[k][t] - out[t * 2 * n + n + k][lane]; };
         if (!std::isfinite(tau(at)) || !std::isfinite(out[at * 2 * n + n + k][lane])) r.finite = false;
-        if (!torque.empty() && record.torque_valid[k][at] > 0) torque[i] = compared(record, record.torque_measured[k], at, tau);
-        if (!joint.empty() && record.joint_valid[k][at] > 0) joint[i] = compared(record, record.joint_measured[k], at, error);
+        if (!torque.empty() && record.torque_valid[k][at] > 0)
+          torque[i] = compared(record, record.torque_measured[k], at, tau);
+        if (!joint.empty() && record.joint_valid[k][at] > 0)
+          joint[i] = compared(record, record.joint_measured[k], at, error);
       }
       const JointParameters<double>& sensors = hypotheses[0].nominal.joint[k];
       if (!sensors.motor_zero_known || !sensors.joint_zero_known) take_off_mean(joint);
@@ -273,7 +278,8 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
       const Transmission<Lanes> transmission = pack_hypotheses(filled, record.motion_sigma);
       const std::vector<DrivenInput> held(static_cast<std::size_t>(kLetDown / record.dt) + 1, standing(inputs[0]));
       std::vector<Lanes> unused(held.size() * 2 * n);
-      kernel.drive(transmission, held.data(), held.size(), record.start, record.dt, scheme, &history, x, unused.data(), nullptr);
+      kernel.drive(transmission, held.data(), held.size(), record.start, record.dt, scheme, &history, x, unused.data(),
+                   nullptr);
       kernel.drive(transmission, inputs.data(), record.size, record.start, record.dt, scheme, &history, x, out.data(),
                    path.empty() ? nullptr : path.data());
     }
@@ -295,8 +301,8 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
       const std::vector<double>& of_mover = states[mover_of[h]];
       for (std::size_t i = 0; i < path.size(); ++i) path[i].set(static_cast<int>(l), of_mover[i]);
     }
-    kernel.replay(pack_hypotheses(lane, record.motion_sigma), inputs.data(), record.size, record.start, record.dt, &history,
-                  path.data(), out.data());
+    kernel.replay(pack_hypotheses(lane, record.motion_sigma), inputs.data(), record.size, record.start, record.dt,
+                  &history, path.data(), out.data());
     for (std::size_t l = 0; l < count; ++l) {
       const std::size_t h = others[first + l];
       take(out, static_cast<int>(l), all[movers[mover_of[h]]].finite, all[h]);
@@ -313,7 +319,8 @@ FullPrediction predict_fully(const Record& record, const Hypothesis& hypothesis)
   for (int k = 0; k < record.n; ++k) {
     if (!record.has_joint(k)) continue;
     full.joint_reading[k].resize(record.size);
-    for (std::size_t i = 0; i < record.size; ++i) full.joint_reading[k][i] = record.joint[k][i] - r.channel[record.n + k][i];
+    for (std::size_t i = 0; i < record.size; ++i)
+      full.joint_reading[k][i] = record.joint[k][i] - r.channel[record.n + k][i];
   }
   return full;
 }

@@ -16,7 +16,8 @@ struct Hypothesis {
 
 /// Residuals of one record under one hypothesis, every stride-th sample: [2n][ceil(size / stride)].
 /// Channel k < n: torque residual of motor k, N m. Channel n + k: measured minus predicted reading of
-/// joint k, rad | m; less its mean if the zero of one of the joint's encoders is unknown. NaN where the record has no such signal or the sample cannot be compared.
+/// joint k, rad | m; less its mean if the zero of one of the joint's encoders is unknown. NaN where the record has no
+/// such signal or the sample cannot be compared.
 struct Residuals {
   std::vector<std::vector<double>> channel;
   bool finite = true;    ///< false: the hypothesis is so far off that its motion cannot be integrated

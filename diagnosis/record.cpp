@@ -137,7 +137,9 @@ class Stretch {
       // An undriven joint's motion is given, and with it nothing is left to compare.
       if (!driven || t < start_ + options_.settle_s - 1e-9 || !is_known(motion_[k], t)) continue;
       if (external_[k].is_there() && !is_known(external_[k], t)) continue;
-      const auto measured = [&](const SampledColumn& c) { return c.is_there() && c.distance(t) <= 0.51 * r.dt ? 1 : 0; };
+      const auto measured = [&](const SampledColumn& c) {
+        return c.is_there() && c.distance(t) <= 0.51 * r.dt ? 1 : 0;
+      };
       r.joint_measured[k][i] = measured(joint_[k]);
       // Near an end the torque's filter sees a signal that was made up.
       const double reach = dt_ * kernel_.reach - 1e-9;
@@ -269,8 +271,10 @@ std::vector<Record> make_records(const Log& given, const ArmModel& model, const 
   constexpr double kSlowest = 0.1;   // s a sample
   const double dt = SampledColumn(given.time, given.time).interval();
   if (dt > kSlowest * (1 + 1e-6))
-    throw InputError(fmt::format("{}: a sample follows another after {:.4g} s; expected at least 10 samples a second; if its "
-                                 "time is not in s, say so by a column map, such as time=NAME,unit=ms", given.source, dt));
+    throw InputError(
+        fmt::format("{}: a sample follows another after {:.4g} s; expected at least 10 samples a second; if its "
+                    "time is not in s, say so by a column map, such as time=NAME,unit=ms",
+                    given.source, dt));
   const Log log = usable(given, model);
   const std::vector<Row> mark = mark_gaps(log, model, options.longest_gap_s);
 
@@ -281,14 +285,16 @@ std::vector<Record> make_records(const Log& given, const ArmModel& model, const 
     records.push_back(Stretch(slice(log, begin, end), model, options).record());
   }
   if (records.empty())
-    throw InputError(log.source + ": no stretch to learn from or to hold out is longer than 1.5 s without gaps; expected a "
+    throw InputError(log.source +
+                     ": no stretch to learn from or to hold out is longer than 1.5 s without gaps; expected a "
                      "longer record, or a hold-out log of its own");
   return records;
 }
 
 std::pair<Log, Log> split_log(const Log& log, double fraction) {
   const double at = log.time.front() + fraction * log.duration();
-  const auto middle = static_cast<std::size_t>(std::lower_bound(log.time.begin(), log.time.end(), at) - log.time.begin());
+  const auto middle =
+      static_cast<std::size_t>(std::lower_bound(log.time.begin(), log.time.end(), at) - log.time.begin());
   return {slice(log, 0, middle), slice(log, middle, log.size())};
 }
 

@@ -9,11 +9,12 @@
 ///              so that constants, ramps and parabolas keep their value, slope and curvature
 ///
 /// Differentiating the kernel instead of the reading is what keeps encoder quantisation out of
-/// q_m''; filtering the torque with the same kernel keeps J q_m'' = τ - ... true (Gautier, 1997). The band of the motion
-/// is wide, so that friction turns where the motor turns; what noise that lets in, K_c takes out of the residual.
+/// q_m''; filtering the torque with the same kernel keeps J q_m'' = τ - ... true (Gautier, 1997). The band of the
+/// motion is wide, so that friction turns where the motor turns; what noise that lets in, K_c takes out of the
+/// residual.
 ///
-/// Sensors need not share a sample rate. The grid is that of the fastest; between samples of its own a signal goes on by
-/// cubic Hermite interpolation, but only where a sample was measured it is compared: K_c runs over those alone.
+/// Sensors need not share a sample rate. The grid is that of the fastest; between samples of its own a signal goes on
+/// by cubic Hermite interpolation, but only where a sample was measured it is compared: K_c runs over those alone.
 ///
 /// A joint without a motor (drive none) moves as its own sensor says, or stands at home if the log has none.
 
@@ -51,14 +52,14 @@ struct RecordOptions {
   double motion_hz = 60;      ///< of K_m
   double compare_hz = 20;     ///< of K_c; 0: residuals as they are
   double settle_s = 0.5;      ///< from the start of a record: its unknown past fades out, not compared
-  double step_s = 0.002;      ///< grid, at most: a whole number of the fastest sensor's samples, or a whole share of one
+  double step_s = 0.002;  ///< grid, at most: a whole number of the fastest sensor's samples, or a whole share of one
   double longest_gap_s = 0.05;   ///< longer gaps in a motor's position split a log into several records
 };
 
 /// One record per stretch of the log without a long gap; encoders of unknown zero are homed first.
 ///
-/// Left out as telling nothing: sensors that are stuck, see stuck_joint_sensors(); a joint sensor that never changes and
-/// whose resolution the model does not state; a torque that is 0 throughout.
+/// Left out as telling nothing: sensors that are stuck, see stuck_joint_sensors(); a joint sensor that never changes
+/// and whose resolution the model does not state; a torque that is 0 throughout.
 /// A command is taken as held for its sample, at most kLongestHold: a slower log is that of a slower logger.
 ///
 /// Throws InputError if no stretch is longer than a second beyond the settling time, or for fewer than ten samples a
@@ -66,8 +67,8 @@ struct RecordOptions {
 std::vector<Record> make_records(const Log& log, const ArmModel& model, const RecordOptions& options);
 inline constexpr double kLongestHold = 0.002;   ///< s
 
-/// Joints, from 0, whose sensor stays where it is to the last bit while its motors would move the joint by more than 5 %
-/// of its range.
+/// Joints, from 0, whose sensor stays where it is to the last bit while its motors would move the joint by more than 5
+/// % of its range.
 std::vector<int> stuck_joint_sensors(const Log& log, const ArmModel& model);
 
 /// Splits a log in time: the first part and the rest from `fraction` on.

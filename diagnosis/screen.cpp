@@ -24,7 +24,8 @@ Screen::Screen(const Evidence& evidence, const Hypothesis& at, const std::vector
 Eigen::VectorXd Screen::weighted(const std::vector<double>& rows) const {
   Eigen::VectorXd x(static_cast<Eigen::Index>(rows.size()));
   for (std::size_t r = 0; r < rows.size(); ++r)
-    x(static_cast<Eigen::Index>(r)) = rows[r] / (scale_[evidence_.row_channel()[r]] * std::sqrt(evidence_.correlated_rows()));
+    x(static_cast<Eigen::Index>(r)) =
+        rows[r] / (scale_[evidence_.row_channel()[r]] * std::sqrt(evidence_.correlated_rows()));
   return x;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Where the fit of a candidate sets out: least squares finds only the nearest valley, so sizes and shapes are first
-/// tried over what the candidate may be, and impacts make the residual rough in a size, so they are tried around it again.
+/// tried over what the candidate may be, and impacts make the residual rough in a size, so they are tried around it
+/// again.
 
 #include <limits>
 
@@ -14,8 +15,8 @@ struct Start {
   double left = std::numeric_limits<double>::infinity();   ///< |r⊥ + d⊥|² there
 };
 
-/// `with`: the candidate is the last effect. Each of its sizes is tried with each start of the shapes that follow it, at
-/// its typical value and at what the linear fit of that asks for; a size without shapes over decades as well.
+/// `with`: the candidate is the last effect. Each of its sizes is tried with each start of the shapes that follow it,
+/// at its typical value and at what the linear fit of that asks for; a size without shapes over decades as well.
 Start best_start(const Evidence& evidence, const Screen& screen, const Hypothesis& with,
                  const ArmParameters<double>& nominal);
 

@@ -121,9 +121,10 @@ void summarise(const Options& options) {
 int run_command_line(int argc, char** argv) {
   CLI::App app("Blind trials of the diagnosis: the truth is hidden, diagnose() is asked.");
   Options options;
-  app.add_option("--kind", options.kinds,
-                 "clean_exact, clean_mistuned, effect, effect_mistuned, form, outside, pair, each_effect or all; may be "
-                 "repeated")
+  app.add_option(
+         "--kind", options.kinds,
+         "clean_exact, clean_mistuned, effect, effect_mistuned, form, outside, pair, each_effect or all; may be "
+         "repeated")
       ->take_all()
       ->allow_extra_args(false);
   app.add_option("--trials", options.trials, "trials of each kind")

@@ -33,7 +33,8 @@ StrengthMeter::StrengthMeter(const Log& training, const ArmModel& model)
   // A row more for each number: |u|².
   whole_.J = Eigen::MatrixXd::Zero(rows + numbers, numbers);
   for (Eigen::Index i = 0; i < numbers; ++i) {
-    for (Eigen::Index r = 0; r < rows; ++r) whole_.J(r, i) = columns[i][r] / evidence_.floor()[evidence_.row_channel()[r]];
+    for (Eigen::Index r = 0; r < rows; ++r)
+      whole_.J(r, i) = columns[i][r] / evidence_.floor()[evidence_.row_channel()[r]];
     whole_.J(rows + i, i) = std::sqrt(evidence_.correlated_rows());
   }
   centred_.J = whole_.J;

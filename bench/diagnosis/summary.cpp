@@ -250,7 +250,8 @@ void write_summary(const std::filesystem::path& out, const std::vector<Result>& 
 
   std::string text = fmt::format(
       "# Blind trials of the diagnosis\n\n{} trials; {} could not be drawn, in {} the diagnosis failed. An effect "
-      "counts from strength {:g} on: what it changes beyond the model's tolerances and constant errors of the sensors, over what the sensors resolve.\n\n",
+      "counts from strength {:g} on: what it changes beyond the model's tolerances and constant errors of the sensors, "
+      "over what the sensors resolve.\n\n",
       all.size(), all.size() - ran.size(), share(ran, [](const Result& r) { return !r.failure.empty(); }).hits, limit);
 
   const Results effect = of(Kind::effect);
