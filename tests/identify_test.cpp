@@ -71,7 +71,8 @@ double derivative_error(const ArmModel& model, const Weight& weight, const Log& 
 TEST(DualUkf, DerivativesAreThoseOfItsInnovations) {
   const ArmModel model = first_joints(2);
   const Log log = log_of(model, model, 1.5);
-  for (const std::string& key : {kCoupling, std::string("joint2.cable.stiffness"), std::string("joint1.friction.coulomb")}) {
+  const std::vector<std::string> keys = {kCoupling, "joint2.cable.stiffness", "joint1.friction.coulomb"};
+  for (const std::string& key : keys) {
     ArmParameters<double> arm = model.nominal;
     const Weight weight = {key, *find_number(arm, key), key == kCoupling ? 0.01 : 0.1, key != kCoupling};
     // What is left out is the gain's derivative.
