@@ -93,6 +93,8 @@ std::vector<std::string> doubts(const IdentifyResult& result) {
   if (!names.empty())
     all.push_back("the log pulls other numbers beyond twice their tolerance: " + names +
                   "; the model lacks something beside what was asked for, and halyard diagnose tells what");
+  if (!result.identification.stands)
+    all.push_back("the estimate still moves after the last pass over the data, and is not where its interval says");
   const EstimatorComparison& judge = judge_of(result);
   std::string worse = worse_joints(result);
   if (!judge.after.failure.empty()) worse = fmt::format("fails: {}", judge.after.failure);

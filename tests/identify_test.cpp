@@ -107,6 +107,7 @@ TEST(Identify, FindsACouplingWithinItsInterval) {
     EXPECT_NEAR(n.value, truth, 4e-4 * truth);
     EXPECT_LT(n.upper - n.lower, 4e-3 * truth);
     EXPECT_EQ(n.convergence, Convergence::converged);
+    EXPECT_TRUE(found.stands);
     EXPECT_EQ(found.model.nominal.joint[1].coupling[0], n.value);
     EXPECT_EQ(found.model.nominal.joint[1].stiffness, model.nominal.joint[1].stiffness);
     EXPECT_TRUE(found.strained.empty());
