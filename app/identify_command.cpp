@@ -82,7 +82,8 @@ void run_identify(const IdentifyCommandOptions& options) {
   write_identification(options.out, result);
   fmt::print("{}", notes);
   print(result);
-  fmt::print("model: {}\n", (options.out / "model.xml").string());
+  fmt::print("model: {}{}\n", (options.out / "model.xml").string(),
+             adopted(result) ? "" : ", with the given numbers: the identified ones predict the hold-out worse");
   fmt::print("report: {}\n", (options.out / "report.html").string());
 }
 

@@ -50,7 +50,36 @@ void write_convergence(const std::filesystem::path& path, const Identification& 
   table.write(path);
 }
 
+/// The estimator whose errors on the hold-out decide.
+const EstimatorComparison& judge_of(const IdentifyResult& result) {
+  return *std::ranges::find(result.estimators, "sr_ukf", &EstimatorComparison::name);
+}
+
+/// RMS error of joint k with the identified numbers over that with the given; 1 where it is not known.
+double growth(const EstimatorComparison& e, int k) {
+  if (e.before.rms.empty() || e.after.rms.empty()) return 1;
+  const double ratio = e.after.rms[k] / e.before.rms[k];
+  return std::isfinite(ratio) ? ratio : 1;
+}
+
+/// "joint 2 by 2 times, joint 3 by 1.2 times": joints whose error has grown.
+std::string worse_joints(const IdentifyResult& result) {
+  std::string text;
+  for (int k = 0; k < result.given.n(); ++k)
+    if (const double ratio = growth(judge_of(result), k); ratio > kWorse)
+      text += fmt::format("{}joint {} by {:.2g} times", text.empty() ? "" : ", ", k + 1, ratio);
+  return text;
+}
+
 }  // namespace
+
+bool adopted(const IdentifyResult& result) {
+  const EstimatorComparison& judge = judge_of(result);
+  if (judge.before.failure.empty() && !judge.after.failure.empty()) return false;
+  double product = 1;
+  for (int k = 0; k < result.given.n(); ++k) product *= growth(judge, k);
+  return worse_joints(result).empty() || product <= 1;
+}
 
 std::vector<std::string> doubts(const IdentifyResult& result) {
   std::vector<std::string> all;
@@ -64,12 +93,18 @@ std::vector<std::string> doubts(const IdentifyResult& result) {
   if (!names.empty())
     all.push_back("the log pulls other numbers beyond twice their tolerance: " + names +
                   "; the model lacks something beside what was asked for, and halyard diagnose tells what");
-  for (const EstimatorComparison& e : result.estimators)
-    for (int k = 0; k < result.given.n() && !e.before.rms.empty() && !e.after.rms.empty(); ++k)
-      if (e.after.rms[k] > kWorse * e.before.rms[k])
-        all.push_back(fmt::format("the identified numbers predict joint {} worse on the hold-out, {} by {:.2g} times: they "
-                                  "stand for something else; leave them, and see halyard diagnose",
-                                  k + 1, e.name, e.after.rms[k] / e.before.rms[k]));
+  if (!result.identification.stands)
+    all.push_back("the estimate still moves after the last pass over the data, and is not where its interval says");
+  const EstimatorComparison& judge = judge_of(result);
+  std::string worse = worse_joints(result);
+  if (!judge.after.failure.empty()) worse = fmt::format("fails: {}", judge.after.failure);
+  if (!adopted(result))
+    all.push_back(fmt::format("{} with the identified numbers is worse on the hold-out ({}), so that model.xml keeps "
+                              "the given ones; they stand for something that the model lacks, and halyard diagnose "
+                              "tells what", judge.name, worse));
+  else if (!worse.empty())
+    all.push_back(fmt::format("{} with the identified numbers is not better at all joints of the hold-out ({})",
+                              judge.name, worse));
   return all;
 }
 
@@ -98,17 +133,19 @@ std::string identify_json(const IdentifyResult& result) {
     rms[e.name] = both(e.before.rms, e.after.rms);
     peak[e.name] = both(e.before.peak, e.after.peak);
   }
-  const Json all = {{"parameters", parameters},
+  const Json all = {{"adopted", adopted(result)},
+                    {"doubts", doubts(result)},
+                    {"parameters", parameters},
                     {"blocks", found.blocks},
                     {"strained", strained},
                     {"error",
                      {{"holdout", result.holdout}, {"joint_position_rms", rms}, {"joint_position_peak", peak}}}};
-  return all.dump(2) + "\n";
+  return json_text(all);
 }
 
 void write_identification(const std::filesystem::path& folder, const IdentifyResult& result) {
   const report::Page page = identify_page(result);
-  write_file_whole(folder / "model.xml", model_to_xml(result.identification.model));
+  write_file_whole(folder / "model.xml", model_to_xml(adopted(result) ? result.identification.model : result.given));
   write_file_whole(folder / "identify.json", identify_json(result));
   write_convergence(folder / "convergence.csv", result.identification);
   page.write(folder / "report.html");

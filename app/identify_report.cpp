@@ -58,7 +58,7 @@ void add_sentences(report::Page& page, const IdentifyResult& result) {
   page.verdict(all_converged ? report::VerdictKind::good : report::VerdictKind::warning, text);
   text.clear();
   for (const std::string& doubt : doubts(result)) text += (text.empty() ? "" : "\n") + capitalised(doubt) + ".";
-  if (!text.empty()) page.verdict(report::VerdictKind::warning, text);
+  if (!text.empty()) page.verdict(adopted(result) ? report::VerdictKind::warning : report::VerdictKind::bad, text);
 }
 
 void add_numbers(report::Page& page, const Identification& found) {

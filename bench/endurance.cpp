@@ -1,16 +1,15 @@
 /// halyard_endurance: filters over torn records (tests/torn_record.h) of long runs, on chains of 1 to 7 joints with soft
 /// and stiff cables, with the paper's weights and with wide ones. See bench/README.md.
 ///
-/// Exit codes: 0 every filter stayed sane; 1 one threw, or gave a number that is not finite or a deviation of none;
-/// 2 wrong usage.
+/// Exit code 1 too if a filter threw, or gave a number that is not finite or a deviation of none.
 
 #include <fmt/core.h>
 #include <tbb/parallel_for_each.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <mutex>
 
+#include "bench/program.h"
 #include "estimators/built_in.h"
 #include "estimators/kinematics.h"
 #include "tests/arm_runs.h"
@@ -80,35 +79,31 @@ Outcome endure(const Case& c, long steps, std::uint64_t seed) {
   return outcome;
 }
 
-int run(int argc, char** argv) {
-  CLI::App app("Filters over long torn records.");
+struct Options {
   long steps = 20000;
   int joints = 0;
   double stiffer = 0;
   std::uint64_t seed = 1;
-  app.add_option("--steps", steps, "samples of each case")->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--joints", joints, "of this chain alone; default: 1 to 7")->check(CLI::Range(1, kMaxJoints));
-  app.add_option("--stiffer", stiffer, "cables so many times as stiff; default: 0.1, 1 and 10")->check(CLI::PositiveNumber);
-  app.add_option("--seed", seed, "of the tearing")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+};
+
+/// Whether every filter stayed sane.
+bool run(const Options& options) {
   std::vector<Case> cases;
   for (int n = 1; n <= kMaxJoints; ++n)
     for (const double s : {0.1, 1.0, 10.0})
       for (const Filter& filter : filters())
-        if ((joints == 0 || n == joints) && (stiffer == 0 || s == stiffer)) cases.push_back({n, s, &filter});
+        if ((options.joints == 0 || n == options.joints) && (options.stiffer == 0 || s == options.stiffer))
+          cases.push_back({n, s, &filter});
   if (cases.empty())
-    for (const Filter& filter : filters()) cases.push_back({joints == 0 ? 3 : joints, stiffer, &filter});
+    for (const Filter& filter : filters())
+      cases.push_back({options.joints == 0 ? 3 : options.joints, options.stiffer, &filter});
 
   fmt::print("{:>6} {:>8}  {:<24} {:>9} {:>6} {:>8} {:>11} {:>11} {:>11}\n", "joints", "cables", "filter", "steps",
              "gated", "repaired", "largest std", "RMS, rad", "kinematics");
   std::mutex one_at_a_time;
   bool sane = true;
   tbb::parallel_for_each(cases, [&](const Case& c) {
-    const Outcome o = endure(c, steps, seed);
+    const Outcome o = endure(c, options.steps, options.seed);
     const std::lock_guard<std::mutex> lock(one_at_a_time);
     fmt::print("{:>6} {:>7}x  {:<24} {:>9} {:>6} {:>8} {:>11.3g} {:>11.3g} {:>11.3g}  {}\n", c.joints, c.stiffer,
                c.filter->name, o.report.steps, o.report.gated, o.report.repaired_factors, o.worst, o.rms, o.naive,
@@ -116,17 +111,21 @@ int run(int argc, char** argv) {
     std::fflush(stdout);
     sane = sane && o.failure.empty();
   });
-  return sane ? 0 : 1;
+  return sane;
+}
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app("Filters over long torn records.");
+  Options options;
+  app.add_option("--steps", options.steps, "samples of each case")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--joints", options.joints, "of this chain alone; default: 1 to 7")->check(CLI::Range(1, kMaxJoints));
+  app.add_option("--stiffer", options.stiffer, "cables so many times as stiff; default: 0.1, 1 and 10")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--seed", options.seed, "of the tearing")->capture_default_str();
+  return run_program(app, argc, argv, [&] { return run(options) ? 0 : 1; });
 }
 
 }  // namespace
 }  // namespace halyard
 
-int main(int argc, char** argv) {
-  try {
-    return halyard::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return halyard::run_command_line(argc, argv); }

@@ -335,7 +335,8 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
     estimate = solve(sum_blocks(model, weights, before, logs, stage(fmt::format("estimate, pass {}", pass + 1))), before,
                      bound);
     const Eigen::ArrayXd step = (estimate.u - before).head(asked).array().abs();
-    if ((step <= kStands * estimate.deviation.head(asked).array()).all()) break;
+    result.stands = (step <= kStands * estimate.deviation.head(asked).array()).all();
+    if (result.stands) break;
   }
 
   result.blocks = estimate.blocks;

@@ -33,7 +33,7 @@ Log log_of(const ArmModel& robot, const ArmModel& model, double seconds, int var
 /// Innovations of all samples by weights that are held, and their derivatives.
 struct Innovations {
   std::vector<Eigen::VectorXd> nu;
-  std::vector<Eigen::MatrixXd> Y;
+  std::vector<Eigen::MatrixXd> S_root, Y;
 };
 Innovations innovations(const ArmModel& model, const std::vector<Weight>& weights, const Eigen::VectorXd& w,
                         const Log& log) {
@@ -49,33 +49,47 @@ Innovations innovations(const ArmModel& model, const std::vector<Weight>& weight
     const DualStep step = filter.update(sample);
     if (step.nu.size() == 0) continue;
     all.nu.push_back(step.nu);
+    all.S_root.push_back(step.S_root);
     all.Y.push_back(step.Y);
   }
   return all;
 }
 
+/// ‖dν/dw + Y‖ over ‖Y‖, each in deviations of the innovation, by innovations `h` of the weight to either side.
+double derivative_error(const ArmModel& model, const Weight& weight, const Log& log, double h) {
+  const auto at = [&](double w) { return innovations(model, {weight}, Eigen::VectorXd::Constant(1, w), log); };
+  const Innovations here = at(0), above = at(h), below = at(-h);
+  double error = 0, size = 0;
+  for (std::size_t k = 0; k < here.nu.size(); ++k) {
+    const auto S = here.S_root[k].triangularView<Eigen::Lower>();
+    error += S.solve((above.nu[k] - below.nu[k]) / (2 * h) + here.Y[k].col(0)).squaredNorm();
+    size += S.solve(here.Y[k].col(0)).squaredNorm();
+  }
+  return std::sqrt(error / size);
+}
+
 TEST(DualUkf, DerivativesAreThoseOfItsInnovations) {
   const ArmModel model = first_joints(2);
   const Log log = log_of(model, model, 1.5);
-  std::vector<Weight> weights;
   const std::vector<std::string> keys = {kCoupling, "joint2.cable.stiffness", "joint1.friction.coulomb"};
   for (const std::string& key : keys) {
     ArmParameters<double> arm = model.nominal;
-    weights.push_back({key, *find_number(arm, key), key == kCoupling ? 0.01 : 0.1, key != kCoupling});
-  }
-  const Innovations at = innovations(model, weights, Eigen::VectorXd::Zero(3), log);
-  for (int i = 0; i < 3; ++i) {
-    const double h = 0.02;
-    const Innovations beside = innovations(model, weights, h * Eigen::VectorXd::Unit(3, i), log);
-    double error = 0, size = 0;
-    for (std::size_t k = 0; k < at.nu.size(); ++k) {
-      error += ((beside.nu[k] - at.nu[k]) / h + at.Y[k].col(i)).squaredNorm();
-      size += at.Y[k].col(i).squaredNorm();
-    }
-    ASSERT_GT(size, 0) << weights[i].key;
+    const Weight weight = {key, *find_number(arm, key), key == kCoupling ? 0.01 : 0.1, key != kCoupling};
     // What is left out is the gain's derivative.
-    EXPECT_LT(std::sqrt(error / size), 0.1) << weights[i].key;
+    EXPECT_LT(derivative_error(model, weight, log, 0.02), 0.1) << key;
   }
+}
+
+TEST(DualUkf, DerivativesAreThoseOfItsInnovationsInADwell) {
+  const ArmModel model = first_joints(2);
+  const double home = model.joints[1].home, c01 = model.nominal.joint[1].coupling[0];
+  Scenario s = motion(model, 1.5);
+  s.trajectory[1].kind = JointTrajectory::Kind::point_to_point;
+  s.trajectory[1].points = {home, home + 0.2};
+  s.trajectory[1].move_s = 0.5;
+  // A weight of the deviation that identify() gives it, and steps that friction does not turn round in. Observed 0.026;
+  // 0.24 with points 0.03 deviations apart.
+  EXPECT_LT(derivative_error(model, {kCoupling, c01, 0.3 * c01, false}, simulate(s).measured, 1e-3), 0.1);
 }
 
 TEST(Identify, FindsACouplingWithinItsInterval) {
@@ -93,6 +107,7 @@ TEST(Identify, FindsACouplingWithinItsInterval) {
     EXPECT_NEAR(n.value, truth, 4e-4 * truth);
     EXPECT_LT(n.upper - n.lower, 4e-3 * truth);
     EXPECT_EQ(n.convergence, Convergence::converged);
+    EXPECT_TRUE(found.stands);
     EXPECT_EQ(found.model.nominal.joint[1].coupling[0], n.value);
     EXPECT_EQ(found.model.nominal.joint[1].stiffness, model.nominal.joint[1].stiffness);
     EXPECT_TRUE(found.strained.empty());

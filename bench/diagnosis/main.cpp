@@ -1,6 +1,4 @@
 /// halyard_blind_trials: the diagnosis' test of itself, see bench/README.md.
-///
-/// Exit codes as halyard's: 0 done; 2 wrong usage or invalid input; 1 anything else.
 
 #include <fmt/core.h>
 #include <tbb/global_control.h>
@@ -8,13 +6,12 @@
 #include <tbb/parallel_for_each.h>
 #include <tbb/task_arena.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <mutex>
 
 #include "bench/diagnosis/summary.h"
 #include "bench/diagnosis/trial.h"
-#include "model/input_error.h"
+#include "bench/program.h"
 #include "model/model_file.h"
 
 namespace halyard::blind {
@@ -142,32 +139,19 @@ int run_command_line(int argc, char** argv) {
   app.add_option("--summary", options.summary,
                  "no trials: sum up those of these folders, into --out or the first of them")
       ->type_name("DIR...");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  if (!options.summary.empty()) {
-    summarise(options);
-  } else if (options.out.empty()) {
-    throw InputError("--out: is missing; give the folder of the results");
-  } else {
-    run(options);
-  }
-  return 0;
+  return run_program(app, argc, argv, [&] {
+    if (!options.summary.empty()) {
+      summarise(options);
+    } else if (options.out.empty()) {
+      throw InputError("--out: is missing; give the folder of the results");
+    } else {
+      run(options);
+    }
+    return 0;
+  });
 }
 
 }  // namespace
 }  // namespace halyard::blind
 
-int main(int argc, char** argv) {
-  try {
-    return halyard::blind::run_command_line(argc, argv);
-  } catch (const halyard::InputError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return halyard::blind::run_command_line(argc, argv); }

@@ -1,21 +1,18 @@
 /// halyard_identify_coverage: how often the intervals of `identify` hold the truth, see bench/README.md.
-///
-/// Exit codes as halyard's: 0 done; 2 wrong usage or invalid input; 1 anything else.
 
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <map>
 
 #include "bench/diagnosis/motion.h"
 #include "bench/diagnosis/share.h"
+#include "bench/program.h"
 #include "diagnosis/identify.h"
-#include "model/input_error.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
 
@@ -139,26 +136,13 @@ int run_command_line(int argc, char** argv) {
   app.add_option("--off", options.off, "what else is off, within its tolerance: nothing, stiffness, everything")
       ->transform(CLI::CheckedTransformer(words));
   app.add_option("--threads", options.threads, "runs at a time; default: one per core")->check(CLI::Range(1, 1024));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  run(options);
-  return 0;
+  return run_program(app, argc, argv, [&] {
+    run(options);
+    return 0;
+  });
 }
 
 }  // namespace
 }  // namespace halyard::blind
 
-int main(int argc, char** argv) {
-  try {
-    return halyard::blind::run_command_line(argc, argv);
-  } catch (const halyard::InputError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return halyard::blind::run_command_line(argc, argv); }
