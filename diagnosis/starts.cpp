@@ -7,12 +7,13 @@
 namespace halyard {
 namespace {
 
-constexpr int kTimes = 10;       ///< instants of a record that are tried
+constexpr int kTimes = 10;       ///< instants of a record that are tried where there are several of them in a group
+constexpr int kTimesAlone = 30;  ///< and where there is one
 constexpr int kPositions = 6;    ///< positions of a joint's range
 
-std::vector<double> starts_of(const FitParameter& p, double typical) {
+std::vector<double> starts_of(const FitParameter& p, double typical, int times) {
   if (p.range == SearchRange::own) return p.starts.empty() ? std::vector<double>{typical} : p.starts;
-  const int n = p.range == SearchRange::record_time ? kTimes : kPositions;
+  const int n = p.range == SearchRange::record_time ? times : kPositions;
   std::vector<double> all;
   for (int i = 0; i < n; ++i) all.push_back(p.lower + (i + 0.5) / n * (p.upper - p.lower));
   return all;
@@ -21,14 +22,15 @@ std::vector<double> starts_of(const FitParameter& p, double typical) {
 /// Every combination of the shapes' starts; instants of one group follow each other.
 std::vector<std::vector<double>> combinations(const Hypothesis& h, const std::vector<FitParameter>& parameters,
                                               const std::vector<std::size_t>& shapes) {
+  const auto is_instant = [&](std::size_t s) { return parameters[s].range == SearchRange::record_time; };
+  const int times = std::ranges::count_if(shapes, is_instant) > 1 ? kTimes : kTimesAlone;
   std::vector<std::vector<double>> all = {{}};
   for (std::size_t s = 0; s < shapes.size(); ++s) {
     const FitParameter& p = parameters[shapes[s]];
     std::vector<std::vector<double>> longer;
     for (const auto& head : all)
-      for (const double value : starts_of(p, parameter_value(h, p))) {
-        const bool follows = s > 0 && p.range == SearchRange::record_time &&
-                             parameters[shapes[s - 1]].range == SearchRange::record_time;
+      for (const double value : starts_of(p, parameter_value(h, p), times)) {
+        const bool follows = s > 0 && is_instant(shapes[s]) && is_instant(shapes[s - 1]);
         if (follows && value <= head.back()) continue;
         longer.push_back(head);
         longer.back().push_back(value);
