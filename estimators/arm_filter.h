@@ -48,9 +48,9 @@ class ArmFilter final : public Estimator {
 
   /// All that the filter knows at an instant, but for commands, of which no past one changes.
   struct Moment {
-    bool started = false;
-    double time_s = 0;
-    Eigen::VectorXd x, reading, torque, external;
+    bool started = false, speed_is_due = false;
+    double time_s = 0, refused_since = 0;
+    Eigen::VectorXd x, reading, torque, external, adapted;
     Eigen::MatrixXd S;
     EstimatorReport report;
   };

@@ -27,20 +27,20 @@
 
 #include <deque>
 
-#include "estimators/arm_filter.h"
+#include "estimators/unknown_constant.h"
 
 namespace halyard {
 
 struct CameraOptions {
   double latency_s = 0.05;
   double noise_m = 5e-4;
-  Eigen::VectorXd offset_start, offset_wander;   ///< [n]
+  UnknownLevels offset;
 };
 
 /// Those above, by options.
 CameraOptions read_camera_options(OptionReader& options, const ArmModel& model);
 
-/// The model with an unknown offset of the stretch of each cable, as its last effects; they are in no library.
+/// The model with an unknown offset of the stretch of each cable, as its last effects.
 ArmModel with_unknown_offsets(const ArmModel& model, const CameraOptions& camera);
 
 class CameraFilter final : public Estimator {
