@@ -97,6 +97,7 @@ CameraFilter::CameraFilter(const ArmModel& augmented, std::shared_ptr<const Proc
                            std::unique_ptr<GaussianFilter> filter)
     : process_(std::move(process)),
       camera_(camera),
+      restart_gap_(options.restart_gap),
       filter_(augmented, process_, with_offsets(std::move(options), *process_, camera.offset.wander),
               std::move(filter)) {}
 
@@ -114,6 +115,7 @@ Innovation CameraFilter::update(const Sample& sample) {
 }
 
 void CameraFilter::remember(const Sample& sample) {
+  if (!past_.empty() && sample.time_s - past_.back().sample.time_s > restart_gap_) past_.clear();
   past_.push_back({sample, filter_.moment()});
   while (past_.size() > 1 && past_[1].sample.time_s <= sample.time_s - camera_.latency_s + kRounding) past_.pop_front();
 }

@@ -19,6 +19,7 @@
 /// disturbance_filter.h: otherwise whatever the model lacks of a force would be told as an offset by which gravity pulls
 /// more or less. A frame is taken where it belongs: the filter
 /// goes back to the last sample before its exposure, predicts to it, is corrected, and takes the samples since then anew.
+/// A frame that was exposed within a gap after which the filter started anew is not taken.
 ///
 /// Besides the joints' motion it estimates cable_offset and cable_offset_std: b and its standard deviation, m.
 ///
@@ -67,6 +68,7 @@ class CameraFilter final : public Estimator {
 
   std::shared_ptr<const ProcessModel> process_;
   CameraOptions camera_;
+  double restart_gap_;
   ArmFilter filter_;
   std::deque<Past> past_;   // from the last sample before the oldest exposure that can still arrive
 };
