@@ -47,7 +47,8 @@ void estimator_step(benchmark::State& state, Make make) {
 BENCHMARK_CAPTURE(estimator_step, kinematics, &make_kinematics)->Name("EstimatorStep/kinematics");
 BENCHMARK_CAPTURE(estimator_step, ekf, &make_ekf)->Name("EstimatorStep/ekf");
 BENCHMARK_CAPTURE(estimator_step, sr_ukf, &make_sr_ukf)->Name("EstimatorStep/sr_ukf");
-BENCHMARK_CAPTURE(estimator_step, disturbance_sr_ukf, &make_disturbance_sr_ukf)->Name("EstimatorStep/disturbance_sr_ukf");
+BENCHMARK_CAPTURE(estimator_step, disturbance_sr_ukf, &make_disturbance_sr_ukf)
+    ->Name("EstimatorStep/disturbance_sr_ukf");
 BENCHMARK_CAPTURE(estimator_step, camera_sr_ukf, &make_camera_sr_ukf)->Name("EstimatorStep/camera_sr_ukf");
 BENCHMARK_CAPTURE(estimator_step, smoother, &make_smoother)->Name("EstimatorStep/smoother");
 

@@ -149,8 +149,10 @@ TEST(CameraFilter, TakesAFrameWhereItBelongs) {
 
 // The first frames after a gap were exposed within it: back there the filter would have to predict over the gap.
 TEST(CameraFilter, AFrameOfAGapDoesNotUndoTheNewStart) {
-  const SimulationResult log = simulate(scenario(1.5, {.rate_hz = 100, .latency_s = 0.1, .noise_m = 1e-4, .dropout = 0}));
-  const auto filter = make_camera_sr_ukf(raven2(), {{"camera_latency", "0.1"}, {"gate", "0.9999"}, {"restart_gap", "0.2"}});
+  const Camera camera{.rate_hz = 100, .latency_s = 0.1, .noise_m = 1e-4, .dropout = 0};
+  const SimulationResult log = simulate(scenario(1.5, camera));
+  const auto filter =
+      make_camera_sr_ukf(raven2(), {{"camera_latency", "0.1"}, {"gate", "0.9999"}, {"restart_gap", "0.2"}});
   filter->reset(sample_of(log.measured, 0));
   for (std::size_t i = 1; i <= 1300; ++i)
     if (i < 700 || i >= 1200) filter->update(sample_of(log.measured, i));
