@@ -125,7 +125,7 @@ TEST(Consistency, OfRunsHoldsAsOftenAsItSays) {
   constexpr int kTrials = 200, kRuns = 20;
   for (int t = 0; t < kTrials; ++t) {
     std::vector<Consistency> runs;
-    for (int r = 0; r < kRuns; ++r) runs.push_back(consistency(squared(autoregressive(2000, 0.9, kRuns * t + r))));
+    for (int r = 0; r < kRuns; ++r) runs.push_back(consistency(squared(autoregressive(1000, 0.9, kRuns * t + r))));
     right += consistency_of_runs(runs).trust() == Trust::right;
   }
   // Binomial at 95 %, four deviations.
