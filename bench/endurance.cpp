@@ -7,6 +7,7 @@
 #include <tbb/parallel_for_each.h>
 
 #include <cstdio>
+#include <deque>
 #include <mutex>
 
 #include "bench/program.h"
@@ -27,7 +28,10 @@ struct Filter {
 const std::vector<Filter>& filters() {
   static const std::vector<Filter> all = {{"sr_ukf, paper's weights", make_sr_ukf, {{"gate", "0.999999"}}},
                                           {"sr_ukf, alpha 1", make_sr_ukf, {{"gate", "0.999999"}, {"alpha", "1"}}},
-                                          {"ekf", make_ekf, {{"gate", "0.999999"}}}};
+                                          {"ekf", make_ekf, {{"gate", "0.999999"}}},
+                                          {"disturbance_sr_ukf", make_disturbance_sr_ukf, {{"gate", "0.999999"}}},
+                                          {"camera_sr_ukf", make_camera_sr_ukf, {{"gate", "0.999999"}}},
+                                          {"smoother", make_smoother, {{"gate", "0.999999"}}}};
   return all;
 }
 
@@ -43,27 +47,52 @@ struct Outcome {
   double worst = 0, rms = 0, naive = 0;   ///< largest std; RMS of joint 1, of the filter and of the kinematics
 };
 
+/// Where a camera saw the marker, exposed 50 samples ago, every 33rd sample.
+class LateMarker {
+ public:
+  Eigen::VectorXd at(long sample, const ArmModel& model, const Eigen::VectorXd& q) {
+    Eigen::VectorXd marker(3);
+    position_of(model.nominal, chain_pose(model.nominal, q.data()), model.nominal.payload_point, marker.data());
+    positions_.push_back(marker);
+    if (positions_.size() <= 50) return {};
+    marker = positions_.front();
+    positions_.pop_front();
+    return sample % 33 == 0 ? marker : Eigen::VectorXd();
+  }
+
+ private:
+  std::deque<Eigen::VectorXd> positions_;
+};
+
+bool is_sane(const Estimate& e) {
+  return e.joint_position.allFinite() && e.joint_velocity.allFinite() && e.joint_position_std.minCoeff() > 0 &&
+         e.joint_position_std.allFinite();
+}
+
 Outcome endure(const Case& c, long steps, std::uint64_t seed) {
   const ArmModel model = chain_of(c.joints, c.stiffer);
   Outcome outcome;
   DrivenArm arm(model);
   TornRecord record(model, seed);
+  LateMarker marker;
   const auto filter = c.filter->make(model, c.filter->options), naive = make_kinematics(model, {});
   double square = 0, naive_square = 0;
   long counted = 0;
   try {
     for (long i = 0; i <= steps; ++i) {
       const Eigen::VectorXd truth = arm.joint_position();
-      const Sample whole = arm.next();
+      Sample whole = arm.next();
+      whole.marker = marker.at(i, model, truth);
       const std::optional<Sample> s = record.torn(whole);
       if (i == 0) naive->reset(whole), filter->reset(*s);
       if (i == 0 || !s) continue;
       filter->update(*s);
       naive->update(whole);
       const Estimate e = filter->estimate();
-      if (!e.joint_position.allFinite() || !e.joint_velocity.allFinite() || !(e.joint_position_std.minCoeff() > 0) ||
-          !e.joint_position_std.allFinite())
-        throw std::runtime_error(fmt::format("no sane estimate at {:.3f} s", s->time_s));
+      if (!is_sane(e)) throw std::runtime_error(fmt::format("no sane estimate at {:.3f} s", s->time_s));
+      while (const std::optional<Revision> revision = filter->revise(i == steps))
+        if (!is_sane(revision->estimate))
+          throw std::runtime_error(fmt::format("no sane revision of {:.3f} s", revision->time_s));
       outcome.worst = std::max(outcome.worst, e.joint_position_std.maxCoeff());
       if (s->time_s < 2) continue;   // the wrong start
       square += std::pow(e.joint_position(0) - truth(0), 2);

@@ -18,25 +18,39 @@ std::vector<Sample> samples_of(const Log& log) {
       samples[i].motor_torque(k) = log.motor_torque[k][i];
       samples[i].motor_position(k) = log.motor_position[k][i];
     }
+    if (!log.has_marker()) continue;
+    const Eigen::Vector3d marker(log.marker[0][i], log.marker[1][i], log.marker[2][i]);
+    if (marker.allFinite()) samples[i].marker = marker;
   }
   return samples;
 }
 
 using Make = std::unique_ptr<Estimator> (*)(const ArmModel&, const EstimatorOptions&);
 
+/// Under a camera at 30 Hz.
 void estimator_step(benchmark::State& state, Make make) {
   const ArmModel model = raven2();
-  static const std::vector<Sample> samples = samples_of(simulate(sines(model, 2)).measured);
+  static const std::vector<Sample> samples = [&] {
+    Scenario scenario = sines(model, 2);
+    scenario.camera = Camera{};
+    return samples_of(simulate(scenario).measured);
+  }();
   const std::unique_ptr<Estimator> estimator = make(model, {});
   std::size_t next = samples.size();
   for (auto _ : state) {
     if (next == samples.size()) estimator->reset(samples[0]), next = 1;
     benchmark::DoNotOptimize(estimator->update(samples[next++]));
+    while (estimator->revise(false)) {
+    }
   }
 }
 BENCHMARK_CAPTURE(estimator_step, kinematics, &make_kinematics)->Name("EstimatorStep/kinematics");
 BENCHMARK_CAPTURE(estimator_step, ekf, &make_ekf)->Name("EstimatorStep/ekf");
 BENCHMARK_CAPTURE(estimator_step, sr_ukf, &make_sr_ukf)->Name("EstimatorStep/sr_ukf");
+BENCHMARK_CAPTURE(estimator_step, disturbance_sr_ukf, &make_disturbance_sr_ukf)
+    ->Name("EstimatorStep/disturbance_sr_ukf");
+BENCHMARK_CAPTURE(estimator_step, camera_sr_ukf, &make_camera_sr_ukf)->Name("EstimatorStep/camera_sr_ukf");
+BENCHMARK_CAPTURE(estimator_step, smoother, &make_smoother)->Name("EstimatorStep/smoother");
 
 /// The process model's step, all sigma points side by side in lanes, or one by one in scalar code.
 class Points final : public DiscreteProcess {

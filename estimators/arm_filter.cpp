@@ -93,13 +93,14 @@ ArmFilter::ArmFilter(const ArmModel& model, std::shared_ptr<const ProcessModel> 
 
 void ArmFilter::reset(const Sample& first) {
   const int n = process_->n_joints();
-  started_ = speed_is_due_ = false;
+  started_ = false;
+  time_ = first.time_s;
   reading_ = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
   torque_ = external_ = Eigen::VectorXd::Zero(n);
   history_ = CommandHistory(n, kHistorySpan);
   last_command_ = -kInfinity;
   report_ = {};
-  noise_.reset();
+  noise_.reset(Eigen::VectorXd::Ones(n));
   const Eigen::VectorXd home = model_.home();
   const Eigen::VectorXd x = process_->state_at_rest(unstretched_motors(process_->arm(), home), home);
   filter_->reset(x, noise_.initial_root(x, kInfinity));
@@ -135,8 +136,8 @@ void ArmFilter::start(const Sample& sample) {
                                                unstretched_joints(process_->arm(), angle, home));
   x = process_->state_at_rest(angle, q);
   // At rest, unless the motors were read just before.
-  bool seen_moving = before(motors_).allFinite() && since <= options_.max_step;
-  speed_is_due_ = false;
+  const bool read_before = before(motors_).allFinite() && since <= options_.max_step;
+  bool seen_moving = read_before;
   Eigen::VectorXd moved, path;
   if (seen_moving) {
     moved = reading_ - before;
@@ -145,7 +146,6 @@ void ArmFilter::start(const Sample& sample) {
       const double range = model_.joints[k].upper - model_.joints[k].lower;
       if (range > 0 && std::abs(path(k)) / since > range / kFastest) seen_moving = false;
     }
-    speed_is_due_ = !seen_moving;   // one of the two readings is wrong
   }
   if (seen_moving) {
     for (int k = 0; k < process_->n_joints(); ++k) {
@@ -153,6 +153,8 @@ void ArmFilter::start(const Sample& sample) {
       if (process_->layout().motor_rate[k] >= 0) x(process_->layout().motor_rate[k]) = moved(k) / since;
     }
   }
+  // After a gap the arm need not rest; and a speed that no joint has says that one of the two readings is wrong.
+  speed_is_due_ = since > options_.restart_gap || seen_moving != read_before;
   filter_->reset(x, start_root(x, angle, q, seen_moving ? since : kInfinity));
   started_ = true;
   refused_since_ = kInfinity;
@@ -211,7 +213,6 @@ Innovation ArmFilter::update(const Sample& sample) {
   const bool locked_out = sample.time_s - refused_since_ > options_.restart_gap;
   if (!started_ || after_gap || locked_out || speed_is_due_) {
     start(sample);
-    speed_is_due_ = speed_is_due_ || after_gap;
   } else {
     predict(sample.time_s);
     innovation = correct(sample);
@@ -224,15 +225,28 @@ Innovation ArmFilter::update(const Sample& sample) {
 }
 
 ArmFilter::Moment ArmFilter::moment() const {
-  return {started_, time_, filter_->x(), reading_, torque_, external_, filter_->S(), report_};
+  return {.started = started_,
+          .speed_is_due = speed_is_due_,
+          .time_s = time_,
+          .refused_since = refused_since_,
+          .x = filter_->x(),
+          .reading = reading_,
+          .torque = torque_,
+          .external = external_,
+          .adapted = noise_.adapted(),
+          .S = filter_->S(),
+          .report = report_};
 }
 
 void ArmFilter::go_back(const Moment& moment) {
   started_ = moment.started;
+  speed_is_due_ = moment.speed_is_due;
   time_ = moment.time_s;
+  refused_since_ = moment.refused_since;
   reading_ = moment.reading;
   torque_ = moment.torque;
   external_ = moment.external;
+  noise_.reset(moment.adapted);
   report_ = moment.report;
   filter_->reset(moment.x, moment.S);
 }

@@ -3,7 +3,8 @@
 /// like: gaps, missing samples, a start at rest.
 ///
 ///   start      joints from kinematics, then to static equilibrium under the motors' readings, at rest; a start amid a
-///              record takes the speed from two readings, after a gap with the second; samples before all motors have been read once are passed over
+///              record takes the speed from two readings, after a gap with the second; samples before all motors have
+///              been read once are passed over
 ///   a step     the time between two samples, cut into equal pieces of at most `max_step`
 ///   a gap      longer than `restart_gap`: a new start; so are readings that all were refused for as long
 ///   NaN        torque: the last one is held; position of a motor: no correction from it
@@ -48,9 +49,9 @@ class ArmFilter final : public Estimator {
 
   /// All that the filter knows at an instant, but for commands, of which no past one changes.
   struct Moment {
-    bool started = false;
-    double time_s = 0;
-    Eigen::VectorXd x, reading, torque, external;
+    bool started = false, speed_is_due = false;
+    double time_s = 0, refused_since = 0;
+    Eigen::VectorXd x, reading, torque, external, adapted;
     Eigen::MatrixXd S;
     EstimatorReport report;
   };

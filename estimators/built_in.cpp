@@ -38,7 +38,7 @@ std::unique_ptr<Estimator> make_sr_ukf(const ArmModel& model, const EstimatorOpt
 std::unique_ptr<Estimator> make_camera_sr_ukf(const ArmModel& model, const EstimatorOptions& options) {
   OptionReader reader("camera_sr_ukf", options);
   const CameraOptions camera = read_camera_options(reader, model);
-  const UnknownForceLevels levels = read_force_levels(reader, model);
+  const UnknownLevels levels = read_force_levels(reader, model);
   const ArmModel augmented = with_unknown_offsets(with_unknown_forces(model, levels), camera);
   const auto process = std::make_shared<const ProcessModel>(augmented);
   const UkfWeights weights = read_weights(reader, process->n_states());
@@ -50,7 +50,7 @@ std::unique_ptr<Estimator> make_camera_sr_ukf(const ArmModel& model, const Estim
 
 std::unique_ptr<Estimator> make_disturbance_sr_ukf(const ArmModel& model, const EstimatorOptions& options) {
   OptionReader reader("disturbance_sr_ukf", options);
-  const UnknownForceLevels levels = read_force_levels(reader, model);
+  const UnknownLevels levels = read_force_levels(reader, model);
   const ArmModel augmented = with_unknown_forces(model, levels);
   const auto process = std::make_shared<const ProcessModel>(augmented);
   const UkfWeights weights = read_weights(reader, process->n_states());

@@ -11,23 +11,16 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRounding = 1e-9;   // s, of times that are sums
 
-/// x becomes x - b, b' = 0. Its parameter is σ_b.
-class UnknownOffset : public EffectOf<UnknownOffset> {
+/// x becomes x - b.
+class UnknownOffset : public UnknownConstant<UnknownOffset> {
  public:
   std::string name() const override { return "cable_offset"; }
   std::string summary() const override { return "an offset of the cable's stretch that only a filter knows"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::stretch); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override { return {}; }
-  int n_states() const override { return 1; }
-  std::vector<double> state_scale(const ArmParameters<double>&, int, const double* p) const override { return {p[0]}; }
 
   template <class T>
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
     s[c.joint].stretch -= c.z[0];
-  }
-  template <class T>
-  void state_rate(const EffectContext<T>&, const JointSignals<T>*, T* z_dot) const {
-    z_dot[0] = T(0.0);
   }
 };
 
@@ -36,25 +29,11 @@ const UnknownOffset& unknown_offset() {
   return effect;
 }
 
-/// Index of b in the state, [n]; -1: the joint has none.
-std::vector<int> offset_states(const ProcessModel& process) {
-  std::vector<int> states(process.n_joints(), -1);
-  int next = process.layout().effect_states;
-  for (const auto& e : process.transmission().effects()) {
-    if (e.effect == &unknown_offset()) states[e.joint] = next;
-    next += e.effect->n_states();
-  }
-  return states;
-}
-
+/// The joints stand where the offsets let them: those are settled.
 ArmFilterOptions with_offsets(ArmFilterOptions options, const ProcessModel& process, const Eigen::VectorXd& wander) {
-  const std::vector<int> states = offset_states(process);
-  for (int k = 0; k < process.n_joints(); ++k) {
-    if (states[k] < 0) continue;
-    const int i = states[k] - process.layout().effect_states;
-    options.noise.wander(i) = wander(k);
-    options.settled.push_back(i);
-  }
+  options = with_wander(std::move(options), unknown_offset(), process, wander);
+  for (const int state : states_of(unknown_offset(), process))
+    if (state >= 0) options.settled.push_back(state - process.layout().effect_states);
   return options;
 }
 
@@ -101,8 +80,7 @@ CameraOptions read_camera_options(OptionReader& options, const ArmModel& model) 
   CameraOptions camera;
   camera.latency_s = options.number("camera_latency", camera.latency_s, 0, 10);
   camera.noise_m = options.number("camera_noise", camera.noise_m, 1e-9, kInfinity);
-  camera.offset_start = options.per_joint("offset_start", offset, 0, kInfinity);
-  camera.offset_wander = options.per_joint("offset_wander", offset, 0, kInfinity);
+  camera.offset = read_unknown_levels(options, "offset", {offset, offset});
   return camera;
 }
 
@@ -110,7 +88,7 @@ ArmModel with_unknown_offsets(const ArmModel& model, const CameraOptions& camera
   ArmModel augmented = model;
   for (int k = 0; k < model.n(); ++k)
     if (model.nominal.joint[k].drive == Drive::cable)
-      augmented.effects.push_back({&unknown_offset(), k, {camera.offset_start(k)}});
+      augmented.effects.push_back({&unknown_offset(), k, {camera.offset.start(k)}});
   return augmented;
 }
 
@@ -119,7 +97,8 @@ CameraFilter::CameraFilter(const ArmModel& augmented, std::shared_ptr<const Proc
                            std::unique_ptr<GaussianFilter> filter)
     : process_(std::move(process)),
       camera_(camera),
-      filter_(augmented, process_, with_offsets(std::move(options), *process_, camera.offset_wander),
+      restart_gap_(options.restart_gap),
+      filter_(augmented, process_, with_offsets(std::move(options), *process_, camera.offset.wander),
               std::move(filter)) {}
 
 void CameraFilter::reset(const Sample& first) {
@@ -136,6 +115,7 @@ Innovation CameraFilter::update(const Sample& sample) {
 }
 
 void CameraFilter::remember(const Sample& sample) {
+  if (!past_.empty() && sample.time_s - past_.back().sample.time_s > restart_gap_) past_.clear();
   past_.push_back({sample, filter_.moment()});
   while (past_.size() > 1 && past_[1].sample.time_s <= sample.time_s - camera_.latency_s + kRounding) past_.pop_front();
 }
@@ -156,7 +136,7 @@ void CameraFilter::take_marker(const Sample& sample) {
 
 Estimate CameraFilter::estimate() const {
   Estimate e = filter_.estimate();
-  const std::vector<int> states = offset_states(*process_);
+  const std::vector<int> states = states_of(unknown_offset(), *process_);
   e.further.setConstant(process_->n_joints(), 2, kNan);
   for (int k = 0; k < process_->n_joints(); ++k) {
     if (states[k] < 0) continue;

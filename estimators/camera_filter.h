@@ -19,6 +19,7 @@
 /// disturbance_filter.h: otherwise whatever the model lacks of a force would be told as an offset by which gravity pulls
 /// more or less. A frame is taken where it belongs: the filter
 /// goes back to the last sample before its exposure, predicts to it, is corrected, and takes the samples since then anew.
+/// A frame that was exposed within a gap after which the filter started anew is not taken.
 ///
 /// Besides the joints' motion it estimates cable_offset and cable_offset_std: b and its standard deviation, m.
 ///
@@ -27,20 +28,20 @@
 
 #include <deque>
 
-#include "estimators/arm_filter.h"
+#include "estimators/unknown_constant.h"
 
 namespace halyard {
 
 struct CameraOptions {
   double latency_s = 0.05;
   double noise_m = 5e-4;
-  Eigen::VectorXd offset_start, offset_wander;   ///< [n]
+  UnknownLevels offset;
 };
 
 /// Those above, by options.
 CameraOptions read_camera_options(OptionReader& options, const ArmModel& model);
 
-/// The model with an unknown offset of the stretch of each cable, as its last effects; they are in no library.
+/// The model with an unknown offset of the stretch of each cable, as its last effects.
 ArmModel with_unknown_offsets(const ArmModel& model, const CameraOptions& camera);
 
 class CameraFilter final : public Estimator {
@@ -67,6 +68,7 @@ class CameraFilter final : public Estimator {
 
   std::shared_ptr<const ProcessModel> process_;
   CameraOptions camera_;
+  double restart_gap_;
   ArmFilter filter_;
   std::deque<Past> past_;   // from the last sample before the oldest exposure that can still arrive
 };

@@ -10,23 +10,16 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// F' = F + d, d' = 0. Its parameter is σ_d.
-class UnknownForce : public EffectOf<UnknownForce> {
+/// F' = F + d.
+class UnknownForce : public UnknownConstant<UnknownForce> {
  public:
   std::string name() const override { return "joint_force"; }
   std::string summary() const override { return "a force on the joint that only a filter knows"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override { return {}; }
-  int n_states() const override { return 1; }
-  std::vector<double> state_scale(const ArmParameters<double>&, int, const double* p) const override { return {p[0]}; }
 
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
     s[c.joint].joint_force += c.z[0];
-  }
-  template <class T>
-  void state_rate(const EffectContext<T>&, const JointSignals<T>*, T* z_dot) const {
-    z_dot[0] = T(0.0);
   }
 };
 
@@ -35,35 +28,21 @@ const UnknownForce& unknown_force() {
   return effect;
 }
 
-/// Index of d in the state, [n]; -1: the joint has none.
-std::vector<int> force_states(const ProcessModel& process) {
-  std::vector<int> states(process.n_joints(), -1);
-  int next = process.layout().effect_states;
-  for (const auto& e : process.transmission().effects()) {
-    if (e.effect == &unknown_force()) states[e.joint] = next;
-    next += e.effect->n_states();
-  }
-  return states;
-}
-
 }  // namespace
 
-UnknownForceLevels read_force_levels(OptionReader& options, const ArmModel& model) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+UnknownLevels read_force_levels(OptionReader& options, const ArmModel& model) {
   const ArmParameters<double> arm = Transmission<double>(model.nominal, model.effects).arm();
   const Eigen::VectorXd gravity = largest_gravity_force(arm, model);
-  UnknownForceLevels levels{Eigen::VectorXd(arm.n), Eigen::VectorXd(arm.n)};
+  UnknownLevels usual{Eigen::VectorXd(arm.n), Eigen::VectorXd(arm.n)};
   for (int k = 0; k < arm.n; ++k) {
     const double friction = arm.joint[k].joint_coulomb;
-    levels.start(k) = std::max(gravity(k), friction);
-    levels.wander(k) = std::max(2 * friction, gravity(k) / 4);
+    usual.start(k) = std::max(gravity(k), friction);
+    usual.wander(k) = std::max(2 * friction, gravity(k) / 4);
   }
-  levels.start = options.per_joint("force_start", levels.start, 0, kInfinity);
-  levels.wander = options.per_joint("force_wander", levels.wander, 0, kInfinity);
-  return levels;
+  return read_unknown_levels(options, "force", usual);
 }
 
-ArmModel with_unknown_forces(const ArmModel& model, const UnknownForceLevels& levels) {
+ArmModel with_unknown_forces(const ArmModel& model, const UnknownLevels& levels) {
   ArmModel augmented = model;
   for (int k = 0; k < model.n(); ++k)
     if (model.nominal.joint[k].drive != Drive::none)
@@ -72,15 +51,12 @@ ArmModel with_unknown_forces(const ArmModel& model, const UnknownForceLevels& le
 }
 
 ArmFilterOptions with_force_wander(ArmFilterOptions options, const ProcessModel& process,
-                                   const UnknownForceLevels& levels) {
-  const std::vector<int> states = force_states(process);
-  for (int k = 0; k < process.n_joints(); ++k)
-    if (states[k] >= 0) options.noise.wander(states[k] - process.layout().effect_states) = levels.wander(k);
-  return options;
+                                   const UnknownLevels& levels) {
+  return with_wander(std::move(options), unknown_force(), process, levels.wander);
 }
 
 DisturbanceFilter::DisturbanceFilter(const ArmModel& augmented, std::shared_ptr<const ProcessModel> process,
-                                     ArmFilterOptions options, const UnknownForceLevels& levels,
+                                     ArmFilterOptions options, const UnknownLevels& levels,
                                      std::unique_ptr<GaussianFilter> filter)
     : process_(std::move(process)),
       filter_(augmented, process_, with_force_wander(std::move(options), *process_, levels), std::move(filter)) {}
@@ -107,7 +83,7 @@ Estimate DisturbanceFilter::estimate() const {
 
   Estimate e = filter_.estimate();
   e.further.setConstant(n, 3, kNan);
-  const std::vector<int> states = force_states(*process_);
+  const std::vector<int> states = states_of(unknown_force(), *process_);
   for (int k = 0; k < n; ++k) {
     if (states[k] >= 0) {
       e.further(k, 0) = x(states[k]);

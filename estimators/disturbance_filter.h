@@ -25,31 +25,25 @@
 /// Source of the augmentation: Jazwinski, "Stochastic Processes and Filtering Theory", 1970, section 8.4; as an observer
 /// of disturbances: Chen, Yang, Guo, Li, IEEE Trans. Industrial Electronics 63 (2016).
 
-#include "estimators/arm_filter.h"
+#include "estimators/unknown_constant.h"
 
 namespace halyard {
 
-struct UnknownForceLevels {
-  Eigen::VectorXd start;    ///< σ_d [n]
-  Eigen::VectorXd wander;   ///< ρ [n]
-};
-
 /// The rule above, overridden by the options force_start and force_wander (per joint).
-UnknownForceLevels read_force_levels(OptionReader& options, const ArmModel& model);
+UnknownLevels read_force_levels(OptionReader& options, const ArmModel& model);
 
-/// The model with an unknown force on each joint that has a motor, as its last effects. They have one state each and
-/// are in no library: nothing but a filter can use them.
-ArmModel with_unknown_forces(const ArmModel& model, const UnknownForceLevels& levels);
+/// The model with an unknown force on each joint that has a motor, as its last effects.
+ArmModel with_unknown_forces(const ArmModel& model, const UnknownLevels& levels);
 
 /// The options with the forces' ρ in the noise; process: of such a model.
 ArmFilterOptions with_force_wander(ArmFilterOptions options, const ProcessModel& process,
-                                   const UnknownForceLevels& levels);
+                                   const UnknownLevels& levels);
 
 class DisturbanceFilter final : public Estimator {
  public:
   /// augmented: of with_unknown_forces, and process of it.
   DisturbanceFilter(const ArmModel& augmented, std::shared_ptr<const ProcessModel> process, ArmFilterOptions options,
-                    const UnknownForceLevels& levels, std::unique_ptr<GaussianFilter> filter);
+                    const UnknownLevels& levels, std::unique_ptr<GaussianFilter> filter);
 
   void reset(const Sample& first) override;
   Innovation update(const Sample& sample) override;

@@ -62,7 +62,6 @@ ArmNoise::ArmNoise(const ArmModel& model, const ProcessModel& process, const Noi
       effect_scale_(effect_scales(process)),
       adapted_(Eigen::VectorXd::Ones(process.n_joints())) {
   const ArmParameters<double>& arm = process.arm();
-  const StateLayout& l = process.layout();
   const int n = arm.n;
   tolerance_.resize(n);
   friction_stretch_.setZero(n);

@@ -69,8 +69,9 @@ class ArmNoise {
   const Eigen::MatrixXd& process_root(const Step& step, const Eigen::VectorXd& x);
   /// Learns from the innovation of these motors, dt_s after the one before.
   void adapt(const std::vector<int>& motors, const Innovation& innovation, double dt_s);
-  /// Forgets what was learnt.
-  void reset() { adapted_.setOnes(); }
+  /// What was learnt, c [n]: 1 at first.
+  const Eigen::VectorXd& adapted() const { return adapted_; }
+  void reset(const Eigen::VectorXd& adapted) { adapted_ = adapted; }
   /// σ_z [n].
   const Eigen::VectorXd& encoder() const { return levels_.encoder; }
   /// S [n_states x n_states] in equilibrium at x; rates are at rest, or from two readings dt_s apart: infinite, or finite.
@@ -81,7 +82,7 @@ class ArmNoise {
   NoiseLevels levels_;
   Eigen::VectorXd effect_scale_;
   Eigen::VectorXd tolerance_, friction_stretch_, undriven_;
-  Eigen::VectorXd adapted_;   // c [n]
+  Eigen::VectorXd adapted_;
   Eigen::MatrixXd G_, points_, Q_root_;
 };
 

@@ -120,6 +120,18 @@ TEST(Consistency, OfRunsHasTheBandOfAllTheirSamples) {
   EXPECT_EQ(in_words(consistency(squared(autoregressive(2000, 0, 2), 9))).rfind("too sure: errors are 3", 0), 0u);
 }
 
+TEST(Consistency, OfRunsHoldsAsOftenAsItSays) {
+  int right = 0;
+  constexpr int kTrials = 200, kRuns = 20;
+  for (int t = 0; t < kTrials; ++t) {
+    std::vector<Consistency> runs;
+    for (int r = 0; r < kRuns; ++r) runs.push_back(consistency(squared(autoregressive(1000, 0.9, kRuns * t + r))));
+    right += consistency_of_runs(runs).trust() == Trust::right;
+  }
+  // Binomial at 95 %, four deviations.
+  EXPECT_NEAR(right, 0.95 * kTrials, 4 * std::sqrt(0.95 * 0.05 * kTrials));
+}
+
 TEST(Whiteness, SeesNeighboursAndTorques) {
   const std::vector<double> white = autoregressive(5000, 0, 1), torque = autoregressive(5000, 0.99, 2);
   EXPECT_TRUE(whiteness(white, torque).is_white());

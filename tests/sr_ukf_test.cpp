@@ -309,6 +309,33 @@ TEST(SrUkfOnTheArm, AnOutlierAmidAStartIsNoSpeed) {
   EXPECT_LT((ukf->estimate().joint_position - run.joint_position[2399]).norm(), 1e-3);
 }
 
+// Learning noise, refusing what is impossible, and starting anew after a gap: from where it was, all comes again.
+TEST(SrUkfOnTheArm, GoesBackToAMomentWithAllThatItKnew) {
+  const ArmModel model = raven2();
+  std::vector<Sample> samples = run_arm(model, 0.5).samples;
+  for (int i = 200; i < 300; ++i) samples[i].motor_position(0) += 1;
+  samples.erase(samples.begin() + 340, samples.begin() + 400);
+  const EstimatorOptions given = {{"adaptation_time", "0.2"}, {"gate", "0.9999"}, {"restart_gap", "0.05"}};
+  OptionReader options("the test", given);
+  const auto process = std::make_shared<const ProcessModel>(model);
+  ArmFilter filter(model, process, read_arm_filter_options(options, model, *process),
+                   std::make_unique<SquareRootUkf>());
+  filter.reset(samples[0]);
+  for (int next = 1; const int from : {100, 220, 340}) {   // learning; 20 ms of refusals; the first after the gap
+    while (next <= from) filter.update(samples[next++]);
+    const ArmFilter::Moment moment = filter.moment();
+    for (int i = 1; i <= 60; ++i) filter.update(samples[from + i]);
+    const Eigen::VectorXd x = filter.filter().x();
+    const Eigen::MatrixXd S = filter.filter().S();
+    const long gated = filter.report().gated;
+    filter.go_back(moment);
+    for (int i = 1; i <= 60; ++i) filter.update(samples[next++]);
+    EXPECT_EQ(filter.filter().x(), x) << "from sample " << from;
+    EXPECT_EQ(filter.filter().S(), S) << "from sample " << from;
+    EXPECT_EQ(filter.report().gated, gated) << "from sample " << from;
+  }
+}
+
 TEST(SrUkfOnTheArm, StaysSaneOverTornRecordsOfOneToSevenJoints) {
   for (int n = 1; n <= 7; ++n)
     for (const char* alpha : {"1e-3", "1"}) {
