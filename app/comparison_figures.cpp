@@ -122,7 +122,7 @@ Chart error_histogram(const Comparison& comparison, int k, int left_out) {
   }
   constexpr std::size_t kBins = 60;
   Chart chart = report::histogram(joint_title(k, "errors") + without(comparison, left_out),
-                           fmt::format("estimate - truth [{}]", comparison.units[k].shown), samples, kBins);
+                                  fmt::format("estimate - truth [{}]", comparison.units[k].shown), samples, kBins);
   for (std::size_t i = 0; i < chart.series.size(); ++i)
     chart.series[i].colour = (left_out >= 0 && int(i) >= left_out ? i + 1 : i) % kTruthColour;
   return chart;
