@@ -67,9 +67,10 @@ std::vector<std::string> doubts(const IdentifyResult& result) {
   for (const EstimatorComparison& e : result.estimators)
     for (int k = 0; k < result.given.n() && !e.before.rms.empty() && !e.after.rms.empty(); ++k)
       if (e.after.rms[k] > kWorse * e.before.rms[k])
-        all.push_back(fmt::format("the identified numbers predict joint {} worse on the hold-out, {} by {:.2g} times: they "
-                                  "stand for something else; leave them, and see halyard diagnose",
-                                  k + 1, e.name, e.after.rms[k] / e.before.rms[k]));
+        all.push_back(
+            fmt::format("the identified numbers predict joint {} worse on the hold-out, {} by {:.2g} times: they "
+                        "stand for something else; leave them, and see halyard diagnose",
+                        k + 1, e.name, e.after.rms[k] / e.before.rms[k]));
   return all;
 }
 

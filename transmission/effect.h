@@ -153,9 +153,15 @@ class EffectOf : public Effect {
   void act(EffectStage g, const EffectContext<double>& c, JointSignals<double>* s) const final { dispatch(g, c, s); }
   void act(EffectStage g, const EffectContext<Dual>& c, JointSignals<Dual>* s) const final { dispatch(g, c, s); }
   void act(EffectStage g, const EffectContext<Lanes>& c, JointSignals<Lanes>* s) const final { dispatch(g, c, s); }
-  void rates(const EffectContext<double>& c, const JointSignals<double>* s, double* r) const final { self().state_rate(c, s, r); }
-  void rates(const EffectContext<Dual>& c, const JointSignals<Dual>* s, Dual* r) const final { self().state_rate(c, s, r); }
-  void rates(const EffectContext<Lanes>& c, const JointSignals<Lanes>* s, Lanes* r) const final { self().state_rate(c, s, r); }
+  void rates(const EffectContext<double>& c, const JointSignals<double>* s, double* r) const final {
+    self().state_rate(c, s, r);
+  }
+  void rates(const EffectContext<Dual>& c, const JointSignals<Dual>* s, Dual* r) const final {
+    self().state_rate(c, s, r);
+  }
+  void rates(const EffectContext<Lanes>& c, const JointSignals<Lanes>* s, Lanes* r) const final {
+    self().state_rate(c, s, r);
+  }
 
  private:
   const Derived& self() const { return static_cast<const Derived&>(*this); }

@@ -49,7 +49,8 @@ class Transmission {
   }
 
   /// The command stage alone: s.motor_torque from s.command, no friction.
-  HALYARD_INLINE void commanded_torque(double time, const CommandHistory* history, const T* z, JointSignals<T>* s) const {
+  HALYARD_INLINE void commanded_torque(double time, const CommandHistory* history, const T* z,
+                                       JointSignals<T>* s) const {
     for (int i = 0; i < arm_.n; ++i)
       s[i].motor_torque = arm_.joint[i].torque_scale * s[i].command + arm_.joint[i].torque_bias;
     apply(EffectStage::command, time, history, z, s);

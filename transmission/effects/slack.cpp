@@ -9,9 +9,9 @@
 ///   T   tension of each run at rest                                                N
 ///   ρ   share of the push that a slack run lacks: 1 for a cable, 0 for a rod       -
 ///
-/// Under the paper's law, which has no end at zero, ρ = 1 puts one at T. Under the linear and the exponential law, whose
-/// own end is at the model's T_0, g_T is the law with T in the place of T_0. T shapes what ρ sizes: whatever T, the
-/// model's law is left as it is at ρ = 0.
+/// Under the paper's law, which has no end at zero, ρ = 1 puts one at T. Under the linear and the exponential law,
+/// whose own end is at the model's T_0, g_T is the law with T in the place of T_0. T shapes what ρ sizes: whatever T,
+/// the model's law is left as it is at ρ = 0.
 ///
 /// Source: the clamp of cable_law.h.
 
