@@ -92,7 +92,8 @@ report::Page comparison_page(const Comparison& comparison, const std::optional<M
       "% of such means lie by chance, samples of a run that say the same counted once. White innovations hold nothing "
       "that could have been predicted.");
   if (runs) {
-    page.table(monte_carlo_table(*runs, comparison.units));
+    page.table(runs_error_table(*runs, comparison.units));
+    page.table(runs_consistency_table(*runs));
     page.paragraph(
         fmt::format("Instants in band: at how many of the record's instants the mean NEES over the runs lies in the "
                     "band of {} independent squares; 95 % is right. The figures and tables above and below are those "
