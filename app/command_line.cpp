@@ -220,7 +220,8 @@ void add_experiments_command(CLI::App& app) {
       ->type_name("DIR");
   command
       .add_option("--calibrated", options->calibrated,
-                  "calibrated model that kinematics and sr_ukf are run with too; default: raven2.xml with couplings identified here")
+                  "calibrated model that kinematics and sr_ukf are run with too; default: raven2.xml with couplings "
+                  "identified here")
       ->type_name("M.xml");
   command.add_option("--duration", options->duration_s, "of each experiment, in s; default: the scenarios'")
       ->type_name("S")
