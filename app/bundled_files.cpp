@@ -8,7 +8,9 @@ namespace fs = std::filesystem;
 
 fs::path examples_folder(const fs::path& given, const std::string& command) {
   std::error_code error;
-  const auto holds_examples = [&](const fs::path& folder) { return fs::exists(folder / "raven2" / "raven2.xml", error); };
+  const auto holds_examples = [&](const fs::path& folder) {
+    return fs::exists(folder / "raven2" / "raven2.xml", error);
+  };
   if (!given.empty()) {
     if (holds_examples(given)) return given;
     throw InputError("halyard " + command + ": --examples " + in_quotes(given.string()) +

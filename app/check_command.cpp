@@ -2,16 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
-
 #include "app/bundled_files.h"
+#include "app/contained_run.h"
 #include "app/sweep_file.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "model/xml_reader.h"
 #include "plant/scenario.h"
-#include "plugins/conformance.h"
 
 namespace halyard {
 namespace {
@@ -64,8 +61,8 @@ void check_estimator_module(const CheckOptions& options) {
   const std::string module = options.file.string();
   const ArmModel model =
       read_model(options.model.empty() ? examples_folder({}, "check") / "raven2" / "raven2.xml" : options.model);
-  std::vector<std::string> faults = conformance_faults(module, model);
-  if (options.kalman) std::ranges::copy(kalman_faults(module), std::back_inserter(faults));
+  const std::vector<std::string> faults =
+      contained_faults(module, model, options.kalman, {.step_limit_s = options.time_limit_s});
   if (!faults.empty())
     throw InputError(fmt::format("{}: breaks {} of the promises of an estimator (plugins/conformance.h): {}", module,
                                  faults.size(), fmt::join(faults, "; ")));

@@ -125,9 +125,10 @@ void add_compare_command(CLI::App& app) {
   command.add_option("--runs", options->runs, "of a scenario: simulate so many seeds, and judge by all of them")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command.add_option("--noise", options->noise,
-                     "of a scenario: disturb the arm by so many times the process and measurement noise that the filters "
-                     "assume")
+  command
+      .add_option("--noise", options->noise,
+                  "of a scenario: disturb the arm by so many times the process and measurement noise that the filters "
+                  "assume")
       ->check(CLI::NonNegativeNumber);
   add_effects_option(command);
   finish(command, [options, estimators] {
@@ -147,7 +148,8 @@ void add_diagnose_command(CLI::App& app) {
                           ->take_all()
                           ->allow_extra_args(false);
   CLI::Option* holdout =
-      command.add_option("--holdout", options->holdout, "log to tell the errors on; default: the last third of each log")
+      command
+          .add_option("--holdout", options->holdout, "log to tell the errors on; default: the last third of each log")
           ->type_name("LOG.csv");
   CLI::Option* out =
       command.add_option("--out", options->out, "folder of model.xml, diagnosis.json and report.html; of a plan")
@@ -218,7 +220,8 @@ void add_experiments_command(CLI::App& app) {
       ->type_name("DIR");
   command
       .add_option("--calibrated", options->calibrated,
-                  "calibrated model that kinematics and sr_ukf are run with too; default: couplings identified here")
+                  "calibrated model that kinematics and sr_ukf are run with too; default: raven2.xml with couplings "
+                  "identified here")
       ->type_name("M.xml");
   command.add_option("--duration", options->duration_s, "of each experiment, in s; default: the scenarios'")
       ->type_name("S")
@@ -271,6 +274,11 @@ void add_check_command(CLI::App& app) {
       ->type_name("M.xml");
   command.add_flag("--kalman", options->kalman, "of an estimator: it is a Kalman filter with halyard's noise; hold it "
                                                 "against the textbook's on a linear arm");
+  command
+      .add_option("--time-limit", options->time_limit_s,
+                  "of an estimator: a promise whose test takes longer is broken, in s")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   add_effects_option(command);
   finish(command, [options] { run_check(*options); });
 }

@@ -100,11 +100,10 @@ Comparison compare_estimators(const std::vector<Contestant>& contestants, const 
       return none;
     }
   };
-  // All are made first: a wrong name must not cost the time of the others' runs.
   std::vector<EstimatorRun> tried;
   for (const Contestant& c : contestants)
     tried.push_back(attempt(c.name, [&] {
-      check_estimator(c.estimator, *c.model, options.containment);
+      if (options.make_all_first) check_estimator(c.estimator, *c.model, options.containment);
       return EstimatorRun{};
     }));
   for (std::size_t i = 0; i < contestants.size(); ++i) {
@@ -124,14 +123,16 @@ Comparison compare_estimators(const std::vector<Contestant>& contestants, const 
     result.errors.push_back(joint_errors(run, result.compared.back(), truth, counted));
     result.judgements.push_back(judge(run, result.compared.back(), measured, truth, counted));
   }
-  for (std::size_t a = 0; a < result.runs.size(); ++a) {
-    result.paired.emplace_back(result.runs.size(), std::vector<PairedRatio>(result.units.size()));
-    for (std::size_t b = 0; b < result.runs.size(); ++b)
-      for (int k = 0; k < result.n_joints() && a != b; ++k)
-        if (result.has_truth(k))
-          result.paired[a][b][k] = paired_ratio(errors_of(result.compared[a], truth, k, counted),
-                                                errors_of(result.compared[b], truth, k, counted));
-  }
+  const std::size_t n_runs = result.runs.size();
+  result.paired.assign(n_runs, {n_runs, std::vector<PairedRatio>(result.units.size())});
+  for (std::size_t a = 0; a < n_runs; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      for (int k = 0; k < result.n_joints(); ++k) {
+        if (!result.has_truth(k)) continue;
+        result.paired[a][b][k] = paired_ratio(errors_of(result.compared[a], truth, k, counted),
+                                              errors_of(result.compared[b], truth, k, counted));
+        result.paired[b][a][k] = result.paired[a][b][k].inverse();
+      }
   return result;
 }
 

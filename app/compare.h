@@ -30,7 +30,8 @@ struct Comparison {
   std::vector<JointUnit> units;         ///< [n]
   Log truth;                            ///< joint_position, where known
   std::vector<EstimatorRun> runs;
-  std::vector<Signals> compared;        ///< [run][joint] what is held against the truth: positions, or sensors' readings of them
+  /// [run][joint] what is held against the truth: positions, or sensors' readings of them
+  std::vector<Signals> compared;
   std::vector<std::vector<ErrorStatistics>> errors;   ///< [run][joint]
   std::vector<Judgement> judgements;    ///< [run]
   std::vector<std::vector<std::vector<PairedRatio>>> paired;   ///< [run][other run][joint] RMS error over the other's
@@ -50,6 +51,8 @@ struct CompareOptions {
   bool truth_is_sensed = false;
   /// An estimator that fails leaves a row without numbers; otherwise its failure is thrown.
   bool keep_going = false;
+  /// All estimators are made before the first runs: a wrong name must not cost the time of the others' runs.
+  bool make_all_first = true;
   ContainmentOptions containment = {};
   std::function<void(double)> progress = {};   ///< called with the fraction done
 };

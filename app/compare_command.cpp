@@ -47,7 +47,8 @@ Data simulated_data(const CompareCommandOptions& options) {
   }
   if (options.noise >= 0) {
     scenario.noise = assumed_noise(data.model, scenario.control_period_s);
-    for (std::vector<double>* deviations : {&scenario.noise.motor_torque, &scenario.noise.joint_force, &scenario.noise.motor_reading})
+    for (std::vector<double>* deviations :
+         {&scenario.noise.motor_torque, &scenario.noise.joint_force, &scenario.noise.motor_reading})
       for (double& x : *deviations) x *= options.noise;
     scenario.quantise = false;
   }
@@ -146,8 +147,8 @@ void run_compare(const CompareCommandOptions& options) {
     runs = run_monte_carlo(*data.scenario, data.model, options.estimators,
                            {.runs = options.runs,
                             .skip_s = options.skip_s,
-                            .noise = options.noise,
                             .run_done = [&](double amount) { progress.add(amount); }});
+    runs->noise = options.noise;
   }
   write_comparison(options.out, comparison, runs);
   print_errors(comparison);

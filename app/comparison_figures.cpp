@@ -45,6 +45,22 @@ int best_run(const Comparison& comparison, int k) {
   return best;
 }
 
+/// Whether the baseline's errors are so large that the others' are a line at zero beside them.
+bool baseline_hides_others(const Comparison& comparison, int k) {
+  const int baseline = comparison.baseline();
+  if (baseline < 0) return false;
+  double largest = 0;
+  for (std::size_t i = 0; i < comparison.runs.size(); ++i)
+    if (int(i) != baseline) largest = std::fmax(largest, comparison.errors[i][k].peak);
+  constexpr double kSeen = 0.1;   // share of a chart's height
+  return largest > 0 && largest < kSeen * comparison.errors[baseline][k].peak;
+}
+
+/// "", or " without kinematics".
+std::string without(const Comparison& comparison, int left_out) {
+  return left_out < 0 ? "" : " without " + comparison.runs[left_out].name;
+}
+
 }  // namespace
 
 std::string shown_number(double si_value, const JointUnit& unit) {
@@ -77,11 +93,12 @@ Chart trajectory_chart(const Comparison& comparison, int k) {
   return chart;
 }
 
-Chart error_chart(const Comparison& comparison, int k) {
-  Chart chart{.title = joint_title(k, "error over time"),
+Chart error_chart(const Comparison& comparison, int k, int left_out) {
+  Chart chart{.title = joint_title(k, "error over time") + without(comparison, left_out),
               .x_label = "time [s]",
               .y_label = fmt::format("estimate - truth [{}]", comparison.units[k].shown)};
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
+    if (int(i) == left_out) continue;
     chart.series.push_back(Series{.name = comparison.runs[i].name,
                                   .x = comparison.truth.time,
                                   .y = shown_errors(comparison, i, k),
@@ -94,17 +111,21 @@ Chart error_chart(const Comparison& comparison, int k) {
   return chart;
 }
 
-Chart error_histogram(const Comparison& comparison, int k) {
+Chart error_histogram(const Comparison& comparison, int k, int left_out) {
   const std::size_t first = first_counted_sample(comparison.truth.time, comparison.skip_s);
   std::vector<report::Sample> samples;
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
+    if (int(i) == left_out) continue;
     std::vector<double> errors = shown_errors(comparison, i, k);
     errors.erase(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(first));
     samples.push_back({comparison.runs[i].name, std::move(errors)});
   }
   constexpr std::size_t kBins = 60;
-  return report::histogram(joint_title(k, "errors"),
-                           fmt::format("estimate - truth [{}]", comparison.units[k].shown), samples, kBins);
+  Chart chart = report::histogram(joint_title(k, "errors") + without(comparison, left_out),
+                                  fmt::format("estimate - truth [{}]", comparison.units[k].shown), samples, kBins);
+  for (std::size_t i = 0; i < chart.series.size(); ++i)
+    chart.series[i].colour = (left_out >= 0 && int(i) >= left_out ? i + 1 : i) % kTruthColour;
+  return chart;
 }
 
 report::Table error_table(const Comparison& comparison) {
@@ -141,6 +162,8 @@ void add_joint_figures(report::Page& page, const Comparison& comparison, const s
       continue;
     }
     page.figure_row({error_chart(comparison, k), error_histogram(comparison, k)});
+    if (const int left_out = comparison.baseline(); baseline_hides_others(comparison, k))
+      page.figure_row({error_chart(comparison, k, left_out), error_histogram(comparison, k, left_out)});
   }
 }
 

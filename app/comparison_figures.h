@@ -17,14 +17,15 @@ std::string shown_percent(double fraction);
 
 /// Truth, where known, and every estimate over time.
 report::Chart trajectory_chart(const Comparison& comparison, int k);
-/// Estimate minus truth over time.
-report::Chart error_chart(const Comparison& comparison, int k);
-/// Share of the counted samples by error.
-report::Chart error_histogram(const Comparison& comparison, int k);
+/// Estimate minus truth over time, of all runs but `left_out`; -1: of all.
+report::Chart error_chart(const Comparison& comparison, int k, int left_out = -1);
+/// Share of the counted samples by error, of the same runs.
+report::Chart error_histogram(const Comparison& comparison, int k, int left_out = -1);
 /// One row per joint and estimator; the least mean absolute error of a joint is marked.
 report::Table error_table(const Comparison& comparison);
 
-/// For every joint: a heading "<prefix>Joint 1", the trajectories, and where truth is known the errors.
+/// For every joint: a heading "<prefix>Joint 1", the trajectories, and where truth is known the errors; these again
+/// without kinematics where beside its own nothing would be seen of the others'.
 void add_joint_figures(report::Page& page, const Comparison& comparison, const std::string& prefix = "");
 
 }  // namespace halyard

@@ -49,7 +49,8 @@ ordered_json paired_json(const Comparison& comparison) {
     for (std::size_t b = 0; b < a; ++b)
       for (int k = 0; k < comparison.n_joints(); ++k) {
         if (!comparison.has_truth(k)) continue;
-        ordered_json pair = {{"estimator", comparison.runs[a].name}, {"against", comparison.runs[b].name}, {"joint", k + 1}};
+        ordered_json pair = {
+            {"estimator", comparison.runs[a].name}, {"against", comparison.runs[b].name}, {"joint", k + 1}};
         pair.update(to_json(comparison.paired[a][b][k]));
         all.push_back(pair);
       }
@@ -81,20 +82,23 @@ report::Page comparison_page(const Comparison& comparison, const std::optional<M
     page.table(paired_table(comparison));
     page.paragraph(
         "Errors that follow each other say partly the same. So blocks of the record are drawn with replacement, all "
-        "estimators' errors together, and the ratio is taken anew, 2000 times: the interval holds 95 % of them. Better or "
-        "worse is said where it leaves out 1.");
+        "estimators' errors together, and the ratio is taken anew, 2000 times: the interval holds 95 % of them. Better "
+        "or worse is said where it leaves out 1.");
   }
   page.table(consistency_table(comparison));
   page.paragraph(
-      "An innovation is what a measurement said beyond the prediction, over its own standard deviation; an error is that of "
-      "the estimate over what the estimator says of it. Their mean squares ought to be 1. The band is where 95 % of such "
-      "means lie by chance, samples of a run that say the same counted once. White innovations hold nothing that could have "
-      "been predicted.");
+      "An innovation is what a measurement said beyond the prediction, over its own standard deviation; an error is "
+      "that of the estimate over what the estimator says of it. Their mean squares ought to be 1. The band is where 95 "
+      "% of such means lie by chance, samples of a run that say the same counted once. White innovations hold nothing "
+      "that could have been predicted.");
   if (runs) {
-    page.table(monte_carlo_table(*runs, comparison.units));
-    page.paragraph(fmt::format(
-        "Instants in band: at how many of the record's instants the mean NEES over the runs lies in the band of {} independent "
-        "squares; 95 % is right. The figures and tables above and below are those of the first seed.", runs->runs));
+    page.table(runs_error_table(*runs, comparison.units));
+    page.table(runs_consistency_table(*runs));
+    page.paragraph(
+        fmt::format("Instants in band: at how many of the record's instants the mean NEES over the runs lies in the "
+                    "band of {} independent squares; 95 % is right. The figures and tables above and below are those "
+                    "of the first seed.",
+                    runs->runs));
   }
   add_joint_figures(page, comparison);
   return page;

@@ -11,13 +11,16 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <new>
 #include <stdexcept>
 #include <system_error>
 
 #include "model/input_error.h"
+#include "plugins/conformance.h"
 #include "plugins/loader.h"
 
 namespace halyard {
@@ -25,7 +28,13 @@ namespace {
 
 /// What both processes see: how far the child has come.
 struct Shared {
-  std::atomic<long> rows{0};
+  std::atomic<long> rows{0};   ///< or promises
+  char promise[64] = "";       ///< under test
+};
+
+/// The child crashed, ended, or took too long.
+class ChildEnded : public std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 class SharedMemory {
@@ -161,7 +170,7 @@ template <class Work>
   _exit(0);   // what the parent has open is not the child's to close
 }
 
-/// Runs work(shared), which gives bytes, in a child. watch(rows) is called now and then. place(rows): for messages.
+/// Runs work(shared), which gives bytes, in a child. watch(rows) is called now and then. place(shared): for messages.
 template <class Work, class Watch, class Place>
 std::string in_child(double step_limit_s, const Work& work, const Watch& watch, const Place& place) {
   const SharedMemory shared;
@@ -202,12 +211,11 @@ std::string in_child(double step_limit_s, const Work& work, const Watch& watch, 
   close(ends[0]);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
-  rows = (*shared).rows;
   if (too_slow)
-    throw std::runtime_error(fmt::format("{}: took more than {:g} s for one step, and was ended", place(rows), step_limit_s));
+    throw ChildEnded(fmt::format("{}: took more than {:g} s, and was ended", place(*shared), step_limit_s));
   if (WIFSIGNALED(status))
-    throw std::runtime_error(fmt::format("{}: crashed: {}", place(rows), strsignal(WTERMSIG(status))));
-  if (said.empty()) throw std::runtime_error(fmt::format("{}: ended its process", place(rows)));
+    throw ChildEnded(fmt::format("{}: crashed: {}", place(*shared), strsignal(WTERMSIG(status))));
+  if (said.empty()) throw ChildEnded(fmt::format("{}: ended its process", place(*shared)));
   const std::string rest = said.substr(1);
   if (said[0] == kInputError) throw InputError(rest);
   if (said[0] == kFailure) throw std::runtime_error(rest);
@@ -216,8 +224,8 @@ std::string in_child(double step_limit_s, const Work& work, const Watch& watch, 
 
 }  // namespace
 
-EstimatorRun run_contained(const std::string& name, const ArmModel& model, const Log& log, const EstimateOptions& options,
-                           const ContainmentOptions& containment) {
+EstimatorRun run_contained(const std::string& name, const ArmModel& model, const Log& log,
+                           const EstimateOptions& options, const ContainmentOptions& containment) {
   const std::string bytes = in_child(
       containment.step_limit_s,
       [&](Shared& shared) {
@@ -229,8 +237,8 @@ EstimatorRun run_contained(const std::string& name, const ArmModel& model, const
       [&](long rows) {
         if (options.progress) options.progress(double(rows) / double(log.size()));
       },
-      [&](long rows) {
-        const std::size_t row = std::min(static_cast<std::size_t>(rows), log.size() - 1);
+      [&](const Shared& shared) {
+        const std::size_t row = std::min(static_cast<std::size_t>(shared.rows), log.size() - 1);
         return fmt::format("estimator {} on {} at {:.12g} s", name, log.source, log.time[row]);
       });
   return from_bytes(bytes, name, log);
@@ -239,7 +247,37 @@ EstimatorRun run_contained(const std::string& name, const ArmModel& model, const
 void check_estimator(const std::string& name, const ArmModel& model, const ContainmentOptions& containment) {
   in_child(
       containment.step_limit_s, [&](Shared&) { return make_estimator(name, model), std::string(); }, [](long) {},
-      [&](long) { return fmt::format("estimator {}, being made", name); });
+      [&](const Shared&) { return fmt::format("estimator {}, being made", name); });
+}
+
+std::vector<std::string> contained_faults(const std::string& name, const ArmModel& model, bool kalman,
+                                          const ContainmentOptions& containment) {
+  const auto examine = [&](Shared& shared) {
+    const auto trying = [&shared](const std::string& promise) {
+      std::snprintf(shared.promise, sizeof shared.promise, "%s", promise.c_str());
+      ++shared.rows;
+    };
+    trying("making");
+    std::vector<std::string> faults = conformance_faults(name, model, trying);
+    if (kalman) {
+      trying("Kalman");
+      std::ranges::copy(kalman_faults(name), std::back_inserter(faults));
+    }
+    Writer w;
+    w.number(static_cast<double>(faults.size()));
+    for (const std::string& fault : faults) w.text(fault);
+    return w.take();
+  };
+  std::vector<std::string> faults;
+  try {
+    const std::string bytes = in_child(
+        containment.step_limit_s, examine, [](long) {}, [](const Shared& shared) { return shared.promise; });
+    Reader r(bytes);
+    for (double left = r.number(); left > 0; --left) faults.push_back(r.text());
+  } catch (const ChildEnded& end) {
+    faults.push_back(end.what() + std::string(", the rest was not tried"));
+  }
+  return faults;
 }
 
 }  // namespace halyard

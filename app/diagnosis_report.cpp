@@ -75,10 +75,11 @@ void add_innovations(report::Page& page, const ArmModel& model, const DiagnosisE
   const std::vector<JointUnit> units = joint_units(model);
   page.heading("Innovations on the hold-out");
   page.paragraph(
-      "Each motor's reading less what ekf had predicted of it, over the deviation that it had predicted: 95 % lie within "
-      "2 and nothing is left to see if the model is right.");
+      "Each motor's reading less what ekf had predicted of it, over the deviation that it had predicted: 95 % lie "
+      "within 2 and nothing is left to see if the model is right.");
   for (int k = 0; k < model.n(); ++k) {
-    const auto chart = [&](const std::string& over, const std::string& x_label, report::ChartKind kind, const auto& x_of) {
+    const auto chart = [&](const std::string& over, const std::string& x_label, report::ChartKind kind,
+                           const auto& x_of) {
       report::Chart c{.title = fmt::format("Motor {}: innovation over {}", k + 1, over),
                       .x_label = x_label,
                       .y_label = "innovation [its deviations]",
@@ -94,7 +95,8 @@ void add_innovations(report::Page& page, const ArmModel& model, const DiagnosisE
     };
     const double scale = units[k].shown_per_si;
     std::vector<report::Chart> row = {
-        chart("time", "time [s]", report::ChartKind::line, [](const EstimatorErrors& e, std::size_t i) { return e.time[i]; }),
+        chart("time", "time [s]", report::ChartKind::line,
+              [](const EstimatorErrors& e, std::size_t i) { return e.time[i]; }),
         chart("the joint's rate", "joint rate [" + units[k].shown + "/s]", report::ChartKind::scatter,
               [&](const EstimatorErrors& e, std::size_t i) { return scale * e.joint_rate[k][i]; })};
     if (!row[0].series[0].x.empty()) page.figure_row(std::move(row));

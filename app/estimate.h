@@ -39,8 +39,8 @@ struct EstimateOptions {
 EstimatorRun no_run(const std::string& name, const Log& log);
 
 /// Runs the estimator over all samples of the log: motor torque and position, and what the options add. It starts at
-/// the first sample that has the position of every motor. An estimate that the estimator revises takes the place of what
-/// it said at that sample.
+/// the first sample that has the position of every motor. An estimate that the estimator revises takes the place of
+/// what it said at that sample.
 ///
 /// Throws InputError if no sample has, std::runtime_error, naming estimator and time, if the estimator fails, gives
 /// an estimate that is not finite, or revises one of an instant that is no sample's.

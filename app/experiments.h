@@ -48,9 +48,9 @@ struct Experiment {
 /// read_scenario does.
 std::vector<Scenario> experiment_scenarios(const ExperimentsSetup& setup);
 
-/// raven2.xml with couplings that a dual filter learnt, as the paper's did, with joint sensors and in another motion:
-/// calibration.xml, with the same true robot. They are those that the dual filter ends with. halyard identify goes on
-/// to estimate the model's other numbers along, within their tolerances, and this robot's are beyond them.
+/// raven2.xml with couplings that a dual filter identified, as the paper's did, with joint sensors and in another
+/// motion: calibration.xml, with the same true robot. They are those that the dual filter ends with. halyard identify
+/// goes on to estimate the model's other numbers along, within their tolerances, and this robot's are beyond them.
 /// Throws as read_scenario, simulate and identify do.
 ArmModel calibrate(const ExperimentsSetup& setup);
 

@@ -66,7 +66,8 @@ report::Table robot_table(const std::vector<Experiment>& experiments) {
       listed.push_back(name);
       std::string letters;
       for (const Experiment& other : experiments)
-        if (!sizes(other.robot, name).empty()) letters += fmt::format("{}{}", letters.empty() ? "" : ", ", letter(other));
+        if (!sizes(other.robot, name).empty())
+          letters += fmt::format("{}{}", letters.empty() ? "" : ", ", letter(other));
       table.rows.push_back({name, e.effect->summary(), sizes(experiment.robot, name), letters});
     }
   }

@@ -68,8 +68,9 @@ report::Table consistency_table(const Comparison& comparison) {
 }
 
 report::Table paired_table(const Comparison& comparison) {
-  report::Table table = table_of("Which is better? RMS error of the first over that of the second, at the same instants",
-                                 {"joint", "estimator", "against", "ratio of RMS errors"}, 4);
+  report::Table table =
+      table_of("Which is better? RMS error of the first over that of the second, at the same instants",
+               {"joint", "estimator", "against", "ratio of RMS errors"}, 4);
   for (int k = 0; k < comparison.n_joints(); ++k)
     for (std::size_t a = 0; a < comparison.runs.size() && comparison.has_truth(k); ++a)
       for (std::size_t b = 0; b < a; ++b)
@@ -78,20 +79,32 @@ report::Table paired_table(const Comparison& comparison) {
   return table;
 }
 
-report::Table monte_carlo_table(const MonteCarlo& runs, const std::vector<JointUnit>& units) {
+report::Table runs_error_table(const MonteCarlo& runs, const std::vector<JointUnit>& units) {
   report::Table table = table_of(
-      fmt::format("{} runs with seeds of their own{}", runs.runs,
-                  runs.noise < 0 ? "" : fmt::format(", disturbed by {:g} times the noise that filters assume", runs.noise)),
-      {"joint", "estimator", "RMS", "95 % of the runs", "peak", "NEES (band)", "instants in band", "verdict",
-       "RMS over that of kinematics", "failures"},
-      2);
+      fmt::format(
+          "{} runs with seeds of their own{}", runs.runs,
+          runs.noise < 0 ? "" : fmt::format(", disturbed by {:g} times the noise that filters assume", runs.noise)),
+      {"joint", "estimator", "unit", "RMS", "95 % of the runs", "peak", "failures", "RMS over that of kinematics"}, 3);
+  table.align.back() = report::Align::left;
   for (std::size_t k = 0; k < units.size(); ++k)
     for (const RunsOfEstimator& e : runs.estimators)
       table.rows.push_back(
-          {Cell(std::to_string(k + 1)), Cell(e.name), Cell(shown_number(e.errors[k].rms, units[k]) + " " + units[k].shown),
+          {Cell(std::to_string(k + 1)), Cell(e.name), Cell(units[k].shown),
+           Cell(shown_number(e.errors[k].rms, units[k])),
            Cell(shown_number(e.rms_lower[k], units[k]) + " to " + shown_number(e.rms_upper[k], units[k])),
-           Cell(shown_number(e.errors[k].peak, units[k])), Cell(mean_in_band(e.nees[k])), Cell(shown_percent(e.in_band[k])),
-           Cell(in_words(e.nees[k])), Cell(in_words(e.against_kinematics[k])), Cell(std::to_string(e.failures))});
+           Cell(shown_number(e.errors[k].peak, units[k])), Cell(std::to_string(e.failures)),
+           Cell(in_words(e.against_kinematics[k]))});
+  return table;
+}
+
+report::Table runs_consistency_table(const MonteCarlo& runs) {
+  report::Table table = table_of(fmt::format("Does each know how far off it is, over {} runs?", runs.runs),
+                                 {"joint", "estimator", "NEES (band)", "instants in band", "verdict"}, 2);
+  table.align.back() = report::Align::left;
+  for (std::size_t k = 0; k < runs.estimators.front().nees.size(); ++k)
+    for (const RunsOfEstimator& e : runs.estimators)
+      table.rows.push_back({Cell(std::to_string(k + 1)), Cell(e.name), Cell(mean_in_band(e.nees[k])),
+                            Cell(shown_percent(e.in_band[k])), Cell(in_words(e.nees[k]))});
   return table;
 }
 
@@ -129,7 +142,9 @@ ordered_json to_json(const MonteCarlo& runs) {
                           {"nis", to_json(e.nis)},
                           {"joints", joints}});
   }
-  return {{"runs", runs.runs}, {"noise", runs.noise < 0 ? ordered_json(nullptr) : ordered_json(runs.noise)}, {"estimators", estimators}};
+  return {{"runs", runs.runs},
+          {"noise", runs.noise < 0 ? ordered_json(nullptr) : ordered_json(runs.noise)},
+          {"estimators", estimators}};
 }
 
 }  // namespace halyard

@@ -16,8 +16,10 @@ std::string in_words(const PairedRatio& ratio);
 report::Table consistency_table(const Comparison& comparison);
 /// Each pair of estimators and each joint once.
 report::Table paired_table(const Comparison& comparison);
-/// Errors, consistency and failures over many runs; one row per joint and estimator.
-report::Table monte_carlo_table(const MonteCarlo& runs, const std::vector<JointUnit>& units);
+/// Errors and failures over many runs; one row per joint and estimator.
+report::Table runs_error_table(const MonteCarlo& runs, const std::vector<JointUnit>& units);
+/// Consistency over many runs; likewise.
+report::Table runs_consistency_table(const MonteCarlo& runs);
 
 nlohmann::ordered_json to_json(const Consistency& c);
 nlohmann::ordered_json to_json(const PairedRatio& ratio);

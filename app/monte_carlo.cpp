@@ -8,7 +8,6 @@
 
 #include "app/compare.h"
 #include "estimators/noise.h"
-#include "model/input_error.h"
 #include "plant/simulate.h"
 
 namespace halyard {
@@ -27,24 +26,17 @@ struct OneRun {
 };
 
 OneRun run_one(const ArmModel& model, const std::string& name, const SimulationResult& simulation, double skip_s) {
-  OneRun one;
-  try {
-    const Comparison c =
-        compare_estimators(model, {name}, simulation.measured, simulation.truth, {.skip_s = skip_s});
-    one.errors = c.errors[0];
-    one.judgement = c.judgements[0];
-    const std::size_t size = c.truth.size(), first = first_counted_sample(c.truth.time, skip_s);
-    const std::size_t step = std::max<std::size_t>(1, (size - first) / kInstants);
-    for (int k = 0; k < c.n_joints(); ++k) {
-      const std::vector<double> squares =
-          normalised_squares(c.compared[0][k], c.truth.joint_position[k], c.runs[0].joint_position_std[k]);
-      one.nees.emplace_back();
-      for (std::size_t i = first; i < size; i += step) one.nees.back().push_back(squares[i]);
-    }
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& error) {
-    one.failure = error.what();
+  const Comparison c = compare_estimators(model, {name}, simulation.measured, simulation.truth,
+                                          {.skip_s = skip_s, .keep_going = true, .make_all_first = false});
+  OneRun one{c.runs[0].failure, c.errors[0], c.judgements[0], {}};
+  if (!one.failure.empty()) return one;
+  const std::size_t size = c.truth.size(), first = first_counted_sample(c.truth.time, skip_s);
+  const std::size_t step = std::max<std::size_t>(1, (size - first) / kInstants);
+  for (int k = 0; k < c.n_joints(); ++k) {
+    const std::vector<double> squares =
+        normalised_squares(c.compared[0][k], c.truth.joint_position[k], c.runs[0].joint_position_std[k]);
+    one.nees.emplace_back();
+    for (std::size_t i = first; i < size; i += step) one.nees.back().push_back(squares[i]);
   }
   return one;
 }
@@ -137,7 +129,8 @@ TickNoise assumed_noise(const ArmModel& model, double tick_s) {
 
 MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, const std::vector<std::string>& estimators,
                            const MonteCarloOptions& options) {
-  for (const std::string& name : estimators) check_estimator(name, model);   // a wrong name must not cost the runs' time
+  // A wrong name must not cost the runs' time.
+  for (const std::string& name : estimators) check_estimator(name, model);
   std::vector<std::vector<OneRun>> all(estimators.size(), std::vector<OneRun>(options.runs));
   tbb::parallel_for(0, options.runs, [&](int r) {
     Scenario of_run = scenario;
@@ -150,7 +143,6 @@ MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, cons
 
   MonteCarlo result;
   result.runs = options.runs;
-  result.noise = options.noise;
   const auto base = std::ranges::find(estimators, "kinematics") - estimators.begin();
   for (std::size_t e = 0; e < estimators.size(); ++e) {
     result.estimators.push_back(summed_up(estimators[e], all[e], model.n()));

@@ -12,8 +12,9 @@
 
 namespace halyard {
 
-/// The noise that filters with the model's own rule (estimators/noise.h) assume, as a simulation can draw it: torques and
-/// joint forces with the spectral density 2 σ² τ, held over a tick, and the encoders' deviation in place of their rounding.
+/// The noise that filters with the model's own rule (estimators/noise.h) assume, as a simulation can draw it: torques
+/// and joint forces with the spectral density 2 σ² τ, held over a tick, and the encoders' deviation in place of their
+/// rounding.
 TickNoise assumed_noise(const ArmModel& model, double tick_s);
 
 /// One estimator over all runs.
@@ -32,20 +33,20 @@ struct RunsOfEstimator {
 
 struct MonteCarlo {
   int runs = 0;
-  double noise = -1;                    ///< of what the filters assume; < 0: the scenario's own
+  /// Times what the filters assume, which the scenario was disturbed by; < 0: by its own. The caller's to fill.
+  double noise = -1;
   std::vector<RunsOfEstimator> estimators;
 };
 
 struct MonteCarloOptions {
   int runs = 1;
   double skip_s = 0.5;
-  double noise = -1;
   std::function<void(double)> run_done = {};   ///< called with 1 for each run, from any thread
 };
 
-/// Simulates the scenario with the seeds seed, seed + 1, ..., on all cores, and runs all estimators over each. The result
-/// does not depend on the number of threads. An estimator that fails on a run is counted, and left out of that run.
-/// Throws what simulate and make_estimator throw.
+/// Simulates the scenario with the seeds seed, seed + 1, ..., on all cores, and runs all estimators over each. The
+/// result does not depend on the number of threads. An estimator that fails on a run is counted, and left out of that
+/// run. Throws what simulate and make_estimator throw.
 MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, const std::vector<std::string>& estimators,
                            const MonteCarloOptions& options);
 

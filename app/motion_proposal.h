@@ -2,7 +2,8 @@
 /// A motion that tells two effects apart, by a seeded random search: of some motions that the arm is simulated in, so
 /// that its controller and torque limits count, the one in which the two look least alike.
 ///
-///   each joint, within its range:  two or three sines, the slowest of 0.1 to 0.8 Hz, the next 1.3 to 4 times as fast, or
+///   each joint, within its range:  two or three sines, the slowest of 0.1 to 0.8 Hz, the next 1.3 to 4 times as fast,
+///   or
 ///                                  moves of 0.3 to 3 s between three to six points with rests of up to 1 s
 ///
 /// Alike is Separation::cosine. Motions count in which both effects are seen from at most twice the size on from which

@@ -37,7 +37,8 @@ void check_output_file(const fs::path& path) {
   if (path.empty()) fail(path, "is empty; give a file name");
   std::error_code error;
   if (fs::is_directory(path, error) || !path.has_filename()) fail(path, "is a folder; give a file name");
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) fail(path, "is no plain file; give another file name");
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
+    fail(path, "is no plain file; give another file name");
   check_output_folder(path.has_parent_path() ? path.parent_path() : fs::path("."));
 }
 

@@ -55,7 +55,8 @@ std::pair<double*, std::string> effect_parameter(ArmModel& model, const EffectKe
   if (!effect) {
     std::vector<std::string> names;
     for (const Effect* known : effect_library()) names.push_back(known->name());
-    fail(fmt::format("unknown effect; expected one of {}, or one of a module given by --effects", fmt::join(names, ", ")));
+    fail(fmt::format("unknown effect; expected one of {}, or one of a module given by --effects",
+                     fmt::join(names, ", ")));
   }
   const EffectScope scope = effect->scope();
   if ((key.joint < 0 ? scope == EffectScope::joint : scope == EffectScope::arm) || key.joint >= model.n()) {

@@ -46,8 +46,8 @@ void add_experiments(Page& page, const std::vector<Experiment>& experiments) {
       "The RAVEN-II's first three joints follow sines: A with high tension, B with low tension, C with a payload of "
       "100 g. The robot has what the paper's is likely to have had beyond its model: other capstans, zeros that "
       "homing left off, friction on pulleys, hysteresis, runs that go slack. The estimators believe the paper's "
-      "Table I and get motor torques and quantised motor positions, nothing of the joints. Calibrated: with "
-      "couplings that were identified with joint sensors in another motion.");
+      "Table I and get motor torques and quantised motor positions, nothing of the joints. Calibrated: with a "
+      "model whose couplings were identified with joint sensors in another motion.");
   page.table(mean_error_table(experiments));
   page.table(experiment_table(experiments));
   page.paragraph(
@@ -72,9 +72,10 @@ report::Table found_table(const Tour& tour) {
   table.header = {"effect", "parameter", "unit", "true", "found", "95 % interval"};
   table.align = {Align::left, Align::left, Align::left, Align::right, Align::right, Align::right};
   for (const FoundParameter& p : found_parameters(tour)) {
-    table.rows.push_back({p.effect, p.name, p.unit, fmt::format("{:.4g}", p.value),
-                          p.found ? fmt::format("{:.4g}", p.found->value) : std::string("not found"),
-                          p.found ? fmt::format("{:.4g} to {:.4g}", p.found->lower, p.found->upper) : std::string("-")});
+    table.rows.push_back(
+        {p.effect, p.name, p.unit, fmt::format("{:.4g}", p.value),
+         p.found ? fmt::format("{:.4g}", p.found->value) : std::string("not found"),
+         p.found ? fmt::format("{:.4g} to {:.4g}", p.found->lower, p.found->upper) : std::string("-")});
   }
   return table;
 }
@@ -138,8 +139,9 @@ void add_rigs(Page& page, const Tour& tour) {
     page.table(table);
   }
   if (!missing.empty()) {
-    page.verdict(report::VerdictKind::neutral,
-                 "Not at hand. Where to get the recordings, which halyard tour --recordings DIR then diagnoses:" + missing);
+    page.verdict(
+        report::VerdictKind::neutral,
+        "Not at hand. Where to get the recordings, which halyard tour --recordings DIR then diagnoses:" + missing);
   }
 }
 

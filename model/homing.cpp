@@ -55,13 +55,15 @@ void home_one(Log& log, const ArmModel& model, int k, bool motor) {
   std::vector<double> zero;
   for (std::size_t i = 0; i < log.size() && (zero.empty() || log.time[i] <= log.time.front() + kHomingTime); ++i) {
     latest.see(log, i);
-    const double z = motor ? latest.motor(k) - told_of_motor(latest, model, k)
-                           : latest.joint(k) - by_motors(latest, model)(k) - model.nominal.joint[k].joint_encoder_offset;
+    const double z = motor
+                         ? latest.motor(k) - told_of_motor(latest, model, k)
+                         : latest.joint(k) - by_motors(latest, model)(k) - model.nominal.joint[k].joint_encoder_offset;
     if (std::isfinite(z)) zero.push_back(z);
   }
   if (zero.empty())
-    throw InputError(log.source + ": the readings of motors and joint " + std::to_string(k + 1) +
-                     " that tell the zero of its encoder are missing; give a log with them, or the offset in the model");
+    throw InputError(
+        log.source + ": the readings of motors and joint " + std::to_string(k + 1) +
+        " that tell the zero of its encoder are missing; give a log with them, or the offset in the model");
   std::nth_element(zero.begin(), zero.begin() + zero.size() / 2, zero.end());
   for (double& reading : motor ? log.motor_position[k] : log.joint_position[k]) reading -= zero[zero.size() / 2];
 }

@@ -92,7 +92,8 @@ std::vector<Column> read_header(const Lines& header) {
 
 bool is_required(const std::string& name, const ReadOptions& options) {
   const std::string_view joint = std::string_view(name).substr(name.rfind('_') + 1);
-  const bool of_motor = std::ranges::none_of(options.without_motor, [&](int k) { return joint == std::to_string(k + 1); });
+  const bool of_motor =
+      std::ranges::none_of(options.without_motor, [&](int k) { return joint == std::to_string(k + 1); });
   return of_motor && (name.starts_with("motor_position_") ||
                       (options.torque_required && name.starts_with("motor_torque_")));
 }

@@ -55,7 +55,8 @@ struct Log {
   bool has_marker() const { return !marker.empty() && !marker[0].empty(); }
 };
 
-/// Calls visit(name, values) for the column of every signal, joint and axis, absent ones too, in the order of the table.
+/// Calls visit(name, values) for the column of every signal, joint and axis, absent ones too, in the order of the
+/// table.
 template <class AnyLog, class Visit>
 void for_each_column(AnyLog& log, Visit visit) {
   constexpr std::array kSignals = {&Log::motor_torque, &Log::motor_position, &Log::joint_position, &Log::joint_velocity,
@@ -81,8 +82,8 @@ struct ReadOptions {
 ///
 /// Throws InputError `file:line: what; remedy` for a file that is missing, unreadable, empty, without samples or not
 /// text; a required or mapped column that is absent, or a marker's axis; one that stands twice; a required column
-/// without one sample; a mapped joint beyond n_joints; a row with more or fewer cells than the header; a cell that is no
-/// finite number; a time that is missing or does not increase.
+/// without one sample; a mapped joint beyond n_joints; a row with more or fewer cells than the header; a cell that is
+/// no finite number; a time that is missing or does not increase.
 /// Throws std::invalid_argument if n_joints < 1.
 Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& map = {},
              const ReadOptions& options = {});

@@ -9,8 +9,8 @@
 
 namespace halyard {
 
-/// Adds the marker's columns to `measured`, from the true motion of the joints, linear between its rows. Frame j arrives
-/// in the first row at or after j / rate; those exposed before the record are not there.
+/// Adds the marker's columns to `measured`, from the true motion of the joints, linear between its rows. Frame j
+/// arrives in the first row at or after j / rate; those exposed before the record are not there.
 void add_camera(const Camera& camera, const double* point, const Log& truth, std::uint64_t seed, ArmPlant& plant,
                 Log& measured);
 

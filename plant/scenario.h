@@ -50,7 +50,8 @@ struct TickNoise {
   std::vector<double> motor_reading;   ///< rad, before it is rounded
 };
 
-/// A camera that sees a marker at the tool, where the model's payload hangs. A frame is in the log's row of its arrival.
+/// A camera that sees a marker at the tool, where the model's payload hangs. A frame is in the log's row of its
+/// arrival.
 struct Camera {
   double rate_hz = 30;
   double latency_s = 0.05;   ///< from exposure to arrival

@@ -96,8 +96,9 @@ std::vector<Estimate> run(Estimator& estimator, const Record& record) {
 
 class Examination {
  public:
-  Examination(const std::string& name_or_path, const ArmModel& model)
-      : name_(name_or_path), model_(model), record_(swings(model)), estimator_(make()) {}
+  Examination(const std::string& name_or_path, const ArmModel& model,
+              const std::function<void(const std::string&)>& trying)
+      : name_(name_or_path), model_(model), trying_(trying), record_(swings(model)), estimator_(make()) {}
 
   std::vector<std::string> faults() {
     check("plain record", [this] { expected_ = run(*estimator_, record_); });
@@ -139,6 +140,7 @@ class Examination {
   }
 
   void check(const std::string& promise, const std::function<void()>& run) {
+    if (trying_) trying_(promise);
     try {
       run();
     } catch (const std::exception& fault) {
@@ -199,6 +201,7 @@ class Examination {
 
   std::string name_;
   const ArmModel& model_;
+  const std::function<void(const std::string&)>& trying_;
   Record record_;
   std::unique_ptr<Estimator> estimator_;
   std::vector<Estimate> expected_;
@@ -270,8 +273,9 @@ std::vector<std::string> kalman_faults(const std::string& name_or_path) {
   return {};
 }
 
-std::vector<std::string> conformance_faults(const std::string& name_or_path, const ArmModel& model) {
-  return Examination(name_or_path, model).faults();
+std::vector<std::string> conformance_faults(const std::string& name_or_path, const ArmModel& model,
+                                            const std::function<void(const std::string&)>& trying) {
+  return Examination(name_or_path, model, trying).faults();
 }
 
 }  // namespace halyard

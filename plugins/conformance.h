@@ -3,6 +3,7 @@
 ///
 ///   EXPECT_EQ(halyard::conformance_faults("./my_estimator.so", model), std::vector<std::string>());
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,11 +25,14 @@ namespace halyard {
 ///   - deviations, and those of innovations, are finite and not negative
 ///
 /// Says nothing of how good the estimates are. Throws what make_estimator throws if there is no such estimator.
-std::vector<std::string> conformance_faults(const std::string& name_or_path, const ArmModel& model);
+/// trying(promise) is called before each promise is put to the test.
+std::vector<std::string> conformance_faults(const std::string& name_or_path, const ArmModel& model,
+                                            const std::function<void(const std::string&)>& trying = {});
 
-/// For estimators that are Kalman filters with the noise of noise.h: one line for each way in which the estimator differs
-/// from the Kalman filter, by textbook and in covariances, on an arm whose equations are linear: one slider on a cable,
-/// without gravity and Coulomb friction, pushed to and fro for 0.2 s. Positions within 1e-9 m, deviations within 1e-6.
+/// For estimators that are Kalman filters with the noise of noise.h: one line for each way in which the estimator
+/// differs from the Kalman filter, by textbook and in covariances, on an arm whose equations are linear: one slider on
+/// a cable, without gravity and Coulomb friction, pushed to and fro for 0.2 s. Positions within 1e-9 m, deviations
+/// within 1e-6.
 std::vector<std::string> kalman_faults(const std::string& name_or_path);
 
 }  // namespace halyard

@@ -42,7 +42,8 @@ const halyard_effect_table& checked_table(const SharedModule& module) {
     refuse(module, "compiled by " + in_quotes(table->compiler) + ", this program by " + in_quotes(kEffectCompiler) +
                        "; rebuild it with this program's compiler");
   }
-  if (!std::equal(table->layout, table->layout + table->layout_size, std::begin(kEffectLayout), std::end(kEffectLayout)))
+  if (!std::equal(table->layout, table->layout + table->layout_size, std::begin(kEffectLayout),
+                  std::end(kEffectLayout)))
     refuse(module, std::string("the types that it shares with this program have other sizes there") + kRebuild);
   return *table;
 }
@@ -77,7 +78,8 @@ void check_effect(const SharedModule& module, const Effect& effect) {
                     std::to_string(kMaxEffectParameters));
     }
     for (const EffectParameter& p : parameters) {
-      if (!is_plain_name(p.name)) refuse_effect("has a parameter " + in_quotes(p.name) + "; use letters, digits and '_'");
+      if (!is_plain_name(p.name))
+        refuse_effect("has a parameter " + in_quotes(p.name) + "; use letters, digits and '_'");
       const bool inside = p.lower < p.upper && p.lower <= p.neutral && p.neutral <= p.upper && p.lower <= p.typical &&
                           p.typical <= p.upper;
       if (!inside) refuse_effect("has " + in_quotes(p.name) + " neutral or typical outside its bounds; correct them");

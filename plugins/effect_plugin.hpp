@@ -9,8 +9,8 @@
 /// `halyard COMMAND --effects MODULE.so` adds them to the library: from then on their names stand in model and scenario
 /// files, in sweeps, and the diagnosis tries them at every joint that can have them.
 ///
-/// Unlike an estimator, an effect is called inside the equations, over double, Dual and Lanes: what crosses is C++. So a
-/// module says what it was compiled by, and how large the types that cross are there, before anything of it is used.
+/// Unlike an estimator, an effect is called inside the equations, over double, Dual and Lanes: what crosses is C++. So
+/// a module says what it was compiled by, and how large the types that cross are there, before anything of it is used.
 
 #include <cstdint>
 #include <memory>
@@ -22,7 +22,8 @@
 /// Counts up when anything that crosses changes its meaning or place.
 #define HALYARD_EFFECT_INTERFACE 1
 
-/// Of the table the first two members may be read whatever the version, `compiler` and the layout before make is called.
+/// Of the table the first two members may be read whatever the version, `compiler` and the layout before make is
+/// called.
 struct halyard_effect_table {
   std::uint32_t interface_version;   ///< HALYARD_EFFECT_INTERFACE of the headers that the module was built with
   std::uint32_t table_size;          ///< sizeof(halyard_effect_table)

@@ -14,7 +14,9 @@ constexpr const char* kRebuild = "; rebuild it against the installed headers";
 constexpr const char* kUpgrade = "; install a newer halyard, or rebuild it against these headers";
 
 const halyard_estimator_table* checked_table(const SharedModule& module) {
-  const auto refuse = [&](const std::string& why) { throw InputError("plugin " + module.path().string() + ": " + why); };
+  const auto refuse = [&](const std::string& why) {
+    throw InputError("plugin " + module.path().string() + ": " + why);
+  };
 
   const auto exported = reinterpret_cast<decltype(&halyard_estimator)>(module.symbol(kSymbol));
   if (!exported)

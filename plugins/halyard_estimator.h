@@ -40,12 +40,15 @@ typedef struct halyard_config {
   const char* const* option_values; /* [n_options] */
 } halyard_config;
 
-/* One row of a log. */
+/* One row of a log. A joint without drive has no motor: what stands for it, a torque of NaN and a position of 0 unless
+ * the log has such columns all the same, is not to be used, and no innovation belongs to it. */
 typedef struct halyard_sample {
   double time_s;                /* increases from call to call */
   const double* motor_torque;   /* [n] commanded from this time on, N m; NaN: missing, the last one is held */
   const double* motor_position; /* [n] measured at this time, rad; NaN: missing, no correction from it */
-  const double* joint_torque;   /* [n] measured external load; NULL: none */
+  /* [n] measured external load; NULL: none. Never NaN: where a cell is missing the last one stands, 0 before the first
+   * and for a joint without such a sensor. */
+  const double* joint_torque;
   const double* marker;         /* [3] where a camera saw the marker at the tool, m, base frame; NULL: not seen */
 } halyard_sample;
 
@@ -62,7 +65,8 @@ typedef struct halyard_estimate {
   double* joint_position;     /* [n] */
   double* joint_velocity;     /* [n] */
   double* joint_position_std; /* [n] one standard deviation; 0 where the estimator has none */
-  double* further;            /* [names x n] row by row, names as further_name() tells; NaN: nothing of that joint */
+  /* [names x n] row by row, names as further_name() tells; NaN, as it is on entry: nothing of that joint. */
+  double* further;
 } halyard_estimate;
 
 /* Counts since reset. */
@@ -96,7 +100,9 @@ typedef struct halyard_estimator_table {
   const char* (*further_name)(void* instance, size_t i);
   /* The next estimate of an earlier sample that later ones have improved: its time, one of those given since reset(),
    * and what is believed of it now; NaN for the time, as it is on entry: there is none. Called after reset() and each
-   * update() until there is none; at_end is 1 after the last sample. NULL for the entry: estimates are never revised. */
+   * update() until there is none; at_end is 1 after the last sample. A revision takes the place of all that was said of
+   * that sample: it has to fill `estimate` as estimate() does, `further` included. NULL for the entry: estimates are
+   * never revised. */
   int (*revise)(void* instance, int32_t at_end, double* time_s, halyard_estimate* estimate, char* message,
                 size_t message_size);
 } halyard_estimator_table;

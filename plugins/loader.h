@@ -20,8 +20,8 @@ struct PluginInfo {
 
 /// All loadable estimators in the plug-in folders: beside the program (../lib/halyard/plugins and plugins/ of a build),
 /// beside halyard's libraries (for programs that live elsewhere), and each folder of the environment variable
-/// HALYARD_PLUGIN_PATH, whose folders are separated by ':'. Of two with the same name the first counts. Modules that are
-/// refused are not listed; their one-line reasons are appended to refused if given.
+/// HALYARD_PLUGIN_PATH, whose folders are separated by ':'. Of two with the same name the first counts. Modules that
+/// are refused are not listed; their one-line reasons are appended to refused if given.
 std::vector<PluginInfo> find_plugins(std::vector<std::string>* refused = nullptr);
 
 /// The plug-in that make_estimator takes for a name or path. Throws InputError as it does.

@@ -196,7 +196,8 @@ halyard_sample PluginEstimator::take(const Sample& sample) {
                                 std::to_string(n_) + " joints");
   time_s_ = sample.time_s;
   return {sample.time_s, sample.motor_torque.data(), sample.motor_position.data(),
-          loads == 0 ? nullptr : sample.joint_torque.data(), sample.marker.size() == 0 ? nullptr : sample.marker.data()};
+          loads == 0 ? nullptr : sample.joint_torque.data(),
+          sample.marker.size() == 0 ? nullptr : sample.marker.data()};
 }
 
 template <class Call>

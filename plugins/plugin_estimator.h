@@ -11,8 +11,8 @@
 namespace halyard {
 
 /// Nothing that the plug-in does is trusted: each result is checked before it is handed on, and a failure throws
-/// `plugin NAME: at TIME s: what`: InputError if the plug-in refuses what it was given, std::runtime_error for an error,
-/// an unknown code, an exception, and numbers that are not finite.
+/// `plugin NAME: at TIME s: what`: InputError if the plug-in refuses what it was given, std::runtime_error for an
+/// error, an unknown code, an exception, and numbers that are not finite.
 class PluginEstimator : public Estimator {
  public:
   /// Keeps the module open as long as this lives. Throws InputError `MODEL: estimator NAME: what` if the plug-in

@@ -46,15 +46,16 @@ inline ArmModel chain_of(int n, double stiffer) {
   return model;
 }
 
-/// The arm's own process model under PD control on sines around home, 1 kHz, encoders rounded, no noise. Starts in static
-/// equilibrium.
+/// The arm's own process model under PD control on sines around home, 1 kHz, encoders rounded, no noise. Starts in
+/// static equilibrium.
 class DrivenArm {
  public:
   explicit DrivenArm(const ArmModel& model) : model_(model), process_(model), history_(model.n(), 1) {
     const Eigen::VectorXd home = model.home(), none = Eigen::VectorXd::Zero(model.n());
     const Eigen::VectorXd q_m0 = unstretched_motors(process_.arm(), home);
-    x_ = process_.state_at_rest(q_m0, static_equilibrium(process_, 0, q_m0, none,
-                                                         Eigen::VectorXd::Zero(process_.layout().n_effect_states), home));
+    x_ = process_.state_at_rest(
+        q_m0,
+        static_equilibrium(process_, 0, q_m0, none, Eigen::VectorXd::Zero(process_.layout().n_effect_states), home));
   }
 
   Eigen::VectorXd joint_position() const { return x_(index(process_.layout().position)); }

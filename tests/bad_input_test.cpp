@@ -131,7 +131,8 @@ TEST_F(BadInput, AModelThatIsNotOne) {
 }
 
 TEST_F(BadInput, AnIdentificationThatCannotBe) {
-  const auto expect_identify_refused = [&](const std::vector<std::string>& more, const std::vector<std::string>& parts) {
+  const auto expect_identify_refused = [&](const std::vector<std::string>& more,
+                                           const std::vector<std::string>& parts) {
     std::vector<std::string> arguments = {"identify", "--data", "log.csv", "--out", "out"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     expect_refused(arguments, parts);
@@ -142,7 +143,8 @@ TEST_F(BadInput, AnIdentificationThatCannotBe) {
                           {"'couplings'", "raven2.xml", "coupling, stiffness", "joint1.cable.stiffness"});
   expect_identify_refused({"--model", "raven2.xml", "--parameters", "stiffness,,coupling"}, {"''"});
   expect_identify_refused({"--model", "raven2.xml", "--parameters", "tension"}, {"'tension'", "law=\"exponential\""});
-  expect_identify_refused({"--model", "raven2.xml", "--parameters", "joint1.motor.torque_bias"}, {"is 0 in raven2.xml"});
+  expect_identify_refused({"--model", "raven2.xml", "--parameters", "joint1.motor.torque_bias"},
+                          {"is 0 in raven2.xml"});
   expect_identify_refused({"--model", "raven2.xml", "--parameters", "coupling", "--data", "log.csv"}, {"given twice"});
   expect_identify_refused({"--model", "raven2.xml"}, {"--parameters"});
   const std::string model = text_of(path("raven2.xml"));
@@ -154,8 +156,9 @@ TEST_F(BadInput, AnIdentificationThatCannotBe) {
   header.pop_back();
   write_text(path("short.csv"), header + ",joint_position_1,joint_position_2,joint_position_3\n" +
                                     "0,0,0,0,107,204,904,0.8,1.6,0.4\n0.001,0,0,0,107,204,904,0.8,1.6,0.4\n");
-  expect_refused({"identify", "--data", "short.csv", "--out", "out", "--model", "raven2.xml", "--parameters", "coupling"},
-                 {"short.csv: lasts", "3 s"});
+  expect_refused(
+      {"identify", "--data", "short.csv", "--out", "out", "--model", "raven2.xml", "--parameters", "coupling"},
+      {"short.csv: lasts", "3 s"});
 }
 
 TEST_F(BadInput, AScenarioThatCannotBeRun) {
@@ -195,7 +198,15 @@ TEST_F(BadInput, AnEstimatorThatCannotBeLoaded) {
 
 TEST_F(BadInput, AnEstimatorThatBreaksItsPromises) {
   const std::string careless = HALYARD_BROKEN_PLUGINS "/careless.so";
-  expect_refused({"check", careless, "--model", "raven2.xml"}, {"careless.so: breaks ", "of the promises of an estimator"});
+  expect_refused({"check", careless, "--model", "raven2.xml"},
+                 {"careless.so: breaks ", "of the promises of an estimator"});
+  const std::string broken = HALYARD_BROKEN_PLUGINS;
+  expect_refused({"check", broken + "/crashes_in_create.so", "--model", "raven2.xml"},
+                 {"crashes_in_create.so: breaks 1 of", "making: crashed: Segm"});
+  expect_refused({"check", broken + "/crashes_in_update.so", "--model", "raven2.xml"},
+                 {"crashes_in_update.so: breaks 1 of", "plain record: crashed: Segm", "the rest was not tried"});
+  expect_refused({"check", broken + "/never_returns.so", "--model", "raven2.xml", "--time-limit", "0.3"},
+                 {"never_returns.so: breaks 1 of", "plain record: took more than 0.3 s, and was ended"});
   expect_refused({"check", "raven2.xml", "--kalman"}, {"--kalman", "'raven2.xml' is none"});
   EXPECT_TRUE(contains(done({"check", HALYARD_BROKEN_PLUGINS "/../../../plugins/ekf.so", "--kalman"}),
                        "and is the Kalman filter on a linear arm"));
@@ -325,13 +336,15 @@ TEST_F(BadInput, AnEstimatorThatFailsEndsItsOwnRowOfTheComparison) {
   std::string rows, names = "kinematics";
   for (const char* time : {"0", "0.001", "0.002", "0.003"}) rows += std::string(time) + ",0,0,0,107,204,904\n";
   write_text(path("log.csv"), kHeader + rows);
-  const std::vector<std::pair<std::string, std::string>> broken = {{"throws_in_update", "at 0.002 s"},
-                                                                   {"crashes_in_create", "being made: crashed: Segm"},
-                                                                   {"crashes_in_update", "at 0.002 s: crashed: Segm"},
-                                                                   {"never_returns", "at 0.002 s: took more than 0.3 s"}};
-  for (const auto& [module, failure] : broken) names += "," + std::string(HALYARD_BROKEN_PLUGINS) + "/" + module + ".so";
-  const RunResult run = this->run({"compare", "log.csv", "--model", "raven2.xml", "--estimators", names + ",ekf", "--out", "cmp",
-                                  "--skip", "0", "--step-limit", "0.3"});
+  const std::vector<std::pair<std::string, std::string>> broken = {
+      {"throws_in_update", "at 0.002 s"},
+      {"crashes_in_create", "being made: crashed: Segm"},
+      {"crashes_in_update", "at 0.002 s: crashed: Segm"},
+      {"never_returns", "at 0.002 s: took more than 0.3 s"}};
+  for (const auto& [module, failure] : broken)
+    names += "," + std::string(HALYARD_BROKEN_PLUGINS) + "/" + module + ".so";
+  const RunResult run = this->run({"compare", "log.csv", "--model", "raven2.xml", "--estimators", names + ",ekf",
+                                   "--out", "cmp", "--skip", "0", "--step-limit", "0.3"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json result = nlohmann::json::parse(text_of(path("cmp/comparison.json"))).at("estimators");
   ASSERT_EQ(result.size(), broken.size() + 2);

@@ -36,10 +36,12 @@ TEST_F(DiagnoseCommand, SaysWhyAndByHowMuchEachEstimatorGains) {
                 0.01 * joint_two("kinematics", error, "before"));
     EXPECT_TRUE(diagnosis.at("estimators").at("ekf").at(error).at("before").is_null());
   }
-  // Kinematics knows of no gap; the filter that does is left with what happens while the gap is crossed. Where in a crossing
-  // it catches up hangs on the gap's third digit: over 0.199 to 0.2 mm its peak is 0.09 to 0.13 of 0.23 deg, its RMS a
-  // fortieth to a seventieth.
-  const auto left = [&](const char* error) { return joint_two("sr_ukf", error, "after") / joint_two("sr_ukf", error, "before"); };
+  // Kinematics knows of no gap; the filter that does is left with what happens while the gap is crossed. Where in a
+  // crossing it catches up hangs on the gap's third digit: over 0.199 to 0.2 mm its peak is 0.09 to 0.13 of 0.23 deg,
+  // its RMS a fortieth to a seventieth.
+  const auto left = [&](const char* error) {
+    return joint_two("sr_ukf", error, "after") / joint_two("sr_ukf", error, "before");
+  };
   EXPECT_LT(left("joint_position_rms"), 0.05);
   EXPECT_LT(left("joint_position_peak"), 1);
   const std::string page = text_of(path("out/report.html"));

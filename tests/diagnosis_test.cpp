@@ -295,7 +295,8 @@ Log kinematic_log(const ArmModel& model, const std::vector<std::vector<Sine>>& s
     log.time.push_back(i * 1e-3);
     Eigen::VectorXd q = model.home();
     for (int k = 0; k < model.n(); ++k)
-      for (const Sine& s : sines[k]) q(k) += s.amplitude * std::sin(2 * std::numbers::pi * s.frequency_hz * log.time.back());
+      for (const Sine& s : sines[k])
+        q(k) += s.amplitude * std::sin(2 * std::numbers::pi * s.frequency_hz * log.time.back());
     const Eigen::VectorXd q_m = unstretched_motors(model.nominal, q);
     for (int k = 0; k < model.n(); ++k) log.motor_position[k].push_back(q_m(k)), log.joint_position[k].push_back(q(k));
   }

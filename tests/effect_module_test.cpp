@@ -38,8 +38,9 @@ TEST(EffectModule, AModuleThatBreaksTheContractIsRefusedWithOneLineAndLeavesNoth
   const std::string compiler = refusal("effects_other_compiler");
   EXPECT_TRUE(compiler.starts_with("compiled by 'Cfront 3', this program by '")) << compiler;
   EXPECT_TRUE(compiler.ends_with("; rebuild it with this program's compiler")) << compiler;
-  EXPECT_EQ(refusal("effects_other_layout"),
-            "the types that it shares with this program have other sizes there; rebuild it against the installed headers");
+  EXPECT_EQ(
+      refusal("effects_other_layout"),
+      "the types that it shares with this program have other sizes there; rebuild it against the installed headers");
   EXPECT_EQ(refusal("effects_taken_name"), "effect 'backlash' is already in the library; give yours another name");
   EXPECT_EQ(refusal("effects_throwing"), "its effects cannot be made: no table of springs in this folder");
   EXPECT_EQ(refusal("effects_too_many_parameters"), "effect 'fixture_spring' has 9 parameters; give it 1 to 8");
@@ -49,7 +50,8 @@ TEST(EffectModule, AWellFormedOneJoinsTheLibraryOnceAndActs) {
   load_effects(fixture("effects_well_formed"));
   const Effect* effect = find_effect("fixture_spring");
   ASSERT_NE(effect, nullptr);
-  EXPECT_EQ(refusal("effects_well_formed"), "effect 'fixture_spring' is already in the library; give yours another name");
+  EXPECT_EQ(refusal("effects_well_formed"),
+            "effect 'fixture_spring' is already in the library; give yours another name");
 
   ArmParameters<Dual> arm;
   arm.n = 1;

@@ -8,7 +8,8 @@
 namespace halyard {
 namespace {
 
-/// The loop that an effect with one state at joint 1 goes through when the cable's stretch goes to and fro between two values.
+/// The loop that an effect with one state at joint 1 goes through when the cable's stretch goes to and fro between two
+/// values.
 struct Loop {
   double work = 0;         ///< of the force on the stretch over the last cycle
   double opening = 0;      ///< of the force over the last cycle: end less start
@@ -166,7 +167,8 @@ TEST(Slack, ARunEndsAtZeroTensionAndPullsWithHalfTheStiffnessBeyond) {
     return evaluate(t, stretched(arm, 0, x, 0)).s[0].cable_force_joint;
   };
   for (const double side : {1.0, -1.0}) {
-    for (const double x : {0.01, 0.9 * tension / k}) EXPECT_NEAR(force(with, side * x), force(bare, side * x), 10 * 4 * kEps);
+    for (const double x : {0.01, 0.9 * tension / k})
+      EXPECT_NEAR(force(with, side * x), force(bare, side * x), 10 * 4 * kEps);
     // Beyond, one run is slack: the other pulls with its rest tension and half of the pair's force.
     for (const double x : {1.1 * tension / k, 0.3})
       EXPECT_NEAR(force(with, side * x), side * tension + 0.5 * force(bare, side * x), 100 * 4 * kEps);
@@ -198,7 +200,9 @@ TEST(Slack, ForceGrowsWithStretchAndRateWithinItsBounds) {
     for (int trial = 0; trial < 40; ++trial) {
       const auto p = within_bounds(find_effect("slack")->parameters(arm, 0), random);
       const Transmission<double> with(arm, {placed("slack", arm, 0, p)});
-      const auto force = [&](double x, double x_dot) { return evaluate(with, stretched(arm, 0, x, x_dot)).s[0].cable_force_motor; };
+      const auto force = [&](double x, double x_dot) {
+        return evaluate(with, stretched(arm, 0, x, x_dot)).s[0].cable_force_motor;
+      };
       for (double x = -0.3; x < 0.3; x += 0.02) {
         // Up to the rounding of forces that are the same on both sides, and reach 1e13 N for a lost exponential cable.
         const double rounding = 8 * kEps * std::abs(force(x, 0.1)) + 1e-12;
@@ -264,16 +268,16 @@ TEST(CapstanEccentricity, LosesNoPowerAndItsRateIsThatOfItsStretch) {
       for (int i = 0; i < 3; ++i) path_rate += j.pulley_radius * j.coupling[i] * m.joint_rate[i];
       const double g = e.s[1].cable_force_joint;
       // The motor's power less the joints' is what goes into the cable. Forces reach 1e3 N for an exponential cable.
-      EXPECT_NEAR(e.s[1].cable_force_motor * j.motor_travel() * m.motor_rate[1] - g * path_rate, g * e.s[1].stretch_rate,
-                  8 * kEps * (1 + std::abs(g)));
+      EXPECT_NEAR(e.s[1].cable_force_motor * j.motor_travel() * m.motor_rate[1] - g * path_rate,
+                  g * e.s[1].stretch_rate, 8 * kEps * (1 + std::abs(g)));
       const double h = 1e-5;
       for (int i = 0; i < 3; ++i) {
         later.motor_angle[i] += h * m.motor_rate[i], later.joint_position[i] += h * m.joint_rate[i];
         sooner.motor_angle[i] -= h * m.motor_rate[i], sooner.joint_position[i] -= h * m.joint_rate[i];
       }
       // Central difference: h² / 6 of a third derivative of order 1, and the rounding of 3 m over 2 h.
-      EXPECT_NEAR((evaluate(with, later).s[1].stretch - evaluate(with, sooner).s[1].stretch) / (2 * h), e.s[1].stretch_rate,
-                  1e-10 + 8 * kEps / h);
+      EXPECT_NEAR((evaluate(with, later).s[1].stretch - evaluate(with, sooner).s[1].stretch) / (2 * h),
+                  e.s[1].stretch_rate, 1e-10 + 8 * kEps / h);
     }
   }
 }

@@ -115,7 +115,8 @@ TEST(Friction, ViscousAsymmetryPartsTheCoefficientsOfBothWaysByItsShare) {
   for (const double way : {1.0, -1.0}) {
     Motion m;
     const double v = m.motor_rate[0] = way * 40 * j.motor_smoothing;   // tanh(40) is 1
-    EXPECT_NEAR(-evaluate(motor, m).s[0].motor_torque, (j.motor_viscous + change) * (1 + way * alpha) * v, 20 * 8 * kEps);
+    EXPECT_NEAR(-evaluate(motor, m).s[0].motor_torque, (j.motor_viscous + change) * (1 + way * alpha) * v,
+                20 * 8 * kEps);
     m = Motion{};
     const double q_dot = m.joint_rate[0] = way * 40 * j.joint_smoothing;
     const double more = evaluate(none, m).s[0].joint_force - evaluate(joint, m).s[0].joint_force;
@@ -186,8 +187,10 @@ TEST(FrictionDrift, ScalesAllFrictionOfMotorAndJointFromOnceToItsEnd) {
   const double tau = 20;
   for (const double drift : {-0.4, 1.5}) {
     const Motion m = random_motion(random);
-    const Evaluated one = evaluate(Transmission<double>(arm, {}), m), two = evaluate(Transmission<double>(twice, {}), m);
-    const double motor = one.s[0].motor_torque - two.s[0].motor_torque, joint = one.s[0].joint_force - two.s[0].joint_force;
+    const Evaluated one = evaluate(Transmission<double>(arm, {}), m),
+                    two = evaluate(Transmission<double>(twice, {}), m);
+    const double motor = one.s[0].motor_torque - two.s[0].motor_torque,
+                 joint = one.s[0].joint_force - two.s[0].joint_force;
     ASSERT_GT(std::abs(motor), 0.01);
     ASSERT_GT(std::abs(joint), 0.01);
     for (const double time : {-5.0, 0.0, 20.0, 60.0, 2000.0}) {

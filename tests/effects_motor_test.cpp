@@ -66,7 +66,8 @@ TEST(TorqueScale, TurnsTheCommandIntoTorqueByItsConstantAndBias) {
   for (const double command : {-2.0, 0.0, 5.0}) {
     Motion m;   // at rest: no friction
     m.command[0] = command;
-    EXPECT_NEAR(evaluate(with, m).s[0].motor_torque, 1.2 * j.torque_scale * command + j.torque_bias - 0.3, 6 * 8 * kEps);
+    EXPECT_NEAR(evaluate(with, m).s[0].motor_torque, 1.2 * j.torque_scale * command + j.torque_bias - 0.3,
+                6 * 8 * kEps);
   }
 }
 

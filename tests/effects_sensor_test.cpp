@@ -30,7 +30,8 @@ TEST(EncoderEccentricity, IsPeriodicInTheJointAndOfZeroMean) {
   const double cosine = 0.02, sine = -0.01;
   for (const int k : {0, 2}) {   // an angle, a length
     const double order = k == 0 ? 3 : 200, period = 2 * M_PI / order;
-    const Transmission<double> bare(arm, {}), with(arm, {placed("encoder_eccentricity", arm, k, {cosine, sine, order})});
+    const Transmission<double> bare(arm, {}),
+        with(arm, {placed("encoder_eccentricity", arm, k, {cosine, sine, order})});
     const auto error = [&](double q) {
       Motion m;
       m.joint_position[k] = q;
@@ -68,7 +69,8 @@ TEST(Delay, LetsTheJointsSensorReadWhatWasAMomentAgo) {
       const Evaluated a = evaluate(with, m), b = evaluate(bare, m);
       const double reading = m.joint_position[1] + a.s[1].joint_error - b.s[1].joint_error;
       // The remainder of the first order.
-      EXPECT_NEAR(reading, amplitude * std::sin(frequency * (t - delay)), amplitude * std::pow(frequency * delay, 2) / 2);
+      EXPECT_NEAR(reading, amplitude * std::sin(frequency * (t - delay)),
+                  amplitude * std::pow(frequency * delay, 2) / 2);
       for (const int other : {0, 2}) EXPECT_EQ(a.s[other].joint_error, b.s[other].joint_error);
     }
   }

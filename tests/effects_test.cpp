@@ -85,7 +85,8 @@ TEST(EffectLibrary, TypicalParametersChangeSomething) {
     if (e.effect->scope() == EffectScope::arm) {   // it changes the chain alone
       ArmParameters<double> changed = arm;
       e.effect->change_parameters(changed, e.joint, e.p);
-      EXPECT_TRUE(changed.joint[2].mass != arm.joint[2].mass || changed.gravity[0] != arm.gravity[0]) << e.effect->name();
+      EXPECT_TRUE(changed.joint[2].mass != arm.joint[2].mass || changed.gravity[0] != arm.gravity[0])
+          << e.effect->name();
       continue;
     }
     const EvaluatedArm<double> with{arm, e};

@@ -193,8 +193,9 @@ TEST(FixedLagSmoother, WrongOptionsAreRefused) {
     }
     return "accepted";
   };
-  EXPECT_EQ(refusal({{"lag", "0"}}),
-            "estimator smoother: option lag = '0': expected a number from 0.001 to 10; correct it, or leave the option out");
+  EXPECT_EQ(
+      refusal({{"lag", "0"}}),
+      "estimator smoother: option lag = '0': expected a number from 0.001 to 10; correct it, or leave the option out");
   EXPECT_EQ(refusal({{"beta", "0"}}),
             "estimator smoother: option beta is smaller than alpha squared: a down-date cannot be smoothed; give a "
             "larger beta or a smaller alpha");

@@ -134,8 +134,9 @@ TEST(Identify, SaysWhatTheLogDoesNotExciteAndWhatDrifts) {
   PlacedEffect drift = place_effect(*find_effect("friction_drift"), model.nominal, 1);
   drift.p[0] = 0.3;   // 1/s: two and a half times as much at the end
   robot.effects.push_back(drift);
-  const Identification found = identify(
-      model, {log_of(robot, model, 5)}, {"joint1.friction.coulomb", "joint1.friction.viscous", "joint2.friction.coulomb"});
+  const Identification found =
+      identify(model, {log_of(robot, model, 5)},
+               {"joint1.friction.coulomb", "joint1.friction.viscous", "joint2.friction.coulomb"});
   const auto number = [&](const std::string& key) {
     return *std::ranges::find(found.numbers, key, &IdentifiedNumber::key);
   };
@@ -148,7 +149,8 @@ TEST(Identify, SaysWhatTheLogDoesNotExciteAndWhatDrifts) {
 TEST(Identify, LogsOneAfterTheOtherTellMoreThanOne) {
   const ArmModel model = first_joints(2), robot = with(model, kCoupling, 1.05);
   const Log first = log_of(robot, model, 3, 0), second = log_of(robot, model, 3, 1);
-  const Identification one = identify(model, {first}, {kCoupling}), both = identify(model, {first, second}, {kCoupling});
+  const Identification one = identify(model, {first}, {kCoupling}),
+                       both = identify(model, {first, second}, {kCoupling});
   EXPECT_LT(both.numbers[0].upper - both.numbers[0].lower, one.numbers[0].upper - one.numbers[0].lower);
   EXPECT_NEAR(both.time.back(), 6, 0.02);
 }

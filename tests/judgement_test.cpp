@@ -143,7 +143,8 @@ TEST(Whiteness, SeesNeighboursAndTorques) {
 }
 
 TEST(NormalisedSquares, NeedADeviation) {
-  const std::vector<double> z = normalised_squares(std::vector{1.0, 2.0, kNan}, std::vector{0.0, 2.0, 1.0}, std::vector{0.5, 0.0, 1.0});
+  const std::vector<double> z =
+      normalised_squares(std::vector{1.0, 2.0, kNan}, std::vector{0.0, 2.0, 1.0}, std::vector{0.5, 0.0, 1.0});
   EXPECT_EQ(z[0], 4);
   EXPECT_TRUE(std::isnan(z[1]));
   EXPECT_TRUE(std::isnan(z[2]));

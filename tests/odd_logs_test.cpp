@@ -294,9 +294,10 @@ TEST(UnknownEncoderZero, CannotBeToldWithoutTheJointsSensor) {
   Log log = clean_logs().train;
   log.source = "rig.csv";
   log.joint_position[0].clear();
-  EXPECT_EQ(message_of([&] { home_encoders(log, model); }),
-            "rig.csv: the model does not know the zero of motor encoder 1 (motor_offset=\"unknown\"), and the log has no "
-            "joint_position_1 to tell it; give the joint's sensor, or the offset in the model");
+  EXPECT_EQ(
+      message_of([&] { home_encoders(log, model); }),
+      "rig.csv: the model does not know the zero of motor encoder 1 (motor_offset=\"unknown\"), and the log has no "
+      "joint_position_1 to tell it; give the joint's sensor, or the offset in the model");
 }
 
 // --------------------------------------------------------------------------------------- torque scales

@@ -141,11 +141,13 @@ TEST(Plugins, TheHandshakeRefusesABrokenTableInOneLine) {
   EXPECT_EQ(reason("no_table"), "halyard_estimator() returns no table; return the address of a static one");
   EXPECT_EQ(reason("older_interface"),
             "built for interface 1, this program speaks 2; rebuild it against the installed headers");
-  EXPECT_EQ(reason("newer_interface"),
-            "built for interface 3, this program speaks 2; install a newer halyard, or rebuild it against these headers");
+  EXPECT_EQ(
+      reason("newer_interface"),
+      "built for interface 3, this program speaks 2; install a newer halyard, or rebuild it against these headers");
   const std::size_t size = sizeof(halyard_estimator_table);
-  EXPECT_EQ(reason("small_table"), "its table has " + std::to_string(size - sizeof(void*)) + " bytes, interface 2 has " +
-                                       std::to_string(size) + "; rebuild it against the installed headers");
+  EXPECT_EQ(reason("small_table"), "its table has " + std::to_string(size - sizeof(void*)) +
+                                       " bytes, interface 2 has " + std::to_string(size) +
+                                       "; rebuild it against the installed headers");
   EXPECT_EQ(reason("missing_entry"), "its table lacks 'reset'; fill every entry");
   EXPECT_EQ(reason("missing_name"), "its table lacks 'name'; fill every entry");
   EXPECT_EQ(reason("path_for_a_name"),
@@ -354,15 +356,15 @@ void PrintTo(const BuiltIn& built_in, std::ostream* out) { *out << built_in.name
 
 class BuiltInPlugins : public testing::TestWithParam<BuiltIn> {};
 
-INSTANTIATE_TEST_SUITE_P(All, BuiltInPlugins,
-                         testing::Values(BuiltIn{"sr_ukf", halyard::make_sr_ukf, {{"alpha", "0.01"}}},
-                                         BuiltIn{"disturbance_sr_ukf", halyard::make_disturbance_sr_ukf,
-                                                 {{"force_wander", "2"}}},
-                                         BuiltIn{"smoother", halyard::make_smoother, {{"lag", "0.01"}}},
-                                         BuiltIn{"camera_sr_ukf", halyard::make_camera_sr_ukf, {{"camera_latency", "0.01"}}},
-                                         BuiltIn{"ekf", halyard::make_ekf, {{"encoder_noise", "1e-4"}}},
-                                         BuiltIn{"kinematics", halyard::make_kinematics, {}}),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    All, BuiltInPlugins,
+    testing::Values(BuiltIn{"sr_ukf", halyard::make_sr_ukf, {{"alpha", "0.01"}}},
+                    BuiltIn{"disturbance_sr_ukf", halyard::make_disturbance_sr_ukf, {{"force_wander", "2"}}},
+                    BuiltIn{"smoother", halyard::make_smoother, {{"lag", "0.01"}}},
+                    BuiltIn{"camera_sr_ukf", halyard::make_camera_sr_ukf, {{"camera_latency", "0.01"}}},
+                    BuiltIn{"ekf", halyard::make_ekf, {{"encoder_noise", "1e-4"}}},
+                    BuiltIn{"kinematics", halyard::make_kinematics, {}}),
+    [](const auto& info) { return info.param.name; });
 
 }  // namespace
 
@@ -428,7 +430,8 @@ TEST_P(BuiltInPlugins, RefuseAnUnknownOptionByName) {
 TEST(PluginSearch, FindsTheBuiltInEstimators) {
   std::vector<std::string> refused, names;
   for (const halyard::PluginInfo& plugin : halyard::find_plugins(&refused)) names.push_back(plugin.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"camera_sr_ukf", "disturbance_sr_ukf", "ekf", "kinematics", "smoother", "sr_ukf"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"camera_sr_ukf", "disturbance_sr_ukf", "ekf", "kinematics", "smoother",
+                                             "sr_ukf"}));
   EXPECT_EQ(refused, std::vector<std::string>());
   EXPECT_EQ(halyard::find_plugin("ekf").path.filename(), "ekf.so");
 }

@@ -142,8 +142,8 @@ TEST(Record, SaysThatALogIsTooShort) {
     return "";
   };
   EXPECT_EQ(message(log_of([](double t) { return t; }, 1.4, 1000)),
-            "some.csv: no stretch to learn from or to hold out is longer than 1.5 s without gaps; expected a longer record, or "
-            "a hold-out log of its own");
+            "some.csv: no stretch to learn from or to hold out is longer than 1.5 s without gaps; expected a longer "
+            "record, or a hold-out log of its own");
   EXPECT_EQ(message(log_of([](double t) { return t; }, 0, 1000)),
             "some.csv: has fewer than two samples; expected a record of at least a second");
 }

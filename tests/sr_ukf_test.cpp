@@ -398,9 +398,10 @@ std::string refusal(const EstimatorOptions& options) {
 }
 
 TEST(SrUkfOnTheArm, WrongOptionsAreRefusedAndTheKnownListed) {
-  EXPECT_EQ(refusal({{"alpa", "1"}}),
-            "estimator sr_ukf: unknown option 'alpa'; known are alpha, beta, kappa, curvature_limit, encoder_noise, "
-            "torque_noise, joint_force_noise, noise_time, effect_noise_time, adaptation_time, max_step, restart_gap, gate");
+  EXPECT_EQ(
+      refusal({{"alpa", "1"}}),
+      "estimator sr_ukf: unknown option 'alpa'; known are alpha, beta, kappa, curvature_limit, encoder_noise, "
+      "torque_noise, joint_force_noise, noise_time, effect_noise_time, adaptation_time, max_step, restart_gap, gate");
   EXPECT_EQ(refusal({{"alpha", "small"}}),
             "estimator sr_ukf: option alpha = 'small': expected a number from 1e-05 to 10; correct it, or leave the "
             "option out");

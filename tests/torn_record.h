@@ -9,8 +9,9 @@
 
 namespace halyard {
 
-/// Tears a record at 1 kHz: the first reading of joint 1's motor is off by a radian of the joint; then rows are missing,
-/// one by one and for 2 s, readings or torques are missing, readings stay what they were for 5 ms, or are off by 300 rad.
+/// Tears a record at 1 kHz: the first reading of joint 1's motor is off by a radian of the joint; then rows are
+/// missing, one by one and for 2 s, readings or torques are missing, readings stay what they were for 5 ms, or are off
+/// by 300 rad.
 class TornRecord {
  public:
   TornRecord(const ArmModel& model, std::uint64_t seed) : model_(model), random_(seed) {}

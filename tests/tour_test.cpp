@@ -48,7 +48,8 @@ TEST_F(Tour, ShowsTheExperimentsAndFindsTheUndeclaredEffectWithoutAnyRecordings)
   EXPECT_EQ(addresses.size(), 3u);
   for (const std::string& address : addresses) EXPECT_TRUE(fs::exists(path("out") / address)) << address;
 
-  // The scenario of the log gives joint 2 a backlash of 0.2 mm. 5 % is half of what the model's own stiffness is known to.
+  // The scenario of the log gives joint 2 a backlash of 0.2 mm. 5 % is half of what the model's own stiffness is known
+  // to.
   const json diagnosis = json::parse(text_of(path("out/undeclared_effect/diagnosis.json")));
   ASSERT_EQ(diagnosis.at("effects").size(), 1u) << diagnosis.dump(2);
   const json& effect = diagnosis.at("effects").at(0);

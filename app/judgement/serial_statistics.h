@@ -26,6 +26,8 @@ struct PairedRatio {
   /// At the 95 % level; neither may hold.
   bool better() const { return upper < 1; }
   bool worse() const { return lower > 1; }
+  /// The second over the first.
+  PairedRatio inverse() const { return {1 / ratio, 1 / upper, 1 / lower, block}; }
 };
 
 /// By circular block bootstrap: blocks of twice the samples that say one thing, drawn with replacement, both errors

@@ -111,7 +111,10 @@ const shading = (regions) => ({
       ctx.fillStyle = muted;
       ctx.font = "12px " + Chart.defaults.font.family;
       ctx.textBaseline = "top";
-      ctx.fillText(region.label, left + 6, area.top + 5, right - left - 8);
+      // Beside a region that is too narrow for it.
+      const width = ctx.measureText(region.label).width;
+      const fits = width <= right - left - 8 || right + width + 4 > area.right;
+      ctx.fillText(region.label, fits ? left + 6 : right + 4, area.top + 5);
       ctx.restore();
     }
   },

@@ -1,5 +1,6 @@
-// An estimator of your own: an α-β filter on each motor, joints by kinematics. What it shows: a plug-in is one class, and one
-// function that exports it. Look for the velocity, which plain kinematics gets from differences of encoder counts.
+// An estimator of your own: an α-β filter on each motor, joints by kinematics. What it shows: a plug-in is one class,
+// and one function that exports it. Look for the velocity, which plain kinematics gets from differences of encoder
+// counts.
 //
 //   predict   x⁻ = x + dt v,  v⁻ = v
 //   correct   x = x⁻ + α ν,   v = v⁻ + β ν / dt      ν: measured motor angle less x⁻

@@ -1,6 +1,7 @@
 #include "well_formed.h"
 
-/* Not broken: it says twice the position besides, and of the sample before what the next one shows, for one instance. */
+/* Not broken: it says twice the position besides, and of the sample before what the next one shows, for one
+ * instance. */
 static double last_time, previous_time;
 static double previous[8];
 static int due;
