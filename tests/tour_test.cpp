@@ -1,7 +1,6 @@
 // The main job end to end, as ./run without arguments does it, but without recordings of real rigs.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -24,10 +23,7 @@ std::vector<std::string> addresses_in(const std::string& html) {
 
 TEST_F(Tour, ShowsTheExperimentsAndFindsTheUndeclaredEffectWithoutAnyRecordings) {
   fs::create_directories(path("none"));
-  const auto start = std::chrono::steady_clock::now();
   const std::string printed = done({"tour", "--out", "out", "--recordings", "none"});
-  // What a user waits for; observed 20 s on two idle cores. Tests beside this one take their share.
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(120));
 
   const std::vector<std::string> lines = lines_of(printed);
   ASSERT_FALSE(lines.empty());
