@@ -55,7 +55,8 @@ BENCHMARK_CAPTURE(estimator_step, smoother, &make_smoother)->Name("EstimatorStep
 /// The process model's step, all sigma points side by side in lanes, or one by one in scalar code.
 class Points final : public DiscreteProcess {
  public:
-  Points(const ProcessModel& model, const Step& step, bool in_lanes) : model_(model), step_(step), in_lanes_(in_lanes) {}
+  Points(const ProcessModel& model, const Step& step, bool in_lanes)
+      : model_(model), step_(step), in_lanes_(in_lanes) {}
   void advance(Eigen::MatrixXd& X) const override {
     if (in_lanes_) return model_.advance_many(step_, X);
     for (Eigen::Index c = 0; c < X.cols(); ++c) model_.advance(step_, X.col(c).data());

@@ -140,7 +140,9 @@ void run_filter(DualUkf& filter, const std::vector<Log>& logs, const std::functi
   for (const Log& log : logs) {
     filter.start_record();
     const auto n = static_cast<Eigen::Index>(log.n_joints);
-    const auto cell = [](const std::vector<double>& column, std::size_t i) { return column.empty() ? kNan : column[i]; };
+    const auto cell = [](const std::vector<double>& column, std::size_t i) {
+      return column.empty() ? kNan : column[i];
+    };
     EncoderSample sample;
     sample.motor_torque.resize(n), sample.motor_position.resize(n), sample.joint_position.resize(n);
     sample.joint_torque.resize(n);
@@ -194,8 +196,9 @@ struct LeastSquares {
   int blocks = 0;
 };
 
-/// How far a number that is known within a tolerance may be pulled, in prior deviations: at least a quarter of it is left,
-/// since a cable that pushes is no cable, and beyond ten tolerances it stands for something else that the model lacks.
+/// How far a number that is known within a tolerance may be pulled, in prior deviations: at least a quarter of it is
+/// left, since a cable that pushes is no cable, and beyond ten tolerances it stands for something else that the model
+/// lacks.
 double bound_of(const Weight& other) { return std::min(20.0, 0.75 * std::abs(other.nominal) / other.scale); }
 
 /// The step from `u` and the jackknife around its end; |u + step| <= bound.
@@ -268,8 +271,10 @@ std::vector<std::string> identified_keys(const ArmModel& model, const std::strin
       any = chosen[i] = true;
       if (!is_in_equations(model, all[i])) fail_kind(model, kinds()[3]);
       if (*all[i].value == 0 && word.find(".coupling.") == word.npos)
-        throw InputError(fmt::format("parameter {}: is 0 in {}, which gives no scale to look for it; write a guess into "
-                                     "the model", in_quotes(word), model.source));
+        throw InputError(
+            fmt::format("parameter {}: is 0 in {}, which gives no scale to look for it; write a guess into "
+                        "the model",
+                        in_quotes(word), model.source));
     }
     if (any) continue;
     if (kind != kinds().end()) fail_kind(model, *kind);
@@ -332,8 +337,8 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
   estimate.u.head(learnt) = filter.w();
   for (int pass = 0; pass < kPasses; ++pass) {
     const Eigen::VectorXd before = estimate.u;
-    estimate = solve(sum_blocks(model, weights, before, logs, stage(fmt::format("estimate, pass {}", pass + 1))), before,
-                     bound);
+    estimate = solve(sum_blocks(model, weights, before, logs, stage(fmt::format("estimate, pass {}", pass + 1))),
+                     before, bound);
     const Eigen::ArrayXd step = (estimate.u - before).head(asked).array().abs();
     result.stands = (step <= kStands * estimate.deviation.head(asked).array()).all();
     if (result.stands) break;
@@ -353,7 +358,8 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
       number.trace.push_back(weights[i].value(trace_u[r](i)));
       // What was known before is as wide as it is: only what was learnt is widened.
       const double own = std::min(1.0, trace_deviation[r](i));
-      number.trace_std.push_back(std::abs(weights[i].slope(trace_u[r](i))) * own * (own * own + (1 - own * own) * widened));
+      number.trace_std.push_back(std::abs(weights[i].slope(trace_u[r](i))) * own *
+                                 (own * own + (1 - own * own) * widened));
     }
     const std::size_t from = last_third(result.time);
     const double own = std::abs(weights[i].slope(trace_u[from](i))) * trace_deviation[from](i);
@@ -365,7 +371,8 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
     const double tolerances = estimate.u(i) / 2;   // the prior's deviation is half a tolerance
     if (std::abs(tolerances) < kStrained || std::abs(estimate.u(i)) < kChance * estimate.deviation(i)) continue;
     const auto info = std::ranges::find(all, weights[i].key, &ParameterInfo::key);
-    result.strained.push_back({info->name, info->unit, weights[i].nominal, weights[i].value(estimate.u(i)), tolerances});
+    result.strained.push_back(
+        {info->name, info->unit, weights[i].nominal, weights[i].value(estimate.u(i)), tolerances});
   }
   return result;
 }

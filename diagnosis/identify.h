@@ -1,6 +1,6 @@
 #pragma once
-/// Numbers of an arm from a log with joint sensors: the dual filter of dual_ukf.h over the log, then an estimate with an
-/// honest interval around where it ended.
+/// Numbers of an arm from a log with joint sensors: the dual filter of dual_ukf.h over the log, then an estimate with
+/// an honest interval around where it ended.
 ///
 /// The filter takes the innovation of each sample as new. Residuals of a real arm are not: encoders that are rounded at
 /// rest, torques that are wrong for a while, other numbers of the model that are wrong for good. So, weights held at u,
@@ -9,20 +9,20 @@
 ///
 ///   A_b = Σ Yᵀ S⁻¹ Y,   g_b = Σ Yᵀ S⁻¹ ν,   A = Σ A_b + I,   u ← u + A⁻¹ (Σ g_b - u)          (Gauss and Newton)
 ///
-/// until u of the numbers asked for stands. Y has to be the innovations' derivative: where it is too large, so is A, steps
-/// end short of Σ g_b = u, and intervals are too narrow. The variance of u is that of estimates u_-b that leave out one
-/// block each, so that whatever is alike within a block is counted once (a block jackknife), and of what is left of the
-/// prior u ~ N(0, I):
+/// until u of the numbers asked for stands. Y has to be the innovations' derivative: where it is too large, so is A,
+/// steps end short of Σ g_b = u, and intervals are too narrow. The variance of u is that of estimates u_-b that leave
+/// out one block each, so that whatever is alike within a block is counted once (a block jackknife), and of what is
+/// left of the prior u ~ N(0, I):
 ///
 ///   var(u) = max( (B-1)/B Σ_b (u_-b - mean)² + |rows of A⁻¹|²,  diag A⁻¹ )
 ///
 /// with intervals by Student's t of B - 1. A⁻¹, the filter's own word, is a floor: where the arm is quieter than the
 /// noise that the filter assumes, blocks agree better with each other than with the truth, because rounded encoders are
-/// no noise that averages out. (In 50 logs of docs/identification.md's study the jackknife alone held C01 38 times of 39,
-/// but 8 times of 11 where disturbances were below a quarter of what the filter assumes.) That u of the other numbers is
-/// estimated along, within half its tolerance as a standard deviation, makes the numbers asked for right, and their
-/// intervals wide enough, where a cable's stiffness is off by its tolerance. The other numbers themselves are left as
-/// they are in the model.
+/// no noise that averages out. (In 50 logs of docs/identification.md's study the jackknife alone held C01 38 times of
+/// 39, but 8 times of 11 where disturbances were below a quarter of what the filter assumes.) That u of the other
+/// numbers is estimated along, within half its tolerance as a standard deviation, makes the numbers asked for right,
+/// and their intervals wide enough, where a cable's stiffness is off by its tolerance. The other numbers themselves are
+/// left as they are in the model.
 ///
 /// Sources: Ljung, "System identification", 2nd ed., chapters 7 and 9; Künsch, "The jackknife and the bootstrap for
 /// general stationary observations", Annals of Statistics 17 (1989).
@@ -36,10 +36,10 @@
 
 namespace halyard {
 
-/// "coupling,stiffness,joint2.cable.damping" as keys of named_parameters(), each once, in the model's order. A word stands
-/// for a kind: coupling, stiffness, damping, tension, motor_friction, joint_friction; couplings and other numbers that
-/// are 0 in the model are none of a kind, and can be named by their key. Throws InputError for a word or key that
-/// names nothing in this model, or a number that no equation of it holds.
+/// "coupling,stiffness,joint2.cable.damping" as keys of named_parameters(), each once, in the model's order. A word
+/// stands for a kind: coupling, stiffness, damping, tension, motor_friction, joint_friction; couplings and other
+/// numbers that are 0 in the model are none of a kind, and can be named by their key. Throws InputError for a word or
+/// key that names nothing in this model, or a number that no equation of it holds.
 std::vector<std::string> identified_keys(const ArmModel& model, const std::string& text);
 
 enum class Convergence {

@@ -238,7 +238,8 @@ DualStep DualUkf::update(const EncoderSample& sample) {
   for (int i = 0; i < pieces; ++i) {
     step.time_s = time_ + i * step.dt_s;
     points_.advance(step, substeps, X);
-    state_filter_.predict(ArmOfBelief(center_, structure_, step, substeps), noise_.process_root(step, state_filter_.x()));
+    state_filter_.predict(ArmOfBelief(center_, structure_, step, substeps),
+                          noise_.process_root(step, state_filter_.x()));
   }
   const auto triangle = E.transpose().triangularView<Eigen::Upper>();
   const auto per_weight = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {

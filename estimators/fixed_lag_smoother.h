@@ -5,9 +5,9 @@
 ///   x_s = x_0 + G (x_s' - x⁻)                         x_s': smoothed belief at the end of p, x_s at its begin
 ///   S_s = triangular root of [G S_s', V]              x_0, x⁻, G, V: BackwardStep of p (gaussian_filter.h)
 ///
-/// which is P_s = P + G (P_s' - P⁻) Gᵀ without a difference of covariances. A window of samples is smoothed each time it
-/// spans twice the lag; its older half is then told: every estimate uses the samples of at least `lag` after it, at two
-/// backward steps a sample. A gap that starts the filter anew ends a window, as the record's end does.
+/// which is P_s = P + G (P_s' - P⁻) Gᵀ without a difference of covariances. A window of samples is smoothed each time
+/// it spans twice the lag; its older half is then told: every estimate uses the samples of at least `lag` after it, at
+/// two backward steps a sample. A gap that starts the filter anew ends a window, as the record's end does.
 ///
 /// Source: Särkkä, "Unscented Rauch-Tung-Striebel smoother", IEEE Trans. Automatic Control 53 (2008); the root as in
 /// Kailath, Sayed, Hassibi, "Linear Estimation", chapter 10.

@@ -86,7 +86,8 @@ const Eigen::MatrixXd& ArmNoise::process_root(const Step& step, const Eigen::Vec
   G_.setZero(l.size, forces);
   for (int k = 0; k < n; ++k) {
     const JointParameters<double>& j = arm.joint[k];
-    const double force = adapted_(k) * levels_.joint_force(k) * impulse, torque = adapted_(k) * levels_.torque(k) * impulse;
+    const double force = adapted_(k) * levels_.joint_force(k) * impulse,
+                 torque = adapted_(k) * levels_.torque(k) * impulse;
     for (int i = 0; i < n; ++i) G_(l.rate[i], n + k) = M_inverse(i, k) * force;
     if (j.drive == Drive::cable) G_(l.motor_rate[k], k) = torque / j.rotor_inertia;
     if (j.drive != Drive::rigid) continue;
