@@ -8,6 +8,7 @@
 
 #include "app/compare.h"
 #include "estimators/noise.h"
+#include "model/input_error.h"
 #include "plant/simulate.h"
 
 namespace halyard {
@@ -129,8 +130,15 @@ TickNoise assumed_noise(const ArmModel& model, double tick_s) {
 
 MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, const std::vector<std::string>& estimators,
                            const MonteCarloOptions& options) {
-  // A wrong name must not cost the runs' time.
-  for (const std::string& name : estimators) check_estimator(name, model);
+  // A wrong name must not cost the runs' time. One that crashes as it is made fails run by run.
+  for (const std::string& name : estimators) {
+    try {
+      check_estimator(name, model);
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::runtime_error&) {
+    }
+  }
   std::vector<std::vector<OneRun>> all(estimators.size(), std::vector<OneRun>(options.runs));
   tbb::parallel_for(0, options.runs, [&](int r) {
     Scenario of_run = scenario;

@@ -18,7 +18,8 @@
 ///   did not see (Wasserman, Ramdas and Balakrishnan, PNAS 117 (2020), split likelihood ratio): a force during two of
 ///   sixty blocks is not lost among blocks that it never touched;
 /// - it matters: a residual shrinks by more than what the model's tolerance and the sensors leave open;
-/// - no parameter ends at the end of what is plausible, and does something there.
+/// - no parameter ends at the end of what is plausible, and does something there; nor lies a shape within twice of it
+///   where the likelihood is the same.
 
 #include <functional>
 #include <string>

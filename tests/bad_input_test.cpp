@@ -357,6 +357,16 @@ TEST_F(BadInput, AnEstimatorThatFailsEndsItsOwnRowOfTheComparison) {
   }
 }
 
+TEST_F(BadInput, AnEstimatorThatCrashesAsItIsMadeFailsEachOfManyRuns) {
+  write_text(path("scenario.xml"), "<scenario name=\"short\" model=\"raven2.xml\" duration=\"0.1\" seed=\"1\"/>");
+  const RunResult run = this->run({"compare", "scenario.xml", "--estimators",
+                                   "kinematics," + std::string(HALYARD_BROKEN_PLUGINS) + "/crashes_in_create.so",
+                                   "--runs", "2", "--skip", "0", "--out", "cmp"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json result = nlohmann::json::parse(text_of(path("cmp/comparison.json")));
+  EXPECT_TRUE(contains(result.dump(), "being made: crashed: Segm")) << result.dump(2);
+}
+
 TEST_F(BadInput, NoDamagedFileEndsTheProgramByASignal) {
   std::mt19937 random(1);   // same damages in every run
   const auto damaged = [&](std::string text) {
