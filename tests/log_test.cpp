@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "model/input_error.h"
+#include "tests/message_of.h"
 
 namespace halyard {
 namespace {
@@ -24,16 +25,6 @@ std::filesystem::path temporary_path() {
 Log read_text(const std::string& text, const ColumnMap& map = {}, const ReadOptions& options = {}) {
   std::ofstream(temporary_path(), std::ios::binary) << text;
   return read_log(temporary_path(), 1, map, options);
-}
-
-template <class Action>
-std::string message_of(Action action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no InputError";
 }
 
 /// The message for a log of one joint with this content; the path is cut off.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <limits>
 #include <random>
 
@@ -15,6 +14,7 @@
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
+#include "tests/message_of.h"
 #include "tests/short_arm.h"
 
 namespace halyard {
@@ -112,15 +112,6 @@ Log slower(const Log& log, std::size_t every) {
   keep(slow.time);
   for_each_column(slow, [&](const std::string&, std::vector<double>& x) { keep(x); });
   return slow;
-}
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no InputError";
 }
 
 // ------------------------------------------------------------------------------------------- sensors

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string>
 
-#include "model/input_error.h"
 #include "model/model_file.h"
+#include "tests/message_of.h"
 
 namespace halyard {
 
@@ -65,16 +65,6 @@ inline std::string replaced(const std::string& from, const std::string& to) {
     return text;
   }
   return text.replace(at, from.size(), to);
-}
-
-template <class Action>
-std::string message_of(Action action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no InputError";
 }
 
 inline std::string message_for(const std::string& xml) {
