@@ -113,7 +113,7 @@ void print_runs(const MonteCarlo& runs, const std::vector<JointUnit>& units) {
   for (const RunsOfEstimator& e : runs.estimators) {
     fmt::print("{}: {} failed\n", e.name, e.failures);
     for (std::size_t k = 0; k < units.size(); ++k)
-      fmt::print("  joint {}: RMS {} {}, NEES {:.3g}, {} of the instants in its band, {}\n", k + 1,
+      fmt::print("  joint {}: RMS {} {}, NEES {:.4g}, {} of the instants in its band, {}\n", k + 1,
                  shown_number(e.errors[k].rms, units[k]), units[k].shown, e.nees[k].mean, shown_percent(e.in_band[k]),
                  in_words(e.nees[k]));
   }

@@ -14,7 +14,7 @@ using nlohmann::ordered_json;
 using report::Cell;
 
 std::string mean_in_band(const Consistency& c) {
-  return std::isnan(c.mean) ? "-" : fmt::format("{:.3g} ({:.3g} to {:.3g})", c.mean, c.lower, c.upper);
+  return std::isnan(c.mean) ? "-" : fmt::format("{:.4g} ({:.4g} to {:.4g})", c.mean, c.lower, c.upper);
 }
 
 const char* word(Trust trust) {
