@@ -6,89 +6,31 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <optional>
 
-#include "diagnosis/paired_t.h"
+#include "diagnosis/false_discovery.h"
 #include "diagnosis/starts.h"
 #include "model/input_error.h"
 
 namespace halyard {
 namespace {
 
-/// What is left matters above this many times the floor of its channel: about one resolution of a joint's encoder.
-constexpr double kRestFactor = 3;
-/// So little of a residual's root mean square is next to nothing.
-constexpr double kNextToNone = 0.1;
-/// What one number more gains in log-likelihood by chance: two standard deviations.
-constexpr double kByChance = 2;
 /// A candidate that promises less than this share of the residual, to first order, is not fitted at all.
 constexpr double kPromise = 0.02;
 /// So many candidates are fitted in a round: those that leave least of the residual where their search sets out.
 constexpr std::size_t kMostFitted = 16;
-/// A candidate whose quick look is less significant than this is not fitted whole.
-constexpr double kWorthAFit = 0.05;
-
-/// ln L of each deciding block and channel. least: [2n] mean squares that are added, below which residuals count alike.
-Likelihood log_likelihood(const Evidence& evidence, const Score& score, const std::vector<double>& least) {
-  const auto& count = evidence.block_count();
-  Likelihood ln(count.size(), std::vector<double>(evidence.channels(), 0));
-  for (std::size_t b = 0; b < count.size(); ++b)
-    for (int c = 0; c < evidence.channels(); ++c)
-      if (count[b][c] > 0)
-        ln[b][c] =
-            -0.5 * count[b][c] / evidence.correlated_rows() * std::log(score.block_sum[b][c] / count[b][c] + least[c]);
-  return ln;
-}
-
-std::vector<double> floors(const Evidence& evidence) {
-  std::vector<double> least;
-  for (const double floor : evidence.floor()) least.push_back(floor * floor);
-  return least;
-}
-
-/// For the significance of a gain: blocks that had next to no residual, a motor's rest say, neither carry nor spoil it.
-std::vector<double> floors_beside(const Evidence& evidence, const Score& before) {
-  std::vector<double> least = floors(evidence);
-  for (std::size_t c = 0; c < least.size(); ++c) least[c] += kNextToNone * kNextToNone * before.mean_square[c];
-  return least;
-}
-
-/// By how much one lies above the other in each deciding block that has rows.
-Paired paired(const Likelihood& with, const Likelihood& without, const Evidence& evidence) {
-  std::vector<double> differences;
-  for (std::size_t b = 0; b < with.size(); ++b) {
-    const auto total = [](const auto& all) { return std::reduce(all.begin(), all.end()); };
-    if (total(evidence.block_count()[b]) > 0) differences.push_back(total(with[b]) - total(without[b]));
-  }
-  return halyard::paired(differences);
-}
-
-/// How much of what the lesser of two candidates gains, block by block and channel by channel, the other gains as well.
-double shared_gain(const Likelihood& a, const Likelihood& b, const Likelihood& without) {
-  double of_a = 0, of_b = 0, of_both = 0;
-  for (std::size_t i = 0; i < without.size(); ++i)
-    for (std::size_t c = 0; c < without[i].size(); ++c) {
-      const double gain_a = std::max(0.0, a[i][c] - without[i][c]), gain_b = std::max(0.0, b[i][c] - without[i][c]);
-      of_a += gain_a, of_b += gain_b, of_both += std::min(gain_a, gain_b);
-    }
-  return of_both / std::max(std::min(of_a, of_b), 1e-300);
-}
-
-Trial unusable(const PlacedEffect& effect) {
-  Trial t;
-  t.effect = effect;
-  return t;
-}
+/// So many of those are fitted whole: the best, if they gain this share of what the first of them does.
+constexpr std::size_t kLeaders = 4;
+constexpr double kLeads = 0.25;
 
 class Search {
  public:
   Search(const Evidence& evidence, const ArmModel& model, const AttributionOptions& options,
          const std::function<void(const std::string&, double)>& progress)
-      : evidence_(evidence), model_(model), options_(options), progress_(progress) {}
+      : evidence_(evidence), model_(model), options_(options), progress_(progress), given_(model.effects.size()) {}
 
   Attribution run() {
     const Hypothesis nominal{model_.nominal, model_.effects};
-    given_ = nominal.effects.size();
     say("nominal model", 0);
     result_.nominal_score = evidence_.score(nominal);
     if (!result_.nominal_score.finite)
@@ -98,21 +40,47 @@ class Search {
     keep_sensitive_numbers(nominal);
     result_.baseline = refit(nominal, result_.nominal_score);
     result_.baseline_score = evidence_.score(result_.baseline.hypothesis);
+    judge_.emplace(evidence_, model_, numbers_, result_.baseline_score.mean_square);
 
-    Fit current = result_.baseline;
-    Score score = result_.baseline_score;
+    Found current{result_.baseline, result_.baseline_score};
     for (int round = 0; round < options_.most_effects; ++round)
-      if (!add_one(current, score)) break;
-    remove_idle(current, score);
+      if (!add_one(current)) break;
+    remove_idle(current);
 
-    result_.final_fit = current;
-    result_.final_score = score;
+    result_.final_fit = current.fit;
+    result_.final_score = current.score;
     return std::move(result_);
   }
 
  private:
+  struct Found {
+    Fit fit;
+    Score score;
+    Scored scored() const { return {fit.hypothesis, score}; }
+  };
+
+  /// What all candidates of a round start from.
+  struct Ground {
+    Scored without;                            ///< what they are judged against
+    Hypothesis from;                           ///< where their fits set out
+    std::vector<FitParameter> numbers;         ///< baseline numbers that no effect so far speaks for
+    std::vector<std::vector<double>> columns;  ///< sensitivities to them
+    std::vector<double> scale;                 ///< [2n] of the residual
+    std::string round;
+  };
+
   void say(const std::string& what, double fraction) const {
     if (progress_) progress_(what, fraction);
+  }
+
+  /// Calls one(i) for all i < n, side by side.
+  template <class One>
+  void each(const std::string& what, std::size_t n, const One& one) const {
+    std::atomic<std::size_t> done{0};
+    tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+      one(i);
+      say(what, static_cast<double>(++done) / static_cast<double>(n));
+    });
   }
 
   /// A number whose whole tolerance moves no channel by a tenth of its floor cannot be learnt from these data.
@@ -184,24 +152,13 @@ class Search {
     return best;
   }
 
-  /// What a fit weighs, of a score: -ln L on the fitting blocks and the stretch of the baseline's numbers.
-  double cost(const Hypothesis& h, const Score& score) const {
-    double sum = stretch(h);
-    for (int c = 0; c < evidence_.channels(); ++c)
-      if (evidence_.has_channel(c))
-        sum += 0.5 * evidence_.fit_count(c) / evidence_.correlated_rows() *
-               std::log(score.fit_mean_square[c] + evidence_.floor()[c] * evidence_.floor()[c]);
-    return sum;
-  }
-
   /// Fits again from the model's own numbers, which on the way were bent by what was missing; keeps the better fit.
-  void fit_afresh(Fit& current, Score& score) const {
-    const Fit f = refit({model_.nominal, current.hypothesis.effects}, score);
-    if (!f.usable) return;
-    const Score s = evidence_.score(f.hypothesis);
-    if (!s.finite || cost(f.hypothesis, s) >= cost(current.hypothesis, score)) return;
-    current = f;
-    score = s;
+  void fit_afresh(Found& current) const {
+    Found afresh{refit({model_.nominal, current.fit.hypothesis.effects}, current.score), {}};
+    if (!afresh.fit.usable) return;
+    afresh.score = evidence_.score(afresh.fit.hypothesis);
+    if (afresh.score.finite && judge_->cost(afresh.scored()) < judge_->cost(current.scored()))
+      current = std::move(afresh);
   }
 
   std::vector<PlacedEffect> candidates(const Hypothesis& h) const {
@@ -214,117 +171,20 @@ class Search {
     return all;
   }
 
-  /// True if a number ends at its bound and does more there than one number by chance: a size alone, or with the shapes
-  /// that follow it.
-  bool at_bound(const Hypothesis& h, const Score& score, int place) const {
-    const auto parameters = effect_parameters(evidence_, h, model_.nominal, place);
-    const auto ends = [&](std::size_t i) { return ends_at_bound(parameters[i], parameter_value(h, parameters[i])); };
-    const auto shape_ends = [&](std::size_t i) { return ends(i) || is_as_good_at_bound(h, score, parameters[i]); };
-    const auto needed = [&](const std::vector<std::size_t>& sizes) {
-      Hypothesis without = h;
-      for (const std::size_t i : sizes) set_parameter(without, parameters[i], parameters[i].nominal);
-      const Score s = evidence_.score(without);
-      return !s.finite || cost(without, s) > cost(h, score) + kByChance;
-    };
-    for (const ParameterGroup& group : groups_of(parameters)) {
-      if (std::ranges::any_of(group.shapes, shape_ends) && needed(group.sizes)) return true;
-      for (const std::size_t i : group.sizes)
-        if (ends(i) && needed({i})) return true;
+  /// Of each trial.
+  std::vector<bool> convincing(const std::vector<Trial>& trials, std::size_t fitted) const {
+    std::vector<double> p;
+    for (const Trial& t : trials)
+      if (t.usable) p.push_back(t.p_value);
+    p.resize(std::max(p.size(), fitted), 1.0);
+    const std::vector<double> rate = false_discovery_rates(p);
+    std::vector<bool> is(trials.size());
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      const Trial& t = trials[i];
+      is[i] = t.usable && rate[next++] < options_.significance && t.gain > 0 && !t.at_bound && !t.is_refit && t.matters;
     }
-    return false;
-  }
-
-  /// True if a shape is near the end of what is plausible, and the data cannot tell it from there.
-  bool is_as_good_at_bound(const Hypothesis& h, const Score& score, const FitParameter& p) const {
-    constexpr double kNear = 2;   // times
-    if (p.natural_bounds || p.range != SearchRange::own) return false;
-    const double value = parameter_value(h, p);
-    for (const double bound : {p.lower, p.upper}) {
-      if (bound == p.nominal || !(value * bound > 0) || std::abs(std::log(value / bound)) > std::log(kNear)) continue;
-      Hypothesis there = h;
-      set_parameter(there, p, bound);
-      const Score s = evidence_.score(there);
-      if (s.finite && cost(there, s) < cost(h, score) + kByChance) return true;
-    }
-    return false;
-  }
-
-  /// True if all sizes of the effect stay within what the model's own tolerance allows: a refit and no effect.
-  bool within_tolerance(const Hypothesis& h, int place) const {
-    const PlacedEffect& e = h.effects[place];
-    const auto parameters = e.effect->parameters(model_.nominal, e.joint);
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-      const EffectParameter& p = parameters[i];
-      // Of a number without tolerance a hundredth of its typical size is nothing.
-      const double allowed = p.tolerance > 0 ? p.tolerance : 0.01 * std::abs(p.typical - p.neutral);
-      if (!p.is_shape() && std::abs(e.p[i] - p.neutral) > allowed) return false;
-    }
-    return true;
-  }
-
-  /// The effect takes a share of a residual, and what it does to some signal is well above what its sensor resolves.
-  bool matters(const Score& before, const Score& after, const Hypothesis& h, int place) const {
-    bool share = false;
-    for (int c = 0; c < evidence_.channels(); ++c)
-      share = share || (evidence_.has_channel(c) && before.mean_square[c] - after.mean_square[c] >
-                                                        kMattersShare * result_.baseline_score.mean_square[c]);
-    if (!share) return false;
-    Hypothesis without = h;
-    without.effects.erase(without.effects.begin() + place);
-    const auto rows = evidence_.fit_rows({h}), bare = evidence_.fit_rows({without});
-    if (rows[0].empty() || bare[0].empty()) return !rows[0].empty();
-    return evidence_.exceeds_floor(difference(rows[0], bare[0]), kMattersFactor);
-  }
-
-  /// What the refit of the baseline costs: ½ Σ ((θ - nominal) / (tolerance / 2))².
-  double stretch(const Hypothesis& h) const {
-    double sum = 0;
-    for (const FitParameter& b : numbers_) {
-      const double u = (parameter_value(h, b) - b.nominal) / b.scale;
-      sum += 0.5 * u * u;
-    }
-    return sum;
-  }
-
-  Trial judge(const Hypothesis& h, const Score& before, const Likelihood& ln_before, double stretch_before,
-              const PlacedEffect& effect) const {
-    Trial t = unusable(effect);
-    const Score score = evidence_.score(h);
-    if (!score.finite) return t;
-    t.usable = true;
-    t.effect = h.effects.back();
-    t.at_bound = at_bound(h, score, static_cast<int>(h.effects.size()) - 1);
-    t.is_refit = within_tolerance(h, static_cast<int>(h.effects.size()) - 1);
-    t.log_likelihood = log_likelihood(evidence_, score, floors(evidence_));
-    t.gain = paired(t.log_likelihood, ln_before, evidence_).sum + stretch_before - stretch(h);
-    t.p_value = p_of_gain(score, before, t.gain);
-    t.matters = t.p_value < kWorthAFit && matters(before, score, h, static_cast<int>(h.effects.size()) - 1);
-    return t;
-  }
-
-  /// The probability of such a gain by chance: by the scatter of the blocks, or, of an effect that explains a rest
-  /// whole, by the likelihood ratio, so that a few moments are enough.
-  double p_of_gain(const Score& with, const Score& without, double gain) const {
-    const std::vector<double> least = floors_beside(evidence_, without);
-    const double by_blocks =
-        p_value(paired(log_likelihood(evidence_, with, least), log_likelihood(evidence_, without, least), evidence_));
-    return explains_a_rest(without, with) ? std::min(by_blocks, std::exp(-gain)) : by_blocks;
-  }
-
-  /// True if, in the channel with a rest that the effect takes most of, nothing that matters is left or next to
-  /// nothing.
-  bool explains_a_rest(const Score& before, const Score& after) const {
-    const std::vector<bool> had = significant_rest(evidence_, before), has = significant_rest(evidence_, after);
-    int most = -1;
-    const auto left = [&](int c) { return after.mean_square[c] / before.mean_square[c]; };
-    for (int c = 0; c < evidence_.channels(); ++c)
-      if (had[c] && (most < 0 || left(c) < left(most))) most = c;
-    return most >= 0 && (!has[most] || left(most) < kNextToNone * kNextToNone);
-  }
-
-  bool convincing(const Trial& t, std::size_t candidates) const {
-    return t.usable && !t.at_bound && !t.is_refit && t.matters && t.gain > 0 &&
-           t.p_value * static_cast<double>(candidates) < options_.significance;
+    return is;
   }
 
   /// True if no channel has a residual left above its floor.
@@ -338,115 +198,70 @@ class Search {
   }
 
   /// One round: a quick look at every candidate, a full fit of the best, and the best of those.
-  bool add_one(Fit& current, Score& score) {
-    if (explained(score)) return false;
-    const Likelihood ln_before = log_likelihood(evidence_, score, floors(evidence_));
-    const std::vector<double> scale = channel_scale(evidence_, score.fit_mean_square);
+  bool add_one(Found& current) {
+    if (explained(current.score)) return false;
+    Ground ground{current.scored(), current.fit.hypothesis, {}, {}, {}, {}};
+    ground.round = " of round " + std::to_string(result_.rounds.size() + 1);
+    ground.scale = channel_scale(evidence_, current.score.fit_mean_square);
     // Before any effect is named the baseline's refit is bent by what is missing: the look starts at the model's
     // numbers.
-    Fit from = current;
-    if (result_.rounds.empty()) from.hypothesis = {model_.nominal, model_.effects};
-    std::vector<FitParameter> numbers;
-    for (const FitParameter& p : all_parameters(from.hypothesis))
-      if (p.effect < 0) numbers.push_back(p);
-    const auto columns = sensitivities(evidence_, from.hypothesis, numbers);
-    if (columns.empty() && !numbers.empty()) return false;
+    if (result_.rounds.empty()) ground.from = {model_.nominal, model_.effects};
+    for (const FitParameter& p : all_parameters(ground.from))
+      if (p.effect < 0) ground.numbers.push_back(p);
+    ground.columns = sensitivities(evidence_, ground.from, ground.numbers);
+    if (ground.columns.empty() && !ground.numbers.empty()) return false;
 
-    const Screen screen(evidence_, from.hypothesis, columns, scale);
+    Round round;
+    const std::size_t fitted = look(ground, candidates(current.fit.hypothesis), round.trials);
+    const std::vector<Fit> fits = fit_leaders(ground, round.trials);
+    const std::vector<bool> convincing = this->convincing(round.trials, fitted);
+    std::vector<std::size_t> able;
+    for (std::size_t i = 0; i < fits.size(); ++i)
+      if (convincing[i] && fits[i].usable) able.push_back(i);
+    if (!able.empty()) {
+      const std::size_t named = choose(ground.without, round.trials, able);
+      current.fit = fits[named];
+      current.score = evidence_.score(current.fit.hypothesis);
+      if (!result_.rounds.empty()) fit_afresh(current);
+      round.accepted = true;
+      std::swap(round.trials[0], round.trials[named]);
+    }
+    result_.rounds.push_back(std::move(round));
+    return !able.empty();
+  }
 
-    const std::vector<PlacedEffect> all = candidates(current.hypothesis);
+  /// trials: of all candidates, best first. Returns how many were fitted.
+  std::size_t look(const Ground& ground, const std::vector<PlacedEffect>& all, std::vector<Trial>& trials) const {
+    const Screen screen(evidence_, ground.from, ground.columns, ground.scale);
     std::vector<Start> starts(all.size());
-    std::atomic<std::size_t> done{0};
-    tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-      starts[i] = best_start(evidence_, screen, with_effect(from.hypothesis, all[i]), model_.nominal);
-      say("candidates of round " + std::to_string(result_.rounds.size() + 1), static_cast<double>(++done) / all.size());
+    each("candidates" + ground.round, all.size(), [&](std::size_t i) {
+      starts[i] = best_start(evidence_, screen, with_effect(ground.from, all[i]), model_.nominal);
     });
     std::vector<std::size_t> fitted;
     for (std::size_t i = 0; i < all.size(); ++i)
       if (starts[i].promise >= kPromise) fitted.push_back(i);
-    std::stable_sort(fitted.begin(), fitted.end(),
-                     [&](std::size_t a, std::size_t b) { return starts[a].left < starts[b].left; });
+    std::ranges::stable_sort(fitted, {}, [&](std::size_t i) { return starts[i].left; });
     if (fitted.size() > kMostFitted) fitted.resize(kMostFitted);
 
-    std::vector<Trial> trials;
     for (const PlacedEffect& candidate : all) {
       trials.push_back(unusable(candidate));
       trials.back().promising = false;
     }
-    done = 0;
-    tbb::parallel_for(std::size_t{0}, fitted.size(), [&](std::size_t f) {
+    each("fits" + ground.round, fitted.size(), [&](std::size_t f) {
       const std::size_t i = fitted[f];
-      trials[i] = quick_look(starts[i].hypothesis, numbers, columns, scale, score, ln_before,
-                             stretch(current.hypothesis), all[i]);
-      say("fits of round " + std::to_string(result_.rounds.size() + 1), static_cast<double>(++done) / fitted.size());
+      trials[i] = quick_look(ground, starts[i].hypothesis, all[i]);
     });
-    const auto better = [](const Trial& a, const Trial& b) { return a.gain > b.gain; };
-    std::stable_sort(trials.begin(), trials.end(), better);
-
-    // The quick look takes the baseline's sensitivities once; for the leaders they are renewed until nothing changes.
-    constexpr std::size_t kLeaders = 4;
-    constexpr double kLeads = 0.25;   // of the best gain
-    std::vector<Fit> fits(std::min(kLeaders, trials.size()));
-    std::vector<Trial> leaders(trials.begin(), trials.begin() + fits.size());
-    done = 0;
-    tbb::parallel_for(std::size_t{0}, fits.size(), [&](std::size_t i) {
-      if (!(trials[i].gain > kLeads * trials[0].gain) || trials[i].p_value > kWorthAFit) return;
-      fits[i] = refit(with_effect(from.hypothesis, trials[i].effect), score);
-      leaders[i] = fits[i].usable
-                       ? judge(fits[i].hypothesis, score, ln_before, stretch(current.hypothesis), trials[i].effect)
-                       : unusable(trials[i].effect);
-      say("best candidates of round " + std::to_string(result_.rounds.size() + 1),
-          static_cast<double>(++done) / fits.size());
-    });
-    std::size_t best = leaders.size();
-    for (std::size_t i = 0; i < leaders.size(); ++i)
-      if (convincing(leaders[i], fitted.size()) && (best == leaders.size() || leaders[i].gain > leaders[best].gain))
-        best = i;
-
-    Round round;
-    std::copy(leaders.begin(), leaders.end(), trials.begin());
-    if (best < leaders.size()) {
-      std::vector<std::size_t> alike = {best};
-      for (std::size_t i = 0; i < leaders.size(); ++i) {
-        if (i == best || !convincing(leaders[i], fitted.size())) continue;
-        const Paired p = paired(leaders[best].log_likelihood, leaders[i].log_likelihood, evidence_);
-        if (shared_gain(leaders[best].log_likelihood, leaders[i].log_likelihood, ln_before) < kSharedGain) continue;
-        if (p.t < kTellApart || p.sum < 2 * kTellApart * kTellApart) alike.push_back(i);
-      }
-      // Of those that cannot be told apart the best is named; of those that are as good one that only changes the
-      // model's own numbers, and then the one with the fewest numbers of its own.
-      const auto simplicity = [&](std::size_t i) {
-        const PlacedEffect& e = leaders[i].effect;
-        return std::pair(e.effect->stages() != 0, e.effect->parameters(model_.nominal, e.joint).size());
-      };
-      std::vector<std::size_t> as_good = alike;
-      std::erase_if(as_good, [&](std::size_t i) { return leaders[i].gain < leaders[best].gain - kByChance; });
-      best = *std::ranges::min_element(as_good, {}, simplicity);
-      std::vector<PlacedEffect> like;
-      for (const std::size_t i : alike)
-        if (i != best) like.push_back(leaders[i].effect);
-      result_.alternatives.push_back(like);
-      current = fits[best];
-      score = evidence_.score(current.hypothesis);
-      if (!result_.rounds.empty()) fit_afresh(current, score);
-      round.accepted = true;
-      std::swap(trials[0], trials[best]);
-    }
-    round.trials = std::move(trials);
-    result_.rounds.push_back(std::move(round));
-    return best < leaders.size();
+    std::ranges::stable_sort(trials, std::ranges::greater{}, &Trial::gain);
+    return fitted.size();
   }
 
-  Trial quick_look(const Hypothesis& start, const std::vector<FitParameter>& numbers,
-                   const std::vector<std::vector<double>>& columns, const std::vector<double>& scale,
-                   const Score& before, const Likelihood& ln_before, double stretch_before,
-                   const PlacedEffect& effect) const {
+  Trial quick_look(const Ground& ground, const Hypothesis& start, const PlacedEffect& effect) const {
     std::vector<FitParameter> parameters;
     std::vector<std::vector<double>> kept;
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      if (effect_covers(effect, model_.nominal, numbers[i])) continue;
-      parameters.push_back(numbers[i]);
-      kept.push_back(columns[i]);
+    for (std::size_t i = 0; i < ground.numbers.size(); ++i) {
+      if (effect_covers(effect, model_.nominal, ground.numbers[i])) continue;
+      parameters.push_back(ground.numbers[i]);
+      kept.push_back(ground.columns[i]);
     }
     for (const FitParameter& p : all_parameters(start))
       if (p.effect >= 0) parameters.push_back(p);
@@ -454,54 +269,86 @@ class Search {
     options.iterations = 6;
     options.cost_tolerance = 3e-4;
     options.frozen_baseline = true;
-    const Fit f = fit(evidence_, start, parameters, scale, options, kept);
-    return f.usable ? judge(f.hypothesis, before, ln_before, stretch_before, effect) : unusable(effect);
+    const Fit f = fit(evidence_, start, parameters, ground.scale, options, kept);
+    return f.usable ? judge_->trial(f.hypothesis, ground.without, effect) : unusable(effect);
+  }
+
+  /// The quick look takes the baseline's sensitivities once; for the leaders they are renewed until nothing changes.
+  /// Returns their fits, in the order of the trials, which are judged anew.
+  std::vector<Fit> fit_leaders(const Ground& ground, std::vector<Trial>& trials) const {
+    std::vector<Fit> fits(std::min(kLeaders, trials.size()));
+    const double best = trials.empty() ? 0 : trials[0].gain;
+    each("best candidates" + ground.round, fits.size(), [&](std::size_t i) {
+      Trial& t = trials[i];
+      if (!(t.gain > kLeads * best) || t.p_value > kWorthAFit) return;
+      fits[i] = refit(with_effect(ground.from, t.effect), ground.without.score);
+      const PlacedEffect effect = t.effect;
+      t = fits[i].usable ? judge_->trial(fits[i].hypothesis, ground.without, effect) : unusable(effect);
+    });
+    return fits;
+  }
+
+  /// Which of the convincing leaders is named; the others that cannot be told from the best become its alternatives.
+  std::size_t choose(const Scored& without, const std::vector<Trial>& trials, const std::vector<std::size_t>& able) {
+    const std::size_t best = *std::ranges::max_element(able, {}, [&](std::size_t i) { return trials[i].gain; });
+    const Likelihood ln_without = log_likelihood(evidence_, without.score, squared_floors(evidence_));
+    std::vector<std::size_t> alike = {best};
+    for (const std::size_t i : able) {
+      if (i == best) continue;
+      const Paired p = paired(evidence_, trials[best].log_likelihood, trials[i].log_likelihood);
+      if (shared_gain(trials[best].log_likelihood, trials[i].log_likelihood, ln_without) < kSharedGain) continue;
+      if (p.t < kTellApart || p.sum < 2 * kTellApart * kTellApart) alike.push_back(i);
+    }
+    // Of those that cannot be told apart the best is named; of those that are as good one that only changes the
+    // model's own numbers, and then the one with the fewest numbers of its own.
+    const auto simplicity = [&](std::size_t i) {
+      const PlacedEffect& e = trials[i].effect;
+      return std::pair(e.effect->stages() != 0, e.effect->parameters(model_.nominal, e.joint).size());
+    };
+    std::vector<std::size_t> as_good = alike;
+    std::erase_if(as_good, [&](std::size_t i) { return trials[i].gain < trials[best].gain - kByChance; });
+    const std::size_t named = *std::ranges::min_element(as_good, {}, simplicity);
+    std::vector<PlacedEffect> like;
+    for (const std::size_t i : alike)
+      if (i != named) like.push_back(trials[i].effect);
+    result_.alternatives.push_back(like);
+    return named;
   }
 
   /// Each effect is tried for removal: one that a later one made idle goes.
-  void remove_idle(Fit& current, Score& score) {
-    while (current.hypothesis.effects.size() > given_) {
-      const std::size_t n = current.hypothesis.effects.size() - given_;
+  void remove_idle(Found& current) {
+    while (current.fit.hypothesis.effects.size() > given_) {
+      const std::size_t n = current.fit.hypothesis.effects.size() - given_;
       std::vector<Fit> without(n, result_.baseline);
       if (n > 1)
         tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
-          Hypothesis h = current.hypothesis;
+          Hypothesis h = current.fit.hypothesis;
           h.effects.erase(h.effects.begin() + given_ + i);
-          without[i] = refit(h, score);
+          without[i] = refit(h, current.score);
         });
       std::size_t gone = n;
-      Score left;
+      Found left;
       for (std::size_t i = 0; i < n && gone == n; ++i) {
         if (!without[i].usable) continue;
-        left = evidence_.score(without[i].hypothesis);
-        if (left.finite && is_idle(current.hypothesis, score, without[i].hypothesis, left, i)) gone = i;
+        left = {without[i], evidence_.score(without[i].hypothesis)};
+        const int place = static_cast<int>(given_ + i);
+        if (left.score.finite &&
+            !judge_->is_needed(current.scored(), left.scored(), place, options_.significance))
+          gone = i;
       }
       if (gone == n) break;
-      current = without[gone];
-      score = left;
+      current = std::move(left);
       result_.alternatives.erase(result_.alternatives.begin() + gone);
     }
-  }
-
-  /// True if the i-th of the added effects is not needed, by what is left with it and without.
-  bool is_idle(const Hypothesis& with, const Score& with_score, const Hypothesis& without, const Score& without_score,
-               std::size_t i) const {
-    const int place = static_cast<int>(given_ + i);
-    const std::vector<double> least = floors(evidence_);
-    const double gain =
-        paired(log_likelihood(evidence_, with_score, least), log_likelihood(evidence_, without_score, least), evidence_)
-            .sum +
-        stretch(without) - stretch(with);
-    return within_tolerance(with, place) || !matters(without_score, with_score, with, place) ||
-           p_of_gain(with_score, without_score, gain) > options_.significance;
   }
 
   const Evidence& evidence_;
   const ArmModel& model_;
   const AttributionOptions& options_;
   const std::function<void(const std::string&, double)>& progress_;
+  std::size_t given_;                   ///< effects that the model came with
   std::vector<FitParameter> numbers_;   ///< baseline numbers that the data can tell something of
-  std::size_t given_ = 0;   ///< effects that the model came with
+  std::optional<Judge> judge_;  ///< from the baseline's refit on
   Attribution result_;
 };
 
@@ -516,18 +363,6 @@ std::vector<PlacedEffect> all_candidates(const ArmParameters<double>& arm) {
     for (const int joint : places) all.push_back(place_effect(*effect, arm, joint));
   }
   return all;
-}
-
-std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
-  for (std::size_t r = 0; r < a.size(); ++r) a[r] -= b[r];
-  return a;
-}
-
-std::vector<bool> significant_rest(const Evidence& evidence, const Score& score) {
-  std::vector<bool> rest(evidence.channels(), false);
-  for (int c = 0; c < evidence.channels(); ++c)
-    rest[c] = evidence.has_channel(c) && std::sqrt(score.mean_square[c]) > kRestFactor * evidence.floor()[c];
-  return rest;
 }
 
 Attribution attribute(const Evidence& evidence, const ArmModel& model, const AttributionOptions& options,

@@ -26,7 +26,7 @@ struct FitParameter {
   double scale = 1;       ///< one unit of the optimiser
   bool natural_bounds = false;
   bool shape = false;                    ///< of an effect, see EffectParameter
-  std::vector<double> starts;
+  std::vector<double> starts = {};
   SearchRange range = SearchRange::own;
 };
 

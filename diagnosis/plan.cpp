@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "diagnosis/baseline_reach.h"
-#include "diagnosis/paired_t.h"
 #include "diagnosis/signature.h"
 #include "model/input_error.h"
 
@@ -297,7 +296,7 @@ class Planner {
     return square;
   }
 
-  /// Of each block that has rows, as attribution.h says.
+  /// Of each block that has rows, as likelihood.h says.
   std::vector<double> log_likelihood(const Eigen::VectorXd& left) const {
     const std::vector<double> rows = reach_.rows(left);
     const std::size_t channels = evidence_.channels();
@@ -313,8 +312,8 @@ class Planner {
     for (std::size_t block = 0; block < square.size(); block += channels) {
       double sum = 0, any = 0;
       for (std::size_t c = 0; c < channels; ++c) {
-        const double n = count[block + c], floor = evidence_.floor()[c];
-        if (n > 0) sum -= 0.5 * n / evidence_.correlated_rows() * std::log(square[block + c] / n + floor * floor);
+        const double n = count[block + c];
+        if (n > 0) sum += block_log_likelihood(evidence_, n, square[block + c] / n, std::pow(evidence_.floor()[c], 2));
         any += n;
       }
       if (any > 0) ln.push_back(sum);

@@ -6,7 +6,7 @@
 ///          motors move as they did
 ///   r⊥     what the baseline's numbers leave of a residual r, each within its tolerance          (baseline_reach.h)
 ///
-/// An effect is seen at size p if its change is what a diagnosis asks for (attribution.h):
+/// An effect is seen at size p if its change is what a diagnosis asks for (judge.h):
 ///
 ///   rms((r0 + d)⊥ - r0⊥) and rms(d) > kMattersFactor floors of a channel;
 ///   ms((r0 + d)⊥) - ms(r0⊥) > kMattersShare ms((r0 + d)⊥) in a channel;

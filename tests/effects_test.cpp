@@ -297,5 +297,24 @@ TEST(UsersEffect, WithMoreParametersThanThereIsRoomForIsRefused) {
   }
 }
 
+class DescendingStarts : public EffectOf<DescendingStarts> {
+ public:
+  std::string name() const override { return "descending_starts"; }
+  std::string summary() const override { return "a search that would set out the wrong way round"; }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+    return {{"order", "1", 1, 1, 1, 8, 0, false, {4, 2, 1}}};
+  }
+};
+
+TEST(UsersEffect, WithStartsThatDoNotAscendIsRefused) {
+  try {
+    place_effect(DescendingStarts(), random_arm(16, CableLaw::linear), 0);
+    FAIL() << "was placed";
+  } catch (const std::invalid_argument& e) {
+    EXPECT_STREQ(e.what(),
+                 "effect descending_starts: the starts of \"order\" do not ascend: give each once, the smallest first");
+  }
+}
+
 }  // namespace
 }  // namespace halyard

@@ -53,7 +53,7 @@ struct EffectParameter {
   /// one) rather than the end of what is plausible, where a fit explains nothing.
   bool natural_bounds = false;
   /// Values from which a search sets out, where a good start cannot be told from the size alone: orders of a ripple,
-  /// decades of a time constant. Empty: the typical value.
+  /// decades of a time constant. Ascending: the fit takes steps after their spacing. Empty: the typical value.
   std::vector<double> starts = {};
   SearchRange range = SearchRange::own;
 
@@ -201,8 +201,8 @@ void register_effect(std::unique_ptr<const Effect> effect);
 /// The joints where the arm can have the effect, 0-based; -1 stands for the whole arm.
 std::vector<int> effect_places(const Effect& effect, const ArmParameters<double>& arm);
 
-/// The effect with its typical parameters. Throws std::invalid_argument if it cannot be there or has more than
-/// kMaxEffectParameters parameters.
+/// The effect with its typical parameters. Throws std::invalid_argument if it cannot be there, has more than
+/// kMaxEffectParameters parameters, or a parameter whose starts do not ascend.
 PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);
 /// The effect with its sizes neutral, ready to be given some of them, and its shapes typical. Throws as place_effect().
 PlacedEffect place_neutral_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);
