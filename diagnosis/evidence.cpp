@@ -83,7 +83,12 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model) : n_(mode
         const bool fit = (first_block + block) % 2 == 0;
         places_.push_back({static_cast<int>(r), c, static_cast<int>(i) / stride_, (first_block + block) / 2, fit});
         ++channel_rows_[c];
-        if (fit) row_channel_.push_back(c), row_block_.push_back((first_block + block) / 2), ++fit_count_[c];
+        if (fit) {
+          row_channel_.push_back(c);
+          row_block_.push_back((first_block + block) / 2);
+          row_time_.push_back(record.time(i));
+          ++fit_count_[c];
+        }
         last = std::max(last, first_block + block + 1);
         if (!joint) torque_square[k] += record.torque[k][i] * record.torque[k][i], torque_count[k] += 1;
       }

@@ -32,6 +32,8 @@ class Evidence {
   const std::vector<int>& row_channel() const { return row_channel_; }
   /// The block of each fitting row; rows of all channels share their blocks.
   const std::vector<int>& row_block() const { return row_block_; }
+  /// The time of each fitting row, s; rows of a channel follow each other.
+  const std::vector<double>& row_time() const { return row_time_; }
   /// Mean squares on both kinds of blocks.
   Score score(const Hypothesis& hypothesis) const;
   /// Samples in each deciding block and channel: [block][2n].
@@ -61,6 +63,7 @@ class Evidence {
   std::vector<Record> records_;
   std::vector<Place> places_;
   std::vector<int> row_channel_, row_block_;
+  std::vector<double> row_time_;
   std::vector<int> channel_rows_, fit_count_;
   std::vector<std::vector<int>> block_count_;
   std::vector<double> floor_;

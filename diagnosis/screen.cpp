@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/leaps.h"
+
 namespace halyard {
 
 Screen::Screen(const Evidence& evidence, const Hypothesis& at, const std::vector<std::vector<double>>& columns,
@@ -17,7 +19,9 @@ Screen::Screen(const Evidence& evidence, const Hypothesis& at, const std::vector
     J(rows + i, i) = 1;
   }
   qr_.compute(J);
-  r_ = weighted(evidence.fit_rows({at})[0]);
+  const std::vector<double> residual = evidence.fit_rows({at})[0];
+  instants_ = leaps(evidence, residual);
+  r_ = weighted(residual);
   r_beyond_ = beyond_baseline(r_);
 }
 

@@ -29,6 +29,8 @@ class Screen {
   Direction direction(const std::vector<double>& rows) const;
   /// |r⊥ + d⊥|², infinite for empty rows.
   double left(const std::vector<double>& rows) const;
+  /// Instants at which r leaps (leaps.h).
+  const std::vector<double>& instants() const { return instants_; }
 
  private:
   Eigen::VectorXd weighted(const std::vector<double>& rows) const;
@@ -40,6 +42,7 @@ class Screen {
   int numbers_;
   Eigen::HouseholderQR<Eigen::MatrixXd> qr_;
   Eigen::VectorXd r_, r_beyond_;
+  std::vector<double> instants_;
 };
 
 }  // namespace halyard

@@ -8,12 +8,10 @@ namespace halyard {
 namespace {
 
 constexpr int kTimes = 10;       ///< instants of a record that are tried where there are several of them in a group
-constexpr int kTimesAlone = 30;  ///< and where there is one
+constexpr int kTimesAlone = 30;  ///< and where there is one, beside those at which the residual leaps
 constexpr int kPositions = 6;    ///< positions of a joint's range
 
-std::vector<double> starts_of(const FitParameter& p, double typical, int times) {
-  if (p.range == SearchRange::own) return p.starts.empty() ? std::vector<double>{typical} : p.starts;
-  const int n = p.range == SearchRange::record_time ? times : kPositions;
+std::vector<double> even(const FitParameter& p, int n) {
   std::vector<double> all;
   for (int i = 0; i < n; ++i) all.push_back(p.lower + (i + 0.5) / n * (p.upper - p.lower));
   return all;
@@ -21,15 +19,28 @@ std::vector<double> starts_of(const FitParameter& p, double typical, int times) 
 
 /// Every combination of the shapes' starts; instants of one group follow each other.
 std::vector<std::vector<double>> combinations(const Hypothesis& h, const std::vector<FitParameter>& parameters,
-                                              const std::vector<std::size_t>& shapes) {
+                                              const std::vector<std::size_t>& shapes,
+                                              const std::vector<double>& leaps) {
   const auto is_instant = [&](std::size_t s) { return parameters[s].range == SearchRange::record_time; };
-  const int times = std::ranges::count_if(shapes, is_instant) > 1 ? kTimes : kTimesAlone;
+  const bool alone = std::ranges::count_if(shapes, is_instant) == 1;
+  const auto starts_of = [&](const FitParameter& p) {
+    switch (p.range) {
+      case SearchRange::joint_position: return even(p, kPositions);
+      case SearchRange::record_time: {
+        std::vector<double> instants = even(p, alone ? kTimesAlone : kTimes);
+        if (alone) instants.insert(instants.end(), leaps.begin(), leaps.end());
+        return instants;
+      }
+      case SearchRange::own: break;
+    }
+    return p.starts.empty() ? std::vector<double>{parameter_value(h, p)} : p.starts;
+  };
   std::vector<std::vector<double>> all = {{}};
   for (std::size_t s = 0; s < shapes.size(); ++s) {
     const FitParameter& p = parameters[shapes[s]];
     std::vector<std::vector<double>> longer;
     for (const auto& head : all)
-      for (const double value : starts_of(p, parameter_value(h, p), times)) {
+      for (const double value : starts_of(p)) {
         const bool follows = s > 0 && is_instant(shapes[s]) && is_instant(shapes[s - 1]);
         if (follows && value <= head.back()) continue;
         longer.push_back(head);
@@ -54,7 +65,7 @@ Start best_start(const Evidence& evidence, const Screen& screen, const Hypothesi
   std::vector<Tried> tried;
   std::size_t n_combinations = 0;
   for (const ParameterGroup& group : groups_of(parameters)) {
-    const auto shapes = combinations(with, parameters, group.shapes);
+    const auto shapes = combinations(with, parameters, group.shapes, screen.instants());
     const bool one_sided = std::any_of(group.shapes.begin(), group.shapes.end(), [&](std::size_t s) {
       return parameters[s].range == SearchRange::joint_position;
     });

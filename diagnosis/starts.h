@@ -16,7 +16,8 @@ struct Start {
 };
 
 /// `with`: the candidate is the last effect. Each of its sizes is tried with each start of the shapes that follow it,
-/// at its typical value and at what the linear fit of that asks for; a size without shapes over decades as well.
+/// at its typical value and at what the linear fit of that asks for; a size without shapes over decades as well. A lone
+/// instant is sought over the record and where the residual leaps.
 Start best_start(const Evidence& evidence, const Screen& screen, const Hypothesis& with,
                  const ArmParameters<double>& nominal);
 
