@@ -164,7 +164,7 @@ Place place_of(const PlacedEffect& e) { return {e.effect->name(), e.joint + 1}; 
 }  // namespace
 
 Result run_trial(const ArmModel& model, Kind kind, int index, const TrialOptions& options) {
-  constexpr int kAttempts = 8;
+  constexpr int kAttempts = 40;
   Random random(options.seed, static_cast<std::uint32_t>(kind), static_cast<std::uint32_t>(index));
   Result r;
   r.kind = kind;
