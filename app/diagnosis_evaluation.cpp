@@ -111,12 +111,12 @@ DiagnosisEvaluation evaluate_diagnosis(const ArmModel& model, const Diagnosis& d
 
   DiagnosisEvaluation result;
   if (progress) progress("residuals that point", 0);
-  const Hypothesis revised{d.revised.nominal, d.revised.effects};
+  const Hypothesis revised{d.revised.nominal, d.revised.effects, d.past};
+  for (std::size_t r = 0; r < records.size(); ++r) records[r].place = static_cast<int>(r);
   std::vector<FullPrediction> predicted;
   for (const Record& r : records) predicted.push_back(predict_fully(r, revised));
   for (std::size_t i = 0; i < d.effects.size(); ++i) {
-    Hypothesis without = revised;
-    without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(model.effects.size() + i));
+    const Hypothesis without = without_effect(revised, model.effects.size() + i);
     result.effects.push_back(evidence_of(records, without, revised, predicted, d.effects[i].effect.joint));
   }
   for (const Unexplained& u : d.unexplained) {

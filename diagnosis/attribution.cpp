@@ -94,7 +94,8 @@ class Search {
     }
   }
 
-  /// Baseline numbers that no effect of the hypothesis speaks for, and the parameters of its added effects.
+  /// Baseline numbers that no effect of the hypothesis speaks for, the past of its effects, and the parameters of the
+  /// added ones.
   std::vector<FitParameter> all_parameters(const Hypothesis& h) const {
     std::vector<FitParameter> all;
     for (const FitParameter& b : numbers_) {
@@ -103,15 +104,16 @@ class Search {
         covered = covered || effect_covers(h.effects[e], model_.nominal, b);
       if (!covered) all.push_back(b);
     }
-    for (std::size_t e = given_; e < h.effects.size(); ++e)
+    for (std::size_t e = 0; e < h.effects.size(); ++e)
       for (const FitParameter& p : effect_parameters(evidence_, h, model_.nominal, static_cast<int>(e)))
-        all.push_back(p);
+        if (e >= given_ || is_past(p)) all.push_back(p);
     return all;
   }
 
   /// A number that an effect speaks for goes back to the model's value.
-  Hypothesis with_effect(Hypothesis h, const PlacedEffect& effect) const {
+  Hypothesis with_effect(Hypothesis h, const PlacedEffect& effect, const std::vector<double>& past = {}) const {
     h.effects.push_back(effect);
+    for (std::size_t i = 0; i < past.size(); ++i) h.set_past_state(h.effects.size() - 1, i, past[i]);
     for (const FitParameter& b : baseline_parameters(model_.nominal))
       if (effect_covers(effect, model_.nominal, b)) set_parameter(h, b, b.nominal);
     return h;
@@ -154,7 +156,8 @@ class Search {
 
   /// Fits again from the model's own numbers, which on the way were bent by what was missing; keeps the better fit.
   void fit_afresh(Found& current) const {
-    Found afresh{refit({model_.nominal, current.fit.hypothesis.effects}, current.score), {}};
+    const Hypothesis& h = current.fit.hypothesis;
+    Found afresh{refit({model_.nominal, h.effects, h.past}, current.score), {}};
     if (!afresh.fit.usable) return;
     afresh.score = evidence_.score(afresh.fit.hypothesis);
     if (afresh.score.finite && judge_->cost(afresh.scored()) < judge_->cost(current.scored()))
@@ -281,7 +284,7 @@ class Search {
     each("best candidates" + ground.round, fits.size(), [&](std::size_t i) {
       Trial& t = trials[i];
       if (!(t.gain > kLeads * best) || t.p_value > kWorthAFit) return;
-      fits[i] = refit(with_effect(ground.from, t.effect), ground.without.score);
+      fits[i] = refit(with_effect(ground.from, t.effect, t.past), ground.without.score);
       const PlacedEffect effect = t.effect;
       t = fits[i].usable ? judge_->trial(fits[i].hypothesis, ground.without, effect) : unusable(effect);
     });
@@ -322,9 +325,7 @@ class Search {
       std::vector<Fit> without(n, result_.baseline);
       if (n > 1)
         tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
-          Hypothesis h = current.fit.hypothesis;
-          h.effects.erase(h.effects.begin() + given_ + i);
-          without[i] = refit(h, current.score);
+          without[i] = refit(without_effect(current.fit.hypothesis, given_ + i), current.score);
         });
       std::size_t gone = n;
       Found left;

@@ -166,12 +166,14 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
   };
   // What is held out of a log goes on from the part before it: cables remember. That part is driven along, not
   // compared.
-  const auto hold_out = [&](const Log& log, double from) {
+  const auto hold_out = [&](const Log& log, double from, std::size_t first) {
     for (const auto& [view, how] :
          {std::pair(&d.joint_view, options.joint_error), std::pair(&d.torque_view, options.record)})
       for (Record& r : make_records(log, model, how)) {
         if (r.time(r.size - 1) < from) continue;
         compare_from(r, from);
+        for (std::size_t place = first; place < records.size(); ++place)
+          if (records[place].start == r.start) r.place = static_cast<int>(place);
         view->records.push_back(std::move(r));
       }
   };
@@ -180,11 +182,12 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
       learn_from(log);
     } else {
       const auto [first, last] = split_log(log, 2.0 / 3);
+      const std::size_t place = records.size();
       learn_from(first);
-      hold_out(log, last.time.front());
+      hold_out(log, last.time.front(), place);
     }
   }
-  if (holdout) hold_out(*holdout, holdout->time.front());
+  if (holdout) hold_out(*holdout, holdout->time.front(), records.size());
   d.holdout = holdout ? holdout->source : "last third of the training data";
 
   d.given = calibrated(model, records);
@@ -205,7 +208,8 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
   for (std::size_t e = given; e < h.effects.size() && !all_one_sine; ++e) {
     NamedEffect named{h.effects[e], {}, d.attribution.alternatives[e - given]};
     for (std::size_t i = 0; i < final_fit.parameters.size(); ++i)
-      if (final_fit.parameters[i].effect == static_cast<int>(e)) named.parameters.push_back(estimated(final_fit, i));
+      if (final_fit.parameters[i].effect == static_cast<int>(e) && !is_past(final_fit.parameters[i]))
+        named.parameters.push_back(estimated(final_fit, i));
     d.effects.push_back(std::move(named));
   }
   const bool would_name = h.effects.size() > given;
@@ -242,11 +246,12 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
   if (!all_one_sine || !would_name) {
     d.revised.nominal = h.nominal;
     d.revised.effects = h.effects;
+    d.past = h.past;
   }
   say("hold-out", 0);
   for (HoldOut* view : {&d.joint_view, &d.torque_view}) {
     view->before = predict_all(view->records, {d.given.nominal, d.given.effects});
-    view->after = predict_all(view->records, {d.revised.nominal, d.revised.effects});
+    view->after = predict_all(view->records, {d.revised.nominal, d.revised.effects, d.past});
   }
   d.before = errors(d.joint_view, d.torque_view, model.n(), &HoldOut::before);
   d.after = errors(d.joint_view, d.torque_view, model.n(), &HoldOut::after);

@@ -59,6 +59,7 @@ struct Diagnosis {
   std::vector<NotExcited> not_excited;
   ArmModel given;                        ///< the model as given, its unknown torque scales calibrated
   ArmModel revised;
+  std::vector<std::vector<double>> past; ///< of the revised model's effects, before each training record: Hypothesis
   std::string holdout;                   ///< what the errors were measured on
   PredictionError before, after;         ///< on the hold-out, by `given` and by `revised`
   Attribution attribution;

@@ -68,6 +68,7 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model) : n_(mode
   std::vector<double> torque_square(n_, 0), torque_count(n_, 0);
   floor_.assign(channels(), 0);
   for (std::size_t r = 0; r < records_.size(); ++r) {
+    records_[r].place = static_cast<int>(r);
     const Record& record = records_[r];
     int last = first_block;
     for (int c = 0; c < channels(); ++c) {

@@ -120,13 +120,16 @@ class Residual : public ceres::CostFunction {
 }  // namespace
 
 double parameter_value(const Hypothesis& h, const FitParameter& p) {
+  if (is_past(p)) return h.past_state(p.effect, p.index - kMaxEffectParameters);
   if (p.effect >= 0) return h.effects[p.effect].p[p.index];
   ArmParameters<double> arm = h.nominal;
   return *named_parameters(arm)[p.index].value;
 }
 
 void set_parameter(Hypothesis& h, const FitParameter& p, double value) {
-  if (p.effect >= 0)
+  if (is_past(p))
+    h.set_past_state(p.effect, p.index - kMaxEffectParameters, value);
+  else if (p.effect >= 0)
     h.effects[p.effect].p[p.index] = value;
   else
     *named_parameters(h.nominal)[p.index].value = value;
@@ -169,6 +172,18 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
     }
     all.push_back(f);
   }
+  constexpr std::size_t kHandful = 4;
+  constexpr double kFar = 10;   // times a state's typical size
+  if (evidence.records().size() > kHandful) return all;
+  const std::vector<double> typical =
+      e.effect->state_scale(nominal, e.joint, place_effect(*e.effect, nominal, e.joint).p);
+  for (std::size_t r = 0, i = 0; r < evidence.records().size(); ++r)
+    for (const double scale : typical) {
+      FitParameter f{"state before record " + std::to_string(r + 1), "", place,
+                     kMaxEffectParameters + static_cast<int>(i++), 0, -kFar * scale, kFar * scale, scale, true};
+      f.shape = true;
+      all.push_back(f);
+    }
   return all;
 }
 

@@ -20,7 +20,8 @@ struct FitParameter {
   std::string name;
   std::string unit;
   int effect = -1;        ///< place in Hypothesis::effects, or -1: a baseline number
-  int index = 0;          ///< parameter of the effect, or place in named_parameters()
+  /// Place in named_parameters(); of an effect its parameter, or kMaxEffectParameters and more: its past.
+  int index = 0;
   double nominal = 0;     ///< baseline: the model's value
   double lower = 0, upper = 0;
   double scale = 1;       ///< one unit of the optimiser
@@ -30,12 +31,15 @@ struct FitParameter {
   SearchRange range = SearchRange::own;
 };
 
+/// True of a state of an effect before a record: a number of the data and not of the arm.
+inline bool is_past(const FitParameter& p) { return p.effect >= 0 && p.index >= kMaxEffectParameters; }
 double parameter_value(const Hypothesis& h, const FitParameter& p);
 void set_parameter(Hypothesis& h, const FitParameter& p, double value);
 
 /// Baseline numbers that the model knows within a tolerance. The ratio of a drive is one number, the capstan's radius.
 std::vector<FitParameter> baseline_parameters(const ArmParameters<double>& nominal);
 /// The numbers of the effect at `place` of the hypothesis; instants and positions are bound to what the records span.
+/// What the effect went through before each record follows as shapes, unless there are more than a handful of records.
 std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,
                                             const ArmParameters<double>& nominal, int place);
 /// Sizes of an effect and the shapes that follow them, as places in a list of parameters.

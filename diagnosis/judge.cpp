@@ -49,6 +49,7 @@ Trial Judge::trial(const Hypothesis& with, const Scored& without, const PlacedEf
   const int place = static_cast<int>(with.effects.size()) - 1;
   t.usable = true;
   t.effect = with.effects.back();
+  if (static_cast<std::size_t>(place) < with.past.size()) t.past = with.past[place];
   t.log_likelihood = log_likelihood(evidence_, scored.score, squared_floors(evidence_));
   t.gain = gain(scored, without);
   t.p_value = p_of_gain(scored.score, without.score, t.gain);
@@ -147,9 +148,7 @@ bool Judge::matters(const Score& before, const Score& after, const Hypothesis& w
     share = share || (evidence_.has_channel(c) &&
                       before.mean_square[c] - after.mean_square[c] > kMattersShare * first_[c]);
   if (!share) return false;
-  Hypothesis without = with;
-  without.effects.erase(without.effects.begin() + place);
-  const auto rows = evidence_.fit_rows({with})[0], bare = evidence_.fit_rows({without})[0];
+  const auto rows = evidence_.fit_rows({with})[0], bare = evidence_.fit_rows({without_effect(with, place)})[0];
   return !rows.empty() && (bare.empty() || evidence_.exceeds_floor(difference(rows, bare), kMattersFactor));
 }
 

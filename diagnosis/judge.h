@@ -33,6 +33,7 @@ inline constexpr double kWorthAFit = 0.05;
 /// A candidate as it was judged.
 struct Trial {
   PlacedEffect effect;
+  std::vector<double> past;      ///< of Hypothesis, of this effect
   bool promising = true;         ///< false: where it takes most of the residual it takes too little to be fitted
   bool usable = false;           ///< it could be fitted
   double gain = 0;               ///< on the deciding blocks, above the baseline of its round

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -74,6 +75,17 @@ Transmission<Lanes> pack_hypotheses(const Hypothesis* const* lane, double band) 
   return Transmission<Lanes>(pack(arms), std::move(effects), band);
 }
 
+/// Of all effects, one after another.
+std::vector<double> past_states(const Hypothesis& h, const Record& record) {
+  std::vector<double> all;
+  for (std::size_t e = 0; e < h.effects.size(); ++e) {
+    const int states = h.effects[e].effect->n_states();
+    for (int s = 0; s < states; ++s)
+      all.push_back(record.place < 0 ? 0.0 : h.past_state(e, static_cast<std::size_t>(record.place * states + s)));
+  }
+  return all;
+}
+
 /// Jacobian of the driven state [q, q', z] at x.
 Eigen::MatrixXd driven_jacobian(const Transmission<Dual>& transmission, const Record& record, const DrivenInput& u,
                                 const DrivenState<double>& x) {
@@ -98,7 +110,7 @@ Eigen::MatrixXd driven_jacobian(const Transmission<Dual>& transmission, const Re
   return J;
 }
 
-/// Where the joints stand at the record's first sample if no cable is stretched; at rest, effects without a past.
+/// Where the joints stand at the record's first sample if no cable is stretched; at rest, effects with their past.
 DrivenState<double> unstretched_state(const Hypothesis& h, const Record& record, const DrivenInput& u) {
   const int n = record.n;
   const ArmParameters<double> arm = make_transmission<double>(h).arm();
@@ -110,6 +122,8 @@ DrivenState<double> unstretched_state(const Hypothesis& h, const Record& record,
   const Eigen::VectorXd q = unstretched_joints(arm, q_m, q_undriven);
   DrivenState<double> x = {};
   for (int k = 0; k < n; ++k) x.q[k] = q(k);
+  const std::vector<double> past = past_states(h, record);
+  std::ranges::copy(past, x.z);
   return x;
 }
 
@@ -156,9 +170,10 @@ std::vector<Spectrum> spectra_of(const Hypothesis& h, const Record& record, cons
 
 /// Everything that the motion of the joints depends on if the motors move as they were measured: not what acts between
 /// the command and the rotor, nor what a joint's sensor adds.
-std::vector<double> motion_key(const Hypothesis& h) {
+std::vector<double> motion_key(const Hypothesis& h, const Record& record) {
   const ArmParameters<double> arm = make_transmission<double>(h).arm();
-  std::vector<double> key(arm.gravity, arm.gravity + 3);
+  std::vector<double> key = past_states(h, record);
+  key.insert(key.end(), arm.gravity, arm.gravity + 3);
   for (int k = 0; k < arm.n; ++k) {
     const JointParameters<double>& j = arm.joint[k];
     key.insert(key.end(), {j.mass, j.com[0], j.com[1], j.com[2], j.gear_ratio, j.capstan_radius, j.pulley_radius,
@@ -199,6 +214,22 @@ double compared(const Record& record, const std::vector<double>& measured, std::
 
 }  // namespace
 
+double Hypothesis::past_state(std::size_t effect, std::size_t i) const {
+  return effect < past.size() && i < past[effect].size() ? past[effect][i] : 0.0;
+}
+
+void Hypothesis::set_past_state(std::size_t effect, std::size_t i, double value) {
+  if (past.size() <= effect) past.resize(effect + 1);
+  if (past[effect].size() <= i) past[effect].resize(i + 1, 0.0);
+  past[effect][i] = value;
+}
+
+Hypothesis without_effect(Hypothesis h, std::size_t place) {
+  h.effects.erase(h.effects.begin() + static_cast<std::ptrdiff_t>(place));
+  if (place < h.past.size()) h.past.erase(h.past.begin() + static_cast<std::ptrdiff_t>(place));
+  return h;
+}
+
 std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesis>& hypotheses, int stride) {
   static const LaneDrive kernel = lane_drive();
   const int n = record.n;
@@ -211,7 +242,7 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
   std::vector<std::size_t> movers, others, mover_of(hypotheses.size());
   std::map<std::vector<double>, std::size_t> known;
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
-    const auto [entry, is_new] = known.try_emplace(motion_key(hypotheses[h]), movers.size());
+    const auto [entry, is_new] = known.try_emplace(motion_key(hypotheses[h], record), movers.size());
     mover_of[h] = entry->second;
     (is_new ? movers : others).push_back(h);
   }
@@ -261,11 +292,11 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
     const Hypothesis* lane[kLaneWidth];
     DrivenState<Lanes> x;
     for (int k = 0; k < n; ++k) x.q[k] = x.v[k] = 0.0;
-    for (int k = 0; k < n_states; ++k) x.z[k] = 0.0;
     for (std::size_t l = 0; l < kLaneWidth; ++l) {
       const std::size_t i = first + std::min(l, count - 1);
       lane[l] = is_able(i) ? &hypotheses[movers[i]] : nullptr;
       for (int k = 0; k < n; ++k) x.q[k].set(static_cast<int>(l), starts[i].q[k]);
+      for (int k = 0; k < n_states; ++k) x.z[k].set(static_cast<int>(l), starts[i].z[k]);
     }
     // A lane that cannot be integrated is replaced by one that can, and reported.
     const Hypothesis* able = nullptr;

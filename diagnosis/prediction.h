@@ -8,11 +8,20 @@
 
 namespace halyard {
 
-/// An arm as it may be: numbers and effects.
+/// An arm as it may be: numbers and effects, and what the effects went through before each record.
 struct Hypothesis {
   ArmParameters<double> nominal;
   std::vector<PlacedEffect> effects;
+  /// Internal states of the effects where a record's let-down begins, [effect][record's place * n_states + state]; what
+  /// is missing is 0.
+  std::vector<std::vector<double>> past = {};
+
+  double past_state(std::size_t effect, std::size_t i) const;
+  void set_past_state(std::size_t effect, std::size_t i, double value);
 };
+
+/// Without the effect at that place.
+Hypothesis without_effect(Hypothesis h, std::size_t place);
 
 /// Residuals of one record under one hypothesis, every stride-th sample: [2n][ceil(size / stride)].
 /// Channel k < n: torque residual of motor k, N m. Channel n + k: measured minus predicted reading of

@@ -42,6 +42,7 @@ struct Record {
   double motion_sigma = 0;                          ///< σ_t of K_m, s
   std::vector<double> compare;                      ///< K_c on this grid, [2 reach + 1]
   std::string source;
+  int place = -1;                                   ///< among the records of an Evidence; -1: of none
 
   double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
   bool has_joint(int k) const { return !joint[k].empty(); }

@@ -26,10 +26,11 @@ double draw_size(const EffectParameter& p, Random& random) {
   return within_bounds(p, p.neutral + (both && random.chance(0.5) ? -change : change));
 }
 
+/// Orders are whole numbers; anything else lies beside where a search sets out.
 double draw_shape(const EffectParameter& p, Random& random) {
-  if (!p.starts.empty()) return random.one_of(p.starts);
-  const double value = p.typical * random.log_uniform(0.5, 2);
-  return std::clamp(value, p.lower, p.upper);
+  const double start = p.starts.empty() ? p.typical : random.one_of(p.starts);
+  const bool is_order = p.unit == "1" && start == std::round(start);
+  return std::clamp(is_order ? start : start * random.log_uniform(0.5, 2), p.lower, p.upper);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "bench/diagnosis/strength.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -52,19 +53,35 @@ void StrengthMeter::take_off_constants(Eigen::Ref<Eigen::VectorXd> rows) const {
 }
 
 double StrengthMeter::strength(const PlacedEffect& effect) const {
-  Hypothesis with = nominal_;
-  with.effects.push_back(effect);
-  const std::vector<double> changed = evidence_.fit_rows({with})[0];
-  if (changed.empty() || base_.empty()) return std::numeric_limits<double>::infinity();
+  std::vector<Hypothesis> with = {nominal_};
+  with[0].effects.push_back(effect);
+  const auto place = static_cast<int>(nominal_.effects.size());
+  for (const FitParameter& p : effect_parameters(evidence_, with[0], nominal_.nominal, place))
+    if (is_past(p)) {
+      with.push_back(with[0]);
+      set_parameter(with.back(), p, p.scale);
+    }
+  const auto rows = evidence_.fit_rows(with);
+  if (std::ranges::any_of(rows, [](const auto& r) { return r.empty(); }) || base_.empty())
+    return std::numeric_limits<double>::infinity();
   const bool of_constants = is_constant_error_of_a_sensor(effect, nominal_.nominal);
   const Reach& reach = of_constants ? whole_ : centred_;
-  Eigen::VectorXd d = Eigen::VectorXd::Zero(reach.J.rows());
-  for (std::size_t r = 0; r < changed.size(); ++r)
-    d(static_cast<Eigen::Index>(r)) = (changed[r] - base_[r]) / evidence_.floor()[evidence_.row_channel()[r]];
-  if (!of_constants) take_off_constants(d);
-  d -= reach.J * reach.qr.solve(d);
+  const auto beyond_reach = [&](const std::vector<double>& now, const std::vector<double>& before) {
+    Eigen::VectorXd d = Eigen::VectorXd::Zero(reach.J.rows());
+    for (std::size_t r = 0; r < now.size(); ++r)
+      d(static_cast<Eigen::Index>(r)) = (now[r] - before[r]) / evidence_.floor()[evidence_.row_channel()[r]];
+    if (!of_constants) take_off_constants(d);
+    return Eigen::VectorXd(d - reach.J * reach.qr.solve(d));
+  };
+  Eigen::VectorXd d = beyond_reach(rows[0], base_);
+  if (rows.size() > 1) {
+    Eigen::MatrixXd past(d.size(), static_cast<Eigen::Index>(rows.size()) - 1);
+    for (Eigen::Index i = 0; i < past.cols(); ++i)
+      past.col(i) = beyond_reach(rows[static_cast<std::size_t>(i) + 1], rows[0]);
+    d -= past * past.colPivHouseholderQr().solve(d);
+  }
   std::vector<double> square(evidence_.channels(), 0), count(evidence_.channels(), 0);
-  for (std::size_t r = 0; r < changed.size(); ++r) {
+  for (std::size_t r = 0; r < base_.size(); ++r) {
     square[evidence_.row_channel()[r]] += d(static_cast<Eigen::Index>(r)) * d(static_cast<Eigen::Index>(r));
     count[evidence_.row_channel()[r]] += 1;
   }

@@ -1,13 +1,14 @@
 #pragma once
-/// How much an effect shows in a log, beyond what the model's own tolerances and constant errors of the sensors could
-/// explain.
+/// How much an effect shows in a log, beyond what the model's own tolerances, constant errors of the sensors and another
+/// past of the effect could explain.
 ///
 ///   d        change of the predicted residuals by the effect, each channel over its floor     [rows]
-///   d⊥       d - J u - c,  u, c = argmin |d - J u - c|² / m + |u|²
+///   d⊥       d - J u - c - P v,  u, c, v = argmin |d - J u - c - P v|² / m + |u|²
 ///   strength max over channels of the root mean square of d⊥
 ///
 ///   c        a constant of each channel: an encoder's zero, a torque's bias; 0 for effects that are such errors
 ///   J        sensitivities to the model's numbers, in halves of their tolerance, over the floor  [rows x numbers]
+///   P        changes of d by what the effect's states were before the record                 [rows x states]
 ///   m        rows that are worth one independent sample
 ///
 /// At strength 1 the effect is as large as what the sensors resolve, or 1 % of the torque.
