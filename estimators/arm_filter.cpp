@@ -62,6 +62,7 @@ void ArmFilter::reset(const Sample& first) {
   history_ = CommandHistory(n, kHistorySpan);
   last_command_ = -kInfinity;
   report_ = {};
+  repaired_before_ = filter_->repaired();
   noise_.reset(Eigen::VectorXd::Ones(n));
   const Eigen::VectorXd home = model_.home();
   const Eigen::VectorXd x = process_->state_at_rest(unstretched_motors(process_->arm(), home), home);
@@ -197,7 +198,7 @@ ArmFilter::Moment ArmFilter::moment() const {
           .external = external_,
           .adapted = noise_.adapted(),
           .S = filter_->S(),
-          .report = report_};
+          .report = report()};
 }
 
 void ArmFilter::go_back(const Moment& moment) {
@@ -210,6 +211,7 @@ void ArmFilter::go_back(const Moment& moment) {
   external_ = moment.external;
   noise_.reset(moment.adapted);
   report_ = moment.report;
+  repaired_before_ = filter_->repaired();
   filter_->reset(moment.x, moment.S);
 }
 
@@ -228,7 +230,7 @@ Estimate ArmFilter::estimate() const { return joint_estimate(process_->layout(),
 
 EstimatorReport ArmFilter::report() const {
   EstimatorReport r = report_;
-  r.repaired_factors = filter_->repaired();
+  r.repaired_factors += filter_->repaired() - repaired_before_;
   return r;
 }
 
