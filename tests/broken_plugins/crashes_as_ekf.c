@@ -1,10 +1,11 @@
+#include "crash.h"
 #include "well_formed.h"
 
-/* In the place of a built-in estimator; it writes where nothing is. */
+/* In the place of a built-in estimator. */
 static int update_crash(void* instance, const halyard_sample* sample, halyard_innovation* innovation, char* message,
                         size_t message_size) {
   (void)instance, (void)sample, (void)innovation, (void)message, (void)message_size;
-  *(volatile int*)8 = 1;
+  crash();
   return HALYARD_OK;
 }
 
