@@ -41,10 +41,9 @@ Data simulated_data(const CompareCommandOptions& options) {
   const std::filesystem::path model = options.model.empty() ? scenario.model : options.model;
   data.model = read_model(model);
   data.model_path = model.string();
-  if (data.model.n() != scenario.robot.n()) {
-    throw InputError(fmt::format("{}: has {} joints and the scenario's robot {}; give a model of the same robot",
-                                 model.string(), data.model.n(), scenario.robot.n()));
-  }
+  if (!joints_alike(data.model.nominal, scenario.robot.nominal))
+    throw InputError(model.string() + ": its joints are not those of the scenario's robot; give a model with as many "
+                     "joints, of the same types and driven alike");
   if (options.noise >= 0) {
     scenario.noise = assumed_noise(data.model, scenario.control_period_s);
     for (std::vector<double>* deviations :

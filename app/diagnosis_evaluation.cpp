@@ -10,11 +10,10 @@
 #include <mutex>
 #include <numbers>
 
+#include "app/contained_run.h"
 #include "app/diagnosis_output.h"
 #include "app/judgement/error_statistics.h"
-#include "app/estimate.h"
 #include "app/sensor_readings.h"
-#include "plugins/loader.h"
 
 namespace halyard {
 namespace {
@@ -33,7 +32,7 @@ EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const 
   try {
     for (const auto& [held, from] : logs) {
       const Log& log = *held;
-      const EstimatorRun run = run_estimator(*make_estimator(name, model), name, log, {.use_joint_torque = true});
+      const EstimatorRun run = run_contained(name, model, log, {.use_joint_torque = true});
       const Signals readings = sensor_readings(model, run);
       const std::size_t first = first_counted_sample(log.time, std::max(kSkip, from - log.time.front()));
       const auto append = [first](const std::vector<double>& from, std::vector<double>& to) {

@@ -7,10 +7,9 @@
 #include <span>
 #include <stdexcept>
 
-#include "app/estimate.h"
+#include "app/contained_run.h"
 #include "app/judgement/error_statistics.h"
 #include "plant/simulate.h"
-#include "plugins/loader.h"
 
 namespace halyard {
 namespace {
@@ -40,7 +39,7 @@ std::vector<std::vector<double>> errors_of(const Scenario& scenario, const ArmMo
   const std::size_t first = first_counted_sample(data.truth.time, skip_s);
   std::vector<std::vector<double>> errors;
   for (const std::string& name : estimators) {
-    const EstimatorRun run = run_estimator(*make_estimator(name, model), name, data.measured);
+    const EstimatorRun run = run_contained(name, model, data.measured);
     errors.emplace_back();
     for (int k = 0; k < model.n(); ++k) {
       const std::span<const double> estimate = run.estimates.joint_position[k], truth = data.truth.joint_position[k];

@@ -40,7 +40,7 @@ Scenario with_effects(Scenario scenario, const ArmModel& model, const std::vecto
 
 /// Simulates every robot in every scenario, in parallel, and runs the estimators with the model over it; errors count
 /// from skip_s on. The result does not depend on the number of threads. progress(fraction) may be called from any
-/// thread. Throws as simulate, make_estimator and run_estimator do.
+/// thread. Throws as simulate and run_contained do.
 EffectStudy study_effects(const std::vector<Scenario>& scenarios, const ArmModel& model,
                           const std::vector<std::string>& estimators, double skip_s,
                           const std::function<void(double)>& progress = {});

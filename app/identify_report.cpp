@@ -57,7 +57,8 @@ void add_sentences(report::Page& page, const IdentifyResult& result) {
     text += fmt::format("{}{}: {}.", text.empty() ? "" : "\n", capitalised(n.name), in_words(n.convergence));
   page.verdict(all_converged ? report::VerdictKind::good : report::VerdictKind::warning, text);
   text.clear();
-  for (const std::string& doubt : doubts(result)) text += (text.empty() ? "" : "\n") + capitalised(doubt) + ".";
+  for (const std::string& doubt : doubts(result))
+    text += fmt::format("{}{}.", text.empty() ? "" : "\n", capitalised(doubt));
   if (!text.empty()) page.verdict(adopted(result) ? report::VerdictKind::warning : report::VerdictKind::bad, text);
 }
 

@@ -159,7 +159,7 @@ std::string proposal_xml(const Scenario& scenario, const std::string& model) {
     } else {
       xml.PushAttribute("kind", "point_to_point");
       std::string points;
-      for (const double p : t.points) points += (points.empty() ? "" : " ") + exact_text(p);
+      for (const double p : t.points) points.append(points.empty() ? "" : " ").append(exact_text(p));
       xml.PushAttribute("points", points.c_str());
       number("move", t.move_s);
       number("dwell", t.dwell_s);

@@ -23,8 +23,11 @@ double greatest_magnitude(const std::vector<double>& values) {
 
 void print_joint(const SimulationResult& result, const JointUnit& unit, int k) {
   const auto [lowest, highest] = std::ranges::minmax(result.truth.joint_position[k]);
-  fmt::print("  joint {}: {:.4g} .. {:.4g} {}, motor torque up to {:.4g} N m\n", k + 1, unit.shown_per_si * lowest,
-             unit.shown_per_si * highest, unit.shown, greatest_magnitude(result.measured.motor_torque[k]));
+  fmt::print("  joint {}: {:.4g} .. {:.4g} {}", k + 1, unit.shown_per_si * lowest, unit.shown_per_si * highest,
+             unit.shown);
+  if (result.measured.has_motor_torque(k))
+    fmt::print(", motor torque up to {:.4g} N m", greatest_magnitude(result.measured.motor_torque[k]));
+  fmt::print("\n");
 }
 
 }  // namespace

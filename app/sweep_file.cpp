@@ -169,10 +169,9 @@ Sweep read_sweep(const fs::path& path) {
   sweep.scenario.duration_s = element.number_or("duration", sweep.scenario.duration_s, "s", Sign::positive);
   const fs::path model_file = element.has("model") ? element.path("model") : sweep.scenario.model;
   sweep.model = read_model(model_file);
-  if (sweep.model.n() != sweep.scenario.robot.n()) {
-    element.fail("model", fmt::format("has {} joints and the scenario's robot {}; give a model of the same robot",
-                                      sweep.model.n(), sweep.scenario.robot.n()));
-  }
+  if (!joints_alike(sweep.model.nominal, sweep.scenario.robot.nominal))
+    element.fail("model", "its joints are not those of the scenario's robot; give a model with as many joints, of the "
+                          "same types and driven alike");
 
   SweepGrid& grid = sweep.grid;
   grid.name = element.text("name");

@@ -2,6 +2,7 @@
 
 #include "bench/bench_arm.h"
 #include "estimators/arm_filter.h"
+#include "estimators/arm_models.h"
 #include "estimators/built_in.h"
 #include "estimators/sr_ukf.h"
 
@@ -52,35 +53,13 @@ BENCHMARK_CAPTURE(estimator_step, disturbance_sr_ukf, &make_disturbance_sr_ukf)
 BENCHMARK_CAPTURE(estimator_step, camera_sr_ukf, &make_camera_sr_ukf)->Name("EstimatorStep/camera_sr_ukf");
 BENCHMARK_CAPTURE(estimator_step, smoother, &make_smoother)->Name("EstimatorStep/smoother");
 
-/// The process model's step, all sigma points side by side in lanes, or one by one in scalar code.
-class Points final : public DiscreteProcess {
+/// The process model's step, sigma points one by one in scalar code.
+class OneByOne final : public ArmProcess {
  public:
-  Points(const ProcessModel& model, const Step& step, bool in_lanes)
-      : model_(model), step_(step), in_lanes_(in_lanes) {}
+  using ArmProcess::ArmProcess;
   void advance(Eigen::MatrixXd& X) const override {
-    if (in_lanes_) return model_.advance_many(step_, X);
     for (Eigen::Index c = 0; c < X.cols(); ++c) model_.advance(step_, X.col(c).data());
   }
-  void advance_with_jacobian(Eigen::VectorXd&, Eigen::MatrixXd&) const override {}
-  std::string name_of(int state) const override { return model_.state_name(state); }
-
- private:
-  const ProcessModel& model_;
-  Step step_;
-  bool in_lanes_;
-};
-
-class LinearReadings final : public MeasurementModel {
- public:
-  explicit LinearReadings(const ProcessModel& model) : model_(model) {}
-  bool is_affine() const override { return true; }
-  Eigen::VectorXd read(const Eigen::VectorXd& x) const override { return model_.motor_readings(0, x); }
-  Eigen::VectorXd linearise(const Eigen::VectorXd& x, Eigen::MatrixXd& H) const override {
-    return model_.motor_readings(0, x, &H);
-  }
-
- private:
-  const ProcessModel& model_;
 };
 
 /// Prediction and correction of the square-root UKF, the noise of the step given.
@@ -102,8 +81,9 @@ void sr_ukf_step(benchmark::State& state, bool in_lanes) {
   for (auto _ : state) {
     if (next == samples.size()) filter.reset(start, S), next = 1;
     const Step step{samples[next - 1].time_s, 1e-3, samples[next - 1].motor_torque.data()};
-    filter.predict(Points(process, step, in_lanes), Q_root);
-    filter.update(LinearReadings(process), samples[next].motor_position, R_root, 1e9);
+    if (in_lanes) filter.predict(ArmProcess(process, step), Q_root);
+    else filter.predict(OneByOne(process, step), Q_root);
+    filter.update(MotorReadings(process, 0, {0, 1, 2}), samples[next].motor_position, R_root, 1e9);
     benchmark::DoNotOptimize(filter.x());
     ++next;
   }

@@ -12,8 +12,9 @@ function(halyard_estimator name)
     VISIBILITY_INLINES_HIDDEN ON)
 endfunction()
 
-# halyard_estimator_test(NAME MODEL [KALMAN]): a test of CTest that runs the conformance suite over the plug-in NAME, tried
-# with the arm of MODEL.xml. KALMAN: it is a Kalman filter with halyard's noise, and is held against the textbook's.
+# halyard_estimator_test(NAME MODEL [KALMAN]): a test of CTest that runs the conformance suite over the plug-in NAME,
+# tried with the arm of MODEL.xml. KALMAN: it is a Kalman filter with halyard's noise, and is held against the
+# textbook's.
 function(halyard_estimator_test name model)
   cmake_parse_arguments(is "KALMAN" "" "" ${ARGN})
   if(TARGET halyard_app)

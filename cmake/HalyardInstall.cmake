@@ -5,7 +5,8 @@ include(CMakePackageConfigHelpers)
 set(HALYARD_PLUGIN_DIR ${CMAKE_INSTALL_LIBDIR}/halyard/plugins)
 set(HALYARD_DATA_DIR ${CMAKE_INSTALL_DATADIR}/halyard)
 set(HALYARD_PROGRAM ${CMAKE_INSTALL_BINDIR}/halyard)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/raven2 ${PROJECT_SOURCE_DIR}/examples/measured DESTINATION ${HALYARD_DATA_DIR}
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/raven2 ${PROJECT_SOURCE_DIR}/examples/measured
+  DESTINATION ${HALYARD_DATA_DIR}
   FILES_MATCHING PATTERN "*.xml" PATTERN "*.csv" PATTERN "*.md")
 
 # A shared library brings along what it links, a static one leaves that to its users.
@@ -17,7 +18,8 @@ if(NOT BUILD_SHARED_LIBS)
 endif()
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/halyard)
-configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/halyardConfig.cmake.in ${PROJECT_BINARY_DIR}/halyardConfig.cmake
+configure_package_config_file(
+  ${PROJECT_SOURCE_DIR}/cmake/halyardConfig.cmake.in ${PROJECT_BINARY_DIR}/halyardConfig.cmake
   INSTALL_DESTINATION ${package_folder}
   PATH_VARS HALYARD_PLUGIN_DIR HALYARD_DATA_DIR HALYARD_PROGRAM)
 # Before 1.0 a minor version may change the C++ interfaces.

@@ -3,9 +3,9 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 
+#include "estimators/arm_models.h"
 #include "estimators/static_equilibrium.h"
 #include "transmission/path_matrix.h"
 
@@ -15,44 +15,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFastest = 0.05;      // s, for a joint to cross its range
 constexpr double kHistorySpan = 2;   // s, longer than any delay
-
-class ArmProcess final : public DiscreteProcess {
- public:
-  ArmProcess(const ProcessModel& model, const Step& step) : model_(model), step_(step) {}
-  void advance(Eigen::MatrixXd& X) const override { model_.advance_many(step_, X); }
-  void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const override {
-    model_.advance_with_jacobian(step_, x.data(), F);
-  }
-  std::string name_of(int state) const override {
-    std::ostringstream text;
-    text << model_.state_name(state) << " at " << step_.time_s + step_.dt_s << " s";
-    return text.str();
-  }
-
- private:
-  const ProcessModel& model_;
-  Step step_;
-};
-
-/// The readings of some of the motors.
-class MotorReadings final : public MeasurementModel {
- public:
-  MotorReadings(const ProcessModel& model, double time_s, const std::vector<int>& motors)
-      : model_(model), time_(time_s), motors_(motors) {}
-  bool is_affine() const override { return model_.readings_are_linear(); }
-  Eigen::VectorXd read(const Eigen::VectorXd& x) const override { return model_.motor_readings(time_, x)(motors_); }
-  Eigen::VectorXd linearise(const Eigen::VectorXd& x, Eigen::MatrixXd& H) const override {
-    Eigen::MatrixXd all;
-    const Eigen::VectorXd z = model_.motor_readings(time_, x, &all);
-    H = all(motors_, Eigen::all);
-    return z(motors_);
-  }
-
- private:
-  const ProcessModel& model_;
-  double time_;
-  const std::vector<int>& motors_;
-};
 
 }  // namespace
 
@@ -100,6 +62,7 @@ void ArmFilter::reset(const Sample& first) {
   history_ = CommandHistory(n, kHistorySpan);
   last_command_ = -kInfinity;
   report_ = {};
+  repaired_before_ = filter_->repaired();
   noise_.reset(Eigen::VectorXd::Ones(n));
   const Eigen::VectorXd home = model_.home();
   const Eigen::VectorXd x = process_->state_at_rest(unstretched_motors(process_->arm(), home), home);
@@ -235,7 +198,7 @@ ArmFilter::Moment ArmFilter::moment() const {
           .external = external_,
           .adapted = noise_.adapted(),
           .S = filter_->S(),
-          .report = report_};
+          .report = report()};
 }
 
 void ArmFilter::go_back(const Moment& moment) {
@@ -248,6 +211,7 @@ void ArmFilter::go_back(const Moment& moment) {
   external_ = moment.external;
   noise_.reset(moment.adapted);
   report_ = moment.report;
+  repaired_before_ = filter_->repaired();
   filter_->reset(moment.x, moment.S);
 }
 
@@ -266,7 +230,7 @@ Estimate ArmFilter::estimate() const { return joint_estimate(process_->layout(),
 
 EstimatorReport ArmFilter::report() const {
   EstimatorReport r = report_;
-  r.repaired_factors = filter_->repaired();
+  r.repaired_factors += filter_->repaired() - repaired_before_;
   return r;
 }
 

@@ -86,7 +86,8 @@ class ArmFilter final : public Estimator {
   double refused_since_ = 0;           // first of the readings refused without one accepted since; infinite: none is
   Eigen::VectorXd reading_;            // last of each motor, NaN before
   Eigen::VectorXd torque_, external_;  // held
-  EstimatorReport report_;
+  EstimatorReport report_;             // repaired factors: up to where the filter's count was repaired_before_
+  long repaired_before_ = 0;
 };
 
 }  // namespace halyard

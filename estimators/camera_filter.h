@@ -1,25 +1,25 @@
 #pragma once
 /// A filter that a camera corrects, which sees a marker at the tool, late and now and then:
 ///
-///   z = p(q(t - L)) + v,  v ~ N(0, σ_c² I)             p: the marker's position by forward kinematics, base frame   m
+///   z = p(q(t - L)) + v,  v ~ N(0, σ_c² I)             p: the marker's position by forward kinematics, base frame m
 ///
-///   L     `camera_latency`, exposure to arrival: a sample's marker was there L before the sample's time             s
-///   σ_c   `camera_noise`, of each axis                                                                             m
+///   L     `camera_latency`, exposure to arrival: a sample's marker was there L before the sample's time           s
+///   σ_c   `camera_noise`, of each axis                                                                           m
 ///
-/// The marker is where the model's payload hangs. The cables' equilibrium pulls joints back to where motors say they are
-/// within milliseconds: corrected alone, the joints would forget between two frames what the camera said. So the
+/// The marker is where the model's payload hangs. The cables' equilibrium pulls joints back to where motors say they
+/// are within milliseconds: corrected alone, the joints would forget between two frames what the camera said. So the
 /// state is augmented by what the motors cannot tell, an offset b_k of each cable's stretch,
 ///
 ///   x_k = r_m q_m / N - R_k q - b_k,   b' = w_b,   w_b ~ N(0, ρ² δ(t)),   b(0) ~ N(0, σ_b²)
 ///
-///   ρ     how far it wanders: `offset_wander`                                                                       m/√s
-///   σ_b   how large it may be at the start: `offset_start`                                                          m
+///   ρ     how far it wanders: `offset_wander`                                                                     m/√s
+///   σ_b   how large it may be at the start: `offset_start`                                                        m
 ///
-/// Both are 1 % of the cable's travel over the joint's range unless told. The joints have unknown forces besides, those of
-/// disturbance_filter.h: otherwise whatever the model lacks of a force would be told as an offset by which gravity pulls
-/// more or less. A frame is taken where it belongs: the filter
-/// goes back to the last sample before its exposure, predicts to it, is corrected, and takes the samples since then anew.
-/// A frame that was exposed within a gap after which the filter started anew is not taken.
+/// Both are 1 % of the cable's travel over the joint's range unless told. The joints have unknown forces besides, those
+/// of disturbance_filter.h: otherwise whatever the model lacks of a force would be told as an offset by which gravity
+/// pulls more or less. A frame is taken where it belongs: the filter goes back to the last sample before its exposure,
+/// predicts to it, is corrected, and takes the samples since then anew. A frame that was exposed within a gap after
+/// which the filter started anew is not taken.
 ///
 /// Besides the joints' motion it estimates cable_offset and cable_offset_std: b and its standard deviation, m.
 ///

@@ -13,17 +13,17 @@
 /// RAVEN-II's shoulder at rest an error of 0.18 N m with 4 N m/√s, 0.05 with 1, 0.015 with 0.25), slower it lags (0.1 s
 /// after a step of 1.5 N m a fifth is missing with 0.25).
 ///
-/// d is all that the model lacks of the sum of forces: another friction, mass or torque constant is told as a force on the
-/// joint. The friction of the process model creeps at standstill and passes a force on to the cable within some 20 ms;
-/// where real friction sticks, a force within its Coulomb level never reaches the motor, and cannot be told.
+/// d is all that the model lacks of the sum of forces: another friction, mass or torque constant is told as a force on
+/// the joint. The friction of the process model creeps at standstill and passes a force on to the cable within some
+/// 20 ms; where real friction sticks, a force within its Coulomb level never reaches the motor, and cannot be told.
 ///
 /// Besides the joints' motion it estimates
 ///
 ///   joint_force, joint_force_std   d and its standard deviation                                  N m | N
 ///   cable_force                    g of each joint's cable, the difference of its two runs       N
 ///
-/// Source of the augmentation: Jazwinski, "Stochastic Processes and Filtering Theory", 1970, section 8.4; as an observer
-/// of disturbances: Chen, Yang, Guo, Li, IEEE Trans. Industrial Electronics 63 (2016).
+/// Source of the augmentation: Jazwinski, "Stochastic Processes and Filtering Theory", 1970, section 8.4; as an
+/// observer of disturbances: Chen, Yang, Guo, Li, IEEE Trans. Industrial Electronics 63 (2016).
 
 #include "estimators/unknown_constant.h"
 

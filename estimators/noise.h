@@ -16,16 +16,16 @@
 ///
 ///   Q_root = (Δ_dt + 4 Δ_dt/2 + G) / 6,   Δ_h = f_h(x + G) - f_h(x),   G = B σ √(2 τ dt)
 ///
-///   f_h   the process model's step of length h               B   accelerations of motors and joints per torque and force
+///   f_h   the process model's step of length h        B   accelerations of motors and joints per torque and force
 ///
 /// Where nothing damps within a step this is [½ dt² ; dt] B σ √(2 τ / dt) (Bar-Shalom, Li, Kirubarajan 2001, section
 /// 6.3.2). A cable's damper with a rate λ of some 1/dt carries a joint only 1/λ per unit of speed instead: that formula
 /// had the RAVEN-II's third joint (λ = 2000 1/s, dt = 1 ms) wander twice as far as it does, this one has it right.
 ///
 /// τ = 1 ms by default. With it νᵀS⁻¹ν of the RAVEN-II's three motors in the paper's experiment A, which ought to be 3,
-/// is 2.6 where the model is exact, 2.7 where all masses are off by their tolerance, and 7 to 12 where all frictions are;
-/// with 0.1 ms it is 2.8, 3.3 and 47 to 96, with 10 ms 2.4, 2.4 and 2.7 to 3.3. From 0.1 to 10 ms joint errors grow
-/// fourfold where the model is exact, and twofold where frictions are off.
+/// is 2.6 where the model is exact, 2.7 where all masses are off by their tolerance, and 7 to 12 where all frictions
+/// are; with 0.1 ms it is 2.8, 3.3 and 47 to 96, with 10 ms 2.4, 2.4 and 2.7 to 3.3. From 0.1 to 10 ms joint errors
+/// grow fourfold where the model is exact, and twofold where frictions are off.
 ///
 /// By hand, as the paper does: the options below, per joint. Adapted to the record: with an adaptation time T > 0 the
 /// deviations of motor k's torque and joint k's force are c_k times the levels, and each innovation moves
@@ -74,7 +74,8 @@ class ArmNoise {
   void reset(const Eigen::VectorXd& adapted) { adapted_ = adapted; }
   /// σ_z [n].
   const Eigen::VectorXd& encoder() const { return levels_.encoder; }
-  /// S [n_states x n_states] in equilibrium at x; rates are at rest, or from two readings dt_s apart: infinite, or finite.
+  /// S [n_states x n_states] in equilibrium at x; rates are at rest, or from two readings dt_s apart: infinite, or
+  /// finite.
   Eigen::MatrixXd initial_root(const Eigen::VectorXd& x, double dt_s) const;
 
  private:

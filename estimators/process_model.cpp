@@ -106,10 +106,12 @@ void ProcessModel::find_stiffest_rate(const ArmModel& model) {
 }
 
 int ProcessModel::substeps(double dt_s) const {
+  constexpr double kLongStep = 1e-3;   // s
   const double needed = std::max(1.0, std::ceil(dt_s * stiffest_rate_ / kStableStep));
-  if (needed <= kMaxSubsteps) return static_cast<int>(needed);
+  const double allowed = std::floor(kMaxSubsteps * std::max(1.0, dt_s / kLongStep));
+  if (needed <= allowed) return static_cast<int>(needed);
   std::ostringstream text;
-  text << "process model: a step of " << dt_s << " s would need " << needed << " sub-steps (at most " << kMaxSubsteps
+  text << "process model: a step of " << dt_s << " s would need " << needed << " sub-steps (at most " << allowed
        << ") for " << stiffest_state() << ", which settles at " << stiffest_rate_
        << " 1/s at standstill; take shorter steps, a larger smoothing speed of its friction, or less damping";
   throw std::runtime_error(text.str());

@@ -33,7 +33,8 @@ struct Step {
 
 class ProcessModel {
  public:
-  /// More sub-steps than this in one step are refused: the model is too stiff for it.
+  /// What a sample may cost, at 1 kHz: more sub-steps than this in a step, or in each millisecond of a longer one, are
+  /// refused. The model is too stiff then; that a row of a log is missing makes it no stiffer.
   static constexpr int kMaxSubsteps = 500;
 
   /// Throws std::runtime_error if the model gives no finite derivative at standstill.
@@ -53,7 +54,7 @@ class ProcessModel {
   double stiffest_rate() const { return stiffest_rate_; }
   /// The state that takes most part in it.
   const std::string& stiffest_state() const { return state_names_[stiffest_state_]; }
-  /// Throws std::runtime_error naming state and rate if more than kMaxSubsteps are needed.
+  /// Throws std::runtime_error naming state and rate if more are needed than kMaxSubsteps allows.
   int substeps(double dt_s) const;
 
   /// All of these throw std::runtime_error with time and state name if a result is not finite.

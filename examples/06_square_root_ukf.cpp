@@ -36,7 +36,7 @@ int main() {
   for (int k = 0; k < 3; ++k) {
     fmt::print("joint {} RMS error: filter {}, kinematics {}\n", k + 1, in_units(arm, k, ours(k)),
                in_units(arm, k, naive(k)));
-    if (ours(k) < naive(k)) closer += " " + std::to_string(k + 1);
+    if (ours(k) < naive(k)) closer += fmt::format(" {}", k + 1);
   }
   fmt::print("the filter is closer than kinematics at joints:{}\n", closer);
 }

@@ -1,5 +1,7 @@
 #include "model/arm_model.h"
 
+#include <algorithm>
+
 namespace halyard {
 namespace {
 
@@ -64,6 +66,14 @@ Eigen::VectorXd ArmModel::home() const {
   Eigen::VectorXd q(joints.size());
   for (std::size_t k = 0; k < joints.size(); ++k) q(k) = joints[k].home;
   return q;
+}
+
+bool joints_alike(const ArmParameters<double>& a, const ArmParameters<double>& b) {
+  if (a.n != b.n) return false;
+  const auto alike = [](const JointParameters<double>& j, const JointParameters<double>& other) {
+    return j.type == other.type && (j.drive == Drive::none) == (other.drive == Drive::none);
+  };
+  return std::equal(a.joint, a.joint + a.n, b.joint, alike);
 }
 
 std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm) {

@@ -43,6 +43,9 @@ struct ArmModel {
   Eigen::VectorXd home() const;
 };
 
+/// Whether two arms have as many joints, of the same types and driven alike: by a motor, or by none.
+bool joints_alike(const ArmParameters<double>& a, const ArmParameters<double>& b);
+
 /// One number of the arm that a study may vary and a diagnosis may refit.
 struct ParameterInfo {
   std::string name;                      ///< "joint 2 cable stiffness"

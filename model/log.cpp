@@ -91,11 +91,14 @@ std::vector<Column> read_header(const Lines& header) {
 }
 
 bool is_required(const std::string& name, const ReadOptions& options) {
+  return name.starts_with("motor_position_") || (options.torque_required && name.starts_with("motor_torque_"));
+}
+
+/// Whether a column is of a motor that the arm does not have.
+bool has_no_motor(const std::string& name, const ReadOptions& options) {
   const std::string_view joint = std::string_view(name).substr(name.rfind('_') + 1);
-  const bool of_motor =
-      std::ranges::none_of(options.without_motor, [&](int k) { return joint == std::to_string(k + 1); });
-  return of_motor && (name.starts_with("motor_position_") ||
-                      (options.torque_required && name.starts_with("motor_torque_")));
+  return name.starts_with("motor_") &&
+         std::ranges::any_of(options.without_motor, [&](int k) { return joint == std::to_string(k + 1); });
 }
 
 /// Connects the columns of a file to those of a log.
@@ -104,6 +107,7 @@ void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, 
   const auto append = [](std::string& list, const std::string& text) { list += (list.empty() ? "" : ", ") + text; };
   std::string missing, present;
   const auto bind_one = [&](const std::string& name, std::vector<double>& values) {
+    if (has_no_motor(name, options)) return;
     const auto mapped = map.sources().find(name);
     const bool is_mapped = mapped != map.sources().end();
     const ColumnSource source = is_mapped ? mapped->second : ColumnSource{name};

@@ -18,8 +18,8 @@ using Signals = std::vector<std::vector<double>>;
 ///
 ///   member           column of a file          unit
 ///   time             time                      s, strictly increasing, gaps allowed
-///   motor_torque     motor_torque_k            N·m at the motor shaft
-///   motor_position   motor_position_k          rad at the motor shaft
+///   motor_torque     motor_torque_k            N·m at the motor shaft, absent of a joint without a motor
+///   motor_position   motor_position_k          rad at the motor shaft, likewise
 ///   joint_position   joint_position_k          rad | m
 ///   joint_velocity   joint_velocity_k          rad/s | m/s
 ///   joint_torque     joint_torque_k            N·m | N, external load on the joint
@@ -72,7 +72,7 @@ void for_each_column(AnyLog& log, Visit visit) {
 
 struct ReadOptions {
   bool torque_required = true;      ///< motor_torque_k of every joint with a motor
-  std::vector<int> without_motor = {};   ///< joints, from 0, whose motor_position_k and motor_torque_k may be absent
+  std::vector<int> without_motor = {};   ///< joints, from 0; motor_torque_k and motor_position_k of them are not read
 };
 
 /// Reads a CSV file: UTF-8, one header row, commas, `#` starts a comment line, an empty cell is a missing sample. A

@@ -109,12 +109,7 @@ void read_trajectory(const XmlElement& element, Scenario& scenario, std::vector<
 ArmModel read_robot(const std::filesystem::path& path, const ArmParameters<double>& assumed,
                     const std::filesystem::path& model) {
   ArmModel robot = read_model(path);
-  bool same = robot.n() == assumed.n;
-  for (int k = 0; same && k < assumed.n; ++k) {
-    const JointParameters<double>&a = robot.nominal.joint[k], &b = assumed.joint[k];
-    same = a.type == b.type && (a.drive == Drive::none) == (b.drive == Drive::none);
-  }
-  if (!same)
+  if (!joints_alike(robot.nominal, assumed))
     throw InputError(path.string() + ": its joints are not those of the scenario's model " + model.string() +
                      "; give a robot with as many joints, of the same types and driven alike");
   return robot;

@@ -27,13 +27,14 @@ Eigen::VectorXd desired_joints(const Scenario& scenario, double time_s) {
 
 long number_of_ticks(const Scenario& scenario) { return std::lround(scenario.duration_s / scenario.control_period_s); }
 
+bool has_motor(const Scenario& scenario, int k) { return scenario.robot.nominal.joint[k].drive != Drive::none; }
+
 Log empty_log(const Scenario& scenario, long rows, bool with_velocity) {
   const int n = scenario.robot.n();
   Log log(n);
   log.time.resize(rows);
   for (int k = 0; k < n; ++k) {
-    log.motor_torque[k].resize(rows);
-    log.motor_position[k].resize(rows);
+    if (has_motor(scenario, k)) log.motor_torque[k].resize(rows), log.motor_position[k].resize(rows);
     log.joint_position[k].resize(rows);
     if (with_velocity) log.joint_velocity[k].resize(rows);
   }
@@ -152,11 +153,13 @@ SimulationResult simulate(const Scenario& scenario, const std::function<void(dou
 
     result.measured.time[i] = result.truth.time[i] = t;
     for (int k = 0; k < n; ++k) {
-      result.measured.motor_torque[k][i] = command(k);
-      result.measured.motor_position[k][i] = readings.motor(k);
+      if (has_motor(scenario, k)) {
+        result.measured.motor_torque[k][i] = command(k);
+        result.measured.motor_position[k][i] = readings.motor(k);
+        result.truth.motor_torque[k][i] = applied(k);
+        result.truth.motor_position[k][i] = s[k].motor_angle;
+      }
       result.measured.joint_position[k][i] = readings.joint(k);
-      result.truth.motor_torque[k][i] = applied(k);
-      result.truth.motor_position[k][i] = s[k].motor_angle;
       result.truth.joint_position[k][i] = s[k].joint_position;
       result.truth.joint_velocity[k][i] = s[k].joint_rate;
     }

@@ -342,7 +342,7 @@ TEST_F(BadInput, AnEstimatorThatFailsEndsItsOwnRowOfTheComparison) {
       {"crashes_in_update", "at 0.002 s: crashed: Segm"},
       {"never_returns", "at 0.002 s: took more than 0.3 s"}};
   for (const auto& [module, failure] : broken)
-    names += "," + std::string(HALYARD_BROKEN_PLUGINS) + "/" + module + ".so";
+    names.append("," HALYARD_BROKEN_PLUGINS "/").append(module).append(".so");
   const RunResult run = this->run({"compare", "log.csv", "--model", "raven2.xml", "--estimators", names + ",ekf",
                                    "--out", "cmp", "--skip", "0", "--step-limit", "0.3"});
   EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "estimators/built_in.h"
+#include "estimators/sr_ukf.h"
 #include "model/input_error.h"
 #include "plant/arm_plant.h"
 #include "plant/simulate.h"
@@ -158,6 +159,40 @@ TEST(CameraFilter, AFrameOfAGapDoesNotUndoTheNewStart) {
     if (i < 700 || i >= 1200) filter->update(sample_of(log.measured, i));
   const Eigen::Vector3d error = filter->estimate().joint_position - joints_at(log.truth, 1300);
   EXPECT_LT(error.norm(), 5e-3);
+}
+
+/// Loses a root at every prediction.
+class LosesRoots final : public SquareRootUkf {
+ public:
+  void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) override {
+    SquareRootUkf::predict(process, Q_root);
+    ++repaired_;
+  }
+};
+
+TEST(CameraFilter, CountsARepairOnceHoweverOftenAStepIsTakenAnew) {
+  // Each frame, exposed between two samples, cuts the step about it in two, for good.
+  const Camera camera{.rate_hz = 100, .latency_s = 0.0205, .noise_m = 1e-4, .dropout = 0};
+  const SimulationResult log = simulate(scenario(0.3, camera));
+  const EstimatorOptions given = {{"camera_latency", "0.0205"}};
+  OptionReader options("camera_sr_ukf", given);
+  const CameraOptions seen = read_camera_options(options, raven2());
+  const ArmModel model = with_unknown_offsets(raven2(), seen);
+  const auto process = std::make_shared<const ProcessModel>(model);
+  CameraFilter filter(model, process, read_arm_filter_options(options, model, *process), seen,
+                      std::make_unique<LosesRoots>());
+  for (int again = 0; again < 2; ++again) {
+    filter.reset(sample_of(log.measured, 0));
+    long predictions = 0;
+    for (std::size_t i = 1; i < log.measured.size(); ++i) {
+      const Sample s = sample_of(log.measured, i);
+      filter.update(s);
+      ++predictions;
+      if (s.marker.size() > 0 && s.time_s > 0.0205) ++predictions;
+    }
+    EXPECT_GT(predictions, long(log.measured.size()) + 20) << "frames were seen";
+    EXPECT_EQ(filter.report().repaired_factors, predictions);
+  }
 }
 
 TEST(CameraFilter, WrongOptionsAreRefused) {

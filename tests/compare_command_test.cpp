@@ -1,6 +1,7 @@
 // halyard compare, end to end on short runs of the RAVEN-II.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -85,6 +86,40 @@ TEST_F(App, CompareTakesALogAndAPluginByItsPath) {
   const json &named = result.at("estimators").at(0), &loaded = result.at("estimators").at(1);
   EXPECT_EQ(loaded.at("estimator"), "./mine.so");
   EXPECT_EQ(loaded.at("joints").at(1).at("rms_error"), named.at("joints").at(1).at("rms_error"));
+}
+
+TEST_F(App, CompareGivesEachMotorItsInnovationsThoughAJointBeforeItHasNone) {
+  write_short_scenario("experiment_a.xml", "1.5");
+  const std::string arm = text_of(path("raven2.xml"));
+  const std::size_t motor = arm.find("<motor"), friction = arm.find("<friction"), control = arm.find("<controller");
+  ASSERT_LT(motor, friction);
+  // The first joint swings freely, about an axis along which gravity pulls, and no other's cable passes it.
+  std::string swinging = arm;
+  swinging.erase(control, arm.find("/>", control) + 2 - control);
+  swinging.replace(motor, friction - motor, "");
+  swinging = replaced(swinging, "drive=\"cable\"", "drive=\"none\"");
+  swinging = replaced(replaced(swinging, "motor_counts=\"4000\" ", ""), "-9.81 0 0", "0 0 -9.81");
+  for (const char* coefficient : {"0.14545", "0.007797"})
+    swinging = replaced(swinging, "<coupling joint=\"1\" coefficient=\"" + std::string(coefficient) + "\"/>", "");
+  done({"simulate", "experiment_a.xml", "--out", "driven.csv"});
+  write_text(path("raven2.xml"), swinging);
+  done({"simulate", "experiment_a.xml", "--out", "swinging.csv"});
+  const std::vector<std::string> columns = CsvFile(path("swinging.csv")).header;
+  EXPECT_EQ(std::ranges::count(columns, "motor_position_1"), 0);
+  EXPECT_EQ(std::ranges::count(columns, "motor_torque_3"), 1);
+  for (const std::string data : {"experiment_a.xml", "swinging.csv", "driven.csv"}) {
+    done({"compare", data, "--model", "raven2.xml", "--estimators", "sr_ukf", "--out", "cmp"});
+    const std::string report = text_of(path("cmp/report.html"));
+    EXPECT_FALSE(contains(report, "innovation of motor 1 in time")) << data;
+    EXPECT_TRUE(contains(report, "innovation of motor 2 in time")) << data;
+    EXPECT_TRUE(contains(report, "innovation of motor 3 in time")) << data;
+  }
+  write_text(path("driven.xml"), arm);
+  const RunResult other = run({"compare", "experiment_a.xml", "--model", "driven.xml", "--estimators", "sr_ukf",
+                               "--out", "other"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_EQ(other.err, "driven.xml: its joints are not those of the scenario's robot; give a model with as many "
+                       "joints, of the same types and driven alike\n");
 }
 
 TEST_F(App, CompareOfALogWithoutJointSensorsSaysThatThereIsNothingToJudgeBy) {

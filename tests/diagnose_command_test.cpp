@@ -16,10 +16,14 @@ const std::string kLog = HALYARD_SOURCE_DIR "/examples/raven2/undeclared_effect.
 class DiagnoseCommand : public ProgramTest {};
 
 TEST_F(DiagnoseCommand, SaysWhyAndByHowMuchEachEstimatorGains) {
-  // A filter that refuses its options is told of, and spoils nothing else.
-  write_text(path("model.xml"),
-             replaced(text_of(kModel), "</arm>", "<estimator name=\"ekf\" no_such_option=\"1\"/>\n</arm>"));
-  const std::string printed = done({"diagnose", "--model", "model.xml", "--data", kLog, "--out", "out"});
+  // A filter that crashes is told of, and spoils nothing else.
+  fs::create_directories(path("with_a_bad_ekf"));
+  fs::copy(program_.parent_path() / "plugins", path("with_a_bad_ekf/plugins"));
+  fs::copy_file(fs::path(HALYARD_BROKEN_PLUGINS) / "crashes_as_ekf.so", path("with_a_bad_ekf/plugins/ekf.so"),
+                fs::copy_options::overwrite_existing);
+  fs::copy_file(program_, path("with_a_bad_ekf/halyard"));
+  program_ = path("with_a_bad_ekf/halyard");
+  const std::string printed = done({"diagnose", "--model", kModel, "--data", kLog, "--out", "out"});
 
   const json diagnosis = json::parse(text_of(path("out/diagnosis.json")));
   ASSERT_EQ(diagnosis.at("effects").size(), 1u) << diagnosis.dump(2);
@@ -45,7 +49,8 @@ TEST_F(DiagnoseCommand, SaysWhyAndByHowMuchEachEstimatorGains) {
   EXPECT_LT(left("joint_position_rms"), 0.05);
   EXPECT_LT(left("joint_position_peak"), 1);
   const std::string page = text_of(path("out/report.html"));
-  EXPECT_TRUE(contains(page, "ekf failed with the given model: "));
+  EXPECT_TRUE(contains(page, "ekf failed with the given model: estimator ekf on "));
+  EXPECT_TRUE(contains(page, "crashed: Segm"));
   EXPECT_TRUE(contains(page, "joint behind its motors, over load"));
 }
 

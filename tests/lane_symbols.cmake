@@ -1,5 +1,5 @@
-# Fails if one of OBJECTS that is compiled once per instruction set defines a symbol that the linker may share with other files (weak code,
-# unique): code of a wider instruction set would run where it cannot.
+# Fails if one of OBJECTS that is compiled once per instruction set defines a symbol that the linker may share with
+# other files (weak code, unique): code of a wider instruction set would run where it cannot.
 #   cmake -DNM=<nm> -DOBJECTS=<list> -P lane_symbols.cmake
 set(checked 0)
 foreach(object IN LISTS OBJECTS)

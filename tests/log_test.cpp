@@ -102,6 +102,15 @@ TEST(ReadLog, AJointWithoutMotorNeedsNoColumnsOfOne) {
   EXPECT_EQ(log.joint_position[0], (std::vector<double>{1, 2}));
 }
 
+TEST(ReadLog, ColumnsOfAMotorThatTheArmDoesNotHaveAreNotRead) {
+  const std::string text = "time,motor_torque_1,motor_position_1,joint_position_1\n0,somebody else's,,1\n1,3,4,2\n";
+  const Log log = read_text(text, {}, {.without_motor = {0}});
+  EXPECT_TRUE(log.motor_torque[0].empty());
+  EXPECT_TRUE(log.motor_position[0].empty());
+  EXPECT_EQ(log.joint_position[0], (std::vector<double>{1, 2}));
+  EXPECT_EQ(log.ignored_columns, (std::vector<std::string>{"motor_torque_1", "motor_position_1"}));
+}
+
 TEST(ReadLog, ClockOfTheEpochCountsFromTheFirstSample) {
   const Log log = read_text(kHeader + "1763700000.25,1,2\n1763700000.5,1,2\n");
   EXPECT_EQ(log.clock_start, 1763700000.25);

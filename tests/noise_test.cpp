@@ -8,6 +8,7 @@
 #include <limits>
 #include <random>
 
+#include "estimators/arm_models.h"
 #include "estimators/built_in.h"
 #include "estimators/ekf.h"
 #include "estimators/sr_ukf.h"
@@ -74,33 +75,6 @@ TEST(ProcessNoise, OfTwoHalfStepsIsThatOfOne) {
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(two(rates[k], rates[k]) / Q(rates[k], rates[k]), 1, 0.02);
 }
 
-class ArmStep final : public DiscreteProcess {
- public:
-  ArmStep(const ProcessModel& model, const Step& step) : model_(model), step_(step) {}
-  void advance(Eigen::MatrixXd& X) const override { model_.advance_many(step_, X); }
-  void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const override {
-    model_.advance_with_jacobian(step_, x.data(), F);
-  }
-  std::string name_of(int state) const override { return model_.state_name(state); }
-
- private:
-  const ProcessModel& model_;
-  Step step_;
-};
-
-class AllMotors final : public MeasurementModel {
- public:
-  explicit AllMotors(const ProcessModel& model) : model_(model) {}
-  bool is_affine() const override { return true; }
-  Eigen::VectorXd read(const Eigen::VectorXd& x) const override { return model_.motor_readings(0, x); }
-  Eigen::VectorXd linearise(const Eigen::VectorXd& x, Eigen::MatrixXd& H) const override {
-    return model_.motor_readings(0, x, &H);
-  }
-
- private:
-  const ProcessModel& model_;
-};
-
 /// (e/σ)² of the joints in the mean over an arm on sines under the noise that the filter assumes, drawn as torques and
 /// forces held over each step: as it is, and that of the linearised error under the same draws w, v,
 ///
@@ -145,14 +119,14 @@ Nees nees_under_assumed_noise(GaussianFilter& filter) {
     Eigen::VectorXd ahead = filter.x();
     Eigen::MatrixXd F(12, 12), H;
     process.advance_with_jacobian(step, ahead.data(), F);
-    filter.predict(ArmStep(process, step), Q_root);
+    filter.predict(ArmProcess(process, step), Q_root);
     const Eigen::VectorXd z = process.motor_readings(0, x, &H) + R_root * v;
     const Eigen::MatrixXd P = filter.S() * filter.S().transpose();
     const Eigen::MatrixXd P_y = H * P * H.transpose() + R_root * R_root;
     const Eigen::MatrixXd K = P_y.llt().solve(H * P).transpose();
     e = F * e - Q_root * w;
     e += K * (R_root * v - H * e);
-    filter.update(AllMotors(process), z, R_root, std::numeric_limits<double>::infinity());
+    filter.update(MotorReadings(process, 0, {0, 1, 2}), z, R_root, std::numeric_limits<double>::infinity());
     for (int k = 0; k < 3 && i >= kFirst; ++k) {
       const int at = process.layout().position[k];
       const double variance = filter.S().row(at).squaredNorm() * (kSteps - kFirst);

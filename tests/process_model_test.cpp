@@ -182,6 +182,14 @@ TEST(ProcessModel, AModelTooStiffForTheStepIsRefusedWithTheReason) {
   }
 }
 
+TEST(ProcessModel, ARowThatIsMissingMakesNoModelTooStiff) {
+  const ProcessModel process(chain_of(7, 10));
+  const int prompt = process.substeps(1e-3), after_ten = process.substeps(10e-3);
+  EXPECT_LT(prompt, ProcessModel::kMaxSubsteps);
+  EXPECT_GT(after_ten, ProcessModel::kMaxSubsteps);
+  EXPECT_LE(after_ten, 10 * prompt);
+}
+
 TEST(ProcessModel, AResultThatIsNotFiniteThrowsWithTimeAndState) {
   const ArmModel model = raven2();
   const ProcessModel process(model);

@@ -128,7 +128,7 @@ class ProgramTest : public ::testing::Test {
     };
     append(folder_.string());
     command += " && exec";
-    append(HALYARD_PROGRAM);
+    append(program_.string());
     for (const std::string& argument : arguments) append(argument);
     command += " >";
     append(out.string());
@@ -165,6 +165,7 @@ class ProgramTest : public ::testing::Test {
   }
 
   fs::path folder_;
+  fs::path program_ = HALYARD_PROGRAM;
 };
 
 }  // namespace halyard::testing_program

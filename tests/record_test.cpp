@@ -66,8 +66,9 @@ TEST(Record, TorqueIsThatOfTheMiddleOfTheHold) {
   // A command is held until the next sample: what acts at a sample is the mean of what was held before and after it.
   const auto ramp = [](double t) { return 2 * t; };
   const Record r = make_records(log_of(ramp, 4, 1000), raven2(), kOneKernel)[0];
-  for (std::size_t i = 0; i < r.size; ++i)
-    if (inside(r, i)) EXPECT_NEAR(r.torque[2][i], ramp(r.time(i) - 0.5e-3), kValueRounding);
+  for (std::size_t i = 0; i < r.size; ++i) {
+    if (inside(r, i)) { EXPECT_NEAR(r.torque[2][i], ramp(r.time(i) - 0.5e-3), kValueRounding); }
+  }
 }
 
 TEST(Record, EverySignalPassesOneFilterWhateverTheSampleRate) {
@@ -180,11 +181,11 @@ TEST(Record, ASlowSensorIsComparedWhereItWasRead) {
   double measured = 0, valid = 0;
   for (std::size_t i = 0; i < r.size; ++i) {
     const double t = r.time(i), phase = std::remainder(t - 0.003, 0.01);
-    if (r.joint_measured[0][i] > 0) EXPECT_LT(std::abs(phase), 1.03e-3) << t;
+    if (r.joint_measured[0][i] > 0) { EXPECT_LT(std::abs(phase), 1.03e-3) << t; }
     measured += r.joint_measured[0][i];
     valid += r.joint_valid[0][i];
     // Cubic interpolation over h = 10 ms of (ω = 3): (ω h)⁴; the filter takes (ω / (2π 60 Hz))² / 2 of both.
-    if (inside(r, i)) EXPECT_NEAR(r.joint[0][i], r.joint[1][i], std::pow(3 * 0.01, 4)) << t;
+    if (inside(r, i)) { EXPECT_NEAR(r.joint[0][i], r.joint[1][i], std::pow(3 * 0.01, 4)) << t; }
   }
   EXPECT_NEAR(measured, 2 * 350, 3) << "of 3.5 s; either neighbour of an odd millisecond is as near";
   EXPECT_NEAR(valid, 3.5 / r.dt, 10) << "the comparing kernel sees samples everywhere";

@@ -1,9 +1,10 @@
+#include "crash.h"
 #include "well_formed.h"
 
-/* Good at first; then it writes where nothing is. */
+/* Good at first. */
 static int update_crash(void* instance, const halyard_sample* sample, halyard_innovation* innovation, char* message,
                         size_t message_size) {
-  if (((state*)instance)->steps >= 1) *(volatile int*)8 = 1;
+  if (((state*)instance)->steps >= 1) crash();
   return update(instance, sample, innovation, message, message_size);
 }
 
