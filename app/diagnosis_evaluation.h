@@ -32,8 +32,8 @@ struct HeldOut {
   const Log* log;
   double from;
 };
-/// The errors over all logs together, of runs in processes of their own. A load that was measured is no part of the model, and is handed on as to the
-/// prediction.
+/// The errors over all logs together, of runs in processes of their own. A load that was measured is no part of the
+/// model, and is handed on as to the prediction.
 EstimatorErrors errors_of(const std::string& estimator, const ArmModel& model, const std::vector<HeldOut>& logs);
 
 struct EstimatorComparison {

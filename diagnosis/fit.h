@@ -27,11 +27,11 @@ struct FitParameter {
   double scale = 1;       ///< one unit of the optimiser
   bool natural_bounds = false;
   bool shape = false;                    ///< of an effect, see EffectParameter
-  std::vector<double> starts = {};
+  std::vector<double> starts = {};       ///< of a past: in units of its scale
   SearchRange range = SearchRange::own;
 };
 
-/// True of a state of an effect before a record: a number of the data and not of the arm.
+/// True of what an effect went through before a record: a number of the data and not of the arm.
 inline bool is_past(const FitParameter& p) { return p.effect >= 0 && p.index >= kMaxEffectParameters; }
 double parameter_value(const Hypothesis& h, const FitParameter& p);
 void set_parameter(Hypothesis& h, const FitParameter& p, double value);

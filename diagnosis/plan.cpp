@@ -198,7 +198,7 @@ class Planner {
     std::size_t i = main;
     while (i < parameters.size() && !parameters[i].shape) ++i;
     for (; i < parameters.size() && parameters[i].shape; ++i) {
-      if (parameters[i].starts.empty()) continue;
+      if (parameters[i].starts.empty() || is_past(parameters[i])) continue;
       std::vector<Hypothesis> longer;
       for (const Hypothesis& one : all)
         for (const double value : parameters[i].starts) {

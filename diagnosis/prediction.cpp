@@ -15,7 +15,7 @@ namespace halyard {
 namespace {
 
 /// Before a record starts the arm is let down onto its cables with the motors held, for this long: what the cables
-/// remember of loading (hysteresis, slack, a dead zone) is then as after a real start.
+/// remember of loading (hysteresis, slack, a dead zone) is then as after a real start. A past adds to that.
 constexpr double kLetDown = 0.8;
 
 LaneDrive lane_drive() {
@@ -110,7 +110,7 @@ Eigen::MatrixXd driven_jacobian(const Transmission<Dual>& transmission, const Re
   return J;
 }
 
-/// Where the joints stand at the record's first sample if no cable is stretched; at rest, effects with their past.
+/// Where the joints stand at the record's first sample if no cable is stretched; at rest, effects without a past.
 DrivenState<double> unstretched_state(const Hypothesis& h, const Record& record, const DrivenInput& u) {
   const int n = record.n;
   const ArmParameters<double> arm = make_transmission<double>(h).arm();
@@ -122,8 +122,6 @@ DrivenState<double> unstretched_state(const Hypothesis& h, const Record& record,
   const Eigen::VectorXd q = unstretched_joints(arm, q_m, q_undriven);
   DrivenState<double> x = {};
   for (int k = 0; k < n; ++k) x.q[k] = q(k);
-  const std::vector<double> past = past_states(h, record);
-  std::ranges::copy(past, x.z);
   return x;
 }
 
@@ -292,11 +290,11 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
     const Hypothesis* lane[kLaneWidth];
     DrivenState<Lanes> x;
     for (int k = 0; k < n; ++k) x.q[k] = x.v[k] = 0.0;
+    for (int k = 0; k < n_states; ++k) x.z[k] = 0.0;
     for (std::size_t l = 0; l < kLaneWidth; ++l) {
       const std::size_t i = first + std::min(l, count - 1);
       lane[l] = is_able(i) ? &hypotheses[movers[i]] : nullptr;
       for (int k = 0; k < n; ++k) x.q[k].set(static_cast<int>(l), starts[i].q[k]);
-      for (int k = 0; k < n_states; ++k) x.z[k].set(static_cast<int>(l), starts[i].z[k]);
     }
     // A lane that cannot be integrated is replaced by one that can, and reported.
     const Hypothesis* able = nullptr;
@@ -311,6 +309,10 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
       std::vector<Lanes> unused(held.size() * 2 * n);
       kernel.drive(transmission, held.data(), held.size(), record.start, record.dt, scheme, &history, x, unused.data(),
                    nullptr);
+      for (int l = 0; l < kLaneWidth; ++l) {
+        const std::vector<double> past = past_states(*filled[l], record);
+        for (int k = 0; k < n_states; ++k) x.z[k].set(l, x.z[k][l] + past[k]);
+      }
       kernel.drive(transmission, inputs.data(), record.size, record.start, record.dt, scheme, &history, x, out.data(),
                    path.empty() ? nullptr : path.data());
     }

@@ -12,8 +12,8 @@ namespace halyard {
 struct Hypothesis {
   ArmParameters<double> nominal;
   std::vector<PlacedEffect> effects;
-  /// Internal states of the effects where a record's let-down begins, [effect][record's place * n_states + state]; what
-  /// is missing is 0.
+  /// What the effects' internal states have at a record's start beyond those of an arm that was just let down onto its
+  /// cables, [effect][record's place * n_states + state]; what is missing is 0.
   std::vector<std::vector<double>> past = {};
 
   double past_state(std::size_t effect, std::size_t i) const;

@@ -71,7 +71,13 @@ Start best_start(const Evidence& evidence, const Screen& screen, const Hypothesi
     });
     for (const auto& values : shapes) {
       Hypothesis shaped = neutral;
-      for (std::size_t s = 0; s < values.size(); ++s) set_parameter(shaped, parameters[group.shapes[s]], values[s]);
+      for (std::size_t s = 0; s < values.size(); ++s) {
+        const std::size_t i = group.shapes[s];
+        // How far a past can be off is told by the shapes before it.
+        const double unit =
+            is_past(parameters[i]) ? effect_parameters(evidence, shaped, nominal, parameters[i].effect)[i].scale : 1;
+        set_parameter(shaped, parameters[i], unit * values[s]);
+      }
       for (const std::size_t size : group.sizes) {
         const FitParameter& p = parameters[size];
         const auto add = [&](double value) {
