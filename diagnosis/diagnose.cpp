@@ -111,9 +111,9 @@ Fit keep_certain_numbers(const Evidence& evidence, const ArmModel& model, const 
     covariance -= gain * covariance.row(least);
     kept[least] = false;
   }
-  // Shapes of sizes that are gone shape nothing.
+  // Shapes of sizes that are gone shape nothing; the past of an effect that the model came with has no sizes.
   for (const ParameterGroup& group : groups_of(f.parameters))
-    if (std::ranges::none_of(group.sizes, [&](std::size_t i) { return kept[i]; }))
+    if (!group.sizes.empty() && std::ranges::none_of(group.sizes, [&](std::size_t i) { return kept[i]; }))
       for (const std::size_t i : group.shapes) kept[i] = false;
 
   Hypothesis h = f.hypothesis;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "diagnosis/fit.h"
+#include "diagnosis/diagnose.h"
 #include "plant/simulate.h"
 #include "tests/short_arm.h"
 
@@ -46,6 +46,18 @@ TEST(UnknownPast, IsFittedBesideTheEffect) {
   EXPECT_NEAR(with.value[1], kYield, 0.01 * kYield);
   EXPECT_GT(std::abs(without.value[0] - kShare), 0.03 * kShare);
   EXPECT_GT(std::abs(without.value[1] - kYield), 0.03 * kYield);
+}
+
+TEST(UnknownPast, OfAnEffectThatTheModelHasIsNoEffect) {
+  const Amid amid;
+  ArmModel right = amid.model;
+  right.effects = amid.truth.effects;
+  DiagnosisOptions options;
+  options.tell_not_excited = false;
+  const Diagnosis d = diagnose(right, {amid.second_half()}, {}, options);
+  EXPECT_EQ(d.verdict, Diagnosis::Verdict::clean);
+  ASSERT_EQ(d.past.size(), 1u);
+  EXPECT_GT(std::abs(d.past[0][0]), 0.1 * kYield);
 }
 
 TEST(UnknownPast, IsOfItsRecordAndItsEffect) {
