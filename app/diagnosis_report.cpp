@@ -137,9 +137,11 @@ void add_candidates(report::Page& page, const Diagnosis& d) {
                             t.usable ? fmt::format("{:.1f}", t.gain) : std::string("-"),
                             t.usable ? fmt::format("{:.2g}", t.p_value) : std::string("-"),
                             !t.promising     ? "takes nothing of the residual"
+                            : !t.is_fitted   ? "leaves more of the residual than those that were fitted"
                             : !t.usable      ? "cannot be integrated"
                             : taken          ? "added"
                             : t.gain <= 0    ? "does not help on data that the fit did not see"
+                            : !t.is_judged() ? "not significant"
                             : t.at_bound     ? "ends at the end of what is plausible"
                             : t.is_refit     ? "within the tolerance of the model's numbers"
                             : !t.matters     ? "too small to matter"

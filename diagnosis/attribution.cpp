@@ -17,11 +17,12 @@ namespace {
 
 /// A candidate that promises less than this share of the residual, to first order, is not fitted at all.
 constexpr double kPromise = 0.02;
-/// So many candidates are fitted in a round: those that leave least of the residual where their search sets out.
-constexpr std::size_t kMostFitted = 16;
-/// So many of those are fitted whole: the best, if they gain this share of what the first of them does.
+/// So many of those that were fitted are fitted whole: the best, if they gain this share of what the first of them does.
 constexpr std::size_t kLeaders = 4;
 constexpr double kLeads = 0.25;
+/// After so many passes those go on, to this many in all, that gain so much of what the first of them does by then.
+constexpr int kFirstPasses = 3, kMostPasses = 12;
+constexpr double kStillLeads = 0.5;
 
 class Search {
  public:
@@ -33,12 +34,12 @@ class Search {
     const Hypothesis nominal{model_.nominal, model_.effects};
     say("nominal model", 0);
     result_.nominal_score = evidence_.score(nominal);
-    if (!result_.nominal_score.finite)
+    if (result_.nominal_score.finite && keep_sensitive_numbers(nominal))
+      result_.baseline = refit(nominal, result_.nominal_score);
+    if (!result_.baseline.usable)
       throw InputError(model_.source +
                        ": cannot be integrated along the measured motion; expected frictions and cables that settle "
                        "more slowly: take larger smoothing speeds, or less damping");
-    keep_sensitive_numbers(nominal);
-    result_.baseline = refit(nominal, result_.nominal_score);
     result_.baseline_score = evidence_.score(result_.baseline.hypothesis);
     judge_.emplace(evidence_, model_, numbers_, result_.baseline_score.mean_square);
 
@@ -83,15 +84,18 @@ class Search {
     });
   }
 
-  /// A number whose whole tolerance moves no channel by a tenth of its floor cannot be learnt from these data.
-  void keep_sensitive_numbers(const Hypothesis& nominal) {
+  /// A number whose whole tolerance moves no channel by a tenth of its floor cannot be learnt from these data. False if
+  /// one cannot be told.
+  bool keep_sensitive_numbers(const Hypothesis& nominal) {
     const std::vector<FitParameter> all = baseline_parameters(model_.nominal);
     const auto columns = sensitivities(evidence_, nominal, all);
+    if (columns.size() < all.size()) return false;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       std::vector<double> change = columns[i];
       for (double& x : change) x = x * (all[i].upper - all[i].nominal) / all[i].scale;
       if (evidence_.exceeds_floor(change, 0.1)) numbers_.push_back(all[i]);
     }
+    return true;
   }
 
   /// Baseline numbers that no effect of the hypothesis speaks for, the past of its effects, and the parameters of the
@@ -119,39 +123,49 @@ class Search {
     return h;
   }
 
-  /// Fits all numbers until it no longer helps: each pass weighs the channels by what the last one left.
-  Fit refit(const Hypothesis& h, const Score& before) const {
-    constexpr int kMostPasses = 12;
+  /// A fit of all numbers under way.
+  struct Refit {
+    Hypothesis at;
+    Score score;       ///< there; before the first pass of whatever the first weights are to come from
+    Fit best = {};
+    double last = std::numeric_limits<double>::infinity();   ///< Σ ln of the mean squares after the last pass
+    bool settled = false;
+  };
+
+  /// Passes until it no longer helps, at most so many: each weighs the channels by what the last one left.
+  void go_on(Refit& r, int passes) const {
     constexpr double kWorthAPass = 0.02;
-    Fit best;
-    Hypothesis at = h;
-    Score score = before;
-    double last = std::numeric_limits<double>::infinity();
-    for (int pass = 0; pass < kMostPasses; ++pass) {
-      const std::vector<double> scale = channel_scale(evidence_, score.fit_mean_square);
-      at = nudged(evidence_, at, given_, model_.nominal, scale);
-      const std::vector<FitParameter> parameters = all_parameters(at);
+    for (; passes > 0 && !r.settled; --passes) {
+      r.settled = true;
+      const std::vector<double> scale = channel_scale(evidence_, r.score.fit_mean_square);
+      r.at = nudged(evidence_, r.at, given_, model_.nominal, scale);
+      const std::vector<FitParameter> parameters = all_parameters(r.at);
       std::vector<FitParameter> numbers;
       for (const FitParameter& p : parameters)
         if (p.effect < 0) numbers.push_back(p);
-      const auto columns = sensitivities(evidence_, at, numbers);
-      if (columns.empty() && !numbers.empty()) break;
+      const auto columns = sensitivities(evidence_, r.at, numbers);
+      if (columns.empty() && !numbers.empty()) return;
       FitOptions options;
       options.frozen_baseline = true;
-      const Fit f = fit(evidence_, at, parameters, scale, options, columns);
-      if (!f.usable) break;
-      score = evidence_.score(f.hypothesis);
-      if (!score.finite) break;
+      const Fit f = fit(evidence_, r.at, parameters, scale, options, columns);
+      if (!f.usable) return;
+      r.score = evidence_.score(f.hypothesis);
+      if (!r.score.finite) return;
       double now = 0;
       for (int c = 0; c < evidence_.channels(); ++c)
         if (evidence_.has_channel(c))
-          now += std::log(score.fit_mean_square[c] + evidence_.floor()[c] * evidence_.floor()[c]);
-      if (now < last) best = f;
-      at = f.hypothesis;
-      if (now > last - kWorthAPass) break;
-      last = now;
+          now += std::log(r.score.fit_mean_square[c] + evidence_.floor()[c] * evidence_.floor()[c]);
+      if (now < r.last) r.best = f;
+      r.at = f.hypothesis;
+      r.settled = now > r.last - kWorthAPass;
+      r.last = now;
     }
-    return best;
+  }
+
+  Fit refit(const Hypothesis& h, const Score& before) const {
+    Refit r{h, before};
+    go_on(r, kMostPasses);
+    return r.best;
   }
 
   /// Fits again from the model's own numbers, which on the way were bent by what was missing; keeps the better fit.
@@ -174,19 +188,17 @@ class Search {
     return all;
   }
 
-  /// Of each trial.
-  std::vector<bool> convincing(const std::vector<Trial>& trials, std::size_t fitted) const {
+  /// Of each trial. One that could not be named counts among the tests, and not among what they find.
+  std::vector<bool> convincing(const std::vector<Trial>& trials) const {
     std::vector<double> p;
-    for (const Trial& t : trials)
-      if (t.usable) p.push_back(t.p_value);
-    p.resize(std::max(p.size(), fitted), 1.0);
-    const std::vector<double> rate = false_discovery_rates(p);
-    std::vector<bool> is(trials.size());
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < trials.size(); ++i) {
-      const Trial& t = trials[i];
-      is[i] = t.usable && rate[next++] < options_.significance && t.gain > 0 && !t.at_bound && !t.is_refit && t.matters;
+    for (const Trial& t : trials) {
+      const bool nameable = t.is_judged() && t.gain > 0 && !t.at_bound && !t.is_refit && t.matters;
+      if (t.is_fitted) p.push_back(nameable ? t.p_value : 1.0);
     }
+    const std::vector<double> rate = false_discovery_rates(p);
+    std::vector<bool> is(trials.size(), false);
+    for (std::size_t i = 0, next = 0; i < trials.size(); ++i)
+      if (trials[i].is_fitted) is[i] = rate[next++] < options_.significance;
     return is;
   }
 
@@ -208,16 +220,16 @@ class Search {
     ground.scale = channel_scale(evidence_, current.score.fit_mean_square);
     // Before any effect is named the baseline's refit is bent by what is missing: the look starts at the model's
     // numbers.
-    if (result_.rounds.empty()) ground.from = {model_.nominal, model_.effects};
+    if (result_.rounds.empty()) ground.from = {model_.nominal, model_.effects, current.fit.hypothesis.past};
     for (const FitParameter& p : all_parameters(ground.from))
       if (p.effect < 0) ground.numbers.push_back(p);
     ground.columns = sensitivities(evidence_, ground.from, ground.numbers);
     if (ground.columns.empty() && !ground.numbers.empty()) return false;
 
     Round round;
-    const std::size_t fitted = look(ground, candidates(current.fit.hypothesis), round.trials);
+    round.trials = look(ground, candidates(current.fit.hypothesis));
     const std::vector<Fit> fits = fit_leaders(ground, round.trials);
-    const std::vector<bool> convincing = this->convincing(round.trials, fitted);
+    const std::vector<bool> convincing = this->convincing(round.trials);
     std::vector<std::size_t> able;
     for (std::size_t i = 0; i < fits.size(); ++i)
       if (convincing[i] && fits[i].usable) able.push_back(i);
@@ -233,8 +245,8 @@ class Search {
     return !able.empty();
   }
 
-  /// trials: of all candidates, best first. Returns how many were fitted.
-  std::size_t look(const Ground& ground, const std::vector<PlacedEffect>& all, std::vector<Trial>& trials) const {
+  /// A trial of each candidate, the best first.
+  std::vector<Trial> look(const Ground& ground, const std::vector<PlacedEffect>& all) const {
     const Screen screen(evidence_, ground.from, ground.columns, ground.scale);
     std::vector<Start> starts(all.size());
     each("candidates" + ground.round, all.size(), [&](std::size_t i) {
@@ -246,16 +258,18 @@ class Search {
     std::ranges::stable_sort(fitted, {}, [&](std::size_t i) { return starts[i].left; });
     if (fitted.size() > kMostFitted) fitted.resize(kMostFitted);
 
-    for (const PlacedEffect& candidate : all) {
-      trials.push_back(unusable(candidate));
-      trials.back().promising = false;
+    std::vector<Trial> trials;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      trials.push_back(unusable(all[i]));
+      trials.back().promising = starts[i].promise >= kPromise;
+      trials.back().is_fitted = false;
     }
     each("fits" + ground.round, fitted.size(), [&](std::size_t f) {
       const std::size_t i = fitted[f];
       trials[i] = quick_look(ground, starts[i].hypothesis, all[i]);
     });
     std::ranges::stable_sort(trials, std::ranges::greater{}, &Trial::gain);
-    return fitted.size();
+    return trials;
   }
 
   Trial quick_look(const Ground& ground, const Hypothesis& start, const PlacedEffect& effect) const {
@@ -279,15 +293,24 @@ class Search {
   /// The quick look takes the baseline's sensitivities once; for the leaders they are renewed until nothing changes.
   /// Returns their fits, in the order of the trials, which are judged anew.
   std::vector<Fit> fit_leaders(const Ground& ground, std::vector<Trial>& trials) const {
-    std::vector<Fit> fits(std::min(kLeaders, trials.size()));
-    const double best = trials.empty() ? 0 : trials[0].gain;
-    each("best candidates" + ground.round, fits.size(), [&](std::size_t i) {
-      Trial& t = trials[i];
-      if (!(t.gain > kLeads * best) || t.p_value > kWorthAFit) return;
-      fits[i] = refit(with_effect(ground.from, t.effect, t.past), ground.without.score);
-      const PlacedEffect effect = t.effect;
-      t = fits[i].usable ? judge_->trial(fits[i].hypothesis, ground.without, effect) : unusable(effect);
-    });
+    std::vector<Refit> refits;
+    for (std::size_t i = 0; i < std::min(kLeaders, trials.size()); ++i)
+      refits.push_back({with_effect(ground.from, trials[i].effect, trials[i].past), ground.without.score});
+    const auto go_on_with = [&](const std::string& what, double share, int passes) {
+      double best = 0;
+      for (std::size_t i = 0; i < refits.size(); ++i) best = std::max(best, trials[i].gain);
+      each(what + ground.round, refits.size(), [&](std::size_t i) {
+        Trial& t = trials[i];
+        if (!t.is_judged() || !(t.gain > share * best) || refits[i].settled) return;
+        go_on(refits[i], passes);
+        const PlacedEffect effect = t.effect;
+        t = refits[i].best.usable ? judge_->trial(refits[i].best.hypothesis, ground.without, effect) : unusable(effect);
+      });
+    };
+    go_on_with("best candidates", kLeads, kFirstPasses);
+    go_on_with("finalists", kStillLeads, kMostPasses - kFirstPasses);
+    std::vector<Fit> fits;
+    for (const Refit& r : refits) fits.push_back(r.best);
     return fits;
   }
 

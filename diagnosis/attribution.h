@@ -17,9 +17,12 @@ inline constexpr double kTellApart = 2.0;
 /// elsewhere stand beside each other.
 inline constexpr double kSharedGain = 0.5;
 
+/// So many candidates are fitted in a round: those that leave least of the residual where their search sets out.
+inline constexpr std::size_t kMostFitted = 16;
+
 /// One round of the search: all candidates against the same baseline.
 struct Round {
-  std::vector<Trial> trials;     ///< best first
+  std::vector<Trial> trials;     ///< the one that was added, then by the gain of a quick look
   bool accepted = false;         ///< the first one was added
 };
 
@@ -36,7 +39,7 @@ std::vector<PlacedEffect> all_candidates(const ArmParameters<double>& arm);
 
 struct AttributionOptions {
   int most_effects = 6;
-  double significance = 0.01;    ///< of a round: the share of false ones among the candidates that are found significant
+  double significance = 0.01;    ///< of a round: the expected share of candidates without a gain among those found so
 };
 
 /// progress(text, fraction): what is being done, how far.

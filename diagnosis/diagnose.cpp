@@ -70,8 +70,8 @@ Estimated estimated(const Fit& f, std::size_t i) {
           p.nominal};
 }
 
-/// A refit that is told lies so many standard deviations off the model's number. Of some thirty numbers one in a
-/// thousand clean diagnoses then shows a refit by chance.
+/// A refit that is told lies so many standard deviations off the model's number. Of some thirty numbers two in a
+/// thousand clean diagnoses then show a refit by chance.
 constexpr double kRefit = 4;
 
 bool is_refit(const Fit& f, std::size_t i) {
@@ -242,7 +242,9 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
     d.not_excited = not_excited(evidence, model, h);
   }
 
+  const std::vector<std::vector<double>>& unexplained_past = d.attribution.baseline.hypothesis.past;
   d.revised = d.given;
+  d.past = unexplained_past;
   if (!all_one_sine || !would_name) {
     d.revised.nominal = h.nominal;
     d.revised.effects = h.effects;
@@ -250,7 +252,7 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
   }
   say("hold-out", 0);
   for (HoldOut* view : {&d.joint_view, &d.torque_view}) {
-    view->before = predict_all(view->records, {d.given.nominal, d.given.effects});
+    view->before = predict_all(view->records, {d.given.nominal, d.given.effects, unexplained_past});
     view->after = predict_all(view->records, {d.revised.nominal, d.revised.effects, d.past});
   }
   d.before = errors(d.joint_view, d.torque_view, model.n(), &HoldOut::before);

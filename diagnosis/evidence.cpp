@@ -87,6 +87,7 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model) : n_(mode
         if (fit) {
           row_channel_.push_back(c);
           row_block_.push_back((first_block + block) / 2);
+          row_record_.push_back(static_cast<int>(r));
           row_time_.push_back(record.time(i));
           ++fit_count_[c];
         }

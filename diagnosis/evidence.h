@@ -1,6 +1,6 @@
 #pragma once
 /// The data that a diagnosis weighs: records cut into blocks of time, every other block for fitting
-/// and the rest for deciding, so that no decision rests on data that the fit saw.
+/// and the rest for deciding, so that no gain is counted on data that the fit saw.
 
 #include <span>
 
@@ -32,7 +32,8 @@ class Evidence {
   const std::vector<int>& row_channel() const { return row_channel_; }
   /// The block of each fitting row; rows of all channels share their blocks.
   const std::vector<int>& row_block() const { return row_block_; }
-  /// The time of each fitting row, s; rows of a channel follow each other.
+  /// The record of each fitting row and its time, s; rows of a channel follow each other.
+  const std::vector<int>& row_record() const { return row_record_; }
   const std::vector<double>& row_time() const { return row_time_; }
   /// Mean squares on both kinds of blocks.
   Score score(const Hypothesis& hypothesis) const;
@@ -62,7 +63,7 @@ class Evidence {
   double correlated_rows_;
   std::vector<Record> records_;
   std::vector<Place> places_;
-  std::vector<int> row_channel_, row_block_;
+  std::vector<int> row_channel_, row_block_, row_record_;
   std::vector<double> row_time_;
   std::vector<int> channel_rows_, fit_count_;
   std::vector<std::vector<int>> block_count_;

@@ -39,7 +39,7 @@ void set_parameter(Hypothesis& h, const FitParameter& p, double value);
 /// Baseline numbers that the model knows within a tolerance. The ratio of a drive is one number, the capstan's radius.
 std::vector<FitParameter> baseline_parameters(const ArmParameters<double>& nominal);
 /// The numbers of the effect at `place` of the hypothesis; instants and positions are bound to what the records span.
-/// What the effect went through before each record follows as shapes, unless there are more than a handful of records.
+/// What the effect went through before each record follows as shapes, unless there are more than a dozen records.
 std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,
                                             const ArmParameters<double>& nominal, int place);
 /// Sizes of an effect and the shapes that follow them, as places in a list of parameters.

@@ -52,8 +52,8 @@ Trial Judge::trial(const Hypothesis& with, const Scored& without, const PlacedEf
   if (static_cast<std::size_t>(place) < with.past.size()) t.past = with.past[place];
   t.log_likelihood = log_likelihood(evidence_, scored.score, squared_floors(evidence_));
   t.gain = gain(scored, without);
-  t.p_value = p_of_gain(scored.score, without.score, t.gain);
-  if (t.p_value > kWorthAFit) return t;
+  t.p_value = p_of_gain(scored.score, without.score);
+  if (!t.is_judged()) return t;
   t.at_bound = at_bound(scored, place);
   t.is_refit = within_tolerance(with, place);
   t.matters = matters(without.score, scored.score, with, place);
@@ -62,7 +62,7 @@ Trial Judge::trial(const Hypothesis& with, const Scored& without, const PlacedEf
 
 bool Judge::is_needed(const Scored& with, const Scored& without, int place, double significance) const {
   return !within_tolerance(with.hypothesis, place) && matters(without.score, with.score, with.hypothesis, place) &&
-         p_of_gain(with.score, without.score, gain(with, without)) <= significance;
+         p_of_gain(with.score, without.score) <= significance;
 }
 
 double Judge::gain(const Scored& with, const Scored& without) const {
@@ -73,12 +73,14 @@ double Judge::gain(const Scored& with, const Scored& without) const {
 }
 
 /// The probability of such a gain by chance: by the scatter of the blocks, or, of an effect that explains a rest
-/// whole, by the likelihood ratio, so that a few moments are enough.
-double Judge::p_of_gain(const Score& with, const Score& without, double gain) const {
-  const std::vector<double> least = floors_beside(evidence_, without);
-  const double by_blocks =
-      p_value(paired(evidence_, log_likelihood(evidence_, with, least), log_likelihood(evidence_, without, least)));
-  return explains_a_rest(without, with) ? std::min(by_blocks, std::exp(-gain)) : by_blocks;
+/// whole, by the likelihood ratio as well, so that a few moments are enough.
+double Judge::p_of_gain(const Score& with, const Score& without) const {
+  const auto compared = [&](const std::vector<double>& least) {
+    return paired(evidence_, log_likelihood(evidence_, with, least), log_likelihood(evidence_, without, least));
+  };
+  const double by_blocks = p_value(compared(floors_beside(evidence_, without)));
+  if (!explains_a_rest(without, with)) return by_blocks;
+  return std::min(1.0, 2 * std::min(by_blocks, std::exp(-compared(squared_floors(evidence_)).sum)));
 }
 
 /// True if, in the channel with a rest that the effect takes most of, nothing that matters is left or next to

@@ -8,9 +8,11 @@
 /// An effect is named if
 ///
 /// - its gain is significant, with the number of candidates respected (false_discovery.h): by a paired t test over
-///   blocks; or, where it explains nearly all of a rest, by the likelihood ratio itself, p <= exp(-gain), which holds
-///   on data that the fit did not see (Wasserman, Ramdas and Balakrishnan, PNAS 117 (2020), split likelihood ratio): a
-///   force during two of sixty blocks is not lost among blocks that it never touched;
+///   blocks; or, where it explains nearly all of a rest, by the likelihood ratio on data that the fit did not see,
+///   p = 2 min(p of t, exp(-Σ_b Δ ln L_b)): a force during two of sixty blocks is not lost among blocks that it never
+///   touched. This is after the split likelihood ratio of Wasserman, Ramdas and Balakrishnan, PNAS 117 (2020), and an
+///   approximation: their bound asks for the largest likelihood without the effect on the deciding data, here both were
+///   fitted on the others. Its size is what the blind trials of clean arms measure;
 /// - it matters: a residual shrinks by more than what the model's tolerance and the sensors leave open;
 /// - no parameter ends at the end of what is plausible, and does something there; nor lies a shape within twice of it
 ///   where the likelihood is the same.
@@ -35,10 +37,12 @@ struct Trial {
   PlacedEffect effect;
   std::vector<double> past;      ///< of Hypothesis, of this effect
   bool promising = true;         ///< false: where it takes most of the residual it takes too little to be fitted
-  bool usable = false;           ///< it could be fitted
+  bool is_fitted = true;         ///< it was among those that leave least
+  bool usable = false;           ///< it could be integrated
   double gain = 0;               ///< on the deciding blocks, above the baseline of its round
   double p_value = 1;            ///< of no gain, as if it were the only candidate
-  // Where p_value <= kWorthAFit:
+  bool is_judged() const { return usable && p_value <= kWorthAFit; }
+  // Of one that is_judged():
   bool at_bound = false;
   bool is_refit = false;         ///< its sizes stay within the model's tolerance
   bool matters = false;
@@ -75,7 +79,7 @@ class Judge {
 
  private:
   double gain(const Scored& with, const Scored& without) const;
-  double p_of_gain(const Score& with, const Score& without, double gain) const;
+  double p_of_gain(const Score& with, const Score& without) const;
   bool explains_a_rest(const Score& before, const Score& after) const;
   bool at_bound(const Scored& with, int place) const;
   bool is_as_good_at_bound(const Scored& with, const FitParameter& p) const;

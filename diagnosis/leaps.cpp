@@ -9,17 +9,24 @@ namespace {
 constexpr std::size_t kStrongest = 4;   ///< leaps that are followed
 constexpr double kApart = 0.15;         ///< s; closer ones are one leap, smeared by the comparing kernel
 constexpr double kAround = 1.5;         ///< rows before and after a leap
+constexpr double kLongest = 1.5;        ///< s; what happened in a longer gap between rows cannot be told
+constexpr int kMostInstants = 24;       ///< of one leap
 
 struct Leap { double strength, from, to; };
 
-/// Of one channel.
-std::vector<Leap> leaps_of(const std::vector<double>& time, const std::vector<double>& residual) {
+/// Of channel c.
+std::vector<Leap> leaps_of(const Evidence& evidence, int c, const std::vector<double>& rows) {
+  std::vector<std::size_t> own;
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    if (evidence.row_channel()[r] == c) own.push_back(r);
   std::vector<Leap> all;
   std::vector<double> gap, size;
-  for (std::size_t i = 1; i < time.size(); ++i) {
-    if (!(time[i] > time[i - 1])) continue;   // the next record
-    all.push_back({std::abs(residual[i] - residual[i - 1]), time[i - 1], time[i]});
-    gap.push_back(time[i] - time[i - 1]);
+  for (std::size_t i = 1; i < own.size(); ++i) {
+    const std::size_t before = own[i - 1], r = own[i];
+    const double from = evidence.row_time()[before], to = evidence.row_time()[r];
+    if (evidence.row_record()[before] != evidence.row_record()[r] || to - from > kLongest) continue;
+    all.push_back({std::abs(rows[r] - rows[before]), from, to});
+    gap.push_back(to - from);
     size.push_back(all.back().strength);
   }
   if (all.empty()) return all;
@@ -36,12 +43,8 @@ std::vector<Leap> leaps_of(const std::vector<double>& time, const std::vector<do
 std::vector<double> leaps(const Evidence& evidence, const std::vector<double>& rows) {
   std::vector<Leap> all;
   double row = 0;
-  for (int c = 0; c < evidence.channels(); ++c) {
-    std::vector<double> time, residual;
-    for (std::size_t r = 0; r < rows.size(); ++r)
-      if (evidence.row_channel()[r] == c) time.push_back(evidence.row_time()[r]), residual.push_back(rows[r]);
-    for (const Leap& l : leaps_of(time, residual)) all.push_back(l);
-  }
+  for (int c = 0; c < evidence.channels(); ++c)
+    for (const Leap& l : leaps_of(evidence, c, rows)) all.push_back(l);
   std::ranges::stable_sort(all, std::ranges::greater{}, &Leap::strength);
   for (const Leap& l : all) row = row > 0 ? std::min(row, l.to - l.from) : l.to - l.from;
 
@@ -53,7 +56,7 @@ std::vector<double> leaps(const Evidence& evidence, const std::vector<double>& r
   std::vector<double> instants;
   for (const Leap& l : strongest) {
     const double first = l.from - kAround * row, last = l.to + kAround * row;
-    const int steps = static_cast<int>(std::ceil((last - first) / row));
+    const int steps = std::min(kMostInstants - 1, static_cast<int>(std::ceil((last - first) / row)));
     for (int i = 0; i <= steps; ++i) instants.push_back(std::lerp(first, last, static_cast<double>(i) / steps));
   }
   std::ranges::sort(instants);

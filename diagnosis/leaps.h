@@ -11,8 +11,8 @@
 
 namespace halyard {
 
-/// Around each of the strongest leaps, instants so close that one of them is at most half a row off, s; ascending.
-/// rows: residuals of the fitting rows.
+/// Around each of the strongest leaps, instants so close that one of them is at most half a row off, or two dozen where
+/// rows of deciding blocks lie between, s; ascending. rows: residuals of the fitting rows.
 std::vector<double> leaps(const Evidence& evidence, const std::vector<double>& rows);
 
 }  // namespace halyard

@@ -56,7 +56,8 @@ class Planner {
     reference_ln_ = log_likelihood(reference_.left);
     const double blocks = static_cast<double>(reference_ln_.size());
     if (blocks < 3) throw InputError(logs.front().source + ": too short to judge by; expected some seconds");
-    const double level = AttributionOptions{}.significance / static_cast<double>(candidates_.size());
+    const double fitted = static_cast<double>(std::min(kMostFitted, candidates_.size()));
+    const double level = AttributionOptions{}.significance / fitted;
     significant_gain_ = -std::log(level);
     significant_t_ = boost::math::quantile(boost::math::complement(boost::math::students_t(blocks - 1), level));
   }

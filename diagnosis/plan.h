@@ -10,8 +10,8 @@
 ///
 ///   rms((r0 + d)⊥ - r0⊥) and rms(d) > kMattersFactor floors of a channel;
 ///   ms((r0 + d)⊥) - ms(r0⊥) > kMattersShare ms((r0 + d)⊥) in a channel;
-///   ln L_b(r0⊥) - ln L_b((r0 + d)⊥) over the blocks b of time passes the t test at 1 % over the number of candidates,
-///   or adds up to more than the logarithm of that number over 1 %.
+///   ln L_b(r0⊥) - ln L_b((r0 + d)⊥) over the blocks b of time passes the t test at 1 % over the number of candidates
+///   that a search fits, or adds up to more than the logarithm of that number over 1 %.
 ///
 /// The detection limit is the smallest such size, to 9 %. At twice that size another effect is confused with it if its
 /// best fit leaves so little that the gain of the right one over it,

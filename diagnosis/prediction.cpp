@@ -307,7 +307,8 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
       const Transmission<Lanes> transmission = pack_hypotheses(filled, record.motion_sigma);
       const std::vector<DrivenInput> held(static_cast<std::size_t>(kLetDown / record.dt) + 1, standing(inputs[0]));
       std::vector<Lanes> unused(held.size() * 2 * n);
-      kernel.drive(transmission, held.data(), held.size(), record.start, record.dt, scheme, &history, x, unused.data(),
+      const double before = record.start - record.dt * static_cast<double>(held.size());
+      kernel.drive(transmission, held.data(), held.size(), before, record.dt, scheme, &history, x, unused.data(),
                    nullptr);
       for (int l = 0; l < kLaneWidth; ++l) {
         const std::vector<double> past = past_states(*filled[l], record);

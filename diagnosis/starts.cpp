@@ -43,6 +43,9 @@ std::vector<std::vector<double>> combinations(const Hypothesis& h, const std::ve
       for (const double value : starts_of(p)) {
         const bool follows = s > 0 && is_instant(shapes[s]) && is_instant(shapes[s - 1]);
         if (follows && value <= head.back()) continue;
+        // Each record has its own past, and shows nothing of the others': all are tried at once.
+        const bool beside = s > 0 && is_past(p) && is_past(parameters[shapes[s - 1]]);
+        if (beside && value != head.back()) continue;
         longer.push_back(head);
         longer.back().push_back(value);
       }

@@ -8,7 +8,7 @@
 ///
 ///   c        a constant of each channel: an encoder's zero, a torque's bias; 0 for effects that are such errors
 ///   J        sensitivities to the model's numbers, in halves of their tolerance, over the floor  [rows x numbers]
-///   P        changes of d by what the effect's states were before the record                 [rows x states]
+///   P        changes of d by the effect's past, see Hypothesis                               [rows x states]
 ///   m        rows that are worth one independent sample
 ///
 /// At strength 1 the effect is as large as what the sensors resolve, or 1 % of the torque.

@@ -36,7 +36,7 @@ bool draws_weak(Kind kind) { return kind == Kind::effect || kind == Kind::effect
 /// The controllers of all runs of a trial.
 void scatter_gains(ArmModel& robot, Random& random) {
   for (JointDescription& j : robot.joints) {
-    // Twice the model's own, so that the motion is followed.
+    // Above the model's own, so that the motion is followed.
     j.controller.kp *= 2.5 * random.log_uniform(0.7, 1.4);
     j.controller.kd *= 2 * random.log_uniform(0.7, 1.4);
   }
