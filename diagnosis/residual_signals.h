@@ -9,7 +9,8 @@
 ///
 /// The first two are what a diagnosis weighs. The transmission residual is the stretch of a cable that is right, and
 /// more than that of one that is not. The joint torque residual is there for arms whose joints all have a cable and a
-/// sensor. What residuals may go with is told by the motors' motion and the model: nothing of a residual is in it.
+/// sensor; effects' states start at 0 in it, without a past. What residuals may go with is told by the motors' motion
+/// and the model: nothing of a residual is in it.
 
 #include <array>
 
