@@ -85,6 +85,14 @@ Fit keep_certain_numbers(const Evidence& evidence, const ArmModel& model, const 
   Eigen::VectorXd value = Eigen::Map<const Eigen::VectorXd>(f.value.data(), static_cast<Eigen::Index>(f.value.size()));
   Eigen::MatrixXd covariance = f.covariance;
   std::vector<bool> kept(f.parameters.size(), true);
+  const std::vector<ParameterGroup> groups = groups_of(f.parameters);
+  const auto ends = [&](std::size_t i) { return ends_at_bound(f.parameters[i], value(i)); };
+  /// True of a number at its bound, or shaped by one.
+  const auto is_exhausted = [&](std::size_t i) {
+    return ends(i) || std::ranges::any_of(groups, [&](const ParameterGroup& group) {
+             return std::ranges::count(group.sizes, i) > 0 && std::ranges::any_of(group.shapes, ends);
+           });
+  };
   const auto may_go = [&](std::size_t i) {
     const FitParameter& p = f.parameters[i];
     if (!kept[i] || p.shape) return false;
@@ -101,7 +109,7 @@ Fit keep_certain_numbers(const Evidence& evidence, const ArmModel& model, const 
       const double needed = f.parameters[i].effect < 0 ? kRefit : kTwoSided95;
       const FitParameter& p = f.parameters[i];
       const double has =
-          ends_at_bound(p, value(i)) ? 0 : std::abs(value(i) - p.nominal) / (needed * std::sqrt(covariance(i, i)));
+          is_exhausted(i) ? 0 : std::abs(value(i) - p.nominal) / (needed * std::sqrt(covariance(i, i)));
       if (has < certainty) certainty = has, least = i;
     }
     if (least == f.parameters.size()) break;
@@ -112,7 +120,7 @@ Fit keep_certain_numbers(const Evidence& evidence, const ArmModel& model, const 
     kept[least] = false;
   }
   // Shapes of sizes that are gone shape nothing; the past of an effect that the model came with has no sizes.
-  for (const ParameterGroup& group : groups_of(f.parameters))
+  for (const ParameterGroup& group : groups)
     if (!group.sizes.empty() && std::ranges::none_of(group.sizes, [&](std::size_t i) { return kept[i]; }))
       for (const std::size_t i : group.shapes) kept[i] = false;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace halyard {
 namespace {
@@ -95,22 +96,29 @@ bool Judge::explains_a_rest(const Score& before, const Score& after) const {
 }
 
 /// True if a number ends at its bound and does more there than one number by chance: a size alone, or with the shapes
-/// that follow it.
+/// that follow it. Beside other sizes a group of them is nothing that the effect is named for if it does next to nothing
+/// of what the effect does: a wall at the end of the motion that mends the form of a tug.
 bool Judge::at_bound(const Scored& with, int place) const {
+  constexpr double kNextToNothing = 0.1;
   const Hypothesis& h = with.hypothesis;
   const auto parameters = effect_parameters(evidence_, h, model_.nominal, place);
   const auto ends = [&](std::size_t i) { return ends_at_bound(parameters[i], parameter_value(h, parameters[i])); };
   const auto shape_ends = [&](std::size_t i) { return ends(i) || is_as_good_at_bound(with, parameters[i]); };
-  const auto needed = [&](const std::vector<std::size_t>& sizes) {
+  const auto does = [&](const std::vector<std::size_t>& sizes) {
     Scored without{h, {}};
     for (const std::size_t i : sizes) set_parameter(without.hypothesis, parameters[i], parameters[i].nominal);
     without.score = evidence_.score(without.hypothesis);
-    return !without.score.finite || cost(without) > cost(with) + kByChance;
+    return without.score.finite ? cost(without) - cost(with) : std::numeric_limits<double>::infinity();
   };
-  for (const ParameterGroup& group : groups_of(parameters)) {
-    if (std::ranges::any_of(group.shapes, shape_ends) && needed(group.sizes)) return true;
+  const std::vector<ParameterGroup> groups = groups_of(parameters);
+  for (const ParameterGroup& group : groups) {
     for (const std::size_t i : group.sizes)
-      if (ends(i) && needed({i})) return true;
+      if (ends(i) && does({i}) > kByChance) return true;
+    if (std::ranges::none_of(group.shapes, shape_ends)) continue;
+    std::vector<std::size_t> all;
+    for (const ParameterGroup& other : groups) all.insert(all.end(), other.sizes.begin(), other.sizes.end());
+    const double own = does(group.sizes);
+    if (own > kByChance && own > kNextToNothing * does(all)) return true;
   }
   return false;
 }
