@@ -172,9 +172,9 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
     }
     all.push_back(f);
   }
-  constexpr std::size_t kHandful = 12;
+  constexpr std::size_t kMostRecords = 12;
   constexpr double kFar = 5;   // times a state's size, which may grow while it is fitted
-  if (evidence.records().size() > kHandful) return all;
+  if (evidence.records().size() > kMostRecords) return all;
   for (std::size_t r = 0, i = 0; r < evidence.records().size(); ++r)
     for (const double scale : e.effect->state_scale(nominal, e.joint, e.p)) {
       FitParameter f{"past of record " + std::to_string(r + 1), "", place,

@@ -40,7 +40,7 @@ std::vector<double> difference(std::vector<double> a, const std::vector<double>&
 }
 
 Judge::Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers,
-                     std::vector<double> first)
+             std::vector<double> first)
     : evidence_(evidence), model_(model), numbers_(std::move(numbers)), first_(std::move(first)) {}
 
 Trial Judge::trial(const Hypothesis& with, const Scored& without, const PlacedEffect& effect) const {
@@ -51,8 +51,10 @@ Trial Judge::trial(const Hypothesis& with, const Scored& without, const PlacedEf
   t.usable = true;
   t.effect = with.effects.back();
   if (static_cast<std::size_t>(place) < with.past.size()) t.past = with.past[place];
-  t.log_likelihood = log_likelihood(evidence_, scored.score, squared_floors(evidence_));
-  t.gain = gain(scored, without);
+  const std::vector<double> least = squared_floors(evidence_);
+  t.log_likelihood = log_likelihood(evidence_, scored.score, least);
+  t.gain = paired(evidence_, t.log_likelihood, log_likelihood(evidence_, without.score, least)).sum +
+           stretch(without.hypothesis) - stretch(with);
   t.p_value = p_of_gain(scored.score, without.score);
   if (!t.is_judged()) return t;
   t.at_bound = at_bound(scored, place);
@@ -64,13 +66,6 @@ Trial Judge::trial(const Hypothesis& with, const Scored& without, const PlacedEf
 bool Judge::is_needed(const Scored& with, const Scored& without, int place, double significance) const {
   return !within_tolerance(with.hypothesis, place) && matters(without.score, with.score, with.hypothesis, place) &&
          p_of_gain(with.score, without.score) <= significance;
-}
-
-double Judge::gain(const Scored& with, const Scored& without) const {
-  const std::vector<double> least = squared_floors(evidence_);
-  const Paired ln =
-      paired(evidence_, log_likelihood(evidence_, with.score, least), log_likelihood(evidence_, without.score, least));
-  return ln.sum + stretch(without.hypothesis) - stretch(with.hypothesis);
 }
 
 /// The probability of such a gain by chance: by the scatter of the blocks, or, of an effect that explains a rest

@@ -78,7 +78,6 @@ class Judge {
   double cost(const Scored& scored) const;
 
  private:
-  double gain(const Scored& with, const Scored& without) const;
   double p_of_gain(const Score& with, const Score& without) const;
   bool explains_a_rest(const Score& before, const Score& after) const;
   bool at_bound(const Scored& with, int place) const;
