@@ -169,8 +169,9 @@ void add_diagnose_command(CLI::App& app) {
       ->type_name("EFFECT@JOINT,EFFECT@JOINT")
       ->needs(planned);
   command
-      .add_flag_callback("--no-joint-sensor", [plan] { plan->joint_sensor = false; },
-                         "with --plan: the joints will have no sensor, only the motors")
+      .add_flag_callback(
+          "--no-joint-sensor", [plan] { plan->joint_sensor = false; },
+          "with --plan: the joints will have no sensor, only the motors")
       ->needs(planned);
   finish(command, [=] {
     if (planned->count() > 0) {
@@ -226,8 +227,9 @@ void add_experiments_command(CLI::App& app) {
   command.add_option("--duration", options->duration_s, "of each experiment, in s; default: the scenarios'")
       ->type_name("S")
       ->check(CLI::PositiveNumber);
-  command.add_flag_callback("--no-effect-study", [options] { options->effect_study = false; },
-                            "leave out which effect makes how much of the error, which takes most of the time");
+  command.add_flag_callback(
+      "--no-effect-study", [options] { options->effect_study = false; },
+      "leave out which effect makes how much of the error, which takes most of the time");
   finish(command, [options] { run_experiments(*options); });
 }
 
@@ -272,8 +274,9 @@ void add_check_command(CLI::App& app) {
       ->required();
   command.add_option("--model", options->model, "of an estimator: the arm to try it with; default: the RAVEN-II")
       ->type_name("M.xml");
-  command.add_flag("--kalman", options->kalman, "of an estimator: it is a Kalman filter with halyard's noise; hold it "
-                                                "against the textbook's on a linear arm");
+  command.add_flag("--kalman", options->kalman,
+                   "of an estimator: it is a Kalman filter with halyard's noise; hold it "
+                   "against the textbook's on a linear arm");
   command
       .add_option("--time-limit", options->time_limit_s,
                   "of an estimator: a promise whose test takes longer is broken, in s")
@@ -284,8 +287,8 @@ void add_check_command(CLI::App& app) {
 }
 
 void add_tour_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand(
-      "tour", "the main job: experiments, a diagnosis, and recordings of real rigs, in one report");
+  CLI::App& command =
+      *app.add_subcommand("tour", "the main job: experiments, a diagnosis, and recordings of real rigs, in one report");
   const auto options = std::make_shared<TourOptions>();
   command.add_option("--out", options->out, "folder of the report")->type_name("DIR")->required();
   command.add_option("--examples", options->examples, "folder of the examples; default: those of this program")

@@ -29,8 +29,8 @@ std::vector<ErrorStatistics> joint_errors(const EstimatorRun& run, const Signals
   std::vector<ErrorStatistics> errors(truth.n_joints);
   for (int k = 0; k < truth.n_joints; ++k)
     if (truth.has_joint_position(k))
-      errors[k] = error_statistics(counted(compared[k]), counted(truth.joint_position[k]),
-                                   counted(run.joint_position_std[k]));
+      errors[k] =
+          error_statistics(counted(compared[k]), counted(truth.joint_position[k]), counted(run.joint_position_std[k]));
   return errors;
 }
 

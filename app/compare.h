@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "app/judgement/consistency.h"
-#include "app/judgement/error_statistics.h"
 #include "app/contained_run.h"
 #include "app/estimate.h"
 #include "app/joint_unit.h"
+#include "app/judgement/consistency.h"
+#include "app/judgement/error_statistics.h"
 #include "model/arm_model.h"
 #include "model/log.h"
 
@@ -16,25 +16,25 @@ namespace halyard {
 
 /// Whether an estimator is as good as it says.
 struct Judgement {
-  Consistency nis;                      ///< of all motors together
-  std::vector<Consistency> nees;        ///< [joint]; NaN where the truth is not known
-  std::vector<Whiteness> whiteness;     ///< [motor]
+  Consistency nis;                   ///< of all motors together
+  std::vector<Consistency> nees;     ///< [joint]; NaN where the truth is not known
+  std::vector<Whiteness> whiteness;  ///< [motor]
 };
 
 /// Estimators head-to-head on the same data.
 struct Comparison {
-  std::string data;                     ///< scenario or log, as given
-  std::string model;                    ///< what the estimators believe, as given
-  std::string truth_from;               ///< what the errors are counted against; empty: nothing, no errors
-  double skip_s = 0;                    ///< errors count from this time after the first sample on
-  std::vector<JointUnit> units;         ///< [n]
-  Log truth;                            ///< joint_position, where known
+  std::string data;              ///< scenario or log, as given
+  std::string model;             ///< what the estimators believe, as given
+  std::string truth_from;        ///< what the errors are counted against; empty: nothing, no errors
+  double skip_s = 0;             ///< errors count from this time after the first sample on
+  std::vector<JointUnit> units;  ///< [n]
+  Log truth;                     ///< joint_position, where known
   std::vector<EstimatorRun> runs;
   /// [run][joint] what is held against the truth: positions, or sensors' readings of them
   std::vector<Signals> compared;
-  std::vector<std::vector<ErrorStatistics>> errors;   ///< [run][joint]
-  std::vector<Judgement> judgements;    ///< [run]
-  std::vector<std::vector<std::vector<PairedRatio>>> paired;   ///< [run][other run][joint] RMS error over the other's
+  std::vector<std::vector<ErrorStatistics>> errors;           ///< [run][joint]
+  std::vector<Judgement> judgements;                          ///< [run]
+  std::vector<std::vector<std::vector<PairedRatio>>> paired;  ///< [run][other run][joint] RMS error over the other's
 
   int n_joints() const { return static_cast<int>(units.size()); }
   bool has_truth(int k) const { return truth.has_joint_position(k); }
@@ -54,12 +54,12 @@ struct CompareOptions {
   /// All estimators are made before the first runs: a wrong name must not cost the time of the others' runs.
   bool make_all_first = true;
   ContainmentOptions containment = {};
-  std::function<void(double)> progress = {};   ///< called with the fraction done
+  std::function<void(double)> progress = {};  ///< called with the fraction done
 };
 
 /// An estimator, what it believes, and what its row is called.
 struct Contestant {
-  std::string estimator;                ///< name or path of a plug-in
+  std::string estimator;  ///< name or path of a plug-in
   const ArmModel* model = nullptr;
   std::string name;
 };

@@ -27,7 +27,7 @@ struct Data {
   std::string model_path;
   Log measured, truth;
   std::string truth_from;
-  bool truth_is_sensed = false;   ///< by joint sensors, with their errors
+  bool truth_is_sensed = false;  ///< by joint sensors, with their errors
   std::optional<Scenario> scenario;
 };
 
@@ -42,7 +42,8 @@ Data simulated_data(const CompareCommandOptions& options) {
   data.model = read_model(model);
   data.model_path = model.string();
   if (!joints_alike(data.model.nominal, scenario.robot.nominal))
-    throw InputError(model.string() + ": its joints are not those of the scenario's robot; give a model with as many "
+    throw InputError(model.string() +
+                     ": its joints are not those of the scenario's robot; give a model with as many "
                      "joints, of the same types and driven alike");
   if (options.noise >= 0) {
     scenario.noise = assumed_noise(data.model, scenario.control_period_s);
@@ -143,10 +144,9 @@ void run_compare(const CompareCommandOptions& options) {
   std::optional<MonteCarlo> runs;
   if (options.runs > 1) {
     Progress progress("runs", options.runs, "runs");
-    runs = run_monte_carlo(*data.scenario, data.model, options.estimators,
-                           {.runs = options.runs,
-                            .skip_s = options.skip_s,
-                            .run_done = [&](double amount) { progress.add(amount); }});
+    runs = run_monte_carlo(
+        *data.scenario, data.model, options.estimators,
+        {.runs = options.runs, .skip_s = options.skip_s, .run_done = [&](double amount) { progress.add(amount); }});
     runs->noise = options.noise;
   }
   write_comparison(options.out, comparison, runs);

@@ -7,17 +7,17 @@
 namespace halyard {
 
 struct CompareCommandOptions {
-  std::filesystem::path data;             ///< a scenario if it ends in .xml, otherwise a log
-  std::filesystem::path model;            ///< what the estimators believe; empty: the scenario's own model file
-  std::filesystem::path robot;            ///< of a scenario: model file of the true robot; empty: the scenario's model
+  std::filesystem::path data;   ///< a scenario if it ends in .xml, otherwise a log
+  std::filesystem::path model;  ///< what the estimators believe; empty: the scenario's own model file
+  std::filesystem::path robot;  ///< of a scenario: model file of the true robot; empty: the scenario's model
   std::vector<std::string> estimators;
-  std::filesystem::path out;              ///< folder
-  std::vector<std::string> columns;       ///< entries of --column
+  std::filesystem::path out;         ///< folder
+  std::vector<std::string> columns;  ///< entries of --column
   bool use_joint_torque = false;
   double skip_s = 0.5;
-  double step_limit_s = 10;               ///< of an estimator's step
-  int runs = 1;                           ///< of a scenario: seeds that are simulated
-  double noise = -1;                      ///< of what the filters assume; < 0: the scenario's own
+  double step_limit_s = 10;  ///< of an estimator's step
+  int runs = 1;              ///< of a scenario: seeds that are simulated
+  double noise = -1;         ///< of what the filters assume; < 0: the scenario's own
 };
 
 /// halyard compare: estimators head-to-head on a simulated scenario, against its truth, or on a log, against its joint

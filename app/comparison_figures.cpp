@@ -52,7 +52,7 @@ bool baseline_hides_others(const Comparison& comparison, int k) {
   double largest = 0;
   for (std::size_t i = 0; i < comparison.runs.size(); ++i)
     if (int(i) != baseline) largest = std::fmax(largest, comparison.errors[i][k].peak);
-  constexpr double kSeen = 0.1;   // share of a chart's height
+  constexpr double kSeen = 0.1;  // share of a chart's height
   return largest > 0 && largest < kSeen * comparison.errors[baseline][k].peak;
 }
 
@@ -131,8 +131,8 @@ Chart error_histogram(const Comparison& comparison, int k, int left_out) {
 report::Table error_table(const Comparison& comparison) {
   report::Table table;
   table.caption = fmt::format("Error of the joint position after the first {:g} s", comparison.skip_s);
-  table.header = {"joint", "estimator", "unit", "mean absolute error", "RMS", "median", "95 % below", "peak", "bias",
-                  "improvement over kinematics", "within 2 sigma"};
+  table.header = {"joint",      "estimator", "unit", "mean absolute error",         "RMS",           "median",
+                  "95 % below", "peak",      "bias", "improvement over kinematics", "within 2 sigma"};
   table.align = {report::Align::left, report::Align::left, report::Align::left};
   table.align.resize(table.header.size(), report::Align::right);
   for (int k = 0; k < comparison.n_joints(); ++k) {

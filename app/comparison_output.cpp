@@ -128,9 +128,17 @@ ordered_json to_json(const Comparison& comparison) {
 }
 
 std::vector<std::string> error_columns() {
-  return {"joint",         "unit",       "samples",        "mean_absolute_error",
-          "rms_error",     "peak_error", "bias",           "improvement_over_kinematics",
-          "within_two_std", "median_absolute_error", "percentile_95_error"};
+  return {"joint",
+          "unit",
+          "samples",
+          "mean_absolute_error",
+          "rms_error",
+          "peak_error",
+          "bias",
+          "improvement_over_kinematics",
+          "within_two_std",
+          "median_absolute_error",
+          "percentile_95_error"};
 }
 
 void add_error_cells(CsvTable& table, const Comparison& comparison, std::size_t run, int k) {

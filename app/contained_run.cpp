@@ -28,8 +28,8 @@ namespace {
 
 /// What both processes see: how far the child has come.
 struct Shared {
-  std::atomic<long> rows{0};   ///< or promises
-  char promise[64] = "";       ///< under test
+  std::atomic<long> rows{0};  ///< or promises
+  char promise[64] = "";      ///< under test
 };
 
 /// The child crashed, ended, or took too long.
@@ -151,7 +151,7 @@ void write_all(int file, const std::string& bytes) {
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t n = write(file, bytes.data() + done, bytes.size() - done);
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return;   // nobody listens any more
+    if (n <= 0) return;  // nobody listens any more
     done += static_cast<std::size_t>(n);
   }
 }
@@ -167,7 +167,7 @@ template <class Work>
     said = kFailure + std::string(error.what());
   }
   write_all(file, said);
-  _exit(0);   // what the parent has open is not the child's to close
+  _exit(0);  // what the parent has open is not the child's to close
 }
 
 /// Runs work(shared), which gives bytes, in a child. watch(rows) is called now and then. place(shared): for messages.
@@ -190,7 +190,7 @@ std::string in_child(double step_limit_s, const Work& work, const Watch& watch, 
   bool too_slow = false;
   auto since = Clock::now();
   for (char buffer[65536];;) {
-    constexpr int kLook = 50;   // ms
+    constexpr int kLook = 50;  // ms
     pollfd wait{ends[0], POLLIN, 0};
     if (poll(&wait, 1, kLook) > 0) {
       const ssize_t n = read(ends[0], buffer, sizeof buffer);
@@ -211,8 +211,7 @@ std::string in_child(double step_limit_s, const Work& work, const Watch& watch, 
   close(ends[0]);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
-  if (too_slow)
-    throw ChildEnded(fmt::format("{}: took more than {:g} s, and was ended", place(*shared), step_limit_s));
+  if (too_slow) throw ChildEnded(fmt::format("{}: took more than {:g} s, and was ended", place(*shared), step_limit_s));
   if (WIFSIGNALED(status))
     throw ChildEnded(fmt::format("{}: crashed: {}", place(*shared), strsignal(WTERMSIG(status))));
   if (said.empty()) throw ChildEnded(fmt::format("{}: ended its process", place(*shared)));

@@ -9,7 +9,7 @@
 namespace halyard {
 
 struct ContainmentOptions {
-  double step_limit_s = 10;   ///< a step, the making, or a promise put to the test that takes longer is the end
+  double step_limit_s = 10;  ///< a step, the making, or a promise put to the test that takes longer is the end
 };
 
 /// Makes the estimator and runs it over the log as run_estimator does, in a child process: a module that crashes, or

@@ -8,10 +8,10 @@ namespace halyard {
 
 struct DiagnoseCommandOptions {
   std::filesystem::path model;
-  std::vector<std::filesystem::path> data;   ///< training logs
-  std::filesystem::path holdout;             ///< empty: the last third of each training log
-  std::filesystem::path out;                 ///< folder
-  std::vector<std::string> columns;          ///< entries of --column
+  std::vector<std::filesystem::path> data;  ///< training logs
+  std::filesystem::path holdout;            ///< empty: the last third of each training log
+  std::filesystem::path out;                ///< folder
+  std::vector<std::string> columns;         ///< entries of --column
 };
 
 /// halyard diagnose: finds what the model lacks, writes diagnosis.json, model.xml and report.html.

@@ -35,12 +35,9 @@ Json before_after(const std::vector<double>& before, const std::vector<double>& 
 
 const char* verdict_word(Diagnosis::Verdict verdict) {
   switch (verdict) {
-    case Diagnosis::Verdict::clean:
-      return "clean";
-    case Diagnosis::Verdict::effects:
-      return "effects";
-    case Diagnosis::Verdict::unknown:
-      break;
+    case Diagnosis::Verdict::clean: return "clean";
+    case Diagnosis::Verdict::effects: return "effects";
+    case Diagnosis::Verdict::unknown: break;
   }
   return "unknown";
 }
@@ -131,10 +128,8 @@ void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluati
       for (std::size_t i = 0; i < d.effects.size(); ++i) {
         const NamedEffect& e = d.effects[i];
         text += "\n" + effect_label(e.effect) + ": " + e.effect.effect->summary() + ".";
-        if (i < evaluation.effects.size())
-          text += " " + why_named(d, evaluation, i);
-        else
-          text += alternatives_sentence(e);
+        if (i < evaluation.effects.size()) text += " " + why_named(d, evaluation, i);
+        else text += alternatives_sentence(e);
       }
       for (const Unexplained& u : d.unexplained)
         text += fmt::format("\nLeft unexplained, joint {}: {}.", u.joint + 1, u.signature);

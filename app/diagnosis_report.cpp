@@ -187,8 +187,8 @@ std::vector<report::Chart> residual_charts(const Diagnosis& d, int k) {
     add(before_and_after(fmt::format("Joint {}: {}", k + 1, torque_name), d.torque_view, time, torque), "time [s]",
         torque_label, report::ChartKind::line);
   if (has_joint)
-    add(before_and_after(fmt::format("Joint {}: error over motor rate", k + 1), d.joint_view, rate, joint),
-        rate_label, joint_label, report::ChartKind::scatter);
+    add(before_and_after(fmt::format("Joint {}: error over motor rate", k + 1), d.joint_view, rate, joint), rate_label,
+        joint_label, report::ChartKind::scatter);
   else if (has_torque)
     add(before_and_after(fmt::format("Joint {}: {} over motor rate", k + 1, torque_name), d.torque_view, rate, torque),
         rate_label, torque_label, report::ChartKind::scatter);

@@ -69,7 +69,9 @@ const StudiedRobot& EffectStudy::robot(Has has, const std::string& effect) const
 
 std::vector<std::string> effects_of(const std::vector<Scenario>& scenarios, const ArmModel& model) {
   std::vector<std::string> all;
-  const auto add = [&](const std::string& name) { if (!names(all, name)) all.push_back(name); };
+  const auto add = [&](const std::string& name) {
+    if (!names(all, name)) all.push_back(name);
+  };
   for (const Scenario& s : scenarios) {
     for (const PlacedEffect& e : s.robot.effects) add(e.effect->name());
     for (int k = 0; k < model.n(); ++k)

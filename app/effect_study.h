@@ -14,11 +14,11 @@ namespace halyard {
 /// A robot with some of its effects, and how the estimators did on it.
 struct StudiedRobot {
   enum class Has { none, one, all, all_but_one } has = Has::none;
-  std::string effect;   ///< the one; of all joints. kCableLaw: the cables' law in place of the model's
+  std::string effect;  ///< the one; of all joints. kCableLaw: the cables' law in place of the model's
   /// [estimator][joint] mean absolute error, SI, mean of the scenarios.
   std::vector<std::vector<double>> error;
 
-  std::string name() const;   ///< "capstan_ratio alone"
+  std::string name() const;  ///< "capstan_ratio alone"
 };
 
 /// Stands among the effects for cables whose law is not the model's.
@@ -27,7 +27,7 @@ inline constexpr const char* kCableLaw = "cable law";
 struct EffectStudy {
   std::vector<std::string> estimators;
   std::vector<std::string> effects;
-  std::vector<StudiedRobot> robots;   ///< none, each alone, all, all but each
+  std::vector<StudiedRobot> robots;  ///< none, each alone, all, all but each
 
   const StudiedRobot& robot(StudiedRobot::Has has, const std::string& effect = "") const;
 };

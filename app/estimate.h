@@ -12,15 +12,15 @@ namespace halyard {
 /// What an estimator said of a log, sample by sample.
 struct EstimatorRun {
   std::string name;
-  Log estimates;                      ///< time of the log, joint_position, joint_velocity; NaN before the start
-  Signals joint_position_std;         ///< [n] one standard deviation; 0 where the estimator has none
-  std::vector<std::string> further_names;   ///< what else it estimates of every joint
-  std::vector<Signals> further;       ///< [name][n]; NaN: nothing of that joint
+  Log estimates;                           ///< time of the log, joint_position, joint_velocity; NaN before the start
+  Signals joint_position_std;              ///< [n] one standard deviation; 0 where the estimator has none
+  std::vector<std::string> further_names;  ///< what else it estimates of every joint
+  std::vector<Signals> further;            ///< [name][n]; NaN: nothing of that joint
   EstimatorReport report;
-  std::vector<double> nis;            ///< νᵀ S⁻¹ ν over the motors measured, ~ 1 if the model is right; NaN: none
-  Signals innovation;                 ///< [n] S_root⁻¹ ν, ~ N(0, 1) each if the model is right; NaN: none
-  double microseconds_per_step = 0;   ///< wall time: differs from run to run
-  std::string failure;                ///< why there is no estimate; empty: there is
+  std::vector<double> nis;           ///< νᵀ S⁻¹ ν over the motors measured, ~ 1 if the model is right; NaN: none
+  Signals innovation;                ///< [n] S_root⁻¹ ν, ~ N(0, 1) each if the model is right; NaN: none
+  double microseconds_per_step = 0;  ///< wall time: differs from run to run
+  std::string failure;               ///< why there is no estimate; empty: there is
 };
 
 /// Mean of what is not NaN; NaN without any.

@@ -8,12 +8,12 @@ namespace halyard {
 
 struct EstimateCommandOptions {
   std::filesystem::path model;
-  std::string estimator;               ///< name or path of a plug-in
+  std::string estimator;  ///< name or path of a plug-in
   std::filesystem::path data;
   std::filesystem::path out;
-  std::vector<std::string> columns;    ///< entries of --column
+  std::vector<std::string> columns;  ///< entries of --column
   bool use_joint_torque = false;
-  double skip_s = 0.5;                 ///< start of the log that the printed errors leave out
+  double skip_s = 0.5;  ///< start of the log that the printed errors leave out
 };
 
 /// halyard estimate: runs one estimator over a log. Prints its error where the log has joint sensors.

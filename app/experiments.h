@@ -21,7 +21,7 @@ namespace halyard {
 /// and what came after it.
 struct PublishedErrors {
   const char* source;
-  std::array<double, 3> error;   ///< joint 1 deg, joint 2 deg, joint 3 mm
+  std::array<double, 3> error;  ///< joint 1 deg, joint 2 deg, joint 3 mm
 };
 /// The paper's kinematics first, its filter second.
 const std::vector<PublishedErrors>& published_errors();
@@ -31,16 +31,16 @@ const std::vector<PublishedErrors>& published_errors();
 inline constexpr double kTableThreeJointTwoGain[] = {0.46, 0.047, 0.39};
 
 struct ExperimentsSetup {
-  std::filesystem::path raven2;            ///< folder of models and scenarios
-  std::filesystem::path calibrated = {};   ///< a model that estimators are run with too; empty: calibrate()'s
-  double duration_s = 0;                   ///< in place of the scenarios' own; 0: theirs
+  std::filesystem::path raven2;           ///< folder of models and scenarios
+  std::filesystem::path calibrated = {};  ///< a model that estimators are run with too; empty: calibrate()'s
+  double duration_s = 0;                  ///< in place of the scenarios' own; 0: theirs
 };
 
 struct Experiment {
-  std::string name;                   ///< of the scenario
-  ArmModel robot;                     ///< the true one
-  ArmModel model, calibrated;         ///< what the estimators believe
-  Signals desired;                    ///< [joint] what the joints were asked for
+  std::string name;            ///< of the scenario
+  ArmModel robot;              ///< the true one
+  ArmModel model, calibrated;  ///< what the estimators believe
+  Signals desired;             ///< [joint] what the joints were asked for
   Comparison comparison;
 };
 

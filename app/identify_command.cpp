@@ -75,8 +75,8 @@ void run_identify(const IdentifyCommandOptions& options) {
     result.identification = identify(result.given, training, keys, tell);
     for (const char* name : kEstimators) {
       progress.set("estimators on the hold-out", 0);
-      result.estimators.push_back({name, errors_of(name, result.given, held_out),
-                                   errors_of(name, result.identification.model, held_out)});
+      result.estimators.push_back(
+          {name, errors_of(name, result.given, held_out), errors_of(name, result.identification.model, held_out)});
     }
   }
   write_identification(options.out, result);

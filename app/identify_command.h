@@ -9,10 +9,10 @@ namespace halyard {
 struct IdentifyCommandOptions {
   std::filesystem::path model;
   std::vector<std::filesystem::path> data;
-  std::filesystem::path holdout;             ///< empty: the last third of each log
-  std::string parameters;                    ///< kinds and keys, with commas
-  std::filesystem::path out;                 ///< folder
-  std::vector<std::string> columns;          ///< entries of --column
+  std::filesystem::path holdout;     ///< empty: the last third of each log
+  std::string parameters;            ///< kinds and keys, with commas
+  std::filesystem::path out;         ///< folder
+  std::vector<std::string> columns;  ///< entries of --column
 };
 
 /// halyard identify: numbers of the model from logs with joint sensors, by a dual filter. Writes model.xml,

@@ -14,7 +14,7 @@
 namespace halyard {
 namespace {
 
-constexpr double kWorse = 1.1;   // an error that has grown by more has grown
+constexpr double kWorse = 1.1;  // an error that has grown by more has grown
 
 using Json = nlohmann::ordered_json;
 
@@ -99,9 +99,11 @@ std::vector<std::string> doubts(const IdentifyResult& result) {
   std::string worse = worse_joints(result);
   if (!judge.after.failure.empty()) worse = fmt::format("fails: {}", judge.after.failure);
   if (!adopted(result))
-    all.push_back(fmt::format("{} with the identified numbers is worse on the hold-out ({}), so that model.xml keeps "
-                              "the given ones; they stand for something that the model lacks, and halyard diagnose "
-                              "tells what", judge.name, worse));
+    all.push_back(
+        fmt::format("{} with the identified numbers is worse on the hold-out ({}), so that model.xml keeps "
+                    "the given ones; they stand for something that the model lacks, and halyard diagnose "
+                    "tells what",
+                    judge.name, worse));
   else if (!worse.empty())
     all.push_back(fmt::format("{} with the identified numbers is not better at all joints of the hold-out ({})",
                               judge.name, worse));
@@ -133,13 +135,13 @@ std::string identify_json(const IdentifyResult& result) {
     rms[e.name] = both(e.before.rms, e.after.rms);
     peak[e.name] = both(e.before.peak, e.after.peak);
   }
-  const Json all = {{"adopted", adopted(result)},
-                    {"doubts", doubts(result)},
-                    {"parameters", parameters},
-                    {"blocks", found.blocks},
-                    {"strained", strained},
-                    {"error",
-                     {{"holdout", result.holdout}, {"joint_position_rms", rms}, {"joint_position_peak", peak}}}};
+  const Json all = {
+      {"adopted", adopted(result)},
+      {"doubts", doubts(result)},
+      {"parameters", parameters},
+      {"blocks", found.blocks},
+      {"strained", strained},
+      {"error", {{"holdout", result.holdout}, {"joint_position_rms", rms}, {"joint_position_peak", peak}}}};
   return json_text(all);
 }
 

@@ -14,9 +14,9 @@ namespace halyard {
 /// An identification, and errors of estimators that have motor signals alone, with the given model and with its.
 struct IdentifyResult {
   ArmModel given;
-  std::string data, holdout;             ///< logs, for the reader
+  std::string data, holdout;  ///< logs, for the reader
   Identification identification;
-  std::vector<EstimatorComparison> estimators;   ///< kinematics, sr_ukf
+  std::vector<EstimatorComparison> estimators;  ///< kinematics, sr_ukf
 };
 
 /// "converged", "still drifting in the last third: a longer log, ..." and what to do about it.

@@ -69,14 +69,14 @@ void add_numbers(report::Page& page, const Identification& found) {
   table.align = {report::Align::left,  report::Align::right, report::Align::right, report::Align::right,
                  report::Align::right, report::Align::left,  report::Align::left};
   for (const IdentifiedNumber& n : found.numbers) {
-    const double half_width = 50 * (n.upper - n.lower) / std::abs(n.value);   // %
+    const double half_width = 50 * (n.upper - n.lower) / std::abs(n.value);  // %
     table.rows.push_back({n.name, fmt::format("{:.5g}", n.nominal), fmt::format("{:.7g}", n.value),
                           fmt::format("{:.7g} to {:.7g}", n.lower, n.upper),
                           half_width < 100 ? fmt::format("{:.2g} %", half_width) : fmt::format("{:.0f} %", half_width),
                           n.unit,
-                          n.convergence == Convergence::converged ? "" : n.convergence == Convergence::drifting
-                                                                             ? "drifting"
-                                                                             : "not excited"});
+                          n.convergence == Convergence::converged  ? ""
+                          : n.convergence == Convergence::drifting ? "drifting"
+                                                                   : "not excited"});
   }
   page.table(table);
 }
@@ -85,7 +85,7 @@ void add_errors(report::Page& page, const IdentifyResult& result) {
   const std::vector<JointUnit> units = joint_units(result.given);
   report::Table table;
   table.caption = "Joint position from motor signals alone, on " + result.holdout;
-  table.header = {"joint", "estimator", "RMS error, given model", "identified model", "peak, given model",
+  table.header = {"joint",           "estimator", "RMS error, given model", "identified model", "peak, given model",
                   "identified model"};
   table.align = {report::Align::left,  report::Align::left,  report::Align::right,
                  report::Align::right, report::Align::right, report::Align::right};
@@ -99,8 +99,11 @@ void add_errors(report::Page& page, const IdentifyResult& result) {
         if (!std::isfinite(v[k])) return std::string("no sensor");
         return fmt::format("{:.4g} {}", units[k].shown_per_si * v[k], units[k].shown);
       };
-      table.rows.push_back({fmt::format("{}", k + 1), e.name, cell(e.before.rms),
-                            {cell(e.after.rms), value(e.after.rms) < 0.9 * value(e.before.rms)}, cell(e.before.peak),
+      table.rows.push_back({fmt::format("{}", k + 1),
+                            e.name,
+                            cell(e.before.rms),
+                            {cell(e.after.rms), value(e.after.rms) < 0.9 * value(e.before.rms)},
+                            cell(e.before.peak),
                             {cell(e.after.peak), value(e.after.peak) < 0.9 * value(e.before.peak)}});
     }
   page.table(table);

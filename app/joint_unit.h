@@ -10,8 +10,8 @@ namespace halyard {
 
 /// How a joint's position is written in files and shown in reports.
 struct JointUnit {
-  std::string si;            ///< rad | m
-  std::string shown;         ///< deg | mm
+  std::string si;     ///< rad | m
+  std::string shown;  ///< deg | mm
   double shown_per_si = 1;
 };
 

@@ -41,7 +41,9 @@ report::Table table_of(std::string caption, std::vector<std::string> header, std
 std::string in_words(const PairedRatio& r) {
   if (std::isnan(r.ratio)) return "-";
   return fmt::format("{:.4g} (95 %: {:.4g} to {:.4g}): {}", r.ratio, r.lower, r.upper,
-                     r.better() ? "better" : r.worse() ? "worse" : "no difference shown");
+                     r.better()  ? "better"
+                     : r.worse() ? "worse"
+                                 : "no difference shown");
 }
 
 report::Table consistency_table(const Comparison& comparison) {
@@ -119,7 +121,9 @@ ordered_json to_json(const PairedRatio& r) {
   return {{"rms_ratio", number_or_null(r.ratio)},
           {"ci95", {number_or_null(r.lower), number_or_null(r.upper)}},
           {"block_samples", r.block},
-          {"verdict", r.better() ? "better" : r.worse() ? "worse" : "no difference shown"}};
+          {"verdict", r.better()  ? "better"
+                      : r.worse() ? "worse"
+                                  : "no difference shown"}};
 }
 
 ordered_json to_json(const MonteCarlo& runs) {

@@ -17,7 +17,8 @@ namespace {
 
 int fail(const std::exception& error, int code) {
   std::string line = error.what();
-  std::ranges::replace_if(line, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
   std::fprintf(stderr, "%s\n", line.c_str());
   return code;
 }

@@ -23,7 +23,7 @@ struct OneRun {
   std::string failure;
   std::vector<ErrorStatistics> errors;
   Judgement judgement;
-  Signals nees;   ///< [joint][instant]
+  Signals nees;  ///< [joint][instant]
 };
 
 OneRun run_one(const ArmModel& model, const std::string& name, const SimulationResult& simulation, double skip_s) {
@@ -136,8 +136,7 @@ MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, cons
       check_estimator(name, model);
     } catch (const InputError&) {
       throw;
-    } catch (const std::runtime_error&) {
-    }
+    } catch (const std::runtime_error&) {}
   }
   std::vector<std::vector<OneRun>> all(estimators.size(), std::vector<OneRun>(options.runs));
   tbb::parallel_for(0, options.runs, [&](int r) {

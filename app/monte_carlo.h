@@ -20,15 +20,15 @@ TickNoise assumed_noise(const ArmModel& model, double tick_s);
 /// One estimator over all runs.
 struct RunsOfEstimator {
   std::string name;
-  long failures = 0;                    ///< runs that it did not end
+  long failures = 0;  ///< runs that it did not end
   std::string first_failure;
-  std::vector<ErrorStatistics> errors;  ///< [joint] root of the mean of the runs' squares, mean of their others
-  std::vector<double> rms_lower, rms_upper;   ///< [joint] 2.5 and 97.5 percentiles of the runs' own
+  std::vector<ErrorStatistics> errors;       ///< [joint] root of the mean of the runs' squares, mean of their others
+  std::vector<double> rms_lower, rms_upper;  ///< [joint] 2.5 and 97.5 percentiles of the runs' own
   Consistency nis;
-  std::vector<Consistency> nees;        ///< [joint]
+  std::vector<Consistency> nees;  ///< [joint]
   /// [joint] share of instants whose mean NEES over the runs lies in the band of χ²(runs) / runs.
   std::vector<double> in_band;
-  std::vector<PairedRatio> against_kinematics;   ///< [joint]; NaN without that estimator or for itself
+  std::vector<PairedRatio> against_kinematics;  ///< [joint]; NaN without that estimator or for itself
 };
 
 struct MonteCarlo {
@@ -41,7 +41,7 @@ struct MonteCarlo {
 struct MonteCarloOptions {
   int runs = 1;
   double skip_s = 0.5;
-  std::function<void(double)> run_done = {};   ///< called with 1 for each run, from any thread
+  std::function<void(double)> run_done = {};  ///< called with 1 for each run, from any thread
 };
 
 /// Simulates the scenario with the seeds seed, seed + 1, ..., on all cores, and runs all estimators over each. The

@@ -58,8 +58,7 @@ std::pair<PlacedEffect, PlacedEffect> parse_pair(const std::string& text, const 
 std::string left_out(const Scenario& scenario, const ArmModel& model) {
   if (model_to_xml(scenario.robot) == model_to_xml(model)) return "";
   std::string effects;
-  for (const PlacedEffect& e : scenario.robot.effects)
-    effects += (effects.empty() ? " (" : ", ") + effect_label(e);
+  for (const PlacedEffect& e : scenario.robot.effects) effects += (effects.empty() ? " (" : ", ") + effect_label(e);
   return "the robot of the scenario" + (effects.empty() ? "" : effects + ")") +
          " is not the model; the plan is of an arm as the model has it";
 }

@@ -57,8 +57,8 @@ void Progress::draw() {
   drawn_ = true;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const double rate = done_ / elapsed;
-  fmt::print(stderr, "{}{}: {:3.0f} %   {:.3g} {}/s   {} left", kWipeLine, label_,
-             100 * std::min(1.0, done_ / total_), rate, unit_, duration_text(std::max(0.0, total_ - done_) / rate));
+  fmt::print(stderr, "{}{}: {:3.0f} %   {:.3g} {}/s   {} left", kWipeLine, label_, 100 * std::min(1.0, done_ / total_),
+             rate, unit_, duration_text(std::max(0.0, total_ - done_) / rate));
   std::fflush(stderr);
 }
 

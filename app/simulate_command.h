@@ -6,8 +6,8 @@ namespace halyard {
 
 struct SimulateOptions {
   std::filesystem::path scenario;
-  std::filesystem::path robot;   ///< model file of the true robot; empty: the scenario's model
-  std::filesystem::path out;     ///< measured log
+  std::filesystem::path robot;  ///< model file of the true robot; empty: the scenario's model
+  std::filesystem::path out;    ///< measured log
 };
 
 /// "LOG.csv" to "LOG.truth.csv"; ".truth.csv" is put behind any other name.

@@ -13,7 +13,7 @@ Shard parse_shard(std::string_view text);
 
 struct SweepCommandOptions {
   std::filesystem::path sweep;
-  std::filesystem::path out;   ///< folder
+  std::filesystem::path out;  ///< folder
   SweepRunOptions run;
 };
 
@@ -21,8 +21,8 @@ struct SweepCommandOptions {
 void run_sweep_command(const SweepCommandOptions& options);
 
 struct MergeCommandOptions {
-  std::vector<std::filesystem::path> parts;   ///< folders of sweep's parts
-  std::filesystem::path out;                  ///< folder; may be one of the parts
+  std::vector<std::filesystem::path> parts;  ///< folders of sweep's parts
+  std::filesystem::path out;                 ///< folder; may be one of the parts
 };
 
 /// halyard merge: puts the parts of a sweep together and reports as if it had been computed in one.

@@ -170,8 +170,9 @@ Sweep read_sweep(const fs::path& path) {
   const fs::path model_file = element.has("model") ? element.path("model") : sweep.scenario.model;
   sweep.model = read_model(model_file);
   if (!joints_alike(sweep.model.nominal, sweep.scenario.robot.nominal))
-    element.fail("model", "its joints are not those of the scenario's robot; give a model with as many joints, of the "
-                          "same types and driven alike");
+    element.fail("model",
+                 "its joints are not those of the scenario's robot; give a model with as many joints, of the "
+                 "same types and driven alike");
 
   SweepGrid& grid = sweep.grid;
   grid.name = element.text("name");

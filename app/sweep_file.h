@@ -27,8 +27,8 @@ namespace halyard {
 ///   applies_to   robot, model or both                          default both
 struct Sweep {
   SweepGrid grid;
-  Scenario scenario;   ///< its robot is the truth
-  ArmModel model;      ///< what the estimators believe
+  Scenario scenario;  ///< its robot is the truth
+  ArmModel model;     ///< what the estimators believe
 
   /// The scenario and the model at a point of the grid.
   Scenario scenario_at(std::size_t point) const;

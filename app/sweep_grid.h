@@ -12,11 +12,11 @@ namespace halyard {
 struct SweepAxis {
   enum class Target { robot, model, both };
 
-  std::vector<std::string> parameters;   ///< keys, see sweep_parameter.h
-  Target applies_to = Target::both;      ///< the plant's truth, what the estimators believe, or both
-  bool is_factor = false;                ///< values multiply the number of the file instead of replacing it
-  bool is_logarithmic = false;           ///< how curves are drawn
-  std::string unit;                      ///< of the values; empty for factors and pure numbers
+  std::vector<std::string> parameters;  ///< keys, see sweep_parameter.h
+  Target applies_to = Target::both;     ///< the plant's truth, what the estimators believe, or both
+  bool is_factor = false;               ///< values multiply the number of the file instead of replacing it
+  bool is_logarithmic = false;          ///< how curves are drawn
+  std::string unit;                     ///< of the values; empty for factors and pure numbers
   std::vector<double> values;
 
   /// "joint1.cable.stiffness", "joint1.cable.tension and 2 more (factor)"
@@ -27,12 +27,12 @@ struct SweepAxis {
 /// reporting need; it is stored beside the results.
 struct SweepGrid {
   std::string name;
-  std::string id;                        ///< equal for equal definitions: what results may be put together
-  std::string scenario, model;           ///< names of the files, without folders
+  std::string id;               ///< equal for equal definitions: what results may be put together
+  std::string scenario, model;  ///< names of the files, without folders
   double skip_s = 0.5;
   std::vector<SweepAxis> axes;
   std::vector<std::string> estimators;
-  std::vector<JointUnit> units;          ///< [n_joints]
+  std::vector<JointUnit> units;  ///< [n_joints]
 
   /// Product of the axes' lengths.
   std::size_t size() const;

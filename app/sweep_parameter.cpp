@@ -13,7 +13,7 @@ namespace halyard {
 namespace {
 
 struct EffectKey {
-  int joint;   ///< 0-based; -1: the arm
+  int joint;  ///< 0-based; -1: the arm
   std::string effect, parameter;
 };
 

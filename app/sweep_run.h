@@ -20,9 +20,9 @@ struct Shard {
 SweepCell run_point(const Sweep& sweep, std::size_t point);
 
 struct SweepRunOptions {
-  int jobs = 0;          ///< threads; 0: one per core
+  int jobs = 0;  ///< threads; 0: one per core
   Shard shard;
-  bool resume = false;   ///< cells that are stored stay; otherwise those of the shard are computed anew
+  bool resume = false;  ///< cells that are stored stay; otherwise those of the shard are computed anew
 };
 
 /// Computes the shard's cells in parallel, storing each in the folder when it is done; the result does not depend on

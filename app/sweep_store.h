@@ -16,12 +16,12 @@ namespace halyard {
 struct SweepCell {
   /// Of one estimator.
   struct Result {
-    std::string failure;                   ///< why there are no errors; empty: there are
-    std::vector<ErrorStatistics> errors;   ///< [n_joints], NaN after a failure
+    std::string failure;                  ///< why there are no errors; empty: there are
+    std::vector<ErrorStatistics> errors;  ///< [n_joints], NaN after a failure
   };
 
   std::size_t point = 0;
-  std::vector<Result> results;             ///< [n_estimators]
+  std::vector<Result> results;  ///< [n_estimators]
 };
 
 /// Whether the folder holds results of a sweep with another id. Throws as read_grid().

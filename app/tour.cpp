@@ -79,7 +79,7 @@ DiagnosedModel diagnose_rig(const Rig& rig, const fs::path& examples, const fs::
   options.attribution.most_effects = kMostEffectsOfRig;
   result.diagnosis = diagnose(result.model, training, holdout, options, progress);
   result.evaluation = evaluate_diagnosis(result.model, result.diagnosis, training, holdout, progress);
-  if (holdout) result.diagnosis.holdout = rig.holdout;   // the same bytes wherever the recordings are
+  if (holdout) result.diagnosis.holdout = rig.holdout;  // the same bytes wherever the recordings are
   return result;
 }
 
@@ -93,8 +93,8 @@ Tour compute_tour(const fs::path& examples, const fs::path& recordings, const St
 
   std::vector<Part> parts;
   parts.push_back({"experiments", [&](const StageCallback& tell) {
-                     tour.experiments = compute_experiments(
-                         {.raven2 = raven2}, [&](double done) { tell("simulate and estimate", done); });
+                     tour.experiments = compute_experiments({.raven2 = raven2},
+                                                            [&](double done) { tell("simulate and estimate", done); });
                    }});
   parts.push_back({"undeclared_effect", [&](const StageCallback& tell) {
                      auto& [model, diagnosis, evaluation] = tour.bundled;

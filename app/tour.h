@@ -28,13 +28,13 @@ inline constexpr int kMostEffectsOfRig = 1;
 
 struct RigResult {
   Rig rig;
-  std::optional<DiagnosedModel> diagnosed;   ///< none: the recordings are not at hand
+  std::optional<DiagnosedModel> diagnosed;  ///< none: the recordings are not at hand
 };
 
 struct Tour {
   std::vector<Experiment> experiments;
-  DiagnosedModel bundled;                    ///< raven2.xml by undeclared_effect.csv
-  std::vector<PlacedEffect> undeclared;      ///< what undeclared_effect.xml says of that log; no diagnosis saw it
+  DiagnosedModel bundled;                ///< raven2.xml by undeclared_effect.csv
+  std::vector<PlacedEffect> undeclared;  ///< what undeclared_effect.xml says of that log; no diagnosis saw it
   std::vector<RigResult> rigs;
 };
 
@@ -51,7 +51,7 @@ void write_tour(const std::filesystem::path& folder, const Tour& tour);
 struct FoundParameter {
   std::string effect, name, unit;
   double value = 0;
-  const Estimated* found = nullptr;          ///< null: the diagnosis did not name the effect; points into the tour
+  const Estimated* found = nullptr;  ///< null: the diagnosis did not name the effect; points into the tour
 };
 std::vector<FoundParameter> found_parameters(const Tour& tour);
 

@@ -5,9 +5,9 @@
 namespace halyard {
 
 struct TourOptions {
-  std::filesystem::path out;          ///< folder
-  std::filesystem::path examples;     ///< empty: the examples that belong to this program
-  std::filesystem::path recordings;   ///< empty: shared/data beside the source tree, which need not exist
+  std::filesystem::path out;         ///< folder
+  std::filesystem::path examples;    ///< empty: the examples that belong to this program
+  std::filesystem::path recordings;  ///< empty: shared/data beside the source tree, which need not exist
 };
 
 /// halyard tour: the paper's experiments, a diagnosis of a bundled log, and the recordings of real rigs where they are

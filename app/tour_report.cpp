@@ -56,9 +56,9 @@ void add_experiments(Page& page, const std::vector<Experiment>& experiments) {
   std::vector<Chart> charts;
   for (int k = 0; k < 3; ++k) charts.push_back(joint_chart(experiments, k));
   page.figure_row(charts);
-  page.paragraph(
-      fmt::format("Kinematics errs {} as much as on the robot (joints 1, 2, 3). {} {}", share_of_published(experiments),
-                  order_of_gains(experiments), peaks_of_joint_one(experiments)));
+  page.paragraph(fmt::format("Kinematics errs {} as much as on the robot (joints 1, 2, 3). {} {}",
+                             share_of_published(experiments), order_of_gains(experiments),
+                             peaks_of_joint_one(experiments)));
   page.paragraph(
       "A filter infers the stretch of cables from forces; a wrong ratio or zero between motor and joint it cannot see, "
       "since the motors read the same. Which effects a robot has, logs with joint sensors have to tell: that is what "
@@ -109,8 +109,7 @@ void add_rig_rows(report::Table& table, const RigResult& result) {
     const ShownUnit torque = residual_unit(result.diagnosed->model.nominal, k, ResidualKind::motor_torque);
     table.rows.push_back(
         {k == 0 ? Cell::link(result.rig.title, result.rig.name + "/report.html") : Cell(""),
-         Cell(k == 0 ? verdict_line(d) : ""), Cell(std::to_string(k + 1)),
-         number_of(d.before.joint_rms[k], position),
+         Cell(k == 0 ? verdict_line(d) : ""), Cell(std::to_string(k + 1)), number_of(d.before.joint_rms[k], position),
          Cell(number_of(d.after.joint_rms[k], position), less(d.before.joint_rms[k], d.after.joint_rms[k])),
          number_of(d.before.torque_rms[k], torque),
          Cell(number_of(d.after.torque_rms[k], torque), less(d.before.torque_rms[k], d.after.torque_rms[k]))});

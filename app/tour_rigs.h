@@ -10,12 +10,12 @@
 namespace halyard {
 
 struct Rig {
-  std::string name;                    ///< folder of its results
+  std::string name;  ///< folder of its results
   std::string title;
-  std::string folder;                  ///< below measured, and below the recordings
-  std::string model;                   ///< file in measured/folder
-  std::vector<std::string> training;   ///< files in the recordings' folder
-  std::string holdout;                 ///< the same; empty: the last third of the training data
+  std::string folder;                 ///< below measured, and below the recordings
+  std::string model;                  ///< file in measured/folder
+  std::vector<std::string> training;  ///< files in the recordings' folder
+  std::string holdout;                ///< the same; empty: the last third of the training data
 };
 
 const std::vector<Rig>& measured_rigs();

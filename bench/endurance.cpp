@@ -44,7 +44,7 @@ struct Case {
 struct Outcome {
   std::string failure;
   EstimatorReport report;
-  double worst = 0, rms = 0, naive = 0;   ///< largest std; RMS of joint 1, of the filter and of the kinematics
+  double worst = 0, rms = 0, naive = 0;  ///< largest std; RMS of joint 1, of the filter and of the kinematics
 };
 
 /// Where a camera saw the marker, exposed 50 samples ago, every 33rd sample.
@@ -94,7 +94,7 @@ Outcome endure(const Case& c, long steps, std::uint64_t seed) {
         if (!is_sane(revision->estimate))
           throw std::runtime_error(fmt::format("no sane revision of {:.3f} s", revision->time_s));
       outcome.worst = std::max(outcome.worst, e.joint_position_std.maxCoeff());
-      if (s->time_s < 2) continue;   // the wrong start
+      if (s->time_s < 2) continue;  // the wrong start
       square += std::pow(e.joint_position(0) - truth(0), 2);
       naive_square += std::pow(naive->estimate().joint_position(0) - truth(0), 2);
       ++counted;

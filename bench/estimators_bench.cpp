@@ -41,8 +41,7 @@ void estimator_step(benchmark::State& state, Make make) {
   for (auto _ : state) {
     if (next == samples.size()) estimator->reset(samples[0]), next = 1;
     benchmark::DoNotOptimize(estimator->update(samples[next++]));
-    while (estimator->revise(false)) {
-    }
+    while (estimator->revise(false)) {}
   }
 }
 BENCHMARK_CAPTURE(estimator_step, kinematics, &make_kinematics)->Name("EstimatorStep/kinematics");

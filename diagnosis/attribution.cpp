@@ -126,9 +126,9 @@ class Search {
   /// A fit of all numbers under way.
   struct Refit {
     Hypothesis at;
-    Score score;       ///< there; before the first pass of whatever the first weights are to come from
+    Score score;  ///< there; before the first pass of whatever the first weights are to come from
     Fit best = {};
-    double last = std::numeric_limits<double>::infinity();   ///< Σ ln of the mean squares after the last pass
+    double last = std::numeric_limits<double>::infinity();  ///< Σ ln of the mean squares after the last pass
     bool settled = false;
   };
 
@@ -356,8 +356,7 @@ class Search {
         if (!without[i].usable) continue;
         left = {without[i], evidence_.score(without[i].hypothesis)};
         const int place = static_cast<int>(given_ + i);
-        if (left.score.finite &&
-            !judge_->is_needed(current.scored(), left.scored(), place, options_.significance))
+        if (left.score.finite && !judge_->is_needed(current.scored(), left.scored(), place, options_.significance))
           gone = i;
       }
       if (gone == n) break;
@@ -370,9 +369,9 @@ class Search {
   const ArmModel& model_;
   const AttributionOptions& options_;
   const std::function<void(const std::string&, double)>& progress_;
-  std::size_t given_;                   ///< effects that the model came with
-  std::vector<FitParameter> numbers_;   ///< baseline numbers that the data can tell something of
-  std::optional<Judge> judge_;  ///< from the baseline's refit on
+  std::size_t given_;                  ///< effects that the model came with
+  std::vector<FitParameter> numbers_;  ///< baseline numbers that the data can tell something of
+  std::optional<Judge> judge_;         ///< from the baseline's refit on
   Attribution result_;
 };
 

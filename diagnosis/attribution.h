@@ -22,14 +22,14 @@ inline constexpr std::size_t kMostFitted = 16;
 
 /// One round of the search: all candidates against the same baseline.
 struct Round {
-  std::vector<Trial> trials;     ///< the one that was added, then by the gain of a quick look
-  bool accepted = false;         ///< the first one was added
+  std::vector<Trial> trials;  ///< the one that was added, then by the gain of a quick look
+  bool accepted = false;      ///< the first one was added
 };
 
 struct Attribution {
-  Fit baseline;                              ///< numbers refitted within their tolerance, no effect
-  Fit final_fit;                             ///< with the effects that were named
-  std::vector<std::vector<PlacedEffect>> alternatives;   ///< for each effect of final_fit
+  Fit baseline;                                         ///< numbers refitted within their tolerance, no effect
+  Fit final_fit;                                        ///< with the effects that were named
+  std::vector<std::vector<PlacedEffect>> alternatives;  ///< for each effect of final_fit
   std::vector<Round> rounds;
   Score nominal_score, baseline_score, final_score;
 };
@@ -39,7 +39,7 @@ std::vector<PlacedEffect> all_candidates(const ArmParameters<double>& arm);
 
 struct AttributionOptions {
   int most_effects = 6;
-  double significance = 0.01;    ///< of a round: the expected share of candidates without a gain among those found so
+  double significance = 0.01;  ///< of a round: the expected share of candidates without a gain among those found so
 };
 
 /// progress(text, fraction): what is being done, how far.

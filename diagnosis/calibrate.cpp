@@ -10,8 +10,8 @@
 namespace halyard {
 namespace {
 
-constexpr int kStride = 5;           ///< samples; torques are band-limited to 20 Hz
-constexpr double kGoesWith = 0.3;    ///< least correlation of recorded and needed torque
+constexpr int kStride = 5;         ///< samples; torques are band-limited to 20 Hz
+constexpr double kGoesWith = 0.3;  ///< least correlation of recorded and needed torque
 
 bool is_unknown(const JointParameters<double>& j) { return j.drive != Drive::none && j.tolerance.torque_scale >= 1; }
 
@@ -58,8 +58,9 @@ ArmModel calibrated(const ArmModel& model, const std::vector<Record>& records) {
     };
     const double correlation = r.correlation();
     if (correlation < -kGoesWith)
-      fail("goes against the torque that the motion needs; give its column sign=-1, or correct the sign of the motor's "
-           "position");
+      fail(
+          "goes against the torque that the motion needs; give its column sign=-1, or correct the sign of the motor's "
+          "position");
     if (!(correlation > kGoesWith))
       fail(fmt::format(
           "does not go with the motor's motion (correlation {:.2f}); give a record in which the motor moves, "

@@ -8,7 +8,7 @@ namespace halyard {
 namespace {
 
 struct ChebyshevPolynomial {
-  std::vector<double> T, d, dd;   ///< Chebyshev polynomials and their first two derivatives at w0
+  std::vector<double> T, d, dd;  ///< Chebyshev polynomials and their first two derivatives at w0
   double w0, w1;
 
   explicit ChebyshevPolynomial(int stages) : w0(1 + 2.0 / 13 / (stages * stages)) {
@@ -56,7 +56,7 @@ int stages_for(const std::vector<Spectrum>& spectra, double h) {
 Chebyshev scheme_for(const std::vector<std::vector<Spectrum>>& systems, double sample_s) {
   constexpr int kMostSteps = 8;
   Chebyshev c;
-  for (c.steps = 1; ; ++c.steps) {
+  for (c.steps = 1;; ++c.steps) {
     const double h = sample_s / c.steps;
     c.stages = 2;
     for (const auto& spectra : systems) c.stages = std::max(c.stages, stages_for(spectra, h));

@@ -19,7 +19,7 @@ namespace halyard {
 /// Coefficients of the method, as in the source.
 struct Chebyshev {
   static constexpr int kMostStages = 48;
-  int stages, steps;   ///< steps to a sample
+  int stages, steps;  ///< steps to a sample
   double mu[kMostStages + 1], nu[kMostStages + 1], mu_h[kMostStages + 1], gamma_h[kMostStages + 1],
       node[kMostStages + 1];
 };

@@ -108,8 +108,7 @@ Fit keep_certain_numbers(const Evidence& evidence, const ArmModel& model, const 
       if (!may_go(i)) continue;
       const double needed = f.parameters[i].effect < 0 ? kRefit : kTwoSided95;
       const FitParameter& p = f.parameters[i];
-      const double has =
-          is_exhausted(i) ? 0 : std::abs(value(i) - p.nominal) / (needed * std::sqrt(covariance(i, i)));
+      const double has = is_exhausted(i) ? 0 : std::abs(value(i) - p.nominal) / (needed * std::sqrt(covariance(i, i)));
       if (has < certainty) certainty = has, least = i;
     }
     if (least == f.parameters.size()) break;
@@ -235,16 +234,16 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
     if (all_one_sine && would_name)
       d.unexplained.push_back(
           {k, "the record is one sine, along which several effects look alike; record other motions or loads"});
-    else if (rest)
-      d.unexplained.push_back({k, signature(evidence, h, k)});
+    else if (rest) d.unexplained.push_back({k, signature(evidence, h, k)});
   }
   for (const Log& log : training)
     for (const int k : stuck_joint_sensors(log, model))
       d.unexplained.push_back({k, "its sensor stands still in " + log.source +
                                       " while its motor moves, and was left out: "
                                       "stuck, not connected, or the joint is not driven by this motor"});
-  d.verdict = !d.effects.empty() ? Diagnosis::Verdict::effects
-              : d.unexplained.empty() ? Diagnosis::Verdict::clean : Diagnosis::Verdict::unknown;
+  d.verdict = !d.effects.empty()      ? Diagnosis::Verdict::effects
+              : d.unexplained.empty() ? Diagnosis::Verdict::clean
+                                      : Diagnosis::Verdict::unknown;
   if (options.tell_not_excited) {
     say("what these data could show", 0);
     d.not_excited = not_excited(evidence, model, h);

@@ -13,7 +13,7 @@ struct DiagnosisOptions {
   /// are told in the band of the fit, where their second derivative of a rounded angle still means something.
   RecordOptions joint_error = {.motion_hz = 100, .compare_hz = 0, .settle_s = 0.5, .step_s = 0.001};
   AttributionOptions attribution;
-  bool tell_not_excited = true;   ///< fill Diagnosis::not_excited: a prediction for every candidate
+  bool tell_not_excited = true;  ///< fill Diagnosis::not_excited: a prediction for every candidate
 };
 
 /// A number with its unit and 95 % interval.
@@ -30,8 +30,8 @@ struct NamedEffect {
 };
 
 struct Unexplained {
-  int joint;                ///< 0-based
-  std::string signature;    ///< what the rest looks like
+  int joint;              ///< 0-based
+  std::string signature;  ///< what the rest looks like
 };
 
 struct NotExcited {
@@ -57,13 +57,13 @@ struct Diagnosis {
   std::vector<Estimated> refitted;
   std::vector<Unexplained> unexplained;
   std::vector<NotExcited> not_excited;
-  ArmModel given;                        ///< the model as given, its unknown torque scales calibrated
+  ArmModel given;  ///< the model as given, its unknown torque scales calibrated
   ArmModel revised;
-  std::vector<std::vector<double>> past; ///< of the revised model's effects, before each training record: Hypothesis
-  std::string holdout;                   ///< what the errors were measured on
-  PredictionError before, after;         ///< on the hold-out, by `given` and by `revised`
+  std::vector<std::vector<double>> past;  ///< of the revised model's effects, before each training record: Hypothesis
+  std::string holdout;                    ///< what the errors were measured on
+  PredictionError before, after;          ///< on the hold-out, by `given` and by `revised`
   Attribution attribution;
-  HoldOut joint_view, torque_view;       ///< in the bands of DiagnosisOptions::joint_error and ::record
+  HoldOut joint_view, torque_view;  ///< in the bands of DiagnosisOptions::joint_error and ::record
 };
 
 /// Diagnoses a model by training logs. The hold-out decides nothing: it only tells the errors. Without one the last

@@ -8,13 +8,15 @@
 
 namespace halyard {
 
-struct Span { double first, last; };
+struct Span {
+  double first, last;
+};
 
 /// Mean squares of residuals, one entry a channel (0..n-1 torque, n..2n-1 joint); and of each block.
 struct Score {
-  std::vector<double> mean_square;                 ///< [2n] over the deciding blocks; 0 without data
-  std::vector<double> fit_mean_square;             ///< [2n] over the fitting blocks
-  std::vector<std::vector<double>> block_sum;      ///< [deciding block][2n] sums of squares
+  std::vector<double> mean_square;             ///< [2n] over the deciding blocks; 0 without data
+  std::vector<double> fit_mean_square;         ///< [2n] over the fitting blocks
+  std::vector<std::vector<double>> block_sum;  ///< [deciding block][2n] sums of squares
   bool finite = true;
 };
 
@@ -56,7 +58,13 @@ class Evidence {
   bool has_channel(int c) const { return channel_rows_[c] > 0; }
 
  private:
-  struct Place { int record; int channel; int index; int block; bool fit; };
+  struct Place {
+    int record;
+    int channel;
+    int index;
+    int block;
+    bool fit;
+  };
 
   int n_;
   int stride_;

@@ -113,7 +113,7 @@ class Residual : public ceres::CostFunction {
   const std::vector<std::vector<double>>& frozen_columns_;
   std::vector<double> weight_;
   std::vector<int> prior_;
-  mutable std::vector<double> last_point_;                ///< where last_ was taken: the solver asks twice
+  mutable std::vector<double> last_point_;  ///< where last_ was taken: the solver asks twice
   mutable std::vector<std::vector<double>> last_;
 };
 
@@ -127,12 +127,9 @@ double parameter_value(const Hypothesis& h, const FitParameter& p) {
 }
 
 void set_parameter(Hypothesis& h, const FitParameter& p, double value) {
-  if (is_past(p))
-    h.set_past_state(p.effect, p.index - kMaxEffectParameters, value);
-  else if (p.effect >= 0)
-    h.effects[p.effect].p[p.index] = value;
-  else
-    *named_parameters(h.nominal)[p.index].value = value;
+  if (is_past(p)) h.set_past_state(p.effect, p.index - kMaxEffectParameters, value);
+  else if (p.effect >= 0) h.effects[p.effect].p[p.index] = value;
+  else *named_parameters(h.nominal)[p.index].value = value;
 }
 
 std::vector<FitParameter> baseline_parameters(const ArmParameters<double>& nominal) {
@@ -141,7 +138,7 @@ std::vector<FitParameter> baseline_parameters(const ArmParameters<double>& nomin
   const auto named = named_parameters(arm);
   for (std::size_t i = 0; i < named.size(); ++i) {
     const auto is = [&](const char* word) { return named[i].key.find(word) != std::string::npos; };
-    if (is("gear_ratio") || is("pulley_radius")) continue;   // one ratio, told by the capstan's radius
+    if (is("gear_ratio") || is("pulley_radius")) continue;  // one ratio, told by the capstan's radius
     const double value = *named[i].value, reach = named[i].tolerance * std::abs(value);
     if (!(reach > 0)) continue;
     all.push_back(
@@ -173,12 +170,19 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
     all.push_back(f);
   }
   constexpr std::size_t kMostRecords = 12;
-  constexpr double kFar = 5;   // times a state's size, which may grow while it is fitted
+  constexpr double kFar = 5;  // times a state's size, which may grow while it is fitted
   if (evidence.records().size() > kMostRecords) return all;
   for (std::size_t r = 0, i = 0; r < evidence.records().size(); ++r)
     for (const double scale : e.effect->state_scale(nominal, e.joint, e.p)) {
-      FitParameter f{"past of record " + std::to_string(r + 1), "", place,
-                     kMaxEffectParameters + static_cast<int>(i++), 0, -kFar * scale, kFar * scale, scale, true};
+      FitParameter f{"past of record " + std::to_string(r + 1),
+                     "",
+                     place,
+                     kMaxEffectParameters + static_cast<int>(i++),
+                     0,
+                     -kFar * scale,
+                     kFar * scale,
+                     scale,
+                     true};
       f.shape = true;
       f.starts = {-1, 0, 1};
       all.push_back(f);

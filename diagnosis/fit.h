@@ -19,15 +19,15 @@ namespace halyard {
 struct FitParameter {
   std::string name;
   std::string unit;
-  int effect = -1;        ///< place in Hypothesis::effects, or -1: a baseline number
+  int effect = -1;  ///< place in Hypothesis::effects, or -1: a baseline number
   /// Place in named_parameters(); of an effect its parameter, or kMaxEffectParameters and more: its past.
   int index = 0;
-  double nominal = 0;     ///< baseline: the model's value
+  double nominal = 0;  ///< baseline: the model's value
   double lower = 0, upper = 0;
-  double scale = 1;       ///< one unit of the optimiser
+  double scale = 1;  ///< one unit of the optimiser
   bool natural_bounds = false;
-  bool shape = false;                    ///< of an effect, see EffectParameter
-  std::vector<double> starts = {};       ///< of a past: in units of its scale
+  bool shape = false;               ///< of an effect, see EffectParameter
+  std::vector<double> starts = {};  ///< of a past: in units of its scale
   SearchRange range = SearchRange::own;
 };
 
@@ -43,7 +43,9 @@ std::vector<FitParameter> baseline_parameters(const ArmParameters<double>& nomin
 std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,
                                             const ArmParameters<double>& nominal, int place);
 /// Sizes of an effect and the shapes that follow them, as places in a list of parameters.
-struct ParameterGroup { std::vector<std::size_t> sizes, shapes; };
+struct ParameterGroup {
+  std::vector<std::size_t> sizes, shapes;
+};
 /// The groups of all effects in the list; baseline numbers are in none.
 std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameters);
 /// True of a number of an effect that went to the end of what is plausible. Its neutral value may be a bound as well:
@@ -54,7 +56,7 @@ bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nomi
 
 struct FitOptions {
   int iterations = 10;
-  double cost_tolerance = 1e-5;   ///< a step that lowers the cost by a smaller share is the last
+  double cost_tolerance = 1e-5;  ///< a step that lowers the cost by a smaller share is the last
   /// Sensitivities of baseline numbers are taken once, at the start, and not in every iteration.
   bool frozen_baseline = false;
 };
@@ -62,9 +64,9 @@ struct FitOptions {
 struct Fit {
   Hypothesis hypothesis;
   std::vector<FitParameter> parameters;
-  std::vector<double> value, std_deviation;   ///< [parameters]; deviation from the curvature at the end
-  Eigen::MatrixXd covariance;                 ///< of the values, [parameters x parameters]
-  bool usable = false;                        ///< false: the start could not be integrated
+  std::vector<double> value, std_deviation;  ///< [parameters]; deviation from the curvature at the end
+  Eigen::MatrixXd covariance;                ///< of the values, [parameters x parameters]
+  bool usable = false;                       ///< false: the start could not be integrated
 };
 
 /// Channel scales from residuals: sqrt(max(mean square, floor²)). [2n]

@@ -15,15 +15,15 @@ namespace halyard {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kShortest = 3;          // s of a log
-constexpr int kBlocks = 20;              // of a second or longer, where the logs are long enough
+constexpr double kShortest = 3;  // s of a log
+constexpr int kBlocks = 20;      // of a second or longer, where the logs are long enough
 constexpr int kFewestBlocks = 6;
 constexpr double kTraceRows = 1000;
 constexpr int kPasses = 8;
-constexpr double kStands = 0.2;          // a step of fewer standard deviations is the last
-constexpr double kExcited = 0.5;         // of the prior's deviation: what was learnt is worth telling
-constexpr double kCouplingSpread = 0.3, kSpread = 0.5;   // relative, of what is asked for
-constexpr double kZeroSpread = 0.05, kZeroSpreadLength = 0.01;   // rad | m at the joint
+constexpr double kStands = 0.2;                         // a step of fewer standard deviations is the last
+constexpr double kExcited = 0.5;                        // of the prior's deviation: what was learnt is worth telling
+constexpr double kCouplingSpread = 0.3, kSpread = 0.5;  // relative, of what is asked for
+constexpr double kZeroSpread = 0.05, kZeroSpreadLength = 0.01;  // rad | m at the joint
 constexpr double kRoutingRadius = 0.01;  // m, of a pulley that a cable passes; scale of a coupling of 0
 constexpr double kChance = 3;            // standard deviations
 constexpr double kStrained = 2;          // tolerances: cables' damping in quiet logs comes out up to 1.6 too large
@@ -34,13 +34,12 @@ struct Kind {
   std::vector<const char*> parts;
 };
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> all = {
-      {"coupling", {".coupling."}},
-      {"stiffness", {".cable.stiffness"}},
-      {"damping", {".cable.damping"}},
-      {"tension", {".cable.tension"}},
-      {"motor_friction", {".motor.coulomb", ".motor.viscous"}},
-      {"joint_friction", {".friction.coulomb", ".friction.viscous"}}};
+  static const std::vector<Kind> all = {{"coupling", {".coupling."}},
+                                        {"stiffness", {".cable.stiffness"}},
+                                        {"damping", {".cable.damping"}},
+                                        {"tension", {".cable.tension"}},
+                                        {"motor_friction", {".motor.coulomb", ".motor.viscous"}},
+                                        {"joint_friction", {".friction.coulomb", ".friction.viscous"}}};
   return all;
 }
 
@@ -70,8 +69,9 @@ std::vector<std::string> split(const std::string& text) {
     throw InputError(place + "has one joint, and a joint is coupled with inboard ones; ask for another number");
   if (word == "tension")
     throw InputError(place + "has no cable law that takes tension; write law=\"exponential\" in its <cable>");
-  throw InputError(place + "has no such number, or only numbers of 0; ask for others, or name a coupling of 0 by its "
-                           "key, such as joint2.coupling.joint1");
+  throw InputError(place +
+                   "has no such number, or only numbers of 0; ask for others, or name a coupling of 0 by its "
+                   "key, such as joint2.coupling.joint1");
 }
 
 Weight weight_of(const ArmModel& model, const ParameterInfo& info) {
@@ -124,11 +124,15 @@ void check_logs(const ArmModel& model, const std::vector<Log>& logs, const std::
   }
   for (const Log& log : logs)
     if (log.duration() < kShortest)
-      throw InputError(fmt::format("{}: lasts {:.3g} s; an identification takes {:g} s at least, and more is better: "
-                                   "give a longer log", log.source, log.duration(), kShortest));
+      throw InputError(
+          fmt::format("{}: lasts {:.3g} s; an identification takes {:g} s at least, and more is better: "
+                      "give a longer log",
+                      log.source, log.duration(), kShortest));
   if (logs.size() > 1 && !unknown_zeros(model).empty())
-    throw InputError(fmt::format("{}: its encoders have a zero of their own in each log; give one log, or write their "
-                                 "offsets into the model", model.source));
+    throw InputError(
+        fmt::format("{}: its encoders have a zero of their own in each log; give one log, or write their "
+                    "offsets into the model",
+                    model.source));
 }
 
 /// Calls visit(step, time) for each sample of the logs; time goes on from log to log.
@@ -192,7 +196,7 @@ std::vector<Block> sum_blocks(const ArmModel& model, const std::vector<Weight>& 
 
 struct LeastSquares {
   Eigen::VectorXd u;
-  Eigen::VectorXd deviation;   // of u
+  Eigen::VectorXd deviation;  // of u
   int blocks = 0;
 };
 
@@ -232,8 +236,8 @@ LeastSquares solve(const std::vector<Block>& blocks, const Eigen::VectorXd& u, c
   }
   const Eigen::VectorXd mean = without.rowwise().mean();
   const Eigen::MatrixXd inverse = A_free.ldlt().solve(Eigen::MatrixXd::Identity(A_free.rows(), A_free.rows()));
-  const Eigen::VectorXd jackknife = (count - 1) / count * (without.colwise() - mean).rowwise().squaredNorm() +
-                                    inverse.rowwise().squaredNorm();
+  const Eigen::VectorXd jackknife =
+      (count - 1) / count * (without.colwise() - mean).rowwise().squaredNorm() + inverse.rowwise().squaredNorm();
   LeastSquares e;
   e.u = u + step;
   e.deviation.setZero(p);
@@ -281,8 +285,10 @@ std::vector<std::string> identified_keys(const ArmModel& model, const std::strin
     std::string words, keys;
     for (const Kind& k : kinds()) words += (words.empty() ? "" : ", ") + std::string(k.word);
     for (const ParameterInfo& info : all) keys += (keys.empty() ? "" : ", ") + info.key;
-    throw InputError(fmt::format("parameter {}: {} has none of that name; expected some of {}, or of the keys {}, with "
-                                 "commas between", in_quotes(word), model.source, words, keys));
+    throw InputError(
+        fmt::format("parameter {}: {} has none of that name; expected some of {}, or of the keys {}, with "
+                    "commas between",
+                    in_quotes(word), model.source, words, keys));
   }
   std::vector<std::string> keys;
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -318,7 +324,7 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
     return [&progress, text](double fraction) { progress(text, fraction); };
   };
   double next = 0;
-  std::vector<Eigen::VectorXd> trace_u, trace_deviation;   // the filter's own
+  std::vector<Eigen::VectorXd> trace_u, trace_deviation;  // the filter's own
   run_filter(filter, logs, stage("dual filter"), [&](const DualStep&, double time) {
     if (time < next) return;
     next += whole / kTraceRows;
@@ -368,7 +374,7 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
   ArmParameters<double> given = model.nominal;
   const std::vector<ParameterInfo> all = named_parameters(given);
   for (Eigen::Index i = learnt; i < estimate.u.size(); ++i) {
-    const double tolerances = estimate.u(i) / 2;   // the prior's deviation is half a tolerance
+    const double tolerances = estimate.u(i) / 2;  // the prior's deviation is half a tolerance
     if (std::abs(tolerances) < kStrained || std::abs(estimate.u(i)) < kChance * estimate.deviation(i)) continue;
     const auto info = std::ranges::find(all, weights[i].key, &ParameterInfo::key);
     result.strained.push_back(

@@ -44,36 +44,36 @@ std::vector<std::string> identified_keys(const ArmModel& model, const std::strin
 
 enum class Convergence {
   converged,
-  drifting,      ///< the filter's estimate moved in the last third of the logs, by a tenth of its
-                 ///< tolerance and three of the filter's deviations or more
-  not_excited    ///< the interval is not much narrower than what was known before
+  drifting,    ///< the filter's estimate moved in the last third of the logs, by a tenth of its
+               ///< tolerance and three of the filter's deviations or more
+  not_excited  ///< the interval is not much narrower than what was known before
 };
 
 struct IdentifiedNumber {
   std::string key, name, unit;
-  int joint = 0;                       ///< 0-based
-  double nominal = 0;                  ///< in the model as given
+  int joint = 0;       ///< 0-based
+  double nominal = 0;  ///< in the model as given
   double value = 0;
-  double lower = 0, upper = 0;         ///< 95 %
+  double lower = 0, upper = 0;  ///< 95 %
   Convergence convergence = Convergence::converged;
-  std::vector<double> trace;           ///< of the dual filter, over Identification::time
-  std::vector<double> trace_std;       ///< its deviation, widened as the interval is
+  std::vector<double> trace;      ///< of the dual filter, over Identification::time
+  std::vector<double> trace_std;  ///< its deviation, widened as the interval is
 };
 
 /// A number that was not asked for, but that the log wants elsewhere.
 struct StrainedNumber {
   std::string name, unit;
   double nominal = 0, value = 0;
-  double tolerances = 0;               ///< by how many of its tolerances, signed
+  double tolerances = 0;  ///< by how many of its tolerances, signed
 };
 
 struct Identification {
   std::vector<IdentifiedNumber> numbers;
-  std::vector<StrainedNumber> strained;   ///< beyond twice their tolerance, and not by chance
-  std::vector<double> time;               ///< s of the logs one after the other
+  std::vector<StrainedNumber> strained;  ///< beyond twice their tolerance, and not by chance
+  std::vector<double> time;              ///< s of the logs one after the other
   int blocks = 0;
-  bool stands = false;                    ///< the last pass moved no number by more than a fifth of its deviation
-  ArmModel model;                         ///< with the numbers
+  bool stands = false;  ///< the last pass moved no number by more than a fifth of its deviation
+  ArmModel model;       ///< with the numbers
 };
 
 /// progress(text, fraction) is called now and then.

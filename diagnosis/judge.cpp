@@ -120,7 +120,7 @@ bool Judge::at_bound(const Scored& with, int place) const {
 
 /// True if a shape is near the end of what is plausible, and the data cannot tell it from there.
 bool Judge::is_as_good_at_bound(const Scored& with, const FitParameter& p) const {
-  constexpr double kNear = 2;   // times
+  constexpr double kNear = 2;  // times
   if (p.natural_bounds || p.range != SearchRange::own) return false;
   const double value = parameter_value(with.hypothesis, p);
   for (const double bound : {p.lower, p.upper}) {
@@ -150,8 +150,8 @@ bool Judge::within_tolerance(const Hypothesis& h, int place) const {
 bool Judge::matters(const Score& before, const Score& after, const Hypothesis& with, int place) const {
   bool share = false;
   for (int c = 0; c < evidence_.channels(); ++c)
-    share = share || (evidence_.has_channel(c) &&
-                      before.mean_square[c] - after.mean_square[c] > kMattersShare * first_[c]);
+    share =
+        share || (evidence_.has_channel(c) && before.mean_square[c] - after.mean_square[c] > kMattersShare * first_[c]);
   if (!share) return false;
   const auto rows = evidence_.fit_rows({with})[0], bare = evidence_.fit_rows({without_effect(with, place)})[0];
   return !rows.empty() && (bare.empty() || evidence_.exceeds_floor(difference(rows, bare), kMattersFactor));

@@ -35,16 +35,16 @@ inline constexpr double kWorthAFit = 0.05;
 /// A candidate as it was judged.
 struct Trial {
   PlacedEffect effect;
-  std::vector<double> past;      ///< of Hypothesis, of this effect
-  bool promising = true;         ///< false: where it takes most of the residual it takes too little to be fitted
-  bool is_fitted = true;         ///< it was among those that leave least
-  bool usable = false;           ///< it could be integrated
-  double gain = 0;               ///< on the deciding blocks, above the baseline of its round
-  double p_value = 1;            ///< of no gain, as if it were the only candidate
+  std::vector<double> past;  ///< of Hypothesis, of this effect
+  bool promising = true;     ///< false: where it takes most of the residual it takes too little to be fitted
+  bool is_fitted = true;     ///< it was among those that leave least
+  bool usable = false;       ///< it could be integrated
+  double gain = 0;           ///< on the deciding blocks, above the baseline of its round
+  double p_value = 1;        ///< of no gain, as if it were the only candidate
   bool is_judged() const { return usable && p_value <= kWorthAFit; }
   // Of one that is_judged():
   bool at_bound = false;
-  bool is_refit = false;         ///< its sizes stay within the model's tolerance
+  bool is_refit = false;  ///< its sizes stay within the model's tolerance
   bool matters = false;
   Likelihood log_likelihood;
 };
@@ -66,8 +66,7 @@ std::vector<double> difference(std::vector<double> a, const std::vector<double>&
 class Judge {
  public:
   /// numbers: baseline numbers that the data can tell something of. first: mean squares [2n] before any effect.
-  Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers,
-            std::vector<double> first);
+  Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers, std::vector<double> first);
 
   /// The last effect of `with` against the hypothesis without it.
   Trial trial(const Hypothesis& with, const Scored& without, const PlacedEffect& effect) const;

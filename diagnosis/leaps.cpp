@@ -6,13 +6,15 @@
 namespace halyard {
 namespace {
 
-constexpr std::size_t kStrongest = 4;   ///< leaps that are followed
-constexpr double kApart = 0.15;         ///< s; closer ones are one leap, smeared by the comparing kernel
-constexpr double kAround = 1.5;         ///< rows before and after a leap
-constexpr double kLongest = 1.5;        ///< s; what happened in a longer gap between rows cannot be told
-constexpr int kMostInstants = 24;       ///< of one leap
+constexpr std::size_t kStrongest = 4;  ///< leaps that are followed
+constexpr double kApart = 0.15;        ///< s; closer ones are one leap, smeared by the comparing kernel
+constexpr double kAround = 1.5;        ///< rows before and after a leap
+constexpr double kLongest = 1.5;       ///< s; what happened in a longer gap between rows cannot be told
+constexpr int kMostInstants = 24;      ///< of one leap
 
-struct Leap { double strength, from, to; };
+struct Leap {
+  double strength, from, to;
+};
 
 /// Of channel c.
 std::vector<Leap> leaps_of(const Evidence& evidence, int c, const std::vector<double>& rows) {

@@ -16,8 +16,7 @@ Likelihood log_likelihood(const Evidence& evidence, const Score& score, const st
   for (std::size_t b = 0; b < count.size(); ++b)
     for (int c = 0; c < evidence.channels(); ++c)
       if (count[b][c] > 0)
-        ln[b][c] =
-            block_log_likelihood(evidence, count[b][c], score.block_sum[b][c] / count[b][c], least_square[c]);
+        ln[b][c] = block_log_likelihood(evidence, count[b][c], score.block_sum[b][c] / count[b][c], least_square[c]);
   return ln;
 }
 

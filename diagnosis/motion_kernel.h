@@ -48,13 +48,13 @@ HALYARD_INLINE void prescribe(const ArmParameters<T>& arm, const DrivenInput& u,
 /// The rigid chain over one step: it changes so little within 2 ms that it is taken once, half a step ahead.
 template <class T>
 struct ChainOverStep {
-  T M[kMaxJoints][kMaxJoints];        ///< factored mass matrix
-  T bias[kMaxJoints];                 ///< velocity and gravity forces
+  T M[kMaxJoints][kMaxJoints];  ///< factored mass matrix
+  T bias[kMaxJoints];           ///< velocity and gravity forces
   int n_prescribed = 0;
-  int prescribed[kMaxJoints];         ///< joints with a rigid drive or none
-  T row[kMaxJoints][kMaxJoints];      ///< R: a row of the path matrix, or of the unit matrix where there is no drive
-  T response[kMaxJoints][kMaxJoints]; ///< M⁻¹ R_rᵀ of each
-  T A[kMaxJoints][kMaxJoints];        ///< factored R M⁻¹ Rᵀ
+  int prescribed[kMaxJoints];          ///< joints with a rigid drive or none
+  T row[kMaxJoints][kMaxJoints];       ///< R: a row of the path matrix, or of the unit matrix where there is no drive
+  T response[kMaxJoints][kMaxJoints];  ///< M⁻¹ R_rᵀ of each
+  T A[kMaxJoints][kMaxJoints];         ///< factored R M⁻¹ Rᵀ
 };
 
 template <class T>
@@ -139,8 +139,8 @@ HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const
     rate.v[k] = a[k];
     if (!torque_residual) continue;
     const JointParameters<T>& j = arm.joint[k];
-    torque_residual[k] = s[k].motor_torque - j.motor_travel() * s[k].cable_force_motor -
-                         j.rotor_inertia * u.motor_acceleration[k];
+    torque_residual[k] =
+        s[k].motor_torque - j.motor_travel() * s[k].cable_force_motor - j.rotor_inertia * u.motor_acceleration[k];
   }
 }
 
@@ -185,7 +185,7 @@ HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time
       next(x.v[k], now.v[k], before.v[k], f.v[k], f0.v[k]);
     }
     for (int k = 0; k < m; ++k) next(x.z[k], now.z[k], before.z[k], f.z[k], f0.z[k]);
-    copy_state(n, m, now, f);       // f is free: it carries the stage over
+    copy_state(n, m, now, f);  // f is free: it carries the stage over
     copy_state(n, m, before, now);
     copy_state(n, m, f, before);
   }

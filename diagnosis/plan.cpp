@@ -183,12 +183,9 @@ class Planner {
     const double instants = static_cast<double>(std::count_if(parameters.begin(), parameters.end(), is_instant));
     double instant = 0;
     for (const FitParameter& p : parameters) {
-      if (!p.shape)
-        set_parameter(h, p, p.nominal);
-      else if (is_instant(p))
-        set_parameter(h, p, std::lerp(p.lower, p.upper, ++instant / (instants + 1)));
-      else if (p.range == SearchRange::joint_position)
-        set_parameter(h, p, (p.lower + p.upper) / 2);
+      if (!p.shape) set_parameter(h, p, p.nominal);
+      else if (is_instant(p)) set_parameter(h, p, std::lerp(p.lower, p.upper, ++instant / (instants + 1)));
+      else if (p.range == SearchRange::joint_position) set_parameter(h, p, (p.lower + p.upper) / 2);
     }
   }
 

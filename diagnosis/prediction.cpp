@@ -136,7 +136,7 @@ DrivenState<double> working_state(const Hypothesis& h, const Record& record, con
     double most = 0;
     for (const double torque : record.torque[k]) most = std::max(most, std::abs(torque));
     const double wanted = most / arm.joint[k].motor_travel(), from = x.q[k];
-    constexpr double kFirst = 1e-6;   // rad | m, then twice as far each time
+    constexpr double kFirst = 1e-6;  // rad | m, then twice as far each time
     constexpr int kMostDoublings = 18;
     for (int i = 0; i < kMostDoublings; ++i) {
       x.q[k] = from + std::ldexp(kFirst, i);
@@ -259,7 +259,7 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
   const Chebyshev scheme = scheme_for(able_spectra, record.dt);
   const int n_states = hypotheses.empty() ? 0 : make_transmission<double>(hypotheses[0]).n_states();
   const int state_size = 2 * n + n_states;
-  std::vector<std::vector<double>> states(others.empty() ? 0 : movers.size());   // [mover][sample][state_size]
+  std::vector<std::vector<double>> states(others.empty() ? 0 : movers.size());  // [mover][sample][state_size]
 
   // Residuals of one lane out of what drive and replay write.
   const auto take = [&](const std::vector<Lanes>& out, int lane, bool able, Residuals& r) {

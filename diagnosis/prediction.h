@@ -29,7 +29,7 @@ Hypothesis without_effect(Hypothesis h, std::size_t place);
 /// such signal or the sample cannot be compared.
 struct Residuals {
   std::vector<std::vector<double>> channel;
-  bool finite = true;    ///< false: the hypothesis is so far off that its motion cannot be integrated
+  bool finite = true;  ///< false: the hypothesis is so far off that its motion cannot be integrated
 };
 
 /// Residuals of each hypothesis over a record. All hypotheses must have the same effects at the same

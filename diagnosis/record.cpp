@@ -20,7 +20,7 @@ double sigma_of(double cutoff_hz) { return 1 / (2 * std::numbers::pi * cutoff_hz
 
 /// Gaussian kernel of a cut-off and its first two derivatives on the sample grid, as correlation weights.
 struct Kernel {
-  std::vector<double> value, slope, curvature;   ///< [2 reach + 1]
+  std::vector<double> value, slope, curvature;  ///< [2 reach + 1]
   int reach;
 };
 
@@ -156,7 +156,7 @@ class Stretch {
 
   /// Where the comparing kernel sees enough samples of a signal about it.
   static std::vector<double> comparable(const std::vector<double>& measured, const Record& r, double interval) {
-    constexpr double kEnough = 0.7;   // of what it would see of a signal without holes
+    constexpr double kEnough = 0.7;  // of what it would see of a signal without holes
     const double usual = std::min(1.0, r.dt / std::max(interval, 1e-12));
     const auto size = static_cast<std::ptrdiff_t>(r.size), reach = static_cast<std::ptrdiff_t>(r.compare.size() / 2);
     std::vector<double> valid(r.size, 0);
@@ -236,10 +236,8 @@ std::vector<Row> mark_gaps(const Log& log, const ArmModel& model, double longest
     }
   };
   for (int k = 0; k < log.n_joints; ++k)
-    if (model.nominal.joint[k].drive != Drive::none)
-      look_at(log.motor_position[k]);
-    else if (log.has_joint_position(k))
-      look_at(log.joint_position[k]);
+    if (model.nominal.joint[k].drive != Drive::none) look_at(log.motor_position[k]);
+    else if (log.has_joint_position(k)) look_at(log.joint_position[k]);
   look_at(log.time);
   return mark;
 }
@@ -247,8 +245,8 @@ std::vector<Row> mark_gaps(const Log& log, const ArmModel& model, double longest
 }  // namespace
 
 std::vector<int> stuck_joint_sensors(const Log& log, const ArmModel& model) {
-  constexpr double kMotion = 0.05;      // of the joint's range
-  constexpr std::size_t kEvery = 10;    // rows
+  constexpr double kMotion = 0.05;    // of the joint's range
+  constexpr std::size_t kEvery = 10;  // rows
   const int n = log.n_joints;
   std::vector<int> stuck;
   for (int k = 0; k < n; ++k) {
@@ -268,7 +266,7 @@ std::vector<int> stuck_joint_sensors(const Log& log, const ArmModel& model) {
 std::vector<Record> make_records(const Log& given, const ArmModel& model, const RecordOptions& options) {
   if (given.size() < 2)
     throw InputError(given.source + ": has fewer than two samples; expected a record of at least a second");
-  constexpr double kSlowest = 0.1;   // s a sample
+  constexpr double kSlowest = 0.1;  // s a sample
   const double dt = SampledColumn(given.time, given.time).interval();
   if (dt > kSlowest * (1 + 1e-6))
     throw InputError(

@@ -28,21 +28,21 @@ namespace halyard {
 /// [n_joints][n_samples] everywhere; weights are 0 or 1.
 struct Record {
   int n = 0;
-  double dt = 0;                                    ///< s
-  double start = 0;                                 ///< time of the first sample, s
+  double dt = 0;     ///< s
+  double start = 0;  ///< time of the first sample, s
   std::size_t size = 0;
   /// Readings: encoder offsets still inside. Of a joint without a motor: the joint's own motion, rad | m.
   Signals motor_angle, motor_rate, motor_acceleration;
-  Signals torque;                                   ///< commanded, N m; the hold's half sample of delay removed
-  Signals joint;                                    ///< joint reading through K_m; empty: no sensor
-  Signals joint_raw;                                ///< the reading itself, interpolated between its samples
-  Signals external;                                 ///< measured load on the joint; empty: none
-  Signals joint_measured, torque_measured;          ///< 1 at the grid points nearest to the signal's own samples
-  Signals joint_valid, torque_valid;                ///< 0 where a sample cannot be compared
-  double motion_sigma = 0;                          ///< σ_t of K_m, s
-  std::vector<double> compare;                      ///< K_c on this grid, [2 reach + 1]
+  Signals torque;                           ///< commanded, N m; the hold's half sample of delay removed
+  Signals joint;                            ///< joint reading through K_m; empty: no sensor
+  Signals joint_raw;                        ///< the reading itself, interpolated between its samples
+  Signals external;                         ///< measured load on the joint; empty: none
+  Signals joint_measured, torque_measured;  ///< 1 at the grid points nearest to the signal's own samples
+  Signals joint_valid, torque_valid;        ///< 0 where a sample cannot be compared
+  double motion_sigma = 0;                  ///< σ_t of K_m, s
+  std::vector<double> compare;              ///< K_c on this grid, [2 reach + 1]
   std::string source;
-  int place = -1;                                   ///< among the records of an Evidence; -1: of none
+  int place = -1;  ///< among the records of an Evidence; -1: of none
 
   double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
   bool has_joint(int k) const { return !joint[k].empty(); }
@@ -50,11 +50,11 @@ struct Record {
 };
 
 struct RecordOptions {
-  double motion_hz = 60;      ///< of K_m
-  double compare_hz = 20;     ///< of K_c; 0: residuals as they are
-  double settle_s = 0.5;      ///< from the start of a record: its unknown past fades out, not compared
-  double step_s = 0.002;  ///< grid, at most: a whole number of the fastest sensor's samples, or a whole share of one
-  double longest_gap_s = 0.05;   ///< longer gaps in a motor's position split a log into several records
+  double motion_hz = 60;   ///< of K_m
+  double compare_hz = 20;  ///< of K_c; 0: residuals as they are
+  double settle_s = 0.5;   ///< from the start of a record: its unknown past fades out, not compared
+  double step_s = 0.002;   ///< grid, at most: a whole number of the fastest sensor's samples, or a whole share of one
+  double longest_gap_s = 0.05;  ///< longer gaps in a motor's position split a log into several records
 };
 
 /// One record per stretch of the log without a long gap; encoders of unknown zero are homed first.
@@ -66,7 +66,7 @@ struct RecordOptions {
 /// Throws InputError if no stretch is longer than a second beyond the settling time, or for fewer than ten samples a
 /// second; and as home_encoders().
 std::vector<Record> make_records(const Log& log, const ArmModel& model, const RecordOptions& options);
-inline constexpr double kLongestHold = 0.002;   ///< s
+inline constexpr double kLongestHold = 0.002;  ///< s
 
 /// Joints, from 0, whose sensor stays where it is to the last bit while its motors would move the joint by more than 5
 /// % of its range.

@@ -22,8 +22,8 @@ class Screen {
 
   /// What a candidate's change d of the residual could do.
   struct Direction {
-    double promise = 0;   ///< 0 to 1
-    double amount = 0;    ///< how many times d takes most of the residual: -(r⊥ · d⊥) / |d⊥|²
+    double promise = 0;  ///< 0 to 1
+    double amount = 0;   ///< how many times d takes most of the residual: -(r⊥ · d⊥) / |d⊥|²
   };
   /// rows: what the candidate at some size leaves; empty rows promise nothing.
   Direction direction(const std::vector<double>& rows) const;

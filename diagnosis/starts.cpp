@@ -64,7 +64,10 @@ Start best_start(const Evidence& evidence, const Screen& screen, const Hypothesi
     if (!p.shape) set_parameter(neutral, p, p.nominal);
 
   // One size moved, at some shapes: what the linear fit would make of it tells the promise and a better size.
-  struct Tried { Hypothesis hypothesis; std::size_t combination, size; };
+  struct Tried {
+    Hypothesis hypothesis;
+    std::size_t combination, size;
+  };
   std::vector<Tried> tried;
   std::size_t n_combinations = 0;
   for (const ParameterGroup& group : groups_of(parameters)) {

@@ -10,9 +10,9 @@
 namespace halyard {
 
 struct Start {
-  Hypothesis hypothesis;   ///< the candidate, the last effect, where it takes most of the residual
-  double promise = 0;      ///< of the best that was tried, see screen.h; 0: it takes nothing
-  double left = std::numeric_limits<double>::infinity();   ///< |r⊥ + d⊥|² there
+  Hypothesis hypothesis;  ///< the candidate, the last effect, where it takes most of the residual
+  double promise = 0;     ///< of the best that was tried, see screen.h; 0: it takes nothing
+  double left = std::numeric_limits<double>::infinity();  ///< |r⊥ + d⊥|² there
 };
 
 /// `with`: the candidate is the last effect. Each of its sizes is tried with each start of the shapes that follow it,

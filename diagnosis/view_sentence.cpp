@@ -23,14 +23,12 @@ ShownUnit residual_unit(const ArmParameters<double>& arm, int joint, ResidualKin
   const JointParameters<double>& j = arm.joint[joint];
   switch (residual) {
     case ResidualKind::joint_position:
-    case ResidualKind::transmission:
-      return position_unit(j);
+    case ResidualKind::transmission: return position_unit(j);
     case ResidualKind::motor_torque:
       if (is_linear_motor(j)) return {"N", 1};
       // By the motor's own friction: a large one or a small one.
       return j.motor_coulomb > 0.5 ? ShownUnit{"N\u00a0m", 1} : ShownUnit{"mN\u00a0m", 1e3};
-    case ResidualKind::joint_torque:
-      break;
+    case ResidualKind::joint_torque: break;
   }
   return {j.type == JointType::revolute ? "N\u00a0m" : "N", 1};
 }
@@ -41,24 +39,17 @@ ShownUnit abscissa_unit(const ArmParameters<double>& arm, int joint, ResidualKin
   const bool linear = is_linear_motor(j);
   switch (abscissa) {
     case Abscissa::constant:
-    case Abscissa::time:
-      return {"s", 1};
-    case Abscissa::direction:
-      return {"", 1};
-    case Abscissa::joint_position:
-      return position;
+    case Abscissa::time: return {"s", 1};
+    case Abscissa::direction: return {"", 1};
+    case Abscissa::joint_position: return position;
     case Abscissa::rate:
       if (residual == ResidualKind::motor_torque) return {linear ? "m/s" : "rad/s", 1};
       return {position.name + "/s", position.per_si};
-    case Abscissa::load:
-      return {"N", 1};
-    case Abscissa::stretch:
-      return {"mm", 1e3};
+    case Abscissa::load: return {"N", 1};
+    case Abscissa::stretch: return {"mm", 1e3};
     case Abscissa::motor_angle:
-    case Abscissa::capstan_angle:
-      return {"turn", 0.5 / std::numbers::pi};
-    case Abscissa::other_residual:
-      break;
+    case Abscissa::capstan_angle: return {"turn", 0.5 / std::numbers::pi};
+    case Abscissa::other_residual: break;
   }
   return residual_unit(
       arm, joint, residual == ResidualKind::motor_torque ? ResidualKind::joint_position : ResidualKind::motor_torque);
@@ -66,14 +57,11 @@ ShownUnit abscissa_unit(const ArmParameters<double>& arm, int joint, ResidualKin
 
 std::string residual_name(const ArmParameters<double>& arm, int joint, ResidualKind residual) {
   switch (residual) {
-    case ResidualKind::joint_position:
-      return "position residual";
-    case ResidualKind::transmission:
-      return "transmission residual";
+    case ResidualKind::joint_position: return "position residual";
+    case ResidualKind::transmission: return "transmission residual";
     case ResidualKind::motor_torque:
       return is_linear_motor(arm.joint[joint]) ? "motor force residual" : "motor torque residual";
-    case ResidualKind::joint_torque:
-      break;
+    case ResidualKind::joint_torque: break;
   }
   return arm.joint[joint].type == JointType::revolute ? "joint torque residual" : "joint force residual";
 }
@@ -82,24 +70,15 @@ std::string abscissa_name(ResidualKind residual, Abscissa abscissa) {
   const bool motor = residual == ResidualKind::motor_torque;
   switch (abscissa) {
     case Abscissa::constant:
-    case Abscissa::time:
-      return "time";
-    case Abscissa::direction:
-      return "direction of motion";
-    case Abscissa::joint_position:
-      return "joint position";
-    case Abscissa::rate:
-      return motor ? "motor rate" : "joint rate";
-    case Abscissa::load:
-      return "load";
-    case Abscissa::stretch:
-      return "stretch";
-    case Abscissa::motor_angle:
-      return "motor angle";
-    case Abscissa::capstan_angle:
-      return "capstan angle";
-    case Abscissa::other_residual:
-      break;
+    case Abscissa::time: return "time";
+    case Abscissa::direction: return "direction of motion";
+    case Abscissa::joint_position: return "joint position";
+    case Abscissa::rate: return motor ? "motor rate" : "joint rate";
+    case Abscissa::load: return "load";
+    case Abscissa::stretch: return "stretch";
+    case Abscissa::motor_angle: return "motor angle";
+    case Abscissa::capstan_angle: return "capstan angle";
+    case Abscissa::other_residual: break;
   }
   return motor ? "position residual" : "motor torque residual";
 }

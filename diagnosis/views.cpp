@@ -135,14 +135,10 @@ bool is_told(const ResidualSignals& s, const View& v) {
 /// Abscissae that are much the same thing.
 int group(Abscissa a) {
   switch (a) {
-    case Abscissa::direction:
-      return static_cast<int>(Abscissa::rate);
-    case Abscissa::stretch:
-      return static_cast<int>(Abscissa::load);
-    case Abscissa::capstan_angle:
-      return static_cast<int>(Abscissa::motor_angle);
-    default:
-      return static_cast<int>(a);
+    case Abscissa::direction: return static_cast<int>(Abscissa::rate);
+    case Abscissa::stretch: return static_cast<int>(Abscissa::load);
+    case Abscissa::capstan_angle: return static_cast<int>(Abscissa::motor_angle);
+    default: return static_cast<int>(a);
   }
 }
 
@@ -182,24 +178,15 @@ const std::vector<double>& abscissa_of(const ResidualSignals& s, ResidualKind re
   const bool motor = residual == ResidualKind::motor_torque;
   switch (abscissa) {
     case Abscissa::constant:
-    case Abscissa::time:
-      return s.time;
-    case Abscissa::direction:
-      return direction_of(s, residual);
-    case Abscissa::joint_position:
-      return s.joint_position;
-    case Abscissa::rate:
-      return motor ? s.motor_rate : s.joint_rate;
-    case Abscissa::load:
-      return s.load;
-    case Abscissa::stretch:
-      return s.stretch;
-    case Abscissa::motor_angle:
-      return s.motor_angle;
-    case Abscissa::capstan_angle:
-      return s.capstan_angle;
-    case Abscissa::other_residual:
-      break;
+    case Abscissa::time: return s.time;
+    case Abscissa::direction: return direction_of(s, residual);
+    case Abscissa::joint_position: return s.joint_position;
+    case Abscissa::rate: return motor ? s.motor_rate : s.joint_rate;
+    case Abscissa::load: return s.load;
+    case Abscissa::stretch: return s.stretch;
+    case Abscissa::motor_angle: return s.motor_angle;
+    case Abscissa::capstan_angle: return s.capstan_angle;
+    case Abscissa::other_residual: break;
   }
   return s.of(motor ? ResidualKind::joint_position : ResidualKind::motor_torque);
 }

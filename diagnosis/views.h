@@ -20,7 +20,16 @@ namespace halyard {
 /// What a residual is drawn over. Rate and direction are the motor's for a motor torque, the joint's otherwise;
 /// other_residual is the position's for a motor torque, the motor torque's otherwise.
 enum class Abscissa {
-  constant, direction, joint_position, rate, load, stretch, motor_angle, capstan_angle, time, other_residual
+  constant,
+  direction,
+  joint_position,
+  rate,
+  load,
+  stretch,
+  motor_angle,
+  capstan_angle,
+  time,
+  other_residual
 };
 
 /// A residual before and after something was added to the model.

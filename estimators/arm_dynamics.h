@@ -21,7 +21,7 @@ struct StateLayout {
   int n_joints = 0;
   int n_effect_states = 0;
   int motor_angle[kMaxJoints], motor_rate[kMaxJoints], position[kMaxJoints], rate[kMaxJoints];
-  int effect_states = 0;     ///< index of the first internal state
+  int effect_states = 0;  ///< index of the first internal state
   int size = 0;
 };
 
@@ -85,8 +85,7 @@ HALYARD_INLINE void factored_mass(const ArmParameters<T>& arm, const ChainPose<T
     if (j.drive != Drive::rigid) continue;
     const T turns = j.pulley_radius / j.motor_travel();
     for (int r = 0; r < arm.n; ++r)
-      for (int c = 0; c < arm.n; ++c)
-        M[r][c] += j.rotor_inertia * turns * turns * j.coupling[r] * j.coupling[c];
+      for (int c = 0; c < arm.n; ++c) M[r][c] += j.rotor_inertia * turns * turns * j.coupling[r] * j.coupling[c];
   }
   ldl_factor<T, kMaxJoints>(arm.n, M);
 }
@@ -94,8 +93,8 @@ HALYARD_INLINE void factored_mass(const ArmParameters<T>& arm, const ChainPose<T
 /// x' at state x. command, external: [n], held over the step.
 template <class T>
 HALYARD_INLINE void state_derivative(const Transmission<T>& transmission, const StateLayout& l, double time,
-                                     const CommandHistory* history, const T* command, const T* external,
-                                     const T* x, T* x_dot) {
+                                     const CommandHistory* history, const T* command, const T* external, const T* x,
+                                     T* x_dot) {
   const ArmParameters<T>& arm = transmission.arm();
   const int n = arm.n;
   JointSignals<T> s[kMaxJoints];

@@ -36,9 +36,9 @@ class ArmFamily {
 
  private:
   const ProcessModel& structure_;
-  std::deque<ArmParameters<double>> arms_;       // a deque: value_ points into them
-  std::vector<std::vector<double*>> value_;      // [member][key]
-  std::vector<Transmission<Lanes>> lanes_;       // eight members each
+  std::deque<ArmParameters<double>> arms_;   // a deque: value_ points into them
+  std::vector<std::vector<double*>> value_;  // [member][key]
+  std::vector<Transmission<Lanes>> lanes_;   // eight members each
 };
 
 /// The number of the arm that a key names, as above. Throws std::invalid_argument if there is none.

@@ -13,8 +13,8 @@ namespace halyard {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFastest = 0.05;      // s, for a joint to cross its range
-constexpr double kHistorySpan = 2;   // s, longer than any delay
+constexpr double kFastest = 0.05;   // s, for a joint to cross its range
+constexpr double kHistorySpan = 2;  // s, longer than any delay
 
 }  // namespace
 
@@ -160,9 +160,9 @@ Innovation ArmFilter::correct(const Sample& sample) {
     if (std::isfinite(sample.motor_position(k))) read.push_back(k);
   if (read.empty()) return {};
   const Eigen::MatrixXd R_root = Eigen::VectorXd(noise_.encoder()(read)).asDiagonal();
-  const Innovation innovation = filter_->update(MotorReadings(*process_, sample.time_s, read),
-                                                sample.motor_position(read), R_root,
-                                                gate_threshold(static_cast<int>(read.size())));
+  const Innovation innovation =
+      filter_->update(MotorReadings(*process_, sample.time_s, read), sample.motor_position(read), R_root,
+                      gate_threshold(static_cast<int>(read.size())));
   noise_.adapt(read, innovation, sample.time_s - time_);
   refused_since_ = innovation.accepted ? kInfinity : std::min(refused_since_, sample.time_s);
   return innovation;
@@ -219,8 +219,7 @@ Innovation ArmFilter::correct_at(double time_s, const MeasurementModel& measurem
                                  const Eigen::MatrixXd& R_root) {
   if (time_s > time_) predict(time_s);
   time_ = time_s;
-  Innovation innovation =
-      filter_->update(measurement, z, R_root, gate_threshold(static_cast<int>(z.size())));
+  Innovation innovation = filter_->update(measurement, z, R_root, gate_threshold(static_cast<int>(z.size())));
   innovation.time_s = time_s;
   if (!innovation.accepted) ++report_.gated;
   return innovation;

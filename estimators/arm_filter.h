@@ -19,9 +19,9 @@ namespace halyard {
 
 struct ArmFilterOptions {
   NoiseLevels noise;
-  double max_step = 0.01;       ///< s
-  double restart_gap = 1;       ///< s
-  double gate = 1;              ///< probability
+  double max_step = 0.01;  ///< s
+  double restart_gap = 1;  ///< s
+  double gate = 1;         ///< probability
   /// Effect states to which the joints have settled when the filter starts: what it does not know of them it does not
   /// know of the joints.
   std::vector<int> settled = {};
@@ -77,11 +77,11 @@ class ArmFilter final : public Estimator {
   ArmFilterOptions options_;
   ArmNoise noise_;
   std::unique_ptr<GaussianFilter> filter_;
-  std::vector<int> motors_;            // joints that have a motor
+  std::vector<int> motors_;  // joints that have a motor
   CommandHistory history_;
-  double last_command_ = 0;            // its time
+  double last_command_ = 0;  // its time
   bool started_ = false;
-  bool speed_is_due_ = false;          // the start was from one reading that can be trusted
+  bool speed_is_due_ = false;  // the start was from one reading that can be trusted
   double time_ = 0;
   double refused_since_ = 0;           // first of the readings refused without one accepted since; infinite: none is
   Eigen::VectorXd reading_;            // last of each motor, NaN before

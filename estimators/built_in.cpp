@@ -68,8 +68,9 @@ std::unique_ptr<Estimator> make_smoother(const ArmModel& model, const EstimatorO
   const ArmFilterOptions arm_options = read_arm_filter_options(reader, model, *process);
   reader.finish();
   if (weights.beta < weights.alpha * weights.alpha)
-    throw InputError("estimator smoother: option beta is smaller than alpha squared: a down-date cannot be smoothed; "
-                     "give a larger beta or a smaller alpha");
+    throw InputError(
+        "estimator smoother: option beta is smaller than alpha squared: a down-date cannot be smoothed; "
+        "give a larger beta or a smaller alpha");
   return std::make_unique<FixedLagSmoother>(model, process, arm_options, weights, lag_s);
 }
 

@@ -9,7 +9,7 @@ namespace halyard {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kRounding = 1e-9;   // s, of times that are sums
+constexpr double kRounding = 1e-9;  // s, of times that are sums
 
 /// x becomes x - b.
 class UnknownOffset : public UnknownConstant<UnknownOffset> {
@@ -72,7 +72,7 @@ class MarkerPosition final : public MeasurementModel {
 
 CameraOptions read_camera_options(OptionReader& options, const ArmModel& model) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  constexpr double kShare = 0.01;   // of the cable's travel
+  constexpr double kShare = 0.01;  // of the cable's travel
   const ArmParameters<double> arm = Transmission<double>(model.nominal, model.effects).arm();
   Eigen::VectorXd offset(arm.n);
   for (int k = 0; k < arm.n; ++k)

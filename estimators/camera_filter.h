@@ -70,7 +70,7 @@ class CameraFilter final : public Estimator {
   CameraOptions camera_;
   double restart_gap_;
   ArmFilter filter_;
-  std::deque<Past> past_;   // from the last sample before the oldest exposure that can still arrive
+  std::deque<Past> past_;  // from the last sample before the oldest exposure that can still arrive
 };
 
 }  // namespace halyard

@@ -50,8 +50,7 @@ ArmModel with_unknown_forces(const ArmModel& model, const UnknownLevels& levels)
   return augmented;
 }
 
-ArmFilterOptions with_force_wander(ArmFilterOptions options, const ProcessModel& process,
-                                   const UnknownLevels& levels) {
+ArmFilterOptions with_force_wander(ArmFilterOptions options, const ProcessModel& process, const UnknownLevels& levels) {
   return with_wander(std::move(options), unknown_force(), process, levels.wander);
 }
 

@@ -36,8 +36,7 @@ UnknownLevels read_force_levels(OptionReader& options, const ArmModel& model);
 ArmModel with_unknown_forces(const ArmModel& model, const UnknownLevels& levels);
 
 /// The options with the forces' ρ in the noise; process: of such a model.
-ArmFilterOptions with_force_wander(ArmFilterOptions options, const ProcessModel& process,
-                                   const UnknownLevels& levels);
+ArmFilterOptions with_force_wander(ArmFilterOptions options, const ProcessModel& process, const UnknownLevels& levels);
 
 class DisturbanceFilter final : public Estimator {
  public:

@@ -243,9 +243,8 @@ DualStep DualUkf::update(const EncoderSample& sample) {
   }
   const auto triangle = E.transpose().triangularView<Eigen::Upper>();
   const auto per_weight = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
-    const Eigen::MatrixXd moved = options_.learn
-                                      ? Eigen::MatrixXd(0.5 * (columns.leftCols(p) - columns.rightCols(p)))
-                                      : Eigen::MatrixXd(columns.leftCols(p).colwise() - columns.col(p));
+    const Eigen::MatrixXd moved = options_.learn ? Eigen::MatrixXd(0.5 * (columns.leftCols(p) - columns.rightCols(p)))
+                                                 : Eigen::MatrixXd(columns.leftCols(p).colwise() - columns.col(p));
     return triangle.solve(moved.transpose()).transpose();
   };
   Psi_ = per_weight(X);
@@ -266,9 +265,8 @@ DualStep DualUkf::update(const EncoderSample& sample) {
     const Eigen::MatrixXd Y = per_weight(points_.readings(sample.time_s, X))(read, Eigen::all);
     H = H(read, Eigen::all).eval();
     const Eigen::MatrixXd HS = H * state_filter_.S(), PH = state_filter_.S() * HS.transpose();
-    const Innovation innovation =
-        state_filter_.update(Linearised(x, predicted(read), H), z(read),
-                             Eigen::VectorXd(deviation_(read)).asDiagonal(), kInfinity);
+    const Innovation innovation = state_filter_.update(Linearised(x, predicted(read), H), z(read),
+                                                       Eigen::VectorXd(deviation_(read)).asDiagonal(), kInfinity);
     const auto S_y = innovation.S_root.triangularView<Eigen::Lower>();
     const auto S_y_transposed = innovation.S_root.transpose().triangularView<Eigen::Upper>();
     const Eigen::MatrixXd K = S_y_transposed.solve(S_y.solve(PH.transpose())).transpose();

@@ -43,34 +43,34 @@ namespace halyard {
 
 /// A number θ of the arm by a weight u ~ N(0, 1): nominal + scale u, or nominal exp(scale u) if its sign is known.
 struct Weight {
-  std::string key;              ///< as ArmFamily takes it
+  std::string key;  ///< as ArmFamily takes it
   double nominal = 0;
-  double scale = 1;             ///< of the number's unit; relative if logarithmic
+  double scale = 1;  ///< of the number's unit; relative if logarithmic
   bool logarithmic = false;
 
   double value(double u) const;
-  double slope(double u) const;   ///< dθ/du
+  double slope(double u) const;  ///< dθ/du
 };
 
 /// A row of a log with the joints' sensors.
 struct EncoderSample : Sample {
-  Eigen::VectorXd joint_position;   ///< [n] rad | m; NaN: not measured
+  Eigen::VectorXd joint_position;  ///< [n] rad | m; NaN: not measured
 };
 
 /// What one sample said.
 struct DualStep {
-  Eigen::VectorXd nu;        ///< z - ẑ                [m]; m = 0: nothing was measured, or the filter has just started
-  Eigen::MatrixXd S_root;    ///< cov(ν) given w       [m x m]
-  Eigen::MatrixXd Y;         ///< dẑ/dw                [m x p]
+  Eigen::VectorXd nu;      ///< z - ẑ                [m]; m = 0: nothing was measured, or the filter has just started
+  Eigen::MatrixXd S_root;  ///< cov(ν) given w       [m x m]
+  Eigen::MatrixXd Y;       ///< dẑ/dw                [m x p]
 };
 
 struct DualUkfOptions {
-  bool learn = true;          ///< false: the weights are held
-  double memory = 2;          ///< T_0, s
-  double memory_growth = 2;   ///< τ, s
-  double settle = 0.5;        ///< s after a start from which nothing is learnt, and steps are returned without ν
-  double max_step = 0.01;     ///< s
-  double restart_gap = 1;     ///< s
+  bool learn = true;         ///< false: the weights are held
+  double memory = 2;         ///< T_0, s
+  double memory_growth = 2;  ///< τ, s
+  double settle = 0.5;       ///< s after a start from which nothing is learnt, and steps are returned without ν
+  double max_step = 0.01;    ///< s
+  double restart_gap = 1;    ///< s
 };
 
 class DualUkf {
@@ -100,18 +100,18 @@ class DualUkf {
   ArmModel model_;
   std::vector<Weight> weights_;
   DualUkfOptions options_;
-  ProcessModel structure_;          // of the nominal model
+  ProcessModel structure_;  // of the nominal model
   ArmNoise noise_;
-  Eigen::VectorXd deviation_;       // of all encoders [2n]
+  Eigen::VectorXd deviation_;  // of all encoders [2n]
   ArmFamily center_, points_;
   SquareRootUkf state_filter_, weights_filter_;
   Eigen::MatrixXd Psi_;
   CommandHistory history_;
-  Eigen::VectorXd torque_, external_, latest_;   // held
-  std::unique_ptr<ProcessModel> stepping_;       // of the weights, to choose sub-steps by
+  Eigen::VectorXd torque_, external_, latest_;  // held
+  std::unique_ptr<ProcessModel> stepping_;      // of the weights, to choose sub-steps by
   double stepping_time_ = 0;
   Eigen::VectorXd stepping_w_;
-  bool points_are_set_ = false;     // held weights' points stay
+  bool points_are_set_ = false;  // held weights' points stay
   bool started_ = false, time_known_ = false;
   double time_ = 0, start_time_ = 0, learnt_ = 0;
 };

@@ -12,41 +12,41 @@ namespace halyard {
 /// One row of a log, as an estimator sees it.
 struct Sample {
   double time_s = 0;
-  Eigen::VectorXd motor_torque;     ///< [n] commanded from this time on, N m; NaN: missing, the last one is held
-  Eigen::VectorXd motor_position;   ///< [n] measured at this time, rad; NaN: missing, no correction from it
-  Eigen::VectorXd joint_torque;     ///< [n] measured external load, N m | N; empty: none
-  Eigen::VectorXd marker = {};      ///< [3] where a camera saw the marker at the tool, m, base frame; empty: not seen
+  Eigen::VectorXd motor_torque;    ///< [n] commanded from this time on, N m; NaN: missing, the last one is held
+  Eigen::VectorXd motor_position;  ///< [n] measured at this time, rad; NaN: missing, no correction from it
+  Eigen::VectorXd joint_torque;    ///< [n] measured external load, N m | N; empty: none
+  Eigen::VectorXd marker = {};     ///< [3] where a camera saw the marker at the tool, m, base frame; empty: not seen
 };
 
 /// What one measurement said that the prediction did not. Only the motors whose sample is there count: m of n.
 struct Innovation {
   double time_s = 0;
-  Eigen::VectorXd nu;       ///< z - ẑ                          [m], rad
-  Eigen::MatrixXd S_root;   ///< lower, S_root S_rootᵀ = cov(ν)  [m x m]
-  bool accepted = true;     ///< false: gated out, belief unchanged
-  double nis() const;       ///< νᵀ S⁻¹ ν ~ χ²(m) if the model is right; 0 if m = 0
+  Eigen::VectorXd nu;      ///< z - ẑ                          [m], rad
+  Eigen::MatrixXd S_root;  ///< lower, S_root S_rootᵀ = cov(ν)  [m x m]
+  bool accepted = true;    ///< false: gated out, belief unchanged
+  double nis() const;      ///< νᵀ S⁻¹ ν ~ χ²(m) if the model is right; 0 if m = 0
 };
 
 /// What is believed of the joints.
 struct Estimate {
-  Eigen::VectorXd joint_position;       ///< [n] rad | m
-  Eigen::VectorXd joint_velocity;       ///< [n] rad/s | m/s
-  Eigen::VectorXd joint_position_std;   ///< [n] one standard deviation; 0 where the estimator has none
+  Eigen::VectorXd joint_position;      ///< [n] rad | m
+  Eigen::VectorXd joint_velocity;      ///< [n] rad/s | m/s
+  Eigen::VectorXd joint_position_std;  ///< [n] one standard deviation; 0 where the estimator has none
   /// What else it says of the joints, a column [n] for each of its further_names(); NaN: nothing of that joint.
   Eigen::MatrixXd further = {};
 };
 
 /// What later samples say of an earlier one.
 struct Revision {
-  double time_s = 0;   ///< of a sample since reset()
+  double time_s = 0;  ///< of a sample since reset()
   Estimate estimate;
 };
 
 /// What an estimator has to say of a run.
 struct EstimatorReport {
   long steps = 0;
-  long repaired_factors = 0;   ///< square-root factors that were lost and rebuilt
-  long gated = 0;              ///< measurements not accepted
+  long repaired_factors = 0;  ///< square-root factors that were lost and rebuilt
+  long gated = 0;             ///< measurements not accepted
 };
 
 class Estimator {

@@ -49,7 +49,7 @@ void FixedLagSmoother::reset(const Sample& first) {
 
 Innovation FixedLagSmoother::update(const Sample& sample) {
   const Innovation innovation = filter_.update(sample);
-  if (recorded_->steps.empty()) {   // the filter has started anew
+  if (recorded_->steps.empty()) {  // the filter has started anew
     smooth(0);
     window_.clear();
   }
@@ -68,8 +68,7 @@ void FixedLagSmoother::smooth(double lag_s) {
   const double until = window_.back().time_s - lag_s;
   std::deque<Revision> told;
   smooth_backwards(window_, [&](std::size_t i, const Eigen::VectorXd& x, const Eigen::MatrixXd& S) {
-    if (window_[i].time_s <= until)
-      told.push_front({window_[i].time_s, joint_estimate(process_->layout(), x, S)});
+    if (window_[i].time_s <= until) told.push_front({window_[i].time_s, joint_estimate(process_->layout(), x, S)});
   });
   window_.erase(window_.begin(), window_.begin() + static_cast<std::ptrdiff_t>(told.size()));
   due_.insert(due_.end(), told.begin(), told.end());

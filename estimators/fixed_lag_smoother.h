@@ -61,7 +61,7 @@ class FixedLagSmoother final : public Estimator {
   void smooth(double lag_s);
 
   std::shared_ptr<const ProcessModel> process_;
-  RecordingUkf* recorded_;   // filter_'s
+  RecordingUkf* recorded_;  // filter_'s
   ArmFilter filter_;
   double lag_s_;
   std::deque<FilteredBelief> window_;

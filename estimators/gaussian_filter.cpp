@@ -47,7 +47,7 @@ BackwardStep GaussianFilter::backward_step(const Eigen::VectorXd& x_0, const Eig
   array_root_.compute(array_, triangle_);
   BackwardStep step{x_0, x_predicted_, {}, triangle_.bottomRightCorner(n, n)};
   Eigen::MatrixXd S = triangle_.topLeftCorner(n, n);
-  S.diagonal() = (S.diagonal().array() > 0).select(S.diagonal(), 1.0);   // a state without doubt has no gain either
+  S.diagonal() = (S.diagonal().array() > 0).select(S.diagonal(), 1.0);  // a state without doubt has no gain either
   step.G = S.transpose().triangularView<Eigen::Upper>().solve(triangle_.bottomLeftCorner(n, n).transpose()).transpose();
   return step;
 }
@@ -60,8 +60,7 @@ void GaussianFilter::check_finite(const DiscreteProcess& process) const {
 }
 
 void GaussianFilter::check_measurement(const Eigen::VectorXd& nu) {
-  if (!nu.allFinite())
-    throw std::runtime_error("filter: a measurement is not finite; leave missing samples out");
+  if (!nu.allFinite()) throw std::runtime_error("filter: a measurement is not finite; leave missing samples out");
 }
 
 }  // namespace halyard

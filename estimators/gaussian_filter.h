@@ -46,7 +46,7 @@ class LowerRoot {
   void compute(const Eigen::MatrixXd& A, Eigen::MatrixXd& L);
 
  private:
-  Eigen::HouseholderQR<Eigen::MatrixXd> qr_;   // kept for its memory
+  Eigen::HouseholderQR<Eigen::MatrixXd> qr_;  // kept for its memory
 };
 
 /// What a prediction says of where it came from, once more is known of where it led to:
@@ -101,7 +101,7 @@ class GaussianFilter {
   Eigen::VectorXd x_;
   Eigen::MatrixXd S_;
   Eigen::VectorXd x_predicted_;
-  Eigen::MatrixXd predicted_columns_;   // their triangular root is S⁻; kept from the last predict()
+  Eigen::MatrixXd predicted_columns_;  // their triangular root is S⁻; kept from the last predict()
   long repaired_ = 0;
   LowerRoot root_;
 

@@ -22,7 +22,7 @@ class KinematicsEstimator final : public Estimator {
  private:
   Eigen::VectorXd joint_position(const Sample& sample);
 
-  ArmParameters<double> arm_;   // with the effects' changes
+  ArmParameters<double> arm_;  // with the effects' changes
   Eigen::VectorXd home_, motor_angle_;
   double time_ = 0;
   Estimate estimate_;

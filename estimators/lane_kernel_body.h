@@ -20,9 +20,7 @@ void derivative(const Transmission<Dual>& transmission, const StateLayout& layou
   state_derivative(transmission, layout, time, history, command, external, x, x_dot);
 }
 
-constexpr LaneKernels kernels_named(const char* name) {
-  return {name, advance<Lanes>, advance<Dual>, derivative};
-}
+constexpr LaneKernels kernels_named(const char* name) { return {name, advance<Lanes>, advance<Dual>, derivative}; }
 
 }  // namespace
 }  // namespace halyard

@@ -11,7 +11,7 @@
 namespace halyard {
 namespace {
 
-constexpr double kEncoderFloor = 1e-5;   // rad
+constexpr double kEncoderFloor = 1e-5;  // rad
 
 /// Typical size of every effect state.
 Eigen::VectorXd effect_scales(const ProcessModel& process) {
@@ -108,13 +108,12 @@ const Eigen::MatrixXd& ArmNoise::process_root(const Step& step, const Eigen::Vec
     half.time_s += half.dt_s;
     Gamma += weight * (points_.rightCols(forces).colwise() - points_.col(0));
   }
-  for (int i = 0; i < n_z; ++i)
-    Q_root_(l.effect_states + i, forces + i) = levels_.wander(i) * std::sqrt(step.dt_s);
+  for (int i = 0; i < n_z; ++i) Q_root_(l.effect_states + i, forces + i) = levels_.wander(i) * std::sqrt(step.dt_s);
   return Q_root_;
 }
 
 void ArmNoise::adapt(const std::vector<int>& motors, const Innovation& innovation, double dt_s) {
-  constexpr double kMost = 9;        // of ν² / S: an outlier counts as three deviations
+  constexpr double kMost = 9;  // of ν² / S: an outlier counts as three deviations
   constexpr double kRange = 30;
   if (!(levels_.adaptation_time > 0)) return;
   for (std::size_t i = 0; i < motors.size(); ++i) {
@@ -136,7 +135,7 @@ Eigen::MatrixXd ArmNoise::initial_root(const Eigen::VectorXd& x, double dt_s) co
   const Eigen::VectorXd path = R * q;
 
   Eigen::MatrixXd S = Eigen::MatrixXd::Zero(l.size, l.size);
-  Eigen::MatrixXd joints_per_path = R;   // of driven joints; one without drive stands for itself
+  Eigen::MatrixXd joints_per_path = R;  // of driven joints; one without drive stands for itself
   Eigen::VectorXd path_std(n);
   for (int k = 0; k < n; ++k) {
     const JointParameters<double>& j = arm.joint[k];

@@ -48,12 +48,12 @@
 namespace halyard {
 
 struct NoiseLevels {
-  Eigen::VectorXd encoder;        ///< [n] rad
-  Eigen::VectorXd torque;         ///< [n] N m
-  Eigen::VectorXd joint_force;    ///< [n] N m | N
-  double correlation_time = 0;    ///< τ, s
-  double adaptation_time = 0;     ///< T, s; 0: none
-  Eigen::VectorXd wander;         ///< [n_effect_states] of effect states, own unit per √s
+  Eigen::VectorXd encoder;      ///< [n] rad
+  Eigen::VectorXd torque;       ///< [n] N m
+  Eigen::VectorXd joint_force;  ///< [n] N m | N
+  double correlation_time = 0;  ///< τ, s
+  double adaptation_time = 0;   ///< T, s; 0: none
+  Eigen::VectorXd wander;       ///< [n_effect_states] of effect states, own unit per √s
 };
 
 /// The rule above, overridden by the options encoder_noise, torque_noise, joint_force_noise (per joint), noise_time,

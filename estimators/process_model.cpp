@@ -12,7 +12,7 @@
 namespace halyard {
 namespace {
 
-constexpr double kStableStep = 2.2;   // h |λ|; see the header
+constexpr double kStableStep = 2.2;  // h |λ|; see the header
 
 template <class T>
 Transmission<T> lift_transmission(const ArmModel& model) {
@@ -106,7 +106,7 @@ void ProcessModel::find_stiffest_rate(const ArmModel& model) {
 }
 
 int ProcessModel::substeps(double dt_s) const {
-  constexpr double kLongStep = 1e-3;   // s
+  constexpr double kLongStep = 1e-3;  // s
   const double needed = std::max(1.0, std::ceil(dt_s * stiffest_rate_ / kStableStep));
   const double allowed = std::floor(kMaxSubsteps * std::max(1.0, dt_s / kLongStep));
   if (needed <= allowed) return static_cast<int>(needed);
@@ -141,7 +141,7 @@ void ProcessModel::advance_many(const Step& step, Eigen::Ref<Eigen::MatrixXd> X,
     const int used = std::min(kLaneWidth, count - first);
     Lanes x[kMaxStates];
     for (int lane = 0; lane < kLaneWidth; ++lane) {
-      const double* column = X.col(first + std::min(lane, used - 1)).data();   // the last one fills unused lanes
+      const double* column = X.col(first + std::min(lane, used - 1)).data();  // the last one fills unused lanes
       for (int i = 0; i < n; ++i) x[i].set(lane, column[i]);
     }
     kernels.advance(lanes_, layout_, step.time_s, step.dt_s, parts, step.history, in.command, in.external, x);

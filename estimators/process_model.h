@@ -24,11 +24,11 @@ namespace halyard {
 
 /// What acts on the arm over one step.
 struct Step {
-  double time_s = 0;                         ///< of its start
-  double dt_s = 0;                           ///< > 0
-  const double* motor_torque = nullptr;      ///< [n] commanded, held over the step, N m
-  const double* external_force = nullptr;    ///< [n] on the joints, N m | N; null: none
-  const CommandHistory* history = nullptr;   ///< for effects that answer late; null: none
+  double time_s = 0;                        ///< of its start
+  double dt_s = 0;                          ///< > 0
+  const double* motor_torque = nullptr;     ///< [n] commanded, held over the step, N m
+  const double* external_force = nullptr;   ///< [n] on the joints, N m | N; null: none
+  const CommandHistory* history = nullptr;  ///< for effects that answer late; null: none
 };
 
 class ProcessModel {
@@ -43,7 +43,7 @@ class ProcessModel {
   int n_joints() const { return layout_.n_joints; }
   int n_states() const { return layout_.size; }
   const StateLayout& layout() const { return layout_; }
-  const ArmParameters<double>& arm() const { return transmission_.arm(); }   ///< with the effects' changes
+  const ArmParameters<double>& arm() const { return transmission_.arm(); }  ///< with the effects' changes
   const Transmission<double>& transmission() const { return transmission_; }
   const Transmission<Dual>& dual_transmission() const { return dual_; }
   const Transmission<Lanes>& lane_transmission() const { return lanes_; }

@@ -107,7 +107,7 @@ HALYARD_INLINE void inverse_dynamics(const ArmParameters<T>& arm, const ChainPos
   T f[kMaxJoints][3], m[kMaxJoints][3];
   for (int i = 0; i < arm.n; ++i) {
     const JointParameters<T>& j = arm.joint[i];
-    T at[3] = {acc[0], acc[1], acc[2]};        // acceleration of this frame's origin, parent's frame
+    T at[3] = {acc[0], acc[1], acc[2]};  // acceleration of this frame's origin, parent's frame
     T wp[3] = {T(0.0), T(0.0), T(0.0)};
     cross_add(w, pose.p[i], wp);
     cross_add(dw, pose.p[i], at);

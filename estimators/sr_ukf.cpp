@@ -10,7 +10,7 @@ namespace halyard {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kRoundings = 4;   // of one evaluation of f or h, relative to result and argument
+constexpr double kRoundings = 4;  // of one evaluation of f or h, relative to result and argument
 
 /// W Σ d_i over the columns of d, less what is rounding of numbers of that `size` or beyond the limit.
 Eigen::VectorXd mean_shift(const Eigen::Ref<const Eigen::MatrixXd>& d, const Eigen::VectorXd& size, double W,
@@ -84,7 +84,7 @@ void SquareRootUkf::predict(const DiscreteProcess& process, const Eigen::MatrixX
 Eigen::MatrixXd SquareRootUkf::columns_before(const Eigen::MatrixXd& S_0) const {
   Eigen::MatrixXd columns(S_0.rows(), 2 * S_0.cols());
   columns << S_0, -S_0;
-  return std::sqrt(0.5) * columns;   // √W γ
+  return std::sqrt(0.5) * columns;  // √W γ
 }
 
 Innovation SquareRootUkf::update(const MeasurementModel& measurement, const Eigen::VectorXd& z,

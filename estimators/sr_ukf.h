@@ -49,7 +49,7 @@ class SquareRootUkf : public GaussianFilter {
  private:
   /// √W (X_±i - x) of the old sigma points.
   Eigen::MatrixXd columns_before(const Eigen::MatrixXd& S_0) const override;
-  double spread_squared() const;   // γ²
+  double spread_squared() const;  // γ²
   void place_sigma_points(Eigen::MatrixXd& X) const;
   /// L = root of [A, √c v], c = β - α² of any sign; A: [n x m].
   void root_with_central(Eigen::MatrixXd& columns, const Eigen::VectorXd& v, Eigen::MatrixXd& L);

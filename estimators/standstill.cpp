@@ -30,7 +30,7 @@ void load_cable(const Transmission<double>& transmission, int k, double force, S
     at.motor_angle(k) = start + way * stretch / travel;
     return way * cable_force_at(transmission, at, k) >= std::abs(force);
   };
-  double high = 1e-7;   // m
+  double high = 1e-7;  // m
   while (high < 1 && !carries(high)) high *= 2;
   for (double low = high / 2; high - low > 1e-3 * high;) {
     const double middle = 0.5 * (low + high);
@@ -46,7 +46,7 @@ std::vector<Eigen::VectorXd> range_poses(const ArmModel& model) {
   std::vector<Eigen::VectorXd> all = {home};
   Eigen::VectorXd lower = home, upper = home;
   for (int k = 0; k < model.n(); ++k) {
-    if (!(model.joints[k].lower < model.joints[k].upper)) continue;   // no range given
+    if (!(model.joints[k].lower < model.joints[k].upper)) continue;  // no range given
     for (const double end : {model.joints[k].lower, model.joints[k].upper}) {
       all.push_back(home);
       all.back()(k) = end;

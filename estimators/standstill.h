@@ -11,8 +11,8 @@
 namespace halyard {
 
 struct StandstillPose {
-  Eigen::VectorXd motor_angle;      ///< [n] rad
-  Eigen::VectorXd joint_position;   ///< [n] rad | m
+  Eigen::VectorXd motor_angle;     ///< [n] rad
+  Eigen::VectorXd joint_position;  ///< [n] rad | m
 };
 
 /// Home, each joint at each end of its range, all at their lower and all at their upper ends; [n] each.

@@ -53,8 +53,8 @@ Eigen::VectorXd static_equilibrium(const ProcessModel& process, double time_s, c
                                    const Eigen::VectorXd& external, const Eigen::VectorXd& z,
                                    const Eigen::VectorXd& start) {
   constexpr int kMaxIterations = 2000;
-  constexpr double kFirstStep = 1e-4;      // s²: 1 mm or 1 mrad at the acceleration of gravity
-  constexpr double kConverged = 1e-12;     // rad | m, far below any encoder
+  constexpr double kFirstStep = 1e-4;   // s²: 1 mm or 1 mrad at the acceleration of gravity
+  constexpr double kConverged = 1e-12;  // rad | m, far below any encoder
   const ArmParameters<double>& arm = process.arm();
   const int n = arm.n;
 
@@ -64,7 +64,7 @@ Eigen::VectorXd static_equilibrium(const ProcessModel& process, double time_s, c
   const int n_r = static_cast<int>(rigid.size());
   const Eigen::MatrixXd R = path_matrix(arm);
 
-  Eigen::VectorXd q = start, F(n), rest(n + n_r), held = Eigen::VectorXd::Zero(n);   // held: R_rᵀ λ
+  Eigen::VectorXd q = start, F(n), rest(n + n_r), held = Eigen::VectorXd::Zero(n);  // held: R_rᵀ λ
   Eigen::MatrixXd K(n, n), A = Eigen::MatrixXd::Zero(n + n_r, n + n_r);
   double first_acceleration = 0;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {

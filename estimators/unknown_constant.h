@@ -32,7 +32,7 @@ class UnknownConstant : public EffectOf<Derived> {
 };
 
 struct UnknownLevels {
-  Eigen::VectorXd start, wander;   ///< σ, ρ
+  Eigen::VectorXd start, wander;  ///< σ, ρ
 };
 
 /// `usual`, overridden by the options NAME_start and NAME_wander (per joint).

@@ -27,7 +27,7 @@ int main() {
     fmt::print("\n");
   }
 
-  const double rate[] = {0.5, -0.4, 0.1}, g[] = {20, 15, 4};   // joint rates, cable forces in N
+  const double rate[] = {0.5, -0.4, 0.1}, g[] = {20, 15, 4};  // joint rates, cable forces in N
   double path_rate[3], force[3];
   cable_path(arm.nominal, rate, path_rate);
   joint_reaction(arm.nominal, g, force);

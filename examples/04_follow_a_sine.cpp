@@ -24,8 +24,8 @@ int main() {
   for (int k = 0; k < 3; ++k) {
     double sum = 0;
     for (std::size_t i = 0; i < truth.size(); ++i)
-      sum += std::pow(truth.joint_position[k][i] -
-                          desired_position(scenario.trajectory[k], scenario.fade_in_s, truth.time[i]), 2);
+      sum += std::pow(
+          truth.joint_position[k][i] - desired_position(scenario.trajectory[k], scenario.fade_in_s, truth.time[i]), 2);
     fmt::print("joint {} follows within {} RMS\n", k + 1, in_units(arm, k, std::sqrt(sum / truth.size())));
   }
   const EnergyBalance& e = run.energy;

@@ -45,8 +45,8 @@ int main() {
   const ArmModel without = raven2();
   ArmModel with = without;
   PlacedEffect spring = place_effect(*find_effect("harness_spring"), with.nominal, 1);
-  spring.p[0] = 2;     // N m/rad
-  spring.p[1] = 1.0;   // rad
+  spring.p[0] = 2;    // N m/rad
+  spring.p[1] = 1.0;  // rad
   with.effects.push_back(spring);
 
   const SimulationResult run = simulate(on_sines(with, 3));

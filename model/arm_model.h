@@ -14,16 +14,16 @@ namespace halyard {
 
 /// PD control of one motor at the motor shaft: τ = kp (q_m,d - q_m) + kd (q_m,d' - q_m'), |τ| <= limit.
 struct ControllerParameters {
-  double kp = 0;             ///< N m/rad
-  double kd = 0;             ///< N m s/rad
-  double torque_limit = 0;   ///< N m; 0: none
+  double kp = 0;            ///< N m/rad
+  double kd = 0;            ///< N m s/rad
+  double torque_limit = 0;  ///< N m; 0: none
 };
 
 /// What a model says of a joint beside its equations' numbers.
 struct JointDescription {
   std::string name;
-  double lower = 0, upper = 0;   ///< range, rad | m
-  double home = 0;               ///< where motor angles are counted from and where runs start, rad | m
+  double lower = 0, upper = 0;  ///< range, rad | m
+  double home = 0;              ///< where motor angles are counted from and where runs start, rad | m
   ControllerParameters controller;
 };
 
@@ -32,12 +32,12 @@ using EstimatorOptions = std::map<std::string, std::string>;
 
 struct ArmModel {
   std::string name;
-  ArmParameters<double> nominal;              ///< without the effects
+  ArmParameters<double> nominal;  ///< without the effects
   std::vector<PlacedEffect> effects;
-  std::vector<JointDescription> joints;       ///< [n]
-  ColumnMap columns;                          ///< empty: halyard's own column names
+  std::vector<JointDescription> joints;  ///< [n]
+  ColumnMap columns;                     ///< empty: halyard's own column names
   std::map<std::string, EstimatorOptions> estimators;
-  std::string source;                         ///< path, for messages
+  std::string source;  ///< path, for messages
 
   int n() const { return nominal.n; }
   Eigen::VectorXd home() const;
@@ -48,12 +48,12 @@ bool joints_alike(const ArmParameters<double>& a, const ArmParameters<double>& b
 
 /// One number of the arm that a study may vary and a diagnosis may refit.
 struct ParameterInfo {
-  std::string name;                      ///< "joint 2 cable stiffness"
-  std::string key;                       ///< "joint2.cable.stiffness", as sweeps name it
+  std::string name;  ///< "joint 2 cable stiffness"
+  std::string key;   ///< "joint2.cable.stiffness", as sweeps name it
   std::string unit;
-  int joint;                             ///< 0-based; -1: the arm
-  double tolerance;                      ///< relative, from the model
-  double* value;                         ///< into the ArmParameters it was listed from
+  int joint;         ///< 0-based; -1: the arm
+  double tolerance;  ///< relative, from the model
+  double* value;     ///< into the ArmParameters it was listed from
 };
 
 /// The named numbers of an arm: per joint link mass; motor inertia, coulomb, viscous, gear_ratio, capstan_radius,

@@ -10,7 +10,7 @@
 namespace halyard {
 namespace {
 
-constexpr double kHomingTime = 1;   ///< s from the first sample
+constexpr double kHomingTime = 1;  ///< s from the first sample
 
 /// The last readings of a log's sensors, which need not share their rows. NaN: none yet.
 struct Latest {
@@ -45,7 +45,7 @@ double told_of_motor(const Latest& latest, const ArmModel& model, int k) {
   for (int j = 0; j < arm.n; ++j) {
     const bool known = !std::isnan(latest.joint(j)) && arm.joint[j].joint_zero_known;
     if (known) q(j) = latest.joint(j) - arm.joint[j].joint_encoder_offset;
-    if (j > k) q(j) = 0;   // a cable's path runs over its own joint and those inboard
+    if (j > k) q(j) = 0;  // a cable's path runs over its own joint and those inboard
   }
   return unstretched_motors(arm, q)(k) + arm.joint[k].motor_encoder_offset;
 }

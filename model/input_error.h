@@ -22,7 +22,8 @@ class InputError : public std::runtime_error {
 inline std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMaxLength = 80;
   std::string shown(text.substr(0, kMaxLength));
-  std::replace_if(shown.begin(), shown.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  std::replace_if(
+      shown.begin(), shown.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
   return "'" + shown + (text.size() > kMaxLength ? "...'" : "'");
 }
 

@@ -38,9 +38,9 @@ struct Log {
 
   int n_joints = 0;
   std::vector<double> time;
-  double clock_start = 0;   ///< what was taken off the file's times, s: see read_log
+  double clock_start = 0;  ///< what was taken off the file's times, s: see read_log
   Signals motor_torque, motor_position, joint_position, joint_velocity, joint_torque;
-  Signals marker;           ///< x, y, z
+  Signals marker;                            ///< x, y, z
   std::vector<std::string> ignored_columns;  ///< columns of the file that are not in this log, in the file's order
   std::string source;                        ///< path as given to read_log, for messages
 
@@ -71,8 +71,8 @@ void for_each_column(AnyLog& log, Visit visit) {
 }
 
 struct ReadOptions {
-  bool torque_required = true;      ///< motor_torque_k of every joint with a motor
-  std::vector<int> without_motor = {};   ///< joints, from 0; motor_torque_k and motor_position_k of them are not read
+  bool torque_required = true;          ///< motor_torque_k of every joint with a motor
+  std::vector<int> without_motor = {};  ///< joints, from 0; motor_torque_k and motor_position_k of them are not read
 };
 
 /// Reads a CSV file: UTF-8, one header row, commas, `#` starts a comment line, an empty cell is a missing sample. A

@@ -77,8 +77,9 @@ void check_inertia(const XmlElement& link, const Joint& joint, const std::string
                                 exact_text(moments(1)) + ", " + exact_text(moments(2)) + " kg m^2; expected ";
   if (moments(0) < -rounding) link.fail("inertia", principal + "none below 0; check the signs of xy, xz, yz");
   if (moments(2) > moments(0) + moments(1) + rounding) {
-    link.fail("inertia", principal + "none above the sum of the other two (no body has that); check the entries, which "
-                                     "are xx yy zz xy xz yz about the centre of mass");
+    link.fail("inertia", principal +
+                             "none above the sum of the other two (no body has that); check the entries, which "
+                             "are xx yy zz xy xz yz about the centre of mass");
   }
 }
 
@@ -93,8 +94,8 @@ void read_link(const XmlElement& link, Joint& joint, const std::string& name) {
 }
 
 void read_motor(const XmlElement& motor, Joint& joint) {
-  motor.only({"inertia", "coulomb", "viscous", "smoothing", "gear_ratio", "capstan_radius", "torque_scale",
-              "torque_bias"});
+  motor.only(
+      {"inertia", "coulomb", "viscous", "smoothing", "gear_ratio", "capstan_radius", "torque_scale", "torque_bias"});
   // Behind a rigid drive the link's inertia is enough; a rotor on an elastic cable moves on its own.
   joint.rotor_inertia =
       motor.number("inertia", "kg m^2", joint.drive == Drive::cable ? Sign::positive : Sign::non_negative);

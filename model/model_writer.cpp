@@ -65,8 +65,7 @@ void write_drive(Writer& xml, const Joint& j, int k, const ControllerParameters&
     if (j.coupling[inboard] == 0) continue;
     xml.element("coupling", {{"joint", inboard + 1.0}, {"coefficient", j.coupling[inboard]}});
   }
-  xml.element("controller",
-              {{"kp", controller.kp}, {"kd", controller.kd}, {"torque_limit", controller.torque_limit}});
+  xml.element("controller", {{"kp", controller.kp}, {"kd", controller.kd}, {"torque_limit", controller.torque_limit}});
 }
 
 void write_encoders(Writer& xml, const Joint& j) {

@@ -8,16 +8,16 @@ namespace halyard {
 
 void add_camera(const Camera& camera, const double* point, const Log& truth, std::uint64_t seed, ArmPlant& plant,
                 Log& measured) {
-  constexpr std::uint64_t kStream = 0x63616d657261;   // numbers of its own: other noise stays as it is without a camera
+  constexpr std::uint64_t kStream = 0x63616d657261;  // numbers of its own: other noise stays as it is without a camera
   std::mt19937_64 random(seed ^ kStream);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> share(0, 1);
   const std::vector<double>& time = truth.time;
   measured.marker.assign(3, std::vector<double>(time.size(), std::numeric_limits<double>::quiet_NaN()));
   Eigen::VectorXd q(truth.n_joints);
-  double next = 0;   // frame
+  double next = 0;  // frame
   for (std::size_t i = 0; i < time.size(); ++i) {
-    constexpr double kRounding = 1e-9;   // s
+    constexpr double kRounding = 1e-9;  // s
     if (time[i] < next / camera.rate_hz - kRounding) continue;
     next = std::floor((time[i] + kRounding) * camera.rate_hz) + 1;
     const double lost = share(random);

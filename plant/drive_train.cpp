@@ -68,8 +68,8 @@ struct Motion {
 template <class T>
 struct Evaluation {
   JointSignals<T> s[kMaxJoints];
-  T shaft_torque[kMaxJoints];   ///< after the command stage, friction not yet taken off
-  T path_rate[kMaxJoints];      ///< R q'
+  T shaft_torque[kMaxJoints];  ///< after the command stage, friction not yet taken off
+  T path_rate[kMaxJoints];     ///< R q'
   T effect_rate[kMaxAuxiliaryStates];
 };
 
@@ -95,8 +95,7 @@ void evaluate(const Transmission<T>& transmission, const PlantLayout& l, const M
   }
   const T* effect_states = m.z + l.effect_states;
   transmission.commanded_torque(m.time, m.history, effect_states, e.s);
-  for (int k = 0; k < l.n; ++k)
-    e.shaft_torque[k] = arm.joint[k].drive == Drive::none ? T(0.0) : e.s[k].motor_torque;
+  for (int k = 0; k < l.n; ++k) e.shaft_torque[k] = arm.joint[k].drive == Drive::none ? T(0.0) : e.s[k].motor_torque;
   transmission.evaluate(m.time, m.history, effect_states, e.s, e.effect_rate);
 }
 
@@ -126,7 +125,7 @@ void share_rates(Share share, const Transmission<T>& transmission, const PlantLa
   Evaluation<T> e;
   evaluate(transmission, l, m, e);
 
-  T torque[kMaxJoints], pull[kMaxJoints];   // of this share: on the rotor, cable excluded; of the cable on the capstan
+  T torque[kMaxJoints], pull[kMaxJoints];  // of this share: on the rotor, cable excluded; of the cable on the capstan
   for (int k = 0; k < l.n; ++k) {
     const JointSignals<T>& s = e.s[k];
     switch (share) {

@@ -25,10 +25,10 @@ inline constexpr int kMaxAuxiliaryStates = 80;
 
 /// Where things stand in the plant's state y = [q, q', z]; indices count from the start of z, -1: not there.
 struct PlantLayout {
-  int n = 0;                       ///< joints
+  int n = 0;  ///< joints
   int motor_angle[kMaxJoints];
   int motor_rate[kMaxJoints];
-  int effect_states = 0;           ///< the first one
+  int effect_states = 0;  ///< the first one
   int n_effect_states = 0;
   int input_energy = 0, lost_energy = 0;
   int n_z = 0;
@@ -38,8 +38,8 @@ struct PlantLayout {
 /// Which of the drive's forces and rates are meant.
 enum class Share {
   all,
-  cables_and_friction,   ///< of all axes: what is stiff
-  first_cable,           ///< the pull of the first joint's cable alone
+  cables_and_friction,  ///< of all axes: what is stiff
+  first_cable,          ///< the pull of the first joint's cable alone
 };
 
 class DriveTrain {

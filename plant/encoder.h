@@ -8,8 +8,8 @@
 namespace halyard {
 
 struct Readings {
-  Eigen::VectorXd motor;   ///< [n] rad; 0 at a joint without a motor
-  Eigen::VectorXd joint;   ///< [n] rad | m
+  Eigen::VectorXd motor;  ///< [n] rad; 0 at a joint without a motor
+  Eigen::VectorXd joint;  ///< [n] rad | m
 };
 
 /// Readings of the encoders from the signals of all joints; resolutions of 0 do not round.

@@ -19,7 +19,7 @@ Eigen::VectorXd cable_forces_needed(ArmPlant& plant, double time_s, const Eigen:
   JointSignals<double> s[kMaxJoints];
   plant.drive().signals(time_s, y.data(), y.data() + n, y.data() + 2 * n, s);
   const Eigen::VectorXd q = y.head(n);
-  Eigen::MatrixXd reaction = path_matrix(arm).transpose();   // Γ = Rᵀ g
+  Eigen::MatrixXd reaction = path_matrix(arm).transpose();  // Γ = Rᵀ g
   Eigen::VectorXd g(n), force(n);
   for (int k = 0; k < n; ++k) g(k) = s[k].cable_force_joint, force(k) = s[k].joint_force;
   Eigen::VectorXd needed = plant.holding_force(q) - (force - reaction * g);

@@ -111,7 +111,7 @@ class Sundials : public Integrator {
 
   ArmPlant& plant_;
   IntegratorOptions options_;
-  Share implicit_ = Share::all;   ///< what the Jacobian is of
+  Share implicit_ = Share::all;  ///< what the Jacobian is of
   double time_;
   Eigen::VectorXd y_, tolerance_;
   SUNContext context_ = nullptr;
@@ -141,9 +141,7 @@ class RungeKutta : public Sundials {
         memory_ = ARKStepCreate(nullptr, derivative, time_s, vector_, context_);
         order = 3;
         break;
-      case Treatment::explicit_rk:
-        memory_ = ARKStepCreate(derivative, nullptr, time_s, vector_, context_);
-        break;
+      case Treatment::explicit_rk: memory_ = ARKStepCreate(derivative, nullptr, time_s, vector_, context_); break;
       default:
         implicit_ = options.treatment == Treatment::imex_link1 ? Share::first_cable : Share::cables_and_friction;
         share_rate_.resize(y.size());
@@ -185,9 +183,8 @@ class RungeKutta : public Sundials {
 
   static int implicit_part(realtype t, N_Vector y, N_Vector y_dot, void* self) {
     auto* s = static_cast<RungeKutta*>(static_cast<Sundials*>(self));
-    return s->guarded([&] {
-      s->plant_.share_derivative(s->implicit_, t, N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot));
-    });
+    return s->guarded(
+        [&] { s->plant_.share_derivative(s->implicit_, t, N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot)); });
   }
 
   static int explicit_part(realtype t, N_Vector y, N_Vector y_dot, void* self) {

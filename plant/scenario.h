@@ -31,45 +31,47 @@ struct IntegratorOptions {
 };
 
 /// One sine of a joint: amplitude sin(2π f t + phase).
-struct Sine { double amplitude = 0, frequency_hz = 0, phase = 0; };
+struct Sine {
+  double amplitude = 0, frequency_hz = 0, phase = 0;
+};
 
 /// What one joint is asked to follow: center + the sines, or moves between points with dwells, or samples.
 struct JointTrajectory {
   enum class Kind { hold, sines, point_to_point, samples } kind = Kind::hold;
-  double center = 0;                        ///< rad | m
+  double center = 0;  ///< rad | m
   std::vector<Sine> sines;
-  std::vector<double> points;               ///< visited in order, over again, by minimum-jerk moves
+  std::vector<double> points;  ///< visited in order, over again, by minimum-jerk moves
   double move_s = 1, dwell_s = 0.5;
-  std::vector<double> sample_time, sample_position;   ///< linear between, held outside
+  std::vector<double> sample_time, sample_position;  ///< linear between, held outside
 };
 
 /// Standard deviations of normal numbers that are drawn afresh at every tick, [n]; empty: none.
 struct TickNoise {
-  std::vector<double> motor_torque;    ///< N m at the shaft, beside the command
-  std::vector<double> joint_force;     ///< N m | N
-  std::vector<double> motor_reading;   ///< rad, before it is rounded
+  std::vector<double> motor_torque;   ///< N m at the shaft, beside the command
+  std::vector<double> joint_force;    ///< N m | N
+  std::vector<double> motor_reading;  ///< rad, before it is rounded
 };
 
 /// A camera that sees a marker at the tool, where the model's payload hangs. A frame is in the log's row of its
 /// arrival.
 struct Camera {
   double rate_hz = 30;
-  double latency_s = 0.05;   ///< from exposure to arrival
-  double noise_m = 5e-4;     ///< standard deviation along each axis
-  double dropout = 0.1;      ///< share of frames without the marker, each drawn by itself
+  double latency_s = 0.05;  ///< from exposure to arrival
+  double noise_m = 5e-4;    ///< standard deviation along each axis
+  double dropout = 0.1;     ///< share of frames without the marker, each drawn by itself
 };
 
 struct Scenario {
-  ArmModel robot;                               ///< the true one: effects and changed numbers of the truth included
-  std::optional<ArmParameters<double>> assumed; ///< what the controller takes the arm for; none: robot.nominal
-  std::filesystem::path model;                  ///< the file that the robot was read from
+  ArmModel robot;                                ///< the true one: effects and changed numbers of the truth included
+  std::optional<ArmParameters<double>> assumed;  ///< what the controller takes the arm for; none: robot.nominal
+  std::filesystem::path model;                   ///< the file that the robot was read from
   std::string name;
   double duration_s = 20;
   double control_period_s = 1e-3;
-  double fade_in_s = 2;                         ///< sines grow from nothing over this time
-  std::vector<JointTrajectory> trajectory;      ///< [n]
+  double fade_in_s = 2;                     ///< sines grow from nothing over this time
+  std::vector<JointTrajectory> trajectory;  ///< [n]
   IntegratorOptions integrator;
-  bool quantise = true;                         ///< round encoders to their resolution
+  bool quantise = true;  ///< round encoders to their resolution
   /// The motors' zeros were set at the home pose with unstretched cables, by what the controller takes the arm for:
   /// there they read right, whatever the robot's true ratios. What an effect adds to a reading comes on top.
   bool homed = false;

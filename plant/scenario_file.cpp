@@ -20,7 +20,7 @@ void read_change(const XmlElement& set, ArmModel& robot) {
   const std::vector<ParameterInfo> all = named_parameters(robot.nominal);
   const auto found = std::ranges::find(all, key, &ParameterInfo::key);
   if (found == all.end()) {
-    const std::string joint = key.substr(0, key.find('.') + 1);   // of a right joint, its numbers will do
+    const std::string joint = key.substr(0, key.find('.') + 1);  // of a right joint, its numbers will do
     const auto is_of_joint = [&](const ParameterInfo& p) { return !joint.empty() && p.key.starts_with(joint); };
     const bool right = std::ranges::any_of(all, is_of_joint);
     std::string known;
@@ -29,7 +29,7 @@ void read_change(const XmlElement& set, ArmModel& robot) {
     set.fail("parameter", "the model has no such number; expected one of " + known);
   }
   *found->value = set.number("value", found->unit == "1" ? "" : found->unit);
-  try {   // what a model file may not say, a scenario may not either
+  try {  // what a model file may not say, a scenario may not either
     parse_model(model_to_xml(robot), "the model so changed");
   } catch (const InputError& error) {
     set.fail("value", error.what());
@@ -50,9 +50,8 @@ void read_sines(const XmlElement& element, const std::string& unit, JointTraject
 void check_column(const XmlElement& element, const std::filesystem::path& file, const std::string& column) {
   std::ifstream stream(file);
   std::string header;
-  while (std::getline(stream, header) && header.starts_with('#')) {
-  }
-  if (!stream) return;   // read_log says why
+  while (std::getline(stream, header) && header.starts_with('#')) {}
+  if (!stream) return;  // read_log says why
   std::vector<std::string_view> names;
   split(header, names);
   if (std::ranges::find(names, column) != names.end()) return;
@@ -150,7 +149,7 @@ Scenario read_scenario(const std::filesystem::path& path, const std::filesystem:
   scenario.trajectory.resize(scenario.robot.n());
   std::vector<bool> given(scenario.robot.n(), false);
   for (const XmlElement& element : root.children("trajectory")) read_trajectory(element, scenario, given);
-  for (int k = 0; k < scenario.robot.n(); ++k)   // a joint that is not told anything stays at home
+  for (int k = 0; k < scenario.robot.n(); ++k)  // a joint that is not told anything stays at home
     if (!given[k]) scenario.trajectory[k].center = scenario.robot.joints[k].home;
 
   if (const auto control = root.optional_child("control")) {

@@ -47,12 +47,12 @@ class DriveForce : public SimTK::Force::Custom::Implementation {
     arm_.forces.updZDot(state) = rates(l.n, l.n_z);
   }
 
-  double calcPotentialEnergy(const State&) const override { return 0; }   // ArmPlant::stored_energy adds the cables'
+  double calcPotentialEnergy(const State&) const override { return 0; }  // ArmPlant::stored_energy adds the cables'
 
  private:
   /// F becomes F - M_rotors q'', where q'' solves (M + M_rotors) q'' = F - h.
   void add_rotors(const State& state, Vector& force) const {
-    Vector residual;   // h - F
+    Vector residual;  // h - F
     arm_.matter.calcResidualForceIgnoringConstraints(state, force, arm_.gravity.getBodyForces(state), Vector(),
                                                      residual);
     const Eigen::Map<const Eigen::VectorXd> h(&residual[0], residual.size());
@@ -87,10 +87,8 @@ void build_chain(const ArmParameters<double>& arm, SimTK::SimbodyMatterSubsystem
       for (int c = 0; c < 3; ++c) R(r, c) = j.frame_R[r][c];
     const Transform frame(Rotation(R, true), Vec3(j.frame_p[0], j.frame_p[1], j.frame_p[2]));
     const SimTK::Body::Rigid body(mass_properties(j, k));
-    if (j.type == JointType::revolute)
-      parent = SimTK::MobilizedBody::Pin(parent, frame, body, Transform());
-    else
-      parent = SimTK::MobilizedBody::Slider(parent, frame * x_to_z, body, x_to_z);
+    if (j.type == JointType::revolute) parent = SimTK::MobilizedBody::Pin(parent, frame, body, Transform());
+    else parent = SimTK::MobilizedBody::Slider(parent, frame * x_to_z, body, x_to_z);
   }
 }
 

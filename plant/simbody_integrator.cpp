@@ -14,8 +14,7 @@ class SimbodyIntegrator : public Integrator {
     SimbodyArm& arm = plant.simbody();
     if (options.treatment == Treatment::simbody_cpodes)
       integrator_ = std::make_unique<SimTK::CPodesIntegrator>(arm.system, SimTK::CPodes::BDF, SimTK::CPodes::Newton);
-    else
-      integrator_ = std::make_unique<SimTK::RungeKuttaMersonIntegrator>(arm.system);
+    else integrator_ = std::make_unique<SimTK::RungeKuttaMersonIntegrator>(arm.system);
     integrator_->setAccuracy(options.relative_tolerance);
     SimTK::State start = arm.state;
     start.setTime(time_s);

@@ -17,7 +17,7 @@
 namespace halyard {
 namespace {
 
-constexpr double kProgressPeriod = 0.1;   // s of simulated time
+constexpr double kProgressPeriod = 0.1;  // s of simulated time
 
 Eigen::VectorXd desired_joints(const Scenario& scenario, double time_s) {
   Eigen::VectorXd q(scenario.robot.n());
@@ -88,7 +88,7 @@ void check_scenario(const Scenario& scenario) {
   if (!(scenario.duration_s > 0) || !(scenario.control_period_s > 0) ||
       !(scenario.duration_s >= scenario.control_period_s))
     throw InputError(where + "the duration must be at least one control period, and both above 0 s");
-  constexpr double kMostTicks = 1e8;   // a day at 1 kHz; more does not fit into memory
+  constexpr double kMostTicks = 1e8;  // a day at 1 kHz; more does not fit into memory
   if (scenario.duration_s / scenario.control_period_s > kMostTicks)
     throw InputError(where + "the run has more than 1e8 control periods; take a shorter duration or a longer period");
   if (!(scenario.integrator.relative_tolerance > 0) || !(scenario.integrator.absolute_tolerance > 0))

@@ -9,14 +9,14 @@ namespace halyard {
 
 /// Energy of a run, J, each since its start: input + drop of stored = dissipated.
 struct EnergyBalance {
-  double input = 0;        ///< work of motor torques and external loads
-  double dissipated = 0;   ///< by friction and cable damping
-  double stored = 0;       ///< kinetic, gravity, elastic: now minus at the start
+  double input = 0;       ///< work of motor torques and external loads
+  double dissipated = 0;  ///< by friction and cable damping
+  double stored = 0;      ///< kinetic, gravity, elastic: now minus at the start
 };
 
 struct SimulationResult {
-  Log measured;            ///< what the robot's own sensors and the joint encoders give, every control period
-  Log truth;               ///< the same instants unquantised, with joint velocities
+  Log measured;  ///< what the robot's own sensors and the joint encoders give, every control period
+  Log truth;     ///< the same instants unquantised, with joint velocities
   EnergyBalance energy;
   long derivative_evaluations = 0;
 };

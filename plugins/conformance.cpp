@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "estimators/rigid_chain.h"
 #include "estimators/noise.h"
+#include "estimators/rigid_chain.h"
 #include "model/input_error.h"
 #include "plugins/loader.h"
 #include "transmission/path_matrix.h"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr int kSamples = 200;
-constexpr double kPeriod = 1e-3;   // s
+constexpr double kPeriod = 1e-3;  // s
 
 Eigen::VectorXd swing_position(const ArmModel& model, std::size_t i) {
   Eigen::VectorXd q = model.home();
@@ -102,7 +102,7 @@ class Examination {
 
   std::vector<std::string> faults() {
     check("plain record", [this] { expected_ = run(*estimator_, record_); });
-    if (!faults_.empty()) return faults_;   // the others compare with this run
+    if (!faults_.empty()) return faults_;  // the others compare with this run
 
     check("report", [this] {
       const long steps = estimator_->report().steps;
@@ -222,7 +222,7 @@ ArmModel slider() {
   j.mass = 0.5;
   j.rotor_inertia = 2e-5, j.motor_viscous = 2e-5, j.gear_ratio = 12, j.capstan_radius = 5e-3;
   j.coupling[0] = 1;
-  j.stiffness = 9e3, j.damping = 5, j.tension = 1e3;   // never slack
+  j.stiffness = 9e3, j.damping = 5, j.tension = 1e3;  // never slack
   j.joint_viscous = 0.5;
   j.motor_encoder_resolution = 1e-3;
   return model;

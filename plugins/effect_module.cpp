@@ -24,8 +24,8 @@ using Effects = std::vector<std::unique_ptr<const Effect>>;
 const halyard_effect_table& checked_table(const SharedModule& module) {
   const auto exported = reinterpret_cast<decltype(&halyard_effects)>(module.symbol(kSymbol));
   if (!exported) {
-    refuse(module, std::string("exports no function ") + kSymbol +
-                       "; it holds no effects, or its function lacks extern \"C\"");
+    refuse(module,
+           std::string("exports no function ") + kSymbol + "; it holds no effects, or its function lacks extern \"C\"");
   }
   const halyard_effect_table* table = exported();
   if (!table) refuse(module, std::string(kSymbol) + "() returns no table; return the address of a static one");

@@ -25,11 +25,11 @@
 /// Of the table the first two members may be read whatever the version, `compiler` and the layout before make is
 /// called.
 struct halyard_effect_table {
-  std::uint32_t interface_version;   ///< HALYARD_EFFECT_INTERFACE of the headers that the module was built with
-  std::uint32_t table_size;          ///< sizeof(halyard_effect_table)
-  const char* compiler;              ///< halyard::kEffectCompiler
-  const std::uint32_t* layout;       ///< halyard::kEffectLayout
-  std::uint32_t layout_size;         ///< its entries
+  std::uint32_t interface_version;  ///< HALYARD_EFFECT_INTERFACE of the headers that the module was built with
+  std::uint32_t table_size;         ///< sizeof(halyard_effect_table)
+  const char* compiler;             ///< halyard::kEffectCompiler
+  const std::uint32_t* layout;      ///< halyard::kEffectLayout
+  std::uint32_t layout_size;        ///< its entries
   /// Appends new effects.
   void (*make)(std::vector<std::unique_ptr<const halyard::Effect>>& effects);
 };
@@ -90,8 +90,12 @@ inline constexpr auto& kEffectLayout = effect_module::Layout::value;
 /// The table of these effects, each made by its default constructor.
 template <class... Effects>
 halyard_effect_table effect_table() {
-  return {HALYARD_EFFECT_INTERFACE, sizeof(halyard_effect_table), kEffectCompiler, kEffectLayout,
-          std::uint32_t(std::size(kEffectLayout)), effect_module::make<Effects...>};
+  return {HALYARD_EFFECT_INTERFACE,
+          sizeof(halyard_effect_table),
+          kEffectCompiler,
+          kEffectLayout,
+          std::uint32_t(std::size(kEffectLayout)),
+          effect_module::make<Effects...>};
 }
 
 }  // namespace halyard

@@ -27,8 +27,7 @@ const halyard_estimator_table* checked_table(const SharedModule& module) {
   const std::uint32_t version = table->interface_version;
   if (version != HALYARD_ESTIMATOR_INTERFACE) {
     refuse("built for interface " + std::to_string(version) + ", this program speaks " +
-           std::to_string(HALYARD_ESTIMATOR_INTERFACE) +
-           (version < HALYARD_ESTIMATOR_INTERFACE ? kRebuild : kUpgrade));
+           std::to_string(HALYARD_ESTIMATOR_INTERFACE) + (version < HALYARD_ESTIMATOR_INTERFACE ? kRebuild : kUpgrade));
   }
   if (table->table_size < sizeof *table) {
     refuse("its table has " + std::to_string(table->table_size) + " bytes, interface " + std::to_string(version) +
@@ -53,7 +52,6 @@ const halyard_estimator_table* checked_table(const SharedModule& module) {
 
 }  // namespace
 
-EstimatorModule::EstimatorModule(const std::filesystem::path& path)
-    : module_(path), table_(checked_table(module_)) {}
+EstimatorModule::EstimatorModule(const std::filesystem::path& path) : module_(path), table_(checked_table(module_)) {}
 
 }  // namespace halyard

@@ -190,12 +190,18 @@ std::unique_ptr<Estimator> construct(const ArmModel& model, const EstimatorOptio
 /// The table of the estimator that a function makes. name and description outlive the module's use: string literals.
 template <EstimatorFactory make>
 halyard_estimator_table estimator_table(const char* name, const char* description) {
-  return {HALYARD_ESTIMATOR_INTERFACE, sizeof(halyard_estimator_table),
-          name,                        description,
-          plugin::create<make>,        plugin::destroy,
-          plugin::reset,               plugin::update,
-          plugin::estimate,            plugin::report,
-          plugin::further_name,        plugin::revise};
+  return {HALYARD_ESTIMATOR_INTERFACE,
+          sizeof(halyard_estimator_table),
+          name,
+          description,
+          plugin::create<make>,
+          plugin::destroy,
+          plugin::reset,
+          plugin::update,
+          plugin::estimate,
+          plugin::report,
+          plugin::further_name,
+          plugin::revise};
 }
 
 /// The same for a class.

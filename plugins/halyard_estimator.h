@@ -49,7 +49,7 @@ typedef struct halyard_sample {
   /* [n] measured external load; NULL: none. Never NaN: where a cell is missing the last one stands, 0 before the first
    * and for a joint without such a sensor. */
   const double* joint_torque;
-  const double* marker;         /* [3] where a camera saw the marker at the tool, m, base frame; NULL: not seen */
+  const double* marker; /* [3] where a camera saw the marker at the tool, m, base frame; NULL: not seen */
 } halyard_sample;
 
 /* What one measurement said that the prediction did not. An estimator that does not know cov(nu) says m = 0. */

@@ -67,7 +67,7 @@ class Observer : public Estimator {
   }
 
   ArmParameters<double> arm_;
-  Eigen::VectorXd home_;   // readings there
+  Eigen::VectorXd home_;  // readings there
   Eigen::VectorXd torque_;
   double time_s_ = 0;
   long steps_ = 0;

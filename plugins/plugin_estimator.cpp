@@ -67,7 +67,7 @@ void* create(const halyard_estimator_table& table, const ArmModel& model) {
 }
 
 std::vector<std::string> further_names_of(const halyard_estimator_table& table, void* instance) {
-  constexpr std::size_t kMaxNames = 100;   // an end that never comes
+  constexpr std::size_t kMaxNames = 100;  // an end that never comes
   std::vector<std::string> names;
   const std::string start = std::string("estimator ") + table.name + ": further estimate ";
   for (std::size_t i = 0; table.further_name; ++i) {

@@ -99,7 +99,8 @@ void* SharedModule::symbol(const char* name) const { return dlsym(handle_, name)
 std::string one_line(std::string text) {
   constexpr std::size_t kMaxLength = 500;
   if (text.size() > kMaxLength) text.resize(kMaxLength);
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
   while (!text.empty() && text.back() == ' ') text.pop_back();
   return text;
 }

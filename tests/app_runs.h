@@ -5,9 +5,16 @@
 
 namespace halyard::testing_program {
 
-inline const std::vector<std::string> kLogColumns = {
-    "time",             "motor_torque_1",   "motor_torque_2",   "motor_torque_3",   "motor_position_1",
-    "motor_position_2", "motor_position_3", "joint_position_1", "joint_position_2", "joint_position_3"};
+inline const std::vector<std::string> kLogColumns = {"time",
+                                                     "motor_torque_1",
+                                                     "motor_torque_2",
+                                                     "motor_torque_3",
+                                                     "motor_position_1",
+                                                     "motor_position_2",
+                                                     "motor_position_3",
+                                                     "joint_position_1",
+                                                     "joint_position_2",
+                                                     "joint_position_3"};
 
 class App : public ProgramTest {
  protected:

@@ -22,7 +22,7 @@ TEST_F(App, SimulateWritesALogAndItsGroundTruth) {
   ASSERT_EQ(log.rows.size(), 1001u);
   EXPECT_EQ(log.column("time"), truth.column("time"));
 
-  const double count = 2 * M_PI / 80000;   // rad of joint 1's encoder
+  const double count = 2 * M_PI / 80000;  // rad of joint 1's encoder
   const std::vector<double> measured = log.column("joint_position_1"), exact = truth.column("joint_position_1");
   for (std::size_t i = 0; i < measured.size(); ++i) {
     // Rounded to the nearest count; 1e-8 for 9 printed digits.

@@ -368,22 +368,14 @@ TEST_F(BadInput, AnEstimatorThatCrashesAsItIsMadeFailsEachOfManyRuns) {
 }
 
 TEST_F(BadInput, NoDamagedFileEndsTheProgramByASignal) {
-  std::mt19937 random(1);   // same damages in every run
+  std::mt19937 random(1);  // same damages in every run
   const auto damaged = [&](std::string text) {
     const std::size_t at = random() % text.size();
     switch (random() % 4) {
-      case 0:
-        text[at] = static_cast<char>(random() % 256);
-        break;
-      case 1:
-        text.erase(at, random() % 40);
-        break;
-      case 2:
-        text.insert(at, text.substr(random() % text.size(), random() % 40));
-        break;
-      case 3:
-        text[at] = "0-e.\"<>,\n"[random() % 9];
-        break;
+      case 0: text[at] = static_cast<char>(random() % 256); break;
+      case 1: text.erase(at, random() % 40); break;
+      case 2: text.insert(at, text.substr(random() % text.size(), random() % 40)); break;
+      case 3: text[at] = "0-e.\"<>,\n"[random() % 9]; break;
     }
     return text;
   };

@@ -96,7 +96,7 @@ TEST(Camera, WritesFramesAtItsRateOfWhatWasALatencyAgo) {
     const Eigen::Vector3d q = 0.5 * (joints_at(result.truth, i - 41) + joints_at(result.truth, i - 40));
     EXPECT_LT((seen - marker_at(s.robot, q)).norm(), 1e-12) << i;
   }
-  EXPECT_EQ(frames, 49);   // of 51, the first two exposed before the record
+  EXPECT_EQ(frames, 49);  // of 51, the first two exposed before the record
 }
 
 TEST(Camera, ErrsAndDropsFramesAsItIsToldAndLeavesOtherNoiseAlone) {
@@ -112,7 +112,7 @@ TEST(Camera, ErrsAndDropsFramesAsItIsToldAndLeavesOtherNoiseAlone) {
     squares += (seen - marker_at(s.robot, joints_at(result.truth, i))).squaredNorm();
   }
   EXPECT_NEAR(frames, 700, 4 * std::sqrt(1001 * 0.3 * 0.7));             // binomial, four deviations
-  EXPECT_NEAR(squares / frames, 3e-6, 4 * 3e-6 * std::sqrt(2 / 2100.));   // χ² of 3 · 700
+  EXPECT_NEAR(squares / frames, 3e-6, 4 * 3e-6 * std::sqrt(2 / 2100.));  // χ² of 3 · 700
   s.camera.reset();
   EXPECT_EQ(simulate(s).measured.motor_position, result.measured.motor_position);
 }
@@ -207,8 +207,9 @@ TEST(CameraFilter, WrongOptionsAreRefused) {
   EXPECT_EQ(refusal({{"camera_latency", "50 ms"}}),
             "estimator camera_sr_ukf: option camera_latency = '50 ms': expected a number from 0 to 10; correct it, or "
             "leave the option out");
-  EXPECT_TRUE(refusal({{"camera", "1"}}).starts_with(
-      "estimator camera_sr_ukf: unknown option 'camera'; known are camera_latency, camera_noise, offset_start, "));
+  EXPECT_TRUE(refusal({{"camera", "1"}})
+                  .starts_with("estimator camera_sr_ukf: unknown option 'camera'; known are camera_latency, "
+                               "camera_noise, offset_start, "));
   EXPECT_EQ(refusal({{"camera_noise", "1e-3"}, {"offset_wander", "1e-3 1e-3 0"}}), "accepted");
 }
 

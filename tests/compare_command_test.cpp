@@ -25,7 +25,7 @@ TEST_F(App, CompareJudgesEstimatorsByTheTruthOfASimulatedScenario) {
   const CsvFile table(path("cmp/comparison.csv"));
   for (int k = 0; k < 3; ++k) {
     const json &naive = kinematics.at("joints").at(k), &filter = sr_ukf.at("joints").at(k);
-    EXPECT_EQ(filter.at("samples"), 1001);   // 0.5 .. 1.5 s
+    EXPECT_EQ(filter.at("samples"), 1001);  // 0.5 .. 1.5 s
     const double gain =
         1 - filter.at("mean_absolute_error").get<double>() / naive.at("mean_absolute_error").get<double>();
     EXPECT_DOUBLE_EQ(filter.at("improvement_over_kinematics").get<double>(), gain);
@@ -34,7 +34,7 @@ TEST_F(App, CompareJudgesEstimatorsByTheTruthOfASimulatedScenario) {
     const double mean = filter.at("mean_absolute_error"), rms = filter.at("rms_error"), peak = filter.at("peak_error");
     EXPECT_TRUE(std::abs(filter.at("bias").get<double>()) <= mean && mean <= rms && rms <= peak);
     const std::size_t row = table.row_with({{"estimator", "sr_ukf"}, {"joint", std::to_string(k + 1)}});
-    EXPECT_NEAR(table.number(row, "rms_error"), rms, 1e-8 * rms);   // 9 digits
+    EXPECT_NEAR(table.number(row, "rms_error"), rms, 1e-8 * rms);  // 9 digits
   }
   const std::string& report = files.at("report.html");
   EXPECT_TRUE(contains(report, "Eq. 18"));
@@ -115,11 +115,12 @@ TEST_F(App, CompareGivesEachMotorItsInnovationsThoughAJointBeforeItHasNone) {
     EXPECT_TRUE(contains(report, "innovation of motor 3 in time")) << data;
   }
   write_text(path("driven.xml"), arm);
-  const RunResult other = run({"compare", "experiment_a.xml", "--model", "driven.xml", "--estimators", "sr_ukf",
-                               "--out", "other"});
+  const RunResult other =
+      run({"compare", "experiment_a.xml", "--model", "driven.xml", "--estimators", "sr_ukf", "--out", "other"});
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_EQ(other.err, "driven.xml: its joints are not those of the scenario's robot; give a model with as many "
-                       "joints, of the same types and driven alike\n");
+  EXPECT_EQ(other.err,
+            "driven.xml: its joints are not those of the scenario's robot; give a model with as many "
+            "joints, of the same types and driven alike\n");
 }
 
 TEST_F(App, CompareOfALogWithoutJointSensorsSaysThatThereIsNothingToJudgeBy) {

@@ -10,8 +10,8 @@
 #include "diagnosis/signature.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
-#include "transmission/path_matrix.h"
 #include "tests/short_arm.h"
+#include "transmission/path_matrix.h"
 
 namespace halyard {
 namespace {
@@ -36,7 +36,9 @@ Log unquantised_log(const ArmModel& robot, double duration) {
 // --------------------------------------------------------------------------------------- prediction
 
 /// How well the driven arm follows a joint from the first second on, up to where the comparing kernel sees the end.
-struct Following { double rms = 0, peak = 0, stretch_rms = 0, peak_acceleration = 0; };
+struct Following {
+  double rms = 0, peak = 0, stretch_rms = 0, peak_acceleration = 0;
+};
 std::vector<Following> follow(const Log& log, const ArmModel& model, const RecordOptions& options,
                               const Hypothesis& hypothesis) {
   const Record r = make_records(log, model, options)[0];
@@ -68,7 +70,7 @@ TEST(Prediction, DrivenByTheMotorsFollowsThePlantsJointsToSecondOrderOfItsStep) 
     const Log log = unquantised_log(model, 4);
     const Hypothesis truth{model.nominal, {}};
     RecordOptions coarse, fine;
-    coarse.motion_hz = fine.motion_hz = 500;   // as good as no filter
+    coarse.motion_hz = fine.motion_hz = 500;  // as good as no filter
     coarse.compare_hz = fine.compare_hz = 0;
     fine.step_s = 1e-3;
     const auto at_2_ms = follow(log, model, coarse, truth), at_1_ms = follow(log, model, fine, truth);
@@ -142,13 +144,13 @@ TEST(Prediction, ChangesByLessThanItsOwnErrorBesideAHypothesisThatNeedsMoreStage
   const Record record = make_records(unquantised_log(model, 2), model, {})[0];
   std::vector<Hypothesis> all = some_hypotheses(model, 2);
   const auto alone = predict(record, {all[0]}, 4)[0].channel[2];
-  all[1].nominal.joint[0].joint_smoothing /= 20;   // friction twenty times as stiff
+  all[1].nominal.joint[0].joint_smoothing /= 20;  // friction twenty times as stiff
   const auto both = predict(record, all, 4);
   ASSERT_TRUE(both[1].finite);
   double change = 0;
   for (std::size_t i = 0; i < alone.size(); ++i)
     if (std::isfinite(alone[i])) change = std::max(change, std::abs(both[0].channel[2][i] - alone[i]));
-  EXPECT_LT(change, 2e-3 * 2e-3 / 4 * 5);   // h²/4 q'' as above, of a motion of 5 rad/s²
+  EXPECT_LT(change, 2e-3 * 2e-3 / 4 * 5);  // h²/4 q'' as above, of a motion of 5 rad/s²
 }
 
 TEST(Prediction, IsTheSameOnOneThreadAndOnTwo) {
@@ -310,7 +312,7 @@ TEST(OneSinusoid, IsSeenInTheJointsOwnMotionAndInAJointThatStandsStill) {
     return is_one_sinusoid(records, model.nominal, joint);
   };
   const Sine slow{0.25, 0.3, 0};
-  for (const double f : {0.29, 0.4, 0.523, 0.7, 1.1}) {   // on no common grid of frequencies
+  for (const double f : {0.29, 0.4, 0.523, 0.7, 1.1}) {  // on no common grid of frequencies
     const Sine sine{0.2, f, 0};
     EXPECT_TRUE(one({sine}, {sine}, 0)) << f;
     EXPECT_TRUE(one({sine}, {sine}, 1)) << f;

@@ -14,7 +14,7 @@
 namespace halyard {
 namespace {
 
-constexpr double kForce = 1.5, kOnset = 0.8, kEnd = 2;   // N m, s
+constexpr double kForce = 1.5, kOnset = 0.8, kEnd = 2;  // N m, s
 
 /// The RAVEN-II standing still or on slow sines, simulated.
 Scenario scenario(bool moving) {
@@ -85,7 +85,7 @@ TEST_P(UnknownForceOnAJoint, IsFollowedWithinATenthAndItsCableForceToo) {
     double path = 0;
     for (int c = 0; c < 3; ++c) path += j.coupling[c] * log.truth.joint_position[c][i];
     const double stretch = j.motor_travel() * log.truth.motor_position[k][i] - j.pulley_radius * path;
-    cable_error.add(e.further(k, cable_force) - 2 * j.stiffness * stretch);   // less its damping
+    cable_error.add(e.further(k, cable_force) - 2 * j.stiffness * stretch);  // less its damping
     cable.add(2 * j.stiffness * stretch);
   });
   run(*unaware, log.measured, [&](std::size_t i, const Estimate& e) {
@@ -150,8 +150,10 @@ TEST(DisturbanceFilter, WrongOptionsAreRefused) {
   EXPECT_EQ(refusal({{"force_wander", "-1"}}),
             "estimator disturbance_sr_ukf: option force_wander = '-1': expected one number, or one for each of the 3 "
             "joints with blanks between, of at least 0; correct it, or leave the option out");
-  EXPECT_TRUE(refusal({{"force", "1"}}).starts_with(
-      "estimator disturbance_sr_ukf: unknown option 'force'; known are force_start, force_wander, alpha, "));
+  EXPECT_TRUE(
+      refusal({{"force", "1"}})
+          .starts_with(
+              "estimator disturbance_sr_ukf: unknown option 'force'; known are force_start, force_wander, alpha, "));
   EXPECT_EQ(refusal({{"force_wander", "1 2 3"}, {"force_start", "0"}, {"gate", "0.999"}}), "accepted");
 }
 

@@ -31,7 +31,7 @@ std::string refusal(const std::string& name) {
 }
 
 TEST(EffectModule, AModuleThatBreaksTheContractIsRefusedWithOneLineAndLeavesNothing) {
-  EXPECT_EQ(refusal("well_formed"),   // an estimator
+  EXPECT_EQ(refusal("well_formed"),  // an estimator
             "exports no function halyard_effects; it holds no effects, or its function lacks extern \"C\"");
   EXPECT_EQ(refusal("effects_older_interface"),
             "built for effect interface 0, this program speaks 1; rebuild it against the installed headers");

@@ -14,7 +14,7 @@ inline constexpr double kEps = std::numeric_limits<double>::epsilon();
 inline constexpr CableLaw kLaws[] = {CableLaw::paper, CableLaw::exponential, CableLaw::linear};
 
 inline PlacedEffect placed(const std::string& name, const ArmParameters<double>& arm, int joint,
-                    const std::vector<double>& p) {
+                           const std::vector<double>& p) {
   PlacedEffect e = place_effect(*find_effect(name), arm, joint);
   for (std::size_t i = 0; i < p.size(); ++i) e.p[i] = p[i];
   return e;

@@ -11,14 +11,14 @@ namespace {
 /// The loop that an effect with one state at joint 1 goes through when the cable's stretch goes to and fro between two
 /// values.
 struct Loop {
-  double work = 0;         ///< of the force on the stretch over the last cycle
-  double opening = 0;      ///< of the force over the last cycle: end less start
-  double least_work = 0;   ///< of all sums of work since the start at zero stretch and zero state
+  double work = 0;        ///< of the force on the stretch over the last cycle
+  double opening = 0;     ///< of the force over the last cycle: end less start
+  double least_work = 0;  ///< of all sums of work since the start at zero stretch and zero state
 };
-Loop stretch_loop(const ArmParameters<double>& arm, const PlacedEffect& effect, double low, double high,
-                  double speed, int cycles) {
+Loop stretch_loop(const ArmParameters<double>& arm, const PlacedEffect& effect, double low, double high, double speed,
+                  int cycles) {
   const Transmission<double> t(arm, {effect});
-  constexpr int kSteps = 20000;   // a cycle
+  constexpr int kSteps = 20000;  // a cycle
   double x = 0, z = 0, sum = 0;
   Loop loop;
   const auto at = [&](double stretch, double rate, double state) {
@@ -98,7 +98,7 @@ TEST(Backlash, HasADeadZoneTwiceTheHalfGapWide) {
 }
 
 TEST(Stiffness, ScalesTheForceOfStretchAndOfItsRate) {
-  for (const CableLaw law : {CableLaw::paper, CableLaw::linear}) {   // both are proportional to stiffness
+  for (const CableLaw law : {CableLaw::paper, CableLaw::linear}) {  // both are proportional to stiffness
     const ArmParameters<double> arm = random_arm(9, law);
     const Transmission<double> bare(arm, {}), with(arm, {placed("stiffness", arm, 1, {0.8, 1.5, 0})});
     const auto force = [&](const Transmission<double>& t, double x, double x_dot) {
@@ -153,7 +153,7 @@ TEST(Stiffness, StiffensWithTheCubeOfStretchAndStaysMonotoneWithinItsBounds) {
     std::mt19937_64 random(3);
     for (int trial = 0; trial < 50; ++trial) {
       const auto p = within_bounds(parameters, random);
-      for (double x = -0.1; x < 0.095; x += 0.01)   // where the exponential law at its stiffest is not yet cut off
+      for (double x = -0.1; x < 0.095; x += 0.01)  // where the exponential law at its stiffest is not yet cut off
         EXPECT_GT(force(p, x + 0.01).cable_force_motor, force(p, x).cable_force_motor);
     }
   }
@@ -249,7 +249,7 @@ TEST(Creep, TakesWorkOverEveryCycleAndNeverGivesMoreThanItStored) {
     arm.joint[0].damping = 0;
     const Loop loop = stretch_loop(arm, placed("creep", arm, 0, {0.8, 0.3}), -0.05, 0.05, 0.1, 3);
     EXPECT_GT(loop.work, 0.01);
-    EXPECT_GT(loop.least_work, -1e-7);   // the trapezoids' error, see above
+    EXPECT_GT(loop.least_work, -1e-7);  // the trapezoids' error, see above
   }
 }
 
@@ -262,7 +262,7 @@ TEST(CapstanEccentricity, LosesNoPowerAndItsRateIsThatOfItsStretch) {
       std::vector<double> p = within_bounds(find_effect("capstan_eccentricity")->parameters(arm, 1), random);
       const Transmission<double> with(arm, {placed("capstan_eccentricity", arm, 1, p)});
       Motion m = random_motion(random), later = m, sooner = m;
-      m.motor_angle[1] = later.motor_angle[1] = sooner.motor_angle[1] = 20 * m.motor_angle[1];   // over whole turns
+      m.motor_angle[1] = later.motor_angle[1] = sooner.motor_angle[1] = 20 * m.motor_angle[1];  // over whole turns
       const Evaluated e = evaluate(with, m);
       double path_rate = 0;
       for (int i = 0; i < 3; ++i) path_rate += j.pulley_radius * j.coupling[i] * m.joint_rate[i];
@@ -316,7 +316,7 @@ TEST(CableSlip, ShiftsTheStretchByItsJumpFromItsTimeOn) {
   double slipped = 0;
   for (double t = at - 0.005; t < at + 0.0045; t += h) {
     slipped += h / 6 * (difference(t).second + 4 * difference(t + h / 2).second + difference(t + h).second);
-    EXPECT_NEAR(difference(t + h).first, slipped, 1e-13);   // times of 3 s round to 4e-16, at rates of 3 m/s
+    EXPECT_NEAR(difference(t + h).first, slipped, 1e-13);  // times of 3 s round to 4e-16, at rates of 3 m/s
   }
   EXPECT_NEAR(slipped, -jump, 1e-13);
 }

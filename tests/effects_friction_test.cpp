@@ -46,7 +46,7 @@ TEST(Friction, AsymmetryPartsTheLevelsOfBothWaysByItsShare) {
   const Transmission<double> none(arm, {});
   for (const double way : {1.0, -1.0}) {
     Motion m;
-    m.motor_rate[0] = way * 40 * j.motor_smoothing;   // tanh(40) is 1
+    m.motor_rate[0] = way * 40 * j.motor_smoothing;  // tanh(40) is 1
     EXPECT_NEAR(-way * evaluate(motor, m).s[0].motor_torque, (j.motor_coulomb + change) * (1 + way * alpha), 4 * kEps);
     m = Motion{};
     m.joint_rate[0] = way * 40 * j.joint_smoothing;
@@ -92,7 +92,7 @@ TEST(PulleyFriction, TakesPowerFromEveryMotion) {
       for (int trial = 0; trial < 50; ++trial) {
         const Motion m = random_motion(random);
         const Evaluated a = evaluate(with, m), b = evaluate(bare, m);
-        double power = 0;   // that the friction gives to motors and joints
+        double power = 0;  // that the friction gives to motors and joints
         for (int k = 0; k < 3; ++k) {
           const double taken = a.s[k].cable_force_motor - b.s[k].cable_force_motor;
           power -= arm.joint[k].motor_travel() * taken * m.motor_rate[k];
@@ -114,7 +114,7 @@ TEST(Friction, ViscousAsymmetryPartsTheCoefficientsOfBothWaysByItsShare) {
   const Transmission<double> none(arm, {});
   for (const double way : {1.0, -1.0}) {
     Motion m;
-    const double v = m.motor_rate[0] = way * 40 * j.motor_smoothing;   // tanh(40) is 1
+    const double v = m.motor_rate[0] = way * 40 * j.motor_smoothing;  // tanh(40) is 1
     EXPECT_NEAR(-evaluate(motor, m).s[0].motor_torque, (j.motor_viscous + change) * (1 + way * alpha) * v,
                 20 * 8 * kEps);
     m = Motion{};
@@ -144,7 +144,7 @@ TEST(Stribeck, FallsFromItsRiseAtStandstillAsAGaussOfSpeed) {
   const double at_joint = 0.3, at_motor = 0.2, joint_speed = 0.05, motor_speed = 0.5;
   const PlacedEffect e = placed("stribeck", arm, 1, {at_joint, joint_speed, at_motor, motor_speed});
   for (const double way : {1.0, -1.0})
-    for (const double u : {0.1, 1.0, 2.0, 10.0}) {   // above 40 smoothing speeds tanh is 1
+    for (const double u : {0.1, 1.0, 2.0, 10.0}) {  // above 40 smoothing speeds tanh is 1
       Motion m;
       m.joint_rate[1] = way * u * joint_speed;
       m.motor_rate[1] = way * u * motor_speed;
@@ -162,7 +162,7 @@ TEST(Stribeck, NeverGivesPowerWithinItsBounds) {
     const auto p = within_bounds(find_effect("stribeck")->parameters(arm, 2), random);
     const Motion m = random_motion(random);
     const AddedFriction f = added_friction(arm, placed("stribeck", arm, 2, p), m);
-    EXPECT_GE(f.joint * m.joint_rate[2], -100 * 4 * kEps);   // rounding of forces up to 100 N
+    EXPECT_GE(f.joint * m.joint_rate[2], -100 * 4 * kEps);  // rounding of forces up to 100 N
     EXPECT_GE(f.motor * m.motor_rate[2], -10 * 4 * kEps);
   }
 }
@@ -180,7 +180,7 @@ TEST(Stribeck, HasOnlyTheJointsPartWhereThereIsNoMotor) {
 
 TEST(FrictionDrift, ScalesAllFrictionOfMotorAndJointFromOnceToItsEnd) {
   ArmParameters<double> arm = random_arm(21, CableLaw::linear);
-  ArmParameters<double> twice = arm;   // the model's friction twice: the difference is the friction itself
+  ArmParameters<double> twice = arm;  // the model's friction twice: the difference is the friction itself
   JointParameters<double>& j = twice.joint[0];
   j.motor_coulomb *= 2, j.motor_viscous *= 2, j.joint_coulomb *= 2, j.joint_viscous *= 2;
   std::mt19937_64 random(5);
@@ -197,7 +197,7 @@ TEST(FrictionDrift, ScalesAllFrictionOfMotorAndJointFromOnceToItsEnd) {
       const double share = time <= 0 ? 0 : 1 - std::exp(-time / tau);
       const AddedFriction f = added_friction(arm, placed("friction_drift", arm, 0, {drift / tau, 1 / tau}), m, time);
       EXPECT_NEAR(f.motor, drift * share * motor, 10 * 4 * kEps) << time;
-      EXPECT_NEAR(f.joint, drift * share * joint, 100 * 4 * kEps) << time;   // cables pull with up to 100 N
+      EXPECT_NEAR(f.joint, drift * share * joint, 100 * 4 * kEps) << time;  // cables pull with up to 100 N
     }
   }
 }

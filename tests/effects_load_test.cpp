@@ -47,9 +47,8 @@ TEST(GravityTilt, TurnsGravityAndLeavesItsSize) {
   };
   // R_a(α) R_b(β) by hand, of (-g, 0, 0), (0, -g, 0), (0, 0, -g).
   const double ca = std::cos(alpha), sa = std::sin(alpha), cb = std::cos(beta), sb = std::sin(beta);
-  const std::vector<double> expected[3] = {{-g * ca * cb, -g * sb, g * sa * cb},
-                                           {g * sb, -g * ca * cb, -g * sa * cb},
-                                           {-g * sb, g * sa * cb, -g * ca * cb}};
+  const std::vector<double> expected[3] = {
+      {-g * ca * cb, -g * sb, g * sa * cb}, {g * sb, -g * ca * cb, -g * sa * cb}, {-g * sb, g * sa * cb, -g * ca * cb}};
   const char* names[3][2] = {{"about_y", "about_z"}, {"about_x", "about_z"}, {"about_x", "about_y"}};
   for (int axis = 0; axis < 3; ++axis) {
     const std::vector<double> got = tilted(axis, names[axis][0], names[axis][1]);

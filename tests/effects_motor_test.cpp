@@ -30,9 +30,9 @@ TEST(TorqueRipple, IsPeriodicInTheShaftsAngleAndDoesNoWorkOverATurn) {
     const double angle = 2 * M_PI * i / kSteps;
     work += torque(angle) * 2 * M_PI / kSteps;
     most = std::max(most, std::abs(torque(angle)));
-    EXPECT_NEAR(torque(angle), torque(angle + 2 * M_PI / order), 8 * kEps);   // beside a bias of 0.1 N m
+    EXPECT_NEAR(torque(angle), torque(angle + 2 * M_PI / order), 8 * kEps);  // beside a bias of 0.1 N m
   }
-  EXPECT_NEAR(work, 0, 2 * M_PI * 4 * kEps);   // the rectangle rule is exact for a sine
+  EXPECT_NEAR(work, 0, 2 * M_PI * 4 * kEps);  // the rectangle rule is exact for a sine
   EXPECT_NEAR(torque(0), cosine, 4 * kEps);
   // 3-4-5; the peak lies within half a step of 2π / 40 of a sample.
   EXPECT_LE(most, 0.05 + 4 * kEps);
@@ -64,7 +64,7 @@ TEST(TorqueScale, TurnsTheCommandIntoTorqueByItsConstantAndBias) {
   const JointParameters<double>& j = arm.joint[0];
   const Transmission<double> with(arm, {placed("torque_scale", arm, 0, {1.2, -0.3})});
   for (const double command : {-2.0, 0.0, 5.0}) {
-    Motion m;   // at rest: no friction
+    Motion m;  // at rest: no friction
     m.command[0] = command;
     EXPECT_NEAR(evaluate(with, m).s[0].motor_torque, 1.2 * j.torque_scale * command + j.torque_bias - 0.3,
                 6 * 8 * kEps);
@@ -108,7 +108,8 @@ TEST(ActuatorSaturation, EndsAtALimitThatFallsWithSpeedWhereTorqueDrives) {
     m.command[2] = command;
     m.motor_rate[2] = speed;
     return evaluate(Transmission<double>(arm, {placed("actuator_saturation", arm, 2, {share, limit, no_load})}), m)
-        .s[2].motor_torque;
+        .s[2]
+        .motor_torque;
   };
   for (const double way : {1.0, -1.0}) {
     for (const double command : {0.0, 0.5, 1.0}) EXPECT_EQ(torque(way * command, way * 25, 1), way * command);

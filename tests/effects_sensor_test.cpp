@@ -28,7 +28,7 @@ TEST(EncoderOffset, ShiftsWhereKinematicsPutsTheJointByTheOffset) {
 TEST(EncoderEccentricity, IsPeriodicInTheJointAndOfZeroMean) {
   ArmParameters<double> arm = random_arm(22, CableLaw::linear);
   const double cosine = 0.02, sine = -0.01;
-  for (const int k : {0, 2}) {   // an angle, a length
+  for (const int k : {0, 2}) {  // an angle, a length
     const double order = k == 0 ? 3 : 200, period = 2 * M_PI / order;
     const Transmission<double> bare(arm, {}),
         with(arm, {placed("encoder_eccentricity", arm, k, {cosine, sine, order})});
@@ -47,7 +47,7 @@ TEST(EncoderEccentricity, IsPeriodicInTheJointAndOfZeroMean) {
       EXPECT_NEAR(error(q), error(q + period), 0.02 * 100 * kEps);
       mean += error(q) / 12, square += error(q) * error(q) / 12;
     }
-    EXPECT_NEAR(mean, 0, 0.1 * 4 * kEps);   // the sensor's own offset, 0.1, is subtracted
+    EXPECT_NEAR(mean, 0, 0.1 * 4 * kEps);  // the sensor's own offset, 0.1, is subtracted
     EXPECT_NEAR(square, (cosine * cosine + sine * sine) / 2, 0.01 * 4 * kEps);
     EXPECT_NEAR(error(0), cosine, 0.1 * 4 * kEps);
     EXPECT_NEAR(error(period / 4), sine, 0.1 * 4 * kEps);

@@ -58,8 +58,8 @@ TEST(EffectLibrary, NeutralParametersChangeNothing) {
       std::mt19937_64 random(3);
       for (int trial = 0; trial < 5; ++trial) {
         std::vector<double> u = random_inputs(with, random);
-        if (trial == 0) std::fill(u.begin(), u.begin() + 6 * arm.n, 0.0);   // at rest, unstretched
-        if (trial == 1)                                                     // unstretched, moving
+        if (trial == 0) std::fill(u.begin(), u.begin() + 6 * arm.n, 0.0);  // at rest, unstretched
+        if (trial == 1)                                                    // unstretched, moving
           for (int k = 0; k < arm.n; ++k) u[6 * k + 1] = u[6 * k + 3] = 0;
         double command[3];
         for (int k = 0; k < arm.n; ++k) command[k] = u[6 * k];
@@ -67,7 +67,7 @@ TEST(EffectLibrary, NeutralParametersChangeNothing) {
         history.push(0, command);
         const double time = trial;
         const std::vector<double> expected = bare(u, time, &history), got = with(u, time, &history);
-        const int m = with.n_states();   // the rates of its own states come first
+        const int m = with.n_states();  // the rates of its own states come first
         for (std::size_t r = 0; r < expected.size(); ++r) EXPECT_EQ(got[r + m], expected[r]) << "output " << r;
       }
       ArmParameters<double> changed = arm, same = arm;
@@ -82,7 +82,7 @@ TEST(EffectLibrary, TypicalParametersChangeSomething) {
   const ArmParameters<double> arm = random_arm(2, CableLaw::linear);
   const EvaluatedArm<double> bare{arm, {}};
   for (const PlacedEffect& e : built_in_everywhere(arm)) {
-    if (e.effect->scope() == EffectScope::arm) {   // it changes the chain alone
+    if (e.effect->scope() == EffectScope::arm) {  // it changes the chain alone
       ArmParameters<double> changed = arm;
       e.effect->change_parameters(changed, e.joint, e.p);
       EXPECT_TRUE(changed.joint[2].mass != arm.joint[2].mass || changed.gravity[0] != arm.gravity[0])
@@ -92,7 +92,7 @@ TEST(EffectLibrary, TypicalParametersChangeSomething) {
     const EvaluatedArm<double> with{arm, e};
     std::mt19937_64 random(3);
     std::vector<double> u = random_inputs(with, random);
-    for (int k = 0; k < arm.n; ++k) u[6 * k] *= 50;   // a command that saturates, at a time when slow things have begun
+    for (int k = 0; k < arm.n; ++k) u[6 * k] *= 50;  // a command that saturates, at a time when slow things have begun
     const std::vector<double> expected = bare(u, 1.5), got = with(u, 1.5);
     bool differs = false;
     for (std::size_t r = 0; r < expected.size(); ++r) differs = differs || got[r + with.n_states()] != expected[r];
@@ -132,10 +132,28 @@ TEST(EffectLibrary, AShapeFollowsASizeAndDoesNothingWithoutIt) {
 }
 
 TEST(EffectLibrary, HasTheEffectsInTheOrderOfTheirNamesTable) {
-  const char* names[] = {"payload", "gravity_tilt", "motor_friction", "joint_friction", "stribeck", "pulley_friction",
-                         "hysteresis", "backlash", "slack", "stiffness", "coupling", "creep", "capstan_ratio",
-                         "capstan_eccentricity", "encoder_offset", "encoder_eccentricity", "torque_ripple",
-                         "torque_scale", "delay", "cable_slip", "external_force", "friction_drift",
+  const char* names[] = {"payload",
+                         "gravity_tilt",
+                         "motor_friction",
+                         "joint_friction",
+                         "stribeck",
+                         "pulley_friction",
+                         "hysteresis",
+                         "backlash",
+                         "slack",
+                         "stiffness",
+                         "coupling",
+                         "creep",
+                         "capstan_ratio",
+                         "capstan_eccentricity",
+                         "encoder_offset",
+                         "encoder_eccentricity",
+                         "torque_ripple",
+                         "torque_scale",
+                         "delay",
+                         "cable_slip",
+                         "external_force",
+                         "friction_drift",
                          "actuator_saturation"};
   const auto built_in = built_in_effects();
   ASSERT_EQ(built_in.size(), std::size(names));
@@ -211,7 +229,7 @@ TEST(UsersEffect, WithStateTimeAndPastCommandsWorksOverEveryScalarWithoutTheLibr
   const PlacedEffect e = place_effect(effect, arm, 1);
   CommandHistory history(3, 1);
   for (int i = 0; i < 100; ++i) {
-    const double command[] = {0, 10 * i * 1e-3, 0};   // a ramp
+    const double command[] = {0, 10 * i * 1e-3, 0};  // a ramp
     history.push(i * 1e-3, command);
   }
   const double time = 0.0805, delay = 0.02, time_constant = 0.05, state = 0.3;
@@ -220,7 +238,7 @@ TEST(UsersEffect, WithStateTimeAndPastCommandsWorksOverEveryScalarWithoutTheLibr
   std::vector<double> u = random_inputs(plain, random);
   u[6 * arm.n] = state;
   const std::vector<double> out = plain(u, time, &history);
-  const int torque = 1 + 8;   // after the state's rate and joint 1's signals
+  const int torque = 1 + 8;  // after the state's rate and joint 1's signals
   // 10 N m/s times the time that has passed since the ramp began, less half a hold.
   EXPECT_NEAR(out[0], (10 * (time - delay - 0.5e-3) - state) / time_constant, 20 * 8 * kEps);
   EXPECT_NEAR(out[torque], state + 0.1 * std::sin(SlowMotor::kMains * time), 4 * kEps);

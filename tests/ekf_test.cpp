@@ -44,7 +44,7 @@ TEST(Ekf, LinearisesAtTheOldMean) {
   filter.reset(Eigen::VectorXd::Constant(1, 3), Eigen::MatrixXd::Constant(1, 1, 0.1));
   filter.predict(Square(), Eigen::MatrixXd::Constant(1, 1, 0.8));
   EXPECT_DOUBLE_EQ(filter.x()(0), 9);
-  EXPECT_DOUBLE_EQ(filter.S()(0, 0), 1);   // √((6·0.1)² + 0.8²)
+  EXPECT_DOUBLE_EQ(filter.S()(0, 0), 1);  // √((6·0.1)² + 0.8²)
 }
 
 TEST(Ekf, ABeliefThatIsNotFiniteThrowsAndNamesTheState) {

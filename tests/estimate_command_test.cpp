@@ -36,11 +36,11 @@ TEST_F(App, EstimateWritesWhatElseIsEstimatedAndWhatLaterSamplesSayOfEarlierOnes
   EXPECT_NEAR(estimates.number(700, "twice_2"), 2 * estimates.number(700, joint), 1e-7);
   const std::size_t last = estimates.rows.size() - 1;
   EXPECT_NEAR(estimates.number(last, joint), log.number(last, motor), 1e-8);
-  EXPECT_EQ(estimates.rows[700][13], "");   // none_1
+  EXPECT_EQ(estimates.rows[700][13], "");  // none_1
 
   const RunResult nowhere = run({"estimate", "--model", "raven2.xml", "--estimator",
-                           (fs::path(HALYARD_BROKEN_PLUGINS) / "revises_nowhere.so").string(), "--data", "log.csv",
-                           "--out", "none.csv"});
+                                 (fs::path(HALYARD_BROKEN_PLUGINS) / "revises_nowhere.so").string(), "--data",
+                                 "log.csv", "--out", "none.csv"});
   EXPECT_EQ(nowhere.exit_code, 1);
   EXPECT_TRUE(contains(nowhere.err, "revises its estimate of 1000000 s, where no sample is")) << nowhere.err;
 }
@@ -119,7 +119,7 @@ TEST_F(App, MeasuredLoadsReachTheEstimatorsOnlyWhenAsked) {
   simulate_log();
   std::vector<std::string> names(kLogColumns.begin(), kLogColumns.begin() + 7), keep = names;
   names.push_back("joint_torque_2");
-  keep.push_back("time");   // a load that grows to 1 N m
+  keep.push_back("time");  // a load that grows to 1 N m
   rewrite("log.csv", "loaded.csv", keep, names, as_is);
   estimate("sr_ukf", "log.csv", "est.csv");
   estimate("sr_ukf", "loaded.csv", "unasked.csv");
@@ -135,7 +135,7 @@ TEST_F(App, ALogThatStartsWithoutAllMotorPositionsIsEstimatedFromTheFirstComplet
   fs::copy(example("raven2.xml"), path("raven2.xml"));
   estimate("kinematics", "gap.csv", "est.csv");
   const std::vector<std::string> lines = lines_of(text_of(path("est.csv")));
-  ASSERT_EQ(lines.size(), 6u);   // comment, header, four rows
+  ASSERT_EQ(lines.size(), 6u);  // comment, header, four rows
   EXPECT_EQ(lines[2], "0,,,,,,,,,");
   EXPECT_TRUE(lines[3].starts_with("0.001,0.7")) << lines[3];
   EXPECT_TRUE(lines[5].starts_with("0.5,0.7")) << lines[5];

@@ -26,9 +26,8 @@ class Experiments : public App {
 };
 
 TEST_F(Experiments, StandBesideThePublishedErrors) {
-  const std::string printed =
-      done({"experiments", "--examples", ".", "--duration", "0.7", "--no-effect-study", "--calibrated",
-            "raven2/raven2.xml", "--out", "out"});
+  const std::string printed = done({"experiments", "--examples", ".", "--duration", "0.7", "--no-effect-study",
+                                    "--calibrated", "raven2/raven2.xml", "--out", "out"});
   EXPECT_TRUE(contains(printed, "sr_ukf")) << printed;
   EXPECT_TRUE(contains(printed, "joint 1 < joint 2 < joint 3")) << printed;
   const auto files = files_in(path("out"));
@@ -36,7 +35,7 @@ TEST_F(Experiments, StandBesideThePublishedErrors) {
   EXPECT_EQ(lines_of(files.at("experiments.csv")).size(), 1u + 3 * 5 * 3);
   const json result = json::parse(files.at("experiments.json"));
   const json& published = result.at("measured_on_the_robot").at(0).at("mean_absolute_error");
-  EXPECT_NEAR(published.at(1).get<double>(), 2.6383 * M_PI / 180, 1e-12);   // rounding
+  EXPECT_NEAR(published.at(1).get<double>(), 2.6383 * M_PI / 180, 1e-12);  // rounding
   EXPECT_DOUBLE_EQ(published.at(2).get<double>(), 2.507e-3);
   double sum = 0;
   for (const json& e : result.at("experiments")) {
@@ -76,7 +75,7 @@ TEST_F(Experiments, TellWhichEffectMakesTheError) {
   // With all, as the experiments themselves.
   const json means = json::parse(text_of(path("out/experiments.json"))).at("mean_of_experiments");
   const double of_experiments = means.at(0).at("mean_absolute_error").at(1).get<double>();
-  EXPECT_NEAR(error("all", "kinematics"), of_experiments, 1e-8 * of_experiments);   // 9 digits of CSV
+  EXPECT_NEAR(error("all", "kinematics"), of_experiments, 1e-8 * of_experiments);  // 9 digits of CSV
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ TEST(FixedLagSmoother, IsCloserToTheJointsThanItsFilterAndAsSureAsItShouldBe) {
     }
   }
   for (int k = 0; k < 2; ++k) {
-    EXPECT_LT(squares(k), 0.9 * filter_squares(k)) << "joint " << k + 1;   // observed: 0.6
+    EXPECT_LT(squares(k), 0.9 * filter_squares(k)) << "joint " << k + 1;  // observed: 0.6
     // Errors are correlated over some 20 ms, so that 3 s are 150 squares, mean 1 ± 0.12; four of them.
     EXPECT_NEAR(nees(k) / double(count), 1, 0.5) << "joint " << k + 1;
   }

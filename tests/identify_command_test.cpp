@@ -18,8 +18,8 @@ TEST_F(IdentifyCommand, WritesAModelThatOtherCommandsTake) {
              replaced(replaced(text_of(path("experiment_a.xml")), " homed=\"true\"", ""), "<trajectory joint=\"1\"",
                       "<set parameter=\"joint2.coupling.joint1\" value=\"0.152\"/><trajectory joint=\"1\""));
   done({"simulate", "scenario.xml", "--out", "log.csv"});
-  const std::string printed = done({"identify", "--model", "raven2.xml", "--data", "log.csv", "--parameters",
-                                    "coupling", "--out", "out"});
+  const std::string printed =
+      done({"identify", "--model", "raven2.xml", "--data", "log.csv", "--parameters", "coupling", "--out", "out"});
   EXPECT_TRUE(contains(printed, "joint 2 coupling with joint 1: 0.14545 -> 0.15")) << printed;
 
   const json all = json::parse(text_of(path("out/identify.json")));
@@ -57,8 +57,8 @@ TEST_F(IdentifyCommand, KeepsTheGivenNumbersIfOthersPredictWorse) {
   write_text(path("calibration.xml"), replaced(scenario, "duration=\"15\"", "duration=\"5\""));
   fs::copy(example("raven2.xml"), path("raven2.xml"));
   done({"simulate", "calibration.xml", "--robot", example("raven2_likely.xml"), "--out", "log.csv"});
-  const std::string printed = done({"identify", "--model", "raven2.xml", "--data", "log.csv", "--parameters",
-                                    "coupling", "--out", "out"});
+  const std::string printed =
+      done({"identify", "--model", "raven2.xml", "--data", "log.csv", "--parameters", "coupling", "--out", "out"});
   EXPECT_TRUE(contains(printed, "sr_ukf with the identified numbers is worse on the hold-out (joint 2 by ")) << printed;
   EXPECT_TRUE(contains(printed, "model.xml, with the given numbers: the identified ones predict the hold-out worse\n"))
       << printed;

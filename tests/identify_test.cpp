@@ -132,7 +132,7 @@ TEST(Identify, SaysWhatTheLogDoesNotExciteAndWhatDrifts) {
   const ArmModel model = first_joints(2);
   ArmModel robot = model;
   PlacedEffect drift = place_effect(*find_effect("friction_drift"), model.nominal, 1);
-  drift.p[0] = 0.3;   // 1/s: two and a half times as much at the end
+  drift.p[0] = 0.3;  // 1/s: two and a half times as much at the end
   robot.effects.push_back(drift);
   const Identification found =
       identify(model, {log_of(robot, model, 5)},

@@ -15,11 +15,13 @@
 namespace halyard {
 namespace {
 
-const std::map<Treatment, std::string> kTreatments = {
-    {Treatment::dirk, "dirk"},         {Treatment::imex, "imex"},
-    {Treatment::imex_link1, "imex_link1"},   {Treatment::bdf, "bdf"},
-    {Treatment::explicit_rk, "explicit_rk"}, {Treatment::simbody_rkm, "simbody_rkm"},
-    {Treatment::simbody_cpodes, "simbody_cpodes"}};
+const std::map<Treatment, std::string> kTreatments = {{Treatment::dirk, "dirk"},
+                                                      {Treatment::imex, "imex"},
+                                                      {Treatment::imex_link1, "imex_link1"},
+                                                      {Treatment::bdf, "bdf"},
+                                                      {Treatment::explicit_rk, "explicit_rk"},
+                                                      {Treatment::simbody_rkm, "simbody_rkm"},
+                                                      {Treatment::simbody_cpodes, "simbody_cpodes"}};
 
 /// Experiment A without rounded readings, which turn errors of 1e-12 into other torques.
 Scenario smooth_scenario(Treatment treatment) {
@@ -74,7 +76,7 @@ TEST(Integrators, OfSundialsAndOfSimbodyTakeTurnsInOneProcess) {
   for (int tick = 1; tick <= 100; ++tick)
     for (const auto& integrator : integrators) integrator->advance(0.001 * tick);
   const auto reference = std::distance(kTreatments.begin(), kTreatments.find(Treatment::bdf));
-  EXPECT_GT((integrators[reference]->state() - start).head(3).norm(), 1e-3);   // it moved
+  EXPECT_GT((integrators[reference]->state() - start).head(3).norm(), 1e-3);  // it moved
   // Empirical: CPodes is off by 1.3e-6 rad, the others by less than 1e-8.
   for (std::size_t i = 0; i < integrators.size(); ++i)
     EXPECT_LT((integrators[i]->state() - integrators[reference]->state()).head(3).norm(), 5e-6) << i;

@@ -22,7 +22,7 @@ struct Tug {
   }
   Log record(double force, double stiffness) {
     push.p[0] = force, push.p[1] = 2, push.p[2] = 4;                // N m, s
-    push.p[3] = stiffness, push.p[4] = model.joints[1].home - 0.4;    // N m/rad, rad
+    push.p[3] = stiffness, push.p[4] = model.joints[1].home - 0.4;  // N m/rad, rad
     ArmModel robot = model;
     robot.effects = {push};
     return simulate(motion(robot, 6)).measured;

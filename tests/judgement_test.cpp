@@ -30,7 +30,7 @@ std::vector<double> squared(std::vector<double> x, double scale = 1) {
 
 TEST(ErrorStatistics, OfAHundredErrors) {
   std::vector<double> estimate, truth(100, 1);
-  for (int i = 0; i < 100; ++i) estimate.push_back(1 + (i % 2 ? -1 : 1) * (100 - i));   // sizes 1 to 100
+  for (int i = 0; i < 100; ++i) estimate.push_back(1 + (i % 2 ? -1 : 1) * (100 - i));  // sizes 1 to 100
   estimate.push_back(std::nan("")), truth.push_back(1);
   const ErrorStatistics e = error_statistics(estimate, truth);
   EXPECT_EQ(e.samples, 100);

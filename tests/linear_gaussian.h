@@ -48,7 +48,7 @@ inline Eigen::MatrixXd initial_root() { return Eigen::MatrixXd::Identity(4, 4); 
 struct LinearGaussian {
   Eigen::MatrixXd F, H, Q_root, R_root;
   Eigen::VectorXd x_0;
-  std::vector<Eigen::VectorXd> truth, z;   ///< after each step
+  std::vector<Eigen::VectorXd> truth, z;  ///< after each step
 
   /// Four states of up to 10, two measurements, correlated noise; drawn with a fixed seed.
   explicit LinearGaussian(int steps) {

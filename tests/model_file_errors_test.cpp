@@ -32,8 +32,7 @@ TEST(ModelFile, BadInputSaysWhereWhatAndWhatWasExpected) {
       {"damping=\"4000\"", "damping=\"4000\" damping=\"5\"",
        "arm.xml:9: is not well-formed XML (parsing attribute); correct the tags and attributes near this line: "
        "each tag closed, each attribute once, in quotes"},
-      {"a=\"0.2\"", "a=\"0.2 deg\"",
-       "arm.xml:6: <dh a=\"0.2 deg\">: expected a number in m, such as 0.2, or 0.2 mm"},
+      {"a=\"0.2\"", "a=\"0.2 deg\"", "arm.xml:6: <dh a=\"0.2 deg\">: expected a number in m, such as 0.2, or 0.2 mm"},
       {"alpha=\"90 deg\"", "alpha=\"90deg\"",
        "arm.xml:6: <dh alpha=\"90deg\">: expected a number in rad, such as 90, or 90 deg"},
       {"0 0 -9.81", "0 -9.81",
@@ -116,8 +115,7 @@ TEST(ModelFile, BadInputSaysWhereWhatAndWhatWasExpected) {
       {"</effects>", "</effect>",
        "arm.xml:31: is not well-formed XML (mismatched element); correct the tags and attributes near this line: "
        "each tag closed, each attribute once, in quotes"},
-      {"</arm>\n", "</arm>\n<arm/>\n",
-       "arm.xml:40: expected nothing after </arm>; an XML file has one root element"},
+      {"</arm>\n", "</arm>\n<arm/>\n", "arm.xml:40: expected nothing after </arm>; an XML file has one root element"},
   };
   for (const Case& c : cases) {
     const std::string message = message_for(replaced(c.from, c.to));
@@ -144,8 +142,7 @@ TEST(ModelFile, AnArmHasOneToSevenJoints) {
   EXPECT_EQ(message_for(begin + end), "arm.xml:1: <arm>: element <joint> is missing; give 1 to 7");
   for (int k = 1; k <= 7; ++k) joints += joint(k);
   EXPECT_EQ(parse_model(begin + joints + end, "arm.xml").n(), 7);
-  EXPECT_EQ(message_for(begin + joints + joint(8) + end),
-            "arm.xml:9: <joint>: the arm has 8 joints; expected 1 to 7");
+  EXPECT_EQ(message_for(begin + joints + joint(8) + end), "arm.xml:9: <joint>: the arm has 8 joints; expected 1 to 7");
 }
 
 TEST(ModelFile, FileThatIsNoModelIsNamed) {

@@ -17,7 +17,7 @@ namespace {
 TEST(ModelFile, ReadsEveryElement) {
   ArmModel model = parse_model(kArm, "arm.xml");
   ASSERT_EQ(model.n(), 3);
-  const JointParameters<double> &swing = model.nominal.joint[0], &slide = model.nominal.joint[1];
+  const JointParameters<double>&swing = model.nominal.joint[0], &slide = model.nominal.joint[1];
   EXPECT_EQ(model.nominal.gravity[2], -9.81);
   EXPECT_DOUBLE_EQ(model.nominal.payload_point[2], 0.3);
   EXPECT_EQ(swing.law, CableLaw::exponential);
@@ -110,12 +110,34 @@ std::vector<double> numbers_of(const JointParameters<double>& j) {
   for (const double x : j.inertia) all.push_back(x);
   for (const double x : j.coupling) all.push_back(x);
   const Tolerances& t = j.tolerance;
-  for (const double x :
-       {j.mass, j.rotor_inertia, j.motor_coulomb, j.motor_viscous, j.motor_smoothing, j.gear_ratio, j.capstan_radius,
-        j.torque_scale, j.torque_bias, j.pulley_radius, j.stiffness, j.damping, j.tension, j.joint_coulomb,
-        j.joint_viscous, j.joint_smoothing, j.motor_encoder_offset, j.joint_encoder_offset, j.motor_encoder_resolution,
-        j.joint_encoder_resolution, t.length, t.mass, t.stiffness, t.friction, t.coupling, t.torque_scale,
-        double(j.motor_zero_known), double(j.joint_zero_known)}) {
+  for (const double x : {j.mass,
+                         j.rotor_inertia,
+                         j.motor_coulomb,
+                         j.motor_viscous,
+                         j.motor_smoothing,
+                         j.gear_ratio,
+                         j.capstan_radius,
+                         j.torque_scale,
+                         j.torque_bias,
+                         j.pulley_radius,
+                         j.stiffness,
+                         j.damping,
+                         j.tension,
+                         j.joint_coulomb,
+                         j.joint_viscous,
+                         j.joint_smoothing,
+                         j.motor_encoder_offset,
+                         j.joint_encoder_offset,
+                         j.motor_encoder_resolution,
+                         j.joint_encoder_resolution,
+                         t.length,
+                         t.mass,
+                         t.stiffness,
+                         t.friction,
+                         t.coupling,
+                         t.torque_scale,
+                         double(j.motor_zero_known),
+                         double(j.joint_zero_known)}) {
     all.push_back(x);
   }
   all.push_back(static_cast<double>(j.type));
@@ -144,7 +166,7 @@ TEST(ModelFile, WrittenModelReadsBackToTheLastBit) {
     const ArmModel again = parse_model(model_to_xml(model), "again.xml");
     ASSERT_EQ(again.n(), model.n());
     EXPECT_EQ(again.name, model.name);
-    const ArmParameters<double> &a = again.nominal, &b = model.nominal;
+    const ArmParameters<double>&a = again.nominal, &b = model.nominal;
     expect_same_bits({a.gravity, a.gravity + 3}, {b.gravity, b.gravity + 3});
     expect_same_bits({a.payload_point, a.payload_point + 3}, {b.payload_point, b.payload_point + 3});
     for (int k = 0; k < model.n(); ++k) {

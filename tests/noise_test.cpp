@@ -169,7 +169,7 @@ TEST(ProcessNoise, AdaptsToAModelThatIsWrong) {
   EXPECT_GT(mean_nis(*fixed, run), 1.5);
   EXPECT_NEAR(mean_nis(*adapting, run), 1, 0.3);
   const double again = mean_nis(*adapting, run);
-  EXPECT_EQ(mean_nis(*adapting, run), again);   // reset forgets
+  EXPECT_EQ(mean_nis(*adapting, run), again);  // reset forgets
 }
 
 }  // namespace

@@ -31,9 +31,11 @@ PlacedEffect placed(const std::string& name, const ArmModel& model, int joint, c
   return e;
 }
 
-struct Logs { Log train, holdout; };
+struct Logs {
+  Log train, holdout;
+};
 
-constexpr double kDuration = 5;   // s
+constexpr double kDuration = 5;  // s
 
 Logs logs_of(const ArmModel& truth, double duration = kDuration) {
   return {simulate(motion(truth, duration)).measured, simulate(motion(truth, 2.5, 1)).measured};
@@ -72,8 +74,8 @@ void expect_clean(const Diagnosis& d) {
 }
 
 void expect_named(const Diagnosis& d, const std::string& name, int joint, double value, double within) {
-  ASSERT_EQ(d.effects.size(), 1u) << (d.unexplained.empty() ? "clean" : d.unexplained[0].signature)
-                                  << ", joint error " << d.before.joint_rms[0];
+  ASSERT_EQ(d.effects.size(), 1u) << (d.unexplained.empty() ? "clean" : d.unexplained[0].signature) << ", joint error "
+                                  << d.before.joint_rms[0];
   EXPECT_EQ(d.effects[0].effect.effect->name(), name);
   EXPECT_EQ(d.effects[0].effect.joint, joint);
   EXPECT_NEAR(d.effects[0].effect.p[0], value, within * std::abs(value));
@@ -175,7 +177,7 @@ TEST(StuckJointSensor, IsLeftOutAndTold) {
 // -------------------------------------------------------------------------------- rates and drop-outs
 
 TEST(SlowJointSensor, IsComparedAtItsOwnSamples) {
-  expect_clean_of(first_joints(1), [&](Log& log) { thin(log.joint_position[0], 20, 3); });   // 50 Hz in 1 kHz
+  expect_clean_of(first_joints(1), [&](Log& log) { thin(log.joint_position[0], 20, 3); });  // 50 Hz in 1 kHz
 }
 
 TEST(SlowLog, IsClean) {
@@ -184,7 +186,7 @@ TEST(SlowLog, IsClean) {
   Scenario train = motion(first_joints(1), kDuration), holdout = motion(first_joints(1), 2.5, 1);
   train.quantise = holdout.quantise = false;
   const Logs logs{simulate(train).measured, simulate(holdout).measured};
-  expect_clean(diagnosis_of(first_joints(1), {slower(logs.train, 10), slower(logs.holdout, 10)}));   // 100 Hz
+  expect_clean(diagnosis_of(first_joints(1), {slower(logs.train, 10), slower(logs.holdout, 10)}));  // 100 Hz
 }
 
 TEST(RowsOfEachSensorItsOwn, AreOneLog) {
@@ -200,7 +202,7 @@ TEST(DropOuts, AtRandomAndInBurstsLeaveTheRest) {
     std::uniform_real_distribution<double> unit(0, 1);
     for (Signals* s : {&log.motor_position, &log.motor_torque, &log.joint_position})
       for (std::size_t i = 0, burst = 0; i < log.size(); ++i) {
-        if (unit(random) < 1e-3) burst = 30;   // ms, once a second
+        if (unit(random) < 1e-3) burst = 30;  // ms, once a second
         if (burst > 0 || unit(random) < 0.05) (*s)[0][i] = kNan;
         if (burst > 0) --burst;
       }
@@ -224,7 +226,7 @@ TEST(ClockOffsetBetweenSensors, IsNamedDelay) {
   Logs logs = clean_logs();
   for (Log* log : {&logs.train, &logs.holdout}) {
     std::vector<double>& q = log->joint_position[0];
-    q.insert(q.begin(), 8, q.front());   // 8 ms late
+    q.insert(q.begin(), 8, q.front());  // 8 ms late
     q.resize(log->size());
   }
   const Diagnosis d = diagnosis_of(first_joints(1), logs);
@@ -270,7 +272,7 @@ TEST(UnknownEncoderZero, IsFoundInEachLog) {
   for (const bool motor : {true, false}) {
     ArmModel model = first_joints(1);
     (motor ? model.nominal.joint[0].motor_zero_known : model.nominal.joint[0].joint_zero_known) = false;
-    double zero = 40;   // rad, another one in each log
+    double zero = 40;  // rad, another one in each log
     const auto spoil = [&](Log& log) {
       for (double& reading : motor ? log.motor_position[0] : log.joint_position[0]) reading += zero;
       zero = -0.6 * zero;
@@ -296,7 +298,7 @@ TEST(UnknownEncoderZero, CannotBeToldWithoutTheJointsSensor) {
 TEST(TorqueOfUnknownScale, IsRefitted) {
   ArmModel model = first_joints(1);
   model.nominal.joint[0].tolerance.torque_scale = 1;
-  for (const double amperes : {1000.0, 1e-3}) {   // per N m
+  for (const double amperes : {1000.0, 1e-3}) {  // per N m
     Logs logs = clean_logs();
     for (Log* log : {&logs.train, &logs.holdout})
       for (double& torque : log->motor_torque[0]) torque *= amperes;
@@ -350,7 +352,7 @@ TEST(JointDrivenBySomebodyElse, FollowsItsSensor) {
 
 TEST(JointHeldFixed, StandsAtHome) {
   ArmModel truth = first_joints(2);
-  truth.nominal.joint[0].joint_coulomb = 500;   // clamped: creeps by less than its sensor's step
+  truth.nominal.joint[0].joint_coulomb = 500;  // clamped: creeps by less than its sensor's step
   const auto logs = [&](int variant) {
     Scenario s = motion(truth, kDuration, variant);
     s.trajectory[0].sines.clear();

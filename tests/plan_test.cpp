@@ -41,10 +41,8 @@ TEST(BoundedMinimum, MeetsTheConditionsOfOne) {
     for (int i = 0; i < n; ++i) {
       ASSERT_LE(std::abs(u(i)), 1);
       // A whole further step would gain less than 1e-9 of the cost, of order 10 to 1e3 here: a gradient below 1e-2.
-      if (std::abs(u(i)) < 1)
-        EXPECT_NEAR(g(i), 0, 1e-2) << trial;
-      else
-        EXPECT_LE(g(i) * u(i), 0) << trial << ": pulled inwards from its bound";
+      if (std::abs(u(i)) < 1) EXPECT_NEAR(g(i), 0, 1e-2) << trial;
+      else EXPECT_LE(g(i) * u(i), 0) << trial << ": pulled inwards from its bound";
     }
   }
 }

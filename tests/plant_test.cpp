@@ -33,7 +33,7 @@ ArmParameters<double> pendulum(double mass, double length) {
   j.coupling[0] = 1;
   j.mass = mass;
   j.com[0] = length;
-  for (int i = 0; i < 3; ++i) j.inertia[i] = 1e-12;   // a point, as nearly as Simbody takes one
+  for (int i = 0; i < 3; ++i) j.inertia[i] = 1e-12;  // a point, as nearly as Simbody takes one
   return arm;
 }
 
@@ -45,7 +45,7 @@ Eigen::VectorXd random_state(const ArmPlant& plant, std::mt19937_64& random) {
   for (int i = 0; i < l.size(); ++i) y(i) = unit(random);
   y(2) = 0.4 + 0.1 * y(2);
   cable_path(arm, y.data(), path.data());
-  for (int k = 0; k < l.n; ++k) {   // a millimetre of stretch, motors at speed
+  for (int k = 0; k < l.n; ++k) {  // a millimetre of stretch, motors at speed
     if (l.motor_angle[k] < 0) continue;
     y(2 * l.n + l.motor_angle[k]) = (path(k) + 1e-3 * unit(random)) / arm.joint[k].motor_travel();
     y(2 * l.n + l.motor_rate[k]) = 30 * unit(random);
@@ -144,7 +144,7 @@ TEST(ArmPlant, MovesAsTheProcessModelWithEffects) {
 
 TEST(ArmPlant, MovesAsTheProcessModelWithRigidAndMissingDrives) {
   ArmParameters<double> arm = raven2().nominal;
-  arm.joint[1].drive = Drive::rigid;   // coupled: its rotor couples joints 1 and 2
+  arm.joint[1].drive = Drive::rigid;  // coupled: its rotor couples joints 1 and 2
   expect_process_model(arm, {});
   arm.joint[0].drive = Drive::rigid;
   arm.joint[2].drive = Drive::rigid;
@@ -199,7 +199,7 @@ TEST(DriveTrain, SlopesAreTheDerivativesOfItsRates) {
   const int n = 3, rows = n + drive.layout().n_z;
   std::mt19937_64 random(5);
   Eigen::VectorXd y = random_state(plant, random);
-  y.segment(n, n) *= 1e-2;   // into the reach of the friction's slope
+  y.segment(n, n) *= 1e-2;  // into the reach of the friction's slope
   for (const Share share : {Share::all, Share::cables_and_friction, Share::first_cable}) {
     Eigen::MatrixXd slopes;
     drive.slopes(share, 0, y.data(), y.data() + n, y.data() + 2 * n, slopes);
@@ -334,7 +334,7 @@ TEST(Simulation, ClosesTheEnergyBalance) {
   scenario.integrator.relative_tolerance = 1e-8;
   scenario.integrator.absolute_tolerance = 1e-11;
   const EnergyBalance e = simulate(scenario).energy;
-  EXPECT_GT(e.input, 10);        // J; there is something to balance
+  EXPECT_GT(e.input, 10);  // J; there is something to balance
   EXPECT_GT(e.dissipated, 10);
   EXPECT_NEAR(e.input - e.stored, e.dissipated, 1e-6 * e.input);
 }

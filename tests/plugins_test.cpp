@@ -112,9 +112,9 @@ TEST(Plugins, WhatIsNoModuleIsRefusedInOneLine) {
   EXPECT_EQ(refusal("nowhere.so"), "plugin nowhere.so: no such file; check the path");
   EXPECT_EQ(refusal((folder / "").string()),
             "plugin " + (folder / "").string() + ": not a file; give the path of a module (.so)");
-  EXPECT_EQ(refusal(fixture("not_an_elf")),
-            "plugin " + fixture("not_an_elf") +
-                ": not a shared module (ELF); give the path of a compiled plug-in (.so)");
+  EXPECT_EQ(
+      refusal(fixture("not_an_elf")),
+      "plugin " + fixture("not_an_elf") + ": not a shared module (ELF); give the path of a compiled plug-in (.so)");
 
   // A copy that was interrupted; loaded, it would end the process by SIGBUS.
   const std::string cut = folder / "cut.so";
@@ -220,8 +220,7 @@ TEST(Plugins, ResultsThatBreakTheContractAreContained) {
   EXPECT_EQ(at_work("too_many_innovations"), "plugin fixture: at 0.001 s: update: gives 4 innovations of 3 motors");
   EXPECT_EQ(at_work("forgets_std"), "plugin fixture: at 0.001 s: joint_position_std 1 is not finite");
   EXPECT_EQ(at_work("negative_std"), "plugin fixture: at 0.001 s: joint_position_std is negative");
-  EXPECT_EQ(at_work("wrong_sizes"),
-            "plugin wrong_sizes: at 0.001 s: estimate: joint_velocity has size 0 for 3 joints");
+  EXPECT_EQ(at_work("wrong_sizes"), "plugin wrong_sizes: at 0.001 s: estimate: joint_velocity has size 0 for 3 joints");
   EXPECT_EQ(at_work("lets_exceptions_out"),
             "plugin lets_exceptions_out: at 0.001 s: update: lets an exception out: nobody caught this");
 
@@ -256,7 +255,7 @@ TEST(Plugins, FurtherEstimatesAndRevisionsCrossByNameAndTime) {
   const auto revision = estimator->revise(false);
   ASSERT_TRUE(revision.has_value());
   EXPECT_EQ(revision->time_s, 0.5);
-  EXPECT_EQ(revision->estimate.joint_position, Eigen::Vector3d::Constant(2));   // between both readings
+  EXPECT_EQ(revision->estimate.joint_position, Eigen::Vector3d::Constant(2));  // between both readings
   EXPECT_FALSE(estimator->revise(false).has_value());
   EXPECT_EQ(failure([&] { halyard::make_estimator(fixture("taken_further_name"), raven2()); }),
             "estimator fixture: further estimate 'joint_position': the name is taken");
@@ -301,8 +300,8 @@ TEST(PluginSearch, FoldersOfTheUserComeLastAndTheFirstOfANameCounts) {
   fs::copy_file(fixture("well_formed"), second / "another_file.so");
   fs::copy_file(fixture("newer_interface"), second / "too_new.so");
   fs::copy_file(fixture("throws_in_update"), second / "throws_in_update.so");
-  const PluginPath path((first / "").string() + ":" + (second / "").string() + ":/no/such/folder:" +
-                        (first / "").string());
+  const PluginPath path((first / "").string() + ":" + (second / "").string() +
+                        ":/no/such/folder:" + (first / "").string());
 
   std::vector<std::string> refused;
   std::vector<halyard::PluginInfo> found = halyard::find_plugins(&refused);

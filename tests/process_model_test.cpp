@@ -83,7 +83,7 @@ TEST(ProcessModel, JacobianOfAStepIsThatOfFiniteDifferences) {
     process.advance(step, above.data());
     process.advance(step, below.data());
     for (int r = 0; r < n; ++r) {
-      const double difference = (above(r) - below(r)) / (2 * relative);   // ∂x_r per size of state c
+      const double difference = (above(r) - below(r)) / (2 * relative);  // ∂x_r per size of state c
       // In units of the states' sizes derivatives are of the order of 10: truncation 10 relative², and the rounding of
       // motor angles of 900 rad over the step.
       const double tolerance = 10 * relative * relative * sizes(r) + 4 * std::abs(x(r)) * kEps / relative;
@@ -153,7 +153,7 @@ Eigen::MatrixXd rates_from_standstill(const ProcessModel& process, const ArmMode
 
 TEST(ProcessModel, SubStepsKeepStickStableAndFewerDoNot) {
   ArmModel model = raven2();
-  for (int k = 0; k < 3; ++k) model.nominal.joint[k].joint_smoothing *= 0.2;   // as sharp as 1e-3 rad/s
+  for (int k = 0; k < 3; ++k) model.nominal.joint[k].joint_smoothing *= 0.2;  // as sharp as 1e-3 rad/s
   const ProcessModel process(model);
   const int parts = process.substeps(1e-3);
   EXPECT_LE(process.stiffest_rate() * 1e-3 / parts, 2.2);
@@ -163,7 +163,7 @@ TEST(ProcessModel, SubStepsKeepStickStableAndFewerDoNot) {
   // lets it hunt across v_s or beyond all bounds.
   EXPECT_LT((rates_from_standstill(process, model, parts) - fine).cwiseAbs().maxCoeff(), 0.01);
   const Eigen::MatrixXd coarse = rates_from_standstill(process, model, parts / 3);
-  EXPECT_FALSE((coarse - fine).cwiseAbs().maxCoeff() < 1);   // not finite counts
+  EXPECT_FALSE((coarse - fine).cwiseAbs().maxCoeff() < 1);  // not finite counts
 }
 
 TEST(ProcessModel, AModelTooStiffForTheStepIsRefusedWithTheReason) {
@@ -238,7 +238,7 @@ TEST(ProcessModel, RungeKuttaIsOfFourthOrder) {
   };
   const double exact = after_half_a_second(640);
   const double ratio = (after_half_a_second(10) - exact) / (after_half_a_second(20) - exact);
-  EXPECT_NEAR(ratio, 16, 2);   // 2⁴ and the next order
+  EXPECT_NEAR(ratio, 16, 2);  // 2⁴ and the next order
 }
 
 TEST(ProcessModel, RigidDriveCarriesItsRotorAlong) {
@@ -257,7 +257,7 @@ TEST(ProcessModel, RigidDriveCarriesItsRotorAlong) {
   Eigen::Vector2d x(0.1, 0);
   process.advance({0, 0.1, torque, nullptr, nullptr}, x.data());
   const double acceleration = torque[0] / travel / (2 + 1e-3 / (travel * travel));
-  EXPECT_NEAR(x(0), 0.1 + 0.5 * acceleration * 0.01, 10 * kEps);   // Runge-Kutta is exact for a parabola
+  EXPECT_NEAR(x(0), 0.1 + 0.5 * acceleration * 0.01, 10 * kEps);  // Runge-Kutta is exact for a parabola
   EXPECT_NEAR(x(1), acceleration * 0.1, 10 * kEps);
   Eigen::MatrixXd H;
   EXPECT_NEAR(process.motor_readings(0, x, &H)(0), x(0) / travel + 0.25, 100 * kEps);
@@ -354,13 +354,12 @@ TEST(StaticEquilibrium, CablesCarryGravityAndTheLoad) {
   // Γ of the cables' pull against gravity and load.
   double path[3], g[3], reaction[3];
   cable_path(arm, q.data(), path);
-  for (int k = 0; k < 3; ++k)
-    g[k] = cable_force(arm.joint[k], arm.joint[k].motor_travel() * q_m(k) - path[k], 0.0);
+  for (int k = 0; k < 3; ++k) g[k] = cable_force(arm.joint[k], arm.joint[k].motor_travel() * q_m(k) - path[k], 0.0);
   joint_reaction(arm, g, reaction);
   const Eigen::VectorXd gravity = gravity_force(arm, q);
   // Converged to 1e-12 in position, at a stiffness of 18500 N/m or 5700 N m/rad.
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(reaction[k] + load(k), gravity(k), 2e-8);
-  EXPECT_GT((q - home).norm(), 1e-4);   // it does sag
+  EXPECT_GT((q - home).norm(), 1e-4);  // it does sag
 }
 
 TEST(StaticEquilibrium, GravityTakesABacklashToOneSide) {
@@ -407,9 +406,9 @@ TEST(StaticEquilibrium, ARigidJointStandsWhereItsMotorSays) {
     g[k] = cable_force(process.arm().joint[k], process.arm().joint[k].motor_travel() * q_m(k) - path[k], 0.0);
   const Eigen::VectorXd gravity = gravity_force(process.arm(), q);
   const JointParameters<double>&j1 = process.arm().joint[0], &j2 = process.arm().joint[1], &j3 = process.arm().joint[2];
-  const double g2 = (gravity(1) - j3.coupling[1] * g[2]) / j2.pulley_radius;   // what holds joint 2
+  const double g2 = (gravity(1) - j3.coupling[1] * g[2]) / j2.pulley_radius;  // what holds joint 2
   const double on_joint_1 = j1.pulley_radius * g[0] + j2.pulley_radius * j2.coupling[0] * g2 + j3.coupling[0] * g[2];
-  EXPECT_NEAR(on_joint_1, gravity(0), 2e-8);   // as above
+  EXPECT_NEAR(on_joint_1, gravity(0), 2e-8);  // as above
   EXPECT_NEAR(g[2], gravity(2), 2e-8);
 }
 

@@ -45,7 +45,7 @@ inline std::vector<std::string> lines_of(const std::string& text) {
 }
 
 struct RunResult {
-  int exit_code = -1;   ///< 128 + signal if one ended the program
+  int exit_code = -1;  ///< 128 + signal if one ended the program
   std::string out, err;
 };
 

@@ -61,7 +61,7 @@ __attribute__((noinline)) void evaluate_all(const Transmission<T>& transmission,
 template <class T>
 struct EvaluatedArm {
   ArmParameters<double> nominal;
-  PlacedEffect effect;   ///< none if effect.effect is null
+  PlacedEffect effect;  ///< none if effect.effect is null
 
   int n_states() const { return effect.effect ? effect.effect->n_states() : 0; }
   int n_inputs() const { return 6 * nominal.n + n_states() + (effect.effect ? kMaxEffectParameters : 0); }

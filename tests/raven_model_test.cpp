@@ -102,8 +102,8 @@ TEST(ModelFile, RavenPathMatrixIsEquation8) {
   for (const char* file : {"raven2.xml", "raven2_paper.xml"}) {
     const Eigen::MatrixXd R = path_matrix(read_model(kExamples / file).nominal);
     Eigen::Matrix3d expected;
-    expected << 63.095e-3, 0, 0,                            //
-        0.14545 * 56.298e-3, 56.298e-3, 0,                  //
+    expected << 63.095e-3, 0, 0,            //
+        0.14545 * 56.298e-3, 56.298e-3, 0,  //
         0.007797, 0.008077, 1;
     EXPECT_EQ(R, expected) << file;
   }

@@ -67,7 +67,9 @@ TEST(Record, TorqueIsThatOfTheMiddleOfTheHold) {
   const auto ramp = [](double t) { return 2 * t; };
   const Record r = make_records(log_of(ramp, 4, 1000), raven2(), kOneKernel)[0];
   for (std::size_t i = 0; i < r.size; ++i) {
-    if (inside(r, i)) { EXPECT_NEAR(r.torque[2][i], ramp(r.time(i) - 0.5e-3), kValueRounding); }
+    if (inside(r, i)) {
+      EXPECT_NEAR(r.torque[2][i], ramp(r.time(i) - 0.5e-3), kValueRounding);
+    }
   }
 }
 
@@ -127,7 +129,7 @@ TEST(Record, LongGapsSplitALogAndShortOnesDoNot) {
 TEST(Record, StretchesTooShortToCompareAreLeftOut) {
   Log log = log_of([](double t) { return t; }, 4, 1000);
   for (std::size_t i = 0; i < log.size(); ++i)
-    if (log.time[i] > 1.0005) log.time[i] += 1;   // the first second alone
+    if (log.time[i] > 1.0005) log.time[i] += 1;  // the first second alone
   const std::vector<Record> records = make_records(log, raven2(), kOneKernel);
   ASSERT_EQ(records.size(), 1u);
   EXPECT_NEAR(records[0].start, 2.001, 1e-9);
@@ -176,16 +178,20 @@ TEST(Record, DropOutsAreMaskedInTheSignalsThatNeedThem) {
 TEST(Record, ASlowSensorIsComparedWhereItWasRead) {
   Log log = log_of([](double t) { return std::sin(3 * t); }, 4, 1000);
   for (std::size_t i = 0; i < log.size(); ++i)
-    if (i % 10 != 3) log.joint_position[0][i] = kNan;   // 100 Hz
+    if (i % 10 != 3) log.joint_position[0][i] = kNan;  // 100 Hz
   const Record r = make_records(log, raven2(), {})[0];
   double measured = 0, valid = 0;
   for (std::size_t i = 0; i < r.size; ++i) {
     const double t = r.time(i), phase = std::remainder(t - 0.003, 0.01);
-    if (r.joint_measured[0][i] > 0) { EXPECT_LT(std::abs(phase), 1.03e-3) << t; }
+    if (r.joint_measured[0][i] > 0) {
+      EXPECT_LT(std::abs(phase), 1.03e-3) << t;
+    }
     measured += r.joint_measured[0][i];
     valid += r.joint_valid[0][i];
     // Cubic interpolation over h = 10 ms of (ω = 3): (ω h)⁴; the filter takes (ω / (2π 60 Hz))² / 2 of both.
-    if (inside(r, i)) { EXPECT_NEAR(r.joint[0][i], r.joint[1][i], std::pow(3 * 0.01, 4)) << t; }
+    if (inside(r, i)) {
+      EXPECT_NEAR(r.joint[0][i], r.joint[1][i], std::pow(3 * 0.01, 4)) << t;
+    }
   }
   EXPECT_NEAR(measured, 2 * 350, 3) << "of 3.5 s; either neighbour of an odd millisecond is as near";
   EXPECT_NEAR(valid, 3.5 / r.dt, 10) << "the comparing kernel sees samples everywhere";

@@ -66,7 +66,7 @@ TEST(Experiments, AreThoseOfThePaper) {
   EXPECT_EQ(b.robot.nominal.joint[0].tension, 27.5);
   EXPECT_EQ(b.robot.nominal.joint[1].tension, 17.7);
   EXPECT_EQ(b.robot.nominal.joint[2].tension, 13.7);
-  EXPECT_EQ(b.assumed->joint[0].tension, 51.0);   // the controller has the model's numbers
+  EXPECT_EQ(b.assumed->joint[0].tension, 51.0);  // the controller has the model's numbers
   ASSERT_EQ(c.robot.effects.size(), 1u);
   EXPECT_EQ(c.robot.effects[0].effect->name(), "payload");
   EXPECT_EQ(c.robot.effects[0].p[0], 0.1);
@@ -84,7 +84,7 @@ TEST(Experiments, HaveARobotThatDiffersFromItsModelByLawAndEffectsAlone) {
   const Scenario c = read_scenario(kExamples + "experiment_c.xml", kExamples + "raven2_likely.xml");
   ArmModel likely = c.robot;
   ASSERT_FALSE(likely.effects.empty());
-  EXPECT_EQ(likely.effects.back().effect->name(), "payload");   // the scenario's own, after the robot's
+  EXPECT_EQ(likely.effects.back().effect->name(), "payload");  // the scenario's own, after the robot's
   const ArmModel model = read_model(kExamples + "raven2.xml");
   likely.name = model.name;
   likely.effects.clear();
@@ -142,7 +142,7 @@ TEST_F(ScenarioFile, MayGiveSamplesOfAnotherLog) {
   write("x.csv", "time,path\n5,0.7\n5.5,0.8\n6,\n6.5,0.9\n");
   const Scenario s = read(R"(<trajectory joint="1" kind="samples" file="x.csv" column="path"/>)");
   const JointTrajectory& t = s.trajectory[0];
-  EXPECT_EQ(desired_position(t, 0, 0), 0.7);            // the first sample is the start
+  EXPECT_EQ(desired_position(t, 0, 0), 0.7);  // the first sample is the start
   EXPECT_DOUBLE_EQ(desired_position(t, 0, 0.25), 0.75);
   EXPECT_DOUBLE_EQ(desired_position(t, 0, 1.0), 0.85);  // a missing sample is bridged
   EXPECT_EQ(desired_position(t, 0, 9), 0.9);
@@ -211,10 +211,10 @@ TEST(Trajectory, BetweenPointsMovesWithMinimumJerkAndDwells) {
   t.move_s = 1;
   t.dwell_s = 0.5;
   EXPECT_EQ(desired_position(t, 0, 0), 1);
-  EXPECT_DOUBLE_EQ(desired_position(t, 0, 0.5), 1.5);    // half way at half time
+  EXPECT_DOUBLE_EQ(desired_position(t, 0, 0.5), 1.5);  // half way at half time
   EXPECT_EQ(desired_position(t, 0, 1.2), 2);
   EXPECT_DOUBLE_EQ(desired_position(t, 0, 2.0), 3);
-  EXPECT_DOUBLE_EQ(desired_position(t, 0, 3.5), 2.5);    // from the last point to the first
+  EXPECT_DOUBLE_EQ(desired_position(t, 0, 3.5), 2.5);  // from the last point to the first
   EXPECT_EQ(desired_position(t, 0, 4.5), 1);
   // Peak speed of a minimum-jerk move is 15/8 of the mean.
   EXPECT_NEAR((desired_position(t, 0, 0.5 + 1e-4) - desired_position(t, 0, 0.5 - 1e-4)) / 2e-4, 15.0 / 8, 1e-6);
@@ -223,7 +223,7 @@ TEST(Trajectory, BetweenPointsMovesWithMinimumJerkAndDwells) {
 TEST(Simulate, LogsReadingsAndTheTorquesThatFollowFromThem) {
   Scenario scenario = experiment("a", 0.2);
   scenario.fade_in_s = 0.05;
-  scenario.noise.motor_torque.assign(3, 1e-3);   // disturbs the arm, is not in the log
+  scenario.noise.motor_torque.assign(3, 1e-3);  // disturbs the arm, is not in the log
   const SimulationResult result = simulate(scenario);
   const Log &log = result.measured, &truth = result.truth;
   ASSERT_EQ(log.size(), 201u);
@@ -261,7 +261,7 @@ TEST(Simulate, StartsAtRestWithTheCablesHoldingTheArm) {
   const double pull = (r.truth.motor_position[1][0] * 5.675e-3 / 12.25 -
                        56.298e-3 * (r.truth.joint_position[1][0] + 0.14545 * r.truth.joint_position[0][0])) *
                       2 * 88e3 * 56.298e-3;
-  EXPECT_GT(std::abs(pull), 0.1);   // N m: gravity stretches cable 2
+  EXPECT_GT(std::abs(pull), 0.1);  // N m: gravity stretches cable 2
   for (int k = 0; k < 3; ++k) {
     EXPECT_EQ(r.truth.joint_velocity[k][0], 0);
     EXPECT_DOUBLE_EQ(r.truth.joint_position[k][0], experiment("a", 1).robot.joints[k].home);

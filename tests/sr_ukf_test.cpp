@@ -9,8 +9,8 @@
 #include "estimators/built_in.h"
 #include "model/input_error.h"
 #include "tests/arm_runs.h"
-#include "tests/torn_record.h"
 #include "tests/linear_gaussian.h"
+#include "tests/torn_record.h"
 
 namespace halyard {
 namespace {
@@ -82,7 +82,7 @@ TEST(SrUkf, AMeasurementThroughSigmaPointsSeesItsCurvature) {
   const Innovation innovation =
       filter.update(Square(), Eigen::VectorXd::Constant(1, 10), Eigen::MatrixXd::Constant(1, 1, r), kNoGate);
   const double S = 4 * m * m * sigma * sigma + 2 * std::pow(sigma, 4) + r * r, K = 2 * m * sigma * sigma / S;
-  const double rounding = 1e-7;   // 10 · 9 eps / α², through the gain
+  const double rounding = 1e-7;  // 10 · 9 eps / α², through the gain
   EXPECT_NEAR(innovation.nu(0), 10 - m * m - sigma * sigma, rounding);
   EXPECT_NEAR(std::pow(innovation.S_root(0, 0), 2), S, 10 * rounding);
   EXPECT_NEAR(filter.x()(0), m + K * innovation.nu(0), rounding);
@@ -151,7 +151,7 @@ TEST(SrUkf, AKinkMovesTheMeanByNoMoreThanTheLimitAllows) {
     filter.predict(Fold(), Eigen::MatrixXd::Zero(1, 1));
     return filter.x()(0);
   };
-  EXPECT_NEAR(mean_after({}), 1e3, 1e-6);   // the textbook's: 1 / α standard deviations off
+  EXPECT_NEAR(mean_after({}), 1e3, 1e-6);  // the textbook's: 1 / α standard deviations off
   EXPECT_EQ(mean_after({.curvature_limit = 0.03}), 0);
 }
 
@@ -192,7 +192,7 @@ TEST(SrUkfOnTheArm, RunsAgainToTheLastBit) {
   EXPECT_EQ(a.joint_position, b.joint_position);
   EXPECT_EQ(a.joint_velocity, b.joint_velocity);
   EXPECT_EQ(a.joint_position_std, b.joint_position_std);
-  EXPECT_EQ(a.joint_position, c.joint_position);   // reset forgets
+  EXPECT_EQ(a.joint_position, c.joint_position);  // reset forgets
   EXPECT_EQ(a.joint_position_std, c.joint_position_std);
 }
 
@@ -201,10 +201,10 @@ TEST(SrUkfOnTheArm, BearsDropoutsAndGaps) {
   const ArmRun whole = run_arm(model, 3);
   ArmRun holes;
   for (std::size_t i = 0; i < whole.samples.size(); ++i) {
-    if (i % 500 >= 470) continue;   // rows missing for 30 ms, cut into steps
+    if (i % 500 >= 470) continue;  // rows missing for 30 ms, cut into steps
     Sample s = whole.samples[i];
-    if (i % 700 > 600) s.motor_position(1) = kNaN;    // motor 2 blind for 0.1 s
-    if (i % 900 > 880) s.motor_torque(0) = kNaN;      // torque held for 20 ms
+    if (i % 700 > 600) s.motor_position(1) = kNaN;  // motor 2 blind for 0.1 s
+    if (i % 900 > 880) s.motor_torque(0) = kNaN;    // torque held for 20 ms
     if (i % 400 == 7) s.motor_position.setConstant(kNaN);
     holes.samples.push_back(s);
     holes.joint_position.push_back(whole.joint_position[i]);
@@ -244,7 +244,7 @@ TEST(SrUkfOnTheArm, WaitsForMotorsThatHaveNotBeenRead) {
   const Eigen::VectorXd home = model.home();
   EXPECT_EQ(ukf->estimate().joint_position, home);
   ukf->update(run.samples[1]);
-  EXPECT_LT((ukf->estimate().joint_position - run.joint_position[1]).norm(), 1e-4);   // the stretch is 1e-3
+  EXPECT_LT((ukf->estimate().joint_position - run.joint_position[1]).norm(), 1e-4);  // the stretch is 1e-3
   EXPECT_NE(ukf->estimate().joint_position, home);
 }
 
@@ -268,7 +268,7 @@ TEST(SrUkfOnTheArm, TheGateRefusesAnImpossibleReadingAndCountsIt) {
     (*estimator)->reset(run.samples[0]);
     for (int i = 1; i <= 50; ++i) (*estimator)->update(run.samples[i]);
     Sample jumped = run.samples[51];
-    jumped.motor_position(0) += 0.5;   // a lost count of 300 steps
+    jumped.motor_position(0) += 0.5;  // a lost count of 300 steps
     const Innovation innovation = (*estimator)->update(jumped);
     EXPECT_EQ(innovation.accepted, estimator == &open);
     EXPECT_GT(innovation.nis(), 1000);
@@ -282,7 +282,7 @@ TEST(SrUkfOnTheArm, AGateThatRefusesEverythingForTooLongStartsItAnew) {
   const ArmRun run = run_arm(model, 0.4);
   const auto ukf = make_sr_ukf(model, {{"gate", "0.9999"}, {"restart_gap", "0.1"}});
   Sample wrong = run.samples[0];
-  wrong.motor_position(0) += unstretched_motors(model.nominal, Eigen::Vector3d(1, 0, 0))(0);   // the joint: 1 rad off
+  wrong.motor_position(0) += unstretched_motors(model.nominal, Eigen::Vector3d(1, 0, 0))(0);  // the joint: 1 rad off
   ukf->reset(wrong);
   EXPECT_NEAR(ukf->estimate().joint_position(0) - run.joint_position[0](0), 1, 1e-3);
   for (std::size_t i = 1; i < run.samples.size(); ++i) {
@@ -301,7 +301,7 @@ TEST(SrUkfOnTheArm, AnOutlierAmidAStartIsNoSpeed) {
   const auto ukf = make_sr_ukf(model, {{"gate", "0.999999"}});
   ukf->reset(run.samples[0]);
   ukf->update(run.samples[1]);
-  for (int i = 2300; i < 2400; ++i) {   // after a gap
+  for (int i = 2300; i < 2400; ++i) {  // after a gap
     Sample s = run.samples[i];
     if (i == 2301) s.motor_position(0) += 300;
     ukf->update(s);
@@ -321,7 +321,7 @@ TEST(SrUkfOnTheArm, GoesBackToAMomentWithAllThatItKnew) {
   ArmFilter filter(model, process, read_arm_filter_options(options, model, *process),
                    std::make_unique<SquareRootUkf>());
   filter.reset(samples[0]);
-  for (int next = 1; const int from : {100, 220, 340}) {   // learning; 20 ms of refusals; the first after the gap
+  for (int next = 1; const int from : {100, 220, 340}) {  // learning; 20 ms of refusals; the first after the gap
     while (next <= from) filter.update(samples[next++]);
     const ArmFilter::Moment moment = filter.moment();
     for (int i = 1; i <= 60; ++i) filter.update(samples[from + i]);
@@ -339,7 +339,7 @@ TEST(SrUkfOnTheArm, GoesBackToAMomentWithAllThatItKnew) {
 TEST(SrUkfOnTheArm, StaysSaneOverTornRecordsOfOneToSevenJoints) {
   for (int n = 1; n <= 7; ++n)
     for (const char* alpha : {"1e-3", "1"}) {
-      if (n != 3 && alpha == std::string("1")) continue;   // to save time
+      if (n != 3 && alpha == std::string("1")) continue;  // to save time
       const ArmModel model = chain_of(n, 1);
       DrivenArm arm(model);
       TornRecord record(model, 3);
@@ -435,7 +435,7 @@ TEST(SrUkfOnTheArm, FindsTheJointsOfTheSecondSimulatorThroughABacklashThatItKnow
   const auto ukf = make_sr_ukf(model, {});
   const Eigen::VectorXd rms = rms_error(*ukf, run, 0.5);
   EXPECT_LT(rms(0), 0.004 * M_PI / 180);
-  EXPECT_LT(rms(1), 0.015 * M_PI / 180);   // 0.35 without the effect
+  EXPECT_LT(rms(1), 0.015 * M_PI / 180);  // 0.35 without the effect
   EXPECT_LT(rms(2), 0.02e-3);
 }
 

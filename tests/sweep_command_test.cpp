@@ -29,7 +29,7 @@ TEST_F(Sweep, GivesTheSameBytesForAnyNumberOfJobsAndAnyShards) {
   done({"sweep", "sweep.xml", "--out", "part2", "--shard", "2/2"});
   done({"merge", "part1", "part2", "--out", "merged"});
   const auto one = files_in(path("one"));
-  EXPECT_EQ(one.size(), 9u);   // sweep.json, six cells, table, report
+  EXPECT_EQ(one.size(), 9u);  // sweep.json, six cells, table, report
   EXPECT_TRUE(files_in(path("two")) == one);
   EXPECT_TRUE(files_in(path("merged")) == one);
 }

@@ -36,10 +36,9 @@ TEST_F(Tour, ShowsTheExperimentsAndFindsTheUndeclaredEffectWithoutAnyRecordings)
 
   std::set<std::string> names;
   for (const auto& [name, text] : files_in(path("out"))) names.insert(name);
-  EXPECT_EQ(names, (std::set<std::string>{
-                       "experiments/experiments.csv", "experiments/experiments.json", "experiments/report.html",
-                       "report.html", "undeclared_effect/diagnosis.json", "undeclared_effect/model.xml",
-                       "undeclared_effect/report.html"}));
+  EXPECT_EQ(names, (std::set<std::string>{"experiments/experiments.csv", "experiments/experiments.json",
+                                          "experiments/report.html", "report.html", "undeclared_effect/diagnosis.json",
+                                          "undeclared_effect/model.xml", "undeclared_effect/report.html"}));
   const std::vector<std::string> addresses = addresses_in(text_of(path("out/report.html")));
   EXPECT_EQ(addresses.size(), 3u);
   for (const std::string& address : addresses) EXPECT_TRUE(fs::exists(path("out") / address)) << address;

@@ -115,7 +115,7 @@ TEST(CableLaw, ExponentialCableStaysFiniteAtStretchesThatNoCableSurvives) {
 TEST(CableLaw, StoredEnergyIsTheIntegralOfTheForce) {
   for (const CableLaw law : kLaws) {
     const JointParameters<double> j = cable(law);
-    const double slack = j.tension / j.stiffness;   // a kink of the linear law: a piece on either side
+    const double slack = j.tension / j.stiffness;  // a kink of the linear law: a piece on either side
     const auto force = [&](double x) { return cable_force(j, x, 0.0); };
     using Quadrature = boost::math::quadrature::gauss_kronrod<double, 15>;
     for (const double x : {0.3 * slack, 2.5 * slack, -2.5 * slack}) {
@@ -210,8 +210,9 @@ TEST(PathMatrix, SaysThatSingularCouplingLeavesAJointDirectionWithoutMotor) {
     unstretched_joints(arm, Eigen::Vector2d(1, 2), Eigen::Vector2d::Zero());
     FAIL() << "no exception";
   } catch (const std::invalid_argument& e) {
-    EXPECT_STREQ(e.what(), "coupling matrix [2 x 2] has rank 1: some joint direction moves no motor; "
-                           "correct the coupling coefficients");
+    EXPECT_STREQ(e.what(),
+                 "coupling matrix [2 x 2] has rank 1: some joint direction moves no motor; "
+                 "correct the coupling coefficients");
   }
 }
 
@@ -223,8 +224,8 @@ TEST(Friction, OpposesMotionIsOddAndReachesTheCoulombLevel) {
     EXPECT_NEAR(friction(coulomb, viscous, v_s, -v), -friction(coulomb, viscous, v_s, v), 2 * kEps * coulomb);
   }
   EXPECT_NEAR(friction(coulomb, 0.0, v_s, v_s), coulomb * std::tanh(1.0), kEps);
-  EXPECT_NEAR(std::tanh(1.0), 0.76, 0.002);   // as the header says
-  EXPECT_EQ(friction(coulomb, viscous, v_s, 4.0), coulomb + viscous * 4.0);   // tanh(800) is 1
+  EXPECT_NEAR(std::tanh(1.0), 0.76, 0.002);                                  // as the header says
+  EXPECT_EQ(friction(coulomb, viscous, v_s, 4.0), coulomb + viscous * 4.0);  // tanh(800) is 1
   const Dual f = friction(Dual(coulomb), Dual(viscous), Dual(v_s), Dual::seed(0, 0));
   EXPECT_NEAR(f.d[0], coulomb / v_s + viscous, 4 * kEps * coulomb / v_s);
 }
@@ -237,20 +238,16 @@ struct OneArgument {
   Dual (*dual)(Dual);
   Lanes (*lanes)(Lanes);
   double lower, upper;
-  bool of_library;   ///< computed by the C library, whose vector functions are good to 4 ulp
+  bool of_library;  ///< computed by the C library, whose vector functions are good to 4 ulp
 };
-#define HALYARD_ONE(expression)                                                                        \
-  [](double x) -> double { return expression; }, [](Dual x) -> Dual { return expression; },            \
+#define HALYARD_ONE(expression)                                                             \
+  [](double x) -> double { return expression; }, [](Dual x) -> Dual { return expression; }, \
       [](Lanes x) -> Lanes { return expression; }
 const OneArgument kOneArgument[] = {
-    {"sin", HALYARD_ONE(sin(x)), -3, 3, true},
-    {"cos", HALYARD_ONE(cos(x)), -3, 3, true},
-    {"tanh", HALYARD_ONE(tanh(x)), -3, 3, true},
-    {"exp", HALYARD_ONE(exp(x)), -3, 3, true},
-    {"log", HALYARD_ONE(log(x)), 0.5, 5, true},
-    {"sqrt", HALYARD_ONE(sqrt(x)), 0.5, 5, false},
-    {"abs", HALYARD_ONE(abs(x)), -3, 3, false},
-    {"minus", HALYARD_ONE(-x), -3, 3, false},
+    {"sin", HALYARD_ONE(sin(x)), -3, 3, true},   {"cos", HALYARD_ONE(cos(x)), -3, 3, true},
+    {"tanh", HALYARD_ONE(tanh(x)), -3, 3, true}, {"exp", HALYARD_ONE(exp(x)), -3, 3, true},
+    {"log", HALYARD_ONE(log(x)), 0.5, 5, true},  {"sqrt", HALYARD_ONE(sqrt(x)), 0.5, 5, false},
+    {"abs", HALYARD_ONE(abs(x)), -3, 3, false},  {"minus", HALYARD_ONE(-x), -3, 3, false},
 };
 
 struct TwoArguments {
@@ -259,23 +256,23 @@ struct TwoArguments {
   Dual (*dual)(Dual, Dual);
   Lanes (*lanes)(Lanes, Lanes);
 };
-#define HALYARD_TWO(expression)                                                                              \
-  [](double x, double y) -> double { return expression; }, [](Dual x, Dual y) -> Dual { return expression; },   \
+#define HALYARD_TWO(expression)                                                                               \
+  [](double x, double y) -> double { return expression; }, [](Dual x, Dual y) -> Dual { return expression; }, \
       [](Lanes x, Lanes y) -> Lanes { return expression; }
 const TwoArguments kTwoArguments[] = {
     {"sum", HALYARD_TWO(x + y)},
     {"difference", HALYARD_TWO(x - y)},
-    {"product", HALYARD_TWO(x * y)},
+    {"product", HALYARD_TWO(x* y)},
     {"quotient", HALYARD_TWO(x / y)},
     {"max", HALYARD_TWO(max(x, y))},
     {"min", HALYARD_TWO(min(x, y))},
-    {"select <", HALYARD_TWO(select(x < y, x * y, x + y))},
-    {"select >", HALYARD_TWO(select(x > y, x * y, x + y))},
-    {"select <=", HALYARD_TWO(select(x <= y, x * y, x + y))},
-    {"select >=", HALYARD_TWO(select(x >= y, x * y, x + y))},
+    {"select <", HALYARD_TWO(select(x < y, x* y, x + y))},
+    {"select >", HALYARD_TWO(select(x > y, x* y, x + y))},
+    {"select <=", HALYARD_TWO(select(x <= y, x* y, x + y))},
+    {"select >=", HALYARD_TWO(select(x >= y, x* y, x + y))},
     {"select and", HALYARD_TWO(select(x > y && x * y < 1.0, x, y))},
     {"select or", HALYARD_TWO(select(x > y || x * y < 1.0, x, y))},
-    {"chain", HALYARD_TWO(sin(x * y) / (exp(x) + y * y))},
+    {"chain", HALYARD_TWO(sin(x* y) / (exp(x) + y * y))},
 };
 
 // Central differences with step h err by h²/6 f''' and by the rounding of f, eps f / h. Here f, f''' < 60.
@@ -301,7 +298,7 @@ TEST(Dual, DerivativesByBothArgumentsAreThoseOfFiniteDifferences) {
     for (int i = 0; i < 40; ++i) {
       const double x = number(random);
       double y = number(random);
-      y += std::copysign(0.5, y);   // away from the quotient's pole
+      y += std::copysign(0.5, y);  // away from the quotient's pole
       const Dual r = f.dual(Dual::seed(x, 0), Dual::seed(y, 3));
       EXPECT_NEAR(r.a, f.plain(x, y), 2 * kEps * std::abs(r.a)) << f.name;
       const double by_x = (f.plain(x + kStep, y) - f.plain(x - kStep, y)) / (2 * kStep);
@@ -415,23 +412,23 @@ TEST(Transmission, PackedArmsKeepTheirOwnNumbers) {
 
 TEST(CommandHistory, IsLinearBetweenTheMiddlesOfHoldsAndHeldOutside) {
   CommandHistory history(2, 10);
-  EXPECT_EQ(history.at(0, 1.0), 0);   // nothing was ever commanded
+  EXPECT_EQ(history.at(0, 1.0), 0);  // nothing was ever commanded
   const double first[] = {1, -1}, second[] = {3, -2};
   history.push(0.5, first);
   EXPECT_EQ(history.at(1, 7.0), -1);
   history.push(1.0, second);
   EXPECT_EQ(history.at(0, 0.0), 1);
-  EXPECT_EQ(history.at(0, 0.75), 1);   // held from 0.5 to 1
+  EXPECT_EQ(history.at(0, 0.75), 1);  // held from 0.5 to 1
   EXPECT_EQ(history.at(0, 1.0), 2);
   EXPECT_EQ(history.at(1, 1.0), -1.5);
-  EXPECT_EQ(history.at(0, 1.25), 3);   // the second hold is taken to be as long
+  EXPECT_EQ(history.at(0, 1.25), 3);  // the second hold is taken to be as long
   EXPECT_EQ(history.at(0, 9.0), 3);
 }
 
 TEST(CommandHistory, IsNeitherEarlyNorLateOnAverage) {
   CommandHistory history(1, 100);
   for (int i = 0; i <= 20; ++i) {
-    const double value = 3.0 * i;   // a ramp, in steps
+    const double value = 3.0 * i;  // a ramp, in steps
     history.push(i, &value);
   }
   double difference = 0;
@@ -443,12 +440,12 @@ TEST(CommandHistory, GivesTheSlopeToDualAndEachTimeToItsLane) {
   CommandHistory history(1, 10);
   const double values[] = {0, 2, 1};
   for (int i = 0; i < 3; ++i) history.push(i * 0.5, values + i);
-  const Dual d = history.at(0, Dual::seed(0.7, 1) * 2.0);   // at 1.4: after the last
+  const Dual d = history.at(0, Dual::seed(0.7, 1) * 2.0);  // at 1.4: after the last
   EXPECT_EQ(d.a, 1);
   EXPECT_EQ(d.d[1], 0);
-  const Dual inside = history.at(0, Dual(1.0) - Dual::seed(0.125, 3));   // at 0.875, a delay's derivative
+  const Dual inside = history.at(0, Dual(1.0) - Dual::seed(0.125, 3));  // at 0.875, a delay's derivative
   EXPECT_EQ(inside.a, 1.75);
-  EXPECT_EQ(inside.d[3], 2);   // slope -2 N m/s, by minus the delay
+  EXPECT_EQ(inside.d[3], 2);  // slope -2 N m/s, by minus the delay
   Lanes times;
   for (int l = 0; l < kLaneWidth; ++l) times.set(l, 0.15 * l);
   const Lanes at = history.at(0, times);
@@ -458,7 +455,7 @@ TEST(CommandHistory, GivesTheSlopeToDualAndEachTimeToItsLane) {
 TEST(CommandHistory, RemembersItsSpanAndForgetsWhatIsOlder) {
   const double span = 0.1, dt = 1e-3;
   CommandHistory history(1, span);
-  for (int i = 0; i < 5000; ++i) {   // far beyond where memory is given back
+  for (int i = 0; i < 5000; ++i) {  // far beyond where memory is given back
     const double time = i * dt, command = time;
     history.push(time, &command);
     // Half a hold after a command was given it is in force on average.

@@ -11,7 +11,7 @@
 namespace halyard {
 namespace {
 
-constexpr double kShare = 0.45, kYield = 1.5e-4;   // of the elbow's hysteresis
+constexpr double kShare = 0.45, kYield = 1.5e-4;  // of the elbow's hysteresis
 
 /// The arm with a hysteresis in the elbow's cable; its log from the middle on.
 struct Amid {

@@ -74,7 +74,7 @@ TEST(Views, AShortRecordTellsWhatFallsWhollyOntoACurveAndIsGone) {
   const auto short_of = [](ResidualSignals s) {
     for (std::vector<double>* x : {&s.time, &s.joint_position, &s.joint_rate, &s.motor_angle, &s.motor_rate,
                                    &s.capstan_angle, &s.load, &s.joint_direction, &s.motor_direction, &s.residual[0]})
-      x->resize(250);   // two thirds of a period
+      x->resize(250);  // two thirds of a period
     return s;
   };
   auto rest = noise(1e-5, 5);
@@ -83,8 +83,8 @@ TEST(Views, AShortRecordTellsWhatFallsWhollyOntoACurveAndIsGone) {
   const std::vector<View> gone = telling_views(late, short_of(joint_with(noise(1e-5, 6))));
   ASSERT_FALSE(gone.empty());
   EXPECT_EQ(gone[0].abscissa, Abscissa::rate);
-  EXPECT_LT(gone[0].explained_before, gone[0].chance);   // so few independent samples prove nothing by themselves
-  EXPECT_TRUE(telling_views(late, late).empty());        // not gone
+  EXPECT_LT(gone[0].explained_before, gone[0].chance);  // so few independent samples prove nothing by themselves
+  EXPECT_TRUE(telling_views(late, late).empty());       // not gone
 }
 
 TEST(Views, ARippleOfTheMotorIsALineOfItsOrder) {

@@ -23,12 +23,12 @@ enum class CableLaw { paper, exponential, linear };
 /// How well a joint's numbers are known: relative, 1 = not at all. A change within it is a refit,
 /// beyond it an effect.
 struct Tolerances {
-  double length = 0.005;     ///< radii, ratios, lengths
-  double mass = 0.05;        ///< masses and inertias, of rotors too
-  double stiffness = 0.10;   ///< stiffness and damping of cables
-  double friction = 0.20;    ///< Coulomb and viscous
+  double length = 0.005;    ///< radii, ratios, lengths
+  double mass = 0.05;       ///< masses and inertias, of rotors too
+  double stiffness = 0.10;  ///< stiffness and damping of cables
+  double friction = 0.20;   ///< Coulomb and viscous
   double coupling = 0.02;
-  double torque_scale = 0.005; ///< of a motor: 1 where the record's torque is a current or a voltage of unknown scale
+  double torque_scale = 0.005;  ///< of a motor: 1 where the record's torque is a current or a voltage of unknown scale
 };
 
 template <class T>
@@ -40,8 +40,8 @@ struct JointParameters {
   // Rigid link. Joint frame at q = 0 seen from the parent's frame, x_parent = R x + p.
   double frame_R[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   double frame_p[3] = {0, 0, 0};
-  T mass = 0.0;                                    ///< kg
-  T com[3] = {T(0.0), T(0.0), T(0.0)};             ///< centre of mass, own frame, m
+  T mass = 0.0;                         ///< kg
+  T com[3] = {T(0.0), T(0.0), T(0.0)};  ///< centre of mass, own frame, m
   /// Inertia about the centre of mass, own axes: xx, yy, zz, xy, xz, yz entries, kg m².
   T inertia[6] = {T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)};
 
@@ -56,24 +56,24 @@ struct JointParameters {
   T torque_bias = 0.0;      ///< N m, added after the scale
 
   // Cable.
-  T pulley_radius = 1.0;    ///< r_l, m | 1
+  T pulley_radius = 1.0;  ///< r_l, m | 1
   /// What one unit of joint j adds to this cable's path, in units of this joint (C_ji of the
   /// paper); the own entry is 1.
   T coupling[kMaxJoints] = {T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)};
-  T stiffness = 0.0;        ///< k_e of each run, N/m
-  T damping = 0.0;          ///< b_e of each run, N s/m
-  T tension = 0.0;          ///< T_0 of each run at rest, N
+  T stiffness = 0.0;  ///< k_e of each run, N/m
+  T damping = 0.0;    ///< b_e of each run, N s/m
+  T tension = 0.0;    ///< T_0 of each run at rest, N
 
   // Joint friction.
-  T joint_coulomb = 0.0;      ///< N m | N
-  T joint_viscous = 0.0;      ///< N m s/rad | N s/m
-  T joint_smoothing = 5e-3;   ///< v_s, rad/s | m/s
+  T joint_coulomb = 0.0;     ///< N m | N
+  T joint_viscous = 0.0;     ///< N m s/rad | N s/m
+  T joint_smoothing = 5e-3;  ///< v_s, rad/s | m/s
 
   // Sensors: reading = truth + offset, rounded to the resolution (0: not rounded).
-  T motor_encoder_offset = 0.0;          ///< rad
-  T joint_encoder_offset = 0.0;          ///< rad | m
-  double motor_encoder_resolution = 0;   ///< rad
-  double joint_encoder_resolution = 0;   ///< rad | m
+  T motor_encoder_offset = 0.0;         ///< rad
+  T joint_encoder_offset = 0.0;         ///< rad | m
+  double motor_encoder_resolution = 0;  ///< rad
+  double joint_encoder_resolution = 0;  ///< rad | m
   /// False: each log has a zero of its own, as an incremental encoder's that counts from where it was switched on.
   bool motor_zero_known = true;
   bool joint_zero_known = true;
@@ -86,9 +86,9 @@ struct JointParameters {
 
 template <class T>
 struct ArmParameters {
-  int n = 0;                                            ///< joints, 1..kMaxJoints
-  T gravity[3] = {T(-9.81), T(0.0), T(0.0)};            ///< in the base frame, m/s²
-  double payload_point[3] = {0, 0, 0};                  ///< in the last link's frame, m
+  int n = 0;                                  ///< joints, 1..kMaxJoints
+  T gravity[3] = {T(-9.81), T(0.0), T(0.0)};  ///< in the base frame, m/s²
+  double payload_point[3] = {0, 0, 0};        ///< in the last link's frame, m
   JointParameters<T> joint[kMaxJoints];
 };
 

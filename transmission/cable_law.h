@@ -48,8 +48,7 @@ HALYARD_INLINE RunTensions<T> run_tensions(const JointParameters<T>& j, const T&
 /// The force difference g, N.
 template <class T>
 HALYARD_INLINE T cable_force(const JointParameters<T>& j, const T& x, const T& x_dot) {
-  if (j.law == CableLaw::paper)
-    return j.stiffness * (exp(x) - exp(T(-x))) + T(2.0) * j.damping * x_dot;
+  if (j.law == CableLaw::paper) return j.stiffness * (exp(x) - exp(T(-x))) + T(2.0) * j.damping * x_dot;
   const RunTensions<T> t = run_tensions(j, x, x_dot);
   return t.forward - t.backward;
 }

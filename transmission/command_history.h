@@ -23,15 +23,17 @@ class CommandHistory {
   Lanes at(int joint, const Lanes& time_s) const;
 
  private:
-  struct Segment { double value, slope; };
+  struct Segment {
+    double value, slope;
+  };
   Segment segment(int joint, double time_s) const;
-  double middle(std::size_t sample) const;   ///< of its hold
+  double middle(std::size_t sample) const;  ///< of its hold
 
   int n_;
   double span_;
   std::vector<double> time_;
-  std::vector<double> command_;   ///< [time][joint]
-  std::size_t first_ = 0;         ///< samples before this one are forgotten
+  std::vector<double> command_;  ///< [time][joint]
+  std::size_t first_ = 0;        ///< samples before this one are forgotten
 };
 
 }  // namespace halyard

@@ -29,8 +29,7 @@ template <class T>
 HALYARD_INLINE void joint_reaction(const ArmParameters<T>& arm, const T* g, T* force) {
   for (int j = 0; j < arm.n; ++j) {
     T sum = 0.0;
-    for (int i = 0; i < arm.n; ++i)
-      sum += arm.joint[i].pulley_radius * arm.joint[i].coupling[j] * g[i];
+    for (int i = 0; i < arm.n; ++i) sum += arm.joint[i].pulley_radius * arm.joint[i].coupling[j] * g[i];
     force[j] = sum;
   }
 }

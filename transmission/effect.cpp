@@ -56,11 +56,10 @@ PlacedEffect place_with(double EffectParameter::*value, const Effect& effect, co
                         int joint) {
   const std::vector<int> places = effect_places(effect, arm);
   if (std::find(places.begin(), places.end(), joint) == places.end())
-    throw std::invalid_argument(
-        "effect " + effect.name() +
-        (effect.scope() == EffectScope::arm ? " belongs to the whole arm: name no joint"
-         : joint < 0                        ? " belongs to a joint: name one"
-                                            : " cannot be at joint " + std::to_string(joint + 1) + " of this arm"));
+    throw std::invalid_argument("effect " + effect.name() +
+                                (effect.scope() == EffectScope::arm ? " belongs to the whole arm: name no joint"
+                                 : joint < 0                        ? " belongs to a joint: name one"
+                                             : " cannot be at joint " + std::to_string(joint + 1) + " of this arm"));
   PlacedEffect placed;
   placed.effect = &effect;
   placed.joint = joint;

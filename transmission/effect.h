@@ -29,7 +29,7 @@
 namespace halyard {
 
 inline constexpr int kMaxEffectParameters = 8;
-inline constexpr int kMaxEffectStates = 8;   ///< of one effect
+inline constexpr int kMaxEffectStates = 8;  ///< of one effect
 
 /// Where a search takes a parameter's bounds and starts from.
 enum class SearchRange {
@@ -40,11 +40,11 @@ enum class SearchRange {
 
 /// One number of an effect. The effect is absent when all its parameters are neutral.
 struct EffectParameter {
-  std::string name;      ///< as in model files and diagnosis.json
+  std::string name;  ///< as in model files and diagnosis.json
   std::string unit;
-  double neutral = 0;    ///< no influence
-  double typical = 0;    ///< where a search starts, and the default in a model file
-  double lower = 0;      ///< physical bounds
+  double neutral = 0;  ///< no influence
+  double typical = 0;  ///< where a search starts, and the default in a model file
+  double lower = 0;    ///< physical bounds
   double upper = 0;
   /// What the model's own tolerance allows this number to be off its neutral value without
   /// being an effect; 0 where the model has no such number.
@@ -64,39 +64,39 @@ struct EffectParameter {
 
 /// Where an effect may be placed.
 enum class EffectScope {
-  joint,    ///< at one joint
-  arm,      ///< the whole arm
-  either,   ///< at one joint, or at all joints alike: then placed as an effect of the arm
+  joint,   ///< at one joint
+  arm,     ///< the whole arm
+  either,  ///< at one joint, or at all joints alike: then placed as an effect of the arm
 };
 
 /// What is known at one joint at one instant. Torque and position signs are the joint's own.
 template <class T>
 struct JointSignals {
-  T command = 0.0;             ///< commanded motor torque, N m
-  T motor_angle = 0.0;         ///< q_m, rad
-  T motor_rate = 0.0;          ///< q_m', rad/s
-  T joint_position = 0.0;      ///< q, rad | m
-  T joint_rate = 0.0;          ///< q', rad/s | m/s
-  T external_force = 0.0;      ///< measured external load on the joint, N m | N
-  T motor_torque = 0.0;        ///< on the rotor, cable excluded, N m
-  T stretch = 0.0;             ///< x, m
-  T stretch_rate = 0.0;        ///< x', m/s
-  T cable_force_motor = 0.0;   ///< g as the capstan feels it, N
-  T cable_force_joint = 0.0;   ///< g as the joint's pulley feels it, N
-  T joint_force = 0.0;         ///< Γ + friction + external, N m | N
-  T motor_error = 0.0;         ///< motor encoder's reading minus truth, rad
-  T joint_error = 0.0;         ///< joint encoder's reading minus truth, rad | m
+  T command = 0.0;            ///< commanded motor torque, N m
+  T motor_angle = 0.0;        ///< q_m, rad
+  T motor_rate = 0.0;         ///< q_m', rad/s
+  T joint_position = 0.0;     ///< q, rad | m
+  T joint_rate = 0.0;         ///< q', rad/s | m/s
+  T external_force = 0.0;     ///< measured external load on the joint, N m | N
+  T motor_torque = 0.0;       ///< on the rotor, cable excluded, N m
+  T stretch = 0.0;            ///< x, m
+  T stretch_rate = 0.0;       ///< x', m/s
+  T cable_force_motor = 0.0;  ///< g as the capstan feels it, N
+  T cable_force_joint = 0.0;  ///< g as the joint's pulley feels it, N
+  T joint_force = 0.0;        ///< Γ + friction + external, N m | N
+  T motor_error = 0.0;        ///< motor encoder's reading minus truth, rad
+  T joint_error = 0.0;        ///< joint encoder's reading minus truth, rad | m
 };
 
 /// What an effect may look at.
 template <class T>
 struct EffectContext {
-  const ArmParameters<T>& arm;     ///< all changes of parameters done
-  int joint;                       ///< 0-based; -1: the whole arm
-  const T* p;                      ///< the effect's parameters
-  const T* z;                      ///< the effect's states
-  double time;                     ///< s
-  const CommandHistory* history;   ///< past commands, or null
+  const ArmParameters<T>& arm;    ///< all changes of parameters done
+  int joint;                      ///< 0-based; -1: the whole arm
+  const T* p;                     ///< the effect's parameters
+  const T* z;                     ///< the effect's states
+  double time;                    ///< s
+  const CommandHistory* history;  ///< past commands, or null
   /// Standard deviation of the Gaussian filter through which motion and torque are seen, s; 0: as they are. What is
   /// periodic in an angle that turns at ω is seen exp(-(ω band)² / 2) times as large.
   double band = 0;
@@ -141,14 +141,22 @@ class Effect {
 template <class Derived>
 class EffectOf : public Effect {
  public:
-  template <class T> void change(ArmParameters<T>&, int, const T*) const {}
-  template <class T> void on_command(const EffectContext<T>&, JointSignals<T>*) const {}
-  template <class T> void on_stretch(const EffectContext<T>&, JointSignals<T>*) const {}
-  template <class T> void on_cable_force(const EffectContext<T>&, JointSignals<T>*) const {}
-  template <class T> void on_motor(const EffectContext<T>&, JointSignals<T>*) const {}
-  template <class T> void on_joint(const EffectContext<T>&, JointSignals<T>*) const {}
-  template <class T> void on_sensors(const EffectContext<T>&, JointSignals<T>*) const {}
-  template <class T> void state_rate(const EffectContext<T>&, const JointSignals<T>*, T*) const {}
+  template <class T>
+  void change(ArmParameters<T>&, int, const T*) const {}
+  template <class T>
+  void on_command(const EffectContext<T>&, JointSignals<T>*) const {}
+  template <class T>
+  void on_stretch(const EffectContext<T>&, JointSignals<T>*) const {}
+  template <class T>
+  void on_cable_force(const EffectContext<T>&, JointSignals<T>*) const {}
+  template <class T>
+  void on_motor(const EffectContext<T>&, JointSignals<T>*) const {}
+  template <class T>
+  void on_joint(const EffectContext<T>&, JointSignals<T>*) const {}
+  template <class T>
+  void on_sensors(const EffectContext<T>&, JointSignals<T>*) const {}
+  template <class T>
+  void state_rate(const EffectContext<T>&, const JointSignals<T>*, T*) const {}
 
   void change_parameters(ArmParameters<double>& a, int k, const double* p) const final { self().change(a, k, p); }
   void change_parameters(ArmParameters<Dual>& a, int k, const Dual* p) const final { self().change(a, k, p); }
@@ -185,7 +193,7 @@ class EffectOf : public Effect {
 template <class T>
 struct EffectInstance {
   const Effect* effect = nullptr;
-  int joint = -1;                     ///< 0-based; -1: the whole arm
+  int joint = -1;  ///< 0-based; -1: the whole arm
   T p[kMaxEffectParameters] = {};
 };
 using PlacedEffect = EffectInstance<double>;

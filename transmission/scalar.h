@@ -40,17 +40,32 @@ struct alignas(8 * kLaneWidth) Lanes {
   HALYARD_INLINE double operator[](int i) const { return v[i]; }
   HALYARD_INLINE void set(int i, double s) { v[i] = s; }
 
-  HALYARD_INLINE Lanes& operator+=(const Lanes& b) { v += b.v; return *this; }
-  HALYARD_INLINE Lanes& operator-=(const Lanes& b) { v -= b.v; return *this; }
-  HALYARD_INLINE Lanes& operator*=(const Lanes& b) { v *= b.v; return *this; }
-  HALYARD_INLINE Lanes& operator/=(const Lanes& b) { v /= b.v; return *this; }
+  HALYARD_INLINE Lanes& operator+=(const Lanes& b) {
+    v += b.v;
+    return *this;
+  }
+  HALYARD_INLINE Lanes& operator-=(const Lanes& b) {
+    v -= b.v;
+    return *this;
+  }
+  HALYARD_INLINE Lanes& operator*=(const Lanes& b) {
+    v *= b.v;
+    return *this;
+  }
+  HALYARD_INLINE Lanes& operator/=(const Lanes& b) {
+    v /= b.v;
+    return *this;
+  }
 };
 
 HALYARD_INLINE Lanes operator+(Lanes a, const Lanes& b) { return a += b; }
 HALYARD_INLINE Lanes operator-(Lanes a, const Lanes& b) { return a -= b; }
 HALYARD_INLINE Lanes operator*(Lanes a, const Lanes& b) { return a *= b; }
 HALYARD_INLINE Lanes operator/(Lanes a, const Lanes& b) { return a /= b; }
-HALYARD_INLINE Lanes operator-(Lanes a) { a.v = -a.v; return a; }
+HALYARD_INLINE Lanes operator-(Lanes a) {
+  a.v = -a.v;
+  return a;
+}
 HALYARD_INLINE LaneMask operator<(const Lanes& a, const Lanes& b) { return {a.v < b.v}; }
 HALYARD_INLINE LaneMask operator>(const Lanes& a, const Lanes& b) { return {a.v > b.v}; }
 HALYARD_INLINE LaneMask operator<=(const Lanes& a, const Lanes& b) { return {a.v <= b.v}; }
@@ -77,22 +92,22 @@ inline constexpr int kNativeWidth = 2;
 
 #if defined(HALYARD_VECTOR_PREFIX)
 typedef double NativeVector __attribute__((vector_size(8 * kNativeWidth)));
-#define HALYARD_LANE_FUNCTION(name)                                              \
-  extern "C" NativeVector HALYARD_VECTOR_PREFIX(name)(NativeVector);             \
-  HALYARD_INLINE Lanes name(const Lanes& a) {                                    \
-    Lanes r;                                                                     \
-    NativeVector part[kLaneWidth / kNativeWidth];                                \
-    __builtin_memcpy(part, &a.v, sizeof a.v);                                    \
-    for (NativeVector& p : part) p = HALYARD_VECTOR_PREFIX(name)(p);             \
-    __builtin_memcpy(&r.v, part, sizeof r.v);                                    \
-    return r;                                                                    \
+#define HALYARD_LANE_FUNCTION(name)                                   \
+  extern "C" NativeVector HALYARD_VECTOR_PREFIX(name)(NativeVector);  \
+  HALYARD_INLINE Lanes name(const Lanes& a) {                         \
+    Lanes r;                                                          \
+    NativeVector part[kLaneWidth / kNativeWidth];                     \
+    __builtin_memcpy(part, &a.v, sizeof a.v);                         \
+    for (NativeVector & p : part) p = HALYARD_VECTOR_PREFIX(name)(p); \
+    __builtin_memcpy(&r.v, part, sizeof r.v);                         \
+    return r;                                                         \
   }
 #else
-#define HALYARD_LANE_FUNCTION(name)                                              \
-  HALYARD_INLINE Lanes name(const Lanes& a) {                                    \
-    Lanes r;                                                                     \
-    for (int i = 0; i < kLaneWidth; ++i) r.v[i] = std::name(a.v[i]);             \
-    return r;                                                                    \
+#define HALYARD_LANE_FUNCTION(name)                                  \
+  HALYARD_INLINE Lanes name(const Lanes& a) {                        \
+    Lanes r;                                                         \
+    for (int i = 0; i < kLaneWidth; ++i) r.v[i] = std::name(a.v[i]); \
+    return r;                                                        \
   }
 #endif
 HALYARD_LANE_FUNCTION(sin)
@@ -125,9 +140,21 @@ struct alignas(8 * kDualWidth) Dual {
     return x;
   }
 
-  HALYARD_INLINE Dual& operator+=(const Dual& b) { a += b.a; d += b.d; return *this; }
-  HALYARD_INLINE Dual& operator-=(const Dual& b) { a -= b.a; d -= b.d; return *this; }
-  HALYARD_INLINE Dual& operator*=(const Dual& b) { d = d * b.a + b.d * a; a *= b.a; return *this; }
+  HALYARD_INLINE Dual& operator+=(const Dual& b) {
+    a += b.a;
+    d += b.d;
+    return *this;
+  }
+  HALYARD_INLINE Dual& operator-=(const Dual& b) {
+    a -= b.a;
+    d -= b.d;
+    return *this;
+  }
+  HALYARD_INLINE Dual& operator*=(const Dual& b) {
+    d = d * b.a + b.d * a;
+    a *= b.a;
+    return *this;
+  }
   HALYARD_INLINE Dual& operator/=(const Dual& b) {
     a /= b.a;
     d = (d - b.d * a) / b.a;
@@ -139,7 +166,11 @@ HALYARD_INLINE Dual operator+(Dual x, const Dual& y) { return x += y; }
 HALYARD_INLINE Dual operator-(Dual x, const Dual& y) { return x -= y; }
 HALYARD_INLINE Dual operator*(Dual x, const Dual& y) { return x *= y; }
 HALYARD_INLINE Dual operator/(Dual x, const Dual& y) { return x /= y; }
-HALYARD_INLINE Dual operator-(Dual x) { x.a = -x.a; x.d = -x.d; return x; }
+HALYARD_INLINE Dual operator-(Dual x) {
+  x.a = -x.a;
+  x.d = -x.d;
+  return x;
+}
 HALYARD_INLINE bool operator<(const Dual& x, const Dual& y) { return x.a < y.a; }
 HALYARD_INLINE bool operator>(const Dual& x, const Dual& y) { return x.a > y.a; }
 HALYARD_INLINE bool operator<=(const Dual& x, const Dual& y) { return x.a <= y.a; }
@@ -173,11 +204,17 @@ HALYARD_INLINE double select(bool c, double a, double b) { return c ? a : b; }
 HALYARD_INLINE Dual select(bool c, const Dual& a, const Dual& b) { return c ? a : b; }
 
 template <class T>
-HALYARD_INLINE T max(const T& a, const T& b) { return select(a > b, a, b); }
+HALYARD_INLINE T max(const T& a, const T& b) {
+  return select(a > b, a, b);
+}
 template <class T>
-HALYARD_INLINE T min(const T& a, const T& b) { return select(a < b, a, b); }
+HALYARD_INLINE T min(const T& a, const T& b) {
+  return select(a < b, a, b);
+}
 template <class T>
-HALYARD_INLINE T abs(const T& a) { return select(a < T(0.0), T(-a), a); }
+HALYARD_INLINE T abs(const T& a) {
+  return select(a < T(0.0), T(-a), a);
+}
 
 /// The plain value: of a Dual its value, of Lanes lane 0.
 HALYARD_INLINE double value(double x) { return x; }

@@ -37,8 +37,8 @@ class Transmission {
 
   /// Fills s from s.command, s.motor_angle, s.motor_rate, s.joint_position, s.joint_rate and
   /// s.external_force [n], the internal states z, and z_dot [n_states].
-  HALYARD_INLINE void evaluate(double time, const CommandHistory* history, const T* z,
-                               JointSignals<T>* s, T* z_dot) const;
+  HALYARD_INLINE void evaluate(double time, const CommandHistory* history, const T* z, JointSignals<T>* s,
+                               T* z_dot) const;
 
   /// s.motor_error and s.joint_error: what the sensors add to the truth.
   HALYARD_INLINE void sensor_errors(double time, const T* z, JointSignals<T>* s) const {
@@ -102,7 +102,10 @@ HALYARD_INLINE void Transmission<T>::evaluate(double time, const CommandHistory*
 
   for (int i = 0; i < n; ++i) {
     const JointParameters<T>& j = arm_.joint[i];
-    if (j.drive == Drive::none) { s[i].motor_torque = T(0.0); continue; }
+    if (j.drive == Drive::none) {
+      s[i].motor_torque = T(0.0);
+      continue;
+    }
     s[i].motor_torque -= friction(j.motor_coulomb, j.motor_viscous, j.motor_smoothing, s[i].motor_rate);
   }
   apply(EffectStage::motor, time, history, z, s);
@@ -112,8 +115,8 @@ HALYARD_INLINE void Transmission<T>::evaluate(double time, const CommandHistory*
   joint_reaction(arm_, g, reaction);
   for (int i = 0; i < n; ++i) {
     const JointParameters<T>& j = arm_.joint[i];
-    s[i].joint_force = reaction[i] - friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, v[i]) +
-                       s[i].external_force;
+    s[i].joint_force =
+        reaction[i] - friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, v[i]) + s[i].external_force;
   }
   apply(EffectStage::joint, time, history, z, s);
 

@@ -24,9 +24,9 @@ enum class Trust {
 
 /// A mean that ought to be 1, and where 95 % of such means lie.
 struct Consistency {
-  double mean = 0;               ///< NaN without samples
+  double mean = 0;  ///< NaN without samples
   double lower = 0, upper = 0;
-  double samples = 0;            ///< that say something of their own
+  double samples = 0;  ///< that say something of their own
   Trust trust() const;
 };
 
@@ -37,9 +37,9 @@ Consistency consistency_of_runs(std::span<const Consistency> runs);
 
 /// How white innovations are: what is predictable in them the filter has missed.
 struct Whiteness {
-  double correlation = 0;     ///< of neighbours, ρ_1
-  double with_torque = 0;     ///< largest correlation with the motor's torque of the 20 samples before
-  double chance = 0;          ///< neither lies beyond this by chance at the 95 % level, 40 looks respected
+  double correlation = 0;  ///< of neighbours, ρ_1
+  double with_torque = 0;  ///< largest correlation with the motor's torque of the 20 samples before
+  double chance = 0;       ///< neither lies beyond this by chance at the 95 % level, 40 looks respected
   bool is_white() const;
 };
 /// innovation, torque: one entry a sample of the record, NaN where there is none.

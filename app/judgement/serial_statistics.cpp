@@ -72,7 +72,7 @@ std::pair<double, double> chi_square_band(double dof) {
 
 PairedRatio paired_ratio(std::span<const double> a, std::span<const double> b, std::uint64_t seed) {
   std::vector<double> difference;
-  std::vector<std::pair<double, double>> before = {{0, 0}};   // sums of squares of all samples before
+  std::vector<std::pair<double, double>> before = {{0, 0}};  // sums of squares of all samples before
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
     if (std::isnan(a[i]) || std::isnan(b[i])) continue;
     difference.push_back(a[i] * a[i] - b[i] * b[i]);

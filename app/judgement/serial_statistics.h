@@ -21,7 +21,7 @@ std::pair<double, double> chi_square_band(double dof);
 /// Root mean square of errors a over that of errors b, which were made at the same instants, and its 95 % interval.
 struct PairedRatio {
   double ratio = 0, lower = 0, upper = 0;
-  std::size_t block = 0;   ///< samples that were drawn together
+  std::size_t block = 0;  ///< samples that were drawn together
 
   /// At the 95 % level; neither may hold.
   bool better() const { return upper < 1; }

@@ -313,8 +313,8 @@ void write_summary(const std::filesystem::path& out, const std::vector<Result>& 
       "Joint position RMS after, over that of the true model, on the hold-out; bar: a median of 1.15.\n\n"
       "| kind | trials | worst joint: median | 90 % below | mean of the joints: median | 90 % below "
       "|\n|---|---:|---:|---:|---:|---:|\n";
-  for (const Kind kind : {Kind::clean_exact, Kind::clean_mistuned, Kind::effect, Kind::each_effect,
-                          Kind::effect_mistuned, Kind::pair}) {
+  for (const Kind kind :
+       {Kind::clean_exact, Kind::clean_mistuned, Kind::effect, Kind::each_effect, Kind::effect_mistuned, Kind::pair}) {
     std::vector<double> worst, mean;
     for (const Result* r : strong(kind))
       if (r->failure.empty()) worst.push_back(error_ratio(*r).first), mean.push_back(error_ratio(*r).second);

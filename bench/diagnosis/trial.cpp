@@ -206,7 +206,7 @@ Result run_trial(const ArmModel& model, Kind kind, int index, const TrialOptions
   Diagnosis d;
   try {
     DiagnosisOptions how;
-    how.tell_not_excited = false;   // is not asked for, and would take as long as a clean log's whole diagnosis
+    how.tell_not_excited = false;  // is not asked for, and would take as long as a clean log's whole diagnosis
     d = diagnose(model, {recording->training}, recording->holdout, how);
   } catch (const std::exception& error) {
     r.failure = std::string("diagnose: ") + error.what();

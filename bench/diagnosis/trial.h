@@ -31,7 +31,7 @@ namespace halyard::blind {
 
 struct TrialOptions {
   std::uint64_t seed = 1;
-  double limit = 6;  ///< strength above which an effect has to be found
+  double limit = 6;            ///< strength above which an effect has to be found
   std::filesystem::path logs;  ///< folder for the logs that were diagnosed; empty: they are not kept
 };
 

@@ -4,8 +4,7 @@
 static int update_forever(void* instance, const halyard_sample* sample, halyard_innovation* innovation, char* message,
                           size_t message_size) {
   volatile int forever = ((state*)instance)->steps >= 1;
-  while (forever) {
-  }
+  while (forever) {}
   return update(instance, sample, innovation, message, message_size);
 }
 

@@ -21,9 +21,12 @@ class CouplingError : public EffectOf<CouplingError> {
     std::vector<EffectParameter> all;
     for (int i = 0; i < joint; ++i) {
       const bool length = j.type == JointType::prismatic, per_length = arm.joint[i].type == JointType::prismatic;
-      const double reach = length ? 0.1 : 1.0;   // a pulley of 0.1 m, or as much as the joint itself
-      all.push_back({"from_joint_" + std::to_string(i + 1), length == per_length ? "1" : length ? "m/rad" : "rad/m", 0,
-                     0.1 * std::max(std::abs(j.coupling[i]), 0.1 * reach), -reach, reach,
+      const double reach = length ? 0.1 : 1.0;  // a pulley of 0.1 m, or as much as the joint itself
+      all.push_back({"from_joint_" + std::to_string(i + 1),
+                     length == per_length ? "1"
+                     : length             ? "m/rad"
+                                          : "rad/m",
+                     0, 0.1 * std::max(std::abs(j.coupling[i]), 0.1 * reach), -reach, reach,
                      j.tolerance.coupling * std::abs(j.coupling[i])});
     }
     return all;

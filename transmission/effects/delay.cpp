@@ -40,9 +40,13 @@ class Delay : public EffectOf<Delay> {
 
  private:
   template <class T>
-  static int first(const EffectContext<T>& c) { return c.joint < 0 ? 0 : c.joint; }
+  static int first(const EffectContext<T>& c) {
+    return c.joint < 0 ? 0 : c.joint;
+  }
   template <class T>
-  static int end(const EffectContext<T>& c) { return c.joint < 0 ? c.arm.n : c.joint + 1; }
+  static int end(const EffectContext<T>& c) {
+    return c.joint < 0 ? c.arm.n : c.joint + 1;
+  }
 };
 
 }  // namespace

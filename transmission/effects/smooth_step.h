@@ -9,11 +9,11 @@
 
 namespace halyard {
 
-inline constexpr double kStepWidth = 0.01;   ///< w, s
+inline constexpr double kStepWidth = 0.01;  ///< w, s
 
 template <class T>
 struct SmoothStep {
-  T value, rate;   ///< -, 1/s
+  T value, rate;  ///< -, 1/s
 };
 
 template <class T>
