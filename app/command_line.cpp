@@ -8,20 +8,20 @@
 #include <string>
 #include <vector>
 
-#include "app/check_command.h"
-#include "app/compare_command.h"
-#include "app/diagnose_command.h"
-#include "app/estimate_command.h"
-#include "app/estimator_list.h"
-#include "app/experiments_command.h"
-#include "app/identify_command.h"
-#include "app/plan_command.h"
-#include "app/plugins_command.h"
-#include "app/simulate_command.h"
-#include "app/sweep_command.h"
-#include "app/tour_command.h"
+#include "app/commands/check_command.h"
+#include "app/commands/compare_command.h"
+#include "app/commands/diagnose_command.h"
+#include "app/commands/estimate_command.h"
+#include "app/commands/identify_command.h"
+#include "app/commands/plan_command.h"
+#include "app/commands/plugins_command.h"
+#include "app/commands/simulate_command.h"
+#include "app/commands/sweep_command.h"
+#include "app/tour/experiments_command.h"
+#include "app/tour/tour_command.h"
+#include "evaluation/estimator_list.h"
 #include "model/input_error.h"
-#include "plugins/effect_module.h"
+#include "plugins/host/effect_module.h"
 
 namespace halyard {
 namespace {

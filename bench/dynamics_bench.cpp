@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/bench_arm.h"
-#include "estimators/process_model.h"
+#include "estimators/process/process_model.h"
 #include "transmission/path_matrix.h"
 
 namespace halyard {

@@ -1,4 +1,4 @@
-/// halyard_endurance: filters over torn records (tests/torn_record.h) of long runs, on chains of 1 to 7 joints with
+/// halyard_endurance: filters over torn records (tests/support/torn_record.h) of long runs, on chains of 1 to 7 joints with
 /// soft and stiff cables, with the paper's weights and with wide ones. See bench/README.md.
 ///
 /// Exit code 1 too if a filter threw, or gave a number that is not finite or a deviation of none.
@@ -12,9 +12,9 @@
 
 #include "bench/program.h"
 #include "estimators/built_in.h"
-#include "estimators/kinematics.h"
-#include "tests/arm_runs.h"
-#include "tests/torn_record.h"
+#include "estimators/filters/kinematics.h"
+#include "tests/support/arm_runs.h"
+#include "tests/support/torn_record.h"
 
 namespace halyard {
 namespace {

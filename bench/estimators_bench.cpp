@@ -1,10 +1,10 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/bench_arm.h"
-#include "estimators/arm_filter.h"
-#include "estimators/arm_models.h"
 #include "estimators/built_in.h"
-#include "estimators/sr_ukf.h"
+#include "estimators/filters/arm_filter.h"
+#include "estimators/filters/sr_ukf.h"
+#include "estimators/process/arm_models.h"
 
 namespace halyard {
 namespace {

@@ -11,7 +11,7 @@
 /// it is held, or driven by somebody else, with a force λ that nothing is known of.
 
 #include "diagnosis/chebyshev.h"
-#include "estimators/arm_dynamics.h"
+#include "estimators/process/arm_dynamics.h"
 
 namespace halyard {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "estimators/rigid_chain.h"
+#include "estimators/process/rigid_chain.h"
 #include "transmission/path_matrix.h"
 #include "transmission/transmission.h"
 

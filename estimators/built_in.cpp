@@ -2,13 +2,13 @@
 
 #include <limits>
 
-#include "estimators/arm_filter.h"
-#include "estimators/camera_filter.h"
-#include "estimators/disturbance_filter.h"
-#include "estimators/ekf.h"
-#include "estimators/fixed_lag_smoother.h"
-#include "estimators/kinematics.h"
-#include "estimators/sr_ukf.h"
+#include "estimators/filters/arm_filter.h"
+#include "estimators/filters/camera_filter.h"
+#include "estimators/filters/disturbance_filter.h"
+#include "estimators/filters/ekf.h"
+#include "estimators/filters/fixed_lag_smoother.h"
+#include "estimators/filters/kinematics.h"
+#include "estimators/filters/sr_ukf.h"
 #include "model/input_error.h"
 
 namespace halyard {

@@ -6,7 +6,7 @@
 /// instant it is the stretch of the cables, R (q̂ - q) = x.
 
 #include "arm_example.h"
-#include "estimators/kinematics.h"
+#include "estimators/filters/kinematics.h"
 #include "transmission/path_matrix.h"
 
 int main() {

@@ -8,7 +8,7 @@
 #include <chrono>
 
 #include "arm_example.h"
-#include "plugins/loader.h"
+#include "plugins/host/loader.h"
 
 int main() {
   using namespace halyard;

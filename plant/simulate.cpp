@@ -6,11 +6,11 @@
 #include <string>
 
 #include "model/input_error.h"
-#include "plant/camera.h"
 #include "plant/controller.h"
-#include "plant/encoder.h"
 #include "plant/equilibrium.h"
-#include "plant/integrator.h"
+#include "plant/integrators/integrator.h"
+#include "plant/sensors/camera.h"
+#include "plant/sensors/encoder.h"
 #include "plant/trajectory.h"
 #include "transmission/path_matrix.h"
 

@@ -24,8 +24,8 @@
 #include "model/arm_model.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
-#include "plugins/eigen_alignment.h"
 #include "plugins/halyard_estimator.h"
+#include "plugins/host/eigen_alignment.h"
 
 namespace halyard {
 

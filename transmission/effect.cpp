@@ -24,6 +24,10 @@ Library& library() {
 
 }  // namespace
 
+std::string effect_label(const PlacedEffect& effect) {
+  return effect.effect->name() + (effect.joint < 0 ? "" : " of joint " + std::to_string(effect.joint + 1));
+}
+
 const std::vector<const Effect*>& effect_library() { return library().all; }
 
 const Effect* find_effect(const std::string& name) {

@@ -198,6 +198,9 @@ struct EffectInstance {
 };
 using PlacedEffect = EffectInstance<double>;
 
+/// "backlash of joint 2", "payload".
+std::string effect_label(const PlacedEffect& effect);
+
 /// All effects, in a fixed order.
 const std::vector<const Effect*>& effect_library();
 /// By name; null if there is none.

@@ -12,7 +12,7 @@
 #include "bench/diagnosis/motion.h"
 #include "bench/diagnosis/share.h"
 #include "bench/program.h"
-#include "diagnosis/identify.h"
+#include "estimators/identification/identify.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
 

@@ -4,8 +4,8 @@
 #include <exception>
 
 #include "model/model_file.h"
-#include "plugins/conformance.h"
-#include "plugins/loader.h"
+#include "plugins/host/conformance.h"
+#include "plugins/host/loader.h"
 #include "transmission/path_matrix.h"
 
 namespace {

@@ -1,0 +1,88 @@
+#include "app/commands/check_command.h"
+
+#include <fmt/format.h>
+
+#include "app/bundled_files.h"
+#include "evaluation/run/contained_run.h"
+#include "evaluation/sweep/sweep_file.h"
+#include "model/input_error.h"
+#include "model/model_file.h"
+#include "model/xml_reader.h"
+#include "plant/scenario.h"
+
+namespace halyard {
+namespace {
+
+std::string effect_list(const ArmModel& model) {
+  std::vector<std::string> names;
+  for (const PlacedEffect& placed : model.effects) {
+    std::string name = placed.effect->name();
+    if (placed.joint >= 0) name += fmt::format(" (joint {})", placed.joint + 1);
+    names.push_back(name);
+  }
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+void print_arm(const ArmModel& model) {
+  fmt::print("  {} joints:", model.n());
+  for (int k = 0; k < model.n(); ++k) {
+    const JointParameters<double>& joint = model.nominal.joint[k];
+    const char* drive = joint.drive == Drive::cable ? "cable" : joint.drive == Drive::rigid ? "rigid" : "no drive";
+    fmt::print("{} {} ({}, {})", k == 0 ? "" : ",", model.joints[k].name,
+               joint.type == JointType::revolute ? "revolute" : "prismatic", drive);
+  }
+  fmt::print("\n  effects: {}\n", effect_list(model));
+}
+
+void check_model(const std::filesystem::path& file) {
+  const ArmModel model = read_model(file);
+  fmt::print("{}: valid model \"{}\"\n", file.string(), model.name);
+  print_arm(model);
+}
+
+void check_scenario(const std::filesystem::path& file) {
+  const Scenario scenario = read_scenario(file);
+  fmt::print("{}: valid scenario \"{}\", {:g} s, of the model {}\n", file.string(), scenario.name, scenario.duration_s,
+             scenario.model.string());
+  print_arm(scenario.robot);
+}
+
+void check_sweep(const std::filesystem::path& file) {
+  const Sweep sweep = read_sweep(file);
+  fmt::print("{}: valid sweep \"{}\", {} points, estimators {}\n", file.string(), sweep.grid.name, sweep.grid.size(),
+             fmt::join(sweep.grid.estimators, ", "));
+  for (const SweepAxis& axis : sweep.grid.axes) {
+    fmt::print("  {}: {} values from {:g} to {:g}\n", axis.label(), axis.values.size(), axis.values.front(),
+               axis.values.back());
+  }
+}
+
+void check_estimator_module(const CheckOptions& options) {
+  const std::string module = options.file.string();
+  const ArmModel model =
+      read_model(options.model.empty() ? examples_folder({}, "check") / "raven2" / "raven2.xml" : options.model);
+  const std::vector<std::string> faults =
+      contained_faults(module, model, options.kalman, {.step_limit_s = options.time_limit_s});
+  if (!faults.empty())
+    throw InputError(fmt::format("{}: breaks {} of the promises of an estimator (plugins/host/conformance.h): {}",
+                                 module, faults.size(), fmt::join(faults, "; ")));
+  fmt::print("{}: keeps what every estimator promises{}, tried with {}\n", module,
+             options.kalman ? ", and is the Kalman filter on a linear arm" : "", model.source);
+}
+
+}  // namespace
+
+void run_check(const CheckOptions& options) {
+  const std::filesystem::path& file = options.file;
+  if (file.extension() == ".so") return check_estimator_module(options);
+  if (options.kalman || !options.model.empty())
+    throw InputError("halyard check: --model and --kalman are for an estimator's module, and " +
+                     in_quotes(file.string()) + " is none; leave them out");
+  const XmlElement root = XmlElement::read_file(file);
+  if (root.tag() == "arm") return check_model(file);
+  if (root.tag() == "scenario") return check_scenario(file);
+  if (root.tag() == "sweep") return check_sweep(file);
+  root.fail("expected the root element <arm> of a model, <scenario> or <sweep>; give one of these files");
+}
+
+}  // namespace halyard

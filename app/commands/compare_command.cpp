@@ -1,0 +1,158 @@
+#include "app/commands/compare_command.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "app/log_input.h"
+#include "app/output_check.h"
+#include "app/pages/comparison_figures.h"
+#include "app/pages/comparison_output.h"
+#include "app/pages/judgement_tables.h"
+#include "app/progress.h"
+#include "model/input_error.h"
+#include "model/model_file.h"
+#include "plant/scenario.h"
+#include "plant/simulate.h"
+
+namespace halyard {
+namespace {
+
+/// What the estimators get and what they are judged by.
+struct Data {
+  ArmModel model;
+  std::string model_path;
+  Log measured, truth;
+  std::string truth_from;
+  bool truth_is_sensed = false;  ///< by joint sensors, with their errors
+  std::optional<Scenario> scenario;
+};
+
+Data simulated_data(const CompareCommandOptions& options) {
+  if (!options.columns.empty()) {
+    throw InputError("halyard compare: --column is for logs, and " + in_quotes(options.data.string()) +
+                     " is a scenario; leave it out");
+  }
+  Scenario scenario = read_scenario(options.data, options.robot);
+  Data data;
+  const std::filesystem::path model = options.model.empty() ? scenario.model : options.model;
+  data.model = read_model(model);
+  data.model_path = model.string();
+  if (!joints_alike(data.model.nominal, scenario.robot.nominal))
+    throw InputError(model.string() +
+                     ": its joints are not those of the scenario's robot; give a model with as many "
+                     "joints, of the same types and driven alike");
+  if (options.noise >= 0) {
+    scenario.noise = assumed_noise(data.model, scenario.control_period_s);
+    for (std::vector<double>* deviations :
+         {&scenario.noise.motor_torque, &scenario.noise.joint_force, &scenario.noise.motor_reading})
+      for (double& x : *deviations) x *= options.noise;
+    scenario.quantise = false;
+  }
+  Progress progress("simulate", scenario.duration_s, "s");
+  SimulationResult result = simulate(scenario, [&](double f) { progress.set(f * scenario.duration_s); });
+  data.measured = std::move(result.measured);
+  data.measured.source = options.data.string();
+  data.truth = std::move(result.truth);
+  data.truth_from = "truth of the simulation";
+  data.scenario = std::move(scenario);
+  return data;
+}
+
+Data logged_data(const CompareCommandOptions& options) {
+  if (options.model.empty()) {
+    throw InputError("halyard compare: --model is missing; a log needs the model file of its robot, --model M.xml");
+  }
+  if (options.runs > 1 || options.noise >= 0 || !options.robot.empty()) {
+    throw InputError("halyard compare: --robot, --runs and --noise are for scenarios, and " +
+                     in_quotes(options.data.string()) + " is a log; leave them out");
+  }
+  Data data;
+  data.model = read_model(options.model);
+  data.model_path = options.model.string();
+  data.measured = read_log_of(data.model, options.data, options.columns);
+  data.truth = data.measured;
+  data.truth_is_sensed = true;
+  const auto& sensors = data.truth.joint_position;
+  if (std::ranges::any_of(sensors, [](const auto& column) { return !column.empty(); }))
+    data.truth_from = "joint sensors";
+  if (const std::string note = ignored_columns_note(data.measured); !note.empty()) fmt::print("{}\n", note);
+  return data;
+}
+
+void print_errors(const Comparison& comparison) {
+  for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
+    const EstimatorRun& run = comparison.runs[i];
+    if (!run.failure.empty()) {
+      fmt::print("{}: failed\n", run.name);
+      fmt::print(stderr, "{}\n", run.failure);
+      continue;
+    }
+    fmt::print("{} ({:.3g} us a step)\n", run.name, run.microseconds_per_step);
+    for (int k = 0; k < comparison.n_joints(); ++k) {
+      if (!comparison.has_truth(k)) continue;
+      const ErrorStatistics& error = comparison.errors[i][k];
+      const JointUnit& unit = comparison.units[k];
+      fmt::print("  joint {}: mean absolute error {} {}, RMS {} {}, peak {} {}", k + 1,
+                 shown_number(error.mean_absolute, unit), unit.shown, shown_number(error.rms, unit), unit.shown,
+                 shown_number(error.peak, unit), unit.shown);
+      if (int(i) != comparison.baseline() && comparison.baseline() >= 0) {
+        fmt::print(", {} better than kinematics", shown_percent(comparison.improvement_of(i, k)));
+        fmt::print(", RMS over its {}", in_words(comparison.paired[i][comparison.baseline()][k]));
+      }
+      fmt::print("\n");
+    }
+  }
+}
+
+void print_runs(const MonteCarlo& runs, const std::vector<JointUnit>& units) {
+  fmt::print("{} runs\n", runs.runs);
+  for (const RunsOfEstimator& e : runs.estimators) {
+    fmt::print("{}: {} failed\n", e.name, e.failures);
+    for (std::size_t k = 0; k < units.size(); ++k)
+      fmt::print("  joint {}: RMS {} {}, NEES {:.4g}, {} of the instants in its band, {}\n", k + 1,
+                 shown_number(e.errors[k].rms, units[k]), units[k].shown, e.nees[k].mean, shown_percent(e.in_band[k]),
+                 in_words(e.nees[k]));
+  }
+}
+
+}  // namespace
+
+void run_compare(const CompareCommandOptions& options) {
+  check_output_folder(options.out);
+  const Data data = options.data.extension() == ".xml" ? simulated_data(options) : logged_data(options);
+  Comparison comparison;
+  {
+    const double work_s = data.measured.duration() * double(options.estimators.size());
+    Progress progress("estimate", work_s, "s");
+    comparison = compare_estimators(data.model, options.estimators, data.measured, data.truth,
+                                    {.skip_s = options.skip_s,
+                                     .use_joint_torque = options.use_joint_torque,
+                                     .truth_is_sensed = data.truth_is_sensed,
+                                     .keep_going = true,
+                                     .containment = {.step_limit_s = options.step_limit_s},
+                                     .progress = [&](double fraction) { progress.set(fraction * work_s); }});
+  }
+  if (std::ranges::none_of(comparison.runs, &std::string::empty, &EstimatorRun::failure))
+    throw std::runtime_error(comparison.runs[0].failure);
+  comparison.data = options.data.string();
+  comparison.model = data.model_path;
+  comparison.truth_from = data.truth_from;
+  std::optional<MonteCarlo> runs;
+  if (options.runs > 1) {
+    Progress progress("runs", options.runs, "runs");
+    runs = run_monte_carlo(
+        *data.scenario, data.model, options.estimators,
+        {.runs = options.runs, .skip_s = options.skip_s, .run_done = [&](double amount) { progress.add(amount); }});
+    runs->noise = options.noise;
+  }
+  write_comparison(options.out, comparison, runs);
+  print_errors(comparison);
+  if (runs) print_runs(*runs, comparison.units);
+  fmt::print("report: {}\n", (options.out / "report.html").string());
+}
+
+}  // namespace halyard

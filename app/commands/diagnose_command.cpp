@@ -1,0 +1,75 @@
+#include "app/commands/diagnose_command.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "app/log_input.h"
+#include "app/output_check.h"
+#include "app/pages/diagnosis_output.h"
+#include "app/progress.h"
+#include "diagnosis/diagnose.h"
+#include "evaluation/joint_unit.h"
+#include "model/model_file.h"
+
+namespace halyard {
+
+void run_diagnose(const DiagnoseCommandOptions& options) {
+  check_output_folder(options.out);
+  const ArmModel model = read_model(options.model);
+  const auto read = [&](const std::filesystem::path& path) {
+    Log log = read_log_of(model, path, options.columns, /*torque_required=*/false);
+    if (const std::string note = ignored_columns_note(log); !note.empty()) fmt::print("{}\n", note);
+    return log;
+  };
+  std::vector<std::filesystem::path> all = options.data;
+  if (!options.holdout.empty()) all.push_back(options.holdout);
+  check_given_once(all);
+  std::vector<Log> training;
+  for (const auto& path : options.data) training.push_back(read(path));
+  std::optional<Log> holdout;
+  if (!options.holdout.empty()) holdout = read(options.holdout);
+
+  Diagnosis d;
+  DiagnosisEvaluation evaluation;
+  {
+    StageProgress progress("diagnose");
+    const auto tell = [&](const std::string& what, double fraction) { progress.set(what, fraction); };
+    d = diagnose(model, training, holdout, {}, tell);
+    evaluation = evaluate_diagnosis(model, d, training, holdout, tell);
+  }
+  write_diagnosis(options.out, model, d, evaluation);
+
+  fmt::print("{}\n", verdict_line(d));
+  for (const NamedEffect& e : d.effects)
+    for (const Estimated& p : e.parameters)
+      fmt::print("  {} {}: {:.4g} {} (95 %: {:.4g} to {:.4g})\n", effect_label(e.effect), p.name, p.value, p.unit,
+                 p.lower, p.upper);
+  for (const NamedEffect& e : d.effects)
+    for (const PlacedEffect& a : e.alternatives) fmt::print("  {}: or {}\n", effect_label(e.effect), effect_label(a));
+  for (std::size_t i = 0; i < d.effects.size(); ++i)
+    fmt::print("  {}: {}\n", effect_label(d.effects[i].effect), why_named(d, evaluation, i));
+  for (const Estimated& p : d.refitted)
+    fmt::print("  refitted {}: {:.5g} -> {:.5g} {}\n", p.name, p.nominal, p.value, p.unit);
+  for (const Unexplained& u : d.unexplained) fmt::print("  unexplained, joint {}: {}\n", u.joint + 1, u.signature);
+  const std::vector<JointUnit> units = joint_units(model);
+  for (int k = 0; k < model.n(); ++k) {
+    const auto print = [k](const std::string& what, double before, double after, const ShownUnit& unit) {
+      if (std::isfinite(before))
+        fmt::print("  joint {} {} RMS on the hold-out: {:.4g} -> {:.4g} {}\n", k + 1, what, unit.per_si * before,
+                   unit.per_si * after, unit.name);
+    };
+    const ShownUnit position{units[k].shown, units[k].shown_per_si};
+    print("position", d.before.joint_rms[k], d.after.joint_rms[k], position);
+    print("motor torque", d.before.torque_rms[k], d.after.torque_rms[k],
+          residual_unit(model.nominal, k, ResidualKind::motor_torque));
+    const bool changed = !d.effects.empty() || !d.refitted.empty();
+    for (const EstimatorComparison& e : evaluation.estimators)
+      if (changed && !e.before.rms.empty() && !e.after.rms.empty())
+        print(e.name + " position", e.before.rms[k], e.after.rms[k], position);
+  }
+  fmt::print("model: {}\n", (options.out / "model.xml").string());
+  fmt::print("report: {}\n", (options.out / "report.html").string());
+}
+
+}  // namespace halyard

@@ -1,0 +1,59 @@
+#include "app/commands/estimate_command.h"
+
+#include <fmt/core.h>
+
+#include "app/log_input.h"
+#include "app/output_check.h"
+#include "app/progress.h"
+#include "evaluation/comparison/compare.h"
+#include "evaluation/run/estimate.h"
+#include "model/model_file.h"
+
+namespace halyard {
+namespace {
+
+void print_errors(const Comparison& comparison) {
+  for (int k = 0; k < comparison.n_joints(); ++k) {
+    if (!comparison.has_truth(k)) continue;
+    const ErrorStatistics& error = comparison.errors[0][k];
+    const JointUnit& unit = comparison.units[k];
+    const auto shown = [&](double value) { return unit.shown_per_si * value; };
+    fmt::print(
+        "joint {} position error after {:g} s: RMS {:.6g} {} ({:.6g} {}), mean absolute {:.4g} {}, peak {:.4g} {}\n",
+        k + 1, comparison.skip_s, error.rms, unit.si, shown(error.rms), unit.shown, shown(error.mean_absolute),
+        unit.shown, shown(error.peak), unit.shown);
+  }
+}
+
+}  // namespace
+
+void run_estimate(const EstimateCommandOptions& options) {
+  check_output_file(options.out);
+  check_not_input(options.out, options.data);
+  check_not_input(options.out, options.model);
+  const ArmModel model = read_model(options.model);
+  const Log log = read_log_of(model, options.data, options.columns);
+  Comparison comparison;
+  {
+    Progress progress("estimate", log.duration(), "s");
+    comparison = compare_estimators(model, {options.estimator}, log, log,
+                                    {.skip_s = options.skip_s,
+                                     .use_joint_torque = options.use_joint_torque,
+                                     .truth_is_sensed = true,
+                                     .progress = [&](double fraction) { progress.set(fraction * log.duration()); }});
+  }
+  const EstimatorRun& run = comparison.runs[0];
+  write_estimates(options.out, run,
+                  fmt::format("halyard estimate, estimator {}, model {}", options.estimator, options.model.string()));
+
+  if (const std::string note = ignored_columns_note(log); !note.empty()) fmt::print("{}\n", note);
+  fmt::print("{}: {} samples, {:g} s, {:.3g} us a step\n", options.estimator, log.size(), log.duration(),
+             run.microseconds_per_step);
+  if (run.report.gated > 0 || run.report.repaired_factors > 0) {
+    fmt::print("{} measurements not accepted, {} factors repaired\n", run.report.gated, run.report.repaired_factors);
+  }
+  print_errors(comparison);
+  fmt::print("estimates: {}\n", options.out.string());
+}
+
+}  // namespace halyard

@@ -1,0 +1,107 @@
+#include "app/commands/plan_command.h"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <stdexcept>
+
+#include "app/output_check.h"
+#include "app/pages/diagnosis_output.h"
+#include "app/pages/plan_output.h"
+#include "app/progress.h"
+#include "model/input_error.h"
+#include "model/model_file.h"
+
+namespace halyard {
+namespace {
+
+/// "backlash@2", or "payload" of the whole arm.
+PlacedEffect parse_effect(const std::string& text, const ArmModel& model) {
+  const std::string where = "halyard diagnose: --separate " + in_quotes(text) + ": ";
+  const std::size_t at = text.find('@');
+  const Effect* effect = find_effect(text.substr(0, at));
+  if (!effect) {
+    std::string names;
+    for (const Effect* e : effect_library()) names += (names.empty() ? "" : ", ") + e->name();
+    throw InputError(where + "no such effect; expected one of " + names);
+  }
+  int joint = 0;
+  if (at != text.npos) {
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data() + at + 1, end, joint);
+    if (error != std::errc() || rest != end || joint < 1)
+      throw InputError(where + "expected EFFECT@JOINT with a joint from 1 to " + std::to_string(model.n()) +
+                       ", such as backlash@1");
+  }
+  for (const PlacedEffect& e : model.effects)
+    if (e.effect == effect && e.joint == joint - 1)
+      throw InputError(where + "the model has this effect already; name one that it lacks");
+  try {
+    return place_effect(*effect, model.nominal, joint - 1);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(where + error.what());
+  }
+}
+
+std::pair<PlacedEffect, PlacedEffect> parse_pair(const std::string& text, const ArmModel& model) {
+  const std::size_t comma = text.find(',');
+  if (comma == text.npos || text.find(',', comma + 1) != text.npos)
+    throw InputError("halyard diagnose: --separate " + in_quotes(text) +
+                     ": expected two effects, EFFECT@JOINT,EFFECT@JOINT, such as backlash@1,hysteresis@1");
+  const auto pair = std::pair(parse_effect(text.substr(0, comma), model), parse_effect(text.substr(comma + 1), model));
+  if (pair.first.effect == pair.second.effect && pair.first.joint == pair.second.joint)
+    throw InputError("halyard diagnose: --separate " + in_quotes(text) + ": names one effect twice; name two");
+  return pair;
+}
+
+/// What of the scenario's own robot the plan leaves out; empty if it is the model.
+std::string left_out(const Scenario& scenario, const ArmModel& model) {
+  if (model_to_xml(scenario.robot) == model_to_xml(model)) return "";
+  std::string effects;
+  for (const PlacedEffect& e : scenario.robot.effects) effects += (effects.empty() ? " (" : ", ") + effect_label(e);
+  return "the robot of the scenario" + (effects.empty() ? "" : effects + ")") +
+         " is not the model; the plan is of an arm as the model has it";
+}
+
+}  // namespace
+
+void run_plan(const PlanCommandOptions& options) {
+  if (!options.out.empty()) check_output_folder(options.out);
+  Plan plan;
+  plan.model = read_model(options.model);
+  plan.model.source = options.model.string();
+  plan.scenario = options.scenario.string();
+  plan.joint_sensor = options.joint_sensor;
+  Scenario scenario = read_scenario(options.scenario);
+  if (scenario.robot.n() != plan.model.n())
+    throw InputError(fmt::format("{}: moves {} joints, {} has {}; give a scenario of this arm",
+                                 options.scenario.string(), scenario.robot.n(), options.model.string(),
+                                 plan.model.n()));
+  std::optional<std::pair<PlacedEffect, PlacedEffect>> pair;
+  if (!options.separate.empty()) pair = parse_pair(options.separate, plan.model);
+  if (const std::string note = left_out(scenario, plan.model); !note.empty()) fmt::print("note: {}\n", note);
+  scenario.robot = plan.model;
+  scenario.assumed = plan.model.nominal;
+  scenario.model = options.model;
+  scenario.quantise = true;
+  {
+    StageProgress progress("plan");
+    const auto tell = [&](const std::string& what, double fraction) { progress.set(what, fraction); };
+    plan.log = planned_log(scenario, options.joint_sensor, [&](double fraction) { tell("simulation", fraction); });
+    plan.limits = detection_limits(plan.model, {plan.log}, tell);
+    plan.names_nothing = names_nothing(plan.model, {plan.log});
+    if (pair) {
+      plan.separating = separating_motion(scenario, plan.log, pair->first, pair->second, options.joint_sensor, tell);
+      if (plan.separating->scenario)
+        plan.separating->scenario->name = effect_label(pair->first) + " from " + effect_label(pair->second);
+    }
+  }
+  if (!options.out.empty()) write_plan(options.out, plan);
+  fmt::print("{}", plan_text(plan));
+  if (options.out.empty()) return;
+  if (plan.separating && plan.separating->scenario)
+    fmt::print("scenario: {}\n", (options.out / "scenario.xml").string());
+  fmt::print("report: {}\n", (options.out / "plan.html").string());
+}
+
+}  // namespace halyard

@@ -1,0 +1,115 @@
+#include "app/commands/sweep_command.h"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <optional>
+#include <string>
+
+#include "app/output_check.h"
+#include "app/pages/sweep_report.h"
+#include "app/progress.h"
+#include "evaluation/sweep/sweep_file.h"
+#include "evaluation/sweep/sweep_store.h"
+#include "model/input_error.h"
+
+namespace halyard {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<std::size_t> whole_number(std::string_view text) {
+  std::size_t value = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || rest != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// The cell from the first folder that has it.
+std::optional<SweepCell> find_cell(const std::vector<fs::path>& folders, const SweepGrid& grid, std::size_t point) {
+  for (const fs::path& folder : folders) {
+    if (std::optional<SweepCell> cell = read_cell(folder, grid, point)) return cell;
+  }
+  return std::nullopt;
+}
+
+/// All cells of the grid. Throws InputError if some are missing.
+std::vector<SweepCell> collect_cells(const std::vector<fs::path>& folders, const SweepGrid& grid) {
+  std::vector<SweepCell> cells;
+  std::size_t missing = 0, first_missing = 0;
+  for (std::size_t point = 0; point < grid.size(); ++point) {
+    if (std::optional<SweepCell> cell = find_cell(folders, grid, point)) {
+      cells.push_back(std::move(*cell));
+    } else if (missing++ == 0) {
+      first_missing = point;
+    }
+  }
+  if (missing > 0) {
+    throw InputError(
+        fmt::format("halyard merge: {} of {} points are in none of the folders, the first is point {} ({}); run the "
+                    "missing parts, or name their folders too",
+                    missing, grid.size(), first_missing, grid.description(first_missing)));
+  }
+  return cells;
+}
+
+void print_result(const fs::path& folder, const SweepGrid& grid, const std::vector<SweepCell>& cells) {
+  fmt::print("sweep \"{}\": {} points, {} estimators\n", grid.name, grid.size(), grid.estimators.size());
+  if (const std::size_t failures = count_failures(cells); failures > 0) {
+    fmt::print("{} of {} runs of estimators failed; the column failure of sweep.csv says why\n", failures,
+               cells.size() * grid.estimators.size());
+  }
+  fmt::print("table: {}\nreport: {}\n", (folder / "sweep.csv").string(), (folder / "report.html").string());
+}
+
+}  // namespace
+
+Shard parse_shard(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  if (slash != text.npos) {
+    const auto index = whole_number(text.substr(0, slash)), count = whole_number(text.substr(slash + 1));
+    if (index && count && *index >= 1 && *index <= *count) return {*index, *count};
+  }
+  throw InputError("halyard sweep: --shard " + in_quotes(text) + ": expected i/n with i from 1 to n, such as 2/5");
+}
+
+void run_sweep_command(const SweepCommandOptions& options) {
+  check_output_folder(options.out);
+  const Sweep sweep = read_sweep(options.sweep);
+  {
+    std::optional<Progress> line;
+    SweepRunOptions run = options.run;
+    run.progress = [&line](std::size_t done, std::size_t total) {
+      if (done == 0) line.emplace("sweep", static_cast<double>(total), "points");
+      else line->add(1);
+    };
+    run_sweep(sweep, options.out, run);
+  }
+  if (options.run.shard.count > 1) {
+    fmt::print("sweep \"{}\": part {} of {} is done; put the parts together with: halyard merge DIR... --out DIR\n",
+               sweep.grid.name, options.run.shard.index, options.run.shard.count);
+    return;
+  }
+  const std::vector<SweepCell> cells = collect_cells({options.out}, sweep.grid);
+  write_sweep_report(options.out, sweep.grid, cells);
+  print_result(options.out, sweep.grid, cells);
+}
+
+void run_merge_command(const MergeCommandOptions& options) {
+  check_output_folder(options.out);
+  const SweepGrid grid = read_grid(options.parts.at(0));
+  for (const fs::path& part : options.parts) {
+    if (read_grid(part).id != grid.id) {
+      throw InputError(part.string() + ": holds another sweep than " + options.parts[0].string() +
+                       "; merge parts of the same sweep, computed from the same files");
+    }
+  }
+  const std::vector<SweepCell> cells = collect_cells(options.parts, grid);
+  discard_other_sweep(options.out, grid);
+  write_grid(options.out, grid);
+  for (const SweepCell& cell : cells) write_cell(options.out, grid, cell);
+  write_sweep_report(options.out, grid, cells);
+  print_result(options.out, grid, cells);
+}
+
+}  // namespace halyard

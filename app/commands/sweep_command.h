@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "evaluation/sweep/sweep_run.h"
+
+namespace halyard {
+
+/// "2/5" as part 2 of 5. Throws InputError.
+Shard parse_shard(std::string_view text);
+
+struct SweepCommandOptions {
+  std::filesystem::path sweep;
+  std::filesystem::path out;  ///< folder
+  SweepRunOptions run;
+};
+
+/// halyard sweep: a parameter study over a grid, or a part of one.
+void run_sweep_command(const SweepCommandOptions& options);
+
+struct MergeCommandOptions {
+  std::vector<std::filesystem::path> parts;  ///< folders of sweep's parts
+  std::filesystem::path out;                 ///< folder; may be one of the parts
+};
+
+/// halyard merge: puts the parts of a sweep together and reports as if it had been computed in one.
+void run_merge_command(const MergeCommandOptions& options);
+
+}  // namespace halyard

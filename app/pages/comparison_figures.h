@@ -1,0 +1,31 @@
+#pragma once
+/// The parts of a report that show a comparison. Joints count from 0 here, from 1 in what is shown; positions and
+/// errors are shown in degrees or millimetres.
+
+#include <string>
+
+#include "app/report/chart.h"
+#include "app/report/page.h"
+#include "evaluation/comparison/compare.h"
+
+namespace halyard {
+
+/// "1.234 deg" without the unit; "-" for NaN.
+std::string shown_number(double si_value, const JointUnit& unit);
+/// "36.8 %"; "-" for NaN.
+std::string shown_percent(double fraction);
+
+/// Truth, where known, and every estimate over time.
+report::Chart trajectory_chart(const Comparison& comparison, int k);
+/// Estimate minus truth over time, of all runs but `left_out`; -1: of all.
+report::Chart error_chart(const Comparison& comparison, int k, int left_out = -1);
+/// Share of the counted samples by error, of the same runs.
+report::Chart error_histogram(const Comparison& comparison, int k, int left_out = -1);
+/// One row per joint and estimator; the least mean absolute error of a joint is marked.
+report::Table error_table(const Comparison& comparison);
+
+/// For every joint: a heading "<prefix>Joint 1", the trajectories, and where truth is known the errors; these again
+/// without kinematics where beside its own nothing would be seen of the others'.
+void add_joint_figures(report::Page& page, const Comparison& comparison, const std::string& prefix = "");
+
+}  // namespace halyard

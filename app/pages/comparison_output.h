@@ -1,0 +1,28 @@
+#pragma once
+/// What a comparison leaves behind. None of it holds wall times: the same inputs give the same bytes.
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluation/comparison/compare.h"
+#include "evaluation/comparison/monte_carlo.h"
+#include "evaluation/csv.h"
+
+namespace halyard {
+
+/// SI units; null where a number is not known.
+nlohmann::ordered_json to_json(const Comparison& comparison);
+
+/// Columns of error statistics, after whatever names the row: joint, unit, mean_absolute_error, ...
+std::vector<std::string> error_columns();
+/// Adds these cells for one run and joint.
+void add_error_cells(CsvTable& table, const Comparison& comparison, std::size_t run, int k);
+
+/// Writes report.html, comparison.json and comparison.csv into the folder. runs: the same over many seeds.
+void write_comparison(const std::filesystem::path& folder, const Comparison& comparison,
+                      const std::optional<MonteCarlo>& runs = std::nullopt);
+
+}  // namespace halyard

@@ -1,0 +1,204 @@
+#include "app/pages/diagnosis_output.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "evaluation/joint_unit.h"
+#include "model/model_file.h"
+#include "model/output_file.h"
+
+namespace halyard {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Nine digits are more than any estimate carries, and the same on every run.
+Json number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::stod(fmt::format("{:.9g}", value));
+}
+
+Json numbers(const std::vector<double>& values) {
+  Json all = Json::array();
+  for (const double v : values) all.push_back(number(v));
+  return all;
+}
+
+Json joint_of(int joint) { return joint < 0 ? Json(nullptr) : Json(joint + 1); }
+
+Json before_after(const std::vector<double>& before, const std::vector<double>& after) {
+  return {{"before", numbers(before)}, {"after", numbers(after)}};
+}
+
+const char* verdict_word(Diagnosis::Verdict verdict) {
+  switch (verdict) {
+    case Diagnosis::Verdict::clean: return "clean";
+    case Diagnosis::Verdict::effects: return "effects";
+    case Diagnosis::Verdict::unknown: break;
+  }
+  return "unknown";
+}
+
+/// {"joint_position_rms": {"before": [...], "after": [...]}, ...} of each estimator; null where it failed.
+Json estimators_json(const DiagnosisEvaluation& evaluation) {
+  const auto of = [](const std::vector<double>& values) { return values.empty() ? Json(nullptr) : numbers(values); };
+  Json all = Json::object();
+  for (const EstimatorComparison& e : evaluation.estimators)
+    all[e.name] = {{"joint_position_rms", {{"before", of(e.before.rms)}, {"after", of(e.after.rms)}}},
+                   {"joint_position_peak", {{"before", of(e.before.peak)}, {"after", of(e.after.peak)}}}};
+  return all;
+}
+
+}  // namespace
+
+std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
+  Json effects = Json::array(), refitted = Json::array(), unexplained = Json::array(), not_excited = Json::array();
+  for (std::size_t i = 0; i < d.effects.size(); ++i) {
+    const NamedEffect& e = d.effects[i];
+    Json alternatives = Json::array(), parameters = Json::object();
+    for (const PlacedEffect& a : e.alternatives)
+      alternatives.push_back({{"effect", a.effect->name()}, {"joint", joint_of(a.joint)}});
+    for (const Estimated& p : e.parameters)
+      parameters[p.name] = {{"value", number(p.value)}, {"unit", p.unit}, {"ci95", numbers({p.lower, p.upper})}};
+    effects.push_back({{"effect", e.effect.effect->name()},
+                       {"joint", joint_of(e.effect.joint)},
+                       {"alternatives", alternatives},
+                       {"parameters", parameters}});
+    if (i < evaluation.effects.size()) effects.back()["why"] = why_named(d, evaluation, i);
+  }
+  for (const Estimated& p : d.refitted)
+    refitted.push_back({{"parameter", p.name},
+                        {"from", number(p.nominal)},
+                        {"to", number(p.value)},
+                        {"unit", p.unit},
+                        {"ci95", numbers({p.lower, p.upper})}});
+  for (const Unexplained& u : d.unexplained)
+    unexplained.push_back({{"joint", u.joint + 1}, {"signature", u.signature}});
+  for (const NotExcited& n : d.not_excited)
+    not_excited.push_back({{"effect", n.effect}, {"joint", joint_of(n.joint)}, {"why", n.why}});
+  const Json all = {{"verdict", verdict_word(d.verdict)},
+                    {"effects", effects},
+                    {"refitted", refitted},
+                    {"unexplained", unexplained},
+                    {"not_excited", not_excited},
+                    {"error",
+                     {{"holdout", d.holdout},
+                      {"joint_position_rms", before_after(d.before.joint_rms, d.after.joint_rms)},
+                      {"joint_position_peak", before_after(d.before.joint_peak, d.after.joint_peak)},
+                      {"motor_torque_rms", before_after(d.before.torque_rms, d.after.torque_rms)}}},
+                    {"estimators", estimators_json(evaluation)}};
+  return all.dump(2) + "\n";
+}
+
+std::string verdict_line(const Diagnosis& d) {
+  std::string line = verdict_word(d.verdict);
+  for (std::size_t i = 0; i < d.effects.size(); ++i) line += (i == 0 ? ": " : ", ") + effect_label(d.effects[i].effect);
+  if (d.verdict == Diagnosis::Verdict::effects && !d.unexplained.empty()) line += ", and an unexplained rest";
+  return line;
+}
+
+void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
+  switch (d.verdict) {
+    case Diagnosis::Verdict::clean:
+      page.verdict(report::VerdictKind::good, "Clean: the model explains the data to what its sensors resolve.");
+      break;
+    case Diagnosis::Verdict::unknown: {
+      std::string text = "Unknown: a residual that matters is left, and no candidate explains it.";
+      for (const Unexplained& u : d.unexplained) text += fmt::format("\nJoint {}: {}.", u.joint + 1, u.signature);
+      page.verdict(report::VerdictKind::bad, text);
+      break;
+    }
+    case Diagnosis::Verdict::effects: {
+      std::string text = "The model lacks:";
+      for (std::size_t i = 0; i < d.effects.size(); ++i) {
+        const NamedEffect& e = d.effects[i];
+        text += "\n" + effect_label(e.effect) + ": " + e.effect.effect->summary() + ".";
+        if (i < evaluation.effects.size()) text += " " + why_named(d, evaluation, i);
+        else text += alternatives_sentence(e);
+      }
+      for (const Unexplained& u : d.unexplained)
+        text += fmt::format("\nLeft unexplained, joint {}: {}.", u.joint + 1, u.signature);
+      page.verdict(report::VerdictKind::warning, text);
+      break;
+    }
+  }
+}
+
+void add_error_table(report::Page& page, const Diagnosis& d) {
+  const std::vector<JointUnit> units = joint_units(d.revised);
+  report::Table table;
+  table.caption = "Free prediction: error on the hold-out (" + d.holdout + "), which no decision has seen";
+  table.header = {"joint", "position RMS before",     "after", "position peak before",
+                  "after", "motor torque RMS before", "after"};
+  const auto add = [](std::vector<report::Cell>& row, double before, double after, const ShownUnit& unit) {
+    const auto cell = [&](double v) { return std::isfinite(v) ? shown(v, unit) : std::string("no sensor"); };
+    row.emplace_back(cell(before));
+    row.emplace_back(cell(after), after < 0.9 * before);
+  };
+  for (int k = 0; k < d.revised.n(); ++k) {
+    const ShownUnit position{units[k].shown, units[k].shown_per_si};
+    std::vector<report::Cell> row = {fmt::format("{}", k + 1)};
+    add(row, d.before.joint_rms[k], d.after.joint_rms[k], position);
+    add(row, d.before.joint_peak[k], d.after.joint_peak[k], position);
+    add(row, d.before.torque_rms[k], d.after.torque_rms[k],
+        residual_unit(d.revised.nominal, k, ResidualKind::motor_torque));
+    table.rows.push_back(std::move(row));
+  }
+  page.table(table);
+}
+
+void add_estimator_table(report::Page& page, const ArmModel& model, const DiagnosisEvaluation& evaluation) {
+  if (evaluation.estimators.empty()) return;
+  const std::vector<JointUnit> units = joint_units(model);
+  report::Table table;
+  table.caption =
+      "Estimators on the hold-out, from motor signals and the load on the joint where it was measured: error of the "
+      "joint position";
+  table.header = {"joint", "estimator", "RMS, given model", "revised model", "peak, given model", "revised model"};
+  table.align = {report::Align::left,  report::Align::left,  report::Align::right,
+                 report::Align::right, report::Align::right, report::Align::right};
+  std::string innovations, failures;
+  for (int k = 0; k < model.n(); ++k) {
+    const ShownUnit unit{units[k].shown, units[k].shown_per_si};
+    const auto value = [k](const std::vector<double>& v) {
+      return v.empty() ? std::numeric_limits<double>::quiet_NaN() : v[k];
+    };
+    const auto cell = [&](const std::vector<double>& v) {
+      return v.empty() ? "failed" : std::isfinite(v[k]) ? shown(v[k], unit) : std::string("no sensor");
+    };
+    for (const EstimatorComparison& e : evaluation.estimators)
+      table.rows.push_back({fmt::format("{}", k + 1),
+                            e.name,
+                            cell(e.before.rms),
+                            {cell(e.after.rms), value(e.after.rms) < 0.9 * value(e.before.rms)},
+                            cell(e.before.peak),
+                            {cell(e.after.peak), value(e.after.peak) < 0.9 * value(e.before.peak)}});
+  }
+  page.table(table);
+  for (const EstimatorComparison& e : evaluation.estimators) {
+    if (e.before.mean_nis > 0 && e.after.mean_nis > 0)
+      innovations += fmt::format("{}{} {:.3g} with the given, {:.3g} with the revised model",
+                                 innovations.empty() ? "" : "; ", e.name, e.before.mean_nis, e.after.mean_nis);
+    for (const bool after : {false, true})
+      if (const std::string& failure = (after ? e.after : e.before).failure; !failure.empty())
+        failures += fmt::format("{}{} failed with the {} model: {}", failures.empty() ? "" : "; ", e.name,
+                                after ? "revised" : "given", failure);
+  }
+  if (!innovations.empty())
+    page.paragraph("Innovations, mean of their squares over their predicted variance (1 if the model is right): " +
+                   innovations + ".");
+  if (!failures.empty()) page.paragraph(failures + ".");
+}
+
+void write_diagnosis(const std::filesystem::path& folder, const ArmModel& model, const Diagnosis& d,
+                     const DiagnosisEvaluation& evaluation) {
+  const bool given = d.effects.empty() && d.refitted.empty();
+  write_file_whole(folder / "model.xml", model_to_xml(given ? model : d.revised));
+  write_file_whole(folder / "diagnosis.json", diagnosis_json(d, evaluation));
+  diagnosis_page(model, d, evaluation).write(folder / "report.html");
+}
+
+}  // namespace halyard

@@ -1,0 +1,228 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "app/pages/diagnosis_output.h"
+#include "app/pages/view_charts.h"
+#include "evaluation/joint_unit.h"
+
+namespace halyard {
+namespace {
+
+std::string interval(const Estimated& p) { return fmt::format("{:.4g} to {:.4g}", p.lower, p.upper); }
+
+void add_numbers(report::Page& page, const Diagnosis& d) {
+  if (!d.effects.empty()) {
+    report::Table table;
+    table.caption = "Parameters of the effects that were added";
+    table.header = {"effect", "parameter", "value", "95 % interval", "unit"};
+    table.align = {report::Align::left, report::Align::left, report::Align::right, report::Align::right,
+                   report::Align::left};
+    for (const NamedEffect& e : d.effects)
+      for (const Estimated& p : e.parameters)
+        table.rows.push_back({effect_label(e.effect), p.name, fmt::format("{:.4g}", p.value), interval(p), p.unit});
+    page.table(table);
+  }
+  if (!d.refitted.empty()) {
+    report::Table table;
+    table.caption = "Numbers of the model that were refitted within its tolerance: no effects";
+    table.header = {"number", "model", "refitted", "95 % interval", "unit"};
+    table.align = {report::Align::left, report::Align::right, report::Align::right, report::Align::right,
+                   report::Align::left};
+    for (const Estimated& p : d.refitted)
+      table.rows.push_back(
+          {p.name, fmt::format("{:.5g}", p.nominal), fmt::format("{:.5g}", p.value), interval(p), p.unit});
+    page.table(table);
+  }
+}
+
+/// What a chart draws of one joint: a value of each sample, NaN where there is none, over another value.
+using Value = std::function<double(const Record&, const FullPrediction&, std::size_t)>;
+
+report::Series drawn(const char* name, const std::vector<Record>& records,
+                     const std::vector<FullPrediction>& predictions, const Value& x, const Value& y) {
+  report::Series s;
+  s.name = name;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    for (std::size_t i = 0; i < records[r].size; ++i) {
+      const double value = y(records[r], predictions[r], i);
+      if (std::isnan(value)) continue;
+      s.x.push_back(x(records[r], predictions[r], i));
+      s.y.push_back(value);
+    }
+  return s;
+}
+
+report::Chart before_and_after(const std::string& title, const HoldOut& view, const Value& x, const Value& y) {
+  report::Chart chart;
+  chart.title = title;
+  chart.series = {drawn("before", view.records, view.before, x, y), drawn("after", view.records, view.after, x, y)};
+  return chart;
+}
+
+void add_residuals(report::Page& page, const Diagnosis& d) {
+  for (int k = 0; k < d.revised.n(); ++k)
+    if (const auto charts = residual_charts(d, k); !charts.empty()) page.figure_row(charts);
+}
+
+/// What a filter's next reading said that the filter had not expected, of each motor.
+void add_innovations(report::Page& page, const ArmModel& model, const DiagnosisEvaluation& evaluation) {
+  const auto filter = std::ranges::find(evaluation.estimators, "ekf", &EstimatorComparison::name);
+  if (filter == evaluation.estimators.end() || filter->before.time.empty() || filter->after.time.empty()) return;
+  const std::vector<JointUnit> units = joint_units(model);
+  page.heading("Innovations on the hold-out");
+  page.paragraph(
+      "Each motor's reading less what ekf had predicted of it, over the deviation that it had predicted: 95 % lie "
+      "within 2 and nothing is left to see if the model is right.");
+  for (int k = 0; k < model.n(); ++k) {
+    const auto chart = [&](const std::string& over, const std::string& x_label, report::ChartKind kind,
+                           const auto& x_of) {
+      report::Chart c{.title = fmt::format("Motor {}: innovation over {}", k + 1, over),
+                      .x_label = x_label,
+                      .y_label = "innovation [its deviations]",
+                      .kind = kind};
+      for (const bool after : {false, true}) {
+        const EstimatorErrors& e = after ? filter->after : filter->before;
+        report::Series s{.name = after ? "revised model" : "given model"};
+        for (std::size_t i = 0; i < e.time.size(); ++i)
+          if (std::isfinite(e.innovation[k][i])) s.x.push_back(x_of(e, i)), s.y.push_back(e.innovation[k][i]);
+        c.series.push_back(std::move(s));
+      }
+      return c;
+    };
+    const double scale = units[k].shown_per_si;
+    std::vector<report::Chart> row = {
+        chart("time", "time [s]", report::ChartKind::line,
+              [](const EstimatorErrors& e, std::size_t i) { return e.time[i]; }),
+        chart("the joint's rate", "joint rate [" + units[k].shown + "/s]", report::ChartKind::scatter,
+              [&](const EstimatorErrors& e, std::size_t i) { return scale * e.joint_rate[k][i]; })};
+    if (!row[0].series[0].x.empty()) page.figure_row(std::move(row));
+  }
+}
+
+void add_evidence(report::Page& page, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
+  if (evaluation.effects.empty() && evaluation.unexplained.empty()) return;
+  page.heading("Residuals that point");
+  page.paragraph(
+      "Measured less predicted on the training data, on which the verdict rests, over what the residual goes with "
+      "most: by the revised model without an effect, and with it. Shares are less what chance would give.");
+  const auto add = [&](const std::string& text, const Evidenced& evidence, bool is_rest) {
+    page.paragraph(text);
+    if (const auto charts = view_charts(evidence, d.revised.nominal, is_rest); !charts.empty()) page.figure_row(charts);
+  };
+  for (std::size_t i = 0; i < evaluation.effects.size(); ++i)
+    add(capitalised(effect_label(d.effects[i].effect)) + ": " + why_named(d, evaluation, i), evaluation.effects[i],
+        false);
+  for (std::size_t i = 0; i < evaluation.unexplained.size(); ++i)
+    add(fmt::format("Left unexplained at joint {}: {}.", d.unexplained[i].joint + 1, d.unexplained[i].signature),
+        evaluation.unexplained[i], true);
+}
+
+void add_candidates(report::Page& page, const Diagnosis& d) {
+  for (std::size_t r = 0; r < d.attribution.rounds.size(); ++r) {
+    const Round& round = d.attribution.rounds[r];
+    report::Table table;
+    table.caption = fmt::format("Round {}: {}", r + 1,
+                                round.accepted ? "the first candidate was added" : "no candidate was convincing");
+    table.header = {"candidate", "gain [nats]", "p", "verdict"};
+    table.align = {report::Align::left, report::Align::right, report::Align::right, report::Align::left};
+    std::size_t shown = 0;
+    for (const Trial& t : round.trials) {
+      if (++shown > 8) break;
+      const bool taken = round.accepted && &t == &round.trials.front();
+      table.rows.push_back({{effect_label(t.effect), taken},
+                            t.usable ? fmt::format("{:.1f}", t.gain) : std::string("-"),
+                            t.usable ? fmt::format("{:.2g}", t.p_value) : std::string("-"),
+                            !t.promising     ? "takes nothing of the residual"
+                            : !t.is_fitted   ? "leaves more of the residual than those that were fitted"
+                            : !t.usable      ? "cannot be integrated"
+                            : taken          ? "added"
+                            : t.gain <= 0    ? "does not help on data that the fit did not see"
+                            : !t.is_judged() ? "not significant"
+                            : t.at_bound     ? "ends at the end of what is plausible"
+                            : t.is_refit     ? "within the tolerance of the model's numbers"
+                            : !t.matters     ? "too small to matter"
+                            : round.accepted ? "helps less than the first"
+                                             : "not significant"});
+    }
+    page.table(table);
+  }
+}
+
+}  // namespace
+
+std::vector<report::Chart> residual_charts(const Diagnosis& d, int k) {
+  const JointUnit unit = joint_units(d.revised)[k];
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double scale = unit.shown_per_si;
+  const ShownUnit torque_unit = residual_unit(d.revised.nominal, k, ResidualKind::motor_torque);
+  const std::string torque_name = residual_name(d.revised.nominal, k, ResidualKind::motor_torque);
+  const Value time = [](const Record& r, const FullPrediction&, std::size_t i) { return r.time(i); };
+  const Value rate = [k](const Record& r, const FullPrediction&, std::size_t i) { return r.motor_rate[k][i]; };
+  const Value joint = [=](const Record& r, const FullPrediction& p, std::size_t i) {
+    return r.has_joint(k) && r.joint_valid[k][i] > 0 ? scale * (r.joint_raw[k][i] - p.joint_reading[k][i]) : nan;
+  };
+  const Value torque = [=](const Record& r, const FullPrediction& p, std::size_t i) {
+    return r.has_torque(k) && r.torque_valid[k][i] > 0 ? torque_unit.per_si * p.torque_residual[k][i] : nan;
+  };
+  std::vector<report::Chart> charts;
+  const auto add = [&](report::Chart chart, const std::string& x, const std::string& y, report::ChartKind kind) {
+    chart.x_label = x;
+    chart.y_label = y;
+    chart.kind = kind;
+    charts.push_back(std::move(chart));
+  };
+  const std::string joint_label = "measured - predicted [" + unit.shown + "]",
+                    torque_label = "residual [" + torque_unit.name + "]";
+  const std::string rate_label =
+      "motor rate [" + abscissa_unit(d.revised.nominal, k, ResidualKind::motor_torque, Abscissa::rate).name + "]";
+  const bool has_joint = std::isfinite(d.before.joint_rms[k]), has_torque = std::isfinite(d.before.torque_rms[k]);
+  if (has_joint)
+    add(before_and_after(fmt::format("Joint {}: position error", k + 1), d.joint_view, time, joint), "time [s]",
+        joint_label, report::ChartKind::line);
+  if (has_torque)
+    add(before_and_after(fmt::format("Joint {}: {}", k + 1, torque_name), d.torque_view, time, torque), "time [s]",
+        torque_label, report::ChartKind::line);
+  if (has_joint)
+    add(before_and_after(fmt::format("Joint {}: error over motor rate", k + 1), d.joint_view, rate, joint), rate_label,
+        joint_label, report::ChartKind::scatter);
+  else if (has_torque)
+    add(before_and_after(fmt::format("Joint {}: {} over motor rate", k + 1, torque_name), d.torque_view, rate, torque),
+        rate_label, torque_label, report::ChartKind::scatter);
+  return charts;
+}
+
+report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
+  report::Page page("Diagnosis of " + model.name, "What the model lacks, by measured data");
+  add_verdict(page, d, evaluation);
+  add_error_table(page, d);
+  page.paragraph(
+      "Joint position is predicted from motor signals alone: the arm is driven by the measured motor motion and its "
+      "joints follow through the cables. Torque is predicted from the same motion and low-pass filtered like it.");
+  add_estimator_table(page, model, evaluation);
+  add_evidence(page, d, evaluation);
+  add_numbers(page, d);
+  page.heading("Residuals on the hold-out");
+  add_residuals(page, d);
+  add_innovations(page, model, evaluation);
+  page.heading("How the candidates fared");
+  page.paragraph(
+      "Each candidate is fitted together with the model's own numbers, kept within their tolerance, on every other "
+      "block of the training data; the gain in log-likelihood is counted on the blocks between, and p is the "
+      "probability of such a gain if there were none: by a paired t test over blocks, or by the likelihood ratio of a "
+      "candidate that explains nearly all of a rest.");
+  add_candidates(page, d);
+  if (!d.not_excited.empty()) {
+    std::string text = "Effects that these data could not show at their typical size: ";
+    for (std::size_t i = 0; i < d.not_excited.size(); ++i)
+      text += (i ? ", " : "") + d.not_excited[i].effect +
+              (d.not_excited[i].joint < 0 ? "" : fmt::format(" of joint {}", d.not_excited[i].joint + 1));
+    page.paragraph(text + ".");
+  }
+  return page;
+}
+
+}  // namespace halyard

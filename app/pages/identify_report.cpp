@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/pages/identify_output.h"
+#include "app/pages/view_charts.h"
+#include "evaluation/joint_unit.h"
+
+namespace halyard {
+namespace {
+
+/// The estimate of one number over time from sample `first` on, with the band of two deviations; the band is cut where
+/// it would leave no room for the rest.
+report::Chart convergence_chart(const Identification& found, const IdentifiedNumber& number, std::size_t first,
+                                const std::string& title) {
+  report::Series estimate, end, given;
+  estimate.name = "dual filter, ± 2 standard deviations";
+  end.name = "identified", given.name = "model";
+  end.dashed = given.dashed = true;
+  report::Band band;
+  for (std::size_t i = first; i < found.time.size(); ++i) {
+    estimate.x.push_back(found.time[i]);
+    estimate.y.push_back(number.trace[i]);
+    band.lower.push_back(number.trace[i] - 2 * number.trace_std[i]);
+    band.upper.push_back(number.trace[i] + 2 * number.trace_std[i]);
+  }
+  const bool whole = first == 0;
+  auto [low, high] = std::ranges::minmax(estimate.y);
+  low = std::min({low, number.value, whole ? number.nominal : low});
+  high = std::max({high, number.value, whole ? number.nominal : high});
+  const double last_band = number.trace_std.back(), room = std::max(0.5 * (high - low), 3 * last_band);
+  for (double& b : band.lower) b = std::max(b, low - room);
+  for (double& b : band.upper) b = std::min(b, high + room);
+  estimate.band = std::move(band);
+  for (report::Series* s : {&end, &given}) {
+    s->x = {estimate.x.front(), estimate.x.back()};
+    s->y.assign(2, s == &end ? number.value : number.nominal);
+  }
+  report::Chart chart;
+  chart.title = title;
+  chart.x_label = "time [s]";
+  chart.y_label = number.unit == "1" ? "value" : fmt::format("value [{}]", number.unit);
+  chart.series = {estimate, end};
+  if (whole) chart.series.push_back(given);
+  chart.height_px = 260;
+  return chart;
+}
+
+void add_sentences(report::Page& page, const IdentifyResult& result) {
+  const Identification& found = result.identification;
+  const auto all_converged = std::ranges::all_of(
+      found.numbers, [](const IdentifiedNumber& n) { return n.convergence == Convergence::converged; });
+  std::string text;
+  for (const IdentifiedNumber& n : found.numbers)
+    text += fmt::format("{}{}: {}.", text.empty() ? "" : "\n", capitalised(n.name), in_words(n.convergence));
+  page.verdict(all_converged ? report::VerdictKind::good : report::VerdictKind::warning, text);
+  text.clear();
+  for (const std::string& doubt : doubts(result))
+    text += fmt::format("{}{}.", text.empty() ? "" : "\n", capitalised(doubt));
+  if (!text.empty()) page.verdict(adopted(result) ? report::VerdictKind::warning : report::VerdictKind::bad, text);
+}
+
+void add_numbers(report::Page& page, const Identification& found) {
+  report::Table table;
+  table.caption = "Identified numbers";
+  table.header = {"number", "model", "identified", "95 % interval", "half width", "unit", ""};
+  table.align = {report::Align::left,  report::Align::right, report::Align::right, report::Align::right,
+                 report::Align::right, report::Align::left,  report::Align::left};
+  for (const IdentifiedNumber& n : found.numbers) {
+    const double half_width = 50 * (n.upper - n.lower) / std::abs(n.value);  // %
+    table.rows.push_back({n.name, fmt::format("{:.5g}", n.nominal), fmt::format("{:.7g}", n.value),
+                          fmt::format("{:.7g} to {:.7g}", n.lower, n.upper),
+                          half_width < 100 ? fmt::format("{:.2g} %", half_width) : fmt::format("{:.0f} %", half_width),
+                          n.unit,
+                          n.convergence == Convergence::converged  ? ""
+                          : n.convergence == Convergence::drifting ? "drifting"
+                                                                   : "not excited"});
+  }
+  page.table(table);
+}
+
+void add_errors(report::Page& page, const IdentifyResult& result) {
+  const std::vector<JointUnit> units = joint_units(result.given);
+  report::Table table;
+  table.caption = "Joint position from motor signals alone, on " + result.holdout;
+  table.header = {"joint",           "estimator", "RMS error, given model", "identified model", "peak, given model",
+                  "identified model"};
+  table.align = {report::Align::left,  report::Align::left,  report::Align::right,
+                 report::Align::right, report::Align::right, report::Align::right};
+  for (int k = 0; k < result.given.n(); ++k)
+    for (const EstimatorComparison& e : result.estimators) {
+      const auto value = [k](const std::vector<double>& v) {
+        return v.empty() ? std::numeric_limits<double>::quiet_NaN() : v[k];
+      };
+      const auto cell = [&](const std::vector<double>& v) {
+        if (v.empty()) return std::string("failed");
+        if (!std::isfinite(v[k])) return std::string("no sensor");
+        return fmt::format("{:.4g} {}", units[k].shown_per_si * v[k], units[k].shown);
+      };
+      table.rows.push_back({fmt::format("{}", k + 1),
+                            e.name,
+                            cell(e.before.rms),
+                            {cell(e.after.rms), value(e.after.rms) < 0.9 * value(e.before.rms)},
+                            cell(e.before.peak),
+                            {cell(e.after.peak), value(e.after.peak) < 0.9 * value(e.before.peak)}});
+    }
+  page.table(table);
+  page.paragraph("kinematics takes cables as rigid: a better coupling leaves it what they stretch.");
+  for (const EstimatorComparison& e : result.estimators)
+    for (const auto& [which, failure] : {std::pair{"given", e.before.failure}, {"identified", e.after.failure}})
+      if (!failure.empty()) page.paragraph(fmt::format("{} failed with the {} model: {}.", e.name, which, failure));
+}
+
+}  // namespace
+
+std::string in_words(Convergence convergence) {
+  switch (convergence) {
+    case Convergence::converged: return "converged";
+    case Convergence::drifting:
+      return "still drifting in the last third of the data; the model may lack something, or the log is too short";
+    case Convergence::not_excited: break;
+  }
+  return "not excited: these data say little of it; give a log whose motion depends on it";
+}
+
+report::Page identify_page(const IdentifyResult& result) {
+  const Identification& found = result.identification;
+  report::Page page("Identification of " + result.given.name,
+                    fmt::format("{} of its numbers, from {}", found.numbers.size(), result.data));
+  add_sentences(page, result);
+  add_numbers(page, found);
+  page.paragraph(fmt::format(
+      "Intervals come from {} blocks of the data, each left out once, so that errors which last for a while are not "
+      "counted as many; they include what the other numbers of the model may be off by within their tolerances.",
+      found.blocks));
+  add_errors(page, result);
+  page.heading("Convergence");
+  page.paragraph(
+      "The dual filter's estimate while it goes through the data, from the model's number on: on the left all of it, "
+      "on the right its last third. Its band is widened to what the interval says, and cut where the chart ends. The "
+      "identified number is estimated around the filter's end, with the model's other numbers along.");
+  const std::size_t late = found.time.size() * 2 / 3;
+  for (const IdentifiedNumber& number : found.numbers)
+    page.figure_row({convergence_chart(found, number, 0, capitalised(number.name)),
+                     convergence_chart(found, number, late, capitalised(number.name) + ", last third")});
+  return page;
+}
+
+}  // namespace halyard

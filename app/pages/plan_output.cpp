@@ -1,0 +1,201 @@
+#include "app/pages/plan_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/pages/diagnosis_output.h"
+#include "app/report/page.h"
+#include "evaluation/joint_unit.h"
+#include "model/output_file.h"
+
+namespace halyard {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kNamesNothing =
+    "Each joint moves along one sine or stands still: a diagnosis would see these effects but name none. Add sines or "
+    "moves.";
+
+/// Limits are known to a tenth.
+Json number(double value) {
+  return std::isfinite(value) ? Json(std::stod(fmt::format("{:.4g}", value))) : Json(nullptr);
+}
+
+std::string joint_text(int joint) { return joint < 0 ? "arm" : fmt::format("{}", joint + 1); }
+
+std::string with_unit(double value, const std::string& unit) {
+  return fmt::format("{:.4g}{}{}", value, unit == "1" ? "" : " ", unit == "1" ? "" : unit);
+}
+
+std::string limit_text(const DetectionLimit& d) {
+  const std::string size = fmt::format("{} {}", d.parameter, with_unit(d.limit, d.unit));
+  return d.excited ? size : "not excited up to " + size;
+}
+
+std::string confused_text(const DetectionLimit& d) {
+  std::string text;
+  for (const PlacedEffect& e : d.confused_with) text += (text.empty() ? "" : ", ") + effect_label(e);
+  return text;
+}
+
+/// "|cos| 0.97, not told apart", and a line for each effect.
+std::string separation_text(const Separation& s) {
+  std::string text = fmt::format("|cos| {:.3f}, {}\n", s.cosine, s.told_apart ? "told apart" : "not told apart");
+  for (const DetectionLimit* d : {&s.first, &s.second})
+    text += fmt::format("  {} {}{}\n", effect_label(d->effect), d->excited ? "from " : "", limit_text(*d));
+  return text;
+}
+
+std::string pair_text(const SeparatingMotion& m) { return effect_label(m.first) + " and " + effect_label(m.second); }
+
+Json effect_json(const PlacedEffect& e) {
+  return {{"effect", e.effect->name()}, {"joint", e.joint < 0 ? Json(nullptr) : Json(e.joint + 1)}};
+}
+
+Json limit_json(const DetectionLimit& d, const ArmModel& model) {
+  Json json = effect_json(d.effect), shapes = Json::object(), confused = Json::array();
+  const auto parameters = d.effect.effect->parameters(model.nominal, d.effect.joint);
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (parameters[i].is_shape())
+      shapes[parameters[i].name] = {{"value", number(d.effect.p[i])}, {"unit", parameters[i].unit}};
+  for (const PlacedEffect& e : d.confused_with) confused.push_back(effect_json(e));
+  json["excited"] = d.excited;
+  json["parameter"] = d.parameter;
+  json[d.excited ? "limit" : "largest"] = {{"value", number(d.limit)}, {"unit", d.unit}};
+  json["neutral"] = number(d.neutral);
+  json["shapes"] = shapes;
+  json["confused_with"] = confused;
+  return json;
+}
+
+Json separation_json(const Separation& s, const ArmModel& model) {
+  return {{"cosine", number(s.cosine)},
+          {"told_apart", s.told_apart},
+          {"limits", Json::array({limit_json(s.first, model), limit_json(s.second, model)})}};
+}
+
+/// Joint positions of the given motion and of the proposed one.
+std::vector<report::Chart> motion_charts(const Plan& plan) {
+  std::vector<report::Chart> charts;
+  const std::vector<JointUnit> units = joint_units(plan.model);
+  for (int k = 0; k < plan.model.n(); ++k) {
+    report::Chart chart{.title = fmt::format("Joint {}", k + 1),
+                        .x_label = "time [s]",
+                        .y_label = fmt::format("joint position [{}]", units[k].shown)};
+    const auto add = [&](const char* name, const Log& log) {
+      report::Series series{.name = name, .x = log.time, .y = log.joint_position[k]};
+      for (double& y : series.y) y *= units[k].shown_per_si;
+      chart.series.push_back(std::move(series));
+    };
+    if (plan.log.has_joint_position(k)) add("given motion", plan.log);
+    if (plan.separating && plan.separating->scenario && plan.separating->log.has_joint_position(k))
+      add("proposed motion", plan.separating->log);
+    if (!chart.series.empty()) charts.push_back(std::move(chart));
+  }
+  return charts;
+}
+
+void add_separation(report::Page& page, const SeparatingMotion& m) {
+  page.heading("A motion that separates " + pair_text(m));
+  page.verdict(m.scenario ? report::VerdictKind::good : report::VerdictKind::warning,
+               m.scenario ? fmt::format("The motion of scenario.xml: |cos| {:.3f} instead of {:.3f}.",
+                                        m.proposed.cosine, m.given.cosine)
+                          : fmt::format("None of {} motions separates them better than the given one, |cos| {:.3f}.",
+                                        m.tried, m.given.cosine));
+  report::Table table;
+  table.header = {"motion", "|cos|", "told apart", effect_label(m.first) + " from", effect_label(m.second) + " from"};
+  table.align = {report::Align::left, report::Align::right, report::Align::left, report::Align::right,
+                 report::Align::right};
+  const auto add = [&](const char* name, const Separation& s) {
+    table.rows.push_back({name, fmt::format("{:.3f}", s.cosine), s.told_apart ? "yes" : "no", limit_text(s.first),
+                          limit_text(s.second)});
+  };
+  add("given", m.given);
+  if (m.scenario) add("proposed", m.proposed);
+  page.table(table);
+}
+
+report::Page plan_page(const Plan& plan) {
+  report::Page page("Plan: what a diagnosis will see",
+                    fmt::format("model {}, motion of {}{}", plan.model.source, plan.scenario,
+                                plan.joint_sensor ? "" : ", no sensor at the joints"));
+  page.paragraph(
+      "The arm was simulated as the model has it. From the size in the table on, an effect changes a signal by more "
+      "than its "
+      "sensor resolves and more than the model's own numbers can take within their tolerances, significantly over the "
+      "length of "
+      "the motion. At twice that size the effects of the last column would explain the same data about as well.");
+  if (plan.names_nothing) page.verdict(report::VerdictKind::warning, kNamesNothing);
+  report::Table table;
+  table.header = {"effect", "joint", "detection limit", "cannot be told from"};
+  table.align = {report::Align::left, report::Align::right, report::Align::left, report::Align::left};
+  for (const DetectionLimit& d : plan.limits)
+    table.rows.push_back({d.effect.effect->name(), joint_text(d.effect.joint), limit_text(d), confused_text(d)});
+  page.table(table);
+  if (plan.separating) add_separation(page, *plan.separating);
+  if (const auto charts = motion_charts(plan); !charts.empty()) {
+    page.heading("Motion");
+    page.figure_row(charts);
+  }
+  return page;
+}
+
+}  // namespace
+
+std::string plan_text(const Plan& plan) {
+  std::vector<std::array<std::string, 4>> rows = {
+      {"effect", "joint", "detection limit", "cannot be told from, at twice that size"}};
+  for (const DetectionLimit& d : plan.limits)
+    rows.push_back({d.effect.effect->name(), joint_text(d.effect.joint), limit_text(d), confused_text(d)});
+  std::array<std::size_t, 3> width{};
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < width.size(); ++i) width[i] = std::max(width[i], row[i].size());
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < width.size(); ++i) line += fmt::format("{:<{}}  ", row[i], width[i]);
+    line += row.back();
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  if (plan.names_nothing) text += fmt::format("{}\n", kNamesNothing);
+  if (!plan.separating) return text;
+  const SeparatingMotion& m = *plan.separating;
+  text += fmt::format("{}, given motion: {}", pair_text(m), separation_text(m.given));
+  text += m.scenario ? fmt::format("{}, proposed motion: {}", pair_text(m), separation_text(m.proposed))
+                     : fmt::format("none of {} motions separates them better\n", m.tried);
+  return text;
+}
+
+std::string plan_json(const Plan& plan) {
+  Json limits = Json::array();
+  for (const DetectionLimit& d : plan.limits) limits.push_back(limit_json(d, plan.model));
+  Json all = {{"model", plan.model.source},
+              {"scenario", plan.scenario},
+              {"joint_sensor", plan.joint_sensor},
+              {"names_nothing", plan.names_nothing},
+              {"limits", limits}};
+  if (plan.separating) {
+    const SeparatingMotion& m = *plan.separating;
+    all["separation"] = {{"effects", Json::array({effect_json(m.first), effect_json(m.second)})},
+                         {"given", separation_json(m.given, plan.model)},
+                         {"proposed", m.scenario ? separation_json(m.proposed, plan.model) : Json(nullptr)}};
+  }
+  return all.dump(2) + "\n";
+}
+
+void write_plan(const std::filesystem::path& folder, const Plan& plan) {
+  namespace fs = std::filesystem;
+  if (plan.separating && plan.separating->scenario) {
+    const fs::path model = fs::proximate(fs::absolute(plan.model.source), fs::absolute(folder));
+    write_file_whole(folder / "scenario.xml", proposal_xml(*plan.separating->scenario, model.string()));
+  }
+  write_file_whole(folder / "plan.json", plan_json(plan));
+  plan_page(plan).write(folder / "plan.html");
+}
+
+}  // namespace halyard

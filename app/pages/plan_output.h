@@ -1,0 +1,30 @@
+#pragma once
+/// What a plan is told as: lines on the terminal, plan.json, plan.html.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluation/studies/motion_proposal.h"
+
+namespace halyard {
+
+struct Plan {
+  ArmModel model;
+  std::string scenario;  ///< its file, as given
+  bool joint_sensor = true;
+  Log log;  ///< of the given motion
+  std::vector<DetectionLimit> limits;
+  bool names_nothing = false;
+  std::optional<SeparatingMotion> separating;
+};
+
+/// The table and what the proposed motion gains, for the terminal.
+std::string plan_text(const Plan& plan);
+std::string plan_json(const Plan& plan);
+
+/// Writes plan.html, plan.json and, if a motion is proposed, scenario.xml into the folder.
+void write_plan(const std::filesystem::path& folder, const Plan& plan);
+
+}  // namespace halyard

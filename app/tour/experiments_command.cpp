@@ -1,0 +1,63 @@
+#include "app/tour/experiments_command.h"
+
+#include <fmt/core.h>
+
+#include "app/bundled_files.h"
+#include "app/output_check.h"
+#include "app/pages/comparison_figures.h"
+#include "app/progress.h"
+#include "app/tour/experiments.h"
+
+namespace halyard {
+namespace {
+
+void print_summary(const std::vector<Experiment>& experiments) {
+  const Comparison& first = experiments.front().comparison;
+  fmt::print("mean absolute error (the paper's Eq. 18), mean of experiments A, B, C, and gain over kinematics:\n");
+  for (std::size_t i = 0; i < first.runs.size(); ++i) {
+    double microseconds = 0;
+    for (const Experiment& e : experiments) microseconds += e.comparison.runs[i].microseconds_per_step;
+    fmt::print("  {:<22}", first.runs[i].name);
+    for (int k = 0; k < first.n_joints(); ++k) {
+      fmt::print("  {:>9} {}", shown_number(mean_error(experiments, i, k), first.units[k]), first.units[k].shown);
+      fmt::print(" {:>7}", int(i) == first.baseline() ? "" : shown_percent(mean_gain(experiments, i, k)));
+    }
+    fmt::print("  {:.3g} us a step\n", microseconds / double(experiments.size()));
+  }
+  fmt::print("{}\n{}\n", order_of_gains(experiments), peaks_of_joint_one(experiments));
+}
+
+void print_study(const EffectStudy& study, const std::vector<JointUnit>& units) {
+  fmt::print("mean absolute error with the robot's effects switched on and off (joints 1, 2, 3):\n  {:<28}", "");
+  for (const std::string& name : study.estimators) fmt::print("  {:<30}", name);
+  fmt::print("\n");
+  for (const StudiedRobot& robot : study.robots) {
+    fmt::print("  {:<28}", robot.name());
+    for (const auto& errors : robot.error)
+      for (std::size_t k = 0; k < units.size(); ++k) fmt::print("  {:>9}", shown_number(errors[k], units[k]));
+    fmt::print("\n");
+  }
+}
+
+}  // namespace
+
+void run_experiments(const ExperimentsOptions& options) {
+  check_output_folder(options.out);
+  const ExperimentsSetup setup{.raven2 = examples_folder(options.examples, "experiments") / "raven2",
+                               .calibrated = options.calibrated,
+                               .duration_s = options.duration_s};
+  std::vector<Experiment> experiments;
+  std::optional<EffectStudy> study;
+  {
+    StageProgress progress("experiments");
+    experiments = compute_experiments(setup, [&](double done) { progress.set("A, B, C", done); });
+    if (options.effect_study)
+      study = study_experiments(setup, [&](double done) { progress.set("effects one by one", done); });
+  }
+  write_experiments(options.out, experiments, study);
+  print_summary(experiments);
+  if (study) print_study(*study, experiments.front().comparison.units);
+  fmt::print("report: {}\n", (options.out / "report.html").string());
+}
+
+}  // namespace halyard

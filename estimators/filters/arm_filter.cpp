@@ -1,0 +1,236 @@
+#include "estimators/filters/arm_filter.h"
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "estimators/process/arm_models.h"
+#include "estimators/process/static_equilibrium.h"
+#include "transmission/path_matrix.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFastest = 0.05;   // s, for a joint to cross its range
+constexpr double kHistorySpan = 2;  // s, longer than any delay
+
+}  // namespace
+
+ArmFilterOptions read_arm_filter_options(OptionReader& options, const ArmModel& model, const ProcessModel& process) {
+  ArmFilterOptions o;
+  o.noise = read_noise(options, model, process);
+  o.max_step = options.number("max_step", o.max_step, 1e-6, kInfinity);
+  o.restart_gap = options.number("restart_gap", o.restart_gap, 1e-3, kInfinity);
+  o.gate = options.number("gate", o.gate, 0.5, 1);
+  return o;
+}
+
+Estimate joint_estimate(const StateLayout& l, const Eigen::VectorXd& x, const Eigen::MatrixXd& S) {
+  Estimate e;
+  e.joint_position.resize(l.n_joints);
+  e.joint_velocity.resize(l.n_joints);
+  e.joint_position_std.resize(l.n_joints);
+  for (int k = 0; k < l.n_joints; ++k) {
+    e.joint_position(k) = x(l.position[k]);
+    e.joint_velocity(k) = x(l.rate[k]);
+    e.joint_position_std(k) = S.row(l.position[k]).norm();
+  }
+  return e;
+}
+
+ArmFilter::ArmFilter(const ArmModel& model, std::shared_ptr<const ProcessModel> process,
+                     const ArmFilterOptions& options, std::unique_ptr<GaussianFilter> filter)
+    : model_(model),
+      process_(std::move(process)),
+      options_(options),
+      noise_(model_, *process_, options.noise),
+      filter_(std::move(filter)),
+      history_(model.n(), kHistorySpan),
+      last_command_(-kInfinity) {
+  for (int k = 0; k < model.n(); ++k)
+    if (process_->arm().joint[k].drive != Drive::none) motors_.push_back(k);
+}
+
+void ArmFilter::reset(const Sample& first) {
+  const int n = process_->n_joints();
+  started_ = false;
+  time_ = first.time_s;
+  reading_ = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+  torque_ = external_ = Eigen::VectorXd::Zero(n);
+  history_ = CommandHistory(n, kHistorySpan);
+  last_command_ = -kInfinity;
+  report_ = {};
+  repaired_before_ = filter_->repaired();
+  noise_.reset(Eigen::VectorXd::Ones(n));
+  const Eigen::VectorXd home = model_.home();
+  const Eigen::VectorXd x = process_->state_at_rest(unstretched_motors(process_->arm(), home), home);
+  filter_->reset(x, noise_.initial_root(x, kInfinity));
+  start(first);
+}
+
+void ArmFilter::remember(const Sample& sample) {
+  for (int k = 0; k < process_->n_joints(); ++k) {
+    if (std::isfinite(sample.motor_torque(k))) torque_(k) = sample.motor_torque(k);
+    if (std::isfinite(sample.motor_position(k))) reading_(k) = sample.motor_position(k);
+    if (sample.joint_torque.size() > 0 && std::isfinite(sample.joint_torque(k))) external_(k) = sample.joint_torque(k);
+  }
+  if (sample.time_s > last_command_) {
+    history_.push(sample.time_s, torque_.data());
+    last_command_ = sample.time_s;
+  }
+  time_ = sample.time_s;
+}
+
+void ArmFilter::start(const Sample& sample) {
+  const Eigen::VectorXd before = reading_;
+  const double since = sample.time_s - time_;
+  remember(sample);
+  if (!reading_(motors_).allFinite()) return;
+  const Eigen::VectorXd home = model_.home();
+  Eigen::VectorXd angle = unstretched_motors(process_->arm(), home);
+  angle(motors_) = reading_(motors_);
+  // The readings' error may depend on the angle, slowly: one correction is enough.
+  Eigen::VectorXd x = process_->state_at_rest(angle, unstretched_joints(process_->arm(), angle, home));
+  angle(motors_) -= (process_->motor_readings(sample.time_s, x) - angle)(motors_);
+  const Eigen::VectorXd z = Eigen::VectorXd::Zero(process_->layout().n_effect_states);
+  const Eigen::VectorXd q = static_equilibrium(*process_, sample.time_s, angle, external_, z,
+                                               unstretched_joints(process_->arm(), angle, home));
+  x = process_->state_at_rest(angle, q);
+  // At rest, unless the motors were read just before.
+  const bool read_before = before(motors_).allFinite() && since <= options_.max_step;
+  bool seen_moving = read_before;
+  Eigen::VectorXd moved, path;
+  if (seen_moving) {
+    moved = reading_ - before;
+    path = unstretched_joints(process_->arm(), angle, home) - unstretched_joints(process_->arm(), angle - moved, home);
+    for (int k = 0; k < process_->n_joints(); ++k) {
+      const double range = model_.joints[k].upper - model_.joints[k].lower;
+      if (range > 0 && std::abs(path(k)) / since > range / kFastest) seen_moving = false;
+    }
+  }
+  if (seen_moving) {
+    for (int k = 0; k < process_->n_joints(); ++k) {
+      x(process_->layout().rate[k]) = path(k) / since;
+      if (process_->layout().motor_rate[k] >= 0) x(process_->layout().motor_rate[k]) = moved(k) / since;
+    }
+  }
+  // After a gap the arm need not rest; and a speed that no joint has says that one of the two readings is wrong.
+  speed_is_due_ = since > options_.restart_gap || seen_moving != read_before;
+  filter_->reset(x, start_root(x, angle, q, seen_moving ? since : kInfinity));
+  started_ = true;
+  refused_since_ = kInfinity;
+}
+
+Eigen::MatrixXd ArmFilter::start_root(const Eigen::VectorXd& x, const Eigen::VectorXd& angle, const Eigen::VectorXd& q,
+                                      double dt_s) const {
+  const StateLayout& l = process_->layout();
+  Eigen::MatrixXd S = noise_.initial_root(x, dt_s);
+  for (const int i : options_.settled) {
+    const int state = l.effect_states + i;
+    const Eigen::VectorXd z = S(state, state) * Eigen::VectorXd::Unit(l.n_effect_states, i);
+    const Eigen::VectorXd moved = static_equilibrium(*process_, time_, angle, external_, z, q) - q;
+    for (int k = 0; k < l.n_joints; ++k) S(l.position[k], state) = moved(k);
+  }
+  return S;
+}
+
+void ArmFilter::predict(double to_time_s) {
+  const double span = to_time_s - time_;
+  const int pieces = static_cast<int>(std::ceil(span / options_.max_step - 1e-9));
+  Step step;
+  step.dt_s = span / pieces;
+  step.motor_torque = torque_.data();
+  step.external_force = external_.data();
+  step.history = &history_;
+  for (int i = 0; i < pieces; ++i) {
+    step.time_s = time_ + i * step.dt_s;
+    filter_->predict(ArmProcess(*process_, step), noise_.process_root(step, filter_->x()));
+  }
+}
+
+double ArmFilter::gate_threshold(int m) const {
+  return options_.gate < 1 ? boost::math::quantile(boost::math::chi_squared(m), options_.gate) : kInfinity;
+}
+
+Innovation ArmFilter::correct(const Sample& sample) {
+  std::vector<int> read;
+  for (const int k : motors_)
+    if (std::isfinite(sample.motor_position(k))) read.push_back(k);
+  if (read.empty()) return {};
+  const Eigen::MatrixXd R_root = Eigen::VectorXd(noise_.encoder()(read)).asDiagonal();
+  const Innovation innovation =
+      filter_->update(MotorReadings(*process_, sample.time_s, read), sample.motor_position(read), R_root,
+                      gate_threshold(static_cast<int>(read.size())));
+  noise_.adapt(read, innovation, sample.time_s - time_);
+  refused_since_ = innovation.accepted ? kInfinity : std::min(refused_since_, sample.time_s);
+  return innovation;
+}
+
+Innovation ArmFilter::update(const Sample& sample) {
+  if (!(sample.time_s > time_))
+    throw std::invalid_argument("filter: time does not increase at " + std::to_string(sample.time_s) + " s");
+  Innovation innovation;
+  const bool after_gap = sample.time_s - time_ > options_.restart_gap;
+  const bool locked_out = sample.time_s - refused_since_ > options_.restart_gap;
+  if (!started_ || after_gap || locked_out || speed_is_due_) {
+    start(sample);
+  } else {
+    predict(sample.time_s);
+    innovation = correct(sample);
+    if (!innovation.accepted) ++report_.gated;
+    remember(sample);
+  }
+  innovation.time_s = sample.time_s;
+  ++report_.steps;
+  return innovation;
+}
+
+ArmFilter::Moment ArmFilter::moment() const {
+  return {.started = started_,
+          .speed_is_due = speed_is_due_,
+          .time_s = time_,
+          .refused_since = refused_since_,
+          .x = filter_->x(),
+          .reading = reading_,
+          .torque = torque_,
+          .external = external_,
+          .adapted = noise_.adapted(),
+          .S = filter_->S(),
+          .report = report()};
+}
+
+void ArmFilter::go_back(const Moment& moment) {
+  started_ = moment.started;
+  speed_is_due_ = moment.speed_is_due;
+  time_ = moment.time_s;
+  refused_since_ = moment.refused_since;
+  reading_ = moment.reading;
+  torque_ = moment.torque;
+  external_ = moment.external;
+  noise_.reset(moment.adapted);
+  report_ = moment.report;
+  repaired_before_ = filter_->repaired();
+  filter_->reset(moment.x, moment.S);
+}
+
+Innovation ArmFilter::correct_at(double time_s, const MeasurementModel& measurement, const Eigen::VectorXd& z,
+                                 const Eigen::MatrixXd& R_root) {
+  if (time_s > time_) predict(time_s);
+  time_ = time_s;
+  Innovation innovation = filter_->update(measurement, z, R_root, gate_threshold(static_cast<int>(z.size())));
+  innovation.time_s = time_s;
+  if (!innovation.accepted) ++report_.gated;
+  return innovation;
+}
+
+Estimate ArmFilter::estimate() const { return joint_estimate(process_->layout(), filter_->x(), filter_->S()); }
+
+EstimatorReport ArmFilter::report() const {
+  EstimatorReport r = report_;
+  r.repaired_factors += filter_->repaired() - repaired_before_;
+  return r;
+}
+
+}  // namespace halyard

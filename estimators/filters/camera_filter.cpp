@@ -1,0 +1,149 @@
+#include "estimators/filters/camera_filter.h"
+
+#include <cmath>
+#include <limits>
+
+#include "transmission/path_matrix.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kRounding = 1e-9;  // s, of times that are sums
+
+/// x becomes x - b.
+class UnknownOffset : public UnknownConstant<UnknownOffset> {
+ public:
+  std::string name() const override { return "cable_offset"; }
+  std::string summary() const override { return "an offset of the cable's stretch that only a filter knows"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::stretch); }
+
+  template <class T>
+  void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
+    s[c.joint].stretch -= c.z[0];
+  }
+};
+
+const UnknownOffset& unknown_offset() {
+  static const UnknownOffset effect;
+  return effect;
+}
+
+/// The joints stand where the offsets let them: those are settled.
+ArmFilterOptions with_offsets(ArmFilterOptions options, const ProcessModel& process, const Eigen::VectorXd& wander) {
+  options = with_wander(std::move(options), unknown_offset(), process, wander);
+  for (const int state : states_of(unknown_offset(), process))
+    if (state >= 0) options.settled.push_back(state - process.layout().effect_states);
+  return options;
+}
+
+/// Where the marker is, p(q).
+class MarkerPosition final : public MeasurementModel {
+ public:
+  explicit MarkerPosition(const ProcessModel& model) : model_(model) {}
+  bool is_affine() const override { return false; }
+  Eigen::VectorXd read(const Eigen::VectorXd& x) const override {
+    double q[kMaxJoints];
+    for (int k = 0; k < model_.n_joints(); ++k) q[k] = x(model_.layout().position[k]);
+    Eigen::VectorXd z(3);
+    position_of(model_.arm(), chain_pose(model_.arm(), q), model_.arm().payload_point, z.data());
+    return z;
+  }
+  Eigen::VectorXd linearise(const Eigen::VectorXd& x, Eigen::MatrixXd& H) const override {
+    const ArmParameters<Dual>& arm = model_.dual_transmission().arm();
+    const auto& at = model_.layout().position;
+    H.setZero(3, x.size());
+    for (int first = 0; first < arm.n; first += kDualWidth) {
+      Dual q[kMaxJoints], z[3];
+      for (int k = 0; k < arm.n; ++k)
+        q[k] = k >= first && k < first + kDualWidth ? Dual::seed(x(at[k]), k - first) : Dual(x(at[k]));
+      position_of(arm, chain_pose(arm, q), arm.payload_point, z);
+      for (int r = 0; r < 3; ++r)
+        for (int d = 0; d < kDualWidth && first + d < arm.n; ++d) H(r, at[first + d]) = z[r].d[d];
+    }
+    return read(x);
+  }
+
+ private:
+  const ProcessModel& model_;
+};
+
+}  // namespace
+
+CameraOptions read_camera_options(OptionReader& options, const ArmModel& model) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kShare = 0.01;  // of the cable's travel
+  const ArmParameters<double> arm = Transmission<double>(model.nominal, model.effects).arm();
+  Eigen::VectorXd offset(arm.n);
+  for (int k = 0; k < arm.n; ++k)
+    offset(k) = kShare * std::abs(arm.joint[k].pulley_radius) * (model.joints[k].upper - model.joints[k].lower);
+  CameraOptions camera;
+  camera.latency_s = options.number("camera_latency", camera.latency_s, 0, 10);
+  camera.noise_m = options.number("camera_noise", camera.noise_m, 1e-9, kInfinity);
+  camera.offset = read_unknown_levels(options, "offset", {offset, offset});
+  return camera;
+}
+
+ArmModel with_unknown_offsets(const ArmModel& model, const CameraOptions& camera) {
+  ArmModel augmented = model;
+  for (int k = 0; k < model.n(); ++k)
+    if (model.nominal.joint[k].drive == Drive::cable)
+      augmented.effects.push_back({&unknown_offset(), k, {camera.offset.start(k)}});
+  return augmented;
+}
+
+CameraFilter::CameraFilter(const ArmModel& augmented, std::shared_ptr<const ProcessModel> process,
+                           ArmFilterOptions options, const CameraOptions& camera,
+                           std::unique_ptr<GaussianFilter> filter)
+    : process_(std::move(process)),
+      camera_(camera),
+      restart_gap_(options.restart_gap),
+      filter_(augmented, process_, with_offsets(std::move(options), *process_, camera.offset.wander),
+              std::move(filter)) {}
+
+void CameraFilter::reset(const Sample& first) {
+  filter_.reset(first);
+  past_.clear();
+  remember(first);
+}
+
+Innovation CameraFilter::update(const Sample& sample) {
+  const Innovation innovation = filter_.update(sample);
+  remember(sample);
+  if (sample.marker.size() > 0) take_marker(sample);
+  return innovation;
+}
+
+void CameraFilter::remember(const Sample& sample) {
+  if (!past_.empty() && sample.time_s - past_.back().sample.time_s > restart_gap_) past_.clear();
+  past_.push_back({sample, filter_.moment()});
+  while (past_.size() > 1 && past_[1].sample.time_s <= sample.time_s - camera_.latency_s + kRounding) past_.pop_front();
+}
+
+void CameraFilter::take_marker(const Sample& sample) {
+  const double exposed = sample.time_s - camera_.latency_s;
+  // Of a time that the filter does not remember, or when it had not yet started.
+  if (past_.front().sample.time_s > exposed + kRounding || !past_.front().after.started) return;
+  filter_.go_back(past_.front().after);
+  filter_.correct_at(std::max(exposed, past_.front().sample.time_s), MarkerPosition(*process_), sample.marker,
+                     camera_.noise_m * Eigen::Matrix3d::Identity());
+  past_.front().after = filter_.moment();
+  for (std::size_t i = 1; i < past_.size(); ++i) {
+    filter_.update(past_[i].sample);
+    past_[i].after = filter_.moment();
+  }
+}
+
+Estimate CameraFilter::estimate() const {
+  Estimate e = filter_.estimate();
+  const std::vector<int> states = states_of(unknown_offset(), *process_);
+  e.further.setConstant(process_->n_joints(), 2, kNan);
+  for (int k = 0; k < process_->n_joints(); ++k) {
+    if (states[k] < 0) continue;
+    e.further(k, 0) = filter_.filter().x()(states[k]);
+    e.further(k, 1) = filter_.filter().S().row(states[k]).norm();
+  }
+  return e;
+}
+
+}  // namespace halyard

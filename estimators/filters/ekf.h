@@ -1,0 +1,25 @@
+#pragma once
+/// The extended Kalman filter in square-root form, with the exact Jacobian of the discrete step:
+///
+///   x = f(x),  S = root of [F S, Q_root]              F = ∂f/∂x at the old x
+///   and the linear update of gaussian_filter.h with H = ∂h/∂x
+///
+/// Source: Jazwinski, "Stochastic Processes and Filtering Theory", 1970; Kailath, Sayed, Hassibi, chapter 12.
+
+#include "estimators/filters/gaussian_filter.h"
+
+namespace halyard {
+
+class ExtendedKalmanFilter final : public GaussianFilter {
+ public:
+  void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) override;
+  Innovation update(const MeasurementModel& measurement, const Eigen::VectorXd& z, const Eigen::MatrixXd& R_root,
+                    double gate) override;
+
+ private:
+  Eigen::MatrixXd columns_before(const Eigen::MatrixXd& S_0) const override { return S_0; }
+
+  Eigen::MatrixXd F_;
+};
+
+}  // namespace halyard

@@ -1,0 +1,71 @@
+#pragma once
+/// Where the joints were, by what the motors showed until a while later: the square-root unscented filter forwards, and
+/// from its newest belief back, over the predictions p between two samples, newest first,
+///
+///   x_s = x_0 + G (x_s' - x⁻)                         x_s': smoothed belief at the end of p, x_s at its begin
+///   S_s = triangular root of [G S_s', V]              x_0, x⁻, G, V: BackwardStep of p (gaussian_filter.h)
+///
+/// which is P_s = P + G (P_s' - P⁻) Gᵀ without a difference of covariances. A window of samples is smoothed each time
+/// it spans twice the lag; its older half is then told: every estimate uses the samples of at least `lag` after it, at
+/// two backward steps a sample. A gap that starts the filter anew ends a window, as the record's end does.
+///
+/// Source: Särkkä, "Unscented Rauch-Tung-Striebel smoother", IEEE Trans. Automatic Control 53 (2008); the root as in
+/// Kailath, Sayed, Hassibi, "Linear Estimation", chapter 10.
+
+#include <deque>
+#include <functional>
+#include <vector>
+
+#include "estimators/filters/arm_filter.h"
+#include "estimators/filters/sr_ukf.h"
+
+namespace halyard {
+
+/// The belief after a sample's correction, and the predictions that led to it from the belief before.
+struct FilteredBelief {
+  double time_s = 0;
+  Eigen::VectorXd x;
+  Eigen::MatrixXd S;
+  std::vector<BackwardStep> steps;
+};
+
+/// Calls visit(i, x_s, S_s) for the beliefs of the window, from the last one, which is smoothed as it is, to the first.
+void smooth_backwards(const std::deque<FilteredBelief>& window,
+                      const std::function<void(std::size_t, const Eigen::VectorXd&, const Eigen::MatrixXd&)>& visit);
+
+class FixedLagSmoother final : public Estimator {
+ public:
+  FixedLagSmoother(const ArmModel& model, std::shared_ptr<const ProcessModel> process, const ArmFilterOptions& options,
+                   const UkfWeights& weights, double lag_s);
+
+  void reset(const Sample& first) override;
+  Innovation update(const Sample& sample) override;
+  /// The filter's, which knows nothing of later samples.
+  Estimate estimate() const override { return filter_.estimate(); }
+  std::optional<Revision> revise(bool at_end) override;
+  EstimatorReport report() const override { return filter_.report(); }
+
+ private:
+  /// Keeps what each prediction says backwards.
+  class RecordingUkf final : public SquareRootUkf {
+   public:
+    using SquareRootUkf::SquareRootUkf;
+    void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) override;
+    std::vector<BackwardStep> steps;
+  };
+
+  FixedLagSmoother(const ArmModel& model, std::shared_ptr<const ProcessModel> process, const ArmFilterOptions& options,
+                   std::unique_ptr<RecordingUkf> filter, double lag_s);
+  void append(double time_s);
+  /// Smooths the window, and makes those of its estimates due that are `lag_s` older than its newest.
+  void smooth(double lag_s);
+
+  std::shared_ptr<const ProcessModel> process_;
+  RecordingUkf* recorded_;  // filter_'s
+  ArmFilter filter_;
+  double lag_s_;
+  std::deque<FilteredBelief> window_;
+  std::deque<Revision> due_;
+};
+
+}  // namespace halyard

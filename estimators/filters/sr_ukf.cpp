@@ -1,0 +1,130 @@
+#include "estimators/filters/sr_ukf.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace halyard {
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kRoundings = 4;  // of one evaluation of f or h, relative to result and argument
+
+/// W Σ d_i over the columns of d, less what is rounding of numbers of that `size` or beyond the limit.
+Eigen::VectorXd mean_shift(const Eigen::Ref<const Eigen::MatrixXd>& d, const Eigen::VectorXd& size, double W,
+                           double curvature_limit) {
+  const Eigen::VectorXd sum = W * d.rowwise().sum();
+  const Eigen::ArrayXd rounding = kRoundings * kEps * W * static_cast<double>(d.cols()) * size.array();
+  const Eigen::ArrayXd spread = (W * d.rowwise().squaredNorm()).cwiseSqrt();
+  return (sum.array().abs() > rounding && sum.array().abs() <= curvature_limit * spread).select(sum, 0.0);
+}
+
+}  // namespace
+
+SquareRootUkf::SquareRootUkf(const UkfWeights& weights) : weights_(weights) {
+  if (!(weights.alpha > 0)) throw std::invalid_argument("unscented transform: alpha must be positive");
+}
+
+double SquareRootUkf::spread_squared() const {
+  const double spread = weights_.alpha * weights_.alpha * (static_cast<double>(x_.size()) + weights_.kappa);
+  if (!(spread > 0)) throw std::invalid_argument("unscented transform: number of states + kappa must be positive");
+  return spread;
+}
+
+void SquareRootUkf::place_sigma_points(Eigen::MatrixXd& X) const {
+  const Eigen::Index n = x_.size();
+  const double gamma = std::sqrt(spread_squared());
+  X.resize(n, 2 * n + 1);
+  X.col(0) = x_;
+  X.middleCols(1, n) = (gamma * S_).colwise() + x_;
+  // Opposite to what the first half was rounded to: a pair that is not symmetric would tell of a curvature.
+  X.rightCols(n) = (-(X.middleCols(1, n).colwise() - x_)).colwise() + x_;
+}
+
+void SquareRootUkf::root_with_central(Eigen::MatrixXd& columns, const Eigen::VectorXd& v, Eigen::MatrixXd& L) {
+  const double c = weights_.beta - weights_.alpha * weights_.alpha;
+  columns.rightCols(1) = std::sqrt(std::max(c, 0.0)) * v;
+  root_.compute(columns, L);
+  if (c >= 0) return;
+  // A down-date, by the covariance itself; one that has lost its definiteness gets a floor.
+  const Eigen::MatrixXd P = L * L.transpose() + c * v * v.transpose();
+  const Eigen::LLT<Eigen::MatrixXd> llt(P);
+  if (llt.info() == Eigen::Success) {
+    L = llt.matrixL();
+    return;
+  }
+  ++repaired_;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(P);
+  const double floor = kEps * modes.eigenvalues().cwiseAbs().maxCoeff();
+  columns.leftCols(P.rows()) = modes.eigenvectors() * modes.eigenvalues().cwiseMax(floor).cwiseSqrt().asDiagonal();
+  columns.rightCols(columns.cols() - P.cols()).setZero();
+  root_.compute(columns, L);
+}
+
+void SquareRootUkf::predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) {
+  const Eigen::Index n = x_.size(), points = 2 * n;
+  place_sigma_points(X_);
+  process.advance(X_);
+  const double W = 0.5 / spread_squared();
+  predicted_columns_.resize(n, points + Q_root.cols() + 1);
+  auto d = predicted_columns_.leftCols(points);
+  d = X_.rightCols(points).colwise() - X_.col(0);
+  const Eigen::VectorXd size = x_.cwiseAbs().cwiseMax(X_.cwiseAbs().rowwise().maxCoeff());
+  const Eigen::VectorXd delta = mean_shift(d, size, W, weights_.curvature_limit);
+  x_ = X_.col(0) + delta;
+  d *= std::sqrt(W);
+  predicted_columns_.middleCols(points, Q_root.cols()) = Q_root;
+  root_with_central(predicted_columns_, delta, S_);
+  x_predicted_ = x_;
+  check_finite(process);
+}
+
+Eigen::MatrixXd SquareRootUkf::columns_before(const Eigen::MatrixXd& S_0) const {
+  Eigen::MatrixXd columns(S_0.rows(), 2 * S_0.cols());
+  columns << S_0, -S_0;
+  return std::sqrt(0.5) * columns;  // √W γ
+}
+
+Innovation SquareRootUkf::update(const MeasurementModel& measurement, const Eigen::VectorXd& z,
+                                 const Eigen::MatrixXd& R_root, double gate) {
+  if (measurement.is_affine()) {
+    Eigen::MatrixXd H;
+    const Eigen::VectorXd predicted = measurement.linearise(x_, H);
+    return update_linear(z - predicted, H, R_root, gate);
+  }
+  const Eigen::Index n = x_.size(), m = z.size(), points = 2 * n;
+  const double W = 0.5 / spread_squared();
+  place_sigma_points(X_);
+  const Eigen::VectorXd z_0 = measurement.read(X_.col(0));
+  Eigen::MatrixXd e(m, points + m + 1);
+  for (Eigen::Index i = 0; i < points; ++i) e.col(i) = measurement.read(X_.col(i + 1)) - z_0;
+  const Eigen::VectorXd epsilon = mean_shift(e.leftCols(points), z_0.cwiseAbs(), W, weights_.curvature_limit);
+  const Eigen::VectorXd nu = z - z_0 - epsilon;
+  check_measurement(nu);
+
+  Innovation innovation;
+  innovation.nu = nu;
+  const double root_W = std::sqrt(W);
+  e.leftCols(points) *= root_W;
+  e.middleCols(points, m) = R_root;
+  root_with_central(e, epsilon, innovation.S_root);
+  const auto S_y = innovation.S_root.triangularView<Eigen::Lower>();
+  innovation.accepted = S_y.solve(nu).squaredNorm() <= gate;
+  if (!innovation.accepted) return innovation;
+
+  columns_.resize(n, points + m + 1);
+  auto d = columns_.leftCols(points);
+  d = root_W * (X_.rightCols(points).colwise() - x_);
+  const Eigen::MatrixXd P_yx = e.leftCols(points) * d.transpose();
+  const auto S_y_transposed = innovation.S_root.transpose().triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd K = S_y_transposed.solve(S_y.solve(P_yx)).transpose();
+  x_ += K * nu;
+  d -= K * e.leftCols(points);
+  columns_.middleCols(points, m) = K * R_root;
+  root_with_central(columns_, K * epsilon, S_);
+  return innovation;
+}
+
+}  // namespace halyard

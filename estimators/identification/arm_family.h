@@ -1,0 +1,47 @@
+#pragma once
+/// Arms of one structure that differ in some of their numbers, side by side in lanes: member i moves column i.
+///
+///   X_i = f(X_i, θ_i)        z_i = h(X_i, θ_i) = [motor encoders; joint encoders]
+///
+///   θ_i    numbers of member i, in the order of the keys     [keys]
+///   z      rad; rad | m; 0 of a joint without a motor         [2n x members]
+///
+/// f and h are those of process_model.h, h with the joints' encoders below the motors'.
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "estimators/process/process_model.h"
+
+namespace halyard {
+
+class ArmFamily {
+ public:
+  /// Keys as named_parameters() has them, or "jointK.motor.zero", the motor encoder's offset in rad.
+  /// Throws std::invalid_argument for a key that names nothing in this arm.
+  ArmFamily(const ArmModel& model, const ProcessModel& structure, const std::vector<std::string>& keys, int members);
+
+  int members() const { return static_cast<int>(arms_.size()); }
+  /// θ [keys x members].
+  void set(const Eigen::MatrixXd& theta);
+
+  /// X [n_states x members] becomes f(X). A family of one moves all columns of any X.
+  /// Throws std::runtime_error with time and state name if a result is not finite.
+  void advance(const Step& step, int substeps, Eigen::Ref<Eigen::MatrixXd> X) const;
+  /// h(X) [2n x members].
+  Eigen::MatrixXd readings(double time_s, const Eigen::MatrixXd& X) const;
+  /// h of member 0 at x [2n], and H = ∂h/∂x [2n x n_states].
+  Eigen::VectorXd readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd& H) const;
+
+ private:
+  const ProcessModel& structure_;
+  std::deque<ArmParameters<double>> arms_;   // a deque: value_ points into them
+  std::vector<std::vector<double*>> value_;  // [member][key]
+  std::vector<Transmission<Lanes>> lanes_;   // eight members each
+};
+
+/// The number of the arm that a key names, as above. Throws std::invalid_argument if there is none.
+double* find_number(ArmParameters<double>& arm, const std::string& key);
+
+}  // namespace halyard

@@ -1,0 +1,150 @@
+#pragma once
+/// The process model's differential equation, over a scalar type: motors, transmission with its
+/// effects, and the rigid chain.
+///
+///   J q_m'' = τ - (r_m / N) g                        (Eq. 5; τ with the motor's friction)
+///   M(q) q'' + h(q, q') = F                          (Eq. 4; F of transmission.h)
+///
+/// The state is, joint by joint, [q_m, q_m', q, q'] for a cable-driven joint and [q, q'] for one
+/// that is driven rigidly or not at all, then the internal states of the effects. A rigidly driven
+/// joint carries its rotor along: M gains J R_kᵀ R_k / (r_m/N)².
+
+#include "estimators/process/rigid_chain.h"
+#include "transmission/transmission.h"
+
+namespace halyard {
+
+inline constexpr int kMaxStates = 64;
+
+/// Where a joint's quantities stand in the state; -1: not there.
+struct StateLayout {
+  int n_joints = 0;
+  int n_effect_states = 0;
+  int motor_angle[kMaxJoints], motor_rate[kMaxJoints], position[kMaxJoints], rate[kMaxJoints];
+  int effect_states = 0;  ///< index of the first internal state
+  int size = 0;
+};
+
+template <class T>
+StateLayout state_layout(const Transmission<T>& transmission) {
+  StateLayout l;
+  l.n_joints = transmission.arm().n;
+  l.n_effect_states = transmission.n_states();
+  int next = 0;
+  for (int k = 0; k < kMaxJoints; ++k) {
+    l.motor_angle[k] = l.motor_rate[k] = l.position[k] = l.rate[k] = -1;
+    if (k >= l.n_joints) continue;
+    if (transmission.arm().joint[k].drive == Drive::cable) {
+      l.motor_angle[k] = next++;
+      l.motor_rate[k] = next++;
+    }
+    l.position[k] = next++;
+    l.rate[k] = next++;
+  }
+  l.effect_states = next;
+  l.size = next + l.n_effect_states;
+  return l;
+}
+
+/// Motor angle of joint k from joint positions, for a rigid drive; works for rates as well.
+template <class T>
+HALYARD_INLINE T rigid_motor(const ArmParameters<T>& arm, int k, const T* q) {
+  const JointParameters<T>& j = arm.joint[k];
+  T sum = 0.0;
+  for (int i = 0; i < arm.n; ++i) sum += j.coupling[i] * q[i];
+  return j.pulley_radius * sum / j.motor_travel();
+}
+
+/// The signals of a state: motor and joint motion of every joint.
+template <class T>
+HALYARD_INLINE void unpack_state(const ArmParameters<T>& arm, const StateLayout& l, const T* x, JointSignals<T>* s) {
+  T q[kMaxJoints], v[kMaxJoints];
+  for (int k = 0; k < arm.n; ++k) {
+    q[k] = s[k].joint_position = x[l.position[k]];
+    v[k] = s[k].joint_rate = x[l.rate[k]];
+  }
+  for (int k = 0; k < arm.n; ++k) {
+    if (arm.joint[k].drive == Drive::cable) {
+      s[k].motor_angle = x[l.motor_angle[k]];
+      s[k].motor_rate = x[l.motor_rate[k]];
+    } else if (arm.joint[k].drive == Drive::rigid) {
+      s[k].motor_angle = rigid_motor(arm, k, q);
+      s[k].motor_rate = rigid_motor(arm, k, v);
+    } else {
+      s[k].motor_angle = s[k].motor_rate = T(0.0);
+    }
+  }
+}
+
+/// M(q) + rotors of rigid drives, factored in place by ldl_factor.
+template <class T>
+HALYARD_INLINE void factored_mass(const ArmParameters<T>& arm, const ChainPose<T>& pose, T M[][kMaxJoints]) {
+  mass_matrix(arm, pose, M);
+  for (int k = 0; k < arm.n; ++k) {
+    const JointParameters<T>& j = arm.joint[k];
+    if (j.drive != Drive::rigid) continue;
+    const T turns = j.pulley_radius / j.motor_travel();
+    for (int r = 0; r < arm.n; ++r)
+      for (int c = 0; c < arm.n; ++c) M[r][c] += j.rotor_inertia * turns * turns * j.coupling[r] * j.coupling[c];
+  }
+  ldl_factor<T, kMaxJoints>(arm.n, M);
+}
+
+/// x' at state x. command, external: [n], held over the step.
+template <class T>
+HALYARD_INLINE void state_derivative(const Transmission<T>& transmission, const StateLayout& l, double time,
+                                     const CommandHistory* history, const T* command, const T* external, const T* x,
+                                     T* x_dot) {
+  const ArmParameters<T>& arm = transmission.arm();
+  const int n = arm.n;
+  JointSignals<T> s[kMaxJoints];
+  unpack_state(arm, l, x, s);
+  T q[kMaxJoints], v[kMaxJoints], zero[kMaxJoints], bias[kMaxJoints];
+  for (int k = 0; k < n; ++k) {
+    s[k].command = command[k];
+    s[k].external_force = external[k];
+    q[k] = s[k].joint_position, v[k] = s[k].joint_rate, zero[k] = T(0.0);
+  }
+  transmission.evaluate(time, history, x + l.effect_states, s, x_dot + l.effect_states);
+
+  const ChainPose<T> pose = chain_pose(arm, q);
+  inverse_dynamics(arm, pose, v, zero, bias);
+  T M[kMaxJoints][kMaxJoints], a[kMaxJoints];
+  factored_mass(arm, pose, M);
+  for (int k = 0; k < n; ++k) a[k] = s[k].joint_force - bias[k];
+  for (int k = 0; k < n; ++k) {
+    const JointParameters<T>& j = arm.joint[k];
+    if (j.drive != Drive::rigid) continue;
+    const T pull = s[k].motor_torque / j.motor_travel() * j.pulley_radius;
+    for (int i = 0; i < n; ++i) a[i] += j.coupling[i] * pull;
+  }
+  ldl_solve<T, kMaxJoints>(n, M, a);
+
+  for (int k = 0; k < n; ++k) {
+    const JointParameters<T>& j = arm.joint[k];
+    x_dot[l.position[k]] = v[k];
+    x_dot[l.rate[k]] = a[k];
+    if (j.drive != Drive::cable) continue;
+    x_dot[l.motor_angle[k]] = s[k].motor_rate;
+    x_dot[l.motor_rate[k]] = (s[k].motor_torque - j.motor_travel() * s[k].cable_force_motor) / j.rotor_inertia;
+  }
+}
+
+/// One step of the classical fourth-order Runge-Kutta method, in place.
+template <class T>
+HALYARD_INLINE void runge_kutta_4(const Transmission<T>& transmission, const StateLayout& l, double time, double h,
+                                  const CommandHistory* history, const T* command, const T* external, T* x) {
+  T k1[kMaxStates], k[kMaxStates], sum[kMaxStates], at[kMaxStates];
+  state_derivative(transmission, l, time, history, command, external, x, k1);
+  for (int i = 0; i < l.size; ++i) sum[i] = k1[i], at[i] = x[i] + T(0.5 * h) * k1[i];
+  for (int stage = 0; stage < 3; ++stage) {
+    state_derivative(transmission, l, time + (stage < 2 ? 0.5 * h : h), history, command, external, at, k);
+    for (int i = 0; i < l.size; ++i) {
+      sum[i] += T(stage < 2 ? 2.0 : 1.0) * k[i];
+      at[i] = x[i] + T(stage < 1 ? 0.5 * h : h) * k[i];
+    }
+  }
+  for (int i = 0; i < l.size; ++i) x[i] += T(h / 6) * sum[i];
+}
+
+}  // namespace halyard

@@ -1,0 +1,31 @@
+#pragma once
+/// The inner loops over vectors, Lanes and Dual, one copy per instruction set, chosen when the program runs.
+///
+/// Each file lanes_<set>.cpp is compiled with the flags of its set and instantiates lane_kernel_body.h in an
+/// anonymous namespace. Everything that the body calls is forced inline, so that no function compiled for a wider set
+/// is left where the linker could give it to code that runs on every machine. Results of two sets differ by rounding.
+
+#include <vector>
+
+#include "estimators/process/arm_dynamics.h"
+
+namespace halyard {
+
+struct LaneKernels {
+  const char* name;
+  /// `substeps` Runge-Kutta steps of dt / substeps from `time` on, in place. x: [layout.size]; command, external: [n].
+  void (*advance)(const Transmission<Lanes>& transmission, const StateLayout& layout, double time, double dt,
+                  int substeps, const CommandHistory* history, const Lanes* command, const Lanes* external, Lanes* x);
+  /// The same with derivatives.
+  void (*advance_dual)(const Transmission<Dual>& transmission, const StateLayout& layout, double time, double dt,
+                       int substeps, const CommandHistory* history, const Dual* command, const Dual* external, Dual* x);
+  /// x' with derivatives.
+  void (*derivative_dual)(const Transmission<Dual>& transmission, const StateLayout& layout, double time,
+                          const CommandHistory* history, const Dual* command, const Dual* external, const Dual* x,
+                          Dual* x_dot);
+};
+
+/// Those that this processor can run, the widest first; the last is the generic one.
+const std::vector<LaneKernels>& lane_kernels();
+
+}  // namespace halyard

@@ -1,0 +1,224 @@
+#include "estimators/process/process_model.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "estimators/process/standstill.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kStableStep = 2.2;  // h |λ|; see the header
+
+template <class T>
+Transmission<T> lift_transmission(const ArmModel& model) {
+  std::vector<EffectInstance<T>> effects(model.effects.size());
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    effects[i].effect = model.effects[i].effect;
+    effects[i].joint = model.effects[i].joint;
+    for (int k = 0; k < kMaxEffectParameters; ++k) effects[i].p[k] = T(model.effects[i].p[k]);
+  }
+  return Transmission<T>(lift<T>(model.nominal), std::move(effects));
+}
+
+std::vector<std::string> name_states(const Transmission<double>& transmission, const StateLayout& l) {
+  std::vector<std::string> names(l.size);
+  const auto put = [&](int index, const char* what, int k) {
+    if (index >= 0) names[index] = std::string(what).append("_").append(std::to_string(k + 1));
+  };
+  for (int k = 0; k < l.n_joints; ++k) {
+    put(l.motor_angle[k], "motor_angle", k);
+    put(l.motor_rate[k], "motor_rate", k);
+    put(l.position[k], "joint_position", k);
+    put(l.rate[k], "joint_rate", k);
+  }
+  int next = l.effect_states;
+  for (const auto& e : transmission.effects()) {
+    for (int i = 0; i < e.effect->n_states(); ++i) {
+      std::string& name = names[next++] = e.effect->name();
+      if (e.joint >= 0) name.append("_").append(std::to_string(e.joint + 1));
+      name.append("_state_").append(std::to_string(i + 1));
+    }
+  }
+  return names;
+}
+
+/// A step's inputs over the scalar T.
+template <class T>
+struct StepInputs {
+  T command[kMaxJoints], external[kMaxJoints];
+  StepInputs(const Step& step, int n) {
+    for (int k = 0; k < n; ++k) {
+      command[k] = step.motor_torque ? step.motor_torque[k] : 0.0;
+      external[k] = step.external_force ? step.external_force[k] : 0.0;
+    }
+  }
+};
+
+/// Calls body(x, first) for each pass of kDualWidth directions, x seeded in the states first, first + 1, ...
+template <class Body>
+void for_each_direction(int n, const double* x, Body body) {
+  for (int first = 0; first < n; first += kDualWidth) {
+    Dual seeded[kMaxStates];
+    for (int i = 0; i < n; ++i)
+      seeded[i] = i >= first && i < first + kDualWidth ? Dual::seed(x[i], i - first) : Dual(x[i]);
+    body(seeded, first);
+  }
+}
+
+}  // namespace
+
+ProcessModel::ProcessModel(const ArmModel& model)
+    : transmission_(lift_transmission<double>(model)),
+      dual_(lift_transmission<Dual>(model)),
+      lanes_(lift_transmission<Lanes>(model)),
+      layout_(state_layout(transmission_)) {
+  if (layout_.size > kMaxStates)
+    throw std::invalid_argument("arm with effects has " + std::to_string(layout_.size) + " states, more than " +
+                                std::to_string(kMaxStates) + ": place fewer effects with internal states");
+  state_names_ = name_states(transmission_, layout_);
+  for (const auto& e : transmission_.effects())
+    if (e.effect->stages() & static_cast<unsigned>(EffectStage::sensors)) readings_are_linear_ = false;
+  find_stiffest_rate(model);
+}
+
+void ProcessModel::find_stiffest_rate(const ArmModel& model) {
+  const Step at_rest;
+  for (const StandstillPose& pose : standstill_poses(transmission_, model)) {
+    Eigen::MatrixXd A;
+    const Eigen::VectorXd x_dot = derivative(at_rest, state_at_rest(pose.motor_angle, pose.joint_position), &A);
+    for (int i = 0; i < n_states(); ++i)
+      if (!std::isfinite(x_dot(i)) || !A.row(i).allFinite()) throw_not_finite(0, i);
+    const Eigen::EigenSolver<Eigen::MatrixXd> modes(A);
+    int k = 0;
+    const double rate = modes.eigenvalues().cwiseAbs().maxCoeff(&k);
+    if (rate <= stiffest_rate_) continue;
+    stiffest_rate_ = rate;
+    // Participation factors, right times left eigenvector, do not depend on the states' units.
+    const Eigen::MatrixXcd V = modes.eigenvectors();
+    const Eigen::VectorXcd left = V.transpose().fullPivLu().solve(Eigen::VectorXcd::Unit(n_states(), k));
+    V.col(k).cwiseProduct(left).cwiseAbs().maxCoeff(&stiffest_state_);
+  }
+}
+
+int ProcessModel::substeps(double dt_s) const {
+  constexpr double kLongStep = 1e-3;  // s
+  const double needed = std::max(1.0, std::ceil(dt_s * stiffest_rate_ / kStableStep));
+  const double allowed = std::floor(kMaxSubsteps * std::max(1.0, dt_s / kLongStep));
+  if (needed <= allowed) return static_cast<int>(needed);
+  std::ostringstream text;
+  text << "process model: a step of " << dt_s << " s would need " << needed << " sub-steps (at most " << allowed
+       << ") for " << stiffest_state() << ", which settles at " << stiffest_rate_
+       << " 1/s at standstill; take shorter steps, a larger smoothing speed of its friction, or less damping";
+  throw std::runtime_error(text.str());
+}
+
+void ProcessModel::throw_not_finite(double time_s, int state) const {
+  std::ostringstream text;
+  text << "process model: " << state_names_[state] << " is not finite at " << time_s
+       << " s; check the model's parameters and the log's torques there";
+  throw std::runtime_error(text.str());
+}
+
+void ProcessModel::advance(const Step& step, double* x) const {
+  const StepInputs<double> in(step, n_joints());
+  const int parts = substeps(step.dt_s);
+  const double h = step.dt_s / parts;
+  for (int i = 0; i < parts; ++i)
+    runge_kutta_4(transmission_, layout_, step.time_s + i * h, h, step.history, in.command, in.external, x);
+  for (int i = 0; i < n_states(); ++i)
+    if (!std::isfinite(x[i])) throw_not_finite(step.time_s + step.dt_s, i);
+}
+
+void ProcessModel::advance_many(const Step& step, Eigen::Ref<Eigen::MatrixXd> X, const LaneKernels& kernels) const {
+  const StepInputs<Lanes> in(step, n_joints());
+  const int parts = substeps(step.dt_s), n = n_states(), count = static_cast<int>(X.cols());
+  for (int first = 0; first < count; first += kLaneWidth) {
+    const int used = std::min(kLaneWidth, count - first);
+    Lanes x[kMaxStates];
+    for (int lane = 0; lane < kLaneWidth; ++lane) {
+      const double* column = X.col(first + std::min(lane, used - 1)).data();  // the last one fills unused lanes
+      for (int i = 0; i < n; ++i) x[i].set(lane, column[i]);
+    }
+    kernels.advance(lanes_, layout_, step.time_s, step.dt_s, parts, step.history, in.command, in.external, x);
+    for (int lane = 0; lane < used; ++lane)
+      for (int i = 0; i < n; ++i) {
+        if (!std::isfinite(x[i][lane])) throw_not_finite(step.time_s + step.dt_s, i);
+        X(i, first + lane) = x[i][lane];
+      }
+  }
+}
+
+void ProcessModel::advance_with_jacobian(const Step& step, double* x, Eigen::Ref<Eigen::MatrixXd> F,
+                                         const LaneKernels& kernels) const {
+  const StepInputs<Dual> in(step, n_joints());
+  const int parts = substeps(step.dt_s), n = n_states();
+  double next[kMaxStates];
+  for_each_direction(n, x, [&](Dual* at, int first) {
+    kernels.advance_dual(dual_, layout_, step.time_s, step.dt_s, parts, step.history, in.command, in.external, at);
+    for (int i = 0; i < n; ++i) {
+      next[i] = at[i].a;
+      for (int d = 0; d < kDualWidth && first + d < n; ++d) F(i, first + d) = at[i].d[d];
+    }
+  });
+  for (int i = 0; i < n; ++i) {
+    if (!std::isfinite(next[i]) || !F.row(i).allFinite()) throw_not_finite(step.time_s + step.dt_s, i);
+    x[i] = next[i];
+  }
+}
+
+Eigen::VectorXd ProcessModel::derivative(const Step& step, const Eigen::VectorXd& x, Eigen::MatrixXd* A) const {
+  const int n = n_states();
+  Eigen::VectorXd x_dot(n);
+  if (!A) {
+    const StepInputs<double> in(step, n_joints());
+    state_derivative(transmission_, layout_, step.time_s, step.history, in.command, in.external, x.data(),
+                     x_dot.data());
+    return x_dot;
+  }
+  const StepInputs<Dual> in(step, n_joints());
+  A->resize(n, n);
+  for_each_direction(n, x.data(), [&](const Dual* at, int first) {
+    Dual rate[kMaxStates];
+    lane_kernels()[0].derivative_dual(dual_, layout_, step.time_s, step.history, in.command, in.external, at, rate);
+    for (int i = 0; i < n; ++i) {
+      x_dot(i) = rate[i].a;
+      for (int d = 0; d < kDualWidth && first + d < n; ++d) (*A)(i, first + d) = rate[i].d[d];
+    }
+  });
+  return x_dot;
+}
+
+Eigen::VectorXd ProcessModel::motor_readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd* H) const {
+  const int n = n_states();
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(n_joints());
+  if (H) H->setZero(n_joints(), n);
+  for_each_direction(n, x.data(), [&](const Dual* at, int first) {
+    JointSignals<Dual> s[kMaxJoints];
+    unpack_state(dual_.arm(), layout_, at, s);
+    dual_.sensor_errors(time_s, at + layout_.effect_states, s);
+    for (int k = 0; k < n_joints(); ++k) {
+      if (arm().joint[k].drive == Drive::none) continue;
+      const Dual reading = s[k].motor_angle + s[k].motor_error;
+      z(k) = reading.a;
+      for (int d = 0; H && d < kDualWidth && first + d < n; ++d) (*H)(k, first + d) = reading.d[d];
+    }
+  });
+  return z;
+}
+
+Eigen::VectorXd ProcessModel::state_at_rest(const Eigen::VectorXd& motor_angle,
+                                            const Eigen::VectorXd& joint_position) const {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(n_states());
+  for (int k = 0; k < n_joints(); ++k) {
+    x(layout_.position[k]) = joint_position(k);
+    if (layout_.motor_angle[k] >= 0) x(layout_.motor_angle[k]) = motor_angle(k);
+  }
+  return x;
+}
+
+}  // namespace halyard

@@ -1,0 +1,98 @@
+#pragma once
+/// The arm in discrete time: x_k+1 = f(x_k), the differential equation of arm_dynamics.h over one step under a held
+/// command, and z = h(x), what the motor encoders read.
+///
+///   x       state, ordered as StateLayout says: q_m, q_m', q, q' joint by joint, then effects   [n_states]
+///   f       classical Runge-Kutta of fourth order in `substeps(dt)` equal parts
+///   F       ∂f/∂x of the whole step, exact to rounding                                          [n_states x n_states]
+///   z       reading of motor k: q_m + offset + sensor effects                                   [n]  rad
+///
+/// Friction near standstill is far stiffer than cables, and a step that is unstable in stick ruins a filter. So the
+/// sub-steps h hold h |λ| <= 2.2 (Runge-Kutta's limit is 2.6 in the direction where it is least) for the largest
+/// eigenvalue of ∂x'/∂x at standstill, unloaded and under the motors' full torque both ways, at home and at the ends
+/// of the joints' ranges.
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "estimators/process/arm_dynamics.h"
+#include "estimators/process/lane_kernels.h"
+#include "model/arm_model.h"
+
+namespace halyard {
+
+/// What acts on the arm over one step.
+struct Step {
+  double time_s = 0;                        ///< of its start
+  double dt_s = 0;                          ///< > 0
+  const double* motor_torque = nullptr;     ///< [n] commanded, held over the step, N m
+  const double* external_force = nullptr;   ///< [n] on the joints, N m | N; null: none
+  const CommandHistory* history = nullptr;  ///< for effects that answer late; null: none
+};
+
+class ProcessModel {
+ public:
+  /// What a sample may cost, at 1 kHz: more sub-steps than this in a step, or in each millisecond of a longer one, are
+  /// refused. The model is too stiff then; that a row of a log is missing makes it no stiffer.
+  static constexpr int kMaxSubsteps = 500;
+
+  /// Throws std::runtime_error if the model gives no finite derivative at standstill.
+  explicit ProcessModel(const ArmModel& model);
+
+  int n_joints() const { return layout_.n_joints; }
+  int n_states() const { return layout_.size; }
+  const StateLayout& layout() const { return layout_; }
+  const ArmParameters<double>& arm() const { return transmission_.arm(); }  ///< with the effects' changes
+  const Transmission<double>& transmission() const { return transmission_; }
+  const Transmission<Dual>& dual_transmission() const { return dual_; }
+  const Transmission<Lanes>& lane_transmission() const { return lanes_; }
+  /// "motor_rate_2", "joint_position_1", "hysteresis_3_state_1", ...
+  const std::string& state_name(int i) const { return state_names_[i]; }
+
+  /// Largest |λ| at standstill, 1/s.
+  double stiffest_rate() const { return stiffest_rate_; }
+  /// The state that takes most part in it.
+  const std::string& stiffest_state() const { return state_names_[stiffest_state_]; }
+  /// Throws std::runtime_error naming state and rate if more are needed than kMaxSubsteps allows.
+  int substeps(double dt_s) const;
+
+  /// All of these throw std::runtime_error with time and state name if a result is not finite.
+  /// x becomes f(x).
+  void advance(const Step& step, double* x) const;
+  /// Every column of X [n_states x count] becomes f(column), eight at a time.
+  void advance_many(const Step& step, Eigen::Ref<Eigen::MatrixXd> X) const { advance_many(step, X, lane_kernels()[0]); }
+  void advance_many(const Step& step, Eigen::Ref<Eigen::MatrixXd> X, const LaneKernels& kernels) const;
+  /// x becomes f(x), and F the Jacobian there.
+  void advance_with_jacobian(const Step& step, double* x, Eigen::Ref<Eigen::MatrixXd> F) const {
+    advance_with_jacobian(step, x, F, lane_kernels()[0]);
+  }
+  void advance_with_jacobian(const Step& step, double* x, Eigen::Ref<Eigen::MatrixXd> F,
+                             const LaneKernels& kernels) const;
+
+  /// x' at x, and its Jacobian A = ∂x'/∂x [n_states x n_states].
+  Eigen::VectorXd derivative(const Step& step, const Eigen::VectorXd& x, Eigen::MatrixXd* A = nullptr) const;
+
+  /// h(x) [n] and H = ∂h/∂x [n x n_states]; the row of a joint without motor is zero.
+  Eigen::VectorXd motor_readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd* H = nullptr) const;
+  /// Whether h is affine: no effect acts at the sensors.
+  bool readings_are_linear() const { return readings_are_linear_; }
+
+  /// The state at rest with these motor angles and joint positions [n], internal states zero.
+  Eigen::VectorXd state_at_rest(const Eigen::VectorXd& motor_angle, const Eigen::VectorXd& joint_position) const;
+
+ private:
+  void find_stiffest_rate(const ArmModel& model);
+  [[noreturn]] void throw_not_finite(double time_s, int state) const;
+
+  Transmission<double> transmission_;
+  Transmission<Dual> dual_;
+  Transmission<Lanes> lanes_;
+  StateLayout layout_;
+  std::vector<std::string> state_names_;
+  bool readings_are_linear_ = true;
+  double stiffest_rate_ = 0;
+  int stiffest_state_ = 0;
+};
+
+}  // namespace halyard

@@ -1,0 +1,99 @@
+#include "estimators/process/static_equilibrium.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "transmission/path_matrix.h"
+
+namespace halyard {
+namespace {
+
+/// F(q) at rest and K = -∂F/∂q.
+void rest_forces(const ProcessModel& process, double time_s, const Eigen::VectorXd& q_m,
+                 const Eigen::VectorXd& external, const Eigen::VectorXd& z, const Eigen::VectorXd& q,
+                 Eigen::VectorXd& F, Eigen::MatrixXd& K) {
+  const Transmission<Dual>& transmission = process.dual_transmission();
+  const int n = process.n_joints(), n_z = static_cast<int>(z.size());
+  for (int first = 0; first < n; first += kDualWidth) {
+    JointSignals<Dual> s[kMaxJoints];
+    Dual at[kMaxJoints], zero[kMaxJoints], gravity[kMaxJoints], states[kMaxStates], rates[kMaxStates];
+    for (int i = 0; i < n_z; ++i) states[i] = Dual(z(i));
+    for (int k = 0; k < n; ++k) {
+      at[k] = k >= first && k < first + kDualWidth ? Dual::seed(q(k), k - first) : Dual(q(k));
+      zero[k] = Dual(0.0);
+      s[k].motor_angle = q_m(k);
+      s[k].joint_position = at[k];
+      s[k].external_force = external(k);
+    }
+    transmission.evaluate(time_s, nullptr, states, s, rates);
+    inverse_dynamics(transmission.arm(), chain_pose(transmission.arm(), at), zero, zero, gravity);
+    for (int k = 0; k < n; ++k) {
+      const Dual force = s[k].joint_force - gravity[k];
+      F(k) = force.a;
+      for (int d = 0; d < kDualWidth && first + d < n; ++d) K(k, first + d) = -force.d[d];
+    }
+  }
+}
+
+Eigen::MatrixXd mass_matrix_at(const ArmParameters<double>& arm, const Eigen::VectorXd& q) {
+  double M[kMaxJoints][kMaxJoints];
+  mass_matrix(arm, chain_pose(arm, q.data()), M);
+  Eigen::MatrixXd out(arm.n, arm.n);
+  for (int r = 0; r < arm.n; ++r)
+    for (int c = 0; c < arm.n; ++c) out(r, c) = M[r][c];
+  return out;
+}
+
+}  // namespace
+
+Eigen::VectorXd static_equilibrium(const ProcessModel& process, double time_s, const Eigen::VectorXd& motor_angle,
+                                   const Eigen::VectorXd& external, const Eigen::VectorXd& z,
+                                   const Eigen::VectorXd& start) {
+  constexpr int kMaxIterations = 2000;
+  constexpr double kFirstStep = 1e-4;   // s²: 1 mm or 1 mrad at the acceleration of gravity
+  constexpr double kConverged = 1e-12;  // rad | m, far below any encoder
+  const ArmParameters<double>& arm = process.arm();
+  const int n = arm.n;
+
+  std::vector<int> rigid;
+  for (int k = 0; k < n; ++k)
+    if (arm.joint[k].drive == Drive::rigid) rigid.push_back(k);
+  const int n_r = static_cast<int>(rigid.size());
+  const Eigen::MatrixXd R = path_matrix(arm);
+
+  Eigen::VectorXd q = start, F(n), rest(n + n_r), held = Eigen::VectorXd::Zero(n);  // held: R_rᵀ λ
+  Eigen::MatrixXd K(n, n), A = Eigen::MatrixXd::Zero(n + n_r, n + n_r);
+  double first_acceleration = 0;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    rest_forces(process, time_s, motor_angle, external, z, q, F, K);
+    const Eigen::MatrixXd M = mass_matrix_at(arm, q);
+    const double acceleration = M.llt().solve(F + held).norm();
+    if (iteration == 0) first_acceleration = acceleration;
+    const double delta = acceleration > 0 ? kFirstStep * first_acceleration / acceleration : 1 / kConverged;
+    A.topLeftCorner(n, n) = K + M / delta;
+    rest.head(n) = F;
+    for (int r = 0; r < n_r; ++r) {
+      A.row(n + r).head(n) = R.row(rigid[r]);
+      A.col(n + r).head(n) = -R.row(rigid[r]).transpose();
+      rest(n + r) = arm.joint[rigid[r]].motor_travel() * motor_angle(rigid[r]) - R.row(rigid[r]).dot(q);
+    }
+    const Eigen::VectorXd change = A.fullPivLu().solve(rest);
+    if (!change.allFinite()) break;
+    q += change.head(n);
+    held.setZero();
+    for (int r = 0; r < n_r; ++r) held += R.row(rigid[r]).transpose() * change(n + r);
+    if (change.head(n).cwiseAbs().maxCoeff() < kConverged) return q;
+  }
+  int k = 0;
+  (F + held).cwiseAbs().maxCoeff(&k);
+  std::ostringstream text;
+  text << "static equilibrium: none found for the motor angles at " << time_s << " s: joint " << k + 1
+       << " is left with a force of " << F(k) + held(k)
+       << "; check its cable's stiffness and the motor encoder's offset";
+  throw std::runtime_error(text.str());
+}
+
+}  // namespace halyard

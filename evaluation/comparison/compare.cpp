@@ -1,0 +1,139 @@
+#include "evaluation/comparison/compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+
+#include "evaluation/run/sensor_readings.h"
+#include "model/input_error.h"
+
+namespace halyard {
+namespace {
+
+/// What counts: from skip_s after the first sample on.
+class Counted {
+ public:
+  Counted(const Log& truth, double skip_s) : first_(first_counted_sample(truth.time, skip_s)) {}
+  std::span<const double> operator()(const std::vector<double>& column) const {
+    return std::span(column).subspan(std::min(first_, column.size()));
+  }
+
+ private:
+  std::size_t first_;
+};
+
+std::vector<ErrorStatistics> joint_errors(const EstimatorRun& run, const Signals& compared, const Log& truth,
+                                          const Counted& counted) {
+  std::vector<ErrorStatistics> errors(truth.n_joints);
+  for (int k = 0; k < truth.n_joints; ++k)
+    if (truth.has_joint_position(k))
+      errors[k] =
+          error_statistics(counted(compared[k]), counted(truth.joint_position[k]), counted(run.joint_position_std[k]));
+  return errors;
+}
+
+Judgement judge(const EstimatorRun& run, const Signals& compared, const Log& measured, const Log& truth,
+                const Counted& counted) {
+  Judgement judgement;
+  judgement.nis = consistency(counted(run.nis));
+  for (int k = 0; k < truth.n_joints; ++k) {
+    std::vector<double> squares;
+    if (truth.has_joint_position(k))
+      squares = normalised_squares(counted(compared[k]), counted(truth.joint_position[k]),
+                                   counted(run.joint_position_std[k]));
+    judgement.nees.push_back(consistency(squares));
+    judgement.whiteness.push_back(whiteness(counted(run.innovation[k]), counted(measured.motor_torque[k])));
+  }
+  return judgement;
+}
+
+std::vector<double> errors_of(const Signals& compared, const Log& truth, int k, const Counted& counted) {
+  const auto estimate = counted(compared[k]), right = counted(truth.joint_position[k]);
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < estimate.size(); ++i) errors.push_back(estimate[i] - right[i]);
+  return errors;
+}
+
+}  // namespace
+
+int Comparison::baseline() const {
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].name == "kinematics") return static_cast<int>(i);
+  }
+  return -1;
+}
+
+double Comparison::improvement_of(std::size_t run, int k) const {
+  const int base = baseline();
+  if (base < 0) return std::numeric_limits<double>::quiet_NaN();
+  return improvement(errors[run][k], errors[base][k]);
+}
+
+Comparison compare_estimators(const ArmModel& model, const std::vector<std::string>& estimators, const Log& measured,
+                              const Log& truth, const CompareOptions& options) {
+  std::vector<Contestant> contestants;
+  for (const std::string& name : estimators) contestants.push_back({name, &model, name});
+  return compare_estimators(contestants, measured, truth, options);
+}
+
+Comparison compare_estimators(const std::vector<Contestant>& contestants, const Log& measured, const Log& truth,
+                              const CompareOptions& options) {
+  if (contestants.empty()) throw std::invalid_argument("compare_estimators: no estimator");
+  if (measured.time != truth.time) throw std::invalid_argument("compare_estimators: times of truth and log differ");
+  Comparison result;
+  result.skip_s = options.skip_s;
+  result.units = joint_units(*contestants.front().model);
+  result.truth = truth;
+  const Counted counted(truth, options.skip_s);
+
+  const auto attempt = [&](const std::string& name, const auto& action) {
+    try {
+      return action();
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::exception& error) {
+      if (!options.keep_going) throw;
+      EstimatorRun none = no_run(name, measured);
+      none.failure = error.what();
+      return none;
+    }
+  };
+  std::vector<EstimatorRun> tried;
+  for (const Contestant& c : contestants)
+    tried.push_back(attempt(c.name, [&] {
+      if (options.make_all_first) check_estimator(c.estimator, *c.model, options.containment);
+      return EstimatorRun{};
+    }));
+  for (std::size_t i = 0; i < contestants.size(); ++i) {
+    const Contestant& c = contestants[i];
+    EstimateOptions estimate{.use_joint_torque = options.use_joint_torque, .progress = {}};
+    if (options.progress) {
+      estimate.progress = [&](double fraction) {
+        options.progress((double(i) + fraction) / double(contestants.size()));
+      };
+    }
+    result.runs.push_back(!tried[i].failure.empty() ? tried[i] : attempt(c.name, [&] {
+      return run_contained(c.estimator, *c.model, measured, estimate, options.containment);
+    }));
+    EstimatorRun& run = result.runs.back();
+    run.name = c.name;
+    result.compared.push_back(options.truth_is_sensed ? sensor_readings(*c.model, run) : run.estimates.joint_position);
+    result.errors.push_back(joint_errors(run, result.compared.back(), truth, counted));
+    result.judgements.push_back(judge(run, result.compared.back(), measured, truth, counted));
+  }
+  const std::size_t n_runs = result.runs.size();
+  result.paired.assign(n_runs, {n_runs, std::vector<PairedRatio>(result.units.size())});
+  for (std::size_t a = 0; a < n_runs; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      for (int k = 0; k < result.n_joints(); ++k) {
+        if (!result.has_truth(k)) continue;
+        result.paired[a][b][k] = paired_ratio(errors_of(result.compared[a], truth, k, counted),
+                                              errors_of(result.compared[b], truth, k, counted));
+        result.paired[b][a][k] = result.paired[a][b][k].inverse();
+      }
+  return result;
+}
+
+}  // namespace halyard

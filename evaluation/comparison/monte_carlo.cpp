@@ -1,0 +1,165 @@
+#include "evaluation/comparison/monte_carlo.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "estimators/process/noise.h"
+#include "evaluation/comparison/compare.h"
+#include "model/input_error.h"
+#include "plant/simulate.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+/// Instants of a run that the mean NEES over all runs is taken at.
+constexpr std::size_t kInstants = 500;
+
+/// What one estimator made of one run.
+struct OneRun {
+  std::string failure;
+  std::vector<ErrorStatistics> errors;
+  Judgement judgement;
+  Signals nees;  ///< [joint][instant]
+};
+
+OneRun run_one(const ArmModel& model, const std::string& name, const SimulationResult& simulation, double skip_s) {
+  const Comparison c = compare_estimators(model, {name}, simulation.measured, simulation.truth,
+                                          {.skip_s = skip_s, .keep_going = true, .make_all_first = false});
+  OneRun one{c.runs[0].failure, c.errors[0], c.judgements[0], {}};
+  if (!one.failure.empty()) return one;
+  const std::size_t size = c.truth.size(), first = first_counted_sample(c.truth.time, skip_s);
+  const std::size_t step = std::max<std::size_t>(1, (size - first) / kInstants);
+  for (int k = 0; k < c.n_joints(); ++k) {
+    const std::vector<double> squares =
+        normalised_squares(c.compared[0][k], c.truth.joint_position[k], c.runs[0].joint_position_std[k]);
+    one.nees.emplace_back();
+    for (std::size_t i = first; i < size; i += step) one.nees.back().push_back(squares[i]);
+  }
+  return one;
+}
+
+ErrorStatistics together(const std::vector<const OneRun*>& runs, int k) {
+  ErrorStatistics all;
+  double square = 0, absolute = 0, bias = 0, within = 0;
+  all.peak = runs.empty() ? kNan : 0;
+  for (const OneRun* run : runs) {
+    const ErrorStatistics& e = run->errors[k];
+    all.samples += e.samples;
+    square += e.rms * e.rms, absolute += e.mean_absolute, bias += e.bias, within += e.within_two_std;
+    all.peak = std::max(all.peak, e.peak);
+  }
+  const double n = static_cast<double>(runs.size());
+  all.rms = std::sqrt(square / n);
+  all.mean_absolute = absolute / n;
+  all.bias = bias / n;
+  all.within_two_std = within / n;
+  return all;
+}
+
+double share_in_band(const std::vector<const OneRun*>& runs, int k) {
+  const auto [lower, upper] = chi_square_band(static_cast<double>(runs.size()));
+  double inside = 0, all = 0;
+  for (std::size_t i = 0; i < runs.front()->nees[k].size(); ++i) {
+    double sum = 0;
+    for (const OneRun* run : runs) sum += run->nees[k][i] / static_cast<double>(runs.size());
+    if (std::isnan(sum)) return kNan;
+    all += 1;
+    inside += sum >= lower && sum <= upper;
+  }
+  return inside / all;
+}
+
+RunsOfEstimator summed_up(const std::string& name, const std::vector<OneRun>& all, int n) {
+  RunsOfEstimator sum;
+  sum.name = name;
+  std::vector<const OneRun*> runs;
+  for (const OneRun& run : all) {
+    if (run.failure.empty()) {
+      runs.push_back(&run);
+      continue;
+    }
+    if (sum.failures++ == 0) sum.first_failure = run.failure;
+  }
+  std::vector<Consistency> nis;
+  for (const OneRun* run : runs) nis.push_back(run->judgement.nis);
+  sum.nis = consistency_of_runs(nis);
+  for (int k = 0; k < n; ++k) {
+    std::vector<Consistency> nees;
+    std::vector<double> rms;
+    for (const OneRun* run : runs) nees.push_back(run->judgement.nees[k]), rms.push_back(run->errors[k].rms);
+    sum.nees.push_back(consistency_of_runs(nees));
+    sum.errors.push_back(together(runs, k));
+    std::ranges::sort(rms);
+    const auto at = [&](double share) { return rms.empty() ? kNan : rms[std::lround(share * double(rms.size() - 1))]; };
+    sum.rms_lower.push_back(at(0.025));
+    sum.rms_upper.push_back(at(0.975));
+    sum.in_band.push_back(runs.empty() ? kNan : share_in_band(runs, k));
+  }
+  return sum;
+}
+
+/// Runs that both ended count.
+PairedRatio paired(const std::vector<OneRun>& a, const std::vector<OneRun>& b, int k) {
+  std::vector<std::pair<double, double>> squares;
+  for (std::size_t r = 0; r < a.size(); ++r)
+    if (a[r].failure.empty() && b[r].failure.empty())
+      squares.push_back({std::pow(a[r].errors[k].rms, 2), std::pow(b[r].errors[k].rms, 2)});
+  return paired_ratio_of_runs(squares);
+}
+
+}  // namespace
+
+TickNoise assumed_noise(const ArmModel& model, double tick_s) {
+  const ProcessModel process(model);
+  const EstimatorOptions none;
+  OptionReader options("the noise rule", none);
+  const NoiseLevels levels = read_noise(options, model, process);
+  const double held = std::sqrt(2 * levels.correlation_time / tick_s);
+  TickNoise noise;
+  for (int k = 0; k < model.n(); ++k) {
+    noise.motor_torque.push_back(held * levels.torque(k));
+    noise.joint_force.push_back(held * levels.joint_force(k));
+    noise.motor_reading.push_back(levels.encoder(k));
+  }
+  return noise;
+}
+
+MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, const std::vector<std::string>& estimators,
+                           const MonteCarloOptions& options) {
+  // A wrong name must not cost the runs' time. One that crashes as it is made fails run by run.
+  for (const std::string& name : estimators) {
+    try {
+      check_estimator(name, model);
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::runtime_error&) {}
+  }
+  std::vector<std::vector<OneRun>> all(estimators.size(), std::vector<OneRun>(options.runs));
+  tbb::parallel_for(0, options.runs, [&](int r) {
+    Scenario of_run = scenario;
+    of_run.seed = scenario.seed + static_cast<std::uint64_t>(r);
+    const SimulationResult simulation = simulate(of_run);
+    for (std::size_t e = 0; e < estimators.size(); ++e)
+      all[e][r] = run_one(model, estimators[e], simulation, options.skip_s);
+    if (options.run_done) options.run_done(1);
+  });
+
+  MonteCarlo result;
+  result.runs = options.runs;
+  const auto base = std::ranges::find(estimators, "kinematics") - estimators.begin();
+  for (std::size_t e = 0; e < estimators.size(); ++e) {
+    result.estimators.push_back(summed_up(estimators[e], all[e], model.n()));
+    for (int k = 0; k < model.n(); ++k) {
+      const bool has_base = base < std::ssize(estimators) && base != static_cast<std::ptrdiff_t>(e);
+      result.estimators.back().against_kinematics.push_back(has_base ? paired(all[e], all[base], k)
+                                                                     : PairedRatio{kNan, kNan, kNan, 0});
+    }
+  }
+  return result;
+}
+
+}  // namespace halyard

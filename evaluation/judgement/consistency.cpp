@@ -1,0 +1,103 @@
+#include "evaluation/judgement/consistency.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <limits>
+
+namespace halyard {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr int kLags = 20;
+
+Consistency banded(double mean, double samples) {
+  const auto [lower, upper] = chi_square_band(samples);
+  return {mean, lower, upper, samples};
+}
+
+}  // namespace
+
+Trust Consistency::trust() const {
+  if (std::isnan(mean)) return Trust::none;
+  return mean > upper ? Trust::too_much : mean < lower ? Trust::too_little : Trust::right;
+}
+
+Consistency consistency(std::span<const double> squares) {
+  double sum = 0, count = 0;
+  for (const double s : squares)
+    if (!std::isnan(s)) sum += s, count += 1;
+  if (count == 0) return {kNan, kNan, kNan, 0};
+  return banded(sum / count, effective_samples(squares));
+}
+
+Consistency consistency_of_runs(std::span<const Consistency> runs) {
+  double sum = 0, count = 0, samples = 0;
+  for (const Consistency& run : runs)
+    if (!std::isnan(run.mean)) sum += run.mean, count += 1, samples += run.samples;
+  if (count == 0) return {kNan, kNan, kNan, 0};
+  return banded(sum / count, samples);
+}
+
+bool Whiteness::is_white() const { return std::abs(correlation) <= chance && std::abs(with_torque) <= chance; }
+
+Whiteness whiteness(std::span<const double> innovation, std::span<const double> torque) {
+  Whiteness w;
+  double square = 0, count = 0;
+  for (const double v : innovation)
+    if (!std::isnan(v)) square += v * v, count += 1;
+  if (count < 2 * kLags) return {kNan, kNan, kNan};
+  const auto correlation = [&](std::span<const double> with, std::size_t lag, bool centred) {
+    double mean = 0, n = 0;
+    for (std::size_t i = lag; centred && i < innovation.size(); ++i)
+      if (!std::isnan(innovation[i]) && !std::isnan(with[i - lag])) mean += with[i - lag], n += 1;
+    mean = n > 0 ? mean / n : 0;
+    double own = 0, other = 0, both = 0;
+    for (std::size_t i = lag; i < innovation.size(); ++i) {
+      const double a = innovation[i], b = with[i - lag] - mean;
+      if (!std::isnan(a) && !std::isnan(b)) own += a * a, other += b * b, both += a * b;
+    }
+    return own > 0 && other > 0 ? both / std::sqrt(own * other) : 0;
+  };
+  w.correlation = correlation(innovation, 1, false);
+  for (std::size_t lag = 1; lag <= kLags && torque.size() == innovation.size(); ++lag) {
+    const double c = correlation(torque, lag, true);
+    if (std::abs(c) > std::abs(w.with_torque)) w.with_torque = c;
+  }
+  w.chance = boost::math::quantile(boost::math::normal(), 1 - 0.025 / (2 * kLags)) / std::sqrt(count);
+  return w;
+}
+
+std::vector<double> normalised_squares(std::span<const double> estimate, std::span<const double> truth,
+                                       std::span<const double> std_deviation) {
+  std::vector<double> squares;
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    const double z = std_deviation[i] > 0 ? (estimate[i] - truth[i]) / std_deviation[i] : kNan;
+    squares.push_back(z * z);
+  }
+  return squares;
+}
+
+std::string in_words(const Consistency& c) {
+  const std::string off = fmt::format("errors are {:.2g} times what it says", std::sqrt(c.mean));
+  switch (c.trust()) {
+    case Trust::none: break;
+    case Trust::right: return "consistent";
+    case Trust::too_much: return "too sure: " + off;
+    case Trust::too_little: return "too cautious: " + off;
+  }
+  return "says nothing of its errors";
+}
+
+std::string in_words(const Whiteness& w) {
+  if (std::isnan(w.correlation)) return "-";
+  if (w.is_white()) return "white";
+  const bool neighbours = std::abs(w.correlation) > w.chance;
+  return fmt::format("{}{}{}", neighbours ? fmt::format("neighbours correlate, {:.2f}", w.correlation) : "",
+                     neighbours && std::abs(w.with_torque) > w.chance ? "; " : "",
+                     std::abs(w.with_torque) > w.chance ? fmt::format("with the torque, {:.2f}", w.with_torque) : "");
+}
+
+}  // namespace halyard

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evaluation/run/estimate.h"
+#include "model/arm_model.h"
+
+namespace halyard {
+
+struct ContainmentOptions {
+  double step_limit_s = 10;  ///< a step, the making, or a promise put to the test that takes longer is the end
+};
+
+/// Makes the estimator and runs it over the log as run_estimator does, in a child process: a module that crashes, or
+/// never returns, ends its run and nothing else.
+/// Throws InputError where the estimator cannot be made (name, module, options) or the log cannot be run over,
+/// std::runtime_error, naming estimator, log and time, where the run fails, crashes, or exceeds the limit.
+EstimatorRun run_contained(const std::string& name, const ArmModel& model, const Log& log,
+                           const EstimateOptions& options = {}, const ContainmentOptions& containment = {});
+
+/// Makes the estimator in a child process and lets go of it: throws as run_contained does where it cannot be made.
+void check_estimator(const std::string& name, const ArmModel& model, const ContainmentOptions& containment = {});
+
+/// Puts the estimator to the tests of plugins/host/conformance.h in a child process; those of a Kalman filter too, if asked.
+/// Returns a line for each promise that it breaks; a crash, or a promise that takes longer than the limit, is the last.
+/// Throws as run_contained does where it cannot be made.
+std::vector<std::string> contained_faults(const std::string& name, const ArmModel& model, bool kalman,
+                                          const ContainmentOptions& containment = {});
+
+}  // namespace halyard

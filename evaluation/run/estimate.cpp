@@ -1,0 +1,190 @@
+#include "evaluation/run/estimate.h"
+
+#include <fmt/core.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "evaluation/csv.h"
+#include "model/input_error.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// The log's rows as samples.
+class Samples {
+ public:
+  Samples(const Log& log, bool use_joint_torque) : log_(log) {
+    const auto present = [](const std::vector<double>& column) { return !column.empty(); };
+    if (use_joint_torque && std::ranges::any_of(log.joint_torque, present)) {
+      sample_.joint_torque = Eigen::VectorXd::Zero(log.n_joints);
+    }
+    sample_.motor_torque = Eigen::VectorXd::Zero(log.n_joints);
+    sample_.motor_position = Eigen::VectorXd::Zero(log.n_joints);
+  }
+
+  /// Missing torques and positions stay NaN, a missing load keeps its last value.
+  const Sample& at(std::size_t i) {
+    sample_.time_s = log_.time[i];
+    for (int k = 0; k < log_.n_joints; ++k) {
+      sample_.motor_torque[k] = log_.motor_torque[k].empty() ? kNan : log_.motor_torque[k][i];
+      sample_.motor_position[k] = log_.motor_position[k].empty() ? 0 : log_.motor_position[k][i];  // no motor
+      if (sample_.joint_torque.size() == 0 || log_.joint_torque[k].empty()) continue;
+      if (!std::isnan(log_.joint_torque[k][i])) sample_.joint_torque[k] = log_.joint_torque[k][i];
+    }
+    sample_.marker.resize(0);
+    if (!log_.has_marker()) return sample_;
+    const Eigen::Vector3d marker(log_.marker[0][i], log_.marker[1][i], log_.marker[2][i]);
+    if (marker.allFinite()) sample_.marker = marker;
+    return sample_;
+  }
+
+  /// As at(), with a missing torque taken as none: there is no earlier one.
+  Sample first(std::size_t i) {
+    Sample sample = at(i);
+    sample.motor_torque = sample.motor_torque.unaryExpr([](double v) { return std::isnan(v) ? 0.0 : v; });
+    return sample;
+  }
+
+ private:
+  const Log& log_;
+  Sample sample_;
+};
+
+std::size_t first_complete_row(const Log& log) {
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    const auto misses = [i](const auto& column) { return !column.empty() && std::isnan(column[i]); };
+    if (std::ranges::none_of(log.motor_position, misses)) return i;
+  }
+  throw InputError(
+      log.source +
+      ": no row has the motor position of every joint; give a log with at least one such row to start from");
+}
+
+void record(EstimatorRun& run, const Estimate& estimate, std::size_t i) {
+  if (!estimate.joint_position.allFinite() || !estimate.joint_velocity.allFinite() ||
+      !estimate.joint_position_std.allFinite()) {
+    throw std::runtime_error("the estimate is not finite");
+  }
+  for (int k = 0; k < run.estimates.n_joints; ++k) {
+    run.estimates.joint_position[k][i] = estimate.joint_position[k];
+    run.estimates.joint_velocity[k][i] = estimate.joint_velocity[k];
+    run.joint_position_std[k][i] = estimate.joint_position_std[k];
+    for (std::size_t f = 0; f < run.further.size(); ++f)
+      run.further[f][k][i] = estimate.further(k, static_cast<Eigen::Index>(f));
+  }
+}
+
+/// What the estimator has to say of samples first..last after all.
+void record_revisions(EstimatorRun& run, Estimator& estimator, std::size_t first, std::size_t last, bool at_end) {
+  const auto begin = run.estimates.time.begin();
+  while (const std::optional<Revision> revision = estimator.revise(at_end)) {
+    const auto found = std::lower_bound(begin + first, begin + last + 1, revision->time_s);
+    if (found == begin + last + 1 || *found != revision->time_s)
+      throw std::runtime_error(fmt::format("revises its estimate of {:.12g} s, where no sample is", revision->time_s));
+    record(run, revision->estimate, static_cast<std::size_t>(found - begin));
+  }
+}
+
+void record(EstimatorRun& run, const Innovation& innovation, const Log& log, std::size_t i) {
+  const Eigen::VectorXd white = innovation.S_root.triangularView<Eigen::Lower>().solve(innovation.nu);
+  run.nis[i] = innovation.nis() / double(innovation.nu.size());
+  // Its entries belong to the motors that were read, in their order.
+  Eigen::Index entry = 0;
+  for (int k = 0; k < log.n_joints && entry < white.size(); ++k)
+    if (!log.motor_position[k].empty() && !std::isnan(log.motor_position[k][i])) run.innovation[k][i] = white(entry++);
+}
+
+}  // namespace
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0, count = 0;
+  for (const double v : values)
+    if (!std::isnan(v)) sum += v, count += 1;
+  return count > 0 ? sum / count : kNan;
+}
+
+EstimatorRun no_run(const std::string& name, const Log& log) {
+  EstimatorRun run;
+  run.name = name;
+  run.estimates = Log(log.n_joints);
+  run.estimates.time = log.time;
+  run.estimates.clock_start = log.clock_start;
+  run.estimates.source = log.source;
+  const std::vector<double> unknown(log.size(), kNan);
+  run.estimates.joint_position.assign(log.n_joints, unknown);
+  run.estimates.joint_velocity.assign(log.n_joints, unknown);
+  run.joint_position_std.assign(log.n_joints, unknown);
+  run.nis = unknown;
+  run.innovation.assign(log.n_joints, unknown);
+  run.microseconds_per_step = kNan;
+  return run;
+}
+
+EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const Log& log,
+                           const EstimateOptions& options) {
+  const std::size_t start = first_complete_row(log);
+  EstimatorRun run = no_run(name, log);
+  run.further_names = estimator.further_names();
+  run.further.assign(run.further_names.size(), Signals(log.n_joints, std::vector<double>(log.size(), kNan)));
+  Samples samples(log, options.use_joint_torque);
+  const std::size_t report_every = std::max<std::size_t>(1, log.size() / 100);
+  const auto begin = std::chrono::steady_clock::now();
+  std::size_t i = start;
+  try {
+    estimator.reset(samples.first(start));
+    record(run, estimator.estimate(), start);
+    record_revisions(run, estimator, start, start, false);
+    if (options.row_done) options.row_done(start);
+    for (i = start + 1; i < log.size(); ++i) {
+      const Innovation innovation = estimator.update(samples.at(i));
+      record(run, estimator.estimate(), i);
+      record_revisions(run, estimator, start, i, false);
+      // An estimator without a covariance has no innovation to judge.
+      if (innovation.nu.size() > 0 && innovation.S_root.size() > 0) record(run, innovation, log, i);
+      if (options.row_done) options.row_done(i);
+      if (options.progress && i % report_every == 0) options.progress(double(i) / double(log.size()));
+    }
+    record_revisions(run, estimator, start, log.size() - 1, true);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("estimator {} on {} at {:.12g} s: {}", name, log.source,
+                                         log.time[std::min(i, log.size() - 1)], error.what()));
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  run.microseconds_per_step = 1e6 * seconds / double(log.size() - start);
+  run.report = estimator.report();
+  return run;
+}
+
+void write_estimates(const std::filesystem::path& path, const EstimatorRun& run, const std::string& comment) {
+  const int n = run.estimates.n_joints;
+  std::vector<std::string> names = {"joint_position", "joint_velocity", "joint_position_std"};
+  std::vector<const Signals*> signals = {&run.estimates.joint_position, &run.estimates.joint_velocity,
+                                         &run.joint_position_std};
+  for (std::size_t f = 0; f < run.further.size(); ++f) {
+    names.push_back(run.further_names[f]);
+    signals.push_back(&run.further[f]);
+  }
+  std::vector<std::string> header = {"time"};
+  for (const std::string& name : names) {
+    for (int k = 0; k < n; ++k) header.push_back(fmt::format("{}_{}", name, k + 1));
+  }
+  CsvTable table(header, comment);
+  for (std::size_t i = 0; i < run.estimates.size(); ++i) {
+    table.add_time(run.estimates.clock_start + run.estimates.time[i]);
+    for (const Signals* signal : signals) {
+      for (const auto& column : *signal) table.add(column[i]);
+    }
+  }
+  table.write(path);
+}
+
+}  // namespace halyard

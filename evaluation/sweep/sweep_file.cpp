@@ -1,0 +1,197 @@
+#include "evaluation/sweep/sweep_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/uuid/name_generator_sha1.hpp>
+#include <boost/uuid/uuid_io.hpp>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <sstream>
+
+#include "evaluation/estimator_list.h"
+#include "evaluation/sweep/sweep_parameter.h"
+#include "model/input_error.h"
+#include "model/model_file.h"
+#include "model/xml_reader.h"
+
+namespace halyard {
+namespace {
+
+namespace fs = std::filesystem;
+using Target = SweepAxis::Target;
+
+constexpr std::int64_t kMaxSteps = 100'000;
+constexpr double kMaxPoints = 1e6;
+
+std::vector<double> read_values(const XmlElement& axis, bool is_logarithmic) {
+  const bool has_range = axis.has("from") || axis.has("to") || axis.has("steps");
+  if (axis.has("values") == has_range) {
+    axis.fail("expected either values=\"1 2 3\", or from, to and steps; give one of them");
+  }
+  if (axis.has("values")) return axis.numbers("values", "");
+  const double from = axis.number("from", "", is_logarithmic ? Sign::positive : Sign::any);
+  const double to = axis.number("to", "", is_logarithmic ? Sign::positive : Sign::any);
+  const std::int64_t steps = axis.integer("steps", 2, kMaxSteps);
+  std::vector<double> values;
+  for (std::int64_t i = 0; i < steps; ++i) {
+    const double share = double(i) / double(steps - 1);
+    // Both ends exactly as written.
+    if (i == 0 || i == steps - 1) {
+      values.push_back(i == 0 ? from : to);
+    } else {
+      values.push_back(is_logarithmic ? from * std::pow(to / from, share) : from + share * (to - from));
+    }
+  }
+  return values;
+}
+
+/// Whether an earlier axis varies the number at the same place.
+bool is_taken(const SweepGrid& grid, const SweepAxis& axis, const std::string& key) {
+  return std::ranges::any_of(grid.axes, [&](const SweepAxis& earlier) {
+    const bool same_place =
+        earlier.applies_to == axis.applies_to || earlier.applies_to == Target::both || axis.applies_to == Target::both;
+    return same_place && std::ranges::find(earlier.parameters, key) != earlier.parameters.end();
+  });
+}
+
+SweepAxis read_axis(const XmlElement& element, const Sweep& sweep) {
+  element.only({"parameter", "values", "from", "to", "steps", "scale", "factor", "applies_to"});
+  SweepAxis axis;
+  std::istringstream keys(element.text("parameter"));
+  axis.parameters.assign(std::istream_iterator<std::string>(keys), {});
+  axis.applies_to = element.choice_or<Target>(
+      "applies_to", Target::both, {{"robot", Target::robot}, {"model", Target::model}, {"both", Target::both}});
+  axis.is_factor = element.flag_or("factor", false);
+  axis.is_logarithmic = element.choice_or<bool>("scale", false, {{"linear", false}, {"log", true}});
+  axis.values = read_values(element, axis.is_logarithmic);
+  for (const std::string& key : axis.parameters) {
+    if (std::ranges::count(axis.parameters, key) > 1 || is_taken(sweep.grid, axis, key)) {
+      element.fail("parameter", in_quotes(key) + " is varied twice; vary each number once");
+    }
+    try {
+      for (const ArmModel* model : {&sweep.scenario.robot, &sweep.model}) {
+        const std::string unit = parameter_unit(*model, key);
+        if (axis.is_factor) continue;
+        if (key != axis.parameters.front() && unit != axis.unit) {
+          throw InputError(
+              fmt::format("parameter {}: is in {}, and the first one in {}; give them axes of their own, or "
+                          "factor=\"true\"",
+                          in_quotes(key), unit, axis.unit));
+        }
+        axis.unit = unit;
+      }
+    } catch (const InputError& error) {
+      element.fail("parameter", error.what());
+    }
+  }
+  return axis;
+}
+
+/// The model with a point's values in place, for the axes that apply to it.
+ArmModel with_values(const ArmModel& model, const SweepGrid& grid, std::size_t point, Target target) {
+  ArmModel changed = model;
+  const std::vector<double> values = grid.values(point);
+  for (std::size_t i = 0; i < grid.axes.size(); ++i) {
+    const SweepAxis& axis = grid.axes[i];
+    if (axis.applies_to != target && axis.applies_to != Target::both) continue;
+    for (const std::string& key : axis.parameters) {
+      double& number = model_parameter(changed, key);
+      number = axis.is_factor ? number * values[i] : values[i];
+    }
+  }
+  return changed;
+}
+
+/// A model file's own checks, for every point.
+void check_points(const Sweep& sweep, const std::string& source) {
+  for (std::size_t point = 0; point < sweep.grid.size(); ++point) {
+    const std::string where = source + ", at " + sweep.grid.description(point);
+    parse_model(model_to_xml(sweep.scenario_at(point).robot), where + ", robot");
+    parse_model(model_to_xml(sweep.model_at(point)), where + ", model");
+  }
+}
+
+std::string file_text(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Everything that results depend on; samples of trajectories too, which may stand in files of their own.
+std::string definition_id(const Sweep& sweep, const fs::path& sweep_file, const fs::path& scenario_file) {
+  std::string text =
+      file_text(sweep_file) + file_text(scenario_file) + model_to_xml(sweep.scenario.robot) + model_to_xml(sweep.model);
+  for (const JointTrajectory& trajectory : sweep.scenario.trajectory) {
+    for (std::size_t i = 0; i < trajectory.sample_time.size(); ++i) {
+      text += exact_text(trajectory.sample_time[i]) + " " + exact_text(trajectory.sample_position[i]) + "\n";
+    }
+  }
+  const boost::uuids::name_generator_sha1 generate(boost::uuids::ns::oid());
+  return boost::uuids::to_string(generate(text));
+}
+
+std::vector<std::string> read_estimators(const XmlElement& element, const fs::path& folder) {
+  std::vector<std::string> names;
+  try {
+    names = split_estimators(element.text("estimators"));
+  } catch (const InputError& error) {
+    element.fail("estimators", error.what());
+  }
+  for (std::string& name : names) {
+    const bool is_path = name.find('/') != name.npos || name.ends_with(".so");
+    // "./" keeps a bare file name a path.
+    if (is_path && fs::path(name).is_relative()) name = ((folder.empty() ? fs::path(".") : folder) / name).string();
+  }
+  return names;
+}
+
+}  // namespace
+
+Scenario Sweep::scenario_at(std::size_t point) const {
+  Scenario changed = scenario;
+  changed.robot = with_values(scenario.robot, grid, point, Target::robot);
+  return changed;
+}
+
+ArmModel Sweep::model_at(std::size_t point) const { return with_values(model, grid, point, Target::model); }
+
+Sweep read_sweep(const fs::path& path) {
+  const XmlElement element = XmlElement::read_file(path, "sweep");
+  element.only({"name", "scenario", "model", "estimators", "seed", "duration", "skip"}, {"axis"});
+  const fs::path folder = path.parent_path();
+  const fs::path scenario_file = element.path("scenario");
+  Sweep sweep;
+  sweep.scenario = read_scenario(scenario_file);
+  sweep.scenario.seed = static_cast<std::uint64_t>(element.integer_or(
+      "seed", static_cast<std::int64_t>(sweep.scenario.seed), 0, std::numeric_limits<std::int64_t>::max()));
+  sweep.scenario.duration_s = element.number_or("duration", sweep.scenario.duration_s, "s", Sign::positive);
+  const fs::path model_file = element.has("model") ? element.path("model") : sweep.scenario.model;
+  sweep.model = read_model(model_file);
+  if (!joints_alike(sweep.model.nominal, sweep.scenario.robot.nominal))
+    element.fail("model",
+                 "its joints are not those of the scenario's robot; give a model with as many joints, of the "
+                 "same types and driven alike");
+
+  SweepGrid& grid = sweep.grid;
+  grid.name = element.text("name");
+  grid.scenario = scenario_file.filename().string();
+  grid.model = model_file.filename().string();
+  grid.skip_s = element.number_or("skip", 0.5, "s", Sign::non_negative);
+  grid.units = joint_units(sweep.model);
+  grid.estimators = read_estimators(element, folder);
+  double points = 1;
+  for (const XmlElement& axis : element.children("axis")) {
+    grid.axes.push_back(read_axis(axis, sweep));
+    points *= double(grid.axes.back().values.size());
+  }
+  if (grid.axes.empty()) element.fail("element <axis> is missing; give one or more");
+  if (points > kMaxPoints)
+    element.fail(fmt::format("{:g} points; expected at most {:g}; take fewer values", points, kMaxPoints));
+  check_points(sweep, path.string());
+  grid.id = definition_id(sweep, path, scenario_file);
+  return sweep;
+}
+
+}  // namespace halyard

@@ -1,0 +1,45 @@
+#include "evaluation/sweep/sweep_grid.h"
+
+#include <fmt/core.h>
+
+namespace halyard {
+
+std::string SweepAxis::label() const {
+  std::string text = parameters.at(0);
+  if (parameters.size() > 1) text += fmt::format(" and {} more", parameters.size() - 1);
+  return is_factor ? text + " (factor)" : text;
+}
+
+std::size_t SweepGrid::size() const {
+  std::size_t product = 1;
+  for (const SweepAxis& axis : axes) product *= axis.values.size();
+  return product;
+}
+
+std::vector<std::size_t> SweepGrid::places(std::size_t point) const {
+  std::vector<std::size_t> result(axes.size());
+  for (std::size_t i = axes.size(); i-- > 0;) {
+    result[i] = point % axes[i].values.size();
+    point /= axes[i].values.size();
+  }
+  return result;
+}
+
+std::vector<double> SweepGrid::values(std::size_t point) const {
+  const std::vector<std::size_t> place = places(point);
+  std::vector<double> result(axes.size());
+  for (std::size_t i = 0; i < axes.size(); ++i) result[i] = axes[i].values[place[i]];
+  return result;
+}
+
+std::string SweepGrid::description(std::size_t point, std::size_t first_axis) const {
+  const std::vector<double> value = values(point);
+  std::string text;
+  for (std::size_t i = first_axis; i < axes.size(); ++i) {
+    text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", axes[i].label(), value[i]);
+    if (!axes[i].unit.empty()) text += " " + axes[i].unit;
+  }
+  return text;
+}
+
+}  // namespace halyard

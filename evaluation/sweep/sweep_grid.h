@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "evaluation/joint_unit.h"
+
+namespace halyard {
+
+/// One direction of a grid: numbers of the model that take the same value, or the same factor, together.
+struct SweepAxis {
+  enum class Target { robot, model, both };
+
+  std::vector<std::string> parameters;  ///< keys, see sweep_parameter.h
+  Target applies_to = Target::both;     ///< the plant's truth, what the estimators believe, or both
+  bool is_factor = false;               ///< values multiply the number of the file instead of replacing it
+  bool is_logarithmic = false;          ///< how curves are drawn
+  std::string unit;                     ///< of the values; empty for factors and pure numbers
+  std::vector<double> values;
+
+  /// "joint1.cable.stiffness", "joint1.cable.tension and 2 more (factor)"
+  std::string label() const;
+};
+
+/// What a sweep computes: for every point of the grid the error of every estimator at every joint. All that merging and
+/// reporting need; it is stored beside the results.
+struct SweepGrid {
+  std::string name;
+  std::string id;               ///< equal for equal definitions: what results may be put together
+  std::string scenario, model;  ///< names of the files, without folders
+  double skip_s = 0.5;
+  std::vector<SweepAxis> axes;
+  std::vector<std::string> estimators;
+  std::vector<JointUnit> units;  ///< [n_joints]
+
+  /// Product of the axes' lengths.
+  std::size_t size() const;
+  /// Place of a point's value on every axis; the last axis varies fastest.
+  std::vector<std::size_t> places(std::size_t point) const;
+  /// The point's value on every axis.
+  std::vector<double> values(std::size_t point) const;
+  /// "joint1.cable.stiffness = 720000 N/m, ..." of the axes from first_axis on.
+  std::string description(std::size_t point, std::size_t first_axis = 0) const;
+};
+
+}  // namespace halyard

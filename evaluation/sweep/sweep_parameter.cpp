@@ -1,0 +1,107 @@
+#include "evaluation/sweep/sweep_parameter.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+#include "model/input_error.h"
+
+namespace halyard {
+namespace {
+
+struct EffectKey {
+  int joint;  ///< 0-based; -1: the arm
+  std::string effect, parameter;
+};
+
+/// "joint2.effect.backlash.half_gap" taken apart; nothing if the key has not this form.
+std::optional<EffectKey> parse_effect_key(std::string_view key) {
+  const auto next_part = [&key] {
+    const std::string_view part = key.substr(0, key.find('.'));
+    key.remove_prefix(std::min(key.size(), part.size() + 1));
+    return part;
+  };
+  const std::string_view place = next_part();
+  if (next_part() != "effect") return std::nullopt;
+  EffectKey parsed{-1, std::string(next_part()), std::string(key)};
+  if (place == "arm") return parsed;
+  if (!place.starts_with("joint")) return std::nullopt;
+  const char* end = place.data() + place.size();
+  const auto [rest, error] = std::from_chars(place.data() + 5, end, parsed.joint);
+  if (error != std::errc() || rest != end) return std::nullopt;
+  --parsed.joint;
+  return parsed;
+}
+
+/// The model's effect, or a new one. Placed for one of its sizes it has no other; for a shape it has typical sizes.
+PlacedEffect& placed_effect(ArmModel& model, const Effect& effect, int joint, const std::string& parameter) {
+  for (PlacedEffect& placed : model.effects) {
+    if (placed.effect == &effect && placed.joint == joint) return placed;
+  }
+  PlacedEffect placed = place_effect(effect, model.nominal, joint);
+  for (const EffectParameter& p : effect.parameters(model.nominal, joint))
+    if (p.name == parameter && !p.is_shape()) placed = place_neutral_effect(effect, model.nominal, joint);
+  model.effects.push_back(placed);
+  return model.effects.back();
+}
+
+/// Number and unit of an effect's parameter.
+std::pair<double*, std::string> effect_parameter(ArmModel& model, const EffectKey& key, const std::string& text) {
+  const auto fail = [&](const std::string& what) { throw InputError("parameter " + in_quotes(text) + ": " + what); };
+  const Effect* effect = find_effect(key.effect);
+  if (!effect) {
+    std::vector<std::string> names;
+    for (const Effect* known : effect_library()) names.push_back(known->name());
+    fail(fmt::format("unknown effect; expected one of {}, or one of a module given by --effects",
+                     fmt::join(names, ", ")));
+  }
+  const EffectScope scope = effect->scope();
+  if ((key.joint < 0 ? scope == EffectScope::joint : scope == EffectScope::arm) || key.joint >= model.n()) {
+    fail(scope == EffectScope::arm
+             ? fmt::format("the effect is of the whole arm; write arm.effect.{}.{}", key.effect, key.parameter)
+             : fmt::format("the effect is of a joint; write jointK.effect.{}.{} with K from 1 to {}", key.effect,
+                           key.parameter, model.n()));
+  }
+  PlacedEffect* placed = nullptr;
+  try {
+    placed = &placed_effect(model, *effect, key.joint, key.parameter);
+  } catch (const std::invalid_argument& error) {
+    fail(std::string(error.what()) + "; name another joint");
+  }
+  const std::vector<EffectParameter> parameters = effect->parameters(model.nominal, key.joint);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].name == key.parameter) return {&placed->p[i], parameters[i].unit};
+    names.push_back(parameters[i].name);
+  }
+  throw InputError(fmt::format("parameter {}: the effect has no such number; expected one of {}", in_quotes(text),
+                               fmt::join(names, ", ")));
+}
+
+std::pair<double*, std::string> find_parameter(ArmModel& model, const std::string& key) {
+  if (const auto effect_key = parse_effect_key(key)) return effect_parameter(model, *effect_key, key);
+  std::vector<std::string> keys;
+  for (const ParameterInfo& info : named_parameters(model.nominal)) {
+    if (info.key == key) return {info.value, info.unit};
+    keys.push_back(info.key);
+  }
+  throw InputError(
+      fmt::format("parameter {}: the model has none of that name; expected one of {}, jointK.effect.NAME.PARAMETER or "
+                  "arm.effect.NAME.PARAMETER",
+                  in_quotes(key), fmt::join(keys, ", ")));
+}
+
+}  // namespace
+
+double& model_parameter(ArmModel& model, const std::string& key) { return *find_parameter(model, key).first; }
+
+std::string parameter_unit(ArmModel model, const std::string& key) {
+  std::string unit = find_parameter(model, key).second;
+  if (unit == "1") unit.clear();
+  return unit;
+}
+
+}  // namespace halyard

@@ -1,0 +1,90 @@
+#include "evaluation/sweep/sweep_run.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for_each.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <atomic>
+#include <exception>
+
+#include "evaluation/comparison/compare.h"
+#include "evaluation/run/contained_run.h"
+#include "model/input_error.h"
+#include "plant/simulate.h"
+
+namespace halyard {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Points of the shard that are still to be computed; cells that do not count are removed.
+std::vector<std::size_t> points_to_do(const SweepGrid& grid, const fs::path& folder, const SweepRunOptions& options) {
+  std::vector<std::size_t> todo;
+  for (std::size_t point = 0; point < grid.size(); ++point) {
+    if (!options.shard.holds(point)) continue;
+    if (options.resume && read_cell(folder, grid, point)) continue;
+    remove_cell(folder, point);
+    todo.push_back(point);
+  }
+  return todo;
+}
+
+SweepCell::Result failure(const std::string& reason, std::size_t n_joints) {
+  return {reason, std::vector<ErrorStatistics>(n_joints)};
+}
+
+}  // namespace
+
+SweepCell run_point(const Sweep& sweep, std::size_t point) {
+  const std::size_t n = sweep.grid.units.size();
+  SweepCell cell{point, {}};
+  SimulationResult data;
+  try {
+    data = simulate(sweep.scenario_at(point));
+  } catch (const std::exception& error) {
+    cell.results.assign(sweep.grid.estimators.size(), failure(std::string("simulation: ") + error.what(), n));
+    return cell;
+  }
+  data.measured.source = "the simulated log";
+  const ArmModel model = sweep.model_at(point);
+  for (const std::string& estimator : sweep.grid.estimators) {
+    try {
+      Comparison comparison =
+          compare_estimators(model, {estimator}, data.measured, data.truth, {.skip_s = sweep.grid.skip_s});
+      cell.results.push_back({"", std::move(comparison.errors[0])});
+    } catch (const std::exception& error) {
+      cell.results.push_back(failure(error.what(), n));
+    }
+  }
+  return cell;
+}
+
+void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions& options) {
+  // A wrong estimator is found now, not in every cell.
+  for (const std::string& estimator : sweep.grid.estimators) check_estimator(estimator, sweep.model_at(0));
+
+  if (options.resume && holds_other_sweep(folder, sweep.grid)) {
+    throw InputError(
+        folder.string() +
+        ": holds results of another sweep, or of this one before its files were changed; leave out --resume "
+        "to compute it anew, or give another folder");
+  }
+  discard_other_sweep(folder, sweep.grid);
+  const std::vector<std::size_t> todo = points_to_do(sweep.grid, folder, options);
+  write_grid(folder, sweep.grid);
+
+  namespace tbb = oneapi::tbb;
+  const int jobs = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(jobs));
+  std::atomic<std::size_t> done = 0;
+  if (options.progress) options.progress(0, todo.size());
+  tbb::task_arena arena(jobs);
+  arena.execute([&] {
+    tbb::parallel_for_each(todo, [&](std::size_t point) {
+      write_cell(folder, sweep.grid, run_point(sweep, point));
+      if (const std::size_t now = ++done; options.progress) options.progress(now, todo.size());
+    });
+  });
+}
+
+}  // namespace halyard

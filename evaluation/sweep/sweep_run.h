@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "evaluation/sweep/sweep_file.h"
+#include "evaluation/sweep/sweep_store.h"
+
+namespace halyard {
+
+/// Part i of n of a grid: the points p with p mod n = i - 1.
+struct Shard {
+  std::size_t index = 1, count = 1;
+
+  bool holds(std::size_t point) const { return point % count == index - 1; }
+};
+
+/// Simulates a point and runs the estimators over it. What fails there is said in the cell, not thrown.
+SweepCell run_point(const Sweep& sweep, std::size_t point);
+
+struct SweepRunOptions {
+  int jobs = 0;  ///< threads; 0: one per core
+  Shard shard;
+  bool resume = false;  ///< cells that are stored stay; otherwise those of the shard are computed anew
+  /// Called once with 0 and then after each point, with how many of `total` are done; from any thread.
+  std::function<void(std::size_t done, std::size_t total)> progress = {};
+};
+
+/// Computes the shard's cells in parallel, storing each in the folder when it is done; the result does not depend on
+/// the number of jobs. Cells and tables of another sweep are removed from the folder first.
+/// Throws InputError for estimators that cannot be made, and with resume for a folder that holds another sweep.
+void run_sweep(const Sweep& sweep, const std::filesystem::path& folder, const SweepRunOptions& options);
+
+}  // namespace halyard

@@ -1,0 +1,120 @@
+#include "plugins/host/effect_module.h"
+
+#include <algorithm>
+#include <exception>
+#include <string_view>
+
+#include "model/input_error.h"
+#include "plugins/effect_plugin.hpp"
+#include "plugins/host/plain_name.h"
+#include "plugins/host/shared_module.h"
+
+namespace halyard {
+namespace {
+
+constexpr const char* kSymbol = "halyard_effects";
+constexpr const char* kRebuild = "; rebuild it against the installed headers";
+
+using Effects = std::vector<std::unique_ptr<const Effect>>;
+
+[[noreturn]] void refuse(const SharedModule& module, const std::string& why) {
+  throw InputError("plugin " + module.path().string() + ": " + one_line(why));
+}
+
+const halyard_effect_table& checked_table(const SharedModule& module) {
+  const auto exported = reinterpret_cast<decltype(&halyard_effects)>(module.symbol(kSymbol));
+  if (!exported) {
+    refuse(module,
+           std::string("exports no function ") + kSymbol + "; it holds no effects, or its function lacks extern \"C\"");
+  }
+  const halyard_effect_table* table = exported();
+  if (!table) refuse(module, std::string(kSymbol) + "() returns no table; return the address of a static one");
+  if (table->interface_version != HALYARD_EFFECT_INTERFACE) {
+    refuse(module, "built for effect interface " + std::to_string(table->interface_version) + ", this program speaks " +
+                       std::to_string(HALYARD_EFFECT_INTERFACE) + kRebuild);
+  }
+  if (table->table_size != sizeof *table) {
+    refuse(module, "its table has " + std::to_string(table->table_size) + " bytes, this program's has " +
+                       std::to_string(sizeof *table) + kRebuild);
+  }
+  if (!table->compiler || !table->layout || !table->make) refuse(module, "its table lacks an entry; fill every entry");
+  if (table->compiler != std::string_view(kEffectCompiler)) {
+    refuse(module, "compiled by " + in_quotes(table->compiler) + ", this program by " + in_quotes(kEffectCompiler) +
+                       "; rebuild it with this program's compiler");
+  }
+  if (!std::equal(table->layout, table->layout + table->layout_size, std::begin(kEffectLayout),
+                  std::end(kEffectLayout)))
+    refuse(module, std::string("the types that it shares with this program have other sizes there") + kRebuild);
+  return *table;
+}
+
+/// An arm on which any effect can be asked for its parameters.
+ArmParameters<double> plain_arm() {
+  ArmParameters<double> arm;
+  arm.n = 3;
+  for (int k = 0; k < arm.n; ++k) {
+    JointParameters<double>& j = arm.joint[k];
+    j.mass = j.rotor_inertia = j.coupling[k] = 1;
+    j.stiffness = 1e4;
+    j.damping = j.tension = 10;
+  }
+  return arm;
+}
+
+void check_effect(const SharedModule& module, const Effect& effect) {
+  const std::string name = effect.name();
+  const auto refuse_effect = [&](const std::string& why) { refuse(module, "effect " + in_quotes(name) + " " + why); };
+  if (!is_plain_name(name)) refuse_effect("cannot be named so; use letters, digits, '_' and '-', at most 64");
+  if (find_effect(name)) refuse_effect("is already in the library; give yours another name");
+  if (effect.n_states() < 0 || effect.n_states() > kMaxEffectStates) {
+    refuse_effect("has " + std::to_string(effect.n_states()) + " states; the most is " +
+                  std::to_string(kMaxEffectStates));
+  }
+  const ArmParameters<double> arm = plain_arm();
+  for (const int place : effect_places(effect, arm)) {
+    const std::vector<EffectParameter> parameters = effect.parameters(arm, place);
+    if (parameters.empty() || parameters.size() > kMaxEffectParameters) {
+      refuse_effect("has " + std::to_string(parameters.size()) + " parameters; give it 1 to " +
+                    std::to_string(kMaxEffectParameters));
+    }
+    for (const EffectParameter& p : parameters) {
+      if (!is_plain_name(p.name))
+        refuse_effect("has a parameter " + in_quotes(p.name) + "; use letters, digits and '_'");
+      const bool inside = p.lower < p.upper && p.lower <= p.neutral && p.neutral <= p.upper && p.lower <= p.typical &&
+                          p.typical <= p.upper;
+      if (!inside) refuse_effect("has " + in_quotes(p.name) + " neutral or typical outside its bounds; correct them");
+    }
+  }
+}
+
+Effects checked_effects(const SharedModule& module, const halyard_effect_table& table) {
+  Effects effects;
+  try {
+    table.make(effects);
+    if (effects.empty()) refuse(module, "makes no effect");
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+      if (!effects[i]) refuse(module, "makes an effect that is null");
+      check_effect(module, *effects[i]);
+      for (std::size_t j = 0; j < i; ++j)
+        if (effects[j]->name() == effects[i]->name())
+          refuse(module, "makes " + in_quotes(effects[i]->name()) + " twice; give each a name of its own");
+    }
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    refuse(module, std::string("its effects cannot be made: ") + error.what());
+  }
+  return effects;
+}
+
+}  // namespace
+
+void load_effects(const std::filesystem::path& path) {
+  auto module = std::make_unique<SharedModule>(path);
+  for (auto& effect : checked_effects(*module, checked_table(*module))) register_effect(std::move(effect));
+  // Never destroyed: the library lives until the process ends, and its effects are code of their modules.
+  static auto& open_modules = *new std::vector<std::unique_ptr<SharedModule>>;
+  open_modules.push_back(std::move(module));
+}
+
+}  // namespace halyard

@@ -1,0 +1,24 @@
+#pragma once
+/// A shared module that has proved to be an estimator plug-in.
+
+#include "plugins/halyard_estimator.h"
+#include "plugins/host/shared_module.h"
+
+namespace halyard {
+
+class EstimatorModule {
+ public:
+  /// Loads the module and checks its table; the interface version before anything else in it. Throws InputError
+  /// `plugin PATH: what; remedy` as SharedModule does, and for a module without the exported function, built for
+  /// another interface version, or with a table that is too small or lacks an entry.
+  explicit EstimatorModule(const std::filesystem::path& path);
+
+  const halyard_estimator_table& table() const { return *table_; }
+  const std::filesystem::path& path() const { return module_.path(); }
+
+ private:
+  SharedModule module_;
+  const halyard_estimator_table* table_;
+};
+
+}  // namespace halyard

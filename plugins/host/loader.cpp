@@ -1,0 +1,134 @@
+#include "plugins/host/loader.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+#include <sstream>
+
+#include "model/input_error.h"
+#include "plugins/host/estimator_module.h"
+#include "plugins/host/plugin_estimator.h"
+
+namespace halyard {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Folder of the file that holds this code: halyard's libraries, or the program if they are linked into it.
+fs::path own_folder() {
+  Dl_info info;
+  if (!dladdr(reinterpret_cast<void*>(&make_estimator), &info) || !info.dli_fname) return {};
+  return fs::absolute(info.dli_fname).parent_path();
+}
+
+fs::path program_folder() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+/// The folders that are there, in the order in which they are searched.
+std::vector<fs::path> plugin_folders(std::vector<std::string>* refused) {
+  std::vector<fs::path> folders;
+  std::set<fs::path> seen;
+  const auto add = [&](const fs::path& folder) {
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) return false;
+    const fs::path canonical = fs::canonical(folder, error);
+    if (seen.insert(canonical).second) folders.push_back(canonical);
+    return true;
+  };
+  add(program_folder() / HALYARD_PLUGINS_FROM_PROGRAM);
+  add(program_folder() / "plugins");
+  add(own_folder() / "halyard/plugins");
+  add(own_folder() / "../plugins");
+
+  const char* from_user = std::getenv("HALYARD_PLUGIN_PATH");
+  std::istringstream list(from_user ? from_user : "");
+  for (std::string folder; std::getline(list, folder, ':');) {
+    if (folder.empty() || add(folder) || !refused) continue;
+    refused->push_back("HALYARD_PLUGIN_PATH: " + in_quotes(folder) + " is no folder; correct it or take it out");
+  }
+  return folders;
+}
+
+std::vector<fs::path> modules_in(const fs::path& folder) {
+  std::vector<fs::path> modules;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".so") modules.push_back(entry.path());
+  std::sort(modules.begin(), modules.end());
+  return modules;
+}
+
+/// Opens the modules of all folders one after the other; visit(module) returns true to end the search.
+template <class Visit>
+void search(std::vector<std::string>* refused, const Visit& visit) {
+  for (const fs::path& folder : plugin_folders(refused)) {
+    for (const fs::path& path : modules_in(folder)) {
+      std::shared_ptr<const EstimatorModule> module;
+      try {
+        module = std::make_shared<const EstimatorModule>(path);
+      } catch (const InputError& error) {
+        if (refused) refused->push_back(error.what());
+        continue;
+      }
+      if (visit(module)) return;
+    }
+  }
+}
+
+std::shared_ptr<const EstimatorModule> named_module(const std::string& name) {
+  std::shared_ptr<const EstimatorModule> found;
+  std::vector<std::string> refused;
+  std::set<std::string> others;
+  search(&refused, [&](const std::shared_ptr<const EstimatorModule>& module) {
+    others.insert(module->table().name);
+    if (name == module->table().name) found = module;
+    return found != nullptr;
+  });
+  if (found) return found;
+
+  std::string message = "no estimator is named " + in_quotes(name);
+  for (const std::string& reason : refused)
+    if (reason.find("/" + name + ".so: ") != std::string::npos) message += " (" + reason + ")";
+  message += others.empty() ? "; none was found" : "; found:";
+  for (const std::string& other : others) message += " " + other;
+  throw InputError(message + "; give one of these, or the path of a module such as ./" + name + ".so");
+}
+
+std::shared_ptr<const EstimatorModule> open_module(const std::string& name_or_path) {
+  const bool is_path = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".so");
+  return is_path ? std::make_shared<const EstimatorModule>(name_or_path) : named_module(name_or_path);
+}
+
+PluginInfo info(const EstimatorModule& module) {
+  return {module.table().name, one_line(module.table().description), module.path()};
+}
+
+}  // namespace
+
+std::vector<PluginInfo> find_plugins(std::vector<std::string>* refused) {
+  std::vector<PluginInfo> found;
+  search(refused, [&](const std::shared_ptr<const EstimatorModule>& module) {
+    PluginInfo plugin = info(*module);
+    const auto first = std::find_if(found.begin(), found.end(), [&](const auto& p) { return p.name == plugin.name; });
+    if (first == found.end()) {
+      found.push_back(std::move(plugin));
+    } else if (refused) {
+      refused->push_back("plugin " + plugin.path.string() + ": the name " + in_quotes(plugin.name) + " is taken by " +
+                         first->path.string() + "; rename it, or call it by its path");
+    }
+    return false;
+  });
+  return found;
+}
+
+PluginInfo find_plugin(const std::string& name_or_path) { return info(*open_module(name_or_path)); }
+
+std::unique_ptr<Estimator> make_estimator(const std::string& name_or_path, const ArmModel& model) {
+  return std::make_unique<PluginEstimator>(open_module(name_or_path), model);
+}
+
+}  // namespace halyard

@@ -1,0 +1,100 @@
+// The program as a whole: simulate, check, plugins, help and progress, end to end.
+#include <gtest/gtest.h>
+#include <pty.h>
+
+#include <cmath>
+
+#include "tests/support/app_runs.h"
+
+namespace halyard::testing_program {
+namespace {
+
+TEST_F(App, SimulateWritesALogAndItsGroundTruth) {
+  write_short_scenario("experiment_a.xml");
+  const std::string printed = done({"simulate", "experiment_a.xml", "--out", "run/log.csv"});
+  EXPECT_TRUE(contains(printed, "\"A: high tension\": 1001 samples, 1 s, 3 joints")) << printed;
+
+  const CsvFile log(path("run/log.csv")), truth(path("run/log.truth.csv"));
+  EXPECT_EQ(log.header, kLogColumns);
+  std::vector<std::string> truth_columns = kLogColumns;
+  truth_columns.insert(truth_columns.end(), {"joint_velocity_1", "joint_velocity_2", "joint_velocity_3"});
+  EXPECT_EQ(truth.header, truth_columns);
+  ASSERT_EQ(log.rows.size(), 1001u);
+  EXPECT_EQ(log.column("time"), truth.column("time"));
+
+  const double count = 2 * M_PI / 80000;  // rad of joint 1's encoder
+  const std::vector<double> measured = log.column("joint_position_1"), exact = truth.column("joint_position_1");
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    // Rounded to the nearest count; 1e-8 for 9 printed digits.
+    EXPECT_LE(std::abs(measured[i] - exact[i]), count / 2 + 1e-8);
+  }
+  EXPECT_NE(measured, exact);
+}
+
+TEST_F(App, TheSameSimulationGivesTheSameBytes) {
+  write_short_scenario("experiment_c.xml", "0.3");
+  done({"simulate", "experiment_c.xml", "--out", "1/log.csv"});
+  done({"simulate", "experiment_c.xml", "--out", "2/log.csv"});
+  EXPECT_TRUE(files_in(path("1")) == files_in(path("2")));
+  EXPECT_EQ(files_in(path("1")).size(), 2u);
+}
+
+TEST_F(App, CheckTellsWhatAFileIs) {
+  EXPECT_TRUE(contains(done({"check", example("raven2.xml")}), "valid model \"RAVEN-II\""));
+  const std::string scenario = done({"check", example("experiment_c.xml")});
+  EXPECT_TRUE(contains(scenario, "valid scenario \"C: payload\"")) << scenario;
+  EXPECT_TRUE(contains(scenario, "effects: payload")) << scenario;
+  EXPECT_TRUE(contains(done({"check", example("tension_sweep.xml")}), "14 points"));
+}
+
+TEST_F(App, CheckAcceptsEveryExample) {
+  int examples = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(HALYARD_SOURCE_DIR) / "examples/raven2")) {
+    if (entry.path().extension() != ".xml") continue;
+    EXPECT_TRUE(contains(done({"check", entry.path().string()}), ": valid ")) << entry.path();
+    ++examples;
+  }
+  EXPECT_GE(examples, 7);
+}
+
+TEST_F(App, PluginsListsTheBuiltInEstimators) {
+  const std::string printed = done({"plugins"});
+  for (const char* name : {"kinematics ", "disturbance_sr_ukf ", "ekf ", "sr_ukf "})
+    EXPECT_TRUE(contains("\n" + printed, std::string("\n") + name));
+}
+
+TEST_F(App, HelpAndVersionGoToStdout) {
+  const std::string help = done({"--help"});
+  for (const char* command : {"simulate", "estimate", "compare", "sweep", "merge", "plugins", "check"}) {
+    EXPECT_TRUE(contains(help, command));
+  }
+  EXPECT_TRUE(contains(done({"sweep", "--help"}), "--shard"));
+  EXPECT_TRUE(done({"--version"}).starts_with("halyard "));
+}
+
+TEST_F(App, ProgressIsShownOnATerminalAndWipedAndNowhereElse) {
+  write_short_scenario("experiment_a.xml", "4");
+  int terminal = -1;
+  const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    ::execl(HALYARD_PROGRAM, "halyard", "simulate", path("experiment_a.xml").c_str(), "--out", path("log.csv").c_str(),
+            static_cast<char*>(nullptr));
+    ::_exit(127);
+  }
+  ASSERT_GT(child, 0);
+  std::string shown;
+  char buffer[4096];
+  for (ssize_t n; (n = ::read(terminal, buffer, sizeof buffer)) > 0;) shown.append(buffer, std::size_t(n));
+  ::close(terminal);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  // Fraction, rate, time left; the line is wiped before the summary.
+  EXPECT_TRUE(contains(shown, " %   ") && contains(shown, " s/s   ") && contains(shown, " s left")) << shown;
+  EXPECT_TRUE(contains(shown, "\r\033[Kscenario \"A: high tension\"")) << shown;
+  // done() sees to it that a pipe gets nothing.
+  done({"simulate", "experiment_a.xml", "--out", "log.csv"});
+}
+
+}  // namespace
+}  // namespace halyard::testing_program

@@ -1,0 +1,403 @@
+// What a user can get wrong: one line on stderr that says where and what, exit code 2, and no output, not even a part.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "tests/support/program_run.h"
+
+namespace halyard::testing_program {
+namespace {
+
+const std::string kHeader =
+    "time,motor_torque_1,motor_torque_2,motor_torque_3,motor_position_1,motor_position_2,motor_position_3\n";
+const std::string kRows = "0,0,0,0,107,204,904\n0.001,0,0,0,107,204,904\n";
+
+class BadInput : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write_short_scenario("experiment_a.xml", "0.1");
+    write_text(path("log.csv"), kHeader + kRows);
+  }
+
+  /// Runs, and expects exit code `code`, one line with all of `parts`, nothing on stdout, and the folder as it was.
+  void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& parts,
+                      int code = 2) const {
+    std::string command = "halyard";
+    for (const std::string& argument : arguments) command += " " + argument;
+    SCOPED_TRACE(command);
+    const auto before = files_in(folder_);
+    const RunResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, code);
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+    EXPECT_TRUE(result.err.ends_with('\n') && result.err.size() > 1);
+    for (const std::string& part : parts) EXPECT_TRUE(contains(result.err, part)) << result.err << "lacks: " << part;
+    EXPECT_EQ(result.out, "");
+    EXPECT_TRUE(files_in(folder_) == before) << "files were left or changed";
+  }
+
+  void expect_estimate_refused(const std::string& data, const std::vector<std::string>& parts) const {
+    expect_refused(
+        {"estimate", "--model", "raven2.xml", "--estimator", "kinematics", "--data", data, "--out", "est.csv"}, parts);
+    expect_refused({"compare", data, "--model", "raven2.xml", "--estimators", "kinematics", "--out", "cmp"}, parts);
+  }
+
+  void expect_log_refused(const std::string& text, const std::vector<std::string>& parts) const {
+    write_text(path("bad.csv"), text);
+    expect_estimate_refused("bad.csv", parts);
+  }
+
+  void expect_sweep_refused(const std::string& axes, const std::vector<std::string>& parts,
+                            const std::string& attributes = "estimators=\"kinematics\"") const {
+    write_text(path("bad.xml"),
+               "<sweep name=\"bad\" scenario=\"experiment_a.xml\" " + attributes + ">" + axes + "</sweep>");
+    expect_refused({"check", "bad.xml"}, parts);
+    expect_refused({"sweep", "bad.xml", "--out", "out"}, parts);
+  }
+};
+
+TEST_F(BadInput, ALogThatIsNotWhatItShouldBe) {
+  expect_log_refused(replaced(kHeader, ",motor_torque_2", "") + "0,0,0,107,204,904\n",
+                     {"bad.csv:1:", "motor_torque_2"});
+  expect_log_refused(replaced(kHeader, "time", "t") + kRows, {"bad.csv:1:", "time"});
+  expect_log_refused(kHeader + "0,0,zero,0,107,204,904\n", {"bad.csv:2:", "motor_torque_2", "'zero'", "number"});
+  expect_log_refused(kHeader + "0,0,nan,0,107,204,904\n", {"bad.csv:2:", "motor_torque_2", "'nan'"});
+  expect_log_refused(kHeader + "0,0,inf,0,107,204,904\n", {"bad.csv:2:", "'inf'"});
+  expect_log_refused(kHeader + kRows + "0.0005,0,0,0,107,204,904\n", {"bad.csv:4:", "time"});
+  expect_log_refused(kHeader + kRows + "0.001,0,0,0,107,204,904\n", {"bad.csv:4:", "time"});
+  expect_log_refused(kHeader + "0,0,0,107,204,904\n", {"bad.csv:2:", "6"});
+  expect_log_refused("", {"bad.csv: is empty"});
+  expect_log_refused(kHeader, {"bad.csv", "no samples"});
+  expect_log_refused(std::string("\0\1\2\3", 4) + kHeader, {"bad.csv: is not text"});
+  expect_log_refused(kHeader + "0,0,0,0,,204,904\n0.001,0,0,0,107,,904\n", {"bad.csv: no row has the motor position"});
+}
+
+TEST_F(BadInput, ALogThatIsNotThere) {
+  expect_estimate_refused("none.csv", {"none.csv: "});
+  expect_estimate_refused(".", {".: "});
+}
+
+TEST_F(BadInput, AColumnEntryThatCannotBeMeant) {
+  const auto expect_column_refused = [&](const std::string& entry, const std::vector<std::string>& parts) {
+    expect_refused({"estimate", "--model", "raven2.xml", "--estimator", "kinematics", "--data", "log.csv", "--out",
+                    "e.csv", "--column", entry},
+                   parts);
+  };
+  expect_column_refused("motor_torque_1", {"'motor_torque_1'"});
+  expect_column_refused("torque_1=motor_torque_1", {"torque_1"});
+  expect_column_refused("motor_torque_1=none", {"log.csv:1:", "none"});
+  expect_column_refused("motor_torque_1=motor_torque_1,unit=deg", {"deg"});
+  expect_column_refused("motor_torque_1=motor_torque_1,scale=0", {"scale"});
+  expect_column_refused("motor_torque_4=motor_torque_1", {"motor_torque_4"});
+  expect_refused({"compare", "experiment_a.xml", "--estimators", "kinematics", "--out", "cmp", "--column", "time=t"},
+                 {"--column is for logs"});
+}
+
+TEST_F(BadInput, ARobotThatIsNotOfTheScenario) {
+  const std::string robot = text_of(path("raven2.xml"));
+  const std::size_t last = robot.find("<joint name=\"insertion\"");
+  write_text(path("two_joints.xml"), robot.substr(0, last) + "</arm>");
+  for (const char* command : {"simulate", "compare"}) {
+    const auto ask = [&](const char* file) {
+      std::vector<std::string> all = {command, "experiment_a.xml", "--robot", file, "--out", "new.csv"};
+      if (std::string(command) == "compare") all.insert(all.end(), {"--estimators", "kinematics"});
+      return all;
+    };
+    expect_refused(ask("two_joints.xml"), {"two_joints.xml: its joints are not those of", "raven2.xml"});
+    expect_refused(ask("none.xml"), {"none.xml: no such file"});
+  }
+  expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--robot", "raven2.xml", "--estimators", "kinematics",
+                  "--out", "cmp"},
+                 {"--robot, --runs and --noise are for scenarios"});
+}
+
+TEST_F(BadInput, AModelThatIsNotOne) {
+  const std::string model = text_of(path("raven2.xml"));
+  const auto expect_model_refused = [&](const std::string& text, const std::vector<std::string>& parts) {
+    write_text(path("bad.xml"), text);
+    expect_refused({"check", "bad.xml"}, parts);
+    expect_refused(
+        {"estimate", "--model", "bad.xml", "--estimator", "kinematics", "--data", "log.csv", "--out", "e.csv"}, parts);
+  };
+  expect_model_refused(replaced(model, "stiffness=\"720e3\"", "stiffness=\"720e3N/m\""),
+                       {"bad.xml:", "720e3N/m", "N/m"});
+  expect_model_refused(replaced(model, "stiffness=\"720e3\"", "stifness=\"720e3\""), {"bad.xml:", "stifness"});
+  expect_model_refused(replaced(model, "</arm>", ""), {"bad.xml:", "XML"});
+  expect_model_refused("<robot/>", {"bad.xml:1: <robot>", "<arm>"});
+  expect_model_refused("", {"bad.xml"});
+  expect_refused({"check", "none.xml"}, {"none.xml: no such file"});
+  expect_refused({"check", "."}, {".: is a directory"});
+}
+
+TEST_F(BadInput, AnIdentificationThatCannotBe) {
+  const auto expect_identify_refused = [&](const std::vector<std::string>& more,
+                                           const std::vector<std::string>& parts) {
+    std::vector<std::string> arguments = {"identify", "--data", "log.csv", "--out", "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_refused(arguments, parts);
+  };
+  expect_identify_refused({"--model", "raven2.xml", "--parameters", "coupling"},
+                          {"log.csv: column joint_position_2 is missing", "--column joint_position_2="});
+  expect_identify_refused({"--model", "raven2.xml", "--parameters", "couplings"},
+                          {"'couplings'", "raven2.xml", "coupling, stiffness", "joint1.cable.stiffness"});
+  expect_identify_refused({"--model", "raven2.xml", "--parameters", "stiffness,,coupling"}, {"''"});
+  expect_identify_refused({"--model", "raven2.xml", "--parameters", "tension"}, {"'tension'", "law=\"exponential\""});
+  expect_identify_refused({"--model", "raven2.xml", "--parameters", "joint1.motor.torque_bias"},
+                          {"is 0 in raven2.xml"});
+  expect_identify_refused({"--model", "raven2.xml", "--parameters", "coupling", "--data", "log.csv"}, {"given twice"});
+  expect_identify_refused({"--model", "raven2.xml"}, {"--parameters"});
+  const std::string model = text_of(path("raven2.xml"));
+  const std::size_t second = model.find("<joint name=\"elbow\"");
+  write_text(path("one_joint.xml"), model.substr(0, second) + "</arm>");
+  expect_identify_refused({"--model", "one_joint.xml", "--parameters", "coupling"},
+                          {"'coupling'", "one_joint.xml has one joint"});
+  std::string header = kHeader, rows = kRows;
+  header.pop_back();
+  write_text(path("short.csv"), header + ",joint_position_1,joint_position_2,joint_position_3\n" +
+                                    "0,0,0,0,107,204,904,0.8,1.6,0.4\n0.001,0,0,0,107,204,904,0.8,1.6,0.4\n");
+  expect_refused(
+      {"identify", "--data", "short.csv", "--out", "out", "--model", "raven2.xml", "--parameters", "coupling"},
+      {"short.csv: lasts", "3 s"});
+}
+
+TEST_F(BadInput, AScenarioThatCannotBeRun) {
+  const std::string scenario = text_of(path("experiment_a.xml"));
+  const auto expect_scenario_refused = [&](const std::string& text, const std::vector<std::string>& parts) {
+    write_text(path("bad.xml"), text);
+    expect_refused({"check", "bad.xml"}, parts);
+    expect_refused({"simulate", "bad.xml", "--out", "new.csv"}, parts);
+    expect_refused({"compare", "bad.xml", "--model", "raven2.xml", "--estimators", "kinematics", "--out", "cmp"},
+                   parts);
+  };
+  expect_scenario_refused(replaced(scenario, "model=\"raven2.xml\"", "model=\"none.xml\""), {"none.xml"});
+  expect_scenario_refused(replaced(scenario, "center=\"0.40\"", "center=\"4.0\""), {"bad.xml", "joint 3", "range"});
+  expect_scenario_refused(replaced(scenario, "treatment=\"dirk\"", "treatment=\"euler\""),
+                          {"bad.xml:", "euler", "dirk"});
+  expect_refused({"simulate", "raven2.xml", "--out", "new.csv"}, {"raven2.xml:", "<scenario>"});
+}
+
+TEST_F(BadInput, AnEstimatorThatCannotBeLoaded) {
+  const auto expect_estimator_refused = [&](const std::string& name, const std::vector<std::string>& parts) {
+    expect_refused({"estimate", "--model", "raven2.xml", "--estimator", name, "--data", "log.csv", "--out", "e.csv"},
+                   parts);
+    expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", "ekf," + name, "--out", "cmp"},
+                   parts);
+  };
+  write_text(path("text.so"), "not a module\n");
+  const std::string broken = HALYARD_BROKEN_PLUGINS;
+  expect_estimator_refused("kalman", {"'kalman'", "sr_ukf"});
+  expect_estimator_refused("./text.so", {"text.so"});
+  expect_estimator_refused("./none.so", {"none.so"});
+  expect_estimator_refused(broken + "/older_interface.so", {"older_interface.so", "interface"});
+  expect_estimator_refused(broken + "/missing_symbol.so", {"missing_symbol.so"});
+  write_text(path("raven2.xml"),
+             replaced(text_of(path("raven2.xml")), "</arm>", "<estimator name=\"kinematics\" colour=\"blue\"/></arm>"));
+  expect_estimator_refused("kinematics", {"colour"});
+}
+
+TEST_F(BadInput, AnEstimatorThatBreaksItsPromises) {
+  const std::string careless = HALYARD_BROKEN_PLUGINS "/careless.so";
+  expect_refused({"check", careless, "--model", "raven2.xml"},
+                 {"careless.so: breaks ", "of the promises of an estimator"});
+  const std::string broken = HALYARD_BROKEN_PLUGINS;
+  expect_refused({"check", broken + "/crashes_in_create.so", "--model", "raven2.xml"},
+                 {"crashes_in_create.so: breaks 1 of", "making: crashed: Segm"});
+  expect_refused({"check", broken + "/crashes_in_update.so", "--model", "raven2.xml"},
+                 {"crashes_in_update.so: breaks 1 of", "plain record: crashed: Segm", "the rest was not tried"});
+  expect_refused({"check", broken + "/never_returns.so", "--model", "raven2.xml", "--time-limit", "0.3"},
+                 {"never_returns.so: breaks 1 of", "plain record: took more than 0.3 s, and was ended"});
+  expect_refused({"check", "raven2.xml", "--kalman"}, {"--kalman", "'raven2.xml' is none"});
+  EXPECT_TRUE(contains(done({"check", HALYARD_BROKEN_PLUGINS "/../../../plugins/ekf.so", "--kalman"}),
+                       "and is the Kalman filter on a linear arm"));
+}
+
+TEST_F(BadInput, AModuleOfEffectsThatCannotBeLoaded) {
+  const std::string broken = HALYARD_BROKEN_PLUGINS;
+  write_text(path("text.so"), "not a module\n");
+  const auto expect_module_refused = [&](const std::string& module, const std::vector<std::string>& parts) {
+    const std::vector<std::vector<std::string>> commands = {
+        {"check", "raven2.xml"},
+        {"simulate", "experiment_a.xml", "--out", "new.csv"},
+        {"estimate", "--model", "raven2.xml", "--estimator", "kinematics", "--data", "log.csv", "--out", "e.csv"},
+        {"compare", "log.csv", "--model", "raven2.xml", "--estimators", "kinematics", "--out", "cmp"},
+        {"diagnose", "--model", "raven2.xml", "--data", "log.csv", "--out", "dia"},
+        {"sweep", "sweep.xml", "--out", "out"}};
+    for (std::vector<std::string> arguments : commands) {
+      arguments.insert(arguments.end(), {"--effects", module});
+      expect_refused(arguments, parts);
+    }
+  };
+  expect_module_refused("./text.so", {"plugin ./text.so: "});
+  expect_module_refused("./none.so", {"plugin ./none.so: "});
+  expect_module_refused(broken + "/well_formed.so", {"well_formed.so: ", "halyard_effects"});
+  expect_module_refused(broken + "/effects_older_interface.so", {"effects_older_interface.so: ", "interface 0"});
+}
+
+TEST_F(BadInput, ASweepThatCannotBeComputed) {
+  const std::string good = "<axis parameter=\"joint1.cable.stiffness\" values=\"1e5 2e5\"/>";
+  expect_sweep_refused("", {"bad.xml:1:", "<axis>"});
+  expect_sweep_refused("<axis parameter=\"joint1.cable.stifness\" values=\"1\"/>",
+                       {"stifness", "joint1.cable.stiffness"});
+  expect_sweep_refused("<axis parameter=\"joint1.effect.backlsh.half_gap\" values=\"1\"/>", {"backlsh", "backlash"});
+  expect_sweep_refused("<axis parameter=\"joint1.effect.backlash.gap\" values=\"1\"/>", {"backlash.gap", "half_gap"});
+  expect_sweep_refused("<axis parameter=\"joint9.effect.backlash.half_gap\" values=\"1\"/>", {"joint9", "1 to 3"});
+  expect_sweep_refused("<axis parameter=\"joint1.cable.stiffness\" values=\"1e5 -2\"/>",
+                       {"at joint1.cable.stiffness = -2 N/m, robot", "stiffness"});
+  expect_sweep_refused("<axis parameter=\"joint1.cable.stiffness\" values=\"1e5 x\"/>", {"bad.xml:1:", "1e5 x"});
+  expect_sweep_refused("<axis parameter=\"joint1.cable.stiffness\"/>", {"values", "from"});
+  expect_sweep_refused("<axis parameter=\"joint1.cable.stiffness\" from=\"0\" to=\"1\" steps=\"3\" scale=\"log\"/>",
+                       {"from"});
+  expect_sweep_refused("<axis parameter=\"joint1.cable.stiffness joint1.link.mass\" values=\"1\"/>", {"kg", "N/m"});
+  expect_sweep_refused(good + good, {"varied twice"});
+  expect_sweep_refused(good, {"kinematics,,ekf", "empty name"}, "estimators=\"kinematics,,ekf\"");
+  expect_sweep_refused(good, {"listed twice"}, "estimators=\"ekf,ekf\"");
+  expect_sweep_refused(good, {"raven.xml"}, "estimators=\"ekf\" model=\"raven.xml\"");
+
+  write_text(path("unknown.xml"),
+             "<sweep name=\"x\" scenario=\"experiment_a.xml\" estimators=\"kalman\">" + good + "</sweep>");
+  expect_refused({"sweep", "unknown.xml", "--out", "out"}, {"'kalman'"});
+}
+
+TEST_F(BadInput, PartsOfASweepThatDoNotBelongTogether) {
+  const auto write_sweep = [&](const std::string& values) {
+    write_text(path("sweep.xml"),
+               "<sweep name=\"x\" scenario=\"experiment_a.xml\" estimators=\"kinematics\"><axis "
+               "parameter=\"joint1.cable.stiffness\" values=\"" +
+                   values + "\"/></sweep>");
+  };
+  write_sweep("1e5 2e5");
+  done({"sweep", "sweep.xml", "--out", "part1", "--shard", "1/2"});
+  expect_refused({"merge", "part1", "--out", "all"}, {"1 of 2 points", "joint1.cable.stiffness = 200000 N/m"});
+  expect_refused({"merge", "part1", "none", "--out", "all"}, {"none: holds no sweep.json"});
+  write_sweep("1e5 3e5");
+  done({"sweep", "sweep.xml", "--out", "part2", "--shard", "2/2"});
+  expect_refused({"merge", "part1", "part2", "--out", "all"}, {"part2: holds another sweep than part1"});
+  expect_refused({"sweep", "sweep.xml", "--out", "part1", "--resume"}, {"part1: holds results of another sweep"});
+  write_text(path("part2/cells/000001.json"), "{\"id\":");
+  expect_refused({"merge", "part2", "--out", "all"}, {"part2/cells/000001.json", "damaged"});
+  write_text(path("part2/sweep.json"), replaced(text_of(path("part2/sweep.json")), "300000", "300000.0, 4"));
+  expect_refused({"merge", "part2", "--out", "all"}, {"part2/sweep.json", "damaged"});
+  for (const char* shard : {"0/2", "3/2", "1", "a/b", "1/2x", "-1/2"}) {
+    expect_refused({"sweep", "sweep.xml", "--out", "out", "--shard", shard}, {"--shard", "2/5"});
+  }
+}
+
+TEST_F(BadInput, ArgumentsThatDoNotFit) {
+  expect_refused({}, {"a command is missing", "halyard --help"});
+  expect_refused({"estimte"}, {"no command 'estimte'", "estimate", "halyard --help"});
+  expect_refused({"--verbose"}, {"--verbose", "halyard --help"});
+  expect_refused({"simulate"}, {"halyard simulate: SCENARIO.xml", "halyard simulate --help", "halyard --help"});
+  expect_refused({"simulate", "experiment_a.xml"}, {"--out", "halyard --help"});
+  expect_refused({"simulate", "experiment_a.xml", "--out"}, {"--out", "halyard --help"});
+  expect_refused({"simulate", "experiment_a.xml", "more.xml", "--out", "new.csv"}, {"more.xml", "halyard --help"});
+  expect_refused({"simulate", "experiment_a.xml", "--out", "new.csv", "--fast"}, {"--fast", "halyard --help"});
+  expect_refused({"estimate", "--model", "raven2.xml", "--data", "log.csv", "--out", "e.csv"}, {"--estimator"});
+  expect_refused({"compare", "log.csv", "--estimators", "kinematics", "--out", "cmp"}, {"--model is missing"});
+  expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", "ekf,ekf", "--out", "cmp"},
+                 {"listed twice"});
+  expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", "", "--out", "cmp"}, {"estimators"});
+  expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", "ekf", "--out", "cmp", "--runs", "3"},
+                 {"--runs", "log.csv", "leave"});
+  expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", "ekf", "--out", "cmp", "--skip", "-1"},
+                 {"--skip", "'-1'"});
+  expect_refused({"sweep", "sweep.xml", "--out", "out", "--jobs", "0"}, {"--jobs"});
+  expect_refused({"sweep", "sweep.xml", "--out", "out", "--jobs", "many"}, {"--jobs"});
+  expect_refused({"simulate", "experiment\na.xml", "--out", "new.csv"}, {"experiment a.xml"});
+}
+
+TEST_F(BadInput, AnOutputThatCannotBeWritten) {
+  expect_refused({"simulate", "experiment_a.xml", "--out", "."}, {"--out '.'", "folder"});
+  expect_refused({"simulate", "experiment_a.xml", "--out", ""}, {"--out"});
+  expect_refused({"simulate", "experiment_a.xml", "--out", "log.csv/new.csv"}, {"log.csv", "is not a folder"});
+  expect_refused({"compare", "experiment_a.xml", "--estimators", "kinematics", "--out", "log.csv"},
+                 {"is not a folder"});
+  const std::vector<std::string> estimate = {"estimate",   "--model", "raven2.xml", "--estimator",
+                                             "kinematics", "--data",  "log.csv",    "--out"};
+  for (const char* input : {"log.csv", "raven2.xml"}) {
+    std::vector<std::string> arguments = estimate;
+    arguments.push_back(input);
+    expect_refused(arguments, {"would replace the input"});
+  }
+}
+
+TEST_F(BadInput, AFailureThatIsNotTheUsersIsExitCode1AndLeavesNothing) {
+  std::string rows;
+  for (const char* time : {"0", "0.001", "0.002", "0.003"}) rows += std::string(time) + ",0,0,0,107,204,904\n";
+  write_text(path("log.csv"), kHeader + rows);
+  const std::string broken = std::string(HALYARD_BROKEN_PLUGINS) + "/throws_in_update.so";
+  expect_refused({"estimate", "--model", "raven2.xml", "--estimator", broken, "--data", "log.csv", "--out", "e.csv"},
+                 {"throws_in_update", "log.csv at 0.002 s"}, 1);
+  expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", broken, "--out", "cmp"},
+                 {"throws_in_update"}, 1);
+}
+
+TEST_F(BadInput, AnEstimatorThatFailsEndsItsOwnRowOfTheComparison) {
+  std::string rows, names = "kinematics";
+  for (const char* time : {"0", "0.001", "0.002", "0.003"}) rows += std::string(time) + ",0,0,0,107,204,904\n";
+  write_text(path("log.csv"), kHeader + rows);
+  const std::vector<std::pair<std::string, std::string>> broken = {
+      {"throws_in_update", "at 0.002 s"},
+      {"crashes_in_create", "being made: crashed: Segm"},
+      {"crashes_in_update", "at 0.002 s: crashed: Segm"},
+      {"never_returns", "at 0.002 s: took more than 0.3 s"}};
+  for (const auto& [module, failure] : broken)
+    names.append("," HALYARD_BROKEN_PLUGINS "/").append(module).append(".so");
+  const RunResult run = this->run({"compare", "log.csv", "--model", "raven2.xml", "--estimators", names + ",ekf",
+                                   "--out", "cmp", "--skip", "0", "--step-limit", "0.3"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json result = nlohmann::json::parse(text_of(path("cmp/comparison.json"))).at("estimators");
+  ASSERT_EQ(result.size(), broken.size() + 2);
+  EXPECT_TRUE(result.front().at("failure").is_null());
+  EXPECT_TRUE(result.back().at("failure").is_null());
+  for (std::size_t i = 0; i < broken.size(); ++i) {
+    EXPECT_TRUE(contains(run.err, broken[i].second)) << run.err;
+    EXPECT_TRUE(contains(result.at(i + 1).at("failure").get<std::string>(), broken[i].second));
+    EXPECT_TRUE(contains(text_of(path("cmp/report.html")), broken[i].second));
+  }
+}
+
+TEST_F(BadInput, AnEstimatorThatCrashesAsItIsMadeFailsEachOfManyRuns) {
+  write_text(path("scenario.xml"), "<scenario name=\"short\" model=\"raven2.xml\" duration=\"0.1\" seed=\"1\"/>");
+  const RunResult run = this->run({"compare", "scenario.xml", "--estimators",
+                                   "kinematics," + std::string(HALYARD_BROKEN_PLUGINS) + "/crashes_in_create.so",
+                                   "--runs", "2", "--skip", "0", "--out", "cmp"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json result = nlohmann::json::parse(text_of(path("cmp/comparison.json")));
+  EXPECT_TRUE(contains(result.dump(), "being made: crashed: Segm")) << result.dump(2);
+}
+
+TEST_F(BadInput, NoDamagedFileEndsTheProgramByASignal) {
+  std::mt19937 random(1);  // same damages in every run
+  const auto damaged = [&](std::string text) {
+    const std::size_t at = random() % text.size();
+    switch (random() % 4) {
+      case 0: text[at] = static_cast<char>(random() % 256); break;
+      case 1: text.erase(at, random() % 40); break;
+      case 2: text.insert(at, text.substr(random() % text.size(), random() % 40)); break;
+      case 3: text[at] = "0-e.\"<>,\n"[random() % 9]; break;
+    }
+    return text;
+  };
+  const std::string model = text_of(example("raven2.xml")), sweep = text_of(example("tension_sweep.xml"));
+  write_short_scenario("experiment_a_exponential.xml");
+  int refused = 0;
+  for (int i = 0; i < 100; ++i) {
+    write_text(path("damaged.xml"), damaged(i % 2 ? model : sweep));
+    write_text(path("damaged.csv"), damaged(kHeader + kRows + "0.002,0,0,0,107,204,904\n"));
+    for (const auto& result :
+         {run({"check", "damaged.xml"}), run({"estimate", "--model", "raven2.xml", "--estimator", "kinematics",
+                                              "--data", "damaged.csv", "--out", "e.csv"})}) {
+      EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 2) << result.exit_code << " " << result.err;
+      EXPECT_EQ(std::ranges::count(result.err, '\n'), result.exit_code == 0 ? 0 : 1) << result.err;
+      if (result.exit_code == 2) ++refused;
+    }
+  }
+  // Observed 164 of 200: the damage reaches what is read, and does not stop at the first line of it.
+  RecordProperty("refused", refused);
+  EXPECT_GT(refused, 50);
+  EXPECT_LT(refused, 190);
+}
+
+}  // namespace
+}  // namespace halyard::testing_program

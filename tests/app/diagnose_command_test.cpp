@@ -1,0 +1,58 @@
+// halyard diagnose end to end: what is told of a log whose robot has a backlash that the model lacks.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program_run.h"
+
+namespace halyard::testing_program {
+namespace {
+
+using nlohmann::json;
+
+const std::string kModel = HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml";
+const std::string kLog = HALYARD_SOURCE_DIR "/examples/raven2/undeclared_effect.csv";
+
+class DiagnoseCommand : public ProgramTest {};
+
+TEST_F(DiagnoseCommand, SaysWhyAndByHowMuchEachEstimatorGains) {
+  // A filter that crashes is told of, and spoils nothing else.
+  fs::create_directories(path("with_a_bad_ekf"));
+  fs::copy(program_.parent_path() / "plugins", path("with_a_bad_ekf/plugins"));
+  fs::copy_file(fs::path(HALYARD_BROKEN_PLUGINS) / "crashes_as_ekf.so", path("with_a_bad_ekf/plugins/ekf.so"),
+                fs::copy_options::overwrite_existing);
+  fs::copy_file(program_, path("with_a_bad_ekf/halyard"));
+  program_ = path("with_a_bad_ekf/halyard");
+  const std::string printed = done({"diagnose", "--model", kModel, "--data", kLog, "--out", "out"});
+
+  const json diagnosis = json::parse(text_of(path("out/diagnosis.json")));
+  ASSERT_EQ(diagnosis.at("effects").size(), 1u) << diagnosis.dump(2);
+  const std::string why = diagnosis.at("effects").at(0).at("why");
+  EXPECT_TRUE(why.starts_with("Without it the position residual of joint 2 ")) << why;
+  EXPECT_TRUE(contains(why, "with the effect (half gap 0.2 mm) ")) << why;
+  EXPECT_TRUE(contains(printed, why)) << printed;
+
+  const auto joint_two = [&](const char* estimator, const char* error, const char* when) {
+    return diagnosis.at("estimators").at(estimator).at(error).at(when).at(1).get<double>();
+  };
+  for (const char* error : {"joint_position_rms", "joint_position_peak"}) {
+    EXPECT_NEAR(joint_two("kinematics", error, "after"), joint_two("kinematics", error, "before"),
+                0.01 * joint_two("kinematics", error, "before"));
+    EXPECT_TRUE(diagnosis.at("estimators").at("ekf").at(error).at("before").is_null());
+  }
+  // Kinematics knows of no gap; the filter that does is left with what happens while the gap is crossed. Where in a
+  // crossing it catches up hangs on the gap's third digit: over 0.199 to 0.2 mm its peak is 0.09 to 0.13 of 0.23 deg,
+  // its RMS a fortieth to a seventieth.
+  const auto left = [&](const char* error) {
+    return joint_two("sr_ukf", error, "after") / joint_two("sr_ukf", error, "before");
+  };
+  EXPECT_LT(left("joint_position_rms"), 0.05);
+  EXPECT_LT(left("joint_position_peak"), 1);
+  const std::string page = text_of(path("out/report.html"));
+  EXPECT_TRUE(contains(page, "ekf failed with the given model: estimator ekf on "));
+  EXPECT_TRUE(contains(page, "crashed: Segm"));
+  EXPECT_TRUE(contains(page, "joint behind its motors, over load"));
+}
+
+}  // namespace
+}  // namespace halyard::testing_program

@@ -1,0 +1,105 @@
+// halyard sweep and merge, end to end on short runs of the RAVEN-II.
+#include <gtest/gtest.h>
+
+#include "tests/support/app_runs.h"
+
+namespace halyard::testing_program {
+namespace {
+
+class Sweep : public App {
+ protected:
+  void SetUp() override {
+    App::SetUp();
+    write_short_scenario("experiment_a.xml");
+    // Joint 2's cable softer than, as and stiffer than believed; without and with backlash.
+    write_text(
+        path("sweep.xml"),
+        "<sweep name=\"test\" scenario=\"experiment_a.xml\" estimators=\"kinematics,sr_ukf\" duration=\"0.6\">"
+        "<axis parameter=\"joint2.cable.stiffness\" factor=\"true\" from=\"0.5\" to=\"2\" steps=\"3\" scale=\"log\" "
+        "applies_to=\"robot\"/>"
+        "<axis parameter=\"joint2.effect.backlash.half_gap\" values=\"0 2e-4\" applies_to=\"robot\"/></sweep>");
+  }
+};
+
+TEST_F(Sweep, GivesTheSameBytesForAnyNumberOfJobsAndAnyShards) {
+  done({"sweep", "sweep.xml", "--out", "one", "--jobs", "1"});
+  done({"sweep", "sweep.xml", "--out", "two", "--jobs", "3"});
+  done({"sweep", "sweep.xml", "--out", "part1", "--shard", "1/2"});
+  EXPECT_FALSE(fs::exists(path("part1/sweep.csv")));
+  done({"sweep", "sweep.xml", "--out", "part2", "--shard", "2/2"});
+  done({"merge", "part1", "part2", "--out", "merged"});
+  const auto one = files_in(path("one"));
+  EXPECT_EQ(one.size(), 9u);  // sweep.json, six cells, table, report
+  EXPECT_TRUE(files_in(path("two")) == one);
+  EXPECT_TRUE(files_in(path("merged")) == one);
+}
+
+TEST_F(Sweep, KnowsTheSameErrorsAsAComparisonOfTheSamePoint) {
+  done({"sweep", "sweep.xml", "--out", "out"});
+  write_text(path("experiment_a.xml"),
+             replaced(text_of(path("experiment_a.xml")), "duration=\"1\"", "duration=\"0.6\""));
+  done({"compare", "experiment_a.xml", "--model", "raven2.xml", "--estimators", "kinematics,sr_ukf", "--out", "cmp"});
+  const CsvFile sweep(path("out/sweep.csv")), comparison(path("cmp/comparison.csv"));
+  EXPECT_EQ(sweep.rows.size(), 3u * 2 * 2 * 3);
+  const std::string stiffness = "joint2.cable.stiffness (factor)", gap = "joint2.effect.backlash.half_gap";
+  const auto error = [&](const std::string& factor, const std::string& half_gap) {
+    return sweep.number(sweep.row_with({{stiffness, factor}, {gap, half_gap}, {"estimator", "sr_ukf"}, {"joint", "2"}}),
+                        "mean_absolute_error");
+  };
+  // A factor of 1 and no gap is the scenario itself.
+  EXPECT_DOUBLE_EQ(error("1", "0"), comparison.number(comparison.row_with({{"estimator", "sr_ukf"}, {"joint", "2"}}),
+                                                      "mean_absolute_error"));
+  // The filter believes the model: what the robot has beyond it costs.
+  EXPECT_GT(error("0.5", "0"), 2 * error("1", "0"));
+  EXPECT_GT(error("2", "0"), 2 * error("1", "0"));
+  EXPECT_GT(error("1", "0.0002"), 2 * error("1", "0"));
+}
+
+TEST_F(Sweep, ResumesWithoutComputingFinishedCellsAgain) {
+  done({"sweep", "sweep.xml", "--out", "out"});
+  const auto whole = files_in(path("out"));
+  // A mark that only a cell which is kept still has.
+  const fs::path kept = path("out/cells/000001.json"), lost = path("out/cells/000004.json");
+  write_text(kept, text_of(kept) + "\n\n");
+  fs::remove(lost);
+  fs::remove(path("out/sweep.csv"));
+  done({"sweep", "sweep.xml", "--out", "out", "--resume"});
+  EXPECT_TRUE(text_of(kept).ends_with("\n\n\n"));
+  EXPECT_EQ(text_of(lost), whole.at("cells/000004.json"));
+  EXPECT_EQ(text_of(path("out/sweep.csv")), whole.at("sweep.csv"));
+  // Without --resume all is computed anew.
+  done({"sweep", "sweep.xml", "--out", "out"});
+  EXPECT_TRUE(files_in(path("out")) == whole);
+}
+
+TEST_F(Sweep, VariesWhatTheEstimatorsBelieveApartFromTheRobot) {
+  const auto errors = [&](const std::string& applies_to) {
+    write_text(path("one.xml"),
+               "<sweep name=\"one\" scenario=\"experiment_a.xml\" estimators=\"sr_ukf\" duration=\"0.6\"><axis "
+               "parameter=\"joint3.cable.stiffness\" values=\"5e3\" applies_to=\"" +
+                   applies_to + "\"/></sweep>");
+    done({"sweep", "one.xml", "--out", applies_to});
+    const CsvFile table(path(applies_to + "/sweep.csv"));
+    return table.number(table.row_with({{"joint", "3"}}), "mean_absolute_error");
+  };
+  // Wrong in the robot alone or in the model alone is wrong; wrong in both is right again.
+  const double both = errors("both");
+  EXPECT_GT(errors("robot"), 10 * both);
+  EXPECT_GT(errors("model"), 10 * both);
+}
+
+TEST_F(Sweep, RecordsAnEstimatorThatFailsAndGoesOn) {
+  const std::string broken = std::string(HALYARD_BROKEN_PLUGINS) + "/throws_in_update.so";
+  write_text(path("plugin.xml"), replaced(text_of(path("sweep.xml")), "kinematics,sr_ukf", "kinematics," + broken));
+  const std::string printed = done({"sweep", "plugin.xml", "--out", "out"});
+  EXPECT_TRUE(contains(printed, "6 of 12 runs of estimators failed")) << printed;
+  const CsvFile table(path("out/sweep.csv"));
+  const std::size_t failed = table.row_with({{"estimator", broken}});
+  EXPECT_EQ(table.rows[failed].at(table.index("mean_absolute_error")), "");
+  EXPECT_NE(table.rows[failed].at(table.index("failure")), "");
+  EXPECT_GT(table.number(table.row_with({{"estimator", "kinematics"}}), "mean_absolute_error"), 0);
+  EXPECT_TRUE(contains(text_of(path("out/report.html")), "6 of 12 runs of estimators failed"));
+}
+
+}  // namespace
+}  // namespace halyard::testing_program

@@ -1,0 +1,367 @@
+/// Logs as rigs write them, diagnosed: a spoilt log of a right model is no reason to name an effect, and an effect is
+/// still found in it.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+
+#include "diagnosis/diagnose.h"
+#include "model/homing.h"
+#include "model/input_error.h"
+#include "model/model_file.h"
+#include "plant/simulate.h"
+#include "tests/support/message_of.h"
+#include "tests/support/short_arm.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// EMPS-like: one mass on a screw, rigid, no sensor but the motor's.
+ArmModel screw() { return read_model(HALYARD_SOURCE_DIR "/examples/measured/emps/emps.xml"); }
+
+PlacedEffect placed(const std::string& name, const ArmModel& model, int joint, const std::vector<double>& p) {
+  PlacedEffect e = place_neutral_effect(*find_effect(name), model.nominal, joint);
+  for (std::size_t i = 0; i < p.size(); ++i) e.p[i] = p[i];
+  return e;
+}
+
+struct Logs {
+  Log train, holdout;
+};
+
+constexpr double kDuration = 5;  // s
+
+Logs logs_of(const ArmModel& truth, double duration = kDuration) {
+  return {simulate(motion(truth, duration)).measured, simulate(motion(truth, 2.5, 1)).measured};
+}
+
+DiagnosisOptions quick() {
+  DiagnosisOptions options;
+  options.attribution.most_effects = 1;
+  options.tell_not_excited = false;
+  return options;
+}
+
+Diagnosis diagnosis_of(const ArmModel& model, const Logs& logs) {
+  return diagnose(model, {logs.train}, logs.holdout, quick());
+}
+
+/// The one-joint arm's logs are simulated once: as the model says, and with a capstan that is 2 % larger.
+constexpr double kRatio = 1.02;
+const Logs& clean_logs() {
+  static const Logs logs = logs_of(first_joints(1));
+  return logs;
+}
+const Logs& larger_logs() {
+  static const Logs logs = [] {
+    ArmModel truth = first_joints(1);
+    truth.effects.push_back(placed("capstan_ratio", truth, 0, {kRatio}));
+    return logs_of(truth);
+  }();
+  return logs;
+}
+
+void expect_clean(const Diagnosis& d) {
+  EXPECT_EQ(d.verdict, Diagnosis::Verdict::clean);
+  for (const NamedEffect& e : d.effects) ADD_FAILURE() << e.effect.effect->name() << " " << e.effect.p[0];
+  for (const Unexplained& u : d.unexplained) ADD_FAILURE() << u.signature;
+}
+
+void expect_named(const Diagnosis& d, const std::string& name, int joint, double value, double within) {
+  ASSERT_EQ(d.effects.size(), 1u) << (d.unexplained.empty() ? "clean" : d.unexplained[0].signature) << ", joint error "
+                                  << d.before.joint_rms[0];
+  EXPECT_EQ(d.effects[0].effect.effect->name(), name);
+  EXPECT_EQ(d.effects[0].effect.joint, joint);
+  EXPECT_NEAR(d.effects[0].effect.p[0], value, within * std::abs(value));
+}
+
+/// The spoilt logs of the right model leave it clean.
+template <class Spoil>
+void expect_clean_of(const ArmModel& model, const Spoil& spoil) {
+  Logs logs = clean_logs();
+  spoil(logs.train), spoil(logs.holdout);
+  expect_clean(diagnosis_of(model, logs));
+}
+
+/// And the larger capstan is still found.
+template <class Spoil>
+void expect_larger_of(const ArmModel& model, const Spoil& spoil) {
+  Logs logs = larger_logs();
+  spoil(logs.train), spoil(logs.holdout);
+  expect_named(diagnosis_of(model, logs), "capstan_ratio", 0, kRatio, 1e-3);
+}
+
+/// Keeps every n-th sample of a column and drops the rest.
+void thin(std::vector<double>& column, std::size_t every, std::size_t first = 0) {
+  for (std::size_t i = 0; i < column.size(); ++i)
+    if (i % every != first) column[i] = kNan;
+}
+
+/// Every n-th row of a log, as a slower logger writes it.
+Log slower(const Log& log, std::size_t every) {
+  Log slow = log;
+  const auto keep = [every](std::vector<double>& x) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < x.size(); i += every) x[kept++] = x[i];
+    x.resize(kept);
+  };
+  keep(slow.time);
+  for_each_column(slow, [&](const std::string&, std::vector<double>& x) { keep(x); });
+  return slow;
+}
+
+// ------------------------------------------------------------------------------------------- sensors
+
+TEST(LogWithoutJointSensor, IsClean) {
+  expect_clean_of(first_joints(1), [](Log& log) { log.joint_position[0].clear(); });
+}
+
+TEST(LogWithoutTorque, IsClean) {
+  expect_clean_of(first_joints(1), [](Log& log) { log.motor_torque[0].clear(); });
+}
+
+TEST(LogWithATorqueOfZeros, HasNoTorque) {
+  expect_clean_of(first_joints(1), [](Log& log) { log.motor_torque[0].assign(log.size(), 0.0); });
+}
+
+TEST(LogOfAScrewWithItsMotorAlone, IsCleanAndShowsFrictionOfTheScrew) {
+  const ArmModel model = screw();
+  ArmModel truth = model;
+  truth.nominal.joint[0].motor_coulomb *= 2;
+  const auto logs = [](const ArmModel& robot) {
+    Scenario s = motion(robot, kDuration);
+    s.robot.joints[0].controller = {.kp = 4e5, .kd = 1.2e4, .torque_limit = 0};
+    s.trajectory[0].center = 0.12;
+    s.trajectory[0].sines = {{0.06, 0.4, 0}, {0.02, 1.1, 1}};
+    Log log = simulate(s).measured;
+    log.joint_position[0].clear();
+    return Logs{log, log};
+  };
+  expect_clean(diagnosis_of(model, logs(model)));
+  const Diagnosis d = diagnosis_of(model, logs(truth));
+  ASSERT_EQ(d.effects.size(), 1u);
+  // Of a rigid drive friction of the joint is friction of the motor; in EMPS's units they are the same number too.
+  const std::string name = d.effects[0].effect.effect->name();
+  EXPECT_TRUE(name == "motor_friction" || name == "joint_friction") << name;
+  const double coulomb = model.nominal.joint[0].motor_coulomb;
+  EXPECT_NEAR(d.effects[0].effect.p[0], coulomb, 0.05 * coulomb);
+}
+
+TEST(LogWithAMeasuredLoad, IsCleanAndWithoutTheMeasurementNot) {
+  ArmModel truth = first_joints(1);
+  truth.effects.push_back(placed("external_force", truth, 0, {2.0, 1.0, 4.0}));
+  Logs logs = logs_of(truth);
+  logs.holdout = clean_logs().holdout;
+  EXPECT_NE(diagnosis_of(first_joints(1), logs).verdict, Diagnosis::Verdict::clean);
+  for (const double t : logs.train.time) logs.train.joint_torque[0].push_back(t > 1 && t < 4 ? 2.0 : 0.0);
+  expect_clean(diagnosis_of(first_joints(1), logs));
+}
+
+TEST(StuckJointSensor, IsLeftOutAndTold) {
+  Logs logs = clean_logs();
+  logs.train.joint_position[0].assign(logs.train.size(), 0.7);
+  logs.train.source = "rig.csv";
+  const Diagnosis d = diagnosis_of(first_joints(1), logs);
+  EXPECT_EQ(d.verdict, Diagnosis::Verdict::unknown);
+  EXPECT_TRUE(d.effects.empty());
+  ASSERT_EQ(d.unexplained.size(), 1u);
+  EXPECT_NE(d.unexplained[0].signature.find("stands still in rig.csv while its motor moves"), std::string::npos);
+}
+
+// -------------------------------------------------------------------------------- rates and drop-outs
+
+TEST(SlowJointSensor, IsComparedAtItsOwnSamples) {
+  expect_clean_of(first_joints(1), [&](Log& log) { thin(log.joint_position[0], 20, 3); });  // 50 Hz in 1 kHz
+}
+
+TEST(SlowLog, IsClean) {
+  // Without rounding: the controller turns each step of the encoder into a spike of torque, and of those a slow logger
+  // takes every tenth.
+  Scenario train = motion(first_joints(1), kDuration), holdout = motion(first_joints(1), 2.5, 1);
+  train.quantise = holdout.quantise = false;
+  const Logs logs{simulate(train).measured, simulate(holdout).measured};
+  expect_clean(diagnosis_of(first_joints(1), {slower(logs.train, 10), slower(logs.holdout, 10)}));  // 100 Hz
+}
+
+TEST(RowsOfEachSensorItsOwn, AreOneLog) {
+  // The joint's sensor is read between the others: its cells are empty in their rows, and theirs in its.
+  expect_clean_of(first_joints(1), [](Log& log) {
+    thin(log.motor_position[0], 2, 0), thin(log.motor_torque[0], 2, 0), thin(log.joint_position[0], 2, 1);
+  });
+}
+
+TEST(DropOuts, AtRandomAndInBurstsLeaveTheRest) {
+  const auto spoil = [](Log& log) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (Signals* s : {&log.motor_position, &log.motor_torque, &log.joint_position})
+      for (std::size_t i = 0, burst = 0; i < log.size(); ++i) {
+        if (unit(random) < 1e-3) burst = 30;  // ms, once a second
+        if (burst > 0 || unit(random) < 0.05) (*s)[0][i] = kNan;
+        if (burst > 0) --burst;
+      }
+  };
+  expect_clean_of(first_joints(1), spoil);
+  expect_larger_of(first_joints(1), spoil);
+}
+
+TEST(SeveralLogs, OfOtherRatesAndSensorsCountTogether) {
+  const Logs& logs = larger_logs();
+  Log slow_without_torque = slower(logs.train, 4), blind = logs.holdout;
+  slow_without_torque.motor_torque[0].clear();
+  blind.joint_position[0].clear();
+  const Diagnosis d = diagnose(first_joints(1), {slow_without_torque, blind}, logs.holdout, quick());
+  expect_named(d, "capstan_ratio", 0, kRatio, 1e-3);
+}
+
+// --------------------------------------------------------------------------------------------- clocks
+
+TEST(ClockOffsetBetweenSensors, IsNamedDelay) {
+  Logs logs = clean_logs();
+  for (Log* log : {&logs.train, &logs.holdout}) {
+    std::vector<double>& q = log->joint_position[0];
+    q.insert(q.begin(), 8, q.front());  // 8 ms late
+    q.resize(log->size());
+  }
+  const Diagnosis d = diagnosis_of(first_joints(1), logs);
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects[0].effect.effect->name(), "delay");
+  EXPECT_NEAR(d.effects[0].effect.p[1], 8e-3, 0.5e-3);
+}
+
+TEST(Clock, OfTheUnixEpochAndInMillisecondsIsTheLogsOwn) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "halyard_odd_clock.csv";
+  const Log& log = clean_logs().train;
+  {
+    std::ofstream file(path);
+    file.precision(17);
+    file << "t_ms,motor_torque_1,motor_position_1,joint_position_1\n";
+    for (std::size_t i = 0; i < log.size(); ++i)
+      file << 1763700000000.0 + 1e3 * log.time[i] << ',' << log.motor_torque[0][i] << ',' << log.motor_position[0][i]
+           << ',' << log.joint_position[0][i] << '\n';
+  }
+  ColumnMap map;
+  map.add("time", "t_ms", "ms");
+  const Log read = read_log(path, 1, map);
+  EXPECT_EQ(read.clock_start, 1763700000.0);
+  // Seconds of the epoch as doubles are a quarter of a microsecond apart.
+  for (std::size_t i = 0; i < read.size(); i += 100) EXPECT_NEAR(read.time[i], log.time[i], 3e-7);
+  expect_clean(diagnosis_of(first_joints(1), {read, clean_logs().holdout}));
+  ColumnMap seconds;
+  seconds.add("time", "t_ms");
+  const std::string message = message_of([&] { make_records(read_log(path, 1, seconds), first_joints(1), {}); });
+  EXPECT_NE(message.find("say so by a column map, such as time=NAME,unit=ms"), std::string::npos) << message;
+}
+
+// ---------------------------------------------------------------------------------------------- zeros
+
+TEST(EncoderZero, OffByAFewDegreesIsNamed) {
+  ArmModel truth = first_joints(1);
+  JointParameters<double>& j = truth.nominal.joint[0];
+  j.motor_encoder_offset = 0.05 * j.pulley_radius / j.motor_travel();
+  expect_named(diagnosis_of(first_joints(1), logs_of(truth)), "encoder_offset", 0, 0.05, 0.02);
+}
+
+TEST(UnknownEncoderZero, IsFoundInEachLog) {
+  for (const bool motor : {true, false}) {
+    ArmModel model = first_joints(1);
+    (motor ? model.nominal.joint[0].motor_zero_known : model.nominal.joint[0].joint_zero_known) = false;
+    double zero = 40;  // rad, another one in each log
+    const auto spoil = [&](Log& log) {
+      for (double& reading : motor ? log.motor_position[0] : log.joint_position[0]) reading += zero;
+      zero = -0.6 * zero;
+    };
+    expect_clean_of(model, spoil);
+  }
+}
+
+TEST(UnknownEncoderZero, CannotBeToldWithoutTheJointsSensor) {
+  ArmModel model = first_joints(1);
+  model.nominal.joint[0].motor_zero_known = false;
+  Log log = clean_logs().train;
+  log.source = "rig.csv";
+  log.joint_position[0].clear();
+  EXPECT_EQ(
+      message_of([&] { home_encoders(log, model); }),
+      "rig.csv: the model does not know the zero of motor encoder 1 (motor_offset=\"unknown\"), and the log has no "
+      "joint_position_1 to tell it; give the joint's sensor, or the offset in the model");
+}
+
+// --------------------------------------------------------------------------------------- torque scales
+
+TEST(TorqueOfUnknownScale, IsRefitted) {
+  ArmModel model = first_joints(1);
+  model.nominal.joint[0].tolerance.torque_scale = 1;
+  for (const double amperes : {1000.0, 1e-3}) {  // per N m
+    Logs logs = clean_logs();
+    for (Log* log : {&logs.train, &logs.holdout})
+      for (double& torque : log->motor_torque[0]) torque *= amperes;
+    const Diagnosis d = diagnosis_of(model, logs);
+    expect_clean(d);
+    ASSERT_GE(d.refitted.size(), 1u);
+    const Estimated& scale = d.refitted.front();
+    EXPECT_EQ(scale.name, "joint 1 motor torque scale");
+    EXPECT_EQ(scale.nominal, 1);
+    // What moves the arm is told by masses that are known to 5 %.
+    EXPECT_NEAR(scale.value * amperes, 1, 0.05);
+    EXPECT_EQ(d.revised.nominal.joint[0].torque_scale, scale.value);
+  }
+}
+
+TEST(TorqueOfUnknownScale, AgainstTheMotionOrOfAnotherMotorIsAnError) {
+  ArmModel model = first_joints(1);
+  model.nominal.joint[0].tolerance.torque_scale = 1;
+  Logs logs = clean_logs();
+  logs.train.source = "rig.csv";
+  for (double& torque : logs.train.motor_torque[0]) torque = -torque;
+  EXPECT_EQ(message_of([&] { diagnosis_of(model, logs); }),
+            "rig.csv: motor_torque_1, of unknown scale, goes against the torque that the motion needs; give its column "
+            "sign=-1, or correct the sign of the motor's position");
+  for (std::size_t i = 0; i < logs.train.size(); ++i)
+    logs.train.motor_torque[0][i] = std::sin(37.0 * logs.train.time[i]);
+  EXPECT_NE(message_of([&] { diagnosis_of(model, logs); }).find("does not go with the motor's motion (correlation "),
+            std::string::npos);
+}
+
+// ---------------------------------------------------------------------------- joints without their motor
+
+/// The two-joint arm with an elbow in need of a diagnosis and a shoulder whose drive is nobody's business.
+ArmModel elbow_alone() {
+  ArmModel model = first_joints(2);
+  model.nominal.joint[0].drive = Drive::none;
+  return model;
+}
+
+TEST(JointDrivenBySomebodyElse, FollowsItsSensor) {
+  constexpr double kHalfGap = 3e-4;
+  ArmModel truth = first_joints(2);
+  truth.effects.push_back(placed("backlash", truth, 1, {kHalfGap}));
+  Logs logs = logs_of(truth);
+  for (Log* log : {&logs.train, &logs.holdout}) log->motor_position[0].clear(), log->motor_torque[0].clear();
+  const Diagnosis d = diagnosis_of(elbow_alone(), logs);
+  expect_named(d, "backlash", 1, kHalfGap, 0.1);
+  EXPECT_TRUE(std::isnan(d.after.joint_rms[0])) << "given, not predicted";
+  EXPECT_LT(d.after.joint_rms[1], 0.2 * d.before.joint_rms[1]);
+}
+
+TEST(JointHeldFixed, StandsAtHome) {
+  ArmModel truth = first_joints(2);
+  truth.nominal.joint[0].joint_coulomb = 500;  // clamped: creeps by less than its sensor's step
+  const auto logs = [&](int variant) {
+    Scenario s = motion(truth, kDuration, variant);
+    s.trajectory[0].sines.clear();
+    Log log = simulate(s).measured;
+    log.motor_position[0].clear(), log.motor_torque[0].clear(), log.joint_position[0].clear();
+    return log;
+  };
+  expect_clean(diagnosis_of(elbow_alone(), {logs(0), logs(1)}));
+}
+
+}  // namespace
+}  // namespace halyard

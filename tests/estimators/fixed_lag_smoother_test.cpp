@@ -1,0 +1,206 @@
+// The fixed-lag smoother: against the textbook's where that is exact, and against the filter on the arm.
+#include "estimators/filters/fixed_lag_smoother.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "estimators/built_in.h"
+#include "estimators/filters/ekf.h"
+#include "model/input_error.h"
+#include "plant/simulate.h"
+#include "tests/support/arm_runs.h"
+#include "tests/support/linear_gaussian.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kNoGate = std::numeric_limits<double>::infinity();
+
+/// Largest differences of smoothed means and covariances from those of the covariances' own recursion.
+double largest_difference_smoothed(GaussianFilter& filter, const LinearGaussian& p) {
+  std::deque<FilteredBelief> window;
+  std::vector<KalmanFilter> textbook;
+  KalmanFilter kalman{p.x_0, initial_root() * initial_root().transpose()};
+  filter.reset(p.x_0, initial_root());
+  for (const Eigen::VectorXd& z : p.z) {
+    const Eigen::VectorXd x_0 = filter.x();
+    const Eigen::MatrixXd S_0 = filter.S();
+    filter.predict(LinearProcess(p.F), p.Q_root);
+    const BackwardStep step = filter.backward_step(x_0, S_0);
+    filter.update(LinearReadings(p.H, true), z, p.R_root, kNoGate);
+    window.push_back({0, filter.x(), filter.S(), {step}});
+    kalman.step(p, z);
+    textbook.push_back(kalman);
+  }
+  for (std::size_t i = textbook.size() - 1; i-- > 0;) {
+    KalmanFilter& now = textbook[i];
+    const KalmanFilter& next = textbook[i + 1];
+    const Eigen::MatrixXd P = p.F * now.P * p.F.transpose() + p.Q_root * p.Q_root.transpose();
+    const Eigen::MatrixXd G = P.llt().solve(p.F * now.P).transpose();
+    now.x += G * (next.x - p.F * now.x);
+    now.P = (now.P + G * (next.P - P) * G.transpose()).eval();
+  }
+  double largest = 0;
+  smooth_backwards(window, [&](std::size_t i, const Eigen::VectorXd& x, const Eigen::MatrixXd& S) {
+    largest = std::max({largest, (x - textbook[i].x).cwiseAbs().maxCoeff(),
+                        (S * S.transpose() - textbook[i].P).cwiseAbs().maxCoeff()});
+  });
+  return largest;
+}
+
+TEST(FixedLagSmoother, IsTheRauchTungStriebelSmootherOnALinearProblem) {
+  const LinearGaussian problem(200);
+  ExtendedKalmanFilter ekf;
+  SquareRootUkf wide({.alpha = 1});
+  // About 200 roundings of numbers up to 10 a step, forgotten within a few steps.
+  EXPECT_LT(largest_difference_smoothed(ekf, problem), 1e-11);
+  EXPECT_LT(largest_difference_smoothed(wide, problem), 1e-11);
+}
+
+/// The smoothed estimates of a run by the time that they belong to.
+std::map<double, Estimate> smoothed(Estimator& estimator, const std::vector<Sample>& samples) {
+  std::map<double, Estimate> all;
+  const auto take = [&](bool at_end) {
+    while (const auto revision = estimator.revise(at_end)) {
+      EXPECT_FALSE(all.contains(revision->time_s)) << "told twice: " << revision->time_s;
+      all[revision->time_s] = revision->estimate;
+    }
+  };
+  estimator.reset(samples[0]);
+  take(false);
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    estimator.update(samples[i]);
+    take(i + 1 == samples.size());
+  }
+  return all;
+}
+
+/// The RAVEN-II on sines, with the noise that the filters assume.
+ArmRun noisy_run(std::uint64_t seed) {
+  Scenario s;
+  s.robot = raven2();
+  s.duration_s = 1.5;
+  s.fade_in_s = 0.3;
+  s.quantise = false;
+  s.seed = seed;
+  const ProcessModel process(s.robot);
+  const EstimatorOptions none;
+  OptionReader options("test", none);
+  const NoiseLevels levels = read_noise(options, s.robot, process);
+  const double held = std::sqrt(2 * levels.correlation_time / s.control_period_s);
+  for (int k = 0; k < 3; ++k) {
+    JointTrajectory t;
+    t.kind = JointTrajectory::Kind::sines;
+    t.center = s.robot.home()(k);
+    t.sines = {{k < 2 ? 0.4 : 0.04, 0.4 + 0.05 * k, 0}};
+    s.trajectory.push_back(t);
+    s.noise.motor_torque.push_back(held * levels.torque(k));
+    s.noise.joint_force.push_back(held * levels.joint_force(k));
+    s.noise.motor_reading.push_back(levels.encoder(k));
+  }
+  const SimulationResult log = simulate(s);
+  ArmRun run;
+  for (std::size_t i = 0; i < log.measured.size(); ++i) {
+    Sample sample{log.measured.time[i], Eigen::VectorXd(3), Eigen::VectorXd(3), Eigen::VectorXd()};
+    Eigen::VectorXd q(3);
+    for (int k = 0; k < 3; ++k) {
+      sample.motor_torque(k) = log.measured.motor_torque[k][i];
+      sample.motor_position(k) = log.measured.motor_position[k][i];
+      q(k) = log.truth.joint_position[k][i];
+    }
+    run.samples.push_back(sample);
+    run.joint_position.push_back(q);
+  }
+  return run;
+}
+
+TEST(FixedLagSmoother, IsCloserToTheJointsThanItsFilterAndAsSureAsItShouldBe) {
+  Eigen::Vector3d filter_squares = Eigen::Vector3d::Zero(), squares = filter_squares, nees = filter_squares;
+  long count = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const ArmRun run = noisy_run(seed);
+    const auto smoother = make_smoother(raven2(), {}), filter = make_sr_ukf(raven2(), {});
+    const std::map<double, Estimate> estimates = smoothed(*smoother, run.samples);
+    ASSERT_EQ(estimates.size(), run.samples.size());
+    filter->reset(run.samples[0]);
+    for (std::size_t i = 1; i < run.samples.size(); ++i) {
+      filter->update(run.samples[i]);
+      if (run.samples[i].time_s < 0.5) continue;
+      const Estimate& e = estimates.at(run.samples[i].time_s);
+      const Eigen::Vector3d error = e.joint_position - run.joint_position[i];
+      squares += error.cwiseAbs2();
+      filter_squares += (filter->estimate().joint_position - run.joint_position[i]).cwiseAbs2();
+      nees += error.cwiseQuotient(e.joint_position_std).cwiseAbs2();
+      ++count;
+    }
+  }
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_LT(squares(k), 0.9 * filter_squares(k)) << "joint " << k + 1;  // observed: 0.6
+    // Errors are correlated over some 20 ms, so that 3 s are 150 squares, mean 1 ± 0.12; four of them.
+    EXPECT_NEAR(nees(k) / double(count), 1, 0.5) << "joint " << k + 1;
+  }
+  // Friction makes the errors of joint 3 slow: there is little to gain, and both are too cautious.
+  EXPECT_LT(squares(2), filter_squares(2));
+  EXPECT_LT(nees(2) / double(count), 1.5);
+}
+
+TEST(FixedLagSmoother, EverySampleIsToldOnceInOrderAndNotBeforeItsLag) {
+  const ArmRun run = run_arm(raven2(), 0.5);
+  const auto smoother = make_smoother(raven2(), {{"lag", "0.05"}});
+  smoother->reset(run.samples[0]);
+  double last = -1, longest = 0;
+  std::size_t told = 0;
+  for (std::size_t i = 1; i < run.samples.size(); ++i) {
+    smoother->update(run.samples[i]);
+    while (const auto revision = smoother->revise(i + 1 == run.samples.size())) {
+      EXPECT_GT(revision->time_s, last);
+      last = revision->time_s;
+      const double waited = run.samples[i].time_s - last;
+      longest = std::max(longest, waited);
+      if (i + 1 < run.samples.size()) {
+        EXPECT_GE(waited, 0.05 - 1e-9);
+      }
+      ++told;
+    }
+  }
+  EXPECT_EQ(told, run.samples.size());
+  EXPECT_NEAR(longest, 0.1, 2e-3);
+}
+
+TEST(FixedLagSmoother, AGapPartsTheRecord) {
+  ArmRun run = run_arm(raven2(), 0.2);
+  std::vector<Sample> torn(run.samples.begin(), run.samples.begin() + 100), alone = torn;
+  for (std::size_t i = 100; i < run.samples.size(); ++i) {
+    torn.push_back(run.samples[i]);
+    torn.back().time_s += 5;
+  }
+  const auto smoother = make_smoother(raven2(), {});
+  const auto parted = smoothed(*smoother, torn), first_part = smoothed(*smoother, alone);
+  EXPECT_EQ(parted.size(), torn.size());
+  for (const auto& [time, estimate] : first_part)
+    ASSERT_EQ(parted.at(time).joint_position, estimate.joint_position) << time;
+}
+
+TEST(FixedLagSmoother, WrongOptionsAreRefused) {
+  const auto refusal = [](const EstimatorOptions& options) -> std::string {
+    try {
+      make_smoother(raven2(), options);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(
+      refusal({{"lag", "0"}}),
+      "estimator smoother: option lag = '0': expected a number from 0.001 to 10; correct it, or leave the option out");
+  EXPECT_EQ(refusal({{"beta", "0"}}),
+            "estimator smoother: option beta is smaller than alpha squared: a down-date cannot be smoothed; give a "
+            "larger beta or a smaller alpha");
+  EXPECT_EQ(refusal({{"lag", "0.5"}}), "accepted");
+}
+
+}  // namespace
+}  // namespace halyard

@@ -1,0 +1,91 @@
+#include "estimators/filters/kinematics.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "estimators/built_in.h"
+#include "model/input_error.h"
+#include "tests/support/arm_runs.h"
+#include "transmission/path_matrix.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+Sample at_angles(double time_s, const Eigen::VectorXd& q_m) {
+  Sample s;
+  s.time_s = time_s;
+  s.motor_position = q_m;
+  s.motor_torque = Eigen::VectorXd::Zero(q_m.size());
+  return s;
+}
+
+TEST(Kinematics, InvertsThePathEquation) {
+  const ArmModel model = raven2();
+  KinematicsEstimator kinematics(model);
+  const Eigen::Vector3d q(0.3, 1.7, 0.33);
+  kinematics.reset(at_angles(0, unstretched_motors(model.nominal, q)));
+  // Cable paths of 0.3 m over pulleys of 0.06 m, 10 roundings.
+  EXPECT_LT((kinematics.estimate().joint_position - q).cwiseAbs().maxCoeff(), 10 * 5 * kEps);
+  EXPECT_EQ(kinematics.estimate().joint_velocity.norm(), 0);
+}
+
+TEST(Kinematics, VelocityIsTheDifferenceOfSamples) {
+  const ArmModel model = raven2();
+  KinematicsEstimator kinematics(model);
+  const Eigen::Vector3d q(0.3, 1.7, 0.33), v(0.5, -0.2, 0.04);
+  kinematics.reset(at_angles(0, unstretched_motors(model.nominal, q)));
+  const Innovation innovation =
+      kinematics.update(at_angles(0.002, unstretched_motors(model.nominal, Eigen::Vector3d(q + 0.002 * v))));
+  EXPECT_EQ(innovation.nu.size(), 0);
+  EXPECT_EQ(innovation.time_s, 0.002);
+  // Two positions to 50 eps each, over 2 ms.
+  EXPECT_LT((kinematics.estimate().joint_velocity - v).cwiseAbs().maxCoeff(), 100 * kEps / 0.002);
+}
+
+TEST(Kinematics, AMissingMotorSampleHoldsItsLastAngle) {
+  const ArmModel model = raven2();
+  KinematicsEstimator kinematics(model);
+  const Eigen::VectorXd q_m = unstretched_motors(model.nominal, Eigen::Vector3d(0.3, 1.7, 0.33));
+  kinematics.reset(at_angles(0, q_m));
+  const Eigen::VectorXd before = kinematics.estimate().joint_position;
+  Eigen::VectorXd gone = q_m;
+  gone(1) = kNaN;
+  kinematics.update(at_angles(0.001, gone));
+  EXPECT_EQ(kinematics.estimate().joint_position, before);
+}
+
+TEST(Kinematics, TakesParametersThatEffectsChange) {
+  ArmModel model = raven2();
+  add_effect(model, "capstan_ratio", 1, {1.05});
+  add_effect(model, "encoder_offset", 3, {0.004});
+  KinematicsEstimator kinematics(model);
+  const ProcessModel process(model);
+  const Eigen::Vector3d q(0.3, 1.7, 0.33);
+  const Eigen::VectorXd x = process.state_at_rest(unstretched_motors(process.arm(), q), q);
+  kinematics.reset(at_angles(0, process.motor_readings(0, x)));
+  EXPECT_LT((kinematics.estimate().joint_position - q).cwiseAbs().maxCoeff(), 20 * 5 * kEps);
+}
+
+TEST(Kinematics, RefusesTimeThatDoesNotIncrease) {
+  const ArmModel model = raven2();
+  KinematicsEstimator kinematics(model);
+  const Eigen::VectorXd q_m = unstretched_motors(model.nominal, model.home());
+  kinematics.reset(at_angles(1, q_m));
+  EXPECT_THROW(kinematics.update(at_angles(1, q_m)), std::invalid_argument);
+}
+
+TEST(Kinematics, HasNoOptions) {
+  try {
+    make_kinematics(raven2(), {{"alpha", "1"}});
+    FAIL() << "accepted an option";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), "estimator kinematics: unknown option 'alpha'; it has no options");
+  }
+}
+
+}  // namespace
+}  // namespace halyard

@@ -1,0 +1,154 @@
+/// Statistics that judge estimators: what they say of data whose answer is known.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "evaluation/judgement/consistency.h"
+#include "evaluation/judgement/error_statistics.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// x_i = rho x_i-1 + √(1 - rho²) w_i: unit variance, ρ_l = rho^l.
+std::vector<double> autoregressive(std::size_t n, double rho, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  std::vector<double> x = {normal(random)};
+  while (x.size() < n) x.push_back(rho * x.back() + std::sqrt(1 - rho * rho) * normal(random));
+  return x;
+}
+
+std::vector<double> squared(std::vector<double> x, double scale = 1) {
+  for (double& v : x) v = scale * v * v;
+  return x;
+}
+
+TEST(ErrorStatistics, OfAHundredErrors) {
+  std::vector<double> estimate, truth(100, 1);
+  for (int i = 0; i < 100; ++i) estimate.push_back(1 + (i % 2 ? -1 : 1) * (100 - i));  // sizes 1 to 100
+  estimate.push_back(std::nan("")), truth.push_back(1);
+  const ErrorStatistics e = error_statistics(estimate, truth);
+  EXPECT_EQ(e.samples, 100);
+  EXPECT_EQ(e.median_absolute, 50);
+  EXPECT_EQ(e.percentile_95, 95);
+  EXPECT_EQ(e.peak, 100);
+  EXPECT_EQ(e.mean_absolute, 50.5);
+  EXPECT_EQ(e.bias, 0.5);
+  EXPECT_TRUE(std::isnan(error_statistics({}, {}).percentile_95));
+}
+
+TEST(EffectiveSamples, OfAnAutoregressionAreThoseOfTheory) {
+  for (const double rho : {0.0, 0.5, 0.9}) {
+    const double expected = 40000 * (1 - rho) / (1 + rho);
+    EXPECT_NEAR(effective_samples(autoregressive(40000, rho, 3)) / expected, 1, 0.15) << rho;
+  }
+  EXPECT_EQ(effective_samples(std::vector<double>(50, 2.0)), 50);
+}
+
+TEST(Autocorrelation, LeavesGapsOut) {
+  std::vector<double> x = autoregressive(20000, 0.8, 1);
+  const double whole = autocorrelation(x, 1)[1];
+  for (std::size_t i = 0; i < x.size(); i += 500) x[i] = kNan;
+  EXPECT_NEAR(whole, 0.8, 0.02);
+  EXPECT_NEAR(autocorrelation(x, 1)[1], whole, 0.01);
+}
+
+TEST(PairedRatio, ContainsTheTruthAsOftenAsItSays) {
+  int contained = 0, said_better = 0;
+  constexpr int kTrials = 200;
+  for (int t = 0; t < kTrials; ++t) {
+    // Errors that share most of what they are, and each follow themselves.
+    const std::vector<double> shared = autoregressive(3000, 0.9, 3 * t), own_a = autoregressive(3000, 0.9, 3 * t + 1),
+                              own_b = autoregressive(3000, 0.9, 3 * t + 2);
+    std::vector<double> a, b;
+    for (std::size_t i = 0; i < shared.size(); ++i)
+      a.push_back(shared[i] + 0.5 * own_a[i]), b.push_back(shared[i] + 0.5 * own_b[i]);
+    const PairedRatio r = paired_ratio(a, b, t + 1);
+    contained += r.lower <= 1 && r.upper >= 1;
+    for (double& v : a) v *= 0.8;
+    said_better += paired_ratio(a, b, t + 1).better();
+  }
+  EXPECT_GE(contained, 0.89 * kTrials);
+  EXPECT_LE(contained, 0.99 * kTrials);
+  EXPECT_GE(said_better, 0.95 * kTrials);
+}
+
+TEST(PairedRatio, IsTheSameAgainAndNeedsBothErrors) {
+  const std::vector<double> a = autoregressive(500, 0.5, 1);
+  std::vector<double> b = a;
+  for (double& v : b) v *= 2;
+  b[7] = kNan;
+  const PairedRatio first = paired_ratio(a, b), again = paired_ratio(a, b);
+  EXPECT_EQ(first.lower, again.lower);
+  EXPECT_NEAR(first.ratio, 0.5, 1e-12);
+  EXPECT_NEAR(first.upper, 0.5, 1e-12);
+  EXPECT_TRUE(std::isnan(paired_ratio({}, {}).ratio));
+}
+
+TEST(PairedRatioOfRuns, DrawsRuns) {
+  std::vector<std::pair<double, double>> squares;
+  for (int i = 0; i < 50; ++i) squares.push_back({1 + 0.1 * (i % 5), 4});
+  const PairedRatio r = paired_ratio_of_runs(squares);
+  EXPECT_NEAR(r.ratio, std::sqrt(1.2 / 4), 1e-12);
+  EXPECT_TRUE(r.better());
+  EXPECT_LT(r.upper - r.lower, 0.05);
+}
+
+TEST(Consistency, PassesAtTheRightNoiseAndFailsAtAWrongOne) {
+  int right = 0;
+  constexpr int kTrials = 200;
+  for (int t = 0; t < kTrials; ++t) {
+    const std::vector<double> x = autoregressive(5000, 0.8, t);
+    right += consistency(squared(x)).trust() == Trust::right;
+    EXPECT_EQ(consistency(squared(x, 4)).trust(), Trust::too_much);
+    EXPECT_EQ(consistency(squared(x, 0.25)).trust(), Trust::too_little);
+  }
+  EXPECT_GE(right, 0.9 * kTrials);
+  EXPECT_EQ(consistency(std::vector<double>(9, kNan)).trust(), Trust::none);
+}
+
+TEST(Consistency, OfRunsHasTheBandOfAllTheirSamples) {
+  const std::vector<Consistency> runs(10, consistency(squared(autoregressive(1000, 0, 5))));
+  const Consistency all = consistency_of_runs(runs);
+  EXPECT_DOUBLE_EQ(all.samples, 10 * runs[0].samples);
+  EXPECT_LT(all.upper - all.lower, 0.5 * (runs[0].upper - runs[0].lower));
+  EXPECT_EQ(in_words(consistency(squared(autoregressive(2000, 0, 2), 9))).rfind("too sure: errors are 3", 0), 0u);
+}
+
+TEST(Consistency, OfRunsHoldsAsOftenAsItSays) {
+  int right = 0;
+  constexpr int kTrials = 200, kRuns = 20;
+  for (int t = 0; t < kTrials; ++t) {
+    std::vector<Consistency> runs;
+    for (int r = 0; r < kRuns; ++r) runs.push_back(consistency(squared(autoregressive(1000, 0.9, kRuns * t + r))));
+    right += consistency_of_runs(runs).trust() == Trust::right;
+  }
+  // Binomial at 95 %, four deviations.
+  EXPECT_NEAR(right, 0.95 * kTrials, 4 * std::sqrt(0.95 * 0.05 * kTrials));
+}
+
+TEST(Whiteness, SeesNeighboursAndTorques) {
+  const std::vector<double> white = autoregressive(5000, 0, 1), torque = autoregressive(5000, 0.99, 2);
+  EXPECT_TRUE(whiteness(white, torque).is_white());
+  EXPECT_NEAR(whiteness(autoregressive(5000, 0.3, 4), torque).correlation, 0.3, 0.05);
+  std::vector<double> follows = white;
+  for (std::size_t i = 5; i < white.size(); ++i) follows[i] += 0.3 * torque[i - 5];
+  EXPECT_NEAR(whiteness(follows, torque).with_torque, 0.3 / std::sqrt(1.09), 0.06);
+  EXPECT_FALSE(whiteness(follows, torque).is_white());
+}
+
+TEST(NormalisedSquares, NeedADeviation) {
+  const std::vector<double> z =
+      normalised_squares(std::vector{1.0, 2.0, kNan}, std::vector{0.0, 2.0, 1.0}, std::vector{0.5, 0.0, 1.0});
+  EXPECT_EQ(z[0], 4);
+  EXPECT_TRUE(std::isnan(z[1]));
+  EXPECT_TRUE(std::isnan(z[2]));
+}
+
+}  // namespace
+}  // namespace halyard

@@ -1,0 +1,147 @@
+#include "plant/integrators/integrator.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+#include <thread>
+
+#include "plant/equilibrium.h"
+#include "plant/simulate.h"
+
+// The SUNDIALS inside halyard_plant and the one of 2006 in Simbody's libraries run side by side here. The same file is
+// linked a second time with Simbody's libraries before halyard's.
+
+namespace halyard {
+namespace {
+
+const std::map<Treatment, std::string> kTreatments = {{Treatment::dirk, "dirk"},
+                                                      {Treatment::imex, "imex"},
+                                                      {Treatment::imex_link1, "imex_link1"},
+                                                      {Treatment::bdf, "bdf"},
+                                                      {Treatment::explicit_rk, "explicit_rk"},
+                                                      {Treatment::simbody_rkm, "simbody_rkm"},
+                                                      {Treatment::simbody_cpodes, "simbody_cpodes"}};
+
+/// Experiment A without rounded readings, which turn errors of 1e-12 into other torques.
+Scenario smooth_scenario(Treatment treatment) {
+  Scenario s = read_scenario(HALYARD_SOURCE_DIR "/examples/raven2/experiment_a.xml");
+  s.duration_s = 1;
+  s.fade_in_s = 0.5;
+  s.quantise = false;
+  s.integrator.treatment = treatment;
+  return s;
+}
+
+double largest_difference(const Log& a, const Log& b, int joint) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    largest = std::max(largest, std::abs(a.joint_position[joint][i] - b.joint_position[joint][i]));
+  return largest;
+}
+
+TEST(Integrators, AllAgreeWithTheReferenceAndConvergeToIt) {
+  const Log reference = simulate(smooth_scenario(Treatment::bdf)).truth;
+  for (const auto& [treatment, name] : kTreatments) {
+    if (treatment == Treatment::bdf) continue;
+    Scenario scenario = smooth_scenario(treatment);
+    const Log at_default = simulate(scenario).truth;
+    for (int k = 0; k < 3; ++k) {
+      // Empirical: at rtol 1e-6 the one-step methods are off by up to 6e-9 rad, CPodes, started anew a thousand times,
+      // by up to 7e-6.
+      const double tolerance = treatment == Treatment::simbody_cpodes ? 2e-5 : 2e-8;
+      EXPECT_LT(largest_difference(at_default, reference, k), tolerance) << name << ", joint " << k + 1;
+    }
+    if (treatment != Treatment::dirk && treatment != Treatment::simbody_cpodes) continue;
+    scenario.integrator.relative_tolerance = 1e-8;
+    scenario.integrator.absolute_tolerance = 1e-11;
+    const Log tight = simulate(scenario).truth;
+    EXPECT_LT(3 * largest_difference(tight, reference, 1), largest_difference(at_default, reference, 1)) << name;
+  }
+}
+
+TEST(Integrators, OfSundialsAndOfSimbodyTakeTurnsInOneProcess) {
+  const Scenario scenario = smooth_scenario(Treatment::bdf);
+  const std::vector<double> command = {0.02, 0.03, -0.01}, no_load = {0, 0, 0};
+  std::vector<std::unique_ptr<ArmPlant>> plants;
+  std::vector<std::unique_ptr<Integrator>> integrators;
+  for (const auto& [treatment, name] : kTreatments) {
+    plants.push_back(std::make_unique<ArmPlant>(scenario.robot.nominal));
+    const Eigen::VectorXd start = resting_state(*plants.back(), 0, scenario.robot.home());
+    IntegratorOptions options{treatment, 1e-7, 1e-10};
+    integrators.push_back(make_integrator(*plants.back(), options, 0, start));
+    plants.back()->set_inputs(0, command.data(), no_load.data());
+  }
+  const Eigen::VectorXd start = integrators[0]->state();
+  for (int tick = 1; tick <= 100; ++tick)
+    for (const auto& integrator : integrators) integrator->advance(0.001 * tick);
+  const auto reference = std::distance(kTreatments.begin(), kTreatments.find(Treatment::bdf));
+  EXPECT_GT((integrators[reference]->state() - start).head(3).norm(), 1e-3);  // it moved
+  // Empirical: CPodes is off by 1.3e-6 rad, the others by less than 1e-8.
+  for (std::size_t i = 0; i < integrators.size(); ++i)
+    EXPECT_LT((integrators[i]->state() - integrators[reference]->state()).head(3).norm(), 5e-6) << i;
+}
+
+TEST(Integrators, StandSharpFrictionInStick) {
+  // tanh(v / 1e-3) at the joints and at the motors: eigenvalues of -1e4 and -3e5 per second.
+  for (const Treatment treatment : {Treatment::dirk, Treatment::imex}) {
+    Scenario scenario = smooth_scenario(treatment);
+    scenario.duration_s = 0.3;
+    for (JointTrajectory& t : scenario.trajectory) t.sines.clear();
+    for (int k = 0; k < 3; ++k) {
+      scenario.robot.nominal.joint[k].motor_smoothing = 1e-3;
+      scenario.robot.nominal.joint[k].joint_smoothing = 1e-3;
+    }
+    const SimulationResult result = simulate(scenario);
+    scenario.integrator.treatment = Treatment::bdf;
+    const Log reference = simulate(scenario).truth;
+    for (int k = 0; k < 3; ++k) EXPECT_LT(largest_difference(result.truth, reference, k), 1e-8);
+    // An explicit method needs a step of 1e-5 s here, 400 derivatives a tick of 1 ms.
+    EXPECT_LT(result.derivative_evaluations, 300 * 50);
+  }
+}
+
+TEST(Integrators, OfOneThreadEachGiveWhatTheyGiveAlone) {
+  Scenario scenario = smooth_scenario(Treatment::dirk);
+  scenario.duration_s = 0.3;
+  const Log alone = simulate(scenario).truth;
+  std::vector<Log> logs(2);
+  std::vector<std::thread> threads;
+  for (Log& log : logs) threads.emplace_back([&log, scenario] { log = simulate(scenario).truth; });
+  for (std::thread& thread : threads) thread.join();
+  for (const Log& log : logs) {
+    EXPECT_EQ(log.joint_position, alone.joint_position);
+    EXPECT_EQ(log.motor_position, alone.motor_position);
+  }
+}
+
+/// A force that is lost after 50 ms.
+class LostForce : public EffectOf<LostForce> {
+ public:
+  std::string name() const override { return "lost_force"; }
+  std::string summary() const override { return "a force that is no number after 50 ms"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override { return {}; }
+  template <class T>
+  void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
+    if (c.time > 0.05) s[c.joint].joint_force = T(std::numeric_limits<double>::quiet_NaN());
+  }
+};
+
+TEST(Integrators, NameTheTimeAtWhichTheyFail) {
+  const LostForce effect;
+  for (const auto& [treatment, name] : kTreatments) {
+    Scenario scenario = smooth_scenario(treatment);
+    scenario.robot.effects.push_back({&effect, 0, {}});
+    try {
+      simulate(scenario);
+      ADD_FAILURE() << name << " went on";
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find("integration failed between t = 0.05"), std::string::npos)
+          << name << ": " << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace halyard

@@ -1,0 +1,67 @@
+// The boundary of modules of effects: what is refused, and that what is refused leaves nothing behind.
+#include "plugins/host/effect_module.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "model/input_error.h"
+#include "transmission/effect.h"
+
+namespace halyard {
+namespace {
+
+std::string fixture(const std::string& name) { return std::string(HALYARD_BROKEN_PLUGINS) + "/" + name + ".so"; }
+
+/// What follows `plugin PATH: ` in the refusal.
+std::string refusal(const std::string& name) {
+  const std::size_t before = effect_library().size();
+  std::string message;
+  try {
+    load_effects(fixture(name));
+    ADD_FAILURE() << name << " was taken";
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  EXPECT_EQ(effect_library().size(), before) << name;
+  EXPECT_EQ(message.find('\n'), message.npos);
+  const std::string start = "plugin " + fixture(name) + ": ";
+  EXPECT_TRUE(message.starts_with(start)) << message;
+  return message.substr(std::min(start.size(), message.size()));
+}
+
+TEST(EffectModule, AModuleThatBreaksTheContractIsRefusedWithOneLineAndLeavesNothing) {
+  EXPECT_EQ(refusal("well_formed"),  // an estimator
+            "exports no function halyard_effects; it holds no effects, or its function lacks extern \"C\"");
+  EXPECT_EQ(refusal("effects_older_interface"),
+            "built for effect interface 0, this program speaks 1; rebuild it against the installed headers");
+  const std::string compiler = refusal("effects_other_compiler");
+  EXPECT_TRUE(compiler.starts_with("compiled by 'Cfront 3', this program by '")) << compiler;
+  EXPECT_TRUE(compiler.ends_with("; rebuild it with this program's compiler")) << compiler;
+  EXPECT_EQ(
+      refusal("effects_other_layout"),
+      "the types that it shares with this program have other sizes there; rebuild it against the installed headers");
+  EXPECT_EQ(refusal("effects_taken_name"), "effect 'backlash' is already in the library; give yours another name");
+  EXPECT_EQ(refusal("effects_throwing"), "its effects cannot be made: no table of springs in this folder");
+  EXPECT_EQ(refusal("effects_too_many_parameters"), "effect 'fixture_spring' has 9 parameters; give it 1 to 8");
+}
+
+TEST(EffectModule, AWellFormedOneJoinsTheLibraryOnceAndActs) {
+  load_effects(fixture("effects_well_formed"));
+  const Effect* effect = find_effect("fixture_spring");
+  ASSERT_NE(effect, nullptr);
+  EXPECT_EQ(refusal("effects_well_formed"),
+            "effect 'fixture_spring' is already in the library; give yours another name");
+
+  ArmParameters<Dual> arm;
+  arm.n = 1;
+  JointSignals<Dual> s[1];
+  s[0].joint_position = Dual::seed(0.5, 2);
+  const Dual p[] = {Dual(4.0)};
+  effect->act(EffectStage::joint, EffectContext<Dual>{arm, 0, p, nullptr, 0, nullptr}, s);
+  EXPECT_EQ(s[0].joint_force.a, -2);
+  EXPECT_EQ(s[0].joint_force.d[2], -4);
+}
+
+}  // namespace
+}  // namespace halyard
