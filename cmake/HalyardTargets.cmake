@@ -4,12 +4,28 @@
 add_library(halyard_warnings INTERFACE)
 target_compile_options(halyard_warnings INTERFACE -Wall -Wextra -Wno-psabi)
 
+# Where the loader looks for shared libraries ("run path"): in folders relative to the file that needs them, $ORIGIN. A
+# target that is installed is linked with its final run path. If CMake changed it at installation instead, it would pad
+# the one of the build tree with ':', and the loader takes an empty entry for the current folder.
+set(CMAKE_BUILD_RPATH_USE_ORIGIN ON)
+
+# halyard_run_path(TARGET BUILT INSTALLED): the run path of a target that is in the folder BUILT after the build and in
+# INSTALLED after the installation.
+function(halyard_run_path target built installed)
+  file(RELATIVE_PATH from_installed ${installed} ${CMAKE_INSTALL_FULL_LIBDIR})
+  file(RELATIVE_PATH from_built ${built} ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
+  set(run_path "\$ORIGIN/${from_installed}" "\$ORIGIN/${from_built}")
+  list(TRANSFORM run_path REPLACE "/$" "")
+  list(REMOVE_DUPLICATES run_path)
+  set_target_properties(${target} PROPERTIES BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "${run_path}")
+endfunction()
+
 # halyard_library(ROOM source...): the library of a room, warnings on, headers found from the root.
 function(halyard_library room)
   add_library(halyard_${room} ${ARGN})
   add_library(halyard::${room} ALIAS halyard_${room})
   set_target_properties(halyard_${room} PROPERTIES EXPORT_NAME ${room} VERSION ${PROJECT_VERSION} SOVERSION 0
-    INSTALL_RPATH "\$ORIGIN")
+    BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "\$ORIGIN")
   target_include_directories(halyard_${room} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/halyard>)
   target_link_libraries(halyard_${room} PRIVATE $<BUILD_INTERFACE:halyard_warnings>)

@@ -22,6 +22,7 @@ TEST_F(DiagnoseCommand, SaysWhyAndByHowMuchEachEstimatorGains) {
   fs::copy_file(fs::path(HALYARD_BROKEN_PLUGINS) / "crashes_as_ekf.so", path("with_a_bad_ekf/plugins/ekf.so"),
                 fs::copy_options::overwrite_existing);
   fs::copy_file(program_, path("with_a_bad_ekf/halyard"));
+  fs::create_symlink(program_.parent_path() / "lib", path("with_a_bad_ekf/lib"));
   program_ = path("with_a_bad_ekf/halyard");
   const std::string printed = done({"diagnose", "--model", kModel, "--data", kLog, "--out", "out"});
 
