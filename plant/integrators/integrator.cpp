@@ -136,14 +136,14 @@ class RungeKutta : public Sundials {
   RungeKutta(ArmPlant& plant, const IntegratorOptions& options, double time_s, const Eigen::VectorXd& y)
       : Sundials(plant, options, time_s, y) {
     int order = 4;
-    switch (options.treatment) {
-      case Treatment::dirk:
+    switch (options.kind) {
+      case IntegratorKind::dirk:
         memory_ = ARKStepCreate(nullptr, derivative, time_s, vector_, context_);
         order = 3;
         break;
-      case Treatment::explicit_rk: memory_ = ARKStepCreate(derivative, nullptr, time_s, vector_, context_); break;
+      case IntegratorKind::explicit_rk: memory_ = ARKStepCreate(derivative, nullptr, time_s, vector_, context_); break;
       default:
-        implicit_ = options.treatment == Treatment::imex_link1 ? Share::first_cable : Share::cables_and_friction;
+        implicit_ = options.kind == IntegratorKind::imex_link1 ? Share::first_cable : Share::cables_and_friction;
         share_rate_.resize(y.size());
         memory_ = ARKStepCreate(explicit_part, implicit_part, time_s, vector_, context_);
     }
@@ -172,7 +172,7 @@ class RungeKutta : public Sundials {
     check(ARKStepSetOrder(memory_, order), "the order");
     check(ARKStepSVtolerances(memory_, options_.relative_tolerance, tolerance_vector_), "the tolerances");
     check(ARKStepSetMaxNumSteps(memory_, kMaxSteps), "the number of steps");
-    if (options_.treatment == Treatment::explicit_rk) return;
+    if (options_.kind == IntegratorKind::explicit_rk) return;
     check(ARKStepSetLinearSolver(memory_, solver_, matrix_), "the linear solver");
     check(ARKStepSetJacFn(memory_, jacobian), "the Jacobian");
     check(ARKStepSetNonlinConvCoef(memory_, kNewtonShare), "the Newton tolerance");
@@ -248,10 +248,10 @@ class Bdf : public Sundials {
 
 std::unique_ptr<Integrator> make_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,
                                             const Eigen::VectorXd& y) {
-  switch (options.treatment) {
-    case Treatment::simbody_rkm:
-    case Treatment::simbody_cpodes: return make_simbody_integrator(plant, options, time_s, y);
-    case Treatment::bdf: return std::make_unique<Bdf>(plant, options, time_s, y);
+  switch (options.kind) {
+    case IntegratorKind::simbody_rkm:
+    case IntegratorKind::simbody_cpodes: return make_simbody_integrator(plant, options, time_s, y);
+    case IntegratorKind::bdf: return std::make_unique<Bdf>(plant, options, time_s, y);
     default: return std::make_unique<RungeKutta>(plant, options, time_s, y);
   }
 }
