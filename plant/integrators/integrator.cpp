@@ -105,13 +105,13 @@ class Sundials : public Integrator {
     auto* s = static_cast<Sundials*>(self);
     return s->guarded([&] {
       Eigen::Map<Eigen::MatrixXd> map(SUNDenseMatrix_Data(J), s->y_.size(), s->y_.size());
-      s->plant_.share_jacobian(s->implicit_, t, N_VGetArrayPointer(y), map);
+      s->plant_.jacobian_of_terms(s->implicit_, t, N_VGetArrayPointer(y), map);
     });
   }
 
   ArmPlant& plant_;
   IntegratorOptions options_;
-  Share implicit_ = Share::all;  ///< what the Jacobian is of
+  DriveTerms implicit_ = DriveTerms::all;  ///< what the Jacobian is of
   double time_;
   Eigen::VectorXd y_, tolerance_;
   SUNContext context_ = nullptr;
@@ -143,8 +143,9 @@ class RungeKutta : public Sundials {
         break;
       case IntegratorKind::explicit_rk: memory_ = ARKStepCreate(derivative, nullptr, time_s, vector_, context_); break;
       default:
-        implicit_ = options.kind == IntegratorKind::imex_link1 ? Share::first_cable : Share::cables_and_friction;
-        share_rate_.resize(y.size());
+        implicit_ =
+            options.kind == IntegratorKind::imex_link1 ? DriveTerms::first_cable : DriveTerms::cables_and_friction;
+        implicit_rate_.resize(y.size());
         memory_ = ARKStepCreate(explicit_part, implicit_part, time_s, vector_, context_);
     }
     if (!memory_) throw std::runtime_error("SUNDIALS gives no integrator");
@@ -184,20 +185,20 @@ class RungeKutta : public Sundials {
   static int implicit_part(realtype t, N_Vector y, N_Vector y_dot, void* self) {
     auto* s = static_cast<RungeKutta*>(static_cast<Sundials*>(self));
     return s->guarded(
-        [&] { s->plant_.share_derivative(s->implicit_, t, N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot)); });
+        [&] { s->plant_.derivative_of_terms(s->implicit_, t, N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot)); });
   }
 
   static int explicit_part(realtype t, N_Vector y, N_Vector y_dot, void* self) {
     auto* s = static_cast<RungeKutta*>(static_cast<Sundials*>(self));
     return s->guarded([&] {
       s->plant_.derivative(t, N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot));
-      s->plant_.share_derivative(s->implicit_, t, N_VGetArrayPointer(y), s->share_rate_.data());
-      Eigen::Map<Eigen::VectorXd>(N_VGetArrayPointer(y_dot), s->y_.size()) -= s->share_rate_;
+      s->plant_.derivative_of_terms(s->implicit_, t, N_VGetArrayPointer(y), s->implicit_rate_.data());
+      Eigen::Map<Eigen::VectorXd>(N_VGetArrayPointer(y_dot), s->y_.size()) -= s->implicit_rate_;
     });
   }
 
   void* memory_ = nullptr;
-  Eigen::VectorXd share_rate_;
+  Eigen::VectorXd implicit_rate_;
 };
 
 /// Backward differentiation, started anew at each tick.
