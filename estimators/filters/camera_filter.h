@@ -60,7 +60,7 @@ class CameraFilter final : public Estimator {
  private:
   struct Past {
     Sample sample;
-    ArmFilter::Moment after;
+    ArmFilter::Snapshot after;
   };
 
   void remember(const Sample& sample);
