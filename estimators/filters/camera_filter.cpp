@@ -137,11 +137,11 @@ void CameraFilter::take_marker(const Sample& sample) {
 Estimate CameraFilter::estimate() const {
   Estimate e = filter_.estimate();
   const std::vector<int> states = states_of(unknown_offset(), *process_);
-  e.further.setConstant(process_->n_joints(), 2, kNan);
+  e.extra_outputs.setConstant(process_->n_joints(), 2, kNan);
   for (int k = 0; k < process_->n_joints(); ++k) {
     if (states[k] < 0) continue;
-    e.further(k, 0) = filter_.filter().x()(states[k]);
-    e.further(k, 1) = filter_.filter().S().row(states[k]).norm();
+    e.extra_outputs(k, 0) = filter_.filter().x()(states[k]);
+    e.extra_outputs(k, 1) = filter_.filter().S().row(states[k]).norm();
   }
   return e;
 }
