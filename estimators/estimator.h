@@ -32,8 +32,9 @@ struct Estimate {
   Eigen::VectorXd joint_position;      ///< [n] rad | m
   Eigen::VectorXd joint_velocity;      ///< [n] rad/s | m/s
   Eigen::VectorXd joint_position_std;  ///< [n] one standard deviation; 0 where the estimator has none
-  /// What else it says of the joints, a column [n] for each of its further_names(); NaN: nothing of that joint.
-  Eigen::MatrixXd further = {};
+  /// What else the estimator estimates of the joints: a column [n] for each of its extra_output_names(); NaN: nothing
+  /// of that joint.
+  Eigen::MatrixXd extra_outputs = {};
 };
 
 /// What later samples say of an earlier one.
@@ -58,10 +59,10 @@ class Estimator {
   /// Throws std::runtime_error if the state cannot be kept finite; the message names time and state.
   virtual Innovation update(const Sample& sample) = 0;
   virtual Estimate estimate() const = 0;
-  /// Names of what Estimate::further holds, as columns are called: "joint_force". They do not change.
-  virtual std::vector<std::string> further_names() const { return {}; }
-  /// The next estimate of an earlier sample that later ones have improved, for those who need not know at once. To be
-  /// asked after reset() and each update() until there is none; `at_end`: no sample follows. What a filter says stands.
+  /// Names of the columns of Estimate::extra_outputs, such as "joint_force". They do not change.
+  virtual std::vector<std::string> extra_output_names() const { return {}; }
+  /// Returns a revised estimate of an earlier sample that later samples have improved, or none. Call it after reset()
+  /// and after each update() until it returns none; `at_end`: no sample follows. A filter never revises.
   virtual std::optional<Revision> revise(bool /*at_end*/) { return std::nullopt; }
   virtual EstimatorReport report() const = 0;
 };

@@ -13,8 +13,8 @@ using SimTK::Vector;
 
 Eigen::VectorXd to_eigen(const Vector& v) { return Eigen::Map<const Eigen::VectorXd>(&v[0], v.size()); }
 
-/// Whether a share contains q' = v of joint k.
-bool moves(Share share, int k) { return share != Share::first_cable || k == 0; }
+/// Whether the terms contain q' = v of joint k.
+bool moves(DriveTerms terms, int k) { return terms != DriveTerms::first_cable || k == 0; }
 
 }  // namespace
 
@@ -38,25 +38,25 @@ void ArmPlant::derivative(double time_s, const double* y, double* y_dot) {
   std::memcpy(y_dot, &rate[0], rate.size() * sizeof(double));
 }
 
-void ArmPlant::share_derivative(Share share, double time_s, const double* y, double* y_dot) {
+void ArmPlant::derivative_of_terms(DriveTerms terms, double time_s, const double* y, double* y_dot) {
   const int n = layout().n;
   arm_->set_state(time_s, y);
   arm_->system.realize(arm_->state, Stage::Position);
-  arm_->drive.rates(share, time_s, y, y + n, y + 2 * n, y_dot + n, y_dot + 2 * n);
-  for (int k = 0; k < n; ++k) y_dot[k] = moves(share, k) ? y[n + k] : 0;
+  arm_->drive.rates(terms, time_s, y, y + n, y + 2 * n, y_dot + n, y_dot + 2 * n);
+  for (int k = 0; k < n; ++k) y_dot[k] = moves(terms, k) ? y[n + k] : 0;
   Eigen::Map<Eigen::VectorXd> acceleration(y_dot + n, n);
   arm_->total_mass(arm_->state).llt().solveInPlace(acceleration);
 }
 
-void ArmPlant::share_jacobian(Share share, double time_s, const double* y, Eigen::Ref<Eigen::MatrixXd> J) {
+void ArmPlant::jacobian_of_terms(DriveTerms terms, double time_s, const double* y, Eigen::Ref<Eigen::MatrixXd> J) {
   const int n = layout().n;
   arm_->set_state(time_s, y);
   arm_->system.realize(arm_->state, Stage::Position);
   Eigen::MatrixXd slopes;
-  arm_->drive.slopes(share, time_s, y, y + n, y + 2 * n, slopes);
+  arm_->drive.slopes(terms, time_s, y, y + n, y + 2 * n, slopes);
   J.topRows(n).setZero();
   for (int k = 0; k < n; ++k)
-    if (moves(share, k)) J(k, n + k) = 1;
+    if (moves(terms, k)) J(k, n + k) = 1;
   J.middleRows(n, n) = arm_->total_mass(arm_->state).llt().solve(slopes.topRows(n));
   J.bottomRows(layout().n_z) = slopes.bottomRows(layout().n_z);
 }

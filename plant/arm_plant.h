@@ -32,10 +32,10 @@ class ArmPlant {
   void set_inputs(double time_s, const double* command, const double* external);
 
   void derivative(double time_s, const double* y, double* y_dot);
-  /// What a share of the drive's forces contributes to y', with q' = v for the joints that it moves.
-  void share_derivative(Share share, double time_s, const double* y, double* y_dot);
-  /// Jacobian of share_derivative at fixed M and h: [0 I; M⁻¹ ∂F; ∂z']. Exact in what is stiff. J: [size x size].
-  void share_jacobian(Share share, double time_s, const double* y, Eigen::Ref<Eigen::MatrixXd> J);
+  /// What some terms of the drive's forces contribute to y', with q' = v for the joints that they move.
+  void derivative_of_terms(DriveTerms terms, double time_s, const double* y, double* y_dot);
+  /// Jacobian of derivative_of_terms at fixed M and h: [0 I; M⁻¹ ∂F; ∂z']. Exact in what is stiff. J: [size x size].
+  void jacobian_of_terms(DriveTerms terms, double time_s, const double* y, Eigen::Ref<Eigen::MatrixXd> J);
 
   /// Of the chain without rotors.
   Eigen::MatrixXd mass_matrix(const Eigen::VectorXd& q);

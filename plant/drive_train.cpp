@@ -119,30 +119,30 @@ void meter(const ArmParameters<T>& arm, const PlantLayout& l, const Evaluation<T
 }
 
 template <class T>
-void share_rates(Share share, const Transmission<T>& transmission, const PlantLayout& l, const Motion<T>& m,
-                 T* joint_force, T* z_dot) {
+void term_rates(DriveTerms terms, const Transmission<T>& transmission, const PlantLayout& l, const Motion<T>& m,
+                T* joint_force, T* z_dot) {
   const ArmParameters<T>& arm = transmission.arm();
   Evaluation<T> e;
   evaluate(transmission, l, m, e);
 
-  T torque[kMaxJoints], pull[kMaxJoints];  // of this share: on the rotor, cable excluded; of the cable on the capstan
+  T torque[kMaxJoints], pull[kMaxJoints];  // of these terms: on the rotor, cable excluded; of the cable on the capstan
   for (int k = 0; k < l.n; ++k) {
     const JointSignals<T>& s = e.s[k];
-    switch (share) {
-      case Share::all:
+    switch (terms) {
+      case DriveTerms::all:
         joint_force[k] = s.joint_force;
         torque[k] = s.motor_torque;
         break;
-      case Share::cables_and_friction:
+      case DriveTerms::cables_and_friction:
         joint_force[k] = s.joint_force - s.external_force;
         torque[k] = s.motor_torque - e.shaft_torque[k];
         break;
-      case Share::first_cable:
+      case DriveTerms::first_cable:
         joint_force[k] = arm.joint[0].pulley_radius * arm.joint[0].coupling[k] * e.s[0].cable_force_joint;
         torque[k] = T(0.0);
         break;
     }
-    pull[k] = share == Share::first_cable && k > 0 ? T(0.0) : s.cable_force_motor;
+    pull[k] = terms == DriveTerms::first_cable && k > 0 ? T(0.0) : s.cable_force_motor;
   }
 
   for (int k = 0; k < l.n; ++k) {
@@ -151,15 +151,15 @@ void share_rates(Share share, const Transmission<T>& transmission, const PlantLa
       const T force = torque[k] / j.motor_travel() * j.pulley_radius;
       for (int i = 0; i < l.n; ++i) joint_force[i] += j.coupling[i] * force;
     } else if (j.drive == Drive::cable) {
-      const bool counts = share != Share::first_cable || k == 0;
+      const bool counts = terms != DriveTerms::first_cable || k == 0;
       z_dot[l.motor_angle[k]] = counts ? e.s[k].motor_rate : T(0.0);
       z_dot[l.motor_rate[k]] = (torque[k] - j.motor_travel() * pull[k]) / j.rotor_inertia;
     }
   }
   for (int i = 0; i < l.n_effect_states; ++i)
-    z_dot[l.effect_states + i] = share == Share::first_cable ? T(0.0) : e.effect_rate[i];
+    z_dot[l.effect_states + i] = terms == DriveTerms::first_cable ? T(0.0) : e.effect_rate[i];
   z_dot[l.input_energy] = z_dot[l.lost_energy] = T(0.0);
-  if (share == Share::all) meter(arm, l, e, z_dot[l.input_energy], z_dot[l.lost_energy]);
+  if (terms == DriveTerms::all) meter(arm, l, e, z_dot[l.input_energy], z_dot[l.lost_energy]);
 }
 
 }  // namespace
@@ -176,13 +176,13 @@ void DriveTrain::set_inputs(double time_s, const double* command, const double* 
   history_.push(time_s, command);
 }
 
-void DriveTrain::rates(Share share, double time_s, const double* q, const double* v, const double* z,
+void DriveTrain::rates(DriveTerms terms, double time_s, const double* q, const double* v, const double* z,
                        double* joint_force, double* z_dot) const {
-  share_rates(share, transmission_, layout_, Motion<double>{time_s, &history_, command_, external_, q, v, z},
-              joint_force, z_dot);
+  term_rates(terms, transmission_, layout_, Motion<double>{time_s, &history_, command_, external_, q, v, z},
+             joint_force, z_dot);
 }
 
-void DriveTrain::slopes(Share share, double time_s, const double* q, const double* v, const double* z,
+void DriveTrain::slopes(DriveTerms terms, double time_s, const double* q, const double* v, const double* z,
                         Eigen::MatrixXd& slopes) const {
   const int n = layout_.n, size = layout_.size();
   slopes.resize(n + layout_.n_z, size);
@@ -193,8 +193,8 @@ void DriveTrain::slopes(Share share, double time_s, const double* q, const doubl
       const bool seeded = i >= first && i < first + kDualWidth;
       y[i] = seeded ? Dual::seed(value, i - first) : Dual(value);
     }
-    share_rates(share, slope_transmission_, layout_,
-                Motion<Dual>{time_s, &history_, command_, external_, y, y + n, y + 2 * n}, force, z_dot);
+    term_rates(terms, slope_transmission_, layout_,
+               Motion<Dual>{time_s, &history_, command_, external_, y, y + n, y + 2 * n}, force, z_dot);
     for (int c = first; c < std::min(first + kDualWidth, size); ++c) {
       for (int r = 0; r < n; ++r) slopes(r, c) = force[r].d[c - first];
       for (int r = 0; r < layout_.n_z; ++r) slopes(n + r, c) = z_dot[r].d[c - first];

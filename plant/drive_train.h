@@ -36,7 +36,7 @@ struct PlantLayout {
 };
 
 /// Which of the drive's forces and rates are meant.
-enum class Share {
+enum class DriveTerms {
   all,
   cables_and_friction,  ///< of all axes: what is stiff
   first_cable,          ///< the pull of the first joint's cable alone
@@ -56,11 +56,11 @@ class DriveTrain {
   void set_inputs(double time_s, const double* command, const double* external);
 
   /// joint_force [n] and z_dot [n_z] at q, v [n], z [n_z].
-  void rates(Share share, double time_s, const double* q, const double* v, const double* z, double* joint_force,
+  void rates(DriveTerms terms, double time_s, const double* q, const double* v, const double* z, double* joint_force,
              double* z_dot) const;
 
   /// Exact derivatives of rates(): rows joint_force and z_dot, columns q, v, z; [n + n_z x size].
-  void slopes(Share share, double time_s, const double* q, const double* v, const double* z,
+  void slopes(DriveTerms terms, double time_s, const double* q, const double* v, const double* z,
               Eigen::MatrixXd& slopes) const;
 
   /// The signals of all joints, sensor errors included; s: [n].

@@ -14,7 +14,7 @@
 namespace halyard {
 
 /// How the plant is integrated; docs/architecture.md says what each is for.
-enum class Treatment {
+enum class IntegratorKind {
   dirk,            ///< ARKODE, diagonally implicit third order: all implicit (default)
   imex,            ///< ARKODE, fourth order: cables and friction implicit, the rest explicit
   imex_link1,      ///< ARKODE, fourth order: the first link's cable alone implicit
@@ -25,7 +25,7 @@ enum class Treatment {
 };
 
 struct IntegratorOptions {
-  Treatment treatment = Treatment::dirk;
+  IntegratorKind kind = IntegratorKind::dirk;
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-9;
 };

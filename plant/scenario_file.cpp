@@ -116,14 +116,14 @@ ArmModel read_robot(const std::filesystem::path& path, const ArmParameters<doubl
 
 void read_integrator(const XmlElement& element, IntegratorOptions& options) {
   element.only({"treatment", "relative_tolerance", "absolute_tolerance"});
-  options.treatment = element.choice_or<Treatment>("treatment", options.treatment,
-                                                   {{"dirk", Treatment::dirk},
-                                                    {"imex", Treatment::imex},
-                                                    {"imex_link1", Treatment::imex_link1},
-                                                    {"bdf", Treatment::bdf},
-                                                    {"explicit_rk", Treatment::explicit_rk},
-                                                    {"simbody_rkm", Treatment::simbody_rkm},
-                                                    {"simbody_cpodes", Treatment::simbody_cpodes}});
+  options.kind = element.choice_or<IntegratorKind>("treatment", options.kind,
+                                                   {{"dirk", IntegratorKind::dirk},
+                                                    {"imex", IntegratorKind::imex},
+                                                    {"imex_link1", IntegratorKind::imex_link1},
+                                                    {"bdf", IntegratorKind::bdf},
+                                                    {"explicit_rk", IntegratorKind::explicit_rk},
+                                                    {"simbody_rkm", IntegratorKind::simbody_rkm},
+                                                    {"simbody_cpodes", IntegratorKind::simbody_cpodes}});
   options.relative_tolerance = element.number_or("relative_tolerance", options.relative_tolerance, "", Sign::positive);
   options.absolute_tolerance = element.number_or("absolute_tolerance", options.absolute_tolerance, "", Sign::positive);
 }

@@ -33,7 +33,7 @@ class DriveForce : public SimTK::Force::Custom::Implementation {
     const PlantLayout& l = arm_.drive.layout();
     const Vector &q = state.getQ(), &u = state.getU(), &z = state.getZ();
     Vector& rates = SimTK::Value<Vector>::updDowncast(arm_.forces.updCacheEntry(state, rates_));
-    arm_.drive.rates(Share::all, state.getTime(), &q[0], &u[0], &z[0], &rates[0], &rates[l.n]);
+    arm_.drive.rates(DriveTerms::all, state.getTime(), &q[0], &u[0], &z[0], &rates[0], &rates[l.n]);
     if (!Eigen::Map<const Eigen::VectorXd>(&rates[0], rates.size()).allFinite())
       throw std::runtime_error("a force or rate of the drive train is not finite");
     Vector force = rates(0, l.n);

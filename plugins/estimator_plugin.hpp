@@ -67,7 +67,7 @@ class Instance {
   Instance(std::unique_ptr<Estimator> estimator, std::size_t n_joints)
       : estimator_(std::move(estimator)), n_(static_cast<Eigen::Index>(n_joints)) {
     if (!estimator_) throw std::logic_error("the factory made no estimator");
-    further_names_ = estimator_->further_names();
+    extra_output_names_ = estimator_->extra_output_names();
   }
 
   void reset(const halyard_sample& first) { estimator_->reset(take(first)); }
@@ -85,8 +85,8 @@ class Instance {
 
   void estimate(halyard_estimate& out) const { copy(estimator_->estimate(), out); }
 
-  const char* further_name(std::size_t i) const {
-    return i < further_names_.size() ? further_names_[i].c_str() : nullptr;
+  const char* extra_output_name(std::size_t i) const {
+    return i < extra_output_names_.size() ? extra_output_names_[i].c_str() : nullptr;
   }
 
   void revise(bool at_end, double& time_s, halyard_estimate& out) {
@@ -116,12 +116,12 @@ class Instance {
     copy("joint_position", estimate.joint_position, out.joint_position);
     copy("joint_velocity", estimate.joint_velocity, out.joint_velocity);
     copy("joint_position_std", estimate.joint_position_std, out.joint_position_std);
-    const auto names = static_cast<Eigen::Index>(further_names_.size());
-    if (estimate.further.cols() != names)
-      throw std::logic_error("further has " + std::to_string(estimate.further.cols()) + " columns for " +
+    const auto names = static_cast<Eigen::Index>(extra_output_names_.size());
+    if (estimate.extra_outputs.cols() != names)
+      throw std::logic_error("extra_outputs has " + std::to_string(estimate.extra_outputs.cols()) + " columns for " +
                              std::to_string(names) + " names");
     for (Eigen::Index i = 0; i < names; ++i)
-      copy(further_names_[i].c_str(), estimate.further.col(i), out.further + i * n_);
+      copy(extra_output_names_[i].c_str(), estimate.extra_outputs.col(i), out.extra_outputs + i * n_);
   }
 
   void copy(const char* what, const Eigen::VectorXd& from, double* to) const {
@@ -137,7 +137,7 @@ class Instance {
 
   std::unique_ptr<Estimator> estimator_;
   Eigen::Index n_;
-  std::vector<std::string> further_names_;
+  std::vector<std::string> extra_output_names_;
   Sample sample_;
 };
 
@@ -171,8 +171,8 @@ inline int report(void* instance, halyard_report* out, char* message, std::size_
   return guarded(message, message_size, [&] { static_cast<Instance*>(instance)->report(*out); });
 }
 
-inline const char* further_name(void* instance, std::size_t i) noexcept {
-  return static_cast<Instance*>(instance)->further_name(i);
+inline const char* extra_output_name(void* instance, std::size_t i) noexcept {
+  return static_cast<Instance*>(instance)->extra_output_name(i);
 }
 
 inline int revise(void* instance, std::int32_t at_end, double* time_s, halyard_estimate* out, char* message,
@@ -200,7 +200,7 @@ halyard_estimator_table estimator_table(const char* name, const char* descriptio
           plugin::update,
           plugin::estimate,
           plugin::report,
-          plugin::further_name,
+          plugin::extra_output_name,
           plugin::revise};
 }
 

@@ -65,8 +65,8 @@ typedef struct halyard_estimate {
   double* joint_position;     /* [n] */
   double* joint_velocity;     /* [n] */
   double* joint_position_std; /* [n] one standard deviation; 0 where the estimator has none */
-  /* [names x n] row by row, names as further_name() tells; NaN, as it is on entry: nothing of that joint. */
-  double* further;
+  /* [names x n] row by row, names as extra_output_name() tells; NaN, as it is on entry: nothing of that joint. */
+  double* extra_outputs;
 } halyard_estimate;
 
 /* Counts since reset. */
@@ -97,12 +97,12 @@ typedef struct halyard_estimator_table {
 
   /* What else is estimated of every joint, as a column is called: letters, digits, '_', '-'. NULL beyond the last name.
    * The names of an instance do not change. NULL for the entry: nothing else. */
-  const char* (*further_name)(void* instance, size_t i);
+  const char* (*extra_output_name)(void* instance, size_t i);
   /* The next estimate of an earlier sample that later ones have improved: its time, one of those given since reset(),
    * and what is believed of it now; NaN for the time, as it is on entry: there is none. Called after reset() and each
    * update() until there is none; at_end is 1 after the last sample. A revision takes the place of all that was said of
-   * that sample: it has to fill `estimate` as estimate() does, `further` included. NULL for the entry: estimates are
-   * never revised. */
+   * that sample: it has to fill `estimate` as estimate() does, `extra_outputs` included. NULL for the entry: estimates
+   * are never revised. */
   int (*revise)(void* instance, int32_t at_end, double* time_s, halyard_estimate* estimate, char* message,
                 size_t message_size);
 } halyard_estimator_table;

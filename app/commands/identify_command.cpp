@@ -54,7 +54,7 @@ void run_identify(const IdentifyCommandOptions& options) {
     if (const std::string note = ignored_columns_note(logs.back()); !note.empty()) notes += note + "\n";
   }
   std::vector<Log> training;
-  std::vector<HeldOut> held_out;
+  std::vector<HeldOutLog> held_out;
   if (options.holdout.empty()) {
     for (const Log& log : logs) {
       auto [first, last] = split_log(log, 2.0 / 3);

@@ -109,7 +109,7 @@ void add_evidence(report::Page& page, const Diagnosis& d, const DiagnosisEvaluat
   page.paragraph(
       "Measured less predicted on the training data, on which the verdict rests, over what the residual goes with "
       "most: by the revised model without an effect, and with it. Shares are less what chance would give.");
-  const auto add = [&](const std::string& text, const Evidenced& evidence, bool is_rest) {
+  const auto add = [&](const std::string& text, const EffectEvidence& evidence, bool is_rest) {
     page.paragraph(text);
     if (const auto charts = view_charts(evidence, d.revised.nominal, is_rest); !charts.empty()) page.figure_row(charts);
   };

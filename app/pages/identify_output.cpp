@@ -85,16 +85,16 @@ bool adopted(const IdentifyResult& result) {
 std::vector<std::string> doubts(const IdentifyResult& result) {
   std::vector<std::string> all;
   constexpr std::size_t kNamed = 4;
-  const std::vector<StrainedNumber>& strained = result.identification.strained;
+  const std::vector<DeviatingNumber>& deviating = result.identification.deviating;
   std::string names;
-  for (std::size_t i = 0; i < std::min(kNamed, strained.size()); ++i)
-    names += (i == 0 ? "" : ", ") + fmt::format("{} ({:.3g} instead of {:.3g} {})", strained[i].name, strained[i].value,
-                                                strained[i].nominal, strained[i].unit);
-  if (strained.size() > kNamed) names += fmt::format(" and {} more", strained.size() - kNamed);
+  for (std::size_t i = 0; i < std::min(kNamed, deviating.size()); ++i)
+    names += (i == 0 ? "" : ", ") + fmt::format("{} ({:.3g} instead of {:.3g} {})", deviating[i].name,
+                                                deviating[i].value, deviating[i].nominal, deviating[i].unit);
+  if (deviating.size() > kNamed) names += fmt::format(" and {} more", deviating.size() - kNamed);
   if (!names.empty())
     all.push_back("the log pulls other numbers beyond twice their tolerance: " + names +
                   "; the model lacks something beside what was asked for, and halyard diagnose tells what");
-  if (!result.identification.stands)
+  if (!result.identification.converged)
     all.push_back("the estimate still moves after the last pass over the data, and is not where its interval says");
   const EstimatorComparison& judge = judge_of(result);
   std::string worse = worse_joints(result);
@@ -113,7 +113,7 @@ std::vector<std::string> doubts(const IdentifyResult& result) {
 
 std::string identify_json(const IdentifyResult& result) {
   const Identification& found = result.identification;
-  Json parameters = Json::array(), strained = Json::array(), rms = Json::object(), peak = Json::object();
+  Json parameters = Json::array(), deviating = Json::array(), rms = Json::object(), peak = Json::object();
   for (const IdentifiedNumber& n : found.numbers)
     parameters.push_back({{"name", n.name},
                           {"key", n.key},
@@ -123,12 +123,12 @@ std::string identify_json(const IdentifyResult& result) {
                           {"value", number_or_null(n.value)},
                           {"ci95", numbers({n.lower, n.upper})},
                           {"convergence", word(n.convergence)}});
-  for (const StrainedNumber& s : found.strained)
-    strained.push_back({{"name", s.name},
-                        {"unit", s.unit},
-                        {"from", number_or_null(s.nominal)},
-                        {"value", number_or_null(s.value)},
-                        {"tolerances", number_or_null(s.tolerances)}});
+  for (const DeviatingNumber& s : found.deviating)
+    deviating.push_back({{"name", s.name},
+                         {"unit", s.unit},
+                         {"from", number_or_null(s.nominal)},
+                         {"value", number_or_null(s.value)},
+                         {"tolerances", number_or_null(s.tolerances)}});
   for (const EstimatorComparison& e : result.estimators) {
     const auto both = [](const std::vector<double>& before, const std::vector<double>& after) {
       return Json{{"before", numbers(before)}, {"after", numbers(after)}};
@@ -141,7 +141,7 @@ std::string identify_json(const IdentifyResult& result) {
       {"doubts", doubts(result)},
       {"parameters", parameters},
       {"blocks", found.blocks},
-      {"strained", strained},
+      {"strained", deviating},
       {"error", {{"holdout", result.holdout}, {"joint_position_rms", rms}, {"joint_position_peak", peak}}}};
   return json_text(all);
 }

@@ -18,12 +18,12 @@ std::string mean_in_band(const Consistency& c) {
   return std::isnan(c.mean) ? "-" : fmt::format("{:.4g} ({:.4g} to {:.4g})", c.mean, c.lower, c.upper);
 }
 
-const char* word(Trust trust) {
-  switch (trust) {
-    case Trust::none: break;
-    case Trust::right: return "consistent";
-    case Trust::too_much: return "too sure";
-    case Trust::too_little: return "too cautious";
+const char* word(Confidence confidence) {
+  switch (confidence) {
+    case Confidence::unstated: break;
+    case Confidence::consistent: return "consistent";
+    case Confidence::overconfident: return "too sure";
+    case Confidence::underconfident: return "too cautious";
   }
   return "none";
 }
@@ -55,7 +55,7 @@ report::Table consistency_table(const Comparison& comparison) {
     const Judgement& j = comparison.judgements[i];
     if (!comparison.runs[i].failure.empty()) continue;
     const Cell name(comparison.runs[i].name);
-    if (j.nis.trust() != Trust::none)
+    if (j.nis.confidence() != Confidence::unstated)
       table.rows.push_back({name, Cell("innovations (NIS)"), Cell(mean_in_band(j.nis)), Cell(in_words(j.nis))});
     for (int k = 0; k < comparison.n_joints(); ++k) {
       if (comparison.has_truth(k))
@@ -115,7 +115,7 @@ ordered_json to_json(const Consistency& c) {
   return {{"mean", number_or_null(c.mean)},
           {"band95", {number_or_null(c.lower), number_or_null(c.upper)}},
           {"independent_samples", number_or_null(c.samples)},
-          {"verdict", word(c.trust())}};
+          {"verdict", word(c.confidence())}};
 }
 
 ordered_json to_json(const PairedRatio& r) {

@@ -65,7 +65,7 @@ report::Series curve(const ResidualSignals& signals, const View& v, double x_sca
   return s;
 }
 
-report::Chart spectrum_chart(const Evidenced& e, const View& v, const std::string& residual, bool is_rest) {
+report::Chart spectrum_chart(const EffectEvidence& e, const View& v, const std::string& residual, bool is_rest) {
   const std::string turn = v.abscissa == Abscissa::motor_angle ? "motor" : "capstan";
   report::Chart chart{.title = capitalised(residual) + " by order of the " + turn,
                       .x_label = "order [per turn of the " + turn + "]",
@@ -82,7 +82,7 @@ report::Chart spectrum_chart(const Evidenced& e, const View& v, const std::strin
 }
 
 /// Loops over reversal: how far the motors are ahead of the joint, over the load on the cable.
-report::Chart loop_chart(const Evidenced& e, const ArmParameters<double>& arm) {
+report::Chart loop_chart(const EffectEvidence& e, const ArmParameters<double>& arm) {
   const View v{.residual = ResidualKind::transmission, .abscissa = Abscissa::load};
   const ShownUnit y = residual_unit(arm, e.joint, v.residual);
   report::Chart chart{
@@ -104,7 +104,7 @@ report::Chart loop_chart(const Evidenced& e, const ArmParameters<double>& arm) {
 }
 
 /// What is drawn if no view says much: over time, the residual that the effect takes most of; nothing if it takes none.
-std::vector<View> over_time_only(const Evidenced& e) {
+std::vector<View> over_time_only(const EffectEvidence& e) {
   std::vector<View> best;
   double least = 1;
   for (const ResidualKind kind : kResidualKinds) {
@@ -130,7 +130,7 @@ std::string capitalised(std::string text) {
   return text;
 }
 
-std::vector<report::Chart> view_charts(const Evidenced& e, const ArmParameters<double>& arm, bool is_rest) {
+std::vector<report::Chart> view_charts(const EffectEvidence& e, const ArmParameters<double>& arm, bool is_rest) {
   std::vector<report::Chart> charts;
   for (const View& v : e.views.empty() && !is_rest ? over_time_only(e) : e.views) {
     const Abscissa abscissa = drawn_abscissa(v);

@@ -14,6 +14,6 @@ std::string capitalised(std::string text);
 /// The views of a residual, one chart each, and the spectrum beside a view over an angle: without and with the effect,
 /// and the curve without it. Where there is room, the loop of the transmission over load. Of a rest only the rest.
 /// An effect that no view tells is drawn over time.
-std::vector<report::Chart> view_charts(const Evidenced& evidence, const ArmParameters<double>& arm, bool is_rest);
+std::vector<report::Chart> view_charts(const EffectEvidence& evidence, const ArmParameters<double>& arm, bool is_rest);
 
 }  // namespace halyard

@@ -4,7 +4,7 @@
 #include <functional>
 #include <set>
 
-#include "bench/diagnosis/share.h"
+#include "bench/diagnosis/proportion.h"
 #include "model/output_file.h"
 #include "transmission/effect.h"
 
@@ -17,8 +17,8 @@ using Test = std::function<bool(const Result&)>;
 constexpr const char* kShareHead = "count | share | 95 % interval";
 constexpr const char* kShareRule = "---:|---:|---";
 
-Share share(const Results& all, const Test& hit) {
-  Share s;
+Proportion share(const Results& all, const Test& hit) {
+  Proportion s;
   for (const Result* r : all) s.count(hit(*r));
   return s;
 }
@@ -49,10 +49,10 @@ Results those(const Results& all, const Test& wanted) {
   return some;
 }
 
-Share least_often(const Results& trials) {
-  Share least;
+Proportion least_often(const Results& trials) {
+  Proportion least;
   for (const std::string& name : names_of(trials, right_name)) {
-    const Share s = share(those(trials, [&](const Result& r) { return right_name(r) == name; }), right_first);
+    const Proportion s = share(those(trials, [&](const Result& r) { return right_name(r) == name; }), right_first);
     if (least.of == 0 || s.value() < least.value()) least = s;
   }
   return least;
@@ -65,7 +65,7 @@ double detection_limit(const Results& trials, const std::function<double(const R
   Results sorted = trials;
   std::ranges::stable_sort(sorted, [&](const Result* a, const Result* b) { return x(*a) > x(*b); });
   double limit = std::numeric_limits<double>::infinity();
-  Share s;
+  Proportion s;
   for (const Result* r : sorted) {
     s.count(right_first(*r));
     if (s.of >= kFewest && s.value() >= kShare) limit = x(*r);
@@ -85,7 +85,7 @@ std::string effect_table(const Results& trials, double limit) {
   const auto line = [&](const std::string& name, const Results& some) {
     std::vector<double> strengths;
     for (const Result* r : some) strengths.push_back(strength(*r));
-    const Share alternative = share(some, right_or_alternative);
+    const Proportion alternative = share(some, right_or_alternative);
     text += fmt::format("| {} | {} | {}/{} | {:.3g} |\n", name, share(some, right_first).cells(), alternative.hits,
                         alternative.of, median(strengths));
   };
@@ -148,8 +148,8 @@ std::pair<double, double> error_ratio(const Result& r) {
 }
 
 /// Intervals of the effects that were named rightly, over their true parameters.
-Share coverage(const Results& trials) {
-  Share s;
+Proportion coverage(const Results& trials) {
+  Proportion s;
   for (const Result* r : trials)
     for (const TrueEffect& t : r->truth)
       for (const Named& n : r->named)
@@ -196,7 +196,7 @@ std::string effects_csv(const Results& effect, double limit) {
   for (const std::string& name : names_of(effect, right_name)) {
     const Results some = those(effect, [&](const Result& r) { return right_name(r) == name; });
     const Results strong = those(some, [&](const Result& r) { return is_strong(r, limit); });
-    const Share s = share(strong, right_first);
+    const Proportion s = share(strong, right_first);
     text += fmt::format("{},{},{},{:.4f},{:.4f},{},{},{}\n", name, s.of, s.hits, s.lower(), s.upper(),
                         share(strong, right_or_alternative).hits, limit_text(detection_limit(some, strength)),
                         limit_text(detection_limit(some, size)));
@@ -229,7 +229,7 @@ std::string detection_table(const Results& effect) {
   for (const std::string& name : names_of(effect, right_name)) {
     const Results some = those(effect, [&](const Result& r) { return right_name(r) == name; });
     const double limit = detection_limit(some, strength);
-    const Share weaker = share(those(some, [&](const Result& r) { return strength(r) < limit; }), right_first);
+    const Proportion weaker = share(those(some, [&](const Result& r) { return strength(r) < limit; }), right_first);
     text += fmt::format("| {} | {} | {} | {} | {}/{} |\n", name, some.size(), limit_text(limit),
                         limit_text(detection_limit(some, size)), weaker.hits, weaker.of);
   }
@@ -256,7 +256,7 @@ void write_summary(const std::filesystem::path& out, const std::vector<Result>& 
 
   const Results effect = of(Kind::effect);
   text += fmt::format("| question | bar | {} |\n|---|---|{}|\n", kShareHead, kShareRule);
-  const auto question = [&](const std::string& what, const std::string& bar, const Share& s) {
+  const auto question = [&](const std::string& what, const std::string& bar, const Proportion& s) {
     text += fmt::format("| {} | {} | {} |\n", what, bar, s.cells());
   };
   for (const Kind kind : {Kind::clean_exact, Kind::clean_mistuned})

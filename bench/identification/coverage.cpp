@@ -10,7 +10,7 @@
 #include <map>
 
 #include "bench/diagnosis/motion.h"
-#include "bench/diagnosis/share.h"
+#include "bench/diagnosis/proportion.h"
 #include "bench/program.h"
 #include "estimators/identification/identify.h"
 #include "model/model_file.h"
@@ -102,9 +102,9 @@ void run(const Options& options) {
 
   fmt::print("| number | held in its 95 % interval | share | Clopper-Pearson 95 % | median half width | RMS error |\n");
   fmt::print("|---|---|---|---|---|---|\n");
-  Share all;
+  Proportion all;
   for (std::size_t p = 0; p < runs[0].size(); ++p) {
-    Share share;
+    Proportion share;
     std::vector<double> width;
     double square = 0;
     for (const auto& outcomes : runs) {

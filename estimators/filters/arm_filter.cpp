@@ -187,7 +187,7 @@ Innovation ArmFilter::update(const Sample& sample) {
   return innovation;
 }
 
-ArmFilter::Moment ArmFilter::moment() const {
+ArmFilter::Snapshot ArmFilter::snapshot() const {
   return {.started = started_,
           .speed_is_due = speed_is_due_,
           .time_s = time_,
@@ -201,18 +201,18 @@ ArmFilter::Moment ArmFilter::moment() const {
           .report = report()};
 }
 
-void ArmFilter::go_back(const Moment& moment) {
-  started_ = moment.started;
-  speed_is_due_ = moment.speed_is_due;
-  time_ = moment.time_s;
-  refused_since_ = moment.refused_since;
-  reading_ = moment.reading;
-  torque_ = moment.torque;
-  external_ = moment.external;
-  noise_.reset(moment.adapted);
-  report_ = moment.report;
+void ArmFilter::restore(const Snapshot& snapshot) {
+  started_ = snapshot.started;
+  speed_is_due_ = snapshot.speed_is_due;
+  time_ = snapshot.time_s;
+  refused_since_ = snapshot.refused_since;
+  reading_ = snapshot.reading;
+  torque_ = snapshot.torque;
+  external_ = snapshot.external;
+  noise_.reset(snapshot.adapted);
+  report_ = snapshot.report;
   repaired_before_ = filter_->repaired();
-  filter_->reset(moment.x, moment.S);
+  filter_->reset(snapshot.x, snapshot.S);
 }
 
 Innovation ArmFilter::correct_at(double time_s, const MeasurementModel& measurement, const Eigen::VectorXd& z,

@@ -48,16 +48,16 @@ class ArmFilter final : public Estimator {
   const GaussianFilter& filter() const { return *filter_; }
 
   /// All that the filter knows at an instant, but for commands, of which no past one changes.
-  struct Moment {
+  struct Snapshot {
     bool started = false, speed_is_due = false;
     double time_s = 0, refused_since = 0;
     Eigen::VectorXd x, reading, torque, external, adapted;
     Eigen::MatrixXd S;
     EstimatorReport report;
   };
-  Moment moment() const;
-  /// Back to a moment since reset(); the samples after it may then be given again.
-  void go_back(const Moment& moment);
+  Snapshot snapshot() const;
+  /// Goes back to a snapshot taken since reset(); the samples after it may then be given again.
+  void restore(const Snapshot& snapshot);
   /// Predicts to a time and corrects by a measurement that is not the motors'. The filter must have started.
   Innovation correct_at(double time_s, const MeasurementModel& measurement, const Eigen::VectorXd& z,
                         const Eigen::MatrixXd& R_root);

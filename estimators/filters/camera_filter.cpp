@@ -116,7 +116,7 @@ Innovation CameraFilter::update(const Sample& sample) {
 
 void CameraFilter::remember(const Sample& sample) {
   if (!past_.empty() && sample.time_s - past_.back().sample.time_s > restart_gap_) past_.clear();
-  past_.push_back({sample, filter_.moment()});
+  past_.push_back({sample, filter_.snapshot()});
   while (past_.size() > 1 && past_[1].sample.time_s <= sample.time_s - camera_.latency_s + kRounding) past_.pop_front();
 }
 
@@ -124,24 +124,24 @@ void CameraFilter::take_marker(const Sample& sample) {
   const double exposed = sample.time_s - camera_.latency_s;
   // Of a time that the filter does not remember, or when it had not yet started.
   if (past_.front().sample.time_s > exposed + kRounding || !past_.front().after.started) return;
-  filter_.go_back(past_.front().after);
+  filter_.restore(past_.front().after);
   filter_.correct_at(std::max(exposed, past_.front().sample.time_s), MarkerPosition(*process_), sample.marker,
                      camera_.noise_m * Eigen::Matrix3d::Identity());
-  past_.front().after = filter_.moment();
+  past_.front().after = filter_.snapshot();
   for (std::size_t i = 1; i < past_.size(); ++i) {
     filter_.update(past_[i].sample);
-    past_[i].after = filter_.moment();
+    past_[i].after = filter_.snapshot();
   }
 }
 
 Estimate CameraFilter::estimate() const {
   Estimate e = filter_.estimate();
   const std::vector<int> states = states_of(unknown_offset(), *process_);
-  e.further.setConstant(process_->n_joints(), 2, kNan);
+  e.extra_outputs.setConstant(process_->n_joints(), 2, kNan);
   for (int k = 0; k < process_->n_joints(); ++k) {
     if (states[k] < 0) continue;
-    e.further(k, 0) = filter_.filter().x()(states[k]);
-    e.further(k, 1) = filter_.filter().S().row(states[k]).norm();
+    e.extra_outputs(k, 0) = filter_.filter().x()(states[k]);
+    e.extra_outputs(k, 1) = filter_.filter().S().row(states[k]).norm();
   }
   return e;
 }

@@ -54,13 +54,13 @@ class CameraFilter final : public Estimator {
   /// The innovation is that of the motors before the sample's marker is taken.
   Innovation update(const Sample& sample) override;
   Estimate estimate() const override;
-  std::vector<std::string> further_names() const override { return {"cable_offset", "cable_offset_std"}; }
+  std::vector<std::string> extra_output_names() const override { return {"cable_offset", "cable_offset_std"}; }
   EstimatorReport report() const override { return filter_.report(); }
 
  private:
   struct Past {
     Sample sample;
-    ArmFilter::Moment after;
+    ArmFilter::Snapshot after;
   };
 
   void remember(const Sample& sample);

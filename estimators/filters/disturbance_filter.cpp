@@ -81,14 +81,14 @@ Estimate DisturbanceFilter::estimate() const {
   process_->transmission().evaluate(time_, nullptr, x.data() + l.effect_states, s, z_dot);
 
   Estimate e = filter_.estimate();
-  e.further.setConstant(n, 3, kNan);
+  e.extra_outputs.setConstant(n, 3, kNan);
   const std::vector<int> states = states_of(unknown_force(), *process_);
   for (int k = 0; k < n; ++k) {
     if (states[k] >= 0) {
-      e.further(k, 0) = x(states[k]);
-      e.further(k, 1) = filter_.filter().S().row(states[k]).norm();
+      e.extra_outputs(k, 0) = x(states[k]);
+      e.extra_outputs(k, 1) = filter_.filter().S().row(states[k]).norm();
     }
-    if (process_->arm().joint[k].drive == Drive::cable) e.further(k, 2) = s[k].cable_force_joint;
+    if (process_->arm().joint[k].drive == Drive::cable) e.extra_outputs(k, 2) = s[k].cable_force_joint;
   }
   return e;
 }

@@ -47,7 +47,9 @@ class DisturbanceFilter final : public Estimator {
   void reset(const Sample& first) override;
   Innovation update(const Sample& sample) override;
   Estimate estimate() const override;
-  std::vector<std::string> further_names() const override { return {"joint_force", "joint_force_std", "cable_force"}; }
+  std::vector<std::string> extra_output_names() const override {
+    return {"joint_force", "joint_force_std", "cable_force"};
+  }
   EstimatorReport report() const override { return filter_.report(); }
 
  private:

@@ -346,8 +346,8 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
     estimate = solve(sum_blocks(model, weights, before, logs, stage(fmt::format("estimate, pass {}", pass + 1))),
                      before, bound);
     const Eigen::ArrayXd step = (estimate.u - before).head(asked).array().abs();
-    result.stands = (step <= kStands * estimate.deviation.head(asked).array()).all();
-    if (result.stands) break;
+    result.converged = (step <= kStands * estimate.deviation.head(asked).array()).all();
+    if (result.converged) break;
   }
 
   result.blocks = estimate.blocks;
@@ -377,7 +377,7 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
     const double tolerances = estimate.u(i) / 2;  // the prior's deviation is half a tolerance
     if (std::abs(tolerances) < kStrained || std::abs(estimate.u(i)) < kChance * estimate.deviation(i)) continue;
     const auto info = std::ranges::find(all, weights[i].key, &ParameterInfo::key);
-    result.strained.push_back(
+    result.deviating.push_back(
         {info->name, info->unit, weights[i].nominal, weights[i].value(estimate.u(i)), tolerances});
   }
   return result;

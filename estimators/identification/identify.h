@@ -60,8 +60,8 @@ struct IdentifiedNumber {
   std::vector<double> trace_std;  ///< its deviation, widened as the interval is
 };
 
-/// A number that was not asked for, but that the log wants elsewhere.
-struct StrainedNumber {
+/// A number that was not to be identified, but whose estimate lies far from the model.
+struct DeviatingNumber {
   std::string name, unit;
   double nominal = 0, value = 0;
   double tolerances = 0;  ///< by how many of its tolerances, signed
@@ -69,11 +69,11 @@ struct StrainedNumber {
 
 struct Identification {
   std::vector<IdentifiedNumber> numbers;
-  std::vector<StrainedNumber> strained;  ///< beyond twice their tolerance, and not by chance
-  std::vector<double> time;              ///< s of the logs one after the other
+  std::vector<DeviatingNumber> deviating;  ///< beyond twice their tolerance, significantly
+  std::vector<double> time;                ///< s of the logs one after the other
   int blocks = 0;
-  bool stands = false;  ///< the last pass moved no number by more than a fifth of its deviation
-  ArmModel model;       ///< with the numbers
+  bool converged = false;  ///< the last pass moved no number by more than a fifth of its deviation
+  ArmModel model;          ///< with the numbers
 };
 
 /// progress(text, fraction) is called now and then.

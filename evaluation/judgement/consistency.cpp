@@ -20,9 +20,9 @@ Consistency banded(double mean, double samples) {
 
 }  // namespace
 
-Trust Consistency::trust() const {
-  if (std::isnan(mean)) return Trust::none;
-  return mean > upper ? Trust::too_much : mean < lower ? Trust::too_little : Trust::right;
+Confidence Consistency::confidence() const {
+  if (std::isnan(mean)) return Confidence::unstated;
+  return mean > upper ? Confidence::overconfident : mean < lower ? Confidence::underconfident : Confidence::consistent;
 }
 
 Consistency consistency(std::span<const double> squares) {
@@ -82,11 +82,11 @@ std::vector<double> normalised_squares(std::span<const double> estimate, std::sp
 
 std::string in_words(const Consistency& c) {
   const std::string off = fmt::format("errors are {:.2g} times what it says", std::sqrt(c.mean));
-  switch (c.trust()) {
-    case Trust::none: break;
-    case Trust::right: return "consistent";
-    case Trust::too_much: return "too sure: " + off;
-    case Trust::too_little: return "too cautious: " + off;
+  switch (c.confidence()) {
+    case Confidence::unstated: break;
+    case Confidence::consistent: return "consistent";
+    case Confidence::overconfident: return "too sure: " + off;
+    case Confidence::underconfident: return "too cautious: " + off;
   }
   return "says nothing of its errors";
 }

@@ -15,11 +15,12 @@
 
 namespace halyard {
 
-enum class Trust {
-  none,       ///< the estimator says nothing of its errors
-  right,      ///< the mean lies in its band
-  too_much,   ///< errors are larger than it says
-  too_little  ///< errors are smaller than it says
+/// How an estimator's errors compare with the standard deviations that it states.
+enum class Confidence {
+  unstated,       ///< it states none
+  consistent,     ///< the mean lies in its band
+  overconfident,  ///< errors are larger than stated
+  underconfident  ///< errors are smaller than stated
 };
 
 /// A mean that ought to be 1, and where 95 % of such means lie.
@@ -27,7 +28,7 @@ struct Consistency {
   double mean = 0;  ///< NaN without samples
   double lower = 0, upper = 0;
   double samples = 0;  ///< that say something of their own
-  Trust trust() const;
+  Confidence confidence() const;
 };
 
 /// Of the squares of one run: NIS or NEES, NaN where there is none.

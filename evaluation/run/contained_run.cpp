@@ -116,10 +116,10 @@ std::string to_bytes(const EstimatorRun& run) {
   for (const double x : {double(run.report.steps), double(run.report.repaired_factors), double(run.report.gated),
                          run.microseconds_per_step})
     w.number(x);
-  w.number(static_cast<double>(run.further.size()));
-  for (std::size_t i = 0; i < run.further.size(); ++i) {
-    w.text(run.further_names[i]);
-    w.signals(run.further[i]);
+  w.number(static_cast<double>(run.extra_outputs.size()));
+  for (std::size_t i = 0; i < run.extra_outputs.size(); ++i) {
+    w.text(run.extra_output_names[i]);
+    w.signals(run.extra_outputs[i]);
   }
   return w.take();
 }
@@ -137,9 +137,9 @@ EstimatorRun from_bytes(const std::string& bytes, const std::string& name, const
   run.report.repaired_factors = static_cast<long>(r.number());
   run.report.gated = static_cast<long>(r.number());
   run.microseconds_per_step = r.number();
-  for (double further = r.number(); further > 0; --further) {
-    run.further_names.push_back(r.text());
-    run.further.push_back(r.signals(n));
+  for (double left = r.number(); left > 0; --left) {
+    run.extra_output_names.push_back(r.text());
+    run.extra_outputs.push_back(r.signals(n));
   }
   return run;
 }

@@ -76,8 +76,8 @@ void record(EstimatorRun& run, const Estimate& estimate, std::size_t i) {
     run.estimates.joint_position[k][i] = estimate.joint_position[k];
     run.estimates.joint_velocity[k][i] = estimate.joint_velocity[k];
     run.joint_position_std[k][i] = estimate.joint_position_std[k];
-    for (std::size_t f = 0; f < run.further.size(); ++f)
-      run.further[f][k][i] = estimate.further(k, static_cast<Eigen::Index>(f));
+    for (std::size_t f = 0; f < run.extra_outputs.size(); ++f)
+      run.extra_outputs[f][k][i] = estimate.extra_outputs(k, static_cast<Eigen::Index>(f));
   }
 }
 
@@ -131,8 +131,8 @@ EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const 
                            const EstimateOptions& options) {
   const std::size_t start = first_complete_row(log);
   EstimatorRun run = no_run(name, log);
-  run.further_names = estimator.further_names();
-  run.further.assign(run.further_names.size(), Signals(log.n_joints, std::vector<double>(log.size(), kNan)));
+  run.extra_output_names = estimator.extra_output_names();
+  run.extra_outputs.assign(run.extra_output_names.size(), Signals(log.n_joints, std::vector<double>(log.size(), kNan)));
   Samples samples(log, options.use_joint_torque);
   const std::size_t report_every = std::max<std::size_t>(1, log.size() / 100);
   const auto begin = std::chrono::steady_clock::now();
@@ -169,9 +169,9 @@ void write_estimates(const std::filesystem::path& path, const EstimatorRun& run,
   std::vector<std::string> names = {"joint_position", "joint_velocity", "joint_position_std"};
   std::vector<const Signals*> signals = {&run.estimates.joint_position, &run.estimates.joint_velocity,
                                          &run.joint_position_std};
-  for (std::size_t f = 0; f < run.further.size(); ++f) {
-    names.push_back(run.further_names[f]);
-    signals.push_back(&run.further[f]);
+  for (std::size_t f = 0; f < run.extra_outputs.size(); ++f) {
+    names.push_back(run.extra_output_names[f]);
+    signals.push_back(&run.extra_outputs[f]);
   }
   std::vector<std::string> header = {"time"};
   for (const std::string& name : names) {

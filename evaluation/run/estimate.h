@@ -12,10 +12,10 @@ namespace halyard {
 /// What an estimator said of a log, sample by sample.
 struct EstimatorRun {
   std::string name;
-  Log estimates;                           ///< time of the log, joint_position, joint_velocity; NaN before the start
-  Signals joint_position_std;              ///< [n] one standard deviation; 0 where the estimator has none
-  std::vector<std::string> further_names;  ///< what else it estimates of every joint
-  std::vector<Signals> further;            ///< [name][n]; NaN: nothing of that joint
+  Log estimates;               ///< time of the log, joint_position, joint_velocity; NaN before the start
+  Signals joint_position_std;  ///< [n] one standard deviation; 0 where the estimator has none
+  std::vector<std::string> extra_output_names;  ///< what else it estimates of every joint
+  std::vector<Signals> extra_outputs;           ///< [name][n]; NaN: nothing of that joint
   EstimatorReport report;
   std::vector<double> nis;           ///< νᵀ S⁻¹ ν over the motors measured, ~ 1 if the model is right; NaN: none
   Signals innovation;                ///< [n] S_root⁻¹ ν, ~ N(0, 1) each if the model is right; NaN: none
@@ -47,7 +47,7 @@ EstimatorRun no_run(const std::string& name, const Log& log);
 EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const Log& log,
                            const EstimateOptions& options = {});
 
-/// Writes time, joint_position_k, joint_velocity_k, joint_position_std_k and further estimates as CSV; whole or absent.
+/// Writes time, joint_position_k, joint_velocity_k, joint_position_std_k and the extra outputs as CSV; whole or absent.
 void write_estimates(const std::filesystem::path& path, const EstimatorRun& run, const std::string& comment = "");
 
 }  // namespace halyard

@@ -22,7 +22,7 @@ constexpr double kSkip = 0.5;  ///< s; a filter's start is not counted
 
 }  // namespace
 
-EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const std::vector<HeldOut>& logs) {
+EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const std::vector<HeldOutLog>& logs) {
   const auto n = static_cast<std::size_t>(model.n());
   EstimatorErrors result;
   result.innovation.resize(n);
@@ -62,19 +62,19 @@ EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const 
 
 namespace {
 
-Evidenced evidence_of(const std::vector<Record>& records, const Hypothesis& without, const Hypothesis& with,
-                      const std::vector<FullPrediction>& predicted_with, int joint) {
+EffectEvidence evidence_of(const std::vector<Record>& records, const Hypothesis& without, const Hypothesis& with,
+                           const std::vector<FullPrediction>& predicted_with, int joint) {
   std::vector<FullPrediction> predicted_without;
   for (const Record& r : records) predicted_without.push_back(predict_fully(r, without));
   // An effect of a joint that moves shows at that joint first, one of the arm anywhere.
-  Evidenced best;
+  EffectEvidence best;
   double most = -1;
   for (int k = 0; k < with.nominal.n; ++k) {
     if (joint >= 0 && k != joint) continue;
-    Evidenced e{k,
-                residual_signals(records, predicted_without, without, k),
-                residual_signals(records, predicted_with, with, k),
-                {}};
+    EffectEvidence e{k,
+                     residual_signals(records, predicted_without, without, k),
+                     residual_signals(records, predicted_with, with, k),
+                     {}};
     e.views = telling_views(e.without, e.with);
     const double share = e.views.empty() ? 0 : e.views.front().removed();
     if (share > most) most = share, best = std::move(e);
@@ -99,7 +99,7 @@ DiagnosisEvaluation evaluate_diagnosis(const ArmModel& model, const Diagnosis& d
                                        const std::function<void(const std::string&, double)>& progress) {
   const DiagnosisOptions options;
   std::vector<Record> records;
-  std::vector<HeldOut> held_out;
+  std::vector<HeldOutLog> held_out;
   for (const Log& log : training) {
     const auto [first, last] = split_log(log, 2.0 / 3);
     for (Record& r : make_records(holdout ? log : first, model, options.record)) records.push_back(std::move(r));
@@ -118,13 +118,13 @@ DiagnosisEvaluation evaluate_diagnosis(const ArmModel& model, const Diagnosis& d
     result.effects.push_back(evidence_of(records, without, revised, predicted, d.effects[i].effect.joint));
   }
   for (const Unexplained& u : d.unexplained) {
-    Evidenced rest{u.joint, residual_signals(records, predicted, revised, u.joint), {}, {}};
+    EffectEvidence rest{u.joint, residual_signals(records, predicted, revised, u.joint), {}, {}};
     rest.views = telling_views(rest.without);
     rest.with = rest.without;
     result.unexplained.push_back(std::move(rest));
   }
 
-  const bool sensed = std::any_of(held_out.begin(), held_out.end(), [](const HeldOut& h) {
+  const bool sensed = std::any_of(held_out.begin(), held_out.end(), [](const HeldOutLog& h) {
     return std::any_of(h.log->joint_position.begin(), h.log->joint_position.end(),
                        [](const auto& column) { return !column.empty(); });
   });
@@ -155,7 +155,7 @@ std::string alternatives_sentence(const NamedEffect& effect) {
 
 std::string why_named(const Diagnosis& d, const DiagnosisEvaluation& evaluation, std::size_t i) {
   const NamedEffect& named = d.effects[i];
-  const Evidenced& evidence = evaluation.effects[i];
+  const EffectEvidence& evidence = evaluation.effects[i];
   const ArmParameters<double>& arm = d.revised.nominal;
   std::string text;
   if (evidence.views.empty()) {

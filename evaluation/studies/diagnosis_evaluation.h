@@ -12,7 +12,7 @@
 namespace halyard {
 
 /// Residuals of one joint over the training data, and the two or three views that say most.
-struct Evidenced {
+struct EffectEvidence {
   int joint = 0;                  ///< 0-based, whose residuals these are
   ResidualSignals without, with;  ///< by the revised model without the effect, and with it; the same for a rest
   std::vector<View> views;        ///< best first; empty: no view says much
@@ -28,13 +28,13 @@ struct EstimatorErrors {
   std::string failure;            ///< why it failed
 };
 /// A log, and the time from which its errors count: an estimator remembers what was before, as a cable does.
-struct HeldOut {
+struct HeldOutLog {
   const Log* log;
   double from;
 };
 /// The errors over all logs together, of runs in processes of their own. A load that was measured is no part of the
 /// model, and is handed on as to the prediction.
-EstimatorErrors errors_of(const std::string& estimator, const ArmModel& model, const std::vector<HeldOut>& logs);
+EstimatorErrors errors_of(const std::string& estimator, const ArmModel& model, const std::vector<HeldOutLog>& logs);
 
 struct EstimatorComparison {
   std::string name;
@@ -42,8 +42,8 @@ struct EstimatorComparison {
 };
 
 struct DiagnosisEvaluation {
-  std::vector<Evidenced> effects;               ///< as Diagnosis::effects
-  std::vector<Evidenced> unexplained;           ///< as Diagnosis::unexplained
+  std::vector<EffectEvidence> effects;          ///< as Diagnosis::effects
+  std::vector<EffectEvidence> unexplained;      ///< as Diagnosis::unexplained
   std::vector<EstimatorComparison> estimators;  ///< none if the hold-out has no joint sensor
 };
 

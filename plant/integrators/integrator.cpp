@@ -105,13 +105,13 @@ class Sundials : public Integrator {
     auto* s = static_cast<Sundials*>(self);
     return s->guarded([&] {
       Eigen::Map<Eigen::MatrixXd> map(SUNDenseMatrix_Data(J), s->y_.size(), s->y_.size());
-      s->plant_.share_jacobian(s->implicit_, t, N_VGetArrayPointer(y), map);
+      s->plant_.jacobian_of_terms(s->implicit_, t, N_VGetArrayPointer(y), map);
     });
   }
 
   ArmPlant& plant_;
   IntegratorOptions options_;
-  Share implicit_ = Share::all;  ///< what the Jacobian is of
+  DriveTerms implicit_ = DriveTerms::all;  ///< what the Jacobian is of
   double time_;
   Eigen::VectorXd y_, tolerance_;
   SUNContext context_ = nullptr;
@@ -136,15 +136,16 @@ class RungeKutta : public Sundials {
   RungeKutta(ArmPlant& plant, const IntegratorOptions& options, double time_s, const Eigen::VectorXd& y)
       : Sundials(plant, options, time_s, y) {
     int order = 4;
-    switch (options.treatment) {
-      case Treatment::dirk:
+    switch (options.kind) {
+      case IntegratorKind::dirk:
         memory_ = ARKStepCreate(nullptr, derivative, time_s, vector_, context_);
         order = 3;
         break;
-      case Treatment::explicit_rk: memory_ = ARKStepCreate(derivative, nullptr, time_s, vector_, context_); break;
+      case IntegratorKind::explicit_rk: memory_ = ARKStepCreate(derivative, nullptr, time_s, vector_, context_); break;
       default:
-        implicit_ = options.treatment == Treatment::imex_link1 ? Share::first_cable : Share::cables_and_friction;
-        share_rate_.resize(y.size());
+        implicit_ =
+            options.kind == IntegratorKind::imex_link1 ? DriveTerms::first_cable : DriveTerms::cables_and_friction;
+        implicit_rate_.resize(y.size());
         memory_ = ARKStepCreate(explicit_part, implicit_part, time_s, vector_, context_);
     }
     if (!memory_) throw std::runtime_error("SUNDIALS gives no integrator");
@@ -172,7 +173,7 @@ class RungeKutta : public Sundials {
     check(ARKStepSetOrder(memory_, order), "the order");
     check(ARKStepSVtolerances(memory_, options_.relative_tolerance, tolerance_vector_), "the tolerances");
     check(ARKStepSetMaxNumSteps(memory_, kMaxSteps), "the number of steps");
-    if (options_.treatment == Treatment::explicit_rk) return;
+    if (options_.kind == IntegratorKind::explicit_rk) return;
     check(ARKStepSetLinearSolver(memory_, solver_, matrix_), "the linear solver");
     check(ARKStepSetJacFn(memory_, jacobian), "the Jacobian");
     check(ARKStepSetNonlinConvCoef(memory_, kNewtonShare), "the Newton tolerance");
@@ -184,20 +185,20 @@ class RungeKutta : public Sundials {
   static int implicit_part(realtype t, N_Vector y, N_Vector y_dot, void* self) {
     auto* s = static_cast<RungeKutta*>(static_cast<Sundials*>(self));
     return s->guarded(
-        [&] { s->plant_.share_derivative(s->implicit_, t, N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot)); });
+        [&] { s->plant_.derivative_of_terms(s->implicit_, t, N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot)); });
   }
 
   static int explicit_part(realtype t, N_Vector y, N_Vector y_dot, void* self) {
     auto* s = static_cast<RungeKutta*>(static_cast<Sundials*>(self));
     return s->guarded([&] {
       s->plant_.derivative(t, N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot));
-      s->plant_.share_derivative(s->implicit_, t, N_VGetArrayPointer(y), s->share_rate_.data());
-      Eigen::Map<Eigen::VectorXd>(N_VGetArrayPointer(y_dot), s->y_.size()) -= s->share_rate_;
+      s->plant_.derivative_of_terms(s->implicit_, t, N_VGetArrayPointer(y), s->implicit_rate_.data());
+      Eigen::Map<Eigen::VectorXd>(N_VGetArrayPointer(y_dot), s->y_.size()) -= s->implicit_rate_;
     });
   }
 
   void* memory_ = nullptr;
-  Eigen::VectorXd share_rate_;
+  Eigen::VectorXd implicit_rate_;
 };
 
 /// Backward differentiation, started anew at each tick.
@@ -248,10 +249,10 @@ class Bdf : public Sundials {
 
 std::unique_ptr<Integrator> make_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,
                                             const Eigen::VectorXd& y) {
-  switch (options.treatment) {
-    case Treatment::simbody_rkm:
-    case Treatment::simbody_cpodes: return make_simbody_integrator(plant, options, time_s, y);
-    case Treatment::bdf: return std::make_unique<Bdf>(plant, options, time_s, y);
+  switch (options.kind) {
+    case IntegratorKind::simbody_rkm:
+    case IntegratorKind::simbody_cpodes: return make_simbody_integrator(plant, options, time_s, y);
+    case IntegratorKind::bdf: return std::make_unique<Bdf>(plant, options, time_s, y);
     default: return std::make_unique<RungeKutta>(plant, options, time_s, y);
   }
 }

@@ -23,7 +23,7 @@ class Integrator {
 std::unique_ptr<Integrator> make_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,
                                             const Eigen::VectorXd& y);
 
-/// For the treatments simbody_*.
+/// For the kinds simbody_rkm and simbody_cpodes.
 std::unique_ptr<Integrator> make_simbody_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,
                                                     const Eigen::VectorXd& y);
 

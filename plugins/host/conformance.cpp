@@ -49,9 +49,10 @@ Record swings(const ArmModel& model) {
 }
 
 bool same(const Estimate& a, const Estimate& b) {
-  const auto both_none = a.further.array().isNaN() && b.further.array().isNaN();
+  const auto both_none = a.extra_outputs.array().isNaN() && b.extra_outputs.array().isNaN();
   return a.joint_position == b.joint_position && a.joint_velocity == b.joint_velocity &&
-         a.joint_position_std == b.joint_position_std && (both_none || a.further.array() == b.further.array()).all();
+         a.joint_position_std == b.joint_position_std &&
+         (both_none || a.extra_outputs.array() == b.extra_outputs.array()).all();
 }
 
 bool same(const std::vector<Estimate>& a, const std::vector<Estimate>& b) {

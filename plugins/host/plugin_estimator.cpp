@@ -66,12 +66,12 @@ void* create(const halyard_estimator_table& table, const ArmModel& model) {
   throw std::runtime_error(message);
 }
 
-std::vector<std::string> further_names_of(const halyard_estimator_table& table, void* instance) {
+std::vector<std::string> extra_output_names_of(const halyard_estimator_table& table, void* instance) {
   constexpr std::size_t kMaxNames = 100;  // an end that never comes
   std::vector<std::string> names;
-  const std::string start = std::string("estimator ") + table.name + ": further estimate ";
-  for (std::size_t i = 0; table.further_name; ++i) {
-    const char* name = table.further_name(instance, i);
+  const std::string start = std::string("estimator ") + table.name + ": extra output ";
+  for (std::size_t i = 0; table.extra_output_name; ++i) {
+    const char* name = table.extra_output_name(instance, i);
     if (!name) break;
     if (i == kMaxNames) throw std::runtime_error(start + "names do not end");
     const bool taken = name == std::string("joint_position") || name == std::string("joint_velocity") ||
@@ -95,7 +95,7 @@ PluginEstimator::PluginEstimator(std::shared_ptr<const EstimatorModule> module, 
       nu_(static_cast<std::size_t>(n_)),
       S_root_(static_cast<std::size_t>(n_ * n_)) {
   try {
-    further_names_ = further_names_of(table_, instance_);
+    extra_output_names_ = extra_output_names_of(table_, instance_);
   } catch (...) {
     destroy();
     throw;
@@ -164,17 +164,18 @@ template <class Fill>
 std::optional<Estimate> PluginEstimator::taken(const Fill& fill) const {
   const Eigen::VectorXd unset = Eigen::VectorXd::Constant(n_, kUnset);
   Estimate result{unset, unset, unset,
-                  Eigen::MatrixXd::Constant(n_, static_cast<Eigen::Index>(further_names_.size()), kUnset)};
+                  Eigen::MatrixXd::Constant(n_, static_cast<Eigen::Index>(extra_output_names_.size()), kUnset)};
   halyard_estimate out = {result.joint_position.data(), result.joint_velocity.data(), result.joint_position_std.data(),
-                          result.further.data()};
+                          result.extra_outputs.data()};
   if (!fill(out)) return std::nullopt;
   check_finite("joint_position", result.joint_position.data(), n_);
   check_finite("joint_velocity", result.joint_velocity.data(), n_);
   check_finite("joint_position_std", result.joint_position_std.data(), n_);
   if (n_ > 0 && result.joint_position_std.minCoeff() < 0) fail("joint_position_std is negative");
-  for (Eigen::Index i = 0; i < result.further.cols(); ++i)
+  for (Eigen::Index i = 0; i < result.extra_outputs.cols(); ++i)
     for (Eigen::Index k = 0; k < n_; ++k)
-      if (std::isinf(result.further(k, i))) fail(further_names_[i] + " " + std::to_string(k + 1) + " is infinite");
+      if (std::isinf(result.extra_outputs(k, i)))
+        fail(extra_output_names_[i] + " " + std::to_string(k + 1) + " is infinite");
   return result;
 }
 

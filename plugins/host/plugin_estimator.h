@@ -25,7 +25,7 @@ class PluginEstimator : public Estimator {
   void reset(const Sample& first) override;
   Innovation update(const Sample& sample) override;
   Estimate estimate() const override;
-  std::vector<std::string> further_names() const override { return further_names_; }
+  std::vector<std::string> extra_output_names() const override { return extra_output_names_; }
   std::optional<Revision> revise(bool at_end) override;
   EstimatorReport report() const override;
 
@@ -45,7 +45,7 @@ class PluginEstimator : public Estimator {
   const halyard_estimator_table& table_;
   Eigen::Index n_;
   void* instance_ = nullptr;
-  std::vector<std::string> further_names_;
+  std::vector<std::string> extra_output_names_;
   bool started_ = false;
   double time_s_ = 0;
   std::vector<double> nu_, S_root_;

@@ -80,12 +80,12 @@ TEST_P(UnknownForceOnAJoint, IsFollowedWithinATenthAndItsCableForceToo) {
   const JointParameters<double>& j = s.robot.nominal.joint[k];
   RootMeanSquare error, cable_error, cable, position, unaware_position;
   run(*filter, log.measured, [&](std::size_t i, const Estimate& e) {
-    error.add(e.further(k, force) - (log.truth.time[i] >= kOnset ? kForce : 0));
+    error.add(e.extra_outputs(k, force) - (log.truth.time[i] >= kOnset ? kForce : 0));
     position.add(e.joint_position(k) - log.truth.joint_position[k][i]);
     double path = 0;
     for (int c = 0; c < 3; ++c) path += j.coupling[c] * log.truth.joint_position[c][i];
     const double stretch = j.motor_travel() * log.truth.motor_position[k][i] - j.pulley_radius * path;
-    cable_error.add(e.further(k, cable_force) - 2 * j.stiffness * stretch);  // less its damping
+    cable_error.add(e.extra_outputs(k, cable_force) - 2 * j.stiffness * stretch);  // less its damping
     cable.add(2 * j.stiffness * stretch);
   });
   run(*unaware, log.measured, [&](std::size_t i, const Estimate& e) {
@@ -102,7 +102,7 @@ TEST(DisturbanceFilter, ClaimsNoForceWhereThereIsNone) {
   const auto filter = make_disturbance_sr_ukf(raven2(), {});
   RootMeanSquare over_std[3];
   run(*filter, log.measured, [&](std::size_t, const Estimate& e) {
-    for (int k = 0; k < 3; ++k) over_std[k].add(e.further(k, force) / e.further(k, force_std));
+    for (int k = 0; k < 3; ++k) over_std[k].add(e.extra_outputs(k, force) / e.extra_outputs(k, force_std));
   });
   for (int k = 0; k < 3; ++k) EXPECT_LT(over_std[k].value(), 1) << "joint " << k + 1;
 }
@@ -116,7 +116,7 @@ TEST(DisturbanceFilter, TakesUnknownFrictionForAForce) {
   RootMeanSquare error;
   run(*filter, log.measured, [&](std::size_t i, const Estimate& e) {
     const double rate = log.truth.joint_velocity[0][i];
-    if (std::abs(rate) > 0.1) error.add(e.further(0, force) + (rate > 0 ? 0.5 : -0.5));
+    if (std::abs(rate) > 0.1) error.add(e.extra_outputs(0, force) + (rate > 0 ? 0.5 : -0.5));
   });
   EXPECT_LT(error.value(), 0.1);
 }
@@ -131,11 +131,11 @@ TEST(DisturbanceFilter, AJointWithoutMotorHasNeitherForceNorCable) {
   filter->reset(s);
   s.time_s = 1e-3;
   filter->update(s);
-  const Eigen::MatrixXd further = filter->estimate().further;
-  EXPECT_TRUE(further.leftCols(2).topRows(2).allFinite());
-  EXPECT_TRUE(further.leftCols(2).row(2).array().isNaN().all());
-  EXPECT_TRUE(std::isnan(further(0, cable_force)));
-  EXPECT_TRUE(std::isfinite(further(1, cable_force)));
+  const Eigen::MatrixXd extra_outputs = filter->estimate().extra_outputs;
+  EXPECT_TRUE(extra_outputs.leftCols(2).topRows(2).allFinite());
+  EXPECT_TRUE(extra_outputs.leftCols(2).row(2).array().isNaN().all());
+  EXPECT_TRUE(std::isnan(extra_outputs(0, cable_force)));
+  EXPECT_TRUE(std::isfinite(extra_outputs(1, cable_force)));
 }
 
 TEST(DisturbanceFilter, WrongOptionsAreRefused) {

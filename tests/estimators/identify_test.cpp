@@ -107,10 +107,10 @@ TEST(Identify, FindsACouplingWithinItsInterval) {
     EXPECT_NEAR(n.value, truth, 4e-4 * truth);
     EXPECT_LT(n.upper - n.lower, 4e-3 * truth);
     EXPECT_EQ(n.convergence, Convergence::converged);
-    EXPECT_TRUE(found.stands);
+    EXPECT_TRUE(found.converged);
     EXPECT_EQ(found.model.nominal.joint[1].coupling[0], n.value);
     EXPECT_EQ(found.model.nominal.joint[1].stiffness, model.nominal.joint[1].stiffness);
-    EXPECT_TRUE(found.strained.empty());
+    EXPECT_TRUE(found.deviating.empty());
   }
   // Fewer by a chance of 0.7 %.
   EXPECT_GE(held, 2);
@@ -123,9 +123,9 @@ TEST(Identify, AStiffnessThatIsOffSpoilsNoCouplingAndIsTold) {
   const double truth = robot.nominal.joint[1].coupling[0];
   EXPECT_LE(found.numbers[0].lower, truth);
   EXPECT_GE(found.numbers[0].upper, truth);
-  ASSERT_EQ(found.strained.size(), 1u);
-  EXPECT_EQ(found.strained[0].name, "joint 2 cable stiffness");
-  EXPECT_NEAR(found.strained[0].tolerances, -3, 0.5);
+  ASSERT_EQ(found.deviating.size(), 1u);
+  EXPECT_EQ(found.deviating[0].name, "joint 2 cable stiffness");
+  EXPECT_NEAR(found.deviating[0].tolerances, -3, 0.5);
 }
 
 TEST(Identify, SaysWhatTheLogDoesNotExciteAndWhatDrifts) {

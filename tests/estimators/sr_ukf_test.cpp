@@ -323,12 +323,12 @@ TEST(SrUkfOnTheArm, GoesBackToAMomentWithAllThatItKnew) {
   filter.reset(samples[0]);
   for (int next = 1; const int from : {100, 220, 340}) {  // learning; 20 ms of refusals; the first after the gap
     while (next <= from) filter.update(samples[next++]);
-    const ArmFilter::Moment moment = filter.moment();
+    const ArmFilter::Snapshot snapshot = filter.snapshot();
     for (int i = 1; i <= 60; ++i) filter.update(samples[from + i]);
     const Eigen::VectorXd x = filter.filter().x();
     const Eigen::MatrixXd S = filter.filter().S();
     const long gated = filter.report().gated;
-    filter.go_back(moment);
+    filter.restore(snapshot);
     for (int i = 1; i <= 60; ++i) filter.update(samples[next++]);
     EXPECT_EQ(filter.filter().x(), x) << "from sample " << from;
     EXPECT_EQ(filter.filter().S(), S) << "from sample " << from;

@@ -104,12 +104,12 @@ TEST(Consistency, PassesAtTheRightNoiseAndFailsAtAWrongOne) {
   constexpr int kTrials = 200;
   for (int t = 0; t < kTrials; ++t) {
     const std::vector<double> x = autoregressive(5000, 0.8, t);
-    right += consistency(squared(x)).trust() == Trust::right;
-    EXPECT_EQ(consistency(squared(x, 4)).trust(), Trust::too_much);
-    EXPECT_EQ(consistency(squared(x, 0.25)).trust(), Trust::too_little);
+    right += consistency(squared(x)).confidence() == Confidence::consistent;
+    EXPECT_EQ(consistency(squared(x, 4)).confidence(), Confidence::overconfident);
+    EXPECT_EQ(consistency(squared(x, 0.25)).confidence(), Confidence::underconfident);
   }
   EXPECT_GE(right, 0.9 * kTrials);
-  EXPECT_EQ(consistency(std::vector<double>(9, kNan)).trust(), Trust::none);
+  EXPECT_EQ(consistency(std::vector<double>(9, kNan)).confidence(), Confidence::unstated);
 }
 
 TEST(Consistency, OfRunsHasTheBandOfAllTheirSamples) {
@@ -126,7 +126,7 @@ TEST(Consistency, OfRunsHoldsAsOftenAsItSays) {
   for (int t = 0; t < kTrials; ++t) {
     std::vector<Consistency> runs;
     for (int r = 0; r < kRuns; ++r) runs.push_back(consistency(squared(autoregressive(1000, 0.9, kRuns * t + r))));
-    right += consistency_of_runs(runs).trust() == Trust::right;
+    right += consistency_of_runs(runs).confidence() == Confidence::consistent;
   }
   // Binomial at 95 %, four deviations.
   EXPECT_NEAR(right, 0.95 * kTrials, 4 * std::sqrt(0.95 * 0.05 * kTrials));

@@ -15,21 +15,21 @@
 namespace halyard {
 namespace {
 
-const std::map<Treatment, std::string> kTreatments = {{Treatment::dirk, "dirk"},
-                                                      {Treatment::imex, "imex"},
-                                                      {Treatment::imex_link1, "imex_link1"},
-                                                      {Treatment::bdf, "bdf"},
-                                                      {Treatment::explicit_rk, "explicit_rk"},
-                                                      {Treatment::simbody_rkm, "simbody_rkm"},
-                                                      {Treatment::simbody_cpodes, "simbody_cpodes"}};
+const std::map<IntegratorKind, std::string> kIntegrators = {{IntegratorKind::dirk, "dirk"},
+                                                            {IntegratorKind::imex, "imex"},
+                                                            {IntegratorKind::imex_link1, "imex_link1"},
+                                                            {IntegratorKind::bdf, "bdf"},
+                                                            {IntegratorKind::explicit_rk, "explicit_rk"},
+                                                            {IntegratorKind::simbody_rkm, "simbody_rkm"},
+                                                            {IntegratorKind::simbody_cpodes, "simbody_cpodes"}};
 
 /// Experiment A without rounded readings, which turn errors of 1e-12 into other torques.
-Scenario smooth_scenario(Treatment treatment) {
+Scenario smooth_scenario(IntegratorKind kind) {
   Scenario s = read_scenario(HALYARD_SOURCE_DIR "/examples/raven2/experiment_a.xml");
   s.duration_s = 1;
   s.fade_in_s = 0.5;
   s.quantise = false;
-  s.integrator.treatment = treatment;
+  s.integrator.kind = kind;
   return s;
 }
 
@@ -41,18 +41,18 @@ double largest_difference(const Log& a, const Log& b, int joint) {
 }
 
 TEST(Integrators, AllAgreeWithTheReferenceAndConvergeToIt) {
-  const Log reference = simulate(smooth_scenario(Treatment::bdf)).truth;
-  for (const auto& [treatment, name] : kTreatments) {
-    if (treatment == Treatment::bdf) continue;
-    Scenario scenario = smooth_scenario(treatment);
+  const Log reference = simulate(smooth_scenario(IntegratorKind::bdf)).truth;
+  for (const auto& [kind, name] : kIntegrators) {
+    if (kind == IntegratorKind::bdf) continue;
+    Scenario scenario = smooth_scenario(kind);
     const Log at_default = simulate(scenario).truth;
     for (int k = 0; k < 3; ++k) {
       // Empirical: at rtol 1e-6 the one-step methods are off by up to 6e-9 rad, CPodes, started anew a thousand times,
       // by up to 7e-6.
-      const double tolerance = treatment == Treatment::simbody_cpodes ? 2e-5 : 2e-8;
+      const double tolerance = kind == IntegratorKind::simbody_cpodes ? 2e-5 : 2e-8;
       EXPECT_LT(largest_difference(at_default, reference, k), tolerance) << name << ", joint " << k + 1;
     }
-    if (treatment != Treatment::dirk && treatment != Treatment::simbody_cpodes) continue;
+    if (kind != IntegratorKind::dirk && kind != IntegratorKind::simbody_cpodes) continue;
     scenario.integrator.relative_tolerance = 1e-8;
     scenario.integrator.absolute_tolerance = 1e-11;
     const Log tight = simulate(scenario).truth;
@@ -61,21 +61,21 @@ TEST(Integrators, AllAgreeWithTheReferenceAndConvergeToIt) {
 }
 
 TEST(Integrators, OfSundialsAndOfSimbodyTakeTurnsInOneProcess) {
-  const Scenario scenario = smooth_scenario(Treatment::bdf);
+  const Scenario scenario = smooth_scenario(IntegratorKind::bdf);
   const std::vector<double> command = {0.02, 0.03, -0.01}, no_load = {0, 0, 0};
   std::vector<std::unique_ptr<ArmPlant>> plants;
   std::vector<std::unique_ptr<Integrator>> integrators;
-  for (const auto& [treatment, name] : kTreatments) {
+  for (const auto& [kind, name] : kIntegrators) {
     plants.push_back(std::make_unique<ArmPlant>(scenario.robot.nominal));
     const Eigen::VectorXd start = resting_state(*plants.back(), 0, scenario.robot.home());
-    IntegratorOptions options{treatment, 1e-7, 1e-10};
+    IntegratorOptions options{kind, 1e-7, 1e-10};
     integrators.push_back(make_integrator(*plants.back(), options, 0, start));
     plants.back()->set_inputs(0, command.data(), no_load.data());
   }
   const Eigen::VectorXd start = integrators[0]->state();
   for (int tick = 1; tick <= 100; ++tick)
     for (const auto& integrator : integrators) integrator->advance(0.001 * tick);
-  const auto reference = std::distance(kTreatments.begin(), kTreatments.find(Treatment::bdf));
+  const auto reference = std::distance(kIntegrators.begin(), kIntegrators.find(IntegratorKind::bdf));
   EXPECT_GT((integrators[reference]->state() - start).head(3).norm(), 1e-3);  // it moved
   // Empirical: CPodes is off by 1.3e-6 rad, the others by less than 1e-8.
   for (std::size_t i = 0; i < integrators.size(); ++i)
@@ -84,8 +84,8 @@ TEST(Integrators, OfSundialsAndOfSimbodyTakeTurnsInOneProcess) {
 
 TEST(Integrators, StandSharpFrictionInStick) {
   // tanh(v / 1e-3) at the joints and at the motors: eigenvalues of -1e4 and -3e5 per second.
-  for (const Treatment treatment : {Treatment::dirk, Treatment::imex}) {
-    Scenario scenario = smooth_scenario(treatment);
+  for (const IntegratorKind kind : {IntegratorKind::dirk, IntegratorKind::imex}) {
+    Scenario scenario = smooth_scenario(kind);
     scenario.duration_s = 0.3;
     for (JointTrajectory& t : scenario.trajectory) t.sines.clear();
     for (int k = 0; k < 3; ++k) {
@@ -93,7 +93,7 @@ TEST(Integrators, StandSharpFrictionInStick) {
       scenario.robot.nominal.joint[k].joint_smoothing = 1e-3;
     }
     const SimulationResult result = simulate(scenario);
-    scenario.integrator.treatment = Treatment::bdf;
+    scenario.integrator.kind = IntegratorKind::bdf;
     const Log reference = simulate(scenario).truth;
     for (int k = 0; k < 3; ++k) EXPECT_LT(largest_difference(result.truth, reference, k), 1e-8);
     // An explicit method needs a step of 1e-5 s here, 400 derivatives a tick of 1 ms.
@@ -102,7 +102,7 @@ TEST(Integrators, StandSharpFrictionInStick) {
 }
 
 TEST(Integrators, OfOneThreadEachGiveWhatTheyGiveAlone) {
-  Scenario scenario = smooth_scenario(Treatment::dirk);
+  Scenario scenario = smooth_scenario(IntegratorKind::dirk);
   scenario.duration_s = 0.3;
   const Log alone = simulate(scenario).truth;
   std::vector<Log> logs(2);
@@ -130,8 +130,8 @@ class LostForce : public EffectOf<LostForce> {
 
 TEST(Integrators, NameTheTimeAtWhichTheyFail) {
   const LostForce effect;
-  for (const auto& [treatment, name] : kTreatments) {
-    Scenario scenario = smooth_scenario(treatment);
+  for (const auto& [kind, name] : kIntegrators) {
+    Scenario scenario = smooth_scenario(kind);
     scenario.robot.effects.push_back({&effect, 0, {}});
     try {
       simulate(scenario);

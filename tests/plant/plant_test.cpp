@@ -163,14 +163,14 @@ TEST(ArmPlant, SplitsOffTheCablesAndTheFrictionOfAllAxes) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 20; ++trial) {
     const Eigen::VectorXd y = random_state(plant, random);
-    Eigen::VectorXd all(y.size()), rest(y.size()), share(y.size());
+    Eigen::VectorXd all(y.size()), rest(y.size()), part(y.size());
     plant.derivative(0, y.data(), all.data());
     without.derivative(0, y.data(), rest.data());
-    plant.share_derivative(Share::cables_and_friction, 0, y.data(), share.data());
-    for (int i = 3; i < 6; ++i) EXPECT_NEAR(share(i), all(i) - rest(i), 1e-9 * (1 + std::abs(all(i))));
+    plant.derivative_of_terms(DriveTerms::cables_and_friction, 0, y.data(), part.data());
+    for (int i = 3; i < 6; ++i) EXPECT_NEAR(part(i), all(i) - rest(i), 1e-9 * (1 + std::abs(all(i))));
     for (int k = 0; k < 3; ++k) {
       const int i = 6 + plant.layout().motor_rate[k];
-      EXPECT_NEAR(share(i), all(i) - rest(i), 1e-9 * (1 + std::abs(all(i))));
+      EXPECT_NEAR(part(i), all(i) - rest(i), 1e-9 * (1 + std::abs(all(i))));
     }
   }
 }
@@ -181,14 +181,14 @@ TEST(ArmPlant, SplitsOffTheFirstCable) {
   ArmPlant plant(arm), without(free);
   std::mt19937_64 random(4);
   const Eigen::VectorXd y = random_state(plant, random);
-  Eigen::VectorXd all(y.size()), rest(y.size()), share(y.size());
+  Eigen::VectorXd all(y.size()), rest(y.size()), part(y.size());
   plant.derivative(0, y.data(), all.data());
   without.derivative(0, y.data(), rest.data());
-  plant.share_derivative(Share::first_cable, 0, y.data(), share.data());
+  plant.derivative_of_terms(DriveTerms::first_cable, 0, y.data(), part.data());
   for (int i = 3; i < y.size() - 2; ++i) {
     const bool angle_of_other_motor = i >= 6 && (i - 6) % 2 == 0;
     if (angle_of_other_motor) continue;
-    EXPECT_NEAR(share(i), all(i) - rest(i), 1e-9 * (1 + std::abs(all(i)))) << i;
+    EXPECT_NEAR(part(i), all(i) - rest(i), 1e-9 * (1 + std::abs(all(i)))) << i;
   }
 }
 
@@ -200,9 +200,9 @@ TEST(DriveTrain, SlopesAreTheDerivativesOfItsRates) {
   std::mt19937_64 random(5);
   Eigen::VectorXd y = random_state(plant, random);
   y.segment(n, n) *= 1e-2;  // into the reach of the friction's slope
-  for (const Share share : {Share::all, Share::cables_and_friction, Share::first_cable}) {
+  for (const DriveTerms terms : {DriveTerms::all, DriveTerms::cables_and_friction, DriveTerms::first_cable}) {
     Eigen::MatrixXd slopes;
-    drive.slopes(share, 0, y.data(), y.data() + n, y.data() + 2 * n, slopes);
+    drive.slopes(terms, 0, y.data(), y.data() + n, y.data() + 2 * n, slopes);
     for (int c = 0; c < y.size(); ++c) {
       const double step = 1e-7;
       Eigen::VectorXd rates[2];
@@ -210,7 +210,7 @@ TEST(DriveTrain, SlopesAreTheDerivativesOfItsRates) {
         Eigen::VectorXd at = y;
         at(c) += (side ? step : -step);
         rates[side].resize(rows);
-        drive.rates(share, 0, at.data(), at.data() + n, at.data() + 2 * n, rates[side].data(), rates[side].data() + n);
+        drive.rates(terms, 0, at.data(), at.data() + n, at.data() + 2 * n, rates[side].data(), rates[side].data() + n);
       }
       const Eigen::VectorXd difference = (rates[1] - rates[0]) / (2 * step);
       // Central differences: rounding eps·|rate| / step ~ 1e-4, curvature of tanh step²·slope / v_s² ~ 1e-9 relative.

@@ -75,7 +75,7 @@ TEST(Experiments, AreThoseOfThePaper) {
     EXPECT_DOUBLE_EQ(s->trajectory[1].center, 90 * kDegree);
     EXPECT_DOUBLE_EQ(s->trajectory[2].sines.at(0).amplitude, 0.040);
     EXPECT_EQ(s->control_period_s, 1e-3);
-    EXPECT_EQ(s->integrator.treatment, Treatment::dirk);
+    EXPECT_EQ(s->integrator.kind, IntegratorKind::dirk);
     EXPECT_TRUE(s->quantise);
   }
 }

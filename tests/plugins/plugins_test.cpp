@@ -243,22 +243,23 @@ TEST(Plugins, TheCallersMistakesDoNotReachThePlugin) {
 }
 
 TEST(Plugins, FurtherEstimatesAndRevisionsCrossByNameAndTime) {
-  EXPECT_EQ(halyard::make_estimator(fixture("well_formed"), raven2())->further_names(), std::vector<std::string>());
+  EXPECT_EQ(halyard::make_estimator(fixture("well_formed"), raven2())->extra_output_names(),
+            std::vector<std::string>());
   const auto estimator = halyard::make_estimator(fixture("looks_back"), raven2());
-  EXPECT_EQ(estimator->further_names(), (std::vector<std::string>{"twice", "none"}));
+  EXPECT_EQ(estimator->extra_output_names(), (std::vector<std::string>{"twice", "none"}));
   estimator->reset(sample_at(0.5, 1));
   EXPECT_FALSE(estimator->revise(false).has_value());
   estimator->update(sample_at(0.75, 3));
-  const Eigen::MatrixXd further = estimator->estimate().further;
-  EXPECT_EQ(further.col(0), Eigen::Vector3d::Constant(6));
-  EXPECT_TRUE(further.col(1).array().isNaN().all());
+  const Eigen::MatrixXd extra_outputs = estimator->estimate().extra_outputs;
+  EXPECT_EQ(extra_outputs.col(0), Eigen::Vector3d::Constant(6));
+  EXPECT_TRUE(extra_outputs.col(1).array().isNaN().all());
   const auto revision = estimator->revise(false);
   ASSERT_TRUE(revision.has_value());
   EXPECT_EQ(revision->time_s, 0.5);
   EXPECT_EQ(revision->estimate.joint_position, Eigen::Vector3d::Constant(2));  // between both readings
   EXPECT_FALSE(estimator->revise(false).has_value());
-  EXPECT_EQ(failure([&] { halyard::make_estimator(fixture("taken_further_name"), raven2()); }),
-            "estimator fixture: further estimate 'joint_position': the name is taken");
+  EXPECT_EQ(failure([&] { halyard::make_estimator(fixture("taken_extra_output_name"), raven2()); }),
+            "estimator fixture: extra output 'joint_position': the name is taken");
 }
 
 // Without the check the process dies when the module frees a vector that it got from the library.
@@ -402,7 +403,7 @@ TEST_P(BuiltInPlugins, GiveTheSameNumbersAsWithoutTheBoundary) {
     ASSERT_EQ(a.joint_position, b.joint_position);
     ASSERT_EQ(a.joint_velocity, b.joint_velocity);
     ASSERT_EQ(a.joint_position_std, b.joint_position_std);
-    ASSERT_EQ(a.further, b.further);
+    ASSERT_EQ(a.extra_outputs, b.extra_outputs);
     for (bool more = true; more;) {
       const auto c = direct->revise(i == 49), d = plugin->revise(i == 49);
       more = c.has_value();
@@ -413,7 +414,7 @@ TEST_P(BuiltInPlugins, GiveTheSameNumbersAsWithoutTheBoundary) {
       ASSERT_EQ(c->estimate.joint_position_std, d->estimate.joint_position_std);
     }
   }
-  EXPECT_EQ(direct->further_names(), plugin->further_names());
+  EXPECT_EQ(direct->extra_output_names(), plugin->extra_output_names());
   EXPECT_EQ(direct->report().steps, plugin->report().steps);
 }
 

@@ -29,7 +29,7 @@ static const char* name_of(void* instance, size_t i) {
 static int estimate_more(void* instance, halyard_estimate* out, char* message, size_t message_size) {
   size_t k, n = ((state*)instance)->n;
   estimate(instance, out, message, message_size);
-  for (k = 0; k < n; ++k) out->further[k] = 2 * out->joint_position[k];
+  for (k = 0; k < n; ++k) out->extra_outputs[k] = 2 * out->joint_position[k];
   return HALYARD_OK;
 }
 
@@ -43,7 +43,7 @@ static int revise(void* instance, int32_t at_end, double* time_s, halyard_estima
   estimate(instance, out, message, message_size);
   for (k = 0; k < n; ++k) {
     out->joint_position[k] = (out->joint_position[k] + previous[k]) / 2;
-    out->further[k] = 2 * out->joint_position[k];
+    out->extra_outputs[k] = 2 * out->joint_position[k];
   }
   return HALYARD_OK;
 }
@@ -52,7 +52,7 @@ const halyard_estimator_table* halyard_estimator(void) {
   table.reset = reset_time;
   table.update = update_time;
   table.estimate = estimate_more;
-  table.further_name = name_of;
+  table.extra_output_name = name_of;
   table.revise = revise;
   return &table;
 }

@@ -6,6 +6,6 @@ static const char* name_of(void* instance, size_t i) {
 }
 
 const halyard_estimator_table* halyard_estimator(void) {
-  table.further_name = name_of;
+  table.extra_output_name = name_of;
   return &table;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// So many of so many, and what that says of the chance behind it.
+/// A proportion k / n of trials, and the 95 % interval of the probability behind it.
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 
 namespace halyard::blind {
 
-struct Share {
+struct Proportion {
   int hits = 0, of = 0;
 
   void count(bool hit) { hits += hit, ++of; }
