@@ -80,6 +80,77 @@ Eigen::VectorXd starting_state(const Scenario& scenario, ArmPlant& plant) {
   }
 }
 
+/// What happens at one instant of control; all [n].
+struct Tick {
+  JointSignals<double> signals[kMaxJoints];
+  Readings readings;
+  Eigen::VectorXd commanded_torque;
+  Eigen::VectorXd applied_torque;  ///< with the motors' noise
+  Eigen::VectorXd load;            ///< on the joints
+};
+
+/// Reads the encoders, asks the controller, and draws the noise, always in the same order.
+class ControlLoop {
+ public:
+  explicit ControlLoop(const Scenario& scenario)
+      : scenario_(scenario),
+        controller_(controller_parameters(scenario.robot), scenario.control_period_s),
+        random_(scenario.seed) {}
+
+  Tick tick(double time_s, const DriveTrain& drive, const Eigen::VectorXd& y) {
+    const int n = scenario_.robot.n();
+    Tick tick;
+    drive.signals(time_s, y.data(), y.data() + n, y.data() + 2 * n, tick.signals);
+    const TickNoise& noise = scenario_.noise;
+    for (std::size_t k = 0; k < noise.motor_reading.size(); ++k)
+      tick.signals[k].motor_error += noise.motor_reading[k] * normal_(random_);
+    tick.readings = read_encoders(drive.arm(), tick.signals, scenario_.quantise);
+    const Eigen::VectorXd desired = unstretched_motors(assumed_arm(scenario_), desired_joints(scenario_, time_s));
+    tick.commanded_torque = controller_.torque(desired, tick.readings.motor);
+    tick.applied_torque = tick.commanded_torque;
+    add_noise(noise.motor_torque, tick.applied_torque);
+    tick.load = Eigen::VectorXd::Zero(n);
+    add_noise(noise.joint_force, tick.load);
+    return tick;
+  }
+
+ private:
+  void add_noise(const std::vector<double>& deviation, Eigen::VectorXd& to) {
+    for (std::size_t k = 0; k < deviation.size(); ++k) to[k] += deviation[k] * normal_(random_);
+  }
+
+  const Scenario& scenario_;
+  PdController controller_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_{0, 1};
+};
+
+/// Writes a tick into row i of both logs.
+void record(const Scenario& scenario, const Tick& tick, double time_s, long i, SimulationResult& result) {
+  result.measured.time[i] = result.truth.time[i] = time_s;
+  for (int k = 0; k < scenario.robot.n(); ++k) {
+    const JointSignals<double>& s = tick.signals[k];
+    if (has_motor(scenario, k)) {
+      result.measured.motor_torque[k][i] = tick.commanded_torque(k);
+      result.measured.motor_position[k][i] = tick.readings.motor(k);
+      result.truth.motor_torque[k][i] = tick.applied_torque(k);
+      result.truth.motor_position[k][i] = s.motor_angle;
+    }
+    result.measured.joint_position[k][i] = tick.readings.joint(k);
+    result.truth.joint_position[k][i] = s.joint_position;
+    result.truth.joint_velocity[k][i] = s.joint_rate;
+  }
+}
+
+/// From the start at time 0 to the end.
+EnergyBalance energy_balance(ArmPlant& plant, const Eigen::VectorXd& start, const Eigen::VectorXd& end,
+                             double end_time_s) {
+  const PlantLayout& l = plant.layout();
+  return {.input = end(2 * l.n + l.input_energy),
+          .dissipated = end(2 * l.n + l.lost_energy),
+          .stored = plant.stored_energy(end_time_s, end.data()) - plant.stored_energy(0, start.data())};
+}
+
 }  // namespace
 
 void check_scenario(const Scenario& scenario) {
@@ -118,65 +189,31 @@ void check_scenario(const Scenario& scenario) {
 
 SimulationResult simulate(const Scenario& scenario, const std::function<void(double)>& progress) {
   check_scenario(scenario);
-  const int n = scenario.robot.n();
   const double period = scenario.control_period_s;
   const long ticks = number_of_ticks(scenario);
   const long ticks_per_report = std::max(1L, std::lround(kProgressPeriod / period));
 
   const std::unique_ptr<ArmPlant> plant = make_plant(scenario);
-  const DriveTrain& drive = plant->drive();
-  const ArmParameters<double>& assumed = assumed_arm(scenario);
   const Eigen::VectorXd start = starting_state(scenario, *plant);
   const std::unique_ptr<Integrator> integrator = make_integrator(*plant, scenario.integrator, 0, start);
-  PdController controller(controller_parameters(scenario.robot), period);
-  std::mt19937_64 random(scenario.seed);
-  std::normal_distribution<double> disturbance(0, 1);
-  const auto add = [&](const std::vector<double>& deviation, auto& to) {
-    for (std::size_t k = 0; k < deviation.size(); ++k) to[k] += deviation[k] * disturbance(random);
-  };
-
-  SimulationResult result{empty_log(scenario, ticks + 1, false), empty_log(scenario, ticks + 1, true), {}, 0};
+  ControlLoop loop(scenario);
+  SimulationResult result{.measured = empty_log(scenario, ticks + 1, /*with_velocity=*/false),
+                          .truth = empty_log(scenario, ticks + 1, /*with_velocity=*/true),
+                          .energy = {}};
   for (long i = 0; i <= ticks; ++i) {
     const double t = i * period;
-    const Eigen::VectorXd& y = integrator->state();
-    JointSignals<double> s[kMaxJoints];
-    drive.signals(t, y.data(), y.data() + n, y.data() + 2 * n, s);
-    for (std::size_t k = 0; k < scenario.noise.motor_reading.size(); ++k)
-      s[k].motor_error += scenario.noise.motor_reading[k] * disturbance(random);
-    const Readings readings = read_encoders(drive.arm(), s, scenario.quantise);
-    const Eigen::VectorXd command =
-        controller.torque(unstretched_motors(assumed, desired_joints(scenario, t)), readings.motor);
-    Eigen::VectorXd applied = command;
-    add(scenario.noise.motor_torque, applied);
-    Eigen::VectorXd load = Eigen::VectorXd::Zero(n);
-    add(scenario.noise.joint_force, load);
-
-    result.measured.time[i] = result.truth.time[i] = t;
-    for (int k = 0; k < n; ++k) {
-      if (has_motor(scenario, k)) {
-        result.measured.motor_torque[k][i] = command(k);
-        result.measured.motor_position[k][i] = readings.motor(k);
-        result.truth.motor_torque[k][i] = applied(k);
-        result.truth.motor_position[k][i] = s[k].motor_angle;
-      }
-      result.measured.joint_position[k][i] = readings.joint(k);
-      result.truth.joint_position[k][i] = s[k].joint_position;
-      result.truth.joint_velocity[k][i] = s[k].joint_rate;
-    }
+    const Tick tick = loop.tick(t, plant->drive(), integrator->state());
+    record(scenario, tick, t, i, result);
     if (progress && i % ticks_per_report == 0) progress(static_cast<double>(i) / ticks);
     if (i == ticks) break;
-    plant->set_inputs(t, applied.data(), load.data());
+    plant->set_inputs(t, tick.applied_torque.data(), tick.load.data());
     integrator->advance((i + 1) * period);
   }
 
   if (scenario.camera)
     add_camera(*scenario.camera, scenario.robot.nominal.payload_point, result.truth, scenario.seed, *plant,
                result.measured);
-
-  const Eigen::VectorXd& end = integrator->state();
-  result.energy.input = end(2 * n + plant->layout().input_energy);
-  result.energy.dissipated = end(2 * n + plant->layout().lost_energy);
-  result.energy.stored = plant->stored_energy(ticks * period, end.data()) - plant->stored_energy(0, start.data());
+  result.energy = energy_balance(*plant, start, integrator->state(), ticks * period);
   result.derivative_evaluations = plant->derivative_evaluations();
   return result;
 }

@@ -99,9 +99,9 @@ void print_errors(const Comparison& comparison) {
       fmt::print("  joint {}: mean absolute error {} {}, RMS {} {}, peak {} {}", k + 1,
                  shown_number(error.mean_absolute, unit), unit.shown, shown_number(error.rms, unit), unit.shown,
                  shown_number(error.peak, unit), unit.shown);
-      if (int(i) != comparison.baseline() && comparison.baseline() >= 0) {
+      if (const auto baseline = comparison.baseline(); baseline && i != *baseline) {
         fmt::print(", {} better than kinematics", shown_percent(comparison.improvement_of(i, k)));
-        fmt::print(", RMS over its {}", in_words(comparison.paired[i][comparison.baseline()][k]));
+        fmt::print(", RMS over its {}", in_words(comparison.paired[i][*baseline][k]));
       }
       fmt::print("\n");
     }

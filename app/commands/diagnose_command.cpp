@@ -13,33 +13,15 @@
 #include "model/model_file.h"
 
 namespace halyard {
+namespace {
 
-void run_diagnose(const DiagnoseCommandOptions& options) {
-  check_output_folder(options.out);
-  const ArmModel model = read_model(options.model);
-  const auto read = [&](const std::filesystem::path& path) {
-    Log log = read_log_of(model, path, options.columns, /*torque_required=*/false);
-    if (const std::string note = ignored_columns_note(log); !note.empty()) fmt::print("{}\n", note);
-    return log;
-  };
-  std::vector<std::filesystem::path> all = options.data;
-  if (!options.holdout.empty()) all.push_back(options.holdout);
-  check_given_once(all);
-  std::vector<Log> training;
-  for (const auto& path : options.data) training.push_back(read(path));
-  std::optional<Log> holdout;
-  if (!options.holdout.empty()) holdout = read(options.holdout);
+Log read(const ArmModel& model, const std::filesystem::path& path, const std::vector<std::string>& columns) {
+  Log log = read_log_of(model, path, columns, /*torque_required=*/false);
+  if (const std::string note = ignored_columns_note(log); !note.empty()) fmt::print("{}\n", note);
+  return log;
+}
 
-  Diagnosis d;
-  DiagnosisEvaluation evaluation;
-  {
-    StageProgress progress("diagnose");
-    const auto tell = [&](const std::string& what, double fraction) { progress.set(what, fraction); };
-    d = diagnose(model, training, holdout, {}, tell);
-    evaluation = evaluate_diagnosis(model, d, training, holdout, tell);
-  }
-  write_diagnosis(options.out, model, d, evaluation);
-
+void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   fmt::print("{}\n", verdict_line(d));
   for (const NamedEffect& e : d.effects)
     for (const Estimated& p : e.parameters)
@@ -52,7 +34,12 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
   for (const Estimated& p : d.refitted)
     fmt::print("  refitted {}: {:.5g} -> {:.5g} {}\n", p.name, p.nominal, p.value, p.unit);
   for (const Unexplained& u : d.unexplained) fmt::print("  unexplained, joint {}: {}\n", u.joint + 1, u.signature);
+}
+
+/// Of the given and of the revised model on the hold-out, joint by joint.
+void print_errors(const ArmModel& model, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   const std::vector<JointUnit> units = joint_units(model);
+  const bool changed = !d.effects.empty() || !d.refitted.empty();
   for (int k = 0; k < model.n(); ++k) {
     const auto print = [k](const std::string& what, double before, double after, const ShownUnit& unit) {
       if (std::isfinite(before))
@@ -63,11 +50,36 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
     print("position", d.before.joint_rms[k], d.after.joint_rms[k], position);
     print("motor torque", d.before.torque_rms[k], d.after.torque_rms[k],
           residual_unit(model.nominal, k, ResidualKind::motor_torque));
-    const bool changed = !d.effects.empty() || !d.refitted.empty();
     for (const EstimatorComparison& e : evaluation.estimators)
       if (changed && !e.before.rms.empty() && !e.after.rms.empty())
         print(e.name + " position", e.before.rms[k], e.after.rms[k], position);
   }
+}
+
+}  // namespace
+
+void run_diagnose(const DiagnoseCommandOptions& options) {
+  check_output_folder(options.out);
+  const ArmModel model = read_model(options.model);
+  std::vector<std::filesystem::path> all = options.data;
+  if (!options.holdout.empty()) all.push_back(options.holdout);
+  check_given_once(all);
+  std::vector<Log> training;
+  for (const auto& path : options.data) training.push_back(read(model, path, options.columns));
+  std::optional<Log> holdout;
+  if (!options.holdout.empty()) holdout = read(model, options.holdout, options.columns);
+
+  Diagnosis d;
+  DiagnosisEvaluation evaluation;
+  {
+    StageProgress progress("diagnose");
+    const auto tell = [&](const std::string& what, double fraction) { progress.set(what, fraction); };
+    d = diagnose(model, training, holdout, {}, tell);
+    evaluation = evaluate_diagnosis(model, d, training, holdout, tell);
+  }
+  write_diagnosis(options.out, model, d, evaluation);
+  print_findings(d, evaluation);
+  print_errors(model, d, evaluation);
   fmt::print("model: {}\n", (options.out / "model.xml").string());
   fmt::print("report: {}\n", (options.out / "report.html").string());
 }

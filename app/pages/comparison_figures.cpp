@@ -34,31 +34,31 @@ std::vector<double> shown_errors(const Comparison& comparison, std::size_t run, 
   return errors;
 }
 
-/// Index of the run with the least mean absolute error of joint k; -1 where it is not known or there is one run only.
-int best_run(const Comparison& comparison, int k) {
-  if (comparison.runs.size() < 2) return -1;
-  int best = -1;
+/// Index of the run with the least mean absolute error of joint k; none where it is not known or there is one run only.
+std::optional<std::size_t> best_run(const Comparison& comparison, int k) {
+  if (comparison.runs.size() < 2) return std::nullopt;
+  std::optional<std::size_t> best;
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
     const double error = comparison.errors[i][k].mean_absolute;
-    if (!std::isnan(error) && (best < 0 || error < comparison.errors[best][k].mean_absolute)) best = int(i);
+    if (!std::isnan(error) && (!best || error < comparison.errors[*best][k].mean_absolute)) best = i;
   }
   return best;
 }
 
 /// Whether the baseline's errors are so large that the others' are a line at zero beside them.
 bool baseline_hides_others(const Comparison& comparison, int k) {
-  const int baseline = comparison.baseline();
-  if (baseline < 0) return false;
+  const std::optional<std::size_t> baseline = comparison.baseline();
+  if (!baseline) return false;
   double largest = 0;
   for (std::size_t i = 0; i < comparison.runs.size(); ++i)
-    if (int(i) != baseline) largest = std::fmax(largest, comparison.errors[i][k].peak);
+    if (i != *baseline) largest = std::fmax(largest, comparison.errors[i][k].peak);
   constexpr double kSeen = 0.1;  // share of a chart's height
-  return largest > 0 && largest < kSeen * comparison.errors[baseline][k].peak;
+  return largest > 0 && largest < kSeen * comparison.errors[*baseline][k].peak;
 }
 
 /// "", or " without kinematics".
-std::string without(const Comparison& comparison, int left_out) {
-  return left_out < 0 ? "" : " without " + comparison.runs[left_out].name;
+std::string without(const Comparison& comparison, std::optional<std::size_t> left_out) {
+  return left_out ? " without " + comparison.runs[*left_out].name : "";
 }
 
 }  // namespace
@@ -93,12 +93,12 @@ Chart trajectory_chart(const Comparison& comparison, int k) {
   return chart;
 }
 
-Chart error_chart(const Comparison& comparison, int k, int left_out) {
+Chart error_chart(const Comparison& comparison, int k, std::optional<std::size_t> left_out) {
   Chart chart{.title = joint_title(k, "error over time") + without(comparison, left_out),
               .x_label = "time [s]",
               .y_label = fmt::format("estimate - truth [{}]", comparison.units[k].shown)};
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
-    if (int(i) == left_out) continue;
+    if (i == left_out) continue;
     chart.series.push_back(Series{.name = comparison.runs[i].name,
                                   .x = comparison.truth.time,
                                   .y = shown_errors(comparison, i, k),
@@ -111,11 +111,11 @@ Chart error_chart(const Comparison& comparison, int k, int left_out) {
   return chart;
 }
 
-Chart error_histogram(const Comparison& comparison, int k, int left_out) {
+Chart error_histogram(const Comparison& comparison, int k, std::optional<std::size_t> left_out) {
   const std::size_t first = first_counted_sample(comparison.truth.time, comparison.skip_s);
   std::vector<report::Sample> samples;
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
-    if (int(i) == left_out) continue;
+    if (i == left_out) continue;
     std::vector<double> errors = shown_errors(comparison, i, k);
     errors.erase(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(first));
     samples.push_back({comparison.runs[i].name, std::move(errors)});
@@ -124,7 +124,7 @@ Chart error_histogram(const Comparison& comparison, int k, int left_out) {
   Chart chart = report::histogram(joint_title(k, "errors") + without(comparison, left_out),
                                   fmt::format("estimate - truth [{}]", comparison.units[k].shown), samples, kBins);
   for (std::size_t i = 0; i < chart.series.size(); ++i)
-    chart.series[i].colour = (left_out >= 0 && int(i) >= left_out ? i + 1 : i) % kTruthColour;
+    chart.series[i].colour = (left_out && i >= *left_out ? i + 1 : i) % kTruthColour;
   return chart;
 }
 
@@ -137,12 +137,12 @@ report::Table error_table(const Comparison& comparison) {
   table.align.resize(table.header.size(), report::Align::right);
   for (int k = 0; k < comparison.n_joints(); ++k) {
     const JointUnit& unit = comparison.units[k];
-    const int best = best_run(comparison, k);
+    const std::optional<std::size_t> best = best_run(comparison, k);
     for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
       const ErrorStatistics& error = comparison.errors[i][k];
-      const bool is_baseline = int(i) == comparison.baseline();
+      const bool is_baseline = i == comparison.baseline();
       table.rows.push_back({Cell(std::to_string(k + 1)), Cell(comparison.runs[i].name), Cell(unit.shown),
-                            Cell(shown_number(error.mean_absolute, unit), int(i) == best),
+                            Cell(shown_number(error.mean_absolute, unit), i == best),
                             Cell(shown_number(error.rms, unit)), Cell(shown_number(error.median_absolute, unit)),
                             Cell(shown_number(error.percentile_95, unit)), Cell(shown_number(error.peak, unit)),
                             Cell(shown_number(error.bias, unit)),
@@ -162,7 +162,7 @@ void add_joint_figures(report::Page& page, const Comparison& comparison, const s
       continue;
     }
     page.figure_row({error_chart(comparison, k), error_histogram(comparison, k)});
-    if (const int left_out = comparison.baseline(); baseline_hides_others(comparison, k))
+    if (const auto left_out = comparison.baseline(); baseline_hides_others(comparison, k))
       page.figure_row({error_chart(comparison, k, left_out), error_histogram(comparison, k, left_out)});
   }
 }

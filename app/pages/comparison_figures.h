@@ -2,6 +2,8 @@
 /// The parts of a report that show a comparison. Joints count from 0 here, from 1 in what is shown; positions and
 /// errors are shown in degrees or millimetres.
 
+#include <cstddef>
+#include <optional>
 #include <string>
 
 #include "app/report/chart.h"
@@ -17,10 +19,10 @@ std::string shown_percent(double fraction);
 
 /// Truth, where known, and every estimate over time.
 report::Chart trajectory_chart(const Comparison& comparison, int k);
-/// Estimate minus truth over time, of all runs but `left_out`; -1: of all.
-report::Chart error_chart(const Comparison& comparison, int k, int left_out = -1);
+/// Estimate minus truth over time, of all runs but `left_out`, if one is given.
+report::Chart error_chart(const Comparison& comparison, int k, std::optional<std::size_t> left_out = std::nullopt);
 /// Share of the counted samples by error, of the same runs.
-report::Chart error_histogram(const Comparison& comparison, int k, int left_out = -1);
+report::Chart error_histogram(const Comparison& comparison, int k, std::optional<std::size_t> left_out = std::nullopt);
 /// One row per joint and estimator; the least mean absolute error of a joint is marked.
 report::Table error_table(const Comparison& comparison);
 

@@ -20,7 +20,7 @@ void print_summary(const std::vector<Experiment>& experiments) {
     fmt::print("  {:<22}", first.runs[i].name);
     for (int k = 0; k < first.n_joints(); ++k) {
       fmt::print("  {:>9} {}", shown_number(mean_error(experiments, i, k), first.units[k]), first.units[k].shown);
-      fmt::print(" {:>7}", int(i) == first.baseline() ? "" : shown_percent(mean_gain(experiments, i, k)));
+      fmt::print(" {:>7}", i == first.baseline() ? "" : shown_percent(mean_gain(experiments, i, k)));
     }
     fmt::print("  {:.3g} us a step\n", microseconds / double(experiments.size()));
   }

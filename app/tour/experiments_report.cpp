@@ -296,7 +296,7 @@ report::Table mean_error_table(const std::vector<Experiment>& experiments) {
   }
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
     std::vector<Cell> row = {"simulated", comparison.runs[i].name};
-    const bool is_baseline = int(i) == comparison.baseline();
+    const bool is_baseline = i == comparison.baseline();
     for (int k = 0; k < comparison.n_joints(); ++k) {
       row.emplace_back(shown_number(mean_error(experiments, i, k), comparison.units[k]));
       row.emplace_back(is_baseline ? "-" : shown_percent(mean_gain(experiments, i, k)));
@@ -380,7 +380,7 @@ std::string share_of_published(const std::vector<Experiment>& experiments) {
   const Comparison& comparison = first(experiments);
   std::string text;
   for (int k = 0; k < comparison.n_joints(); ++k) {
-    const double here = comparison.units[k].shown_per_si * mean_error(experiments, comparison.baseline(), k);
+    const double here = comparison.units[k].shown_per_si * mean_error(experiments, comparison.baseline().value(), k);
     text += fmt::format("{}{:.2g}", text.empty() ? "" : ", ", here / published_errors()[0].error[k]);
   }
   return text + " times";

@@ -236,107 +236,148 @@ std::string detection_table(const Results& effect) {
   return text + "\n";
 }
 
-}  // namespace
+/// The trials by kind.
+struct Trials {
+  Results all;
+  Results ran;  ///< a diagnosis that fails is a wrong answer; a trial that could not be drawn is none
+  double limit;
 
-void write_summary(const std::filesystem::path& out, const std::vector<Result>& results,
-                   const ArmParameters<double>& arm, double limit) {
-  Results all, ran;
-  for (const Result& r : results) all.push_back(&r);
-  // A diagnosis that fails is a wrong answer; a trial that could not be drawn is none.
-  ran = those(all, [](const Result& r) { return r.failure.empty() || r.failure.starts_with("diagnose"); });
-  const auto of = [&](Kind kind) { return those(ran, [&](const Result& r) { return r.kind == kind; }); };
-  const auto strong = [&](Kind kind) { return those(of(kind), [&](const Result& r) { return is_strong(r, limit); }); };
-  const auto section = [&](const std::string& title, const std::string& text) { return "## " + title + "\n\n" + text; };
+  Results of(Kind kind) const {
+    return those(ran, [&](const Result& r) { return r.kind == kind; });
+  }
+  Results strong(Kind kind) const {
+    return those(of(kind), [&](const Result& r) { return is_strong(r, limit); });
+  }
+};
 
-  std::string text = fmt::format(
+Trials sort_out(const std::vector<Result>& results, double limit) {
+  Trials trials{.all = {}, .ran = {}, .limit = limit};
+  for (const Result& r : results) trials.all.push_back(&r);
+  trials.ran =
+      those(trials.all, [](const Result& r) { return r.failure.empty() || r.failure.starts_with("diagnose"); });
+  return trials;
+}
+
+std::string section(const std::string& title, const std::string& text) { return "## " + title + "\n\n" + text; }
+
+std::string head(const Trials& t) {
+  return fmt::format(
       "# Blind trials of the diagnosis\n\n{} trials; {} could not be drawn, in {} the diagnosis failed. An effect "
       "counts from strength {:g} on: what it changes beyond the model's tolerances and constant errors of the sensors, "
       "over what the sensors resolve.\n\n",
-      all.size(), all.size() - ran.size(), share(ran, [](const Result& r) { return !r.failure.empty(); }).hits, limit);
+      t.all.size(), t.all.size() - t.ran.size(), share(t.ran, [](const Result& r) { return !r.failure.empty(); }).hits,
+      t.limit);
+}
 
-  const Results effect = of(Kind::effect);
-  text += fmt::format("| question | bar | {} |\n|---|---|{}|\n", kShareHead, kShareRule);
+bool names_one_of_them(const Result& r) {
+  return std::ranges::any_of(r.truth, [&](const TrueEffect& t) {
+    return std::ranges::find(r.named, t.place, &Named::place) != r.named.end();
+  });
+}
+
+constexpr Kind kCleanKinds[] = {Kind::clean_exact, Kind::clean_mistuned};
+constexpr Kind kEffectKinds[] = {Kind::effect, Kind::each_effect, Kind::effect_mistuned};
+
+std::string question_table(const Trials& t) {
+  std::string text = fmt::format("| question | bar | {} |\n|---|---|{}|\n", kShareHead, kShareRule);
   const auto question = [&](const std::string& what, const std::string& bar, const Proportion& s) {
     text += fmt::format("| {} | {} | {} |\n", what, bar, s.cells());
   };
-  for (const Kind kind : {Kind::clean_exact, Kind::clean_mistuned})
-    question(word(kind) + ": an effect is named", "0", share(of(kind), names_something));
-  for (const Kind kind : {Kind::clean_exact, Kind::clean_mistuned})
+  for (const Kind kind : kCleanKinds)
+    question(word(kind) + ": an effect is named", "0", share(t.of(kind), names_something));
+  for (const Kind kind : kCleanKinds)
     question(word(kind) + ": verdict unknown", "",
-             share(of(kind), [](const Result& r) { return r.verdict == "unknown"; }));
-  for (const Kind kind : {Kind::effect, Kind::each_effect, Kind::effect_mistuned}) {
-    question(word(kind) + ": effect and joint right, first", "90 %", share(strong(kind), right_first));
-    question(word(kind) + ": right, or among at most two alternatives", "97 %",
-             share(strong(kind), right_or_alternative));
+             share(t.of(kind), [](const Result& r) { return r.verdict == "unknown"; }));
+  for (const Kind kind : kEffectKinds) {
+    const Results strong = t.strong(kind);
+    question(word(kind) + ": effect and joint right, first", "90 %", share(strong, right_first));
+    question(word(kind) + ": right, or among at most two alternatives", "97 %", share(strong, right_or_alternative));
     question(word(kind) + ": right, and nothing else named", "",
-             share(strong(kind), [](const Result& r) { return right_first(r) && r.named.size() == 1; }));
-    question(word(kind) + ": the effect found least often", "70 %", least_often(strong(kind)));
+             share(strong, [](const Result& r) { return right_first(r) && r.named.size() == 1; }));
+    question(word(kind) + ": the effect found least often", "70 %", least_often(strong));
   }
-  question("form: effect and joint right, first", "", share(strong(Kind::form), right_first));
-  question("form: right, or among at most two alternatives", "", share(strong(Kind::form), right_or_alternative));
-  question("outside: unknown, or named with an unexplained rest", "90 %", share(strong(Kind::outside), admits_rest));
-  question("pair: both named", "75 %", share(strong(Kind::pair), all_named));
-  question("pair: one or both named", "", share(strong(Kind::pair), [](const Result& r) {
-             return std::ranges::any_of(r.truth, [&](const TrueEffect& t) {
-               return std::ranges::find(r.named, t.place, &Named::place) != r.named.end();
-             });
-           }));
-  for (const Kind kind : {Kind::effect, Kind::each_effect, Kind::effect_mistuned})
-    question("a true parameter lies in its 95 % interval (" + word(kind) + ")", "", coverage(of(kind)));
-  text += "\n";
+  question("form: effect and joint right, first", "", share(t.strong(Kind::form), right_first));
+  question("form: right, or among at most two alternatives", "", share(t.strong(Kind::form), right_or_alternative));
+  question("outside: unknown, or named with an unexplained rest", "90 %", share(t.strong(Kind::outside), admits_rest));
+  question("pair: both named", "75 %", share(t.strong(Kind::pair), all_named));
+  question("pair: one or both named", "", share(t.strong(Kind::pair), names_one_of_them));
+  for (const Kind kind : kEffectKinds)
+    question("a true parameter lies in its 95 % interval (" + word(kind) + ")", "", coverage(t.of(kind)));
+  return text + "\n";
+}
 
-  for (const Kind kind : {Kind::effect, Kind::each_effect, Kind::effect_mistuned, Kind::form})
-    if (!strong(kind).empty()) text += section("Named first, by truth: " + word(kind), effect_table(of(kind), limit));
-  if (!strong(Kind::outside).empty()) {
-    std::string table =
-        fmt::format("| truth | unknown, or a rest: {} | clean |\n|---|{}|---:|\n", kShareHead, kShareRule);
-    for (const std::string& name : names_of(strong(Kind::outside), right_name)) {
-      const Results some = those(strong(Kind::outside), [&](const Result& r) { return right_name(r) == name; });
-      table += fmt::format("| {} | {} | {} |\n", name, share(some, admits_rest).cells(),
-                           share(some, [](const Result& r) { return r.verdict == "clean"; }).hits);
-    }
-    text += section("Effects outside the library", table + "\n");
+std::string outside_table(const Results& trials) {
+  std::string table =
+      fmt::format("| truth | unknown, or a rest: {} | clean |\n|---|{}|---:|\n", kShareHead, kShareRule);
+  for (const std::string& name : names_of(trials, right_name)) {
+    const Results some = those(trials, [&](const Result& r) { return right_name(r) == name; });
+    table += fmt::format("| {} | {} | {} |\n", name, share(some, admits_rest).cells(),
+                         share(some, [](const Result& r) { return r.verdict == "clean"; }).hits);
   }
-  if (!effect.empty()) text += section("Detection limits: above, 90 % name the effect first", detection_table(effect));
+  return table + "\n";
+}
 
-  Results confused = strong(Kind::effect);
+/// Effects above the limit and clean arms: those that the confusion matrix counts.
+Results strong_or_clean(const Trials& t) {
+  Results some = t.strong(Kind::effect);
   for (const Kind kind : {Kind::each_effect, Kind::effect_mistuned, Kind::clean_exact, Kind::clean_mistuned})
-    std::ranges::copy(strong(kind), std::back_inserter(confused));
-  const auto matrix = confusion(confused);
-  text += section("Confusion: clean and effects above the limit", markdown(matrix));
-  if (!strong(Kind::form).empty())
-    text += section("Confusion: other functional forms", markdown(confusion(strong(Kind::form))));
-  if (!strong(Kind::outside).empty())
-    text += section("Confusion: outside the library", markdown(confusion(strong(Kind::outside))));
+    std::ranges::copy(t.strong(kind), std::back_inserter(some));
+  return some;
+}
 
-  std::string ratios =
+std::string ratio_table(const Trials& t) {
+  std::string text =
       "Joint position RMS after, over that of the true model, on the hold-out; bar: a median of 1.15.\n\n"
       "| kind | trials | worst joint: median | 90 % below | mean of the joints: median | 90 % below "
       "|\n|---|---:|---:|---:|---:|---:|\n";
   for (const Kind kind :
        {Kind::clean_exact, Kind::clean_mistuned, Kind::effect, Kind::each_effect, Kind::effect_mistuned, Kind::pair}) {
     std::vector<double> worst, mean;
-    for (const Result* r : strong(kind))
+    for (const Result* r : t.strong(kind))
       if (r->failure.empty()) worst.push_back(error_ratio(*r).first), mean.push_back(error_ratio(*r).second);
     if (!worst.empty())
-      ratios += fmt::format("| {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n", word(kind), worst.size(),
-                            median(worst), quantile(worst, 0.9), median(mean), quantile(mean, 0.9));
+      text += fmt::format("| {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n", word(kind), worst.size(), median(worst),
+                          quantile(worst, 0.9), median(mean), quantile(mean, 0.9));
   }
-  text += section("Error on the hold-out", ratios + "\n");
+  return text + "\n";
+}
 
+std::string time_sentence(const Results& ran) {
   std::vector<double> cpu;
   for (const Result* r : ran)
     if (r->failure.empty()) cpu.push_back(r->cpu_s);
-  text += section("Time", fmt::format("A diagnosis takes {:.1f} s of one processor in the median, {:.1f} s at most.\n",
-                                      median(cpu), quantile(cpu, 1)));
+  return fmt::format("A diagnosis takes {:.1f} s of one processor in the median, {:.1f} s at most.\n", median(cpu),
+                     quantile(cpu, 1));
+}
 
+std::string summary(const Trials& t) {
+  std::string text = head(t) + question_table(t);
+  for (const Kind kind : {Kind::effect, Kind::each_effect, Kind::effect_mistuned, Kind::form})
+    if (!t.strong(kind).empty())
+      text += section("Named first, by truth: " + word(kind), effect_table(t.of(kind), t.limit));
+  const Results outside = t.strong(Kind::outside), form = t.strong(Kind::form), effect = t.of(Kind::effect);
+  if (!outside.empty()) text += section("Effects outside the library", outside_table(outside));
+  if (!effect.empty()) text += section("Detection limits: above, 90 % name the effect first", detection_table(effect));
+  text += section("Confusion: clean and effects above the limit", markdown(confusion(strong_or_clean(t))));
+  if (!form.empty()) text += section("Confusion: other functional forms", markdown(confusion(form)));
+  if (!outside.empty()) text += section("Confusion: outside the library", markdown(confusion(outside)));
+  text += section("Error on the hold-out", ratio_table(t));
+  return text + section("Time", time_sentence(t.ran));
+}
+
+}  // namespace
+
+void write_summary(const std::filesystem::path& out, const std::vector<Result>& results,
+                   const ArmParameters<double>& arm, double limit) {
+  const Trials trials = sort_out(results, limit);
+  const Results effect = trials.of(Kind::effect);
   std::string csv;
-  for (const auto& row : matrix) csv += fmt::format("{}\n", fmt::join(row, ","));
+  for (const auto& row : confusion(strong_or_clean(trials))) csv += fmt::format("{}\n", fmt::join(row, ","));
   write_file_whole(out / "confusion.csv", csv);
   write_file_whole(out / "effects.csv", effects_csv(effect, limit));
   write_file_whole(out / "detection.csv", detection_csv(effect, arm));
-  write_file_whole(out / "trials.csv", trials_csv(all));
-  write_file_whole(out / "summary.md", text);
+  write_file_whole(out / "trials.csv", trials_csv(trials.all));
+  write_file_whole(out / "summary.md", summary(trials));
 }
 
 }  // namespace halyard::blind

@@ -161,45 +161,71 @@ const char* verdict_word(Diagnosis::Verdict verdict) {
 
 Place place_of(const PlacedEffect& e) { return {e.effect->name(), e.joint + 1}; }
 
+/// Nothing, with the reason in `failure`, if no recording could be drawn.
+std::optional<Recording> try_to_draw(const ArmModel& model, Kind kind, int index, double limit, Random& random,
+                                     std::string& failure) {
+  constexpr int kAttempts = 40;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    try {
+      Recording recording = draw_recording(model, kind, index, limit, random);
+      failure.clear();
+      return recording;
+    } catch (const std::runtime_error& error) {
+      failure = error.what();
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<TrueEffect> truth_of(const Recording& recording, const ArmModel& model) {
+  std::vector<TrueEffect> truth;
+  if (recording.hidden.empty()) return truth;
+  const StrengthMeter meter(training_part(recording.training, !recording.holdout), model);
+  for (const Hidden& h : recording.hidden) {
+    const std::string acts = h.acts.effect->name();
+    truth.push_back({{h.right_name, h.acts.joint + 1},
+                     acts == h.right_name ? "" : acts,
+                     relative_size(h.acts, model),
+                     meter.strength(h.acts),
+                     true_parameters(h.acts, model)});
+  }
+  return truth;
+}
+
+void write_logs(const std::filesystem::path& folder, const Recording& recording) {
+  std::filesystem::create_directories(folder);
+  write_log(folder / "train.csv", recording.training);
+  if (recording.holdout) write_log(folder / "holdout.csv", *recording.holdout);
+}
+
+/// What the diagnosis says, in the words of a result.
+void take_over(const Diagnosis& d, const ArmModel& robot, Result& r) {
+  r.verdict = verdict_word(d.verdict);
+  for (const NamedEffect& e : d.effects) {
+    Named named{place_of(e.effect), {}, {}};
+    for (const PlacedEffect& a : e.alternatives) named.alternatives.push_back(place_of(a));
+    for (const Estimated& p : e.parameters) named.parameters.push_back({p.name, p.value, p.lower, p.upper});
+    r.named.push_back(std::move(named));
+  }
+  for (const Unexplained& u : d.unexplained) r.unexplained.push_back(u.joint + 1);
+  r.before = d.before.joint_rms;
+  r.after = d.after.joint_rms;
+  r.true_model = joint_errors(d, robot);
+}
+
 }  // namespace
 
 Result run_trial(const ArmModel& model, Kind kind, int index, const TrialOptions& options) {
-  constexpr int kAttempts = 40;
   Random random(options.seed, static_cast<std::uint32_t>(kind), static_cast<std::uint32_t>(index));
   Result r;
   r.kind = kind;
   r.index = index;
   r.seed = options.seed;
   r.limit = options.limit;
-  std::optional<Recording> recording;
-  for (int attempt = 0; attempt < kAttempts && !recording; ++attempt) {
-    try {
-      recording = draw_recording(model, kind, index, options.limit, random);
-    } catch (const std::runtime_error& error) {
-      r.failure = error.what();
-    }
-  }
+  const std::optional<Recording> recording = try_to_draw(model, kind, index, options.limit, random, r.failure);
   if (!recording) return r;
-  r.failure.clear();
-
-  if (!recording->hidden.empty()) {
-    const StrengthMeter meter(training_part(recording->training, !recording->holdout), model);
-    for (const Hidden& h : recording->hidden) {
-      const std::string acts = h.acts.effect->name();
-      r.truth.push_back({{h.right_name, h.acts.joint + 1},
-                         acts == h.right_name ? "" : acts,
-                         relative_size(h.acts, model),
-                         meter.strength(h.acts),
-                         true_parameters(h.acts, model)});
-    }
-  }
-
-  if (!options.logs.empty()) {
-    const std::filesystem::path folder = options.logs / fmt::format("{}-{:06}", word(kind), index);
-    std::filesystem::create_directories(folder);
-    write_log(folder / "train.csv", recording->training);
-    if (recording->holdout) write_log(folder / "holdout.csv", *recording->holdout);
-  }
+  r.truth = truth_of(*recording, model);
+  if (!options.logs.empty()) write_logs(options.logs / fmt::format("{}-{:06}", word(kind), index), *recording);
 
   const auto wall = std::chrono::steady_clock::now();
   const double cpu = thread_seconds();
@@ -214,18 +240,7 @@ Result run_trial(const ArmModel& model, Kind kind, int index, const TrialOptions
   }
   r.cpu_s = thread_seconds() - cpu;
   r.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
-
-  r.verdict = verdict_word(d.verdict);
-  for (const NamedEffect& e : d.effects) {
-    Named named{place_of(e.effect), {}, {}};
-    for (const PlacedEffect& a : e.alternatives) named.alternatives.push_back(place_of(a));
-    for (const Estimated& p : e.parameters) named.parameters.push_back({p.name, p.value, p.lower, p.upper});
-    r.named.push_back(std::move(named));
-  }
-  for (const Unexplained& u : d.unexplained) r.unexplained.push_back(u.joint + 1);
-  r.before = d.before.joint_rms;
-  r.after = d.after.joint_rms;
-  r.true_model = joint_errors(d, recording->robot);
+  take_over(d, recording->robot, r);
   return r;
 }
 

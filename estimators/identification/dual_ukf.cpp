@@ -86,6 +86,13 @@ class Linearised final : public MeasurementModel {
   Eigen::MatrixXd H_;
 };
 
+/// K = P Hᵀ S_y⁻ᵀ S_y⁻¹.
+Eigen::MatrixXd gain(const Eigen::MatrixXd& PH, const Eigen::MatrixXd& S_root) {
+  const auto S_y = S_root.triangularView<Eigen::Lower>();
+  const auto S_y_transposed = S_root.transpose().triangularView<Eigen::Upper>();
+  return S_y_transposed.solve(S_y.solve(PH.transpose())).transpose();
+}
+
 }  // namespace
 
 double Weight::value(double u) const { return logarithmic ? nominal * std::exp(scale * u) : nominal + scale * u; }
@@ -192,34 +199,21 @@ void DualUkf::learn(const Innovation& innovation, const Eigen::MatrixXd& Y) {
   }
 }
 
-DualStep DualUkf::update(const EncoderSample& sample) {
+void DualUkf::forget_past() {
   const int n = model_.n();
+  torque_ = external_ = Eigen::VectorXd::Zero(n);
+  latest_ = Eigen::VectorXd::Constant(2 * n, std::numeric_limits<double>::quiet_NaN());
+  history_ = CommandHistory(n, kHistorySpan);
+}
+
+void DualUkf::widen_weights(double span_s) {
+  const double forgetting = std::exp(-span_s / (options_.memory * std::exp(learnt_ / options_.memory_growth)));
+  weights_filter_.reset(w(), S_w() / std::sqrt(forgetting));
+  learnt_ += span_s;
+}
+
+Eigen::MatrixXd DualUkf::predict(double time_s, const Eigen::MatrixXd& E) {
   const auto p = static_cast<Eigen::Index>(weights_.size());
-  if (!time_known_) {
-    torque_ = external_ = Eigen::VectorXd::Zero(n);
-    latest_ = Eigen::VectorXd::Constant(2 * n, std::numeric_limits<double>::quiet_NaN());
-    history_ = CommandHistory(n, kHistorySpan);
-  } else if (!(sample.time_s > time_)) {
-    throw std::invalid_argument("filter: time does not increase at " + std::to_string(sample.time_s) + " s");
-  }
-  if (!started_ || sample.time_s - time_ > options_.restart_gap) {
-    remember(sample);
-    time_known_ = true;
-    start(sample.time_s);
-    return {};
-  }
-
-  const double span = sample.time_s - time_;
-  const bool learns = options_.learn && sample.time_s - start_time_ > options_.settle;
-  if (learns) {
-    const double forgetting = std::exp(-span / (options_.memory * std::exp(learnt_ / options_.memory_growth)));
-    weights_filter_.reset(w(), S_w() / std::sqrt(forgetting));
-    learnt_ += span;
-  }
-
-  // Time update, of the belief and of the weights' points.
-  choose_substeps(time_);
-  const Eigen::MatrixXd E = spread();
   const Eigen::Index points = points_.members();
   Eigen::MatrixXd dw = Eigen::MatrixXd::Zero(p, points);
   dw.leftCols(p) = E;
@@ -228,6 +222,8 @@ DualStep DualUkf::update(const EncoderSample& sample) {
   for (Eigen::Index i = 0; i < points; ++i) theta.col(i) = numbers(w() + dw.col(i));
   if (options_.learn || !points_are_set_) points_.set(theta);
   points_are_set_ = true;
+
+  const double span = time_s - time_;
   const int pieces = std::max(1, static_cast<int>(std::ceil(span / options_.max_step - 1e-9)));
   Step step;
   step.dt_s = span / pieces;
@@ -241,44 +237,70 @@ DualStep DualUkf::update(const EncoderSample& sample) {
     state_filter_.predict(ArmOfBelief(center_, structure_, step, substeps),
                           noise_.process_root(step, state_filter_.x()));
   }
-  const auto triangle = E.transpose().triangularView<Eigen::Upper>();
-  const auto per_weight = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
-    const Eigen::MatrixXd moved = options_.learn ? Eigen::MatrixXd(0.5 * (columns.leftCols(p) - columns.rightCols(p)))
-                                                 : Eigen::MatrixXd(columns.leftCols(p).colwise() - columns.col(p));
-    return triangle.solve(moved.transpose()).transpose();
-  };
-  Psi_ = per_weight(X);
+  return X;
+}
 
-  // Measurement update of the state, then of the weights by the same innovation.
-  std::vector<int> read;
+Eigen::MatrixXd DualUkf::per_weight(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& E) const {
+  const Eigen::Index p = E.rows();
+  const auto triangle = E.transpose().triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd moved = options_.learn ? Eigen::MatrixXd(0.5 * (columns.leftCols(p) - columns.rightCols(p)))
+                                               : Eigen::MatrixXd(columns.leftCols(p).colwise() - columns.col(p));
+  return triangle.solve(moved.transpose()).transpose();
+}
+
+std::vector<int> DualUkf::measured(const EncoderSample& sample) const {
+  const int n = model_.n();
+  std::vector<int> rows;
   for (int k = 0; k < n; ++k)
-    if (structure_.arm().joint[k].drive != Drive::none && std::isfinite(sample.motor_position(k))) read.push_back(k);
+    if (structure_.arm().joint[k].drive != Drive::none && std::isfinite(sample.motor_position(k))) rows.push_back(k);
   for (int k = 0; k < n; ++k)
-    if (std::isfinite(sample.joint_position(k))) read.push_back(n + k);
-  DualStep result;
-  if (!read.empty()) {
-    Eigen::VectorXd z(2 * n);
-    z << sample.motor_position, sample.joint_position;
-    Eigen::MatrixXd H;
-    const Eigen::VectorXd x = state_filter_.x();
-    const Eigen::VectorXd predicted = center_.readings(sample.time_s, x, H);
-    const Eigen::MatrixXd Y = per_weight(points_.readings(sample.time_s, X))(read, Eigen::all);
-    H = H(read, Eigen::all).eval();
-    const Eigen::MatrixXd HS = H * state_filter_.S(), PH = state_filter_.S() * HS.transpose();
-    const Innovation innovation = state_filter_.update(Linearised(x, predicted(read), H), z(read),
-                                                       Eigen::VectorXd(deviation_(read)).asDiagonal(), kInfinity);
-    const auto S_y = innovation.S_root.triangularView<Eigen::Lower>();
-    const auto S_y_transposed = innovation.S_root.transpose().triangularView<Eigen::Upper>();
-    const Eigen::MatrixXd K = S_y_transposed.solve(S_y.solve(PH.transpose())).transpose();
-    Psi_ -= K * Y;
-    if (learns) {
-      learn(innovation, Y);
-      center_.set(numbers(w()));
-    }
-    if (sample.time_s - start_time_ > options_.settle) result = {innovation.nu, innovation.S_root, Y};
+    if (std::isfinite(sample.joint_position(k))) rows.push_back(n + k);
+  return rows;
+}
+
+DualStep DualUkf::correct(const EncoderSample& sample, const Eigen::MatrixXd& X, const Eigen::MatrixXd& E,
+                          bool learns) {
+  const std::vector<int> rows = measured(sample);
+  if (rows.empty()) return {};
+  Eigen::VectorXd z(2 * model_.n());
+  z << sample.motor_position, sample.joint_position;
+  Eigen::MatrixXd H;
+  const Eigen::VectorXd x = state_filter_.x();
+  const Eigen::VectorXd predicted = center_.readings(sample.time_s, x, H);
+  const Eigen::MatrixXd Y = per_weight(points_.readings(sample.time_s, X), E)(rows, Eigen::all);
+  H = H(rows, Eigen::all).eval();
+  const Eigen::MatrixXd HS = H * state_filter_.S(), PH = state_filter_.S() * HS.transpose();
+  const Innovation innovation = state_filter_.update(Linearised(x, predicted(rows), H), z(rows),
+                                                     Eigen::VectorXd(deviation_(rows)).asDiagonal(), kInfinity);
+  Psi_ -= gain(PH, innovation.S_root) * Y;
+  if (learns) {
+    learn(innovation, Y);
+    center_.set(numbers(w()));
   }
+  return {innovation.nu, innovation.S_root, Y};
+}
+
+DualStep DualUkf::update(const EncoderSample& sample) {
+  if (!time_known_) forget_past();
+  else if (!(sample.time_s > time_))
+    throw std::invalid_argument("filter: time does not increase at " + std::to_string(sample.time_s) + " s");
+  if (!started_ || sample.time_s - time_ > options_.restart_gap) {
+    remember(sample);
+    time_known_ = true;
+    start(sample.time_s);
+    return {};
+  }
+
+  const bool settled = sample.time_s - start_time_ > options_.settle;
+  const bool learns = options_.learn && settled;
+  if (learns) widen_weights(sample.time_s - time_);
+  choose_substeps(time_);
+  const Eigen::MatrixXd E = spread();
+  const Eigen::MatrixXd X = predict(sample.time_s, E);
+  Psi_ = per_weight(X, E);
+  const DualStep step = correct(sample, X, E, learns);
   remember(sample);
-  return result;
+  return settled ? step : DualStep{};
 }
 
 }  // namespace halyard

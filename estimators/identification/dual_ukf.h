@@ -91,11 +91,23 @@ class DualUkf {
 
  private:
   Eigen::VectorXd numbers(const Eigen::VectorXd& w) const;
+  void forget_past();
   void remember(const EncoderSample& sample);
   void start(double time_s);
-  Eigen::MatrixXd spread() const;
-  void learn(const Innovation& innovation, const Eigen::MatrixXd& Y);
   void choose_substeps(double time_s);
+  /// P_w / λ of this span.
+  void widen_weights(double span_s);
+  /// E [p x p]: how far the weights' points lie from w.
+  Eigen::MatrixXd spread() const;
+  /// Moves belief and weights' points to a time; X [n_states x points] of the latter.
+  Eigen::MatrixXd predict(double time_s, const Eigen::MatrixXd& E);
+  /// Derivative by w of what stands in a column for each of the weights' points, [rows x p].
+  Eigen::MatrixXd per_weight(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& E) const;
+  /// Rows of z that the sample has.
+  std::vector<int> measured(const EncoderSample& sample) const;
+  /// Corrects the state, Ψ, and the weights, if they learn, by the same innovation.
+  DualStep correct(const EncoderSample& sample, const Eigen::MatrixXd& X, const Eigen::MatrixXd& E, bool learns);
+  void learn(const Innovation& innovation, const Eigen::MatrixXd& Y);
 
   ArmModel model_;
   std::vector<Weight> weights_;

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <utility>
 
+#include "estimators/identification/block_jackknife.h"
 #include "model/input_error.h"
 
 namespace halyard {
@@ -20,59 +20,14 @@ constexpr int kBlocks = 20;      // of a second or longer, where the logs are lo
 constexpr int kFewestBlocks = 6;
 constexpr double kTraceRows = 1000;
 constexpr int kPasses = 8;
-constexpr double kStands = 0.2;                         // a step of fewer standard deviations is the last
+constexpr double kConvergedStep = 0.2;                  // a step of fewer standard deviations is the last
 constexpr double kExcited = 0.5;                        // of the prior's deviation: what was learnt is worth telling
 constexpr double kCouplingSpread = 0.3, kSpread = 0.5;  // relative, of what is asked for
 constexpr double kZeroSpread = 0.05, kZeroSpreadLength = 0.01;  // rad | m at the joint
 constexpr double kRoutingRadius = 0.01;  // m, of a pulley that a cable passes; scale of a coupling of 0
 constexpr double kChance = 3;            // standard deviations
-constexpr double kStrained = 2;          // tolerances: cables' damping in quiet logs comes out up to 1.6 too large
+constexpr double kDeviating = 2;         // tolerances: cables' damping in quiet logs comes out up to 1.6 too large
 constexpr double kMatters = 0.1;         // of a tolerance: a drift by less is none
-
-struct Kind {
-  const char* word;
-  std::vector<const char*> parts;
-};
-const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> all = {{"coupling", {".coupling."}},
-                                        {"stiffness", {".cable.stiffness"}},
-                                        {"damping", {".cable.damping"}},
-                                        {"tension", {".cable.tension"}},
-                                        {"motor_friction", {".motor.coulomb", ".motor.viscous"}},
-                                        {"joint_friction", {".friction.coulomb", ".friction.viscous"}}};
-  return all;
-}
-
-bool is_of(const Kind& kind, const std::string& key) {
-  return std::ranges::any_of(kind.parts, [&](const char* part) { return key.find(part) != key.npos; });
-}
-
-/// Eq. 6 takes no tension.
-bool is_in_equations(const ArmModel& model, const ParameterInfo& info) {
-  return !info.key.ends_with(".cable.tension") || model.nominal.joint[info.joint].law != CableLaw::paper;
-}
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t end = std::min(text.find(',', at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return words;
-}
-
-[[noreturn]] void fail_kind(const ArmModel& model, const Kind& kind) {
-  const std::string word = kind.word;
-  const std::string place = fmt::format("parameter {}: {} ", in_quotes(word), model.source);
-  if (word == "coupling" && model.n() == 1)
-    throw InputError(place + "has one joint, and a joint is coupled with inboard ones; ask for another number");
-  if (word == "tension")
-    throw InputError(place + "has no cable law that takes tension; write law=\"exponential\" in its <cable>");
-  throw InputError(place +
-                   "has no such number, or only numbers of 0; ask for others, or name a coupling of 0 by its "
-                   "key, such as joint2.coupling.joint1");
-}
 
 Weight weight_of(const ArmModel& model, const ParameterInfo& info) {
   const bool coupling = info.key.find(".coupling.") != info.key.npos;
@@ -135,12 +90,18 @@ void check_logs(const ArmModel& model, const std::vector<Log>& logs, const std::
                     model.source));
 }
 
+double duration_of(const std::vector<Log>& logs) {
+  double whole = 0;
+  for (const Log& log : logs) whole += log.duration();
+  return whole;
+}
+
 /// Calls visit(step, time) for each sample of the logs; time goes on from log to log.
 template <class Visit>
 void run_filter(DualUkf& filter, const std::vector<Log>& logs, const std::function<void(double)>& progress,
                 const Visit& visit) {
-  double before = 0, whole = 0;
-  for (const Log& log : logs) whole += log.duration();
+  double before = 0;
+  const double whole = duration_of(logs);
   for (const Log& log : logs) {
     filter.start_record();
     const auto n = static_cast<Eigen::Index>(log.n_joints);
@@ -167,84 +128,30 @@ void run_filter(DualUkf& filter, const std::vector<Log>& logs, const std::functi
   }
 }
 
-/// Least squares of one block of the logs.
-struct Block {
-  Eigen::MatrixXd A;
-  Eigen::VectorXd g;
-};
-
-std::vector<Block> sum_blocks(const ArmModel& model, const std::vector<Weight>& weights, const Eigen::VectorXd& u,
-                              const std::vector<Log>& logs, const std::function<void(double)>& progress) {
-  double whole = 0;
-  for (const Log& log : logs) whole += log.duration();
+std::vector<BlockSums> sum_blocks(const ArmModel& model, const std::vector<Weight>& weights, const Eigen::VectorXd& u,
+                                  const std::vector<Log>& logs, const std::function<void(double)>& progress) {
+  const double whole = duration_of(logs);
   const int count = std::clamp(static_cast<int>(whole), kFewestBlocks, kBlocks);
   const auto p = u.size();
-  std::vector<Block> blocks(count, {Eigen::MatrixXd::Zero(p, p), Eigen::VectorXd::Zero(p)});
+  std::vector<BlockSums> blocks(count, {Eigen::MatrixXd::Zero(p, p), Eigen::VectorXd::Zero(p)});
   DualUkf filter(model, weights, {.learn = false});
   filter.set_weights(u, Eigen::MatrixXd::Identity(p, p));
   run_filter(filter, logs, progress, [&](const DualStep& step, double time) {
     if (step.nu.size() == 0) return;
-    Block& block = blocks[std::min(static_cast<int>(time / whole * count), count - 1)];
+    BlockSums& block = blocks[std::min(static_cast<int>(time / whole * count), count - 1)];
     const auto S = step.S_root.triangularView<Eigen::Lower>();
     const Eigen::MatrixXd white = S.solve(step.Y);
     block.A.selfadjointView<Eigen::Lower>().rankUpdate(white.transpose());
     block.g += white.transpose() * S.solve(step.nu);
   });
-  for (Block& b : blocks) b.A = b.A.selfadjointView<Eigen::Lower>();
+  for (BlockSums& b : blocks) b.A = b.A.selfadjointView<Eigen::Lower>();
   return blocks;
 }
-
-struct LeastSquares {
-  Eigen::VectorXd u;
-  Eigen::VectorXd deviation;  // of u
-  int blocks = 0;
-};
 
 /// How far a number that is known within a tolerance may be pulled, in prior deviations: at least a quarter of it is
 /// left, since a cable that pushes is no cable, and beyond ten tolerances it stands for something else that the model
 /// lacks.
 double bound_of(const Weight& other) { return std::min(20.0, 0.75 * std::abs(other.nominal) / other.scale); }
-
-/// The step from `u` and the jackknife around its end; |u + step| <= bound.
-LeastSquares solve(const std::vector<Block>& blocks, const Eigen::VectorXd& u, const Eigen::VectorXd& bound) {
-  const auto p = u.size();
-  Eigen::MatrixXd A = Eigen::MatrixXd::Identity(p, p);
-  Eigen::VectorXd g = -u;
-  for (const Block& b : blocks) A += b.A, g += b.g;
-
-  // One number after the other is held at its bound, the one that is furthest beyond first.
-  Eigen::VectorXd step = Eigen::VectorXd::Zero(p);
-  std::vector<int> free(static_cast<std::size_t>(p));
-  std::iota(free.begin(), free.end(), 0);
-  for (;;) {
-    const Eigen::VectorXd rest = g - A * step;
-    step(free) += A(free, free).ldlt().solve(rest(free));
-    const auto furthest = std::ranges::max_element(free, {}, [&](int i) { return std::abs((u + step)(i)) / bound(i); });
-    if (std::abs((u + step)(*furthest)) <= bound(*furthest)) break;
-    step(*furthest) = std::copysign(bound(*furthest), (u + step)(*furthest)) - u(*furthest);
-    free.erase(furthest);
-  }
-
-  const double count = static_cast<double>(blocks.size());
-  const Eigen::MatrixXd A_free = A(free, free);
-  Eigen::VectorXd held = step;
-  held(free).setZero();
-  Eigen::MatrixXd without(A_free.rows(), static_cast<Eigen::Index>(blocks.size()));
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const Eigen::VectorXd rest = (g - blocks[b].g) - (A - blocks[b].A) * held;
-    without.col(static_cast<Eigen::Index>(b)) = (A_free - blocks[b].A(free, free)).ldlt().solve(rest(free));
-  }
-  const Eigen::VectorXd mean = without.rowwise().mean();
-  const Eigen::MatrixXd inverse = A_free.ldlt().solve(Eigen::MatrixXd::Identity(A_free.rows(), A_free.rows()));
-  const Eigen::VectorXd jackknife =
-      (count - 1) / count * (without.colwise() - mean).rowwise().squaredNorm() + inverse.rowwise().squaredNorm();
-  LeastSquares e;
-  e.u = u + step;
-  e.deviation.setZero(p);
-  e.deviation(free) = jackknife.cwiseMax(inverse.diagonal()).cwiseSqrt();
-  e.blocks = static_cast<int>(blocks.size());
-  return e;
-}
 
 /// The first row of the trace's last third.
 std::size_t last_third(const std::vector<double>& time) {
@@ -260,126 +167,151 @@ Convergence convergence_of(const IdentifiedNumber& number, double deviation, dou
   return matters && moved > kChance * own ? Convergence::drifting : Convergence::converged;
 }
 
-}  // namespace
+/// What is estimated, in this order: the numbers asked for; zeros of encoders, if unknown; the model's other numbers.
+/// The dual filter learns the first two kinds.
+struct Unknowns {
+  std::vector<Weight> weights;
+  std::vector<double> tolerance;  ///< of those asked for
+  Eigen::Index asked = 0, learnt = 0;
 
-std::vector<std::string> identified_keys(const ArmModel& model, const std::string& text) {
+  std::vector<Weight> learnt_weights() const { return {weights.begin(), weights.begin() + learnt}; }
+};
+
+Unknowns list_unknowns(const ArmModel& model, const std::vector<std::string>& keys) {
   ArmParameters<double> arm = model.nominal;
-  const std::vector<ParameterInfo> all = named_parameters(arm);
-  std::vector<bool> chosen(all.size(), false);
-  for (const std::string& word : split(text)) {
-    const auto kind = std::ranges::find_if(kinds(), [&](const Kind& k) { return word == k.word; });
-    bool any = false;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const bool named = kind != kinds().end() ? is_of(*kind, all[i].key) && *all[i].value != 0 : all[i].key == word;
-      if (!named || (kind != kinds().end() && !is_in_equations(model, all[i]))) continue;
-      any = chosen[i] = true;
-      if (!is_in_equations(model, all[i])) fail_kind(model, kinds()[3]);
-      if (*all[i].value == 0 && word.find(".coupling.") == word.npos)
-        throw InputError(
-            fmt::format("parameter {}: is 0 in {}, which gives no scale to look for it; write a guess into "
-                        "the model",
-                        in_quotes(word), model.source));
-    }
-    if (any) continue;
-    if (kind != kinds().end()) fail_kind(model, *kind);
-    std::string words, keys;
-    for (const Kind& k : kinds()) words += (words.empty() ? "" : ", ") + std::string(k.word);
-    for (const ParameterInfo& info : all) keys += (keys.empty() ? "" : ", ") + info.key;
-    throw InputError(
-        fmt::format("parameter {}: {} has none of that name; expected some of {}, or of the keys {}, with "
-                    "commas between",
-                    in_quotes(word), model.source, words, keys));
+  Unknowns all;
+  for (const ParameterInfo& info : named_parameters(arm)) {
+    if (std::ranges::find(keys, info.key) == keys.end()) continue;
+    all.weights.push_back(weight_of(model, info));
+    all.tolerance.push_back(info.tolerance);
   }
-  std::vector<std::string> keys;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (chosen[i]) keys.push_back(all[i].key);
-  return keys;
+  all.asked = static_cast<Eigen::Index>(all.weights.size());
+  for (Weight& zero : unknown_zeros(model)) all.weights.push_back(std::move(zero));
+  all.learnt = static_cast<Eigen::Index>(all.weights.size());
+  for (Weight& other : other_numbers(model, keys)) all.weights.push_back(std::move(other));
+  return all;
 }
+
+/// What the dual filter believed over the logs, and at their end.
+struct FilterTrace {
+  std::vector<double> time;
+  std::vector<Eigen::VectorXd> u, deviation;
+  Eigen::VectorXd last_u, last_deviation;
+};
+
+FilterTrace run_dual_filter(const ArmModel& model, const Unknowns& unknowns, const std::vector<Log>& logs,
+                            const std::function<void(double)>& progress) {
+  FilterTrace trace;
+  DualUkf filter(model, unknowns.learnt_weights());
+  const double row_span = duration_of(logs) / kTraceRows;
+  double next = 0;
+  run_filter(filter, logs, progress, [&](const DualStep&, double time) {
+    if (time < next) return;
+    next += row_span;
+    trace.time.push_back(time);
+    trace.u.push_back(filter.w());
+    trace.deviation.emplace_back(filter.S_w().rowwise().norm());
+  });
+  trace.last_u = filter.w();
+  trace.last_deviation = filter.S_w().rowwise().norm();
+  return trace;
+}
+
+/// Where Gauss and Newton's steps end, and whether the numbers asked for have converged there.
+struct Refined {
+  JackknifeEstimate estimate;
+  bool converged = false;
+};
+
+/// progress(pass, fraction), passes from 1.
+Refined refine(const ArmModel& model, const Unknowns& unknowns, const std::vector<Log>& logs,
+               const Eigen::VectorXd& learnt_u, const std::function<void(int, double)>& progress) {
+  Refined r;
+  const auto p = static_cast<Eigen::Index>(unknowns.weights.size());
+  r.estimate.u = Eigen::VectorXd::Zero(p);
+  r.estimate.u.head(unknowns.learnt) = learnt_u;
+  Eigen::VectorXd bound = Eigen::VectorXd::Constant(p, std::numeric_limits<double>::infinity());
+  for (Eigen::Index i = unknowns.learnt; i < p; ++i) bound(i) = bound_of(unknowns.weights[i]);
+  for (int pass = 1; pass <= kPasses && !r.converged; ++pass) {
+    const Eigen::VectorXd before = r.estimate.u;
+    const auto tell = [&](double fraction) { progress(pass, fraction); };
+    r.estimate = jackknife_least_squares(sum_blocks(model, unknowns.weights, before, logs, tell), before, bound);
+    const Eigen::ArrayXd step = (r.estimate.u - before).head(unknowns.asked).array().abs();
+    r.converged = (step <= kConvergedStep * r.estimate.deviation.head(unknowns.asked).array()).all();
+  }
+  return r;
+}
+
+/// The i-th of the numbers asked for, but for what named_parameters() says of it.
+void tell_number(const Unknowns& unknowns, Eigen::Index i, const JackknifeEstimate& estimate, const FilterTrace& trace,
+                 IdentifiedNumber& number) {
+  const Weight& weight = unknowns.weights[i];
+  const double t = boost::math::quantile(boost::math::students_t(estimate.blocks - 1), 0.975);
+  const double u = estimate.u(i), reach = t * estimate.deviation(i);
+  number.value = weight.value(u);
+  number.lower = weight.value(u - reach);
+  number.upper = weight.value(u + reach);
+  const double widened = estimate.deviation(i) / trace.last_deviation(i);
+  for (std::size_t r = 0; r < trace.u.size(); ++r) {
+    number.trace.push_back(weight.value(trace.u[r](i)));
+    // What was known before is as wide as it is: only what was learnt is widened.
+    const double own = std::min(1.0, trace.deviation[r](i));
+    number.trace_std.push_back(std::abs(weight.slope(trace.u[r](i))) * own * (own * own + (1 - own * own) * widened));
+  }
+  const std::size_t from = last_third(trace.time);
+  const double own = std::abs(weight.slope(trace.u[from](i))) * trace.deviation[from](i);
+  number.convergence = convergence_of(number, estimate.deviation(i), unknowns.tolerance[i], own, from);
+}
+
+std::vector<DeviatingNumber> deviating_numbers(const ArmModel& model, const Unknowns& unknowns,
+                                               const JackknifeEstimate& estimate) {
+  ArmParameters<double> given = model.nominal;
+  const std::vector<ParameterInfo> all = named_parameters(given);
+  std::vector<DeviatingNumber> deviating;
+  for (Eigen::Index i = unknowns.learnt; i < estimate.u.size(); ++i) {
+    const Weight& weight = unknowns.weights[i];
+    const double tolerances = estimate.u(i) / 2;  // the prior's deviation is half a tolerance
+    if (std::abs(tolerances) < kDeviating || std::abs(estimate.u(i)) < kChance * estimate.deviation(i)) continue;
+    const auto info = std::ranges::find(all, weight.key, &ParameterInfo::key);
+    deviating.push_back({.name = info->name,
+                         .unit = info->unit,
+                         .nominal = weight.nominal,
+                         .value = weight.value(estimate.u(i)),
+                         .tolerances = tolerances});
+  }
+  return deviating;
+}
+
+}  // namespace
 
 Identification identify(const ArmModel& model, const std::vector<Log>& logs, const std::vector<std::string>& keys,
                         const std::function<void(const std::string&, double)>& progress) {
   check_logs(model, logs, keys);
+  const auto tell = [&](const std::string& stage, double fraction) {
+    if (progress) progress(stage, fraction);
+  };
+  const Unknowns unknowns = list_unknowns(model, keys);
+  const FilterTrace trace =
+      run_dual_filter(model, unknowns, logs, [&](double fraction) { tell("dual filter", fraction); });
+  const Refined refined = refine(model, unknowns, logs, trace.last_u, [&](int pass, double fraction) {
+    tell(fmt::format("estimate, pass {}", pass), fraction);
+  });
+
   Identification result;
   result.model = model;
-  std::vector<Weight> weights;
-  std::vector<double> tolerance;
+  result.time = trace.time;
+  result.blocks = refined.estimate.blocks;
+  result.converged = refined.converged;
   for (const ParameterInfo& info : named_parameters(result.model.nominal)) {
     if (std::ranges::find(keys, info.key) == keys.end()) continue;
-    weights.push_back(weight_of(model, info));
-    tolerance.push_back(info.tolerance);
+    const auto i = static_cast<Eigen::Index>(result.numbers.size());
     IdentifiedNumber& number = result.numbers.emplace_back();
     number.key = info.key, number.name = info.name, number.unit = info.unit;
     number.joint = info.joint, number.nominal = *info.value;
+    tell_number(unknowns, i, refined.estimate, trace, number);
+    *info.value = number.value;
   }
-  const auto asked = static_cast<Eigen::Index>(weights.size());
-  for (Weight& zero : unknown_zeros(model)) weights.push_back(std::move(zero));
-  const auto learnt = static_cast<Eigen::Index>(weights.size());
-
-  // The dual filter, from the model's numbers on.
-  double whole = 0;
-  for (const Log& log : logs) whole += log.duration();
-  DualUkf filter(model, weights);
-  const auto stage = [&](const std::string& text) -> std::function<void(double)> {
-    if (!progress) return {};
-    return [&progress, text](double fraction) { progress(text, fraction); };
-  };
-  double next = 0;
-  std::vector<Eigen::VectorXd> trace_u, trace_deviation;  // the filter's own
-  run_filter(filter, logs, stage("dual filter"), [&](const DualStep&, double time) {
-    if (time < next) return;
-    next += whole / kTraceRows;
-    result.time.push_back(time);
-    trace_u.push_back(filter.w());
-    trace_deviation.emplace_back(filter.S_w().rowwise().norm());
-  });
-  const Eigen::VectorXd deviation = filter.S_w().rowwise().norm();
-
-  // The estimate around its end, the other numbers along.
-  for (Weight& other : other_numbers(model, keys)) weights.push_back(std::move(other));
-  LeastSquares estimate;
-  estimate.u = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(weights.size()));
-  Eigen::VectorXd bound = Eigen::VectorXd::Constant(estimate.u.size(), std::numeric_limits<double>::infinity());
-  for (Eigen::Index i = learnt; i < bound.size(); ++i) bound(i) = bound_of(weights[i]);
-  estimate.u.head(learnt) = filter.w();
-  for (int pass = 0; pass < kPasses; ++pass) {
-    const Eigen::VectorXd before = estimate.u;
-    estimate = solve(sum_blocks(model, weights, before, logs, stage(fmt::format("estimate, pass {}", pass + 1))),
-                     before, bound);
-    const Eigen::ArrayXd step = (estimate.u - before).head(asked).array().abs();
-    result.converged = (step <= kStands * estimate.deviation.head(asked).array()).all();
-    if (result.converged) break;
-  }
-
-  result.blocks = estimate.blocks;
-  const double t = boost::math::quantile(boost::math::students_t(estimate.blocks - 1), 0.975);
-  for (Eigen::Index i = 0; i < asked; ++i) {
-    IdentifiedNumber& number = result.numbers[i];
-    const double u = estimate.u(i), reach = t * estimate.deviation(i);
-    number.value = weights[i].value(u);
-    number.lower = weights[i].value(u - reach);
-    number.upper = weights[i].value(u + reach);
-    *find_number(result.model.nominal, number.key) = number.value;
-    const double widened = estimate.deviation(i) / deviation(i);
-    for (std::size_t r = 0; r < trace_u.size(); ++r) {
-      number.trace.push_back(weights[i].value(trace_u[r](i)));
-      // What was known before is as wide as it is: only what was learnt is widened.
-      const double own = std::min(1.0, trace_deviation[r](i));
-      number.trace_std.push_back(std::abs(weights[i].slope(trace_u[r](i))) * own *
-                                 (own * own + (1 - own * own) * widened));
-    }
-    const std::size_t from = last_third(result.time);
-    const double own = std::abs(weights[i].slope(trace_u[from](i))) * trace_deviation[from](i);
-    number.convergence = convergence_of(number, estimate.deviation(i), tolerance[i], own, from);
-  }
-  ArmParameters<double> given = model.nominal;
-  const std::vector<ParameterInfo> all = named_parameters(given);
-  for (Eigen::Index i = learnt; i < estimate.u.size(); ++i) {
-    const double tolerances = estimate.u(i) / 2;  // the prior's deviation is half a tolerance
-    if (std::abs(tolerances) < kStrained || std::abs(estimate.u(i)) < kChance * estimate.deviation(i)) continue;
-    const auto info = std::ranges::find(all, weights[i].key, &ParameterInfo::key);
-    result.deviating.push_back(
-        {info->name, info->unit, weights[i].nominal, weights[i].value(estimate.u(i)), tolerances});
-  }
+  result.deviating = deviating_numbers(model, unknowns, refined.estimate);
   return result;
 }
 

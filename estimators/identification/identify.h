@@ -32,15 +32,10 @@
 #include <vector>
 
 #include "estimators/identification/dual_ukf.h"
+#include "estimators/identification/identified_keys.h"
 #include "model/log.h"
 
 namespace halyard {
-
-/// "coupling,stiffness,joint2.cable.damping" as keys of named_parameters(), each once, in the model's order. A word
-/// stands for a kind: coupling, stiffness, damping, tension, motor_friction, joint_friction; couplings and other
-/// numbers that are 0 in the model are none of a kind, and can be named by their key. Throws InputError for a word or
-/// key that names nothing in this model, or a number that no equation of it holds.
-std::vector<std::string> identified_keys(const ArmModel& model, const std::string& text);
 
 enum class Convergence {
   converged,

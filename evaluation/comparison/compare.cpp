@@ -56,19 +56,70 @@ std::vector<double> errors_of(const Signals& compared, const Log& truth, int k, 
   return errors;
 }
 
+/// What the action returns; if the estimator fails and that is to leave a row without numbers, such a row.
+template <class Action>
+EstimatorRun attempt(const std::string& name, const Log& measured, bool keep_going, const Action& action) {
+  try {
+    return action();
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    if (!keep_going) throw;
+    EstimatorRun none = no_run(name, measured);
+    none.failure = error.what();
+    return none;
+  }
+}
+
+std::vector<EstimatorRun> run_all(const std::vector<Contestant>& contestants, const Log& measured,
+                                  const CompareOptions& options) {
+  std::vector<EstimatorRun> runs;
+  for (const Contestant& c : contestants)
+    runs.push_back(attempt(c.name, measured, options.keep_going, [&] {
+      if (options.make_all_first) check_estimator(c.estimator, *c.model, options.containment);
+      return EstimatorRun{};
+    }));
+  for (std::size_t i = 0; i < contestants.size(); ++i) {
+    const Contestant& c = contestants[i];
+    EstimateOptions estimate{.use_joint_torque = options.use_joint_torque, .progress = {}};
+    if (options.progress)
+      estimate.progress = [&](double fraction) {
+        options.progress((double(i) + fraction) / double(contestants.size()));
+      };
+    if (runs[i].failure.empty())
+      runs[i] = attempt(c.name, measured, options.keep_going,
+                        [&] { return run_contained(c.estimator, *c.model, measured, estimate, options.containment); });
+    runs[i].name = c.name;
+  }
+  return runs;
+}
+
+/// RMS errors of each run over those of each other one.
+void compare_pairs(Comparison& result, const Counted& counted) {
+  const std::size_t n_runs = result.runs.size();
+  result.paired.assign(n_runs, {n_runs, std::vector<PairedRatio>(result.units.size())});
+  for (std::size_t a = 0; a < n_runs; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      for (int k = 0; k < result.n_joints(); ++k) {
+        if (!result.has_truth(k)) continue;
+        result.paired[a][b][k] = paired_ratio(errors_of(result.compared[a], result.truth, k, counted),
+                                              errors_of(result.compared[b], result.truth, k, counted));
+        result.paired[b][a][k] = result.paired[a][b][k].inverse();
+      }
+}
+
 }  // namespace
 
-int Comparison::baseline() const {
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (runs[i].name == "kinematics") return static_cast<int>(i);
-  }
-  return -1;
+std::optional<std::size_t> Comparison::baseline() const {
+  const auto found = std::ranges::find(runs, "kinematics", &EstimatorRun::name);
+  if (found == runs.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - runs.begin());
 }
 
 double Comparison::improvement_of(std::size_t run, int k) const {
-  const int base = baseline();
-  if (base < 0) return std::numeric_limits<double>::quiet_NaN();
-  return improvement(errors[run][k], errors[base][k]);
+  const std::optional<std::size_t> base = baseline();
+  if (!base) return std::numeric_limits<double>::quiet_NaN();
+  return improvement(errors[run][k], errors[*base][k]);
 }
 
 Comparison compare_estimators(const ArmModel& model, const std::vector<std::string>& estimators, const Log& measured,
@@ -82,57 +133,20 @@ Comparison compare_estimators(const std::vector<Contestant>& contestants, const 
                               const CompareOptions& options) {
   if (contestants.empty()) throw std::invalid_argument("compare_estimators: no estimator");
   if (measured.time != truth.time) throw std::invalid_argument("compare_estimators: times of truth and log differ");
+  const Counted counted(truth, options.skip_s);
   Comparison result;
   result.skip_s = options.skip_s;
   result.units = joint_units(*contestants.front().model);
   result.truth = truth;
-  const Counted counted(truth, options.skip_s);
-
-  const auto attempt = [&](const std::string& name, const auto& action) {
-    try {
-      return action();
-    } catch (const InputError&) {
-      throw;
-    } catch (const std::exception& error) {
-      if (!options.keep_going) throw;
-      EstimatorRun none = no_run(name, measured);
-      none.failure = error.what();
-      return none;
-    }
-  };
-  std::vector<EstimatorRun> tried;
-  for (const Contestant& c : contestants)
-    tried.push_back(attempt(c.name, [&] {
-      if (options.make_all_first) check_estimator(c.estimator, *c.model, options.containment);
-      return EstimatorRun{};
-    }));
+  result.runs = run_all(contestants, measured, options);
   for (std::size_t i = 0; i < contestants.size(); ++i) {
-    const Contestant& c = contestants[i];
-    EstimateOptions estimate{.use_joint_torque = options.use_joint_torque, .progress = {}};
-    if (options.progress) {
-      estimate.progress = [&](double fraction) {
-        options.progress((double(i) + fraction) / double(contestants.size()));
-      };
-    }
-    result.runs.push_back(!tried[i].failure.empty() ? tried[i] : attempt(c.name, [&] {
-      return run_contained(c.estimator, *c.model, measured, estimate, options.containment);
-    }));
-    EstimatorRun& run = result.runs.back();
-    run.name = c.name;
-    result.compared.push_back(options.truth_is_sensed ? sensor_readings(*c.model, run) : run.estimates.joint_position);
-    result.errors.push_back(joint_errors(run, result.compared.back(), truth, counted));
-    result.judgements.push_back(judge(run, result.compared.back(), measured, truth, counted));
+    const EstimatorRun& run = result.runs[i];
+    result.compared.push_back(options.truth_is_sensed ? sensor_readings(*contestants[i].model, run)
+                                                      : run.estimates.joint_position);
+    result.errors.push_back(joint_errors(run, result.compared[i], truth, counted));
+    result.judgements.push_back(judge(run, result.compared[i], measured, truth, counted));
   }
-  const std::size_t n_runs = result.runs.size();
-  result.paired.assign(n_runs, {n_runs, std::vector<PairedRatio>(result.units.size())});
-  for (std::size_t a = 0; a < n_runs; ++a)
-    for (std::size_t b = 0; b < a; ++b)
-      for (int k = 0; k < result.n_joints(); ++k) {
-        if (!result.has_truth(k)) continue;
-        result.paired[a][b][k] = paired_ratio(errors_of(result.compared[a], truth, k, counted),
-                                              errors_of(result.compared[b], truth, k, counted));
-        result.paired[b][a][k] = result.paired[a][b][k].inverse();
-      }
+  compare_pairs(result, counted);
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,8 @@ struct Comparison {
 
   int n_joints() const { return static_cast<int>(units.size()); }
   bool has_truth(int k) const { return truth.has_joint_position(k); }
-  /// The run named "kinematics", which the others are measured by; -1: none.
-  int baseline() const;
+  /// Index of the run named "kinematics", which the others are measured by, if there is one.
+  std::optional<std::size_t> baseline() const;
   /// 1 - mean absolute error / that of the baseline; NaN without one.
   double improvement_of(std::size_t run, int k) const;
 };
