@@ -84,13 +84,16 @@ readonly per_rad=57.29577951308232
 
 # ---- blocks in Markdown
 
-markdown_files() { (cd "$root" && git ls-files -co --exclude-standard '*.md'); }
+markdown_files() {
+  (cd "$root" && { git ls-files -co --exclude-standard '*.md' 2>/dev/null ||
+    find . -name '*.md' -not -path './build/*' -not -path './out/*'; })
+}
 
 file_of_block() { (cd "$root" && markdown_files | xargs grep -lF "<!-- figure: $1 -->") || stop "no file has a block $1"; }
 
 block() { awk -v begin="<!-- figure: $2 -->" '$0 == begin { on = 1; next } /^<!-- end of figure -->/ { on = 0 } on' "$1"; }
 
-# same_but_rounding OLD NEW: words equal, numbers within one unit of the last digit of the old.
+# same_but_rounding OLD NEW: words equal, numbers within a unit of the last digit of the old or within 0.1 % of it.
 same_but_rounding() {
   awk '
     function unit(text,   mantissa, exponent) {
@@ -98,6 +101,7 @@ same_but_rounding() {
       mantissa = text; sub(/[eE].*/, "", mantissa)
       return 10 ^ (exponent - (index(mantissa, ".") ? length(mantissa) - index(mantissa, ".") : 0))
     }
+    function greater(x, y) { return x > y ? x : y }
     function tokens(line, list,   n, number) {
       number = "[0-9]+(\\.[0-9]+)?(e[+-]?[0-9]+)?"
       n = 0
@@ -113,7 +117,7 @@ same_but_rounding() {
       n = tokens(old[FNR], a); m = tokens($0, b); same = n == m
       for (i = 1; same && i <= n; ++i) {
         if (a[i] == b[i]) continue
-        if (i % 2 || (a[i] - b[i]) ^ 2 > (1.001 * unit(a[i])) ^ 2) same = 0
+        if (i % 2 || (a[i] - b[i]) ^ 2 > 1.002 * greater(unit(a[i]), 1e-3 * a[i]) ^ 2) same = 0
       }
       if (!same) { differs = 1; print "  is:  " old[FNR]; print "  now: " $0 }
     }
@@ -154,6 +158,30 @@ place_picture() {
   echo "$1: ${file#"$root"/}"
 }
 
+# Links to files and headings of this repository lead somewhere.
+check_links() {
+  local file target path anchor found=0
+  while IFS=$'\t' read -r file target; do
+    path=${target%%#*} anchor=
+    [[ $target != *#* ]] || anchor=${target#*#}
+    if [ -z "$path" ]; then path=$root/$file; else path=$root/$(dirname "$file")/$path; fi
+    [ ! -d "$path" ] || [ -z "$anchor" ] || path+=/README.md
+    if [ ! -e "$path" ] || { [ -n "$anchor" ] && ! headings "$path" | grep -qxF "$anchor"; }; then
+      echo "$file: link to $target leads nowhere"
+      found=1
+    fi
+  done < <(markdown_files | while read -r file; do
+    sed 's/`[^`]*`//g' "$root/$file" | { grep -oE '\]\([^)]+\)' || true; } | sed -E 's/^\]\((.*)\)$/\1/' |
+      { grep -vE '^https?:' || true; } | sed "s|^|$file\t|"
+  done)
+  return $found
+}
+
+# The anchors that Markdown gives to a file's headings.
+headings() {
+  sed -nE 's/^#+ //p' "$1" | tr '[:upper:]' '[:lower:]' | sed -E 's/[^a-z0-9_ -]//g; s/ /-/g'
+}
+
 # Every figure has one place; every block has a figure, an end, a command and content. Needs no program.
 check_form() {
   local name file text bad=0
@@ -182,5 +210,6 @@ check_form() {
       /^<!-- end of figure -->/ { if (!open) bad = 1; open = 0 }
       END { if (open || bad) { print file ": begin and end of a figure do not alternate"; exit 1 } }' "$root/$file" || bad=1
   done < <(markdown_files)
+  check_links || bad=1
   return $bad
 }
