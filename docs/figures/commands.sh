@@ -18,7 +18,8 @@ figure_estimate() {
 
 figure compare seconds
 figure_compare() {
-  fenced transcript './run compare examples/raven2/experiment_a.xml --estimators kinematics,ekf,sr_ukf --out out/compare' \
+  fenced transcript './run compare examples/raven2/experiment_a.xml --estimators kinematics,ekf,sr_ukf \
+    --out out/compare' \
     '^kinematics|^sr_ukf|joint 2|report:'
 }
 

@@ -30,7 +30,9 @@ figure_camera() {
 
 figure smoother minutes
 figure_smoother() {
-  local command='./run compare examples/raven2/experiment_a.xml --estimators sr_ukf,smoother --noise 1 --runs 4 --out out/smoother'
+  local command='./run compare examples/raven2/experiment_a.xml --estimators sr_ukf,smoother --noise 1 --runs 4'
+  command+=' --out out/smoother'
+  ran "$command"
   echo "RMS errors over four seeds, from \`$command\`:"
   echo
   echo '| | `sr_ukf` | `smoother` |'
@@ -43,8 +45,8 @@ figure_smoother() {
     END { for (j = 1; j <= 3; ++j) print "| joint " j " | " error[j, "sr_ukf"] " | " error[j, "smoother"] " |" }'
 }
 
-# force_errors LOG.csv: of joint_force_k while its force acts, RMS error in percent of the force, and the same from 0.5 s
-# after the onset on. Scenario: examples/raven2/disturbance.xml.
+# force_errors ESTIMATE.csv: RMS error of joint_force_k in percent of the force, while the force acts, and the same from
+# 0.5 s after the onset on. The forces are those of examples/raven2/disturbance.xml.
 force_errors() {
   awk -F , '
     /^#/ { next }
@@ -59,12 +61,13 @@ force_errors() {
         if (t >= onset + 0.5) { late[k] += e; ++m[k] }
       }
     }
-    END { for (k = 1; k <= 3; ++k) printf "%.1f %%; %.1f %%\n", 100 * sqrt(all[k] / n[k]), 100 * sqrt(late[k] / m[k]) }' "$1"
+    function percent(square, count) { return 100 * sqrt(square / count) }
+    END { for (k = 1; k <= 3; ++k) printf "%.1f %%; %.1f %%\n", percent(all[k], n[k]), percent(late[k], m[k]) }' "$1"
 }
 
 figure disturbance seconds
 figure_disturbance() {
-  local motion simulate joint=1 still moving forces=('' 'joint 1, 1.5 N m' 'joint 2, 1.5 N m' 'joint 3, 15 N')
+  local motion joint=1 still moving forces=('' 'joint 1, 1.5 N m' 'joint 2, 1.5 N m' 'joint 3, 15 N')
   ran "sed 's/kind=\"sines\"/kind=\"hold\"/; /<sine /d; s#model=\"#model=\"../examples/raven2/#' \
     examples/raven2/disturbance.xml > out/still.xml"
   ran "cp examples/raven2/disturbance.xml examples/raven2/raven2.xml out/"
@@ -75,8 +78,8 @@ figure_disturbance() {
   done
   cat <<'TABLE'
 From `./run simulate examples/raven2/disturbance.xml --out out/forces.csv` and `./run estimate --model
-examples/raven2/raven2.xml --estimator disturbance_sr_ukf --data out/forces.csv --out out/forces_estimate.csv`; for standing
-still, the same scenario with `kind="hold"`:
+examples/raven2/raven2.xml --estimator disturbance_sr_ukf --data out/forces.csv --out out/forces_estimate.csv`. For
+standing still, the same scenario with `kind="hold"`:
 
 | force | standing still | moving |
 |---|---|---|

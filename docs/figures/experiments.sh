@@ -43,7 +43,7 @@ figure_experiments() {
 figure experiments_one_by_one minutes
 figure_experiments_one_by_one() {
   ran "$experiments_command"
-  echo "From \`$experiments_command\`; in each cell mean absolute error / RMS / peak, joints 1 and 2 in deg, joint 3 in mm:"
+  echo "From \`$experiments_command\`; each cell is mean absolute error / RMS / peak, in deg, for joint 3 in mm:"
   echo
   echo '| joint | | kinematics | kinematics, calibrated | UKF | UKF, calibrated |'
   echo '|---|---|---|---|---|---|'

@@ -1,13 +1,15 @@
 # The picture on the README's first screen, as SVG. Input: the log, then the estimates of kinematics, of sr_ukf with the
-# given model, and of sr_ukf with the revised model. Drawn: estimate less joint sensor at joint 2, in deg, every 10 ms of
-# the last third of the log.
+# given model, and of sr_ukf with the revised model. Drawn: estimate minus joint sensor at joint 2, in deg, every 10 ms
+# of the last third of the log.
 
 FNR == 1 { ++file }
 /^#/ { next }
 !($1 ~ /^[0-9.]/) { for (i = 1; i <= NF; ++i) if ($i == "joint_position_2") column[file] = i; next }
 file == 1 { sensor[$1] = $column[1]; end = $1; next }
-{ if ($1 >= 2 * end / 3 && int($1 * 1000 + 0.5) % 10 == 0) error[file, $1] = ($column[file] - sensor[$1]) * 57.29577951308232
-  if (!seen[$1]++) time[++n] = $1 }
+{
+  if ($1 >= 2 * end / 3 && int($1 * 1000 + 0.5) % 10 == 0) error[file, $1] = ($column[file] - sensor[$1]) * per_rad
+  if (!seen[$1]++) time[++n] = $1
+}
 
 function x(t) { return sprintf("%.1f", 70 + (t - first) / (end - first) * 640) }
 function y(e) { return sprintf("%.1f", 175 - e / 0.45 * 120) }
@@ -21,11 +23,14 @@ function line(name, which, colour, at,   i, path) {
 
 END {
   first = 2 * end / 3
-  print "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 760 330\" font-family=\"sans-serif\" font-size=\"14\" fill=\"#1c2430\">"
+  print "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 760 330\" font-family=\"sans-serif\" font-size=\"14\"",
+    "fill=\"#1c2430\">"
   print "<rect width=\"760\" height=\"330\" fill=\"#ffffff\"/>"
-  print "<text x=\"70\" y=\"24\" font-size=\"16\" font-weight=\"bold\">Error of the estimated position of joint 2, in deg</text>"
+  print "<text x=\"70\" y=\"24\" font-size=\"16\" font-weight=\"bold\">" \
+    "Error of the estimated position of joint 2, in deg</text>"
   for (e = -0.4; e < 0.41; e += 0.2) {
-    printf "<line x1=\"70\" x2=\"710\" y1=\"%s\" y2=\"%s\" stroke=\"%s\"/>\n", y(e), y(e), e * e < 1e-9 ? "#9aa4b2" : "#e6e9ee"
+    printf "<line x1=\"70\" x2=\"710\" y1=\"%s\" y2=\"%s\" stroke=\"%s\"/>\n", y(e), y(e),
+      e * e < 1e-9 ? "#9aa4b2" : "#e6e9ee"
     printf "<text x=\"62\" y=\"%.1f\" text-anchor=\"end\">%.1f</text>\n", y(e) + 5, e * e < 1e-9 ? 0 : e
   }
   for (t = first; t < end + 0.01; ++t) printf "<text x=\"%s\" y=\"310\" text-anchor=\"middle\">%.0f s</text>\n", x(t), t

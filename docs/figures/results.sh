@@ -8,7 +8,7 @@ figure_result_svg() {
   ran "$estimate --model examples/raven2/raven2.xml --estimator kinematics --out out/picture_kinematics.csv"
   ran "$estimate --model examples/raven2/raven2.xml --estimator sr_ukf --out out/picture_given.csv"
   ran "$estimate --model out/diagnosis/model.xml --estimator sr_ukf --out out/picture_revised.csv"
-  awk -F , -f "$here/result_picture.awk" "$work/examples/raven2/undeclared_effect.csv" \
+  awk -F , -v per_rad=$per_rad -f "$here/result_picture.awk" "$work/examples/raven2/undeclared_effect.csv" \
     "$work/out/picture_kinematics.csv" "$work/out/picture_given.csv" "$work/out/picture_revised.csv"
 }
 
@@ -19,13 +19,12 @@ before_after() {
 
 verdict() { printed "$1" | grep -E '^(clean|effects:|unknown)' | head -n 1; }
 
-
 davinci_model='--model examples/measured/davinci_tool/davinci_tool.xml'
 davinci_training='--data recordings/davinci_tool/run_L4_00.csv --data recordings/davinci_tool/run_L4_05.csv'
 davinci_zero() { echo "--column joint_position_1=jaw_pos_rad,sign=-1,offset=$1"; }
 
-# davinci_before RUN OFFSET: RMS error, rad, of the given model's prediction on a run, with this zero of the jaw. The log to
-# learn from is cut to 3 s: the error before does not depend on it.
+# davinci_before RUN OFFSET: RMS error, rad, of the given model's prediction on a run, with this zero of the jaw. The
+# log to learn from is cut to 3 s: the error before does not depend on it.
 davinci_before() {
   ran 'head -n 3001 recordings/davinci_tool/run_L4_00.csv > out/davinci_short.csv'
   ran "./run diagnose $davinci_model --data out/davinci_short.csv --holdout recordings/davinci_tool/run_$1.csv \
@@ -46,24 +45,28 @@ davinci_trained_zero() {
 
 figure davinci_zero minutes davinci_tool
 figure_davinci_zero() {
-  local zero given moved d mean
-  zero=$(davinci_trained_zero)
-  given=$(davinci_before L4_25 1.25)
-  moved=$(davinci_before L4_25 "$zero")
+  local zero given moved d mean best
+  zero=$(davinci_trained_zero) || return 1
+  given=$(davinci_before L4_25 1.25) || return 1
+  moved=$(davinci_before L4_25 "$zero") || return 1
   # A zero moved by d changes the mean square error R² to R² + 2 m d + d², with the mean error m.
   d=$(calculate %.8f "$zero - 1.25")
   mean=$(calculate %.8f "($moved ^ 2 - $given ^ 2 - $d ^ 2) / (2 * $d)")
+  best=$(calculate %.3g "sqrt($given ^ 2 - ($mean) ^ 2) * $per_rad")
   cat <<TABLE
 | zero of the jaw, \`offset\` of \`halyard diagnose --column\` | RMS error on \`run_L4_25.csv\` |
 |---|---|
 | 1.25 rad, as in the model | $(calculate %.3g "$given * $per_rad") deg |
 | $zero rad, from both training runs | $(calculate %.3g "$moved * $per_rad") deg |
-| $(calculate %.4f "1.25 - ($mean)") rad, the best one for this very run | $(calculate %.3g "sqrt($given ^ 2 - ($mean) ^ 2) * $per_rad") deg |
+| $(calculate %.4f "1.25 - ($mean)") rad, the best one for this very run | $best deg |
 TABLE
 }
 
 # error_row TEXT COMMAND LINE REZEROED: a row of the table of recordings, from the printed line that matches.
-error_row() { echo "| $1 | $(before_after "$2" "$3" | sed "s/ | / | $4 | /") | $(named "$2") |"; }
+error_row() {
+  ran "$2"
+  echo "| $1 | $(before_after "$2" "$3" | sed "s/ | / | $4 | /") | $(named "$2") |"
+}
 
 # What the verdict names, without repeating "effects: ".
 named() { verdict "$1" | sed 's/^effects: //'; }
@@ -81,17 +84,18 @@ emps_run='./run diagnose --model examples/measured/emps/emps.xml --data recordin
 figure recordings minutes raven2_motor_log davinci_tool kuka_kr300 emps
 figure_recordings() {
   local zero pitch speed
-  zero=$(davinci_trained_zero)
-  speed=$(calculate '%.3g' "$(davinci_before L4_25 "$zero") * $per_rad")
-  pitch=$(calculate '%.3g' "$(davinci_before pitch0_003 "$zero") * $per_rad")
+  zero=$(davinci_trained_zero) || return 1
+  speed=$(davinci_before L4_25 "$zero") || return 1
+  pitch=$(davinci_before pitch0_003 "$zero") || return 1
   cat <<'TABLE'
 | recording | given model | re-zeroed | revised model | named by `./run diagnose` |
 |---|---|---|---|---|
 TABLE
   error_row 'da Vinci Si tool, jaw angle, three times the speed' "${davinci_run}L4_25.csv --out out/davinci_tool" \
-    '^  joint 1 position' "$speed deg"
-  error_row 'da Vinci Si tool, jaw angle, another pose of the wrist' "${davinci_run}pitch0_003.csv --out out/davinci_pitch" \
-    '^  joint 1 position' "$pitch deg"
+    '^  joint 1 position' "$(calculate %.3g "$speed * $per_rad") deg"
+  error_row 'da Vinci Si tool, jaw angle, another pose of the wrist' \
+    "${davinci_run}pitch0_003.csv --out out/davinci_pitch" \
+    '^  joint 1 position' "$(calculate %.3g "$pitch * $per_rad") deg"
   error_row 'RAVEN-II, torque of motor 1' "$raven2_log" '^  joint 1 motor torque' '-'
   error_row 'RAVEN-II, torque of motor 2' "$raven2_log" '^  joint 2 motor torque' '-'
   error_row 'RAVEN-II, torque of motor 3' "$raven2_log" '^  joint 3 motor torque' '-'
@@ -124,6 +128,7 @@ TABLE
   for row in "${rig_logs[@]}"; do
     IFS='|' read -r folder joint truth <<<"$row"
     command=$(rig_log_command "$folder")
+    ran "$command"
     echo "| $truth | $(named "$command") | $(found_numbers "$command") | $joint |" \
       "$(before_after "$command" "^  joint $joint position") |"
   done
@@ -149,6 +154,7 @@ TABLE
   for row in "${rig_logs[@]}"; do
     IFS='|' read -r folder joint truth <<<"$row"
     command=$(rig_log_command "$folder")
+    ran "$command"
     cells=
     for name in kinematics sr_ukf; do
       for k in 1 3; do  # 1: before, 3: after the arrow

@@ -2,17 +2,21 @@
 
 noise_row() {  # TEXT COMMAND RUNS
   local cells
+  ran "$2"
   cells=$(printed "$2" | awk '
     / runs$/ { runs = 1; next }
     runs && /: [0-9]+ failed$/ { on = $1 == "sr_ukf:"; if (on) line = $2; next }
-    runs && on && /^  joint/ { match($0, /NEES [^,]*, [^ ]* ?%?/); s = substr($0, RSTART + 5, RLENGTH - 5); line = line " | " s }
+    runs && on && /^  joint/ && match($0, /NEES [^,]*, [^ ]* ?%?/) {
+      line = line " | " substr($0, RSTART + 5, RLENGTH - 5)
+    }
     END { print line }')
   echo "| $1 | $3 | $cells |"
 }
 
 figure noise_runs hours
 figure_noise_runs() {
-  local compare='./run compare' options='--estimators ekf,sr_ukf' seeds
+  local options='--estimators ekf,sr_ukf' seeds
+  local a='./run compare examples/raven2/experiment_a.xml' a_201='./run compare out/experiment_a_201.xml'
   seeds="sed 's/seed=\"[0-9]*\"/seed=\"201\"/; s#model=\"#model=\"../examples/raven2/#' \
 examples/raven2/experiment_a.xml > out/experiment_a_201.xml"
   ran "$seeds"
@@ -23,16 +27,15 @@ From `halyard compare examples/raven2/experiment_a.xml --estimators ekf,sr_ukf -
 | | runs | failed | joint 1: NEES, instants in band | joint 2 | joint 3 |
 |---|---:|---:|---|---|---|
 TABLE
-  noise_row '`--noise 1`, seeds 1 to 200' \
-    "$compare examples/raven2/experiment_a.xml $options --noise 1 --runs 200 --out out/noise_1" 200
-  noise_row '`--noise 1`, seeds 201 to 400' "$compare out/experiment_a_201.xml $options --noise 1 --runs 200 --out out/noise_201" 200
-  noise_row '`--noise 10`' "$compare examples/raven2/experiment_a.xml $options --noise 10 --runs 20 --out out/noise_10" 20
-  noise_row '`--noise 0.1`' "$compare examples/raven2/experiment_a.xml $options --noise 0.1 --runs 20 --out out/noise_01" 20
+  noise_row '`--noise 1`, seeds 1 to 200' "$a $options --noise 1 --runs 200 --out out/noise_1" 200
+  noise_row '`--noise 1`, seeds 201 to 400' "$a_201 $options --noise 1 --runs 200 --out out/noise_201" 200
+  noise_row '`--noise 10`' "$a $options --noise 10 --runs 20 --out out/noise_10" 20
+  noise_row '`--noise 0.1`' "$a $options --noise 0.1 --runs 20 --out out/noise_01" 20
 }
 
 trial_row() {  # TEXT QUESTION: of summary.md, count and interval
-  awk -F ' [|] ' -v text="$1" -v question="| $2" '$1 == question { sub(/ \|$/, "", $5); print "| " text " | " $3 " | " $5 " |" }' \
-    "$work/out/trials/summary.md"
+  awk -F ' [|] ' -v text="$1" -v question="| $2" '
+    $1 == question { sub(/ \|$/, "", $5); print "| " text " | " $3 " | " $5 " |" }' "$work/out/trials/summary.md"
 }
 
 figure blind_trials hours bench
@@ -51,9 +54,11 @@ From `halyard_blind_trials --seed 2028` with `--kind clean_exact --kind clean_mi
 |---|---:|---:|
 TABLE
   trial_row 'clean arms with an effect named, exact numbers' 'clean_exact: an effect is named'
-  trial_row 'clean arms with an effect named, every number off within its tolerance' 'clean_mistuned: an effect is named'
+  trial_row 'clean arms with an effect named, every number off within its tolerance' \
+    'clean_mistuned: an effect is named'
   trial_row 'every effect in turn: effect and joint right and first' 'each_effect: effect and joint right, first'
-  trial_row 'outside the library: `unknown`, or an unexplained rest' 'outside: unknown, or named with an unexplained rest'
+  trial_row 'outside the library: `unknown`, or an unexplained rest' \
+    'outside: unknown, or named with an unexplained rest'
   trial_row 'pairs, both named' 'pair: both named'
   trial_row 'true numbers within their 95 % interval, every effect in turn' \
     'a true parameter lies in its 95 % interval (each_effect)'
@@ -63,6 +68,7 @@ figure coverage hours bench
 figure_coverage() {
   echo 'From `halyard_identify_coverage --runs 50 --seconds 12 --seed 11`, where all other numbers are exact:'
   echo
+  ran "$bench/halyard_identify_coverage --runs 50 --seconds 12 --seed 11"
   printed "$bench/halyard_identify_coverage --runs 50 --seconds 12 --seed 11"
 }
 

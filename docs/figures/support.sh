@@ -51,9 +51,10 @@ printed() {
 # ran COMMAND: the command, for its files.
 ran() { printed "$1" >/dev/null; }
 
-# transcript COMMAND LINES: the command and those of its lines that match; "..." stands for lines left out. A time a step
-# is left out: it differs from run to run.
+# transcript COMMAND LINES: the command and those of its lines that match; "..." stands for lines left out. Left out
+# are also the time a step takes, which differs from run to run, and the absolute paths of modules.
 transcript() {
+  ran "$1"
   echo "\$ $1"
   printed "$1" | sed -E 's/ \([0-9.e+-]+ us a step\)//; s/, [0-9.e+-]+ us a step//; s: \(/[^)]*\)::' |
     awk -v keep="$2" '$0 ~ keep { print; left_out = 0; next } !left_out { print "..."; left_out = 1 }'
@@ -89,9 +90,14 @@ markdown_files() {
     find . -name '*.md' -not -path './build/*' -not -path './out/*'; })
 }
 
-file_of_block() { (cd "$root" && markdown_files | xargs grep -lF "<!-- figure: $1 -->") || stop "no file has a block $1"; }
+file_of_block() {
+  (cd "$root" && markdown_files | xargs grep -lF "<!-- figure: $1 -->") || stop "no file has a block $1"
+}
 
-block() { awk -v begin="<!-- figure: $2 -->" '$0 == begin { on = 1; next } /^<!-- end of figure -->/ { on = 0 } on' "$1"; }
+# block FILE NAME: the content of a block.
+block() {
+  awk -v begin="<!-- figure: $2 -->" '$0 == begin { on = 1; next } /^<!-- end of figure -->/ { on = 0 } on' "$1"
+}
 
 # same_but_rounding OLD NEW: words equal, numbers within a unit of the last digit of the old or within 0.1 % of it.
 same_but_rounding() {
@@ -208,7 +214,8 @@ check_form() {
     awk -v file="$file" '
       /^<!-- figure: / { if (open) bad = 1; open = 1 }
       /^<!-- end of figure -->/ { if (!open) bad = 1; open = 0 }
-      END { if (open || bad) { print file ": begin and end of a figure do not alternate"; exit 1 } }' "$root/$file" || bad=1
+      END { if (open || bad) { print file ": begin and end of a figure do not alternate"; exit 1 } }' "$root/$file" ||
+      bad=1
   done < <(markdown_files)
   check_links || bad=1
   return $bad
