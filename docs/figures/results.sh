@@ -71,6 +71,12 @@ error_row() {
 # What the verdict names, without repeating "effects: ".
 named() { verdict "$1" | sed 's/^effects: //'; }
 
+# three_torques FIELD: the errors of the RAVEN-II's motor torques before (1) or after (3) the arrow.
+three_torques() {
+  printed "$raven2_log" | sed -nE 's/^  joint [123] motor torque RMS on the hold-out: //p' | cut -d ' ' -f "$1" |
+    paste -sd , | sed 's/,/, /g'
+}
+
 raven2_log='./run diagnose --model examples/measured/raven2_motor_log/raven2.xml \
     --data recordings/raven2_motor_log/run_joints123.csv --out out/raven2_motor_log'
 davinci_run="./run diagnose $davinci_model \\
@@ -96,9 +102,9 @@ TABLE
   error_row 'da Vinci Si tool, jaw angle, another pose of the wrist' \
     "${davinci_run}pitch0_003.csv --out out/davinci_pitch" \
     '^  joint 1 position' "$(calculate %.3g "$pitch * $per_rad") deg"
-  error_row 'RAVEN-II, torque of motor 1' "$raven2_log" '^  joint 1 motor torque' '-'
-  error_row 'RAVEN-II, torque of motor 2' "$raven2_log" '^  joint 2 motor torque' '-'
-  error_row 'RAVEN-II, torque of motor 3' "$raven2_log" '^  joint 3 motor torque' '-'
+  ran "$raven2_log"
+  echo "| RAVEN-II, torques of motors 1, 2 and 3 | $(three_torques 1) mN m | - | $(three_torques 3) mN m |" \
+    "$(named "$raven2_log") |"
   error_row 'KUKA KR300, link angle of axis 2, another path' "$kuka_axis_2" '^  joint 1 position' '-'
   error_row 'EMPS ball-screw axis, force, with pulses' "$emps_run" '^  joint 1 motor (torque|force)' '-'
 }
