@@ -1,6 +1,7 @@
 #include "app/bundled_files.h"
 
 #include "model/input_error.h"
+#include "plugins/host/program_location.h"
 
 namespace halyard {
 
@@ -16,8 +17,8 @@ fs::path examples_folder(const fs::path& given, const std::string& command) {
     throw InputError("halyard " + command + ": --examples " + in_quotes(given.string()) +
                      ": has no raven2/raven2.xml; give the folder that holds the folder raven2");
   }
-  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& folder : {program / HALYARD_EXAMPLES_FROM_PROGRAM, fs::path(HALYARD_EXAMPLES_IN_SOURCE)}) {
+  for (const fs::path& folder :
+       {program_folder() / HALYARD_EXAMPLES_FROM_PROGRAM, fs::path(HALYARD_EXAMPLES_IN_SOURCE)}) {
     if (holds_examples(folder)) return folder;
   }
   throw InputError("halyard " + command +

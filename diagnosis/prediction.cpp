@@ -9,6 +9,7 @@
 #include <map>
 
 #include "diagnosis/lane_drive.h"
+#include "estimators/process/instruction_set.h"
 #include "transmission/path_matrix.h"
 
 namespace halyard {
@@ -18,11 +19,14 @@ namespace {
 /// remember of loading (hysteresis, slack, a dead zone) is then as after a real start. A past adds to that.
 constexpr double kLetDown = 0.8;
 
+/// For the widest instruction set of this processor.
 LaneDrive lane_drive() {
+  const InstructionSet set = instruction_sets().front();
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) return avx512_lane_drive();
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return avx2_lane_drive();
+  if (set == InstructionSet::avx512) return avx512_lane_drive();
+  if (set == InstructionSet::avx2) return avx2_lane_drive();
 #endif
+  (void)set;
   return generic_lane_drive();
 }
 

@@ -1,21 +1,31 @@
 #include "estimators/process/lane_kernels.h"
 
+#include "estimators/process/instruction_set.h"
+
 namespace halyard {
 
 extern const LaneKernels kLanes_generic;
-#if defined(HALYARD_LANES_X86)
+#if defined(__x86_64__)
 extern const LaneKernels kLanes_avx512, kLanes_avx2;
 #endif
+
+namespace {
+
+const LaneKernels& kernels_for(InstructionSet set) {
+#if defined(__x86_64__)
+  if (set == InstructionSet::avx512) return kLanes_avx512;
+  if (set == InstructionSet::avx2) return kLanes_avx2;
+#endif
+  (void)set;
+  return kLanes_generic;
+}
+
+}  // namespace
 
 const std::vector<LaneKernels>& lane_kernels() {
   static const std::vector<LaneKernels> usable = [] {
     std::vector<LaneKernels> all;
-#if defined(HALYARD_LANES_X86)
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("fma"))
-      all.push_back(kLanes_avx512);
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) all.push_back(kLanes_avx2);
-#endif
-    all.push_back(kLanes_generic);
+    for (const InstructionSet set : instruction_sets()) all.push_back(kernels_for(set));
     return all;
   }();
   return usable;

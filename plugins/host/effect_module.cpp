@@ -107,14 +107,39 @@ Effects checked_effects(const SharedModule& module, const halyard_effect_table& 
   return effects;
 }
 
+struct OpenModule {
+  std::unique_ptr<SharedModule> module;
+  std::filesystem::path path;        ///< absolute
+  std::vector<std::string> effects;  ///< names
+};
+
+/// Never destroyed: the library lives until the process ends, and its effects are code of their modules.
+std::vector<OpenModule>& open_modules() {
+  static auto& modules = *new std::vector<OpenModule>;
+  return modules;
+}
+
 }  // namespace
 
 void load_effects(const std::filesystem::path& path) {
-  auto module = std::make_unique<SharedModule>(path);
-  for (auto& effect : checked_effects(*module, checked_table(*module))) register_effect(std::move(effect));
-  // Never destroyed: the library lives until the process ends, and its effects are code of their modules.
-  static auto& open_modules = *new std::vector<std::unique_ptr<SharedModule>>;
-  open_modules.push_back(std::move(module));
+  OpenModule opened{std::make_unique<SharedModule>(path), std::filesystem::absolute(path), {}};
+  for (auto& effect : checked_effects(*opened.module, checked_table(*opened.module))) {
+    opened.effects.push_back(effect->name());
+    register_effect(std::move(effect));
+  }
+  open_modules().push_back(std::move(opened));
+}
+
+std::vector<std::filesystem::path> loaded_effect_modules() {
+  std::vector<std::filesystem::path> paths;
+  for (const OpenModule& module : open_modules()) paths.push_back(module.path);
+  return paths;
+}
+
+bool is_from_module(const Effect& effect) {
+  return std::ranges::any_of(open_modules(), [&](const OpenModule& module) {
+    return std::ranges::find(module.effects, effect.name()) != module.effects.end();
+  });
 }
 
 }  // namespace halyard

@@ -1,35 +1,29 @@
 #include "plugins/host/loader.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <set>
 #include <sstream>
 
 #include "model/input_error.h"
 #include "plugins/host/estimator_module.h"
 #include "plugins/host/plugin_estimator.h"
+#include "plugins/host/program_location.h"
 
 namespace halyard {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Folder of the file that holds this code: halyard's libraries, or the program if they are linked into it.
-fs::path own_folder() {
-  Dl_info info;
-  if (!dladdr(reinterpret_cast<void*>(&make_estimator), &info) || !info.dli_fname) return {};
-  return fs::absolute(info.dli_fname).parent_path();
-}
-
-fs::path program_folder() {
-  std::error_code error;
-  return fs::read_symlink("/proc/self/exe", error).parent_path();
+std::optional<std::vector<fs::path>>& only_folders() {
+  static std::optional<std::vector<fs::path>> folders;
+  return folders;
 }
 
 /// The folders that are there, in the order in which they are searched.
-std::vector<fs::path> plugin_folders(std::vector<std::string>* refused) {
+std::vector<fs::path> folders_to_search(std::vector<std::string>* refused) {
+  if (only_folders()) return *only_folders();
   std::vector<fs::path> folders;
   std::set<fs::path> seen;
   const auto add = [&](const fs::path& folder) {
@@ -41,8 +35,9 @@ std::vector<fs::path> plugin_folders(std::vector<std::string>* refused) {
   };
   add(program_folder() / HALYARD_PLUGINS_FROM_PROGRAM);
   add(program_folder() / "plugins");
-  add(own_folder() / "halyard/plugins");
-  add(own_folder() / "../plugins");
+  const fs::path own_folder = folder_of_code(&make_estimator);
+  add(own_folder / "halyard/plugins");
+  add(own_folder / "../plugins");
 
   const char* from_user = std::getenv("HALYARD_PLUGIN_PATH");
   std::istringstream list(from_user ? from_user : "");
@@ -65,7 +60,7 @@ std::vector<fs::path> modules_in(const fs::path& folder) {
 /// Opens the modules of all folders one after the other; visit(module) returns true to end the search.
 template <class Visit>
 void search(std::vector<std::string>* refused, const Visit& visit) {
-  for (const fs::path& folder : plugin_folders(refused)) {
+  for (const fs::path& folder : folders_to_search(refused)) {
     for (const fs::path& path : modules_in(folder)) {
       std::shared_ptr<const EstimatorModule> module;
       try {
@@ -108,6 +103,10 @@ PluginInfo info(const EstimatorModule& module) {
 }
 
 }  // namespace
+
+std::vector<fs::path> plugin_folders() { return folders_to_search(nullptr); }
+
+void search_plugins_only_in(std::vector<fs::path> folders) { only_folders() = std::move(folders); }
 
 std::vector<PluginInfo> find_plugins(std::vector<std::string>* refused) {
   std::vector<PluginInfo> found;

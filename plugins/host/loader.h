@@ -18,10 +18,16 @@ struct PluginInfo {
   std::filesystem::path path;
 };
 
-/// All loadable estimators in the plug-in folders: beside the program (../lib/halyard/plugins and plugins/ of a build),
-/// beside halyard's libraries (for programs that live elsewhere), and each folder of the environment variable
-/// HALYARD_PLUGIN_PATH, whose folders are separated by ':'. Of two with the same name the first counts. Modules that
-/// are refused are not listed; their one-line reasons are appended to refused if given.
+/// The plug-in folders that exist, in the order in which they are searched: beside the program (../lib/halyard/plugins
+/// and plugins/ of a build), beside halyard's libraries (for programs that live elsewhere), and each folder of the
+/// environment variable HALYARD_PLUGIN_PATH, whose folders are separated by ':'.
+std::vector<std::filesystem::path> plugin_folders();
+/// From now on plugin_folders() are these. For a process that works for another one, and has to find the same plug-ins.
+/// Not for use while another thread looks for plug-ins.
+void search_plugins_only_in(std::vector<std::filesystem::path> folders);
+
+/// All loadable estimators in the plug-in folders. Of two with the same name the first counts. Modules that are refused
+/// are not listed; their one-line reasons are appended to refused if given.
 std::vector<PluginInfo> find_plugins(std::vector<std::string>* refused = nullptr);
 
 /// The plug-in that make_estimator takes for a name or path. Throws InputError as it does.
