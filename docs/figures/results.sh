@@ -45,7 +45,7 @@ davinci_trained_zero() {
 
 figure davinci_zero minutes davinci_tool
 figure_davinci_zero() {
-  local zero given moved d mean best
+  local zero given moved d mean best as_given rezeroed
   zero=$(davinci_trained_zero) || return 1
   given=$(davinci_before L4_25 1.25) || return 1
   moved=$(davinci_before L4_25 "$zero") || return 1
@@ -53,12 +53,16 @@ figure_davinci_zero() {
   d=$(calculate %.8f "$zero - 1.25")
   mean=$(calculate %.8f "($moved ^ 2 - $given ^ 2 - $d ^ 2) / (2 * $d)")
   best=$(calculate %.3g "sqrt($given ^ 2 - ($mean) ^ 2) * $per_rad")
+  as_given="${davinci_run}L4_25.csv --out out/davinci_tool"
+  rezeroed="${davinci_run}L4_25.csv $(davinci_zero "$zero") --out out/davinci_rezeroed"
+  ran "$as_given"
+  ran "$rezeroed"
   cat <<TABLE
-| zero of the jaw, \`offset\` of \`halyard diagnose --column\` | RMS error on \`run_L4_25.csv\` |
-|---|---|
-| 1.25 rad, as in the model | $(calculate %.3g "$given * $per_rad") deg |
-| $zero rad, from both training runs | $(calculate %.3g "$moved * $per_rad") deg |
-| $(calculate %.4f "1.25 - ($mean)") rad, the best one for this very run | $best deg |
+| zero of the jaw, \`offset\` of \`halyard diagnose --column\` | given model | revised model | named |
+|---|---|---|---|
+| 1.25 rad, as in the model | $(before_after "$as_given" '^  joint 1 position') | $(named "$as_given") |
+| $zero rad, from both training runs | $(before_after "$rezeroed" '^  joint 1 position') | $(named "$rezeroed") |
+| $(calculate %.4f "1.25 - ($mean)") rad, the best one for this very run | $best deg | - | - |
 TABLE
 }
 
