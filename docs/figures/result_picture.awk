@@ -34,7 +34,7 @@ END {
     printf "<text x=\"62\" y=\"%.1f\" text-anchor=\"end\">%.1f</text>\n", y(e) + 5, e * e < 1e-9 ? 0 : e
   }
   for (t = first; t < end + 0.01; ++t) printf "<text x=\"%s\" y=\"310\" text-anchor=\"middle\">%.0f s</text>\n", x(t), t
-  line("kinematics (motors only)", 2, "#0072b2", 70)
+  line("kinematics (rigid cables)", 2, "#0072b2", 70)
   line("sr_ukf, given model", 3, "#d55e00", 290)
   line("sr_ukf, revised model", 4, "#009e73", 470)
   print "</svg>"
