@@ -72,8 +72,12 @@ error_row() {
   echo "| $1 | $(before_after "$2" "$3" | sed "s/ | / | $4 | /") | $(named "$2") |"
 }
 
-# What the verdict names, without repeating "effects: ".
-named() { verdict "$1" | sed 's/^effects: //'; }
+# What the verdict names, without repeating "effects: ", and the alternatives that the data cannot tell from it.
+named() {
+  local others
+  others=$(printed "$1" | sed -nE 's/^  [^:]+: or (.*)$/\1/p' | paste -sd , | sed 's/,/, /g')
+  echo "$(verdict "$1" | sed 's/^effects: //')${others:+; or: $others}"
+}
 
 # three_torques FIELD: the errors of the RAVEN-II's motor torques before (1) or after (3) the arrow.
 three_torques() {
