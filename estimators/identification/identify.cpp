@@ -105,7 +105,7 @@ std::vector<Weight> other_numbers(const ArmModel& model, const std::vector<std::
   for (const ParameterInfo& info : named_parameters(arm)) {
     if (info.key.ends_with(".gear_ratio") || info.key.ends_with(".pulley_radius")) continue;
     if (std::ranges::find(keys, info.key) != keys.end() || !is_in_equations(model, info)) continue;
-    const double reach = info.tolerance * std::abs(*info.value);
+    const double reach = model.tolerance(info) * std::abs(*info.value);
     if (reach > 0) others.push_back({info.key, *info.value, reach / 2, false});
   }
   return others;
@@ -306,7 +306,7 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
   for (const ParameterInfo& info : named_parameters(result.model.nominal)) {
     if (std::ranges::find(keys, info.key) == keys.end()) continue;
     weights.push_back(weight_of(model, info));
-    tolerance.push_back(info.tolerance);
+    tolerance.push_back(model.tolerance(info));
     IdentifiedNumber& number = result.numbers.emplace_back();
     number.key = info.key, number.name = info.name, number.unit = info.unit;
     number.joint = info.joint, number.nominal = *info.value;

@@ -22,7 +22,7 @@ class Backlash : public EffectOf<Backlash> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double radius = arm.joint[joint].capstan_radius;
-    return {{"half_gap", "m", 0, 0.03 * radius, 0, 2 * radius, 0}};
+    return {{"half_gap", "m", 0, 0.03 * radius, 0, 2 * radius}};
   }
 
   template <class T>

@@ -24,8 +24,7 @@ class CableSlip : public EffectOf<CableSlip> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double radius = arm.joint[joint].capstan_radius;
-    return {{"jump", "m", 0, 0.03 * radius, -2 * radius, 2 * radius, 0},
-            {"time", "s", 1, 1, -1e10, 1e10, 0, false, {}, SearchRange::record_time}};
+    return {{"jump", "m", 0, 0.03 * radius, -2 * radius, 2 * radius}, {"time", "s", 1, 1, -1e10, 1e10}};
   }
 
   template <class T>

@@ -23,7 +23,7 @@ class CapstanEccentricity : public EffectOf<CapstanEccentricity> {
     return arm.joint[joint].drive == Drive::cable;
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"cosine", "1", 0, 0.02, -0.3, 0.3, 0}, {"sine", "1", 0, 0.02, -0.3, 0.3, 0}};
+    return {{"cosine", "1", 0, 0.02, -0.3, 0.3}, {"sine", "1", 0, 0.02, -0.3, 0.3}};
   }
 
   template <class T>

@@ -18,8 +18,8 @@ class CapstanRatio : public EffectOf<CapstanRatio> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive != Drive::none;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    return {{"ratio", "1", 1, 1.02, 0.5, 2, arm.joint[joint].tolerance.length}};
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+    return {{"ratio", "1", 1, 1.02, 0.5, 2}};
   }
 
   template <class T>

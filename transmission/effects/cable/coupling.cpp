@@ -26,8 +26,7 @@ class CouplingError : public EffectOf<CouplingError> {
                      length == per_length ? "1"
                      : length             ? "m/rad"
                                           : "rad/m",
-                     0, 0.1 * std::max(std::abs(j.coupling[i]), 0.1 * reach), -reach, reach,
-                     j.tolerance.coupling * std::abs(j.coupling[i])});
+                     0, 0.1 * std::max(std::abs(j.coupling[i]), 0.1 * reach), -reach, reach});
     }
     return all;
   }

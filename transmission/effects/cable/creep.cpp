@@ -11,7 +11,7 @@
 ///   c     compliance of the slow part over that of the elastic one, `compliance_share`      -
 ///   τ     time constant of the slow part at constant force                                   s
 ///
-/// Under a constant force the stretch ends at (1 + c) times what it starts with. The cable's damper lies across both.
+/// Under a constant force the stretch ends at (1 + c) times its first value. The cable's damper lies across both.
 /// Source: Zener, "Elasticity and Anelasticity of Metals" (1948).
 
 namespace halyard {
@@ -26,8 +26,7 @@ class Creep : public EffectOf<Creep> {
     return arm.joint[joint].drive == Drive::cable;
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"compliance_share", "1", 0, 0.3, 0, 5, 0},
-            {"time_constant", "s", 3, 3, 0.2, 300, 0, false, {0.3, 1, 3, 10, 30}}};
+    return {{"compliance_share", "1", 0, 0.3, 0, 5}, {"time_constant", "s", 3, 3, 0.2, 300}};
   }
   int n_states() const override { return 1; }
   std::vector<double> state_scale(const ArmParameters<double>& arm, int joint, const double*) const override {

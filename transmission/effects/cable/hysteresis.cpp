@@ -27,16 +27,8 @@ class Hysteresis : public EffectOf<Hysteresis> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double stretch = typical_stretch(arm.joint[joint]);
-    return {{"share", "1", 0, 0.4, 0, 0.95, 0},
-            {"yield_stretch",
-             "m",
-             0.1 * stretch,
-             0.1 * stretch,
-             1e-4 * stretch,
-             10 * stretch,
-             0,
-             false,
-             {0.003 * stretch, 0.01 * stretch, 0.03 * stretch, 0.1 * stretch, 0.3 * stretch}}};
+    return {{"share", "1", 0, 0.4, 0, 0.95},
+            {"yield_stretch", "m", 0.1 * stretch, 0.1 * stretch, 1e-4 * stretch, 10 * stretch}};
   }
   int n_states() const override { return 1; }
   std::vector<double> state_scale(const ArmParameters<double>&, int, const double* p) const override { return {p[1]}; }

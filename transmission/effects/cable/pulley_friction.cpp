@@ -26,7 +26,7 @@ class PulleyFriction : public EffectOf<PulleyFriction> {
     return arm.joint[joint].drive == Drive::cable;
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"coefficient", "1", 0, 0.05, 0, 1, 0}, {"motor_share", "1", 0.5, 0.5, 0, 1, 0, true}};
+    return {{"coefficient", "1", 0, 0.05, 0, 1}, {"motor_share", "1", 0.5, 0.5, 0, 1}};
   }
 
   template <class T>

@@ -29,16 +29,7 @@ class Slack : public EffectOf<Slack> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const JointParameters<double>& j = arm.joint[joint];
     const double tension = j.stiffness * typical_stretch(j);  // the model's, or what moves the joint
-    return {{"share", "1", 0, 1, 0, 1, 0, true},
-            {"tension",
-             "N",
-             0.5 * tension,
-             0.5 * tension,
-             1e-3 * tension,
-             10 * tension,
-             0,
-             false,
-             {0.05 * tension, 0.15 * tension, 0.5 * tension, tension}}};
+    return {{"share", "1", 0, 1, 0, 1}, {"tension", "N", 0.5 * tension, 0.5 * tension, 1e-3 * tension, 10 * tension}};
   }
 
   template <class T>

@@ -24,11 +24,10 @@ class Stiffness : public EffectOf<Stiffness> {
     return arm.joint[joint].drive == Drive::cable;
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double tolerance = arm.joint[joint].tolerance.stiffness;
     const double stretch = typical_stretch(arm.joint[joint]), stiffening = 1 / (stretch * stretch);
-    return {{"stiffness_ratio", "1", 1, 0.8, 0.02, 50, tolerance},
-            {"damping_ratio", "1", 1, 0.8, 0.02, 50, tolerance},
-            {"stiffening", "1/m^2", 0, 0.1 * stiffening, 0, 100 * stiffening, 0}};
+    return {{"stiffness_ratio", "1", 1, 0.8, 0.02, 50},
+            {"damping_ratio", "1", 1, 0.8, 0.02, 50},
+            {"stiffening", "1/m^2", 0, 0.1 * stiffening, 0, 100 * stiffening}};
   }
 
   template <class T>

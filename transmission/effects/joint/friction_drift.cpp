@@ -16,7 +16,7 @@
 namespace halyard {
 namespace {
 
-/// Far slower than any record, and far from where 1 - exp(-λ t) loses its digits.
+/// Far slower than any motion, and far from where 1 - exp(-λ t) loses its digits.
 constexpr double kSlowest = 1e-6;
 
 template <class T>
@@ -33,7 +33,7 @@ class FrictionDrift : public EffectOf<FrictionDrift> {
     return static_cast<unsigned>(EffectStage::motor) | static_cast<unsigned>(EffectStage::joint);
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"rate", "1/s", 0, -0.01, -2, 2, 0}, {"settling_rate", "1/s", 0, 0, 0, 1, 0, false, {0, 0.03, 0.1, 0.3}}};
+    return {{"rate", "1/s", 0, -0.01, -2, 2}, {"settling_rate", "1/s", 0, 0, 0, 1}};
   }
 
   template <class T>

@@ -38,8 +38,7 @@ class GravityTilt : public EffectOf<GravityTilt> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int) const override {
     std::vector<EffectParameter> all;
     for (int axis = 0; axis < 3; ++axis)
-      if (axis != vertical_axis(arm))
-        all.push_back({std::string("about_") + "xyz"[axis], "rad", 0, 0.03, -0.5, 0.5, 0});
+      if (axis != vertical_axis(arm)) all.push_back({std::string("about_") + "xyz"[axis], "rad", 0, 0.03, -0.5, 0.5});
     return all;
   }
 

@@ -25,12 +25,10 @@ class JointFriction : public EffectOf<JointFriction> {
     const bool turns = j.type == JointType::revolute;
     const double level = typical_joint_friction(j);
     const double viscous = std::max(j.joint_viscous, 0.02 * level);
-    return {{"coulomb_change", turns ? "N m" : "N", 0, 0.3 * level, -j.joint_coulomb, 30 * level,
-             j.tolerance.friction * j.joint_coulomb, true},
-            {"viscous_change", turns ? "N m s/rad" : "N s/m", 0, 0.3 * viscous, -j.joint_viscous, 300 * viscous,
-             j.tolerance.friction * j.joint_viscous, true},
-            {"asymmetry", "1", 0, 0.1, -1, 1, 0, true},
-            {"viscous_asymmetry", "1", 0, 0.1, -1, 1, 0, true}};
+    return {{"coulomb_change", turns ? "N m" : "N", 0, 0.3 * level, -j.joint_coulomb, 30 * level},
+            {"viscous_change", turns ? "N m s/rad" : "N s/m", 0, 0.3 * viscous, -j.joint_viscous, 300 * viscous},
+            {"asymmetry", "1", 0, 0.1, -1, 1},
+            {"viscous_asymmetry", "1", 0, 0.1, -1, 1}};
   }
 
   template <class T>

@@ -19,7 +19,7 @@ class Payload : public EffectOf<Payload> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int) const override {
     const JointParameters<double>& last = arm.joint[arm.n - 1];
     const double whole = std::max(last.mass, 1e-3);
-    return {{"mass", "kg", 0, 0.1 * whole, -0.9 * whole, 20 * whole, last.tolerance.mass * whole}};
+    return {{"mass", "kg", 0, 0.1 * whole, -0.9 * whole, 20 * whole}};
   }
 
   template <class T>

@@ -22,9 +22,9 @@ T stribeck(const T& rise, const T& speed, const T& v_s, const T& v) {
   return rise * exp(T(-u * u)) * smooth_sign(v, v_s);
 }
 
-/// Speed scales are looked for from that of the smoothing on, below which nothing can be told.
+/// The fall cannot be seen far below the speed of the smoothing: the bounds follow that.
 EffectParameter speed(const char* name, const char* unit, double v_s) {
-  return {name, unit, 10 * v_s, 10 * v_s, 0.5 * v_s, 300 * v_s, 0, false, {3 * v_s, 10 * v_s, 30 * v_s}};
+  return {name, unit, 10 * v_s, 10 * v_s, 0.5 * v_s, 300 * v_s};
 }
 
 class Stribeck : public EffectOf<Stribeck> {
@@ -38,11 +38,11 @@ class Stribeck : public EffectOf<Stribeck> {
     const JointParameters<double>& j = arm.joint[joint];
     const bool turns = j.type == JointType::revolute;
     const double at_joint = typical_joint_friction(j);
-    std::vector<EffectParameter> all = {{"joint_rise", turns ? "N m" : "N", 0, 0.5 * at_joint, 0, 10 * at_joint, 0},
+    std::vector<EffectParameter> all = {{"joint_rise", turns ? "N m" : "N", 0, 0.5 * at_joint, 0, 10 * at_joint},
                                         speed("joint_speed", turns ? "rad/s" : "m/s", j.joint_smoothing)};
     if (j.drive == Drive::none) return all;
     const double at_motor = typical_motor_friction(j);
-    all.push_back({"motor_rise", "N m", 0, 0.5 * at_motor, 0, 10 * at_motor, 0});
+    all.push_back({"motor_rise", "N m", 0, 0.5 * at_motor, 0, 10 * at_motor});
     all.push_back(speed("motor_speed", "rad/s", j.motor_smoothing));
     return all;
   }

@@ -26,17 +26,9 @@ class ActuatorSaturation : public EffectOf<ActuatorSaturation> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double level = typical_motor_friction(arm.joint[joint]), no_limit = 1e4;
-    return {{"share", "1", 0, 1, 0, 1, 0, true},
-            {"limit",
-             "N m",
-             4 * level,
-             4 * level,
-             0.1 * level,
-             300 * level,
-             0,
-             false,
-             {level, 2 * level, 4 * level, 8 * level, 16 * level}},
-            {"no_load_speed", "rad/s", no_limit, no_limit, 1, 1e5, 0, true, {50, 200, no_limit}}};
+    return {{"share", "1", 0, 1, 0, 1},
+            {"limit", "N m", 4 * level, 4 * level, 0.1 * level, 300 * level},
+            {"no_load_speed", "rad/s", no_limit, no_limit, 1, 1e5}};
   }
 
   template <class T>

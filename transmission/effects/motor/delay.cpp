@@ -23,7 +23,7 @@ class Delay : public EffectOf<Delay> {
     return static_cast<unsigned>(EffectStage::command) | static_cast<unsigned>(EffectStage::sensors);
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"command_delay", "s", 0, 0.005, 0, 0.05, 0}, {"sensor_delay", "s", 0, 0.005, -0.05, 0.05, 0}};
+    return {{"command_delay", "s", 0, 0.005, 0, 0.05}, {"sensor_delay", "s", 0, 0.005, -0.05, 0.05}};
   }
 
   template <class T>

@@ -27,12 +27,10 @@ class MotorFriction : public EffectOf<MotorFriction> {
     const JointParameters<double>& j = arm.joint[joint];
     const double level = typical_motor_friction(j);
     const double viscous = std::max(j.motor_viscous, 0.002 * level);
-    return {{"coulomb_change", "N m", 0, 0.3 * level, -j.motor_coulomb, 30 * level,
-             j.tolerance.friction * j.motor_coulomb, true},
-            {"viscous_change", "N m s/rad", 0, 0.3 * viscous, -j.motor_viscous, 30 * viscous,
-             j.tolerance.friction * j.motor_viscous, true},
-            {"asymmetry", "1", 0, 0.1, -1, 1, 0, true},
-            {"viscous_asymmetry", "1", 0, 0.1, -1, 1, 0, true}};
+    return {{"coulomb_change", "N m", 0, 0.3 * level, -j.motor_coulomb, 30 * level},
+            {"viscous_change", "N m s/rad", 0, 0.3 * viscous, -j.motor_viscous, 30 * viscous},
+            {"asymmetry", "1", 0, 0.1, -1, 1},
+            {"viscous_asymmetry", "1", 0, 0.1, -1, 1}};
   }
 
   template <class T>

@@ -25,24 +25,15 @@ class TorqueRipple : public EffectOf<TorqueRipple> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double level = typical_motor_friction(arm.joint[joint]);
-    // Pole pairs, slots and commutator bars, and what they have in common.
-    std::vector<double> orders;
-    for (int n = 1; n <= 24; ++n) orders.push_back(n);
-    for (const int n : {28, 30, 32, 36, 42, 48}) orders.push_back(n);
-    return {{"cosine", "N m", 0, 0.2 * level, -30 * level, 30 * level, 0},
-            {"sine", "N m", 0, 0.2 * level, -30 * level, 30 * level, 0},
-            {"order", "1", 12, 12, 0.5, 100, 0, false, orders}};
+    return {{"cosine", "N m", 0, 0.2 * level, -30 * level, 30 * level},
+            {"sine", "N m", 0, 0.2 * level, -30 * level, 30 * level},
+            {"order", "1", 12, 12, 0.5, 100}};
   }
 
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
     const T phase = c.p[2] * s[c.joint].motor_angle;
-    T ripple = c.p[0] * cos(phase) + c.p[1] * sin(phase);
-    if (c.band > 0) {
-      const T turned = c.p[2] * s[c.joint].motor_rate * c.band;
-      ripple *= exp(T(-0.5 * turned * turned));
-    }
-    s[c.joint].motor_torque += ripple;
+    s[c.joint].motor_torque += c.p[0] * cos(phase) + c.p[1] * sin(phase);
   }
 };
 

@@ -22,7 +22,7 @@ class TorqueScale : public EffectOf<TorqueScale> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double level = typical_motor_friction(arm.joint[joint]);
-    return {{"scale", "1", 1, 1.05, 0.2, 5, 0}, {"bias", "N m", 0, 0.3 * level, -30 * level, 30 * level, 0}};
+    return {{"scale", "1", 1, 1.05, 0.2, 5}, {"bias", "N m", 0, 0.3 * level, -30 * level, 30 * level}};
   }
 
   template <class T>

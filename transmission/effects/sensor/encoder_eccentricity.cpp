@@ -20,12 +20,11 @@ class EncoderEccentricity : public EffectOf<EncoderEccentricity> {
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::sensors); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     if (arm.joint[joint].type == JointType::revolute)
-      return {{"cosine", "rad", 0, 2e-3, -0.2, 0.2, 0},
-              {"sine", "rad", 0, 2e-3, -0.2, 0.2, 0},
-              {"order", "1", 1, 1, 0.5, 64, 0, false, {1, 2, 3, 4, 6, 8, 12, 16}}};
-    return {{"cosine", "m", 0, 2e-4, -0.02, 0.02, 0},
-            {"sine", "m", 0, 2e-4, -0.02, 0.02, 0},
-            {"wave_number", "rad/m", 200, 200, 5, 5000, 0, false, {20, 43, 93, 200, 430, 930, 2000}}};
+      return {
+          {"cosine", "rad", 0, 2e-3, -0.2, 0.2}, {"sine", "rad", 0, 2e-3, -0.2, 0.2}, {"order", "1", 1, 1, 0.5, 64}};
+    return {{"cosine", "m", 0, 2e-4, -0.02, 0.02},
+            {"sine", "m", 0, 2e-4, -0.02, 0.02},
+            {"wave_number", "rad/m", 200, 200, 5, 5000}};
   }
 
   template <class T>

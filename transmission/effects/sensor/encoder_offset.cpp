@@ -23,7 +23,7 @@ class EncoderOffset : public EffectOf<EncoderOffset> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const bool turns = arm.joint[joint].type == JointType::revolute;
     const double reach = turns ? 0.5 : 0.05;
-    return {{"offset", turns ? "rad" : "m", 0, 0.01 * reach, -reach, reach, 0}};
+    return {{"offset", turns ? "rad" : "m", 0, 0.01 * reach, -reach, reach}};
   }
 
   template <class T>
