@@ -15,8 +15,8 @@
 ///   states        state_rate()         z_dot
 ///
 /// To write one, derive from EffectOf<Yours> and give the members that you need as templates
-/// over the scalar T (scalar.h): see effects/backlash.cpp for one without states and
-/// effects/hysteresis.cpp for one with.
+/// over the scalar T (scalar.h): see effects/cable/backlash.cpp for one without states and
+/// effects/cable/hysteresis.cpp for one with.
 
 #include <memory>
 #include <string>

@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
 
 #include "model/arm_model.h"
 #include "tests/support/effect_runs.h"
@@ -147,6 +151,28 @@ TEST(EffectLibrary, HasTheEffectsInTheOrderOfTheirNamesTable) {
   const auto built_in = built_in_effects();
   ASSERT_EQ(built_in.size(), std::size(names));
   for (std::size_t i = 0; i < built_in.size(); ++i) EXPECT_EQ(built_in[i]->name(), names[i]);
+}
+
+TEST(EffectLibrary, AnEffectIsOneFileAndOneLine) {
+  const std::filesystem::path folder = std::filesystem::path(HALYARD_SOURCE_DIR) / "transmission/effects";
+  const auto text = [](const std::filesystem::path& path) {
+    std::ostringstream all;
+    all << std::ifstream(path).rdbuf();
+    return all.str();
+  };
+  const std::string library = text(folder / "library.cpp");
+  const std::regex made(R"(make_effect<(\w+)>\(\);)");
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".cpp" || entry.path().parent_path() == folder) continue;
+    ++files;
+    const std::string file = text(entry.path());
+    std::smatch name;
+    ASSERT_TRUE(std::regex_search(file, name, made)) << entry.path() << " makes no effect";
+    EXPECT_NE(library.find("\n    make_effect<class " + name[1].str() + ">,\n"), library.npos)
+        << entry.path() << " has no line in library.cpp";
+  }
+  EXPECT_EQ(files, built_in_effects().size());
 }
 
 TEST(EffectLibrary, EffectsAreFoundByNameAndRefusedWhereTheyCannotBe) {

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/smooth_step.h"
 
 /// A sudden lasting jump of the motor-to-joint relation: the cable slips on its capstan,
@@ -11,8 +11,7 @@
 ///
 /// What slips is lost: the stretch's rate has it too.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class CableSlip : public EffectOf<CableSlip> {
  public:
@@ -35,8 +34,6 @@ class CableSlip : public EffectOf<CableSlip> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<CableSlip>();
 
-std::unique_ptr<const Effect> make_cable_slip() { return std::make_unique<CableSlip>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

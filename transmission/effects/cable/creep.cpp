@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
 /// Stretch that grows slowly under load: the cable is a standard linear solid, its elastic part in series with one that
@@ -14,8 +14,7 @@
 /// Under a constant force the stretch ends at (1 + c) times its first value. The cable's damper lies across both.
 /// Source: Zener, "Elasticity and Anelasticity of Metals" (1948).
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class Creep : public EffectOf<Creep> {
  public:
@@ -43,8 +42,6 @@ class Creep : public EffectOf<Creep> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<Creep>();
 
-std::unique_ptr<const Effect> make_creep() { return std::make_unique<Creep>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
 /// A rate-independent loop of the cable's force over its stretch, of Bouc-Wen type: the share ρ of
@@ -14,8 +14,7 @@
 /// repeated.
 /// Source: Wen, J. Eng. Mech. 102 (1976); of robot cables Miyasaka et al., ICRA 2016.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class Hysteresis : public EffectOf<Hysteresis> {
  public:
@@ -47,8 +46,6 @@ class Hysteresis : public EffectOf<Hysteresis> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<Hysteresis>();
 
-std::unique_ptr<const Effect> make_hysteresis() { return std::make_unique<Hysteresis>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,5 +1,5 @@
 #include "transmission/cable_law.h"
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
 /// A run of the cable pulls and cannot push: with the rest tension T each run's tension ends at zero,
@@ -15,8 +15,7 @@
 ///
 /// Source: the clamp of cable_law.h.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class Slack : public EffectOf<Slack> {
  public:
@@ -46,8 +45,6 @@ class Slack : public EffectOf<Slack> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<Slack>();
 
-std::unique_ptr<const Effect> make_slack() { return std::make_unique<Slack>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

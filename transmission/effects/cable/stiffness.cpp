@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
 /// Another stiffness or damping of the cable, or a law that stiffens: k_e' = κ k_e, b_e' = δ b_e,
@@ -12,8 +12,7 @@
 /// Source: the paper's Table I gives one value for a cable whose stiffness varies with tension
 /// and wear (Miyasaka et al., ICRA 2016).
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class Stiffness : public EffectOf<Stiffness> {
  public:
@@ -43,8 +42,6 @@ class Stiffness : public EffectOf<Stiffness> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<Stiffness>();
 
-std::unique_ptr<const Effect> make_stiffness() { return std::make_unique<Stiffness>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/smooth_step.h"
 #include "transmission/effects/typical_size.h"
 
@@ -12,8 +12,7 @@
 ///              negative: a wall below q_c, of stiffness |k|, that pushes up              N m/rad | N/m
 ///   q_c        `contact_position`                                                        rad | m
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class ExternalForce : public EffectOf<ExternalForce> {
  public:
@@ -42,8 +41,6 @@ class ExternalForce : public EffectOf<ExternalForce> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<ExternalForce>();
 
-std::unique_ptr<const Effect> make_external_force() { return std::make_unique<ExternalForce>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/friction.h"
 
 /// Friction that changes in time, as of a drive that warms up: Coulomb level and viscous coefficient, of motor and
@@ -13,7 +13,7 @@
 /// Source: Bittencourt and Axelsson, IEEE/ASME Trans. Mechatronics 19 (2014), friction over temperature; a body that
 /// warms at constant power settles exponentially.
 
-namespace halyard {
+namespace halyard::effects {
 namespace {
 
 /// Far slower than any motion, and far from where 1 - exp(-λ t) loses its digits.
@@ -24,6 +24,8 @@ T growth(const EffectContext<T>& c) {
   const T settling = max(T(kSlowest), c.p[1]);
   return max(T(-1.0), T(c.p[0] * (T(1.0) - exp(T(T(-std::max(c.time, 0.0)) * settling))) / settling));
 }
+
+}  // namespace
 
 class FrictionDrift : public EffectOf<FrictionDrift> {
  public:
@@ -51,8 +53,6 @@ class FrictionDrift : public EffectOf<FrictionDrift> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<FrictionDrift>();
 
-std::unique_ptr<const Effect> make_friction_drift() { return std::make_unique<FrictionDrift>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 
 /// The base is not level: gravity is turned about the two base axes a, b (in the order x, y, z) that are most nearly
 /// perpendicular to the model's gravity,
@@ -10,7 +10,7 @@
 ///
 /// A turn about gravity itself changes nothing, which is why there are two angles.
 
-namespace halyard {
+namespace halyard::effects {
 namespace {
 
 /// The base axis along which gravity is strongest: the one that is left out.
@@ -29,6 +29,8 @@ void turn(T* g, int axis, const T& angle) {
   g[j] = c * gj - s * g[k];
   g[k] = s * gj + c * g[k];
 }
+
+}  // namespace
 
 class GravityTilt : public EffectOf<GravityTilt> {
  public:
@@ -50,8 +52,6 @@ class GravityTilt : public EffectOf<GravityTilt> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<GravityTilt>();
 
-std::unique_ptr<const Effect> make_gravity_tilt() { return std::make_unique<GravityTilt>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
 
@@ -12,8 +12,7 @@
 ///
 /// Source: the paper's Eq. 4; asymmetry as in Armstrong-Helouvry et al., Automatica 30 (1994).
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class JointFriction : public EffectOf<JointFriction> {
  public:
@@ -44,8 +43,6 @@ class JointFriction : public EffectOf<JointFriction> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<JointFriction>();
 
-std::unique_ptr<const Effect> make_joint_friction() { return std::make_unique<JointFriction>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 
 /// A point mass m at the tool: the last link's mass, centre of mass and inertia with it.
 ///
@@ -8,8 +8,7 @@
 ///
 /// Source: parallel axis theorem for two bodies.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class Payload : public EffectOf<Payload> {
  public:
@@ -41,8 +40,6 @@ class Payload : public EffectOf<Payload> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<Payload>();
 
-std::unique_ptr<const Effect> make_payload() { return std::make_unique<Payload>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

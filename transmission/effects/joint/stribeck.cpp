@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
 
@@ -13,7 +13,7 @@
 /// A joint without a motor has the first two alone.
 /// Source: Armstrong-Hélouvry, Dupont and Canudas de Wit, Automatica 30 (1994), the Gaussian form.
 
-namespace halyard {
+namespace halyard::effects {
 namespace {
 
 template <class T>
@@ -26,6 +26,8 @@ T stribeck(const T& rise, const T& speed, const T& v_s, const T& v) {
 EffectParameter speed(const char* name, const char* unit, double v_s) {
   return {name, unit, 10 * v_s, 10 * v_s, 0.5 * v_s, 300 * v_s};
 }
+
+}  // namespace
 
 class Stribeck : public EffectOf<Stribeck> {
  public:
@@ -58,8 +60,6 @@ class Stribeck : public EffectOf<Stribeck> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<Stribeck>();
 
-std::unique_ptr<const Effect> make_stribeck() { return std::make_unique<Stribeck>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
 /// Torque that saturates below the command, at a limit that falls with speed where the torque drives the motion:
@@ -13,8 +13,7 @@
 /// means that there is no limit of speed.
 /// Source: the torque-speed line of a motor at constant voltage, and its amplifier's limit of current.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class ActuatorSaturation : public EffectOf<ActuatorSaturation> {
  public:
@@ -42,8 +41,6 @@ class ActuatorSaturation : public EffectOf<ActuatorSaturation> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<ActuatorSaturation>();
 
-std::unique_ptr<const Effect> make_actuator_saturation() { return std::make_unique<ActuatorSaturation>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

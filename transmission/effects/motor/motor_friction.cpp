@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
 
@@ -12,8 +12,7 @@
 ///
 /// Source: the paper's Eq. 5; asymmetry as in Armstrong-Helouvry et al., Automatica 30 (1994).
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class MotorFriction : public EffectOf<MotorFriction> {
  public:
@@ -46,8 +45,6 @@ class MotorFriction : public EffectOf<MotorFriction> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<MotorFriction>();
 
-std::unique_ptr<const Effect> make_motor_friction() { return std::make_unique<MotorFriction>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
 /// Motor torque that is periodic in the motor's angle (cogging, commutation):
@@ -12,8 +12,7 @@
 /// Source: Holtz and Springob, "Identification and compensation of torque ripple in high-precision permanent magnet
 /// motor drives", IEEE Trans. Ind. Electron. 43 (1996).
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class TorqueRipple : public EffectOf<TorqueRipple> {
  public:
@@ -37,8 +36,6 @@ class TorqueRipple : public EffectOf<TorqueRipple> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<TorqueRipple>();
 
-std::unique_ptr<const Effect> make_torque_ripple() { return std::make_unique<TorqueRipple>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
 /// Another torque constant of motor and amplifier, or a bias:
@@ -10,8 +10,7 @@
 /// Source: a motor turns current into torque by its constant, which magnets and gains move; a current sensor's zero is
 /// the bias.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class TorqueScale : public EffectOf<TorqueScale> {
  public:
@@ -32,8 +31,6 @@ class TorqueScale : public EffectOf<TorqueScale> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<TorqueScale>();
 
-std::unique_ptr<const Effect> make_torque_scale() { return std::make_unique<TorqueScale>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

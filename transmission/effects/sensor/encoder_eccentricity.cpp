@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 
 /// A joint sensor's error that is periodic in the joint's position:
 ///
@@ -10,8 +10,7 @@
 /// Source: a disc whose centre is off its axis by e reads wrong by e / R once a turn; two reading heads, interpolation
 /// errors and the scale of a linear encoder give higher orders.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class EncoderEccentricity : public EffectOf<EncoderEccentricity> {
  public:
@@ -34,8 +33,6 @@ class EncoderEccentricity : public EffectOf<EncoderEccentricity> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<EncoderEccentricity>();
 
-std::unique_ptr<const Effect> make_encoder_eccentricity() { return std::make_unique<EncoderEccentricity>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects
