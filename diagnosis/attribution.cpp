@@ -87,7 +87,7 @@ class Search {
   /// A number whose whole tolerance moves no channel by a tenth of its floor cannot be learnt from these data. False if
   /// one cannot be told.
   bool keep_sensitive_numbers(const Hypothesis& nominal) {
-    const std::vector<FitParameter> all = baseline_parameters(model_.nominal);
+    const std::vector<FitParameter> all = baseline_parameters(model_);
     const auto columns = sensitivities(evidence_, nominal, all);
     if (columns.size() < all.size()) return false;
     for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -118,7 +118,7 @@ class Search {
   Hypothesis with_effect(Hypothesis h, const PlacedEffect& effect, const std::vector<double>& past = {}) const {
     h.effects.push_back(effect);
     for (std::size_t i = 0; i < past.size(); ++i) h.set_past_state(h.effects.size() - 1, i, past[i]);
-    for (const FitParameter& b : baseline_parameters(model_.nominal))
+    for (const FitParameter& b : baseline_parameters(model_))
       if (effect_covers(effect, model_.nominal, b)) set_parameter(h, b, b.nominal);
     return h;
   }

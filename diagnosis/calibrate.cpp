@@ -13,7 +13,9 @@ namespace {
 constexpr int kStride = 5;         ///< samples; torques are band-limited to 20 Hz
 constexpr double kGoesWith = 0.3;  ///< least correlation of recorded and needed torque
 
-bool is_unknown(const JointParameters<double>& j) { return j.drive != Drive::none && j.tolerance.torque_scale >= 1; }
+bool is_unknown(const ArmModel& model, int k) {
+  return model.nominal.joint[k].drive != Drive::none && model.joints[k].tolerances.torque_scale >= 1;
+}
 
 /// Sums of a linear regression of y over x.
 struct Regression {
@@ -34,14 +36,14 @@ ArmModel calibrated(const ArmModel& model, const std::vector<Record>& records) {
   Hypothesis twice = once;
   bool any = false;
   for (int k = 0; k < n; ++k)
-    if (is_unknown(model.nominal.joint[k])) twice.nominal.joint[k].torque_scale *= 2, any = true;
+    if (is_unknown(model, k)) twice.nominal.joint[k].torque_scale *= 2, any = true;
   if (!any) return model;
 
   std::vector<Regression> needed_over_recorded(n);
   for (const Record& record : records) {
     const std::vector<Residuals> e = predict(record, {once, twice}, kStride);
     for (int k = 0; k < n; ++k) {
-      if (!record.has_torque(k) || !is_unknown(model.nominal.joint[k])) continue;
+      if (!record.has_torque(k) || !is_unknown(model, k)) continue;
       for (std::size_t i = 0; i < e[0].channel[k].size(); ++i) {
         const bool moves = std::abs(record.motor_rate[k][i * kStride]) > 2 * model.nominal.joint[k].motor_smoothing;
         const double recorded = e[1].channel[k][i] - e[0].channel[k][i], needed = recorded - e[0].channel[k][i];
@@ -74,7 +76,7 @@ ArmModel calibrated(const ArmModel& model, const std::vector<Record>& records) {
 bool is_unknown_scale(const ArmModel& model, int named_parameter) {
   ArmParameters<double> arm = model.nominal;
   const ParameterInfo info = named_parameters(arm)[named_parameter];
-  return info.value == &arm.joint[info.joint].torque_scale && is_unknown(arm.joint[info.joint]);
+  return info.value == &arm.joint[info.joint].torque_scale && is_unknown(model, info.joint);
 }
 
 }  // namespace halyard

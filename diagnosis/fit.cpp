@@ -132,14 +132,14 @@ void set_parameter(Hypothesis& h, const FitParameter& p, double value) {
   else *named_parameters(h.nominal)[p.index].value = value;
 }
 
-std::vector<FitParameter> baseline_parameters(const ArmParameters<double>& nominal) {
-  ArmParameters<double> arm = nominal;
+std::vector<FitParameter> baseline_parameters(const ArmModel& model) {
+  ArmParameters<double> arm = model.nominal;
   std::vector<FitParameter> all;
   const auto named = named_parameters(arm);
   for (std::size_t i = 0; i < named.size(); ++i) {
     const auto is = [&](const char* word) { return named[i].key.find(word) != std::string::npos; };
     if (is("gear_ratio") || is("pulley_radius")) continue;  // one ratio, told by the capstan's radius
-    const double value = *named[i].value, reach = named[i].tolerance * std::abs(value);
+    const double value = *named[i].value, reach = model.tolerance(named[i]) * std::abs(value);
     if (!(reach > 0)) continue;
     all.push_back(
         {named[i].name, named[i].unit, -1, static_cast<int>(i), value, value - reach, value + reach, reach / 2, true});
@@ -152,17 +152,19 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
   const PlacedEffect& e = h.effects[place];
   std::vector<FitParameter> all;
   const auto parameters = e.effect->parameters(nominal, e.joint);
+  const SearchSpace space = search_space(*e.effect, nominal, e.joint);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const EffectParameter& p = parameters[i];
-    FitParameter f{p.name, p.unit, place, static_cast<int>(i), p.neutral, p.lower, p.upper, 1, p.natural_bounds};
+    const ParameterSearch& search = space.parameters[i];
+    FitParameter f{p.name, p.unit, place, static_cast<int>(i), p.neutral, p.lower, p.upper, 1, search.natural_bounds};
     f.scale = std::max({std::abs(p.typical - p.neutral), 0.1 * std::abs(p.typical), 1e-3 * (p.upper - p.lower)});
-    if (p.is_shape() && p.starts.size() > 1) f.scale = 0.1 * spacing_around(p.starts, e.p[i]);
+    if (p.is_shape() && search.starts.size() > 1) f.scale = 0.1 * spacing_around(search.starts, e.p[i]);
     f.shape = p.is_shape();
-    f.starts = p.starts;
-    f.range = p.range;
-    if (p.range != SearchRange::own) {
+    f.starts = search.starts;
+    f.range = search.range;
+    if (search.range != SearchRange::own) {
       const Span span =
-          p.range == SearchRange::record_time ? evidence.time_span() : evidence.joint_span(std::max(0, e.joint));
+          search.range == SearchRange::record_time ? evidence.time_span() : evidence.joint_span(std::max(0, e.joint));
       f.lower = span.first;
       f.upper = span.last;
       f.scale = std::max(0.01 * (span.last - span.first), 1e-9);

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "diagnosis/evidence.h"
+#include "diagnosis/search_space.h"
 
 namespace halyard {
 
@@ -24,8 +25,8 @@ struct FitParameter {
   int index = 0;
   double nominal = 0;  ///< baseline: the model's value
   double lower = 0, upper = 0;
-  double scale = 1;  ///< one unit of the optimiser
-  bool natural_bounds = false;
+  double scale = 1;                 ///< one unit of the optimiser
+  bool natural_bounds = false;      ///< see ParameterSearch
   bool shape = false;               ///< of an effect, see EffectParameter
   std::vector<double> starts = {};  ///< of a past: in units of its scale
   SearchRange range = SearchRange::own;
@@ -37,7 +38,7 @@ double parameter_value(const Hypothesis& h, const FitParameter& p);
 void set_parameter(Hypothesis& h, const FitParameter& p, double value);
 
 /// Baseline numbers that the model knows within a tolerance. The ratio of a drive is one number, the capstan's radius.
-std::vector<FitParameter> baseline_parameters(const ArmParameters<double>& nominal);
+std::vector<FitParameter> baseline_parameters(const ArmModel& model);
 /// The numbers of the effect at `place` of the hypothesis; instants and positions are bound to what the records span.
 /// What the effect went through before each record follows as shapes, unless there are more than a dozen records.
 std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,

@@ -133,14 +133,17 @@ bool Judge::is_as_good_at_bound(const Scored& with, const FitParameter& p) const
   return false;
 }
 
-/// True if all sizes of the effect stay within what the model's own tolerance allows: a refit and no effect.
+/// True if all sizes of the effect stay within the tolerances of the numbers that they change: a refit and no effect.
 bool Judge::within_tolerance(const Hypothesis& h, int place) const {
   const PlacedEffect& e = h.effects[place];
   const auto parameters = e.effect->parameters(model_.nominal, e.joint);
+  const SearchSpace space = search_space(*e.effect, model_.nominal, e.joint);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const EffectParameter& p = parameters[i];
+    const TolerancedNumber& number = space.parameters[i].changes;
+    const double tolerance = number.kind ? model_.joints[number.joint].tolerances.*number.kind * number.size : 0;
     // Of a number without tolerance a hundredth of its typical size is nothing.
-    const double allowed = p.tolerance > 0 ? p.tolerance : 0.01 * std::abs(p.typical - p.neutral);
+    const double allowed = tolerance > 0 ? tolerance : 0.01 * std::abs(p.typical - p.neutral);
     if (!p.is_shape() && std::abs(e.p[i] - p.neutral) > allowed) return false;
   }
   return true;

@@ -166,7 +166,7 @@ class Planner {
  private:
   BaselineReach make_reach() {
     const Score score = evidence_.score(nominal_);
-    const std::vector<FitParameter> numbers = baseline_parameters(model_.nominal);
+    const std::vector<FitParameter> numbers = baseline_parameters(model_);
     const auto columns = sensitivities(evidence_, nominal_, numbers);
     if (!score.finite || (columns.empty() && !numbers.empty()))
       throw InputError(

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "diagnosis/filtered_effect.h"
 #include "diagnosis/lane_drive.h"
 #include "estimators/process/instruction_set.h"
 #include "transmission/path_matrix.h"
@@ -57,26 +58,27 @@ CommandHistory whole_history(const Record& record, const std::vector<DrivenInput
 }
 
 template <class T>
-Transmission<T> make_transmission(const Hypothesis& h, double band = 0) {
+Transmission<T> make_transmission(const Hypothesis& h) {
   std::vector<EffectInstance<T>> effects;
   for (const PlacedEffect& e : h.effects) {
     EffectInstance<T> lifted{e.effect, e.joint, {}};
     for (int i = 0; i < kMaxEffectParameters; ++i) lifted.p[i] = e.p[i];
     effects.push_back(lifted);
   }
-  return Transmission<T>(lift<T>(h.nominal), std::move(effects), band);
+  return Transmission<T>(lift<T>(h.nominal), std::move(effects));
 }
 
-Transmission<Lanes> pack_hypotheses(const Hypothesis* const* lane, double band) {
+/// seen: the effects as the record shows them.
+Transmission<Lanes> pack_hypotheses(const Hypothesis* const* lane, const FilteredEffects& seen) {
   ArmParameters<double> arms[kLaneWidth];
   std::vector<EffectInstance<Lanes>> effects;
-  for (const PlacedEffect& e : lane[0]->effects) effects.push_back({e.effect, e.joint, {}});
+  for (std::size_t e = 0; e < lane[0]->effects.size(); ++e) effects.push_back({seen[e], lane[0]->effects[e].joint, {}});
   for (int l = 0; l < kLaneWidth; ++l) {
     arms[l] = lane[l]->nominal;
     for (std::size_t e = 0; e < effects.size(); ++e)
       for (int i = 0; i < kMaxEffectParameters; ++i) effects[e].p[i].set(l, lane[l]->effects[e].p[i]);
   }
-  return Transmission<Lanes>(pack(arms), std::move(effects), band);
+  return Transmission<Lanes>(pack(arms), std::move(effects));
 }
 
 /// Of all effects, one after another.
@@ -239,6 +241,8 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
   const std::vector<DrivenInput> inputs = driven_inputs(record);
   const CommandHistory history = whole_history(record, inputs);
   std::vector<Residuals> all(hypotheses.size());
+  if (all.empty()) return all;
+  const FilteredEffects seen(hypotheses[0].effects, hypotheses[0].nominal, record.motion_sigma);
 
   // Hypotheses that move alike are integrated once, by the first of them, and replayed by the others.
   std::vector<std::size_t> movers, others, mover_of(hypotheses.size());
@@ -261,7 +265,7 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
   for (std::size_t i = 0; i < movers.size(); ++i)
     if (is_able(i)) able_spectra.push_back(spectra[i]);
   const Chebyshev scheme = scheme_for(able_spectra, record.dt);
-  const int n_states = hypotheses.empty() ? 0 : make_transmission<double>(hypotheses[0]).n_states();
+  const int n_states = make_transmission<double>(hypotheses[0]).n_states();
   const int state_size = 2 * n + n_states;
   std::vector<std::vector<double>> states(others.empty() ? 0 : movers.size());  // [mover][sample][state_size]
 
@@ -308,7 +312,7 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
     if (able) {
       const Hypothesis* filled[kLaneWidth];
       for (int l = 0; l < kLaneWidth; ++l) filled[l] = lane[l] ? lane[l] : able;
-      const Transmission<Lanes> transmission = pack_hypotheses(filled, record.motion_sigma);
+      const Transmission<Lanes> transmission = pack_hypotheses(filled, seen);
       const std::vector<DrivenInput> held(static_cast<std::size_t>(kLetDown / record.dt) + 1, standing(inputs[0]));
       std::vector<Lanes> unused(held.size() * 2 * n);
       const double before = record.start - record.dt * static_cast<double>(held.size());
@@ -339,8 +343,8 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
       const std::vector<double>& of_mover = states[mover_of[h]];
       for (std::size_t i = 0; i < path.size(); ++i) path[i].set(static_cast<int>(l), of_mover[i]);
     }
-    kernel.replay(pack_hypotheses(lane, record.motion_sigma), inputs.data(), record.size, record.start, record.dt,
-                  &history, path.data(), out.data());
+    kernel.replay(pack_hypotheses(lane, seen), inputs.data(), record.size, record.start, record.dt, &history,
+                  path.data(), out.data());
     for (std::size_t l = 0; l < count; ++l) {
       const std::size_t h = others[first + l];
       take(out, static_cast<int>(l), all[movers[mover_of[h]]].finite, all[h]);

@@ -27,8 +27,8 @@ class HarnessSpring : public EffectOf<HarnessSpring> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const bool turns = arm.joint[joint].type == JointType::revolute;
     // Name, unit, neutral, typical, lower, upper.
-    return {{"stiffness", turns ? "N m/rad" : "N/m", 0, 1, 0, 1000, 0},
-            {"relaxed_at", turns ? "rad" : "m", 0, 0, -10, 10, 0}};
+    return {{"stiffness", turns ? "N m/rad" : "N/m", 0, 1, 0, 1000},
+            {"relaxed_at", turns ? "rad" : "m", 0, 0, -10, 10}};
   }
 
   template <class T>

@@ -18,38 +18,40 @@ class Lister {
       : arm_(arm), joint_(arm.joint[k]), k_(k), all_(all) {}
 
   void list() {
-    const Tolerances& t = joint_.tolerance;
     const bool revolute = joint_.type == JointType::revolute;
-    add("link mass", "link.mass", "kg", t.mass, joint_.mass);
+    add("link mass", "link.mass", "kg", &Tolerances::mass, joint_.mass);
     if (joint_.drive != Drive::none) {
-      add("motor inertia", "motor.inertia", "kg m^2", t.mass, joint_.rotor_inertia);
-      add("motor Coulomb friction", "motor.coulomb", "N m", t.friction, joint_.motor_coulomb);
-      add("motor viscous friction", "motor.viscous", "N m s/rad", t.friction, joint_.motor_viscous);
-      add("motor gear ratio", "motor.gear_ratio", "1", t.length, joint_.gear_ratio);
-      add("motor capstan radius", "motor.capstan_radius", "m", t.length, joint_.capstan_radius);
-      add("motor torque scale", "motor.torque_scale", "1", t.torque_scale, joint_.torque_scale);
-      add("motor torque bias", "motor.torque_bias", "N m", 0, joint_.torque_bias);
+      add("motor inertia", "motor.inertia", "kg m^2", &Tolerances::mass, joint_.rotor_inertia);
+      add("motor Coulomb friction", "motor.coulomb", "N m", &Tolerances::friction, joint_.motor_coulomb);
+      add("motor viscous friction", "motor.viscous", "N m s/rad", &Tolerances::friction, joint_.motor_viscous);
+      add("motor gear ratio", "motor.gear_ratio", "1", &Tolerances::length, joint_.gear_ratio);
+      add("motor capstan radius", "motor.capstan_radius", "m", &Tolerances::length, joint_.capstan_radius);
+      add("motor torque scale", "motor.torque_scale", "1", &Tolerances::torque_scale, joint_.torque_scale);
+      add("motor torque bias", "motor.torque_bias", "N m", nullptr, joint_.torque_bias);
     }
     if (joint_.drive == Drive::cable) {
-      add("cable stiffness", "cable.stiffness", "N/m", t.stiffness, joint_.stiffness);
-      add("cable damping", "cable.damping", "N s/m", t.stiffness, joint_.damping);
-      add("cable tension", "cable.tension", "N", t.stiffness, joint_.tension);
+      add("cable stiffness", "cable.stiffness", "N/m", &Tolerances::stiffness, joint_.stiffness);
+      add("cable damping", "cable.damping", "N s/m", &Tolerances::stiffness, joint_.damping);
+      add("cable tension", "cable.tension", "N", &Tolerances::stiffness, joint_.tension);
     }
     if (joint_.drive != Drive::none) {
       const std::string drive = joint_.drive == Drive::cable ? "cable" : "rigid";
-      add(drive + " pulley radius", drive + ".pulley_radius", revolute ? "m" : "1", t.length, joint_.pulley_radius);
+      add(drive + " pulley radius", drive + ".pulley_radius", revolute ? "m" : "1", &Tolerances::length,
+          joint_.pulley_radius);
       for (int j = 0; j < k_; ++j) {
         const std::string other = std::to_string(j + 1);
         add("coupling with joint " + other, "coupling.joint" + other, coupling_unit(joint_.type, arm_.joint[j].type),
-            t.coupling, joint_.coupling[j]);
+            &Tolerances::coupling, joint_.coupling[j]);
       }
     }
-    add("Coulomb friction", "friction.coulomb", revolute ? "N m" : "N", t.friction, joint_.joint_coulomb);
-    add("viscous friction", "friction.viscous", revolute ? "N m s/rad" : "N s/m", t.friction, joint_.joint_viscous);
+    add("Coulomb friction", "friction.coulomb", revolute ? "N m" : "N", &Tolerances::friction, joint_.joint_coulomb);
+    add("viscous friction", "friction.viscous", revolute ? "N m s/rad" : "N s/m", &Tolerances::friction,
+        joint_.joint_viscous);
   }
 
  private:
-  void add(const std::string& name, const std::string& key, const std::string& unit, double tolerance, double& value) {
+  void add(const std::string& name, const std::string& key, const std::string& unit, double Tolerances::*tolerance,
+           double& value) {
     const std::string number = std::to_string(k_ + 1);
     all_.push_back({"joint " + number + " " + name, "joint" + number + "." + key, unit, k_, tolerance, &value});
   }
@@ -66,6 +68,10 @@ Eigen::VectorXd ArmModel::home() const {
   Eigen::VectorXd q(joints.size());
   for (std::size_t k = 0; k < joints.size(); ++k) q(k) = joints[k].home;
   return q;
+}
+
+double ArmModel::tolerance(const ParameterInfo& number) const {
+  return number.tolerance ? joints[number.joint].tolerances.*number.tolerance : 0;
 }
 
 bool joints_alike(const ArmParameters<double>& a, const ArmParameters<double>& b) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/column_map.h"
+#include "model/tolerances.h"
 #include "transmission/effect.h"
 
 namespace halyard {
@@ -25,10 +26,13 @@ struct JointDescription {
   double lower = 0, upper = 0;  ///< range, rad | m
   double home = 0;              ///< where motor angles are counted from and where runs start, rad | m
   ControllerParameters controller;
+  Tolerances tolerances;
 };
 
 /// Options of one estimator, by name, as text; the estimator checks them.
 using EstimatorOptions = std::map<std::string, std::string>;
+
+struct ParameterInfo;
 
 struct ArmModel {
   std::string name;
@@ -41,6 +45,8 @@ struct ArmModel {
 
   int n() const { return nominal.n; }
   Eigen::VectorXd home() const;
+  /// Relative tolerance of a number; 0: the model states none.
+  double tolerance(const ParameterInfo& number) const;
 };
 
 /// Whether two arms have as many joints, of the same types and driven alike: by a motor, or by none.
@@ -51,9 +57,9 @@ struct ParameterInfo {
   std::string name;  ///< "joint 2 cable stiffness"
   std::string key;   ///< "joint2.cable.stiffness", as sweeps name it
   std::string unit;
-  int joint;         ///< 0-based; -1: the arm
-  double tolerance;  ///< relative, from the model
-  double* value;     ///< into the ArmParameters it was listed from
+  int joint;                      ///< 0-based; -1: the arm
+  double Tolerances::*tolerance;  ///< which of the joint's tolerances holds for it; null: none
+  double* value;                  ///< into the ArmParameters it was listed from
 };
 
 /// The named numbers of an arm: per joint link mass; motor inertia, coulomb, viscous, gear_ratio, capstan_radius,

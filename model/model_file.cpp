@@ -233,7 +233,6 @@ JointDescription read_joint(const XmlElement& element, Joint& joint, int k, cons
       element.choice<JointType>("type", {{"revolute", JointType::revolute}, {"prismatic", JointType::prismatic}});
   joint.drive =
       element.choice<Drive>("drive", {{"cable", Drive::cable}, {"rigid", Drive::rigid}, {"none", Drive::none}});
-  joint.tolerance = tolerances;
   joint.coupling[k] = 1;
 
   const auto dh = element.optional_child("dh"), frame = element.optional_child("frame");
@@ -245,7 +244,8 @@ JointDescription read_joint(const XmlElement& element, Joint& joint, int k, cons
   read_friction(element.child("friction"), joint);
   if (const auto found = element.optional_child("encoders")) read_encoders(*found, joint);
   read_range(element.child("range"), units_of(joint).position, description);
-  if (const auto found = element.optional_child("tolerances")) joint.tolerance = read_tolerances(*found, tolerances);
+  const auto own = element.optional_child("tolerances");
+  description.tolerances = own ? read_tolerances(*own, tolerances) : tolerances;
   return description;
 }
 

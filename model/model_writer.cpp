@@ -101,7 +101,7 @@ void write_joint(Writer& xml, const Joint& j, int k, const JointDescription& des
               {{"coulomb", j.joint_coulomb}, {"viscous", j.joint_viscous}, {"smoothing", j.joint_smoothing}});
   write_encoders(xml, j);
   xml.element("range", {{"lower", description.lower}, {"upper", description.upper}, {"home", description.home}});
-  const Tolerances& t = j.tolerance;
+  const Tolerances& t = description.tolerances;
   xml.element("tolerances", {{"length", t.length},
                              {"mass", t.mass},
                              {"stiffness", t.stiffness},

@@ -7,7 +7,8 @@
 ///   }
 ///
 /// `halyard COMMAND --effects MODULE.so` adds them to the library: from then on their names stand in model and scenario
-/// files, in sweeps, and the diagnosis tries them at every joint that can have them.
+/// files, in sweeps, and the diagnosis tries them at every joint that can have them. An effect that derives from
+/// RefinesSearch as well (diagnosis/search_space.h) says from where the diagnosis is to look for its parameters.
 ///
 /// Unlike an estimator, an effect is called inside the equations, over double, Dual and Lanes: what crosses is C++. So
 /// a module says what it was compiled by, and how large the types that cross are there, before anything of it is used.
@@ -17,10 +18,11 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/search_space.h"
 #include "transmission/effect.h"
 
 /// Counts up when anything that crosses changes its meaning or place.
-#define HALYARD_EFFECT_INTERFACE 1
+#define HALYARD_EFFECT_INTERFACE 2
 
 /// Of the table the first two members may be read whatever the version, `compiler` and the layout before make is
 /// called.
@@ -80,7 +82,8 @@ void make(std::vector<std::unique_ptr<const Effect>>& effects) {
 using Layout = LayoutOf<Effect, EffectParameter, CommandHistory, Dual, Lanes, LaneMask, JointParameters<double>,
                         JointParameters<Dual>, JointParameters<Lanes>, ArmParameters<double>, ArmParameters<Dual>,
                         ArmParameters<Lanes>, JointSignals<double>, JointSignals<Dual>, JointSignals<Lanes>,
-                        EffectContext<double>, EffectContext<Dual>, EffectContext<Lanes>, std::string>;
+                        EffectContext<double>, EffectContext<Dual>, EffectContext<Lanes>, std::string, RefinesSearch,
+                        SearchSpace, ParameterSearch, Tolerances>;
 
 }  // namespace effect_module
 

@@ -17,7 +17,6 @@ void copy_structure(const ArmParameters<double>& from, ArmParameters<T>& to) {
     b.type = a.type;
     b.drive = a.drive;
     b.law = a.law;
-    b.tolerance = a.tolerance;
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) b.frame_R[i][j] = a.frame_R[i][j];
       b.frame_p[i] = a.frame_p[i];

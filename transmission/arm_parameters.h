@@ -20,17 +20,6 @@ enum class Drive { cable, rigid, none };
 /// Tension of a cable over its stretch; see cable_law.h.
 enum class CableLaw { paper, exponential, linear };
 
-/// How well a joint's numbers are known: relative, 1 = not at all. A change within it is a refit,
-/// beyond it an effect.
-struct Tolerances {
-  double length = 0.005;    ///< radii, ratios, lengths
-  double mass = 0.05;       ///< masses and inertias, of rotors too
-  double stiffness = 0.10;  ///< stiffness and damping of cables
-  double friction = 0.20;   ///< Coulomb and viscous
-  double coupling = 0.02;
-  double torque_scale = 0.005;  ///< of a motor: 1 where the record's torque is a current or a voltage of unknown scale
-};
-
 template <class T>
 struct JointParameters {
   JointType type = JointType::revolute;
@@ -77,8 +66,6 @@ struct JointParameters {
   /// False: each log has a zero of its own, as an incremental encoder's that counts from where it was switched on.
   bool motor_zero_known = true;
   bool joint_zero_known = true;
-
-  Tolerances tolerance;
 
   /// Cable travel per motor angle, r_m / N, m/rad.
   HALYARD_INLINE T motor_travel() const { return capstan_radius / gear_ratio; }

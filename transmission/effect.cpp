@@ -1,7 +1,6 @@
 #include "transmission/effect.h"
 
 #include <algorithm>
-#include <functional>
 #include <stdexcept>
 
 #include "transmission/effects/library.h"
@@ -71,13 +70,7 @@ PlacedEffect place_with(double EffectParameter::*value, const Effect& effect, co
   if (parameters.size() > static_cast<std::size_t>(kMaxEffectParameters))
     throw std::invalid_argument("effect " + effect.name() + " has " + std::to_string(parameters.size()) +
                                 " parameters: expected at most " + std::to_string(kMaxEffectParameters));
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const std::vector<double>& starts = parameters[i].starts;
-    if (std::ranges::adjacent_find(starts, std::greater_equal{}) != starts.end())
-      throw std::invalid_argument("effect " + effect.name() + ": the starts of \"" + parameters[i].name +
-                                  "\" do not ascend: give each once, the smallest first");
-    placed.p[i] = parameters[i].*value;
-  }
+  for (std::size_t i = 0; i < parameters.size(); ++i) placed.p[i] = parameters[i].*value;
   return placed;
 }
 

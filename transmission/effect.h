@@ -1,7 +1,6 @@
 #pragma once
 /// An effect: something physical that a nominal model of an arm lacks. It is written once and
-/// serves as truth in the plant, inside the estimators' process model, and as a candidate of the
-/// diagnosis.
+/// serves the plant as truth, estimators inside their process model, and the diagnosis as an explanation.
 ///
 /// An effect has named parameters, may have internal states z with their own derivative, and acts
 /// at any of these places, in the order in which signals run from command to joint:
@@ -16,8 +15,8 @@
 ///   states        state_rate()         z_dot
 ///
 /// To write one, derive from EffectOf<Yours> and give the members that you need as templates
-/// over the scalar T (scalar.h): see effects/backlash.cpp for one without states and
-/// effects/hysteresis.cpp for one with.
+/// over the scalar T (scalar.h): see effects/cable/backlash.cpp for one without states and
+/// effects/cable/hysteresis.cpp for one with.
 
 #include <memory>
 #include <string>
@@ -31,34 +30,19 @@ namespace halyard {
 inline constexpr int kMaxEffectParameters = 8;
 inline constexpr int kMaxEffectStates = 8;  ///< of one effect
 
-/// Where a search takes a parameter's bounds and starts from.
-enum class SearchRange {
-  own,             ///< its own lower, upper, starts
-  record_time,     ///< an instant on the log's clock, s: within the record
-  joint_position,  ///< a position of the effect's joint: within the motion of the record
-};
-
 /// One number of an effect. The effect is absent when all its parameters are neutral.
 struct EffectParameter {
   std::string name;  ///< as in model files and diagnosis.json
   std::string unit;
-  double neutral = 0;  ///< no influence
-  double typical = 0;  ///< where a search starts, and the default in a model file
-  double lower = 0;    ///< physical bounds
+  double neutral = 0;  ///< no influence; of a shape the typical value
+  /// The order of magnitude that the physics of such an arm suggests. It is what a model file means that names the
+  /// effect without this number.
+  double typical = 0;
+  double lower = 0;  ///< physical bounds
   double upper = 0;
-  /// What the model's own tolerance allows this number to be off its neutral value without
-  /// being an effect; 0 where the model has no such number.
-  double tolerance = 0;
-  /// True if a bound is a limit of nature that may well be reached (a friction of nothing, a share of
-  /// one) rather than the end of what is plausible, where a fit explains nothing.
-  bool natural_bounds = false;
-  /// Values from which a search sets out, where a good start cannot be told from the size alone: orders of a ripple,
-  /// decades of a time constant. Ascending: the fit takes steps after their spacing. Empty: the typical value.
-  std::vector<double> starts = {};
-  SearchRange range = SearchRange::own;
 
-  /// A number that shapes an effect and does not size it; its neutral value is the typical one. It follows the sizes
-  /// that it shapes: cosine, sine, order.
+  /// True of a number that shapes an effect and does not size it. It follows the sizes that it shapes: cosine, sine,
+  /// order.
   bool is_shape() const { return neutral == typical; }
 };
 
@@ -97,9 +81,6 @@ struct EffectContext {
   const T* z;                     ///< the effect's states
   double time;                    ///< s
   const CommandHistory* history;  ///< past commands, or null
-  /// Standard deviation of the Gaussian filter through which motion and torque are seen, s; 0: as they are. What is
-  /// periodic in an angle that turns at ω is seen exp(-(ω band)² / 2) times as large.
-  double band = 0;
 };
 
 enum class EffectStage : unsigned { command = 1, stretch = 2, cable_force = 4, motor = 8, joint = 16, sensors = 32 };
@@ -116,7 +97,7 @@ class Effect {
   virtual bool applies(const ArmParameters<double>&, int /*joint*/) const { return true; }
   virtual std::vector<EffectParameter> parameters(const ArmParameters<double>&, int joint) const = 0;
   virtual int n_states() const { return 0; }
-  /// Typical size of each internal state: the filters' initial and process noise come from it.
+  /// Typical size of each internal state.
   virtual std::vector<double> state_scale(const ArmParameters<double>&, int /*joint*/, const double* /*p*/) const {
     return std::vector<double>(n_states(), 1.0);
   }
@@ -212,8 +193,8 @@ void register_effect(std::unique_ptr<const Effect> effect);
 /// The joints where the arm can have the effect, 0-based; -1 stands for the whole arm.
 std::vector<int> effect_places(const Effect& effect, const ArmParameters<double>& arm);
 
-/// The effect with its typical parameters. Throws std::invalid_argument if it cannot be there, has more than
-/// kMaxEffectParameters parameters, or a parameter whose starts do not ascend.
+/// The effect with its typical parameters. Throws std::invalid_argument if it cannot be there, or has more than
+/// kMaxEffectParameters parameters.
 PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);
 /// The effect with its sizes neutral, ready to be given some of them, and its shapes typical. Throws as place_effect().
 PlacedEffect place_neutral_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);

@@ -19,9 +19,8 @@ namespace halyard {
 template <class T>
 class Transmission {
  public:
-  /// band: see EffectContext.
-  Transmission(const ArmParameters<T>& nominal, std::vector<EffectInstance<T>> effects, double band = 0)
-      : arm_(nominal), owned_(std::move(effects)), band_(band) {
+  Transmission(const ArmParameters<T>& nominal, std::vector<EffectInstance<T>> effects)
+      : arm_(nominal), owned_(std::move(effects)) {
     for (const EffectInstance<T>& e : owned_) {
       e.effect->change_parameters(arm_, e.joint, e.p);
       n_states_ += e.effect->n_states();
@@ -64,12 +63,11 @@ class Transmission {
     const EffectInstance<T>* e = owned_.data();
     for (int i = 0, n = static_cast<int>(owned_.size()); i < n; z += e[i].effect->n_states(), ++i)
       if (e[i].effect->stages() & static_cast<unsigned>(stage))
-        e[i].effect->act(stage, EffectContext<T>{arm_, e[i].joint, e[i].p, z, time, history, band_}, s);
+        e[i].effect->act(stage, EffectContext<T>{arm_, e[i].joint, e[i].p, z, time, history}, s);
   }
 
   ArmParameters<T> arm_;
   std::vector<EffectInstance<T>> owned_;
-  double band_;
   int n_states_ = 0;
   unsigned stages_ = 0;
 };
@@ -124,7 +122,7 @@ HALYARD_INLINE void Transmission<T>::evaluate(double time, const CommandHistory*
   for (int i = 0, m = static_cast<int>(owned_.size()); i < m; ++i) {
     const int k = e[i].effect->n_states();
     if (k == 0) continue;
-    e[i].effect->rates(EffectContext<T>{arm_, e[i].joint, e[i].p, z, time, history, band_}, s, z_dot);
+    e[i].effect->rates(EffectContext<T>{arm_, e[i].joint, e[i].p, z, time, history}, s, z_dot);
     z += k;
     z_dot += k;
   }

@@ -12,23 +12,40 @@ namespace {
 constexpr double kShortOfBound = 0.95;
 constexpr double kLeastFactor = 0.5, kMostFactor = 3;  // of the typical size
 
-bool is_size(const EffectParameter& p) { return p.range == SearchRange::own && !p.is_shape(); }
+/// A parameter with how the diagnosis looks for it.
+struct Drawn {
+  EffectParameter p;
+  ParameterSearch search;
+  bool is_size() const { return search.range == SearchRange::own && !p.is_shape(); }
+};
+
+std::vector<Drawn> drawn_parameters(const PlacedEffect& effect, const ArmModel& model) {
+  const std::vector<EffectParameter> parameters = effect.effect->parameters(model.nominal, effect.joint);
+  const SearchSpace space = search_space(*effect.effect, model.nominal, effect.joint);
+  std::vector<Drawn> all;
+  for (std::size_t i = 0; i < parameters.size(); ++i) all.push_back({parameters[i], space.parameters[i]});
+  return all;
+}
 
 /// A limit of nature may be reached; the end of what is plausible not quite.
-double within_bounds(const EffectParameter& p, double value) {
-  const double way = p.natural_bounds ? 1 : kShortOfBound;
+double within_bounds(const Drawn& drawn, double value) {
+  const EffectParameter& p = drawn.p;
+  const double way = drawn.search.natural_bounds ? 1 : kShortOfBound;
   return std::clamp(value, p.neutral + way * (p.lower - p.neutral), p.neutral + way * (p.upper - p.neutral));
 }
 
-double draw_size(const EffectParameter& p, Random& random) {
+double draw_size(const Drawn& drawn, Random& random) {
+  const EffectParameter& p = drawn.p;
   const double change = (p.typical - p.neutral) * random.log_uniform(kLeastFactor, kMostFactor);
   const bool both = p.neutral - change >= p.lower && p.neutral - change <= p.upper;
-  return within_bounds(p, p.neutral + (both && random.chance(0.5) ? -change : change));
+  return within_bounds(drawn, p.neutral + (both && random.chance(0.5) ? -change : change));
 }
 
 /// Orders are whole numbers; anything else lies beside where a search sets out.
-double draw_shape(const EffectParameter& p, Random& random) {
-  const double start = p.starts.empty() ? p.typical : random.one_of(p.starts);
+double draw_shape(const Drawn& drawn, Random& random) {
+  const EffectParameter& p = drawn.p;
+  const std::vector<double>& starts = drawn.search.starts;
+  const double start = starts.empty() ? p.typical : random.one_of(starts);
   const bool is_order = p.unit == "1" && start == std::round(start);
   return std::clamp(is_order ? start : start * random.log_uniform(0.5, 2), p.lower, p.upper);
 }
@@ -56,12 +73,11 @@ Hidden draw_effect(const ArmModel& model, Kind kind, int index, const std::vecto
 }
 
 void draw_parameters(PlacedEffect& effect, const ArmModel& model, const Ranges& ranges, Random& random) {
-  const std::vector<EffectParameter> all = effect.effect->parameters(model.nominal, effect.joint);
+  const std::vector<Drawn> all = drawn_parameters(effect, model);
   const double length = ranges.record.to - ranges.record.from;
   std::vector<std::size_t> sizes, instants;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const EffectParameter& p = all[i];
-    switch (p.range) {
+    switch (all[i].search.range) {
       case SearchRange::record_time: instants.push_back(i); break;
       case SearchRange::joint_position: {
         const Range& reach = ranges.joint[std::max(0, effect.joint)];
@@ -69,8 +85,8 @@ void draw_parameters(PlacedEffect& effect, const ArmModel& model, const Ranges& 
         break;
       }
       case SearchRange::own:
-        if (is_size(p)) sizes.push_back(i);
-        effect.p[i] = is_size(p) ? p.neutral : draw_shape(p, random);
+        if (all[i].is_size()) sizes.push_back(i);
+        effect.p[i] = all[i].is_size() ? all[i].p.neutral : draw_shape(all[i], random);
         break;
     }
   }
@@ -89,11 +105,11 @@ void draw_parameters(PlacedEffect& effect, const ArmModel& model, const Ranges& 
 }
 
 bool enlarge(PlacedEffect& effect, const ArmModel& model, double factor) {
-  const std::vector<EffectParameter> all = effect.effect->parameters(model.nominal, effect.joint);
+  const std::vector<Drawn> all = drawn_parameters(effect, model);
   bool moved = false;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!is_size(all[i])) continue;
-    const double larger = within_bounds(all[i], all[i].neutral + factor * (effect.p[i] - all[i].neutral));
+    if (!all[i].is_size()) continue;
+    const double larger = within_bounds(all[i], all[i].p.neutral + factor * (effect.p[i] - all[i].p.neutral));
     moved = moved || larger != effect.p[i];
     effect.p[i] = larger;
   }
@@ -101,39 +117,40 @@ bool enlarge(PlacedEffect& effect, const ArmModel& model, double factor) {
 }
 
 double relative_size(const PlacedEffect& effect, const ArmModel& model) {
-  const std::vector<EffectParameter> all = effect.effect->parameters(model.nominal, effect.joint);
+  const std::vector<Drawn> all = drawn_parameters(effect, model);
   double most = 0;
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (is_size(all[i]))
-      most = std::max(most, std::abs((effect.p[i] - all[i].neutral) / (all[i].typical - all[i].neutral)));
+    if (all[i].is_size())
+      most = std::max(most, std::abs((effect.p[i] - all[i].p.neutral) / (all[i].p.typical - all[i].p.neutral)));
   return most;
 }
 
 std::vector<TrueParameter> true_parameters(const PlacedEffect& effect, const ArmModel& model) {
-  const std::vector<EffectParameter> all = effect.effect->parameters(model.nominal, effect.joint);
+  const std::vector<Drawn> all = drawn_parameters(effect, model);
   bool every_size = true;
   for (std::size_t i = 0; i < all.size(); ++i)
-    every_size = every_size && (!is_size(all[i]) || effect.p[i] != all[i].neutral);
+    every_size = every_size && (!all[i].is_size() || effect.p[i] != all[i].p.neutral);
   std::vector<TrueParameter> told;
   for (std::size_t i = 0; i < all.size(); ++i)
-    told.push_back({all[i].name, effect.p[i], is_size(all[i]) || every_size});
+    told.push_back({all[i].p.name, effect.p[i], all[i].is_size() || every_size});
   return told;
 }
 
 bool happens_at_an_instant(const PlacedEffect& effect, const ArmModel& model) {
-  return std::ranges::any_of(effect.effect->parameters(model.nominal, effect.joint),
-                             [](const EffectParameter& p) { return p.range == SearchRange::record_time; });
+  return std::ranges::any_of(search_space(*effect.effect, model.nominal, effect.joint).parameters,
+                             [](const ParameterSearch& p) { return p.range == SearchRange::record_time; });
 }
 
-void mistune(ArmParameters<double>& arm, Random& random) {
-  Hypothesis h{arm, {}};
-  for (const FitParameter& p : baseline_parameters(arm)) set_parameter(h, p, random.uniform(p.lower, p.upper));
-  arm = h.nominal;
-  for (int k = 0; k < arm.n; ++k) {
-    JointParameters<double>& j = arm.joint[k];
-    for (double& x : j.com) x *= 1 + j.tolerance.length * random.uniform(-1, 1);
+void mistune(ArmModel& robot, Random& random) {
+  Hypothesis h{robot.nominal, {}};
+  for (const FitParameter& p : baseline_parameters(robot)) set_parameter(h, p, random.uniform(p.lower, p.upper));
+  robot.nominal = h.nominal;
+  for (int k = 0; k < robot.n(); ++k) {
+    JointParameters<double>& j = robot.nominal.joint[k];
+    const Tolerances& tolerances = robot.joints[k].tolerances;
+    for (double& x : j.com) x *= 1 + tolerances.length * random.uniform(-1, 1);
     // One factor for all moments: six of their own need not belong to any body.
-    const double factor = 1 + j.tolerance.mass * random.uniform(-1, 1);
+    const double factor = 1 + tolerances.mass * random.uniform(-1, 1);
     for (double& moment : j.inertia) moment *= factor;
   }
 }

@@ -37,6 +37,6 @@ bool happens_at_an_instant(const PlacedEffect& effect, const ArmModel& model);
 
 /// Numbers with a tolerance are somewhere within it. The ratio of a drive is one number, as in the diagnosis; masses'
 /// centres and inertias are off as well.
-void mistune(ArmParameters<double>& arm, Random& random);
+void mistune(ArmModel& robot, Random& random);
 
 }  // namespace halyard::blind

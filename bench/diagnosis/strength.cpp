@@ -28,7 +28,7 @@ StrengthMeter::StrengthMeter(const Log& training, const ArmModel& model)
     : evidence_(make_records(training, model, {}), model),
       nominal_{model.nominal, model.effects},
       base_(evidence_.fit_rows({nominal_})[0]) {
-  const auto columns = sensitivities(evidence_, nominal_, baseline_parameters(model.nominal));
+  const auto columns = sensitivities(evidence_, nominal_, baseline_parameters(model));
   const auto rows = static_cast<Eigen::Index>(evidence_.row_channel().size());
   const auto numbers = static_cast<Eigen::Index>(columns.size());
   // A row more for each number: |u|².

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "bench/diagnosis/proportion.h"
+#include "diagnosis/search_space.h"
 #include "model/output_file.h"
 #include "transmission/effect.h"
 
@@ -211,13 +212,17 @@ std::string detection_csv(const Results& effect, const ArmParameters<double>& ar
     const Effect* e = find_effect(name);
     if (!e) continue;  // results of a build with other effects
     const double limit = detection_limit(those(effect, [&](const Result& r) { return right_name(r) == name; }), size);
-    for (const int joint : effect_places(*e, arm))
-      for (const EffectParameter& p : e->parameters(arm, joint)) {
-        if (p.range != SearchRange::own || p.is_shape()) continue;
+    for (const int joint : effect_places(*e, arm)) {
+      const std::vector<EffectParameter> parameters = e->parameters(arm, joint);
+      const SearchSpace space = search_space(*e, arm, joint);
+      for (std::size_t i = 0; i < parameters.size(); ++i) {
+        const EffectParameter& p = parameters[i];
+        if (space.parameters[i].range != SearchRange::own || p.is_shape()) continue;
         const double typical = std::abs(p.typical - p.neutral);
         text += fmt::format("{},{},{},{},{:.4g},{}\n", name, joint + 1, p.name, p.unit, typical,
                             limit_text(limit * typical));
       }
+    }
   }
   return text;
 }

@@ -93,7 +93,7 @@ Recording draw_recording(const ArmModel& model, Kind kind, int index, double lim
   Recording r;
   r.robot = model;
   scatter_gains(r.robot, random);
-  if (is_mistuned(kind)) mistune(r.robot.nominal, random);
+  if (is_mistuned(kind)) mistune(r.robot, random);
 
   const int effects = is_clean(kind) ? 0 : kind == Kind::pair ? 2 : 1;
   for (int i = 0; i < effects; ++i) r.hidden.push_back(draw_effect(model, kind, index, r.hidden, random));

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "transmission/effect.h"
+#include "diagnosis/search_space.h"
 
 namespace halyard::blind {
 

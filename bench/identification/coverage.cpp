@@ -45,7 +45,8 @@ void draw_truth(ArmModel& robot, const std::vector<std::string>& keys, Off off, 
     if (info.key.ends_with(".gear_ratio") || info.key.ends_with(".pulley_radius")) continue;  // the capstan tells it
     const bool stiffness = info.key.ends_with("cable.stiffness") || info.key.ends_with("cable.damping");
     if (std::ranges::find(keys, info.key) != keys.end()) *info.value *= 1 + 0.15 * u;
-    else if (off == Off::everything || (off == Off::stiffness && stiffness)) *info.value *= 1 + info.tolerance * u;
+    else if (off == Off::everything || (off == Off::stiffness && stiffness))
+      *info.value *= 1 + robot.tolerance(info) * u;
   }
 }
 

@@ -60,7 +60,7 @@ std::vector<Weight> other_numbers(const ArmModel& model, const std::vector<std::
   for (const ParameterInfo& info : named_parameters(arm)) {
     if (info.key.ends_with(".gear_ratio") || info.key.ends_with(".pulley_radius")) continue;
     if (std::ranges::find(keys, info.key) != keys.end() || !is_in_equations(model, info)) continue;
-    const double reach = info.tolerance * std::abs(*info.value);
+    const double reach = model.tolerance(info) * std::abs(*info.value);
     if (reach > 0) others.push_back({info.key, *info.value, reach / 2, false});
   }
   return others;
@@ -183,7 +183,7 @@ Unknowns list_unknowns(const ArmModel& model, const std::vector<std::string>& ke
   for (const ParameterInfo& info : named_parameters(arm)) {
     if (std::ranges::find(keys, info.key) == keys.end()) continue;
     all.weights.push_back(weight_of(model, info));
-    all.tolerance.push_back(info.tolerance);
+    all.tolerance.push_back(model.tolerance(info));
   }
   all.asked = static_cast<Eigen::Index>(all.weights.size());
   for (Weight& zero : unknown_zeros(model)) all.weights.push_back(std::move(zero));

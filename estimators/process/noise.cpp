@@ -44,8 +44,9 @@ NoiseLevels read_noise(OptionReader& options, const ArmModel& model, const Proce
   for (int k = 0; k < arm.n; ++k) {
     const JointParameters<double>& j = arm.joint[k];
     levels.encoder(k) = std::max(j.motor_encoder_resolution / std::sqrt(12.0), kEncoderFloor);
-    levels.torque(k) = j.tolerance.friction * j.motor_coulomb;
-    levels.joint_force(k) = j.tolerance.friction * j.joint_coulomb + j.tolerance.mass * gravity(k);
+    const Tolerances& t = model.joints[k].tolerances;
+    levels.torque(k) = t.friction * j.motor_coulomb;
+    levels.joint_force(k) = t.friction * j.joint_coulomb + t.mass * gravity(k);
   }
   levels.encoder = options.per_joint("encoder_noise", levels.encoder, 1e-9, kInfinity);
   levels.torque = options.per_joint("torque_noise", levels.torque, 0, kInfinity);
@@ -68,7 +69,7 @@ ArmNoise::ArmNoise(const ArmModel& model, const ProcessModel& process, const Noi
   undriven_.resize(n);
   for (int k = 0; k < n; ++k) {
     const JointParameters<double>& j = arm.joint[k];
-    tolerance_(k) = j.tolerance.stiffness;
+    tolerance_(k) = model.joints[k].tolerances.stiffness;
     if (j.drive == Drive::cable && j.stiffness > 0)
       friction_stretch_(k) = j.joint_coulomb / std::abs(j.pulley_radius) / (2 * j.stiffness) / std::sqrt(3.0);
     undriven_(k) = 0.1 * (model.joints[k].upper - model.joints[k].lower);

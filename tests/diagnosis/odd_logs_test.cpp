@@ -297,7 +297,7 @@ TEST(UnknownEncoderZero, CannotBeToldWithoutTheJointsSensor) {
 
 TEST(TorqueOfUnknownScale, IsRefitted) {
   ArmModel model = first_joints(1);
-  model.nominal.joint[0].tolerance.torque_scale = 1;
+  model.joints[0].tolerances.torque_scale = 1;
   for (const double amperes : {1000.0, 1e-3}) {  // per N m
     Logs logs = clean_logs();
     for (Log* log : {&logs.train, &logs.holdout})
@@ -316,7 +316,7 @@ TEST(TorqueOfUnknownScale, IsRefitted) {
 
 TEST(TorqueOfUnknownScale, AgainstTheMotionOrOfAnotherMotorIsAnError) {
   ArmModel model = first_joints(1);
-  model.nominal.joint[0].tolerance.torque_scale = 1;
+  model.joints[0].tolerances.torque_scale = 1;
   Logs logs = clean_logs();
   logs.train.source = "rig.csv";
   for (double& torque : logs.train.motor_torque[0]) torque = -torque;

@@ -272,7 +272,7 @@ class EccentricEncoder : public EffectOf<EccentricEncoder> {
   std::string summary() const override { return "for tests"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::sensors); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"amplitude", "rad", 0, 0.01, 0, 1, 0}};
+    return {{"amplitude", "rad", 0, 0.01, 0, 1}};
   }
   template <class T>
   void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
@@ -287,7 +287,7 @@ class Late : public EffectOf<Late> {
   std::string summary() const override { return "for tests"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::command); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"time", "s", 0, 0.01, 0, 1, 0}};
+    return {{"time", "s", 0, 0.01, 0, 1}};
   }
   template <class T>
   void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {

@@ -24,11 +24,11 @@ TEST(ModelFile, ReadsEveryElement) {
   EXPECT_DOUBLE_EQ(swing.capstan_radius, 5.5e-3);
   EXPECT_DOUBLE_EQ(swing.joint_encoder_offset, -kDegree);
   EXPECT_EQ(swing.motor_encoder_offset, 0.1);
-  EXPECT_EQ(swing.tolerance.length, 0.02);
-  EXPECT_EQ(swing.tolerance.torque_scale, 0.01);
-  EXPECT_EQ(swing.tolerance.stiffness, 0.3);
-  EXPECT_EQ(slide.tolerance.stiffness, Tolerances().stiffness);
-  EXPECT_EQ(slide.tolerance.coupling, 0.03);
+  EXPECT_EQ(model.joints[0].tolerances.length, 0.02);
+  EXPECT_EQ(model.joints[0].tolerances.torque_scale, 0.01);
+  EXPECT_EQ(model.joints[0].tolerances.stiffness, 0.3);
+  EXPECT_EQ(model.joints[1].tolerances.stiffness, Tolerances().stiffness);
+  EXPECT_EQ(model.joints[1].tolerances.coupling, 0.03);
   EXPECT_EQ(slide.drive, Drive::rigid);
   EXPECT_EQ(slide.torque_scale, 1.1);
   EXPECT_EQ(slide.torque_bias, -3);
@@ -109,7 +109,6 @@ std::vector<double> numbers_of(const JointParameters<double>& j) {
   for (const double x : j.com) all.push_back(x);
   for (const double x : j.inertia) all.push_back(x);
   for (const double x : j.coupling) all.push_back(x);
-  const Tolerances& t = j.tolerance;
   for (const double x : {j.mass,
                          j.rotor_inertia,
                          j.motor_coulomb,
@@ -130,12 +129,6 @@ std::vector<double> numbers_of(const JointParameters<double>& j) {
                          j.joint_encoder_offset,
                          j.motor_encoder_resolution,
                          j.joint_encoder_resolution,
-                         t.length,
-                         t.mass,
-                         t.stiffness,
-                         t.friction,
-                         t.coupling,
-                         t.torque_scale,
                          double(j.motor_zero_known),
                          double(j.joint_zero_known)}) {
     all.push_back(x);
@@ -147,7 +140,9 @@ std::vector<double> numbers_of(const JointParameters<double>& j) {
 }
 
 std::vector<double> numbers_of(const JointDescription& d) {
-  return {d.lower, d.upper, d.home, d.controller.kp, d.controller.kd, d.controller.torque_limit};
+  const Tolerances& t = d.tolerances;
+  return {d.lower,  d.upper, d.home,      d.controller.kp, d.controller.kd, d.controller.torque_limit,
+          t.length, t.mass,  t.stiffness, t.friction,      t.coupling,      t.torque_scale};
 }
 
 void expect_same_bits(const std::vector<double>& a, const std::vector<double>& b) {
@@ -197,23 +192,23 @@ TEST(ParameterInfo, NamesKeysUnitsAndTolerancesFollowTheModel) {
     for (const ParameterInfo& info : all) {
       if (info.key == key) return info;
     }
-    return {"absent", key, "", -2, 0, nullptr};
+    return {"absent", key, "", -2, nullptr, nullptr};
   };
   const ParameterInfo stiffness = find("joint1.cable.stiffness");
   EXPECT_EQ(stiffness.name, "joint 1 cable stiffness");
   EXPECT_EQ(stiffness.unit, "N/m");
   EXPECT_EQ(stiffness.joint, 0);
-  EXPECT_EQ(stiffness.tolerance, 0.3);
+  EXPECT_EQ(model.tolerance(stiffness), 0.3);
   *stiffness.value *= 2;
   EXPECT_EQ(model.nominal.joint[0].stiffness, 1440e3);
 
   const ParameterInfo coupling = find("joint2.coupling.joint1");
   EXPECT_EQ(coupling.name, "joint 2 coupling with joint 1");
   EXPECT_EQ(coupling.unit, "m/rad");
-  EXPECT_EQ(coupling.tolerance, 0.03);
+  EXPECT_EQ(model.tolerance(coupling), 0.03);
   EXPECT_EQ(find("joint2.friction.viscous").unit, "N s/m");
-  EXPECT_EQ(find("joint2.motor.torque_scale").tolerance, 0.01);
-  EXPECT_EQ(find("joint2.motor.torque_bias").tolerance, 0);
+  EXPECT_EQ(model.tolerance(find("joint2.motor.torque_scale")), 0.01);
+  EXPECT_EQ(model.tolerance(find("joint2.motor.torque_bias")), 0);
   EXPECT_EQ(find("joint2.rigid.pulley_radius").unit, "1");
   // A rigid drive has no cable, a joint without drive no motor.
   EXPECT_EQ(find("joint2.cable.stiffness").name, "absent");

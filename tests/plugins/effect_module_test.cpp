@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "diagnosis/search_space.h"
 #include "model/input_error.h"
 #include "transmission/effect.h"
 
@@ -34,7 +35,7 @@ TEST(EffectModule, AModuleThatBreaksTheContractIsRefusedWithOneLineAndLeavesNoth
   EXPECT_EQ(refusal("well_formed"),  // an estimator
             "exports no function halyard_effects; it holds no effects, or its function lacks extern \"C\"");
   EXPECT_EQ(refusal("effects_older_interface"),
-            "built for effect interface 0, this program speaks 1; rebuild it against the installed headers");
+            "built for effect interface 1, this program speaks 2; rebuild it against the installed headers");
   const std::string compiler = refusal("effects_other_compiler");
   EXPECT_TRUE(compiler.starts_with("compiled by 'Cfront 3', this program by '")) << compiler;
   EXPECT_TRUE(compiler.ends_with("; rebuild it with this program's compiler")) << compiler;
@@ -61,6 +62,14 @@ TEST(EffectModule, AWellFormedOneJoinsTheLibraryOnceAndActs) {
   effect->act(EffectStage::joint, EffectContext<Dual>{arm, 0, p, nullptr, 0, nullptr}, s);
   EXPECT_EQ(s[0].joint_force.a, -2);
   EXPECT_EQ(s[0].joint_force.d[2], -4);
+}
+
+TEST(EffectModule, AnEffectBringsItsOwnSearchSpaceAlong) {
+  load_effects(fixture("effects_refining"));
+  ArmParameters<double> arm;
+  arm.n = 1;
+  SearchSpace space = search_space(*find_effect("fixture_refining_spring"), arm, 0);
+  EXPECT_EQ(space["stiffness"].starts, (std::vector<double>{1, 10}));
 }
 
 }  // namespace

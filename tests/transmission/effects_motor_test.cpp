@@ -39,26 +39,6 @@ TEST(TorqueRipple, IsPeriodicInTheShaftsAngleAndDoesNoWorkOverATurn) {
   EXPECT_GE(most, 0.05 * std::cos(M_PI / 40));
 }
 
-TEST(TorqueRipple, IsSeenThroughAFilterAsASineOfItsFrequencyIs) {
-  const ArmParameters<double> arm = random_arm(24, CableLaw::linear);
-  const double sine = 0.04, order = 7, sigma = 2.5e-3, rate = 30;
-  const PlacedEffect e = placed("torque_ripple", arm, 1, {0, sine, order});
-  Motion m;
-  m.motor_rate[1] = rate;
-  m.motor_angle[1] = M_PI / 2 / order;
-  const double seen = evaluate(Transmission<double>(arm, {e}, sigma), m).s[1].motor_torque -
-                      evaluate(Transmission<double>(arm, {}, sigma), m).s[1].motor_torque;
-  // The ripple as time goes by, through the Gaussian's integral.
-  double mean = 0, mass = 0;
-  constexpr double kStep = 1e-5;
-  for (double t = -8 * sigma; t <= 8 * sigma; t += kStep) {
-    const double weight = std::exp(-0.5 * t * t / (sigma * sigma));
-    mean += weight * sine * std::sin(order * (m.motor_angle[1] + rate * t));
-    mass += weight;
-  }
-  EXPECT_NEAR(seen, mean / mass, 1e-9);
-}
-
 TEST(TorqueScale, TurnsTheCommandIntoTorqueByItsConstantAndBias) {
   const ArmParameters<double> arm = random_arm(25, CableLaw::linear);
   const JointParameters<double>& j = arm.joint[0];

@@ -1,33 +1,45 @@
 #include "transmission/effects/library.h"
 
 namespace halyard {
+namespace effects {
+
+/// Each effect's own file makes it: built_in.h.
+template <class E>
+std::unique_ptr<const Effect> make_effect();
+
+/// In the order of the library.
+constexpr std::unique_ptr<const Effect> (*kMakers[])() = {
+    make_effect<class Payload>,
+    make_effect<class GravityTilt>,
+    make_effect<class MotorFriction>,
+    make_effect<class JointFriction>,
+    make_effect<class Stribeck>,
+    make_effect<class PulleyFriction>,
+    make_effect<class Hysteresis>,
+    make_effect<class Backlash>,
+    make_effect<class Slack>,
+    make_effect<class Stiffness>,
+    make_effect<class CouplingError>,
+    make_effect<class Creep>,
+    make_effect<class CapstanRatio>,
+    make_effect<class CapstanEccentricity>,
+    make_effect<class EncoderOffset>,
+    make_effect<class EncoderEccentricity>,
+    make_effect<class TorqueRipple>,
+    make_effect<class TorqueScale>,
+    make_effect<class Delay>,
+    make_effect<class CableSlip>,
+    make_effect<class ExternalForce>,
+    make_effect<class FrictionDrift>,
+    make_effect<class ActuatorSaturation>,
+};
+
+}  // namespace effects
 
 std::vector<std::unique_ptr<const Effect>> built_in_effects() {
-  std::vector<std::unique_ptr<const Effect>> effects;
-  effects.push_back(make_payload());
-  effects.push_back(make_gravity_tilt());
-  effects.push_back(make_motor_friction());
-  effects.push_back(make_joint_friction());
-  effects.push_back(make_stribeck());
-  effects.push_back(make_pulley_friction());
-  effects.push_back(make_hysteresis());
-  effects.push_back(make_backlash());
-  effects.push_back(make_slack());
-  effects.push_back(make_stiffness());
-  effects.push_back(make_coupling_error());
-  effects.push_back(make_creep());
-  effects.push_back(make_capstan_ratio());
-  effects.push_back(make_capstan_eccentricity());
-  effects.push_back(make_encoder_offset());
-  effects.push_back(make_encoder_eccentricity());
-  effects.push_back(make_torque_ripple());
-  effects.push_back(make_torque_scale());
-  effects.push_back(make_delay());
-  effects.push_back(make_cable_slip());
-  effects.push_back(make_external_force());
-  effects.push_back(make_friction_drift());
-  effects.push_back(make_actuator_saturation());
-  return effects;
+  std::vector<std::unique_ptr<const Effect>> all;
+  for (const auto make : effects::kMakers) all.push_back(make());
+  return all;
 }
 
 }  // namespace halyard

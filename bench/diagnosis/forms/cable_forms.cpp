@@ -18,8 +18,8 @@ class MaxwellSlip : public EffectOf<MaxwellSlip> {
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_cable(arm, joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double stretch = typical_stretch(arm.joint[joint]);
-    return {{"share", "1", 0, 0.4, 0, 0.95, 0},
-            {"yield_stretch", "m", 0.2 * stretch, 0.2 * stretch, 1e-3 * stretch, 10 * stretch, 0}};
+    return {{"share", "1", 0, 0.4, 0, 0.95},
+            {"yield_stretch", "m", 0.2 * stretch, 0.2 * stretch, 1e-3 * stretch, 10 * stretch}};
   }
   int n_states() const override { return kElements; }
   template <class T>
@@ -56,7 +56,7 @@ class RoundBacklash : public EffectOf<RoundBacklash> {
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_cable(arm, joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double radius = arm.joint[joint].capstan_radius;
-    return {{"half_gap", "m", 0, 0.03 * radius, 0, radius, 0}};
+    return {{"half_gap", "m", 0, 0.03 * radius, 0, radius}};
   }
   template <class T>
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
@@ -88,7 +88,7 @@ class QuadraticStiffening : public EffectOf<QuadraticStiffening> {
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::cable_force); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_cable(arm, joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"stiffening", "1", 0, 2, 0, 30, 0}};
+    return {{"stiffening", "1", 0, 2, 0, 30}};
   }
   template <class T>
   void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
@@ -111,7 +111,7 @@ class TwoRateCreep : public EffectOf<TwoRateCreep> {
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::stretch); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_cable(arm, joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"compliance", "1", 0, 1, 0, 20, 0}, {"time", "s", 0.8, 0.8, 0.1, 10, 0}};
+    return {{"compliance", "1", 0, 1, 0, 20}, {"time", "s", 0.8, 0.8, 0.1, 10}};
   }
   int n_states() const override { return 2; }
   template <class T>
@@ -129,7 +129,7 @@ class TwoRateCreep : public EffectOf<TwoRateCreep> {
 /// A slip of the cable on its capstan that takes half a second instead of none:
 ///   x_eff = x - s f((t - t_0) / 0.5 s),  f from 0 to 1
 /// Source: a belt slips from the edge of its contact on; Johnson, Contact Mechanics (1985).
-class GradualSlip : public EffectOf<GradualSlip> {
+class GradualSlip : public EffectOf<GradualSlip>, public RefinesSearch {
  public:
   std::string name() const override { return "gradual_slip"; }
   std::string summary() const override { return "a lasting slip of the cable that takes half a second"; }
@@ -137,8 +137,10 @@ class GradualSlip : public EffectOf<GradualSlip> {
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_cable(arm, joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double radius = arm.joint[joint].capstan_radius;
-    return {{"slip", "m", 0, 0.05 * radius, -2 * radius, 2 * radius, 0},
-            {"time", "s", 1, 1, -1e10, 1e10, 0, false, {}, SearchRange::record_time}};
+    return {{"slip", "m", 0, 0.05 * radius, -2 * radius, 2 * radius}, {"time", "s", 1, 1, -1e10, 1e10}};
+  }
+  void refine_search(SearchSpace& space, const ArmParameters<double>&, int) const override {
+    space["time"].range = SearchRange::record_time;
   }
   template <class T>
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {

@@ -18,7 +18,7 @@ class DahlMotorFriction : public EffectOf<DahlMotorFriction> {
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double level = typical_motor_friction(arm.joint[joint]);
-    return {{"coulomb", "N m", 0, 0.5 * level, 0, 30 * level, 0}, {"presliding", "rad", 0.3, 0.3, 0.01, 3, 0}};
+    return {{"coulomb", "N m", 0, 0.5 * level, 0, 30 * level}, {"presliding", "rad", 0.3, 0.3, 0.01, 3}};
   }
   int n_states() const override { return 1; }
   template <class T>
@@ -43,9 +43,9 @@ class LuGreJointFriction : public EffectOf<LuGreJointFriction> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const bool turns = arm.joint[joint].type == JointType::revolute;
     const double level = typical_joint_friction(arm.joint[joint]), z_y = turns ? 2e-3 : 2e-4;
-    return {{"coulomb", turns ? "N m" : "N", 0, 0.5 * level, 0, 30 * level, 0},
-            {"presliding", turns ? "rad" : "m", z_y, z_y, 0.1 * z_y, 10 * z_y, 0},
-            {"viscous", turns ? "N m s/rad" : "N s/m", 0, 0.1 * level, 0, 30 * level, 0}};
+    return {{"coulomb", turns ? "N m" : "N", 0, 0.5 * level, 0, 30 * level},
+            {"presliding", turns ? "rad" : "m", z_y, z_y, 0.1 * z_y, 10 * z_y},
+            {"viscous", turns ? "N m s/rad" : "N s/m", 0, 0.1 * level, 0, 30 * level}};
   }
   int n_states() const override { return 1; }
   template <class T>
@@ -76,7 +76,7 @@ class ExponentialStribeck : public EffectOf<ExponentialStribeck> {
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double level = typical_motor_friction(arm.joint[joint]);
-    return {{"static_excess", "N m", 0, 0.6 * level, 0, 10 * level, 0}, {"speed", "rad/s", 15, 15, 1, 200, 0}};
+    return {{"static_excess", "N m", 0, 0.6 * level, 0, 10 * level}, {"speed", "rad/s", 15, 15, 1, 200}};
   }
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
@@ -98,7 +98,7 @@ class LinearFrictionDrift : public EffectOf<LinearFrictionDrift> {
   }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"share", "1", 0, -0.5, -0.9, 3, 0}};
+    return {{"share", "1", 0, -0.5, -0.9, 3}};
   }
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {

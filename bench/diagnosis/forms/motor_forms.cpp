@@ -19,7 +19,7 @@ class GradualSaturation : public EffectOf<GradualSaturation> {
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double one_over = 1 / (6 * typical_motor_friction(arm.joint[joint]));
-    return {{"one_over_limit", "1/(N m)", 0, one_over, 0, 10 * one_over, 0}};
+    return {{"one_over_limit", "1/(N m)", 0, one_over, 0, 10 * one_over}};
   }
   template <class T>
   void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
@@ -31,7 +31,7 @@ class GradualSaturation : public EffectOf<GradualSaturation> {
 /// A load on the joint that swells and fades as half a sine, instead of a rectangle:
 ///   F = A sin(π (t - t_0) / d)  from t_0 to t_0 + d
 /// Source: the half-sine pulse of impact and shock testing, IEC 60068-2-27.
-class HalfSineLoad : public EffectOf<HalfSineLoad> {
+class HalfSineLoad : public EffectOf<HalfSineLoad>, public RefinesSearch {
  public:
   std::string name() const override { return "half_sine_load"; }
   std::string summary() const override { return "a force on the joint that swells and fades as half a sine"; }
@@ -39,9 +39,12 @@ class HalfSineLoad : public EffectOf<HalfSineLoad> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double level = typical_joint_friction(arm.joint[joint]);
     return {
-        {"force", arm.joint[joint].type == JointType::revolute ? "N m" : "N", 0, 2 * level, -60 * level, 60 * level, 0},
-        {"start", "s", 1, 1, -1e10, 1e10, 0, false, {}, SearchRange::record_time},
-        {"duration", "s", 3, 3, 0.5, 10, 0}};
+        {"force", arm.joint[joint].type == JointType::revolute ? "N m" : "N", 0, 2 * level, -60 * level, 60 * level},
+        {"start", "s", 1, 1, -1e10, 1e10},
+        {"duration", "s", 3, 3, 0.5, 10}};
+  }
+  void refine_search(SearchSpace& space, const ArmParameters<double>&, int) const override {
+    space["start"].range = SearchRange::record_time;
   }
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
@@ -53,7 +56,7 @@ class HalfSineLoad : public EffectOf<HalfSineLoad> {
 /// A torque ripple that has a second harmonic:
 ///   τ = τ_c + a cos(n q_m) + b sin(n q_m) + 0.4 a sin(2 n q_m)
 /// Source: Holtz and Springob, IEEE Trans. Industrial Electronics 43 (1996), harmonics of permanent-magnet motors.
-class RippleWithHarmonic : public EffectOf<RippleWithHarmonic> {
+class RippleWithHarmonic : public EffectOf<RippleWithHarmonic>, public RefinesSearch {
  public:
   std::string name() const override { return "ripple_with_harmonic"; }
   std::string summary() const override { return "a motor torque periodic in the motor angle, with a second harmonic"; }
@@ -61,9 +64,12 @@ class RippleWithHarmonic : public EffectOf<RippleWithHarmonic> {
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double level = typical_motor_friction(arm.joint[joint]);
-    return {{"cosine", "N m", 0, 0.5 * level, -20 * level, 20 * level, 0},
-            {"sine", "N m", 0, 0.5 * level, -20 * level, 20 * level, 0},
-            {"order", "1", 2, 2, 0.5, 100, 0, false, {1, 2, 3, 4, 6}}};
+    return {{"cosine", "N m", 0, 0.5 * level, -20 * level, 20 * level},
+            {"sine", "N m", 0, 0.5 * level, -20 * level, 20 * level},
+            {"order", "1", 2, 2, 0.5, 100}};
+  }
+  void refine_search(SearchSpace& space, const ArmParameters<double>&, int) const override {
+    space["order"].starts = {1, 2, 3, 4, 6};
   }
   template <class T>
   void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {

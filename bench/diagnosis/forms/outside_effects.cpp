@@ -19,7 +19,7 @@ class TorqueCrosstalk : public EffectOf<TorqueCrosstalk> {
     return arm.n > 1 && has_motor(arm, joint) && has_motor(arm, (joint + 1) % arm.n);
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"share", "1", 0, 0.3, -2, 2, 0}};
+    return {{"share", "1", 0, 0.3, -2, 2}};
   }
   template <class T>
   void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
@@ -38,7 +38,7 @@ class SharedGuide : public EffectOf<SharedGuide> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double level = typical_motor_friction(arm.joint[joint]);
-    return {{"drag", "N m", 0, 0.5 * level, -10 * level, 10 * level, 0}};
+    return {{"drag", "N m", 0, 0.5 * level, -10 * level, 10 * level}};
   }
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
@@ -48,7 +48,7 @@ class SharedGuide : public EffectOf<SharedGuide> {
 };
 
 /// Friction of a joint that depends on where it stands: F = F + A sin(2π q / λ + φ) sign(v), A up to the level.
-class PositionFriction : public EffectOf<PositionFriction> {
+class PositionFriction : public EffectOf<PositionFriction>, public RefinesSearch {
  public:
   std::string name() const override { return "position_friction"; }
   std::string summary() const override { return "friction at the joint that depends on its position"; }
@@ -56,8 +56,11 @@ class PositionFriction : public EffectOf<PositionFriction> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const bool turns = arm.joint[joint].type == JointType::revolute;
     const double level = typical_joint_friction(arm.joint[joint]), period = turns ? 0.25 : 0.05;
-    return {{"amplitude", turns ? "N m" : "N", 0, 0.5 * level, -level, level, 0, true},
-            {"period", turns ? "rad" : "m", period, period, 0.2 * period, 5 * period, 0}};
+    return {{"amplitude", turns ? "N m" : "N", 0, 0.5 * level, -level, level},
+            {"period", turns ? "rad" : "m", period, period, 0.2 * period, 5 * period}};
+  }
+  void refine_search(SearchSpace& space, const ArmParameters<double>&, int) const override {
+    space["amplitude"].natural_bounds = true;
   }
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
@@ -78,8 +81,8 @@ class SwingingMass : public EffectOf<SwingingMass> {
     const bool turns = j.type == JointType::revolute;
     const double arm_length = turns ? std::hypot(j.com[0], j.com[1], j.com[2]) : 1;
     const double inertia = j.mass * arm_length * arm_length;
-    return {{"inertia", turns ? "kg m^2" : "kg", 0, inertia, 0, 30 * inertia, 0},
-            {"angular_frequency", "rad/s", 9, 9, 4, 20, 0}};
+    return {{"inertia", turns ? "kg m^2" : "kg", 0, inertia, 0, 30 * inertia},
+            {"angular_frequency", "rad/s", 9, 9, 4, 20}};
   }
   int n_states() const override { return 2; }
   template <class T>
@@ -111,8 +114,8 @@ class WanderingSensor : public EffectOf<WanderingSensor> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double size = arm.joint[joint].type == JointType::revolute ? 0.01 : 0.002;
     std::vector<EffectParameter> all = {
-        {"deviation", arm.joint[joint].type == JointType::revolute ? "rad" : "m", 0, size, -100 * size, 100 * size, 0}};
-    for (int i = 1; i <= kTerms; ++i) all.push_back({"term_" + std::to_string(i), "1", 1, 1, -3, 3, 0});
+        {"deviation", arm.joint[joint].type == JointType::revolute ? "rad" : "m", 0, size, -100 * size, 100 * size}};
+    for (int i = 1; i <= kTerms; ++i) all.push_back({"term_" + std::to_string(i), "1", 1, 1, -3, 3});
     return all;
   }
   template <class T>
@@ -132,24 +135,18 @@ class WanderingSensor : public EffectOf<WanderingSensor> {
 };
 
 /// A joint sensor whose gain is another one on either side of a position: e = a |q - q_0|.
-class KinkedSensor : public EffectOf<KinkedSensor> {
+class KinkedSensor : public EffectOf<KinkedSensor>, public RefinesSearch {
  public:
   std::string name() const override { return "kinked_sensor"; }
   std::string summary() const override { return "a joint sensor with another gain on either side of a position"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::sensors); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    return {{"gain", "1", 0, 0.05, -0.5, 0.5, 0},
-            {"position",
-             arm.joint[joint].type == JointType::revolute ? "rad" : "m",
-             0,
-             0,
-             -10,
-             10,
-             0,
-             false,
-             {},
-             SearchRange::joint_position}};
+    return {{"gain", "1", 0, 0.05, -0.5, 0.5},
+            {"position", arm.joint[joint].type == JointType::revolute ? "rad" : "m", 0, 0, -10, 10}};
+  }
+  void refine_search(SearchSpace& space, const ArmParameters<double>&, int) const override {
+    space["position"].range = SearchRange::joint_position;
   }
   template <class T>
   void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {

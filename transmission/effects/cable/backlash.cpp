@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 
 /// A dead zone in the path from motor to joint: the cable is stretched only beyond the gap,
 ///
@@ -9,8 +9,7 @@
 /// Source: Nordin and Gutman, "Controlling mechanical systems with backlash", Automatica 38 (2002),
 /// dead-zone model with a damped shaft.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class Backlash : public EffectOf<Backlash> {
  public:
@@ -22,7 +21,7 @@ class Backlash : public EffectOf<Backlash> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double radius = arm.joint[joint].capstan_radius;
-    return {{"half_gap", "m", 0, 0.03 * radius, 0, 2 * radius, 0}};
+    return {{"half_gap", "m", 0, 0.03 * radius, 0, 2 * radius}};
   }
 
   template <class T>
@@ -34,8 +33,6 @@ class Backlash : public EffectOf<Backlash> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<Backlash>();
 
-std::unique_ptr<const Effect> make_backlash() { return std::make_unique<Backlash>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/smooth_step.h"
 
 /// A sudden lasting jump of the motor-to-joint relation: the cable slips on its capstan,
@@ -11,8 +11,7 @@
 ///
 /// What slips is lost: the stretch's rate has it too.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class CableSlip : public EffectOf<CableSlip> {
  public:
@@ -24,8 +23,7 @@ class CableSlip : public EffectOf<CableSlip> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double radius = arm.joint[joint].capstan_radius;
-    return {{"jump", "m", 0, 0.03 * radius, -2 * radius, 2 * radius, 0},
-            {"time", "s", 1, 1, -1e10, 1e10, 0, false, {}, SearchRange::record_time}};
+    return {{"jump", "m", 0, 0.03 * radius, -2 * radius, 2 * radius}, {"time", "s", 1, 1, -1e10, 1e10}};
   }
 
   template <class T>
@@ -36,8 +34,6 @@ class CableSlip : public EffectOf<CableSlip> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<CableSlip>();
 
-std::unique_ptr<const Effect> make_cable_slip() { return std::make_unique<CableSlip>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

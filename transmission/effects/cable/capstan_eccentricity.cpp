@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 
 /// A ratio that varies with the capstan's angle θ = q_m / N, as of a capstan whose axis is off its centre:
 ///
@@ -9,8 +9,7 @@
 /// The cable pulls the motor by the lever with which the motor stretches it, so that no power is lost.
 /// Source: geometry, to first order in the eccentricity; zero at q_m = 0, where the motor's angle counts from.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class CapstanEccentricity : public EffectOf<CapstanEccentricity> {
  public:
@@ -23,7 +22,7 @@ class CapstanEccentricity : public EffectOf<CapstanEccentricity> {
     return arm.joint[joint].drive == Drive::cable;
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"cosine", "1", 0, 0.02, -0.3, 0.3, 0}, {"sine", "1", 0, 0.02, -0.3, 0.3, 0}};
+    return {{"cosine", "1", 0, 0.02, -0.3, 0.3}, {"sine", "1", 0, 0.02, -0.3, 0.3}};
   }
 
   template <class T>
@@ -41,8 +40,6 @@ class CapstanEccentricity : public EffectOf<CapstanEccentricity> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<CapstanEccentricity>();
 
-std::unique_ptr<const Effect> make_capstan_eccentricity() { return std::make_unique<CapstanEccentricity>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 
 /// Another transmission ratio from motor to cable: r_m' = κ r_m. The capstan, the gear and the link
 /// pulley enter a joint's motion through one ratio only, so it stands for all three.
@@ -8,8 +8,7 @@
 /// Source: an effective capstan radius is the core's plus half the cable's diameter, which the
 /// paper's Table I does not add.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class CapstanRatio : public EffectOf<CapstanRatio> {
  public:
@@ -18,8 +17,8 @@ class CapstanRatio : public EffectOf<CapstanRatio> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive != Drive::none;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    return {{"ratio", "1", 1, 1.02, 0.5, 2, arm.joint[joint].tolerance.length}};
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+    return {{"ratio", "1", 1, 1.02, 0.5, 2}};
   }
 
   template <class T>
@@ -28,8 +27,6 @@ class CapstanRatio : public EffectOf<CapstanRatio> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<CapstanRatio>();
 
-std::unique_ptr<const Effect> make_capstan_ratio() { return std::make_unique<CapstanRatio>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 
 /// Other coupling coefficients of a cable with the joints inboard of it: C_kj' = C_kj + ΔC_kj.
 ///
@@ -6,8 +6,7 @@
 ///
 /// Source: the paper's Eq. 8 and Section III-B, which estimates these coefficients.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class CouplingError : public EffectOf<CouplingError> {
  public:
@@ -26,8 +25,7 @@ class CouplingError : public EffectOf<CouplingError> {
                      length == per_length ? "1"
                      : length             ? "m/rad"
                                           : "rad/m",
-                     0, 0.1 * std::max(std::abs(j.coupling[i]), 0.1 * reach), -reach, reach,
-                     j.tolerance.coupling * std::abs(j.coupling[i])});
+                     0, 0.1 * std::max(std::abs(j.coupling[i]), 0.1 * reach), -reach, reach});
     }
     return all;
   }
@@ -38,8 +36,6 @@ class CouplingError : public EffectOf<CouplingError> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<CouplingError>();
 
-std::unique_ptr<const Effect> make_coupling_error() { return std::make_unique<CouplingError>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

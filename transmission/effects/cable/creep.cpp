@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
 /// Stretch that grows slowly under load: the cable is a standard linear solid, its elastic part in series with one that
@@ -11,11 +11,10 @@
 ///   c     compliance of the slow part over that of the elastic one, `compliance_share`      -
 ///   τ     time constant of the slow part at constant force                                   s
 ///
-/// Under a constant force the stretch ends at (1 + c) times what it starts with. The cable's damper lies across both.
+/// Under a constant force the stretch ends at (1 + c) times its first value. The cable's damper lies across both.
 /// Source: Zener, "Elasticity and Anelasticity of Metals" (1948).
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class Creep : public EffectOf<Creep> {
  public:
@@ -26,8 +25,7 @@ class Creep : public EffectOf<Creep> {
     return arm.joint[joint].drive == Drive::cable;
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"compliance_share", "1", 0, 0.3, 0, 5, 0},
-            {"time_constant", "s", 3, 3, 0.2, 300, 0, false, {0.3, 1, 3, 10, 30}}};
+    return {{"compliance_share", "1", 0, 0.3, 0, 5}, {"time_constant", "s", 3, 3, 0.2, 300}};
   }
   int n_states() const override { return 1; }
   std::vector<double> state_scale(const ArmParameters<double>& arm, int joint, const double*) const override {
@@ -44,8 +42,6 @@ class Creep : public EffectOf<Creep> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<Creep>();
 
-std::unique_ptr<const Effect> make_creep() { return std::make_unique<Creep>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

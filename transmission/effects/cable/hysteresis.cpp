@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
 /// A rate-independent loop of the cable's force over its stretch, of Bouc-Wen type: the share ρ of
@@ -14,8 +14,7 @@
 /// repeated.
 /// Source: Wen, J. Eng. Mech. 102 (1976); of robot cables Miyasaka et al., ICRA 2016.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class Hysteresis : public EffectOf<Hysteresis> {
  public:
@@ -27,16 +26,8 @@ class Hysteresis : public EffectOf<Hysteresis> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double stretch = typical_stretch(arm.joint[joint]);
-    return {{"share", "1", 0, 0.4, 0, 0.95, 0},
-            {"yield_stretch",
-             "m",
-             0.1 * stretch,
-             0.1 * stretch,
-             1e-4 * stretch,
-             10 * stretch,
-             0,
-             false,
-             {0.003 * stretch, 0.01 * stretch, 0.03 * stretch, 0.1 * stretch, 0.3 * stretch}}};
+    return {{"share", "1", 0, 0.4, 0, 0.95},
+            {"yield_stretch", "m", 0.1 * stretch, 0.1 * stretch, 1e-4 * stretch, 10 * stretch}};
   }
   int n_states() const override { return 1; }
   std::vector<double> state_scale(const ArmParameters<double>&, int, const double* p) const override { return {p[1]}; }
@@ -55,8 +46,6 @@ class Hysteresis : public EffectOf<Hysteresis> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<Hysteresis>();
 
-std::unique_ptr<const Effect> make_hysteresis() { return std::make_unique<Hysteresis>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/friction.h"
 
 /// Friction of the cable on its pulleys, which grows with tension and load and not with speed:
@@ -14,8 +14,7 @@
 /// Source: Miyasaka et al., "Measurement of the cable-pulley Coulomb and viscous friction for a
 /// cable-driven surgical robotic system", IROS 2015.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class PulleyFriction : public EffectOf<PulleyFriction> {
  public:
@@ -26,7 +25,7 @@ class PulleyFriction : public EffectOf<PulleyFriction> {
     return arm.joint[joint].drive == Drive::cable;
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"coefficient", "1", 0, 0.05, 0, 1, 0}, {"motor_share", "1", 0.5, 0.5, 0, 1, 0, true}};
+    return {{"coefficient", "1", 0, 0.05, 0, 1}, {"motor_share", "1", 0.5, 0.5, 0, 1}};
   }
 
   template <class T>
@@ -41,8 +40,6 @@ class PulleyFriction : public EffectOf<PulleyFriction> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<PulleyFriction>();
 
-std::unique_ptr<const Effect> make_pulley_friction() { return std::make_unique<PulleyFriction>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,5 +1,5 @@
 #include "transmission/cable_law.h"
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
 /// A run of the cable pulls and cannot push: with the rest tension T each run's tension ends at zero,
@@ -15,8 +15,7 @@
 ///
 /// Source: the clamp of cable_law.h.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class Slack : public EffectOf<Slack> {
  public:
@@ -29,16 +28,7 @@ class Slack : public EffectOf<Slack> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const JointParameters<double>& j = arm.joint[joint];
     const double tension = j.stiffness * typical_stretch(j);  // the model's, or what moves the joint
-    return {{"share", "1", 0, 1, 0, 1, 0, true},
-            {"tension",
-             "N",
-             0.5 * tension,
-             0.5 * tension,
-             1e-3 * tension,
-             10 * tension,
-             0,
-             false,
-             {0.05 * tension, 0.15 * tension, 0.5 * tension, tension}}};
+    return {{"share", "1", 0, 1, 0, 1}, {"tension", "N", 0.5 * tension, 0.5 * tension, 1e-3 * tension, 10 * tension}};
   }
 
   template <class T>
@@ -55,8 +45,6 @@ class Slack : public EffectOf<Slack> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<Slack>();
 
-std::unique_ptr<const Effect> make_slack() { return std::make_unique<Slack>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

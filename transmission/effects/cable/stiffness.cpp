@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
 /// Another stiffness or damping of the cable, or a law that stiffens: k_e' = κ k_e, b_e' = δ b_e,
@@ -12,8 +12,7 @@
 /// Source: the paper's Table I gives one value for a cable whose stiffness varies with tension
 /// and wear (Miyasaka et al., ICRA 2016).
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class Stiffness : public EffectOf<Stiffness> {
  public:
@@ -24,11 +23,10 @@ class Stiffness : public EffectOf<Stiffness> {
     return arm.joint[joint].drive == Drive::cable;
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double tolerance = arm.joint[joint].tolerance.stiffness;
     const double stretch = typical_stretch(arm.joint[joint]), stiffening = 1 / (stretch * stretch);
-    return {{"stiffness_ratio", "1", 1, 0.8, 0.02, 50, tolerance},
-            {"damping_ratio", "1", 1, 0.8, 0.02, 50, tolerance},
-            {"stiffening", "1/m^2", 0, 0.1 * stiffening, 0, 100 * stiffening, 0}};
+    return {{"stiffness_ratio", "1", 1, 0.8, 0.02, 50},
+            {"damping_ratio", "1", 1, 0.8, 0.02, 50},
+            {"stiffening", "1/m^2", 0, 0.1 * stiffening, 0, 100 * stiffening}};
   }
 
   template <class T>
@@ -44,8 +42,6 @@ class Stiffness : public EffectOf<Stiffness> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<Stiffness>();
 
-std::unique_ptr<const Effect> make_stiffness() { return std::make_unique<Stiffness>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,8 +1,8 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/smooth_step.h"
 #include "transmission/effects/typical_size.h"
 
-/// A force on a joint that the log has no column for: one during part of the record, and a contact,
+/// A force on a joint that no sensor shows: one for part of the time, and a contact,
 ///
 ///   F' = F + F_e (s(t - t_1) - s(t - t_2)) - k max(0, ±(q - q_c)),   + where k > 0, - where k < 0
 ///
@@ -12,13 +12,12 @@
 ///              negative: a wall below q_c, of stiffness |k|, that pushes up              N m/rad | N/m
 ///   q_c        `contact_position`                                                        rad | m
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class ExternalForce : public EffectOf<ExternalForce> {
  public:
   std::string name() const override { return "external_force"; }
-  std::string summary() const override { return "a force on a joint during part of the record, or a contact"; }
+  std::string summary() const override { return "a force on a joint for part of the time, or a contact"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const JointParameters<double>& j = arm.joint[joint];
@@ -27,11 +26,11 @@ class ExternalForce : public EffectOf<ExternalForce> {
     // A wall as stiff as the cable cannot be told from one that is stiffer.
     const double own = j.drive == Drive::cable ? 2 * j.stiffness * j.pulley_radius * j.pulley_radius : 0;
     const double stiffest = std::max(own, 100 * level / reach), far = turns ? 10 : 2;
-    return {{"force", turns ? "N m" : "N", 0, level, -100 * level, 100 * level, 0},
-            {"start", "s", 1, 1, -1e10, 1e10, 0, false, {}, SearchRange::record_time},
-            {"stop", "s", 2, 2, -1e10, 1e10, 0, false, {}, SearchRange::record_time},
-            {"contact_stiffness", turns ? "N m/rad" : "N/m", 0, 5 * level / reach, -stiffest, stiffest, 0},
-            {"contact_position", turns ? "rad" : "m", 0, 0, -far, far, 0, false, {}, SearchRange::joint_position}};
+    return {{"force", turns ? "N m" : "N", 0, level, -100 * level, 100 * level},
+            {"start", "s", 1, 1, -1e10, 1e10},
+            {"stop", "s", 2, 2, -1e10, 1e10},
+            {"contact_stiffness", turns ? "N m/rad" : "N/m", 0, 5 * level / reach, -stiffest, stiffest},
+            {"contact_position", turns ? "rad" : "m", 0, 0, -far, far}};
   }
 
   template <class T>
@@ -42,8 +41,6 @@ class ExternalForce : public EffectOf<ExternalForce> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<ExternalForce>();
 
-std::unique_ptr<const Effect> make_external_force() { return std::make_unique<ExternalForce>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/friction.h"
 
 /// Friction that changes in time, as of a drive that warms up: Coulomb level and viscous coefficient, of motor and
@@ -13,10 +13,10 @@
 /// Source: Bittencourt and Axelsson, IEEE/ASME Trans. Mechatronics 19 (2014), friction over temperature; a body that
 /// warms at constant power settles exponentially.
 
-namespace halyard {
+namespace halyard::effects {
 namespace {
 
-/// Far slower than any record, and far from where 1 - exp(-λ t) loses its digits.
+/// Far slower than any motion, and far from where 1 - exp(-λ t) loses its digits.
 constexpr double kSlowest = 1e-6;
 
 template <class T>
@@ -24,6 +24,8 @@ T growth(const EffectContext<T>& c) {
   const T settling = max(T(kSlowest), c.p[1]);
   return max(T(-1.0), T(c.p[0] * (T(1.0) - exp(T(T(-std::max(c.time, 0.0)) * settling))) / settling));
 }
+
+}  // namespace
 
 class FrictionDrift : public EffectOf<FrictionDrift> {
  public:
@@ -33,7 +35,7 @@ class FrictionDrift : public EffectOf<FrictionDrift> {
     return static_cast<unsigned>(EffectStage::motor) | static_cast<unsigned>(EffectStage::joint);
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"rate", "1/s", 0, -0.01, -2, 2, 0}, {"settling_rate", "1/s", 0, 0, 0, 1, 0, false, {0, 0.03, 0.1, 0.3}}};
+    return {{"rate", "1/s", 0, -0.01, -2, 2}, {"settling_rate", "1/s", 0, 0, 0, 1}};
   }
 
   template <class T>
@@ -51,8 +53,6 @@ class FrictionDrift : public EffectOf<FrictionDrift> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<FrictionDrift>();
 
-std::unique_ptr<const Effect> make_friction_drift() { return std::make_unique<FrictionDrift>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

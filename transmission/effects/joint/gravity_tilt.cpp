@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 
 /// The base is not level: gravity is turned about the two base axes a, b (in the order x, y, z) that are most nearly
 /// perpendicular to the model's gravity,
@@ -10,7 +10,7 @@
 ///
 /// A turn about gravity itself changes nothing, which is why there are two angles.
 
-namespace halyard {
+namespace halyard::effects {
 namespace {
 
 /// The base axis along which gravity is strongest: the one that is left out.
@@ -30,6 +30,8 @@ void turn(T* g, int axis, const T& angle) {
   g[k] = s * gj + c * g[k];
 }
 
+}  // namespace
+
 class GravityTilt : public EffectOf<GravityTilt> {
  public:
   std::string name() const override { return "gravity_tilt"; }
@@ -38,8 +40,7 @@ class GravityTilt : public EffectOf<GravityTilt> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int) const override {
     std::vector<EffectParameter> all;
     for (int axis = 0; axis < 3; ++axis)
-      if (axis != vertical_axis(arm))
-        all.push_back({std::string("about_") + "xyz"[axis], "rad", 0, 0.03, -0.5, 0.5, 0});
+      if (axis != vertical_axis(arm)) all.push_back({std::string("about_") + "xyz"[axis], "rad", 0, 0.03, -0.5, 0.5});
     return all;
   }
 
@@ -51,8 +52,6 @@ class GravityTilt : public EffectOf<GravityTilt> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<GravityTilt>();
 
-std::unique_ptr<const Effect> make_gravity_tilt() { return std::make_unique<GravityTilt>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

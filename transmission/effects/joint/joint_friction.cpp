@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
 
@@ -12,8 +12,7 @@
 ///
 /// Source: the paper's Eq. 4; asymmetry as in Armstrong-Helouvry et al., Automatica 30 (1994).
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class JointFriction : public EffectOf<JointFriction> {
  public:
@@ -25,12 +24,10 @@ class JointFriction : public EffectOf<JointFriction> {
     const bool turns = j.type == JointType::revolute;
     const double level = typical_joint_friction(j);
     const double viscous = std::max(j.joint_viscous, 0.02 * level);
-    return {{"coulomb_change", turns ? "N m" : "N", 0, 0.3 * level, -j.joint_coulomb, 30 * level,
-             j.tolerance.friction * j.joint_coulomb, true},
-            {"viscous_change", turns ? "N m s/rad" : "N s/m", 0, 0.3 * viscous, -j.joint_viscous, 300 * viscous,
-             j.tolerance.friction * j.joint_viscous, true},
-            {"asymmetry", "1", 0, 0.1, -1, 1, 0, true},
-            {"viscous_asymmetry", "1", 0, 0.1, -1, 1, 0, true}};
+    return {{"coulomb_change", turns ? "N m" : "N", 0, 0.3 * level, -j.joint_coulomb, 30 * level},
+            {"viscous_change", turns ? "N m s/rad" : "N s/m", 0, 0.3 * viscous, -j.joint_viscous, 300 * viscous},
+            {"asymmetry", "1", 0, 0.1, -1, 1},
+            {"viscous_asymmetry", "1", 0, 0.1, -1, 1}};
   }
 
   template <class T>
@@ -46,8 +43,6 @@ class JointFriction : public EffectOf<JointFriction> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<JointFriction>();
 
-std::unique_ptr<const Effect> make_joint_friction() { return std::make_unique<JointFriction>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 
 /// A point mass m at the tool: the last link's mass, centre of mass and inertia with it.
 ///
@@ -8,8 +8,7 @@
 ///
 /// Source: parallel axis theorem for two bodies.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class Payload : public EffectOf<Payload> {
  public:
@@ -19,7 +18,7 @@ class Payload : public EffectOf<Payload> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int) const override {
     const JointParameters<double>& last = arm.joint[arm.n - 1];
     const double whole = std::max(last.mass, 1e-3);
-    return {{"mass", "kg", 0, 0.1 * whole, -0.9 * whole, 20 * whole, last.tolerance.mass * whole}};
+    return {{"mass", "kg", 0, 0.1 * whole, -0.9 * whole, 20 * whole}};
   }
 
   template <class T>
@@ -41,8 +40,6 @@ class Payload : public EffectOf<Payload> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<Payload>();
 
-std::unique_ptr<const Effect> make_payload() { return std::make_unique<Payload>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

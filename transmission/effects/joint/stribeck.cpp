@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
 
@@ -13,7 +13,7 @@
 /// A joint without a motor has the first two alone.
 /// Source: Armstrong-Hélouvry, Dupont and Canudas de Wit, Automatica 30 (1994), the Gaussian form.
 
-namespace halyard {
+namespace halyard::effects {
 namespace {
 
 template <class T>
@@ -22,10 +22,12 @@ T stribeck(const T& rise, const T& speed, const T& v_s, const T& v) {
   return rise * exp(T(-u * u)) * smooth_sign(v, v_s);
 }
 
-/// Speed scales are looked for from that of the smoothing on, below which nothing can be told.
+/// The fall cannot be seen far below the speed of the smoothing: the bounds follow that.
 EffectParameter speed(const char* name, const char* unit, double v_s) {
-  return {name, unit, 10 * v_s, 10 * v_s, 0.5 * v_s, 300 * v_s, 0, false, {3 * v_s, 10 * v_s, 30 * v_s}};
+  return {name, unit, 10 * v_s, 10 * v_s, 0.5 * v_s, 300 * v_s};
 }
+
+}  // namespace
 
 class Stribeck : public EffectOf<Stribeck> {
  public:
@@ -38,11 +40,11 @@ class Stribeck : public EffectOf<Stribeck> {
     const JointParameters<double>& j = arm.joint[joint];
     const bool turns = j.type == JointType::revolute;
     const double at_joint = typical_joint_friction(j);
-    std::vector<EffectParameter> all = {{"joint_rise", turns ? "N m" : "N", 0, 0.5 * at_joint, 0, 10 * at_joint, 0},
+    std::vector<EffectParameter> all = {{"joint_rise", turns ? "N m" : "N", 0, 0.5 * at_joint, 0, 10 * at_joint},
                                         speed("joint_speed", turns ? "rad/s" : "m/s", j.joint_smoothing)};
     if (j.drive == Drive::none) return all;
     const double at_motor = typical_motor_friction(j);
-    all.push_back({"motor_rise", "N m", 0, 0.5 * at_motor, 0, 10 * at_motor, 0});
+    all.push_back({"motor_rise", "N m", 0, 0.5 * at_motor, 0, 10 * at_motor});
     all.push_back(speed("motor_speed", "rad/s", j.motor_smoothing));
     return all;
   }
@@ -58,8 +60,6 @@ class Stribeck : public EffectOf<Stribeck> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<Stribeck>();
 
-std::unique_ptr<const Effect> make_stribeck() { return std::make_unique<Stribeck>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
 /// Torque that saturates below the command, at a limit that falls with speed where the torque drives the motion:
@@ -13,8 +13,7 @@
 /// means that there is no limit of speed.
 /// Source: the torque-speed line of a motor at constant voltage, and its amplifier's limit of current.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class ActuatorSaturation : public EffectOf<ActuatorSaturation> {
  public:
@@ -26,17 +25,9 @@ class ActuatorSaturation : public EffectOf<ActuatorSaturation> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double level = typical_motor_friction(arm.joint[joint]), no_limit = 1e4;
-    return {{"share", "1", 0, 1, 0, 1, 0, true},
-            {"limit",
-             "N m",
-             4 * level,
-             4 * level,
-             0.1 * level,
-             300 * level,
-             0,
-             false,
-             {level, 2 * level, 4 * level, 8 * level, 16 * level}},
-            {"no_load_speed", "rad/s", no_limit, no_limit, 1, 1e5, 0, true, {50, 200, no_limit}}};
+    return {{"share", "1", 0, 1, 0, 1},
+            {"limit", "N m", 4 * level, 4 * level, 0.1 * level, 300 * level},
+            {"no_load_speed", "rad/s", no_limit, no_limit, 1, 1e5}};
   }
 
   template <class T>
@@ -50,8 +41,6 @@ class ActuatorSaturation : public EffectOf<ActuatorSaturation> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<ActuatorSaturation>();
 
-std::unique_ptr<const Effect> make_actuator_saturation() { return std::make_unique<ActuatorSaturation>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

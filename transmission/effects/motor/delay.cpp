@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 
 /// A time shift, at one joint or at all joints alike:
 ///
@@ -11,8 +11,7 @@
 /// The sensor's is to first order: good while d_s is short against the motion. Without a history of commands the torque
 /// acts at once. A delay stands before what else changes a command's torque: place it first.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class Delay : public EffectOf<Delay> {
  public:
@@ -23,7 +22,7 @@ class Delay : public EffectOf<Delay> {
     return static_cast<unsigned>(EffectStage::command) | static_cast<unsigned>(EffectStage::sensors);
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
-    return {{"command_delay", "s", 0, 0.005, 0, 0.05, 0}, {"sensor_delay", "s", 0, 0.005, -0.05, 0.05, 0}};
+    return {{"command_delay", "s", 0, 0.005, 0, 0.05}, {"sensor_delay", "s", 0, 0.005, -0.05, 0.05}};
   }
 
   template <class T>
@@ -49,8 +48,6 @@ class Delay : public EffectOf<Delay> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<Delay>();
 
-std::unique_ptr<const Effect> make_delay() { return std::make_unique<Delay>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

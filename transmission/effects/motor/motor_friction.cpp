@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
 
@@ -12,8 +12,7 @@
 ///
 /// Source: the paper's Eq. 5; asymmetry as in Armstrong-Helouvry et al., Automatica 30 (1994).
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class MotorFriction : public EffectOf<MotorFriction> {
  public:
@@ -27,12 +26,10 @@ class MotorFriction : public EffectOf<MotorFriction> {
     const JointParameters<double>& j = arm.joint[joint];
     const double level = typical_motor_friction(j);
     const double viscous = std::max(j.motor_viscous, 0.002 * level);
-    return {{"coulomb_change", "N m", 0, 0.3 * level, -j.motor_coulomb, 30 * level,
-             j.tolerance.friction * j.motor_coulomb, true},
-            {"viscous_change", "N m s/rad", 0, 0.3 * viscous, -j.motor_viscous, 30 * viscous,
-             j.tolerance.friction * j.motor_viscous, true},
-            {"asymmetry", "1", 0, 0.1, -1, 1, 0, true},
-            {"viscous_asymmetry", "1", 0, 0.1, -1, 1, 0, true}};
+    return {{"coulomb_change", "N m", 0, 0.3 * level, -j.motor_coulomb, 30 * level},
+            {"viscous_change", "N m s/rad", 0, 0.3 * viscous, -j.motor_viscous, 30 * viscous},
+            {"asymmetry", "1", 0, 0.1, -1, 1},
+            {"viscous_asymmetry", "1", 0, 0.1, -1, 1}};
   }
 
   template <class T>
@@ -48,8 +45,6 @@ class MotorFriction : public EffectOf<MotorFriction> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<MotorFriction>();
 
-std::unique_ptr<const Effect> make_motor_friction() { return std::make_unique<MotorFriction>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

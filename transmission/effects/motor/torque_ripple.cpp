@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
 /// Motor torque that is periodic in the motor's angle (cogging, commutation):
@@ -12,8 +12,7 @@
 /// Source: Holtz and Springob, "Identification and compensation of torque ripple in high-precision permanent magnet
 /// motor drives", IEEE Trans. Ind. Electron. 43 (1996).
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class TorqueRipple : public EffectOf<TorqueRipple> {
  public:
@@ -25,29 +24,18 @@ class TorqueRipple : public EffectOf<TorqueRipple> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double level = typical_motor_friction(arm.joint[joint]);
-    // Pole pairs, slots and commutator bars, and what they have in common.
-    std::vector<double> orders;
-    for (int n = 1; n <= 24; ++n) orders.push_back(n);
-    for (const int n : {28, 30, 32, 36, 42, 48}) orders.push_back(n);
-    return {{"cosine", "N m", 0, 0.2 * level, -30 * level, 30 * level, 0},
-            {"sine", "N m", 0, 0.2 * level, -30 * level, 30 * level, 0},
-            {"order", "1", 12, 12, 0.5, 100, 0, false, orders}};
+    return {{"cosine", "N m", 0, 0.2 * level, -30 * level, 30 * level},
+            {"sine", "N m", 0, 0.2 * level, -30 * level, 30 * level},
+            {"order", "1", 12, 12, 0.5, 100}};
   }
 
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
     const T phase = c.p[2] * s[c.joint].motor_angle;
-    T ripple = c.p[0] * cos(phase) + c.p[1] * sin(phase);
-    if (c.band > 0) {
-      const T turned = c.p[2] * s[c.joint].motor_rate * c.band;
-      ripple *= exp(T(-0.5 * turned * turned));
-    }
-    s[c.joint].motor_torque += ripple;
+    s[c.joint].motor_torque += c.p[0] * cos(phase) + c.p[1] * sin(phase);
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<TorqueRipple>();
 
-std::unique_ptr<const Effect> make_torque_ripple() { return std::make_unique<TorqueRipple>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

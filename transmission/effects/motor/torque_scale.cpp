@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
 /// Another torque constant of motor and amplifier, or a bias:
@@ -10,8 +10,7 @@
 /// Source: a motor turns current into torque by its constant, which magnets and gains move; a current sensor's zero is
 /// the bias.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class TorqueScale : public EffectOf<TorqueScale> {
  public:
@@ -22,7 +21,7 @@ class TorqueScale : public EffectOf<TorqueScale> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const double level = typical_motor_friction(arm.joint[joint]);
-    return {{"scale", "1", 1, 1.05, 0.2, 5, 0}, {"bias", "N m", 0, 0.3 * level, -30 * level, 30 * level, 0}};
+    return {{"scale", "1", 1, 1.05, 0.2, 5}, {"bias", "N m", 0, 0.3 * level, -30 * level, 30 * level}};
   }
 
   template <class T>
@@ -32,8 +31,6 @@ class TorqueScale : public EffectOf<TorqueScale> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<TorqueScale>();
 
-std::unique_ptr<const Effect> make_torque_scale() { return std::make_unique<TorqueScale>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

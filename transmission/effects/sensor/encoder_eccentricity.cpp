@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 
 /// A joint sensor's error that is periodic in the joint's position:
 ///
@@ -10,8 +10,7 @@
 /// Source: a disc whose centre is off its axis by e reads wrong by e / R once a turn; two reading heads, interpolation
 /// errors and the scale of a linear encoder give higher orders.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class EncoderEccentricity : public EffectOf<EncoderEccentricity> {
  public:
@@ -20,12 +19,11 @@ class EncoderEccentricity : public EffectOf<EncoderEccentricity> {
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::sensors); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     if (arm.joint[joint].type == JointType::revolute)
-      return {{"cosine", "rad", 0, 2e-3, -0.2, 0.2, 0},
-              {"sine", "rad", 0, 2e-3, -0.2, 0.2, 0},
-              {"order", "1", 1, 1, 0.5, 64, 0, false, {1, 2, 3, 4, 6, 8, 12, 16}}};
-    return {{"cosine", "m", 0, 2e-4, -0.02, 0.02, 0},
-            {"sine", "m", 0, 2e-4, -0.02, 0.02, 0},
-            {"wave_number", "rad/m", 200, 200, 5, 5000, 0, false, {20, 43, 93, 200, 430, 930, 2000}}};
+      return {
+          {"cosine", "rad", 0, 2e-3, -0.2, 0.2}, {"sine", "rad", 0, 2e-3, -0.2, 0.2}, {"order", "1", 1, 1, 0.5, 64}};
+    return {{"cosine", "m", 0, 2e-4, -0.02, 0.02},
+            {"sine", "m", 0, 2e-4, -0.02, 0.02},
+            {"wave_number", "rad/m", 200, 200, 5, 5000}};
   }
 
   template <class T>
@@ -35,8 +33,6 @@ class EncoderEccentricity : public EffectOf<EncoderEccentricity> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<EncoderEccentricity>();
 
-std::unique_ptr<const Effect> make_encoder_eccentricity() { return std::make_unique<EncoderEccentricity>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

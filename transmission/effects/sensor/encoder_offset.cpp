@@ -1,4 +1,4 @@
-#include "transmission/effects/library.h"
+#include "transmission/effects/built_in.h"
 
 /// A zero error of the motor's encoder against its joint, as homing leaves it, told in joint units:
 ///
@@ -9,8 +9,7 @@
 /// The joint's sensor is taken as the reference; an error of its own zero is the same thing seen
 /// from the other side. Where one of the two zeros is unknown anyway the effect has no meaning.
 
-namespace halyard {
-namespace {
+namespace halyard::effects {
 
 class EncoderOffset : public EffectOf<EncoderOffset> {
  public:
@@ -23,7 +22,7 @@ class EncoderOffset : public EffectOf<EncoderOffset> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
     const bool turns = arm.joint[joint].type == JointType::revolute;
     const double reach = turns ? 0.5 : 0.05;
-    return {{"offset", turns ? "rad" : "m", 0, 0.01 * reach, -reach, reach, 0}};
+    return {{"offset", turns ? "rad" : "m", 0, 0.01 * reach, -reach, reach}};
   }
 
   template <class T>
@@ -33,8 +32,6 @@ class EncoderOffset : public EffectOf<EncoderOffset> {
   }
 };
 
-}  // namespace
+template std::unique_ptr<const Effect> make_effect<EncoderOffset>();
 
-std::unique_ptr<const Effect> make_encoder_offset() { return std::make_unique<EncoderOffset>(); }
-
-}  // namespace halyard
+}  // namespace halyard::effects

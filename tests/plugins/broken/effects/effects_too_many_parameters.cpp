@@ -3,7 +3,7 @@
 class Greedy : public Spring {
  public:
   std::vector<halyard::EffectParameter> parameters(const halyard::ArmParameters<double>&, int) const override {
-    return std::vector<halyard::EffectParameter>(halyard::kMaxEffectParameters + 1, {"p", "1", 0, 1, 0, 2, 0});
+    return std::vector<halyard::EffectParameter>(halyard::kMaxEffectParameters + 1, {"p", "1", 0, 1, 0, 2});
   }
 };
 

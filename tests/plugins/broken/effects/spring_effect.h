@@ -7,7 +7,7 @@ class Spring : public halyard::EffectOf<Spring> {
   std::string summary() const override { return "a spring at the joint"; }
   unsigned stages() const override { return static_cast<unsigned>(halyard::EffectStage::joint); }
   std::vector<halyard::EffectParameter> parameters(const halyard::ArmParameters<double>&, int) const override {
-    return {{"stiffness", "N m/rad", 0, 1, 0, 100, 0}};
+    return {{"stiffness", "N m/rad", 0, 1, 0, 100}};
   }
   template <class T>
   void on_joint(const halyard::EffectContext<T>& c, halyard::JointSignals<T>* s) const {

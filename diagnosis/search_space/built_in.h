@@ -1,0 +1,21 @@
+#pragma once
+/// The search spaces of the library's effects, where bounds and neutral values do not tell enough; a file for each
+/// folder of transmission/effects.
+
+#include <span>
+
+#include "diagnosis/search_space.h"
+
+namespace halyard {
+
+struct BuiltInSpace {
+  const char* effect;
+  void (*refine)(SearchSpace& space, const ArmParameters<double>& arm, int joint);
+};
+
+std::span<const BuiltInSpace> cable_spaces();
+std::span<const BuiltInSpace> joint_spaces();
+std::span<const BuiltInSpace> motor_spaces();
+std::span<const BuiltInSpace> sensor_spaces();
+
+}  // namespace halyard

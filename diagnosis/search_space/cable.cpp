@@ -1,0 +1,52 @@
+#include <cmath>
+
+#include "diagnosis/search_space/built_in.h"
+#include "transmission/effects/typical_size.h"
+
+namespace halyard {
+namespace {
+
+using Arm = ArmParameters<double>;
+
+void cable_slip(SearchSpace& space, const Arm&, int) { space["time"].range = SearchRange::record_time; }
+
+void capstan_ratio(SearchSpace& space, const Arm&, int joint) {
+  space["ratio"].changes = {&Tolerances::length, joint, 1};
+}
+
+void coupling(SearchSpace& space, const Arm& arm, int joint) {
+  for (int i = 0; i < joint; ++i)
+    space.parameters[i].changes = {&Tolerances::coupling, joint, std::abs(arm.joint[joint].coupling[i])};
+}
+
+void creep(SearchSpace& space, const Arm&, int) { space["time_constant"].starts = {0.3, 1, 3, 10, 30}; }
+
+void hysteresis(SearchSpace& space, const Arm& arm, int joint) {
+  const double stretch = typical_stretch(arm.joint[joint]);
+  space["yield_stretch"].starts = {0.003 * stretch, 0.01 * stretch, 0.03 * stretch, 0.1 * stretch, 0.3 * stretch};
+}
+
+void pulley_friction(SearchSpace& space, const Arm&, int) { space["motor_share"].natural_bounds = true; }
+
+void slack(SearchSpace& space, const Arm& arm, int joint) {
+  space["share"].natural_bounds = true;
+  const double tension = arm.joint[joint].stiffness * typical_stretch(arm.joint[joint]);
+  space["tension"].starts = {0.05 * tension, 0.15 * tension, 0.5 * tension, tension};
+}
+
+void stiffness(SearchSpace& space, const Arm&, int joint) {
+  for (const char* ratio : {"stiffness_ratio", "damping_ratio"})
+    space[ratio].changes = {&Tolerances::stiffness, joint, 1};
+}
+
+}  // namespace
+
+std::span<const BuiltInSpace> cable_spaces() {
+  static constexpr BuiltInSpace kSpaces[] = {{"cable_slip", cable_slip}, {"capstan_ratio", capstan_ratio},
+                                             {"coupling", coupling},     {"creep", creep},
+                                             {"hysteresis", hysteresis}, {"pulley_friction", pulley_friction},
+                                             {"slack", slack},           {"stiffness", stiffness}};
+  return kSpaces;
+}
+
+}  // namespace halyard

@@ -1,0 +1,46 @@
+#include <algorithm>
+
+#include "diagnosis/search_space/built_in.h"
+
+namespace halyard {
+namespace {
+
+using Arm = ArmParameters<double>;
+
+void external_force(SearchSpace& space, const Arm&, int) {
+  space["start"].range = space["stop"].range = SearchRange::record_time;
+  space["contact_position"].range = SearchRange::joint_position;
+}
+
+void friction_drift(SearchSpace& space, const Arm&, int) { space["settling_rate"].starts = {0, 0.03, 0.1, 0.3}; }
+
+void joint_friction(SearchSpace& space, const Arm& arm, int joint) {
+  for (ParameterSearch& p : space.parameters) p.natural_bounds = true;
+  space["coulomb_change"].changes = {&Tolerances::friction, joint, arm.joint[joint].joint_coulomb};
+  space["viscous_change"].changes = {&Tolerances::friction, joint, arm.joint[joint].joint_viscous};
+}
+
+void payload(SearchSpace& space, const Arm& arm, int) {
+  const int last = arm.n - 1;
+  space["mass"].changes = {&Tolerances::mass, last, std::max(arm.joint[last].mass, 1e-3)};
+}
+
+void stribeck(SearchSpace& space, const Arm& arm, int joint) {
+  const auto from_smoothing = [](double v_s) { return std::vector<double>{3 * v_s, 10 * v_s, 30 * v_s}; };
+  space["joint_speed"].starts = from_smoothing(arm.joint[joint].joint_smoothing);
+  if (arm.joint[joint].drive != Drive::none)
+    space["motor_speed"].starts = from_smoothing(arm.joint[joint].motor_smoothing);
+}
+
+}  // namespace
+
+std::span<const BuiltInSpace> joint_spaces() {
+  static constexpr BuiltInSpace kSpaces[] = {{"external_force", external_force},
+                                             {"friction_drift", friction_drift},
+                                             {"joint_friction", joint_friction},
+                                             {"payload", payload},
+                                             {"stribeck", stribeck}};
+  return kSpaces;
+}
+
+}  // namespace halyard

@@ -1,0 +1,39 @@
+#include "diagnosis/search_space/built_in.h"
+#include "transmission/effects/typical_size.h"
+
+namespace halyard {
+namespace {
+
+using Arm = ArmParameters<double>;
+
+void actuator_saturation(SearchSpace& space, const Arm& arm, int joint) {
+  const double level = typical_motor_friction(arm.joint[joint]), no_limit = 1e4;
+  space["share"].natural_bounds = space["no_load_speed"].natural_bounds = true;
+  space["limit"].starts = {level, 2 * level, 4 * level, 8 * level, 16 * level};
+  space["no_load_speed"].starts = {50, 200, no_limit};
+}
+
+void motor_friction(SearchSpace& space, const Arm& arm, int joint) {
+  for (ParameterSearch& p : space.parameters) p.natural_bounds = true;
+  space["coulomb_change"].changes = {&Tolerances::friction, joint, arm.joint[joint].motor_coulomb};
+  space["viscous_change"].changes = {&Tolerances::friction, joint, arm.joint[joint].motor_viscous};
+}
+
+void torque_ripple(SearchSpace& space, const Arm&, int) {
+  // Pole pairs, slots and commutator bars, and what they have in common.
+  std::vector<double>& orders = space["order"].starts;
+  for (int n = 1; n <= 24; ++n) orders.push_back(n);
+  for (const int n : {28, 30, 32, 36, 42, 48}) orders.push_back(n);
+  space.order_of_motor_torque = 2;
+}
+
+}  // namespace
+
+std::span<const BuiltInSpace> motor_spaces() {
+  static constexpr BuiltInSpace kSpaces[] = {{"actuator_saturation", actuator_saturation},
+                                             {"motor_friction", motor_friction},
+                                             {"torque_ripple", torque_ripple}};
+  return kSpaces;
+}
+
+}  // namespace halyard

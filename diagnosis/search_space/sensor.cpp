@@ -1,0 +1,18 @@
+#include "diagnosis/search_space/built_in.h"
+
+namespace halyard {
+namespace {
+
+void encoder_eccentricity(SearchSpace& space, const ArmParameters<double>& arm, int joint) {
+  if (arm.joint[joint].type == JointType::revolute) space["order"].starts = {1, 2, 3, 4, 6, 8, 12, 16};
+  else space["wave_number"].starts = {20, 43, 93, 200, 430, 930, 2000};
+}
+
+}  // namespace
+
+std::span<const BuiltInSpace> sensor_spaces() {
+  static constexpr BuiltInSpace kSpaces[] = {{"encoder_eccentricity", encoder_eccentricity}};
+  return kSpaces;
+}
+
+}  // namespace halyard
