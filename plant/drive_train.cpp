@@ -13,7 +13,7 @@ PlantLayout make_layout(const Transmission<double>& transmission) {
   PlantLayout l;
   l.n = transmission.arm().n;
   for (int k = 0; k < kMaxJoints; ++k) {
-    l.motor_angle[k] = l.motor_rate[k] = -1;
+    l.motor_angle[k] = l.motor_rate[k] = PlantLayout::kNone;
     if (k >= l.n || transmission.arm().joint[k].drive != Drive::cable) continue;
     if (!(transmission.arm().joint[k].rotor_inertia > 0))
       throw std::invalid_argument("joint " + std::to_string(k + 1) +

@@ -23,7 +23,8 @@ namespace halyard {
 /// Room for z of one plant.
 inline constexpr int kMaxAuxiliaryStates = 80;
 
-/// Where things stand in the plant's state y = [q, q', z]; indices count from the start of z, -1: not there.
+/// Where things stand in the plant's state y = [q, q', z]; indices count from the start of z. Motors have states of
+/// their own where they drive cables.
 struct PlantLayout {
   int n = 0;  ///< joints
   int motor_angle[kMaxJoints];
@@ -33,6 +34,8 @@ struct PlantLayout {
   int input_energy = 0, lost_energy = 0;
   int n_z = 0;
   int size() const { return 2 * n + n_z; }
+  bool has_motor_states(int k) const { return motor_angle[k] != kNone; }
+  static constexpr int kNone = -1;
 };
 
 /// Which of the drive's forces and rates are meant.

@@ -45,11 +45,11 @@ Data simulated_data(const CompareCommandOptions& options) {
     throw InputError(model.string() +
                      ": its joints are not those of the scenario's robot; give a model with as many "
                      "joints, of the same types and driven alike");
-  if (options.noise >= 0) {
+  if (options.noise) {
     scenario.noise = assumed_noise(data.model, scenario.control_period_s);
     for (std::vector<double>* deviations :
          {&scenario.noise.motor_torque, &scenario.noise.joint_force, &scenario.noise.motor_reading})
-      for (double& x : *deviations) x *= options.noise;
+      for (double& x : *deviations) x *= *options.noise;
     scenario.quantise = false;
   }
   Progress progress("simulate", scenario.duration_s, "s");
@@ -66,7 +66,7 @@ Data logged_data(const CompareCommandOptions& options) {
   if (options.model.empty()) {
     throw InputError("halyard compare: --model is missing; a log needs the model file of its robot, --model M.xml");
   }
-  if (options.runs > 1 || options.noise >= 0 || !options.robot.empty()) {
+  if (options.runs > 1 || options.noise || !options.robot.empty()) {
     throw InputError("halyard compare: --robot, --runs and --noise are for scenarios, and " +
                      in_quotes(options.data.string()) + " is a log; leave them out");
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,9 @@ struct CompareCommandOptions {
   std::vector<std::string> columns;  ///< entries of --column
   bool use_joint_torque = false;
   double skip_s = 0.5;
-  double step_limit_s = 10;  ///< of an estimator's step
-  int runs = 1;              ///< of a scenario: seeds that are simulated
-  double noise = -1;         ///< of what the filters assume; < 0: the scenario's own
+  double step_limit_s = 10;     ///< of an estimator's step
+  int runs = 1;                 ///< of a scenario: seeds that are simulated
+  std::optional<double> noise;  ///< in multiples of what the filters assume; none: the scenario's own
 };
 
 /// halyard compare: estimators head-to-head on a simulated scenario, against its truth, or on a log, against its joint

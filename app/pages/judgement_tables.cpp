@@ -86,7 +86,7 @@ report::Table runs_error_table(const MonteCarlo& runs, const std::vector<JointUn
   report::Table table = table_of(
       fmt::format(
           "{} runs with seeds of their own{}", runs.runs,
-          runs.noise < 0 ? "" : fmt::format(", disturbed by {:g} times the noise that filters assume", runs.noise)),
+          runs.noise ? fmt::format(", disturbed by {:g} times the noise that filters assume", *runs.noise) : ""),
       {"joint", "estimator", "unit", "RMS", "95 % of the runs", "peak", "failures", "RMS over that of kinematics"}, 3);
   table.align.back() = report::Align::left;
   for (std::size_t k = 0; k < units.size(); ++k)
@@ -148,7 +148,7 @@ ordered_json to_json(const MonteCarlo& runs) {
                           {"joints", joints}});
   }
   return {{"runs", runs.runs},
-          {"noise", runs.noise < 0 ? ordered_json(nullptr) : ordered_json(runs.noise)},
+          {"noise", runs.noise ? ordered_json(*runs.noise) : ordered_json(nullptr)},
           {"estimators", estimators}};
 }
 

@@ -183,11 +183,11 @@ std::vector<TrueEffect> truth_of(const Recording& recording, const ArmModel& mod
   const StrengthMeter meter(training_part(recording.training, !recording.holdout), model);
   for (const Hidden& h : recording.hidden) {
     const std::string acts = h.acts.effect->name();
-    truth.push_back({{h.right_name, h.acts.joint + 1},
-                     acts == h.right_name ? "" : acts,
-                     relative_size(h.acts, model),
-                     meter.strength(h.acts),
-                     true_parameters(h.acts, model)});
+    truth.push_back({.place = {h.right_name, h.acts.joint + 1},
+                     .form = acts == h.right_name ? "" : acts,
+                     .size = relative_size(h.acts, model),
+                     .strength = meter.strength(h.acts),
+                     .parameters = true_parameters(h.acts, model)});
   }
   return truth;
 }

@@ -32,8 +32,8 @@ const UnknownOffset& unknown_offset() {
 /// The joints stand where the offsets let them: those are settled.
 ArmFilterOptions with_offsets(ArmFilterOptions options, const ProcessModel& process, const Eigen::VectorXd& wander) {
   options = with_wander(std::move(options), unknown_offset(), process, wander);
-  for (const int state : states_of(unknown_offset(), process))
-    if (state >= 0) options.settled.push_back(state - process.layout().effect_states);
+  for (const std::optional<int>& state : states_of(unknown_offset(), process))
+    if (state) options.settled.push_back(*state - process.layout().effect_states);
   return options;
 }
 
@@ -136,12 +136,12 @@ void CameraFilter::take_marker(const Sample& sample) {
 
 Estimate CameraFilter::estimate() const {
   Estimate e = filter_.estimate();
-  const std::vector<int> states = states_of(unknown_offset(), *process_);
+  const std::vector<std::optional<int>> states = states_of(unknown_offset(), *process_);
   e.extra_outputs.setConstant(process_->n_joints(), 2, kNan);
   for (int k = 0; k < process_->n_joints(); ++k) {
-    if (states[k] < 0) continue;
-    e.extra_outputs(k, 0) = filter_.filter().x()(states[k]);
-    e.extra_outputs(k, 1) = filter_.filter().S().row(states[k]).norm();
+    if (!states[k]) continue;
+    e.extra_outputs(k, 0) = filter_.filter().x()(*states[k]);
+    e.extra_outputs(k, 1) = filter_.filter().S().row(*states[k]).norm();
   }
   return e;
 }

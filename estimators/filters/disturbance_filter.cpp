@@ -82,11 +82,11 @@ Estimate DisturbanceFilter::estimate() const {
 
   Estimate e = filter_.estimate();
   e.extra_outputs.setConstant(n, 3, kNan);
-  const std::vector<int> states = states_of(unknown_force(), *process_);
+  const std::vector<std::optional<int>> states = states_of(unknown_force(), *process_);
   for (int k = 0; k < n; ++k) {
-    if (states[k] >= 0) {
-      e.extra_outputs(k, 0) = x(states[k]);
-      e.extra_outputs(k, 1) = filter_.filter().S().row(states[k]).norm();
+    if (states[k]) {
+      e.extra_outputs(k, 0) = x(*states[k]);
+      e.extra_outputs(k, 1) = filter_.filter().S().row(*states[k]).norm();
     }
     if (process_->arm().joint[k].drive == Drive::cable) e.extra_outputs(k, 2) = s[k].cable_force_joint;
   }

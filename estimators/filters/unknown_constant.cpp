@@ -12,8 +12,8 @@ UnknownLevels read_unknown_levels(OptionReader& options, const std::string& name
   return levels;
 }
 
-std::vector<int> states_of(const Effect& constant, const ProcessModel& process) {
-  std::vector<int> states(process.n_joints(), -1);
+std::vector<std::optional<int>> states_of(const Effect& constant, const ProcessModel& process) {
+  std::vector<std::optional<int>> states(process.n_joints());
   int next = process.layout().effect_states;
   for (const auto& e : process.transmission().effects()) {
     if (e.effect == &constant) states[e.joint] = next;
@@ -24,9 +24,9 @@ std::vector<int> states_of(const Effect& constant, const ProcessModel& process) 
 
 ArmFilterOptions with_wander(ArmFilterOptions options, const Effect& constant, const ProcessModel& process,
                              const Eigen::VectorXd& wander) {
-  const std::vector<int> states = states_of(constant, process);
+  const std::vector<std::optional<int>> states = states_of(constant, process);
   for (int k = 0; k < process.n_joints(); ++k)
-    if (states[k] >= 0) options.noise.wander(states[k] - process.layout().effect_states) = wander(k);
+    if (states[k]) options.noise.wander(*states[k] - process.layout().effect_states) = wander(k);
   return options;
 }
 

@@ -9,6 +9,7 @@
 ///
 /// It is an effect of the model like others, but in no library: nothing but a filter can use it. Its parameter is σ.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,8 @@ struct UnknownLevels {
 /// `usual`, overridden by the options NAME_start and NAME_wander (per joint).
 UnknownLevels read_unknown_levels(OptionReader& options, const std::string& name, const UnknownLevels& usual);
 
-/// Index of the constant in the state, [n]; -1: the joint has none.
-std::vector<int> states_of(const Effect& constant, const ProcessModel& process);
+/// Index of the constant in the state, [n]; none of a joint without it.
+std::vector<std::optional<int>> states_of(const Effect& constant, const ProcessModel& process);
 
 /// The options with the constant's ρ in the noise.
 ArmFilterOptions with_wander(ArmFilterOptions options, const Effect& constant, const ProcessModel& process,

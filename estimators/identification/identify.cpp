@@ -31,12 +31,12 @@ constexpr double kMatters = 0.1;         // of a tolerance: a drift by less is n
 
 Weight weight_of(const ArmModel& model, const ParameterInfo& info) {
   const bool coupling = info.key.find(".coupling.") != info.key.npos;
-  if (!coupling) return {info.key, *info.value, kSpread, true};
+  if (!coupling) return {.key = info.key, .nominal = *info.value, .scale = kSpread, .logarithmic = true};
   const JointParameters<double>& j = model.nominal.joint[info.joint];
   const int inboard = std::stoi(info.key.substr(info.key.rfind("joint") + 5)) - 1;
   const double routing = model.nominal.joint[inboard].type == JointType::revolute ? kRoutingRadius : 1;
   const double size = *info.value != 0 ? std::abs(*info.value) : routing / std::abs(j.pulley_radius);
-  return {info.key, *info.value, kCouplingSpread * size, false};
+  return {.key = info.key, .nominal = *info.value, .scale = kCouplingSpread * size};
 }
 
 /// What the first second of a log tells of a zero hangs on the couplings.
@@ -46,8 +46,9 @@ std::vector<Weight> unknown_zeros(const ArmModel& model) {
     const JointParameters<double>& j = model.nominal.joint[k];
     if (j.drive == Drive::none || (j.motor_zero_known && j.joint_zero_known)) continue;
     const double spread = j.type == JointType::revolute ? kZeroSpread : kZeroSpreadLength;
-    zeros.push_back({"joint" + std::to_string(k + 1) + ".motor.zero", j.motor_encoder_offset,
-                     spread * std::abs(j.pulley_radius) / j.motor_travel(), false});
+    zeros.push_back({.key = "joint" + std::to_string(k + 1) + ".motor.zero",
+                     .nominal = j.motor_encoder_offset,
+                     .scale = spread * std::abs(j.pulley_radius) / j.motor_travel()});
   }
   return zeros;
 }
@@ -61,7 +62,7 @@ std::vector<Weight> other_numbers(const ArmModel& model, const std::vector<std::
     if (info.key.ends_with(".gear_ratio") || info.key.ends_with(".pulley_radius")) continue;
     if (std::ranges::find(keys, info.key) != keys.end() || !is_in_equations(model, info)) continue;
     const double reach = model.tolerance(info) * std::abs(*info.value);
-    if (reach > 0) others.push_back({info.key, *info.value, reach / 2, false});
+    if (reach > 0) others.push_back({.key = info.key, .nominal = *info.value, .scale = reach / 2});
   }
   return others;
 }

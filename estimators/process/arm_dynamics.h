@@ -16,13 +16,16 @@ namespace halyard {
 
 inline constexpr int kMaxStates = 64;
 
-/// Where a joint's quantities stand in the state; -1: not there.
+/// Where a joint's quantities stand in the state. Motors have states of their own where they drive cables.
 struct StateLayout {
   int n_joints = 0;
   int n_effect_states = 0;
   int motor_angle[kMaxJoints], motor_rate[kMaxJoints], position[kMaxJoints], rate[kMaxJoints];
   int effect_states = 0;  ///< index of the first internal state
   int size = 0;
+
+  bool has_motor_states(int k) const { return motor_angle[k] != kNone; }
+  static constexpr int kNone = -1;
 };
 
 template <class T>
@@ -32,7 +35,7 @@ StateLayout state_layout(const Transmission<T>& transmission) {
   l.n_effect_states = transmission.n_states();
   int next = 0;
   for (int k = 0; k < kMaxJoints; ++k) {
-    l.motor_angle[k] = l.motor_rate[k] = l.position[k] = l.rate[k] = -1;
+    l.motor_angle[k] = l.motor_rate[k] = l.position[k] = l.rate[k] = StateLayout::kNone;
     if (k >= l.n_joints) continue;
     if (transmission.arm().joint[k].drive == Drive::cable) {
       l.motor_angle[k] = next++;

@@ -216,7 +216,7 @@ Eigen::VectorXd ProcessModel::state_at_rest(const Eigen::VectorXd& motor_angle,
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n_states());
   for (int k = 0; k < n_joints(); ++k) {
     x(layout_.position[k]) = joint_position(k);
-    if (layout_.motor_angle[k] >= 0) x(layout_.motor_angle[k]) = motor_angle(k);
+    if (layout_.has_motor_states(k)) x(layout_.motor_angle[k]) = motor_angle(k);
   }
   return x;
 }

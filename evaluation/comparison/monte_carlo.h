@@ -2,6 +2,7 @@
 /// The same comparison over many seeds.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,9 @@ struct RunsOfEstimator {
 
 struct MonteCarlo {
   int runs = 0;
-  /// Times what the filters assume, which the scenario was disturbed by; < 0: by its own. The caller's to fill.
-  double noise = -1;
+  /// The noise that the scenario was disturbed by, in multiples of what the filters assume; none: the scenario's own.
+  /// The caller's to fill.
+  std::optional<double> noise;
   std::vector<RunsOfEstimator> estimators;
 };
 

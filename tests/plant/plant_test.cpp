@@ -46,7 +46,7 @@ Eigen::VectorXd random_state(const ArmPlant& plant, std::mt19937_64& random) {
   y(2) = 0.4 + 0.1 * y(2);
   cable_path(arm, y.data(), path.data());
   for (int k = 0; k < l.n; ++k) {  // a millimetre of stretch, motors at speed
-    if (l.motor_angle[k] < 0) continue;
+    if (!l.has_motor_states(k)) continue;
     y(2 * l.n + l.motor_angle[k]) = (path(k) + 1e-3 * unit(random)) / arm.joint[k].motor_travel();
     y(2 * l.n + l.motor_rate[k]) = 30 * unit(random);
   }
@@ -113,7 +113,7 @@ void expect_process_model(const ArmParameters<double>& arm, const std::vector<Pl
     for (int k = 0; k < l.n; ++k) {
       x(to.position[k]) = y(k);
       x(to.rate[k]) = y(l.n + k);
-      if (l.motor_angle[k] < 0) continue;
+      if (!l.has_motor_states(k)) continue;
       x(to.motor_angle[k]) = y(2 * l.n + l.motor_angle[k]);
       x(to.motor_rate[k]) = y(2 * l.n + l.motor_rate[k]);
     }
@@ -125,7 +125,7 @@ void expect_process_model(const ArmParameters<double>& arm, const std::vector<Pl
     for (int k = 0; k < l.n; ++k) {
       EXPECT_NEAR(y_dot(k), x_dot(to.position[k]), tolerance);
       EXPECT_NEAR(y_dot(l.n + k), x_dot(to.rate[k]), tolerance);
-      if (l.motor_angle[k] < 0) continue;
+      if (!l.has_motor_states(k)) continue;
       EXPECT_NEAR(y_dot(2 * l.n + l.motor_angle[k]), x_dot(to.motor_angle[k]), tolerance);
       EXPECT_NEAR(y_dot(2 * l.n + l.motor_rate[k]), x_dot(to.motor_rate[k]), tolerance);
     }

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <limits>
 
@@ -14,24 +13,8 @@ namespace halyard {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kStep = 1e-5;  // of central differences
 constexpr CableLaw kLaws[] = {CableLaw::paper, CableLaw::exponential, CableLaw::linear};
-
-/// Joint 2 of the RAVEN-II.
-JointParameters<double> cable(CableLaw law) {
-  JointParameters<double> j;
-  j.law = law;
-  j.stiffness = 88e3;
-  j.damping = 1380;
-  j.tension = 43.1;
-  return j;
-}
-
-JointParameters<Dual> dual_cable(CableLaw law) {
-  ArmParameters<double> arm;
-  arm.n = 1;
-  arm.joint[0] = cable(law);
-  return lift<Dual>(arm).joint[0];
-}
 
 /// All effects of the library at all places of the arm, and none.
 std::vector<PlacedEffect> every_effect(const ArmParameters<double>& arm) {
@@ -44,92 +27,6 @@ std::vector<PlacedEffect> every_effect(const ArmParameters<double>& arm) {
 std::string name_of(const PlacedEffect& e) {
   return e.effect ? e.effect->name() + " at joint " + std::to_string(e.joint + 1) : "no effect";
 }
-
-// ------------------------------------------------------------------------------------ cable laws
-
-TEST(CableLaw, HasTheSlopeOfBothRunsAtRestAndTwiceTheirDamping) {
-  for (const CableLaw law : kLaws) {
-    const JointParameters<Dual> j = dual_cable(law);
-    const Dual g = cable_force(j, Dual::seed(0, 0), Dual::seed(0, 1));
-    // Two products, a quotient and a sum.
-    EXPECT_NEAR(g.d[0], 2 * 88e3, 4 * kEps * 2 * 88e3);
-    EXPECT_NEAR(g.d[1], 2 * 1380, 4 * kEps * 2 * 1380);
-    EXPECT_EQ(g.a, 0);
-  }
-}
-
-TEST(CableLaw, IsOdd) {
-  for (const CableLaw law : kLaws) {
-    const JointParameters<double> j = cable(law);
-    for (const double x : {1e-5, 2e-4, 1e-3})
-      for (const double rate : {-0.05, 0.0, 0.01}) EXPECT_EQ(cable_force(j, -x, -rate), -cable_force(j, x, rate));
-  }
-}
-
-TEST(CableLaw, RunsPullApartByTheForceDifference) {
-  for (const CableLaw law : kLaws) {
-    const JointParameters<double> j = cable(law);
-    for (const double x : {-3e-3, -1e-4, 0.0, 2e-4, 1e-3}) {
-      const RunTensions<double> t = run_tensions(j, x, 0.01);
-      const double g = cable_force(j, x, 0.01);
-      EXPECT_NEAR(t.forward - t.backward, g, 4 * kEps * std::max(std::abs(g), 2 * j.tension));
-    }
-  }
-}
-
-TEST(CableLaw, LinearCableGoesSlackWhereTheRestTensionIsUsedUp) {
-  const JointParameters<double> j = cable(CableLaw::linear);
-  const double slack = j.tension / j.stiffness;
-  EXPECT_GT(run_tensions(j, 0.99 * slack, 0.0).backward, 0);
-  EXPECT_EQ(run_tensions(j, 1.01 * slack, 0.0).backward, 0);
-  EXPECT_EQ(run_tensions(j, -1.01 * slack, 0.0).forward, 0);
-  // One run carries on alone: half the slope.
-  const double beyond = cable_force(j, 3 * slack, 0.0) - cable_force(j, 2 * slack, 0.0);
-  EXPECT_NEAR(beyond, j.stiffness * slack, 8 * kEps * 4 * j.tension);
-}
-
-TEST(CableLaw, NoRunOfAnExponentialOrLinearCablePushesHoweverFastItIsLetGo) {
-  for (const CableLaw law : {CableLaw::exponential, CableLaw::linear})
-    for (const double x : {-1e-3, 0.0, 1e-3})
-      for (const double rate : {-10.0, 10.0}) {
-        const RunTensions<double> t = run_tensions(cable(law), x, rate);
-        EXPECT_GE(t.forward, 0);
-        EXPECT_GE(t.backward, 0);
-      }
-}
-
-TEST(CableLaw, PaperLawCarriesNoTensionAndNeverGoesSlack) {
-  JointParameters<double> j = cable(CableLaw::paper);
-  const double g = cable_force(j, 2e-3, 0.0);
-  EXPECT_LT(run_tensions(j, 2e-3, 0.0).backward, 0);
-  j.tension = 0;
-  EXPECT_EQ(cable_force(j, 2e-3, 0.0), g);
-}
-
-TEST(CableLaw, ExponentialCableStaysFiniteAtStretchesThatNoCableSurvives) {
-  const JointParameters<double> j = cable(CableLaw::exponential);
-  EXPECT_TRUE(std::isfinite(cable_force(j, 1e3, 0.0)));
-  EXPECT_EQ(cable_force(j, 1e3, 0.0), cable_force(j, 30 * j.tension / j.stiffness, 0.0));
-}
-
-TEST(CableLaw, StoredEnergyIsTheIntegralOfTheForce) {
-  for (const CableLaw law : kLaws) {
-    const JointParameters<double> j = cable(law);
-    const double slack = j.tension / j.stiffness;  // a kink of the linear law: a piece on either side
-    const auto force = [&](double x) { return cable_force(j, x, 0.0); };
-    using Quadrature = boost::math::quadrature::gauss_kronrod<double, 15>;
-    for (const double x : {0.3 * slack, 2.5 * slack, -2.5 * slack}) {
-      const double middle = std::clamp(x, -slack, slack);
-      const double work = Quadrature::integrate(force, 0.0, middle, 5, 1e-13) +
-                          (middle == x ? 0 : Quadrature::integrate(force, middle, x, 5, 1e-13));
-      // cosh(x) - 1 of the paper's law has lost 2 eps / x² of itself: 1e-8 at 0.15 mm.
-      const double cancelled = law == CableLaw::paper ? 2 * kEps / (x * x) : 0;
-      EXPECT_NEAR(cable_energy(j, x), work, (1e-12 + cancelled) * work);
-    }
-  }
-}
-
-// ----------------------------------------------------------------------------- coupling, friction
 
 TEST(Coupling, MotorPowerIsJointPowerAndWhatStretchesTheCables) {
   std::mt19937_64 random(5);
@@ -230,118 +127,6 @@ TEST(Friction, OpposesMotionIsOddAndReachesTheCoulombLevel) {
   EXPECT_NEAR(f.d[0], coulomb / v_s + viscous, 4 * kEps * coulomb / v_s);
 }
 
-// ----------------------------------------------------------------------------------- scalar types
-
-struct OneArgument {
-  const char* name;
-  double (*plain)(double);
-  Dual (*dual)(Dual);
-  Lanes (*lanes)(Lanes);
-  double lower, upper;
-  bool of_library;  ///< computed by the C library, whose vector functions are good to 4 ulp
-};
-#define HALYARD_ONE(expression)                                                             \
-  [](double x) -> double { return expression; }, [](Dual x) -> Dual { return expression; }, \
-      [](Lanes x) -> Lanes { return expression; }
-const OneArgument kOneArgument[] = {
-    {"sin", HALYARD_ONE(sin(x)), -3, 3, true},   {"cos", HALYARD_ONE(cos(x)), -3, 3, true},
-    {"tanh", HALYARD_ONE(tanh(x)), -3, 3, true}, {"exp", HALYARD_ONE(exp(x)), -3, 3, true},
-    {"log", HALYARD_ONE(log(x)), 0.5, 5, true},  {"sqrt", HALYARD_ONE(sqrt(x)), 0.5, 5, false},
-    {"abs", HALYARD_ONE(abs(x)), -3, 3, false},  {"minus", HALYARD_ONE(-x), -3, 3, false},
-};
-
-struct TwoArguments {
-  const char* name;
-  double (*plain)(double, double);
-  Dual (*dual)(Dual, Dual);
-  Lanes (*lanes)(Lanes, Lanes);
-};
-#define HALYARD_TWO(expression)                                                                               \
-  [](double x, double y) -> double { return expression; }, [](Dual x, Dual y) -> Dual { return expression; }, \
-      [](Lanes x, Lanes y) -> Lanes { return expression; }
-const TwoArguments kTwoArguments[] = {
-    {"sum", HALYARD_TWO(x + y)},
-    {"difference", HALYARD_TWO(x - y)},
-    {"product", HALYARD_TWO(x* y)},
-    {"quotient", HALYARD_TWO(x / y)},
-    {"max", HALYARD_TWO(max(x, y))},
-    {"min", HALYARD_TWO(min(x, y))},
-    {"select <", HALYARD_TWO(select(x < y, x* y, x + y))},
-    {"select >", HALYARD_TWO(select(x > y, x* y, x + y))},
-    {"select <=", HALYARD_TWO(select(x <= y, x* y, x + y))},
-    {"select >=", HALYARD_TWO(select(x >= y, x* y, x + y))},
-    {"select and", HALYARD_TWO(select(x > y && x * y < 1.0, x, y))},
-    {"select or", HALYARD_TWO(select(x > y || x * y < 1.0, x, y))},
-    {"chain", HALYARD_TWO(sin(x* y) / (exp(x) + y * y))},
-};
-
-// Central differences with step h err by h²/6 f''' and by the rounding of f, eps f / h. Here f, f''' < 60.
-constexpr double kStep = 1e-5;
-constexpr double kDifferenceError = 60 * (kStep * kStep / 6 + 2 * kEps / kStep);
-
-TEST(Dual, DerivativesOfFunctionsAreThoseOfFiniteDifferences) {
-  for (const OneArgument& f : kOneArgument)
-    for (int i = 0; i < 40; ++i) {
-      const double x = f.lower + (f.upper - f.lower) * (i + 0.5) / 40;
-      const Dual y = f.dual(Dual::seed(x, 2));
-      EXPECT_EQ(y.a, f.plain(x)) << f.name;
-      const double difference = (f.plain(x + kStep) - f.plain(x - kStep)) / (2 * kStep);
-      EXPECT_NEAR(y.d[2], difference, kDifferenceError) << f.name << " at " << x;
-      EXPECT_EQ(y.d[0], 0) << f.name;
-    }
-}
-
-TEST(Dual, DerivativesByBothArgumentsAreThoseOfFiniteDifferences) {
-  std::mt19937_64 random(2);
-  std::uniform_real_distribution<double> number(-3, 3);
-  for (const TwoArguments& f : kTwoArguments)
-    for (int i = 0; i < 40; ++i) {
-      const double x = number(random);
-      double y = number(random);
-      y += std::copysign(0.5, y);  // away from the quotient's pole
-      const Dual r = f.dual(Dual::seed(x, 0), Dual::seed(y, 3));
-      EXPECT_NEAR(r.a, f.plain(x, y), 2 * kEps * std::abs(r.a)) << f.name;
-      const double by_x = (f.plain(x + kStep, y) - f.plain(x - kStep, y)) / (2 * kStep);
-      const double by_y = (f.plain(x, y + kStep) - f.plain(x, y - kStep)) / (2 * kStep);
-      // A quotient's third derivative by y is 6 x / y⁴ < 300 here.
-      EXPECT_NEAR(r.d[0], by_x, 5 * kDifferenceError) << f.name << " at " << x << ", " << y;
-      EXPECT_NEAR(r.d[3], by_y, 5 * kDifferenceError) << f.name << " at " << x << ", " << y;
-      EXPECT_EQ(r.d[1], 0) << f.name;
-    }
-}
-
-TEST(Lanes, FunctionsAreThoseOfEachLane) {
-  for (const OneArgument& f : kOneArgument)
-    for (int i = 0; i < 500; ++i) {
-      Lanes x;
-      for (int l = 0; l < kLaneWidth; ++l)
-        x.set(l, f.lower + (f.upper - f.lower) * (kLaneWidth * i + l + 0.5) / (500 * kLaneWidth));
-      const Lanes y = f.lanes(x);
-      for (int l = 0; l < kLaneWidth; ++l) {
-        const double expected = f.plain(x[l]);
-        // 4 ulp of the vector function, 1 of the scalar one; an ulp is at most eps times the value.
-        EXPECT_NEAR(y[l], expected, f.of_library ? 5 * kEps * std::abs(expected) : 0) << f.name << " at " << x[l];
-      }
-    }
-}
-
-TEST(Lanes, ArithmeticAndChoicesAreThoseOfEachLane) {
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> number(-3, 3);
-  for (const TwoArguments& f : kTwoArguments)
-    for (int i = 0; i < 50; ++i) {
-      Lanes x, y;
-      for (int l = 0; l < kLaneWidth; ++l) x.set(l, number(random)), y.set(l, l == 3 ? x[3] : number(random));
-      const Lanes r = f.lanes(x, y);
-      for (int l = 0; l < kLaneWidth; ++l) {
-        const double expected = f.plain(x[l], y[l]);
-        // "chain" calls the library twice and rounds four times; sin(x y) loses up to |x y| ulp by the argument.
-        const double tolerance = f.name == std::string("chain") ? 25 * kEps * std::max(1.0, std::abs(expected)) : 0;
-        EXPECT_NEAR(r[l], expected, tolerance) << f.name << " at " << x[l] << ", " << y[l];
-      }
-    }
-}
-
 TEST(Transmission, DerivativesAreThoseOfFiniteDifferencesWithEachEffect) {
   for (const CableLaw law : kLaws) {
     const ArmParameters<double> arm = random_arm(11, law);
@@ -406,64 +191,6 @@ TEST(Transmission, PackedArmsKeepTheirOwnNumbers) {
     EXPECT_EQ(packed.joint[2].coupling[0][l], arms[l].joint[2].coupling[0]);
     EXPECT_EQ(packed.joint[0].inertia[5][l], arms[l].joint[0].inertia[5]);
   }
-}
-
-// --------------------------------------------------------------------------------- command history
-
-TEST(CommandHistory, IsLinearBetweenTheMiddlesOfHoldsAndHeldOutside) {
-  CommandHistory history(2, 10);
-  EXPECT_EQ(history.at(0, 1.0), 0);  // nothing was ever commanded
-  const double first[] = {1, -1}, second[] = {3, -2};
-  history.push(0.5, first);
-  EXPECT_EQ(history.at(1, 7.0), -1);
-  history.push(1.0, second);
-  EXPECT_EQ(history.at(0, 0.0), 1);
-  EXPECT_EQ(history.at(0, 0.75), 1);  // held from 0.5 to 1
-  EXPECT_EQ(history.at(0, 1.0), 2);
-  EXPECT_EQ(history.at(1, 1.0), -1.5);
-  EXPECT_EQ(history.at(0, 1.25), 3);  // the second hold is taken to be as long
-  EXPECT_EQ(history.at(0, 9.0), 3);
-}
-
-TEST(CommandHistory, IsNeitherEarlyNorLateOnAverage) {
-  CommandHistory history(1, 100);
-  for (int i = 0; i <= 20; ++i) {
-    const double value = 3.0 * i;  // a ramp, in steps
-    history.push(i, &value);
-  }
-  double difference = 0;
-  for (double t = 5 + 1.0 / 32; t < 9; t += 1.0 / 16) difference += history.at(0, t) - 3 * std::floor(t);
-  EXPECT_NEAR(difference, 0, 64 * 27 * kEps);
-}
-
-TEST(CommandHistory, GivesTheSlopeToDualAndEachTimeToItsLane) {
-  CommandHistory history(1, 10);
-  const double values[] = {0, 2, 1};
-  for (int i = 0; i < 3; ++i) history.push(i * 0.5, values + i);
-  const Dual d = history.at(0, Dual::seed(0.7, 1) * 2.0);  // at 1.4: after the last
-  EXPECT_EQ(d.a, 1);
-  EXPECT_EQ(d.d[1], 0);
-  const Dual inside = history.at(0, Dual(1.0) - Dual::seed(0.125, 3));  // at 0.875, a delay's derivative
-  EXPECT_EQ(inside.a, 1.75);
-  EXPECT_EQ(inside.d[3], 2);  // slope -2 N m/s, by minus the delay
-  Lanes times;
-  for (int l = 0; l < kLaneWidth; ++l) times.set(l, 0.15 * l);
-  const Lanes at = history.at(0, times);
-  for (int l = 0; l < kLaneWidth; ++l) EXPECT_EQ(at[l], history.at(0, times[l]));
-}
-
-TEST(CommandHistory, RemembersItsSpanAndForgetsWhatIsOlder) {
-  const double span = 0.1, dt = 1e-3;
-  CommandHistory history(1, span);
-  for (int i = 0; i < 5000; ++i) {  // far beyond where memory is given back
-    const double time = i * dt, command = time;
-    history.push(time, &command);
-    // Half a hold after a command was given it is in force on average.
-    const double asked = std::max(0.5 * dt, time - span);
-    ASSERT_NEAR(history.at(0, asked), asked - 0.5 * dt, 8 * kEps * time + 1e-300);
-  }
-  // What is older than the span is answered by the oldest that is left, at most two samples older.
-  EXPECT_NEAR(history.at(0, 0.0), 4.999 - span, 2.01 * dt);
 }
 
 }  // namespace

@@ -1,0 +1,250 @@
+/// The dual filter on a linear arm, whose posterior is known: a slide on an elastic cable, without Coulomb friction or
+/// gravity, whose motor's torque has an unknown bias.
+///
+///   x' = F x + b w + noise,   z = H x + noise,   w ~ N(0, 1)
+///
+/// There the filter with held weights is Friedland's separate-bias estimation, which is exact: its sums over a record
+/// are those of the Kalman filter of [x, w]. (Friedland, IEEE Trans. Automatic Control 14, 1969.)
+
+#include "estimators/identification/dual_ukf.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+#include "model/model_file.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kStep = 2e-3;  // s
+constexpr double kBias = 0.01;  // N m, prior deviation of the torque's bias
+constexpr const char* kSlide = R"(<arm name="slide">
+<gravity>0 0 0</gravity>
+<joint name="slide" type="prismatic" drive="cable">
+<frame xyz="0 0 0" rpy="0 0 0"/>
+<link mass="4" com="0 0 0" inertia="1e-3 1e-3 1e-3 0 0 0"/>
+<motor inertia="2e-5" coulomb="0" viscous="1e-4" smoothing="0.4" gear_ratio="12" capstan_radius="5.5 mm"/>
+<cable law="linear" stiffness="2e4" damping="60" tension="1e4" pulley_radius="1"/>
+<friction coulomb="0" viscous="2" smoothing="0.01"/>
+<encoders motor_counts="4000" joint_resolution="0.1 mm"/>
+<controller kp="0" kd="0" torque_limit="1"/>
+<range lower="-0.5" upper="0.5" home="0"/>
+</joint>
+<estimator name="sr_ukf" torque_noise="0.02" joint_force_noise="5"/>
+</arm>)";
+
+ArmModel slide() { return parse_model(kSlide, "slide.xml"); }
+
+NoiseLevels noise_levels(const ArmModel& model, const ProcessModel& process) {
+  OptionReader reader("the test", model.estimators.at("sr_ukf"));
+  return read_noise(reader, model, process);
+}
+
+/// Standard deviations of what motor and joint encoder read.
+Eigen::Vector2d encoder_noise(const ArmModel& model) {
+  const JointParameters<double>& j = model.nominal.joint[0];
+  return Eigen::Vector2d(j.motor_encoder_resolution, j.joint_encoder_resolution) / std::sqrt(12.0);
+}
+
+double command_at(double time_s) { return 0.05 * std::sin(2 * std::numbers::pi * 3 * time_s); }
+
+/// A record of the arm with bias w, as noisy as the filter takes it to be. The slide starts where its belief starts.
+std::vector<EncoderSample> record_of(const ArmModel& model, double w, int samples, unsigned seed) {
+  ArmModel robot = model;
+  robot.nominal.joint[0].torque_bias = kBias * w;
+  const ProcessModel process(robot);
+  ArmNoise noise(robot, process, noise_levels(robot, process));
+  const Eigen::Vector2d sigma = encoder_noise(robot);
+  const StateLayout& l = process.layout();
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  Eigen::VectorXd x = process.state_at_rest(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1));
+  std::vector<EncoderSample> record;
+  for (int i = 0; i < samples; ++i) {
+    EncoderSample s;
+    s.time_s = kStep * i;
+    s.motor_torque = Eigen::VectorXd::Constant(1, command_at(s.time_s));
+    s.motor_position = Eigen::VectorXd::Constant(1, x(l.motor_angle[0]) + sigma(0) * normal(random));
+    s.joint_position = Eigen::VectorXd::Constant(1, x(l.position[0]) + sigma(1) * normal(random));
+    record.push_back(s);
+    Step step;
+    step.time_s = s.time_s;
+    step.dt_s = kStep;
+    step.motor_torque = s.motor_torque.data();
+    const Eigen::MatrixXd Q_root = noise.process_root(step, x);
+    process.advance(step, x.data());
+    for (Eigen::Index c = 0; c < Q_root.cols(); ++c) x += Q_root.col(c) * normal(random);
+  }
+  return record;
+}
+
+DualUkf filter_of(const ArmModel& model, const DualUkfOptions& options) {
+  return DualUkf(model, {{.key = "joint1.motor.torque_bias", .nominal = 0, .scale = kBias}}, options);
+}
+
+Eigen::VectorXd number(double x) { return Eigen::VectorXd::Constant(1, x); }
+
+/// Mean and deviation of w by the sums of held weights.
+struct Posterior {
+  double mean, deviation;
+};
+Posterior by_held_weights(const ArmModel& model, const std::vector<EncoderSample>& record, double settle_s) {
+  DualUkf filter = filter_of(model, {.learn = false, .settle = settle_s});
+  double A = 1, g = 0;
+  for (const EncoderSample& sample : record) {
+    const DualStep step = filter.update(sample);
+    if (step.nu.size() == 0) continue;
+    const auto S = step.S_root.triangularView<Eigen::Lower>();
+    const Eigen::VectorXd white = S.solve(step.Y.col(0));
+    A += white.squaredNorm(), g += white.dot(S.solve(step.nu));
+  }
+  return {g / A, 1 / std::sqrt(A)};
+}
+
+/// The Kalman filter of [x, w], in extended precision, from the belief with which the dual filter starts.
+Posterior by_augmented_filter(const ArmModel& model, const std::vector<EncoderSample>& record) {
+  using Real = long double;
+  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+  ArmModel biased = model;
+  biased.nominal.joint[0].torque_bias = kBias;
+  const ProcessModel process(model), with_bias(biased);
+  const StateLayout& l = process.layout();
+  const JointParameters<double>& j = process.arm().joint[0];
+  const int n = process.n_states();
+  ArmNoise noise(model, process, noise_levels(model, process));
+
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(n);
+  start(l.motor_angle[0]) = record[0].motor_position(0);
+  start(l.position[0]) = record[0].joint_position(0);
+  Eigen::MatrixXd S_0 = noise.initial_root(start, INFINITY);
+  S_0(l.rate[0], l.rate[0]) = model.joints[0].upper - model.joints[0].lower;
+  S_0(l.motor_rate[0], l.motor_rate[0]) = S_0(l.rate[0], l.rate[0]) / j.motor_travel();
+
+  Vector x = Vector::Zero(n + 1);
+  x.head(n) = start.cast<Real>();
+  Matrix P = Matrix::Identity(n + 1, n + 1), H = Matrix::Zero(2, n + 1), F = Matrix::Identity(n + 1, n + 1);
+  P.topLeftCorner(n, n) = (S_0 * S_0.transpose()).cast<Real>();
+  H(0, l.motor_angle[0]) = H(1, l.position[0]) = 1;
+  const Matrix R = encoder_noise(model).cwiseAbs2().asDiagonal().toDenseMatrix().cast<Real>();
+
+  for (std::size_t i = 1; i < record.size(); ++i) {
+    Step step;
+    step.time_s = record[i - 1].time_s;
+    step.dt_s = record[i].time_s - step.time_s;
+    step.motor_torque = record[i - 1].motor_torque.data();
+    const Eigen::VectorXd before = x.head(n).cast<double>();
+    Eigen::VectorXd after = before, after_biased = before;
+    Eigen::MatrixXd F_x(n, n);
+    process.advance_with_jacobian(step, after.data(), F_x);
+    with_bias.advance(step, after_biased.data());
+    F.topLeftCorner(n, n) = F_x.cast<Real>();
+    F.topRightCorner(n, 1) = (after_biased - after).cast<Real>();
+    const Matrix Q_root = noise.process_root(step, before).cast<Real>();
+    x.head(n) = after.cast<Real>() + F.topRightCorner(n, 1) * x(n);
+    P = (F * P * F.transpose()).eval();
+    P.topLeftCorner(n, n) += Q_root * Q_root.transpose();
+
+    const Vector z = (Vector(2) << record[i].motor_position(0), record[i].joint_position(0)).finished();
+    const Matrix S = H * P * H.transpose() + R;
+    const Matrix K = P * H.transpose() * S.inverse();
+    const Matrix rest = Matrix::Identity(n + 1, n + 1) - K * H;
+    x += K * (z - H * x);
+    P = (rest * P * rest.transpose() + K * R * K.transpose()).eval();
+  }
+  return {double(x(n)), double(std::sqrt(P(n, n)))};
+}
+
+TEST(DualUkfOnALinearArm, DerivativesAreTheExactChangeOfItsInnovations) {
+  const ArmModel model = slide();
+  const std::vector<EncoderSample> record = record_of(model, 0.7, 200, 1);
+  DualUkf at_0 = filter_of(model, {.learn = false, .settle = 0}),
+          at_1 = filter_of(model, {.learn = false, .settle = 0});
+  at_1.set_weights(number(1), number(1));
+  for (const EncoderSample& sample : record) {
+    const DualStep a = at_0.update(sample), b = at_1.update(sample);
+    ASSERT_EQ(a.nu.size(), b.nu.size());
+    if (a.nu.size() == 0) continue;
+    EXPECT_LT((a.S_root - b.S_root).norm(), 1e-8 * a.S_root.norm()) << sample.time_s;
+    // Y is a difference over 1e-3 of readings of up to 1e3 rad: 1e3 · 4 eps / 1e-3, carried along for some steps.
+    EXPECT_LT((a.nu - a.Y.col(0) - b.nu).cwiseAbs().maxCoeff(), 1e-8) << sample.time_s;
+  }
+}
+
+TEST(DualUkfOnALinearArm, HeldWeightsGiveThePosteriorOfTheAugmentedKalmanFilter) {
+  const ArmModel model = slide();
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const std::vector<EncoderSample> record = record_of(model, -0.4, 250, seed);
+    const Posterior dual = by_held_weights(model, record, 0), kalman = by_augmented_filter(model, record);
+    EXPECT_LT(kalman.deviation, 0.5) << "the record tells of the bias";
+    EXPECT_NEAR(dual.mean, kalman.mean, 1e-6);
+    EXPECT_NEAR(dual.deviation, kalman.deviation, 1e-6);
+  }
+}
+
+/// Errors of the held weights' posteriors over their deviations, of records with weights drawn from the prior.
+std::vector<double> normalised_errors(const ArmModel& robot, const ArmModel& believed, int records) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> normal;
+  std::vector<double> errors;
+  for (int r = 0; r < records; ++r) {
+    const double truth = normal(random);
+    const Posterior p = by_held_weights(believed, record_of(robot, truth, 250, 100 + r), 0.05);
+    errors.push_back((p.mean - truth) / p.deviation);
+  }
+  return errors;
+}
+
+double mean_square(const std::vector<double>& x) {
+  return std::inner_product(x.begin(), x.end(), x.begin(), 0.0) / static_cast<double>(x.size());
+}
+
+TEST(DualUkfOnALinearArm, ThePosteriorHoldsTheTruthAsOftenAsItSays) {
+  constexpr int kRecords = 200;
+  const std::vector<double> errors = normalised_errors(slide(), slide(), kRecords);
+  const auto held = std::ranges::count_if(errors, [](double e) { return std::abs(e) <= 1.96; });
+  // χ²(200) / 200 and a binomial count, each within four of its standard deviations.
+  EXPECT_NEAR(mean_square(errors), 1, 4 * std::sqrt(2.0 / kRecords));
+  EXPECT_NEAR(static_cast<double>(held), 0.95 * kRecords, 4 * std::sqrt(kRecords * 0.95 * 0.05));
+}
+
+TEST(DualUkfOnALinearArm, ThePosteriorIsTooNarrowForAFilterThatTakesTheArmForQuiet) {
+  constexpr int kRecords = 50;
+  ArmModel quiet = slide();
+  quiet.estimators["sr_ukf"]["torque_noise"] = "0.007";  // a third of what is drawn: errors of three deviations
+  EXPECT_GT(mean_square(normalised_errors(slide(), quiet, kRecords)), 1 + 8 * std::sqrt(2.0 / kRecords));
+}
+
+TEST(DualUkfOnALinearArm, LearningEndsAtThePosterior) {
+  const ArmModel model = slide();
+  constexpr int kRecords = 20;
+  std::vector<double> to_posterior, to_truth;
+  double wider = 0;
+  for (int r = 0; r < kRecords; ++r) {
+    const double truth = -1.9 + 0.2 * r;
+    const std::vector<EncoderSample> record = record_of(model, truth, 1500, 500 + r);
+    const Posterior p = by_held_weights(model, record, 0.5);
+    DualUkf filter = filter_of(model, {});
+    for (const EncoderSample& sample : record) filter.update(sample);
+    const double w = filter.w()(0), deviation = filter.S_w()(0, 0);
+    to_posterior.push_back((w - p.mean) / p.deviation);
+    to_truth.push_back((w - truth) / deviation);
+    wider += deviation / p.deviation / kRecords;
+  }
+  // The learning filter is no exact one, as it does not correct the past by what it has learnt since, and forgets.
+  // Observed after 3 s: 0.44, and 1.21 times the posterior's deviation.
+  EXPECT_LT(mean_square(to_posterior), 1);
+  EXPECT_GT(wider, 1);
+  EXPECT_LT(wider, 1.5);
+  // χ²(20) / 20 and four of its standard deviations.
+  EXPECT_LT(mean_square(to_truth), 1 + 4 * std::sqrt(2.0 / kRecords));
+}
+
+}  // namespace
+}  // namespace halyard

@@ -1,0 +1,182 @@
+/// The grid of a sweep, and the folder that keeps its results.
+
+#include "evaluation/sweep/sweep_store.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <set>
+
+#include "tests/support/message_of.h"
+
+namespace halyard {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+SweepGrid grid_of_six() {
+  SweepGrid grid;
+  grid.name = "stiffness and \"tension\"";
+  grid.id = "12ab";
+  grid.scenario = "a.xml";
+  grid.model = "arm.xml";
+  grid.skip_s = 0.25;
+  grid.estimators = {"kinematics", "./mine.so"};
+  grid.units = {{"rad", "deg", 57.29577951308232}, {"m", "mm", 1000}};
+  grid.axes.resize(2);
+  grid.axes[0].parameters = {"joint1.cable.stiffness"};
+  grid.axes[0].applies_to = SweepAxis::Target::robot;
+  grid.axes[0].unit = "N/m";
+  grid.axes[0].values = {1e5, 2e5};
+  grid.axes[1].parameters = {"joint1.cable.tension", "joint2.cable.tension"};
+  grid.axes[1].is_factor = grid.axes[1].is_logarithmic = true;
+  grid.axes[1].values = {0.5, 1.0 / 3, 2};
+  return grid;
+}
+
+ErrorStatistics some_errors(double size) {
+  ErrorStatistics e;
+  e.samples = 1001;
+  e.mean_absolute = size, e.rms = 1.25 * size, e.peak = 3 * size, e.bias = -size / 3;
+  return e;  // without standard deviations: within_two_std is NaN
+}
+
+SweepCell some_cell(std::size_t point) {
+  SweepCell cell;
+  cell.point = point;
+  cell.results.resize(2);
+  cell.results[0].errors = {some_errors(1e-3 / 3), some_errors(2e-5)};
+  cell.results[1].failure = "took more than 10 s";
+  cell.results[1].errors.resize(2);
+  return cell;
+}
+
+/// An empty folder that goes with the test.
+class SweepStore : public testing::Test {
+ protected:
+  SweepStore() { fs::remove_all(folder), fs::create_directories(folder); }
+  ~SweepStore() override { fs::remove_all(folder); }
+  fs::path cell(const char* name) const { return folder / "cells" / name; }
+  void write(const fs::path& path, const std::string& text) const { std::ofstream(path) << text; }
+
+  const fs::path folder = fs::path(testing::TempDir()) /
+                          ("store_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  const SweepGrid grid = grid_of_six();
+};
+
+void expect_equal(double a, double b) { EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << a << ", " << b; }
+
+TEST(SweepGrid, HasEachCombinationOnceAndVariesTheLastAxisFastest) {
+  const SweepGrid grid = grid_of_six();
+  ASSERT_EQ(grid.size(), 6u);
+  std::set<std::vector<double>> met;
+  for (std::size_t p = 0; p < grid.size(); ++p) {
+    const std::vector<std::size_t> places = grid.places(p);
+    EXPECT_EQ(places[0] * 3 + places[1], p);
+    EXPECT_EQ(grid.values(p), (std::vector<double>{grid.axes[0].values[places[0]], grid.axes[1].values[places[1]]}));
+    met.insert(grid.values(p));
+  }
+  EXPECT_EQ(met.size(), 6u);
+}
+
+TEST(SweepGrid, DescribesAPoint) {
+  const SweepGrid grid = grid_of_six();
+  EXPECT_EQ(grid.axes[1].label(), "joint1.cable.tension and 1 more (factor)");
+  EXPECT_EQ(grid.description(5), "joint1.cable.stiffness = 200000 N/m, joint1.cable.tension and 1 more (factor) = 2");
+  EXPECT_EQ(grid.description(0, 1), "joint1.cable.tension and 1 more (factor) = 0.5");
+}
+
+TEST_F(SweepStore, GivesTheGridBack) {
+  write_grid(folder, grid);
+  const SweepGrid read = read_grid(folder);
+  EXPECT_EQ(read.name, grid.name);
+  EXPECT_EQ(read.id, grid.id);
+  EXPECT_EQ(read.scenario, grid.scenario);
+  EXPECT_EQ(read.model, grid.model);
+  EXPECT_EQ(read.skip_s, grid.skip_s);
+  EXPECT_EQ(read.estimators, grid.estimators);
+  ASSERT_EQ(read.axes.size(), grid.axes.size());
+  for (std::size_t i = 0; i < grid.axes.size(); ++i) {
+    EXPECT_EQ(read.axes[i].parameters, grid.axes[i].parameters);
+    EXPECT_EQ(read.axes[i].applies_to, grid.axes[i].applies_to);
+    EXPECT_EQ(read.axes[i].is_factor, grid.axes[i].is_factor);
+    EXPECT_EQ(read.axes[i].is_logarithmic, grid.axes[i].is_logarithmic);
+    EXPECT_EQ(read.axes[i].unit, grid.axes[i].unit);
+    EXPECT_EQ(read.axes[i].values, grid.axes[i].values);  // to the last bit
+  }
+  ASSERT_EQ(read.units.size(), 2u);
+  EXPECT_EQ(read.units[1].shown, "mm");
+  EXPECT_EQ(read.units[0].shown_per_si, grid.units[0].shown_per_si);
+}
+
+TEST_F(SweepStore, GivesACellBackToTheLastBit) {
+  write_cell(folder, grid, some_cell(4));
+  EXPECT_FALSE(read_cell(folder, grid, 3).has_value());
+  const std::optional<SweepCell> read = read_cell(folder, grid, 4);
+  ASSERT_TRUE(read.has_value());
+  EXPECT_EQ(read->point, 4u);
+  ASSERT_EQ(read->results.size(), 2u);
+  EXPECT_EQ(read->results[1].failure, "took more than 10 s");
+  const SweepCell written = some_cell(4);
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const ErrorStatistics &a = read->results[i].errors[k], &b = written.results[i].errors[k];
+      EXPECT_EQ(a.samples, b.samples);
+      expect_equal(a.mean_absolute, b.mean_absolute);
+      expect_equal(a.rms, b.rms);
+      expect_equal(a.peak, b.peak);
+      expect_equal(a.bias, b.bias);
+      expect_equal(a.within_two_std, b.within_two_std);
+    }
+  remove_cell(folder, 4);
+  EXPECT_FALSE(read_cell(folder, grid, 4).has_value());
+}
+
+TEST_F(SweepStore, RefusesWhatIsDamaged) {
+  EXPECT_EQ(message_of([&] { read_grid(folder); }),
+            folder.string() + ": holds no sweep.json; give a folder that halyard sweep wrote");
+  const auto damaged = [](const fs::path& path) {
+    return path.string() + ": is no result of halyard sweep or is damaged; remove it and run the sweep again";
+  };
+  write(folder / "sweep.json", "{\"sweep\": ");
+  EXPECT_EQ(message_of([&] { read_grid(folder); }), damaged(folder / "sweep.json"));
+  write_cell(folder, grid, some_cell(0));
+  for (const char* text : {"", "[]", "{\"id\": \"12ab\", \"estimators\": []}",
+                           "{\"id\": \"12ab\", \"estimators\": [{\"failure\": \"\", \"joints\": []}]}"}) {
+    write(cell("000000.json"), text);
+    EXPECT_EQ(message_of([&] { read_cell(folder, grid, 0); }), damaged(cell("000000.json"))) << text;
+  }
+}
+
+TEST_F(SweepStore, RefusesACellOfAnotherSweep) {
+  SweepGrid other = grid;
+  other.id = "34cd";
+  write_cell(folder, other, some_cell(0));
+  EXPECT_EQ(message_of([&] { read_cell(folder, grid, 0); }),
+            cell("000000.json").string() + ": belongs to another sweep; give a folder of its own to each sweep");
+}
+
+TEST_F(SweepStore, DiscardsCellsAndTablesOfAnotherSweepAndKeepsItsOwn) {
+  write_grid(folder, grid);
+  write_cell(folder, grid, some_cell(0));
+  for (const char* name : {"sweep.csv", "report.html", "notes.txt"}) write(folder / name, "text");
+  EXPECT_FALSE(holds_other_sweep(folder, grid));
+  discard_other_sweep(folder, grid);
+  EXPECT_TRUE(fs::exists(cell("000000.json")));
+  SweepGrid other = grid;
+  other.id = "34cd";
+  EXPECT_TRUE(holds_other_sweep(folder, other));
+  discard_other_sweep(folder, other);
+  EXPECT_FALSE(fs::exists(folder / "cells"));
+  EXPECT_FALSE(fs::exists(folder / "sweep.csv"));
+  EXPECT_FALSE(fs::exists(folder / "report.html"));
+  EXPECT_TRUE(fs::exists(folder / "notes.txt")) << "a file of the user's";
+}
+
+}  // namespace
+}  // namespace halyard

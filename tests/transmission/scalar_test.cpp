@@ -1,0 +1,128 @@
+/// Dual numbers against finite differences, lanes against plain numbers.
+
+#include "transmission/scalar.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace halyard {
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+
+struct OneArgument {
+  const char* name;
+  double (*plain)(double);
+  Dual (*dual)(Dual);
+  Lanes (*lanes)(Lanes);
+  double lower, upper;
+  bool of_library;  ///< computed by the C library, whose vector functions are good to 4 ulp
+};
+#define HALYARD_ONE(expression)                                                             \
+  [](double x) -> double { return expression; }, [](Dual x) -> Dual { return expression; }, \
+      [](Lanes x) -> Lanes { return expression; }
+const OneArgument kOneArgument[] = {
+    {"sin", HALYARD_ONE(sin(x)), -3, 3, true},   {"cos", HALYARD_ONE(cos(x)), -3, 3, true},
+    {"tanh", HALYARD_ONE(tanh(x)), -3, 3, true}, {"exp", HALYARD_ONE(exp(x)), -3, 3, true},
+    {"log", HALYARD_ONE(log(x)), 0.5, 5, true},  {"sqrt", HALYARD_ONE(sqrt(x)), 0.5, 5, false},
+    {"abs", HALYARD_ONE(abs(x)), -3, 3, false},  {"minus", HALYARD_ONE(-x), -3, 3, false},
+};
+
+struct TwoArguments {
+  const char* name;
+  double (*plain)(double, double);
+  Dual (*dual)(Dual, Dual);
+  Lanes (*lanes)(Lanes, Lanes);
+};
+#define HALYARD_TWO(expression)                                                                               \
+  [](double x, double y) -> double { return expression; }, [](Dual x, Dual y) -> Dual { return expression; }, \
+      [](Lanes x, Lanes y) -> Lanes { return expression; }
+const TwoArguments kTwoArguments[] = {
+    {"sum", HALYARD_TWO(x + y)},
+    {"difference", HALYARD_TWO(x - y)},
+    {"product", HALYARD_TWO(x* y)},
+    {"quotient", HALYARD_TWO(x / y)},
+    {"max", HALYARD_TWO(max(x, y))},
+    {"min", HALYARD_TWO(min(x, y))},
+    {"select <", HALYARD_TWO(select(x < y, x* y, x + y))},
+    {"select >", HALYARD_TWO(select(x > y, x* y, x + y))},
+    {"select <=", HALYARD_TWO(select(x <= y, x* y, x + y))},
+    {"select >=", HALYARD_TWO(select(x >= y, x* y, x + y))},
+    {"select and", HALYARD_TWO(select(x > y && x * y < 1.0, x, y))},
+    {"select or", HALYARD_TWO(select(x > y || x * y < 1.0, x, y))},
+    {"chain", HALYARD_TWO(sin(x* y) / (exp(x) + y * y))},
+};
+
+// Central differences with step h err by h²/6 f''' and by the rounding of f, eps f / h. Here f, f''' < 60.
+constexpr double kStep = 1e-5;
+constexpr double kDifferenceError = 60 * (kStep * kStep / 6 + 2 * kEps / kStep);
+
+TEST(Dual, DerivativesOfFunctionsAreThoseOfFiniteDifferences) {
+  for (const OneArgument& f : kOneArgument)
+    for (int i = 0; i < 40; ++i) {
+      const double x = f.lower + (f.upper - f.lower) * (i + 0.5) / 40;
+      const Dual y = f.dual(Dual::seed(x, 2));
+      EXPECT_EQ(y.a, f.plain(x)) << f.name;
+      const double difference = (f.plain(x + kStep) - f.plain(x - kStep)) / (2 * kStep);
+      EXPECT_NEAR(y.d[2], difference, kDifferenceError) << f.name << " at " << x;
+      EXPECT_EQ(y.d[0], 0) << f.name;
+    }
+}
+
+TEST(Dual, DerivativesByBothArgumentsAreThoseOfFiniteDifferences) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> number(-3, 3);
+  for (const TwoArguments& f : kTwoArguments)
+    for (int i = 0; i < 40; ++i) {
+      const double x = number(random);
+      double y = number(random);
+      y += std::copysign(0.5, y);  // away from the quotient's pole
+      const Dual r = f.dual(Dual::seed(x, 0), Dual::seed(y, 3));
+      EXPECT_NEAR(r.a, f.plain(x, y), 2 * kEps * std::abs(r.a)) << f.name;
+      const double by_x = (f.plain(x + kStep, y) - f.plain(x - kStep, y)) / (2 * kStep);
+      const double by_y = (f.plain(x, y + kStep) - f.plain(x, y - kStep)) / (2 * kStep);
+      // A quotient's third derivative by y is 6 x / y⁴ < 300 here.
+      EXPECT_NEAR(r.d[0], by_x, 5 * kDifferenceError) << f.name << " at " << x << ", " << y;
+      EXPECT_NEAR(r.d[3], by_y, 5 * kDifferenceError) << f.name << " at " << x << ", " << y;
+      EXPECT_EQ(r.d[1], 0) << f.name;
+    }
+}
+
+TEST(Lanes, FunctionsAreThoseOfEachLane) {
+  for (const OneArgument& f : kOneArgument)
+    for (int i = 0; i < 500; ++i) {
+      Lanes x;
+      for (int l = 0; l < kLaneWidth; ++l)
+        x.set(l, f.lower + (f.upper - f.lower) * (kLaneWidth * i + l + 0.5) / (500 * kLaneWidth));
+      const Lanes y = f.lanes(x);
+      for (int l = 0; l < kLaneWidth; ++l) {
+        const double expected = f.plain(x[l]);
+        // 4 ulp of the vector function, 1 of the scalar one; an ulp is at most eps times the value.
+        EXPECT_NEAR(y[l], expected, f.of_library ? 5 * kEps * std::abs(expected) : 0) << f.name << " at " << x[l];
+      }
+    }
+}
+
+TEST(Lanes, ArithmeticAndChoicesAreThoseOfEachLane) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> number(-3, 3);
+  for (const TwoArguments& f : kTwoArguments)
+    for (int i = 0; i < 50; ++i) {
+      Lanes x, y;
+      for (int l = 0; l < kLaneWidth; ++l) x.set(l, number(random)), y.set(l, l == 3 ? x[3] : number(random));
+      const Lanes r = f.lanes(x, y);
+      for (int l = 0; l < kLaneWidth; ++l) {
+        const double expected = f.plain(x[l], y[l]);
+        // "chain" calls the library twice and rounds four times; sin(x y) loses up to |x y| ulp by the argument.
+        const double tolerance = f.name == std::string("chain") ? 25 * kEps * std::max(1.0, std::abs(expected)) : 0;
+        EXPECT_NEAR(r[l], expected, tolerance) << f.name << " at " << x[l] << ", " << y[l];
+      }
+    }
+}
+
+}  // namespace
+}  // namespace halyard
