@@ -20,6 +20,7 @@
 #include "app/tour/experiments_command.h"
 #include "app/tour/tour_command.h"
 #include "evaluation/estimator_list.h"
+#include "halyard/version.h"
 #include "model/input_error.h"
 #include "plugins/host/effect_module.h"
 
@@ -331,7 +332,7 @@ void check_command_name(const CLI::App& app, int argc, char** argv) {
 int run_command_line(int argc, char** argv) {
   CLI::App app("Joint positions of cable-driven arms from motor signals: simulate, estimate, compare, diagnose.",
                "halyard");
-  app.set_version_flag("--version", "halyard " HALYARD_VERSION);
+  app.set_version_flag("--version", std::string("halyard ") + kVersion);
   add_simulate_command(app);
   add_estimate_command(app);
   add_compare_command(app);

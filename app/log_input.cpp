@@ -1,29 +1,8 @@
 #include "app/log_input.h"
 
-#include "model/homing.h"
 #include "model/input_error.h"
 
 namespace halyard {
-
-Log read_log_of(const ArmModel& model, const std::filesystem::path& path,
-                const std::vector<std::string>& column_entries, bool torque_required) {
-  ColumnMap given;
-  for (const std::string& entry : column_entries) given.add_entry(entry);
-  ColumnMap map = model.columns;
-  map.override_with(given);
-  ReadOptions options{.torque_required = torque_required};
-  for (int k = 0; k < model.n(); ++k)
-    if (model.nominal.joint[k].drive == Drive::none) options.without_motor.push_back(k);
-  Log log = read_log(path, model.n(), map, options);
-  home_encoders(log, model);
-  return log;
-}
-
-std::string ignored_columns_note(const Log& log) {
-  std::string names;
-  for (const std::string& name : log.ignored_columns) names.append(names.empty() ? "" : ", ").append(name);
-  return names.empty() ? "" : "note: " + log.source + ": columns that are not used: " + names;
-}
 
 void check_given_once(const std::vector<std::filesystem::path>& logs) {
   for (std::size_t i = 0; i < logs.size(); ++i)

@@ -1,6 +1,9 @@
 # halyard_estimator(NAME source...): a plug-in NAME.so, target NAME_plugin. For halyard's own plug-ins and for those of
 # users, after find_package(halyard).
 function(halyard_estimator name)
+  if(NOT TARGET halyard::plugins)
+    message(FATAL_ERROR "halyard_estimator(${name}): needs find_package(halyard COMPONENTS plugins)")
+  endif()
   add_library(${name}_plugin MODULE ${ARGN})
   target_link_libraries(${name}_plugin PRIVATE halyard::plugins)
   # Hidden, so that no inline function of another module, compiled with other flags, takes the place of one of its own.
@@ -19,8 +22,10 @@ function(halyard_estimator_test name model)
   cmake_parse_arguments(is "KALMAN" "" "" ${ARGN})
   if(TARGET halyard_app)
     set(program $<TARGET_FILE:halyard_app>)
-  else()
+  elseif(EXISTS "${halyard_PROGRAM}")
     set(program ${halyard_PROGRAM})
+  else()
+    message(FATAL_ERROR "halyard_estimator_test(${name}): the program halyard is not built; set HALYARD_BUILD_PROGRAM")
   endif()
   add_test(NAME ${name}.conformance
     COMMAND ${program} check $<TARGET_FILE:${name}_plugin> --model ${model} $<$<BOOL:${is_KALMAN}>:--kalman>

@@ -1,5 +1,11 @@
-# What `cmake --install` adds to what the rooms install themselves: the examples' data, and the package that
-# find_package(halyard) reads.
+# What `cmake --install` adds to what the rooms install themselves: data, templates, and the package that
+# find_package(halyard) reads. As a part of another project halyard has its data in the source tree.
+if(NOT PROJECT_IS_TOP_LEVEL)
+  set(halyard_DATA_DIR ${PROJECT_SOURCE_DIR}/examples PARENT_SCOPE)
+endif()
+if(NOT HALYARD_INSTALL)
+  return()
+endif()
 include(CMakePackageConfigHelpers)
 
 set(HALYARD_PLUGIN_DIR ${CMAKE_INSTALL_LIBDIR}/halyard/plugins)
@@ -8,16 +14,33 @@ set(HALYARD_PROGRAM ${CMAKE_INSTALL_BINDIR}/halyard)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/raven2 ${PROJECT_SOURCE_DIR}/examples/measured
   DESTINATION ${HALYARD_DATA_DIR}
   FILES_MATCHING PATTERN "*.xml" PATTERN "*.csv" PATTERN "*.md")
+foreach(kind estimator effect program)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/out_of_tree_${kind}/ DESTINATION ${HALYARD_DATA_DIR}/templates/${kind}
+    FILES_MATCHING PATTERN "*.cpp" PATTERN "CMakeLists.txt")
+endforeach()
+install(FILES ${PROJECT_BINARY_DIR}/include/halyard/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/halyard)
 
-# A shared library brings along what it links, a static one leaves that to its users.
-set(HALYARD_STATIC_DEPENDENCIES "")
-if(NOT BUILD_SHARED_LIBS)
-  foreach(package tinyxml2 Boost TBB Ceres)
-    string(APPEND HALYARD_STATIC_DEPENDENCIES "find_dependency(${package})\n")
-  endforeach()
-endif()
-
+# Of each component, read from what its library is linked with: other components, and packages whose targets a user of
+# it meets. A shared library keeps what it links privately to itself, a static one leaves that to its users.
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/halyard)
+get_property(HALYARD_COMPONENTS GLOBAL PROPERTY HALYARD_COMPONENTS)
+set(HALYARD_COMPONENT_NEEDS "")
+foreach(component ${HALYARD_COMPONENTS})
+  get_target_property(linked halyard_${component} INTERFACE_LINK_LIBRARIES)
+  set(components "")
+  set(packages "")
+  foreach(library ${linked})
+    if(library MATCHES "halyard(_|::)([a-z]+)" AND CMAKE_MATCH_2 IN_LIST HALYARD_COMPONENTS)
+      list(APPEND components ${CMAKE_MATCH_2})
+    elseif(library MATCHES "([A-Za-z0-9_]+)::")
+      list(APPEND packages ${CMAKE_MATCH_1})
+    endif()
+  endforeach()
+  string(APPEND HALYARD_COMPONENT_NEEDS
+    "set(_halyard_components_of_${component} ${components})\nset(_halyard_packages_of_${component} ${packages})\n")
+  install(EXPORT halyard-${component} NAMESPACE halyard:: DESTINATION ${package_folder})
+endforeach()
+
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/cmake/halyardConfig.cmake.in ${PROJECT_BINARY_DIR}/halyardConfig.cmake
   INSTALL_DESTINATION ${package_folder}
@@ -30,4 +53,3 @@ install(FILES
   ${PROJECT_SOURCE_DIR}/cmake/HalyardEffects.cmake
   ${PROJECT_SOURCE_DIR}/cmake/HalyardEstimator.cmake
   DESTINATION ${package_folder})
-install(EXPORT halyard-targets NAMESPACE halyard:: FILE halyardTargets.cmake DESTINATION ${package_folder})

@@ -20,17 +20,27 @@ function(halyard_run_path target built installed)
   set_target_properties(${target} PROPERTIES BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "${run_path}")
 endfunction()
 
-# halyard_library(ROOM source...): the library of a room, warnings on, headers found from the root.
+# halyard_install(argument...): install(), unless halyard is a part of another project that does not install it.
+function(halyard_install)
+  if(HALYARD_INSTALL)
+    install(${ARGV})
+  endif()
+endfunction()
+
+# halyard_library(ROOM source...): the library of a room, warnings on, headers found from the root. A room is a component
+# of the package.
 function(halyard_library room)
   add_library(halyard_${room} ${ARGN})
   add_library(halyard::${room} ALIAS halyard_${room})
   set_target_properties(halyard_${room} PROPERTIES EXPORT_NAME ${room} VERSION ${PROJECT_VERSION} SOVERSION 0
     BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "\$ORIGIN")
   target_include_directories(halyard_${room} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/halyard>)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/halyard>)
   target_link_libraries(halyard_${room} PRIVATE $<BUILD_INTERFACE:halyard_warnings>)
   target_compile_features(halyard_${room} PUBLIC cxx_std_20)
-  install(TARGETS halyard_${room} EXPORT halyard-targets
+  set_property(GLOBAL APPEND PROPERTY HALYARD_COMPONENTS ${room})
+  halyard_install(TARGETS halyard_${room} EXPORT halyard-${room}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endfunction()
 
@@ -38,6 +48,6 @@ endfunction()
 function(halyard_headers room)
   foreach(header ${ARGN})
     get_filename_component(folder ${header} DIRECTORY)
-    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/halyard/${room}/${folder})
+    halyard_install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/halyard/${room}/${folder})
   endforeach()
 endfunction()

@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "diagnosis/calibrate.h"
+#include "diagnosis/diagnosis_details.h"
 #include "diagnosis/signature.h"
 
 namespace halyard {
@@ -167,15 +168,17 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
     if (progress) progress(what, fraction);
   };
   Diagnosis d;
+  const auto details = std::make_shared<DiagnosisDetails>();
+  d.details = details;
   std::vector<Record> records;
   const auto learn_from = [&](const Log& log) {
-    for (Record& r : make_records(log, model, options.record)) records.push_back(std::move(r));
+    for (Record& r : make_records(log, model, kFitBand)) records.push_back(std::move(r));
   };
   // What is held out of a log goes on from the part before it: cables remember. That part is driven along, not
   // compared.
   const auto hold_out = [&](const Log& log, double from, std::size_t first) {
     for (const auto& [view, how] :
-         {std::pair(&d.joint_view, options.joint_error), std::pair(&d.torque_view, options.record)})
+         {std::pair(&details->joint_view, kJointErrorBand), std::pair(&details->torque_view, kFitBand)})
       for (Record& r : make_records(log, model, how)) {
         if (r.time(r.size - 1) < from) continue;
         compare_from(r, from);
@@ -199,12 +202,13 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
 
   d.given = calibrated(model, records);
   const Evidence evidence(std::move(records), d.given);
-  d.attribution = attribute(evidence, d.given, options.attribution, say);
+  Attribution& attribution = details->attribution;
+  attribution = attribute(evidence, d.given, {options.most_effects, options.significance}, say);
   say("final fit", 0);
   const std::size_t given = model.effects.size();
-  const Fit final_fit = keep_certain_numbers(evidence, model, d.attribution.final_fit, d.attribution.final_score);
-  d.attribution.final_fit = final_fit;
-  d.attribution.final_score = evidence.score(final_fit.hypothesis);
+  const Fit final_fit = keep_certain_numbers(evidence, model, attribution.final_fit, attribution.final_score);
+  attribution.final_fit = final_fit;
+  attribution.final_score = evidence.score(final_fit.hypothesis);
   const Hypothesis& h = final_fit.hypothesis;
 
   // One sine fits many effects alike: a name taken from it would be a guess.
@@ -213,7 +217,7 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
   const bool all_one_sine = std::all_of(one_sine.begin(), one_sine.end(), [](bool b) { return b; });
 
   for (std::size_t e = given; e < h.effects.size() && !all_one_sine; ++e) {
-    NamedEffect named{h.effects[e], {}, d.attribution.alternatives[e - given]};
+    NamedEffect named{h.effects[e], {}, attribution.alternatives[e - given]};
     for (std::size_t i = 0; i < final_fit.parameters.size(); ++i)
       if (final_fit.parameters[i].effect == static_cast<int>(e) && !is_past(final_fit.parameters[i]))
         named.parameters.push_back(estimated(final_fit, i));
@@ -228,7 +232,7 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
     if (was_unknown) d.refitted.back().nominal = parameter_value({model.nominal, {}}, p);
   }
 
-  const std::vector<bool> rest_of = significant_rest(evidence, d.attribution.final_score);
+  const std::vector<bool> rest_of = significant_rest(evidence, attribution.final_score);
   for (int k = 0; k < model.n(); ++k) {
     const bool rest = rest_of[k] || rest_of[model.n() + k];
     if (all_one_sine && would_name)
@@ -249,21 +253,21 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
     d.not_excited = not_excited(evidence, model, h);
   }
 
-  const std::vector<std::vector<double>>& unexplained_past = d.attribution.baseline.hypothesis.past;
+  const std::vector<std::vector<double>>& unexplained_past = attribution.baseline.hypothesis.past;
   d.revised = d.given;
-  d.past = unexplained_past;
+  details->past = unexplained_past;
   if (!all_one_sine || !would_name) {
     d.revised.nominal = h.nominal;
     d.revised.effects = h.effects;
-    d.past = h.past;
+    details->past = h.past;
   }
   say("hold-out", 0);
-  for (HoldOut* view : {&d.joint_view, &d.torque_view}) {
+  for (HoldOut* view : {&details->joint_view, &details->torque_view}) {
     view->before = predict_all(view->records, {d.given.nominal, d.given.effects, unexplained_past});
-    view->after = predict_all(view->records, {d.revised.nominal, d.revised.effects, d.past});
+    view->after = predict_all(view->records, {d.revised.nominal, d.revised.effects, details->past});
   }
-  d.before = errors(d.joint_view, d.torque_view, model.n(), &HoldOut::before);
-  d.after = errors(d.joint_view, d.torque_view, model.n(), &HoldOut::after);
+  d.before = errors(details->joint_view, details->torque_view, model.n(), &HoldOut::before);
+  d.after = errors(details->joint_view, details->torque_view, model.n(), &HoldOut::after);
   return d;
 }
 

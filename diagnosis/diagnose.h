@@ -1,18 +1,20 @@
 #pragma once
 /// Closes the loop: from a model and measured logs to what the model lacks, and the model with it.
 
+#include <functional>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
-#include "diagnosis/attribution.h"
+#include "model/arm_model.h"
+#include "model/log.h"
 
 namespace halyard {
 
 struct DiagnosisOptions {
-  RecordOptions record;
-  /// For the joint errors that are told: the band in which the joints move, vibrations of the cables included. Torques
-  /// are told in the band of the fit, where their second derivative of a rounded angle still means something.
-  RecordOptions joint_error = {.motion_hz = 100, .compare_hz = 0, .settle_s = 0.5, .step_s = 0.001};
-  AttributionOptions attribution;
+  int most_effects = 6;          ///< that are added to the model
+  double significance = 0.01;    ///< of a round of the search: the expected share of chance among what it adds
   bool tell_not_excited = true;  ///< fill Diagnosis::not_excited: a prediction for every candidate
 };
 
@@ -45,11 +47,8 @@ struct PredictionError {
   std::vector<double> joint_rms, joint_peak, torque_rms;
 };
 
-/// Records of the hold-out and what the given and the revised model predict of them.
-struct HoldOut {
-  std::vector<Record> records;
-  std::vector<FullPrediction> before, after;
-};
+/// How the diagnosis came to its result, for reports: diagnosis_details.h, which is not installed.
+struct DiagnosisDetails;
 
 struct Diagnosis {
   enum class Verdict { clean, effects, unknown } verdict = Verdict::clean;
@@ -59,18 +58,16 @@ struct Diagnosis {
   std::vector<NotExcited> not_excited;
   ArmModel given;  ///< the model as given, its unknown torque scales calibrated
   ArmModel revised;
-  std::vector<std::vector<double>> past;  ///< of the revised model's effects, before each training record: Hypothesis
-  std::string holdout;                    ///< what the errors were measured on
-  PredictionError before, after;          ///< on the hold-out, by `given` and by `revised`
-  Attribution attribution;
-  HoldOut joint_view, torque_view;  ///< in the bands of DiagnosisOptions::joint_error and ::record
+  std::string holdout;            ///< what the errors were measured on
+  PredictionError before, after;  ///< on the hold-out, by `given` and by `revised`
+  std::shared_ptr<const DiagnosisDetails> details;
 };
 
 /// Diagnoses a model by training logs. The hold-out decides nothing: it only tells the errors. Without one the last
-/// third of each training log is held out.
+/// third of each training log is held out. progress(what, fraction of it) is called one at a time.
 /// Throws InputError for logs that cannot be compared with the model.
 Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, const std::optional<Log>& holdout,
-                   const DiagnosisOptions& options,
+                   const DiagnosisOptions& options = {},
                    const std::function<void(const std::string&, double)>& progress = {});
 
 }  // namespace halyard

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/attribution.h"
 #include "diagnosis/baseline_reach.h"
 #include "diagnosis/signature.h"
 #include "model/input_error.h"

@@ -28,7 +28,8 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/attribution.h"
+#include "model/arm_model.h"
+#include "model/log.h"
 
 namespace halyard {
 

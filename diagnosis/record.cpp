@@ -289,11 +289,4 @@ std::vector<Record> make_records(const Log& given, const ArmModel& model, const 
   return records;
 }
 
-std::pair<Log, Log> split_log(const Log& log, double fraction) {
-  const double at = log.time.front() + fraction * log.duration();
-  const auto middle =
-      static_cast<std::size_t>(std::lower_bound(log.time.begin(), log.time.end(), at) - log.time.begin());
-  return {slice(log, 0, middle), slice(log, middle, log.size())};
-}
-
 }  // namespace halyard

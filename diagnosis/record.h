@@ -72,7 +72,4 @@ inline constexpr double kLongestHold = 0.002;  ///< s
 /// % of its range.
 std::vector<int> stuck_joint_sensors(const Log& log, const ArmModel& model);
 
-/// Splits a log in time: the first part and the rest from `fraction` on.
-std::pair<Log, Log> split_log(const Log& log, double fraction);
-
 }  // namespace halyard

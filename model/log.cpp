@@ -265,4 +265,11 @@ Log slice(const Log& log, std::size_t begin, std::size_t end) {
   return part;
 }
 
+std::pair<Log, Log> split_log(const Log& log, double fraction) {
+  const double at = log.time.front() + fraction * log.duration();
+  const auto middle =
+      static_cast<std::size_t>(std::lower_bound(log.time.begin(), log.time.end(), at) - log.time.begin());
+  return {slice(log, 0, middle), slice(log, middle, log.size())};
+}
+
 }  // namespace halyard

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/column_map.h"
@@ -98,5 +99,8 @@ void write_log(const std::filesystem::path& path, const Log& log, const std::str
 /// Samples begin..end-1; without samples, every column is absent. Throws std::out_of_range unless begin <= end <=
 /// log.size().
 Log slice(const Log& log, std::size_t begin, std::size_t end);
+
+/// Splits a log in time: the part before `fraction` of its duration, and the rest. The log must have a sample.
+std::pair<Log, Log> split_log(const Log& log, double fraction);
 
 }  // namespace halyard

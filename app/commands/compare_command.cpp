@@ -7,12 +7,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/log_input.h"
 #include "app/output_check.h"
 #include "app/pages/comparison_figures.h"
 #include "app/pages/comparison_output.h"
 #include "app/pages/judgement_tables.h"
 #include "app/progress.h"
+#include "model/arm_log.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "plant/scenario.h"

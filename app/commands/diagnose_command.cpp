@@ -9,7 +9,9 @@
 #include "app/pages/diagnosis_output.h"
 #include "app/progress.h"
 #include "diagnosis/diagnose.h"
+#include "diagnosis/view_sentence.h"
 #include "evaluation/joint_unit.h"
+#include "model/arm_log.h"
 #include "model/model_file.h"
 
 namespace halyard {
@@ -30,7 +32,7 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   for (const NamedEffect& e : d.effects)
     for (const PlacedEffect& a : e.alternatives) fmt::print("  {}: or {}\n", effect_label(e.effect), effect_label(a));
   for (std::size_t i = 0; i < d.effects.size(); ++i)
-    fmt::print("  {}: {}\n", effect_label(d.effects[i].effect), why_named(d, evaluation, i));
+    fmt::print("  {}: {}\n", effect_label(d.effects[i].effect), evaluation.why[i]);
   for (const Estimated& p : d.refitted)
     fmt::print("  refitted {}: {:.5g} -> {:.5g} {}\n", p.name, p.nominal, p.value, p.unit);
   for (const Unexplained& u : d.unexplained) fmt::print("  unexplained, joint {}: {}\n", u.joint + 1, u.signature);

@@ -2,11 +2,11 @@
 
 #include <fmt/core.h>
 
-#include "app/log_input.h"
 #include "app/output_check.h"
 #include "app/progress.h"
 #include "evaluation/comparison/compare.h"
 #include "evaluation/run/estimate.h"
+#include "model/arm_log.h"
 #include "model/model_file.h"
 
 namespace halyard {

@@ -10,7 +10,8 @@
 #include "app/pages/sweep_report.h"
 #include "app/progress.h"
 #include "evaluation/sweep/sweep_file.h"
-#include "evaluation/sweep/sweep_store.h"
+#include "evaluation/sweep/sweep_merge.h"
+#include "evaluation/sweep/sweep_table.h"
 #include "model/input_error.h"
 
 namespace halyard {
@@ -23,34 +24,6 @@ std::optional<std::size_t> whole_number(std::string_view text) {
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || rest != text.data() + text.size()) return std::nullopt;
   return value;
-}
-
-/// The cell from the first folder that has it.
-std::optional<SweepCell> find_cell(const std::vector<fs::path>& folders, const SweepGrid& grid, std::size_t point) {
-  for (const fs::path& folder : folders) {
-    if (std::optional<SweepCell> cell = read_cell(folder, grid, point)) return cell;
-  }
-  return std::nullopt;
-}
-
-/// All cells of the grid. Throws InputError if some are missing.
-std::vector<SweepCell> collect_cells(const std::vector<fs::path>& folders, const SweepGrid& grid) {
-  std::vector<SweepCell> cells;
-  std::size_t missing = 0, first_missing = 0;
-  for (std::size_t point = 0; point < grid.size(); ++point) {
-    if (std::optional<SweepCell> cell = find_cell(folders, grid, point)) {
-      cells.push_back(std::move(*cell));
-    } else if (missing++ == 0) {
-      first_missing = point;
-    }
-  }
-  if (missing > 0) {
-    throw InputError(
-        fmt::format("halyard merge: {} of {} points are in none of the folders, the first is point {} ({}); run the "
-                    "missing parts, or name their folders too",
-                    missing, grid.size(), first_missing, grid.description(first_missing)));
-  }
-  return cells;
 }
 
 void print_result(const fs::path& folder, const SweepGrid& grid, const std::vector<SweepCell>& cells) {
@@ -97,17 +70,7 @@ void run_sweep_command(const SweepCommandOptions& options) {
 
 void run_merge_command(const MergeCommandOptions& options) {
   check_output_folder(options.out);
-  const SweepGrid grid = read_grid(options.parts.at(0));
-  for (const fs::path& part : options.parts) {
-    if (read_grid(part).id != grid.id) {
-      throw InputError(part.string() + ": holds another sweep than " + options.parts[0].string() +
-                       "; merge parts of the same sweep, computed from the same files");
-    }
-  }
-  const std::vector<SweepCell> cells = collect_cells(options.parts, grid);
-  discard_other_sweep(options.out, grid);
-  write_grid(options.out, grid);
-  for (const SweepCell& cell : cells) write_cell(options.out, grid, cell);
+  const auto [grid, cells] = merge_sweep(options.parts, options.out);
   write_sweep_report(options.out, grid, cells);
   print_result(options.out, grid, cells);
 }

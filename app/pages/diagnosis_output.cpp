@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "diagnosis/view_sentence.h"
 #include "evaluation/joint_unit.h"
 #include "model/model_file.h"
 #include "model/output_file.h"
@@ -67,7 +68,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
                        {"joint", joint_of(e.effect.joint)},
                        {"alternatives", alternatives},
                        {"parameters", parameters}});
-    if (i < evaluation.effects.size()) effects.back()["why"] = why_named(d, evaluation, i);
+    if (i < evaluation.why.size()) effects.back()["why"] = evaluation.why[i];
   }
   for (const Estimated& p : d.refitted)
     refitted.push_back({{"parameter", p.name},
@@ -116,7 +117,7 @@ void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluati
       for (std::size_t i = 0; i < d.effects.size(); ++i) {
         const NamedEffect& e = d.effects[i];
         text += "\n" + effect_label(e.effect) + ": " + e.effect.effect->summary() + ".";
-        if (i < evaluation.effects.size()) text += " " + why_named(d, evaluation, i);
+        if (i < evaluation.why.size()) text += " " + evaluation.why[i];
         else text += alternatives_sentence(e);
       }
       for (const Unexplained& u : d.unexplained)

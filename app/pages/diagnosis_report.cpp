@@ -7,7 +7,10 @@
 
 #include "app/pages/diagnosis_output.h"
 #include "app/pages/view_charts.h"
+#include "diagnosis/diagnosis_details.h"
+#include "diagnosis/view_sentence.h"
 #include "evaluation/joint_unit.h"
+#include "evaluation/studies/diagnosis_evidence.h"
 
 namespace halyard {
 namespace {
@@ -104,7 +107,9 @@ void add_innovations(report::Page& page, const ArmModel& model, const DiagnosisE
 }
 
 void add_evidence(report::Page& page, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
-  if (evaluation.effects.empty() && evaluation.unexplained.empty()) return;
+  if (!evaluation.evidence) return;
+  const auto& [effects, unexplained] = *evaluation.evidence;
+  if (effects.empty() && unexplained.empty()) return;
   page.heading("Residuals that point");
   page.paragraph(
       "Measured less predicted on the training data, on which the verdict rests, over what the residual goes with "
@@ -113,17 +118,16 @@ void add_evidence(report::Page& page, const Diagnosis& d, const DiagnosisEvaluat
     page.paragraph(text);
     if (const auto charts = view_charts(evidence, d.revised.nominal, is_rest); !charts.empty()) page.figure_row(charts);
   };
-  for (std::size_t i = 0; i < evaluation.effects.size(); ++i)
-    add(capitalised(effect_label(d.effects[i].effect)) + ": " + why_named(d, evaluation, i), evaluation.effects[i],
-        false);
-  for (std::size_t i = 0; i < evaluation.unexplained.size(); ++i)
+  for (std::size_t i = 0; i < effects.size(); ++i)
+    add(capitalised(effect_label(d.effects[i].effect)) + ": " + evaluation.why[i], effects[i], false);
+  for (std::size_t i = 0; i < unexplained.size(); ++i)
     add(fmt::format("Left unexplained at joint {}: {}.", d.unexplained[i].joint + 1, d.unexplained[i].signature),
-        evaluation.unexplained[i], true);
+        unexplained[i], true);
 }
 
 void add_candidates(report::Page& page, const Diagnosis& d) {
-  for (std::size_t r = 0; r < d.attribution.rounds.size(); ++r) {
-    const Round& round = d.attribution.rounds[r];
+  for (std::size_t r = 0; r < d.details->attribution.rounds.size(); ++r) {
+    const Round& round = d.details->attribution.rounds[r];
     report::Table table;
     table.caption = fmt::format("Round {}: {}", r + 1,
                                 round.accepted ? "the first candidate was added" : "no candidate was convincing");
@@ -181,16 +185,17 @@ std::vector<report::Chart> residual_charts(const Diagnosis& d, int k) {
       "motor rate [" + abscissa_unit(d.revised.nominal, k, ResidualKind::motor_torque, Abscissa::rate).name + "]";
   const bool has_joint = std::isfinite(d.before.joint_rms[k]), has_torque = std::isfinite(d.before.torque_rms[k]);
   if (has_joint)
-    add(before_and_after(fmt::format("Joint {}: position error", k + 1), d.joint_view, time, joint), "time [s]",
-        joint_label, report::ChartKind::line);
+    add(before_and_after(fmt::format("Joint {}: position error", k + 1), d.details->joint_view, time, joint),
+        "time [s]", joint_label, report::ChartKind::line);
   if (has_torque)
-    add(before_and_after(fmt::format("Joint {}: {}", k + 1, torque_name), d.torque_view, time, torque), "time [s]",
-        torque_label, report::ChartKind::line);
+    add(before_and_after(fmt::format("Joint {}: {}", k + 1, torque_name), d.details->torque_view, time, torque),
+        "time [s]", torque_label, report::ChartKind::line);
   if (has_joint)
-    add(before_and_after(fmt::format("Joint {}: error over motor rate", k + 1), d.joint_view, rate, joint), rate_label,
-        joint_label, report::ChartKind::scatter);
+    add(before_and_after(fmt::format("Joint {}: error over motor rate", k + 1), d.details->joint_view, rate, joint),
+        rate_label, joint_label, report::ChartKind::scatter);
   else if (has_torque)
-    add(before_and_after(fmt::format("Joint {}: {} over motor rate", k + 1, torque_name), d.torque_view, rate, torque),
+    add(before_and_after(fmt::format("Joint {}: {} over motor rate", k + 1, torque_name), d.details->torque_view, rate,
+                         torque),
         rate_label, torque_label, report::ChartKind::scatter);
   return charts;
 }

@@ -48,7 +48,7 @@ report::Chart convergence_chart(const Identification& found, const IdentifiedNum
   return chart;
 }
 
-void add_sentences(report::Page& page, const IdentifyResult& result) {
+void add_sentences(report::Page& page, const IdentificationStudy& result) {
   const Identification& found = result.identification;
   const auto all_converged = std::ranges::all_of(
       found.numbers, [](const IdentifiedNumber& n) { return n.convergence == Convergence::converged; });
@@ -81,7 +81,7 @@ void add_numbers(report::Page& page, const Identification& found) {
   page.table(table);
 }
 
-void add_errors(report::Page& page, const IdentifyResult& result) {
+void add_errors(report::Page& page, const IdentificationStudy& result) {
   const std::vector<JointUnit> units = joint_units(result.given);
   report::Table table;
   table.caption = "Joint position from motor signals alone, on " + result.holdout;
@@ -125,7 +125,7 @@ std::string in_words(Convergence convergence) {
   return "not excited: these data say little of it; give a log whose motion depends on it";
 }
 
-report::Page identify_page(const IdentifyResult& result) {
+report::Page identify_page(const IdentificationStudy& result) {
   const Identification& found = result.identification;
   report::Page page("Identification of " + result.given.name,
                     fmt::format("{} of its numbers, from {}", found.numbers.size(), result.data));

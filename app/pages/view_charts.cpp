@@ -6,6 +6,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "diagnosis/view_sentence.h"
+
 namespace halyard {
 namespace {
 

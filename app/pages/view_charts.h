@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/report/chart.h"
-#include "evaluation/studies/diagnosis_evaluation.h"
+#include "evaluation/studies/diagnosis_evidence.h"
 
 namespace halyard {
 

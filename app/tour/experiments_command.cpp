@@ -6,7 +6,7 @@
 #include "app/output_check.h"
 #include "app/pages/comparison_figures.h"
 #include "app/progress.h"
-#include "app/tour/experiments.h"
+#include "app/tour/experiments_report.h"
 
 namespace halyard {
 namespace {

@@ -1,23 +1,19 @@
+#include "app/tour/experiments_report.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "app/pages/comparison_figures.h"
 #include "app/pages/comparison_output.h"
-#include "app/pages/diagnosis_output.h"
-#include "app/report/page.h"
-#include "app/tour/experiments.h"
-#include "evaluation/json.h"
-#include "model/output_file.h"
+#include "diagnosis/view_sentence.h"
 
 namespace halyard {
 namespace {
 
-using nlohmann::ordered_json;
 using report::Align;
 using report::Cell;
 
@@ -186,100 +182,6 @@ void add_figures(report::Page& page, const Experiment& experiment) {
   }
 }
 
-report::Page experiments_page(const std::vector<Experiment>& experiments, const std::optional<EffectStudy>& study) {
-  report::Page page("The paper's experiments, simulated",
-                    "RAVEN-II, joints 1 to 3: Haghighipanah, Li, Miyasaka, Hannaford, IROS 2015");
-  page.paragraph(
-      fmt::format("Sines on all joints, {:g} s each. Every estimator gets motor torques and quantised motor positions "
-                  "and nothing of the joints. Errors are estimate minus the truth of the simulation, from {:g} s on.",
-                  first(experiments).truth.duration(), first(experiments).skip_s));
-  page.table(mean_error_table(experiments));
-  page.table(experiment_table(experiments));
-  page.paragraph(
-      "Of Table III joint 2's gains are known here, that the filter made joint 1's peak error worse in all three "
-      "experiments, and that joint 3's rows of B and C are the same number, which is probably a slip.");
-  add_meaning(page, experiments);
-  if (study) add_study(page, *study, first(experiments).units);
-  for (const Experiment& experiment : experiments) {
-    page.heading("Experiment " + experiment.name);
-    page.table(error_table(experiment.comparison));
-    add_figures(page, experiment);
-  }
-  return page;
-}
-
-ordered_json study_json(const EffectStudy& study) {
-  ordered_json all = ordered_json::array();
-  for (const StudiedRobot& robot : study.robots) {
-    ordered_json errors;
-    for (std::size_t e = 0; e < study.estimators.size(); ++e) {
-      errors[study.estimators[e]] = ordered_json::array();
-      for (const double error : robot.error[e]) errors[study.estimators[e]].push_back(number_or_null(error));
-    }
-    all.push_back({{"effects", robot.name()}, {"mean_absolute_error", errors}});
-  }
-  return all;
-}
-
-ordered_json experiments_json(const std::vector<Experiment>& experiments, const std::optional<EffectStudy>& study) {
-  const Comparison& comparison = first(experiments);
-  ordered_json means = ordered_json::array(), published = ordered_json::array(), details = ordered_json::array();
-  for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
-    ordered_json errors = ordered_json::array(), gains = ordered_json::array();
-    for (int k = 0; k < comparison.n_joints(); ++k) {
-      errors.push_back(number_or_null(mean_error(experiments, i, k)));
-      gains.push_back(number_or_null(mean_gain(experiments, i, k)));
-    }
-    means.push_back({{"estimator", comparison.runs[i].name},
-                     {"mean_absolute_error", errors},
-                     {"improvement_over_kinematics", gains}});
-  }
-  for (const PublishedErrors& row : published_errors()) {
-    ordered_json errors = ordered_json::array();
-    for (int k = 0; k < comparison.n_joints(); ++k) {
-      errors.push_back(row.error[k] / comparison.units[k].shown_per_si);
-    }
-    published.push_back({{"source", row.source}, {"mean_absolute_error", errors}});
-  }
-  for (const Experiment& experiment : experiments) {
-    ordered_json detail = {{"experiment", experiment.name}};
-    detail.update(to_json(experiment.comparison));
-    details.push_back(detail);
-  }
-  ordered_json all = {{"mean_of_experiments", means}, {"measured_on_the_robot", published}, {"experiments", details}};
-  if (study) all["effect_study"] = study_json(*study);
-  return all;
-}
-
-CsvTable experiments_csv(const std::vector<Experiment>& experiments) {
-  std::vector<std::string> header = error_columns();
-  header.insert(header.begin(), {"experiment", "estimator"});
-  CsvTable table(header);
-  for (const Experiment& experiment : experiments) {
-    const Comparison& comparison = experiment.comparison;
-    for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
-      for (int k = 0; k < comparison.n_joints(); ++k) {
-        table.add(experiment.name);
-        table.add(comparison.runs[i].name);
-        add_error_cells(table, comparison, i, k);
-      }
-    }
-  }
-  return table;
-}
-
-CsvTable study_csv(const EffectStudy& study, const std::vector<JointUnit>& units) {
-  CsvTable table({"effects", "estimator", "joint", "unit", "mean_absolute_error"});
-  for (const StudiedRobot& robot : study.robots)
-    for (std::size_t e = 0; e < study.estimators.size(); ++e)
-      for (std::size_t k = 0; k < units.size(); ++k) {
-        for (const std::string& text : {robot.name(), study.estimators[e], std::to_string(k + 1), units[k].si})
-          table.add(text);
-        table.add(robot.error[e][k]);
-      }
-  return table;
-}
-
 }  // namespace
 
 report::Table mean_error_table(const std::vector<Experiment>& experiments) {
@@ -386,15 +288,26 @@ std::string share_of_published(const std::vector<Experiment>& experiments) {
   return text + " times";
 }
 
-void write_experiments(const std::filesystem::path& folder, const std::vector<Experiment>& experiments,
-                       const std::optional<EffectStudy>& study) {
-  const CsvTable table = experiments_csv(experiments);
-  const std::string json = json_text(experiments_json(experiments, study));
-  const report::Page page = experiments_page(experiments, study);
-  table.write(folder / "experiments.csv");
-  if (study) study_csv(*study, first(experiments).units).write(folder / "effects.csv");
-  write_file_whole(folder / "experiments.json", json);
-  page.write(folder / "report.html");
+report::Page experiments_page(const std::vector<Experiment>& experiments, const std::optional<EffectStudy>& study) {
+  report::Page page("The paper's experiments, simulated",
+                    "RAVEN-II, joints 1 to 3: Haghighipanah, Li, Miyasaka, Hannaford, IROS 2015");
+  page.paragraph(
+      fmt::format("Sines on all joints, {:g} s each. Every estimator gets motor torques and quantised motor positions "
+                  "and nothing of the joints. Errors are estimate minus the truth of the simulation, from {:g} s on.",
+                  first(experiments).truth.duration(), first(experiments).skip_s));
+  page.table(mean_error_table(experiments));
+  page.table(experiment_table(experiments));
+  page.paragraph(
+      "Of Table III joint 2's gains are known here, that the filter made joint 1's peak error worse in all three "
+      "experiments, and that joint 3's rows of B and C are the same number, which is probably a slip.");
+  add_meaning(page, experiments);
+  if (study) add_study(page, *study, first(experiments).units);
+  for (const Experiment& experiment : experiments) {
+    page.heading("Experiment " + experiment.name);
+    page.table(error_table(experiment.comparison));
+    add_figures(page, experiment);
+  }
+  return page;
 }
 
 }  // namespace halyard

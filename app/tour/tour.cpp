@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <mutex>
 
-#include "app/log_input.h"
 #include "app/pages/diagnosis_output.h"
+#include "model/arm_log.h"
 #include "model/model_file.h"
 #include "plant/scenario.h"
 
@@ -76,7 +76,7 @@ DiagnosedModel diagnose_rig(const Rig& rig, const fs::path& examples, const fs::
   std::optional<Log> holdout;
   if (!rig.holdout.empty()) holdout = read(rig.holdout);
   DiagnosisOptions options;
-  options.attribution.most_effects = kMostEffectsOfRig;
+  options.most_effects = kMostEffectsOfRig;
   result.diagnosis = diagnose(result.model, training, holdout, options, progress);
   result.evaluation = evaluate_diagnosis(result.model, result.diagnosis, training, holdout, progress);
   if (holdout) result.diagnosis.holdout = rig.holdout;  // the same bytes wherever the recordings are

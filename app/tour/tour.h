@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "app/tour/experiments.h"
 #include "app/tour/tour_rigs.h"
 #include "diagnosis/diagnose.h"
+#include "evaluation/experiments/raven_experiments.h"
 #include "evaluation/studies/diagnosis_evaluation.h"
 #include "model/arm_model.h"
 

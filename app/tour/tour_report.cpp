@@ -6,7 +6,9 @@
 
 #include "app/pages/comparison_figures.h"
 #include "app/pages/diagnosis_output.h"
+#include "app/tour/experiments_report.h"
 #include "app/tour/tour.h"
+#include "diagnosis/view_sentence.h"
 
 namespace halyard {
 namespace {

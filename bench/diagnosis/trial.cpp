@@ -12,7 +12,7 @@
 #include "bench/diagnosis/draw.h"
 #include "bench/diagnosis/motion.h"
 #include "bench/diagnosis/strength.h"
-#include "diagnosis/diagnose.h"
+#include "diagnosis/diagnosis_details.h"
 #include "plant/simulate.h"
 
 namespace halyard::blind {
@@ -132,7 +132,7 @@ Recording draw_recording(const ArmModel& model, Kind kind, int index, double lim
 /// Root mean square of the joints' errors by a model that is given, over the diagnosis' own hold-out.
 std::vector<double> joint_errors(const Diagnosis& d, const ArmModel& model) {
   std::vector<double> square(model.n(), 0), count(model.n(), 0);
-  for (const Record& record : d.joint_view.records) {
+  for (const Record& record : d.details->joint_view.records) {
     const FullPrediction p = predict_fully(record, {model.nominal, model.effects});
     for (int k = 0; k < model.n(); ++k)
       for (std::size_t i = 0; record.has_joint(k) && i < record.size; ++i) {

@@ -1,4 +1,4 @@
-#include "diagnosis/diagnose.h"
+#include "diagnosis/diagnosis_details.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -224,7 +224,7 @@ TEST(Prediction, OfEverySampleIsTheReadingLessItsResidual) {
 /// One name is enough for these tests; a second round would only take time.
 DiagnosisOptions quick() {
   DiagnosisOptions options;
-  options.attribution.most_effects = 1;
+  options.most_effects = 1;
   return options;
 }
 
@@ -266,10 +266,10 @@ TEST(Diagnose, NamesBacklashAndItsRevisedModelPredictsBetter) {
   const ArmModel loaded = parse_model(model_to_xml(d.revised), "revised.xml");
   ASSERT_EQ(loaded.effects.size(), 1u);
   EXPECT_EQ(loaded.effects[0].effect->name(), "backlash");
-  const FullPrediction again = predict_fully(d.joint_view.records[0], {loaded.nominal, loaded.effects});
-  ASSERT_EQ(again.joint_reading[1].size(), d.joint_view.after[0].joint_reading[1].size());
+  const FullPrediction again = predict_fully(d.details->joint_view.records[0], {loaded.nominal, loaded.effects});
+  ASSERT_EQ(again.joint_reading[1].size(), d.details->joint_view.after[0].joint_reading[1].size());
   for (std::size_t i = 0; i < again.joint_reading[1].size(); ++i) {
-    const double now = again.joint_reading[1][i], then = d.joint_view.after[0].joint_reading[1][i];
+    const double now = again.joint_reading[1][i], then = d.details->joint_view.after[0].joint_reading[1][i];
     ASSERT_TRUE(now == then || (std::isnan(now) && std::isnan(then))) << "the file is the model to the last bit";
   }
 }

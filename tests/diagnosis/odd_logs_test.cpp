@@ -10,6 +10,7 @@
 #include <random>
 
 #include "diagnosis/diagnose.h"
+#include "diagnosis/record.h"
 #include "model/homing.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
@@ -43,7 +44,7 @@ Logs logs_of(const ArmModel& truth, double duration = kDuration) {
 
 DiagnosisOptions quick() {
   DiagnosisOptions options;
-  options.attribution.most_effects = 1;
+  options.most_effects = 1;
   options.tell_not_excited = false;
   return options;
 }

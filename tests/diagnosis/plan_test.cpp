@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "diagnosis/attribution.h"
 #include "diagnosis/baseline_reach.h"
 #include "diagnosis/diagnose.h"
 #include "model/model_file.h"
@@ -59,7 +60,7 @@ TEST(DetectionLimit, IsWhereADiagnosisBeginsToSee) {
     truth.effects.push_back(found.effect);
     truth.effects[0].p[0] *= factor;
     DiagnosisOptions options;
-    options.attribution.most_effects = 1;
+    options.most_effects = 1;
     options.tell_not_excited = false;
     return diagnose(model, {log_of(motion(truth, 8))}, log_of(motion(truth, 3, 1)), options);
   };

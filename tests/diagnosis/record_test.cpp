@@ -225,14 +225,5 @@ TEST(Record, AbsentColumnsAndJointsWithoutMotorHaveNothingToCompare) {
   }
 }
 
-TEST(SplitLog, CutsInTime) {
-  const Log log = log_of([](double t) { return t; }, 3, 1000);
-  const auto [first, rest] = split_log(log, 2.0 / 3);
-  EXPECT_EQ(first.size() + rest.size(), log.size());
-  EXPECT_NEAR(rest.time.front(), 2.0, 1e-9);
-  EXPECT_LT(first.time.back(), rest.time.front());
-  EXPECT_EQ(rest.motor_position[2].front(), log.motor_position[2][first.size()]);
-}
-
 }  // namespace
 }  // namespace halyard

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "diagnosis/diagnose.h"
+#include "diagnosis/diagnosis_details.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
 
@@ -56,8 +56,8 @@ TEST(UnknownPast, OfAnEffectThatTheModelHasIsNoEffect) {
   options.tell_not_excited = false;
   const Diagnosis d = diagnose(right, {amid.second_half()}, {}, options);
   EXPECT_EQ(d.verdict, Diagnosis::Verdict::clean);
-  ASSERT_EQ(d.past.size(), 1u);
-  EXPECT_GT(std::abs(d.past[0][0]), 0.1 * kYield);
+  ASSERT_EQ(d.details->past.size(), 1u);
+  EXPECT_GT(std::abs(d.details->past[0][0]), 0.1 * kYield);
 }
 
 TEST(UnknownPast, IsOfItsRecordAndItsEffect) {

@@ -309,5 +309,16 @@ TEST(SharedData, ForeignLogIsReadByMap) {
   EXPECT_EQ(log.ignored_columns.size(), 5);
 }
 
+TEST(SplitLog, CutsInTime) {
+  Log log(1);
+  // A gap in the second half: time counts, not samples.
+  log.time = {0, 1, 2, 3, 7, 9};
+  log.motor_position[0] = {0, 1, 2, 3, 4, 5};
+  const auto [first, rest] = split_log(log, 2.0 / 3);
+  EXPECT_EQ(first.time, (std::vector<double>{0, 1, 2, 3}));
+  EXPECT_EQ(rest.time, (std::vector<double>{7, 9}));
+  EXPECT_EQ(rest.motor_position[0], (std::vector<double>{4, 5}));
+}
+
 }  // namespace
 }  // namespace halyard

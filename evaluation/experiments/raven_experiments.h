@@ -6,11 +6,9 @@
 #include <array>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "app/report/page.h"
 #include "evaluation/comparison/compare.h"
 #include "evaluation/studies/effect_study.h"
 #include "plant/scenario.h"
@@ -71,25 +69,5 @@ double mean_gain(const std::vector<Experiment>& experiments, std::size_t run, in
 
 /// The place of a run in every experiment; that of kinematics and the filter are always there.
 std::size_t run_named(const std::vector<Experiment>& experiments, const std::string& name);
-
-/// As the paper's Table IV: what was simulated here beside what was measured on the robot, one row an estimator.
-report::Table mean_error_table(const std::vector<Experiment>& experiments);
-
-/// As the paper's Table III: each experiment and joint, beside what is known of it.
-report::Table experiment_table(const std::vector<Experiment>& experiments);
-
-/// Whether the filter's gains are ordered as on the robot, joint 1 < joint 2 < joint 3, in the mean and in each
-/// experiment.
-std::string order_of_gains(const std::vector<Experiment>& experiments);
-
-/// Joint 1's peak error, which the paper's filter made worse in each experiment.
-std::string peaks_of_joint_one(const std::vector<Experiment>& experiments);
-
-/// "0.70, 0.37, 1.7 times": the kinematics estimator's errors here over those of the robot, by joint.
-std::string share_of_published(const std::vector<Experiment>& experiments);
-
-/// Writes report.html, experiments.json and experiments.csv into the folder, and effects.csv if there is a study.
-void write_experiments(const std::filesystem::path& folder, const std::vector<Experiment>& experiments,
-                       const std::optional<EffectStudy>& study = std::nullopt);
 
 }  // namespace halyard

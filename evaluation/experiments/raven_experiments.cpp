@@ -1,4 +1,4 @@
-#include "app/tour/experiments.h"
+#include "evaluation/experiments/raven_experiments.h"
 
 #include <fmt/core.h>
 #include <oneapi/tbb/parallel_for.h>

@@ -1,0 +1,55 @@
+#include "evaluation/studies/holdout_errors.h"
+
+#include <algorithm>
+#include <exception>
+
+#include "evaluation/judgement/error_statistics.h"
+#include "evaluation/run/contained_run.h"
+#include "evaluation/run/sensor_readings.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kSkip = 0.5;  ///< s; a filter's start is not counted
+
+}  // namespace
+
+EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const std::vector<HeldOutLog>& logs) {
+  const auto n = static_cast<std::size_t>(model.n());
+  EstimatorErrors result;
+  result.innovation.resize(n);
+  result.joint_rate.resize(n);
+  Signals estimate(n), truth(n);
+  try {
+    for (const auto& [held, from] : logs) {
+      const Log& log = *held;
+      const EstimatorRun run = run_contained(name, model, log, {.use_joint_torque = true});
+      const Signals readings = sensor_readings(model, run);
+      const std::size_t first = first_counted_sample(log.time, std::max(kSkip, from - log.time.front()));
+      const auto append = [first](const std::vector<double>& from, std::vector<double>& to) {
+        to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
+      };
+      append(log.time, result.time);
+      for (std::size_t k = 0; k < n; ++k) {
+        append(run.innovation[k], result.innovation[k]);
+        append(run.estimates.joint_velocity[k], result.joint_rate[k]);
+        if (log.joint_position[k].empty()) continue;
+        append(readings[k], estimate[k]);
+        append(log.joint_position[k], truth[k]);
+      }
+      result.mean_nis += mean_of(run.nis) / static_cast<double>(logs.size());
+    }
+  } catch (const std::exception& e) {
+    EstimatorErrors failed;
+    failed.failure = e.what();
+    return failed;
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    const ErrorStatistics error = error_statistics(estimate[k], truth[k]);
+    result.rms.push_back(error.rms);
+    result.peak.push_back(error.peak);
+  }
+  return result;
+}
+
+}  // namespace halyard

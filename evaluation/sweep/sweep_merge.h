@@ -1,0 +1,27 @@
+#pragma once
+/// Puts the parts of a sweep together, as if it had been computed in one.
+
+#include <filesystem>
+#include <vector>
+
+#include "evaluation/sweep/sweep_grid.h"
+#include "evaluation/sweep/sweep_store.h"
+
+namespace halyard {
+
+/// All cells of the grid [grid.size()], in the order of the points, each from the first folder that has it.
+/// Throws InputError if some are in none of the folders, and as read_cell() does.
+std::vector<SweepCell> collect_cells(const std::vector<std::filesystem::path>& folders, const SweepGrid& grid);
+
+/// A whole sweep: its grid, and all its cells.
+struct SweepResult {
+  SweepGrid grid;
+  std::vector<SweepCell> cells;  ///< [grid.size()], in the order of the points
+};
+
+/// Collects the cells of all parts and stores them in the folder `out`, which may be one of the parts. Cells and tables
+/// of another sweep are removed from it first.
+/// Throws std::invalid_argument without parts, InputError if the parts are of different sweeps, and as collect_cells().
+SweepResult merge_sweep(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& out);
+
+}  // namespace halyard

@@ -1,0 +1,23 @@
+#pragma once
+/// Reads a log as the model of its arm says it is written.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "model/arm_model.h"
+#include "model/log.h"
+
+namespace halyard {
+
+/// Reads a log of the model's arm by the model's column map, and takes unknown zeros off its encoders (homing.h).
+/// column_entries, NAME=COLUMN[,unit=U][,sign=-1][,scale=S][,offset=O], replace entries of the model's map.
+/// torque_required: every joint with a motor needs its motor_torque_k.
+/// Throws InputError as ColumnMap::add_entry(), read_log() and home_encoders() do.
+Log read_log_of(const ArmModel& model, const std::filesystem::path& path,
+                const std::vector<std::string>& column_entries = {}, bool torque_required = true);
+
+/// "note: log.csv: columns that are not used: a, b"; empty if all are used.
+std::string ignored_columns_note(const Log& log);
+
+}  // namespace halyard

@@ -1,0 +1,88 @@
+#include "evaluation/sweep/sweep_merge.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "evaluation/sweep/sweep_table.h"
+#include "tests/support/message_of.h"
+
+namespace halyard {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A grid of three points, one estimator, one joint; the cell of point p has the RMS error p.
+class SweepMerge : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(folder_);
+    grid_.name = "test";
+    grid_.id = "1";
+    grid_.axes = {{.parameters = {"joint1.cable.stiffness"}, .unit = "N/m", .values = {1, 2, 3}}};
+    grid_.estimators = {"kinematics"};
+    grid_.units = {{"rad", "deg", 57}};
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path part(const std::string& name, const std::vector<std::size_t>& points, const std::string& id = "1") {
+    SweepGrid grid = grid_;
+    grid.id = id;
+    write_grid(folder_ / name, grid);
+    for (const std::size_t p : points) {
+      SweepCell cell{p, {{"", {{}}}}};
+      cell.results[0].errors[0].rms = static_cast<double>(p);
+      write_cell(folder_ / name, grid, cell);
+    }
+    return folder_ / name;
+  }
+
+  SweepGrid grid_;
+  const fs::path folder_ = fs::temp_directory_path() / ("halyard_sweep_merge_" + std::to_string(::getpid()));
+};
+
+TEST_F(SweepMerge, PutsTheCellsOfItsPartsInOrder) {
+  const SweepResult whole = merge_sweep({part("a", {2}), part("b", {0, 1})}, folder_ / "whole");
+  ASSERT_EQ(whole.cells.size(), 3u);
+  for (std::size_t p = 0; p < 3; ++p) {
+    EXPECT_EQ(whole.cells[p].point, p);
+    EXPECT_EQ(whole.cells[p].results[0].errors[0].rms, static_cast<double>(p));
+  }
+  EXPECT_EQ(collect_cells({folder_ / "whole"}, read_grid(folder_ / "whole")).size(), 3u) << "and stores them";
+}
+
+TEST_F(SweepMerge, NamesThePointThatNoPartHas) {
+  const std::string message = message_of([&] { merge_sweep({part("a", {0}), part("b", {2})}, folder_ / "whole"); });
+  EXPECT_NE(message.find("1 of 3 points are in none of the folders, the first is point 1"), message.npos) << message;
+  EXPECT_FALSE(fs::exists(folder_ / "whole")) << "nothing is written of a sweep that is not whole";
+}
+
+TEST_F(SweepMerge, RefusesPartsOfDifferentSweeps) {
+  const std::string message = message_of([&] {
+    merge_sweep({part("a", {0, 1}), part("b", {2}, "2")}, folder_ / "whole");
+  });
+  EXPECT_NE(message.find("b: holds another sweep than"), message.npos) << message;
+  EXPECT_THROW(merge_sweep({}, folder_ / "whole"), std::invalid_argument);
+}
+
+TEST_F(SweepMerge, WritesATableWithARowForEachPointEstimatorAndJoint) {
+  SweepResult whole = merge_sweep({part("a", {0, 1, 2})}, folder_ / "whole");
+  EXPECT_EQ(count_failures(whole.cells), 0u);
+  whole.cells[1].results[0].failure = "crashed";
+  EXPECT_EQ(count_failures(whole.cells), 1u);
+  write_sweep_table(folder_ / "sweep.csv", whole.grid, whole.cells);
+  std::ifstream file(folder_ / "sweep.csv");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(text,
+            "point,joint1.cable.stiffness,estimator,joint,unit,samples,mean_absolute_error,rms_error,peak_error,bias,"
+            "within_two_std,failure\n"
+            "0,1,kinematics,1,rad,0,,0,,,,\n"
+            "1,2,kinematics,1,rad,0,,1,,,,crashed\n"
+            "2,3,kinematics,1,rad,0,,2,,,,\n");
+}
+
+}  // namespace
+}  // namespace halyard
