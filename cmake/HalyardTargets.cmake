@@ -44,6 +44,11 @@ function(halyard_library room)
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endfunction()
 
+# halyard_optimise_a_little(TARGET): for code that takes longer to optimise than it ever runs.
+function(halyard_optimise_a_little target)
+  target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
+endfunction()
+
 # halyard_headers(ROOM header...): headers of a room that are installed.
 function(halyard_headers room)
   foreach(header ${ARGN})

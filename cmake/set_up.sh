@@ -1,4 +1,5 @@
-# Sourced by ./run and ./test from the project's root: installs what is missing, configures and builds.
+# Sourced by ./run and ./test from the project's root: installs what is missing, configures and builds the build preset
+# that is named: program (the program and what it loads) or release (the tests and examples too).
 set -euo pipefail
 
 packages=(
@@ -26,4 +27,4 @@ if [ ! -f build/release/build.ninja ]; then
   cmake --preset release >build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
   rm -f build-configure.log
 fi
-cmake --build --preset release
+cmake --build --preset "$1"

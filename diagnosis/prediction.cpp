@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 
 #include "diagnosis/filtered_effect.h"
 #include "diagnosis/lane_drive.h"
+#include "estimators/eigen_modes.h"
 #include "estimators/process/instruction_set.h"
 #include "transmission/path_matrix.h"
 
@@ -166,8 +166,8 @@ std::vector<Spectrum> spectra_of(const Hypothesis& h, const Record& record, cons
   for (const DrivenState<double>& at : {x, working_state(h, record, held, x)}) {
     const Eigen::MatrixXd J = driven_jacobian(transmission, record, held, at);
     if (!J.allFinite()) return {};
-    const Eigen::VectorXcd eigenvalues = J.eigenvalues();
-    spectra.emplace_back(eigenvalues.begin(), eigenvalues.end());
+    const Eigen::VectorXcd lambda = eigenvalues(J);
+    spectra.emplace_back(lambda.begin(), lambda.end());
   }
   return spectra;
 }

@@ -1,12 +1,12 @@
 #include "estimators/process/process_model.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 
+#include "estimators/eigen_modes.h"
 #include "estimators/process/standstill.h"
 
 namespace halyard {
@@ -93,13 +93,13 @@ void ProcessModel::find_stiffest_rate(const ArmModel& model) {
     const Eigen::VectorXd x_dot = derivative(at_rest, state_at_rest(pose.motor_angle, pose.joint_position), &A);
     for (int i = 0; i < n_states(); ++i)
       if (!std::isfinite(x_dot(i)) || !A.row(i).allFinite()) throw_not_finite(0, i);
-    const Eigen::EigenSolver<Eigen::MatrixXd> modes(A);
+    const EigenModes modes = eigen_modes(A);
     int k = 0;
-    const double rate = modes.eigenvalues().cwiseAbs().maxCoeff(&k);
+    const double rate = modes.eigenvalues.cwiseAbs().maxCoeff(&k);
     if (rate <= stiffest_rate_) continue;
     stiffest_rate_ = rate;
     // Participation factors, right times left eigenvector, do not depend on the states' units.
-    const Eigen::MatrixXcd V = modes.eigenvectors();
+    const Eigen::MatrixXcd& V = modes.eigenvectors;
     const Eigen::VectorXcd left = V.transpose().fullPivLu().solve(Eigen::VectorXcd::Unit(n_states(), k));
     V.col(k).cwiseProduct(left).cwiseAbs().maxCoeff(&stiffest_state_);
   }

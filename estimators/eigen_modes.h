@@ -1,0 +1,20 @@
+#pragma once
+/// Eigenvalues of a real matrix that need not be symmetric: A v = λ v, A [n x n], λ [n] complex, in no order.
+/// Eigen's solver takes 14 s to compile, so one file holds it for all.
+
+#include <Eigen/Core>
+
+namespace halyard {
+
+/// λ and V [n x n], whose columns are the right eigenvectors, of unit length.
+struct EigenModes {
+  Eigen::VectorXcd eigenvalues;
+  Eigen::MatrixXcd eigenvectors;
+};
+
+EigenModes eigen_modes(const Eigen::MatrixXd& A);
+
+/// λ alone, in less time.
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A);
+
+}  // namespace halyard
