@@ -21,7 +21,7 @@ struct ContainmentOptions {
 /// Calls options.progress now and then, and never options.row_done.
 /// Throws InputError where the estimator cannot be made (name, module, options) or the log cannot be run over,
 /// std::runtime_error, naming estimator, log and time, where the run fails, crashes, or exceeds the limit. Throws
-/// InputError if there is no worker (worker_program() in evaluation/worker/worker_process.h).
+/// InputError if there is no worker (HALYARD_WORKER names one).
 EstimatorRun run_contained(const std::string& name, const ArmModel& model, const Log& log,
                            const EstimateOptions& options = {}, const ContainmentOptions& containment = {});
 
