@@ -2,6 +2,8 @@
 ///
 /// Exit codes: 0 done; 2 wrong usage or unreadable or invalid input; 1 anything else. A failure is one line on stderr.
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -33,6 +35,8 @@ void flush_stdout() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Ceres writes to the log of why it gives up; what a fit came to is in the output, and stderr is for one line.
+  FLAGS_minloglevel = google::GLOG_FATAL;
   try {
     const int code = halyard::run_command_line(argc, argv);
     flush_stdout();

@@ -1,7 +1,6 @@
 #include "diagnosis/fit.h"
 
 #include <ceres/ceres.h>
-#include <glog/logging.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -100,7 +99,8 @@ class Residual : public ceres::CostFunction {
       }
     }
     for (std::size_t i = 0; i < prior_.size(); ++i) J[(rows + i) * p + prior_[i]] = 1;
-    return true;
+    // Ceres would print numbers that are not finite, whatever its options say.
+    return std::all_of(J, J + (rows + prior_.size()) * p, [](double d) { return std::isfinite(d); });
   }
 
  private:
@@ -274,25 +274,25 @@ Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<Fit
     const double high = problem.GetParameterUpperBound(u.data(), static_cast<int>(i));
     u[i] = std::clamp(u[i], low, high);
   }
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  solver.max_num_iterations = options.iterations;
-  solver.function_tolerance = options.cost_tolerance;
-  solver.parameter_tolerance = 1e-6;
-  solver.logging_type = ceres::SILENT;
-  solver.num_threads = 1;
-  // A trial step that cannot be integrated is foreseen; Ceres would warn of it on stderr.
-  static const int silent = FLAGS_minloglevel = google::GLOG_FATAL;
-  (void)silent;
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
-  if (summary.termination_type == ceres::FAILURE) return result;
-
   const std::size_t p = parameters.size(), rows = static_cast<std::size_t>(residual.num_residuals());
   std::vector<double> r(rows);
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J(rows, p);
   const double* block = u.data();
   double* jacobian = J.data();
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  solver.max_num_iterations = options.iterations;
+  solver.function_tolerance = options.cost_tolerance;
+  solver.parameter_tolerance = 1e-6;
+  solver.logging_type = ceres::SILENT;  // of a trial step that cannot be integrated too, which is foreseen
+  solver.num_threads = 1;
+  // Of a start that cannot be integrated Ceres would write to the log of the host program. What is computed here is kept
+  // for Ceres' first step.
+  if (!residual.Evaluate(&block, r.data(), &jacobian)) return result;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  if (summary.termination_type == ceres::FAILURE) return result;
+
   if (!residual.Evaluate(&block, r.data(), &jacobian)) return result;
   Eigen::MatrixXd information = J.transpose() * J;
   information.diagonal().array() += 1e-9;
