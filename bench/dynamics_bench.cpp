@@ -2,7 +2,7 @@
 
 #include "bench/bench_arm.h"
 #include "estimators/process/process_model.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "model/input_error.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

@@ -27,7 +27,7 @@ struct DrivenState {
   T q[kMaxJoints], v[kMaxJoints], z[kMaxStates];
 };
 
-/// Puts joints where their motion is prescribed; coupling comes from inboard joints only.
+/// Puts joints where their motion is prescribed.
 template <class T>
 HALYARD_INLINE void prescribe(const ArmParameters<T>& arm, const DrivenInput& u, DrivenState<T>& x) {
   for (int k = 0; k < arm.n; ++k) {
@@ -37,11 +37,8 @@ HALYARD_INLINE void prescribe(const ArmParameters<T>& arm, const DrivenInput& u,
       x.v[k] = u.motor_rate[k];
     }
     if (j.drive != Drive::rigid) continue;
-    const T turns = j.motor_travel() / j.pulley_radius;
-    T q = turns * (u.motor_angle[k] - j.motor_encoder_offset), v = turns * u.motor_rate[k];
-    for (int i = 0; i < k; ++i) q -= j.coupling[i] * x.q[i], v -= j.coupling[i] * x.v[i];
-    x.q[k] = q;
-    x.v[k] = v;
+    x.q[k] = rigid_joint(arm, k, T(u.motor_angle[k] - j.motor_encoder_offset), x.q);
+    x.v[k] = rigid_joint(arm, k, T(u.motor_rate[k]), x.v);
   }
 }
 
@@ -74,7 +71,7 @@ HALYARD_INLINE void chain_over_step(const ArmParameters<T>& arm, const DrivenSta
     const int k = chain.prescribed[r];
     const JointParameters<T>& j = arm.joint[k];
     for (int i = 0; i < n; ++i) {
-      chain.row[r][i] = j.drive == Drive::rigid ? T(j.pulley_radius * j.coupling[i]) : T(i == k ? 1.0 : 0.0);
+      chain.row[r][i] = j.drive == Drive::rigid ? path_per_joint(j, i) : T(i == k ? 1.0 : 0.0);
       chain.response[r][i] = chain.row[r][i];
     }
     ldl_solve<T, kMaxJoints>(n, chain.M, chain.response[r]);
@@ -140,7 +137,7 @@ HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const
     if (!torque_residual) continue;
     const JointParameters<T>& j = arm.joint[k];
     torque_residual[k] =
-        s[k].motor_torque - j.motor_travel() * s[k].cable_force_motor - j.rotor_inertia * u.motor_acceleration[k];
+        rotor_torque(j, s[k].motor_torque, s[k].cable_force_motor) - j.rotor_inertia * u.motor_acceleration[k];
   }
 }
 

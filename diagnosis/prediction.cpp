@@ -11,7 +11,8 @@
 #include "diagnosis/lane_drive.h"
 #include "estimators/eigen_modes.h"
 #include "estimators/process/instruction_set.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
+#include "transmission/jacobian.h"
 
 namespace halyard {
 namespace {
@@ -57,17 +58,6 @@ CommandHistory whole_history(const Record& record, const std::vector<DrivenInput
   return history;
 }
 
-template <class T>
-Transmission<T> make_transmission(const Hypothesis& h) {
-  std::vector<EffectInstance<T>> effects;
-  for (const PlacedEffect& e : h.effects) {
-    EffectInstance<T> lifted{e.effect, e.joint, {}};
-    for (int i = 0; i < kMaxEffectParameters; ++i) lifted.p[i] = e.p[i];
-    effects.push_back(lifted);
-  }
-  return Transmission<T>(lift<T>(h.nominal), std::move(effects));
-}
-
 /// seen: the effects as the record shows them.
 Transmission<Lanes> pack_hypotheses(const Hypothesis* const* lane, const FilteredEffects& seen) {
   ArmParameters<double> arms[kLaneWidth];
@@ -96,30 +86,30 @@ std::vector<double> past_states(const Hypothesis& h, const Record& record) {
 Eigen::MatrixXd driven_jacobian(const Transmission<Dual>& transmission, const Record& record, const DrivenInput& u,
                                 const DrivenState<double>& x) {
   const int n = record.n, m = transmission.n_states(), size = 2 * n + m;
+  Eigen::VectorXd at(size), rate(size);
+  at << Eigen::Map<const Eigen::VectorXd>(x.q, n), Eigen::Map<const Eigen::VectorXd>(x.v, n),
+      Eigen::Map<const Eigen::VectorXd>(x.z, m);
   Eigen::MatrixXd J(size, size);
-  for (int first = 0; first < size; first += kDualWidth) {
-    DrivenState<Dual> at, rate;
-    const auto entry = [&](DrivenState<Dual>& s, int i) -> Dual& {
-      return i < n ? s.q[i] : i < 2 * n ? s.v[i - n] : s.z[i - 2 * n];
-    };
-    for (int i = 0; i < size; ++i) {
-      const double value = i < n ? x.q[i] : i < 2 * n ? x.v[i - n] : x.z[i - 2 * n];
-      entry(at, i) = i >= first && i < first + kDualWidth ? Dual::seed(value, i - first) : Dual(value);
-    }
+  const auto rate_at = [&](const Dual* y, Dual* y_dot) {
+    DrivenState<Dual> state, state_rate;
+    std::copy(y, y + n, state.q);
+    std::copy(y + n, y + 2 * n, state.v);
+    std::copy(y + 2 * n, y + size, state.z);
     ChainOverStep<Dual> chain;
-    chain_over_step(transmission.arm(), at, 0.0, chain);
-    driven_derivative<Dual>(transmission, &chain, record.start, nullptr, u, at, rate, nullptr, nullptr);
-    for (int r = 0; r < size; ++r) {
-      for (int c = first; c < std::min(size, first + kDualWidth); ++c) J(r, c) = entry(rate, r).d[c - first];
-    }
-  }
+    chain_over_step(transmission.arm(), state, 0.0, chain);
+    driven_derivative<Dual>(transmission, &chain, record.start, nullptr, u, state, state_rate, nullptr, nullptr);
+    std::copy(state_rate.q, state_rate.q + n, y_dot);
+    std::copy(state_rate.v, state_rate.v + n, y_dot + n);
+    std::copy(state_rate.z, state_rate.z + m, y_dot + 2 * n);
+  };
+  jacobian(rate_at, at, rate, J);
   return J;
 }
 
 /// Where the joints stand at the record's first sample if no cable is stretched; at rest, effects without a past.
 DrivenState<double> unstretched_state(const Hypothesis& h, const Record& record, const DrivenInput& u) {
   const int n = record.n;
-  const ArmParameters<double> arm = make_transmission<double>(h).arm();
+  const ArmParameters<double> arm = lift_transmission<double>(h.nominal, h.effects).arm();
   Eigen::VectorXd q_m(n), q_undriven(n);
   for (int k = 0; k < n; ++k) {
     q_m(k) = u.motor_angle[k] - arm.joint[k].motor_encoder_offset;
@@ -135,7 +125,7 @@ DrivenState<double> unstretched_state(const Hypothesis& h, const Record& record,
 /// joints' Coulomb friction no longer damps.
 DrivenState<double> working_state(const Hypothesis& h, const Record& record, const DrivenInput& u,
                                   DrivenState<double> x) {
-  const Transmission<double> transmission = make_transmission<double>(h);
+  const Transmission<double> transmission = lift_transmission<double>(h.nominal, h.effects);
   const ArmParameters<double>& arm = transmission.arm();
   for (int k = 0; k < arm.n; ++k) {
     if (arm.joint[k].drive != Drive::cable || !record.has_torque(k)) continue;
@@ -161,7 +151,7 @@ DrivenState<double> working_state(const Hypothesis& h, const Record& record, con
 /// With the motors held: at rest at x, and as it works. Empty if they cannot be told.
 std::vector<Spectrum> spectra_of(const Hypothesis& h, const Record& record, const DrivenInput& held,
                                  const DrivenState<double>& x) {
-  const Transmission<Dual> transmission = make_transmission<Dual>(h);
+  const Transmission<Dual> transmission = lift_transmission<Dual>(h.nominal, h.effects);
   std::vector<Spectrum> spectra;
   for (const DrivenState<double>& at : {x, working_state(h, record, held, x)}) {
     const Eigen::MatrixXd J = driven_jacobian(transmission, record, held, at);
@@ -175,7 +165,7 @@ std::vector<Spectrum> spectra_of(const Hypothesis& h, const Record& record, cons
 /// Everything that the motion of the joints depends on if the motors move as they were measured: not what acts between
 /// the command and the rotor, nor what a joint's sensor adds.
 std::vector<double> motion_key(const Hypothesis& h, const Record& record) {
-  const ArmParameters<double> arm = make_transmission<double>(h).arm();
+  const ArmParameters<double> arm = lift_transmission<double>(h.nominal, h.effects).arm();
   std::vector<double> key = past_states(h, record);
   key.insert(key.end(), arm.gravity, arm.gravity + 3);
   for (int k = 0; k < arm.n; ++k) {
@@ -265,7 +255,7 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
   for (std::size_t i = 0; i < movers.size(); ++i)
     if (is_able(i)) able_spectra.push_back(spectra[i]);
   const Chebyshev scheme = scheme_for(able_spectra, record.dt);
-  const int n_states = make_transmission<double>(hypotheses[0]).n_states();
+  const int n_states = lift_transmission<double>(hypotheses[0].nominal, hypotheses[0].effects).n_states();
   const int state_size = 2 * n + n_states;
   std::vector<std::vector<double>> states(others.empty() ? 0 : movers.size());  // [mover][sample][state_size]
 

@@ -10,7 +10,7 @@
 #include "diagnosis/sampled_column.h"
 #include "model/homing.h"
 #include "model/input_error.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "estimators/process/rigid_chain.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 #include "transmission/transmission.h"
 
 namespace halyard {
@@ -200,7 +200,7 @@ void JointObserver::observe(int stride, ResidualSignals& out) {
       double x = joint.motor_travel() * (record_.motor_angle[k_][i] - s[k_].motor_error);
       for (int j = 0; j < n_; ++j)
         if (joint.coupling[j] != 0)
-          x -= joint.pulley_radius * joint.coupling[j] * (prediction_.joint_reading[j][i] - s[j].joint_error);
+          x -= path_per_joint(joint, j) * (prediction_.joint_reading[j][i] - s[j].joint_error);
       out.stretch.push_back(x);
     }
   }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/view_sentence.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

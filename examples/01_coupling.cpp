@@ -11,7 +11,6 @@
 
 #include "arm_example.h"
 #include "transmission/coupling.h"
-#include "transmission/path_matrix.h"
 
 int main() {
   using namespace halyard;

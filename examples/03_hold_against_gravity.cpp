@@ -10,7 +10,7 @@
 
 #include "arm_example.h"
 #include "plant/equilibrium.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 int main() {
   using namespace halyard;

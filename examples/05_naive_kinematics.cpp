@@ -7,7 +7,7 @@
 
 #include "arm_example.h"
 #include "estimators/filters/kinematics.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 int main() {
   using namespace halyard;

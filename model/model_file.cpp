@@ -10,7 +10,7 @@
 
 #include "model/input_error.h"
 #include "model/xml_reader.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

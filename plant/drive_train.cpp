@@ -3,6 +3,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "transmission/drive.h"
+#include "transmission/jacobian.h"
+
 namespace halyard {
 namespace {
 
@@ -32,28 +35,11 @@ PlantLayout make_layout(const Transmission<double>& transmission) {
   return l;
 }
 
-Transmission<Dual> lift_transmission(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects) {
-  std::vector<EffectInstance<Dual>> lifted;
-  for (const PlacedEffect& e : effects) {
-    EffectInstance<Dual> d;
-    d.effect = e.effect;
-    d.joint = e.joint;
-    for (int i = 0; i < kMaxEffectParameters; ++i) d.p[i] = e.p[i];
-    lifted.push_back(d);
-  }
-  return Transmission<Dual>(lift<Dual>(nominal), lifted);
-}
-
 Eigen::MatrixXd make_rotor_mass(const ArmParameters<double>& arm) {
-  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(arm.n, arm.n);
-  for (int k = 0; k < arm.n; ++k) {
-    const JointParameters<double>& j = arm.joint[k];
-    if (j.drive != Drive::rigid) continue;
-    const Eigen::Map<const Eigen::VectorXd> C(j.coupling, arm.n);
-    const double turns = j.pulley_radius / j.motor_travel();
-    M += j.rotor_inertia * turns * turns * C * C.transpose();
-  }
-  return M;
+  double M[kMaxJoints][kMaxJoints] = {};
+  add_rotor_mass(arm, M);
+  return Eigen::Map<Eigen::Matrix<double, kMaxJoints, kMaxJoints, Eigen::RowMajor>>(&M[0][0]).topLeftCorner(arm.n,
+                                                                                                            arm.n);
 }
 
 template <class T>
@@ -76,23 +62,15 @@ struct Evaluation {
 template <class T>
 void evaluate(const Transmission<T>& transmission, const PlantLayout& l, const Motion<T>& m, Evaluation<T>& e) {
   const ArmParameters<T>& arm = transmission.arm();
-  T path[kMaxJoints];
-  cable_path(arm, m.q, path);
   cable_path(arm, m.v, e.path_rate);
   for (int k = 0; k < l.n; ++k) {
-    JointSignals<T>& s = e.s[k];
-    s.command = m.command[k];
-    s.external_force = m.external[k];
-    s.joint_position = m.q[k];
-    s.joint_rate = m.v[k];
-    if (arm.joint[k].drive == Drive::cable) {
-      s.motor_angle = m.z[l.motor_angle[k]];
-      s.motor_rate = m.z[l.motor_rate[k]];
-    } else if (arm.joint[k].drive == Drive::rigid) {
-      s.motor_angle = path[k] / arm.joint[k].motor_travel();
-      s.motor_rate = e.path_rate[k] / arm.joint[k].motor_travel();
-    }
+    e.s[k].command = m.command[k];
+    e.s[k].external_force = m.external[k];
+    if (arm.joint[k].drive != Drive::cable) continue;
+    e.s[k].motor_angle = m.z[l.motor_angle[k]];
+    e.s[k].motor_rate = m.z[l.motor_rate[k]];
   }
+  set_motion(arm, m.q, m.v, e.s);
   const T* effect_states = m.z + l.effect_states;
   transmission.commanded_torque(m.time, m.history, effect_states, e.s);
   for (int k = 0; k < l.n; ++k) e.shaft_torque[k] = arm.joint[k].drive == Drive::none ? T(0.0) : e.s[k].motor_torque;
@@ -125,9 +103,11 @@ void term_rates(DriveTerms terms, const Transmission<T>& transmission, const Pla
   Evaluation<T> e;
   evaluate(transmission, l, m, e);
 
-  T torque[kMaxJoints], pull[kMaxJoints];  // of these terms: on the rotor, cable excluded; of the cable on the capstan
+  // Of these terms: force on the joints, torque on the rotor with the cable excluded, pull of the cable on the capstan.
+  T torque[kMaxJoints], pull[kMaxJoints], motor_acceleration[kMaxJoints];
   for (int k = 0; k < l.n; ++k) {
     const JointSignals<T>& s = e.s[k];
+    pull[k] = s.cable_force_motor;
     switch (terms) {
       case DriveTerms::all:
         joint_force[k] = s.joint_force;
@@ -138,23 +118,19 @@ void term_rates(DriveTerms terms, const Transmission<T>& transmission, const Pla
         torque[k] = s.motor_torque - e.shaft_torque[k];
         break;
       case DriveTerms::first_cable:
-        joint_force[k] = arm.joint[0].pulley_radius * arm.joint[0].coupling[k] * e.s[0].cable_force_joint;
-        torque[k] = T(0.0);
+        joint_force[k] = torque[k] = T(0.0);
+        if (k > 0) pull[k] = T(0.0);
         break;
     }
-    pull[k] = terms == DriveTerms::first_cable && k > 0 ? T(0.0) : s.cable_force_motor;
   }
+  if (terms == DriveTerms::first_cable) add_cable_reaction(arm, 0, e.s[0].cable_force_joint, joint_force);
+  drive_forces(arm, torque, pull, joint_force, motor_acceleration);
 
   for (int k = 0; k < l.n; ++k) {
-    const JointParameters<T>& j = arm.joint[k];
-    if (j.drive == Drive::rigid) {
-      const T force = torque[k] / j.motor_travel() * j.pulley_radius;
-      for (int i = 0; i < l.n; ++i) joint_force[i] += j.coupling[i] * force;
-    } else if (j.drive == Drive::cable) {
-      const bool counts = terms != DriveTerms::first_cable || k == 0;
-      z_dot[l.motor_angle[k]] = counts ? e.s[k].motor_rate : T(0.0);
-      z_dot[l.motor_rate[k]] = (torque[k] - j.motor_travel() * pull[k]) / j.rotor_inertia;
-    }
+    if (arm.joint[k].drive != Drive::cable) continue;
+    const bool counts = terms != DriveTerms::first_cable || k == 0;
+    z_dot[l.motor_angle[k]] = counts ? e.s[k].motor_rate : T(0.0);
+    z_dot[l.motor_rate[k]] = motor_acceleration[k];
   }
   for (int i = 0; i < l.n_effect_states; ++i)
     z_dot[l.effect_states + i] = terms == DriveTerms::first_cable ? T(0.0) : e.effect_rate[i];
@@ -166,7 +142,7 @@ void term_rates(DriveTerms terms, const Transmission<T>& transmission, const Pla
 
 DriveTrain::DriveTrain(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects)
     : transmission_(nominal, effects),
-      slope_transmission_(lift_transmission(nominal, effects)),
+      slope_transmission_(lift_transmission<Dual>(nominal, effects)),
       layout_(make_layout(transmission_)),
       rotor_mass_(make_rotor_mass(transmission_.arm())),
       history_(nominal.n, kHistorySpan) {}
@@ -184,22 +160,16 @@ void DriveTrain::rates(DriveTerms terms, double time_s, const double* q, const d
 
 void DriveTrain::slopes(DriveTerms terms, double time_s, const double* q, const double* v, const double* z,
                         Eigen::MatrixXd& slopes) const {
-  const int n = layout_.n, size = layout_.size();
-  slopes.resize(n + layout_.n_z, size);
-  Dual y[2 * kMaxJoints + kMaxAuxiliaryStates], force[kMaxJoints], z_dot[kMaxAuxiliaryStates];
-  for (int first = 0; first < size; first += kDualWidth) {
-    for (int i = 0; i < size; ++i) {
-      const double value = i < n ? q[i] : i < 2 * n ? v[i - n] : z[i - 2 * n];
-      const bool seeded = i >= first && i < first + kDualWidth;
-      y[i] = seeded ? Dual::seed(value, i - first) : Dual(value);
-    }
+  const int n = layout_.n, rows = n + layout_.n_z;
+  Eigen::VectorXd y(layout_.size()), rates(rows);
+  y << Eigen::Map<const Eigen::VectorXd>(q, n), Eigen::Map<const Eigen::VectorXd>(v, n),
+      Eigen::Map<const Eigen::VectorXd>(z, layout_.n_z);
+  slopes.resize(rows, layout_.size());
+  const auto rates_at = [&](const Dual* at, Dual* out) {
     term_rates(terms, slope_transmission_, layout_,
-               Motion<Dual>{time_s, &history_, command_, external_, y, y + n, y + 2 * n}, force, z_dot);
-    for (int c = first; c < std::min(first + kDualWidth, size); ++c) {
-      for (int r = 0; r < n; ++r) slopes(r, c) = force[r].d[c - first];
-      for (int r = 0; r < layout_.n_z; ++r) slopes(n + r, c) = z_dot[r].d[c - first];
-    }
-  }
+               Motion<Dual>{time_s, &history_, command_, external_, at, at + n, at + 2 * n}, out, out + n);
+  };
+  jacobian(rates_at, y, rates, slopes);
 }
 
 void DriveTrain::signals(double time_s, const double* q, const double* v, const double* z,

@@ -1,9 +1,7 @@
 #pragma once
 /// Everything of the plant but its rigid chain: motors, transmission with effects, and two energy meters.
 ///
-///   cable drive   q_m' = ω,   J ω' = τ - (r_m/N) g
-///   rigid drive   q_m = R_k q N/r_m; the joints feel R_kᵀ τ N/r_m, and the chain carries the rotor:
-///                 M gains J R_kᵀ R_k (N/r_m)²
+///   drives        cable, rigid or none, as in transmission/drive.h; the chain carries the rotors of rigid drives
 ///   meters        E_in' = Σ τ_c ω + Σ F_e q',   E_lost' = power that goes into motors, cables and joints less
 ///                 what comes out of them or is stored in a stretched cable
 ///

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "model/input_error.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

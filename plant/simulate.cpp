@@ -12,7 +12,7 @@
 #include "plant/sensors/camera.h"
 #include "plant/sensors/encoder.h"
 #include "plant/trajectory.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "estimators/estimator.h"
 #include "model/arm_model.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 #include "transmission/transmission.h"
 
 namespace halyard {

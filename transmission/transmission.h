@@ -128,4 +128,16 @@ HALYARD_INLINE void Transmission<T>::evaluate(double time, const CommandHistory*
   }
 }
 
+/// The arm with its effects over another scalar type, all lanes equal, all derivatives zero.
+template <class T>
+Transmission<T> lift_transmission(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects) {
+  std::vector<EffectInstance<T>> lifted;
+  for (const PlacedEffect& effect : effects) {
+    EffectInstance<T> e{effect.effect, effect.joint, {}};
+    for (int i = 0; i < kMaxEffectParameters; ++i) e.p[i] = effect.p[i];
+    lifted.push_back(e);
+  }
+  return Transmission<T>(lift<T>(nominal), std::move(lifted));
+}
+
 }  // namespace halyard

@@ -7,7 +7,7 @@
 
 #include "estimators/process/arm_models.h"
 #include "estimators/process/static_equilibrium.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

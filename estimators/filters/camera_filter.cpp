@@ -3,7 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
+#include "transmission/jacobian.h"
 
 namespace halyard {
 namespace {
@@ -51,16 +52,15 @@ class MarkerPosition final : public MeasurementModel {
   }
   Eigen::VectorXd linearise(const Eigen::VectorXd& x, Eigen::MatrixXd& H) const override {
     const ArmParameters<Dual>& arm = model_.dual_transmission().arm();
-    const auto& at = model_.layout().position;
+    const std::vector<int> at(model_.layout().position, model_.layout().position + arm.n);
+    Eigen::VectorXd z(3);
+    Eigen::MatrixXd of_joints(3, arm.n);
+    const auto position_at = [&](const Dual* q, Dual* out) {
+      position_of(arm, chain_pose(arm, q), arm.payload_point, out);
+    };
+    jacobian(position_at, x(at), z, of_joints);
     H.setZero(3, x.size());
-    for (int first = 0; first < arm.n; first += kDualWidth) {
-      Dual q[kMaxJoints], z[3];
-      for (int k = 0; k < arm.n; ++k)
-        q[k] = k >= first && k < first + kDualWidth ? Dual::seed(x(at[k]), k - first) : Dual(x(at[k]));
-      position_of(arm, chain_pose(arm, q), arm.payload_point, z);
-      for (int r = 0; r < 3; ++r)
-        for (int d = 0; d < kDualWidth && first + d < arm.n; ++d) H(r, at[first + d]) = z[r].d[d];
-    }
+    H(Eigen::all, at) = of_joints;
     return read(x);
   }
 

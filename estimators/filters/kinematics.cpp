@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 #include "transmission/transmission.h"
 
 namespace halyard {

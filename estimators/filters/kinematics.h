@@ -1,6 +1,6 @@
 #pragma once
 /// Kinematics without elasticity, what the arm's own software does: joint positions from motor angles by Eq. 8
-/// inverted, q = R⁻¹ (r_m / N) q_m (path_matrix.h), velocities by differences of successive samples.
+/// inverted, q = R⁻¹ (r_m / N) q_m (coupling.h), velocities by differences of successive samples.
 
 #include "estimators/estimator.h"
 #include "model/arm_model.h"

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "transmission/jacobian.h"
+
 namespace halyard {
 namespace {
 
@@ -99,20 +101,14 @@ Eigen::MatrixXd ArmFamily::readings(double time_s, const Eigen::MatrixXd& X) con
 }
 
 Eigen::VectorXd ArmFamily::readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd& H) const {
-  const int n = structure_.n_joints(), states = structure_.n_states();
+  const int n = structure_.n_joints();
   const Transmission<Dual> transmission(lift<Dual>(arms_[0]), structure_.dual_transmission().effects());
   Eigen::VectorXd z(2 * n);
-  H.resize(2 * n, states);
-  for (int first = 0; first < states; first += kDualWidth) {
-    Dual at[kMaxStates], read[2 * kMaxJoints];
-    for (int i = 0; i < states; ++i)
-      at[i] = i >= first && i < first + kDualWidth ? Dual::seed(x(i), i - first) : Dual(x(i));
-    read_all(transmission, structure_.layout(), time_s, at, read);
-    for (int i = 0; i < 2 * n; ++i) {
-      z(i) = read[i].a;
-      for (int d = 0; d < kDualWidth && first + d < states; ++d) H(i, first + d) = read[i].d[d];
-    }
-  }
+  H.resize(2 * n, structure_.n_states());
+  const auto read = [&](const Dual* at, Dual* reading) {
+    read_all(transmission, structure_.layout(), time_s, at, reading);
+  };
+  jacobian(read, x, z, H);
   return z;
 }
 

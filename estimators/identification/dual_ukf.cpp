@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

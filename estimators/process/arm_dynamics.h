@@ -6,11 +6,11 @@
 ///   M(q) q'' + h(q, q') = F                          (Eq. 4; F of transmission.h)
 ///
 /// The state is, joint by joint, [q_m, q_m', q, q'] for a cable-driven joint and [q, q'] for one
-/// that is driven rigidly or not at all, then the internal states of the effects. A rigidly driven
-/// joint carries its rotor along: M gains J R_kᵀ R_k / (r_m/N)².
+/// that is driven rigidly or not at all, then the internal states of the effects. The drives are those of
+/// transmission/drive.h: M has the rotors of rigid drives.
 
 #include "estimators/process/rigid_chain.h"
-#include "transmission/transmission.h"
+#include "transmission/drive.h"
 
 namespace halyard {
 
@@ -49,48 +49,18 @@ StateLayout state_layout(const Transmission<T>& transmission) {
   return l;
 }
 
-/// Motor angle of joint k from joint positions, for a rigid drive; works for rates as well.
-template <class T>
-HALYARD_INLINE T rigid_motor(const ArmParameters<T>& arm, int k, const T* q) {
-  const JointParameters<T>& j = arm.joint[k];
-  T sum = 0.0;
-  for (int i = 0; i < arm.n; ++i) sum += j.coupling[i] * q[i];
-  return j.pulley_radius * sum / j.motor_travel();
-}
-
 /// The signals of a state: motor and joint motion of every joint.
 template <class T>
 HALYARD_INLINE void unpack_state(const ArmParameters<T>& arm, const StateLayout& l, const T* x, JointSignals<T>* s) {
   T q[kMaxJoints], v[kMaxJoints];
   for (int k = 0; k < arm.n; ++k) {
-    q[k] = s[k].joint_position = x[l.position[k]];
-    v[k] = s[k].joint_rate = x[l.rate[k]];
+    q[k] = x[l.position[k]];
+    v[k] = x[l.rate[k]];
+    if (arm.joint[k].drive != Drive::cable) continue;
+    s[k].motor_angle = x[l.motor_angle[k]];
+    s[k].motor_rate = x[l.motor_rate[k]];
   }
-  for (int k = 0; k < arm.n; ++k) {
-    if (arm.joint[k].drive == Drive::cable) {
-      s[k].motor_angle = x[l.motor_angle[k]];
-      s[k].motor_rate = x[l.motor_rate[k]];
-    } else if (arm.joint[k].drive == Drive::rigid) {
-      s[k].motor_angle = rigid_motor(arm, k, q);
-      s[k].motor_rate = rigid_motor(arm, k, v);
-    } else {
-      s[k].motor_angle = s[k].motor_rate = T(0.0);
-    }
-  }
-}
-
-/// M(q) + rotors of rigid drives, factored in place by ldl_factor.
-template <class T>
-HALYARD_INLINE void factored_mass(const ArmParameters<T>& arm, const ChainPose<T>& pose, T M[][kMaxJoints]) {
-  mass_matrix(arm, pose, M);
-  for (int k = 0; k < arm.n; ++k) {
-    const JointParameters<T>& j = arm.joint[k];
-    if (j.drive != Drive::rigid) continue;
-    const T turns = j.pulley_radius / j.motor_travel();
-    for (int r = 0; r < arm.n; ++r)
-      for (int c = 0; c < arm.n; ++c) M[r][c] += j.rotor_inertia * turns * turns * j.coupling[r] * j.coupling[c];
-  }
-  ldl_factor<T, kMaxJoints>(arm.n, M);
+  set_motion(arm, q, v, s);
 }
 
 /// x' at state x. command, external: [n], held over the step.
@@ -112,24 +82,24 @@ HALYARD_INLINE void state_derivative(const Transmission<T>& transmission, const 
 
   const ChainPose<T> pose = chain_pose(arm, q);
   inverse_dynamics(arm, pose, v, zero, bias);
-  T M[kMaxJoints][kMaxJoints], a[kMaxJoints];
-  factored_mass(arm, pose, M);
-  for (int k = 0; k < n; ++k) a[k] = s[k].joint_force - bias[k];
+  T M[kMaxJoints][kMaxJoints], a[kMaxJoints], torque[kMaxJoints], pull[kMaxJoints], motor_acceleration[kMaxJoints];
+  mass_matrix(arm, pose, M);
+  add_rotor_mass(arm, M);
+  ldl_factor<T, kMaxJoints>(n, M);
   for (int k = 0; k < n; ++k) {
-    const JointParameters<T>& j = arm.joint[k];
-    if (j.drive != Drive::rigid) continue;
-    const T pull = s[k].motor_torque / j.motor_travel() * j.pulley_radius;
-    for (int i = 0; i < n; ++i) a[i] += j.coupling[i] * pull;
+    a[k] = s[k].joint_force - bias[k];
+    torque[k] = s[k].motor_torque;
+    pull[k] = s[k].cable_force_motor;
   }
+  drive_forces(arm, torque, pull, a, motor_acceleration);
   ldl_solve<T, kMaxJoints>(n, M, a);
 
   for (int k = 0; k < n; ++k) {
-    const JointParameters<T>& j = arm.joint[k];
     x_dot[l.position[k]] = v[k];
     x_dot[l.rate[k]] = a[k];
-    if (j.drive != Drive::cable) continue;
+    if (arm.joint[k].drive != Drive::cable) continue;
     x_dot[l.motor_angle[k]] = s[k].motor_rate;
-    x_dot[l.motor_rate[k]] = (s[k].motor_torque - j.motor_travel() * s[k].cable_force_motor) / j.rotor_inertia;
+    x_dot[l.motor_rate[k]] = motor_acceleration[k];
   }
 }
 

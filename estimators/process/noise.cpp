@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "estimators/process/standstill.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {
@@ -25,7 +25,9 @@ Eigen::VectorXd effect_scales(const ProcessModel& process) {
 /// Accelerations of the joints per joint force, motors of rigid drives carried along: M(q)⁻¹.
 Eigen::MatrixXd mobility(const ArmParameters<double>& arm, const Eigen::VectorXd& q) {
   double M[kMaxJoints][kMaxJoints];
-  factored_mass(arm, chain_pose(arm, q.data()), M);
+  mass_matrix(arm, chain_pose(arm, q.data()), M);
+  add_rotor_mass(arm, M);
+  ldl_factor(arm.n, M);
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(arm.n, arm.n);
   for (int c = 0; c < arm.n; ++c) ldl_solve(arm.n, M, inverse.col(c).data());
   return inverse;
@@ -94,7 +96,7 @@ const Eigen::MatrixXd& ArmNoise::process_root(const Step& step, const Eigen::Vec
     if (j.drive != Drive::rigid) continue;
     for (int i = 0; i < n; ++i)
       for (int c = 0; c < n; ++c)
-        G_(l.rate[i], k) += M_inverse(i, c) * j.coupling[c] * j.pulley_radius / j.motor_travel() * torque;
+        G_(l.rate[i], k) += M_inverse(i, c) * path_per_joint(j, c) / j.motor_travel() * torque;
   }
   points_.resize(l.size, forces + 1);
   points_.col(0) = x;

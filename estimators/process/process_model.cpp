@@ -8,22 +8,12 @@
 
 #include "estimators/eigen_modes.h"
 #include "estimators/process/standstill.h"
+#include "transmission/jacobian.h"
 
 namespace halyard {
 namespace {
 
 constexpr double kStableStep = 2.2;  // h |λ|; see the header
-
-template <class T>
-Transmission<T> lift_transmission(const ArmModel& model) {
-  std::vector<EffectInstance<T>> effects(model.effects.size());
-  for (std::size_t i = 0; i < effects.size(); ++i) {
-    effects[i].effect = model.effects[i].effect;
-    effects[i].joint = model.effects[i].joint;
-    for (int k = 0; k < kMaxEffectParameters; ++k) effects[i].p[k] = T(model.effects[i].p[k]);
-  }
-  return Transmission<T>(lift<T>(model.nominal), std::move(effects));
-}
 
 std::vector<std::string> name_states(const Transmission<double>& transmission, const StateLayout& l) {
   std::vector<std::string> names(l.size);
@@ -59,23 +49,12 @@ struct StepInputs {
   }
 };
 
-/// Calls body(x, first) for each pass of kDualWidth directions, x seeded in the states first, first + 1, ...
-template <class Body>
-void for_each_direction(int n, const double* x, Body body) {
-  for (int first = 0; first < n; first += kDualWidth) {
-    Dual seeded[kMaxStates];
-    for (int i = 0; i < n; ++i)
-      seeded[i] = i >= first && i < first + kDualWidth ? Dual::seed(x[i], i - first) : Dual(x[i]);
-    body(seeded, first);
-  }
-}
-
 }  // namespace
 
 ProcessModel::ProcessModel(const ArmModel& model)
-    : transmission_(lift_transmission<double>(model)),
-      dual_(lift_transmission<Dual>(model)),
-      lanes_(lift_transmission<Lanes>(model)),
+    : transmission_(lift_transmission<double>(model.nominal, model.effects)),
+      dual_(lift_transmission<Dual>(model.nominal, model.effects)),
+      lanes_(lift_transmission<Lanes>(model.nominal, model.effects)),
       layout_(state_layout(transmission_)) {
   if (layout_.size > kMaxStates)
     throw std::invalid_argument("arm with effects has " + std::to_string(layout_.size) + " states, more than " +
@@ -157,17 +136,15 @@ void ProcessModel::advance_with_jacobian(const Step& step, double* x, Eigen::Ref
                                          const LaneKernels& kernels) const {
   const StepInputs<Dual> in(step, n_joints());
   const int parts = substeps(step.dt_s), n = n_states();
-  double next[kMaxStates];
-  for_each_direction(n, x, [&](Dual* at, int first) {
-    kernels.advance_dual(dual_, layout_, step.time_s, step.dt_s, parts, step.history, in.command, in.external, at);
-    for (int i = 0; i < n; ++i) {
-      next[i] = at[i].a;
-      for (int d = 0; d < kDualWidth && first + d < n; ++d) F(i, first + d) = at[i].d[d];
-    }
-  });
+  Eigen::VectorXd next(n);
+  const auto one_step = [&](const Dual* at, Dual* after) {
+    std::copy(at, at + n, after);
+    kernels.advance_dual(dual_, layout_, step.time_s, step.dt_s, parts, step.history, in.command, in.external, after);
+  };
+  jacobian(one_step, Eigen::Map<Eigen::VectorXd>(x, n), next, F);
   for (int i = 0; i < n; ++i) {
-    if (!std::isfinite(next[i]) || !F.row(i).allFinite()) throw_not_finite(step.time_s + step.dt_s, i);
-    x[i] = next[i];
+    if (!std::isfinite(next(i)) || !F.row(i).allFinite()) throw_not_finite(step.time_s + step.dt_s, i);
+    x[i] = next(i);
   }
 }
 
@@ -182,32 +159,26 @@ Eigen::VectorXd ProcessModel::derivative(const Step& step, const Eigen::VectorXd
   }
   const StepInputs<Dual> in(step, n_joints());
   A->resize(n, n);
-  for_each_direction(n, x.data(), [&](const Dual* at, int first) {
-    Dual rate[kMaxStates];
+  const auto rate_of = [&](const Dual* at, Dual* rate) {
     lane_kernels()[0].derivative_dual(dual_, layout_, step.time_s, step.history, in.command, in.external, at, rate);
-    for (int i = 0; i < n; ++i) {
-      x_dot(i) = rate[i].a;
-      for (int d = 0; d < kDualWidth && first + d < n; ++d) (*A)(i, first + d) = rate[i].d[d];
-    }
-  });
+  };
+  jacobian(rate_of, x, x_dot, *A);
   return x_dot;
 }
 
 Eigen::VectorXd ProcessModel::motor_readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd* H) const {
-  const int n = n_states();
-  Eigen::VectorXd z = Eigen::VectorXd::Zero(n_joints());
-  if (H) H->setZero(n_joints(), n);
-  for_each_direction(n, x.data(), [&](const Dual* at, int first) {
+  Eigen::VectorXd z(n_joints());
+  Eigen::MatrixXd own;
+  Eigen::MatrixXd& slopes = H ? *H : own;
+  slopes.resize(n_joints(), n_states());
+  const auto read = [&](const Dual* at, Dual* reading) {
     JointSignals<Dual> s[kMaxJoints];
     unpack_state(dual_.arm(), layout_, at, s);
     dual_.sensor_errors(time_s, at + layout_.effect_states, s);
-    for (int k = 0; k < n_joints(); ++k) {
-      if (arm().joint[k].drive == Drive::none) continue;
-      const Dual reading = s[k].motor_angle + s[k].motor_error;
-      z(k) = reading.a;
-      for (int d = 0; H && d < kDualWidth && first + d < n; ++d) (*H)(k, first + d) = reading.d[d];
-    }
-  });
+    for (int k = 0; k < n_joints(); ++k)
+      reading[k] = arm().joint[k].drive == Drive::none ? Dual(0.0) : s[k].motor_angle + s[k].motor_error;
+  };
+  jacobian(read, x, z, slopes);
   return z;
 }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "estimators/process/rigid_chain.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

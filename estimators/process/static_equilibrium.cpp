@@ -6,7 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
+#include "transmission/jacobian.h"
 
 namespace halyard {
 namespace {
@@ -16,26 +17,24 @@ void rest_forces(const ProcessModel& process, double time_s, const Eigen::Vector
                  const Eigen::VectorXd& external, const Eigen::VectorXd& z, const Eigen::VectorXd& q,
                  Eigen::VectorXd& F, Eigen::MatrixXd& K) {
   const Transmission<Dual>& transmission = process.dual_transmission();
-  const int n = process.n_joints(), n_z = static_cast<int>(z.size());
-  for (int first = 0; first < n; first += kDualWidth) {
+  const int n = process.n_joints();
+  Dual states[kMaxStates], rates[kMaxStates], zero[kMaxJoints];
+  for (int i = 0; i < z.size(); ++i) states[i] = Dual(z(i));
+  for (Dual& v : zero) v = Dual(0.0);
+  const auto force_at = [&](const Dual* at, Dual* force) {
     JointSignals<Dual> s[kMaxJoints];
-    Dual at[kMaxJoints], zero[kMaxJoints], gravity[kMaxJoints], states[kMaxStates], rates[kMaxStates];
-    for (int i = 0; i < n_z; ++i) states[i] = Dual(z(i));
+    Dual gravity[kMaxJoints];
     for (int k = 0; k < n; ++k) {
-      at[k] = k >= first && k < first + kDualWidth ? Dual::seed(q(k), k - first) : Dual(q(k));
-      zero[k] = Dual(0.0);
       s[k].motor_angle = q_m(k);
       s[k].joint_position = at[k];
       s[k].external_force = external(k);
     }
     transmission.evaluate(time_s, nullptr, states, s, rates);
     inverse_dynamics(transmission.arm(), chain_pose(transmission.arm(), at), zero, zero, gravity);
-    for (int k = 0; k < n; ++k) {
-      const Dual force = s[k].joint_force - gravity[k];
-      F(k) = force.a;
-      for (int d = 0; d < kDualWidth && first + d < n; ++d) K(k, first + d) = -force.d[d];
-    }
-  }
+    for (int k = 0; k < n; ++k) force[k] = s[k].joint_force - gravity[k];
+  };
+  jacobian(force_at, q, F, K);
+  K = -K;
 }
 
 Eigen::MatrixXd mass_matrix_at(const ArmParameters<double>& arm, const Eigen::VectorXd& q) {

@@ -10,7 +10,7 @@
 #include "estimators/process/rigid_chain.h"
 #include "model/input_error.h"
 #include "plugins/host/loader.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

@@ -11,7 +11,7 @@
 #include "model/model_file.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

@@ -7,7 +7,7 @@
 #include "estimators/built_in.h"
 #include "model/input_error.h"
 #include "tests/support/arm_runs.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

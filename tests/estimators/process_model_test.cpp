@@ -10,7 +10,7 @@
 #include "estimators/process/standstill.h"
 #include "estimators/process/static_equilibrium.h"
 #include "tests/support/arm_runs.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "estimators/process/rigid_chain.h"
 #include "tests/support/small_arm.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

@@ -13,7 +13,7 @@
 #include "model/model_file.h"
 #include "plugins/halyard_estimator.h"
 #include "plugins/host/conformance.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace fs = std::filesystem;
 using halyard::ArmModel;

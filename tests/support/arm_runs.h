@@ -12,7 +12,7 @@
 #include "estimators/process/static_equilibrium.h"
 #include "model/log.h"
 #include "model/model_file.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 

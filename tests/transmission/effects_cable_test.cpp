@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "tests/support/effect_runs.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {

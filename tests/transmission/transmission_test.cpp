@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "tests/support/random_arm.h"
+#include "transmission/coupling.h"
 #include "transmission/effects/library.h"
-#include "transmission/path_matrix.h"
 
 namespace halyard {
 namespace {

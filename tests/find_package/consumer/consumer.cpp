@@ -6,7 +6,7 @@
 #include "model/model_file.h"
 #include "plugins/host/conformance.h"
 #include "plugins/host/loader.h"
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 namespace {
 

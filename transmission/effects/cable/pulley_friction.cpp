@@ -1,3 +1,4 @@
+#include "transmission/coupling.h"
 #include "transmission/effects/built_in.h"
 #include "transmission/friction.h"
 
@@ -32,8 +33,9 @@ class PulleyFriction : public EffectOf<PulleyFriction> {
   void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
     const JointParameters<T>& j = c.arm.joint[c.joint];
     JointSignals<T>& own = s[c.joint];
-    T path_rate = 0.0;
-    for (int i = 0; i < c.arm.n; ++i) path_rate += j.coupling[i] * s[i].joint_rate;
+    T v[kMaxJoints];
+    for (int i = 0; i < c.arm.n; ++i) v[i] = s[i].joint_rate;
+    const T path_rate = coupled_motion(j, c.arm.n, v);
     const T level = c.p[0] * (T(2.0) * j.tension + abs(own.cable_force_joint));
     own.cable_force_motor += c.p[1] * level * smooth_sign(own.motor_rate, j.motor_smoothing);
     own.cable_force_joint -= (T(1.0) - c.p[1]) * level * smooth_sign(path_rate, j.joint_smoothing);

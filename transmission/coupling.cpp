@@ -1,4 +1,4 @@
-#include "transmission/path_matrix.h"
+#include "transmission/coupling.h"
 
 #include <Eigen/LU>
 #include <stdexcept>
@@ -8,7 +8,7 @@ namespace halyard {
 Eigen::MatrixXd path_matrix(const ArmParameters<double>& arm) {
   Eigen::MatrixXd R(arm.n, arm.n);
   for (int i = 0; i < arm.n; ++i)
-    for (int j = 0; j < arm.n; ++j) R(i, j) = arm.joint[i].pulley_radius * arm.joint[i].coupling[j];
+    for (int j = 0; j < arm.n; ++j) R(i, j) = path_per_joint(arm.joint[i], j);
   return R;
 }
 

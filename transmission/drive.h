@@ -1,0 +1,54 @@
+#pragma once
+/// The drives of the joints, on both sides of the transmission: how motors and joints move together, and what is left
+/// of torques and pulls to move them. Plant, process model and the diagnosis' prediction all stand on this.
+///
+///   cable   J q_m'' = τ - (r_m/N) g       the motor moves on its own                (Eq. 5)
+///   rigid   q_m = R_k q N/r_m             the motor follows the joints, which feel R_kᵀ τ N/r_m and carry the rotor
+///                                         (add_rotor_mass() of coupling.h)
+///   none    there is no motor
+///
+///   τ   torque on the rotor, the cable's pull excluded    N m
+///   g   force of the cable on the capstan                 N
+///
+/// One instant of an arm: set_motion(), Transmission::evaluate(), drive_forces().
+
+#include "transmission/transmission.h"
+
+namespace halyard {
+
+/// Sets motor and joint motion of all joints from q and v [n]. The motors of cable drives are left as they are: their
+/// motion is a state of its own.
+template <class T>
+HALYARD_INLINE void set_motion(const ArmParameters<T>& arm, const T* q, const T* v, JointSignals<T>* s) {
+  for (int k = 0; k < arm.n; ++k) {
+    s[k].joint_position = q[k];
+    s[k].joint_rate = v[k];
+    if (arm.joint[k].drive == Drive::rigid) {
+      s[k].motor_angle = rigid_motor(arm, k, q);
+      s[k].motor_rate = rigid_motor(arm, k, v);
+    } else if (arm.joint[k].drive == Drive::none) {
+      s[k].motor_angle = s[k].motor_rate = T(0.0);
+    }
+  }
+}
+
+/// What the cable's pull leaves of a torque to turn the rotor, N m.
+template <class T>
+HALYARD_INLINE T rotor_torque(const JointParameters<T>& joint, const T& torque, const T& pull) {
+  return torque - joint.motor_travel() * pull;
+}
+
+/// From torques τ and pulls g [n]: adds what rigid drives push with to joint_force [n], and sets the motor_acceleration
+/// of cable drives, rad/s²; other entries stay as they are.
+template <class T>
+HALYARD_INLINE void drive_forces(const ArmParameters<T>& arm, const T* torque, const T* pull, T* joint_force,
+                                 T* motor_acceleration) {
+  for (int k = 0; k < arm.n; ++k) {
+    const JointParameters<T>& joint = arm.joint[k];
+    if (joint.drive == Drive::rigid) add_cable_reaction(arm, k, T(torque[k] / joint.motor_travel()), joint_force);
+    if (joint.drive == Drive::cable)
+      motor_acceleration[k] = rotor_torque(joint, torque[k], pull[k]) / joint.rotor_inertia;
+  }
+}
+
+}  // namespace halyard

@@ -1,0 +1,34 @@
+#pragma once
+/// Jacobians by dual numbers, exact to rounding:
+///
+///   y = f(x),   J = ∂f/∂x
+///
+///   x   [n_x]      y   [n_y]      J   [n_y x n_x]
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <vector>
+
+#include "transmission/scalar.h"
+
+namespace halyard {
+
+/// Fills y and J, whose sizes are those of the result. f(const Dual* x, Dual* y) writes all of y and is called once for
+/// every kDualWidth entries of x.
+template <class Function>
+void jacobian(Function&& f, const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> y,
+              Eigen::Ref<Eigen::MatrixXd> J) {
+  const int n_x = static_cast<int>(x.size()), n_y = static_cast<int>(y.size());
+  std::vector<Dual> at(n_x), value(n_y);
+  for (int first = 0; first < n_x; first += kDualWidth) {
+    const int end = std::min(first + kDualWidth, n_x);
+    for (int i = 0; i < n_x; ++i) at[i] = i >= first && i < end ? Dual::seed(x(i), i - first) : Dual(x(i));
+    f(static_cast<const Dual*>(at.data()), value.data());
+    for (int r = 0; r < n_y; ++r) {
+      y(r) = value[r].a;
+      for (int c = first; c < end; ++c) J(r, c) = value[r].d[c - first];
+    }
+  }
+}
+
+}  // namespace halyard
