@@ -11,6 +11,7 @@
 #include "diagnosis/lane_drive.h"
 #include "estimators/eigen_modes.h"
 #include "estimators/process/instruction_set.h"
+#include "transmission/arm_fields.h"
 #include "transmission/coupling.h"
 #include "transmission/jacobian.h"
 
@@ -167,16 +168,15 @@ std::vector<Spectrum> spectra_of(const Hypothesis& h, const Record& record, cons
 std::vector<double> motion_key(const Hypothesis& h, const Record& record) {
   const ArmParameters<double> arm = lift_transmission<double>(h.nominal, h.effects).arm();
   std::vector<double> key = past_states(h, record);
-  key.insert(key.end(), arm.gravity, arm.gravity + 3);
+  const auto append = [&](const auto& entry) { key.push_back(static_cast<double>(entry)); };
+  for_each_arm_field([&](const ArmField&, const auto& value) { for_each_entry(append, value); }, arm);
   for (int k = 0; k < arm.n; ++k) {
-    const JointParameters<double>& j = arm.joint[k];
-    key.insert(key.end(), {j.mass, j.com[0], j.com[1], j.com[2], j.gear_ratio, j.capstan_radius, j.pulley_radius,
-                           j.stiffness, j.damping, j.tension, j.joint_coulomb, j.joint_viscous, j.joint_smoothing,
-                           j.motor_smoothing, j.motor_encoder_offset});
-    key.insert(key.end(), j.inertia, j.inertia + 6);
-    key.insert(key.end(), j.coupling, j.coupling + arm.n);
-    // The joint's motion is that of its sensor.
-    if (j.drive == Drive::none) key.push_back(j.joint_encoder_offset);
+    const auto append_if_it_moves = [&](const ArmField& field, const auto& value) {
+      // A joint without a motor moves as its own sensor says.
+      const bool of_moving_sensor = field.influence == Influence::sensor_reading && arm.joint[k].drive == Drive::none;
+      if (field.influence == Influence::motion || of_moving_sensor) for_each_entry(append, value);
+    };
+    for_each_joint_field(append_if_it_moves, arm.joint[k]);
   }
   constexpr unsigned kMotor = static_cast<unsigned>(EffectStage::command) | static_cast<unsigned>(EffectStage::motor);
   for (const PlacedEffect& e : h.effects)

@@ -1,66 +1,51 @@
 #include "model/arm_model.h"
 
 #include <algorithm>
+#include <type_traits>
+
+#include "transmission/arm_fields.h"
 
 namespace halyard {
 namespace {
 
-/// Unit of what joint j adds to joint i's cable path, in units of joint i per unit of joint j.
-std::string coupling_unit(JointType i, JointType j) {
-  if (i == j) return "1";
-  return i == JointType::prismatic ? "m/rad" : "rad/m";
+double Tolerances::*tolerance_of(FieldKind kind) {
+  switch (kind) {
+    case FieldKind::length: return &Tolerances::length;
+    case FieldKind::mass: return &Tolerances::mass;
+    case FieldKind::stiffness: return &Tolerances::stiffness;
+    case FieldKind::friction: return &Tolerances::friction;
+    case FieldKind::coupling: return &Tolerances::coupling;
+    case FieldKind::torque_scale: return &Tolerances::torque_scale;
+    case FieldKind::structure:
+    case FieldKind::smoothing:
+    case FieldKind::torque_bias:
+    case FieldKind::gravity:
+    case FieldKind::sensor: break;
+  }
+  return nullptr;
 }
 
-/// The numbers of joint k, in the order of a model file.
-class Lister {
- public:
-  Lister(ArmParameters<double>& arm, int k, std::vector<ParameterInfo>& all)
-      : arm_(arm), joint_(arm.joint[k]), k_(k), all_(all) {}
-
-  void list() {
-    const bool revolute = joint_.type == JointType::revolute;
-    add("link mass", "link.mass", "kg", &Tolerances::mass, joint_.mass);
-    if (joint_.drive != Drive::none) {
-      add("motor inertia", "motor.inertia", "kg m^2", &Tolerances::mass, joint_.rotor_inertia);
-      add("motor Coulomb friction", "motor.coulomb", "N m", &Tolerances::friction, joint_.motor_coulomb);
-      add("motor viscous friction", "motor.viscous", "N m s/rad", &Tolerances::friction, joint_.motor_viscous);
-      add("motor gear ratio", "motor.gear_ratio", "1", &Tolerances::length, joint_.gear_ratio);
-      add("motor capstan radius", "motor.capstan_radius", "m", &Tolerances::length, joint_.capstan_radius);
-      add("motor torque scale", "motor.torque_scale", "1", &Tolerances::torque_scale, joint_.torque_scale);
-      add("motor torque bias", "motor.torque_bias", "N m", nullptr, joint_.torque_bias);
+void add_named_parameters(ArmParameters<double>& arm, int k, std::vector<ParameterInfo>& all) {
+  JointParameters<double>& joint = arm.joint[k];
+  const auto number = [](int i) { return "joint" + std::to_string(i + 1); };
+  const auto words = [](int i) { return "joint " + std::to_string(i + 1); };
+  const auto visit = [&](const ArmField& field, auto& value) {
+    if (field.noun.empty() || !field.exists_at(joint.drive)) return;
+    const std::string part(field.part_at(joint.drive)), name(field.name), noun(field.noun);
+    double Tolerances::*const tolerance = tolerance_of(field.kind);
+    using Value = std::remove_reference_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, double>) {
+      const std::string of_part = part == "friction" ? "" : part + " ";  // "joint 1 viscous friction"
+      all.push_back({words(k) + " " + of_part + noun, number(k) + "." + part + "." + name, field.unit.of(joint.type), k,
+                     tolerance, &value});
+    } else if constexpr (std::is_same_v<Value, double[kMaxJoints]>) {
+      for (int j = 0; j < k; ++j)
+        all.push_back({words(k) + " " + noun + " with " + words(j), number(k) + "." + part + "." + number(j),
+                       coupling_unit(joint.type, arm.joint[j].type), k, tolerance, &value[j]});
     }
-    if (joint_.drive == Drive::cable) {
-      add("cable stiffness", "cable.stiffness", "N/m", &Tolerances::stiffness, joint_.stiffness);
-      add("cable damping", "cable.damping", "N s/m", &Tolerances::stiffness, joint_.damping);
-      add("cable tension", "cable.tension", "N", &Tolerances::stiffness, joint_.tension);
-    }
-    if (joint_.drive != Drive::none) {
-      const std::string drive = joint_.drive == Drive::cable ? "cable" : "rigid";
-      add(drive + " pulley radius", drive + ".pulley_radius", revolute ? "m" : "1", &Tolerances::length,
-          joint_.pulley_radius);
-      for (int j = 0; j < k_; ++j) {
-        const std::string other = std::to_string(j + 1);
-        add("coupling with joint " + other, "coupling.joint" + other, coupling_unit(joint_.type, arm_.joint[j].type),
-            &Tolerances::coupling, joint_.coupling[j]);
-      }
-    }
-    add("Coulomb friction", "friction.coulomb", revolute ? "N m" : "N", &Tolerances::friction, joint_.joint_coulomb);
-    add("viscous friction", "friction.viscous", revolute ? "N m s/rad" : "N s/m", &Tolerances::friction,
-        joint_.joint_viscous);
-  }
-
- private:
-  void add(const std::string& name, const std::string& key, const std::string& unit, double Tolerances::*tolerance,
-           double& value) {
-    const std::string number = std::to_string(k_ + 1);
-    all_.push_back({"joint " + number + " " + name, "joint" + number + "." + key, unit, k_, tolerance, &value});
-  }
-
-  ArmParameters<double>& arm_;
-  JointParameters<double>& joint_;
-  int k_;
-  std::vector<ParameterInfo>& all_;
-};
+  };
+  for_each_joint_field(visit, joint);
+}
 
 }  // namespace
 
@@ -84,7 +69,7 @@ bool joints_alike(const ArmParameters<double>& a, const ArmParameters<double>& b
 
 std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm) {
   std::vector<ParameterInfo> all;
-  for (int k = 0; k < arm.n; ++k) Lister(arm, k, all).list();
+  for (int k = 0; k < arm.n; ++k) add_named_parameters(arm, k, all);
   return all;
 }
 

@@ -62,9 +62,8 @@ struct ParameterInfo {
   double* value;                  ///< into the ArmParameters it was listed from
 };
 
-/// The named numbers of an arm: per joint link mass; motor inertia, coulomb, viscous, gear_ratio, capstan_radius,
-/// torque_scale, torque_bias; cable stiffness, damping, tension, pulley_radius; coupling coefficients with inboard
-/// joints; friction coulomb, viscous. Numbers that do not exist at a joint (a cable of a rigid drive) are left out.
+/// The numbers of an arm that have a noun in arm_fields.h, joint by joint; of couplings those with inboard joints.
+/// Numbers that do not exist at a joint (a cable of a rigid drive) are left out.
 std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm);
 
 }  // namespace halyard

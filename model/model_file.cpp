@@ -4,10 +4,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 
+#include "model/arm_words.h"
+#include "model/field_reader.h"
 #include "model/input_error.h"
 #include "model/xml_reader.h"
 #include "transmission/coupling.h"
@@ -18,15 +19,7 @@ namespace {
 using Matrix3 = Eigen::Matrix3d;
 using Joint = JointParameters<double>;
 
-/// Units of a joint's coordinate and of what acts on it.
-struct JointUnits {
-  const char *position, *rate, *force, *viscous, *radius;
-};
-
-JointUnits units_of(const Joint& joint) {
-  if (joint.type == JointType::revolute) return {"rad", "rad/s", "N m", "N m s/rad", "m"};
-  return {"m", "m/s", "N", "N s/m", ""};
-}
+const char* position_unit(const Joint& joint) { return joint.type == JointType::revolute ? "rad" : "m"; }
 
 void set_frame(Joint& joint, const Matrix3& R, const Eigen::Vector3d& p) {
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(&joint.frame_R[0][0]) = R;
@@ -84,39 +77,8 @@ void check_inertia(const XmlElement& link, const Joint& joint, const std::string
 }
 
 void read_link(const XmlElement& link, Joint& joint, const std::string& name) {
-  link.only({"mass", "com", "inertia"});
-  joint.mass = link.number("mass", "kg", Sign::non_negative);
-  const std::vector<double> com = link.numbers("com", "m", 3);
-  const std::vector<double> inertia = link.numbers("inertia", "kg m^2", 6);
-  std::ranges::copy(com, joint.com);
-  std::ranges::copy(inertia, joint.inertia);
+  read_fields(link, joint);
   check_inertia(link, joint, name);
-}
-
-void read_motor(const XmlElement& motor, Joint& joint) {
-  motor.only(
-      {"inertia", "coulomb", "viscous", "smoothing", "gear_ratio", "capstan_radius", "torque_scale", "torque_bias"});
-  // Behind a rigid drive the link's inertia is enough; a rotor on an elastic cable moves on its own.
-  joint.rotor_inertia =
-      motor.number("inertia", "kg m^2", joint.drive == Drive::cable ? Sign::positive : Sign::non_negative);
-  joint.motor_coulomb = motor.number("coulomb", "N m", Sign::non_negative);
-  joint.motor_viscous = motor.number("viscous", "N m s/rad", Sign::non_negative);
-  joint.motor_smoothing = motor.number_or("smoothing", joint.motor_smoothing, "rad/s", Sign::positive);
-  joint.gear_ratio = motor.number("gear_ratio", "", Sign::positive);
-  joint.capstan_radius = motor.number("capstan_radius", "m", Sign::positive);
-  joint.torque_scale = motor.number_or("torque_scale", joint.torque_scale, "", Sign::positive);
-  joint.torque_bias = motor.number_or("torque_bias", joint.torque_bias, "N m");
-}
-
-void read_cable(const XmlElement& cable, Joint& joint) {
-  cable.only({"law", "stiffness", "damping", "tension", "pulley_radius"});
-  joint.law = cable.choice<CableLaw>(
-      "law", {{"paper", CableLaw::paper}, {"exponential", CableLaw::exponential}, {"linear", CableLaw::linear}});
-  joint.stiffness = cable.number("stiffness", "N/m", Sign::positive);
-  joint.damping = cable.number("damping", "N s/m", Sign::non_negative);
-  joint.tension = joint.law == CableLaw::paper ? cable.number_or("tension", 0, "N", Sign::non_negative)
-                                               : cable.number("tension", "N", Sign::positive);
-  joint.pulley_radius = cable.number("pulley_radius", units_of(joint).radius, Sign::positive);
 }
 
 void read_couplings(const std::vector<XmlElement>& couplings, Joint& joint, int k) {
@@ -127,42 +89,6 @@ void read_couplings(const std::vector<XmlElement>& couplings, Joint& joint, int 
     const std::int64_t inboard = coupling.integer("joint", 1, k);
     if (!given.insert(inboard).second) coupling.fail("joint", "coupling with this joint is given twice; give it once");
     joint.coupling[inboard - 1] = coupling.number("coefficient", "");
-  }
-}
-
-void read_friction(const XmlElement& friction, Joint& joint) {
-  const JointUnits unit = units_of(joint);
-  friction.only({"coulomb", "viscous", "smoothing"});
-  joint.joint_coulomb = friction.number("coulomb", unit.force, Sign::non_negative);
-  joint.joint_viscous = friction.number("viscous", unit.viscous, Sign::non_negative);
-  joint.joint_smoothing = friction.number_or("smoothing", joint.joint_smoothing, unit.rate, Sign::positive);
-}
-
-/// From counts a turn or the resolution itself.
-double read_resolution(const XmlElement& encoders, const std::string& side, const char* unit) {
-  const std::string counts = side + "_counts", resolution = side + "_resolution";
-  if (!encoders.has(counts)) return encoders.number_or(resolution, 0, unit, Sign::non_negative);
-  if (encoders.has(resolution)) encoders.fail(counts, "expected one of " + counts + " and " + resolution);
-  if (std::string(unit) != "rad") encoders.fail(counts, "a prismatic joint has no turn; give " + resolution + " in m");
-  return 2 * std::numbers::pi / encoders.number(counts, "", Sign::positive);
-}
-
-void read_encoders(const XmlElement& encoders, Joint& joint) {
-  const char* unit = units_of(joint).position;
-  XmlNames attributes = {"joint_counts", "joint_resolution", "joint_offset"};
-  const XmlNames of_motor = {"motor_counts", "motor_resolution", "motor_offset"};
-  if (joint.drive != Drive::none) attributes.insert(attributes.begin(), of_motor.begin(), of_motor.end());
-  encoders.only(attributes);
-  joint.motor_encoder_resolution = read_resolution(encoders, "motor", "rad");
-  const auto read_offset = [&](const char* name, const char* of_unit, bool& known) {
-    known = encoders.text_or(name, "0") != "unknown";
-    return known ? encoders.number_or(name, 0, of_unit) : 0;
-  };
-  joint.motor_encoder_offset = read_offset("motor_offset", "rad", joint.motor_zero_known);
-  joint.joint_encoder_resolution = read_resolution(encoders, "joint", unit);
-  joint.joint_encoder_offset = read_offset("joint_offset", unit, joint.joint_zero_known);
-  if (!joint.joint_zero_known && (joint.drive == Drive::none || !joint.motor_zero_known)) {
-    encoders.fail("joint_offset", "there is no other sensor whose zero is known; give this one's");
   }
 }
 
@@ -210,16 +136,11 @@ void read_drive(const XmlElement& element, Joint& joint, int k, ControllerParame
     for (const char* tag : {"motor", "cable", "rigid", "coupling", "controller"}) refuse(tag, "none");
     return;
   }
-  read_motor(element.child("motor"), joint);
-  if (joint.drive == Drive::cable) {
-    refuse("rigid", "cable");
-    read_cable(element.child("cable"), joint);
-  } else {
-    refuse("cable", "rigid");
-    const XmlElement rigid = element.child("rigid");
-    rigid.only({"pulley_radius"});
-    joint.pulley_radius = rigid.number("pulley_radius", units_of(joint).radius, Sign::positive);
-  }
+  const char *own = joint.drive == Drive::cable ? "cable" : "rigid",
+             *other = joint.drive == Drive::cable ? "rigid" : "cable";
+  read_fields(element.child("motor"), joint);
+  refuse(other, own);
+  read_fields(element.child(own), joint);
   read_couplings(element.children("coupling"), joint, k);
   if (const auto found = element.optional_child("controller")) controller = read_controller(*found);
 }
@@ -229,10 +150,8 @@ JointDescription read_joint(const XmlElement& element, Joint& joint, int k, cons
                                            "encoders", "controller", "range", "tolerances"});
   JointDescription description;
   description.name = element.text("name");
-  joint.type =
-      element.choice<JointType>("type", {{"revolute", JointType::revolute}, {"prismatic", JointType::prismatic}});
-  joint.drive =
-      element.choice<Drive>("drive", {{"cable", Drive::cable}, {"rigid", Drive::rigid}, {"none", Drive::none}});
+  joint.type = element.choice("type", words_of(joint.type));
+  joint.drive = element.choice("drive", words_of(joint.drive));
   joint.coupling[k] = 1;
 
   const auto dh = element.optional_child("dh"), frame = element.optional_child("frame");
@@ -241,9 +160,9 @@ JointDescription read_joint(const XmlElement& element, Joint& joint, int k, cons
   if (frame) read_frame(*frame, joint);
   read_link(element.child("link"), joint, description.name);
   read_drive(element, joint, k, description.controller);
-  read_friction(element.child("friction"), joint);
+  read_fields(element.child("friction"), joint);
   if (const auto found = element.optional_child("encoders")) read_encoders(*found, joint);
-  read_range(element.child("range"), units_of(joint).position, description);
+  read_range(element.child("range"), position_unit(joint), description);
   const auto own = element.optional_child("tolerances");
   description.tolerances = own ? read_tolerances(*own, tolerances) : tolerances;
   return description;
@@ -359,11 +278,7 @@ ArmModel read_arm(const XmlElement& arm) {
   ArmModel model;
   model.source = arm.source();
   model.name = arm.text("name");
-  std::ranges::copy(arm.child("gravity").text_numbers("m/s^2", 3), model.nominal.gravity);
-  if (const auto payload = arm.optional_child("payload")) {
-    payload->only({"point"});
-    std::ranges::copy(payload->numbers("point", "m", 3), model.nominal.payload_point);
-  }
+  read_arm_fields(arm, model.nominal);
   Tolerances tolerances;
   if (const auto found = arm.optional_child("tolerances")) tolerances = read_tolerances(*found, tolerances);
   read_joints(arm, tolerances, model);

@@ -2,9 +2,15 @@
 
 #include <initializer_list>
 #include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
 
+#include "model/arm_words.h"
 #include "model/model_file.h"
 #include "model/xml_reader.h"
+#include "transmission/arm_fields.h"
 
 namespace halyard {
 namespace {
@@ -40,27 +46,45 @@ class Writer {
   tinyxml2::XMLPrinter printer_;
 };
 
-void write_drive(Writer& xml, const Joint& j, int k, const ControllerParameters& controller) {
-  xml.element("motor", {{"inertia", j.rotor_inertia},
-                        {"coulomb", j.motor_coulomb},
-                        {"viscous", j.motor_viscous},
-                        {"smoothing", j.motor_smoothing},
-                        {"gear_ratio", j.gear_ratio},
-                        {"capstan_radius", j.capstan_radius},
-                        {"torque_scale", j.torque_scale},
-                        {"torque_bias", j.torque_bias}});
-  if (j.drive == Drive::rigid) {
-    xml.element("rigid", {{"pulley_radius", j.pulley_radius}});
-  } else {
-    const bool exponential = j.law == CableLaw::exponential;
-    xml.open("cable");
-    xml.attribute("law", j.law == CableLaw::paper ? "paper" : exponential ? "exponential" : "linear");
-    xml.attribute("stiffness", j.stiffness);
-    xml.attribute("damping", j.damping);
-    xml.attribute("tension", j.tension);
-    xml.attribute("pulley_radius", j.pulley_radius);
-    xml.close();
+/// The attributes of an element that have a joint's fields of that part.
+class FieldWriter {
+ public:
+  FieldWriter(Writer& xml, std::string_view part, Drive drive) : xml_(xml), part_(part), drive_(drive) {}
+
+  template <class Value>
+  void operator()(const ArmField& field, const Value& value) {
+    if (field.part_at(drive_) != part_ || !field.exists_at(drive_)) return;
+    const std::string name(field.name);
+    if constexpr (std::is_same_v<Value, double>) {
+      xml_.attribute(name.c_str(), zero_known_ ? exact_text(value) : kUnknownZero);
+      zero_known_ = true;
+    } else if constexpr (std::is_same_v<Value, bool>) {
+      zero_known_ = value;  // the offset follows
+    } else if constexpr (std::is_enum_v<Value>) {
+      xml_.attribute(name.c_str(), word_for(value));
+    } else {
+      std::vector<double> entries;
+      for_each_entry([&](double entry) { entries.push_back(entry); }, value);
+      xml_.attribute(name.c_str(), list(entries));
+    }
   }
+
+ private:
+  Writer& xml_;
+  std::string_view part_;
+  Drive drive_;
+  bool zero_known_ = true;
+};
+
+void write_fields(Writer& xml, const char* part, const Joint& j) {
+  xml.open(part);
+  for_each_joint_field(FieldWriter(xml, part, j.drive), j);
+  xml.close();
+}
+
+void write_drive(Writer& xml, const Joint& j, int k, const ControllerParameters& controller) {
+  write_fields(xml, "motor", j);
+  write_fields(xml, j.drive == Drive::rigid ? "rigid" : "cable", j);
   for (int inboard = 0; inboard < k; ++inboard) {
     if (j.coupling[inboard] == 0) continue;
     xml.element("coupling", {{"joint", inboard + 1.0}, {"coefficient", j.coupling[inboard]}});
@@ -68,38 +92,15 @@ void write_drive(Writer& xml, const Joint& j, int k, const ControllerParameters&
   xml.element("controller", {{"kp", controller.kp}, {"kd", controller.kd}, {"torque_limit", controller.torque_limit}});
 }
 
-void write_encoders(Writer& xml, const Joint& j) {
-  const auto offset = [&](const char* name, double value, bool known) {
-    xml.attribute(name, known ? exact_text(value) : "unknown");
-  };
-  xml.open("encoders");
-  if (j.drive != Drive::none) {
-    xml.attribute("motor_resolution", j.motor_encoder_resolution);
-    offset("motor_offset", j.motor_encoder_offset, j.motor_zero_known);
-  }
-  xml.attribute("joint_resolution", j.joint_encoder_resolution);
-  offset("joint_offset", j.joint_encoder_offset, j.joint_zero_known);
-  xml.close();
-}
-
 void write_joint(Writer& xml, const Joint& j, int k, const JointDescription& description) {
   xml.open("joint");
   xml.attribute("name", description.name);
-  xml.attribute("type", j.type == JointType::revolute ? "revolute" : "prismatic");
-  xml.attribute("drive", j.drive == Drive::cable ? "cable" : j.drive == Drive::rigid ? "rigid" : "none");
-  xml.open("frame");
-  xml.attribute("xyz", list(j.frame_p));
-  xml.attribute("matrix", list({&j.frame_R[0][0], 9}));
-  xml.close();
-  xml.open("link");
-  xml.attribute("mass", j.mass);
-  xml.attribute("com", list(j.com));
-  xml.attribute("inertia", list(j.inertia));
-  xml.close();
+  for_each_joint_field(FieldWriter(xml, "", j.drive), j);
+  write_fields(xml, "frame", j);
+  write_fields(xml, "link", j);
   if (j.drive != Drive::none) write_drive(xml, j, k, description.controller);
-  xml.element("friction",
-              {{"coulomb", j.joint_coulomb}, {"viscous", j.joint_viscous}, {"smoothing", j.joint_smoothing}});
-  write_encoders(xml, j);
+  write_fields(xml, "friction", j);
+  write_fields(xml, "encoders", j);
   xml.element("range", {{"lower", description.lower}, {"upper", description.upper}, {"home", description.home}});
   const Tolerances& t = description.tolerances;
   xml.element("tolerances", {{"length", t.length},
@@ -109,6 +110,19 @@ void write_joint(Writer& xml, const Joint& j, int k, const JointDescription& des
                              {"coupling", t.coupling},
                              {"torque_scale", t.torque_scale}});
   xml.close();
+}
+
+void write_arm_fields(Writer& xml, const ArmParameters<double>& nominal) {
+  const auto write = [&](const ArmField& field, const auto& value) {
+    if constexpr (std::is_array_v<std::remove_reference_t<decltype(value)>>) {
+      const std::string part(field.part), name(field.name);
+      xml.open(part.c_str());  // the printer keeps the pointer until the element is closed
+      if (name.empty()) xml.text(list(value));
+      else xml.attribute(name.c_str(), list(value));
+      xml.close();
+    }
+  };
+  for_each_arm_field(write, nominal);
 }
 
 void write_effects(Writer& xml, const ArmModel& model) {
@@ -145,12 +159,7 @@ std::string model_to_xml(const ArmModel& model) {
   Writer xml;
   xml.open("arm");
   xml.attribute("name", model.name);
-  xml.open("gravity");
-  xml.text(list(model.nominal.gravity));
-  xml.close();
-  xml.open("payload");
-  xml.attribute("point", list(model.nominal.payload_point));
-  xml.close();
+  write_arm_fields(xml, model.nominal);
   for (int k = 0; k < model.n(); ++k) write_joint(xml, model.nominal.joint[k], k, model.joints[k]);
   write_effects(xml, model);
   write_columns(xml, model.columns);

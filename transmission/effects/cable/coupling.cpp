@@ -1,3 +1,4 @@
+#include "transmission/arm_fields.h"
 #include "transmission/effects/built_in.h"
 
 /// Other coupling coefficients of a cable with the joints inboard of it: C_kj' = C_kj + ΔC_kj.
@@ -19,13 +20,10 @@ class CouplingError : public EffectOf<CouplingError> {
     const JointParameters<double>& j = arm.joint[joint];
     std::vector<EffectParameter> all;
     for (int i = 0; i < joint; ++i) {
-      const bool length = j.type == JointType::prismatic, per_length = arm.joint[i].type == JointType::prismatic;
-      const double reach = length ? 0.1 : 1.0;  // a pulley of 0.1 m, or as much as the joint itself
-      all.push_back({"from_joint_" + std::to_string(i + 1),
-                     length == per_length ? "1"
-                     : length             ? "m/rad"
-                                          : "rad/m",
-                     0, 0.1 * std::max(std::abs(j.coupling[i]), 0.1 * reach), -reach, reach});
+      const double reach =
+          j.type == JointType::prismatic ? 0.1 : 1.0;  // a pulley of 0.1 m, or as much as the joint itself
+      all.push_back({"from_joint_" + std::to_string(i + 1), coupling_unit(j.type, arm.joint[i].type), 0,
+                     0.1 * std::max(std::abs(j.coupling[i]), 0.1 * reach), -reach, reach});
     }
     return all;
   }

@@ -1,0 +1,170 @@
+#pragma once
+/// The list of an arm's parameters: each field of ArmParameters and JointParameters once, with what is to be said of it.
+/// Everything that treats all fields alike goes through this list: the model file's reader and writer, the conversion
+/// to other scalar types, the numbers that studies vary, the keys of predictions. A new field gets one line here.
+///
+///   for_each_field(arm.n, [](const ArmField& field, const auto& value) { ... }, arm);
+///
+/// The visit gets the field of every arm that is given, so that two arms are compared, or one is copied, in step. Parts
+/// and names are those of the elements and attributes of model files, and of keys: joint2.motor.viscous.
+
+#include <cstddef>
+#include <string_view>
+#include <type_traits>
+
+#include "transmission/arm_parameters.h"
+
+namespace halyard {
+
+/// What sort of number a field is. Numbers of one kind are known about equally well.
+enum class FieldKind {
+  structure,  ///< no number that is measured: a type, a frame
+  length,     ///< radii, ratios, lengths
+  mass,       ///< masses, centres of mass, inertias, of rotors too
+  stiffness,  ///< stiffness, damping and tension of cables
+  friction,   ///< Coulomb and viscous
+  smoothing,  ///< speed over which friction's sign is regularised
+  coupling,
+  torque_scale,
+  torque_bias,
+  gravity,
+  sensor,  ///< offsets and resolutions of encoders
+};
+
+/// The values that a field may have.
+enum class Bound { none, not_negative, positive };
+
+/// The joints that have a field.
+enum class FieldOf { every_joint, driven_joint, cable_joint };
+
+/// What a field changes of an arm whose motors move in a given way.
+enum class Influence {
+  motion,          ///< how its joints move, and what follows from that
+  motor_torque,    ///< only the torque that its motors need
+  sensor_reading,  ///< only what its sensors read
+};
+
+/// Unit of a field of a revolute and of a prismatic joint; "1" for a pure number, "" for no number.
+struct FieldUnit {
+  constexpr FieldUnit(const char* of_both) : revolute(of_both), prismatic(of_both) {}  // NOLINT: most have one unit
+  constexpr FieldUnit(const char* of_revolute, const char* of_prismatic)
+      : revolute(of_revolute), prismatic(of_prismatic) {}
+  constexpr const char* of(JointType type) const { return type == JointType::revolute ? revolute : prismatic; }
+
+  const char *revolute, *prismatic;
+};
+
+/// Unit of a coupling coefficient: of what one unit of joint `moving` adds to the path of `joint`, in units of `joint`.
+constexpr const char* coupling_unit(JointType joint, JointType moving) {
+  if (joint == moving) return "1";
+  return joint == JointType::prismatic ? "m/rad" : "rad/m";
+}
+
+struct ArmField {
+  std::string_view part;  ///< of the joint or of the arm: "motor"; "": none of its own
+  std::string_view name;  ///< within the part: "viscous"
+  std::string_view noun;  ///< within the part, in words: "viscous friction"; "": no number that studies vary
+  FieldUnit unit;
+  FieldKind kind;
+  Bound bound = Bound::none;
+  bool has_default = false;  ///< the value that JointParameters begin with will do
+  FieldOf of = FieldOf::every_joint;
+  Influence influence = Influence::motion;
+
+  constexpr bool exists_at(Drive drive) const {
+    return of == FieldOf::every_joint || (of == FieldOf::driven_joint ? drive != Drive::none : drive == Drive::cable);
+  }
+  /// The part at a joint: what a rigid drive has in common with a cable belongs to its part "rigid".
+  constexpr std::string_view part_at(Drive drive) const {
+    return part == "cable" && drive == Drive::rigid ? "rigid" : part;
+  }
+};
+
+/// Calls visit(field, j.member...) for each field of a joint. The joints may be over different scalar types.
+template <class Visit, class... Joint>
+void for_each_joint_field(Visit&& visit, Joint&... j) {
+  using F = ArmField;
+  using enum FieldKind;
+  using enum FieldOf;
+  using enum Influence;
+  constexpr auto none = Bound::none, not_negative = Bound::not_negative, positive = Bound::positive;
+
+  visit(F{"", "type", "", "", structure}, j.type...);
+  visit(F{"", "drive", "", "", structure}, j.drive...);
+
+  visit(F{"frame", "xyz", "", "m", structure}, j.frame_p...);
+  visit(F{"frame", "matrix", "", "1", structure}, j.frame_R...);
+
+  visit(F{"link", "mass", "mass", "kg", mass, not_negative}, j.mass...);
+  visit(F{"link", "com", "", "m", mass}, j.com...);
+  visit(F{"link", "inertia", "", "kg m^2", mass}, j.inertia...);
+
+  const auto motor = [&](std::string_view name, std::string_view noun, FieldUnit unit, FieldKind kind, Bound bound,
+                         bool has_default, Influence influence, auto&... value) {
+    visit(F{"motor", name, noun, unit, kind, bound, has_default, driven_joint, influence}, value...);
+  };
+  motor("inertia", "inertia", "kg m^2", mass, not_negative, false, motor_torque, j.rotor_inertia...);
+  motor("coulomb", "Coulomb friction", "N m", friction, not_negative, false, motor_torque, j.motor_coulomb...);
+  motor("viscous", "viscous friction", "N m s/rad", friction, not_negative, false, motor_torque, j.motor_viscous...);
+  // Friction of cables, on which the motion depends, is regularised by it too.
+  motor("smoothing", "", "rad/s", smoothing, positive, true, motion, j.motor_smoothing...);
+  motor("gear_ratio", "gear ratio", "1", length, positive, false, motion, j.gear_ratio...);
+  motor("capstan_radius", "capstan radius", "m", length, positive, false, motion, j.capstan_radius...);
+  motor("torque_scale", "torque scale", "1", torque_scale, positive, true, motor_torque, j.torque_scale...);
+  motor("torque_bias", "torque bias", "N m", torque_bias, none, true, motor_torque, j.torque_bias...);
+
+  visit(F{"cable", "law", "", "", structure, none, false, cable_joint}, j.law...);
+  visit(F{"cable", "stiffness", "stiffness", "N/m", stiffness, positive, false, cable_joint}, j.stiffness...);
+  visit(F{"cable", "damping", "damping", "N s/m", stiffness, not_negative, false, cable_joint}, j.damping...);
+  visit(F{"cable", "tension", "tension", "N", stiffness, not_negative, false, cable_joint}, j.tension...);
+  visit(F{"cable", "pulley_radius", "pulley radius", {"m", "1"}, length, positive, false, driven_joint},
+        j.pulley_radius...);
+
+  // The unit hangs on both joints: see coupling_unit().
+  visit(F{"coupling", "coefficient", "coupling", "", coupling, none, true, driven_joint}, j.coupling...);
+
+  visit(F{"friction", "coulomb", "Coulomb friction", {"N m", "N"}, friction, not_negative}, j.joint_coulomb...);
+  visit(F{"friction", "viscous", "viscous friction", {"N m s/rad", "N s/m"}, friction, not_negative},
+        j.joint_viscous...);
+  visit(F{"friction", "smoothing", "", {"rad/s", "m/s"}, smoothing, positive, true}, j.joint_smoothing...);
+
+  const auto encoder = [&](std::string_view name, FieldUnit unit, Bound bound, FieldOf of, Influence influence,
+                           auto&... value) {
+    visit(F{"encoders", name, "", unit, sensor, bound, true, of, influence}, value...);
+  };
+  const FieldUnit position{"rad", "m"};
+  encoder("motor_resolution", "rad", not_negative, driven_joint, sensor_reading, j.motor_encoder_resolution...);
+  encoder("motor_offset", "", none, driven_joint, sensor_reading, j.motor_zero_known...);
+  // A motor moves as its encoder says, less its offset.
+  encoder("motor_offset", "rad", none, driven_joint, motion, j.motor_encoder_offset...);
+  encoder("joint_resolution", position, not_negative, every_joint, sensor_reading, j.joint_encoder_resolution...);
+  encoder("joint_offset", "", none, every_joint, sensor_reading, j.joint_zero_known...);
+  encoder("joint_offset", position, none, every_joint, sensor_reading, j.joint_encoder_offset...);
+}
+
+/// Calls visit(field, a.member...) for each field of an arm but its joints'.
+template <class Visit, class... Arm>
+void for_each_arm_field(Visit&& visit, Arm&... a) {
+  visit(ArmField{"", "joints", "", "", FieldKind::structure}, a.n...);
+  visit(ArmField{"gravity", "", "", "m/s^2", FieldKind::gravity}, a.gravity...);
+  visit(ArmField{"payload", "point", "", "m", FieldKind::length, Bound::none, true}, a.payload_point...);
+}
+
+/// The fields of an arm and of the first `n` of its joints.
+template <class Visit, class... Arm>
+void for_each_field(int n, Visit&& visit, Arm&... a) {
+  for_each_arm_field(visit, a...);
+  for (int k = 0; k < n; ++k) for_each_joint_field(visit, a.joint[k]...);
+}
+
+/// Calls visit(x...) for each entry of a value: of an array row by row, of anything else itself.
+template <class Visit, class Value, class... Other>
+void for_each_entry(Visit&& visit, Value& value, Other&... other) {
+  if constexpr (std::is_array_v<Value>) {
+    for (std::size_t i = 0; i < std::extent_v<Value>; ++i) for_each_entry(visit, value[i], other[i]...);
+  } else {
+    visit(value, other...);
+  }
+}
+
+}  // namespace halyard
