@@ -11,6 +11,7 @@ include(CMakePackageConfigHelpers)
 set(HALYARD_PLUGIN_DIR ${CMAKE_INSTALL_LIBDIR}/halyard/plugins)
 set(HALYARD_DATA_DIR ${CMAKE_INSTALL_DATADIR}/halyard)
 set(HALYARD_PROGRAM ${CMAKE_INSTALL_BINDIR}/halyard)
+set(HALYARD_WORKER ${CMAKE_INSTALL_LIBEXECDIR}/halyard/halyard_worker)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/raven2 ${PROJECT_SOURCE_DIR}/examples/measured
   DESTINATION ${HALYARD_DATA_DIR}
   FILES_MATCHING PATTERN "*.xml" PATTERN "*.csv" PATTERN "*.md")
@@ -44,7 +45,7 @@ endforeach()
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/cmake/halyardConfig.cmake.in ${PROJECT_BINARY_DIR}/halyardConfig.cmake
   INSTALL_DESTINATION ${package_folder}
-  PATH_VARS HALYARD_PLUGIN_DIR HALYARD_DATA_DIR HALYARD_PROGRAM)
+  PATH_VARS HALYARD_PLUGIN_DIR HALYARD_DATA_DIR HALYARD_PROGRAM HALYARD_WORKER)
 # Before 1.0 a minor version may change the C++ interfaces.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/halyardConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES
