@@ -36,7 +36,7 @@ void finish(CLI::App& command, Run run) { command.callback(std::move(run)); }
 void add_columns_option(CLI::App& command, std::vector<std::string>& columns) {
   command
       .add_option("--column", columns,
-                  "where a column of the log comes from, over the model's own map; may be repeated")
+                  "which column of the log is which signal; overrides the model's map; may be repeated")
       ->type_name("NAME=COLUMN[,unit=U][,sign=-1][,scale=S][,offset=O]")
       ->take_all()
       ->allow_extra_args(false);
@@ -50,7 +50,7 @@ void add_effects_option(CLI::App& command) {
           [](const std::vector<std::string>& modules) {
             for (const std::string& module : modules) load_effects(module);
           },
-          "module with effects of your own, for the library; may be repeated")
+          "module with your own effects; may be repeated")
       ->type_name("MODULE.so")
       ->take_all()
       ->allow_extra_args(false);
@@ -63,25 +63,25 @@ std::string not_negative(const std::string& text) {
 }
 
 void add_skip_option(CLI::App& command, double& skip_s) {
-  command.add_option("--skip", skip_s, "start of the record that errors leave out, in s")
+  command.add_option("--skip", skip_s, "start of the record that the errors leave out, in s")
       ->type_name("S")
       ->check(not_negative)
       ->capture_default_str();
 }
 
 void add_joint_torque_flag(CLI::App& command, bool& flag) {
-  command.add_flag("--use-joint-torque", flag, "give the estimators the log's measured external loads too");
+  command.add_flag("--use-joint-torque", flag, "also give the estimators the measured external loads of the log");
 }
 
 void add_robot_option(CLI::App& command, std::filesystem::path& robot) {
   command
       .add_option("--robot", robot,
-                  "of a scenario: model file of the true robot, with its effects; default: the scenario's model")
+                  "for a scenario: model file of the true robot, with its effects; default: the scenario's model")
       ->type_name("ROBOT.xml");
 }
 
 void add_simulate_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("simulate", "run a scenario's plant, write a log and its ground truth");
+  CLI::App& command = *app.add_subcommand("simulate", "simulate a scenario, write a log and its ground truth");
   const auto options = std::make_shared<SimulateOptions>();
   command.add_option("SCENARIO.xml", options->scenario, "scenario file")->type_name("")->required();
   add_robot_option(command, options->robot);
@@ -107,7 +107,8 @@ void add_estimate_command(CLI::App& app) {
 }
 
 void add_compare_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("compare", "run estimators head-to-head on the same data");
+  CLI::App& command =
+      *app.add_subcommand("compare", "run several estimators on the same data and compare their errors");
   const auto options = std::make_shared<CompareCommandOptions>();
   const auto estimators = std::make_shared<std::string>();
   command.add_option("SCENARIO_OR_LOG", options->data, "scenario (.xml), which is simulated, or log")
@@ -120,10 +121,11 @@ void add_compare_command(CLI::App& app) {
   add_columns_option(command, options->columns);
   add_joint_torque_flag(command, options->use_joint_torque);
   add_skip_option(command, options->skip_s);
-  command.add_option("--step-limit", options->step_limit_s, "an estimator that takes longer for a step is ended, in s")
+  command
+      .add_option("--step-limit", options->step_limit_s, "an estimator that takes longer for a step is stopped, in s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command.add_option("--runs", options->runs, "of a scenario: simulate so many seeds, and judge by all of them")
+  command.add_option("--runs", options->runs, "for a scenario: simulate so many seeds and compare over all of them")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command
@@ -139,7 +141,8 @@ void add_compare_command(CLI::App& app) {
 }
 
 void add_diagnose_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("diagnose", "find what the model lacks by measured data, and add it");
+  CLI::App& command =
+      *app.add_subcommand("diagnose", "find the effects that a model lacks, from logs, and add them to it");
   const auto options = std::make_shared<DiagnoseCommandOptions>();
   const auto plan = std::make_shared<PlanCommandOptions>();
   const auto plan_files = std::make_shared<std::vector<std::filesystem::path>>();
@@ -148,12 +151,12 @@ void add_diagnose_command(CLI::App& app) {
                           ->type_name("LOG.csv")
                           ->take_all()
                           ->allow_extra_args(false);
-  CLI::Option* holdout =
-      command
-          .add_option("--holdout", options->holdout, "log to tell the errors on; default: the last third of each log")
-          ->type_name("LOG.csv");
+  CLI::Option* holdout = command
+                             .add_option("--holdout", options->holdout,
+                                         "log on which the errors are computed; default: the last third of each log")
+                             ->type_name("LOG.csv");
   CLI::Option* out =
-      command.add_option("--out", options->out, "folder of model.xml, diagnosis.json and report.html; of a plan")
+      command.add_option("--out", options->out, "folder of model.xml, diagnosis.json and report.html, or of the plan")
           ->type_name("DIR");
   add_columns_option(command, options->columns);
   add_effects_option(command);
@@ -197,7 +200,9 @@ void add_identify_command(CLI::App& app) {
       ->required()
       ->take_all()
       ->allow_extra_args(false);
-  command.add_option("--holdout", options->holdout, "log to tell the errors on; default: the last third of each log")
+  command
+      .add_option("--holdout", options->holdout,
+                  "log on which the errors are computed; default: the last third of each log")
       ->type_name("LOG.csv");
   command
       .add_option("--parameters", options->parameters,
@@ -230,7 +235,7 @@ void add_experiments_command(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   command.add_flag_callback(
       "--no-effect-study", [options] { options->effect_study = false; },
-      "leave out which effect makes how much of the error, which takes most of the time");
+      "leave out the study of single effects, which takes most of the time");
   finish(command, [options] { run_experiments(*options); });
 }
 

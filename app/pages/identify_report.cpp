@@ -122,7 +122,7 @@ std::string in_words(Convergence convergence) {
       return "still drifting in the last third of the data; the model may lack something, or the log is too short";
     case Convergence::not_excited: break;
   }
-  return "not excited: these data say little of it; give a log whose motion depends on it";
+  return "not excited: these data say little about it; use a log whose motion depends on it";
 }
 
 report::Page identify_page(const IdentificationStudy& result) {

@@ -152,7 +152,7 @@ TABLE
 found_numbers() {
   local numbers
   numbers=$(printed "$1" | grep -E '^  [a-z_]+ of (joint [0-9]|the arm) [a-z_0-9]+: |^  payload mass: ' |
-    sed -E 's/^ .* ([a-z_0-9]+): ([^(]*) \(95 %.*/\1 \2/' | paste -sd , | sed 's/,/, /g')
+    sed -E 's/^ .* ([a-z_0-9]+): ([^(]*) \(95 %.*/\1 \2/; s/ 1$//' | paste -sd , | sed 's/,/, /g')
   echo "${numbers:--}"
 }
 
@@ -169,6 +169,7 @@ TABLE
     IFS='|' read -r folder joint truth <<<"$row"
     command=$(rig_log_command "$folder")
     ran "$command"
+    [ "$truth" != none ] || continue  # nothing is revised
     cells=
     for name in kinematics sr_ukf; do
       for k in 1 3; do  # 1: before, 3: after the arrow

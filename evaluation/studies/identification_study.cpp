@@ -89,8 +89,8 @@ std::vector<std::string> doubts(const IdentificationStudy& result) {
                                                 deviating[i].value, deviating[i].nominal, deviating[i].unit);
   if (deviating.size() > kNamed) names += fmt::format(" and {} more", deviating.size() - kNamed);
   if (!names.empty())
-    all.push_back("the log pulls other numbers beyond twice their tolerance: " + names +
-                  "; the model lacks something beside what was asked for, and halyard diagnose tells what");
+    all.push_back("other numbers would move by more than twice their tolerance: " + names +
+                  "; this is a sign that the model lacks an effect, which halyard diagnose can find");
   if (!result.identification.converged)
     all.push_back("the estimate still moves after the last pass over the data, and is not where its interval says");
   const EstimatorComparison& judge = judge_of(result);

@@ -3,6 +3,6 @@
 
 extern "C" const halyard_estimator_table* halyard_estimator() {
   static const auto table = halyard::estimator_table<halyard::make_camera_sr_ukf>(
-      "camera_sr_ukf", "sr_ukf corrected by a camera that sees the tool late and now and then");
+      "camera_sr_ukf", "sr_ukf with a camera that sees the tool, with delay and missing frames");
   return &table;
 }
