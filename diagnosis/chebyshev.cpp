@@ -34,9 +34,9 @@ struct ChebyshevPolynomial {
 constexpr double kReserve = 1.2;
 
 /// True if no mode grows that does not grow by itself.
-bool is_stable(const std::vector<Spectrum>& spectra, const ChebyshevPolynomial& method, double h) {
+bool is_stable(const std::vector<Eigenvalues>& spectra, const ChebyshevPolynomial& method, double h) {
   constexpr double kSlight = 1e-6;
-  for (const Spectrum& spectrum : spectra)
+  for (const Eigenvalues& spectrum : spectra)
     for (const std::complex<double>& rate : spectrum)
       for (const std::complex<double>& z : {rate * h, kReserve * rate * h})
         if (method.growth(z) > std::max(1.0, std::exp(z.real())) + kSlight) return false;
@@ -45,15 +45,15 @@ bool is_stable(const std::vector<Spectrum>& spectra, const ChebyshevPolynomial& 
 
 }  // namespace
 
-int stages_for(const std::vector<Spectrum>& spectra, double h) {
+int stages_for(const std::vector<Eigenvalues>& spectra, double h) {
   double most = 0;
-  for (const Spectrum& spectrum : spectra)
+  for (const Eigenvalues& spectrum : spectra)
     for (const std::complex<double>& rate : spectrum) most = std::max(most, std::abs(rate));
   const double stages = std::ceil(std::sqrt(1 + 1.5 * kReserve * most * h)) + 1;
   return stages > Chebyshev::kMostStages ? 0 : static_cast<int>(stages);
 }
 
-Chebyshev scheme_for(const std::vector<std::vector<Spectrum>>& systems, double sample_s) {
+Chebyshev scheme_for(const std::vector<std::vector<Eigenvalues>>& systems, double sample_s) {
   constexpr int kMostSteps = 8;
   Chebyshev c;
   for (c.steps = 1;; ++c.steps) {

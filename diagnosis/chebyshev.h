@@ -25,14 +25,14 @@ struct Chebyshev {
 };
 
 /// Eigenvalues of a system's Jacobian, 1/s.
-using Spectrum = std::vector<std::complex<double>>;
+using Eigenvalues = std::vector<std::complex<double>>;
 
 /// Stages that keep steps of h stable along the real axis, a fifth in reserve; 0 if it would take more than
 /// kMostStages.
-int stages_for(const std::vector<Spectrum>& spectra, double h);
+int stages_for(const std::vector<Eigenvalues>& spectra, double h);
 
 /// The method with just enough steps to a sample and stages to a step for several systems at once, each with the
 /// spectra of some of its states, and with stages for the sample as one step.
-Chebyshev scheme_for(const std::vector<std::vector<Spectrum>>& systems, double sample_s);
+Chebyshev scheme_for(const std::vector<std::vector<Eigenvalues>>& systems, double sample_s);
 
 }  // namespace halyard

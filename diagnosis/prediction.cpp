@@ -150,10 +150,10 @@ DrivenState<double> working_state(const Hypothesis& h, const Record& record, con
 }
 
 /// With the motors held: at rest at x, and as it works. Empty if they cannot be told.
-std::vector<Spectrum> spectra_of(const Hypothesis& h, const Record& record, const DrivenInput& held,
+std::vector<Eigenvalues> eigenvalues_of(const Hypothesis& h, const Record& record, const DrivenInput& held,
                                  const DrivenState<double>& x) {
   const Transmission<Dual> transmission = lift_transmission<Dual>(h.nominal, h.effects);
-  std::vector<Spectrum> spectra;
+  std::vector<Eigenvalues> spectra;
   for (const DrivenState<double>& at : {x, working_state(h, record, held, x)}) {
     const Eigen::MatrixXd J = driven_jacobian(transmission, record, held, at);
     if (!J.allFinite()) return {};
@@ -244,14 +244,14 @@ std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesi
   }
 
   std::vector<DrivenState<double>> starts(movers.size());
-  std::vector<std::vector<Spectrum>> spectra(movers.size());
+  std::vector<std::vector<Eigenvalues>> spectra(movers.size());
   tbb::parallel_for(std::size_t{0}, movers.size(), [&](std::size_t i) {
     const Hypothesis& h = hypotheses[movers[i]];
     starts[i] = unstretched_state(h, record, inputs[0]);
-    spectra[i] = spectra_of(h, record, standing(inputs[0]), starts[i]);
+    spectra[i] = eigenvalues_of(h, record, standing(inputs[0]), starts[i]);
   });
   const auto is_able = [&](std::size_t i) { return !spectra[i].empty() && stages_for(spectra[i], record.dt) > 0; };
-  std::vector<std::vector<Spectrum>> able_spectra;
+  std::vector<std::vector<Eigenvalues>> able_spectra;
   for (std::size_t i = 0; i < movers.size(); ++i)
     if (is_able(i)) able_spectra.push_back(spectra[i]);
   const Chebyshev scheme = scheme_for(able_spectra, record.dt);
