@@ -4,89 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <limits>
 
-#include "estimators/built_in.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "plugins/halyard_estimator.h"
-#include "plugins/host/conformance.h"
-#include "transmission/coupling.h"
+#include "tests/support/plugin_fixtures.h"
 
 namespace fs = std::filesystem;
 using halyard::ArmModel;
 using halyard::InputError;
 using halyard::Sample;
-
-namespace {
-
-const fs::path kFixtures = HALYARD_BROKEN_PLUGINS;
-
-std::string fixture(const std::string& name) { return (kFixtures / (name + ".so")).string(); }
-
-const ArmModel& raven2() {
-  static const ArmModel model = halyard::read_model(fs::path(HALYARD_SOURCE_DIR) / "examples/raven2/raven2.xml");
-  return model;
-}
-
-Sample sample_at(double time_s, double motor_position = 1) {
-  return {time_s, Eigen::VectorXd::Zero(3), Eigen::VectorXd::Constant(3, motor_position), Eigen::VectorXd()};
-}
-
-/// The message of the error that the call throws; other types of error fail the test.
-template <class Error, class Call>
-std::string message_of(const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return "";
-}
-
-std::string refusal(const std::string& name_or_path, const ArmModel& model = raven2()) {
-  return message_of<InputError>([&] { halyard::make_estimator(name_or_path, model); });
-}
-
-/// What an estimator at work is stopped by; InputError is none of these.
-template <class Call>
-std::string failure(const Call& call) {
-  return message_of<std::runtime_error>([&] {
-    try {
-      call();
-    } catch (const InputError& error) {
-      ADD_FAILURE() << "InputError: " << error.what();
-      throw;
-    }
-  });
-}
-
-/// A folder that goes away with the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "halyard_plugins_test_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~TemporaryFolder() { fs::remove_all(path_); }
-  operator const fs::path&() const { return path_; }
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
-
-/// Sets HALYARD_PLUGIN_PATH until the end of the scope.
-class PluginPath {
- public:
-  explicit PluginPath(const std::string& folders) { setenv("HALYARD_PLUGIN_PATH", folders.c_str(), 1); }
-  ~PluginPath() { unsetenv("HALYARD_PLUGIN_PATH"); }
-};
-
-}  // namespace
+using namespace halyard::plugin_fixtures;
 
 // The control of all that follows: the module that the broken ones are made from by one change each.
 TEST(Plugins, AModuleInPlainCIsAnEstimator) {
@@ -242,7 +172,7 @@ TEST(Plugins, TheCallersMistakesDoNotReachThePlugin) {
             "estimator fixture: the sample is not of 3 joints");
 }
 
-TEST(Plugins, FurtherEstimatesAndRevisionsCrossByNameAndTime) {
+TEST(Plugins, ExtraOutputsAndRevisionsCrossByNameAndTime) {
   EXPECT_EQ(halyard::make_estimator(fixture("well_formed"), raven2())->extra_output_names(),
             std::vector<std::string>());
   const auto estimator = halyard::make_estimator(fixture("looks_back"), raven2());
@@ -293,145 +223,4 @@ TEST(Plugins, AnEstimatorKeepsItsModuleOpen) {
   EXPECT_EQ(estimator->estimate().joint_position(2), 1.5);
   estimator.reset();
   EXPECT_FALSE(is_loaded());
-}
-
-TEST(PluginSearch, FoldersOfTheUserComeLastAndTheFirstOfANameCounts) {
-  const TemporaryFolder first, second;
-  fs::copy_file(fixture("well_formed"), first / "fixture.so");
-  fs::copy_file(fixture("well_formed"), second / "another_file.so");
-  fs::copy_file(fixture("newer_interface"), second / "too_new.so");
-  fs::copy_file(fixture("throws_in_update"), second / "throws_in_update.so");
-  const PluginPath path((first / "").string() + ":" + (second / "").string() +
-                        ":/no/such/folder:" + (first / "").string());
-
-  std::vector<std::string> refused;
-  std::vector<halyard::PluginInfo> found = halyard::find_plugins(&refused);
-  ASSERT_GE(found.size(), 2u);
-  EXPECT_EQ(found[found.size() - 2].name, "fixture");
-  EXPECT_EQ(found[found.size() - 2].description, "joint position = motor position");
-  EXPECT_EQ(found[found.size() - 2].path, fs::canonical(first / "fixture.so"));
-  EXPECT_EQ(found.back().name, "throws_in_update");
-
-  ASSERT_EQ(refused.size(), 3u);
-  EXPECT_EQ(refused[0], "HALYARD_PLUGIN_PATH: '/no/such/folder' is no folder; correct it or take it out");
-  EXPECT_EQ(refused[1], "plugin " + fs::canonical(second / "another_file.so").string() +
-                            ": the name 'fixture' is taken by " + fs::canonical(first / "fixture.so").string() +
-                            "; rename it, or call it by its path");
-  EXPECT_EQ(refused[2], "plugin " + fs::canonical(second / "too_new.so").string() +
-                            ": built for interface 3, this program speaks 2; install a newer halyard, or rebuild it "
-                            "against these headers");
-  EXPECT_NO_THROW(halyard::make_estimator("fixture", raven2()));
-}
-
-TEST(PluginSearch, AnUnknownNameListsTheKnownOnesAndSaysWhatWasRefused) {
-  const TemporaryFolder folder;
-  fs::copy_file(fixture("newer_interface"), folder / "wanted.so");
-  const PluginPath path((folder / "").string());
-  const std::string message = refusal("wanted");
-  EXPECT_TRUE(message.starts_with("no estimator is named 'wanted' (plugin ")) << message;
-  EXPECT_NE(message.find("built for interface 3, this program speaks 2"), std::string::npos) << message;
-  EXPECT_TRUE(message.ends_with("; give one of these, or the path of a module such as ./wanted.so")) << message;
-}
-
-// The check must be able to fail.
-TEST(Conformance, FindsWhatACarelessEstimatorBreaks) {
-  EXPECT_EQ(halyard::conformance_faults(fixture("careless"), raven2()),
-            (std::vector<std::string>{"report: counts 0 steps of 199", "reset: leaves something of the run before",
-                                      "two instances: one of two, fed in turn, differs from one alone at sample 1",
-                                      "unknown option: is not refused"}));
-  // The first is where this fixture passes on what is missing.
-  EXPECT_EQ(halyard::conformance_faults(fixture("well_formed"), raven2()).front(),
-            "missing samples: plugin fixture: at 0.01 s: innovation 2 is not finite");
-}
-
-namespace {
-
-struct BuiltIn {
-  const char* name;
-  std::unique_ptr<halyard::Estimator> (*make)(const ArmModel&, const halyard::EstimatorOptions&);
-  halyard::EstimatorOptions options;
-};
-
-void PrintTo(const BuiltIn& built_in, std::ostream* out) { *out << built_in.name; }
-
-class BuiltInPlugins : public testing::TestWithParam<BuiltIn> {};
-
-INSTANTIATE_TEST_SUITE_P(
-    All, BuiltInPlugins,
-    testing::Values(BuiltIn{"sr_ukf", halyard::make_sr_ukf, {{"alpha", "0.01"}}},
-                    BuiltIn{"disturbance_sr_ukf", halyard::make_disturbance_sr_ukf, {{"force_wander", "2"}}},
-                    BuiltIn{"smoother", halyard::make_smoother, {{"lag", "0.01"}}},
-                    BuiltIn{"camera_sr_ukf", halyard::make_camera_sr_ukf, {{"camera_latency", "0.01"}}},
-                    BuiltIn{"ekf", halyard::make_ekf, {{"encoder_noise", "1e-4"}}},
-                    BuiltIn{"kinematics", halyard::make_kinematics, {}}),
-    [](const auto& info) { return info.param.name; });
-
-}  // namespace
-
-TEST_P(BuiltInPlugins, KeepWhatEveryEstimatorPromises) {
-  EXPECT_EQ(halyard::conformance_faults(GetParam().name, raven2()), std::vector<std::string>());
-}
-
-// Model, options and samples cross as text and double*; no bit may be lost on the way.
-TEST_P(BuiltInPlugins, GiveTheSameNumbersAsWithoutTheBoundary) {
-  ArmModel model = raven2();
-  model.nominal.joint[1].stiffness *= 1.0 / 3;
-  model.effects.push_back(halyard::place_effect(*halyard::find_effect("backlash"), model.nominal, 1));
-  model.estimators[GetParam().name] = GetParam().options;
-  const auto direct = GetParam().make(model, GetParam().options);
-  const auto plugin = halyard::make_estimator(GetParam().name, model);
-
-  const Eigen::VectorXd at_home = halyard::unstretched_motors(model.nominal, model.home());
-  for (int i = 0; i < 50; ++i) {
-    Sample sample = sample_at(0.001 * i);
-    sample.motor_position = at_home.array() + 0.1 * std::sin(0.05 * i);
-    sample.motor_torque.setConstant(0.01 * std::cos(0.05 * i));
-    if (i > 20) sample.joint_torque = Eigen::Vector3d(0.1, 0.2, 0.3);
-    if (i % 7 == 3) sample.motor_position(1) = std::nan("");
-    if (i % 10 == 9) sample.marker = Eigen::Vector3d(0.05, 0.02, -0.06);
-    if (i == 0) {
-      direct->reset(sample);
-      plugin->reset(sample);
-    } else {
-      const halyard::Innovation a = direct->update(sample), b = plugin->update(sample);
-      ASSERT_EQ(a.time_s, b.time_s);
-      ASSERT_EQ(a.nu, b.nu);
-      ASSERT_EQ(a.S_root, b.S_root);
-      ASSERT_EQ(a.accepted, b.accepted);
-    }
-    const halyard::Estimate a = direct->estimate(), b = plugin->estimate();
-    ASSERT_EQ(a.joint_position, b.joint_position);
-    ASSERT_EQ(a.joint_velocity, b.joint_velocity);
-    ASSERT_EQ(a.joint_position_std, b.joint_position_std);
-    ASSERT_EQ(a.extra_outputs, b.extra_outputs);
-    for (bool more = true; more;) {
-      const auto c = direct->revise(i == 49), d = plugin->revise(i == 49);
-      more = c.has_value();
-      ASSERT_EQ(more, d.has_value());
-      if (!more) continue;
-      ASSERT_EQ(c->time_s, d->time_s);
-      ASSERT_EQ(c->estimate.joint_position, d->estimate.joint_position);
-      ASSERT_EQ(c->estimate.joint_position_std, d->estimate.joint_position_std);
-    }
-  }
-  EXPECT_EQ(direct->extra_output_names(), plugin->extra_output_names());
-  EXPECT_EQ(direct->report().steps, plugin->report().steps);
-}
-
-TEST_P(BuiltInPlugins, RefuseAnUnknownOptionByName) {
-  ArmModel model = raven2();
-  model.source = "arm.xml";
-  model.estimators[GetParam().name]["alhpa"] = "1";
-  const std::string start = std::string("arm.xml: estimator ") + GetParam().name + ": unknown option 'alhpa'; ";
-  const std::string message = refusal(GetParam().name, model);
-  EXPECT_TRUE(message.starts_with(start)) << message;
-}
-
-TEST(PluginSearch, FindsTheBuiltInEstimators) {
-  std::vector<std::string> refused, names;
-  for (const halyard::PluginInfo& plugin : halyard::find_plugins(&refused)) names.push_back(plugin.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"camera_sr_ukf", "disturbance_sr_ukf", "ekf", "kinematics", "smoother",
-                                             "sr_ukf"}));
-  EXPECT_EQ(refused, std::vector<std::string>());
-  EXPECT_EQ(halyard::find_plugin("ekf").path.filename(), "ekf.so");
 }
