@@ -15,7 +15,7 @@ inline ArmModel pendulum() {
   j.inertia[2] = 0.01;
   j.coupling[0] = 1;
   model.joints.resize(1);
-  model.joints[0] = {"pendulum", -2, 2, 1.0, {}};
+  model.joints[0] = {.name = "pendulum", .lower = -2, .upper = 2, .home = 1, .controller = {}, .tolerances = {}};
   return model;
 }
 
