@@ -11,7 +11,6 @@
 #include "model/model_file.h"
 #include "plugins/halyard_estimator.h"
 #include "tests/support/plugin_fixtures.h"
-#include "transmission/coupling.h"
 
 namespace fs = std::filesystem;
 using halyard::ArmModel;
