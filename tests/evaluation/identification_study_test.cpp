@@ -2,16 +2,24 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace halyard {
 namespace {
+
+EstimatorErrors errors_with(std::vector<double> rms) {
+  EstimatorErrors errors;
+  errors.rms = std::move(rms);
+  return errors;
+}
 
 /// A study of an arm with two joints, whose sr_ukf has these RMS errors with the given and the identified model.
 IdentificationStudy study_of(std::vector<double> before, std::vector<double> after) {
   IdentificationStudy study;
   study.given.nominal.n = 2;
   study.identification.converged = true;
-  study.estimators = {{"kinematics", {.rms = {1, 1}}, {.rms = {9, 9}}},
-                      {"sr_ukf", {.rms = std::move(before)}, {.rms = std::move(after)}}};
+  study.estimators = {{"kinematics", errors_with({1, 1}), errors_with({9, 9})},
+                      {"sr_ukf", errors_with(std::move(before)), errors_with(std::move(after))}};
   return study;
 }
 

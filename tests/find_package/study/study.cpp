@@ -70,6 +70,7 @@ void sweep_stiffness(const fs::path& raven2, const fs::path& out) {
   sweep.grid.axes = {{.parameters = {"joint2.cable.stiffness"},
                       .applies_to = SweepAxis::Target::robot,
                       .is_factor = true,
+                      .unit = "",
                       .values = {0.5, 1}}};
   sweep.grid.estimators = {"sr_ukf"};
   sweep.grid.units = joint_units(sweep.model);
