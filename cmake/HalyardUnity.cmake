@@ -48,7 +48,7 @@ compile_together(halyard_diagnosis verdict
   attribution.cpp diagnose.cpp evidence.cpp false_discovery.cpp judge.cpp leaps.cpp)
 compile_together(halyard_diagnosis plan paired_t.cpp plan.cpp view_sentence.cpp views.cpp)
 compile_together(halyard_diagnosis records
-  calibrate.cpp record.cpp residual_signals.cpp signature.cpp spectrum.cpp starts.cpp)
+  calibrate.cpp chebyshev.cpp record.cpp residual_signals.cpp signature.cpp spectrum.cpp starts.cpp)
 compile_together(halyard_diagnosis search_space
   filtered_effect.cpp search_space.cpp search_space/cable.cpp search_space/joint.cpp search_space/motor.cpp
   search_space/sensor.cpp)
