@@ -57,7 +57,7 @@ TABLE
   trial_row 'clean arms with an effect named, every number off within its tolerance' \
     'clean_mistuned: an effect is named'
   trial_row 'every effect in turn: effect and joint right and first' 'each_effect: effect and joint right, first'
-  trial_row 'outside the library: `unknown`, or an unexplained rest' \
+  trial_row 'outside the library: `unknown`, or an unexplained residual' \
     'outside: unknown, or named with an unexplained rest'
   trial_row 'pairs, both named' 'pair: both named'
   trial_row 'true numbers within their 95 % interval, every effect in turn' \
