@@ -90,7 +90,7 @@ compile_together(transmission_tests acting
   transmission/effects_cable_test.cpp transmission/effects_friction_test.cpp transmission/effects_load_test.cpp
   transmission/effects_motor_test.cpp transmission/effects_sensor_test.cpp)
 compile_together(model_tests files
-  model/log_test.cpp model/model_file_errors_test.cpp model/model_file_test.cpp model/raven_model_test.cpp
+  model/model_file_errors_test.cpp model/model_file_test.cpp model/raven_model_test.cpp
   model/xml_reader_test.cpp)
 compile_together(plant_tests plant plant/integrators_test.cpp plant/plant_test.cpp)
 compile_together(estimators_tests readings
