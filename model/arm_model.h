@@ -24,7 +24,7 @@ struct ControllerParameters {
 struct JointDescription {
   std::string name;
   double lower = 0, upper = 0;  ///< range, rad | m
-  double home = 0;              ///< motor angles count from here, and runs start here, rad | m
+  double home = 0;              ///< runs start here by default; assumed where a log gives no position, rad | m
   ControllerParameters controller;
   Tolerances tolerances;
 };

@@ -49,13 +49,13 @@ class ColumnMap {
   /// Throws InputError, which quotes the entry: as add(), or if the text has another form.
   void add_entry(std::string_view entry);
 
-  /// Adds all sources of `other`. If both maps name a standard column, the source of `other` is kept.
+  /// Adds all sources of `other`. If both maps name a standard column, the source in `other` replaces this one.
   void override_with(const ColumnMap& other);
 
   /// Throws InputError if the map names a joint beyond n_joints.
   void check_joints(int n_joints) const;
 
-  /// Sources by standard name. A map built from their `scale` and `offset` with empty units is the same map.
+  /// Sources by standard name. Adding each one with its `scale`, its `offset` and an empty unit gives the same map.
   const std::map<std::string, ColumnSource, std::less<>>& sources() const { return sources_; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// Zeros of encoders that start from zero when switched on.
+/// Unknown zeros of encoders, such as those that count from zero at power-on.
 
 #include "model/arm_model.h"
 #include "model/log.h"

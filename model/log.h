@@ -96,8 +96,8 @@ Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& m
 /// increase as printed. If the file cannot be written, throws as write_file_whole().
 void write_log(const std::filesystem::path& path, const Log& log, const std::string& comment = "");
 
-/// Samples begin..end-1; without samples, every column is absent. Throws std::out_of_range unless begin <= end <=
-/// log.size().
+/// The samples begin..end-1 of a log. If there are none, every column of the result is absent. Throws std::out_of_range
+/// unless begin <= end <= log.size().
 Log slice(const Log& log, std::size_t begin, std::size_t end);
 
 /// Splits a log in time: the part before `fraction` of its duration, and the rest. The log must have a sample.

@@ -106,7 +106,7 @@ void for_each_joint_field(Visit&& visit, Joint&... j) {
   motor("inertia", "inertia", "kg m^2", mass, not_negative, false, motor_torque, j.rotor_inertia...);
   motor("coulomb", "Coulomb friction", "N m", friction, not_negative, false, motor_torque, j.motor_coulomb...);
   motor("viscous", "viscous friction", "N m s/rad", friction, not_negative, false, motor_torque, j.motor_viscous...);
-  // It also regularises the friction of cables, and the motion depends on that friction.
+  // The smoothing speed also regularises the friction of cables, on which the motion depends.
   motor("smoothing", "", "rad/s", smoothing, positive, true, motion, j.motor_smoothing...);
   motor("gear_ratio", "gear ratio", "1", length, positive, false, motion, j.gear_ratio...);
   motor("capstan_radius", "capstan radius", "m", length, positive, false, motion, j.capstan_radius...);
@@ -150,7 +150,7 @@ void for_each_arm_field(Visit&& visit, Arm&... a) {
   visit(ArmField{"payload", "point", "", "m", FieldKind::length, Bound::none, true}, a.payload_point...);
 }
 
-/// The fields of an arm and of the first `n` of its joints.
+/// Calls visit for the fields of an arm and of its first `n` joints.
 template <class Visit, class... Arm>
 void for_each_field(int n, Visit&& visit, Arm&... a) {
   for_each_arm_field(visit, a...);

@@ -63,7 +63,7 @@ struct JointParameters {
   T joint_encoder_offset = 0.0;         ///< rad | m
   double motor_encoder_resolution = 0;  ///< rad
   double joint_encoder_resolution = 0;  ///< rad | m
-  /// False: the zero differs from log to log, as with an incremental encoder that starts from zero when switched on.
+  /// False: the zero differs from log to log, as with an incremental encoder that counts from zero at power-on.
   bool motor_zero_known = true;
   bool joint_zero_known = true;
 

@@ -98,7 +98,7 @@ Eigen::MatrixXd path_matrix(const ArmParameters<double>& arm);
 Eigen::VectorXd unstretched_joints(const ArmParameters<double>& arm, const Eigen::VectorXd& q_m,
                                    const Eigen::VectorXd& q_undriven);
 
-/// The motor angles at which no cable is stretched at joint position q (Eq. 8).
+/// The motor angles q_m [n] at which no cable is stretched at joint positions q [n] (Eq. 8).
 Eigen::VectorXd unstretched_motors(const ArmParameters<double>& arm, const Eigen::VectorXd& q);
 
 }  // namespace halyard

@@ -100,7 +100,7 @@ class Effect {
   virtual std::vector<double> state_scale(const ArmParameters<double>&, int /*joint*/, const double* /*p*/) const {
     return std::vector<double>(n_states(), 1.0);
   }
-  /// Bitwise or of the stages at which the effect acts.
+  /// Bitwise OR of the stages at which the effect acts.
   virtual unsigned stages() const { return 0; }
 
   virtual void change_parameters(ArmParameters<double>&, int joint, const double* p) const = 0;

@@ -16,7 +16,7 @@ namespace halyard {
 /// breaks:
 ///
 ///   - estimates are finite and repeatable, and asking for one changes nothing
-///   - revisions are of samples of the record, and none is revised more often than there are samples
+///   - revisions are of samples given so far; after each sample there are at most as many as samples so far
 ///   - two instances that run in turn do not disturb each other and give the same numbers to the last bit
 ///   - reset() restarts the estimator; nothing remains of the run before
 ///   - missing samples (also at the start) and gaps do not stop it; a motor without a sample has no innovation
