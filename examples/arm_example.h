@@ -1,5 +1,5 @@
 #pragma once
-/// What the examples share: the RAVEN-II arm on sines, and records turned into samples and errors.
+/// Shared by the examples: the RAVEN-II arm following sines, and functions from logs to samples and errors.
 
 #include <fmt/core.h>
 
@@ -17,7 +17,7 @@ namespace halyard {
 
 inline ArmModel raven2() { return read_model(HALYARD_EXAMPLES "/raven2/raven2.xml"); }
 
-/// The arm on the paper's sines, faded in over a second, encoders rounded. Deterministic.
+/// The arm follows the paper's sines, faded in over 1 s, with encoders rounded. Deterministic.
 inline Scenario on_sines(const ArmModel& robot, double duration_s) {
   Scenario scenario;
   scenario.robot = robot;
@@ -35,7 +35,7 @@ inline Scenario on_sines(const ArmModel& robot, double duration_s) {
   return scenario;
 }
 
-/// Row i of a log, as an estimator sees it.
+/// Row i of a log as an estimator's input.
 inline Sample sample(const Log& log, std::size_t i) {
   Sample s;
   s.time_s = log.time[i];
@@ -63,7 +63,7 @@ inline Eigen::VectorXd rms_error(Estimator& estimator, const SimulationResult& r
   return (sum / static_cast<double>(count)).cwiseSqrt();
 }
 
-/// A joint coordinate as a reader likes it: "0.231 deg", "0.22 mm".
+/// A joint coordinate as text, in degrees or millimetres: "0.2310 deg", "0.2200 mm".
 inline std::string in_units(const ArmModel& arm, int k, double value) {
   return arm.nominal.joint[k].type == JointType::revolute ? fmt::format("{:.4f} deg", value * 180 / std::numbers::pi)
                                                           : fmt::format("{:.4f} mm", value * 1e3);

@@ -1,5 +1,5 @@
 #pragma once
-/// Reads a log as the model of its arm says it is written.
+/// Reads a log with the column map and the encoder zeros of its arm's model.
 
 #include <filesystem>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace halyard {
 
-/// Reads a log of the model's arm by the model's column map, and takes unknown zeros off its encoders (homing.h).
+/// Reads a log of the model's arm with the model's column map, and subtracts unknown zeros of its encoders (homing.h).
 /// column_entries, NAME=COLUMN[,unit=U][,sign=-1][,scale=S][,offset=O], replace entries of the model's map.
 /// torque_required: every joint with a motor needs its motor_torque_k.
 /// Throws InputError as ColumnMap::add_entry(), read_log() and home_encoders() do.

@@ -1,6 +1,6 @@
 #pragma once
-/// A cable-driven serial arm as a model file describes it: the numbers of the equations, the effects
-/// that are placed on it, its controller, how foreign logs of it are read, and options of estimators.
+/// A cable-driven serial arm as a model file describes it: the parameters of the equations, effects, controller, column
+/// map for foreign logs, and options of estimators.
 
 #include <Eigen/Core>
 #include <map>
@@ -20,11 +20,11 @@ struct ControllerParameters {
   double torque_limit = 0;  ///< N m; 0: none
 };
 
-/// What a model says of a joint beside its equations' numbers.
+/// Description of a joint, apart from the parameters of its equations.
 struct JointDescription {
   std::string name;
   double lower = 0, upper = 0;  ///< range, rad | m
-  double home = 0;              ///< where motor angles are counted from and where runs start, rad | m
+  double home = 0;              ///< runs start here by default; assumed where a log gives no position, rad | m
   ControllerParameters controller;
   Tolerances tolerances;
 };
@@ -45,25 +45,25 @@ struct ArmModel {
 
   int n() const { return nominal.n; }
   Eigen::VectorXd home() const;
-  /// Relative tolerance of a number; 0: the model states none.
+  /// Relative tolerance of a parameter; 0: the model states none.
   double tolerance(const ParameterInfo& number) const;
 };
 
-/// Whether two arms have as many joints, of the same types and driven alike: by a motor, or by none.
+/// Whether two arms have the same number of joints, with the same types, and motors at the same joints.
 bool joints_alike(const ArmParameters<double>& a, const ArmParameters<double>& b);
 
-/// One number of the arm that a study may vary and a diagnosis may refit.
+/// One parameter of the arm that a study may vary and a diagnosis may refit.
 struct ParameterInfo {
   std::string name;  ///< "joint 2 cable stiffness"
   std::string key;   ///< "joint2.cable.stiffness", as sweeps name it
   std::string unit;
   int joint;                      ///< 0-based; -1: the arm
-  double Tolerances::*tolerance;  ///< which of the joint's tolerances holds for it; null: none
-  double* value;                  ///< into the ArmParameters it was listed from
+  double Tolerances::*tolerance;  ///< the tolerance that applies to it; null: none
+  double* value;                  ///< points into the arm given to named_parameters()
 };
 
-/// The numbers of an arm that have a noun in arm_fields.h, joint by joint; of couplings those with inboard joints.
-/// Numbers that do not exist at a joint (a cable of a rigid drive) are left out.
+/// The parameters of an arm that have a noun in arm_fields.h, joint by joint. Coupling coefficients are listed only for
+/// inboard joints. Parameters that do not exist at a joint are left out, such as cable stiffness at a rigid drive.
 std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm);
 
 }  // namespace halyard

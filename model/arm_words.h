@@ -1,5 +1,5 @@
 #pragma once
-/// The words that model files use for what is no number; reader and writer share them.
+/// Words for non-numeric values in model files; the reader and the writer share them.
 
 #include <string>
 #include <utility>
@@ -35,7 +35,7 @@ std::string word_for(Choice choice) {
   return {};
 }
 
-/// A sensor's zero that a model does not know.
+/// Marks a sensor's zero as unknown.
 inline constexpr const char* kUnknownZero = "unknown";
 
 }  // namespace halyard

@@ -14,7 +14,7 @@ namespace halyard {
 inline constexpr std::array<std::string_view, 5> kSignalNames = {"motor_torque", "motor_position", "joint_position",
                                                                  "joint_velocity", "joint_torque"};
 
-/// Columns of the arm as a whole: where a camera saw a marker at the tool, m in the base frame.
+/// Columns of the whole arm: position of a marker at the tool, measured by a camera, m in the base frame.
 inline constexpr std::array<std::string_view, 3> kMarkerNames = {"marker_x", "marker_y", "marker_z"};
 
 /// Where a standard column comes from: SI value = scale · raw + offset.
@@ -24,38 +24,38 @@ struct ColumnSource {
   double offset = 0;   ///< SI unit (s, rad or m, rad/s or m/s, N·m or N)
 };
 
-/// Says which column of a foreign log is which standard column, and in which unit. Several standard columns may come
-/// from one column of the file. Standard columns that the map does not name keep their own name.
+/// Maps columns of a foreign log, and their units, to the standard columns. Several standard columns may come from one
+/// column of the file. Standard columns that the map does not name keep their own name.
 ///
 ///   time              s, ms, us
 ///   *_position_k, marker_*   rad, deg, turn, m, mm, um
 ///   *_velocity_k      rad/s, deg/s, rpm, m/s, mm/s
-///   *_torque_k        N.m, mN.m, N.mm, N; A, mA, V, mV, with a scale in N m per A or V here, or as the model's
-///                     torque_scale
+///   *_torque_k        N.m, mN.m, N.mm, N; A, mA, V, mV. Currents and voltages need a scale in N m per A
+///                     or V, here or as the model's torque_scale
 ///
-/// An empty unit is the SI unit. Angles and lengths are not told apart, nor are torques and forces: a scale may turn
-/// one into the other (a linear motor, a spindle).
+/// An empty unit is the SI unit. Angle and length units are interchangeable, and so are torque and force units, because
+/// a scale may convert one into the other (a linear motor, a spindle).
 class ColumnMap {
  public:
   /// SI value = sign · scale · unit · raw + offset, with the offset in SI units.
-  /// Throws InputError, without a place: for a name that is no standard column or is already mapped, an empty column,
-  /// a unit that is unknown or of another quantity, a sign other than 1 or -1, a scale of zero, or a number that is
-  /// not finite.
+  /// Throws InputError, without file and line, for a name that is no standard column or is already mapped, an empty
+  /// column, a unit that is unknown or of another quantity, a sign other than 1 or -1, a scale of zero, or a number
+  /// that is not finite.
   void add(std::string_view name, std::string_view column, std::string_view unit = "", double sign = 1,
            double scale = 1, double offset = 0);
 
   /// Adds one command-line entry; all but NAME=COLUMN is optional:
   ///   motor_torque_1=capstan_torque_1_Nm,unit=N.m,sign=-1,scale=0.0816,offset=0.1
-  /// Throws InputError that quotes the entry: as add(), or for text that has not this form.
+  /// Throws InputError, which quotes the entry: as add(), or if the text has another form.
   void add_entry(std::string_view entry);
 
-  /// Takes all sources of `other`; where both maps name a standard column, `other` wins.
+  /// Adds all sources of `other`. If both maps name a standard column, the source in `other` replaces this one.
   void override_with(const ColumnMap& other);
 
   /// Throws InputError if the map names a joint beyond n_joints.
   void check_joints(int n_joints) const;
 
-  /// By standard name. Writing `scale` and `offset` of a source with an empty unit gives the same map again.
+  /// Sources by standard name. Adding each one with its `scale`, its `offset` and an empty unit gives the same map.
   const std::map<std::string, ColumnSource, std::less<>>& sources() const { return sources_; }
 
  private:
@@ -65,11 +65,11 @@ class ColumnMap {
 /// `text` without blanks, tabs and carriage returns at either end.
 std::string_view trim(std::string_view text);
 
-/// Replaces `cells` by the trimmed texts between the commas of `line`; at least one.
+/// Replaces `cells` by the trimmed texts between the commas of `line`; there is at least one.
 void split(std::string_view line, std::vector<std::string_view>& cells);
 
-/// The finite decimal number that `text` is from its first to its last character; nothing for any other text, which
-/// includes "nan", "inf", an empty text and numbers beyond the range of double.
+/// Parses the whole of `text` as a finite decimal number. Returns nothing for any other text, such as "nan", "inf", an
+/// empty text or a number beyond the range of double.
 std::optional<double> parse_number(std::string_view text);
 
 }  // namespace halyard

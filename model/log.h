@@ -11,15 +11,15 @@
 
 namespace halyard {
 
-/// One signal of every joint: [n_joints] of [n_samples]. An empty inner vector is a column that the record does not
-/// have; NaN is a missing sample.
+/// One signal of all joints: [n_joints] vectors of [n_samples]. An empty inner vector means that the record lacks the
+/// column; NaN is a missing sample.
 using Signals = std::vector<std::vector<double>>;
 
-/// One record of an arm. Joints count from 0 here and from 1 in the names of columns.
+/// One record of an arm. Joints are numbered from 0 here and from 1 in the names of columns.
 ///
 ///   member           column of a file          unit
 ///   time             time                      s, strictly increasing, gaps allowed
-///   motor_torque     motor_torque_k            N·m at the motor shaft, absent of a joint without a motor
+///   motor_torque     motor_torque_k            N·m at the motor shaft, absent at a joint without a motor
 ///   motor_position   motor_position_k          rad at the motor shaft, likewise
 ///   joint_position   joint_position_k          rad | m
 ///   joint_velocity   joint_velocity_k          rad/s | m/s
@@ -39,14 +39,14 @@ struct Log {
 
   int n_joints = 0;
   std::vector<double> time;
-  double clock_start = 0;  ///< what was taken off the file's times, s: see read_log
+  double clock_start = 0;  ///< subtracted from the file's times, s: see read_log
   Signals motor_torque, motor_position, joint_position, joint_velocity, joint_torque;
   Signals marker;                            ///< x, y, z
   std::vector<std::string> ignored_columns;  ///< columns of the file that are not in this log, in the file's order
   std::string source;                        ///< path as given to read_log, for messages
 
   std::size_t size() const { return time.size(); }
-  /// Last time less first, s; 0 without samples.
+  /// Last time minus first time, s; 0 without samples.
   double duration() const { return time.empty() ? 0 : time.back() - time.front(); }
 
   /// Whether the record has the column of joint k = 0..n_joints-1. Throws std::out_of_range for any other k.
@@ -72,19 +72,19 @@ void for_each_column(AnyLog& log, Visit visit) {
 }
 
 struct ReadOptions {
-  bool torque_required = true;          ///< motor_torque_k of every joint with a motor
-  std::vector<int> without_motor = {};  ///< joints, from 0; motor_torque_k and motor_position_k of them are not read
+  bool torque_required = true;          ///< require motor_torque_k of every joint with a motor
+  std::vector<int> without_motor = {};  ///< 0-based joints whose motor_torque_k and motor_position_k are not read
 };
 
 /// Reads a CSV file: UTF-8, one header row, commas, `#` starts a comment line, an empty cell is a missing sample. A
-/// byte-order mark, carriage returns, blank lines and a missing last line break are accepted. Columns that the map and
-/// the standard names do not call for are never looked into. An optional column without one sample counts as absent.
-/// A clock whose first time is more than 1e6 s from zero, as that of the Unix epoch, is counted from the first sample.
+/// byte-order mark, carriage returns, blank lines and a missing last line break are accepted. Columns that are neither
+/// standard nor mapped are not parsed. An optional column without any sample counts as absent. If the first time is
+/// more than 1e6 s from zero, like a Unix time, times are counted from the first sample.
 ///
 /// Throws InputError `file:line: what; remedy` for a file that is missing, unreadable, empty, without samples or not
-/// text; a required or mapped column that is absent, or a marker's axis; one that stands twice; a required column
-/// without one sample; a mapped joint beyond n_joints; a row with more or fewer cells than the header; a cell that is
-/// no finite number; a time that is missing or does not increase.
+/// text; a required or mapped column, or one axis of the marker, that is absent; a column that appears twice; a
+/// required column without any sample; a mapped joint beyond n_joints; a row with more or fewer cells than the header;
+/// a cell that is not a finite number; a time that is missing or does not increase.
 /// Throws std::invalid_argument if n_joints < 1.
 Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& map = {},
              const ReadOptions& options = {});
@@ -92,12 +92,12 @@ Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& m
 /// Writes the columns that the log has, in the order of the table above: time with up to 6 decimals, other values with
 /// 9 significant digits. Each line of `comment` becomes a comment line at the top. The file is complete or absent.
 ///
-/// Throws std::invalid_argument for a column of another length than time, an infinite value, or times that do not
-/// increase as printed; and what write_file_whole throws if the file cannot be written.
+/// Throws std::invalid_argument for a column whose length differs from time's, an infinite value, or times that do not
+/// increase as printed. If the file cannot be written, throws as write_file_whole().
 void write_log(const std::filesystem::path& path, const Log& log, const std::string& comment = "");
 
-/// Samples begin..end-1; without samples, every column is absent. Throws std::out_of_range unless begin <= end <=
-/// log.size().
+/// The samples begin..end-1 of a log. If there are none, every column of the result is absent. Throws std::out_of_range
+/// unless begin <= end <= log.size().
 Log slice(const Log& log, std::size_t begin, std::size_t end);
 
 /// Splits a log in time: the part before `fraction` of its duration, and the rest. The log must have a sample.

@@ -14,13 +14,13 @@ class XmlElement;
 /// Reads a model file. Throws InputError `file:line: <element attribute="...">: expected ...; remedy`.
 ArmModel read_model(const std::filesystem::path& path);
 
-/// The same from text, as plug-ins receive it; source is used in messages.
+/// The same from text, as plug-ins receive it; `source` names the text in messages.
 ArmModel parse_model(const std::string& xml, const std::string& source);
 
-/// Reads an <effects> element, of a model or of another file that places effects on an arm. Throws InputError.
+/// Reads an <effects> element of a model file or of another file that places effects on an arm. Throws InputError.
 std::vector<PlacedEffect> read_effects(const XmlElement& effects, const ArmParameters<double>& arm);
 
-/// The model as XML that read_model gives back to the last bit.
+/// The model as XML, from which read_model restores every number to the last bit.
 std::string model_to_xml(const ArmModel& model);
 
 }  // namespace halyard

@@ -7,9 +7,9 @@
 
 namespace halyard {
 
-/// A file that appears complete or not at all: written as a temporary sibling, renamed by commit().
-/// Until then, and for good if commit() is never reached, an older file of that name stays as it was.
-/// Numbers are written in the classic locale, whatever the global one is.
+/// A file that appears complete or not at all: it is written as a temporary sibling and renamed by commit(). An older
+/// file of that name stays unchanged until commit(), and for good if commit() is never called. Numbers are written in
+/// the classic locale, whatever the global locale is.
 class OutputFile {
  public:
   /// Creates missing parent folders. A link to a file is followed.
@@ -21,7 +21,7 @@ class OutputFile {
 
   std::ostream& stream() { return stream_; }
 
-  /// Call once, last. Throws std::runtime_error with path and reason if any write failed or the rename does.
+  /// Call once, last. Throws std::runtime_error with path and reason if a write or the rename failed.
   void commit();
 
  private:
@@ -30,7 +30,7 @@ class OutputFile {
   std::ofstream stream_;
 };
 
-/// An OutputFile with this content, committed. Throws as it does.
+/// Writes an OutputFile with this content and commits it. Throws as OutputFile does.
 void write_file_whole(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace halyard

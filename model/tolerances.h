@@ -1,12 +1,12 @@
 #pragma once
-/// How well a model knows the numbers of one joint.
+/// Accuracy of the parameters of one joint in a model.
 
 namespace halyard {
 
-/// Relative deviations from the stated numbers that are to be expected; 1: nothing is known.
+/// Expected relative deviations from the model's values; 1: nothing is known.
 struct Tolerances {
   double length = 0.005;    ///< radii, ratios, lengths
-  double mass = 0.05;       ///< masses and inertias, of rotors too
+  double mass = 0.05;       ///< masses and inertias, including those of rotors
   double stiffness = 0.10;  ///< stiffness and damping of cables
   double friction = 0.20;   ///< Coulomb and viscous
   double coupling = 0.02;

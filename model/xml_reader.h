@@ -3,7 +3,7 @@
 /// `file:line: <element attribute="text">: expected ...; remedy`.
 ///
 ///   const XmlElement cable = XmlElement::read_file(path, "cable");   // the root element, <cable>
-///   cable.only({"law", "stiffness", "slack"}, {"run"});              // first: nothing but these
+///   cable.only({"law", "stiffness", "slack"}, {"run"});              // call first: any other name throws
 ///   const double k_e = cable.number("stiffness", "N/m", Sign::positive);
 ///   const double slack = cable.number_or("slack", 0.0, "m");         // slack="2 mm" is 0.002
 ///   const auto law = cable.choice<CableLaw>("law", {{"paper", CableLaw::paper}, {"linear", CableLaw::linear}});
@@ -36,9 +36,9 @@ class XmlElement {
  public:
   /// The root element of a file. Throws if the file cannot be read, is not well-formed or has another root.
   static XmlElement read_file(const std::filesystem::path& path, std::string_view root);
-  /// The same without asking for a certain root: tag() tells what kind of file it is.
+  /// The same for any root element; tag() gives its name.
   static XmlElement read_file(const std::filesystem::path& path);
-  /// From text; source stands for the file in messages.
+  /// From text; messages name `source` in place of a file.
   static XmlElement parse(const std::string& xml, const std::string& source, std::string_view root);
 
   std::string tag() const;
@@ -50,9 +50,9 @@ class XmlElement {
   /// Throws `file:line: <tag attribute="text">: what`.
   [[noreturn]] void fail(std::string_view attribute, const std::string& what) const;
 
-  /// Throws unless attributes and child elements are among these and there is no text.
+  /// Throws unless all attributes and child elements are among these and there is no text.
   void only(const XmlNames& attributes, const XmlNames& children = {}) const;
-  /// As only(), for an element whose attributes are free.
+  /// As only(), but allows any attribute.
   void only_children(const XmlNames& children) const;
 
   bool has(std::string_view attribute) const;
@@ -66,7 +66,7 @@ class XmlElement {
   std::filesystem::path path(std::string_view attribute) const;
   double number(std::string_view attribute, std::string_view unit, Sign sign = Sign::any) const;
   double number_or(std::string_view attribute, double fallback, std::string_view unit, Sign sign = Sign::any) const;
-  /// Numbers between blanks; count 0: one or more. A suffix at the end is of all of them: "0 0 90 deg".
+  /// Numbers between blanks; count 0: one or more. A suffix at the end applies to all of them: "0 0 90 deg".
   std::vector<double> numbers(std::string_view attribute, std::string_view unit, std::size_t count = 0) const;
   /// The element's own text, <gravity>-9.81 0 0</gravity>, as numbers; throws if it has attributes or children too.
   std::vector<double> text_numbers(std::string_view unit, std::size_t count = 0) const;
@@ -77,7 +77,7 @@ class XmlElement {
   /// "true" or "false".
   bool flag_or(std::string_view attribute, bool fallback) const;
 
-  /// One of the names.
+  /// The value listed for the attribute's text; throws if the text is not listed.
   template <class E>
   E choice(std::string_view attribute, const std::vector<std::pair<std::string, E>>& values) const {
     XmlNames names;
@@ -91,9 +91,9 @@ class XmlElement {
 
   std::vector<XmlElement> children() const;
   std::vector<XmlElement> children(std::string_view tag) const;
-  /// Required and alone.
+  /// The child with this tag; throws if there is none or more than one.
   XmlElement child(std::string_view tag) const;
-  /// At most one.
+  /// The child with this tag, if any; throws if there is more than one.
   std::optional<XmlElement> optional_child(std::string_view tag) const;
 
  private:

@@ -1,14 +1,14 @@
 #pragma once
 /// The arm as a system of differential equations: Simbody's rigid chain, moved by a drive train.
 ///
-///   (M(q) + M_rotors) q'' + h(q, q') = F(q, q', z),   z' = of the drive train
+///   (M(q) + M_rotors) q'' + h(q, q') = F(q, q', z),   z' from the drive train
 ///
 ///   y     state [q, q', z]; see PlantLayout        [size]
 ///   M     mass matrix of the chain                  [n x n]
 ///   h     velocity and gravity forces                [n]
 ///
-/// One mobilized body a joint: it turns about, or slides along, the z axis of its own frame. A rigid drive's rotor
-/// enters as the force -M_rotors q'' on the chain. An ArmPlant belongs to one thread at a time.
+/// Each joint has one mobilized body. The body turns about, or slides along, the z axis of its own frame. A rigid
+/// drive's rotor enters as the force -M_rotors q'' on the chain. Only one thread at a time may use an ArmPlant.
 
 #include <Eigen/Core>
 #include <memory>
@@ -21,40 +21,40 @@ struct SimbodyArm;
 
 class ArmPlant {
  public:
-  /// Throws std::invalid_argument for an arm that cannot be: see DriveTrain, and link inertias that no body has.
+  /// Throws std::invalid_argument as DriveTrain does, and for link inertias that are physically impossible.
   explicit ArmPlant(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects = {});
   ~ArmPlant();
 
   const DriveTrain& drive() const;
   const PlantLayout& layout() const { return drive().layout(); }
 
-  /// Commanded motor torques and external loads on the joints, [n] each, from time_s on.
+  /// Sets the commanded motor torques and external loads on the joints, [n] each, that hold from time_s on.
   void set_inputs(double time_s, const double* command, const double* external);
 
   void derivative(double time_s, const double* y, double* y_dot);
-  /// What some terms of the drive's forces contribute to y', with q' = v for the joints that they move.
+  /// Contribution of some terms of the drive's forces to y', with q' = v for the joints that they move.
   void derivative_of_terms(DriveTerms terms, double time_s, const double* y, double* y_dot);
-  /// Jacobian of derivative_of_terms at fixed M and h: [0 I; M⁻¹ ∂F; ∂z']. Exact in what is stiff. J: [size x size].
+  /// Jacobian of derivative_of_terms at fixed M and h: [0 I; M⁻¹ ∂F; ∂z']. Exact for the stiff terms. J: [size x size].
   void jacobian_of_terms(DriveTerms terms, double time_s, const double* y, Eigen::Ref<Eigen::MatrixXd> J);
 
-  /// Of the chain without rotors.
+  /// M of the chain without rotors, [n x n].
   Eigen::MatrixXd mass_matrix(const Eigen::VectorXd& q);
   /// Joint forces that hold the chain against gravity.
   Eigen::VectorXd holding_force(const Eigen::VectorXd& q);
   /// h without gravity.
   Eigen::VectorXd velocity_force(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 
-  /// Where a point of the last link is in the base frame, m.
+  /// Position in the base frame of a point of the last link, m. point: [3] in the last link's frame, m.
   Eigen::Vector3d position_of(const double* point, const Eigen::VectorXd& q);
 
-  /// Kinetic, gravity and elastic energy, J; gravity's from an arbitrary zero.
+  /// Kinetic, gravity and elastic energy, J; the zero of gravity's energy is arbitrary.
   double stored_energy(double time_s, const double* y);
 
-  /// Calls of derivative(), also through the integrators.
+  /// Number of calls of derivative(), those of the integrators included.
   long derivative_evaluations() const { return evaluations_; }
   void count_evaluations(long n) { evaluations_ += n; }
 
-  /// For code that speaks Simbody: plant/simbody_arm.h.
+  /// For code that uses Simbody: plant/simbody_arm.h.
   SimbodyArm& simbody() { return *arm_; }
 
  private:

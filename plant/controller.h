@@ -15,7 +15,7 @@ namespace halyard {
 
 class PdController {
  public:
-  /// One set of parameters a joint.
+  /// parameters: one set for each joint.
   PdController(std::vector<ControllerParameters> parameters, double period_s);
 
   /// Torque commands for desired and measured motor angles, [n] each.

@@ -1,15 +1,16 @@
 #pragma once
-/// Everything of the plant but its rigid chain: motors, transmission with effects, and two energy meters.
+/// The plant without its rigid chain: motors, transmission with effects, and two energy meters.
 ///
 ///   drives        cable, rigid or none, as in transmission/drive.h; the chain carries the rotors of rigid drives
-///   meters        E_in' = Σ τ_c ω + Σ F_e q',   E_lost' = power that goes into motors, cables and joints less
-///                 what comes out of them or is stored in a stretched cable
+///   meters        E_in' = Σ τ_c ω + Σ F_e q',   E_lost' = power into motors, cables and joints, minus power out
+///                 of them and power stored in stretched cables
 ///
-///   τ_c    torque at the shaft after the command stage, friction not yet taken off    N m
+///   τ_c    torque at the shaft after the command stage, before friction               N m
 ///   F_e    external load on a joint                                                     N m | N
 ///   z      [q_m, ω of each cable drive; internal states of the effects; E_in, E_lost]    [n_z]
 ///
-/// What an effect does at the joint (an external force, say) counts in E_lost, as a loss or, negative, a gain.
+/// The work of an effect at the joint, such as an external force, counts in E_lost: a loss is positive, a gain
+/// negative.
 
 #include <Eigen/Core>
 #include <vector>
@@ -18,16 +19,16 @@
 
 namespace halyard {
 
-/// Room for z of one plant.
+/// Maximum number of states z of one plant.
 inline constexpr int kMaxAuxiliaryStates = 80;
 
-/// Where things stand in the plant's state y = [q, q', z]; indices count from the start of z. Motors have states of
-/// their own where they drive cables.
+/// Layout of the plant's state y = [q, q', z]; indices count from the start of z. Only motors of cable drives have
+/// states of their own.
 struct PlantLayout {
   int n = 0;  ///< joints
   int motor_angle[kMaxJoints];
   int motor_rate[kMaxJoints];
-  int effect_states = 0;  ///< the first one
+  int effect_states = 0;  ///< index of the first effect state
   int n_effect_states = 0;
   int input_energy = 0, lost_energy = 0;
   int n_z = 0;
@@ -36,10 +37,10 @@ struct PlantLayout {
   static constexpr int kNone = -1;
 };
 
-/// Which of the drive's forces and rates are meant.
+/// Selects terms of the drive's forces and rates.
 enum class DriveTerms {
   all,
-  cables_and_friction,  ///< of all axes: what is stiff
+  cables_and_friction,  ///< of all axes: the stiff terms
   first_cable,          ///< the pull of the first joint's cable alone
 };
 
@@ -53,10 +54,10 @@ class DriveTrain {
   const ArmParameters<double>& arm() const { return transmission_.arm(); }
   const Transmission<double>& transmission() const { return transmission_; }
 
-  /// Commanded motor torques and external loads on the joints, [n] each, from time_s on.
+  /// Sets the commanded motor torques and external loads on the joints, [n] each, that hold from time_s on.
   void set_inputs(double time_s, const double* command, const double* external);
 
-  /// joint_force [n] and z_dot [n_z] at q, v [n], z [n_z].
+  /// Computes joint_force [n] and z_dot [n_z] at q, v [n], z [n_z].
   void rates(DriveTerms terms, double time_s, const double* q, const double* v, const double* z, double* joint_force,
              double* z_dot) const;
 
@@ -67,10 +68,10 @@ class DriveTrain {
   /// The signals of all joints, sensor errors included; s: [n].
   void signals(double time_s, const double* q, const double* v, const double* z, JointSignals<double>* s) const;
 
-  /// What rotors of rigid drives add to the mass matrix, [n x n]; zero if there are none.
+  /// M_rotors, the contribution of rigid drives' rotors to the mass matrix, [n x n]; zero if there are none.
   const Eigen::MatrixXd& rotor_mass() const { return rotor_mass_; }
 
-  /// Energy in stretched cables and in the turning of rotors, J.
+  /// Elastic energy of the cables plus kinetic energy of the rotors, J.
   double stored_energy(double time_s, const double* q, const double* v, const double* z) const;
 
  private:

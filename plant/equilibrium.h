@@ -1,5 +1,5 @@
 #pragma once
-/// Where a run starts: at rest, with the cables stretched so that they hold the arm.
+/// Initial state of a run: at rest, with the cables stretched so that they hold the arm.
 ///
 ///   R_cᵀ g = h(q) - other forces on the joints    solved for g, then g_k(q_m,k) = g_k for each motor
 
@@ -7,9 +7,9 @@
 
 namespace halyard {
 
-/// y with q given, all rates zero, effects' internal states zero, and motor angles at which each cable holds its
-/// joint. Joints without a cable stand where q puts them. Throws InputError naming the joint if no stretch up to a
-/// metre holds it.
+/// State y at joint positions q. All rates and the effects' internal states are zero. The motor angles are those at
+/// which each cable holds its joint; joints without a cable keep their position in q. Throws InputError with the
+/// joint's name if no stretch up to 1 m holds it.
 Eigen::VectorXd resting_state(ArmPlant& plant, double time_s, const Eigen::VectorXd& q);
 
 }  // namespace halyard

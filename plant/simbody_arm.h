@@ -1,6 +1,6 @@
 #pragma once
-/// Inside plant/: the only header that shows Simbody. Include it from files that are compiled as C++17 and with
-/// -UNDEBUG; plant/CMakeLists.txt lists them, docs/architecture.md says why.
+/// Inside plant/: the only header that includes Simbody. Include it from files that are compiled as C++17 and with
+/// -UNDEBUG; plant/CMakeLists.txt lists these files, docs/architecture.md gives the reason.
 
 #include <Simbody.h>
 
@@ -14,7 +14,7 @@ namespace halyard {
 struct SimbodyArm {
   SimbodyArm(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects);
 
-  /// Takes y over, keeping what is realized if nothing changed.
+  /// Copies y into the state. Realized results stay valid if nothing changed.
   void set_state(double time_s, const double* y);
   /// M + M_rotors at the state's q.
   const Eigen::MatrixXd& total_mass(const SimTK::State& s) const;

@@ -7,21 +7,21 @@
 
 namespace halyard {
 
-/// Energy of a run, J, each since its start: input + drop of stored = dissipated.
+/// Energy of a run since its start, J: input = dissipated + stored.
 struct EnergyBalance {
   double input = 0;       ///< work of motor torques and external loads
   double dissipated = 0;  ///< by friction and cable damping
-  double stored = 0;      ///< kinetic, gravity, elastic: now minus at the start
+  double stored = 0;      ///< change of kinetic, gravity and elastic energy
 };
 
 struct SimulationResult {
-  Log measured;  ///< what the robot's own sensors and the joint encoders give, every control period
-  Log truth;     ///< the same instants unquantised, with joint velocities
+  Log measured;  ///< readings of the robot's own sensors and the joint encoders, every control period
+  Log truth;     ///< true values at the same instants, not quantised, with joint velocities
   EnergyBalance energy;
   long derivative_evaluations = 0;
 };
 
-/// progress(fraction done) is called about ten times a simulated second, if given.
+/// Runs a scenario. progress(fraction done), if given, is called about ten times per simulated second.
 /// Throws InputError if the scenario cannot be run, std::runtime_error if the integration fails (time in the message).
 SimulationResult simulate(const Scenario& scenario, const std::function<void(double)>& progress = {});
 

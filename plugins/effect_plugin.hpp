@@ -1,17 +1,18 @@
 #pragma once
-/// For authors of effects: a module is one or more classes derived from EffectOf (transmission/effect.h) and
+/// For authors of effects. A module consists of classes derived from EffectOf (transmission/effect.h) and one function:
 ///
 ///   extern "C" const halyard_effect_table* halyard_effects() {
 ///     static const auto table = halyard::effect_table<MyEffect, MyOtherEffect>();
 ///     return &table;
 ///   }
 ///
-/// `halyard COMMAND --effects MODULE.so` adds them to the library: from then on their names stand in model and scenario
-/// files, in sweeps, and the diagnosis tries them at every joint that can have them. An effect that derives from
-/// RefinesSearch as well (diagnosis/search_space.h) says from where the diagnosis is to look for its parameters.
+/// `halyard COMMAND --effects MODULE.so` adds the effects to the library. Model files, scenario files and sweeps can
+/// then name them, and the diagnosis tries them at every joint that can have them. An effect that also derives from
+/// RefinesSearch (diagnosis/search_space.h) states how the diagnosis searches for its parameters.
 ///
-/// Unlike an estimator, an effect is called inside the equations, over double, Dual and Lanes: what crosses is C++. So
-/// a module says what it was compiled by, and how large the types that cross are there, before anything of it is used.
+/// Unlike an estimator, an effect is called inside the equations, over double, Dual and Lanes, so C++ types cross the
+/// boundary. The table therefore states the module's compiler and the sizes of these types. The host checks both before
+/// it uses anything else of the module.
 
 #include <cstdint>
 #include <memory>
@@ -21,22 +22,22 @@
 #include "diagnosis/search_space.h"
 #include "transmission/effect.h"
 
-/// Counts up when anything that crosses changes its meaning or place.
+/// Increases when anything that crosses the boundary changes its meaning or place.
 #define HALYARD_EFFECT_INTERFACE 2
 
-/// Of the table the first two members may be read whatever the version, `compiler` and the layout before make is
-/// called.
+/// The first two members may be read whatever the version, `compiler` and `layout` only if the version matches. The
+/// host checks all four before it calls make.
 struct halyard_effect_table {
   std::uint32_t interface_version;  ///< HALYARD_EFFECT_INTERFACE of the headers that the module was built with
   std::uint32_t table_size;         ///< sizeof(halyard_effect_table)
   const char* compiler;             ///< halyard::kEffectCompiler
   const std::uint32_t* layout;      ///< halyard::kEffectLayout
-  std::uint32_t layout_size;        ///< its entries
+  std::uint32_t layout_size;        ///< number of entries of `layout`
   /// Appends new effects.
   void (*make)(std::vector<std::unique_ptr<const halyard::Effect>>& effects);
 };
 
-/// What a module exports. The table stays where it is as long as the module is loaded.
+/// The function that a module exports. The table keeps its address while the module is loaded.
 extern "C" __attribute__((visibility("default"))) const halyard_effect_table* halyard_effects();
 
 namespace halyard {
@@ -58,7 +59,7 @@ namespace halyard {
 #else
 #define HALYARD_CHECKED ""
 #endif
-/// Compiler, its C++ ABI, and the standard library whose strings and vectors cross.
+/// Compiler, its C++ ABI, and the standard library whose strings and vectors cross the boundary.
 inline constexpr char kEffectCompiler[] =
     HALYARD_COMPILER ", C++ ABI " HALYARD_TEXT(__GXX_ABI_VERSION) ", " HALYARD_LIBRARY HALYARD_CHECKED;
 #undef HALYARD_CHECKED
@@ -87,10 +88,10 @@ using Layout = LayoutOf<Effect, EffectParameter, CommandHistory, Dual, Lanes, La
 
 }  // namespace effect_module
 
-/// Sizes, then alignments, of the types that cross.
+/// Sizes, then alignments, of the types that cross the boundary.
 inline constexpr auto& kEffectLayout = effect_module::Layout::value;
 
-/// The table of these effects, each made by its default constructor.
+/// The table of these effect classes; make() constructs each by its default constructor.
 template <class... Effects>
 halyard_effect_table effect_table() {
   return {HALYARD_EFFECT_INTERFACE,

@@ -1,15 +1,17 @@
 #pragma once
-/// For authors of estimators in C++: the table of halyard_estimator.h from a class. A module is the class and
+/// For authors of estimators in C++: makes the table of halyard_estimator.h from a class. A module consists of the
+/// class and one function:
 ///
 ///   extern "C" const halyard_estimator_table* halyard_estimator() {
 ///     static const auto table = halyard::estimator_table<MyEstimator>("my_estimator", "what it is, in one line");
 ///     return &table;
 ///   }
 ///
-/// where MyEstimator derives from halyard::Estimator (or halyard::Observer, observer.h) and is constructed from
-/// (const ArmModel&, const EstimatorOptions&). In place of the class may stand a function that makes one.
+/// MyEstimator derives from halyard::Estimator (or from halyard::Observer, observer.h) and has a constructor with the
+/// arguments (const ArmModel&, const EstimatorOptions&). A factory function can replace the class.
 ///
-/// No exception leaves the module: InputError becomes HALYARD_REFUSED, any other HALYARD_FAILED, what() the message.
+/// No exception leaves the module: InputError becomes HALYARD_REFUSED, any other exception HALYARD_FAILED. The message
+/// is what().
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -44,7 +46,7 @@ inline void copy_message(const char* text, char* message, std::size_t message_si
   message[length] = '\0';
 }
 
-/// Runs body; what it throws becomes a code and a message.
+/// Runs body; an exception becomes a code and a message.
 template <class Body>
 int guarded(char* message, std::size_t message_size, const Body& body) noexcept {
   try {
@@ -187,7 +189,7 @@ std::unique_ptr<Estimator> construct(const ArmModel& model, const EstimatorOptio
 
 }  // namespace plugin
 
-/// The table of the estimator that a function makes. name and description outlive the module's use: string literals.
+/// The table of the estimator that `make` creates. name and description must outlive the module's use: string literals.
 template <EstimatorFactory make>
 halyard_estimator_table estimator_table(const char* name, const char* description) {
   return {HALYARD_ESTIMATOR_INTERFACE,
@@ -204,7 +206,7 @@ halyard_estimator_table estimator_table(const char* name, const char* descriptio
           plugin::revise};
 }
 
-/// The same for a class.
+/// The same for a class E, made by its constructor.
 template <class E>
 halyard_estimator_table estimator_table(const char* name, const char* description) {
   return estimator_table<plugin::construct<E>>(name, description);

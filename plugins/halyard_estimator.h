@@ -2,17 +2,18 @@
 #define HALYARD_PLUGINS_HALYARD_ESTIMATOR_H_
 /*
  * The contract between halyard and an estimator in a shared module: one exported function that returns one table.
- * Plain C: what crosses is sizes, text and double*. Authors in C++ include plugins/estimator_plugin.hpp, which fills
- * the table from a class.
+ * Plain C: only integers, text and double* cross the boundary. Authors in C++ include plugins/estimator_plugin.hpp,
+ * which fills the table from a class.
  *
- *   n   joints of the model
- *   m   motors whose position was measured at an instant, 0..n
+ *   n   number of joints of the model
+ *   m   number of motors whose position was measured at an instant, 0..n
  *
- * Memory belongs to the caller; a pointer is valid during the call only. Vectors [n] count joints from the base.
- * SI units; joint quantities are rad, N m where a joint is revolute and m, N where it is prismatic.
+ * Memory belongs to the caller; a pointer is valid during the call only. Vectors [n] start with the joint at the base.
+ * SI units; joint quantities are in rad, N m at a revolute joint and in m, N at a prismatic joint.
  *
- * An instance gets one call at a time, reset() before any other. Several instances may be in use at once, each on a
- * thread of its own. No function lets an exception out, ends the process, or changes the floating-point mode.
+ * The host makes one call of an instance at a time. It calls reset() before update(), estimate() and revise(). Several
+ * instances may be in use at once, each on its own thread. A function must not let an exception out, end the process,
+ * or change the floating-point mode.
  */
 
 #include <stddef.h>
@@ -22,87 +23,87 @@
 extern "C" {
 #endif
 
-/* Counts up when anything below changes its meaning or place. */
+/* Increases when anything below changes its meaning or place. */
 #define HALYARD_ESTIMATOR_INTERFACE 2
 
-/* Results of a call. Anything but HALYARD_OK comes with a message. */
+/* Results of a call. Every result but HALYARD_OK comes with a message. */
 #define HALYARD_OK 0
-#define HALYARD_REFUSED 1 /* the user's doing: a model, an option or a record that the estimator cannot work with */
-#define HALYARD_FAILED 2  /* anything else, such as a state that cannot be kept finite */
+#define HALYARD_REFUSED 1 /* a user's error: a model, an option or a record that the estimator cannot work with */
+#define HALYARD_FAILED 2  /* any other failure, such as a state that is no longer finite */
 
-/* What an instance is made from. */
+/* Arguments of create(). */
 typedef struct halyard_config {
   const char* model_xml;            /* the model file's text: the arm with its effects */
   const char* model_source;         /* its path, for messages */
   size_t n_joints;                  /* n */
-  size_t n_options;                 /* options given to this estimator; an unknown one is to be refused */
+  size_t n_options;                 /* number of options; refuse a name that you do not know */
   const char* const* option_names;  /* [n_options] */
   const char* const* option_values; /* [n_options] */
 } halyard_config;
 
-/* One row of a log. A joint without drive has no motor: what stands for it, a torque of NaN and a position of 0 unless
- * the log has such columns all the same, is not to be used, and no innovation belongs to it. */
+/* One row of a log. A joint without a drive has no motor: its torque is NaN and its position 0, or the values of the
+ * log if the log has such columns. Do not use them, and give no innovation for them. */
 typedef struct halyard_sample {
   double time_s;                /* increases from call to call */
-  const double* motor_torque;   /* [n] commanded from this time on, N m; NaN: missing, the last one is held */
-  const double* motor_position; /* [n] measured at this time, rad; NaN: missing, no correction from it */
-  /* [n] measured external load; NULL: none. Never NaN: where a cell is missing the last one stands, 0 before the first
-   * and for a joint without such a sensor. */
+  const double* motor_torque;   /* [n] commanded from this time on, N m; NaN: missing, hold the last one */
+  const double* motor_position; /* [n] measured at this time, rad; NaN: missing, do not correct with it */
+  /* [n] measured external load; NULL: none. Never NaN: a missing cell repeats the last value. It is 0 before the first
+   * value and at a joint without such a sensor. */
   const double* joint_torque;
-  const double* marker; /* [3] where a camera saw the marker at the tool, m, base frame; NULL: not seen */
+  const double* marker; /* [3] position of the marker at the tool, from a camera, m, base frame; NULL: not seen */
 } halyard_sample;
 
-/* What one measurement said that the prediction did not. An estimator that does not know cov(nu) says m = 0. */
+/* Innovation of one measurement. An estimator that does not know cov(nu) sets m = 0. */
 typedef struct halyard_innovation {
-  size_t m;         /* how many numbers of nu are given */
-  double* nu;       /* room for [n]: measured minus predicted of the motors that were measured, from the base on, rad */
-  double* S_root;   /* room for [n x n]; [m x m] row by row without gaps: lower, S_root S_root' = cov(nu) */
+  size_t m;         /* number of entries of nu */
+  double* nu;       /* room for [n]: measured minus predicted position of the measured motors, base first, rad */
+  double* S_root;   /* room for [n x n]; holds [m x m] row by row without gaps: lower, S_root S_root' = cov(nu) */
   int32_t accepted; /* 0: gated out, belief unchanged; 1 on entry */
 } halyard_innovation;
 
-/* What is believed of the joints. */
+/* Estimated state of the joints. */
 typedef struct halyard_estimate {
   double* joint_position;     /* [n] */
   double* joint_velocity;     /* [n] */
   double* joint_position_std; /* [n] one standard deviation; 0 where the estimator has none */
-  /* [names x n] row by row, names as extra_output_name() tells; NaN, as it is on entry: nothing of that joint. */
+  /* [names x n] row by row, one row per extra_output_name(). NaN on entry; leave NaN where a joint has no value. */
   double* extra_outputs;
 } halyard_estimate;
 
-/* Counts since reset. */
+/* Counts since reset(). */
 typedef struct halyard_report {
-  int64_t steps;            /* samples taken by update() */
-  int64_t repaired_factors; /* square-root factors that were lost and rebuilt */
-  int64_t gated;            /* measurements not accepted */
+  int64_t steps;            /* samples processed by update() */
+  int64_t repaired_factors; /* factorisations that failed and were repaired */
+  int64_t gated;            /* measurements that were not accepted */
 } halyard_report;
 
-/* The table. All entries but the last two are needed. message: message_size bytes for a line, ended by a zero byte. */
+/* The table. All entries but the last two are required. message: message_size bytes for one line and its zero byte. */
 typedef struct halyard_estimator_table {
   uint32_t interface_version; /* HALYARD_ESTIMATOR_INTERFACE of the headers that the module was built with */
   uint32_t table_size;        /* sizeof(halyard_estimator_table) */
-  const char* name;           /* what users call it: letters, digits, '_', '-', at most 64 */
+  const char* name;           /* name for users: at most 64 letters, digits, '_', '-' */
   const char* description;    /* one line */
 
   /* Makes an instance. */
   int (*create)(const halyard_config* config, void** instance, char* message, size_t message_size);
   void (*destroy)(void* instance);
-  /* Starts, or starts anew, at a first sample, at rest. */
+  /* Starts or restarts at a first sample, with the arm at rest. */
   int (*reset)(void* instance, const halyard_sample* first, char* message, size_t message_size);
-  /* Predicts to the sample's time under the torque of the sample before, then corrects by its motor positions. */
+  /* Predicts to the sample's time with the previous sample's torque, then corrects with this sample's positions. */
   int (*update)(void* instance, const halyard_sample* sample, halyard_innovation* innovation, char* message,
                 size_t message_size);
-  /* At the last sample's time. */
+  /* The estimate at the last sample's time. */
   int (*estimate)(void* instance, halyard_estimate* estimate, char* message, size_t message_size);
   int (*report)(void* instance, halyard_report* report, char* message, size_t message_size);
 
-  /* What else is estimated of every joint, as a column is called: letters, digits, '_', '-'. NULL beyond the last name.
-   * The names of an instance do not change. NULL for the entry: nothing else. */
+  /* Name of extra output i of every joint, used as a column name: letters, digits, '_', '-'. Returns NULL beyond the
+   * last name. The names of an instance do not change. If the table's entry is NULL, there are no extra outputs. */
   const char* (*extra_output_name)(void* instance, size_t i);
-  /* The next estimate of an earlier sample that later ones have improved: its time, one of those given since reset(),
-   * and what is believed of it now; NaN for the time, as it is on entry: there is none. Called after reset() and each
-   * update() until there is none; at_end is 1 after the last sample. A revision takes the place of all that was said of
-   * that sample: it has to fill `estimate` as estimate() does, `extra_outputs` included. NULL for the entry: estimates
-   * are never revised. */
+  /* Gives a revised estimate of an earlier sample: sets time_s to that sample's time, one of those since reset(), and
+   * fills `estimate`. time_s is NaN on entry; leave it NaN if there is no further revision. The host calls revise()
+   * after reset() and after each update() until there is none; at_end is 1 after the last sample. A revision replaces
+   * all earlier estimates of that sample, so it must fill `estimate` as estimate() does, `extra_outputs` included. If
+   * the table's entry is NULL, estimates are never revised. */
   int (*revise)(void* instance, int32_t at_end, double* time_s, halyard_estimate* estimate, char* message,
                 size_t message_size);
 } halyard_estimator_table;
@@ -113,7 +114,7 @@ typedef struct halyard_estimator_table {
 #define HALYARD_EXPORT
 #endif
 
-/* What a module exports. The table stays where it is as long as the module is loaded. */
+/* The function that a module exports. The table keeps its address while the module is loaded. */
 HALYARD_EXPORT const halyard_estimator_table* halyard_estimator(void);
 
 #ifdef __cplusplus

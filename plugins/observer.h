@@ -1,14 +1,14 @@
 #pragma once
-/// A base for observers with a gain of their own choice, without covariance: the author writes prediction and
-/// correction, the base does time, missing samples and counting.
+/// Base class for observers with a gain of their own choice, without covariance. The author writes prediction and
+/// correction; the base class handles time, missing samples and counting.
 ///
 ///   x⁻ = predict(dt, τ)      ν = z - predicted_motor_position()      x = correct(ν)
 ///
-///   τ   motor torque of the sample before; held where missing, 0 until there is one   [n]  N m
-///   z   motor position as measured                                                    [n]  rad
+///   τ   motor torque of the previous sample; held where missing, 0 before the first   [n]  N m
+///   z   measured motor position                                                       [n]  rad
 ///   ν   0 where z is missing                                                          [n]  rad
 ///
-/// Without cov(ν) there is nothing to hold ν against, so update() gives an innovation of no numbers.
+/// Without cov(ν) there is no test of ν, so update() returns an empty innovation.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -50,14 +50,14 @@ class Observer : public Estimator {
     for (int k = 0; k < arm_.n; ++k) home_(k) += arm_.joint[k].motor_encoder_offset;
   }
 
-  /// The arm's numbers, with the changes that the model's effects make to them.
+  /// The arm's parameters, with the changes that the model's effects make to them.
   const ArmParameters<double>& arm() const { return arm_; }
 
-  /// At rest, with the motor encoders reading this; the home position's reading for one that is missing.
+  /// Starts at rest at these readings of the motor encoders [n], rad. A missing reading is that of the home position.
   virtual void start(const Eigen::VectorXd& motor_position) = 0;
-  /// Advances the belief by dt_s > 0 under a held torque.
+  /// Advances the state by dt_s > 0 under constant torque [n], N m.
   virtual void predict(double dt_s, const Eigen::VectorXd& motor_torque) = 0;
-  /// What the motor encoders should read now, ẑ.
+  /// Predicted readings of the motor encoders, ẑ, [n], rad.
   virtual Eigen::VectorXd predicted_motor_position() const = 0;
   virtual void correct(const Eigen::VectorXd& nu) = 0;
 
@@ -67,7 +67,7 @@ class Observer : public Estimator {
   }
 
   ArmParameters<double> arm_;
-  Eigen::VectorXd home_;  // readings there
+  Eigen::VectorXd home_;  // motor encoder readings at home, rad
   Eigen::VectorXd torque_;
   double time_s_ = 0;
   long steps_ = 0;

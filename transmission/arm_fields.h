@@ -1,12 +1,12 @@
 #pragma once
-/// The list of an arm's parameters: each field of ArmParameters and JointParameters once, with what is to be said of it.
-/// Everything that treats all fields alike goes through this list: the model file's reader and writer, the conversion
-/// to other scalar types, the numbers that studies vary, the keys of predictions. A new field gets one line here.
+/// The list of an arm's parameters: each field of ArmParameters and JointParameters appears once, with its description.
+/// Code that treats all fields alike iterates over this list: the reader and writer of model files, the conversion to
+/// other scalar types, parameter studies, the keys of predictions. A new field needs one line here.
 ///
 ///   for_each_field(arm.n, [](const ArmField& field, const auto& value) { ... }, arm);
 ///
-/// The visit gets the field of every arm that is given, so that two arms are compared, or one is copied, in step. Parts
-/// and names are those of the elements and attributes of model files, and of keys: joint2.motor.viscous.
+/// If several arms are given, visit gets the same field of each, for example to compare or to copy arms. A field's part
+/// and name are those of the element and attribute in model files; keys use them too: joint2.motor.viscous.
 
 #include <cstddef>
 #include <string_view>
@@ -16,11 +16,11 @@
 
 namespace halyard {
 
-/// What sort of number a field is. Numbers of one kind are known about equally well.
+/// Kind of a field. Numbers of one kind are known about equally well.
 enum class FieldKind {
-  structure,  ///< no number that is measured: a type, a frame
+  structure,  ///< not a measured number: a type, a frame
   length,     ///< radii, ratios, lengths
-  mass,       ///< masses, centres of mass, inertias, of rotors too
+  mass,       ///< masses, centres of mass, inertias, including those of rotors
   stiffness,  ///< stiffness, damping and tension of cables
   friction,   ///< Coulomb and viscous
   smoothing,  ///< speed over which friction's sign is regularised
@@ -37,14 +37,14 @@ enum class Bound { none, not_negative, positive };
 /// The joints that have a field.
 enum class FieldOf { every_joint, driven_joint, cable_joint };
 
-/// What a field changes of an arm whose motors move in a given way.
+/// What a field changes in an arm, if the motion of its motors is given.
 enum class Influence {
-  motion,          ///< how its joints move, and what follows from that
-  motor_torque,    ///< only the torque that its motors need
-  sensor_reading,  ///< only what its sensors read
+  motion,          ///< the motion of the joints and everything that depends on it
+  motor_torque,    ///< only the torque that the motors need
+  sensor_reading,  ///< only the readings of the sensors
 };
 
-/// Unit of a field of a revolute and of a prismatic joint; "1" for a pure number, "" for no number.
+/// Unit of a field at a revolute and at a prismatic joint; "1" if dimensionless, "" if the field is not a number.
 struct FieldUnit {
   constexpr FieldUnit(const char* of_both) : revolute(of_both), prismatic(of_both) {}  // NOLINT: most have one unit
   constexpr FieldUnit(const char* of_revolute, const char* of_prismatic)
@@ -54,33 +54,33 @@ struct FieldUnit {
   const char *revolute, *prismatic;
 };
 
-/// Unit of a coupling coefficient: of what one unit of joint `moving` adds to the path of `joint`, in units of `joint`.
+/// Unit of a coupling coefficient: motion of the cable of `joint`, in units of `joint`, per unit of joint `moving`.
 constexpr const char* coupling_unit(JointType joint, JointType moving) {
   if (joint == moving) return "1";
   return joint == JointType::prismatic ? "m/rad" : "rad/m";
 }
 
 struct ArmField {
-  std::string_view part;  ///< of the joint or of the arm: "motor"; "": none of its own
-  std::string_view name;  ///< within the part: "viscous"
-  std::string_view noun;  ///< within the part, in words: "viscous friction"; "": no number that studies vary
+  std::string_view part;  ///< part of the joint or of the arm: "motor"; "": the joint or the arm itself
+  std::string_view name;  ///< name within the part: "viscous"
+  std::string_view noun;  ///< name in words: "viscous friction"; "": studies do not vary the field
   FieldUnit unit;
   FieldKind kind;
   Bound bound = Bound::none;
-  bool has_default = false;  ///< the value that JointParameters begin with will do
+  bool has_default = false;  ///< a model file may omit it; its initial value then applies
   FieldOf of = FieldOf::every_joint;
   Influence influence = Influence::motion;
 
   constexpr bool exists_at(Drive drive) const {
     return of == FieldOf::every_joint || (of == FieldOf::driven_joint ? drive != Drive::none : drive == Drive::cable);
   }
-  /// The part at a joint: what a rigid drive has in common with a cable belongs to its part "rigid".
+  /// Name of the part at a joint. At a rigid drive the fields of part "cable" belong to part "rigid".
   constexpr std::string_view part_at(Drive drive) const {
     return part == "cable" && drive == Drive::rigid ? "rigid" : part;
   }
 };
 
-/// Calls visit(field, j.member...) for each field of a joint. The joints may be over different scalar types.
+/// Calls visit(field, j.member...) for each field of a joint. The joints may have different scalar types.
 template <class Visit, class... Joint>
 void for_each_joint_field(Visit&& visit, Joint&... j) {
   using F = ArmField;
@@ -106,7 +106,7 @@ void for_each_joint_field(Visit&& visit, Joint&... j) {
   motor("inertia", "inertia", "kg m^2", mass, not_negative, false, motor_torque, j.rotor_inertia...);
   motor("coulomb", "Coulomb friction", "N m", friction, not_negative, false, motor_torque, j.motor_coulomb...);
   motor("viscous", "viscous friction", "N m s/rad", friction, not_negative, false, motor_torque, j.motor_viscous...);
-  // Friction of cables, on which the motion depends, is regularised by it too.
+  // The smoothing speed also regularises the friction of cables, on which the motion depends.
   motor("smoothing", "", "rad/s", smoothing, positive, true, motion, j.motor_smoothing...);
   motor("gear_ratio", "gear ratio", "1", length, positive, false, motion, j.gear_ratio...);
   motor("capstan_radius", "capstan radius", "m", length, positive, false, motion, j.capstan_radius...);
@@ -120,7 +120,7 @@ void for_each_joint_field(Visit&& visit, Joint&... j) {
   visit(F{"cable", "pulley_radius", "pulley radius", {"m", "1"}, length, positive, false, driven_joint},
         j.pulley_radius...);
 
-  // The unit hangs on both joints: see coupling_unit().
+  // The unit depends on both joints: see coupling_unit().
   visit(F{"coupling", "coefficient", "coupling", "", coupling, none, true, driven_joint}, j.coupling...);
 
   visit(F{"friction", "coulomb", "Coulomb friction", {"N m", "N"}, friction, not_negative}, j.joint_coulomb...);
@@ -135,14 +135,14 @@ void for_each_joint_field(Visit&& visit, Joint&... j) {
   const FieldUnit position{"rad", "m"};
   encoder("motor_resolution", "rad", not_negative, driven_joint, sensor_reading, j.motor_encoder_resolution...);
   encoder("motor_offset", "", none, driven_joint, sensor_reading, j.motor_zero_known...);
-  // A motor moves as its encoder says, less its offset.
+  // The motor's motion is its encoder's reading minus this offset.
   encoder("motor_offset", "rad", none, driven_joint, motion, j.motor_encoder_offset...);
   encoder("joint_resolution", position, not_negative, every_joint, sensor_reading, j.joint_encoder_resolution...);
   encoder("joint_offset", "", none, every_joint, sensor_reading, j.joint_zero_known...);
   encoder("joint_offset", position, none, every_joint, sensor_reading, j.joint_encoder_offset...);
 }
 
-/// Calls visit(field, a.member...) for each field of an arm but its joints'.
+/// Calls visit(field, a.member...) for each field of the arm itself, not of its joints.
 template <class Visit, class... Arm>
 void for_each_arm_field(Visit&& visit, Arm&... a) {
   visit(ArmField{"", "joints", "", "", FieldKind::structure}, a.n...);
@@ -150,14 +150,14 @@ void for_each_arm_field(Visit&& visit, Arm&... a) {
   visit(ArmField{"payload", "point", "", "m", FieldKind::length, Bound::none, true}, a.payload_point...);
 }
 
-/// The fields of an arm and of the first `n` of its joints.
+/// Calls visit for the fields of an arm and of its first `n` joints.
 template <class Visit, class... Arm>
 void for_each_field(int n, Visit&& visit, Arm&... a) {
   for_each_arm_field(visit, a...);
   for (int k = 0; k < n; ++k) for_each_joint_field(visit, a.joint[k]...);
 }
 
-/// Calls visit(x...) for each entry of a value: of an array row by row, of anything else itself.
+/// Calls visit(x...) for each entry of an array, row by row. Any other value counts as one entry.
 template <class Visit, class Value, class... Other>
 void for_each_entry(Visit&& visit, Value& value, Other&... other) {
   if constexpr (std::is_array_v<Value>) {

@@ -1,9 +1,9 @@
 #pragma once
-/// Every number of a cable-driven serial arm that its equations read, over a scalar type T.
+/// All parameters in the equations of a cable-driven serial arm, over a scalar type T.
 ///
-/// A joint k moves link k about (revolute) or along (prismatic) the z axis of its own frame. SI
-/// units; where a joint is revolute | prismatic the unit is given as "revolute | prismatic".
-/// The motor's numbers are at the motor shaft (the "consistent reading" of the paper's Table I).
+/// Joint k moves link k about (revolute) or along (prismatic) the z axis of its own frame. Units are SI; "rad | m"
+/// means rad at a revolute and m at a prismatic joint. The motor's parameters refer to the motor shaft (the "consistent
+/// reading" of the paper's Table I).
 
 #include "transmission/scalar.h"
 
@@ -17,7 +17,7 @@ enum class JointType { revolute, prismatic };
 /// does not stretch), or nothing.
 enum class Drive { cable, rigid, none };
 
-/// Tension of a cable over its stretch; see cable_law.h.
+/// How a cable's tension depends on its stretch; see cable_law.h.
 enum class CableLaw { paper, exponential, linear };
 
 template <class T>
@@ -26,7 +26,7 @@ struct JointParameters {
   Drive drive = Drive::cable;
   CableLaw law = CableLaw::paper;
 
-  // Rigid link. Joint frame at q = 0 seen from the parent's frame, x_parent = R x + p.
+  // Rigid link. Joint frame at q = 0 in the parent's frame: x_parent = R x + p.
   double frame_R[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   double frame_p[3] = {0, 0, 0};
   T mass = 0.0;                         ///< kg
@@ -46,8 +46,8 @@ struct JointParameters {
 
   // Cable.
   T pulley_radius = 1.0;  ///< r_l, m | 1
-  /// What one unit of joint j adds to this cable's path, in units of this joint (C_ji of the
-  /// paper); the own entry is 1.
+  /// coupling[j]: motion of this cable per unit of joint j, in units of this joint (C_ji of the paper); 1 for this
+  /// joint itself.
   T coupling[kMaxJoints] = {T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)};
   T stiffness = 0.0;  ///< k_e of each run, N/m
   T damping = 0.0;    ///< b_e of each run, N s/m
@@ -63,7 +63,7 @@ struct JointParameters {
   T joint_encoder_offset = 0.0;         ///< rad | m
   double motor_encoder_resolution = 0;  ///< rad
   double joint_encoder_resolution = 0;  ///< rad | m
-  /// False: each log has a zero of its own, as an incremental encoder's that counts from where it was switched on.
+  /// False: the zero differs from log to log, as with an incremental encoder that counts from zero at power-on.
   bool motor_zero_known = true;
   bool joint_zero_known = true;
 
@@ -83,7 +83,7 @@ struct ArmParameters {
 template <class T>
 ArmParameters<T> lift(const ArmParameters<double>& arm);
 
-/// Arms of one structure side by side, lane i from arms[i]; arms: [kLaneWidth].
+/// Packs arms of the same structure into lanes: lane i holds arms[i]. arms: [kLaneWidth].
 ArmParameters<Lanes> pack(const ArmParameters<double>* arms);
 
 }  // namespace halyard

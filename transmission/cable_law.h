@@ -1,6 +1,6 @@
 #pragma once
-/// The cable's tension over its stretch. A joint is driven by two runs of one cable; what counts
-/// is the force difference g of the pair, positive when it pulls the joint forward:
+/// A cable's tension as a function of its stretch. Two runs of one cable drive a joint. Their force difference g moves
+/// the joint; it is positive if it pulls the joint forward:
 ///
 ///   paper        g = k_e (exp(x) - exp(-x)) + 2 b_e x'                        (paper, Eq. 6)
 ///   exponential  each run T = T_0 exp(±a x), a = k_e / T_0, plus ±b_e x', and T >= 0
@@ -11,16 +11,16 @@
 ///   b_e     damping of one run                  N s/m
 ///   T_0     tension of each run at rest         N
 ///
-/// All three have the slope 2 k_e at rest. Eq. 6 takes the exponential of metres: it is linear to
-/// 1e-6 at millimetres, and carries no tension, so it never goes slack. In the other two a run
-/// whose tension would be negative is slack and carries none.
+/// All three laws have the slope 2 k_e at rest. Eq. 6 takes the exponential of a length in metres, so it is linear
+/// within 1e-6 for a stretch of millimetres. It contains no tension, so it never goes slack. In the other two laws a
+/// run is slack, with tension zero, where its tension would be negative.
 
 #include "transmission/arm_parameters.h"
 
 namespace halyard {
 
-/// Tension of the run that pulls the joint forward, and of the one that pulls it back, N. Under
-/// the paper's law they are T_0 ± g/2, which it does not clamp.
+/// Tension of the run that pulls the joint forward, and of the run that pulls it back, N. Under the paper's law they
+/// are T_0 ± g/2, not clamped at zero.
 template <class T>
 struct RunTensions {
   T forward, backward;
@@ -31,7 +31,7 @@ HALYARD_INLINE RunTensions<T> run_tensions(const JointParameters<T>& j, const T&
   const T damping = j.damping * x_dot;
   switch (j.law) {
     case CableLaw::exponential: {
-      // Beyond 30 e-folds any cable is broken: the bound keeps a wild sigma point finite.
+      // The bound keeps an extreme sigma point finite; a real cable breaks long before exp(30).
       const T u = max(T(-30.0), min(T(30.0), T(j.stiffness / j.tension * x)));
       return {max(T(0.0), T(j.tension * exp(u) + damping)), max(T(0.0), T(j.tension * exp(T(-u)) - damping))};
     }
@@ -53,7 +53,7 @@ HALYARD_INLINE T cable_force(const JointParameters<T>& j, const T& x, const T& x
   return t.forward - t.backward;
 }
 
-/// Energy that the pair stores at stretch x, J: the integral of g at rest (x' = 0) from 0.
+/// Energy of the two runs at stretch x, J: the integral of g at zero rate (x' = 0) from 0 to x.
 double cable_energy(const JointParameters<double>& j, double x);
 
 }  // namespace halyard

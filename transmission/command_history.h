@@ -1,5 +1,5 @@
 #pragma once
-/// Past motor commands, for effects that answer late: torque that acts after a delay.
+/// Past motor commands, for effects in which torque acts after a delay.
 
 #include <vector>
 
@@ -12,12 +12,13 @@ class CommandHistory {
   /// Remembers commands of n joints for at least the last `span_s` seconds.
   CommandHistory(int n_joints, double span_s);
 
-  /// The command from time_s on, until the next one. Times increase.
+  /// Adds the command that holds from time_s until the next one. Times must increase.
   void push(double time_s, const double* command);
 
-  /// Command of a joint at a time, linear between the middles of the holds so that it can be differentiated and is late
-  /// by nothing on average; before the first middle the first command, after the last the last. The last command's hold
-  /// is taken to be as long as the one before.
+  /// Command of a joint at a time. Each command is held from its time to the next one's. The returned command is linear
+  /// between the middles of these hold intervals, so it has a derivative and no delay on average. Before the first
+  /// middle it is the first command, after the last middle the last command. The last hold interval is assumed to be as
+  /// long as the one before.
   double at(int joint, double time_s) const;
   Dual at(int joint, const Dual& time_s) const;
   Lanes at(int joint, const Lanes& time_s) const;
@@ -27,7 +28,7 @@ class CommandHistory {
     double value, slope;
   };
   Segment segment(int joint, double time_s) const;
-  double middle(std::size_t sample) const;  ///< of its hold
+  double middle(std::size_t sample) const;  ///< middle of the sample's hold interval, s
 
   int n_;
   double span_;

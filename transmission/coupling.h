@@ -1,17 +1,17 @@
 #pragma once
-/// Routing past inboard pulleys lets one joint move several cables: the path of the cables is
-/// s = R q, R = diag(r_l) C, and the joint forces return by virtual work: Γ = Rᵀ g.
+/// Cables are routed past inboard pulleys, so one joint moves several cables. The path of the cables is s = R q
+/// with R = diag(r_l) C. The joint forces follow by virtual work: Γ = Rᵀ g.
 ///
-///   s, g   length that each cable gives up to the joints, its force    [n_cable]   m, N
+///   s, g   length of each cable that the joints take up, cable force   [n_cable]   m, N
 ///   q, Γ   joint coordinate, force                                      [n_joint]   rad, N m | m, N
-///   C      coupling matrix: C_kj is what joint j adds to cable k's path, C_kk = 1
+///   C      coupling matrix: C_kj is the motion of cable k, in units of joint k, per unit of joint j; C_kk = 1
 ///   r_l    link pulley radius                                           m | 1
-///   R_k    row k of R; 0 outboard of joint k in a model file's arm
+///   R_k    row k of R; in arms from model files, entries outboard of joint k are 0
 ///
-/// The paper gives the stretch (Eq. 8) but not the reaction Γ_j on the inboard joints; without it
-/// the arm makes energy from nothing.
+/// The paper gives the stretch (Eq. 8) but not the reaction Γ_j on the inboard joints; without this reaction the arm
+/// would create energy.
 ///
-/// A rigid drive's cable does not stretch, (r_m / N) q_m = R_k q, so that
+/// The cable of a rigid drive does not stretch: (r_m / N) q_m = R_k q. Therefore
 ///
 ///   q_m = R_k q N / r_m         the motor follows the joints
 ///   Γ   = R_kᵀ τ N / r_m        the joints feel its torque τ
@@ -23,7 +23,7 @@
 
 namespace halyard {
 
-/// R_kj of joint k.
+/// R_kj: path of cable k per unit of joint j.
 template <class T>
 HALYARD_INLINE T path_per_joint(const JointParameters<T>& joint_k, int j) {
   return joint_k.pulley_radius * joint_k.coupling[j];
@@ -67,8 +67,8 @@ HALYARD_INLINE T rigid_motor(const ArmParameters<T>& arm, int k, const T* q) {
   return j.pulley_radius * coupled_motion(j, arm.n, q) / j.motor_travel();
 }
 
-/// Position of the rigidly driven joint k at its motor's angle, with the positions q [k] of the joints inboard of it,
-/// which alone move its cable; works for rates as well.
+/// Position of the rigidly driven joint k at a motor angle. q [k]: positions of the joints inboard of joint k; no other
+/// joint moves its cable. Works for rates as well.
 template <class T>
 HALYARD_INLINE T rigid_joint(const ArmParameters<T>& arm, int k, const T& motor_angle, const T* q) {
   const JointParameters<T>& joint = arm.joint[k];
@@ -77,7 +77,7 @@ HALYARD_INLINE T rigid_joint(const ArmParameters<T>& arm, int k, const T& motor_
   return position;
 }
 
-/// Adds what the rotors of rigid drives make of the mass matrix, J R_kᵀ R_k (N/r_m)².
+/// Adds the inertia of the rigid drives' rotors to the mass matrix: J R_kᵀ R_k (N/r_m)² for each rotor.
 template <class T>
 HALYARD_INLINE void add_rotor_mass(const ArmParameters<T>& arm, T M[][kMaxJoints]) {
   for (int k = 0; k < arm.n; ++k) {
@@ -89,16 +89,16 @@ HALYARD_INLINE void add_rotor_mass(const ArmParameters<T>& arm, T M[][kMaxJoints
   }
 }
 
-/// R [n x n]; row i of a joint without drive is kept, though no cable follows it.
+/// R [n x n]. It has a row also for a joint without a drive, though no cable belongs to that row.
 Eigen::MatrixXd path_matrix(const ArmParameters<double>& arm);
 
-/// Kinematics without elasticity (Eq. 8 inverted): the q [n] at which no driven cable is
-/// stretched, for motor angles q_m [n]. A joint without drive is taken to stand at q_undriven.
-/// Throws std::invalid_argument if R of the driven joints is singular.
+/// Kinematics without elasticity (Eq. 8 inverted): the q [n] at which no driven cable is stretched, for motor angles
+/// q_m [n]. A joint without a drive gets its position from q_undriven [n]. Throws std::invalid_argument if R of the
+/// driven joints is singular.
 Eigen::VectorXd unstretched_joints(const ArmParameters<double>& arm, const Eigen::VectorXd& q_m,
                                    const Eigen::VectorXd& q_undriven);
 
-/// The motor angles at which no cable is stretched at joint position q (Eq. 8).
+/// The motor angles q_m [n] at which no cable is stretched at joint positions q [n] (Eq. 8).
 Eigen::VectorXd unstretched_motors(const ArmParameters<double>& arm, const Eigen::VectorXd& q);
 
 }  // namespace halyard

@@ -1,23 +1,23 @@
 #pragma once
-/// The drives of the joints, on both sides of the transmission: how motors and joints move together, and what is left
-/// of torques and pulls to move them. Plant, process model and the diagnosis' prediction all stand on this.
+/// The drives of the joints: how motors and joints move together, and which torques and forces accelerate them. The
+/// plant, the process model and the diagnosis' prediction all use these functions.
 ///
 ///   cable   J q_m'' = τ - (r_m/N) g       the motor moves on its own                (Eq. 5)
 ///   rigid   q_m = R_k q N/r_m             the motor follows the joints, which feel R_kᵀ τ N/r_m and carry the rotor
 ///                                         (add_rotor_mass() of coupling.h)
 ///   none    there is no motor
 ///
-///   τ   torque on the rotor, the cable's pull excluded    N m
+///   τ   torque on the rotor without the cable's pull      N m
 ///   g   force of the cable on the capstan                 N
 ///
-/// One instant of an arm: set_motion(), Transmission::evaluate(), drive_forces().
+/// To evaluate an arm at one instant, call set_motion(), Transmission::evaluate(), drive_forces().
 
 #include "transmission/transmission.h"
 
 namespace halyard {
 
-/// Sets motor and joint motion of all joints from q and v [n]. The motors of cable drives are left as they are: their
-/// motion is a state of its own.
+/// Sets motor and joint motion of all joints from q and v [n]. Motors of cable drives are not changed: their motion is
+/// a separate state.
 template <class T>
 HALYARD_INLINE void set_motion(const ArmParameters<T>& arm, const T* q, const T* v, JointSignals<T>* s) {
   for (int k = 0; k < arm.n; ++k) {
@@ -32,14 +32,14 @@ HALYARD_INLINE void set_motion(const ArmParameters<T>& arm, const T* q, const T*
   }
 }
 
-/// What the cable's pull leaves of a torque to turn the rotor, N m.
+/// Torque that accelerates the rotor, N m: `torque` minus the torque of the cable's pull.
 template <class T>
 HALYARD_INLINE T rotor_torque(const JointParameters<T>& joint, const T& torque, const T& pull) {
   return torque - joint.motor_travel() * pull;
 }
 
-/// From torques τ and pulls g [n]: adds what rigid drives push with to joint_force [n], and sets the motor_acceleration
-/// of cable drives, rad/s²; other entries stay as they are.
+/// From torques τ and cable pulls g [n]: adds the forces of rigid drives to joint_force [n], and sets the
+/// motor_acceleration of cable drives, rad/s². Other entries are not changed.
 template <class T>
 HALYARD_INLINE void drive_forces(const ArmParameters<T>& arm, const T* torque, const T* pull, T* joint_force,
                                  T* motor_acceleration) {

@@ -1,11 +1,11 @@
 #pragma once
-/// An effect: something physical that a nominal model of an arm lacks. It is written once and
-/// serves the plant as truth, estimators inside their process model, and the diagnosis as an explanation.
+/// An effect: physical behaviour that the nominal model of an arm lacks. It is written once. The plant uses it as
+/// truth, estimators use it in their process model, and the diagnosis tests it as an explanation.
 ///
 /// An effect has named parameters, may have internal states z with their own derivative, and acts
 /// at any of these places, in the order in which signals run from command to joint:
 ///
-///   parameters    change_parameters()  once, before a run: chain, motors, cables, sensors
+///   parameters    change()             once, before a run: parameters of chain, motors, cables, sensors
 ///   command       on_command()         s.motor_torque, from s.command and past commands
 ///   stretch       on_stretch()         s.stretch, s.stretch_rate
 ///   cable force   on_cable_force()     s.cable_force_motor, s.cable_force_joint
@@ -14,9 +14,8 @@
 ///   sensors       on_sensors()         s.motor_error, s.joint_error: reading minus truth
 ///   states        state_rate()         z_dot
 ///
-/// To write one, derive from EffectOf<Yours> and give the members that you need as templates
-/// over the scalar T (scalar.h): see effects/cable/backlash.cpp for one without states and
-/// effects/cable/hysteresis.cpp for one with.
+/// To write an effect, derive from EffectOf<Yours> and define the members that you need as templates over the scalar T
+/// (scalar.h). effects/cable/backlash.cpp is an example without states, effects/cable/hysteresis.cpp one with states.
 
 #include <memory>
 #include <string>
@@ -34,15 +33,15 @@ inline constexpr int kMaxEffectStates = 8;  ///< of one effect
 struct EffectParameter {
   std::string name;  ///< as in model files and diagnosis.json
   std::string unit;
-  double neutral = 0;  ///< no influence; of a shape the typical value
-  /// The order of magnitude that the physics of such an arm suggests. It is what a model file means that names the
-  /// effect without this number.
+  double neutral = 0;  ///< value without influence; of a shape parameter, the typical value
+  /// Order of magnitude that the physics of such an arm suggests. If a model file names the effect without this
+  /// parameter, it has this value.
   double typical = 0;
   double lower = 0;  ///< physical bounds
   double upper = 0;
 
-  /// True of a number that shapes an effect and does not size it. It follows the sizes that it shapes: cosine, sine,
-  /// order.
+  /// True if the parameter gives the shape of the effect, not its size. A shape comes after the sizes that it belongs
+  /// to: cosine, sine, order.
   bool is_shape() const { return neutral == typical; }
 };
 
@@ -50,10 +49,10 @@ struct EffectParameter {
 enum class EffectScope {
   joint,   ///< at one joint
   arm,     ///< the whole arm
-  either,  ///< at one joint, or at all joints alike: then placed as an effect of the arm
+  either,  ///< at one joint, or at all joints alike (placed on the whole arm)
 };
 
-/// What is known at one joint at one instant. Torque and position signs are the joint's own.
+/// Signals of one joint at one instant. Torques and positions are positive in the joint's positive direction.
 template <class T>
 struct JointSignals {
   T command = 0.0;            ///< commanded motor torque, N m
@@ -62,20 +61,20 @@ struct JointSignals {
   T joint_position = 0.0;     ///< q, rad | m
   T joint_rate = 0.0;         ///< q', rad/s | m/s
   T external_force = 0.0;     ///< measured external load on the joint, N m | N
-  T motor_torque = 0.0;       ///< on the rotor, cable excluded, N m
+  T motor_torque = 0.0;       ///< on the rotor, without the cable's pull, N m
   T stretch = 0.0;            ///< x, m
   T stretch_rate = 0.0;       ///< x', m/s
-  T cable_force_motor = 0.0;  ///< g as the capstan feels it, N
-  T cable_force_joint = 0.0;  ///< g as the joint's pulley feels it, N
+  T cable_force_motor = 0.0;  ///< g at the capstan, N
+  T cable_force_joint = 0.0;  ///< g at the joint's pulley, N
   T joint_force = 0.0;        ///< Γ + friction + external, N m | N
   T motor_error = 0.0;        ///< motor encoder's reading minus truth, rad
   T joint_error = 0.0;        ///< joint encoder's reading minus truth, rad | m
 };
 
-/// What an effect may look at.
+/// Inputs that an effect may read.
 template <class T>
 struct EffectContext {
-  const ArmParameters<T>& arm;    ///< all changes of parameters done
+  const ArmParameters<T>& arm;    ///< after change() of all effects
   int joint;                      ///< 0-based; -1: the whole arm
   const T* p;                     ///< the effect's parameters
   const T* z;                     ///< the effect's states
@@ -90,7 +89,7 @@ class Effect {
   virtual ~Effect() = default;
 
   virtual std::string name() const = 0;
-  /// What the effect is, in half a sentence.
+  /// Short description of the effect, half a sentence.
   virtual std::string summary() const = 0;
   virtual EffectScope scope() const { return EffectScope::joint; }
   /// False if the joint cannot have the effect (no cable, no inboard joint, ...).
@@ -101,14 +100,14 @@ class Effect {
   virtual std::vector<double> state_scale(const ArmParameters<double>&, int /*joint*/, const double* /*p*/) const {
     return std::vector<double>(n_states(), 1.0);
   }
-  /// Stages at which the effect acts, or-ed.
+  /// Bitwise OR of the stages at which the effect acts.
   virtual unsigned stages() const { return 0; }
 
   virtual void change_parameters(ArmParameters<double>&, int joint, const double* p) const = 0;
   virtual void change_parameters(ArmParameters<Dual>&, int joint, const Dual* p) const = 0;
   virtual void change_parameters(ArmParameters<Lanes>&, int joint, const Lanes* p) const = 0;
 
-  /// s: signals of all joints, [arm.n]; an effect of a joint reads and writes s[joint].
+  /// s: signals of all joints, [arm.n]; an effect at a joint reads and writes s[joint].
   virtual void act(EffectStage, const EffectContext<double>&, JointSignals<double>* s) const = 0;
   virtual void act(EffectStage, const EffectContext<Dual>&, JointSignals<Dual>* s) const = 0;
   virtual void act(EffectStage, const EffectContext<Lanes>&, JointSignals<Lanes>* s) const = 0;
@@ -118,7 +117,7 @@ class Effect {
   virtual void rates(const EffectContext<Lanes>&, const JointSignals<Lanes>* s, Lanes* z_dot) const = 0;
 };
 
-/// Gives a class with templated members the interface above.
+/// Implements the interface above for a class with template members.
 template <class Derived>
 class EffectOf : public Effect {
  public:
@@ -170,7 +169,7 @@ class EffectOf : public Effect {
   }
 };
 
-/// An effect at a joint, with values: what a model file lists and the diagnosis adds.
+/// An effect at a joint, with the values of its parameters, as a model file lists it or the diagnosis adds it.
 template <class T>
 struct EffectInstance {
   const Effect* effect = nullptr;
@@ -184,19 +183,19 @@ std::string effect_label(const PlacedEffect& effect);
 
 /// All effects, in a fixed order.
 const std::vector<const Effect*>& effect_library();
-/// By name; null if there is none.
+/// The effect of this name; null if there is none.
 const Effect* find_effect(const std::string& name);
 /// Adds a user's effect to the library. Throws std::invalid_argument if the name is taken or the effect has more than
 /// kMaxEffectStates states.
 void register_effect(std::unique_ptr<const Effect> effect);
 
-/// The joints where the arm can have the effect, 0-based; -1 stands for the whole arm.
+/// The joints where the arm can have the effect, 0-based; -1 means the whole arm.
 std::vector<int> effect_places(const Effect& effect, const ArmParameters<double>& arm);
 
-/// The effect with its typical parameters. Throws std::invalid_argument if it cannot be there, or has more than
-/// kMaxEffectParameters parameters.
+/// The effect with its typical parameters. Throws std::invalid_argument if the joint cannot have the effect, or if it
+/// has more than kMaxEffectParameters parameters.
 PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);
-/// The effect with its sizes neutral, ready to be given some of them, and its shapes typical. Throws as place_effect().
+/// The effect with neutral sizes and typical shapes; the caller then sets some of the sizes. Throws as place_effect().
 PlacedEffect place_neutral_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);
 
 }  // namespace halyard

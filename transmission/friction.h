@@ -1,11 +1,11 @@
 #pragma once
-/// Friction that is regularised: sign(v) becomes tanh(v / v_s).
+/// Regularised friction: tanh(v / v_s) replaces sign(v).
 ///
 ///   F = F_c tanh(v / v_s) + F_v v,  opposing the motion v           (paper, Eqs. 4 and 5)
 ///
 ///   F_c, F_v   Coulomb level, viscous coefficient    N m | N,  N m s/rad | N s/m
-///   v_s        speed at which friction has grown to 76 % of F_c; its slope F_c / v_s is the
-///              stiffest thing in the arm near standstill
+///   v_s        speed at which Coulomb friction reaches 76 % of F_c; near standstill its slope
+///              F_c / v_s is the stiffest term of the arm             rad/s | m/s
 
 #include "transmission/scalar.h"
 

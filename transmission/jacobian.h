@@ -13,8 +13,8 @@
 
 namespace halyard {
 
-/// Fills y and J, whose sizes are those of the result. f(const Dual* x, Dual* y) writes all of y and is called once for
-/// every kDualWidth entries of x.
+/// Fills y and J, which must have the size of the result. f(const Dual* x, Dual* y) writes all of y and is called once
+/// for every kDualWidth entries of x.
 template <class Function>
 void jacobian(Function&& f, const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> y,
               Eigen::Ref<Eigen::MatrixXd> J) {

@@ -1,17 +1,17 @@
 #pragma once
-/// The scalar types that the arm's equations are written over.
+/// Scalar types of the arm's equations.
 ///
 ///   double   one value
 ///   Dual     value and kDualWidth directional derivatives: exact Jacobians
 ///   Lanes    kLaneWidth values side by side in vector registers: many sigma points, or many
-///            parameter sets, for little more than the price of one
+///            parameter sets, in little more time than one
 ///
-/// Code over a scalar T branches with select(condition, a, b) and uses min, max, abs, tanh, exp,
-/// sin, cos, sqrt, log of this header. A library's automatic differentiation type would serve as
-/// Dual, but expression templates do not pass through a virtual function and have no lanes.
+/// Code over a scalar T branches with select(condition, a, b) and uses min, max, abs, tanh, exp, sin, cos, sqrt, log of
+/// this header. A library's automatic differentiation type could serve as Dual, but its expression templates cannot be
+/// arguments of a virtual function and have no lanes.
 ///
-/// The vector operations are forced inline, so that a file compiled for a wider instruction set
-/// leaves no copy of them for others to call.
+/// The vector operations are forced inline. Otherwise a file compiled for a wider instruction set would leave copies of
+/// them, and other files might call these copies.
 
 #include <cmath>
 #include <cstddef>
@@ -25,7 +25,7 @@ inline constexpr int kDualWidth = 4;
 
 // ------------------------------------------------------------------------------------- Lanes
 
-// The alignment is said outright: a vector's own differs between instruction sets.
+// The alignment is explicit: a vector type's default differs between instruction sets.
 struct alignas(8 * kLaneWidth) LaneMask {
   typedef long long Vector __attribute__((vector_size(8 * kLaneWidth)));
   Vector m;
@@ -191,7 +191,7 @@ HALYARD_INLINE Dual sqrt(const Dual& x) {
   return {s, x.d / (2 * s)};
 }
 
-// ------------------------------------------------------------------- the same words for all
+// ------------------------------------------------------------------- functions of all scalars
 
 using std::cos;
 using std::exp;
@@ -216,7 +216,7 @@ HALYARD_INLINE T abs(const T& a) {
   return select(a < T(0.0), T(-a), a);
 }
 
-/// The plain value: of a Dual its value, of Lanes lane 0.
+/// The plain value: the value of a Dual, lane 0 of Lanes.
 HALYARD_INLINE double value(double x) { return x; }
 HALYARD_INLINE double value(const Dual& x) { return x.a; }
 HALYARD_INLINE double value(const Lanes& x) { return x.v[0]; }

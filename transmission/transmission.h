@@ -3,10 +3,10 @@
 ///
 ///   x  = (r_m / N) q_m - R q,  x' likewise                                     (Eq. 8)
 ///   g  = cable law(x, x')                                                      (Eq. 6)
-///   τ  = scale·command + bias - friction(q_m')      the cable's pull (r_m/N) g excluded (Eq. 5)
+///   τ  = scale·command + bias - friction(q_m')      without the cable's pull (r_m/N) g (Eq. 5)
 ///   F  = Rᵀ g - friction(q') + external                                        (Eqs. 4, 7)
 ///
-/// and the effects at each place. The plant and the estimators both evaluate this one source.
+/// Effects act at each of these places (effect.h). The plant and the estimators both use this code.
 
 #include "transmission/cable_law.h"
 #include "transmission/coupling.h"
@@ -34,12 +34,12 @@ class Transmission {
   /// Internal states of all effects, in the order of the effects.
   int n_states() const { return n_states_; }
 
-  /// Fills s from s.command, s.motor_angle, s.motor_rate, s.joint_position, s.joint_rate and
-  /// s.external_force [n], the internal states z, and z_dot [n_states].
+  /// Computes the other signals of s, and z_dot [n_states], from the internal states z [n_states] and the inputs
+  /// s.command, s.motor_angle, s.motor_rate, s.joint_position, s.joint_rate and s.external_force. s: [n].
   HALYARD_INLINE void evaluate(double time, const CommandHistory* history, const T* z, JointSignals<T>* s,
                                T* z_dot) const;
 
-  /// s.motor_error and s.joint_error: what the sensors add to the truth.
+  /// Sets s.motor_error and s.joint_error: sensor reading minus truth.
   HALYARD_INLINE void sensor_errors(double time, const T* z, JointSignals<T>* s) const {
     for (int i = 0; i < arm_.n; ++i) {
       s[i].motor_error = arm_.joint[i].motor_encoder_offset;
@@ -48,7 +48,7 @@ class Transmission {
     apply(EffectStage::sensors, time, nullptr, z, s);
   }
 
-  /// The command stage alone: s.motor_torque from s.command, no friction.
+  /// Runs only the command stage: sets s.motor_torque from s.command, without friction.
   HALYARD_INLINE void commanded_torque(double time, const CommandHistory* history, const T* z,
                                        JointSignals<T>* s) const {
     for (int i = 0; i < arm_.n; ++i)

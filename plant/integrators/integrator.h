@@ -1,6 +1,6 @@
 #pragma once
-/// Carries a plant from one control tick to the next. Inputs are constant between ticks and jump at them, so that
-/// no step may reach over a tick.
+/// Integrates a plant from one control tick to the next. Inputs are constant between ticks and jump at ticks, so no
+/// step may cross a tick.
 
 #include <Eigen/Core>
 #include <memory>
@@ -13,13 +13,13 @@ namespace halyard {
 class Integrator {
  public:
   virtual ~Integrator() = default;
-  /// To this time, under the inputs that the plant has now. Throws std::runtime_error with the time if it fails.
+  /// Integrates to this time with the plant's current inputs. Throws std::runtime_error with the time if it fails.
   virtual void advance(double until_s) = 0;
   /// y at the time reached.
   virtual const Eigen::VectorXd& state() const = 0;
 };
 
-/// The plant must outlive the integrator. Energy meters are not error-controlled: they follow the motion's steps.
+/// The plant must outlive the integrator. Error control ignores the energy meters: they use the motion's steps.
 std::unique_ptr<Integrator> make_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,
                                             const Eigen::VectorXd& y);
 

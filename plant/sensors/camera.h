@@ -1,5 +1,5 @@
 #pragma once
-/// What a camera writes into a log: the marker at the tool as it was a latency ago, in the rows in which frames arrive.
+/// The camera's columns of a log: where the marker at the tool was one latency ago, in the rows in which frames arrive.
 
 #include <random>
 
@@ -9,8 +9,9 @@
 
 namespace halyard {
 
-/// Adds the marker's columns to `measured`, from the true motion of the joints, linear between its rows. Frame j
-/// arrives in the first row at or after j / rate; those exposed before the record are not there.
+/// Adds the marker's columns to `measured`. The marker follows the true motion of the joints, linear between the rows
+/// of `truth`. Frame j arrives in the first row at or after j / rate. Frames exposed before the record starts are
+/// omitted. point: [3] in the last link's frame, m.
 void add_camera(const Camera& camera, const double* point, const Log& truth, std::uint64_t seed, ArmPlant& plant,
                 Log& measured);
 

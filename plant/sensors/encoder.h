@@ -12,7 +12,7 @@ struct Readings {
   Eigen::VectorXd joint;  ///< [n] rad | m
 };
 
-/// Readings of the encoders from the signals of all joints; resolutions of 0 do not round.
+/// Readings of the encoders from the signals of all joints; a resolution of 0 means no rounding.
 Readings read_encoders(const ArmParameters<double>& arm, const JointSignals<double>* s, bool quantise);
 
 }  // namespace halyard

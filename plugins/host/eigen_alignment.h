@@ -1,10 +1,10 @@
 #pragma once
-/// Eigen gets memory in another way where -march gives wider vectors, so that what one side allocates the other cannot
-/// free. A module and the halyard libraries that it is linked to need the same.
+/// Eigen's memory allocation depends on the vector width that -march selects. Code built for one width cannot free
+/// memory allocated for another. A module and the halyard libraries that it is linked to must use the same alignment.
 
 namespace halyard {
 
-/// own: EIGEN_DEFAULT_ALIGN_BYTES where this is called. Throws InputError if halyard's libraries have another.
+/// own: EIGEN_DEFAULT_ALIGN_BYTES of the caller. Throws InputError if halyard's libraries have another value.
 void check_eigen_alignment(int own);
 
 }  // namespace halyard

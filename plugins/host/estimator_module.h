@@ -1,5 +1,5 @@
 #pragma once
-/// A shared module that has proved to be an estimator plug-in.
+/// A shared module that was checked to be an estimator plug-in.
 
 #include "plugins/halyard_estimator.h"
 #include "plugins/host/shared_module.h"
@@ -8,7 +8,7 @@ namespace halyard {
 
 class EstimatorModule {
  public:
-  /// Loads the module and checks its table; the interface version before anything else in it. Throws InputError
+  /// Loads the module and checks its table, the interface version first. Throws InputError
   /// `plugin PATH: what; remedy` as SharedModule does, and for a module without the exported function, built for
   /// another interface version, or with a table that is too small or lacks an entry.
   explicit EstimatorModule(const std::filesystem::path& path);

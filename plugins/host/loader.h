@@ -20,23 +20,23 @@ struct PluginInfo {
 
 /// The plug-in folders that exist, in the order in which they are searched: beside the program (../lib/halyard/plugins
 /// and plugins/ of a build), beside halyard's libraries (for programs that live elsewhere), and each folder of the
-/// environment variable HALYARD_PLUGIN_PATH, whose folders are separated by ':'.
+/// environment variable HALYARD_PLUGIN_PATH, separated by ':'.
 std::vector<std::filesystem::path> plugin_folders();
-/// From now on plugin_folders() are these. For a process that works for another one, and has to find the same plug-ins.
-/// Not for use while another thread looks for plug-ins.
+/// Sets the folders that plugin_folders() returns from now on. For a process that works for another process and must
+/// find the same plug-ins. No other thread may look for plug-ins meanwhile.
 void search_plugins_only_in(std::vector<std::filesystem::path> folders);
 
-/// All loadable estimators in the plug-in folders. Of two with the same name the first counts. Modules that are refused
-/// are not listed; their one-line reasons are appended to refused if given.
+/// All loadable estimators in the plug-in folders. If two have the same name, the first one counts. Modules that are
+/// refused are not listed; their one-line reasons are appended to `refused` if given.
 std::vector<PluginInfo> find_plugins(std::vector<std::string>* refused = nullptr);
 
-/// The plug-in that make_estimator takes for a name or path. Throws InputError as it does.
+/// The plug-in that make_estimator() uses for a name or path. Throws InputError as make_estimator() does.
 PluginInfo find_plugin(const std::string& name_or_path);
 
 /// An estimator for the model, by the name of a found plug-in or the path of a module (anything with a '/' or ending in
-/// .so). Options of the model under the estimator's name are handed to it. The module stays open as long as the
-/// estimator lives. Throws InputError with one line for a name that is not found (lists those that are), a file that is
-/// no module, one built for another interface version, or one that refuses the model or its options.
+/// .so). The estimator gets the options that the model has under its name. The module stays open as long as the
+/// estimator lives. Throws InputError with one line for an unknown name (the message lists the known ones), a file that
+/// is no module, a module built for another interface version, or one that refuses the model or its options.
 std::unique_ptr<Estimator> make_estimator(const std::string& name_or_path, const ArmModel& model);
 
 }  // namespace halyard

@@ -5,7 +5,7 @@
 
 namespace halyard {
 
-/// A name that can stand in a list of names and in a key, and is no path: letters, digits, '_' and '-', at most 64.
+/// Whether a name can be used in lists and keys and is no path: at most 64 letters, digits, '_' and '-'.
 inline bool is_plain_name(std::string_view name) {
   constexpr std::size_t kMaxLength = 64;
   const auto is_plain = [](unsigned char c) {

@@ -1,5 +1,5 @@
 #pragma once
-/// An estimator that lives in a plug-in, seen as any other.
+/// An estimator in a plug-in, behind the interface Estimator.
 
 #include <memory>
 #include <vector>
@@ -10,12 +10,12 @@
 
 namespace halyard {
 
-/// Nothing that the plug-in does is trusted: each result is checked before it is handed on, and a failure throws
-/// `plugin NAME: at TIME s: what`: InputError if the plug-in refuses what it was given, std::runtime_error for an
-/// error, an unknown code, an exception, and numbers that are not finite.
+/// Checks each result of the plug-in before it returns it. A failure throws `plugin NAME: at TIME s: what`: InputError
+/// if the plug-in refuses its input, std::runtime_error for an error, an unknown code, an exception, and numbers that
+/// are not finite.
 class PluginEstimator : public Estimator {
  public:
-  /// Keeps the module open as long as this lives. Throws InputError `MODEL: estimator NAME: what` if the plug-in
+  /// Keeps the module open as long as this object lives. Throws InputError `MODEL: estimator NAME: what` if the plug-in
   /// refuses the model or its options.
   PluginEstimator(std::shared_ptr<const EstimatorModule> module, const ArmModel& model);
   PluginEstimator(const PluginEstimator&) = delete;
@@ -31,7 +31,7 @@ class PluginEstimator : public Estimator {
 
  private:
   halyard_sample take(const Sample& sample);
-  /// The estimate that a function of the table fills, checked; none if `fill` says so by returning false.
+  /// The checked estimate that `fill`, a function of the table, gives; none if `fill` returns false.
   template <class Fill>
   std::optional<Estimate> taken(const Fill& fill) const;
   template <class Call>

@@ -9,8 +9,8 @@ namespace halyard {
 class SharedModule {
  public:
   /// Loads the module and everything that it needs. Throws InputError `plugin PATH: what; remedy` for a path that is no
-  /// complete ELF file, a module that cannot be loaded, and one that changes the floating-point mode of the process
-  /// when it is loaded (linked with -ffast-math: numbers below 2e-308 become zero everywhere); the mode is restored.
+  /// complete ELF file, a module that cannot be loaded, and a module whose loading changes the floating-point mode of
+  /// the process (linked with -ffast-math: numbers below 2e-308 become zero everywhere); the mode is restored.
   explicit SharedModule(const std::filesystem::path& path);
   SharedModule(const SharedModule&) = delete;
   SharedModule& operator=(const SharedModule&) = delete;
@@ -25,7 +25,7 @@ class SharedModule {
   void* handle_ = nullptr;
 };
 
-/// Foreign text on one line: control characters as blanks, at most 500 bytes.
+/// Foreign text as one line: control characters become blanks, at most 500 bytes are kept.
 std::string one_line(std::string text);
 
 }  // namespace halyard

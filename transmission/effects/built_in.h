@@ -1,9 +1,9 @@
 #pragma once
-/// What a file of this folder ends with: it makes the effect that the file defines.
+/// Each effect's file ends with this line, which makes the effect that the file defines:
 ///
 ///   template std::unique_ptr<const Effect> make_effect<Backlash>();
 ///
-/// library.cpp calls it, so that an effect is its own file and one line there.
+/// library.cpp calls it, so a new effect needs its own file and one line in library.cpp.
 
 #include "transmission/effect.h"
 

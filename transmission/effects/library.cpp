@@ -3,7 +3,7 @@
 namespace halyard {
 namespace effects {
 
-/// Each effect's own file makes it: built_in.h.
+/// Defined in each effect's own file: see built_in.h.
 template <class E>
 std::unique_ptr<const Effect> make_effect();
 

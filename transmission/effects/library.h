@@ -1,5 +1,5 @@
 #pragma once
-/// The effects that come with halyard; each is one file in a folder beside this one.
+/// The effects that come with halyard; each is one file in a subfolder of this folder.
 
 #include <memory>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace halyard {
 
-/// In a fixed order.
+/// New instances of all built-in effects, in a fixed order.
 std::vector<std::unique_ptr<const Effect>> built_in_effects();
 
 }  // namespace halyard

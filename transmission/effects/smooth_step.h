@@ -1,9 +1,9 @@
 #pragma once
-/// A step in time that an integrator can follow: from 0 to 1 within kStepWidth around an instant,
+/// A step in time that an integrator can follow: from 0 to 1 within kStepWidth around an instant:
 ///
 ///   s(t) = u² (3 - 2u),  u = (t - t_0) / w + 1/2  within [0, 1]
 ///
-/// with a continuous rate; exactly 0 before and 1 after.
+/// Its rate is continuous. The step is exactly 0 before and exactly 1 after.
 
 #include "transmission/scalar.h"
 

@@ -1,15 +1,15 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/smooth_step.h"
 
-/// A sudden lasting jump of the motor-to-joint relation: the cable slips on its capstan,
+/// A sudden, lasting offset between motor and joint, because the cable slips on its capstan:
 ///
 ///   x' = x - Δ s(t - t_0)
 ///
-///   Δ     cable that slips, `jump`             m
-///   t_0   when, `time`, on the log's clock      s
+///   Δ     length that slips, `jump`            m
+///   t_0   instant, `time`, on the log's clock   s
 ///   s     smooth step of 10 ms (smooth_step.h)
 ///
-/// What slips is lost: the stretch's rate has it too.
+/// The length that slips does not return. The rate of the slip is part of the stretch rate x'.
 
 namespace halyard::effects {
 

@@ -1,13 +1,13 @@
 #include "transmission/effects/built_in.h"
 
-/// A ratio that varies with the capstan's angle θ = q_m / N, as of a capstan whose axis is off its centre:
+/// A ratio that varies with the capstan's angle θ = q_m / N, as with a capstan whose axis is off its centre:
 ///
 ///   x' = x + r_m (e_c sin θ + e_s (1 - cos θ)),   motor's lever r_m (1 + e_c cos θ + e_s sin θ) = r_m + ∂x'/∂θ
 ///
 ///   e_c, e_s   `cosine` and `sine` of the variation, relative to the radius      -
 ///
-/// The cable pulls the motor by the lever with which the motor stretches it, so that no power is lost.
-/// Source: geometry, to first order in the eccentricity; zero at q_m = 0, where the motor's angle counts from.
+/// The cable pulls the motor with the same lever with which the motor stretches the cable, so no power is lost.
+/// Source: geometry, to first order in the eccentricity. The error is zero at q_m = 0, the origin of the motor's angle.
 
 namespace halyard::effects {
 

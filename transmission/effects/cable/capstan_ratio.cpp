@@ -1,12 +1,12 @@
 #include "transmission/effects/built_in.h"
 
-/// Another transmission ratio from motor to cable: r_m' = κ r_m. The capstan, the gear and the link
-/// pulley enter a joint's motion through one ratio only, so it stands for all three.
+/// A transmission ratio from motor to cable that differs from the model's: r_m' = κ r_m. Capstan, gear and link pulley
+/// enter a joint's motion through one ratio only, so κ covers errors of all three.
 ///
 ///   κ   ratio to the model's capstan radius      -
 ///
-/// Source: an effective capstan radius is the core's plus half the cable's diameter, which the
-/// paper's Table I does not add.
+/// Source: the effective capstan radius is the core's radius plus half the cable's diameter. The paper's Table I omits
+/// the half diameter.
 
 namespace halyard::effects {
 

@@ -1,9 +1,9 @@
 #include "transmission/arm_fields.h"
 #include "transmission/effects/built_in.h"
 
-/// Other coupling coefficients of a cable with the joints inboard of it: C_kj' = C_kj + ΔC_kj.
+/// Coupling coefficients of a cable with its inboard joints that differ from the model's: C_kj' = C_kj + ΔC_kj.
 ///
-///   ΔC_kj   what joint j adds to the path of cable k, beyond the model      rad/rad | m/rad | rad/m
+///   ΔC_kj   additional motion of cable k per unit of joint j      rad/rad | m/rad | rad/m
 ///
 /// Source: the paper's Eq. 8 and Section III-B, which estimates these coefficients.
 

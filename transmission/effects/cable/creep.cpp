@@ -1,17 +1,18 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
-/// Stretch that grows slowly under load: the cable is a standard linear solid, its elastic part in series with one that
-/// follows it late,
+/// Stretch that grows slowly under load. The cable is a standard linear solid: an elastic part in series with a slow
+/// part that follows it with a lag,
 ///
 ///   x_e = x - c z,   z' = (x_e - z) / τ,   g = law(x_e, x')
 ///
 ///   x_e   elastic stretch, which makes the force      m
-///   z     x_e as the slow part has followed it         m
+///   z     x_e after the lag of the slow part           m
 ///   c     compliance of the slow part over that of the elastic one, `compliance_share`      -
 ///   τ     time constant of the slow part at constant force                                   s
 ///
-/// Under a constant force the stretch ends at (1 + c) times its first value. The cable's damper lies across both.
+/// Under a constant force the stretch ends at (1 + c) times its first value. The cable's damper is parallel to both
+/// parts.
 /// Source: Zener, "Elasticity and Anelasticity of Metals" (1948).
 
 namespace halyard::effects {

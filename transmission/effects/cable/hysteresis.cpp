@@ -1,18 +1,17 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
-/// A rate-independent loop of the cable's force over its stretch, of Bouc-Wen type: the share ρ of
-/// the stiffness sits in an element that yields,
+/// Rate-independent hysteresis of the cable's force over its stretch, of Bouc-Wen type. The share ρ of the stiffness
+/// belongs to an element that yields:
 ///
 ///   g' = g + 2 k_e ρ (z - x),   z' = x' - |x'| z / z_y  where x' z > 0,   z' = x'  elsewhere
 ///
 ///   z     elastic stretch of the element that yields       m
-///   z_y   where it yields: |z| < z_y                        m
+///   z_y   stretch at which it yields: |z| < z_y             m
 ///   ρ     its share of the stiffness                        -
 ///
-/// This is Bouc-Wen with n = 1, β = γ = 1 / (2 z_y): passive, and any cycle of stretch closes once it has been
-/// repeated.
-/// Source: Wen, J. Eng. Mech. 102 (1976); of robot cables Miyasaka et al., ICRA 2016.
+/// This is Bouc-Wen with n = 1, β = γ = 1 / (2 z_y). It is passive. A repeated cycle of stretch becomes a closed loop.
+/// Source: Wen, J. Eng. Mech. 102 (1976); for robot cables Miyasaka et al., ICRA 2016.
 
 namespace halyard::effects {
 

@@ -2,13 +2,13 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/friction.h"
 
-/// Friction of the cable on its pulleys, which grows with tension and load and not with speed:
+/// Friction of the cable on its pulleys. It grows with tension and load, but not with speed:
 ///
 ///   F = μ (2 T_0 + |g|) sign(s')
 ///   g_motor = g + σ F(motor's cable speed),   g_joint = g - (1 - σ) F(joint's cable speed)
 ///
 ///   μ      friction coefficient, wrap angle included       -
-///   σ      share of it that lies on the motor's side        -
+///   σ      share of the friction on the motor's side        -
 ///   g      force difference of the two runs                 N
 ///   s'     speed of the cable on that side                   m/s
 ///

@@ -2,16 +2,16 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
-/// A run of the cable pulls and cannot push: with the rest tension T each run's tension ends at zero,
+/// A run of the cable can pull but not push. With rest tension T, the tension of each run does not fall below zero:
 ///
 ///   g' = g + ρ (g_T - g),   g_T = max(0, T + p) - max(0, T - p),   p = half of the model's g
 ///
 ///   T   tension of each run at rest                                                N
-///   ρ   share of the push that a slack run lacks: 1 for a cable, 0 for a rod       -
+///   ρ   share of compression that a slack run cannot carry: 1 cable, 0 rod         -
 ///
-/// Under the paper's law, which has no end at zero, ρ = 1 puts one at T. Under the linear and the exponential law,
-/// whose own end is at the model's T_0, g_T is the law with T in the place of T_0. T shapes what ρ sizes: whatever T,
-/// the model's law is left as it is at ρ = 0.
+/// The paper's law does not clamp tension at zero; at ρ = 1 this effect does, with rest tension T. The linear and the
+/// exponential law already clamp, with the model's T_0; for them g_T is the law with T in place of T_0. ρ is the size
+/// of the effect, T its shape: at ρ = 0 the model's law is unchanged for every T.
 ///
 /// Source: the clamp of cable_law.h.
 

@@ -1,7 +1,7 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
-/// Another stiffness or damping of the cable, or a law that stiffens: k_e' = κ k_e, b_e' = δ b_e,
+/// Stiffness or damping that differs from the model's, or a law that stiffens: k_e' = κ k_e, b_e' = δ b_e,
 ///
 ///   g' = g + 2 k_e' β x³
 ///

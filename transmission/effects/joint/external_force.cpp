@@ -2,11 +2,11 @@
 #include "transmission/effects/smooth_step.h"
 #include "transmission/effects/typical_size.h"
 
-/// A force on a joint that no sensor shows: one for part of the time, and a contact,
+/// A force on a joint that no sensor measures: a push during part of the time, and a contact,
 ///
 ///   F' = F + F_e (s(t - t_1) - s(t - t_2)) - k max(0, ±(q - q_c)),   + where k > 0, - where k < 0
 ///
-///   F_e        `force`, positive where it pushes the joint forward                      N m | N
+///   F_e        `force`, positive if it pushes the joint forward                      N m | N
 ///   t_1, t_2   `start`, `stop` on the log's clock; s: smooth step of 10 ms               s
 ///   k          `contact_stiffness`. Positive: a wall above q_c that pushes back down;
 ///              negative: a wall below q_c, of stiffness |k|, that pushes up              N m/rad | N/m
@@ -23,7 +23,7 @@ class ExternalForce : public EffectOf<ExternalForce> {
     const JointParameters<double>& j = arm.joint[joint];
     const bool turns = j.type == JointType::revolute;
     const double level = typical_joint_friction(j), reach = turns ? 0.1 : 0.01;
-    // A wall as stiff as the cable cannot be told from one that is stiffer.
+    // A wall as stiff as the cable cannot be distinguished from a stiffer one.
     const double own = j.drive == Drive::cable ? 2 * j.stiffness * j.pulley_radius * j.pulley_radius : 0;
     const double stiffest = std::max(own, 100 * level / reach), far = turns ? 10 : 2;
     return {{"force", turns ? "N m" : "N", 0, level, -100 * level, 100 * level},

@@ -1,17 +1,17 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/friction.h"
 
-/// Friction that changes in time, as of a drive that warms up: Coulomb level and viscous coefficient, of motor and
-/// joint, all times
+/// Friction that changes in time, as in a drive that warms up. The Coulomb levels and viscous coefficients of motor and
+/// joint are all multiplied by
 ///
 ///   max(0, 1 + ρ (1 - exp(-λ t)) / λ),   t >= 0
 ///
-///   ρ   `rate`, the relative change per time at the start; in the end it is ρ / λ        1/s
-///   λ   `settling_rate`, one over the time constant; 0: a change linear in time           1/s
-///   t   on the log's clock                                                                 s
+///   ρ   `rate`: relative change per second at the start; the final change is ρ / λ       1/s
+///   λ   `settling_rate`: inverse of the time constant; 0: linear in time                 1/s
+///   t   time on the log's clock                                                          s
 ///
-/// Source: Bittencourt and Axelsson, IEEE/ASME Trans. Mechatronics 19 (2014), friction over temperature; a body that
-/// warms at constant power settles exponentially.
+/// Source: Bittencourt and Axelsson, IEEE/ASME Trans. Mechatronics 19 (2014), friction over temperature. A body
+/// heated at constant power approaches its final temperature exponentially.
 
 namespace halyard::effects {
 namespace {

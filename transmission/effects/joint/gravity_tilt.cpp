@@ -5,10 +5,10 @@
 ///
 ///   g' = R_a(α) R_b(β) g
 ///
-///   α, β      angles `about_x`, `about_y`, `about_z`, whichever two they are      rad
+///   α, β      angles: two of `about_x`, `about_y`, `about_z`      rad
 ///   R_a, R_b  rotations about fixed base axes, exact
 ///
-/// A turn about gravity itself changes nothing, which is why there are two angles.
+/// A rotation about gravity itself changes nothing, so two angles suffice.
 
 namespace halyard::effects {
 namespace {

@@ -2,7 +2,7 @@
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
 
-/// Another friction at the joint than the model has, and its asymmetries:
+/// Friction at the joint that differs from the model's, and its asymmetry:
 ///
 ///   F' = F + ΔF_c tanh(v / v_s) + ΔF_v v + α F_c' tanh²(v / v_s) + α_v F_v' v tanh(v / v_s)
 ///

@@ -1,6 +1,6 @@
 #include "transmission/effects/built_in.h"
 
-/// A point mass m at the tool: the last link's mass, centre of mass and inertia with it.
+/// A point mass m at the tool. It changes the last link's mass, centre of mass and inertia:
 ///
 ///   M' = M + m,  c' = (M c + m r) / M',  I' = I + μ (|d|² E - d dᵀ),  μ = M m / M',  d = r - c
 ///

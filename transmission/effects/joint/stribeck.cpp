@@ -10,7 +10,7 @@
 ///   v_r   speed at which it has fallen to 1/e: `joint_speed`, ...       rad/s | m/s,  rad/s
 ///   v_s   the model's smoothing speed                                    as v_r
 ///
-/// A joint without a motor has the first two alone.
+/// A joint without a motor has only `joint_rise` and `joint_speed`.
 /// Source: Armstrong-Hélouvry, Dupont and Canudas de Wit, Automatica 30 (1994), the Gaussian form.
 
 namespace halyard::effects {

@@ -1,17 +1,17 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
-/// Torque that saturates below the command, at a limit that falls with speed where the torque drives the motion:
+/// Torque that saturates below the command. The limit falls with speed if the torque acts in the direction of motion:
 ///
 ///   τ' = τ - ρ (τ - clamp(τ, -τ_max h(-ω), τ_max h(ω))),   h(ω) = 1 - ω / ω_0 within [0, 1]
 ///
 ///   τ_max   `limit` at standstill                                                      N m
-///   ω_0     `no_load_speed`, where nothing is left of it                               rad/s
+///   ω_0     `no_load_speed`, at which the limit is zero                                rad/s
 ///   ρ       share of the torque beyond the limit that is lost: 1 for a hard limit       -
 ///
-/// The limits shape what ρ sizes: whatever they are, nothing saturates at ρ = 0. A no-load speed far above the motion's
-/// means that there is no limit of speed.
-/// Source: the torque-speed line of a motor at constant voltage, and its amplifier's limit of current.
+/// ρ is the size of the effect, the limits are its shape: nothing saturates at ρ = 0. With a no-load speed far above
+/// the motion's speeds, the limit does not depend on speed.
+/// Source: the torque-speed line of a motor at constant voltage, and the current limit of its amplifier.
 
 namespace halyard::effects {
 

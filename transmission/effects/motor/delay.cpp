@@ -8,8 +8,8 @@
 ///   d_c   `command_delay`, at least 0                       s
 ///   d_s   `sensor_delay`; negative: the motor's lags        s
 ///
-/// The sensor's is to first order: good while d_s is short against the motion. Without a history of commands the torque
-/// acts at once. A delay stands before what else changes a command's torque: place it first.
+/// The sensor's delay is a first-order approximation, good while d_s is short against the motion. Without a history of
+/// commands the torque acts at once. Place a delay before all other effects that change the commanded torque.
 
 namespace halyard::effects {
 

@@ -8,7 +8,7 @@
 ///   A_c, A_s   `cosine`, `sine`                    N m
 ///   n          periods a turn of the shaft          -
 ///
-/// It has a potential: over a whole turn it does no work.
+/// The ripple has a potential: it does no work over a whole turn.
 /// Source: Holtz and Springob, "Identification and compensation of torque ripple in high-precision permanent magnet
 /// motor drives", IEEE Trans. Ind. Electron. 43 (1996).
 

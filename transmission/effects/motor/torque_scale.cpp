@@ -1,14 +1,14 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
-/// Another torque constant of motor and amplifier, or a bias:
+/// A torque constant of motor and amplifier that differs from the model's, or a bias:
 ///
 ///   τ = κ · model's scale · command + model's bias + β
 ///
 ///   κ, β   `scale`, `bias`      -, N m
 ///
-/// Source: a motor turns current into torque by its constant, which magnets and gains move; a current sensor's zero is
-/// the bias.
+/// Source: the torque constant converts current to torque and varies with magnets and amplifier gains. The zero error
+/// of a current sensor is a bias.
 
 namespace halyard::effects {
 

@@ -7,8 +7,8 @@
 ///   A_c, A_s   `cosine`, `sine`                                                       rad | m
 ///   k          periods a turn, `order` | wave number of a scale, `wave_number`         - | rad/m
 ///
-/// Source: a disc whose centre is off its axis by e reads wrong by e / R once a turn; two reading heads, interpolation
-/// errors and the scale of a linear encoder give higher orders.
+/// Source: a disc of radius R whose centre is off its axis by e has an error of amplitude e / R once a turn. Two
+/// reading heads, interpolation errors and the scale of a linear encoder give higher orders.
 
 namespace halyard::effects {
 

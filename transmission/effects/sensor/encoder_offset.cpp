@@ -1,13 +1,13 @@
 #include "transmission/effects/built_in.h"
 
-/// A zero error of the motor's encoder against its joint, as homing leaves it, told in joint units:
+/// Zero error of the motor's encoder relative to its joint, as homing leaves it, in joint units:
 ///
 ///   reading = q_m + δ r_l N / r_m
 ///
-///   δ   how far the joint seems to stand from where it is      rad | m
+///   δ   apparent minus true joint position      rad | m
 ///
-/// The joint's sensor is taken as the reference; an error of its own zero is the same thing seen
-/// from the other side. Where one of the two zeros is unknown anyway the effect has no meaning.
+/// The joint's sensor is the reference; a zero error of that sensor is the same error with the opposite sign. The
+/// effect has no meaning where the model does not know one of the two zeros.
 
 namespace halyard::effects {
 
