@@ -23,7 +23,7 @@ endforeach()
 
 compile_together(halyard_model logs
   arm_log.cpp arm_model.cpp column_map.cpp homing.cpp log.cpp model_writer.cpp output_file.cpp)
-compile_together(halyard_model files model_file.cpp xml_reader.cpp)
+compile_together(halyard_model files model_file.cpp xml/xml_reader.cpp)
 
 compile_together(halyard_plant simulation
   controller.cpp drive_train.cpp equilibrium.cpp sensors/camera.cpp sensors/encoder.cpp simulate.cpp trajectory.cpp)

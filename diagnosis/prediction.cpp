@@ -151,7 +151,7 @@ DrivenState<double> working_state(const Hypothesis& h, const Record& record, con
 
 /// With the motors held: at rest at x, and as it works. Empty if they cannot be told.
 std::vector<Eigenvalues> eigenvalues_of(const Hypothesis& h, const Record& record, const DrivenInput& held,
-                                 const DrivenState<double>& x) {
+                                        const DrivenState<double>& x) {
   const Transmission<Dual> transmission = lift_transmission<Dual>(h.nominal, h.effects);
   std::vector<Eigenvalues> spectra;
   for (const DrivenState<double>& at : {x, working_state(h, record, held, x)}) {

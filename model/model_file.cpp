@@ -7,10 +7,10 @@
 #include <set>
 #include <stdexcept>
 
-#include "model/arm_words.h"
-#include "model/field_reader.h"
 #include "model/input_error.h"
-#include "model/xml_reader.h"
+#include "model/xml/arm_words.h"
+#include "model/xml/field_reader.h"
+#include "model/xml/xml_reader.h"
 #include "transmission/coupling.h"
 
 namespace halyard {

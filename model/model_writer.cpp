@@ -7,9 +7,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "model/arm_words.h"
 #include "model/model_file.h"
-#include "model/xml_reader.h"
+#include "model/xml/arm_words.h"
+#include "model/xml/xml_reader.h"
 #include "transmission/arm_fields.h"
 
 namespace halyard {

@@ -7,7 +7,7 @@
 #include "evaluation/sweep/sweep_file.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
-#include "model/xml_reader.h"
+#include "model/xml/xml_reader.h"
 #include "plant/scenario.h"
 
 namespace halyard {

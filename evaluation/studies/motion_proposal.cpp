@@ -11,7 +11,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "model/xml_reader.h"
+#include "model/xml/xml_reader.h"
 #include "plant/simulate.h"
 #include "plant/trajectory.h"
 

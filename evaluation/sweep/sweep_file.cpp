@@ -15,7 +15,7 @@
 #include "evaluation/sweep/sweep_parameter.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
-#include "model/xml_reader.h"
+#include "model/xml/xml_reader.h"
 
 namespace halyard {
 namespace {

@@ -207,8 +207,8 @@ TEST_F(BadInput, AnEstimatorThatBreaksItsPromises) {
   expect_refused({"check", broken + "/never_returns.so", "--model", "raven2.xml", "--time-limit", "0.3"},
                  {"never_returns.so: breaks 1 of", "plain record: took more than 0.3 s, and was ended"});
   expect_refused({"check", "raven2.xml", "--kalman"}, {"--kalman", "'raven2.xml' is none"});
-  EXPECT_TRUE(contains(done({"check", HALYARD_PLUGINS "/ekf.so", "--kalman"}),
-                       "and is the Kalman filter on a linear arm"));
+  EXPECT_TRUE(
+      contains(done({"check", HALYARD_PLUGINS "/ekf.so", "--kalman"}), "and is the Kalman filter on a linear arm"));
 }
 
 TEST_F(BadInput, AModuleOfEffectsThatCannotBeLoaded) {

@@ -1,4 +1,4 @@
-#include "model/xml_reader.h"
+#include "model/xml/xml_reader.h"
 
 #include <gtest/gtest.h>
 

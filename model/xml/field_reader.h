@@ -3,7 +3,7 @@
 /// throw InputError, as XmlElement does, for an attribute that names no field, a missing attribute, or a value outside
 /// its field's bound.
 
-#include "model/xml_reader.h"
+#include "model/xml/xml_reader.h"
 #include "transmission/arm_parameters.h"
 
 namespace halyard {

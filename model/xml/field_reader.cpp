@@ -1,4 +1,4 @@
-#include "model/field_reader.h"
+#include "model/xml/field_reader.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "model/arm_words.h"
+#include "model/xml/arm_words.h"
 #include "transmission/arm_fields.h"
 
 namespace halyard {

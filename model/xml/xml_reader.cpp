@@ -1,4 +1,4 @@
-#include "model/xml_reader.h"
+#include "model/xml/xml_reader.h"
 
 #include <tinyxml2.h>
 
