@@ -14,8 +14,8 @@
 ///   ln L_b(r0⊥) - ln L_b((r0 + d)⊥) over the blocks b of time passes the t test at the level 1 % / n, n the number of
 ///   candidates that a search fits; or its sum over b exceeds ln(n / 1 %).
 ///
-/// The detection limit is the smallest such size, to 9 %. At twice the limit the effect is compared with the best fit of
-/// every other effect, by the gain in log-likelihood of the right effect over the other:
+/// The detection limit is the smallest such size, to 9 %. At twice the limit the effect is compared with the best fit
+/// of every other effect, by the gain in log-likelihood of the right effect over the other:
 ///
 ///   Δ = Σ_b (ln L_b(r0⊥) - ln L_b(residual of the other's fit)).
 ///

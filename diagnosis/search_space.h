@@ -65,7 +65,7 @@ class RefinesSearch {
   virtual void refine_search(SearchSpace& space, const ArmParameters<double>& arm, int joint) const = 0;
 };
 
-/// The search space of an effect at this 0-based joint.
+/// The search space of an effect at this 0-based joint; -1: the whole arm.
 /// Throws InputError if the effect's own refinement throws or is invalid: starts that do not ascend or lie outside the
 /// bounds, or parameters that the effect does not have.
 SearchSpace search_space(const Effect& effect, const ArmParameters<double>& arm, int joint);

@@ -26,8 +26,8 @@
 /// Without the derivative of K, this is a recursive prediction-error method. With weights held, the sums over a record
 /// Σ Yᵀ S⁻¹ ν and Σ Yᵀ S⁻¹ Y are the gradient of the innovations' likelihood and its information. The points of held
 /// weights are 0.001 prior deviations apart, so that Y is a derivative. At this spacing a joint at 1 rad/s moves the
-/// joint coupled to it by 0.04 mrad/s, a hundredth of the speed at which friction changes sign (smoothing, 5 mrad/s). At
-/// a spacing of 0.03 it was a quarter, and Y of the RAVEN-II's C01 was up to 1.7 times too large near standstill.
+/// joint coupled to it by 0.04 mrad/s, a hundredth of the speed at which friction changes sign (smoothing, 5 mrad/s).
+/// At a spacing of 0.03 it was a quarter, and Y of the RAVEN-II's C01 was up to 1.7 times too large near standstill.
 ///
 /// Sources: Wan and Nelson, "Dual extended Kalman filter methods", and Wan and van der Merwe, "The unscented Kalman
 /// filter", in Haykin (ed.), "Kalman filtering and neural networks", 2001 (recurrent derivatives: 5.3); Ljung, IEEE

@@ -40,9 +40,9 @@
 /// so that the innovations match their predicted covariance (covariance matching, Mehra 1972). Adaptation cannot find
 /// errors that the motors do not observe, such as those of a joint behind a stiff cable.
 ///
-/// The start is at rest in static equilibrium. The stretch x of the cables is uncertain because of their stiffness K and
-/// because friction may hold the joints off: σ of the stretch = t_s |x| + F_c,q / (√3 K), t_s the model's relative
-/// tolerance of stiffness.
+/// The start is at rest in static equilibrium. The stretch x of the cables is uncertain, because their stiffness K is
+/// uncertain and friction may hold the joints off: σ of the stretch is t_s |x| + F_c,q / (√3 K), t_s the model's
+/// relative tolerance of stiffness.
 
 #include <Eigen/Core>
 #include <vector>
