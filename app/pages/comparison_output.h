@@ -1,5 +1,5 @@
 #pragma once
-/// What a comparison leaves behind. None of it holds wall times: the same inputs give the same bytes.
+/// Output files of a comparison. They contain no wall times: the same inputs give the same bytes.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
