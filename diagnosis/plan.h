@@ -1,7 +1,7 @@
 #pragma once
 /// Plans an experiment: which effects would a diagnosis detect in this motion, from which size on, and which of them
-/// could it tell apart? The logs are from an arm as the model describes it, such
-/// as a simulation.
+/// could it tell apart? The logs are from an arm as the model describes
+/// it, for example from a simulation.
 ///
 ///   r0     residual of the model on these logs
 ///   d(p)   change of the residual if the arm had the effect at size p; to first order the motors' motion is the same

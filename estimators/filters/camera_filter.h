@@ -3,7 +3,7 @@
 ///
 ///   z = p(q(t - L)) + v,  v ~ N(0, σ_c² I)             p: the marker's position by forward kinematics, base frame m
 ///
-///   L     `camera_latency`, from exposure to arrival: a marker was seen L before its sample's time                  s
+///   L     `camera_latency`, from exposure to arrival: a marker was seen L before its sample's time               s
 ///   σ_c   `camera_noise`, of each axis                                                                           m
 ///
 /// The marker is at the point of the model's payload. Within milliseconds the cables pull the joints back to the
