@@ -5,7 +5,7 @@
 
 namespace halyard {
 
-/// Throws InputError if a log is given twice among those of --data and --holdout: it would look like twice the evidence.
+/// Throws InputError if a log occurs twice in --data and --holdout, because it would then count as twice the evidence.
 void check_given_once(const std::vector<std::filesystem::path>& logs);
 
 }  // namespace halyard

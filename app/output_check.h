@@ -1,5 +1,5 @@
 #pragma once
-/// Finds before long work what would keep its results from being written.
+/// Checks, before long computations, that the results can be written.
 
 #include <filesystem>
 
@@ -8,7 +8,7 @@ namespace halyard {
 /// Throws InputError for an empty path, a folder, a parent that is a file, or one without permission to write.
 void check_output_file(const std::filesystem::path& path);
 
-/// Throws InputError if out is the same file as input, which it would replace.
+/// Throws InputError if `out` is the same file as `input`, because writing would replace the input.
 void check_not_input(const std::filesystem::path& out, const std::filesystem::path& input);
 
 /// Throws InputError unless files can be written into that folder, which need not exist yet.

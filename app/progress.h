@@ -6,22 +6,22 @@
 
 namespace halyard {
 
-/// One line on a terminal, updated in place while long work goes on, and wiped when it ends:
+/// A progress line on a terminal, updated in place during long work and removed at its end:
 ///
 ///   simulate:  42 %   8.3 s/s   1.4 s left
 ///
-/// Nothing is written where stderr is no terminal. Safe to call from several threads.
+/// Nothing is written if stderr is not a terminal. Safe to call from several threads.
 class Progress {
  public:
-  /// total: amount of work in the unit that the rate is shown in, per second.
+  /// total: amount of work; unit: unit of the displayed rate, total's unit per second.
   Progress(std::string label, double total, std::string unit);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
-  /// The amount that is done now, of total.
+  /// Sets the completed amount, out of total.
   void set(double done);
-  /// Adds to what is done.
+  /// Adds to the completed amount.
   void add(double amount);
 
  private:
@@ -39,7 +39,7 @@ class Progress {
   bool drawn_ = false;
 };
 
-/// The same for work in stages whose length is not known beforehand:
+/// The same for work in stages of unknown length:
 ///
 ///   diagnose: candidates of round 1:  42 %   3.1 s left
 class StageProgress {
@@ -49,7 +49,7 @@ class StageProgress {
   StageProgress& operator=(const StageProgress&) = delete;
   ~StageProgress();
 
-  /// What is being done and which part of it is done, 0 to 1.
+  /// Sets the current stage and its completed fraction, 0 to 1.
   void set(const std::string& stage, double fraction);
 
  private:

@@ -1,12 +1,12 @@
 #pragma once
-/// What of a change of the residual the baseline's numbers can take, each within its tolerance, alone or beside the
-/// sizes of an effect:
+/// The part of a change of the residual that the baseline's parameters within their tolerances can explain, alone or
+/// together with the sizes of an effect:
 ///
 ///   minimise  |x - J u - E a|² + |u|²,   |u_i| <= 2,   lower <= a <= upper
 ///
 ///   x   change of the fitting rows, weighted: each channel over its scale and √m                      [rows]
-///   J   sensitivities to the baseline's numbers, weighted; a unit is half a tolerance, its prior      [rows x numbers]
-///   E   what an effect's sizes change, weighted                                                       [rows x sizes]
+///   J   sensitivities to the baseline's parameters, weighted; a unit is half a tolerance, its prior   [rows x numbers]
+///   E   sensitivities to an effect's sizes, weighted                                                  [rows x sizes]
 ///
 /// This is fit.h's problem to first order. Source of the bounded minimum: Bertsekas, Projected Newton methods, SIAM J.
 /// Control Optim. 20 (1982).
@@ -35,7 +35,7 @@ class BaselineReach {
     double cost = 0;         ///< |left|² + |u|²
   };
 
-  /// columns: sensitivities(), one a number; scale: of each channel.
+  /// columns: sensitivities(), one for each parameter; scale: of each channel.
   BaselineReach(const Evidence& evidence, const std::vector<std::vector<double>>& columns,
                 const std::vector<double>& scale);
 

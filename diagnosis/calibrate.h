@@ -1,21 +1,21 @@
 #pragma once
-/// Scales of recorded torques that the model says nothing of (tolerance torque_scale of 1 or more): a current or a
-/// voltage instead of a torque. They are told before anything is searched, so that a scale that is wrong by any factor
-/// is a start as good as another; the fits then refine it.
+/// Estimates torque scales that the model does not know (tolerance torque_scale of 1 or more), for logs with a current
+/// or a voltage instead of a torque. This is done before the search, so that the scale in the model file may be wrong
+/// by any factor. The fits then refine it.
 ///
 ///   κ = cov(u, τ) / var(u)     over the samples in which the motor moves
 ///
-///   u   recorded torque, in whatever unit        τ   torque that the motion needs, by the model, N m
+///   u   recorded torque, any unit        τ   torque that the motion requires according to the model, N m
 
 #include "diagnosis/record.h"
 
 namespace halyard {
 
-/// The model with its unknown torque scales. Throws InputError if a torque does not go with its motor's motion, or goes
-/// against it.
+/// The model with its unknown torque scales estimated. Throws InputError if a torque is not correlated with its motor's
+/// motion, or has the wrong sign.
 ArmModel calibrated(const ArmModel& model, const std::vector<Record>& records);
 
-/// True if a number of named_parameters() is a torque scale that the model does not know.
+/// True if an entry of named_parameters() is a torque scale that the model does not know.
 bool is_unknown_scale(const ArmModel& model, int named_parameter);
 
 }  // namespace halyard

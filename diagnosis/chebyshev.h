@@ -1,7 +1,7 @@
 #pragma once
 /// The second-order Runge-Kutta-Chebyshev method with s stages: explicit, and stable for -|λ| h down to 2/3 (s² - 1)
-/// along the negative real axis, which is where friction and cable damping put the arm's fast eigenvalues λ. Beside
-/// that axis it is not: an arm that rings takes several steps to a sample.
+/// along the negative real axis. Friction and cable damping put the arm's fast eigenvalues λ there. It is not stable
+/// away from that axis: an arm with oscillating modes needs several steps for each sample.
 ///
 ///   growth of a mode over a step h, z = λ h:   |1 - b_s T_s(w0) + b_s T_s(w0 + w1 z)|
 ///
@@ -19,7 +19,7 @@ namespace halyard {
 /// Coefficients of the method, as in the source.
 struct Chebyshev {
   static constexpr int kMostStages = 48;
-  int stages, steps;  ///< steps to a sample
+  int stages, steps;  ///< stages for each step, steps for each sample
   double mu[kMostStages + 1], nu[kMostStages + 1], mu_h[kMostStages + 1], gamma_h[kMostStages + 1],
       node[kMostStages + 1];
 };
@@ -27,12 +27,12 @@ struct Chebyshev {
 /// Eigenvalues of a system's Jacobian, 1/s.
 using Eigenvalues = std::vector<std::complex<double>>;
 
-/// Stages that keep steps of h stable along the real axis, a fifth in reserve; 0 if it would take more than
-/// kMostStages.
+/// Number of stages that keeps steps of h stable along the real axis, with a margin of a fifth; 0 if more than
+/// kMostStages are needed.
 int stages_for(const std::vector<Eigenvalues>& spectra, double h);
 
-/// The method with just enough steps to a sample and stages to a step for several systems at once, each with the
-/// spectra of some of its states, and with stages for the sample as one step.
+/// The method with the fewest steps for each sample, and stages for each step, that suit several systems at once. Each
+/// system is given by the spectra at some of its states. The stages would also suffice for the sample as one step.
 Chebyshev scheme_for(const std::vector<std::vector<Eigenvalues>>& systems, double sample_s);
 
 }  // namespace halyard

@@ -1,6 +1,6 @@
 #pragma once
-/// A signal as a function of another: least squares with hat functions, on knots that have as many samples on either
-/// side.
+/// A signal as a function of another: least squares with hat functions. Knots are quantiles, with equal numbers of
+/// samples between them.
 ///
 ///   ŷ(x) = Σ_b c_b h_b(x),   h_b(x_b) = 1, linear to 0 at the neighbours' knots
 ///
@@ -19,13 +19,13 @@ struct Curve {
 struct CurveFit {
   std::vector<Curve> curves;
   double explained = 0;  ///< R², of the variance of y
-  int numbers = 0;       ///< that were fitted, B
+  int numbers = 0;       ///< of fitted coefficients, B
   double swing() const;  ///< greatest less least value
 };
 
 /// x, y, and direction (1 | -1; empty: one curve for both) have equal lengths; samples that are not finite do not
-/// count. Equal knots are one: over a direction of motion two are left. `period` 0: none; otherwise x lies in [0,
-/// period).
+/// count. Equal knots are merged: two are left if x is a direction. `period` 0: not periodic; otherwise x is in
+/// [0, period).
 CurveFit fit_curve(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& direction,
                    int knots, double period);
 

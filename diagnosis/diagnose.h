@@ -1,5 +1,5 @@
 #pragma once
-/// Closes the loop: from a model and measured logs to what the model lacks, and the model with it.
+/// Finds the effects that a model lacks from measured logs, and returns the model with those effects.
 
 #include <functional>
 #include <memory>
@@ -13,9 +13,9 @@
 namespace halyard {
 
 struct DiagnosisOptions {
-  int most_effects = 6;          ///< that are added to the model
-  double significance = 0.01;    ///< of a round of the search: the expected share of chance among what it adds
-  bool tell_not_excited = true;  ///< fill Diagnosis::not_excited: a prediction for every candidate
+  int most_effects = 6;          ///< largest number of effects added to the model
+  double significance = 0.01;    ///< of each search round: expected share of false effects among those added
+  bool tell_not_excited = true;  ///< fill Diagnosis::not_excited; costs one prediction for each candidate
 };
 
 /// A number with its unit and 95 % interval.
@@ -25,17 +25,20 @@ struct Estimated {
   double nominal = 0;
 };
 
+/// An effect that the diagnosis found.
 struct NamedEffect {
   PlacedEffect effect;
   std::vector<Estimated> parameters;
-  std::vector<PlacedEffect> alternatives;
+  std::vector<PlacedEffect> alternatives;  ///< effects that these data cannot tell from it
 };
 
+/// A significant residual that no candidate effect explains.
 struct Unexplained {
   int joint;              ///< 0-based
-  std::string signature;  ///< what the rest looks like
+  std::string signature;  ///< description of the residual
 };
 
+/// An effect that these data could not have shown.
 struct NotExcited {
   std::string effect;
   int joint;
@@ -47,7 +50,7 @@ struct PredictionError {
   std::vector<double> joint_rms, joint_peak, torque_rms;
 };
 
-/// How the diagnosis came to its result, for reports: diagnosis_details.h, which is not installed.
+/// Intermediate results of the diagnosis, for reports. Defined in diagnosis_details.h, which is not installed.
 struct DiagnosisDetails;
 
 struct Diagnosis {
@@ -56,15 +59,16 @@ struct Diagnosis {
   std::vector<Estimated> refitted;
   std::vector<Unexplained> unexplained;
   std::vector<NotExcited> not_excited;
-  ArmModel given;  ///< the model as given, its unknown torque scales calibrated
+  ArmModel given;  ///< the model as given, with unknown torque scales calibrated
   ArmModel revised;
-  std::string holdout;            ///< what the errors were measured on
-  PredictionError before, after;  ///< on the hold-out, by `given` and by `revised`
+  std::string holdout;            ///< description of the hold-out data
+  PredictionError before, after;  ///< on the hold-out, with `given` and with `revised`
   std::shared_ptr<const DiagnosisDetails> details;
 };
 
-/// Diagnoses a model by training logs. The hold-out decides nothing: it only tells the errors. Without one the last
-/// third of each training log is held out. progress(what, fraction of it) is called one at a time.
+/// Diagnoses a model from training logs. The hold-out does not influence the result: only the errors are computed on
+/// it. Without a hold-out, the last third of each training log is held out. progress(what, fraction of it) is never
+/// called by two threads at once.
 /// Throws InputError for logs that cannot be compared with the model.
 Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, const std::optional<Log>& holdout,
                    const DiagnosisOptions& options = {},

@@ -1,6 +1,6 @@
 #pragma once
-/// How a diagnosis came to its result: the search, and what the models predict of the hold-out. For reports, studies and
-/// tests of this project; the public interface is diagnose.h.
+/// Intermediate results of a diagnosis: the search, and the models' predictions of the hold-out. For reports, studies
+/// and tests of this project; the public interface is diagnose.h.
 
 #include <vector>
 
@@ -9,13 +9,13 @@
 
 namespace halyard {
 
-/// The band of the records that a diagnosis learns from, and that torques are told in: there the second derivative of a
-/// rounded angle still means something.
+/// Frequency band of fits and of reported torque errors. In this band the second derivative of a rounded angle is still
+/// meaningful.
 inline constexpr RecordOptions kFitBand = {};
-/// The band that errors of joints are told in: there the joints move, vibrations of the cables included.
+/// Frequency band of reported joint errors. It includes the vibrations of the cables.
 inline constexpr RecordOptions kJointErrorBand = {.motion_hz = 100, .compare_hz = 0, .settle_s = 0.5, .step_s = 0.001};
 
-/// Records of the hold-out and what the given and the revised model predict of them.
+/// Records of the hold-out, and their predictions by the given (before) and the revised model (after).
 struct HoldOut {
   std::vector<Record> records;
   std::vector<FullPrediction> before, after;
@@ -23,7 +23,7 @@ struct HoldOut {
 
 struct DiagnosisDetails {
   Attribution attribution;
-  std::vector<std::vector<double>> past;  ///< of the revised model's effects, before each training record: Hypothesis
+  std::vector<std::vector<double>> past;  ///< Hypothesis::past of the revised model's effects, for the training records
   HoldOut joint_view;                     ///< in kJointErrorBand
   HoldOut torque_view;                    ///< in kFitBand
 };

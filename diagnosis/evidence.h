@@ -1,6 +1,6 @@
 #pragma once
-/// The data that a diagnosis weighs: records cut into blocks of time, every other block for fitting
-/// and the rest for deciding, so that no gain is counted on data that the fit saw.
+/// The data of a diagnosis: records divided into blocks of time. Every other block is for fitting and the
+/// rest for deciding, so that gains are measured on data that the fit did not use.
 
 #include <span>
 
@@ -12,7 +12,7 @@ struct Span {
   double first, last;
 };
 
-/// Mean squares of residuals, one entry a channel (0..n-1 torque, n..2n-1 joint); and of each block.
+/// Mean squares of residuals, one entry for each channel (0..n-1 torque, n..2n-1 joint), and sums for each block.
 struct Score {
   std::vector<double> mean_square;             ///< [2n] over the deciding blocks; 0 without data
   std::vector<double> fit_mean_square;         ///< [2n] over the fitting blocks
@@ -42,18 +42,18 @@ class Evidence {
   /// Samples in each deciding block and channel: [block][2n].
   const std::vector<std::vector<int>>& block_count() const { return block_count_; }
 
-  /// Below this root mean square a residual of the channel does not matter: encoder resolution for
+  /// Root mean square below which a channel's residual does not matter: encoder resolution for
   /// joints, a fraction of the torque's own size for motors. [2n]
   const std::vector<double>& floor() const { return floor_; }
-  /// True if a change of the fitting rows has in some channel a root mean square above so many times its floor.
+  /// True if a change of the fitting rows has, in at least one channel, a root mean square above `times` its floor.
   bool exceeds_floor(const std::vector<double>& change, double times) const;
-  /// Rows that carry as much information as one independent sample: residuals are correlated.
+  /// Number of rows that equal one independent sample, because residuals are correlated.
   double correlated_rows() const { return correlated_rows_; }
   /// From the first to the last sample of all records, s.
   Span time_span() const { return time_span_; }
-  /// Where joint k was, by its sensor or as the motors tell it.
+  /// Range of joint k's motion, from its sensor or from the motors.
   Span joint_span(int k) const { return joint_span_[k]; }
-  /// Fitting rows of a channel.
+  /// Number of fitting rows of a channel.
   int fit_count(int c) const { return fit_count_[c]; }
   bool has_channel(int c) const { return channel_rows_[c] > 0; }
 

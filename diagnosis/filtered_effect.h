@@ -1,15 +1,15 @@
 #pragma once
-/// Effects as a record shows them. Motion and torque of a record went through one Gaussian filter (record.h). A torque
-/// that is periodic in the motor's angle, n periods a turn, alternates faster the faster the motor turns, and the filter
-/// leaves that much less of it:
+/// Effects after the filter of a record. Motion and torque of a record are filtered by one Gaussian kernel (record.h).
+/// For a torque that is periodic in the motor's angle, with n periods per turn, the frequency grows with the motor's
+/// speed, and the filter attenuates it:
 ///
 ///   τ' = τ exp(-(n q_m' σ)² / 2)
 ///
-///   τ    what the effect adds to the motor's torque        N m
+///   τ    motor torque added by the effect                  N m
 ///   n    its order, a parameter of the effect               -
 ///   σ    standard deviation of the filter                   s
 ///
-/// What changes slowly against the filter is shown as it is.
+/// Slow changes pass the filter unchanged.
 
 #include <memory>
 #include <vector>
@@ -18,8 +18,8 @@
 
 namespace halyard {
 
-/// The effects of an arm, each as it is or, if its torque is periodic (SearchSpace::order_of_motor_torque), filtered.
-/// The effects have to outlive it.
+/// The effects of an arm; those with a periodic torque (SearchSpace::order_of_motor_torque) are filtered.
+/// The effects must outlive this object.
 class FilteredEffects {
  public:
   FilteredEffects(const std::vector<PlacedEffect>& effects, const ArmParameters<double>& arm, double sigma_s);

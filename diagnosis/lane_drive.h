@@ -1,6 +1,6 @@
 #pragma once
-/// drive_record and replay_record over lanes, compiled once per instruction set; the widest that the processor has is
-/// chosen at run time.
+/// drive_record and replay_record over lanes, compiled once per instruction set. The widest set that the processor
+/// supports is chosen at run time.
 
 #include "diagnosis/motion_kernel.h"
 

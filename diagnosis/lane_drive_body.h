@@ -1,6 +1,6 @@
 #pragma once
-/// What each lane_drive_<set>.cpp compiles for its instruction set: in an unnamed namespace, so that no other file can
-/// be given its code.
+/// The code that each lane_drive_<set>.cpp compiles for its instruction set. It is in an unnamed namespace, so that the
+/// linker cannot use it for other files.
 
 #include "diagnosis/lane_drive.h"
 

@@ -1,21 +1,21 @@
 #pragma once
-/// The arm driven by a measured motor motion: the joints follow through the cables, and the motor
-/// torque that the motion needs comes out. Stable whatever the model lacks, because nothing drifts.
+/// The arm driven by a measured motor motion. The joints follow through the cables, and the result includes the
+/// motor torque that the motion requires. Errors of the model do not accumulate, because the motors' motion is given.
 ///
 ///   given q_m(t), q_m'(t), q_m''(t):
 ///   M(q) q'' + h(q, q') = F(q_m, q_m', q, q')           integrated: predicted joint position
 ///   ε = τ(command) - (r_m / N) g - J q_m''               torque residual at the motor shaft
 ///
 /// A rigidly driven joint has its motion prescribed; its transmission force λ follows from
-/// R q'' = (r_m / N) q_m'' and takes the place of g. A joint without a motor has its own motion prescribed, q'' given:
-/// it is held, or driven by somebody else, with a force λ that nothing is known of.
+/// R q'' = (r_m / N) q_m'' and replaces g. A joint without a motor has its own motion prescribed, with q'' given: an
+/// unknown force λ holds or drives it.
 
 #include "diagnosis/chebyshev.h"
 #include "estimators/process/arm_dynamics.h"
 
 namespace halyard {
 
-/// Motor motion and known torques at one instant, [n]; of a joint without a motor, the joint's own motion.
+/// Motor motion and known torques at one instant, [n]; for a joint without a motor, the joint's own motion.
 struct DrivenInput {
   double motor_angle[kMaxJoints], motor_rate[kMaxJoints], motor_acceleration[kMaxJoints];
   double torque[kMaxJoints], external[kMaxJoints];
@@ -27,7 +27,7 @@ struct DrivenState {
   T q[kMaxJoints], v[kMaxJoints], z[kMaxStates];
 };
 
-/// Puts joints where their motion is prescribed.
+/// Sets the position and rate of joints with prescribed motion.
 template <class T>
 HALYARD_INLINE void prescribe(const ArmParameters<T>& arm, const DrivenInput& u, DrivenState<T>& x) {
   for (int k = 0; k < arm.n; ++k) {
@@ -42,7 +42,7 @@ HALYARD_INLINE void prescribe(const ArmParameters<T>& arm, const DrivenInput& u,
   }
 }
 
-/// The rigid chain over one step: it changes so little within 2 ms that it is taken once, half a step ahead.
+/// The rigid chain over one step. It changes little within 2 ms, so it is computed once, for the middle of the step.
 template <class T>
 struct ChainOverStep {
   T M[kMaxJoints][kMaxJoints];  ///< factored mass matrix
@@ -85,8 +85,8 @@ HALYARD_INLINE void chain_over_step(const ArmParameters<T>& arm, const DrivenSta
   ldl_factor<T, kMaxJoints>(chain.n_prescribed, chain.A);
 }
 
-/// Rates of x; torque_residual [n] and joint_reading [n] if not null. Without a chain, which only arms with cables
-/// at all joints may go without, there are no accelerations.
+/// Rates of x; torque_residual [n] and joint_reading [n] if not null. Without a chain there are no accelerations; only
+/// arms with cables at all joints allow this.
 template <class T>
 HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const ChainOverStep<T>* chain, double time,
                                       const CommandHistory* history, const DrivenInput& u, const DrivenState<T>& x,
@@ -102,7 +102,7 @@ HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const
     s[k].joint_rate = x.v[k];
     s[k].external_force = u.external[k];
   }
-  // The encoder's reading is known, the angle is wanted: errors are small, one correction does.
+  // The angle from the encoder's reading: errors are small, so one correction is enough.
   transmission.sensor_errors(time, x.z, s);
   for (int k = 0; k < n; ++k) {
     s[k].motor_angle -= s[k].motor_error;
@@ -171,7 +171,7 @@ HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time
   axpy(n, m, c.mu_h[1] * h, x, f0, now);
   for (int j = 2; j <= c.stages; ++j) {
     const double at = time + c.node[j - 1] * h;
-    // Past commands count for the torque alone, which inner stages do not tell.
+    // Past commands affect the torque residual only, which inner stages do not compute.
     driven_derivative<T>(transmission, &chain, at, nullptr, input(at), now, f, nullptr, nullptr);
     const T stay = 1 - c.mu[j] - c.nu[j], mu = c.mu[j], nu = c.nu[j], mu_h = c.mu_h[j] * h, gamma_h = c.gamma_h[j] * h;
     const auto next = [&](const T& x0, const T& y1, T& y2, const T& rate, const T& rate0) {
@@ -189,9 +189,9 @@ HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time
   copy_state(n, m, now, x);
 }
 
-/// A whole record. Sample i writes torque residual and predicted joint reading: out[i * 2n + k] and [... + n + k]. x
-/// holds the initial state and ends as the final one; states [size][2n + effects' states], if not null, gets it at
-/// every sample.
+/// Integrates a whole record. Sample i writes the torque residual to out[i * 2n + k] and the predicted joint reading to
+/// out[i * 2n + n + k]. x is the initial state and becomes the final one. states [size][2n + effects' states], if not
+/// null, receives x at every sample.
 template <class T>
 HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
                                  double start, double dt, const Chebyshev& scheme, const CommandHistory* history,
@@ -200,7 +200,7 @@ HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const Driv
   const int n = arm.n, m = transmission.n_states();
   for (std::size_t i = 0; i < size; ++i) {
     const double time = start + dt * static_cast<double>(i);
-    // The last sample ends where it stands.
+    // After the last sample its input is held.
     const DrivenInput &a = samples[i], &b = samples[std::min(i + 1, size - 1)];
     prescribe(arm, a, x);
     if (states) {
@@ -225,8 +225,8 @@ HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const Driv
   }
 }
 
-/// What drive_record writes of an arm that is known to move as `states` say: for hypotheses that differ in what the
-/// motion does not depend on.
+/// Computes the output of drive_record from known `states`: for hypotheses that differ only in parameters on which the
+/// motion does not depend.
 template <class T>
 HALYARD_INLINE void replay_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
                                   double start, double dt, const CommandHistory* history, const T* states, T* out) {

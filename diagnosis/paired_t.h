@@ -1,5 +1,5 @@
 #pragma once
-/// The paired t test: are differences that belong together above zero?
+/// The paired t test: is the mean of paired differences above zero?
 ///
 ///   t = mean / √(Σ (d - mean)² / (N (N - 1))),   p from Student's distribution of N - 1 degrees of freedom
 
@@ -7,14 +7,14 @@
 
 namespace halyard {
 
-/// Sum of the differences, and how many standard errors their mean lies above zero; 0 where they do not scatter.
+/// sum: of the differences; t: their mean in standard errors, 0 if all differences are equal.
 struct Paired {
   double sum = 0, t = 0;
   int pairs = 0;
 };
 
 Paired paired(const std::vector<double>& differences);
-/// The probability of such a t or more if the mean were zero, one-sided; 1 of fewer than three pairs.
+/// One-sided probability of a t this large or larger if the mean were zero; 1 for fewer than three pairs.
 double p_value(const Paired& p);
 
 }  // namespace halyard

@@ -1,6 +1,6 @@
 #pragma once
-/// A log made ready for diagnosis: one uniform time grid, and motions, rates, accelerations and
-/// torques that all went through one zero-phase low-pass filter, so that they stay comparable.
+/// A log prepared for diagnosis, on one uniform time grid. Motions, rates, accelerations and torques are
+/// filtered by the same zero-phase low-pass filter, so that they stay comparable.
 ///
 ///   q_m = K_m * reading,  q_m' = K_m' * reading,  q_m'' = K_m'' * reading,  τ = K_m * command
 ///   e   = K_c * (measured - predicted)
@@ -8,15 +8,14 @@
 ///   K_m, K_c   Gaussian kernels of standard deviation σ_t = 1 / (2π f), f = motion_hz and compare_hz, normalised
 ///              so that constants, ramps and parabolas keep their value, slope and curvature
 ///
-/// Differentiating the kernel instead of the reading is what keeps encoder quantisation out of
-/// q_m''; filtering the torque with the same kernel keeps J q_m'' = τ - ... true (Gautier, 1997). The band of the
-/// motion is wide, so that friction turns where the motor turns; what noise that lets in, K_c takes out of the
-/// residual.
+/// Differentiating the kernel instead of the reading keeps encoder quantisation out of q_m''. Filtering the
+/// torque with the same kernel keeps J q_m'' = τ - ... valid (Gautier, 1997). The band of the motion is wide, so
+/// that friction reverses when the motor does; K_c removes the additional noise from the residual.
 ///
-/// Sensors need not share a sample rate. The grid is that of the fastest; between samples of its own a signal goes on
-/// by cubic Hermite interpolation, but only where a sample was measured it is compared: K_c runs over those alone.
+/// Sensors may have different sample rates. The grid is that of the fastest. Other signals are interpolated by cubic
+/// Hermite polynomials, but residuals are compared only at measured samples: K_c uses those alone.
 ///
-/// A joint without a motor (drive none) moves as its own sensor says, or stands at home if the log has none.
+/// A joint without a motor (drive none) follows its own sensor, or stays at home if the log has none.
 
 #include <vector>
 
@@ -31,9 +30,9 @@ struct Record {
   double dt = 0;     ///< s
   double start = 0;  ///< time of the first sample, s
   std::size_t size = 0;
-  /// Readings: encoder offsets still inside. Of a joint without a motor: the joint's own motion, rad | m.
+  /// Readings, including encoder offsets. For a joint without a motor: the joint's own motion, rad | m.
   Signals motor_angle, motor_rate, motor_acceleration;
-  Signals torque;                           ///< commanded, N m; the hold's half sample of delay removed
+  Signals torque;                           ///< commanded, N m; without the hold's delay of half a sample
   Signals joint;                            ///< joint reading through K_m; empty: no sensor
   Signals joint_raw;                        ///< the reading itself, interpolated between its samples
   Signals external;                         ///< measured load on the joint; empty: none
@@ -42,7 +41,7 @@ struct Record {
   double motion_sigma = 0;                  ///< σ_t of K_m, s
   std::vector<double> compare;              ///< K_c on this grid, [2 reach + 1]
   std::string source;
-  int place = -1;  ///< among the records of an Evidence; -1: of none
+  int place = -1;  ///< index among the records of an Evidence; -1: in none
 
   double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
   bool has_joint(int k) const { return !joint[k].empty(); }
@@ -50,26 +49,26 @@ struct Record {
 };
 
 struct RecordOptions {
-  double motion_hz = 60;   ///< of K_m
-  double compare_hz = 20;  ///< of K_c; 0: residuals as they are
-  double settle_s = 0.5;   ///< from the start of a record: its unknown past fades out, not compared
-  double step_s = 0.002;   ///< grid, at most: a whole number of the fastest sensor's samples, or a whole share of one
+  double motion_hz = 60;        ///< of K_m
+  double compare_hz = 20;       ///< of K_c; 0: residuals are not filtered
+  double settle_s = 0.5;        ///< start of a record that is not compared, because its past is unknown
+  double step_s = 0.002;        ///< largest grid step; the fastest sensor's interval times or divided by a whole number
   double longest_gap_s = 0.05;  ///< longer gaps in a motor's position split a log into several records
 };
 
 /// One record per stretch of the log without a long gap; encoders of unknown zero are homed first.
 ///
-/// Left out as telling nothing: sensors that are stuck, see stuck_joint_sensors(); a joint sensor that never changes
-/// and whose resolution the model does not state; a torque that is 0 throughout.
-/// A command is taken as held for its sample, at most kLongestHold: a slower log is that of a slower logger.
+/// These signals are left out: sensors that are stuck, see stuck_joint_sensors(); a joint sensor that never changes and
+/// whose resolution the model does not state; a torque that is always 0.
+/// A command is assumed to be held for its sample, but at most for kLongestHold: a slower log has a slow logger.
 ///
-/// Throws InputError if no stretch is longer than a second beyond the settling time, or for fewer than ten samples a
-/// second; and as home_encoders().
+/// Throws InputError if no stretch is at least a second longer than the settling time, or if there are fewer than ten
+/// samples a second; and as home_encoders() does.
 std::vector<Record> make_records(const Log& log, const ArmModel& model, const RecordOptions& options);
 inline constexpr double kLongestHold = 0.002;  ///< s
 
-/// Joints, from 0, whose sensor stays where it is to the last bit while its motors would move the joint by more than 5
-/// % of its range.
+/// 0-based joints whose sensor does not change by a single bit while the motors move the joint by more than 5 % of its
+/// range.
 std::vector<int> stuck_joint_sensors(const Log& log, const ArmModel& model);
 
 }  // namespace halyard

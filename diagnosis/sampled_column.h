@@ -1,5 +1,5 @@
 #pragma once
-/// A column of a log as a function of time: samples that may be missing, at a rate of its own.
+/// A column of a log as a function of time. It has its own sample rate, and samples may be missing.
 
 #include <algorithm>
 #include <boost/math/interpolators/cubic_hermite.hpp>
@@ -10,7 +10,7 @@
 
 namespace halyard {
 
-/// The samples of a column that are there, and what is between them.
+/// The available samples of a column, and their interpolation.
 class SampledColumn {
  public:
   SampledColumn(const std::vector<double>& time, const std::vector<double>& x) {
@@ -24,7 +24,7 @@ class SampledColumn {
     between_.emplace(std::vector<double>(t_), std::vector<double>(x_), slopes());
   }
 
-  /// Fewer samples say nothing of a motion; the interpolation needs them as well.
+  /// True if there are enough samples to describe a motion and to interpolate.
   bool is_there() const { return t_.size() >= 4; }
   /// The usual time from a sample to the next, s.
   double interval() const { return interval_; }
@@ -50,7 +50,7 @@ class SampledColumn {
   }
 
  private:
-  /// At each sample that of the parabola through it and its neighbours; at the ends that of the chord.
+  /// Slope at each sample: that of the parabola through it and its neighbours; at the ends that of the chord.
   std::vector<double> slopes() const {
     const auto chord = [&](std::size_t i) { return (x_[i + 1] - x_[i]) / (t_[i + 1] - t_[i]); };
     std::vector<double> slope(t_.size());

@@ -1,9 +1,9 @@
 #pragma once
-/// Where a diagnosis looks for the parameters of an effect, and what of them is nothing new: everything about an effect
-/// that is not its physics.
+/// Search space of an effect: in which ranges and from which starts a diagnosis fits its parameters, and which changes
+/// the model's tolerances already explain.
 ///
-/// Each effect has a search space that is derived from its bounds and neutral values. Those of the library are refined
-/// in search_space/; an effect of your own may refine its own by deriving from RefinesSearch beside EffectOf.
+/// The search space is derived from the effect's bounds and neutral values. For the library's effects it is refined in
+/// search_space/. An effect of your own can refine it by deriving from RefinesSearch in addition to EffectOf.
 
 #include <optional>
 #include <stdexcept>
@@ -15,38 +15,38 @@
 
 namespace halyard {
 
-/// Between which bounds a parameter is sought, and from where.
+/// The range in which a parameter is fitted.
 enum class SearchRange {
   own,             ///< the bounds and starts of the parameter itself
-  record_time,     ///< an instant on the log's clock, s: within the record
-  joint_position,  ///< a position of the effect's joint: within the motion of the record
+  record_time,     ///< the parameter is an instant on the log's clock, s: within the record
+  joint_position,  ///< the parameter is a position of the effect's joint: within the motion of the record
 };
 
-/// A number of the model that is known within a tolerance, and that a parameter of an effect changes. A change within
-/// the tolerance is a refit of that number; an effect has to be beyond it.
+/// A model parameter with a tolerance that an effect's parameter changes. A change within the tolerance counts as a
+/// refit of the model parameter; only a larger one is an effect.
 struct TolerancedNumber {
-  double Tolerances::*kind = nullptr;  ///< null: there is no such number
-  int joint = 0;                       ///< 0-based: whose tolerances
-  double size = 0;                     ///< |value| of the number, unit of the parameter
+  double Tolerances::*kind = nullptr;  ///< null: there is no such model parameter
+  int joint = 0;                       ///< 0-based joint that has the tolerance
+  double size = 0;                     ///< |value| of the model parameter, unit of the effect's parameter
 };
 
-/// How one parameter of an effect is sought.
+/// How one parameter of an effect is fitted.
 struct ParameterSearch {
   std::string name;  ///< as in Effect::parameters()
-  /// Values to set out from, where the typical value alone is no good start: orders of a ripple, decades of a time
-  /// constant. Ascending: a fit takes steps after their spacing. Empty: the value at hand.
+  /// Start values of the fit, where the typical value alone is a bad start: orders of a ripple, decades of a time
+  /// constant. They must ascend: their spacing sets the fit's step sizes. Empty: the current value.
   std::vector<double> starts = {};
   SearchRange range = SearchRange::own;
-  /// True if a bound is a limit of nature that may well be reached (a friction of zero, a share of one). False if it is
-  /// the end of what is plausible, where a fit explains nothing.
+  /// True if a bound is a physical limit that the true value can reach (zero friction, a share of one). False if it is
+  /// the end of the plausible range: a fit that ends there explains nothing.
   bool natural_bounds = false;
-  TolerancedNumber changes = {};  ///< the number of the model that it changes, if any
+  TolerancedNumber changes = {};  ///< the model parameter that it changes, if any
 };
 
 struct SearchSpace {
-  std::vector<ParameterSearch> parameters;  ///< as Effect::parameters()
-  /// Place of the parameter that says how many periods a turn the torque has that the effect adds at the motor, if that
-  /// is periodic in the motor's angle: a record shows less of it the faster the motor turns (filtered_effect.h).
+  std::vector<ParameterSearch> parameters;  ///< in the order of Effect::parameters()
+  /// For an effect whose torque is periodic in the motor's angle: index of the parameter that gives the number of
+  /// periods per motor turn. The faster the motor turns, the less of that torque a record shows (filtered_effect.h).
   std::optional<std::size_t> order_of_motor_torque = {};
 
   /// Throws std::invalid_argument for an unknown name.
@@ -57,17 +57,17 @@ struct SearchSpace {
   }
 };
 
-/// The interface of an effect that says how its parameters are to be sought.
+/// Interface of an effect that refines its own search space.
 class RefinesSearch {
  public:
   virtual ~RefinesSearch() = default;
-  /// Changes the space that was derived from the bounds. Adds and removes no parameter.
+  /// Changes the space that was derived from the bounds. Must not add or remove parameters.
   virtual void refine_search(SearchSpace& space, const ArmParameters<double>& arm, int joint) const = 0;
 };
 
-/// The search space of an effect at a place of an arm.
-/// Throws InputError if the effect's own refinement throws or is wrong: starts that do not ascend or lie outside the
-/// bounds, other parameters than the effect's.
+/// The search space of an effect at this 0-based joint; -1: the whole arm.
+/// Throws InputError if the effect's own refinement throws or is invalid: starts that do not ascend or lie outside the
+/// bounds, or parameters that the effect does not have.
 SearchSpace search_space(const Effect& effect, const ArmParameters<double>& arm, int joint);
 
 }  // namespace halyard

@@ -1,16 +1,16 @@
 #pragma once
-/// What a residual that no candidate explains looks like.
+/// Description of a residual that no candidate explains.
 
 #include "diagnosis/evidence.h"
 
 namespace halyard {
 
-/// One sentence for joint k (0-based): the size of the rest of its position and its motor's torque on the training
-/// records, and the view that tells most of each (views.h).
+/// One sentence for a 0-based joint: the size of its position and motor torque residuals on the training records, and
+/// the most informative view of each (views.h).
 std::string signature(const Evidence& evidence, const Hypothesis& hypothesis, int joint);
 
-/// True if joint k moves along one sine, or stands still, in the one record there is: such a motion cannot tell effects
-/// of the joint apart. What counts is the joint's own motion: its motor also makes up for the inboard joints.
+/// True if there is one record only and the joint moves along one sine or stands still in it. Such a motion cannot tell
+/// effects of the joint apart. The test uses the joint's own motion, because its motor also moves with inboard joints.
 bool is_one_sinusoid(const std::vector<Record>& records, const ArmParameters<double>& arm, int joint);
 
 }  // namespace halyard

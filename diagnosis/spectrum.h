@@ -1,6 +1,6 @@
 #pragma once
-/// Least-squares spectrum of samples that need not be evenly spaced, over time or over an angle: at each frequency,
-/// which share of the variance does one sine take, its constant fitted along?
+/// Least-squares spectrum of samples that need not be evenly spaced, over time or over an angle: at each frequency, the
+/// share of the variance that a sine plus a constant explains.
 ///
 ///   y_i ≈ c + a cos(2π f x_i) + b sin(2π f x_i),   share = 1 - |y - ŷ|² / |y - ȳ|²
 ///
@@ -16,7 +16,7 @@ struct Spectrum {
   std::vector<double> amplitude;  ///< [frequency] of that sine, unit of y
 };
 
-/// The strongest line; share 0 without one.
+/// The strongest line; share 0 if there is none.
 struct Line {
   double frequency = 0, share = 0, amplitude = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Views in words: names, units, and a sentence that says why.
+/// Views in words: names, units, and a sentence about the evidence.
 
 #include <string>
 
@@ -7,13 +7,13 @@
 
 namespace halyard {
 
-/// How a number is shown: 0.35 deg.
+/// Unit of a displayed number: 0.35 deg.
 struct ShownUnit {
   std::string name;
   double per_si = 1;
 };
 
-/// A motor whose angle is the position of a prismatic joint, a metre a radian, gives a force in N.
+/// A motor whose angle equals the position of a prismatic joint, 1 m per rad, has a force in N.
 ShownUnit residual_unit(const ArmParameters<double>& arm, int joint, ResidualKind residual);
 ShownUnit abscissa_unit(const ArmParameters<double>& arm, int joint, ResidualKind residual, Abscissa abscissa);
 

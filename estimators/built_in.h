@@ -1,8 +1,11 @@
 #pragma once
-/// The built-in estimators of an arm. All options have defaults. Options of all but kinematics: those of noise.h and
-/// arm_filter.h; of the unscented ones besides: alpha, beta, kappa and curvature_limit (0.03) of sr_ukf.h; of
-/// disturbance_sr_ukf besides: force_start and force_wander of disturbance_filter.h; of smoother besides: lag (0.2 s)
-/// of fixed_lag_smoother.h; of camera_sr_ukf besides: those of camera_filter.h.
+/// The built-in estimators of an arm. All options have defaults.
+///
+///   all but kinematics        the options of noise.h and arm_filter.h
+///   unscented filters         also alpha, beta, kappa and curvature_limit (0.03) of sr_ukf.h
+///   disturbance_sr_ukf        also force_start and force_wander of disturbance_filter.h
+///   smoother                  also lag (0.2 s) of fixed_lag_smoother.h
+///   camera_sr_ukf             also the options of camera_filter.h
 
 #include <memory>
 

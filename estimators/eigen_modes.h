@@ -1,5 +1,5 @@
 #pragma once
-/// Eigenvalues of a real matrix that need not be symmetric: A v = λ v, A [n x n], λ [n] complex, in no order.
+/// Eigenvalues of a real matrix that need not be symmetric: A v = λ v, A [n x n], λ [n] complex, unordered.
 /// Eigen's solver takes 14 s to compile, so one file holds it for all.
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 #pragma once
-/// A state estimator: from motor signals alone to where the joints are.
+/// A state estimator: it estimates the joints' motion from motor signals alone.
 
 #include <Eigen/Core>
 #include <memory>
@@ -15,10 +15,10 @@ struct Sample {
   Eigen::VectorXd motor_torque;    ///< [n] commanded from this time on, N m; NaN: missing, the last one is held
   Eigen::VectorXd motor_position;  ///< [n] measured at this time, rad; NaN: missing, no correction from it
   Eigen::VectorXd joint_torque;    ///< [n] measured external load, N m | N; empty: none
-  Eigen::VectorXd marker = {};     ///< [3] where a camera saw the marker at the tool, m, base frame; empty: not seen
+  Eigen::VectorXd marker = {};     ///< [3] position of the tool's marker in the camera, base frame, m; empty: not seen
 };
 
-/// What one measurement said that the prediction did not. Only the motors whose sample is there count: m of n.
+/// The difference between a measurement and its prediction, for the m of n motors that were measured.
 struct Innovation {
   double time_s = 0;
   Eigen::VectorXd nu;      ///< z - ẑ                          [m], rad
@@ -27,23 +27,22 @@ struct Innovation {
   double nis() const;      ///< νᵀ S⁻¹ ν ~ χ²(m) if the model is right; 0 if m = 0
 };
 
-/// What is believed of the joints.
+/// Estimated motion of the joints.
 struct Estimate {
   Eigen::VectorXd joint_position;      ///< [n] rad | m
   Eigen::VectorXd joint_velocity;      ///< [n] rad/s | m/s
   Eigen::VectorXd joint_position_std;  ///< [n] one standard deviation; 0 where the estimator has none
-  /// What else the estimator estimates of the joints: a column [n] for each of its extra_output_names(); NaN: nothing
-  /// of that joint.
+  /// Further estimated quantities: one column [n] for each of extra_output_names(); NaN: not estimated for that joint.
   Eigen::MatrixXd extra_outputs = {};
 };
 
-/// What later samples say of an earlier one.
+/// A revised estimate of an earlier sample, after later samples have improved it.
 struct Revision {
   double time_s = 0;  ///< of a sample since reset()
   Estimate estimate;
 };
 
-/// What an estimator has to say of a run.
+/// Counts of a run.
 struct EstimatorReport {
   long steps = 0;
   long repaired_factors = 0;  ///< square-root factors that were lost and rebuilt
@@ -55,13 +54,13 @@ class Estimator {
   virtual ~Estimator() = default;
   /// Starts at a first sample, at rest.
   virtual void reset(const Sample& first) = 0;
-  /// Predicts to the sample's time under the torque of the sample before, then corrects by its motor positions.
+  /// Predicts to the sample's time under the torque of the sample before, then corrects with its motor positions.
   /// Throws std::runtime_error if the state cannot be kept finite; the message names time and state.
   virtual Innovation update(const Sample& sample) = 0;
   virtual Estimate estimate() const = 0;
   /// Names of the columns of Estimate::extra_outputs, such as "joint_force". They do not change.
   virtual std::vector<std::string> extra_output_names() const { return {}; }
-  /// Returns a revised estimate of an earlier sample that later samples have improved, or none. Call it after reset()
+  /// Returns a revised estimate of an earlier sample, or none. Call it after reset()
   /// and after each update() until it returns none; `at_end`: no sample follows. A filter never revises.
   virtual std::optional<Revision> revise(bool /*at_end*/) { return std::nullopt; }
   virtual EstimatorReport report() const = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Reads the options of an estimator from their text. Whatever stands there and is not asked for is an error.
+/// Reads the options of an estimator from their text. An option that the estimator does not read is an error.
 
 #include <Eigen/Core>
 #include <string>
@@ -11,14 +11,14 @@ namespace halyard {
 
 class OptionReader {
  public:
-  /// `estimator` is for messages.
+  /// `estimator`: its name, for messages.
   OptionReader(std::string estimator, const EstimatorOptions& options);
 
-  /// A number within [lower, upper], or `standard` if the option is absent. Throws InputError for any other text.
+  /// A number within [lower, upper], or `standard` if the option is absent. Throws InputError for other text.
   double number(const std::string& name, double standard, double lower, double upper);
-  /// One number for all joints, or n of them with blanks between; `standard` [n] if the option is absent.
+  /// One number for all joints, or n numbers separated by blanks; `standard` [n] if the option is absent.
   Eigen::VectorXd per_joint(const std::string& name, const Eigen::VectorXd& standard, double lower, double upper);
-  /// Throws InputError if an option was never asked for; lists those that were.
+  /// Throws InputError if an option was never read; the message lists the known options.
   void finish() const;
 
  private:

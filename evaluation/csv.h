@@ -8,7 +8,7 @@
 
 namespace halyard {
 
-/// A CSV file that is being put together cell by cell. A row ends by itself when it is as long as the header.
+/// Builds a CSV file cell by cell. A row ends when it is as long as the header.
 class CsvTable {
  public:
   /// Each line of comment becomes a comment line at the top.
@@ -16,7 +16,7 @@ class CsvTable {
 
   /// 9 significant digits; NaN is an empty cell.
   void add(double value);
-  /// 12 significant digits: microseconds in a record of days.
+  /// 12 significant digits, enough for microseconds in a record of days.
   void add_time(double seconds);
   /// Quoted where it holds a comma, a quote or a line break.
   void add(std::string_view text);

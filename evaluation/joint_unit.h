@@ -8,14 +8,14 @@
 
 namespace halyard {
 
-/// How a joint's position is written in files and shown in reports.
+/// Units of a joint's position: `si` in files, `shown` in reports.
 struct JointUnit {
   std::string si;     ///< rad | m
   std::string shown;  ///< deg | mm
   double shown_per_si = 1;
 };
 
-/// Of every joint of the arm.
+/// Units of every joint of the arm.
 inline std::vector<JointUnit> joint_units(const ArmModel& model) {
   std::vector<JointUnit> units;
   for (int k = 0; k < model.n(); ++k) {

@@ -6,10 +6,10 @@
 
 namespace halyard {
 
-/// JSON has no NaN: it becomes null.
+/// The number, or null for NaN, which JSON does not have.
 nlohmann::ordered_json number_or_null(double value);
 
-/// Indented, with a last line break; bytes of paths that are no UTF-8 become U+FFFD.
+/// Indented text that ends with a line break. Bytes that are not UTF-8, as in paths, become U+FFFD.
 std::string json_text(const nlohmann::ordered_json& json);
 
 }  // namespace halyard

@@ -11,8 +11,8 @@ struct CheckOptions {
   double time_limit_s = 10;     ///< for a module: of each promise
 };
 
-/// halyard check: validates a model, scenario or sweep file and prints what it is; or runs the conformance suite over
-/// an estimator, in a child process. Throws InputError if the file is invalid, or the estimator breaks a promise.
+/// halyard check: validates a model, scenario or sweep file and prints a summary; or runs the conformance suite on an
+/// estimator, in a child process. Throws InputError if the file is invalid or the estimator breaks a promise.
 void run_check(const CheckOptions& options);
 
 }  // namespace halyard

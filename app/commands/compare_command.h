@@ -9,7 +9,7 @@ namespace halyard {
 
 struct CompareCommandOptions {
   std::filesystem::path data;   ///< a scenario if it ends in .xml, otherwise a log
-  std::filesystem::path model;  ///< what the estimators believe; empty: the scenario's own model file
+  std::filesystem::path model;  ///< the estimators' model; empty: the scenario's own model file
   std::filesystem::path robot;  ///< of a scenario: model file of the true robot; empty: the scenario's model
   std::vector<std::string> estimators;
   std::filesystem::path out;         ///< folder
@@ -18,11 +18,10 @@ struct CompareCommandOptions {
   double skip_s = 0.5;
   double step_limit_s = 10;     ///< of an estimator's step
   int runs = 1;                 ///< of a scenario: seeds that are simulated
-  std::optional<double> noise;  ///< in multiples of what the filters assume; none: the scenario's own
+  std::optional<double> noise;  ///< in multiples of the filters' assumed noise; none: the scenario's own noise
 };
 
-/// halyard compare: estimators head-to-head on a simulated scenario, against its truth, or on a log, against its joint
-/// sensors.
+/// halyard compare: compares estimators with the truth of a simulated scenario, or with the joint sensors of a log.
 void run_compare(const CompareCommandOptions& options);
 
 }  // namespace halyard

@@ -14,7 +14,7 @@ struct DiagnoseCommandOptions {
   std::vector<std::string> columns;         ///< entries of --column
 };
 
-/// halyard diagnose: finds what the model lacks, writes diagnosis.json, model.xml and report.html.
+/// halyard diagnose: finds the effects that the model lacks. Writes diagnosis.json, model.xml and report.html.
 void run_diagnose(const DiagnoseCommandOptions& options);
 
 }  // namespace halyard

@@ -15,8 +15,8 @@ struct IdentifyCommandOptions {
   std::vector<std::string> columns;  ///< entries of --column
 };
 
-/// halyard identify: numbers of the model from logs with joint sensors, by a dual filter. Writes model.xml,
-/// identify.json, convergence.csv and report.html.
+/// halyard identify: identifies parameters of the model from logs with joint sensors, by a dual filter. Writes
+/// model.xml, identify.json, convergence.csv and report.html.
 void run_identify(const IdentifyCommandOptions& options);
 
 }  // namespace halyard

@@ -12,8 +12,8 @@ struct PlanCommandOptions {
   std::filesystem::path out;  ///< folder of plan.html, plan.json and scenario.xml; empty: none
 };
 
-/// halyard diagnose --plan: which effects a diagnosis of this arm in this motion would see, and a motion that tells two
-/// of them apart. The arm is simulated as the model has it: effects and changed numbers of the scenario are left out.
+/// halyard diagnose --plan: which effects a diagnosis of this arm in this motion would detect, and a motion that tells
+/// two of them apart. The simulation uses the model alone, without the scenario's effects and changed parameters.
 void run_plan(const PlanCommandOptions& options);
 
 }  // namespace halyard

@@ -10,7 +10,7 @@ struct SimulateOptions {
   std::filesystem::path out;    ///< measured log
 };
 
-/// "LOG.csv" to "LOG.truth.csv"; ".truth.csv" is put behind any other name.
+/// Turns "LOG.csv" into "LOG.truth.csv"; appends ".truth.csv" to any other name.
 std::filesystem::path truth_path(const std::filesystem::path& log);
 
 /// halyard simulate: runs the plant; writes the log of its sensors, and its ground truth beside it.

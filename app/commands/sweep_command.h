@@ -8,7 +8,7 @@
 
 namespace halyard {
 
-/// "2/5" as part 2 of 5. Throws InputError.
+/// Parses "2/5" as part 2 of 5. Throws InputError for other text.
 Shard parse_shard(std::string_view text);
 
 struct SweepCommandOptions {
@@ -25,7 +25,7 @@ struct MergeCommandOptions {
   std::filesystem::path out;                 ///< folder; may be one of the parts
 };
 
-/// halyard merge: puts the parts of a sweep together and reports as if it had been computed in one.
+/// halyard merge: merges the parts of a sweep and writes the report of the whole sweep.
 void run_merge_command(const MergeCommandOptions& options);
 
 }  // namespace halyard

@@ -1,6 +1,6 @@
 #pragma once
-/// The parts of a report that show a comparison. Joints count from 0 here, from 1 in what is shown; positions and
-/// errors are shown in degrees or millimetres.
+/// The parts of a report that show a comparison. Joint indices are 0-based in arguments and 1-based in reports;
+/// positions and errors are shown in degrees or millimetres.
 
 #include <cstddef>
 #include <optional>
@@ -26,8 +26,8 @@ report::Chart error_histogram(const Comparison& comparison, int k, std::optional
 /// One row per joint and estimator; the least mean absolute error of a joint is marked.
 report::Table error_table(const Comparison& comparison);
 
-/// For every joint: a heading "<prefix>Joint 1", the trajectories, and where truth is known the errors; these again
-/// without kinematics where beside its own nothing would be seen of the others'.
+/// For every joint: a heading "<prefix>Joint 1", the trajectories, and the errors if the truth is known. If the errors
+/// of kinematics hide those of the others, the error charts are repeated without kinematics.
 void add_joint_figures(report::Page& page, const Comparison& comparison, const std::string& prefix = "");
 
 }  // namespace halyard

@@ -1,5 +1,5 @@
 #pragma once
-/// What a comparison leaves behind. None of it holds wall times: the same inputs give the same bytes.
+/// Output files of a comparison. They contain no wall times: the same inputs give the same bytes.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -16,7 +16,7 @@ namespace halyard {
 /// SI units; null where a number is not known.
 nlohmann::ordered_json to_json(const Comparison& comparison);
 
-/// Columns of error statistics, after whatever names the row: joint, unit, mean_absolute_error, ...
+/// Columns of error statistics, after the columns that name the row: joint, unit, mean_absolute_error, ...
 std::vector<std::string> error_columns();
 /// Adds these cells for one run and joint.
 void add_error_cells(CsvTable& table, const Comparison& comparison, std::size_t run, int k);

@@ -1,5 +1,5 @@
 #pragma once
-/// What a diagnosis is told as: diagnosis.json, report.html and lines on the terminal.
+/// Output of a diagnosis: diagnosis.json, report.html and lines on the terminal.
 
 #include <filesystem>
 #include <string>
@@ -17,11 +17,11 @@ std::string diagnosis_json(const Diagnosis& diagnosis, const DiagnosisEvaluation
 /// "effects: backlash of joint 2", "clean", "unknown".
 std::string verdict_line(const Diagnosis& diagnosis);
 
-/// The verdict as a call-out of a page, with the reasons where there is an evaluation.
+/// The verdict as a call-out of a page, with the reasons if there is an evaluation.
 void add_verdict(report::Page& page, const Diagnosis& diagnosis, const DiagnosisEvaluation& evaluation = {});
 /// Errors of the free prediction before and after.
 void add_error_table(report::Page& page, const Diagnosis& diagnosis);
-/// Errors of the estimators before and after, and what their innovations say; nothing without an evaluation.
+/// Errors of the estimators before and after, and results from their innovations; nothing without an evaluation.
 void add_estimator_table(report::Page& page, const ArmModel& model, const DiagnosisEvaluation& evaluation);
 
 /// Joint k's residuals on the hold-out before and after: position over time, torque over time, and over the motor's
@@ -32,7 +32,7 @@ std::vector<report::Chart> residual_charts(const Diagnosis& diagnosis, int k);
 report::Page diagnosis_page(const ArmModel& model, const Diagnosis& diagnosis, const DiagnosisEvaluation& evaluation);
 
 /// Writes model.xml, diagnosis.json and report.html into the folder; model.xml is the given model if nothing changed.
-/// Without an evaluation no reasons are given and no estimators told of.
+/// Without an evaluation the report has no reasons and no estimators.
 void write_diagnosis(const std::filesystem::path& folder, const ArmModel& model, const Diagnosis& diagnosis,
                      const DiagnosisEvaluation& evaluation = {});
 

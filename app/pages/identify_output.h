@@ -1,5 +1,5 @@
 #pragma once
-/// What an identification is told as: identify.json, convergence.csv, report.html and sentences.
+/// Output of an identification: identify.json, convergence.csv, report.html and sentences.
 
 #include <filesystem>
 #include <string>
@@ -17,8 +17,8 @@ std::string identify_json(const IdentificationStudy& result);
 
 report::Page identify_page(const IdentificationStudy& result);
 
-/// Writes model.xml, identify.json, convergence.csv and report.html into the folder. The model is the given one unless
-/// the numbers are adopted.
+/// Writes model.xml, identify.json, convergence.csv and report.html into the folder. model.xml is the identified model
+/// if adopted() is true, otherwise the given model.
 void write_identification(const std::filesystem::path& folder, const IdentificationStudy& result);
 
 }  // namespace halyard

@@ -1,5 +1,5 @@
 #pragma once
-/// The parts of a comparison that say which estimator is better, and whether each is as good as it says.
+/// The parts of a comparison that show which estimator is better, and whether each agrees with its stated covariances.
 
 #include <nlohmann/json.hpp>
 
@@ -14,7 +14,7 @@ std::string in_words(const PairedRatio& ratio);
 
 /// NIS, NEES of each joint, whiteness of each motor's innovation, with verdicts.
 report::Table consistency_table(const Comparison& comparison);
-/// Each pair of estimators and each joint once.
+/// One row for each pair of estimators and each joint.
 report::Table paired_table(const Comparison& comparison);
 /// Errors and failures over many runs; one row per joint and estimator.
 report::Table runs_error_table(const MonteCarlo& runs, const std::vector<JointUnit>& units);

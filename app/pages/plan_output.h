@@ -1,5 +1,5 @@
 #pragma once
-/// What a plan is told as: lines on the terminal, plan.json, plan.html.
+/// Output of a plan: lines on the terminal, plan.json, plan.html.
 
 #include <filesystem>
 #include <optional>
@@ -20,7 +20,7 @@ struct Plan {
   std::optional<SeparatingMotion> separating;
 };
 
-/// The table and what the proposed motion gains, for the terminal.
+/// The table and the benefit of the proposed motion, for the terminal.
 std::string plan_text(const Plan& plan);
 std::string plan_json(const Plan& plan);
 

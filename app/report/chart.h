@@ -23,15 +23,15 @@ struct Band {
 
 /// A number that is not finite is a gap.
 struct Series {
-  std::string name = {};       ///< legend; empty: not listed there
-  std::vector<double> x = {};  ///< unit as the chart's x label says; empty for ChartKind::bar
-  std::vector<double> y = {};  ///< unit as the chart's y label says; as long as x, for ChartKind::bar as the categories
+  std::string name = {};       ///< text in the legend; empty: not in the legend
+  std::vector<double> x = {};  ///< in the unit of the chart's x label; empty for ChartKind::bar
+  std::vector<double> y = {};  ///< in the unit of the y label; as long as x, for ChartKind::bar as categories
   bool dashed = false;
   std::optional<Band> band = std::nullopt;
   std::optional<std::size_t> colour = std::nullopt;  ///< place in the palette of 8; otherwise the series' own place
 };
 
-/// A stretch of the x axis shaded over the whole height. Infinite ends reach the chart's edge.
+/// An interval of the x axis, shaded over the whole height. Infinite ends reach the chart's edge.
 struct Region {
   double from = 0;
   double to = 0;
@@ -55,17 +55,17 @@ struct Points {
   std::vector<double> x, y;
 };
 
-/// Longer lines are decimated to this many points, longer scatters thinned to twice as many.
+/// Lines with more points are decimated to this number; scatters are thinned to twice this number.
 inline constexpr std::size_t kDrawnPoints = 1500;
 
-/// Cuts the samples, in the order given, into max_points / 4 equal buckets and keeps of each the samples with the
-/// least and greatest x and y (first of equals), so that no peak is lost. A bucket with a gap keeps one more
-/// sample, the gap. Not more than max_points samples: all of them.
+/// Divides the samples, in the order given, into max_points / 4 equal buckets. Of each bucket it keeps the samples with
+/// the smallest and largest x and y (the first of equals), so that no peak is lost. A bucket with a gap also keeps the
+/// gap. Returns all samples if there are at most max_points.
 /// Throws std::invalid_argument if x and y differ in length or max_points < 4.
 Points decimate(std::span<const double> x, std::span<const double> y, std::size_t max_points = kDrawnPoints);
 
-/// For scatters, where extremes alone would hollow out the cloud: evenly spaced samples, so that the density stays
-/// fair, and the extremes of a few long stretches, so that no outlier is lost. Not more than max_points samples: all.
+/// Thins the points of a scatter. Keeps evenly spaced samples, so that the density is preserved, and the extremes of a
+/// few long intervals, so that no outlier is lost. Returns all samples if there are at most max_points.
 /// Throws std::invalid_argument if x and y differ in length or max_points < 200.
 Points thin(std::span<const double> x, std::span<const double> y, std::size_t max_points = 2 * kDrawnPoints);
 
@@ -74,12 +74,12 @@ struct Sample {
   std::vector<double> values;
 };
 
-/// Shares of each sample in percent, over common bins from the least to the greatest value; values that are not
+/// Histogram of each sample in percent, over common bins from the smallest to the largest value; values that are not
 /// finite do not count. Throws std::invalid_argument if bins is 0.
 Chart histogram(std::string title, std::string x_label, const std::vector<Sample>& samples, std::size_t bins);
 
-/// What page.js draws, series decimated, numbers to 12 significant digits, gaps as null. Safe inside a script
-/// element: no '<' is in it. Throws std::invalid_argument, naming chart and series, if lengths do not match.
+/// The input of page.js: decimated series, numbers to 12 significant digits, gaps as null. Safe inside a script
+/// element, because it contains no '<'. Throws std::invalid_argument, naming chart and series, if lengths do not match.
 std::string to_json(const Chart& chart);
 
 }  // namespace halyard::report

@@ -10,7 +10,7 @@
 
 namespace halyard::report {
 
-/// One table cell; a number comes formatted.
+/// One table cell; numbers are already formatted.
 struct Cell {
   Cell(std::string content, bool is_best = false) : text(std::move(content)), best(is_best) {}
   Cell(const char* content, bool is_best = false) : text(content), best(is_best) {}
@@ -24,7 +24,7 @@ struct Cell {
 
   std::string text;
   bool best;         ///< highlighted
-  std::string href;  ///< where the text leads; empty: nowhere
+  std::string href;  ///< address of the link; empty: no link
 };
 
 enum class Align { left, right };
@@ -38,7 +38,7 @@ struct Table {
 
 enum class VerdictKind { good, warning, bad, neutral };
 
-/// A report in one HTML file that loads nothing else: style, Chart.js and data are inside. Parts appear in the order
+/// A report in one self-contained HTML file: style, Chart.js and data are inside. Parts appear in the order
 /// of the calls. All text is UTF-8 and escaped. Equal calls give equal bytes.
 class Page {
  public:
@@ -47,7 +47,7 @@ class Page {
   void heading(const std::string& text);
   void paragraph(const std::string& text);
   void verdict(VerdictKind kind, const std::string& text);
-  /// A paragraph that leads to another file; the address is relative to this page.
+  /// A paragraph with a link to another file; the address is relative to this page.
   void link(const std::string& text, const std::string& address);
 
   /// Throws std::invalid_argument, naming table and row, if a row or the alignment is not as long as the header.
@@ -61,7 +61,7 @@ class Page {
 
   std::string html() const;
 
-  /// Throws std::runtime_error with path and reason; the file is then as it was.
+  /// Throws std::runtime_error with path and reason; an existing file is then unchanged.
   void write(const std::filesystem::path& path) const;
 
  private:

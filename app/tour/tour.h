@@ -1,6 +1,6 @@
 #pragma once
-/// The main job, all of halyard on one page: the paper's experiments, the diagnosis of a bundled log, and that of
-/// recordings of real rigs where they are at hand.
+/// The tour shows halyard on one page: the paper's experiments, the diagnosis of a bundled log, and the diagnosis of
+/// recordings of real rigs if they are available.
 
 #include <filesystem>
 #include <functional>
@@ -16,38 +16,38 @@
 
 namespace halyard {
 
-/// A model, what a diagnosis found that it lacks, and why.
+/// A model, its diagnosis, and the evidence.
 struct DiagnosedModel {
   ArmModel model;
   Diagnosis diagnosis;
   DiagnosisEvaluation evaluation;
 };
 
-/// The tour looks for one effect a recording, to be done within a minute; halyard diagnose goes on.
+/// The tour searches for one effect per recording, to finish within a minute; halyard diagnose searches for more.
 inline constexpr int kMostEffectsOfRig = 1;
 
 struct RigResult {
   Rig rig;
-  std::optional<DiagnosedModel> diagnosed;  ///< none: the recordings are not at hand
+  std::optional<DiagnosedModel> diagnosed;  ///< none: the recordings are not available
 };
 
 struct Tour {
   std::vector<Experiment> experiments;
-  DiagnosedModel bundled;                ///< raven2.xml by undeclared_effect.csv
-  std::vector<PlacedEffect> undeclared;  ///< what undeclared_effect.xml says of that log; no diagnosis saw it
+  DiagnosedModel bundled;                ///< diagnosis of raven2.xml with undeclared_effect.csv
+  std::vector<PlacedEffect> undeclared;  ///< true effects of that log, from undeclared_effect.xml; not used to diagnose
   std::vector<RigResult> rigs;
 };
 
 /// Computes all parts in parallel; the result does not depend on the number of threads.
-/// progress(what, fraction of it) may be called from any thread, one at a time.
+/// progress(what, fraction of it) may be called from any thread, but never by two at once.
 /// Throws as compute_experiments, read_model, read_log and diagnose do.
 Tour compute_tour(const std::filesystem::path& examples, const std::filesystem::path& recordings,
                   const std::function<void(const std::string&, double)>& progress = {});
 
-/// Writes report.html, and below the folder one folder each for the experiments and every diagnosis.
+/// Writes report.html, and one sub-folder for the experiments and one for every diagnosis.
 void write_tour(const std::filesystem::path& folder, const Tour& tour);
 
-/// One parameter of an effect of the bundled log's robot beside what the diagnosis found.
+/// One parameter of an effect of the bundled log's robot, with the diagnosis' estimate.
 struct FoundParameter {
   std::string effect, name, unit;
   double value = 0;

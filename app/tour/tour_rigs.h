@@ -1,7 +1,6 @@
 #pragma once
-/// The recordings of real rigs that the tour diagnoses where they are at hand. Models and column maps are in the
-/// examples, folder measured; the recordings are not the project's to give away: measured/RIG/README.md says where each
-/// comes from.
+/// Recordings of real rigs that the tour diagnoses if they are available. Models and column maps are in the examples,
+/// folder measured. The project must not distribute the recordings: measured/RIG/README.md gives the source of each.
 
 #include <filesystem>
 #include <string>

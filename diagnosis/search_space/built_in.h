@@ -1,5 +1,5 @@
 #pragma once
-/// The search spaces of the library's effects, where bounds and neutral values do not tell enough; a file for each
+/// Refined search spaces of the library's effects whose bounds and neutral values are not enough; one file for each
 /// folder of transmission/effects.
 
 #include <span>

@@ -1,12 +1,12 @@
 #pragma once
-/// A Gaussian filter on an arm: the process model between samples, motor encoders as measurement, and what logs are
-/// like: gaps, missing samples, a start at rest.
+/// A Gaussian filter on an arm. It predicts with the process model, corrects with the motor encoders, and handles gaps
+/// and missing samples of a log.
 ///
-///   start      joints from kinematics, then to static equilibrium under the motors' readings, at rest; a start amid a
-///              record takes the speed from two readings, after a gap with the second; samples before all motors have
-///              been read once are passed over
+///   start      when every motor has been read once; earlier samples are skipped. Joints: from kinematics, then in
+///              static equilibrium at the motors' readings. Speed: zero at the start of a record, otherwise from two
+///              readings; after a gap the second sample gives it
 ///   a step     the time between two samples, cut into equal pieces of at most `max_step`
-///   a gap      longer than `restart_gap`: a new start; so are readings that all were refused for as long
+///   restart    after a gap longer than `restart_gap`, or if the gate has rejected all readings for that long
 ///   NaN        torque: the last one is held; position of a motor: no correction from it
 ///   gate       an innovation that is less probable than 1 - `gate` is not accepted; 1 accepts all
 
@@ -22,15 +22,14 @@ struct ArmFilterOptions {
   double max_step = 0.01;  ///< s
   double restart_gap = 1;  ///< s
   double gate = 1;         ///< probability
-  /// Effect states to which the joints have settled when the filter starts: what it does not know of them it does not
-  /// know of the joints.
+  /// Effect states that shift the joints' equilibrium at the start: their uncertainty adds to that of the joints.
   std::vector<int> settled = {};
 };
 
-/// The noise options, max_step, restart_gap and gate.
+/// Reads the noise options, max_step, restart_gap and gate.
 ArmFilterOptions read_arm_filter_options(OptionReader& options, const ArmModel& model, const ProcessModel& process);
 
-/// What a belief x, S says of the joints.
+/// The joints' part of a belief x, S.
 Estimate joint_estimate(const StateLayout& layout, const Eigen::VectorXd& x, const Eigen::MatrixXd& S);
 
 class ArmFilter final : public Estimator {
@@ -44,10 +43,10 @@ class ArmFilter final : public Estimator {
   Estimate estimate() const override;
   EstimatorReport report() const override;
 
-  /// The belief, for those who look inside.
+  /// The filter that holds the belief x, S.
   const GaussianFilter& filter() const { return *filter_; }
 
-  /// All that the filter knows at an instant, but for commands, of which no past one changes.
+  /// The filter's whole state at an instant, except the command history: past commands do not change.
   struct Snapshot {
     bool started = false, speed_is_due = false;
     double time_s = 0, refused_since = 0;
@@ -56,9 +55,9 @@ class ArmFilter final : public Estimator {
     EstimatorReport report;
   };
   Snapshot snapshot() const;
-  /// Goes back to a snapshot taken since reset(); the samples after it may then be given again.
+  /// Goes back to a snapshot taken since reset(). Samples after the snapshot may then be processed again.
   void restore(const Snapshot& snapshot);
-  /// Predicts to a time and corrects by a measurement that is not the motors'. The filter must have started.
+  /// Predicts to a time and corrects with a measurement other than the motors'. The filter must have started.
   Innovation correct_at(double time_s, const MeasurementModel& measurement, const Eigen::VectorXd& z,
                         const Eigen::MatrixXd& R_root);
 
@@ -79,14 +78,14 @@ class ArmFilter final : public Estimator {
   std::unique_ptr<GaussianFilter> filter_;
   std::vector<int> motors_;  // joints that have a motor
   CommandHistory history_;
-  double last_command_ = 0;  // its time
+  double last_command_ = 0;  // time of the newest command in history_, s
   bool started_ = false;
-  bool speed_is_due_ = false;  // the start was from one reading that can be trusted
+  bool speed_is_due_ = false;  // the start had one trusted reading only: the next sample gives the speed
   double time_ = 0;
-  double refused_since_ = 0;           // first of the readings refused without one accepted since; infinite: none is
-  Eigen::VectorXd reading_;            // last of each motor, NaN before
+  double refused_since_ = 0;           // time from which the gate has rejected all readings, s; infinite: accepted
+  Eigen::VectorXd reading_;            // last of each motor; NaN: none yet
   Eigen::VectorXd torque_, external_;  // held
-  EstimatorReport report_;             // repaired factors: up to where the filter's count was repaired_before_
+  EstimatorReport report_;             // its repaired factors exclude those since repaired_before_
   long repaired_before_ = 0;
 };
 

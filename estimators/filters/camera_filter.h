@@ -1,27 +1,28 @@
 #pragma once
-/// A filter that a camera corrects, which sees a marker at the tool, late and now and then:
+/// A filter that is also corrected by a camera, which sees a marker at the tool with a delay and in some samples only:
 ///
 ///   z = p(q(t - L)) + v,  v ~ N(0, σ_c² I)             p: the marker's position by forward kinematics, base frame m
 ///
-///   L     `camera_latency`, exposure to arrival: a sample's marker was there L before the sample's time           s
+///   L     `camera_latency`, from exposure to arrival: a marker was seen L before its sample's time               s
 ///   σ_c   `camera_noise`, of each axis                                                                           m
 ///
-/// The marker is where the model's payload hangs. The cables' equilibrium pulls joints back to where motors say they
-/// are within milliseconds: corrected alone, the joints would forget between two frames what the camera said. So the
-/// state is augmented by what the motors cannot tell, an offset b_k of each cable's stretch,
+/// The marker is at the point of the model's payload. Within milliseconds the cables pull the joints back to the
+/// equilibrium that the motor angles imply. A correction of the joints alone would be lost before the next frame. So
+/// the state is augmented by an offset b_k of each cable's stretch, which the motors cannot observe:
 ///
 ///   x_k = r_m q_m / N - R_k q - b_k,   b' = w_b,   w_b ~ N(0, ρ² δ(t)),   b(0) ~ N(0, σ_b²)
 ///
-///   ρ     how far it wanders: `offset_wander`                                                                     m/√s
-///   σ_b   how large it may be at the start: `offset_start`                                                        m
+///   ρ     intensity of its random walk: `offset_wander`                                                           m/√s
+///   σ_b   standard deviation at the start: `offset_start`                                                         m
 ///
-/// Both are 1 % of the cable's travel over the joint's range unless told. The joints have unknown forces besides, those
-/// of disturbance_filter.h: otherwise whatever the model lacks of a force would be told as an offset by which gravity
-/// pulls more or less. A frame is taken where it belongs: the filter goes back to the last sample before its exposure,
-/// predicts to it, is corrected, and takes the samples since then anew. A frame that was exposed within a gap after
-/// which the filter started anew is not taken.
+/// Both default to 1 % of the cable's travel over the joint's range. The joints also have the unknown forces of
+/// disturbance_filter.h: without them a force that the model lacks would appear as an offset.
 ///
-/// Besides the joints' motion it estimates cable_offset and cable_offset_std: b and its standard deviation, m.
+/// A frame corrects the state at its exposure: the filter goes back to the last sample before the exposure, predicts to
+/// it, corrects, and processes the later samples again. If the filter restarted after a gap, it ignores frames that
+/// were exposed during the gap.
+///
+/// Extra outputs are cable_offset and cable_offset_std: b and its standard deviation, m.
 ///
 /// Source: delayed measurements by recalculation: Larsen, Andersen, Ravn, Poulsen, "Incorporation of time delayed
 /// measurements in a discrete-time Kalman filter", CDC 1998.
@@ -38,7 +39,7 @@ struct CameraOptions {
   UnknownLevels offset;
 };
 
-/// Those above, by options.
+/// Reads the options above.
 CameraOptions read_camera_options(OptionReader& options, const ArmModel& model);
 
 /// The model with an unknown offset of the stretch of each cable, as its last effects.
@@ -46,12 +47,13 @@ ArmModel with_unknown_offsets(const ArmModel& model, const CameraOptions& camera
 
 class CameraFilter final : public Estimator {
  public:
-  /// augmented: of with_unknown_offsets, and process of it; options know of the unknown forces if it has such.
+  /// augmented: from with_unknown_offsets(); process: of `augmented`. If it has unknown forces, options are from
+  /// with_force_wander().
   CameraFilter(const ArmModel& augmented, std::shared_ptr<const ProcessModel> process, ArmFilterOptions options,
                const CameraOptions& camera, std::unique_ptr<GaussianFilter> filter);
 
   void reset(const Sample& first) override;
-  /// The innovation is that of the motors before the sample's marker is taken.
+  /// Returns the innovation of the motors, computed before the correction with the sample's marker.
   Innovation update(const Sample& sample) override;
   Estimate estimate() const override;
   std::vector<std::string> extra_output_names() const override { return {"cable_offset", "cable_offset_std"}; }

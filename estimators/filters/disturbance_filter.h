@@ -1,46 +1,46 @@
 #pragma once
-/// A filter that does not know which force acts on the joints: the arm's state is augmented by one force d_k for each
-/// joint that has a motor, and the motors' signals tell it.
+/// A filter that estimates unknown forces on the joints from the motors' signals: the arm's state is augmented by one
+/// force d_k for each joint that has a motor.
 ///
 ///   M(q) q'' + h(q, q') = F + d,   d' = w_d,   w_d ~ N(0, ρ² δ(t))         d(0) ~ N(0, σ_d²)
 ///
 ///   d     force on the joint that the model lacks, positive where it pushes the joint forward   N m | N
-///   ρ     how far it wanders: `force_wander`                                                    N m/√s | N/√s
-///   σ_d   how large it may be at the start: `force_start`                                       N m | N
+///   ρ     intensity of its random walk: `force_wander`                                          N m/√s | N/√s
+///   σ_d   standard deviation at the start: `force_start`                                        N m | N
 ///
-/// With G the largest force that gravity puts on the joint over its range and F_c its Coulomb friction,
-/// σ_d = max(G, F_c) and ρ = max(2 F_c, G / 4) / √s unless told: faster than that the encoders' rounding shows (on the
-/// RAVEN-II's shoulder at rest an error of 0.18 N m with 4 N m/√s, 0.05 with 1, 0.015 with 0.25), slower it lags (0.1 s
-/// after a step of 1.5 N m a fifth is missing with 0.25).
+/// Defaults: σ_d = max(G, F_c) and ρ = max(2 F_c, G / 4) / √s, where G is the largest gravity force on the joint over
+/// its range and F_c its Coulomb friction. A larger ρ amplifies the encoders' rounding: on the RAVEN-II's shoulder at
+/// rest the error is 0.18 N m with 4 N m/√s, 0.05 with 1, 0.015 with 0.25. With a smaller ρ the estimate lags: with
+/// 0.25 a fifth is missing 0.1 s after a step of 1.5 N m.
 ///
-/// d is all that the model lacks of the sum of forces: another friction, mass or torque constant is told as a force on
+/// d is the sum of all forces that the model lacks: an error of friction, mass or torque constant appears as a force on
 /// the joint. The friction of the process model creeps at standstill and passes a force on to the cable within some
-/// 20 ms; where real friction sticks, a force within its Coulomb level never reaches the motor, and cannot be told.
+/// 20 ms. Where real friction sticks, a force below its Coulomb level never reaches the motor and cannot be observed.
 ///
-/// Besides the joints' motion it estimates
+/// Extra outputs:
 ///
 ///   joint_force, joint_force_std   d and its standard deviation                                  N m | N
-///   cable_force                    g of each joint's cable, the difference of its two runs       N
+///   cable_force                    g of each joint's cable, the tension difference of its runs   N
 ///
-/// Source of the augmentation: Jazwinski, "Stochastic Processes and Filtering Theory", 1970, section 8.4; as an
-/// observer of disturbances: Chen, Yang, Guo, Li, IEEE Trans. Industrial Electronics 63 (2016).
+/// Sources: state augmentation: Jazwinski, "Stochastic Processes and Filtering Theory", 1970, section 8.4; disturbance
+/// observers: Chen, Yang, Guo, Li, IEEE Trans. Industrial Electronics 63 (2016).
 
 #include "estimators/filters/unknown_constant.h"
 
 namespace halyard {
 
-/// The rule above, overridden by the options force_start and force_wander (per joint).
+/// The defaults above, overridden by the options force_start and force_wander (per joint).
 UnknownLevels read_force_levels(OptionReader& options, const ArmModel& model);
 
 /// The model with an unknown force on each joint that has a motor, as its last effects.
 ArmModel with_unknown_forces(const ArmModel& model, const UnknownLevels& levels);
 
-/// The options with the forces' ρ in the noise; process: of such a model.
+/// Adds the forces' ρ to the noise of the options; process: of a model from with_unknown_forces().
 ArmFilterOptions with_force_wander(ArmFilterOptions options, const ProcessModel& process, const UnknownLevels& levels);
 
 class DisturbanceFilter final : public Estimator {
  public:
-  /// augmented: of with_unknown_forces, and process of it.
+  /// augmented: from with_unknown_forces(); process: of `augmented`.
   DisturbanceFilter(const ArmModel& augmented, std::shared_ptr<const ProcessModel> process, ArmFilterOptions options,
                     const UnknownLevels& levels, std::unique_ptr<GaussianFilter> filter);
 

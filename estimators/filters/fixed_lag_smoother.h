@@ -1,13 +1,14 @@
 #pragma once
-/// Where the joints were, by what the motors showed until a while later: the square-root unscented filter forwards, and
-/// from its newest belief back, over the predictions p between two samples, newest first,
+/// Fixed-lag smoother: estimates the joints with the help of later samples. The square-root unscented filter runs
+/// forwards; a backward pass goes from its newest belief over the predictions p, newest first:
 ///
-///   x_s = x_0 + G (x_s' - x⁻)                         x_s': smoothed belief at the end of p, x_s at its begin
+///   x_s = x_0 + G (x_s' - x⁻)                         x_s': smoothed mean at the end of p, x_s: at its start
 ///   S_s = triangular root of [G S_s', V]              x_0, x⁻, G, V: BackwardStep of p (gaussian_filter.h)
 ///
-/// which is P_s = P + G (P_s' - P⁻) Gᵀ without a difference of covariances. A window of samples is smoothed each time
-/// it spans twice the lag; its older half is then told: every estimate uses the samples of at least `lag` after it, at
-/// two backward steps a sample. A gap that starts the filter anew ends a window, as the record's end does.
+/// This is P_s = P + G (P_s' - P⁻) Gᵀ without a difference of covariances. Whenever the window of samples spans twice
+/// the lag, it is smoothed and the estimates of its older half are returned. So every estimate uses the samples of at
+/// least `lag` after it, at the cost of two backward steps a sample. A window also ends at a gap that restarts the
+/// filter and at the end of the record.
 ///
 /// Source: Särkkä, "Unscented Rauch-Tung-Striebel smoother", IEEE Trans. Automatic Control 53 (2008); the root as in
 /// Kailath, Sayed, Hassibi, "Linear Estimation", chapter 10.
@@ -29,7 +30,7 @@ struct FilteredBelief {
   std::vector<BackwardStep> steps;
 };
 
-/// Calls visit(i, x_s, S_s) for the beliefs of the window, from the last one, which is smoothed as it is, to the first.
+/// Calls visit(i, x_s, S_s) for the beliefs of the window, from the last to the first. The last one stays as it is.
 void smooth_backwards(const std::deque<FilteredBelief>& window,
                       const std::function<void(std::size_t, const Eigen::VectorXd&, const Eigen::MatrixXd&)>& visit);
 
@@ -40,13 +41,13 @@ class FixedLagSmoother final : public Estimator {
 
   void reset(const Sample& first) override;
   Innovation update(const Sample& sample) override;
-  /// The filter's, which knows nothing of later samples.
+  /// The estimate of the forward filter, without later samples.
   Estimate estimate() const override { return filter_.estimate(); }
   std::optional<Revision> revise(bool at_end) override;
   EstimatorReport report() const override { return filter_.report(); }
 
  private:
-  /// Keeps what each prediction says backwards.
+  /// Keeps the BackwardStep of each prediction.
   class RecordingUkf final : public SquareRootUkf {
    public:
     using SquareRootUkf::SquareRootUkf;
@@ -57,7 +58,7 @@ class FixedLagSmoother final : public Estimator {
   FixedLagSmoother(const ArmModel& model, std::shared_ptr<const ProcessModel> process, const ArmFilterOptions& options,
                    std::unique_ptr<RecordingUkf> filter, double lag_s);
   void append(double time_s);
-  /// Smooths the window, and makes those of its estimates due that are `lag_s` older than its newest.
+  /// Smooths the window and moves the estimates that are `lag_s` older than its newest to due_.
   void smooth(double lag_s);
 
   std::shared_ptr<const ProcessModel> process_;

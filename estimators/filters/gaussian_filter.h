@@ -1,13 +1,14 @@
 #pragma once
-/// What the nonlinear Kalman filters share: a Gaussian belief in square-root form, and the models that they ask.
+/// Base class of the nonlinear Kalman filters: a Gaussian belief in square-root form, and interfaces of the process and
+/// measurement models.
 ///
 ///   x_k = f(x_k-1) + w,  w ~ N(0, Q)       z_k = h(x_k) + v,  v ~ N(0, R)
 ///
 ///   x, S    mean, and a square root of its covariance, P = S Sᵀ, lower triangular after a step   [n], [n x n]
-///   Q, R    by roots Q_root [n x any], R_root [m x m]
+///   Q, R    noise covariances, given by roots Q_root [n x any], R_root [m x m]
 ///
-/// The filters know no robot. All covariances come from orthogonal triangularisation of their roots, which cannot
-/// lose definiteness.
+/// The filters do not depend on the robot. All covariances come from orthogonal triangularisation of their roots, which
+/// cannot lose definiteness.
 
 #include <Eigen/Core>
 #include <Eigen/QR>
@@ -17,7 +18,7 @@
 
 namespace halyard {
 
-/// x_k = f(x_k-1), for the step that is due.
+/// x_k = f(x_k-1), for one step.
 class DiscreteProcess {
  public:
   virtual ~DiscreteProcess() = default;
@@ -25,7 +26,7 @@ class DiscreteProcess {
   virtual void advance(Eigen::MatrixXd& X) const = 0;
   /// x becomes f(x), F [n x n] becomes ∂f/∂x there.
   virtual void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const = 0;
-  /// For messages: "joint_rate_2 at 3.1 s".
+  /// Name of a state for messages: "joint_rate_2 at 3.1 s".
   virtual std::string name_of(int state) const = 0;
 };
 
@@ -33,14 +34,14 @@ class DiscreteProcess {
 class MeasurementModel {
  public:
   virtual ~MeasurementModel() = default;
-  /// Whether h is affine, so that its linearisation is exact.
+  /// True if h is affine, so that its linearisation is exact.
   virtual bool is_affine() const = 0;
   virtual Eigen::VectorXd read(const Eigen::VectorXd& x) const = 0;
   /// h(x), and H = ∂h/∂x [m x n].
   virtual Eigen::VectorXd linearise(const Eigen::VectorXd& x, Eigen::MatrixXd& H) const = 0;
 };
 
-/// Lower L with L Lᵀ = A Aᵀ and a diagonal that is not negative, by Householder reflections of Aᵀ. A: [n x m], m >= n.
+/// Lower triangular L with L Lᵀ = A Aᵀ and diagonal >= 0, by Householder reflections of Aᵀ. A: [n x m], m >= n.
 class LowerRoot {
  public:
   void compute(const Eigen::MatrixXd& A, Eigen::MatrixXd& L);
@@ -49,12 +50,12 @@ class LowerRoot {
   Eigen::HouseholderQR<Eigen::MatrixXd> qr_;  // kept for its memory
 };
 
-/// What a prediction says of where it came from, once more is known of where it led to:
+/// The state x before a prediction, given the state x' after it (a Rauch-Tung-Striebel step):
 ///
 ///   x = x_0 + G (x' - x⁻) + v,  v ~ N(0, V Vᵀ)        G = cov(x, x') (P⁻)⁻¹
 ///
 ///   x_0, x⁻   mean before and after the prediction            [n]
-///   G, V      gain, lower root of what x' leaves unknown      [n x n]
+///   G, V      gain, lower root of cov(x | x')                 [n x n]
 struct BackwardStep {
   Eigen::VectorXd x_0, x_predicted;
   Eigen::MatrixXd G, V_root;
@@ -65,26 +66,26 @@ class GaussianFilter {
   virtual ~GaussianFilter() = default;
 
   void reset(const Eigen::VectorXd& x, const Eigen::MatrixXd& S) { x_ = x, S_ = S; }
-  /// Throws std::runtime_error naming the state if the belief is not finite any more.
+  /// Throws std::runtime_error naming the state if the belief is no longer finite.
   virtual void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) = 0;
-  /// The last predict(), which began at x_0, S_0; the triangular root of
+  /// The backward step of the last predict(), which started at x_0, S_0, by the triangular root of
   ///
-  ///   [ D  Q_root ]      gives    [ S⁻       0 ]        D, A: predicted points or columns F S_0 less their mean, and
-  ///   [ A    0    ]               [ G S⁻   V_root ]           what they came from
+  ///   [ D  Q_root ]      gives    [ S⁻       0 ]        D: predicted points less their mean, or columns F S_0
+  ///   [ A    0    ]               [ G S⁻   V_root ]     A: the same columns before the prediction
   ///
   BackwardStep backward_step(const Eigen::VectorXd& x_0, const Eigen::MatrixXd& S_0);
-  /// A measurement whose νᵀ S⁻¹ ν is beyond `gate` is not accepted: the belief stays. Throws std::runtime_error if z is
-  /// not finite. The innovation's time is left to the caller.
+  /// A measurement with νᵀ S⁻¹ ν > `gate` is not accepted: the belief does not change. Throws std::runtime_error if z
+  /// is not finite. The caller sets the innovation's time.
   virtual Innovation update(const MeasurementModel& measurement, const Eigen::VectorXd& z,
                             const Eigen::MatrixXd& R_root, double gate) = 0;
 
   const Eigen::VectorXd& x() const { return x_; }
   const Eigen::MatrixXd& S() const { return S_; }
-  /// Roots that were lost and rebuilt.
+  /// Number of roots that were lost and rebuilt.
   long repaired() const { return repaired_; }
 
  protected:
-  /// The update of a linear measurement, exact: the triangular root of
+  /// The exact update with a linear measurement, by the triangular root of
   ///
   ///   [ R_root  H S ]     gives    [ S_y      0  ]
   ///   [   0      S  ]              [ P_xy S_y⁻ᵀ  S' ]
@@ -95,7 +96,7 @@ class GaussianFilter {
   void check_finite(const DiscreteProcess& process) const;
   static void check_measurement(const Eigen::VectorXd& nu);
 
-  /// A above: where the first columns of `predicted_columns_` came from, [n x any].
+  /// A of backward_step(): the first columns of `predicted_columns_` before the prediction, [n x any].
   virtual Eigen::MatrixXd columns_before(const Eigen::MatrixXd& S_0) const = 0;
 
   Eigen::VectorXd x_;

@@ -1,14 +1,14 @@
 #pragma once
-/// Kinematics without elasticity, what the arm's own software does: joint positions from motor angles by Eq. 8
-/// inverted, q = R⁻¹ (r_m / N) q_m (coupling.h), velocities by differences of successive samples.
+/// Kinematics without elasticity, as the arm's own software computes it. Joint positions come from motor angles by the
+/// inverse of Eq. 8, q = R⁻¹ (r_m / N) q_m (coupling.h); velocities are differences of successive samples.
 
 #include "estimators/estimator.h"
 #include "model/arm_model.h"
 
 namespace halyard {
 
-/// A motor whose sample is missing keeps its last angle, at first the one of home; a joint without motor is taken to
-/// stand at home. There is no correction: innovations are empty.
+/// A motor whose sample is missing keeps its last angle, or its home angle if it has none yet. A joint without motor is
+/// assumed to be at home. There is no correction: innovations are empty.
 class KinematicsEstimator final : public Estimator {
  public:
   explicit KinematicsEstimator(const ArmModel& model);

@@ -1,16 +1,16 @@
 #pragma once
-/// The square-root unscented Kalman filter. Sigma points X_0 = x and X_±i = x ± γ S_i, γ² = n + λ = α² (n + κ), share
-/// one weight W = 1 / (2 (n + λ)); the central point's are W_0m = 1 - 2nW and W_0c = W_0m + 1 - α² + β. With the
-/// paper's α = 1e-3 and 12 states these are 4e4 and -1e6, and sums with them lose a motor angle of 431 rad. Written
-/// relative to the central point the large weight cancels exactly:
+/// The square-root unscented Kalman filter. The sigma points are X_0 = x and X_±i = x ± γ S_i, γ² = n + λ = α² (n + κ).
+/// All X_±i have the weight W = 1 / (2 (n + λ)); the weights of X_0 are W_0m = 1 - 2nW and W_0c = W_0m + 1 - α² + β.
+/// With the paper's α = 1e-3 and 12 states n + λ is so small that W is 4e4 and W_0m -1e6: a weighted sum then loses a
+/// motor angle of 431 rad to rounding. Relative to the central point the large weight cancels exactly:
 ///
 ///   d_i = f(X_i) - f(X_0),   δ = W Σ d_i
 ///   x = f(X_0) + δ,   P = W Σ d_i d_iᵀ + (β - α²) δ δᵀ + Q
 ///
-/// so that S is one triangularisation of [√W d_i, √(β - α²) δ, Q_root]: a down-date is left only where β < α². A δ no
-/// larger than what the rounding of 2n points can add up to, 2n W · 4 eps |X|, is taken as none.
+/// So S is one triangularisation of [√W d_i, √(β - α²) δ, Q_root]; a down-date is needed only if β < α². A δ no larger
+/// than the rounding errors of 2n points, 2n W · 4 eps |X|, is set to zero.
 ///
-/// A measurement that is affine is taken exactly. Otherwise, with e_i = h(X_i) - h(X_0) at sigma points of the
+/// The update with an affine measurement is exact. Otherwise, with e_i = h(X_i) - h(X_0) at sigma points of the
 /// prediction and ε = W Σ e_i,
 ///
 ///   ẑ = h(X_0) + ε,   S_y = root of [√W e_i, √(β - α²) ε, R_root],   K = (W Σ d_i e_iᵀ) S_y⁻ᵀ S_y⁻¹
@@ -25,21 +25,20 @@
 
 namespace halyard {
 
-/// Spread of the sigma points, prior knowledge (2 is best for a Gaussian), secondary spread.
+/// alpha: spread of the sigma points; beta: prior knowledge, 2 is best for a Gaussian; kappa: secondary spread.
 struct UkfWeights {
   double alpha = 1e-3;
   double beta = 2;
   double kappa = 0;
-  /// δ of a state that is more than this share of √(W Σ d_i²) is left out. Spread over a kink (a cable that goes slack,
-  /// a gap that closes), sigma points with a small alpha see a curvature of slope difference / γ: δ grows without bound
-  /// although Jensen's inequality, δ² <= W Σ d_i², limits it, and even below that limit it is no Taylor term that
-  /// could be trusted unless it is small.
+  /// δ of a state is set to zero if it exceeds this fraction of √(W Σ d_i²). At a kink (a cable that goes slack, a gap
+  /// that closes) the sigma points see a curvature of slope difference / γ. With a small alpha δ then exceeds the limit
+  /// of Jensen's inequality, δ² <= W Σ d_i². Below that limit, too, δ is a trustworthy Taylor term only if it is small.
   double curvature_limit = std::numeric_limits<double>::infinity();
 };
 
 class SquareRootUkf : public GaussianFilter {
  public:
-  /// Throws std::invalid_argument unless alpha > 0. n + kappa must be positive for the states' number n.
+  /// Throws std::invalid_argument unless alpha > 0. n + kappa must be positive, n the number of states.
   explicit SquareRootUkf(const UkfWeights& weights = {});
 
   void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) override;
@@ -47,7 +46,7 @@ class SquareRootUkf : public GaussianFilter {
                     double gate) override;
 
  private:
-  /// √W (X_±i - x) of the old sigma points.
+  /// √W (X_±i - x) of the sigma points before the prediction.
   Eigen::MatrixXd columns_before(const Eigen::MatrixXd& S_0) const override;
   double spread_squared() const;  // γ²
   void place_sigma_points(Eigen::MatrixXd& X) const;

@@ -1,13 +1,13 @@
 #pragma once
-/// What a joint has and no sensor shows, for filters that find it: a constant, one more state s of the joint, which a
-/// filter lets wander.
+/// An unknown constant of a joint that no sensor measures. A filter estimates it as one more state s of the joint,
+/// modelled as a random walk:
 ///
 ///   s' = w,   w ~ N(0, ρ² δ(t))         s(0) ~ N(0, σ²)
 ///
-///   σ     how large it may be at the start     [n]  unit of s
-///   ρ     how far it wanders                   [n]  unit of s per √s
+///   σ     standard deviation at the start      [n]  unit of s
+///   ρ     intensity of the random walk         [n]  unit of s per √second
 ///
-/// It is an effect of the model like others, but in no library: nothing but a filter can use it. Its parameter is σ.
+/// It is an effect of the model, but in no library: only filters can use it. Its parameter is σ.
 
 #include <optional>
 #include <string>
@@ -18,7 +18,7 @@
 
 namespace halyard {
 
-/// An effect of one constant; Derived says what it is and where it acts.
+/// An effect with one constant; Derived defines what the constant is and where it acts.
 template <class Derived>
 class UnknownConstant : public EffectOf<Derived> {
  public:
@@ -39,10 +39,10 @@ struct UnknownLevels {
 /// `usual`, overridden by the options NAME_start and NAME_wander (per joint).
 UnknownLevels read_unknown_levels(OptionReader& options, const std::string& name, const UnknownLevels& usual);
 
-/// Index of the constant in the state, [n]; none of a joint without it.
+/// Index of the constant in the state, [n]; none for a joint without it.
 std::vector<std::optional<int>> states_of(const Effect& constant, const ProcessModel& process);
 
-/// The options with the constant's ρ in the noise.
+/// Adds the constant's ρ to the noise of the options.
 ArmFilterOptions with_wander(ArmFilterOptions options, const Effect& constant, const ProcessModel& process,
                              const Eigen::VectorXd& wander);
 

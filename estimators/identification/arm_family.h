@@ -1,12 +1,12 @@
 #pragma once
-/// Arms of one structure that differ in some of their numbers, side by side in lanes: member i moves column i.
+/// Arms of one structure that differ in some parameters, computed in parallel lanes: column i belongs to member i.
 ///
 ///   X_i = f(X_i, θ_i)        z_i = h(X_i, θ_i) = [motor encoders; joint encoders]
 ///
-///   θ_i    numbers of member i, in the order of the keys     [keys]
-///   z      rad; rad | m; 0 of a joint without a motor         [2n x members]
+///   θ_i    parameters of member i, in the order of the keys   [keys]
+///   z      rad; rad | m; 0 for a joint without a motor        [2n x members]
 ///
-/// f and h are those of process_model.h, h with the joints' encoders below the motors'.
+/// f and h are those of process_model.h; h is extended by the readings of the joint encoders.
 
 #include <deque>
 #include <string>
@@ -18,15 +18,15 @@ namespace halyard {
 
 class ArmFamily {
  public:
-  /// Keys as named_parameters() has them, or "jointK.motor.zero", the motor encoder's offset in rad.
-  /// Throws std::invalid_argument for a key that names nothing in this arm.
+  /// keys: from named_parameters(), or "jointK.motor.zero", the motor encoder's offset in rad.
+  /// Throws std::invalid_argument for an unknown key.
   ArmFamily(const ArmModel& model, const ProcessModel& structure, const std::vector<std::string>& keys, int members);
 
   int members() const { return static_cast<int>(arms_.size()); }
   /// θ [keys x members].
   void set(const Eigen::MatrixXd& theta);
 
-  /// X [n_states x members] becomes f(X). A family of one moves all columns of any X.
+  /// X [n_states x members] becomes f(X). With one member, X may have any number of columns, all of that member.
   /// Throws std::runtime_error with time and state name if a result is not finite.
   void advance(const Step& step, int substeps, Eigen::Ref<Eigen::MatrixXd> X) const;
   /// h(X) [2n x members].
@@ -41,7 +41,7 @@ class ArmFamily {
   std::vector<Transmission<Lanes>> lanes_;   // eight members each
 };
 
-/// The number of the arm that a key names, as above. Throws std::invalid_argument if there is none.
+/// The parameter of the arm with this key, as above. Throws std::invalid_argument for an unknown key.
 double* find_number(ArmParameters<double>& arm, const std::string& key);
 
 }  // namespace halyard

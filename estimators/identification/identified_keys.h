@@ -1,5 +1,5 @@
 #pragma once
-/// Which numbers of an arm are to be identified, from what a user writes.
+/// Turns the user's list of parameters to identify into keys.
 
 #include <string>
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace halyard {
 
-/// "coupling,stiffness,joint2.cable.damping" as keys of named_parameters(), each once, in the model's order. A word
-/// stands for a kind: coupling, stiffness, damping, tension, motor_friction, joint_friction; couplings and other
-/// numbers that are 0 in the model are none of a kind, and can be named by their key. Throws InputError for a word or
-/// key that names nothing in this model, or a number that no equation of it holds.
+/// Turns text such as "coupling,stiffness,joint2.cable.damping" into keys of named_parameters(), each once, in the
+/// model's order. An item is a key or one of the groups coupling, stiffness, damping, tension, motor_friction and
+/// joint_friction. A group leaves out parameters that are 0 in the model; give their keys instead. Throws InputError
+/// for an unknown group or key, or for a parameter that is in no equation of the model.
 std::vector<std::string> identified_keys(const ArmModel& model, const std::string& text);
 
-/// Whether an equation of the model holds the number. The cable law of the paper's Eq. 6 takes no tension.
+/// True if the parameter is in an equation of the model. The cable law of the paper's Eq. 6, for one, has no tension.
 bool is_in_equations(const ArmModel& model, const ParameterInfo& info);
 
 }  // namespace halyard

@@ -1,28 +1,30 @@
 #pragma once
-/// Numbers of an arm from a log with joint sensors: the dual filter of dual_ukf.h over the log, then an estimate with
-/// an honest interval around where it ended.
+/// Identifies parameters of an arm from logs with joint sensors: first the dual filter of dual_ukf.h runs over the log;
+/// then a batch estimate, started at the filter's result, gives values and 95 % intervals.
 ///
-/// The filter takes the innovation of each sample as new. Residuals of a real arm are not: encoders that are rounded at
-/// rest, torques that are wrong for a while, other numbers of the model that are wrong for good. So, weights held at u,
-/// the filter runs over the log again, with two kinds of weights: those asked for, and every other number of the model
-/// that it states a tolerance of. The innovations' least squares are summed up by blocks b of the log,
+/// The dual filter assumes that innovations are independent. Residuals of a real arm are correlated: encoders at rest
+/// are rounded, torque errors last for a while, and errors of other parameters are permanent. So the filter runs over
+/// the log again with weights held at u. The weights are the requested parameters and every other parameter for which
+/// the model states a tolerance. The least-squares sums are taken over blocks b of the log,
 ///
 ///   A_b = Σ Yᵀ S⁻¹ Y,   g_b = Σ Yᵀ S⁻¹ ν,   A = Σ A_b + I,   u ← u + A⁻¹ (Σ g_b - u)          (Gauss and Newton)
 ///
-/// until u of the numbers asked for stands. Y has to be the innovations' derivative: where it is too large, so is A,
-/// steps end short of Σ g_b = u, and intervals are too narrow. The variance of u is that of estimates u_-b that leave
-/// out one block each, so that whatever is alike within a block is counted once (a block jackknife), and of what is
-/// left of the prior u ~ N(0, I):
+/// until u of the requested parameters converges. Y has to be the innovations' derivative: if it is too large, so is A,
+/// steps end short of Σ g_b = u, and intervals are too narrow. The variance of u has two parts. The first is that of
+/// estimates u_-b that leave out one block each (a block jackknife), so that errors that are constant within a block
+/// count once. The second is the remaining influence of the prior u ~ N(0, I):
 ///
 ///   var(u) = max( (B-1)/B Σ_b (u_-b - mean)² + |rows of A⁻¹|²,  diag A⁻¹ )
 ///
-/// with intervals by Student's t of B - 1. A⁻¹, the filter's own word, is a floor: where the arm is quieter than the
-/// noise that the filter assumes, blocks agree better with each other than with the truth, because rounded encoders are
-/// no noise that averages out. (In 50 logs of docs/identification.md's study the jackknife alone held C01 38 times of
-/// 39, but 8 times of 11 where disturbances were below a quarter of what the filter assumes.) That u of the other
-/// numbers is estimated along, within half its tolerance as a standard deviation, makes the numbers asked for right,
-/// and their intervals wide enough, where a cable's stiffness is off by its tolerance. The other numbers themselves are
-/// left as they are in the model.
+/// Intervals use Student's t with B - 1 degrees of freedom. The filter's own covariance A⁻¹ is a lower bound. It is
+/// needed where the disturbances are smaller than the filter assumes: rounding errors of encoders do not average out,
+/// and blocks then agree better with each other than with the truth. (In 50 logs of docs/identification.md's study the
+/// jackknife interval alone contained C01 in 38 of 39 logs, but in 8 of 11 where disturbances were below a quarter of
+/// the filter's assumption.)
+///
+/// The other parameters are estimated too, with half their tolerance as prior standard deviation. This keeps the
+/// requested parameters unbiased and their intervals wide enough, for example when a cable's stiffness is off by its
+/// tolerance. The model keeps its values of the other parameters.
 ///
 /// Sources: Ljung, "System identification", 2nd ed., chapters 7 and 9; Künsch, "The jackknife and the bootstrap for
 /// general stationary observations", Annals of Statistics 17 (1989).
@@ -39,9 +41,9 @@ namespace halyard {
 
 enum class Convergence {
   converged,
-  drifting,    ///< the filter's estimate moved in the last third of the logs, by a tenth of its
-               ///< tolerance and three of the filter's deviations or more
-  not_excited  ///< the interval is not much narrower than what was known before
+  drifting,    ///< in the last third of the logs the filter's estimate moved by at least a tenth of its
+               ///< tolerance and at least three of its standard deviations
+  not_excited  ///< the interval is not much narrower than that of the prior
 };
 
 struct IdentifiedNumber {
@@ -49,31 +51,31 @@ struct IdentifiedNumber {
   int joint = 0;       ///< 0-based
   double nominal = 0;  ///< in the model as given
   double value = 0;
-  double lower = 0, upper = 0;  ///< 95 %
+  double lower = 0, upper = 0;  ///< 95 % interval
   Convergence convergence = Convergence::converged;
-  std::vector<double> trace;      ///< of the dual filter, over Identification::time
-  std::vector<double> trace_std;  ///< its deviation, widened as the interval is
+  std::vector<double> trace;      ///< the dual filter's estimate over Identification::time
+  std::vector<double> trace_std;  ///< its standard deviation; the part gained from data is widened as the interval is
 };
 
-/// A number that was not to be identified, but whose estimate lies far from the model.
+/// A parameter that was not requested, but whose estimate is far from the model.
 struct DeviatingNumber {
   std::string name, unit;
   double nominal = 0, value = 0;
-  double tolerances = 0;  ///< by how many of its tolerances, signed
+  double tolerances = 0;  ///< value - nominal, in tolerances
 };
 
 struct Identification {
   std::vector<IdentifiedNumber> numbers;
-  std::vector<DeviatingNumber> deviating;  ///< beyond twice their tolerance, significantly
-  std::vector<double> time;                ///< s of the logs one after the other
+  std::vector<DeviatingNumber> deviating;  ///< significantly beyond twice their tolerance
+  std::vector<double> time;                ///< s, of the logs joined end to end
   int blocks = 0;
-  bool converged = false;  ///< the last pass moved no number by more than a fifth of its deviation
-  ArmModel model;          ///< with the numbers
+  bool converged = false;  ///< the last pass moved no parameter by more than a fifth of its standard deviation
+  ArmModel model;          ///< with the identified values
 };
 
-/// progress(text, fraction) is called now and then.
-/// Throws InputError if a log has no sensor of a joint whose number is asked for, is shorter than 3 s, or if encoders
-/// of unknown zero are to be found from several logs.
+/// Identifies the parameters `keys`. progress(text, fraction) is called repeatedly.
+/// Throws InputError if a log is shorter than 3 s, if it lacks the sensor of a joint with a requested parameter, or if
+/// there are several logs and encoders with unknown zero.
 Identification identify(const ArmModel& model, const std::vector<Log>& logs, const std::vector<std::string>& keys,
                         const std::function<void(const std::string&, double)>& progress = {});
 

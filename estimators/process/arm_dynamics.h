@@ -1,13 +1,13 @@
 #pragma once
-/// The process model's differential equation, over a scalar type: motors, transmission with its
+/// The process model's differential equation, for any scalar type: motors, transmission with its
 /// effects, and the rigid chain.
 ///
 ///   J q_m'' = τ - (r_m / N) g                        (Eq. 5; τ with the motor's friction)
 ///   M(q) q'' + h(q, q') = F                          (Eq. 4; F of transmission.h)
 ///
-/// The state is, joint by joint, [q_m, q_m', q, q'] for a cable-driven joint and [q, q'] for one
-/// that is driven rigidly or not at all, then the internal states of the effects. The drives are those of
-/// transmission/drive.h: M has the rotors of rigid drives.
+/// The state has, joint by joint, [q_m, q_m', q, q'] for a cable-driven joint and [q, q'] for one
+/// that is driven rigidly or not at all. The internal states of the effects follow. The drives are those of
+/// transmission/drive.h: M includes the rotors of rigid drives.
 
 #include "estimators/process/rigid_chain.h"
 #include "transmission/drive.h"
@@ -16,7 +16,7 @@ namespace halyard {
 
 inline constexpr int kMaxStates = 64;
 
-/// Where a joint's quantities stand in the state. Motors have states of their own where they drive cables.
+/// Indices of each joint's quantities in the state. Only motors that drive cables have states.
 struct StateLayout {
   int n_joints = 0;
   int n_effect_states = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// An arm's process model as the Gaussian filters ask it: one step of it, and the readings of its motors.
+/// Adapts an arm's process model to the interfaces of gaussian_filter.h: one step, and the motors' readings.
 
 #include <sstream>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace halyard {
 
-/// f over one step. The process model must outlive it.
+/// f over one step. The process model must outlive this object.
 class ArmProcess : public DiscreteProcess {
  public:
   ArmProcess(const ProcessModel& model, const Step& step) : model_(model), step_(step) {}
@@ -30,7 +30,7 @@ class ArmProcess : public DiscreteProcess {
   Step step_;
 };
 
-/// h of some of the motors, by their joints 0, 1, ... The process model must outlive it.
+/// h for some of the motors, given by the 0-based indices of their joints. The process model must outlive this object.
 class MotorReadings final : public MeasurementModel {
  public:
   MotorReadings(const ProcessModel& model, double time_s, std::vector<int> motors)

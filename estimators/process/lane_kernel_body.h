@@ -1,5 +1,5 @@
 /// The kernels of lane_kernels.h, for the instruction set that the including file is compiled for.
-/// No include guard: a part of exactly one lanes_<set>.cpp each.
+/// No include guard: each lanes_<set>.cpp includes it exactly once.
 
 #include "estimators/process/lane_kernels.h"
 
@@ -14,7 +14,7 @@ void advance(const Transmission<T>& transmission, const StateLayout& layout, dou
     runge_kutta_4(transmission, layout, time + i * h, h, history, command, external, x);
 }
 
-// A function of this file's own: the address of the inline one would be the address of a copy that all share.
+// Local to each set: the address of the inline state_derivative() would be that of one copy shared by all sets.
 void derivative(const Transmission<Dual>& transmission, const StateLayout& layout, double time,
                 const CommandHistory* history, const Dual* command, const Dual* external, const Dual* x, Dual* x_dot) {
   state_derivative(transmission, layout, time, history, command, external, x, x_dot);

@@ -1,9 +1,9 @@
 #pragma once
-/// The inner loops over vectors, Lanes and Dual, one copy per instruction set, chosen when the program runs.
+/// The inner loops over the vector types Lanes and Dual. There is one copy per instruction set, chosen at run time.
 ///
 /// Each file lanes_<set>.cpp is compiled with the flags of its set and instantiates lane_kernel_body.h in an
-/// anonymous namespace. Everything that the body calls is forced inline, so that no function compiled for a wider set
-/// is left where the linker could give it to code that runs on every machine. Results of two sets differ by rounding.
+/// anonymous namespace. All functions that the body calls are forced inline. Otherwise the linker could use a function
+/// compiled for a wider set in code that must run on every machine. Results of two sets differ by rounding.
 
 #include <vector>
 
@@ -25,7 +25,7 @@ struct LaneKernels {
                           Dual* x_dot);
 };
 
-/// Those that this processor can run, the widest first; the last is the generic one.
+/// The kernels that this processor can run, the widest first; the last is the generic one.
 const std::vector<LaneKernels>& lane_kernels();
 
 }  // namespace halyard

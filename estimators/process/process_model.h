@@ -1,16 +1,16 @@
 #pragma once
-/// The arm in discrete time: x_k+1 = f(x_k), the differential equation of arm_dynamics.h over one step under a held
-/// command, and z = h(x), what the motor encoders read.
+/// The arm in discrete time: x_k+1 = f(x_k) integrates the differential equation of arm_dynamics.h over one step under
+/// a held command; z = h(x) is the reading of the motor encoders.
 ///
-///   x       state, ordered as StateLayout says: q_m, q_m', q, q' joint by joint, then effects   [n_states]
+///   x       state, ordered as in StateLayout: q_m, q_m', q, q' joint by joint, then effects     [n_states]
 ///   f       classical Runge-Kutta of fourth order in `substeps(dt)` equal parts
 ///   F       ∂f/∂x of the whole step, exact to rounding                                          [n_states x n_states]
 ///   z       reading of motor k: q_m + offset + sensor effects                                   [n]  rad
 ///
-/// Friction near standstill is far stiffer than cables, and a step that is unstable in stick ruins a filter. So the
-/// sub-steps h hold h |λ| <= 2.2 (Runge-Kutta's limit is 2.6 in the direction where it is least) for the largest
-/// eigenvalue of ∂x'/∂x at standstill, unloaded and under the motors' full torque both ways, at home and at the ends
-/// of the joints' ranges.
+/// Friction near standstill is far stiffer than cables, and an unstable step there makes a filter diverge. So the
+/// sub-step h satisfies h |λ| <= 2.2, λ the largest eigenvalue of ∂x'/∂x at standstill. (Runge-Kutta's limit is 2.6 in
+/// its least stable direction.) λ is searched for at home and at the ends of the joints' ranges, both unloaded and
+/// under the motors' full torque in either direction.
 
 #include <Eigen/Core>
 #include <string>
@@ -22,19 +22,19 @@
 
 namespace halyard {
 
-/// What acts on the arm over one step.
+/// Time, inputs and length of one step.
 struct Step {
-  double time_s = 0;                        ///< of its start
+  double time_s = 0;                        ///< start of the step
   double dt_s = 0;                          ///< > 0
   const double* motor_torque = nullptr;     ///< [n] commanded, held over the step, N m
   const double* external_force = nullptr;   ///< [n] on the joints, N m | N; null: none
-  const CommandHistory* history = nullptr;  ///< for effects that answer late; null: none
+  const CommandHistory* history = nullptr;  ///< for effects with a delay; null: none
 };
 
 class ProcessModel {
  public:
-  /// What a sample may cost, at 1 kHz: more sub-steps than this in a step, or in each millisecond of a longer one, are
-  /// refused. The model is too stiff then; that a row of a log is missing makes it no stiffer.
+  /// Limit of the cost at 1 kHz: the largest number of sub-steps in a step, or in each millisecond of a step longer
+  /// than 1 ms. A model that needs more is too stiff.
   static constexpr int kMaxSubsteps = 500;
 
   /// Throws std::runtime_error if the model gives no finite derivative at standstill.
@@ -52,13 +52,13 @@ class ProcessModel {
 
   /// Largest |λ| at standstill, 1/s.
   double stiffest_rate() const { return stiffest_rate_; }
-  /// The state that takes most part in it.
+  /// The state with the largest part in that eigenvalue's mode.
   const std::string& stiffest_state() const { return state_names_[stiffest_state_]; }
-  /// Throws std::runtime_error naming state and rate if more are needed than kMaxSubsteps allows.
+  /// Number of sub-steps of a step. Throws std::runtime_error naming state and rate if kMaxSubsteps is too few.
   int substeps(double dt_s) const;
 
-  /// All of these throw std::runtime_error with time and state name if a result is not finite.
-  /// x becomes f(x).
+  /// x becomes f(x). This and the following functions throw std::runtime_error with time and state name if a result is
+  /// not finite.
   void advance(const Step& step, double* x) const;
   /// Every column of X [n_states x count] becomes f(column), eight at a time.
   void advance_many(const Step& step, Eigen::Ref<Eigen::MatrixXd> X) const { advance_many(step, X, lane_kernels()[0]); }
@@ -75,7 +75,7 @@ class ProcessModel {
 
   /// h(x) [n] and H = ∂h/∂x [n x n_states]; the row of a joint without motor is zero.
   Eigen::VectorXd motor_readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd* H = nullptr) const;
-  /// Whether h is affine: no effect acts at the sensors.
+  /// True if h is affine, that is, if no effect acts at the sensors.
   bool readings_are_linear() const { return readings_are_linear_; }
 
   /// The state at rest with these motor angles and joint positions [n], internal states zero.

@@ -1,6 +1,6 @@
 #pragma once
 /// Newton-Euler dynamics of a serial chain whose joints move about or along the z axis of their own
-/// frame: the forces that a motion needs, and the mass matrix by unit accelerations (paper, II-B).
+/// frame: the joint forces of a motion, and the mass matrix from unit accelerations (paper, II-B).
 ///
 ///   M(q) q'' + h(q, q') = F       h: velocity and gravity forces
 ///
@@ -63,7 +63,7 @@ HALYARD_INLINE ChainPose<T> chain_pose(const ArmParameters<T>& arm, const T* q) 
   return pose;
 }
 
-/// Where a point of the last link is in the base frame.
+/// Position of a point of the last link in the base frame, m.
 template <class T>
 HALYARD_INLINE void position_of(const ArmParameters<T>& arm, const ChainPose<T>& pose, const double* point, T* out) {
   for (int r = 0; r < 3; ++r) out[r] = T(point[r]);
@@ -143,7 +143,7 @@ HALYARD_INLINE void inverse_dynamics(const ArmParameters<T>& arm, const ChainPos
   forces_to_joints(arm, pose, f, m, force);
 }
 
-/// M(q), column by column: the forces of one unit acceleration each, at rest, without gravity.
+/// M(q). Column c holds the forces of a unit acceleration of joint c, at rest, without gravity.
 template <class T>
 HALYARD_INLINE void mass_matrix(const ArmParameters<T>& arm, const ChainPose<T>& pose, T M[][kMaxJoints]) {
   for (int c = 0; c < arm.n; ++c) {
@@ -173,8 +173,8 @@ HALYARD_INLINE void mass_matrix(const ArmParameters<T>& arm, const ChainPose<T>&
   }
 }
 
-/// Solves A x = b in place for a symmetric positive definite A, by L D Lᵀ; A is overwritten by its
-/// factors, so that further right-hand sides need ldl_solve alone.
+/// Replaces a symmetric positive definite A by its factors, A = L D Lᵀ; ldl_solve() then solves A x = b in
+/// place for any number of right-hand sides.
 template <class T, int Stride>
 HALYARD_INLINE void ldl_factor(int n, T A[][Stride]) {
   for (int j = 0; j < n; ++j)

@@ -1,6 +1,6 @@
 #pragma once
-/// Places where the arm stands still and where its equations are at their stiffest: unloaded, and with each cable
-/// under the torque limit of its motor either way, at home and at the ends of the joints' ranges.
+/// Standstill poses at which the arm's equations are stiffest: at home and at the ends of the joints' ranges, unloaded
+/// and with each cable under its motor's torque limit in either direction.
 
 #include <Eigen/Core>
 #include <vector>
@@ -15,7 +15,7 @@ struct StandstillPose {
   Eigen::VectorXd joint_position;  ///< [n] rad | m
 };
 
-/// Home, each joint at each end of its range, all at their lower and all at their upper ends; [n] each.
+/// Home, each joint alone at each end of its range, all joints at their lower ends, and all at their upper ends; [n].
 std::vector<Eigen::VectorXd> range_poses(const ArmModel& model);
 
 /// Joint forces that hold the arm against gravity in pose q [n], N m | N.
@@ -24,7 +24,7 @@ Eigen::VectorXd gravity_force(const ArmParameters<double>& arm, const Eigen::Vec
 /// The largest force that gravity puts on each joint over its range [n], N m | N.
 Eigen::VectorXd largest_gravity_force(const ArmParameters<double>& arm, const ArmModel& model);
 
-/// A motor without torque limit is taken to load its cable with the rest tension and what gravity takes.
+/// The poses above. A motor without torque limit is assumed to load its cable with the rest tension and gravity.
 std::vector<StandstillPose> standstill_poses(const Transmission<double>& transmission, const ArmModel& model);
 
 }  // namespace halyard

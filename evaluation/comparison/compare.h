@@ -15,31 +15,31 @@
 
 namespace halyard {
 
-/// Whether an estimator is as good as it says.
+/// Tests whether an estimator's errors and innovations agree with the covariances that it states.
 struct Judgement {
   Consistency nis;                   ///< of all motors together
-  std::vector<Consistency> nees;     ///< [joint]; NaN where the truth is not known
+  std::vector<Consistency> nees;     ///< [joint]; NaN where the truth is unknown
   std::vector<Whiteness> whiteness;  ///< [motor]
 };
 
-/// Estimators head-to-head on the same data.
+/// Estimators compared on the same data.
 struct Comparison {
   std::string data;              ///< scenario or log, as given
-  std::string model;             ///< what the estimators believe, as given
-  std::string truth_from;        ///< what the errors are counted against; empty: nothing, no errors
-  double skip_s = 0;             ///< errors count from this time after the first sample on
+  std::string model;             ///< the estimators' model, as given
+  std::string truth_from;        ///< source of the truth; empty: there is none, and no errors
+  double skip_s = 0;             ///< length of the start that errors leave out
   std::vector<JointUnit> units;  ///< [n]
   Log truth;                     ///< joint_position, where known
   std::vector<EstimatorRun> runs;
-  /// [run][joint] what is held against the truth: positions, or sensors' readings of them
+  /// [run][joint] estimates that are compared with the truth: positions, or predicted sensor readings
   std::vector<Signals> compared;
   std::vector<std::vector<ErrorStatistics>> errors;           ///< [run][joint]
   std::vector<Judgement> judgements;                          ///< [run]
-  std::vector<std::vector<std::vector<PairedRatio>>> paired;  ///< [run][other run][joint] RMS error over the other's
+  std::vector<std::vector<std::vector<PairedRatio>>> paired;  ///< [run][other run][joint] ratio of RMS errors
 
   int n_joints() const { return static_cast<int>(units.size()); }
   bool has_truth(int k) const { return truth.has_joint_position(k); }
-  /// Index of the run named "kinematics", which the others are measured by, if there is one.
+  /// Index of the run named "kinematics", the baseline of the other runs, if there is one.
   std::optional<std::size_t> baseline() const;
   /// 1 - mean absolute error / that of the baseline; NaN without one.
   double improvement_of(std::size_t run, int k) const;
@@ -48,29 +48,29 @@ struct Comparison {
 struct CompareOptions {
   double skip_s = 0.5;
   bool use_joint_torque = false;
-  /// The truth is what joint sensors read, with the errors that the model says they make; otherwise the joints' own.
+  /// True: the truth is readings of joint sensors, with the sensor errors of the model. False: true joint positions.
   bool truth_is_sensed = false;
-  /// An estimator that fails leaves a row without numbers; otherwise its failure is thrown.
+  /// True: an estimator that fails leaves a row without numbers. False: its failure is thrown.
   bool keep_going = false;
-  /// All estimators are made before the first runs: a wrong name must not cost the time of the others' runs.
+  /// Make all estimators before the first run, so that a wrong name is found early.
   bool make_all_first = true;
   ContainmentOptions containment = {};
   std::function<void(double)> progress = {};  ///< called with the fraction done
 };
 
-/// An estimator, what it believes, and what its row is called.
+/// An estimator, its model, and the name of its row.
 struct Contestant {
   std::string estimator;  ///< name or path of a plug-in
   const ArmModel* model = nullptr;
   std::string name;
 };
 
-/// Runs each estimator over `measured` and counts its errors against the joint positions of `truth`, which has the same
-/// times. Each runs in a process of its own. The strings of the result are the caller's to fill.
-/// Throws what make_estimator and run_estimator throw, std::invalid_argument if the times differ.
+/// Runs each estimator over `measured`, in a process of its own, and computes its errors against the joint positions of
+/// `truth`. Both logs must have the same times. The caller fills data, model and truth_from of the result.
+/// Throws as make_estimator and run_estimator do, and std::invalid_argument if the times differ.
 Comparison compare_estimators(const std::vector<Contestant>& contestants, const Log& measured, const Log& truth,
                               const CompareOptions& options = {});
-/// The same with one model for all, and each called as the estimator is.
+/// The same with one model for all estimators; rows have the estimators' names.
 Comparison compare_estimators(const ArmModel& model, const std::vector<std::string>& estimators, const Log& measured,
                               const Log& truth, const CompareOptions& options = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The same comparison over many seeds.
+/// Comparison of estimators over many seeds of a scenario.
 
 #include <functional>
 #include <optional>
@@ -13,29 +13,29 @@
 
 namespace halyard {
 
-/// The noise that filters with the model's own rule (estimators/process/noise.h) assume, as a simulation can draw it: torques
-/// and joint forces with the spectral density 2 σ² τ, held over a tick, and the encoders' deviation in place of their
-/// rounding.
+/// The noise that the filters assume by default (estimators/process/noise.h), in a form that a simulation can draw:
+/// torques and joint forces with the spectral density 2 σ² τ, held over a tick, and encoder noise with the assumed
+/// standard deviation instead of rounding.
 TickNoise assumed_noise(const ArmModel& model, double tick_s);
 
 /// One estimator over all runs.
 struct RunsOfEstimator {
   std::string name;
-  long failures = 0;  ///< runs that it did not end
+  long failures = 0;  ///< runs in which it failed
   std::string first_failure;
-  std::vector<ErrorStatistics> errors;       ///< [joint] root of the mean of the runs' squares, mean of their others
-  std::vector<double> rms_lower, rms_upper;  ///< [joint] 2.5 and 97.5 percentiles of the runs' own
+  std::vector<ErrorStatistics> errors;       ///< [joint] rms: root of the runs' mean square; others: means of the runs
+  std::vector<double> rms_lower, rms_upper;  ///< [joint] 2.5 and 97.5 percentiles of the runs' RMS errors
   Consistency nis;
   std::vector<Consistency> nees;  ///< [joint]
-  /// [joint] share of instants whose mean NEES over the runs lies in the band of χ²(runs) / runs.
+  /// [joint] share of instants at which the mean NEES over the runs lies in the 95 % band of χ²(runs) / runs.
   std::vector<double> in_band;
-  std::vector<PairedRatio> against_kinematics;  ///< [joint]; NaN without that estimator or for itself
+  std::vector<PairedRatio> against_kinematics;  ///< [joint]; NaN for kinematics itself, or without it
 };
 
 struct MonteCarlo {
   int runs = 0;
-  /// The noise that the scenario was disturbed by, in multiples of what the filters assume; none: the scenario's own.
-  /// The caller's to fill.
+  /// Noise added to the simulation, in multiples of the filters' assumed noise; none: the scenario's own noise.
+  /// The caller fills it.
   std::optional<double> noise;
   std::vector<RunsOfEstimator> estimators;
 };
@@ -46,9 +46,9 @@ struct MonteCarloOptions {
   std::function<void(double)> run_done = {};  ///< called with 1 for each run, from any thread
 };
 
-/// Simulates the scenario with the seeds seed, seed + 1, ..., on all cores, and runs all estimators over each. The
-/// result does not depend on the number of threads. An estimator that fails on a run is counted, and left out of that
-/// run. Throws what simulate and make_estimator throw.
+/// Simulates the scenario with the seeds seed, seed + 1, ..., on all cores, and runs all estimators over each log. The
+/// result does not depend on the number of threads. A failure of an estimator is counted, and the run is left out of
+/// its statistics. Throws as simulate and make_estimator do.
 MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, const std::vector<std::string>& estimators,
                            const MonteCarloOptions& options);
 

@@ -1,7 +1,7 @@
 #pragma once
-/// The paper's experiments A (high tension), B (low tension) and C (payload) on a simulated RAVEN-II, beside what the
-/// paper measured on the robot. The true robot, raven2_likely.xml, has effects that the estimators' model, raven2.xml,
-/// lacks, as the paper's robot probably had.
+/// The paper's experiments A (high tension), B (low tension) and C (payload) on a simulated RAVEN-II, for comparison
+/// with the paper's measurements. The true robot, raven2_likely.xml, has effects that the paper's robot probably had.
+/// The estimators' model, raven2.xml, lacks them.
 
 #include <array>
 #include <filesystem>
@@ -15,30 +15,30 @@
 
 namespace halyard {
 
-/// Mean absolute errors that were measured on the robot: Table IV of Haghighipanah, Li, Miyasaka, Hannaford, IROS 2015,
-/// and what came after it.
+/// Mean absolute errors measured on the robot: Table IV of Haghighipanah, Li, Miyasaka, Hannaford, IROS 2015, and later
+/// publications.
 struct PublishedErrors {
   const char* source;
   std::array<double, 3> error;  ///< joint 1 deg, joint 2 deg, joint 3 mm
 };
-/// The paper's kinematics first, its filter second.
+/// All published errors; the first is the paper's kinematics, the second its filter.
 const std::vector<PublishedErrors>& published_errors();
 
-/// Gain of the filter over kinematics that Table III of the paper gives for joint 2: experiments A, B, C. Its other
-/// entries are not known here.
+/// Gain of the filter over kinematics for joint 2 in Table III of the paper: experiments A, B, C. The table's other
+/// entries are not available.
 inline constexpr double kTableThreeJointTwoGain[] = {0.46, 0.047, 0.39};
 
 struct ExperimentsSetup {
   std::filesystem::path raven2;           ///< folder of models and scenarios
-  std::filesystem::path calibrated = {};  ///< a model that estimators are run with too; empty: calibrate()'s
-  double duration_s = 0;                  ///< in place of the scenarios' own; 0: theirs
+  std::filesystem::path calibrated = {};  ///< second model of the estimators; empty: the result of calibrate()
+  double duration_s = 0;                  ///< replaces the scenarios' durations; 0: it does not
 };
 
 struct Experiment {
   std::string name;            ///< of the scenario
-  ArmModel robot;              ///< the true one
-  ArmModel model, calibrated;  ///< what the estimators believe
-  Signals desired;             ///< [joint] what the joints were asked for
+  ArmModel robot;              ///< the true robot
+  ArmModel model, calibrated;  ///< the estimators' models
+  Signals desired;             ///< [joint] commanded trajectory, rad | m
   Comparison comparison;
 };
 
@@ -46,10 +46,10 @@ struct Experiment {
 /// read_scenario does.
 std::vector<Scenario> experiment_scenarios(const ExperimentsSetup& setup);
 
-/// raven2.xml with couplings that a dual filter identified, as the paper's did, with joint sensors and in another
-/// motion: calibration.xml, with the same true robot. They are those that the dual filter ends with. halyard identify
-/// goes on to estimate the model's other numbers along, within their tolerances, and this robot's are beyond them.
-/// Throws as read_scenario, simulate and identify do.
+/// raven2.xml with couplings identified by a dual filter, as in the paper. The data are a simulation of the same true
+/// robot with joint sensors in another motion, calibration.xml. The couplings are the dual filter's final estimates.
+/// The second stage of identify() is not used: it estimates the other parameters within their tolerances, and this
+/// robot's parameters are beyond them. Throws as read_scenario, simulate and identify do.
 ArmModel calibrate(const ExperimentsSetup& setup);
 
 /// Simulates the experiments in parallel and runs the built-in estimators over each, with raven2.xml and with the
@@ -58,16 +58,16 @@ ArmModel calibrate(const ExperimentsSetup& setup);
 std::vector<Experiment> compute_experiments(const ExperimentsSetup& setup,
                                             const std::function<void(double)>& progress = {});
 
-/// Which of the robot's effects makes how much of the errors of kinematics and sr_ukf with raven2.xml.
+/// Contribution of each of the robot's effects to the errors of kinematics and sr_ukf with raven2.xml.
 EffectStudy study_experiments(const ExperimentsSetup& setup, const std::function<void(double)>& progress = {});
 
-/// Mean of the mean absolute errors of a joint over the experiments, SI.
+/// Mean absolute error of joint k (0-based) in a run, averaged over the experiments, SI.
 double mean_error(const std::vector<Experiment>& experiments, std::size_t run, int k);
 
-/// Gain of a run over kinematics, 1 - error / that of kinematics, of the means over the experiments.
+/// Gain of a run over kinematics: 1 - error / error of kinematics, with errors from mean_error().
 double mean_gain(const std::vector<Experiment>& experiments, std::size_t run, int k);
 
-/// The place of a run in every experiment; that of kinematics and the filter are always there.
+/// Index of a run, the same in every experiment. Kinematics and the filter always have one.
 std::size_t run_named(const std::vector<Experiment>& experiments, const std::string& name);
 
 }  // namespace halyard

@@ -1,11 +1,11 @@
 #pragma once
-/// Whether a filter knows how far off it is (Bar-Shalom, Li and Kirubarajan 2001, section 5.4).
+/// Consistency of a filter with its stated covariances (Bar-Shalom, Li and Kirubarajan 2001, section 5.4).
 ///
-///   NIS      νᵀ S⁻¹ ν / m                ν innovation of m readings, S what the filter says of its covariance
-///   NEES_k   (e_k / σ_k)²                 e_k error of joint k's position, σ_k what the filter says of it
+///   NIS      νᵀ S⁻¹ ν / m                ν: innovation of m readings, S: its covariance as the filter states it
+///   NEES_k   (e_k / σ_k)²                 e_k: error of joint k's position, σ_k: its stated standard deviation
 ///
-/// Both are 1 in the mean if the filter is right. How far a mean may be off 1 by chance is told by χ²(N) / N, N the
-/// independent samples in it: those of a run that follow each other are counted by their autocorrelation.
+/// Both have the mean 1 if the filter is consistent. Means of N independent samples have the distribution χ²(N) / N.
+/// Successive samples of a run are correlated: N is reduced according to their autocorrelation.
 
 #include <span>
 #include <string>
@@ -23,34 +23,34 @@ enum class Confidence {
   underconfident  ///< errors are smaller than stated
 };
 
-/// A mean that ought to be 1, and where 95 % of such means lie.
+/// A mean that should be 1, and the band in which 95 % of such means lie.
 struct Consistency {
   double mean = 0;  ///< NaN without samples
   double lower = 0, upper = 0;
-  double samples = 0;  ///< that say something of their own
+  double samples = 0;  ///< number of independent samples, N
   Confidence confidence() const;
 };
 
-/// Of the squares of one run: NIS or NEES, NaN where there is none.
+/// Consistency of one run; squares: NIS or NEES of each sample, NaN where there is none.
 Consistency consistency(std::span<const double> squares);
-/// Of the squares of runs that are independent of each other, each with its own mean and effective samples.
+/// Consistency of independent runs together, each given by its mean and number of independent samples.
 Consistency consistency_of_runs(std::span<const Consistency> runs);
 
-/// How white innovations are: what is predictable in them the filter has missed.
+/// Whiteness of innovations. A correlation shows information that the filter did not use.
 struct Whiteness {
-  double correlation = 0;  ///< of neighbours, ρ_1
-  double with_torque = 0;  ///< largest correlation with the motor's torque of the 20 samples before
-  double chance = 0;       ///< neither lies beyond this by chance at the 95 % level, 40 looks respected
+  double correlation = 0;  ///< of successive samples, ρ_1
+  double with_torque = 0;  ///< largest correlation with the motor's torque, over lags of up to 20 samples
+  double chance = 0;       ///< 95 % bound of both by chance, corrected for 40 tests
   bool is_white() const;
 };
-/// innovation, torque: one entry a sample of the record, NaN where there is none.
+/// innovation, torque: one entry for each sample of the record, NaN where there is none.
 Whiteness whiteness(std::span<const double> innovation, std::span<const double> torque);
 
 /// (e / σ)² of each sample; NaN where error or deviation is missing.
 std::vector<double> normalised_squares(std::span<const double> estimate, std::span<const double> truth,
                                        std::span<const double> std_deviation);
 
-/// "consistent", "too sure: errors are 2.1 times what it says", "too cautious: ...", "says nothing of its errors".
+/// The result as a phrase for reports.
 std::string in_words(const Consistency& c);
 std::string in_words(const Whiteness& w);
 

@@ -6,16 +6,16 @@
 
 namespace halyard {
 
-/// How far an estimate x̂ is from the truth x, e = x̂ - x, over the samples that both have.
+/// Errors e = x̂ - x of an estimate x̂ of the truth x, over the samples where both are known.
 ///
 ///   mean_absolute   Σ|e| / N          the paper's Eq. 18, which it calls RMS
 ///   rms             sqrt(Σe² / N)
-///   median_absolute, percentile_95   of |e|: half of the samples, 95 % of them have a smaller one
+///   median_absolute, percentile_95   the 50th and the 95th percentile of |e|
 ///   peak            max |e|
 ///   bias            Σe / N
 ///   within_two_std  share of samples with |e| <= 2 σ, where the estimator gives a standard deviation σ > 0
 ///
-/// All in the unit of x, but the last; NaN where no sample counts.
+/// All but the last are in the unit of x. NaN if no sample counts.
 struct ErrorStatistics {
   std::size_t samples = 0;  ///< N
   double mean_absolute = std::numeric_limits<double>::quiet_NaN();
@@ -32,7 +32,7 @@ struct ErrorStatistics {
 ErrorStatistics error_statistics(std::span<const double> estimate, std::span<const double> truth,
                                  std::span<const double> std_deviation = {});
 
-/// By how much the mean absolute error is smaller than a baseline's: 1 - error / baseline. NaN without a baseline.
+/// Relative improvement of the mean absolute error over a baseline: 1 - error / baseline. NaN without a baseline.
 double improvement(const ErrorStatistics& error, const ErrorStatistics& baseline);
 
 /// Index of the first time that is at least skip_s after the first; time.size() if there is none.

@@ -1,5 +1,5 @@
 #pragma once
-/// Statistics of samples that follow each other in time and say partly the same.
+/// Statistics of autocorrelated samples.
 
 #include <cstdint>
 #include <span>
@@ -11,31 +11,35 @@ namespace halyard {
 /// ρ_l = Σ (x_i - mean)(x_i+l - mean) / Σ (x_i - mean)², l = 0 .. lags. NaN entries do not count.
 std::vector<double> autocorrelation(std::span<const double> x, std::size_t lags);
 
-/// N / (1 + 2 Σ ρ_l), at least 1: the sum goes over pairs of lags until a pair's sum is no longer positive.
+/// Number of independent samples, N / (1 + 2 Σ ρ_l), at least 1. The sum ends at the first pair of successive lags
+/// whose sum is not positive.
 /// Source: Geyer, "Practical Markov chain Monte Carlo", Statistical Science 7 (1992), initial positive sequence.
 double effective_samples(std::span<const double> x);
 
-/// 95 % of means of so many squares of independent normal numbers lie in it: quantiles of χ²(dof) / dof.
+/// The band that contains 95 % of the means of `dof` squared independent standard normal numbers: quantiles of
+/// χ²(dof) / dof.
 std::pair<double, double> chi_square_band(double dof);
 
-/// Root mean square of errors a over that of errors b, which were made at the same instants, and its 95 % interval.
+/// Ratio of the root mean square of errors a to that of errors b at the same instants, and its 95 % interval.
 struct PairedRatio {
   double ratio = 0, lower = 0, upper = 0;
-  std::size_t block = 0;  ///< samples that were drawn together
+  std::size_t block = 0;  ///< block length of the bootstrap, samples
 
-  /// At the 95 % level; neither may hold.
+  /// Significant at the 95 % level; both may be false.
   bool better() const { return upper < 1; }
   bool worse() const { return lower > 1; }
-  /// The second over the first.
+  /// The ratio of b to a.
   PairedRatio inverse() const { return {1 / ratio, 1 / upper, 1 / lower, block}; }
 };
 
-/// By circular block bootstrap: blocks of twice the samples that say one thing, drawn with replacement, both errors
-/// together; percentiles of 2000 ratios. Where either error is NaN a sample does not count. NaN without samples.
+/// Circular block bootstrap: blocks of both errors together are drawn with replacement; the interval has percentiles of
+/// 2000 ratios. A block is twice as long as the number of samples that equal one independent sample. Samples where
+/// either error is NaN do not count. NaN without samples.
 /// Source: Politis and Romano, "A circular block-resampling procedure for stationary data" (1992).
 PairedRatio paired_ratio(std::span<const double> a, std::span<const double> b, std::uint64_t seed = 1);
 
-/// The same of independent runs: sums of squares of a and of b, one pair a run, drawn with replacement.
+/// The same for independent runs, which are drawn with replacement. squares: one pair for each run, the sums of squares
+/// of a and of b.
 PairedRatio paired_ratio_of_runs(std::span<const std::pair<double, double>> squares, std::uint64_t seed = 1);
 
 }  // namespace halyard

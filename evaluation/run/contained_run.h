@@ -8,32 +8,32 @@
 
 namespace halyard {
 
-/// Estimators that are not trusted run in a process of their own, the program halyard_worker, so that one that crashes,
-/// or never returns, ends its run and nothing else. The worker knows halyard's own effects and those of modules
-/// (load_effects). It does not know an effect that the calling program registered itself (register_effect): a model with
-/// such an effect is refused with an InputError, unless the estimator is run in the calling process.
+/// Estimators run in a process of their own, the program halyard_worker, so that a crash or an endless loop ends only
+/// that run. The worker knows halyard's own effects and those of modules (load_effects). It does not know effects that
+/// the calling program registered itself (register_effect): a model with such an effect is refused with an InputError,
+/// unless the estimator runs in the calling process.
 ///
-/// The worker is found in the installation or build tree of the calling program or of halyard's libraries. A program that
-/// links halyard statically and lives elsewhere names it in the environment variable HALYARD_WORKER.
+/// The worker is found in the installation or build tree of the calling program or of halyard's libraries. A program
+/// that links halyard statically and is elsewhere gives its path in the environment variable HALYARD_WORKER.
 struct ContainmentOptions {
-  double step_limit_s = 10;  ///< a step, the making, or a promise put to the test that takes longer is the end
-  bool in_process = false;   ///< no containment: a crash ends the calling program, and no time limit holds
+  double step_limit_s = 10;  ///< longest time for construction, for a step, or for one conformance test
+  bool in_process = false;   ///< true: run in the calling process, without time limit; a crash ends that process
 };
 
-/// Makes the estimator and runs it over the log as run_estimator does, with the same numbers to the last bit, in a worker.
-/// Calls options.progress now and then, and never options.row_done.
-/// Throws InputError where the estimator cannot be made (name, module, options), the log cannot be run over, or there is
-/// no halyard_worker; std::runtime_error, naming estimator, log and time, where the run fails, crashes, or exceeds the
-/// limit.
+/// Makes the estimator and runs it over the log in a worker. The result equals that of run_estimator bit for bit.
+/// Calls options.progress repeatedly, and never options.row_done.
+/// Throws InputError if the estimator cannot be made (name, module, options), if no sample of the log has the position
+/// of every motor, or if there is no halyard_worker. Throws std::runtime_error, naming estimator, log and time, if the
+/// run fails, crashes, or exceeds the time limit.
 EstimatorRun run_contained(const std::string& name, const ArmModel& model, const Log& log,
                            const EstimateOptions& options = {}, const ContainmentOptions& containment = {});
 
-/// Makes the estimator in a worker and lets go of it: throws as run_contained does where it cannot be made.
+/// Checks that a worker can make the estimator; throws as run_contained does if not.
 void check_estimator(const std::string& name, const ArmModel& model, const ContainmentOptions& containment = {});
 
-/// Puts the estimator to the tests of plugins/host/conformance.h in a worker; those of a Kalman filter too, if asked.
-/// Returns a line for each promise that it breaks; a crash, or a promise that takes longer than the limit, is the last.
-/// Throws as run_contained does where it cannot be made.
+/// Runs the tests of plugins/host/conformance.h on the estimator in a worker; `kalman`: also those for Kalman filters.
+/// Returns a line for each promise that the estimator breaks. A crash or a test beyond the time limit ends the tests
+/// and is the last line. Throws as run_contained does if the estimator cannot be made.
 std::vector<std::string> contained_faults(const std::string& name, const ArmModel& model, bool kalman,
                                           const ContainmentOptions& containment = {});
 

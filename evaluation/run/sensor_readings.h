@@ -5,9 +5,9 @@
 
 namespace halyard {
 
-/// What the joints' sensors would read if the estimates were true: q̂ + the errors that the model says the sensors make
-/// (offset, eccentricity, delay). Estimates are judged by sensors through this, so that a sensor that lags is no fault
-/// of an estimate. NaN where there is no estimate.   [n][samples], rad | m
+/// Predicted readings of the joint sensors: q̂ plus the model's sensor errors (offset, eccentricity, delay). Estimates
+/// are compared with sensors in this form, so that known sensor errors do not count as errors of the estimate. NaN
+/// where there is no estimate.   [n][samples], rad | m
 Signals sensor_readings(const ArmModel& model, const EstimatorRun& run);
 
 }  // namespace halyard

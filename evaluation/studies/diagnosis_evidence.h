@@ -1,5 +1,5 @@
 #pragma once
-/// The residuals that speak for what a diagnosis found, for drawing. Not installed: they are the diagnosis' own signals.
+/// Residuals that support a diagnosis, for charts. Not installed: they are internal signals of the diagnosis.
 
 #include <vector>
 
@@ -7,16 +7,16 @@
 
 namespace halyard {
 
-/// Residuals of one joint over the training data, and the two or three views that say most.
+/// Residuals of one joint over the training data, and the two or three most informative views.
 struct EffectEvidence {
-  int joint = 0;                  ///< 0-based, whose residuals these are
-  ResidualSignals without, with;  ///< by the revised model without the effect, and with it; the same for a rest
-  std::vector<View> views;        ///< best first; empty: no view says much
+  int joint = 0;                  ///< 0-based joint of the residuals
+  ResidualSignals without, with;  ///< of the revised model without and with the effect; equal if unexplained
+  std::vector<View> views;        ///< best first; empty: no view is informative
 };
 
 struct DiagnosisEvidence {
-  std::vector<EffectEvidence> effects;      ///< as Diagnosis::effects
-  std::vector<EffectEvidence> unexplained;  ///< as Diagnosis::unexplained
+  std::vector<EffectEvidence> effects;      ///< one for each of Diagnosis::effects
+  std::vector<EffectEvidence> unexplained;  ///< one for each of Diagnosis::unexplained
 };
 
 }  // namespace halyard

@@ -1,5 +1,5 @@
 #pragma once
-/// How well estimators that get motor signals alone know the joints on logs that were held out.
+/// Errors on held-out logs of estimators that get motor signals alone.
 
 #include <string>
 #include <vector>
@@ -9,27 +9,27 @@
 
 namespace halyard {
 
-/// Errors of one estimator on the hold-out against the joints' sensors. [n]; NaN without a sensor.
+/// Errors of one estimator on the hold-out against the joint sensors, [n]; NaN without a sensor.
 struct EstimatorErrors {
   std::vector<double> rms, peak;  ///< empty if it failed
-  std::vector<double> time;       ///< s, of what follows: all logs one after another
+  std::vector<double> time;       ///< s, of the signals below: all logs joined end to end
   Signals innovation;             ///< [motor] over its predicted deviation, ~ N(0, 1) if the model is right; NaN: none
-  Signals joint_rate;             ///< [n] as estimated
-  double mean_nis = 0;            ///< of its innovations, ~ 1 if the model is right; 0: it has none
+  Signals joint_rate;             ///< [n] estimated, rad/s | m/s
+  double mean_nis = 0;            ///< mean of νᵀ S⁻¹ ν / m, ~ 1 if the model is right; 0: no innovations
   std::string failure;            ///< why it failed
 };
-/// A log, and the time from which its errors count: an estimator remembers what was before, as a cable does.
+/// A log, and the time in s from which its errors count. The samples before that time let the estimator's state settle.
 struct HeldOutLog {
   const Log* log;
   double from;
 };
-/// The errors over all logs together, of runs in processes of their own. A load that was measured is no part of the
-/// model, and is handed on as to the prediction.
+/// The errors over all logs together. Each run has a process of its own. The estimator gets measured external loads,
+/// as the diagnosis' prediction does, because they are not part of the model.
 EstimatorErrors errors_of(const std::string& estimator, const ArmModel& model, const std::vector<HeldOutLog>& logs);
 
 struct EstimatorComparison {
   std::string name;
-  EstimatorErrors before, after;  ///< with the given and with the revised model
+  EstimatorErrors before, after;  ///< with the given model and with the revised model
 };
 
 }  // namespace halyard

@@ -1,5 +1,5 @@
 #pragma once
-/// Identifies numbers of a model, and judges on logs that were held out whether they make it better.
+/// Identifies parameters of a model, and tests on held-out logs whether they improve it.
 
 #include <functional>
 #include <optional>
@@ -11,28 +11,28 @@
 
 namespace halyard {
 
-/// An identification, and errors of estimators that have motor signals alone, with the given model and with its.
+/// An identification, and errors of estimators with motor signals alone, with the given and the identified model.
 struct IdentificationStudy {
   ArmModel given;
-  std::string data, holdout;  ///< logs, for the reader
+  std::string data, holdout;  ///< descriptions of the logs, for reports
   Identification identification;
   std::vector<EstimatorComparison> estimators;  ///< kinematics, sr_ukf
 };
 
-/// Identifies the numbers of these keys (identified_keys() lists them) from the logs. Without a hold-out the last third
-/// of each log is held out. progress(text, fraction) is called now and then.
-/// Throws as identify() does; an estimator that fails on the hold-out says so in its EstimatorErrors.
+/// Identifies the parameters of these keys (see identified_keys()) from the logs. Without a hold-out the last third of
+/// each log is held out. progress(text, fraction) is called repeatedly.
+/// Throws as identify() does. EstimatorErrors::failure reports an estimator that fails on the hold-out.
 IdentificationStudy study_identification(const ArmModel& model, const std::vector<Log>& logs,
                                          const std::optional<Log>& holdout, const std::vector<std::string>& keys,
                                          const std::function<void(const std::string&, double)>& progress = {});
 
-/// Whether the identified numbers are the model's from now on. Not if sr_ukf with them fails on the hold-out, or has
-/// the error of a joint grow by more than a tenth without making up for it at others: if the product of after / before
-/// over the joints' RMS errors is above 1. Kinematics takes cables as rigid, and is no judge.
+/// True if the identified values are adopted as the model's. They are rejected if sr_ukf with them fails on the
+/// hold-out. They are also rejected if a joint's RMS error grows by more than a tenth and the product of after / before
+/// over all joints is above 1. Kinematics assumes rigid cables and is not used for this decision.
 bool adopted(const IdentificationStudy& study);
 
-/// What the identified numbers cannot be trusted for: other numbers pulled far, joints that they predict worse on the
-/// hold-out, and if they are not adopted. One sentence each; none if all is well.
+/// Reasons to doubt the identified values, one sentence each: other parameters estimated far from the model, no
+/// convergence, joints with larger errors on the hold-out, values that are not adopted. Empty if there are none.
 std::vector<std::string> doubts(const IdentificationStudy& study);
 
 }  // namespace halyard

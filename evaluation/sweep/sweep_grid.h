@@ -8,14 +8,14 @@
 
 namespace halyard {
 
-/// One direction of a grid: numbers of the model that take the same value, or the same factor, together.
+/// One axis of a grid: parameters of the model that have the same value, or the same factor, at each point.
 struct SweepAxis {
   enum class Target { robot, model, both };
 
   std::vector<std::string> parameters;  ///< keys, see sweep_parameter.h
-  Target applies_to = Target::both;     ///< the plant's truth, what the estimators believe, or both
-  bool is_factor = false;               ///< values multiply the number of the file instead of replacing it
-  bool is_logarithmic = false;          ///< how curves are drawn
+  Target applies_to = Target::both;     ///< the simulated robot, the estimators' model, or both
+  bool is_factor = false;               ///< values multiply the model file's value instead of replacing it
+  bool is_logarithmic = false;          ///< reports draw the axis on a logarithmic scale
   std::string unit;                     ///< of the values; empty for factors and pure numbers
   std::vector<double> values;
 
@@ -23,11 +23,11 @@ struct SweepAxis {
   std::string label() const;
 };
 
-/// What a sweep computes: for every point of the grid the error of every estimator at every joint. All that merging and
-/// reporting need; it is stored beside the results.
+/// Definition of a sweep, which computes the error of every estimator at every joint for every point of the grid. It
+/// holds all that merging and reporting need, and is stored with the results.
 struct SweepGrid {
   std::string name;
-  std::string id;               ///< equal for equal definitions: what results may be put together
+  std::string id;               ///< equal for equal definitions: only results with equal ids can be merged
   std::string scenario, model;  ///< names of the files, without folders
   double skip_s = 0.5;
   std::vector<SweepAxis> axes;
@@ -36,11 +36,11 @@ struct SweepGrid {
 
   /// Product of the axes' lengths.
   std::size_t size() const;
-  /// Place of a point's value on every axis; the last axis varies fastest.
+  /// Index of a point's value on every axis; the last axis varies fastest.
   std::vector<std::size_t> places(std::size_t point) const;
   /// The point's value on every axis.
   std::vector<double> values(std::size_t point) const;
-  /// "joint1.cable.stiffness = 720000 N/m, ..." of the axes from first_axis on.
+  /// "joint1.cable.stiffness = 720000 N/m, ..." for the axes from first_axis on.
   std::string description(std::size_t point, std::size_t first_axis = 0) const;
 };
 

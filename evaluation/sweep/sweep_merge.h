@@ -1,5 +1,5 @@
 #pragma once
-/// Puts the parts of a sweep together, as if it had been computed in one.
+/// Merges the parts of a sweep. The result is the same as that of one computation.
 
 #include <filesystem>
 #include <vector>
@@ -10,7 +10,7 @@
 namespace halyard {
 
 /// All cells of the grid [grid.size()], in the order of the points, each from the first folder that has it.
-/// Throws InputError if some are in none of the folders, and as read_cell() does.
+/// Throws InputError if a cell is in none of the folders, and as read_cell() does.
 std::vector<SweepCell> collect_cells(const std::vector<std::filesystem::path>& folders, const SweepGrid& grid);
 
 /// A whole sweep: its grid, and all its cells.
@@ -20,8 +20,9 @@ struct SweepResult {
 };
 
 /// Collects the cells of all parts and stores them in the folder `out`, which may be one of the parts. Cells and tables
-/// of another sweep are removed from it first.
-/// Throws std::invalid_argument without parts, InputError if the parts are of different sweeps, and as collect_cells().
+/// of another sweep are first removed from `out`.
+/// Throws std::invalid_argument without parts, InputError if the parts are of different sweeps, and as collect_cells()
+/// does.
 SweepResult merge_sweep(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& out);
 
 }  // namespace halyard

@@ -17,20 +17,20 @@ struct Shard {
   bool holds(std::size_t point) const { return point % count == index - 1; }
 };
 
-/// Simulates a point and runs the estimators over it. What fails there is said in the cell, not thrown.
+/// Simulates a point and runs the estimators over its log. A failure is stored in the cell, not thrown.
 SweepCell run_point(const Sweep& sweep, std::size_t point);
 
 struct SweepRunOptions {
   int jobs = 0;  ///< threads; 0: one per core
   Shard shard;
-  bool resume = false;  ///< cells that are stored stay; otherwise those of the shard are computed anew
-  /// Called once with 0 and then after each point, with how many of `total` are done; from any thread.
+  bool resume = false;  ///< true: keep stored cells; false: compute all cells of the shard again
+  /// Called once with done = 0 and then after each point; from any thread.
   std::function<void(std::size_t done, std::size_t total)> progress = {};
 };
 
-/// Computes the shard's cells in parallel, storing each in the folder when it is done; the result does not depend on
+/// Computes the shard's cells in parallel and stores each in the folder when it is done. The result does not depend on
 /// the number of jobs. Cells and tables of another sweep are removed from the folder first.
-/// Throws InputError for estimators that cannot be made, and with resume for a folder that holds another sweep.
+/// Throws InputError if an estimator cannot be made, and, with resume, if the folder holds another sweep.
 void run_sweep(const Sweep& sweep, const std::filesystem::path& folder, const SweepRunOptions& options);
 
 }  // namespace halyard

@@ -1,6 +1,6 @@
 #pragma once
-/// Where a sweep keeps its results: DIR/sweep.json describes the grid, DIR/cells/000012.json holds point 12. Each file
-/// is complete or absent, so that a sweep goes on where it was stopped and its parts can be merged.
+/// Stored results of a sweep: DIR/sweep.json describes the grid, DIR/cells/000012.json holds point 12. Each file is
+/// complete or absent, so that a stopped sweep can be resumed and its parts can be merged.
 
 #include <filesystem>
 #include <optional>
@@ -12,11 +12,11 @@
 
 namespace halyard {
 
-/// What came out at one point of the grid.
+/// The results at one point of the grid.
 struct SweepCell {
-  /// Of one estimator.
+  /// The result of one estimator.
   struct Result {
-    std::string failure;                  ///< why there are no errors; empty: there are
+    std::string failure;                  ///< why there are no errors; empty: no failure
     std::vector<ErrorStatistics> errors;  ///< [n_joints], NaN after a failure
   };
 
@@ -24,9 +24,9 @@ struct SweepCell {
   std::vector<Result> results;  ///< [n_estimators]
 };
 
-/// Whether the folder holds results of a sweep with another id. Throws as read_grid().
+/// True if the folder holds results of a sweep with another id. Throws as read_grid() does.
 bool holds_other_sweep(const std::filesystem::path& folder, const SweepGrid& grid);
-/// Removes cells and tables of such a sweep, so that nothing stale stands beside new results.
+/// Removes cells and tables of such a sweep, so that new results are not mixed with old ones.
 void discard_other_sweep(const std::filesystem::path& folder, const SweepGrid& grid);
 
 void write_grid(const std::filesystem::path& folder, const SweepGrid& grid);
@@ -34,7 +34,7 @@ void write_grid(const std::filesystem::path& folder, const SweepGrid& grid);
 SweepGrid read_grid(const std::filesystem::path& folder);
 
 void write_cell(const std::filesystem::path& folder, const SweepGrid& grid, const SweepCell& cell);
-/// Nothing if there is none. Throws InputError for a cell of another sweep or a damaged one.
+/// Reads the cell of a point, if there is one. Throws InputError if the cell is damaged or of another sweep.
 std::optional<SweepCell> read_cell(const std::filesystem::path& folder, const SweepGrid& grid, std::size_t point);
 void remove_cell(const std::filesystem::path& folder, std::size_t point);
 

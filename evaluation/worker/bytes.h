@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers and texts as bytes, for two processes of one machine.
+/// Serialises numbers and texts for another process on the same machine.
 
 #include <cstring>
 #include <stdexcept>
@@ -40,8 +40,8 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads what a ByteWriter wrote, in the same order. Every function throws std::runtime_error where the bytes end early;
-/// none trusts a count that it reads.
+/// Reads the bytes of a ByteWriter, in the same order. Every function throws std::runtime_error if the bytes end early.
+/// Counts are checked against the bytes that are left.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : left_(bytes) {}
@@ -80,7 +80,7 @@ class ByteReader {
     std::memcpy(&x, take(sizeof x).data(), sizeof x);
     return x;
   }
-  /// A count of things of at least `size` bytes each.
+  /// Reads a count of items of at least `size` bytes each.
   std::size_t checked_count(std::size_t size) {
     const std::size_t n = count();
     if (n > left_.size() / size) throw std::runtime_error("its process ended early");

@@ -1,8 +1,8 @@
 #pragma once
-/// A worker (worker_main.cpp) seen from the process that started it.
+/// Starts and watches a worker (worker_main.cpp).
 ///
-/// A new program is started, and this process is not forked: a fork of a process with several threads has a copy of
-/// every lock that another thread held at that moment, and nobody there who would ever release it.
+/// The worker is a new program, not a fork of this process. A fork of a process with several threads copies the locks
+/// that other threads hold, and nothing in the copy would ever release them.
 
 #include <filesystem>
 #include <functional>
@@ -18,23 +18,23 @@ class WorkerEnded : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The program that does the work: that of the environment variable HALYARD_WORKER, or else halyard_worker of the
-/// installation or build tree that the running program, or halyard's library, belongs to.
+/// Path of the worker program: the environment variable HALYARD_WORKER, or else halyard_worker in the installation or
+/// build tree of the running program or of halyard's library.
 /// Throws InputError if there is none.
 std::filesystem::path worker_program();
 
 struct WorkerWatch {
-  double step_limit_s = 0;  ///< the start of the program, or a step, that takes longer is the end
-  /// Called now and then with the steps that the worker has done.
+  double step_limit_s = 0;  ///< longest time for the start of the program, or for a step
+  /// Called repeatedly with the number of steps that the worker has done.
   std::function<void(long)> step_done = [](long) {};
-  /// Says for messages where the worker is; `promise` is the one under test.
+  /// Describes for messages where the worker is; `promise`: the one under test.
   std::function<std::string(long steps, const std::string& promise)> place;
 };
 
-/// Has a worker do the task and returns the bytes of its result. The worker is killed if this process, or the thread
-/// that called, ends before it.
-/// Throws InputError and std::runtime_error with the messages of those that the worker caught, WorkerEnded
-/// `PLACE: what` if it gave no answer, std::system_error if it cannot be started.
+/// Runs the task in a worker and returns the bytes of its result. The worker is killed if this process or the calling
+/// thread ends first.
+/// Throws InputError and std::runtime_error with the message of an exception in the worker, WorkerEnded (`PLACE: what`)
+/// if there is no answer, and std::system_error if the worker cannot be started.
 std::string result_of_worker(const WorkerTask& task, const WorkerWatch& watch);
 
 }  // namespace halyard

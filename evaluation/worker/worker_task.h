@@ -1,5 +1,5 @@
 #pragma once
-/// What a process asks a worker (worker_main.cpp) to do, and what the worker answers.
+/// The task of a worker (worker_main.cpp), and its answer.
 ///
 ///   shared memory   WorkerPage, followed by the task: worker_task_bytes()
 ///   pipe            the answer: one byte of Answer, then the result's bytes or the error's message
@@ -18,42 +18,42 @@
 namespace halyard {
 
 enum class WorkerJob : std::size_t {
-  make,    ///< make the estimator and let go of it; the result is empty
+  make,    ///< make and destroy the estimator; the result is empty
   run,     ///< run it over the log; the result is estimator_run_bytes()
-  examine  ///< put it to the tests of plugins/host/conformance.h; the result is a list of texts
+  examine  ///< run the tests of plugins/host/conformance.h on it; the result is a list of texts
 };
 
 struct WorkerTask {
   WorkerJob job = WorkerJob::make;
   std::string estimator;                    ///< name, or path of a module
-  ArmModel model;                           ///< crosses as XML, as it does into every plug-in
+  ArmModel model;                           ///< passed as XML, as to every plug-in
   std::vector<std::string> effect_modules;  ///< for load_effects(), in this order
-  std::vector<std::string> plugin_folders;  ///< where names of estimators are looked up
+  std::vector<std::string> plugin_folders;  ///< searched for estimators by name
   bool kalman = false;                      ///< examine: as a Kalman filter too
   bool use_joint_torque = false;            ///< run: EstimateOptions::use_joint_torque
   Log log = {};                             ///< run
 };
 
 std::string worker_task_bytes(const WorkerTask& task);
-/// Loads the effect modules before it reads the model, which may name their effects, and looks for estimators in the
-/// folders of the task from then on. Throws InputError for bytes of another version of halyard, and as load_effects()
-/// and parse_model() do.
+/// Reads the task. Loads its effect modules before the model, which may name their effects. From then on this process
+/// looks for estimators in the task's folders. Throws InputError for bytes of another version of halyard, and as
+/// load_effects() and parse_model() do.
 WorkerTask receive_worker_task(std::string_view bytes);
 
 std::string estimator_run_bytes(const EstimatorRun& run);
-/// Throws std::runtime_error for bytes that are cut short or not of a run over this log.
+/// Reads a run. Throws std::runtime_error if the bytes are truncated or not of a run over this log.
 EstimatorRun estimator_run_of(std::string_view bytes, const std::string& name, const Log& log);
 
 /// The first byte of an answer.
 enum class Answer : char { result = 'R', input_error = 'I', failure = 'F' };
 
-/// What both processes see: how far the worker has come.
+/// Memory shared by both processes: the worker's progress.
 struct WorkerPage {
   pid_t parent = 0;
   std::size_t task_size = 0;             ///< bytes
   std::atomic<bool> has_started{false};  ///< the worker's own code runs
-  std::atomic<long> steps{0};            ///< rows done, or promises begun
-  char promise[64] = "";                 ///< under test
+  std::atomic<long> steps{0};            ///< rows done, or conformance tests begun
+  char promise[64] = "";                 ///< the promise under test
 };
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<long>::is_always_lock_free);
 
