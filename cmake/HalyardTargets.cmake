@@ -49,6 +49,26 @@ function(halyard_optimise_a_little target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
 endfunction()
 
+# halyard_lane_files(ROOM STEM): STEM_generic.cpp, STEM_avx2.cpp and STEM_avx512.cpp, one file per instruction set, of
+# which one is chosen at run time. They are optimised in every configuration: a function that is not inlined there would
+# be left, compiled for its set, where the linker may give it to all. For the same reason GCC must not guess the targets
+# of virtual calls. The same templates are instantiated elsewhere over double, where the sanitizers check them.
+option(HALYARD_SANITIZE_LANES "In a build with sanitizers, check the lane files too: GCC takes minutes for each" OFF)
+function(halyard_lane_files room stem)
+  set(options -O3 $<$<CXX_COMPILER_ID:GNU>:-fno-devirtualize-speculatively>)
+  if(NOT HALYARD_SANITIZE_LANES)
+    list(APPEND options -fno-sanitize=all)
+  endif()
+  set_source_files_properties(${stem}_generic.cpp PROPERTIES COMPILE_OPTIONS "${options};-O2")
+  target_sources(halyard_${room} PRIVATE ${stem}_generic.cpp)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    set_source_files_properties(${stem}_avx2.cpp PROPERTIES COMPILE_OPTIONS "${options};-mavx2;-mfma")
+    set_source_files_properties(${stem}_avx512.cpp PROPERTIES
+      COMPILE_OPTIONS "${options};-mavx512f;-mavx512dq;-mfma")
+    target_sources(halyard_${room} PRIVATE ${stem}_avx2.cpp ${stem}_avx512.cpp)
+  endif()
+endfunction()
+
 # halyard_headers(ROOM header...): headers of a room that are installed.
 function(halyard_headers room)
   foreach(header ${ARGN})
