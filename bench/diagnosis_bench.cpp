@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/bench_arm.h"
-#include "diagnosis/prediction.h"
+#include "diagnosis/prediction/prediction.h"
 
 namespace halyard {
 namespace {

@@ -43,15 +43,20 @@ compile_together(halyard_plugins estimators
   host/eigen_alignment.cpp host/estimator_module.cpp host/plugin_estimator.cpp host/shared_module.cpp)
 compile_together(halyard_plugins checks host/conformance.cpp host/effect_module.cpp)
 
-compile_together(halyard_diagnosis fit baseline_reach.cpp curve_fit.cpp fit.cpp likelihood.cpp screen.cpp)
-compile_together(halyard_diagnosis verdict
-  attribution.cpp diagnose.cpp evidence.cpp false_discovery.cpp judge.cpp leaps.cpp)
-compile_together(halyard_diagnosis plan paired_t.cpp plan.cpp view_sentence.cpp views.cpp)
 compile_together(halyard_diagnosis records
-  calibrate.cpp chebyshev.cpp record.cpp residual_signals.cpp signature.cpp spectrum.cpp starts.cpp)
+  prediction/calibrate.cpp prediction/chebyshev.cpp prediction/filtered_effect.cpp record/record.cpp)
+compile_together(halyard_diagnosis fit fit/baseline_reach.cpp fit/evidence.cpp fit/fit.cpp)
+compile_together(halyard_diagnosis judgement
+  diagnose.cpp judgement/false_discovery.cpp judgement/judge.cpp judgement/likelihood.cpp judgement/paired_t.cpp
+  planning/plan.cpp)
+compile_together(halyard_diagnosis search
+  search/attribution.cpp search/leaps.cpp search/screen.cpp search/starts.cpp)
 compile_together(halyard_diagnosis search_space
-  filtered_effect.cpp search_space.cpp search_space/cable.cpp search_space/joint.cpp search_space/motor.cpp
+  search_space/cable.cpp search_space/joint.cpp search_space/motor.cpp search_space/search_space.cpp
   search_space/sensor.cpp)
+compile_together(halyard_diagnosis explanation
+  explanation/curve_fit.cpp explanation/residual_signals.cpp explanation/signature.cpp explanation/spectrum.cpp
+  explanation/view_sentence.cpp explanation/views.cpp)
 
 compile_together(halyard_evaluation comparison
   comparison/compare.cpp estimator_list.cpp judgement/error_statistics.cpp judgement/serial_statistics.cpp

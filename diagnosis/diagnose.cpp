@@ -7,9 +7,9 @@
 #include <limits>
 #include <mutex>
 
-#include "diagnosis/calibrate.h"
 #include "diagnosis/diagnosis_details.h"
-#include "diagnosis/signature.h"
+#include "diagnosis/explanation/signature.h"
+#include "diagnosis/prediction/calibrate.h"
 
 namespace halyard {
 namespace {

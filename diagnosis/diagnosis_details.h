@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "diagnosis/attribution.h"
 #include "diagnosis/diagnose.h"
+#include "diagnosis/search/attribution.h"
 
 namespace halyard {
 

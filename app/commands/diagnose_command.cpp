@@ -9,7 +9,7 @@
 #include "app/pages/diagnosis_output.h"
 #include "app/progress.h"
 #include "diagnosis/diagnose.h"
-#include "diagnosis/view_sentence.h"
+#include "diagnosis/explanation/view_sentence.h"
 #include "evaluation/joint_unit.h"
 #include "model/arm_log.h"
 #include "model/model_file.h"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "diagnosis/view_sentence.h"
+#include "diagnosis/explanation/view_sentence.h"
 #include "evaluation/joint_unit.h"
 #include "model/model_file.h"
 #include "model/output_file.h"

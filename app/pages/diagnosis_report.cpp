@@ -8,7 +8,7 @@
 #include "app/pages/diagnosis_output.h"
 #include "app/pages/view_charts.h"
 #include "diagnosis/diagnosis_details.h"
-#include "diagnosis/view_sentence.h"
+#include "diagnosis/explanation/view_sentence.h"
 #include "evaluation/joint_unit.h"
 #include "evaluation/studies/diagnosis_evidence.h"
 

@@ -6,7 +6,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "diagnosis/view_sentence.h"
+#include "diagnosis/explanation/view_sentence.h"
 
 namespace halyard {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "app/pages/comparison_figures.h"
 #include "app/pages/comparison_output.h"
-#include "diagnosis/view_sentence.h"
+#include "diagnosis/explanation/view_sentence.h"
 
 namespace halyard {
 namespace {

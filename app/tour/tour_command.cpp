@@ -10,7 +10,7 @@
 #include "app/pages/diagnosis_output.h"
 #include "app/progress.h"
 #include "app/tour/tour.h"
-#include "diagnosis/view_sentence.h"
+#include "diagnosis/explanation/view_sentence.h"
 #include "model/input_error.h"
 
 namespace halyard {

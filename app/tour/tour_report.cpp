@@ -8,7 +8,7 @@
 #include "app/pages/diagnosis_output.h"
 #include "app/tour/experiments_report.h"
 #include "app/tour/tour.h"
-#include "diagnosis/view_sentence.h"
+#include "diagnosis/explanation/view_sentence.h"
 
 namespace halyard {
 namespace {

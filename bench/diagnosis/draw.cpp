@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bench/diagnosis/unregistered.h"
-#include "diagnosis/fit.h"
+#include "diagnosis/fit/fit.h"
 
 namespace halyard::blind {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/fit.h"
+#include "diagnosis/fit/fit.h"
 #include "model/input_error.h"
 
 namespace halyard::blind {

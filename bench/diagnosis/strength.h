@@ -15,7 +15,7 @@
 
 #include <Eigen/QR>
 
-#include "diagnosis/evidence.h"
+#include "diagnosis/fit/evidence.h"
 #include "model/arm_model.h"
 
 namespace halyard::blind {

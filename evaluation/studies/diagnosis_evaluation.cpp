@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "diagnosis/diagnosis_details.h"
-#include "diagnosis/view_sentence.h"
+#include "diagnosis/explanation/view_sentence.h"
 #include "evaluation/studies/diagnosis_evidence.h"
 
 namespace halyard {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "diagnosis/views.h"
+#include "diagnosis/explanation/views.h"
 
 namespace halyard {
 

@@ -1,6 +1,6 @@
 /// The Runge-Kutta-Chebyshev method against the polynomial that it is made of.
 
-#include "diagnosis/chebyshev.h"
+#include "diagnosis/prediction/chebyshev.h"
 
 #include <gtest/gtest.h>
 

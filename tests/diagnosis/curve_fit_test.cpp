@@ -1,6 +1,6 @@
 /// Curves through samples: exact where the signal is one, and no better than chance where there is none.
 
-#include "diagnosis/curve_fit.h"
+#include "diagnosis/explanation/curve_fit.h"
 
 #include <gtest/gtest.h>
 

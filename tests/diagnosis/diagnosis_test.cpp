@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "diagnosis/signature.h"
+#include "diagnosis/explanation/signature.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"

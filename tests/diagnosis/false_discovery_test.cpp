@@ -1,4 +1,4 @@
-#include "diagnosis/false_discovery.h"
+#include "diagnosis/judgement/false_discovery.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "diagnosis/filtered_effect.h"
+#include "diagnosis/prediction/filtered_effect.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// A fit says what it came to in its result, and writes nothing.
 
-#include "diagnosis/fit.h"
+#include "diagnosis/fit/fit.h"
 
 #include <glog/logging.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "diagnosis/judge.h"
+#include "diagnosis/judgement/judge.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "diagnosis/leaps.h"
+#include "diagnosis/search/leaps.h"
 
 #include <gtest/gtest.h>
 

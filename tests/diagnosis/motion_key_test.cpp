@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "diagnosis/prediction.h"
+#include "diagnosis/prediction/prediction.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
 #include "transmission/arm_fields.h"

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "diagnosis/diagnose.h"
-#include "diagnosis/record.h"
+#include "diagnosis/record/record.h"
 #include "model/homing.h"
 #include "model/input_error.h"
 #include "model/model_file.h"

@@ -1,6 +1,6 @@
 /// The paired t test against closed forms and its own promise.
 
-#include "diagnosis/paired_t.h"
+#include "diagnosis/judgement/paired_t.h"
 
 #include <gtest/gtest.h>
 

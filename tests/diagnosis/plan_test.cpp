@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "diagnosis/attribution.h"
-#include "diagnosis/baseline_reach.h"
 #include "diagnosis/diagnose.h"
+#include "diagnosis/fit/baseline_reach.h"
+#include "diagnosis/search/attribution.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
 #include "tests/support/program_run.h"

@@ -1,4 +1,4 @@
-#include "diagnosis/record.h"
+#include "diagnosis/record/record.h"
 
 #include <gtest/gtest.h>
 

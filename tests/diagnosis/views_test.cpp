@@ -1,4 +1,4 @@
-#include "diagnosis/views.h"
+#include "diagnosis/explanation/views.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "diagnosis/view_sentence.h"
+#include "diagnosis/explanation/view_sentence.h"
 
 namespace halyard {
 namespace {

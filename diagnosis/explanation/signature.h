@@ -1,0 +1,16 @@
+#pragma once
+/// Description of a residual that no candidate explains.
+
+#include "diagnosis/fit/evidence.h"
+
+namespace halyard {
+
+/// One sentence for a 0-based joint: the size of its position and motor torque residuals on the training records, and
+/// the most informative view of each (views.h).
+std::string signature(const Evidence& evidence, const Hypothesis& hypothesis, int joint);
+
+/// True if there is one record only and the joint moves along one sine or stands still in it. Such a motion cannot tell
+/// effects of the joint apart. The test uses the joint's own motion, because its motor also moves with inboard joints.
+bool is_one_sinusoid(const std::vector<Record>& records, const ArmParameters<double>& arm, int joint);
+
+}  // namespace halyard

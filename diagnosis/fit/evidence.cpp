@@ -1,0 +1,175 @@
+#include "diagnosis/fit/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/input_error.h"
+#include "transmission/coupling.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kRowRate = 50;            ///< residual rows a second; they are band-limited to 20 Hz
+constexpr double kCorrelationTime = 0.25;  ///< s; residuals of a motion closer than this say the same
+constexpr double kTorqueFloor = 0.01;      ///< of the torque's root mean square
+constexpr double kResolutionFloor = 0.3;   ///< of the joint encoder's resolution: its rounding's deviation
+
+/// The step of a sensor that the model says nothing of: the smallest change that the record shows.
+double smallest_step(const std::vector<double>& x) {
+  double step = 0;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    const double d = std::abs(x[i] - x[i - 1]);
+    if (d > 1e-12 && (step == 0 || d < step)) step = d;
+  }
+  return step;
+}
+
+/// True if the motor stands still for most of what the comparing kernel sees about a sample: friction then takes any
+/// value that balance asks for, and the torque says nothing. A motor that turns round without a stop does not rest.
+bool rests(const Record& record, int k, std::size_t at, double v_s) {
+  const std::size_t reach = record.compare.size() / 2;
+  double still = 0;
+  for (std::size_t t = at - std::min(at, reach); t <= std::min(at + reach, record.size - 1); ++t)
+    if (std::abs(record.motor_rate[k][t]) < 2 * v_s) still += record.compare[t + reach - at];
+  return still > 0.5;
+}
+
+Span joint_span_of(const std::vector<Record>& records, const ArmParameters<double>& arm, int k) {
+  Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  const auto see = [&span](double q) { span = {std::min(span.first, q), std::max(span.last, q)}; };
+  const Eigen::VectorXd undriven = Eigen::VectorXd::Zero(arm.n);
+  for (const Record& record : records) {
+    if (record.has_joint(k)) {
+      for (const double q : record.joint[k]) see(q);
+      continue;
+    }
+    Eigen::VectorXd q_m(arm.n);
+    for (std::size_t i = 0; i < record.size; ++i) {
+      for (int j = 0; j < arm.n; ++j) q_m(j) = record.motor_angle[j][i];
+      see(unstretched_joints(arm, q_m, undriven)(k));
+    }
+  }
+  return span;
+}
+
+}  // namespace
+
+Evidence::Evidence(std::vector<Record> records, const ArmModel& model) : n_(model.n()), records_(std::move(records)) {
+  double total = 0, dt = records_.front().dt;
+  for (const Record& r : records_) total += r.dt * static_cast<double>(r.size), dt = std::min(dt, r.dt);
+  stride_ = std::max(1, static_cast<int>(std::lround(1 / (kRowRate * dt))));
+  correlated_rows_ = std::max(1.0, kCorrelationTime / (stride_ * dt));
+  const double block_s = std::clamp(total / 60, kCorrelationTime, 1.0);
+
+  channel_rows_.assign(channels(), 0);
+  fit_count_.assign(channels(), 0);
+  int first_block = 0;
+  std::vector<double> torque_square(n_, 0), torque_count(n_, 0);
+  floor_.assign(channels(), 0);
+  for (std::size_t r = 0; r < records_.size(); ++r) {
+    records_[r].place = static_cast<int>(r);
+    const Record& record = records_[r];
+    int last = first_block;
+    for (int c = 0; c < channels(); ++c) {
+      const int k = c % n_;
+      const bool joint = c >= n_;
+      if (joint ? !record.has_joint(k) : !record.has_torque(k)) continue;
+      const std::vector<double>& valid = joint ? record.joint_valid[k] : record.torque_valid[k];
+      const double v_s = model.nominal.joint[k].motor_smoothing;
+      for (std::size_t i = 0; i < record.size; i += stride_) {
+        if (valid[i] == 0) continue;
+        if (!joint && rests(record, k, i, v_s)) continue;
+        const int block = static_cast<int>(record.dt * static_cast<double>(i) / block_s);
+        const bool fit = (first_block + block) % 2 == 0;
+        places_.push_back({static_cast<int>(r), c, static_cast<int>(i) / stride_, (first_block + block) / 2, fit});
+        ++channel_rows_[c];
+        if (fit) {
+          row_channel_.push_back(c);
+          row_block_.push_back((first_block + block) / 2);
+          row_record_.push_back(static_cast<int>(r));
+          row_time_.push_back(record.time(i));
+          ++fit_count_[c];
+        }
+        last = std::max(last, first_block + block + 1);
+        if (!joint) torque_square[k] += record.torque[k][i] * record.torque[k][i], torque_count[k] += 1;
+      }
+      if (joint) {
+        const double told = model.nominal.joint[k].joint_encoder_resolution;
+        floor_[c] = std::max(floor_[c], kResolutionFloor * (told > 0 ? told : smallest_step(record.joint_raw[k])));
+      }
+    }
+    first_block = last;
+  }
+  for (int k = 0; k < n_; ++k)
+    if (torque_count[k] > 0)
+      floor_[k] = kTorqueFloor * model.nominal.joint[k].torque_scale * std::sqrt(torque_square[k] / torque_count[k]);
+
+  time_span_ = {records_.front().start, records_.front().start};
+  for (const Record& r : records_)
+    time_span_ = {std::min(time_span_.first, r.start), std::max(time_span_.last, r.time(r.size - 1))};
+  for (int k = 0; k < n_; ++k) joint_span_.push_back(joint_span_of(records_, model.nominal, k));
+
+  block_count_.assign(first_block / 2 + 1, std::vector<int>(channels(), 0));
+  for (const Place& p : places_)
+    if (!p.fit) ++block_count_[p.block][p.channel];
+  if (row_channel_.empty())
+    throw InputError(records_.front().source +
+                     ": nothing to compare: no joint sensor, and no motor that moves with a known torque");
+}
+
+std::vector<std::vector<double>> Evidence::fit_rows(const std::vector<Hypothesis>& hypotheses) const {
+  std::vector<std::vector<double>> rows(hypotheses.size());
+  std::vector<std::vector<Residuals>> of_record;
+  for (const Record& record : records_) of_record.push_back(predict(record, hypotheses, stride_));
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+    bool finite = true;
+    for (const auto& residuals : of_record) finite = finite && residuals[h].finite;
+    if (!finite) continue;
+    rows[h].reserve(row_channel_.size());
+    for (const Place& p : places_)
+      if (p.fit) rows[h].push_back(of_record[p.record][h].channel[p.channel][p.index]);
+  }
+  return rows;
+}
+
+bool Evidence::exceeds_floor(const std::vector<double>& change, double times) const {
+  std::vector<double> square(channels(), 0), count(channels(), 0);
+  for (std::size_t r = 0; r < change.size(); ++r) {
+    square[row_channel_[r]] += change[r] * change[r];
+    count[row_channel_[r]] += 1;
+  }
+  for (int c = 0; c < channels(); ++c)
+    if (count[c] > 0 && std::sqrt(square[c] / count[c]) > times * floor_[c]) return true;
+  return false;
+}
+
+Score Evidence::score(const Hypothesis& hypothesis) const {
+  Score s;
+  s.mean_square.assign(channels(), 0);
+  s.fit_mean_square.assign(channels(), 0);
+  s.block_sum.assign(block_count_.size(), std::vector<double>(channels(), 0));
+  std::vector<double> fit_count(channels(), 0), count(channels(), 0);
+  std::vector<Residuals> of_record;
+  for (const Record& record : records_) {
+    of_record.push_back(predict(record, {hypothesis}, stride_)[0]);
+    s.finite = s.finite && of_record.back().finite;
+  }
+  if (!s.finite) return s;
+  for (const Place& p : places_) {
+    const double e = of_record[p.record].channel[p.channel][p.index];
+    if (p.fit) {
+      s.fit_mean_square[p.channel] += e * e, fit_count[p.channel] += 1;
+    } else {
+      s.mean_square[p.channel] += e * e, count[p.channel] += 1;
+      s.block_sum[p.block][p.channel] += e * e;
+    }
+  }
+  for (int c = 0; c < channels(); ++c) {
+    if (count[c] > 0) s.mean_square[c] /= count[c];
+    if (fit_count[c] > 0) s.fit_mean_square[c] /= fit_count[c];
+  }
+  return s;
+}
+
+}  // namespace halyard

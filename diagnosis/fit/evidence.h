@@ -1,0 +1,83 @@
+#pragma once
+/// The data of a diagnosis: records divided into blocks of time. Every other block is for fitting and the
+/// rest for deciding, so that gains are measured on data that the fit did not use.
+
+#include <span>
+
+#include "diagnosis/prediction/prediction.h"
+
+namespace halyard {
+
+struct Span {
+  double first, last;
+};
+
+/// Mean squares of residuals, one entry for each channel (0..n-1 torque, n..2n-1 joint), and sums for each block.
+struct Score {
+  std::vector<double> mean_square;             ///< [2n] over the deciding blocks; 0 without data
+  std::vector<double> fit_mean_square;         ///< [2n] over the fitting blocks
+  std::vector<std::vector<double>> block_sum;  ///< [deciding block][2n] sums of squares
+  bool finite = true;
+};
+
+class Evidence {
+ public:
+  Evidence(std::vector<Record> records, const ArmModel& model);
+
+  int n() const { return n_; }
+  int channels() const { return 2 * n_; }
+  const std::vector<Record>& records() const { return records_; }
+
+  /// Stacked residuals of the fitting blocks for each hypothesis, [hypothesis][row]; empty if not finite.
+  std::vector<std::vector<double>> fit_rows(const std::vector<Hypothesis>& hypotheses) const;
+  /// The channel of each fitting row.
+  const std::vector<int>& row_channel() const { return row_channel_; }
+  /// The block of each fitting row; rows of all channels share their blocks.
+  const std::vector<int>& row_block() const { return row_block_; }
+  /// The record of each fitting row and its time, s; rows of a channel follow each other.
+  const std::vector<int>& row_record() const { return row_record_; }
+  const std::vector<double>& row_time() const { return row_time_; }
+  /// Mean squares on both kinds of blocks.
+  Score score(const Hypothesis& hypothesis) const;
+  /// Samples in each deciding block and channel: [block][2n].
+  const std::vector<std::vector<int>>& block_count() const { return block_count_; }
+
+  /// Root mean square below which a channel's residual does not matter: encoder resolution for
+  /// joints, a fraction of the torque's own size for motors. [2n]
+  const std::vector<double>& floor() const { return floor_; }
+  /// True if a change of the fitting rows has, in at least one channel, a root mean square above `times` its floor.
+  bool exceeds_floor(const std::vector<double>& change, double times) const;
+  /// Number of rows that equal one independent sample, because residuals are correlated.
+  double correlated_rows() const { return correlated_rows_; }
+  /// From the first to the last sample of all records, s.
+  Span time_span() const { return time_span_; }
+  /// Range of joint k's motion, from its sensor or from the motors.
+  Span joint_span(int k) const { return joint_span_[k]; }
+  /// Number of fitting rows of a channel.
+  int fit_count(int c) const { return fit_count_[c]; }
+  bool has_channel(int c) const { return channel_rows_[c] > 0; }
+
+ private:
+  struct Place {
+    int record;
+    int channel;
+    int index;
+    int block;
+    bool fit;
+  };
+
+  int n_;
+  int stride_;
+  double correlated_rows_;
+  std::vector<Record> records_;
+  std::vector<Place> places_;
+  std::vector<int> row_channel_, row_block_, row_record_;
+  std::vector<double> row_time_;
+  std::vector<int> channel_rows_, fit_count_;
+  std::vector<std::vector<int>> block_count_;
+  std::vector<double> floor_;
+  Span time_span_;
+  std::vector<Span> joint_span_;
+};
+
+}  // namespace halyard

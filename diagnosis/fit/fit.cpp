@@ -1,0 +1,311 @@
+#include "diagnosis/fit/fit.h"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace halyard {
+namespace {
+
+/// Step of a sensitivity, in units of the optimiser. It has to bridge the roughness of residuals with impacts: at 0.02
+/// a half gap stayed where its search began.
+constexpr double kStep = 0.1;
+
+/// How far the starts of a search lie apart around a value: about as far as it finds its way.
+double spacing_around(const std::vector<double>& starts, double value) {
+  std::size_t i = 1;
+  while (i + 1 < starts.size() && value > starts[i]) ++i;
+  return starts[i] - starts[i - 1];
+}
+
+Hypothesis moved(const Hypothesis& h, const FitParameter& p, double by) {
+  Hypothesis m = h;
+  const double value = parameter_value(h, p) + by * p.scale;
+  // At a bound the step goes inward.
+  set_parameter(m, p, value > p.upper ? value - 2 * by * p.scale : value);
+  return m;
+}
+
+class Residual : public ceres::CostFunction {
+ public:
+  Residual(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& parameters,
+           const std::vector<double>& scale, bool frozen, const std::vector<std::vector<double>>& frozen_columns)
+      : evidence_(evidence), start_(start), parameters_(parameters), frozen_(frozen), frozen_columns_(frozen_columns) {
+    for (const int c : evidence.row_channel())
+      weight_.push_back(1 / (scale[c] * std::sqrt(evidence.correlated_rows())));
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      if (parameters[i].effect < 0) prior_.push_back(static_cast<int>(i));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
+    set_num_residuals(static_cast<int>(weight_.size() + prior_.size()));
+  }
+
+  Hypothesis hypothesis(const double* u) const {
+    Hypothesis h = start_;
+    for (std::size_t i = 0; i < parameters_.size(); ++i)
+      if (!is_frozen(i)) set_parameter(h, parameters_[i], u[i] * parameters_[i].scale + origin(i));
+    return h;
+  }
+  /// Value of the optimiser's zero: the model's number for a baseline parameter, 0 for an effect's.
+  double origin(std::size_t i) const { return parameters_[i].effect < 0 ? parameters_[i].nominal : 0; }
+
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
+    const double* u = blocks[0];
+    const std::size_t rows = weight_.size(), p = parameters_.size();
+    const bool wanted = jacobians && jacobians[0];
+    // With the baseline frozen the few sensitivities that are left ride in the lanes beside the value.
+    std::vector<Hypothesis> all = {hypothesis(u)};
+    std::vector<double> step(p, 0);
+    for (std::size_t i = 0; (wanted || frozen_) && i < p; ++i) {
+      if (is_frozen(i)) continue;
+      all.push_back(moved(all[0], parameters_[i], kStep));
+      step[i] = (parameter_value(all.back(), parameters_[i]) - parameter_value(all[0], parameters_[i])) /
+                parameters_[i].scale;
+    }
+    // What is frozen moves no hypothesis.
+    std::vector<double> point;
+    for (std::size_t i = 0; i < p; ++i)
+      if (!is_frozen(i)) point.push_back(u[i]);
+    if (last_point_ != point || last_.size() < all.size()) {
+      last_ = evidence_.fit_rows(all);
+      last_point_ = point;
+    }
+    const auto& out = last_;
+    for (const auto& column : out)
+      if (column.empty()) return false;
+
+    std::vector<double> base = out[0];
+    for (std::size_t i = 0, f = 0; i < p; ++i) {
+      if (!is_frozen(i)) continue;
+      const double by = u[i] - (parameter_value(start_, parameters_[i]) - origin(i)) / parameters_[i].scale;
+      for (std::size_t r = 0; r < rows; ++r) base[r] += by * frozen_columns_[f][r];
+      ++f;
+    }
+    for (std::size_t r = 0; r < rows; ++r) residuals[r] = weight_[r] * base[r];
+    for (std::size_t i = 0; i < prior_.size(); ++i) residuals[rows + i] = u[prior_[i]];
+    if (!wanted) return true;
+
+    double* J = jacobians[0];
+    std::fill(J, J + (rows + prior_.size()) * p, 0.0);
+    std::size_t column = 1, f = 0;
+    for (std::size_t i = 0; i < p; ++i) {
+      if (is_frozen(i)) {
+        for (std::size_t r = 0; r < rows; ++r) J[r * p + i] = weight_[r] * frozen_columns_[f][r];
+        ++f;
+      } else {
+        for (std::size_t r = 0; r < rows; ++r) J[r * p + i] = weight_[r] * (out[column][r] - out[0][r]) / step[i];
+        ++column;
+      }
+    }
+    for (std::size_t i = 0; i < prior_.size(); ++i) J[(rows + i) * p + prior_[i]] = 1;
+    // Ceres would print numbers that are not finite, whatever its options say.
+    return std::all_of(J, J + (rows + prior_.size()) * p, [](double d) { return std::isfinite(d); });
+  }
+
+ private:
+  bool is_frozen(std::size_t i) const { return frozen_ && parameters_[i].effect < 0; }
+
+  const Evidence& evidence_;
+  const Hypothesis& start_;
+  const std::vector<FitParameter>& parameters_;
+  bool frozen_;
+  const std::vector<std::vector<double>>& frozen_columns_;
+  std::vector<double> weight_;
+  std::vector<int> prior_;
+  mutable std::vector<double> last_point_;  ///< where last_ was taken: the solver asks twice
+  mutable std::vector<std::vector<double>> last_;
+};
+
+}  // namespace
+
+double parameter_value(const Hypothesis& h, const FitParameter& p) {
+  if (is_past(p)) return h.past_state(p.effect, p.index - kMaxEffectParameters);
+  if (p.effect >= 0) return h.effects[p.effect].p[p.index];
+  ArmParameters<double> arm = h.nominal;
+  return *named_parameters(arm)[p.index].value;
+}
+
+void set_parameter(Hypothesis& h, const FitParameter& p, double value) {
+  if (is_past(p)) h.set_past_state(p.effect, p.index - kMaxEffectParameters, value);
+  else if (p.effect >= 0) h.effects[p.effect].p[p.index] = value;
+  else *named_parameters(h.nominal)[p.index].value = value;
+}
+
+std::vector<FitParameter> baseline_parameters(const ArmModel& model) {
+  ArmParameters<double> arm = model.nominal;
+  std::vector<FitParameter> all;
+  const auto named = named_parameters(arm);
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    const auto is = [&](const char* word) { return named[i].key.find(word) != std::string::npos; };
+    if (is("gear_ratio") || is("pulley_radius")) continue;  // one ratio, told by the capstan's radius
+    const double value = *named[i].value, reach = model.tolerance(named[i]) * std::abs(value);
+    if (!(reach > 0)) continue;
+    all.push_back(
+        {named[i].name, named[i].unit, -1, static_cast<int>(i), value, value - reach, value + reach, reach / 2, true});
+  }
+  return all;
+}
+
+std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,
+                                            const ArmParameters<double>& nominal, int place) {
+  const PlacedEffect& e = h.effects[place];
+  std::vector<FitParameter> all;
+  const auto parameters = e.effect->parameters(nominal, e.joint);
+  const SearchSpace space = search_space(*e.effect, nominal, e.joint);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const EffectParameter& p = parameters[i];
+    const ParameterSearch& search = space.parameters[i];
+    FitParameter f{p.name, p.unit, place, static_cast<int>(i), p.neutral, p.lower, p.upper, 1, search.natural_bounds};
+    f.scale = std::max({std::abs(p.typical - p.neutral), 0.1 * std::abs(p.typical), 1e-3 * (p.upper - p.lower)});
+    if (p.is_shape() && search.starts.size() > 1) f.scale = 0.1 * spacing_around(search.starts, e.p[i]);
+    f.shape = p.is_shape();
+    f.starts = search.starts;
+    f.range = search.range;
+    if (search.range != SearchRange::own) {
+      const Span span =
+          search.range == SearchRange::record_time ? evidence.time_span() : evidence.joint_span(std::max(0, e.joint));
+      f.lower = span.first;
+      f.upper = span.last;
+      f.scale = std::max(0.01 * (span.last - span.first), 1e-9);
+    }
+    all.push_back(f);
+  }
+  constexpr std::size_t kMostRecords = 12;
+  constexpr double kFar = 5;  // times a state's size, which may grow while it is fitted
+  if (evidence.records().size() > kMostRecords) return all;
+  for (std::size_t r = 0, i = 0; r < evidence.records().size(); ++r)
+    for (const double scale : e.effect->state_scale(nominal, e.joint, e.p)) {
+      FitParameter f{"past of record " + std::to_string(r + 1),
+                     "",
+                     place,
+                     kMaxEffectParameters + static_cast<int>(i++),
+                     0,
+                     -kFar * scale,
+                     kFar * scale,
+                     scale,
+                     true};
+      f.shape = true;
+      f.starts = {-1, 0, 1};
+      all.push_back(f);
+    }
+  return all;
+}
+
+std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameters) {
+  std::vector<ParameterGroup> groups;
+  int effect = -1;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const FitParameter& p = parameters[i];
+    if (p.effect < 0) continue;
+    if (p.effect != effect || (!p.shape && !groups.back().shapes.empty())) groups.emplace_back();
+    effect = p.effect;
+    (p.shape ? groups.back().shapes : groups.back().sizes).push_back(i);
+  }
+  return groups;
+}
+
+bool ends_at_bound(const FitParameter& p, double value) {
+  const auto close = [&](double bound) {
+    return std::abs(value - bound) <= 1e-3 * std::max(std::abs(bound), 1e-3 * p.scale);
+  };
+  return p.effect >= 0 && !p.natural_bounds && !close(p.nominal) && (close(p.lower) || close(p.upper));
+}
+
+bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline) {
+  PlacedEffect e = effect;
+  const auto parameters = e.effect->parameters(nominal, e.joint);
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    e.p[i] = parameters[i].neutral + 0.1 * (parameters[i].upper - parameters[i].neutral);
+  Hypothesis before{nominal, {}}, after{nominal, {}};
+  e.effect->change_parameters(after.nominal, e.joint, e.p);
+  return parameter_value(before, baseline) != parameter_value(after, baseline);
+}
+
+std::vector<double> channel_scale(const Evidence& evidence, const std::vector<double>& mean_square) {
+  std::vector<double> scale(evidence.channels(), 1.0);
+  for (int c = 0; c < evidence.channels(); ++c)
+    if (evidence.has_channel(c)) scale[c] = std::max(std::sqrt(mean_square[c]), evidence.floor()[c]);
+  return scale;
+}
+
+std::vector<std::vector<double>> sensitivities(const Evidence& evidence, const Hypothesis& at,
+                                               const std::vector<FitParameter>& parameters) {
+  std::vector<Hypothesis> all = {at};
+  for (const FitParameter& p : parameters) all.push_back(moved(at, p, kStep));
+  auto rows = evidence.fit_rows(all);
+  for (const auto& r : rows)
+    if (r.empty()) return {};
+  std::vector<std::vector<double>> columns;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double step =
+        (parameter_value(all[i + 1], parameters[i]) - parameter_value(at, parameters[i])) / parameters[i].scale;
+    for (std::size_t r = 0; r < rows[0].size(); ++r) rows[i + 1][r] = (rows[i + 1][r] - rows[0][r]) / step;
+    columns.push_back(std::move(rows[i + 1]));
+  }
+  return columns;
+}
+
+Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& parameters,
+        const std::vector<double>& scale, const FitOptions& options,
+        const std::vector<std::vector<double>>& baseline_sensitivities) {
+  Fit result;
+  result.parameters = parameters;
+  result.hypothesis = start;
+  if (parameters.empty()) {
+    result.usable = true;
+    return result;
+  }
+  Residual residual(evidence, start, parameters, scale, options.frozen_baseline, baseline_sensitivities);
+  std::vector<double> u;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    u.push_back((parameter_value(start, parameters[i]) - residual.origin(i)) / parameters[i].scale);
+
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  problem.AddResidualBlock(&residual, nullptr, u.data());
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    problem.SetParameterLowerBound(u.data(), static_cast<int>(i),
+                                   (parameters[i].lower - residual.origin(i)) / parameters[i].scale);
+    problem.SetParameterUpperBound(u.data(), static_cast<int>(i),
+                                   (parameters[i].upper - residual.origin(i)) / parameters[i].scale);
+    const double low = problem.GetParameterLowerBound(u.data(), static_cast<int>(i));
+    const double high = problem.GetParameterUpperBound(u.data(), static_cast<int>(i));
+    u[i] = std::clamp(u[i], low, high);
+  }
+  const std::size_t p = parameters.size(), rows = static_cast<std::size_t>(residual.num_residuals());
+  std::vector<double> r(rows);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J(rows, p);
+  const double* block = u.data();
+  double* jacobian = J.data();
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  solver.max_num_iterations = options.iterations;
+  solver.function_tolerance = options.cost_tolerance;
+  solver.parameter_tolerance = 1e-6;
+  solver.logging_type = ceres::SILENT;  // of a trial step that cannot be integrated too, which is foreseen
+  solver.num_threads = 1;
+  // Of a start that cannot be integrated Ceres would write to the log of the host program. What is computed here is kept
+  // for Ceres' first step.
+  if (!residual.Evaluate(&block, r.data(), &jacobian)) return result;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  if (summary.termination_type == ceres::FAILURE) return result;
+
+  if (!residual.Evaluate(&block, r.data(), &jacobian)) return result;
+  Eigen::MatrixXd information = J.transpose() * J;
+  information.diagonal().array() += 1e-9;
+  Eigen::VectorXd unit(p);
+  for (std::size_t i = 0; i < p; ++i) unit(static_cast<Eigen::Index>(i)) = parameters[i].scale;
+  result.covariance = unit.asDiagonal() * information.ldlt().solve(Eigen::MatrixXd::Identity(p, p)) * unit.asDiagonal();
+  for (std::size_t i = 0; i < p; ++i) {
+    result.value.push_back(u[i] * parameters[i].scale + residual.origin(i));
+    result.std_deviation.push_back(std::sqrt(std::max(0.0, result.covariance(i, i))));
+    set_parameter(result.hypothesis, parameters[i], result.value.back());
+  }
+  result.usable = true;
+  return result;
+}
+
+}  // namespace halyard

@@ -1,0 +1,85 @@
+#pragma once
+/// Fits parameters of a hypothesis to the fitting blocks: bounded least squares by Ceres. Sensitivities come from
+/// hypotheses that are predicted in parallel.
+///
+///   minimise  Σ_c Σ_i (e_ci / s_c)² / m  +  Σ_b ((θ_b - nominal) / (tolerance / 2))²
+///
+///   e_ci   residual i of channel c            s_c   its scale: the channel's residual before the fit, or its floor
+///   m      rows that equal one independent sample
+///   θ_b    baseline parameters, each kept within its tolerance; effects' parameters have bounds and no prior
+
+#include <Eigen/Core>
+#include <string>
+
+#include "diagnosis/fit/evidence.h"
+#include "diagnosis/search_space.h"
+
+namespace halyard {
+
+/// One parameter of a fit.
+struct FitParameter {
+  std::string name;
+  std::string unit;
+  int effect = -1;  ///< index in Hypothesis::effects; -1: a baseline parameter
+  /// Baseline: index in named_parameters(). Effect: index of its parameter, or from kMaxEffectParameters on its past.
+  int index = 0;
+  double nominal = 0;  ///< baseline: the model's value
+  double lower = 0, upper = 0;
+  double scale = 1;                 ///< one unit of the optimiser
+  bool natural_bounds = false;      ///< see ParameterSearch
+  bool shape = false;               ///< a shape of an effect, see EffectParameter
+  std::vector<double> starts = {};  ///< start values; for a past in units of its scale
+  SearchRange range = SearchRange::own;
+};
+
+/// True for an effect's state at the start of a record (its past), which belongs to the data and not to the arm.
+inline bool is_past(const FitParameter& p) { return p.effect >= 0 && p.index >= kMaxEffectParameters; }
+double parameter_value(const Hypothesis& h, const FitParameter& p);
+void set_parameter(Hypothesis& h, const FitParameter& p, double value);
+
+/// Baseline parameters for which the model states a tolerance. A drive's ratio is one parameter, the capstan's radius.
+std::vector<FitParameter> baseline_parameters(const ArmModel& model);
+/// The parameters of the effect with index `place`; instants and positions are limited to the range of the records.
+/// The effect's states at the start of each record follow as shapes, unless there are more than a dozen records.
+std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,
+                                            const ArmParameters<double>& nominal, int place);
+/// Sizes of an effect and the shapes that follow them, as indices in a list of parameters.
+struct ParameterGroup {
+  std::vector<std::size_t> sizes, shapes;
+};
+/// The groups of all effects in the list; baseline parameters are in none.
+std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameters);
+/// True if an effect's parameter is at its plausible bound. False at its neutral value, even if that is a bound.
+bool ends_at_bound(const FitParameter& p, double value);
+/// True if a change of the effect's parameters is also a change of that baseline parameter, and covers it.
+bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline);
+
+struct FitOptions {
+  int iterations = 10;
+  double cost_tolerance = 1e-5;  ///< stops after a step that lowers the cost by a smaller share
+  /// Compute sensitivities of baseline parameters only once, at the start.
+  bool frozen_baseline = false;
+};
+
+struct Fit {
+  Hypothesis hypothesis;
+  std::vector<FitParameter> parameters;
+  std::vector<double> value, std_deviation;  ///< [parameters]; the latter from the curvature at the end
+  Eigen::MatrixXd covariance;                ///< of the values, [parameters x parameters]
+  bool usable = false;                       ///< false: the start could not be integrated
+};
+
+/// Channel scales from residuals: sqrt(max(mean square, floor²)). [2n]
+std::vector<double> channel_scale(const Evidence& evidence, const std::vector<double>& mean_square);
+
+/// Sensitivities of the fitting rows to parameters, by one-sided differences; empty if one could not be integrated.
+std::vector<std::vector<double>> sensitivities(const Evidence& evidence, const Hypothesis& at,
+                                               const std::vector<FitParameter>& parameters);
+
+/// Fits `parameters`. baseline_sensitivities: those of the baseline parameters among them, in order, for
+/// frozen_baseline.
+Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& parameters,
+        const std::vector<double>& scale, const FitOptions& options = {},
+        const std::vector<std::vector<double>>& baseline_sensitivities = {});
+
+}  // namespace halyard

@@ -1,0 +1,181 @@
+#include "diagnosis/judgement/judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace halyard {
+namespace {
+
+/// What is left matters above this many times the floor of its channel: about one resolution of a joint's encoder.
+constexpr double kRestFactor = 3;
+/// So little of a residual's root mean square is next to nothing.
+constexpr double kNextToNone = 0.1;
+
+/// For the significance of a gain: blocks that had next to no residual, a motor's rest say, neither carry nor spoil it.
+std::vector<double> floors_beside(const Evidence& evidence, const Score& before) {
+  std::vector<double> least = squared_floors(evidence);
+  for (std::size_t c = 0; c < least.size(); ++c) least[c] += kNextToNone * kNextToNone * before.mean_square[c];
+  return least;
+}
+
+}  // namespace
+
+Trial unusable(const PlacedEffect& effect) {
+  Trial t;
+  t.effect = effect;
+  return t;
+}
+
+std::vector<bool> significant_rest(const Evidence& evidence, const Score& score) {
+  std::vector<bool> rest(evidence.channels(), false);
+  for (int c = 0; c < evidence.channels(); ++c)
+    rest[c] = evidence.has_channel(c) && std::sqrt(score.mean_square[c]) > kRestFactor * evidence.floor()[c];
+  return rest;
+}
+
+std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
+  for (std::size_t r = 0; r < a.size(); ++r) a[r] -= b[r];
+  return a;
+}
+
+Judge::Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers,
+             std::vector<double> first)
+    : evidence_(evidence), model_(model), numbers_(std::move(numbers)), first_(std::move(first)) {}
+
+Trial Judge::trial(const Hypothesis& with, const Scored& without, const PlacedEffect& effect) const {
+  Trial t = unusable(effect);
+  const Scored scored{with, evidence_.score(with)};
+  if (!scored.score.finite) return t;
+  const int place = static_cast<int>(with.effects.size()) - 1;
+  t.usable = true;
+  t.effect = with.effects.back();
+  if (static_cast<std::size_t>(place) < with.past.size()) t.past = with.past[place];
+  const std::vector<double> least = squared_floors(evidence_);
+  t.log_likelihood = log_likelihood(evidence_, scored.score, least);
+  t.gain = paired(evidence_, t.log_likelihood, log_likelihood(evidence_, without.score, least)).sum +
+           stretch(without.hypothesis) - stretch(with);
+  t.p_value = p_of_gain(scored.score, without.score);
+  if (!t.is_judged()) return t;
+  t.at_bound = at_bound(scored, place);
+  t.is_refit = within_tolerance(with, place);
+  t.matters = matters(without.score, scored.score, with, place);
+  return t;
+}
+
+bool Judge::is_needed(const Scored& with, const Scored& without, int place, double significance) const {
+  return !within_tolerance(with.hypothesis, place) && matters(without.score, with.score, with.hypothesis, place) &&
+         p_of_gain(with.score, without.score) <= significance;
+}
+
+/// The probability of such a gain by chance: by the scatter of the blocks, or, of an effect that explains a rest
+/// whole, by the likelihood ratio as well, so that a few moments are enough.
+double Judge::p_of_gain(const Score& with, const Score& without) const {
+  const auto compared = [&](const std::vector<double>& least) {
+    return paired(evidence_, log_likelihood(evidence_, with, least), log_likelihood(evidence_, without, least));
+  };
+  const double by_blocks = p_value(compared(floors_beside(evidence_, without)));
+  if (!explains_a_rest(without, with)) return by_blocks;
+  return std::min(1.0, 2 * std::min(by_blocks, std::exp(-compared(squared_floors(evidence_)).sum)));
+}
+
+/// True if, in the channel with a rest that the effect takes most of, nothing that matters is left or next to
+/// nothing.
+bool Judge::explains_a_rest(const Score& before, const Score& after) const {
+  const std::vector<bool> had = significant_rest(evidence_, before), has = significant_rest(evidence_, after);
+  int most = -1;
+  const auto left = [&](int c) { return after.mean_square[c] / before.mean_square[c]; };
+  for (int c = 0; c < evidence_.channels(); ++c)
+    if (had[c] && (most < 0 || left(c) < left(most))) most = c;
+  return most >= 0 && (!has[most] || left(most) < kNextToNone * kNextToNone);
+}
+
+/// True if a number ends at its bound and does more there than one number by chance: a size alone, or with the shapes
+/// that follow it. Beside other sizes a group of them is nothing that the effect is named for if it does next to nothing
+/// of what the effect does: a wall at the end of the motion that mends the form of a tug.
+bool Judge::at_bound(const Scored& with, int place) const {
+  constexpr double kNextToNothing = 0.1;
+  const Hypothesis& h = with.hypothesis;
+  const auto parameters = effect_parameters(evidence_, h, model_.nominal, place);
+  const auto ends = [&](std::size_t i) { return ends_at_bound(parameters[i], parameter_value(h, parameters[i])); };
+  const auto shape_ends = [&](std::size_t i) { return ends(i) || is_as_good_at_bound(with, parameters[i]); };
+  const auto does = [&](const std::vector<std::size_t>& sizes) {
+    Scored without{h, {}};
+    for (const std::size_t i : sizes) set_parameter(without.hypothesis, parameters[i], parameters[i].nominal);
+    without.score = evidence_.score(without.hypothesis);
+    return without.score.finite ? cost(without) - cost(with) : std::numeric_limits<double>::infinity();
+  };
+  const std::vector<ParameterGroup> groups = groups_of(parameters);
+  for (const ParameterGroup& group : groups) {
+    for (const std::size_t i : group.sizes)
+      if (ends(i) && does({i}) > kByChance) return true;
+    if (std::ranges::none_of(group.shapes, shape_ends)) continue;
+    std::vector<std::size_t> all;
+    for (const ParameterGroup& other : groups) all.insert(all.end(), other.sizes.begin(), other.sizes.end());
+    const double own = does(group.sizes);
+    if (own > kByChance && own > kNextToNothing * does(all)) return true;
+  }
+  return false;
+}
+
+/// True if a shape is near the end of what is plausible, and the data cannot tell it from there.
+bool Judge::is_as_good_at_bound(const Scored& with, const FitParameter& p) const {
+  constexpr double kNear = 2;  // times
+  if (p.natural_bounds || p.range != SearchRange::own) return false;
+  const double value = parameter_value(with.hypothesis, p);
+  for (const double bound : {p.lower, p.upper}) {
+    if (bound == p.nominal || !(value * bound > 0) || std::abs(std::log(value / bound)) > std::log(kNear)) continue;
+    Scored there{with.hypothesis, {}};
+    set_parameter(there.hypothesis, p, bound);
+    there.score = evidence_.score(there.hypothesis);
+    if (there.score.finite && cost(there) < cost(with) + kByChance) return true;
+  }
+  return false;
+}
+
+/// True if all sizes of the effect stay within the tolerances of the numbers that they change: a refit and no effect.
+bool Judge::within_tolerance(const Hypothesis& h, int place) const {
+  const PlacedEffect& e = h.effects[place];
+  const auto parameters = e.effect->parameters(model_.nominal, e.joint);
+  const SearchSpace space = search_space(*e.effect, model_.nominal, e.joint);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const EffectParameter& p = parameters[i];
+    const TolerancedNumber& number = space.parameters[i].changes;
+    const double tolerance = number.kind ? model_.joints[number.joint].tolerances.*number.kind * number.size : 0;
+    // Of a number without tolerance a hundredth of its typical size is nothing.
+    const double allowed = tolerance > 0 ? tolerance : 0.01 * std::abs(p.typical - p.neutral);
+    if (!p.is_shape() && std::abs(e.p[i] - p.neutral) > allowed) return false;
+  }
+  return true;
+}
+
+/// The effect takes a share of a residual, and what it does to some signal is well above what its sensor resolves.
+bool Judge::matters(const Score& before, const Score& after, const Hypothesis& with, int place) const {
+  bool share = false;
+  for (int c = 0; c < evidence_.channels(); ++c)
+    share =
+        share || (evidence_.has_channel(c) && before.mean_square[c] - after.mean_square[c] > kMattersShare * first_[c]);
+  if (!share) return false;
+  const auto rows = evidence_.fit_rows({with})[0], bare = evidence_.fit_rows({without_effect(with, place)})[0];
+  return !rows.empty() && (bare.empty() || evidence_.exceeds_floor(difference(rows, bare), kMattersFactor));
+}
+
+double Judge::stretch(const Hypothesis& h) const {
+  double sum = 0;
+  for (const FitParameter& b : numbers_) {
+    const double u = (parameter_value(h, b) - b.nominal) / b.scale;
+    sum += 0.5 * u * u;
+  }
+  return sum;
+}
+
+double Judge::cost(const Scored& scored) const {
+  double sum = stretch(scored.hypothesis);
+  for (int c = 0; c < evidence_.channels(); ++c)
+    if (evidence_.has_channel(c))
+      sum -= block_log_likelihood(evidence_, evidence_.fit_count(c), scored.score.fit_mean_square[c],
+                                  std::pow(evidence_.floor()[c], 2));
+  return sum;
+}
+
+}  // namespace halyard

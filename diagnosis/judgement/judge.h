@@ -1,0 +1,94 @@
+#pragma once
+/// Decides whether a fitted effect explains something.
+///
+///   gain = Σ_b (ln L_b with the effect - ln L_b without)     likelihood.h, on the deciding blocks
+///          + stretch without - stretch with
+///   stretch = ½ Σ ((θ - nominal) / (tolerance / 2))²         prior cost of the refitted baseline parameters θ
+///
+/// An effect is named if
+///
+/// - its gain is significant, corrected for the number of candidates (false_discovery.h). The test is a paired t test
+///   over blocks. An effect that explains nearly all of a remaining residual is also tested by the likelihood ratio on
+///   data that the fit did not use, p = 2 min(p of t, exp(-Σ_b Δ ln L_b)), so that a force during two of sixty blocks
+///   is found. This follows the split likelihood ratio of Wasserman, Ramdas and Balakrishnan, PNAS 117 (2020), as an
+///   approximation: their bound needs the largest likelihood without the effect on the deciding data, but here both
+///   hypotheses are fitted on the other blocks. Blind trials of clean arms measure its false-positive rate;
+/// - it matters: a residual shrinks by more than the model's tolerances and the sensors' errors can explain;
+/// - no parameter that matters lies at its plausible bound, and no shape lies within a factor of two of such a bound
+///   with an equal likelihood there.
+
+#include "diagnosis/fit/fit.h"
+#include "diagnosis/judgement/likelihood.h"
+
+namespace halyard {
+
+/// An effect has to explain this share of a channel's first mean square. Less may be the misfit of another effect's
+/// functional form, which is reported as an unexplained residual.
+inline constexpr double kMattersShare = 0.05;
+/// The change by an effect has to be this many times the floor of its channel, in at least one signal.
+inline constexpr double kMattersFactor = 1.5;
+/// Gain in log-likelihood by chance of one more parameter: two standard deviations.
+inline constexpr double kByChance = 2;
+/// A candidate whose quick fit has a larger p value than this is neither fitted fully nor judged further.
+inline constexpr double kWorthAFit = 0.05;
+
+/// A candidate and the results of its tests.
+struct Trial {
+  PlacedEffect effect;
+  std::vector<double> past;  ///< Hypothesis::past of this effect
+  bool promising = true;     ///< false: even at its best start it explains too little of the residual to be fitted
+  bool is_fitted = true;     ///< it was among the candidates that leave the smallest residual
+  bool usable = false;       ///< it could be integrated
+  double gain = 0;           ///< on the deciding blocks, above the baseline of its round
+  double p_value = 1;        ///< of no gain, without correction for the number of candidates
+  bool is_judged() const { return usable && p_value <= kWorthAFit; }
+  // Valid if is_judged():
+  bool at_bound = false;
+  bool is_refit = false;  ///< its sizes stay within the model's tolerance
+  bool matters = false;
+  Likelihood log_likelihood;
+};
+
+Trial unusable(const PlacedEffect& effect);
+
+/// A hypothesis and its score.
+struct Scored {
+  Hypothesis hypothesis;
+  Score score;
+};
+
+/// [2n] True for channels whose residual on the deciding blocks is well above the channel's floor.
+std::vector<bool> significant_rest(const Evidence& evidence, const Score& score);
+
+/// a - b, row by row; both have the same length.
+std::vector<double> difference(std::vector<double> a, const std::vector<double>& b);
+
+class Judge {
+ public:
+  /// numbers: baseline parameters that the data are sensitive to. first: mean squares [2n] before any effect.
+  Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers, std::vector<double> first);
+
+  /// Tests the last effect of `with` against the hypothesis without it.
+  Trial trial(const Hypothesis& with, const Scored& without, const PlacedEffect& effect) const;
+  /// True if the effect with index `place` in `with` is still needed.
+  bool is_needed(const Scored& with, const Scored& without, int place, double significance) const;
+
+  /// Cost of a fit: -ln L on the fitting blocks plus the stretch of the baseline parameters.
+  double cost(const Scored& scored) const;
+
+ private:
+  double p_of_gain(const Score& with, const Score& without) const;
+  bool explains_a_rest(const Score& before, const Score& after) const;
+  bool at_bound(const Scored& with, int place) const;
+  bool is_as_good_at_bound(const Scored& with, const FitParameter& p) const;
+  bool within_tolerance(const Hypothesis& h, int place) const;
+  bool matters(const Score& before, const Score& after, const Hypothesis& with, int place) const;
+  double stretch(const Hypothesis& h) const;
+
+  const Evidence& evidence_;
+  const ArmModel& model_;
+  std::vector<FitParameter> numbers_;
+  std::vector<double> first_;
+};
+
+}  // namespace halyard

@@ -1,0 +1,23 @@
+#include "diagnosis/judgement/paired_t.h"
+
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+namespace halyard {
+
+Paired paired(const std::vector<double>& differences) {
+  const double n = static_cast<double>(differences.size());
+  double sum = 0, square = 0;
+  for (const double d : differences) sum += d;
+  for (const double d : differences) square += std::pow(d - sum / n, 2);
+  const double error = n > 1 ? std::sqrt(square / (n * (n - 1))) : 0;
+  return {sum, error > 0 ? sum / n / error : 0, static_cast<int>(differences.size())};
+}
+
+double p_value(const Paired& p) {
+  if (p.pairs < 3) return 1;
+  const boost::math::students_t distribution(p.pairs - 1);
+  return boost::math::cdf(boost::math::complement(distribution, p.t));
+}
+
+}  // namespace halyard

@@ -1,7 +1,0 @@
-#include "diagnosis/lane_drive_body.h"
-
-namespace halyard {
-
-LaneDrive avx2_lane_drive() { return {drive_lanes, replay_lanes}; }
-
-}  // namespace halyard

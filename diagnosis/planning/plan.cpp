@@ -1,0 +1,386 @@
+#include "diagnosis/plan.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/explanation/signature.h"
+#include "diagnosis/fit/baseline_reach.h"
+#include "diagnosis/search/attribution.h"
+#include "model/input_error.h"
+
+namespace halyard {
+namespace {
+
+/// Sizes are tried over powers of two of the typical size, so many at once, and between two of them in so many steps.
+constexpr int kRungs = 8;
+constexpr double kLowest = 1.0 / 32, kLeast = 1e-7;
+
+/// What a candidate may do, in the reach's weights.
+struct Shown {
+  DetectionLimit limit;
+  Eigen::VectorXd change;  ///< d at twice the limit; of an effect that is not excited nothing
+  struct Fitted {
+    BaselineReach::Sizes sizes;
+    std::vector<bool> bound_is_end;  ///< [sizes] an amount at its bound explains nothing
+  };
+  std::vector<Fitted> fitted;  ///< one for each set of shapes; sizes to be fitted
+};
+
+std::vector<Record> records_of(const ArmModel& model, const std::vector<Log>& logs) {
+  std::vector<Record> records;
+  for (const Log& log : logs)
+    for (Record& r : make_records(log, model, {})) records.push_back(std::move(r));
+  return records;
+}
+
+class Planner {
+ public:
+  Planner(const ArmModel& model, const std::vector<Log>& logs)
+      : model_(model),
+        nominal_{model.nominal, model.effects},
+        evidence_(records_of(model, logs), model),
+        reach_(make_reach()) {
+    candidates_ = all_candidates(model.nominal);
+    std::erase_if(candidates_, [&](const PlacedEffect& candidate) {
+      return std::any_of(model.effects.begin(), model.effects.end(), [&](const PlacedEffect& e) {
+        return e.effect == candidate.effect && e.joint == candidate.joint;
+      });
+    });
+    residual_ = reach_.weighted(base_);
+    reference_ = reach_.take(residual_);
+    reference_square_ = mean_squares(reach_.rows(reference_.left));
+    reference_ln_ = log_likelihood(reference_.left);
+    const double blocks = static_cast<double>(reference_ln_.size());
+    if (blocks < 3) throw InputError(logs.front().source + ": too short to judge by; expected some seconds");
+    const double fitted = static_cast<double>(std::min(kMostFitted, candidates_.size()));
+    const double level = AttributionOptions{}.significance / fitted;
+    significant_gain_ = -std::log(level);
+    significant_t_ = boost::math::quantile(boost::math::complement(boost::math::students_t(blocks - 1), level));
+  }
+
+  const std::vector<PlacedEffect>& candidates() const { return candidates_; }
+
+  Shown show(const PlacedEffect& candidate) const {
+    Shown shown;
+    Hypothesis with = nominal_;
+    with.effects.push_back(candidate);
+    const int place = static_cast<int>(nominal_.effects.size());
+    const auto parameters = effect_parameters(evidence_, with, model_.nominal, place);
+    std::vector<std::size_t> sizes;
+    std::vector<double> unit;  // typical sizes, from neutral
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      if (!parameters[i].shape) {
+        sizes.push_back(i);
+        unit.push_back(parameter_value(with, parameters[i]) - parameters[i].nominal);
+      }
+    shown.limit.effect = candidate;
+    if (sizes.empty()) return shown;
+    const FitParameter& size = parameters[sizes[0]];
+    const double typical = parameter_value(with, size);
+    Hypothesis neutral = with;
+    place_shapes(neutral, parameters);
+
+    // One size at a time at its typical value, at each set of shapes.
+    std::vector<Hypothesis> shaped = shape_sets(neutral, parameters, sizes[0]), tried;
+    for (const Hypothesis& h : shaped)
+      for (const std::size_t i : sizes) {
+        tried.push_back(h);
+        set_parameter(tried.back(), parameters[i], parameter_value(with, parameters[i]));
+      }
+    const auto changes = changes_by(tried);
+    std::vector<std::vector<Eigen::VectorXd>> columns;
+    std::size_t best = 0;
+    double most = -1;
+    for (std::size_t s = 0; s < shaped.size(); ++s) {
+      columns.emplace_back(changes.begin() + s * sizes.size(), changes.begin() + (s + 1) * sizes.size());
+      add_fitted(shown, columns.back(), unit, parameters, sizes);
+      const double shows = columns[s][0].size() ? reach_.take(columns[s][0]).cost : 0;
+      if (shows > most) most = shows, best = s;
+    }
+
+    const double bound = typical > size.nominal ? size.upper : size.lower;
+    const double largest = (bound - size.nominal) / (typical - size.nominal);
+    const auto at = [&](double factor) {
+      Hypothesis h = shaped[best];
+      set_parameter(h, size, factor < largest ? size.nominal + factor * (typical - size.nominal) : bound);
+      return h;
+    };
+    const double factor = smallest_seen(at, largest);
+    shown.limit.excited = std::isfinite(factor);
+    const Hypothesis there = at(shown.limit.excited ? factor : largest);
+    shown.limit.effect = there.effects.back();
+    shown.limit.parameter = size.name;
+    shown.limit.unit = size.unit;
+    shown.limit.neutral = size.nominal;
+    shown.limit.limit = parameter_value(there, size);
+    if (!shown.limit.excited) return shown;
+
+    // Effects need not be proportional to their size: around the limit they are fitted by what they do there.
+    std::vector<double> around = {std::min(2 * factor, largest), factor, std::min(4 * factor, largest)};
+    const auto near = changes_by({at(around[0]), at(around[1]), at(around[2])});
+    shown.change = near[near[0].size() > 0 ? 0 : 1];
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      std::vector<Eigen::VectorXd> column = columns[best];
+      column[0] = near[i];
+      std::vector<double> column_unit = unit;
+      column_unit[0] *= around[i];
+      add_fitted(shown, column, column_unit, parameters, sizes);
+    }
+    return shown;
+  }
+
+  /// True if the other effect explains what the first one does at twice its limit nearly as well.
+  bool confused(const Shown& right, const Shown& other) const {
+    if (!right.limit.excited) return false;
+    const Eigen::VectorXd x = residual_ + right.change;
+    BaselineReach::Taken best;
+    best.cost = std::numeric_limits<double>::infinity();
+    for (const Shown::Fitted& f : other.fitted) {
+      BaselineReach::Taken t = reach_.take(x, f.sizes);
+      bool at_end = false;
+      for (std::size_t i = 0; i < f.bound_is_end.size(); ++i) {
+        const auto e = static_cast<Eigen::Index>(i);
+        at_end = at_end || (f.bound_is_end[i] && t.amount(e) != 0 &&
+                            (t.amount(e) <= f.sizes.lower(e) || t.amount(e) >= f.sizes.upper(e)));
+      }
+      if (!at_end && t.cost < best.cost) best = std::move(t);
+    }
+    if (!std::isfinite(best.cost)) return false;
+    const Paired p = compared(reference_ln_, log_likelihood(best.left));
+    return p.t < kTellApart || p.sum < 2 * kTellApart * kTellApart;
+  }
+
+  /// See Separation::cosine; one way.
+  double cosine(const Shown& right, const Shown& other) const {
+    if (!right.limit.excited || !other.limit.excited) return 1;
+    const double alone = reach_.take(right.change).cost;
+    double left = alone;
+    for (const Shown::Fitted& f : other.fitted) left = std::min(left, reach_.take(right.change, f.sizes).cost);
+    return std::sqrt(1 - left / alone);
+  }
+
+ private:
+  BaselineReach make_reach() {
+    const Score score = evidence_.score(nominal_);
+    const std::vector<FitParameter> numbers = baseline_parameters(model_);
+    const auto columns = sensitivities(evidence_, nominal_, numbers);
+    if (!score.finite || (columns.empty() && !numbers.empty()))
+      throw InputError(
+          model_.source +
+          ": cannot be integrated along the motion; expected frictions and cables that settle more slowly: "
+          "take larger smoothing speeds, or less damping");
+    base_ = evidence_.fit_rows({nominal_})[0];
+    return BaselineReach(evidence_, columns, channel_scale(evidence_, score.fit_mean_square));
+  }
+
+  /// Instants one after another over the record, positions in the middle; sizes to their neutral values.
+  void place_shapes(Hypothesis& h, const std::vector<FitParameter>& parameters) const {
+    const auto is_instant = [](const FitParameter& p) { return p.range == SearchRange::record_time; };
+    const double instants = static_cast<double>(std::count_if(parameters.begin(), parameters.end(), is_instant));
+    double instant = 0;
+    for (const FitParameter& p : parameters) {
+      if (!p.shape) set_parameter(h, p, p.nominal);
+      else if (is_instant(p)) set_parameter(h, p, std::lerp(p.lower, p.upper, ++instant / (instants + 1)));
+      else if (p.range == SearchRange::joint_position) set_parameter(h, p, (p.lower + p.upper) / 2);
+    }
+  }
+
+  /// Every combination of the starts of the shapes that follow the first size.
+  static std::vector<Hypothesis> shape_sets(const Hypothesis& h, const std::vector<FitParameter>& parameters,
+                                            std::size_t main) {
+    std::vector<Hypothesis> all = {h};
+    std::size_t i = main;
+    while (i < parameters.size() && !parameters[i].shape) ++i;
+    for (; i < parameters.size() && parameters[i].shape; ++i) {
+      if (parameters[i].starts.empty() || is_past(parameters[i])) continue;
+      std::vector<Hypothesis> longer;
+      for (const Hypothesis& one : all)
+        for (const double value : parameters[i].starts) {
+          longer.push_back(one);
+          set_parameter(longer.back(), parameters[i], value);
+        }
+      all = std::move(longer);
+    }
+    return all;
+  }
+
+  /// d of each hypothesis; empty if it cannot be integrated.
+  std::vector<Eigen::VectorXd> changes_by(const std::vector<Hypothesis>& hypotheses) const {
+    const auto rows = evidence_.fit_rows(hypotheses);
+    std::vector<Eigen::VectorXd> changes(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (!rows[i].empty()) changes[i] = residual_ - reach_.weighted(rows[i]);
+    return changes;
+  }
+
+  /// unit: what an amount of 1 is of each size.
+  void add_fitted(Shown& shown, const std::vector<Eigen::VectorXd>& columns, const std::vector<double>& unit,
+                  const std::vector<FitParameter>& parameters, const std::vector<std::size_t>& sizes) const {
+    Shown::Fitted f;
+    std::vector<Eigen::VectorXd> used;
+    std::vector<double> lower, upper;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      if (columns[i].size() == 0 || columns[i].squaredNorm() == 0) continue;
+      const FitParameter& p = parameters[sizes[i]];
+      const auto [low, high] = std::minmax({(p.lower - p.nominal) / unit[i], (p.upper - p.nominal) / unit[i]});
+      used.push_back(columns[i]);
+      lower.push_back(low), upper.push_back(high);
+      f.bound_is_end.push_back(!p.natural_bounds);
+    }
+    if (used.empty()) return;
+    Eigen::MatrixXd E(residual_.size(), static_cast<Eigen::Index>(used.size()));
+    for (std::size_t i = 0; i < used.size(); ++i) E.col(static_cast<Eigen::Index>(i)) = used[i];
+    const Eigen::Index n = E.cols();
+    f.sizes = reach_.sizes(std::move(E), Eigen::VectorXd::Map(lower.data(), n), Eigen::VectorXd::Map(upper.data(), n));
+    shown.fitted.push_back(std::move(f));
+  }
+
+  /// The smallest factor of the typical size at which the effect is seen; infinite if there is none up to the largest.
+  template <class At>
+  double smallest_seen(const At& at, double largest) const {
+    const auto first_seen = [&](const std::vector<double>& factors) {
+      std::vector<Hypothesis> h;
+      for (const double f : factors) h.push_back(at(f));
+      const auto changes = changes_by(h);
+      std::size_t i = 0;
+      while (i < changes.size() && !seen(changes[i])) ++i;
+      return i;
+    };
+    double unseen = 0, least = std::numeric_limits<double>::infinity();
+    for (double from = kLowest;;) {
+      std::vector<double> factors;
+      for (int i = 0; i < kRungs && (factors.empty() || factors.back() < largest); ++i)
+        factors.push_back(std::min(std::ldexp(from, i), largest));
+      const std::size_t first = first_seen(factors);
+      if (first < factors.size()) least = factors[first];
+      if (first > 0) unseen = factors[first - 1];
+      if (std::isfinite(least) && (unseen > 0 || from < kLeast)) break;
+      if (!std::isfinite(least) && factors.back() >= largest) return least;
+      from = std::ldexp(from, std::isfinite(least) ? -kRungs : kRungs);
+    }
+    if (unseen == 0) return least;
+    std::vector<double> between;
+    for (int i = 1; i < kRungs; ++i)
+      between.push_back(unseen * std::pow(least / unseen, static_cast<double>(i) / kRungs));
+    const std::size_t first = first_seen(between);
+    return first < between.size() ? between[first] : least;
+  }
+
+  bool seen(const Eigen::VectorXd& change) const {
+    if (change.size() == 0) return false;
+    const Eigen::VectorXd left = reach_.take(residual_ + change).left;
+    if (!evidence_.exceeds_floor(reach_.rows(left - reference_.left), kMattersFactor) ||
+        !evidence_.exceeds_floor(reach_.rows(change), kMattersFactor))
+      return false;
+    const std::vector<double> square = mean_squares(reach_.rows(left));
+    bool share = false;
+    for (std::size_t c = 0; c < square.size(); ++c)
+      share = share || square[c] - reference_square_[c] > kMattersShare * square[c];
+    const Paired gain = compared(reference_ln_, log_likelihood(left));
+    return share && (gain.t > significant_t_ || gain.sum > significant_gain_);
+  }
+
+  std::vector<double> mean_squares(const std::vector<double>& rows) const {
+    std::vector<double> square(evidence_.channels(), 0), count(evidence_.channels(), 0);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      square[evidence_.row_channel()[r]] += rows[r] * rows[r];
+      count[evidence_.row_channel()[r]] += 1;
+    }
+    for (std::size_t c = 0; c < square.size(); ++c) square[c] /= std::max(1.0, count[c]);
+    return square;
+  }
+
+  /// Of each block that has rows, as likelihood.h says.
+  std::vector<double> log_likelihood(const Eigen::VectorXd& left) const {
+    const std::vector<double> rows = reach_.rows(left);
+    const std::size_t channels = evidence_.channels();
+    std::vector<double> square, count;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const std::size_t place = evidence_.row_block()[r] * channels + evidence_.row_channel()[r];
+      if (place >= square.size())
+        square.resize((evidence_.row_block()[r] + 1) * channels, 0), count.resize(square.size(), 0);
+      square[place] += rows[r] * rows[r];
+      count[place] += 1;
+    }
+    std::vector<double> ln;
+    for (std::size_t block = 0; block < square.size(); block += channels) {
+      double sum = 0, any = 0;
+      for (std::size_t c = 0; c < channels; ++c) {
+        const double n = count[block + c];
+        if (n > 0) sum += block_log_likelihood(evidence_, n, square[block + c] / n, std::pow(evidence_.floor()[c], 2));
+        any += n;
+      }
+      if (any > 0) ln.push_back(sum);
+    }
+    return ln;
+  }
+
+  static Paired compared(const std::vector<double>& with, const std::vector<double>& without) {
+    std::vector<double> differences;
+    for (std::size_t b = 0; b < with.size(); ++b) differences.push_back(with[b] - without[b]);
+    return paired(differences);
+  }
+
+  const ArmModel& model_;
+  Hypothesis nominal_;
+  Evidence evidence_;
+  std::vector<double> base_;  ///< fitting rows of the model as it is
+  BaselineReach reach_;
+  std::vector<PlacedEffect> candidates_;
+  Eigen::VectorXd residual_;        ///< r0
+  BaselineReach::Taken reference_;  ///< r0⊥
+  std::vector<double> reference_square_, reference_ln_;
+  double significant_t_ = 0, significant_gain_ = 0;
+};
+
+}  // namespace
+
+std::vector<DetectionLimit> detection_limits(const ArmModel& model, const std::vector<Log>& logs,
+                                             const std::function<void(const std::string&, double)>& progress) {
+  const Planner planner(model, logs);
+  const auto& candidates = planner.candidates();
+  std::vector<Shown> shown(candidates.size());
+  std::atomic<std::size_t> done{0};
+  const auto say = [&](const char* what) {
+    if (progress) progress(what, static_cast<double>(++done) / static_cast<double>(candidates.size()));
+  };
+  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
+    shown[i] = planner.show(candidates[i]);
+    say("detection limits");
+  });
+  done = 0;
+  std::vector<DetectionLimit> limits(candidates.size());
+  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
+    limits[i] = shown[i].limit;
+    for (std::size_t j = 0; j < candidates.size(); ++j)
+      if (j != i && planner.confused(shown[i], shown[j])) limits[i].confused_with.push_back(candidates[j]);
+    say("effects that look alike");
+  });
+  return limits;
+}
+
+bool names_nothing(const ArmModel& model, const std::vector<Log>& logs) {
+  const std::vector<Record> records = records_of(model, logs);
+  for (int k = 0; k < model.n(); ++k)
+    if (!is_one_sinusoid(records, model.nominal, k)) return false;
+  return true;
+}
+
+Separation separation(const ArmModel& model, const std::vector<Log>& logs, const PlacedEffect& first,
+                      const PlacedEffect& second) {
+  const Planner planner(model, logs);
+  const Shown a = planner.show(first), b = planner.show(second);
+  Separation s{a.limit, b.limit, std::max(planner.cosine(a, b), planner.cosine(b, a)), false};
+  if (planner.confused(a, b)) s.first.confused_with = {second};
+  if (planner.confused(b, a)) s.second.confused_with = {first};
+  s.told_apart = a.limit.excited && b.limit.excited && s.first.confused_with.empty() &&
+                 s.second.confused_with.empty() && !names_nothing(model, logs);
+  return s;
+}
+
+}  // namespace halyard

@@ -1,0 +1,7 @@
+#include "diagnosis/prediction/lane_drive_body.h"
+
+namespace halyard {
+
+LaneDrive avx2_lane_drive() { return {drive_lanes, replay_lanes}; }
+
+}  // namespace halyard

@@ -1,0 +1,250 @@
+#pragma once
+/// The arm driven by a measured motor motion. The joints follow through the cables, and the result includes the
+/// motor torque that the motion requires. Errors of the model do not accumulate, because the motors' motion is given.
+///
+///   given q_m(t), q_m'(t), q_m''(t):
+///   M(q) q'' + h(q, q') = F(q_m, q_m', q, q')           integrated: predicted joint position
+///   ε = τ(command) - (r_m / N) g - J q_m''               torque residual at the motor shaft
+///
+/// A rigidly driven joint has its motion prescribed; its transmission force λ follows from
+/// R q'' = (r_m / N) q_m'' and replaces g. A joint without a motor has its own motion prescribed, with q'' given: an
+/// unknown force λ holds or drives it.
+
+#include "diagnosis/prediction/chebyshev.h"
+#include "estimators/process/arm_dynamics.h"
+
+namespace halyard {
+
+/// Motor motion and known torques at one instant, [n]; for a joint without a motor, the joint's own motion.
+struct DrivenInput {
+  double motor_angle[kMaxJoints], motor_rate[kMaxJoints], motor_acceleration[kMaxJoints];
+  double torque[kMaxJoints], external[kMaxJoints];
+};
+
+/// State of the driven arm: [q, q'] of each joint, then the internal states of the effects.
+template <class T>
+struct DrivenState {
+  T q[kMaxJoints], v[kMaxJoints], z[kMaxStates];
+};
+
+/// Sets the position and rate of joints with prescribed motion.
+template <class T>
+HALYARD_INLINE void prescribe(const ArmParameters<T>& arm, const DrivenInput& u, DrivenState<T>& x) {
+  for (int k = 0; k < arm.n; ++k) {
+    const JointParameters<T>& j = arm.joint[k];
+    if (j.drive == Drive::none) {
+      x.q[k] = T(u.motor_angle[k]) - j.joint_encoder_offset;
+      x.v[k] = u.motor_rate[k];
+    }
+    if (j.drive != Drive::rigid) continue;
+    x.q[k] = rigid_joint(arm, k, T(u.motor_angle[k] - j.motor_encoder_offset), x.q);
+    x.v[k] = rigid_joint(arm, k, T(u.motor_rate[k]), x.v);
+  }
+}
+
+/// The rigid chain over one step. It changes little within 2 ms, so it is computed once, for the middle of the step.
+template <class T>
+struct ChainOverStep {
+  T M[kMaxJoints][kMaxJoints];  ///< factored mass matrix
+  T bias[kMaxJoints];           ///< velocity and gravity forces
+  int n_prescribed = 0;
+  int prescribed[kMaxJoints];          ///< joints with a rigid drive or none
+  T row[kMaxJoints][kMaxJoints];       ///< R: a row of the path matrix, or of the unit matrix where there is no drive
+  T response[kMaxJoints][kMaxJoints];  ///< M⁻¹ R_rᵀ of each
+  T A[kMaxJoints][kMaxJoints];         ///< factored R M⁻¹ Rᵀ
+};
+
+template <class T>
+HALYARD_INLINE void chain_over_step(const ArmParameters<T>& arm, const DrivenState<T>& x, double ahead,
+                                    ChainOverStep<T>& chain) {
+  const int n = arm.n;
+  T q[kMaxJoints], zero[kMaxJoints];
+  for (int k = 0; k < n; ++k) q[k] = x.q[k] + T(ahead) * x.v[k], zero[k] = T(0.0);
+  const ChainPose<T> pose = chain_pose(arm, q);
+  inverse_dynamics(arm, pose, x.v, zero, chain.bias);
+  mass_matrix(arm, pose, chain.M);
+  ldl_factor<T, kMaxJoints>(n, chain.M);
+  chain.n_prescribed = 0;
+  for (int k = 0; k < n; ++k)
+    if (arm.joint[k].drive != Drive::cable) chain.prescribed[chain.n_prescribed++] = k;
+  for (int r = 0; r < chain.n_prescribed; ++r) {
+    const int k = chain.prescribed[r];
+    const JointParameters<T>& j = arm.joint[k];
+    for (int i = 0; i < n; ++i) {
+      chain.row[r][i] = j.drive == Drive::rigid ? path_per_joint(j, i) : T(i == k ? 1.0 : 0.0);
+      chain.response[r][i] = chain.row[r][i];
+    }
+    ldl_solve<T, kMaxJoints>(n, chain.M, chain.response[r]);
+  }
+  for (int r = 0; r < chain.n_prescribed; ++r)
+    for (int c = 0; c < chain.n_prescribed; ++c) {
+      T sum = 0.0;
+      for (int i = 0; i < n; ++i) sum += chain.row[c][i] * chain.response[r][i];
+      chain.A[c][r] = sum;
+    }
+  ldl_factor<T, kMaxJoints>(chain.n_prescribed, chain.A);
+}
+
+/// Rates of x; torque_residual [n] and joint_reading [n] if not null. Without a chain there are no accelerations; only
+/// arms with cables at all joints allow this.
+template <class T>
+HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const ChainOverStep<T>* chain, double time,
+                                      const CommandHistory* history, const DrivenInput& u, const DrivenState<T>& x,
+                                      DrivenState<T>& rate, T* torque_residual, T* joint_reading) {
+  const ArmParameters<T>& arm = transmission.arm();
+  const int n = arm.n;
+  JointSignals<T> s[kMaxJoints];
+  for (int k = 0; k < n; ++k) {
+    s[k].command = u.torque[k];
+    s[k].motor_angle = u.motor_angle[k];
+    s[k].motor_rate = u.motor_rate[k];
+    s[k].joint_position = x.q[k];
+    s[k].joint_rate = x.v[k];
+    s[k].external_force = u.external[k];
+  }
+  // The angle from the encoder's reading: errors are small, so one correction is enough.
+  transmission.sensor_errors(time, x.z, s);
+  for (int k = 0; k < n; ++k) {
+    s[k].motor_angle -= s[k].motor_error;
+    if (joint_reading) joint_reading[k] = x.q[k] + s[k].joint_error;
+  }
+  transmission.evaluate(time, history, x.z, s, rate.z);
+
+  T a[kMaxJoints];
+  for (int k = 0; k < n; ++k) a[k] = chain ? T(s[k].joint_force - chain->bias[k]) : T(0.0);
+  if (chain) ldl_solve<T, kMaxJoints>(n, chain->M, a);
+
+  // Prescribed motion: λ from (R M⁻¹ Rᵀ) λ = b'' - R a with b'' = (r_m/N) q_m'' or q'', then a += M⁻¹ Rᵀ λ.
+  if (chain && chain->n_prescribed > 0) {
+    T lambda[kMaxJoints];
+    for (int r = 0; r < chain->n_prescribed; ++r) {
+      const int k = chain->prescribed[r];
+      const bool rigid = arm.joint[k].drive == Drive::rigid;
+      lambda[r] = (rigid ? arm.joint[k].motor_travel() : T(1.0)) * u.motor_acceleration[k];
+      for (int i = 0; i < n; ++i) lambda[r] -= chain->row[r][i] * a[i];
+    }
+    ldl_solve<T, kMaxJoints>(chain->n_prescribed, chain->A, lambda);
+    for (int r = 0; r < chain->n_prescribed; ++r) {
+      const int k = chain->prescribed[r];
+      for (int i = 0; i < n; ++i) a[i] += chain->response[r][i] * lambda[r];
+      if (arm.joint[k].drive == Drive::rigid) s[k].cable_force_motor = lambda[r];
+    }
+  }
+
+  for (int k = 0; k < n; ++k) {
+    rate.q[k] = x.v[k];
+    rate.v[k] = a[k];
+    if (!torque_residual) continue;
+    const JointParameters<T>& j = arm.joint[k];
+    torque_residual[k] =
+        rotor_torque(j, s[k].motor_torque, s[k].cable_force_motor) - j.rotor_inertia * u.motor_acceleration[k];
+  }
+}
+
+template <class T>
+HALYARD_INLINE void axpy(int n, int m, double h, const DrivenState<T>& x, const DrivenState<T>& rate,
+                         DrivenState<T>& y) {
+  for (int k = 0; k < n; ++k) {
+    y.q[k] = x.q[k] + T(h) * rate.q[k];
+    y.v[k] = x.v[k] + T(h) * rate.v[k];
+  }
+  for (int k = 0; k < m; ++k) y.z[k] = x.z[k] + T(h) * rate.z[k];
+}
+
+template <class T>
+HALYARD_INLINE void copy_state(int n, int m, const DrivenState<T>& from, DrivenState<T>& to) {
+  for (int k = 0; k < n; ++k) to.q[k] = from.q[k], to.v[k] = from.v[k];
+  for (int k = 0; k < m; ++k) to.z[k] = from.z[k];
+}
+
+/// One step of x from time over h; input(t) gives the DrivenInput. row, if not null: torque residual [n] and joint
+/// reading [n] at the start of the step.
+template <class T, class Input>
+HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time, double h, const Chebyshev& c,
+                                const CommandHistory* history, const Input& input, DrivenState<T>& x, T* row) {
+  const int n = transmission.arm().n, m = transmission.n_states();
+  ChainOverStep<T> chain;
+  chain_over_step(transmission.arm(), x, 0.5 * h, chain);
+  DrivenState<T> f0, f, before, now;
+  driven_derivative<T>(transmission, &chain, time, history, input(time), x, f0, row, row ? row + n : nullptr);
+  copy_state(n, m, x, before);
+  axpy(n, m, c.mu_h[1] * h, x, f0, now);
+  for (int j = 2; j <= c.stages; ++j) {
+    const double at = time + c.node[j - 1] * h;
+    // Past commands affect the torque residual only, which inner stages do not compute.
+    driven_derivative<T>(transmission, &chain, at, nullptr, input(at), now, f, nullptr, nullptr);
+    const T stay = 1 - c.mu[j] - c.nu[j], mu = c.mu[j], nu = c.nu[j], mu_h = c.mu_h[j] * h, gamma_h = c.gamma_h[j] * h;
+    const auto next = [&](const T& x0, const T& y1, T& y2, const T& rate, const T& rate0) {
+      y2 = stay * x0 + mu * y1 + nu * y2 + mu_h * rate + gamma_h * rate0;
+    };
+    for (int k = 0; k < n; ++k) {
+      next(x.q[k], now.q[k], before.q[k], f.q[k], f0.q[k]);
+      next(x.v[k], now.v[k], before.v[k], f.v[k], f0.v[k]);
+    }
+    for (int k = 0; k < m; ++k) next(x.z[k], now.z[k], before.z[k], f.z[k], f0.z[k]);
+    copy_state(n, m, now, f);  // f is free: it carries the stage over
+    copy_state(n, m, before, now);
+    copy_state(n, m, f, before);
+  }
+  copy_state(n, m, now, x);
+}
+
+/// Integrates a whole record. Sample i writes the torque residual to out[i * 2n + k] and the predicted joint reading to
+/// out[i * 2n + n + k]. x is the initial state and becomes the final one. states [size][2n + effects' states], if not
+/// null, receives x at every sample.
+template <class T>
+HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
+                                 double start, double dt, const Chebyshev& scheme, const CommandHistory* history,
+                                 DrivenState<T>& x, T* out, T* states) {
+  const ArmParameters<T>& arm = transmission.arm();
+  const int n = arm.n, m = transmission.n_states();
+  for (std::size_t i = 0; i < size; ++i) {
+    const double time = start + dt * static_cast<double>(i);
+    // After the last sample its input is held.
+    const DrivenInput &a = samples[i], &b = samples[std::min(i + 1, size - 1)];
+    prescribe(arm, a, x);
+    if (states) {
+      T* row = states + i * (2 * n + m);
+      for (int k = 0; k < n; ++k) row[k] = x.q[k], row[n + k] = x.v[k];
+      for (int k = 0; k < m; ++k) row[2 * n + k] = x.z[k];
+    }
+    const auto input = [&](double t) {
+      const double u = (t - time) / dt;
+      DrivenInput at = a;
+      for (int k = 0; k < n; ++k) {
+        at.motor_angle[k] += u * (b.motor_angle[k] - a.motor_angle[k]);
+        at.motor_rate[k] += u * (b.motor_rate[k] - a.motor_rate[k]);
+        at.motor_acceleration[k] += u * (b.motor_acceleration[k] - a.motor_acceleration[k]);
+        at.external[k] += u * (b.external[k] - a.external[k]);
+      }
+      return at;
+    };
+    const double h = dt / scheme.steps;
+    for (int s = 0; s < scheme.steps; ++s)
+      driven_step(transmission, time + s * h, h, scheme, history, input, x, s == 0 ? out + i * 2 * n : nullptr);
+  }
+}
+
+/// Computes the output of drive_record from known `states`: for hypotheses that differ only in parameters on which the
+/// motion does not depend.
+template <class T>
+HALYARD_INLINE void replay_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
+                                  double start, double dt, const CommandHistory* history, const T* states, T* out) {
+  const ArmParameters<T>& arm = transmission.arm();
+  const int n = arm.n, m = transmission.n_states();
+  bool prescribed = false;
+  for (int k = 0; k < n; ++k) prescribed = prescribed || arm.joint[k].drive != Drive::cable;
+  for (std::size_t i = 0; i < size; ++i) {
+    const T* from = states + i * (2 * n + m);
+    DrivenState<T> x, rate;
+    for (int k = 0; k < n; ++k) x.q[k] = from[k], x.v[k] = from[n + k];
+    for (int k = 0; k < m; ++k) x.z[k] = from[2 * n + k];
+    ChainOverStep<T> chain;
+    if (prescribed) chain_over_step(arm, x, 0.5 * dt, chain);
+    T* row = out + i * 2 * n;
+    driven_derivative<T>(transmission, prescribed ? &chain : nullptr, start + dt * static_cast<double>(i), history,
+                         samples[i], x, rate, row, row + n);
+  }
+}
+
+}  // namespace halyard

@@ -1,0 +1,45 @@
+#pragma once
+/// Predictions of a record by hypotheses about an arm, many at a time.
+
+#include <functional>
+#include <vector>
+
+#include "diagnosis/record/record.h"
+
+namespace halyard {
+
+/// A hypothesis about an arm: its parameters, its effects, and the effects' states at the start of each record.
+struct Hypothesis {
+  ArmParameters<double> nominal;
+  std::vector<PlacedEffect> effects;
+  /// Effects' internal states at a record's start, less those of an arm that was just lowered onto its cables:
+  /// [effect][record's place * n_states + state]; missing entries are 0.
+  std::vector<std::vector<double>> past = {};
+
+  double past_state(std::size_t effect, std::size_t i) const;
+  void set_past_state(std::size_t effect, std::size_t i, double value);
+};
+
+/// The hypothesis without the effect at that index.
+Hypothesis without_effect(Hypothesis h, std::size_t place);
+
+/// Residuals of one record under one hypothesis, every stride-th sample: [2n][ceil(size / stride)].
+/// Channel k < n: torque residual of motor k, N m. Channel n + k: measured minus predicted reading of
+/// joint k, rad | m. Its mean is subtracted if the zero of one of the joint's encoders is unknown. NaN where the record
+/// has no such signal or the sample cannot be compared.
+struct Residuals {
+  std::vector<std::vector<double>> channel;
+  bool finite = true;  ///< false: the motion of this hypothesis cannot be integrated
+};
+
+/// Residuals of each hypothesis over a record. All hypotheses must have the same effects at the same
+/// joints; only parameters differ. The result does not depend on the number of threads.
+std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesis>& hypotheses, int stride);
+
+/// Joint readings predicted at every sample, [n][size], and the torque residuals, for reports.
+struct FullPrediction {
+  Signals joint_reading, torque_residual;
+};
+FullPrediction predict_fully(const Record& record, const Hypothesis& hypothesis);
+
+}  // namespace halyard

@@ -1,0 +1,49 @@
+#pragma once
+/// Finds the effects that explain the residual. In each round, candidates are fitted together with the baseline's
+/// parameters on the fitting blocks and judged on the deciding blocks (judge.h). The best is added, until none helps
+/// significantly. Then the removal of each added effect is tried.
+
+#include <functional>
+#include <string>
+
+#include "diagnosis/judgement/judge.h"
+
+namespace halyard {
+
+/// Two candidates whose gains differ by less than this many standard errors cannot be told apart.
+inline constexpr double kTellApart = 2.0;
+
+/// Two candidates are alternatives if they share at least this fraction of the smaller gain (shared_gain()). Otherwise
+/// they explain different parts of the data.
+inline constexpr double kSharedGain = 0.5;
+
+/// Number of candidates that are fitted in a round: those with the smallest residual at the start of their search.
+inline constexpr std::size_t kMostFitted = 16;
+
+/// One round of the search: all candidates against the same baseline.
+struct Round {
+  std::vector<Trial> trials;  ///< the added candidate first, then in the order of the gain of their quick fits
+  bool accepted = false;      ///< the first trial was added
+};
+
+struct Attribution {
+  Fit baseline;                                         ///< parameters refitted within their tolerance, no effects
+  Fit final_fit;                                        ///< with the named effects
+  std::vector<std::vector<PlacedEffect>> alternatives;  ///< for each effect of final_fit
+  std::vector<Round> rounds;
+  Score nominal_score, baseline_score, final_score;
+};
+
+/// Every effect of the library at every place where the arm can have it, at its typical size, in a fixed order.
+std::vector<PlacedEffect> all_candidates(const ArmParameters<double>& arm);
+
+struct AttributionOptions {
+  int most_effects = 6;
+  double significance = 0.01;  ///< of a round: expected share of false candidates among the significant ones
+};
+
+/// progress(text, fraction): name of the current stage and its completed fraction.
+Attribution attribute(const Evidence& evidence, const ArmModel& model, const AttributionOptions& options,
+                      const std::function<void(const std::string&, double)>& progress);
+
+}  // namespace halyard

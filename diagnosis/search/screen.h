@@ -1,0 +1,48 @@
+#pragma once
+/// A linear screening of candidates: which share of the residual r⊥, which the baseline's parameters cannot explain,
+/// could a candidate explain?
+///
+///   r⊥ = r - J (Jᵀ J + P)⁻¹ Jᵀ r,  d⊥ likewise,  promise = (r⊥ · d⊥)² / (|r⊥|² |d⊥|²)
+///
+///   r   residual of the fitting rows, each channel over its scale            [rows]
+///   J   its sensitivities to the baseline's parameters, P their prior         [rows x numbers]
+///   d   change of r by the candidate at some size                             [rows]
+
+#include <Eigen/QR>
+
+#include "diagnosis/fit/fit.h"
+
+namespace halyard {
+
+class Screen {
+ public:
+  /// columns: sensitivities() at the hypothesis, one for each baseline parameter.
+  Screen(const Evidence& evidence, const Hypothesis& at, const std::vector<std::vector<double>>& columns,
+         const std::vector<double>& scale);
+
+  /// The benefit of a candidate's change d of the residual.
+  struct Direction {
+    double promise = 0;  ///< 0 to 1
+    double amount = 0;   ///< the multiple of d that minimises the residual: -(r⊥ · d⊥) / |d⊥|²
+  };
+  /// rows: residual with the candidate at some size; for empty rows the promise is 0.
+  Direction direction(const std::vector<double>& rows) const;
+  /// |r⊥ + d⊥|², infinite for empty rows.
+  double left(const std::vector<double>& rows) const;
+  /// Instants at which r jumps (leaps.h).
+  const std::vector<double>& instants() const { return instants_; }
+
+ private:
+  Eigen::VectorXd weighted(const std::vector<double>& rows) const;
+  /// The part of x that the baseline's parameters cannot explain.
+  Eigen::VectorXd beyond_baseline(Eigen::VectorXd x) const;
+
+  const Evidence& evidence_;
+  std::vector<double> scale_;
+  int numbers_;
+  Eigen::HouseholderQR<Eigen::MatrixXd> qr_;
+  Eigen::VectorXd r_, r_beyond_;
+  std::vector<double> instants_;
+};
+
+}  // namespace halyard

@@ -1,0 +1,29 @@
+#pragma once
+/// Start values for the fit of a candidate. Least squares finds only the nearest minimum, so sizes and shapes are first
+/// tried over their whole ranges. Impacts make the residual a rough function of a size, so values near the best one are
+/// tried again.
+
+#include <limits>
+
+#include "diagnosis/search/screen.h"
+
+namespace halyard {
+
+struct Start {
+  Hypothesis hypothesis;                                  ///< with the candidate, its last effect, at the best start
+  double promise = 0;                                     ///< at the best start, see screen.h; 0: it explains nothing
+  double left = std::numeric_limits<double>::infinity();  ///< |r⊥ + d⊥|² there
+};
+
+/// `with`: the candidate is its last effect. Each size is tried with each start of the shapes that follow it, at its
+/// typical value and at the value that the linear fit gives. A size without shapes is also tried over decades. A single
+/// instant is tried over the record and at the jumps of the residual.
+Start best_start(const Evidence& evidence, const Screen& screen, const Hypothesis& with,
+                 const ArmParameters<double>& nominal);
+
+/// The best of the hypothesis and of those in which one parameter of an effect, from index `first` on, is changed
+/// slightly. The criterion is the sum of squares of the fitting rows, each channel over its scale.
+Hypothesis nudged(const Evidence& evidence, Hypothesis h, std::size_t first, const ArmParameters<double>& nominal,
+                  const std::vector<double>& scale);
+
+}  // namespace halyard
