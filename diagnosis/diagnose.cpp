@@ -1,274 +1,274 @@
 #include "diagnosis/diagnose.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 
 #include "diagnosis/diagnosis_details.h"
 #include "diagnosis/explanation/signature.h"
+#include "diagnosis/explanation/view_sentence.h"
+#include "diagnosis/judgement/final_fit.h"
+#include "diagnosis/judgement/name_probability.h"
 #include "diagnosis/prediction/calibrate.h"
 
 namespace halyard {
 namespace {
 
-constexpr double kTwoSided95 = 1.959964;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+using Progress = std::function<void(const std::string&, double)>;
 
-/// Root mean square and peak of what sample(record, prediction, i) gives, where it is not NaN.
-template <class Sample>
-std::pair<double, double> size_of(const std::vector<Record>& records, const std::vector<FullPrediction>& predictions,
-                                  const Sample& sample) {
-  double square = 0, count = 0, peak = 0;
-  for (std::size_t r = 0; r < records.size(); ++r)
-    for (std::size_t i = 0; i < records[r].size; ++i) {
-      const double e = sample(records[r], predictions[r], i);
-      if (std::isnan(e)) continue;
-      square += e * e, count += 1, peak = std::max(peak, std::abs(e));
-    }
-  return count > 0 ? std::pair(std::sqrt(square / count), peak) : std::pair(kNone, kNone);
-}
+/// What the stages of one diagnosis share.
+class Diagnoser {
+ public:
+  Diagnoser(const ArmModel& model, const std::vector<Log>& training, const DiagnosisOptions& options,
+            const Progress& progress)
+      : model_(model), training_(training), options_(options), progress_(progress), given_(model.effects.size()) {}
 
-PredictionError errors(const HoldOut& joints, const HoldOut& torques, int n,
-                       std::vector<FullPrediction> HoldOut::*which) {
-  PredictionError e;
-  for (int k = 0; k < n; ++k) {
-    const auto [joint_rms, joint_peak] =
-        size_of(joints.records, joints.*which, [k](const Record& r, const FullPrediction& p, std::size_t i) {
-          return r.has_joint(k) && r.joint_valid[k][i] > 0 ? r.joint_raw[k][i] - p.joint_reading[k][i] : kNone;
-        });
-    const auto [torque_rms, torque_peak] =
-        size_of(torques.records, torques.*which, [k](const Record& r, const FullPrediction& p, std::size_t i) {
-          return r.has_torque(k) && r.torque_valid[k][i] > 0 ? p.torque_residual[k][i] : kNone;
-        });
-    e.joint_rms.push_back(joint_rms);
-    e.joint_peak.push_back(joint_peak);
-    e.torque_rms.push_back(torque_rms);
+  Diagnosis run(const std::optional<Log>& holdout) {
+    DiagnosisData data = diagnosis_data(model_, training_, holdout);
+    result_.holdout = holdout ? holdout->source : "last third of the training data";
+    result_.given = calibrated(model_, data.training);
+    details_->joint_view = std::move(data.joint_view);
+    details_->torque_view = std::move(data.torque_view);
+    const Evidence evidence(data.training, result_.given);
+    const Evidence whole(std::move(data.training), result_.given, Split::none);
+    details_->noise = whole.noise();
+    search(evidence, whole);
+    if (is_one_sine(evidence)) refuse_names(evidence);
+    else tell_names(evidence);
+    tell_rests(evidence);
+    predict_holdout(evidence);
+    tell_probabilities(evidence);
+    tell_stuck_sensors();
+    result_.verdict = !result_.effects.empty()      ? Diagnosis::Verdict::effects
+                      : result_.unexplained.empty() ? Diagnosis::Verdict::clean
+                                                    : Diagnosis::Verdict::unknown;
+    if (options_.tell_not_excited) tell_not_excited(evidence);
+    result_.details = details_;
+    return std::move(result_);
   }
-  return e;
-}
 
-/// Takes out what was before a time.
-void compare_from(Record& r, double from) {
-  for (Signals* valid : {&r.joint_valid, &r.torque_valid})
-    for (std::vector<double>& x : *valid)
-      for (std::size_t i = 0; i < x.size() && r.time(i) < from; ++i) x[i] = 0;
-}
+ private:
+  void say(const std::string& what, double fraction) const {
+    if (progress_) progress_(what, fraction);
+  }
+  Attribution& attribution() { return details_->attribution; }
+  const Hypothesis& final_hypothesis() const { return details_->attribution.final_fit.hypothesis; }
 
-std::vector<FullPrediction> predict_all(const std::vector<Record>& records, const Hypothesis& h) {
-  std::vector<FullPrediction> all;
-  for (const Record& r : records) all.push_back(predict_fully(r, h));
-  return all;
-}
+  /// The search, and the final fit on all training data. Effects that these do not determine are dropped.
+  void search(const Evidence& evidence, const Evidence& whole) {
+    attribution() = attribute(evidence, result_.given, {options_.most_effects, options_.significance}, progress_);
+    say("final fit", 0);
+    Fit f = final_fit(whole, result_.given, attribution().final_fit, given_);
+    for (auto idle = idle_effects(f, given_); !idle.empty(); idle = idle_effects(f, given_)) {
+      const std::size_t gone = idle.back();
+      Fit without = f;
+      without.hypothesis = without_effect(f.hypothesis, gone);
+      std::erase_if(without.parameters, [&](const FitParameter& p) { return p.effect == static_cast<int>(gone); });
+      for (FitParameter& p : without.parameters)
+        if (p.effect > static_cast<int>(gone)) --p.effect;
+      attribution().namings.erase(attribution().namings.begin() + static_cast<std::ptrdiff_t>(gone - given_));
+      f = final_fit(whole, result_.given, without, given_);
+    }
+    attribution().final_fit = f;
+    attribution().final_score = evidence.score(f.hypothesis);
+  }
 
-Estimated estimated(const Fit& f, std::size_t i) {
-  const FitParameter& p = f.parameters[i];
-  const double half = kTwoSided95 * f.std_deviation[i];
-  // No interval reaches beyond what the number can be.
-  return {p.name,   p.unit, f.value[i], std::max(f.value[i] - half, p.lower), std::min(f.value[i] + half, p.upper),
-          p.nominal};
-}
+  /// One sine fits many effects alike: a name taken from it would be a guess.
+  bool is_one_sine(const Evidence& evidence) const {
+    for (int k = 0; k < model_.n(); ++k)
+      if (!is_one_sinusoid(evidence.records(), model_.nominal, k)) return false;
+    return final_hypothesis().effects.size() > given_;
+  }
 
-/// A refit that is told lies so many standard deviations off the model's number. Of some thirty numbers two in a
-/// thousand clean diagnoses then show a refit by chance.
-constexpr double kRefit = 4;
+  void refuse_names(const Evidence& evidence) {
+    for (int k = 0; k < model_.n(); ++k)
+      result_.unexplained.push_back(
+          {k, "the record is one sine, along which several effects look alike; record other motions or loads"});
+    give_up_revision(evidence);
+  }
 
-bool is_refit(const Fit& f, std::size_t i) {
-  return f.parameters[i].effect < 0 && std::abs(f.value[i] - f.parameters[i].nominal) > kRefit * f.std_deviation[i];
-}
+  /// The revised model is the given one.
+  void give_up_revision(const Evidence& evidence) {
+    result_.effects.clear();
+    result_.refitted.clear();
+    attribution().final_fit = attribution().baseline;
+    attribution().final_fit.hypothesis = {result_.given.nominal, result_.given.effects,
+                                          attribution().baseline.hypothesis.past};
+    attribution().final_score = evidence.score(final_hypothesis());
+  }
 
-/// Numbers that the data did not move for certain go back to the model's, sizes of an effect to neutral as long as
-/// another of its sizes stays; the rest is fitted again. They go one by one, the least certain first: of two numbers
-/// that the data know only the sum of, one is needed.
-Fit keep_certain_numbers(const Evidence& evidence, const ArmModel& model, const Fit& f, const Score& score) {
-  Eigen::VectorXd value = Eigen::Map<const Eigen::VectorXd>(f.value.data(), static_cast<Eigen::Index>(f.value.size()));
-  Eigen::MatrixXd covariance = f.covariance;
-  std::vector<bool> kept(f.parameters.size(), true);
-  const std::vector<ParameterGroup> groups = groups_of(f.parameters);
-  const auto ends = [&](std::size_t i) { return ends_at_bound(f.parameters[i], value(i)); };
-  /// True of a number at its bound, or shaped by one.
-  const auto is_exhausted = [&](std::size_t i) {
-    return ends(i) || std::ranges::any_of(groups, [&](const ParameterGroup& group) {
-             return std::ranges::count(group.sizes, i) > 0 && std::ranges::any_of(group.shapes, ends);
-           });
-  };
-  const auto may_go = [&](std::size_t i) {
-    const FitParameter& p = f.parameters[i];
-    if (!kept[i] || p.shape) return false;
-    if (p.effect < 0) return !is_unknown_scale(model, p.index);
-    for (std::size_t j = 0; j < f.parameters.size(); ++j)
-      if (j != i && kept[j] && !f.parameters[j].shape && f.parameters[j].effect == p.effect) return true;
-    return false;
-  };
-  while (true) {
-    std::size_t least = f.parameters.size();
-    double certainty = 1;
+  void tell_names(const Evidence& evidence) {
+    const Fit& f = attribution().final_fit;
+    const std::vector<Naming>& namings = attribution().namings;
+    for (std::size_t e = given_; e < f.hypothesis.effects.size(); ++e) {
+      NamedEffect named{f.hypothesis.effects[e], namings[e - given_].weight, {}, namings[e - given_].alternatives};
+      for (std::size_t i = 0; i < f.parameters.size(); ++i)
+        if (f.parameters[i].effect == static_cast<int>(e) && !is_past(f.parameters[i]))
+          named.parameters.push_back(estimated(f, i));
+      const double none = probability_of_none_for(evidence, e);
+      result_.probability_none = std::max(result_.probability_none, none);
+      std::vector<double> all = {named.probability *= 1 - none};
+      for (Alternative& a : named.alternatives) all.push_back(a.probability *= 1 - none);
+      const std::vector<bool> in = credible_set(all, kRule.set_share);
+      for (std::size_t a = 0; a < named.alternatives.size(); ++a) named.alternatives[a].in_set = in[a + 1];
+      result_.effects.push_back(std::move(named));
+    }
     for (std::size_t i = 0; i < f.parameters.size(); ++i) {
-      if (!may_go(i)) continue;
-      const double needed = f.parameters[i].effect < 0 ? kRefit : kTwoSided95;
       const FitParameter& p = f.parameters[i];
-      const double has = is_exhausted(i) ? 0 : std::abs(value(i) - p.nominal) / (needed * std::sqrt(covariance(i, i)));
-      if (has < certainty) certainty = has, least = i;
+      const bool was_unknown = p.effect < 0 && is_unknown_scale(model_, p.index);
+      if (!was_unknown && !is_refit(f, i)) continue;
+      result_.refitted.push_back(estimated(f, i));
+      if (was_unknown) result_.refitted.back().nominal = parameter_value({model_.nominal, {}}, p);
     }
-    if (least == f.parameters.size()) break;
-    // The others make up for it as far as they can.
-    const Eigen::VectorXd gain = covariance.col(least) / covariance(least, least);
-    value -= gain * (value(least) - f.parameters[least].nominal);
-    covariance -= gain * covariance.row(least);
-    kept[least] = false;
   }
-  // Shapes of sizes that are gone shape nothing; the past of an effect that the model came with has no sizes.
-  for (const ParameterGroup& group : groups)
-    if (!group.sizes.empty() && std::ranges::none_of(group.sizes, [&](std::size_t i) { return kept[i]; }))
-      for (const std::size_t i : group.shapes) kept[i] = false;
 
-  Hypothesis h = f.hypothesis;
-  std::vector<FitParameter> left;
-  for (std::size_t i = 0; i < f.parameters.size(); ++i) {
+  static Estimated estimated(const Fit& f, std::size_t i) {
     const FitParameter& p = f.parameters[i];
-    set_parameter(h, p, kept[i] ? std::clamp(value(i), p.lower, p.upper) : p.nominal);
-    if (kept[i]) left.push_back(p);
+    const double half = interval_factor(f) * f.std_deviation[i];
+    // No interval reaches beyond what the number can be.
+    const double lower = std::max(f.value[i] - half, p.lower), upper = std::min(f.value[i] + half, p.upper);
+    return {p.name, p.unit, f.value[i], lower, upper, p.nominal};
   }
-  const Fit again = fit(evidence, h, left, channel_scale(evidence, score.fit_mean_square));
-  if (!again.usable) return f;
-  bool at_bound = false;
-  for (std::size_t i = 0; i < left.size(); ++i)
-    at_bound = at_bound || (!left[i].shape && ends_at_bound(left[i], again.value[i]));
-  return at_bound && left.size() < f.parameters.size() ? keep_certain_numbers(evidence, model, again, score) : again;
-}
 
-/// Effects whose typical size changes no signal of the training data by more than its floor.
-std::vector<NotExcited> not_excited(const Evidence& evidence, const ArmModel& model, const Hypothesis& at) {
-  const auto base = evidence.fit_rows({at})[0];
-  const std::vector<PlacedEffect> candidates = all_candidates(model.nominal);
-  std::vector<char> shows(candidates.size(), 1);
-  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
-    Hypothesis with = at;
-    with.effects.push_back(candidates[i]);
-    const auto rows = evidence.fit_rows({with})[0];
-    shows[i] = rows.empty() || evidence.exceeds_floor(difference(rows, base), 1);
-  });
-  std::vector<NotExcited> all;
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (!shows[i])
-      all.push_back({candidates[i].effect->name(), candidates[i].joint,
-                     "at its typical size it changes no signal of these data by more than the sensors resolve"});
-  return all;
-}
+  /// Of the channel in which the effect explains the largest share.
+  double probability_of_none_for(const Evidence& evidence, std::size_t effect) {
+    const Score without = evidence.score(without_effect(final_hypothesis(), effect));
+    if (!without.finite) return 0;
+    const Score& with = attribution().final_score;
+    int best = -1;
+    const auto left = [&](int c) { return with.mean_square[c] / without.mean_square[c]; };
+    for (int c = 0; c < evidence.channels(); ++c)
+      if (evidence.has_channel(c) && (best < 0 || left(c) < left(best))) best = c;
+    return probability_of_none(with.mean_square[best], without.mean_square[best], evidence.floor()[best]);
+  }
+
+  void tell_rests(const Evidence& evidence) {
+    const std::vector<bool> rest_of = significant_rest(evidence, attribution().final_score);
+    const int n = model_.n();
+    for (int k = 0; k < n; ++k)
+      if (rest_of[k] || rest_of[n + k]) result_.unexplained.push_back({k, signature(evidence, final_hypothesis(), k)});
+    tell_lines(evidence);
+  }
+
+  /// Lines above the compared band, each at the joint where it stands highest above the floor.
+  void tell_lines(const Evidence& evidence) {
+    constexpr double kSameLine = 1.5;  // Hz
+    struct Told {
+      NoiseLine line;
+      int channel;
+      double height;
+    };
+    std::vector<Told> told;
+    for (int c = 0; c < evidence.channels(); ++c)
+      for (const NoiseLine& line : evidence.noise()[c].lines) {
+        const Told now{line, c, line.amplitude / evidence.floor()[c]};
+        if (now.height < 1) continue;
+        const auto same = std::ranges::find_if(
+            told, [&](const Told& t) { return std::abs(t.line.frequency - line.frequency) < kSameLine; });
+        if (same == told.end()) told.push_back(now);
+        else if (same->height < now.height) *same = now;
+      }
+    const int n = model_.n();
+    for (const Told& t : told) {
+      const int k = t.channel % n;
+      const ResidualKind kind = t.channel < n ? ResidualKind::motor_torque : ResidualKind::joint_position;
+      result_.unexplained.push_back(
+          {k, fmt::format("the {} contains a sine of {:.0f} Hz with an amplitude of {}: hum, a resonance or chatter, "
+                          "above the frequencies that are compared",
+                          residual_name(model_.nominal, k, kind), t.line.frequency,
+                          shown(t.line.amplitude, residual_unit(model_.nominal, k, kind)))});
+    }
+  }
+
+  void tell_probabilities(const Evidence& evidence) {
+    const Score& score = attribution().final_score;
+    for (int c = 0; c < evidence.channels(); ++c)
+      if (evidence.has_channel(c))
+        result_.probability_none =
+            std::max(result_.probability_none, probability_of_none(score.mean_square[c], 0, evidence.floor()[c]));
+    double absent = attribution().no_effect;
+    for (const NamedEffect& e : result_.effects) absent = std::min(absent, 1 - e.probability);
+    result_.probability_clean = (1 - result_.probability_none) * absent;
+  }
+
+  void tell_stuck_sensors() {
+    for (const Log& log : training_)
+      for (const int k : stuck_joint_sensors(log, model_))
+        result_.unexplained.push_back({k, "its sensor stands still in " + log.source +
+                                              " while its motor moves, and was left out: "
+                                              "stuck, not connected, or the joint is not driven by this motor"});
+  }
+
+  /// Errors by both models. A revised model that predicts the hold-out worse than the given one is not adopted.
+  void predict_holdout(const Evidence& evidence) {
+    say("hold-out", 0);
+    HoldOut &joints = details_->joint_view, &torques = details_->torque_view;
+    const Hypothesis before{result_.given.nominal, result_.given.effects, attribution().baseline.hypothesis.past};
+    for (HoldOut* view : {&joints, &torques}) {
+      view->before = predict_all(view->records, before);
+      view->after = predict_all(view->records, final_hypothesis());
+    }
+    const std::vector<int> worse = worse_joints(joints, torques, evidence.floor());
+    if (!worse.empty() && !result_.effects.empty()) {
+      std::string names;
+      for (const NamedEffect& e : result_.effects) names += (names.empty() ? "" : ", ") + effect_label(e.effect);
+      give_up_revision(evidence);
+      for (const int k : worse)
+        result_.unexplained.push_back(
+            {k,
+             fmt::format("{} would explain the training data, but predict this joint worse on the hold-out", names)});
+      for (HoldOut* view : {&joints, &torques}) view->after = view->before;
+    }
+    result_.revised = result_.given;
+    result_.revised.nominal = final_hypothesis().nominal;
+    result_.revised.effects = final_hypothesis().effects;
+    details_->past = final_hypothesis().past;
+    result_.before = prediction_errors(joints, torques, model_.n(), &HoldOut::before);
+    result_.after = prediction_errors(joints, torques, model_.n(), &HoldOut::after);
+  }
+
+  /// Effects whose typical size changes no signal of the training data by more than its floor.
+  void tell_not_excited(const Evidence& evidence) {
+    say("what these data could show", 0);
+    const Hypothesis& at = final_hypothesis();
+    const auto base = evidence.fit_rows({at})[0];
+    const std::vector<PlacedEffect> candidates = all_candidates(model_.nominal);
+    std::vector<char> shows(candidates.size(), 1);
+    tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
+      Hypothesis with = at;
+      with.effects.push_back(candidates[i]);
+      const auto rows = evidence.fit_rows({with})[0];
+      shows[i] = rows.empty() || evidence.exceeds_floor(difference(rows, base), 1);
+    });
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      if (!shows[i])
+        result_.not_excited.push_back(
+            {candidates[i].effect->name(), candidates[i].joint,
+             "at its typical size it changes no signal of these data by more than the sensors resolve"});
+  }
+
+  const ArmModel& model_;
+  const std::vector<Log>& training_;
+  const DiagnosisOptions& options_;
+  const Progress& progress_;
+  std::size_t given_;  ///< effects that the model came with
+  std::shared_ptr<DiagnosisDetails> details_ = std::make_shared<DiagnosisDetails>();
+  Diagnosis result_;
+};
 
 }  // namespace
 
 Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, const std::optional<Log>& holdout,
-                   const DiagnosisOptions& options, const std::function<void(const std::string&, double)>& progress) {
+                   const DiagnosisOptions& options, const Progress& progress) {
   std::mutex one_at_a_time;
-  const std::function<void(const std::string&, double)> say = [&](const std::string& what, double fraction) {
+  const Progress say = [&](const std::string& what, double fraction) {
     const std::lock_guard<std::mutex> lock(one_at_a_time);
     if (progress) progress(what, fraction);
   };
-  Diagnosis d;
-  const auto details = std::make_shared<DiagnosisDetails>();
-  d.details = details;
-  std::vector<Record> records;
-  const auto learn_from = [&](const Log& log) {
-    for (Record& r : make_records(log, model, kFitBand)) records.push_back(std::move(r));
-  };
-  // What is held out of a log goes on from the part before it: cables remember. That part is driven along, not
-  // compared.
-  const auto hold_out = [&](const Log& log, double from, std::size_t first) {
-    for (const auto& [view, how] :
-         {std::pair(&details->joint_view, kJointErrorBand), std::pair(&details->torque_view, kFitBand)})
-      for (Record& r : make_records(log, model, how)) {
-        if (r.time(r.size - 1) < from) continue;
-        compare_from(r, from);
-        for (std::size_t place = first; place < records.size(); ++place)
-          if (records[place].start == r.start) r.place = static_cast<int>(place);
-        view->records.push_back(std::move(r));
-      }
-  };
-  for (const Log& log : training) {
-    if (holdout) {
-      learn_from(log);
-    } else {
-      const auto [first, last] = split_log(log, 2.0 / 3);
-      const std::size_t place = records.size();
-      learn_from(first);
-      hold_out(log, last.time.front(), place);
-    }
-  }
-  if (holdout) hold_out(*holdout, holdout->time.front(), records.size());
-  d.holdout = holdout ? holdout->source : "last third of the training data";
-
-  d.given = calibrated(model, records);
-  const Evidence evidence(std::move(records), d.given);
-  Attribution& attribution = details->attribution;
-  attribution = attribute(evidence, d.given, {options.most_effects, options.significance}, say);
-  say("final fit", 0);
-  const std::size_t given = model.effects.size();
-  const Fit final_fit = keep_certain_numbers(evidence, model, attribution.final_fit, attribution.final_score);
-  attribution.final_fit = final_fit;
-  attribution.final_score = evidence.score(final_fit.hypothesis);
-  const Hypothesis& h = final_fit.hypothesis;
-
-  // One sine fits many effects alike: a name taken from it would be a guess.
-  std::vector<bool> one_sine(model.n());
-  for (int k = 0; k < model.n(); ++k) one_sine[k] = is_one_sinusoid(evidence.records(), model.nominal, k);
-  const bool all_one_sine = std::all_of(one_sine.begin(), one_sine.end(), [](bool b) { return b; });
-
-  for (std::size_t e = given; e < h.effects.size() && !all_one_sine; ++e) {
-    NamedEffect named{h.effects[e], {}, attribution.alternatives[e - given]};
-    for (std::size_t i = 0; i < final_fit.parameters.size(); ++i)
-      if (final_fit.parameters[i].effect == static_cast<int>(e) && !is_past(final_fit.parameters[i]))
-        named.parameters.push_back(estimated(final_fit, i));
-    d.effects.push_back(std::move(named));
-  }
-  const bool would_name = h.effects.size() > given;
-  for (std::size_t i = 0; i < final_fit.parameters.size() && !(all_one_sine && would_name); ++i) {
-    const FitParameter& p = final_fit.parameters[i];
-    const bool was_unknown = p.effect < 0 && is_unknown_scale(model, p.index);
-    if (!was_unknown && !is_refit(final_fit, i)) continue;
-    d.refitted.push_back(estimated(final_fit, i));
-    if (was_unknown) d.refitted.back().nominal = parameter_value({model.nominal, {}}, p);
-  }
-
-  const std::vector<bool> rest_of = significant_rest(evidence, attribution.final_score);
-  for (int k = 0; k < model.n(); ++k) {
-    const bool rest = rest_of[k] || rest_of[model.n() + k];
-    if (all_one_sine && would_name)
-      d.unexplained.push_back(
-          {k, "the record is one sine, along which several effects look alike; record other motions or loads"});
-    else if (rest) d.unexplained.push_back({k, signature(evidence, h, k)});
-  }
-  for (const Log& log : training)
-    for (const int k : stuck_joint_sensors(log, model))
-      d.unexplained.push_back({k, "its sensor stands still in " + log.source +
-                                      " while its motor moves, and was left out: "
-                                      "stuck, not connected, or the joint is not driven by this motor"});
-  d.verdict = !d.effects.empty()      ? Diagnosis::Verdict::effects
-              : d.unexplained.empty() ? Diagnosis::Verdict::clean
-                                      : Diagnosis::Verdict::unknown;
-  if (options.tell_not_excited) {
-    say("what these data could show", 0);
-    d.not_excited = not_excited(evidence, model, h);
-  }
-
-  const std::vector<std::vector<double>>& unexplained_past = attribution.baseline.hypothesis.past;
-  d.revised = d.given;
-  details->past = unexplained_past;
-  if (!all_one_sine || !would_name) {
-    d.revised.nominal = h.nominal;
-    d.revised.effects = h.effects;
-    details->past = h.past;
-  }
-  say("hold-out", 0);
-  for (HoldOut* view : {&details->joint_view, &details->torque_view}) {
-    view->before = predict_all(view->records, {d.given.nominal, d.given.effects, unexplained_past});
-    view->after = predict_all(view->records, {d.revised.nominal, d.revised.effects, details->past});
-  }
-  d.before = errors(details->joint_view, details->torque_view, model.n(), &HoldOut::before);
-  d.after = errors(details->joint_view, details->torque_view, model.n(), &HoldOut::after);
-  return d;
+  return Diagnoser(model, training, options, say).run(holdout);
 }
 
 }  // namespace halyard

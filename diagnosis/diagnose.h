@@ -25,11 +25,19 @@ struct Estimated {
   double nominal = 0;
 };
 
+/// An effect that may be the right name instead of the named one.
+struct Alternative {
+  PlacedEffect effect;
+  double probability = 0;  ///< that it is the right name, given the log
+  bool in_set = false;     ///< it belongs to the smallest set of names that holds the right one with 90 %
+};
+
 /// An effect that the diagnosis found.
 struct NamedEffect {
   PlacedEffect effect;
+  double probability = 0;  ///< that the arm has this effect at this joint, given the log
   std::vector<Estimated> parameters;
-  std::vector<PlacedEffect> alternatives;  ///< effects that these data cannot tell from it
+  std::vector<Alternative> alternatives;  ///< the most probable first
 };
 
 /// A significant residual that no candidate effect explains.
@@ -59,7 +67,9 @@ struct Diagnosis {
   std::vector<Estimated> refitted;
   std::vector<Unexplained> unexplained;
   std::vector<NotExcited> not_excited;
-  ArmModel given;  ///< the model as given, with unknown torque scales calibrated
+  double probability_clean = 0;  ///< that the arm has no effect which the model lacks
+  double probability_none = 0;   ///< that what is left, or what was named, has no right name among the candidates
+  ArmModel given;                ///< the model as given, with unknown torque scales calibrated
   ArmModel revised;
   std::string holdout;            ///< description of the hold-out data
   PredictionError before, after;  ///< on the hold-out, with `given` and with `revised`

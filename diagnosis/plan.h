@@ -20,7 +20,7 @@
 ///
 ///   Δ = Σ_b (ln L_b(r0⊥) - ln L_b(residual of the other's fit)).
 ///
-/// The two are confused if Δ is less than kTellApart of its standard deviations. The standard deviation is √(2Δ), the
+/// The two are confused if Δ is less than tell_apart (2) of its standard deviations. The standard deviation is √(2Δ), the
 /// value for noise of the floor's size, so that Δ < 8; or the value estimated from the blocks.
 ///
 /// The size of an effect is its first size parameter, on the same side of neutral as its typical value. Its shape

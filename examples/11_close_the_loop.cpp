@@ -46,8 +46,8 @@ int main() {
     fmt::print("found: {} at joint {}\n", e.effect.effect->name(), e.effect.joint + 1);
     for (const Estimated& p : e.parameters)
       fmt::print("  {} {:.4g} {}, 95 % interval {:.4g} to {:.4g}\n", p.name, p.value, p.unit, p.lower, p.upper);
-    for (const PlacedEffect& a : e.alternatives)
-      fmt::print("  these data cannot tell it from {} at joint {}\n", a.effect->name(), a.joint + 1);
+    for (const Alternative& a : e.alternatives)
+      fmt::print("  these data cannot tell it from {} at joint {}\n", a.effect.effect->name(), a.effect.joint + 1);
   }
   const bool alone = d.effects.size() == 1 && d.effects[0].effect.effect == real.effects[0].effect;
   fmt::print("true: backlash, half_gap {:.4g} m; found and nothing else: {}\n", real.effects[0].p[0],

@@ -30,7 +30,8 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
       fmt::print("  {} {}: {:.4g} {} (95 %: {:.4g} to {:.4g})\n", effect_label(e.effect), p.name, p.value, p.unit,
                  p.lower, p.upper);
   for (const NamedEffect& e : d.effects)
-    for (const PlacedEffect& a : e.alternatives) fmt::print("  {}: or {}\n", effect_label(e.effect), effect_label(a));
+    for (const Alternative& a : e.alternatives)
+      fmt::print("  {}: or {} ({:.0f} %)\n", effect_label(e.effect), effect_label(a.effect), 100 * a.probability);
   for (std::size_t i = 0; i < d.effects.size(); ++i)
     fmt::print("  {}: {}\n", effect_label(d.effects[i].effect), evaluation.why[i]);
   for (const Estimated& p : d.refitted)

@@ -28,6 +28,9 @@ Json numbers(const std::vector<double>& values) {
   return all;
 }
 
+/// Three digits are more than a probability deserves.
+Json probability(double value) { return std::stod(fmt::format("{:.3f}", value)); }
+
 Json joint_of(int joint) { return joint < 0 ? Json(nullptr) : Json(joint + 1); }
 
 Json before_after(const std::vector<double>& before, const std::vector<double>& after) {
@@ -60,12 +63,16 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
   for (std::size_t i = 0; i < d.effects.size(); ++i) {
     const NamedEffect& e = d.effects[i];
     Json alternatives = Json::array(), parameters = Json::object();
-    for (const PlacedEffect& a : e.alternatives)
-      alternatives.push_back({{"effect", a.effect->name()}, {"joint", joint_of(a.joint)}});
+    for (const Alternative& a : e.alternatives)
+      alternatives.push_back({{"effect", a.effect.effect->name()},
+                              {"joint", joint_of(a.effect.joint)},
+                              {"probability", probability(a.probability)},
+                              {"in_set", a.in_set}});
     for (const Estimated& p : e.parameters)
       parameters[p.name] = {{"value", number(p.value)}, {"unit", p.unit}, {"ci95", numbers({p.lower, p.upper})}};
     effects.push_back({{"effect", e.effect.effect->name()},
                        {"joint", joint_of(e.effect.joint)},
+                       {"probability", probability(e.probability)},
                        {"alternatives", alternatives},
                        {"parameters", parameters}});
     if (i < evaluation.why.size()) effects.back()["why"] = evaluation.why[i];
@@ -83,6 +90,8 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
   const Json all = {{"verdict", verdict_word(d.verdict)},
                     {"effects", effects},
                     {"refitted", refitted},
+                    {"probability_clean", probability(d.probability_clean)},
+                    {"probability_none", probability(d.probability_none)},
                     {"unexplained", unexplained},
                     {"not_excited", not_excited},
                     {"error",

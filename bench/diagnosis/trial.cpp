@@ -203,7 +203,7 @@ void take_over(const Diagnosis& d, const ArmModel& robot, Result& r) {
   r.verdict = verdict_word(d.verdict);
   for (const NamedEffect& e : d.effects) {
     Named named{place_of(e.effect), {}, {}};
-    for (const PlacedEffect& a : e.alternatives) named.alternatives.push_back(place_of(a));
+    for (const Alternative& a : e.alternatives) named.alternatives.push_back(place_of(a.effect));
     for (const Estimated& p : e.parameters) named.parameters.push_back({p.name, p.value, p.lower, p.upper});
     r.named.push_back(std::move(named));
   }

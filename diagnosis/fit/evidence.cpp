@@ -55,7 +55,8 @@ Span joint_span_of(const std::vector<Record>& records, const ArmParameters<doubl
 
 }  // namespace
 
-Evidence::Evidence(std::vector<Record> records, const ArmModel& model) : n_(model.n()), records_(std::move(records)) {
+Evidence::Evidence(std::vector<Record> records, const ArmModel& model, Split split)
+    : n_(model.n()), records_(std::move(records)) {
   double total = 0, dt = records_.front().dt;
   for (const Record& r : records_) total += r.dt * static_cast<double>(r.size), dt = std::min(dt, r.dt);
   stride_ = std::max(1, static_cast<int>(std::lround(1 / (kRowRate * dt))));
@@ -64,58 +65,78 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model) : n_(mode
 
   channel_rows_.assign(channels(), 0);
   fit_count_.assign(channels(), 0);
-  int first_block = 0;
-  std::vector<double> torque_square(n_, 0), torque_count(n_, 0);
-  floor_.assign(channels(), 0);
+  int blocks = 0;
   for (std::size_t r = 0; r < records_.size(); ++r) {
     records_[r].place = static_cast<int>(r);
-    const Record& record = records_[r];
-    int last = first_block;
-    for (int c = 0; c < channels(); ++c) {
-      const int k = c % n_;
-      const bool joint = c >= n_;
-      if (joint ? !record.has_joint(k) : !record.has_torque(k)) continue;
-      const std::vector<double>& valid = joint ? record.joint_valid[k] : record.torque_valid[k];
-      const double v_s = model.nominal.joint[k].motor_smoothing;
-      for (std::size_t i = 0; i < record.size; i += stride_) {
-        if (valid[i] == 0) continue;
-        if (!joint && rests(record, k, i, v_s)) continue;
-        const int block = static_cast<int>(record.dt * static_cast<double>(i) / block_s);
-        const bool fit = (first_block + block) % 2 == 0;
-        places_.push_back({static_cast<int>(r), c, static_cast<int>(i) / stride_, (first_block + block) / 2, fit});
-        ++channel_rows_[c];
-        if (fit) {
-          row_channel_.push_back(c);
-          row_block_.push_back((first_block + block) / 2);
-          row_record_.push_back(static_cast<int>(r));
-          row_time_.push_back(record.time(i));
-          ++fit_count_[c];
-        }
-        last = std::max(last, first_block + block + 1);
-        if (!joint) torque_square[k] += record.torque[k][i] * record.torque[k][i], torque_count[k] += 1;
-      }
-      if (joint) {
-        const double told = model.nominal.joint[k].joint_encoder_resolution;
-        floor_[c] = std::max(floor_[c], kResolutionFloor * (told > 0 ? told : smallest_step(record.joint_raw[k])));
-      }
-    }
-    first_block = last;
+    blocks = add_rows(static_cast<int>(r), model, block_s, blocks, split);
   }
-  for (int k = 0; k < n_; ++k)
-    if (torque_count[k] > 0)
-      floor_[k] = kTorqueFloor * model.nominal.joint[k].torque_scale * std::sqrt(torque_square[k] / torque_count[k]);
+  if (row_channel_.empty())
+    throw InputError(records_.front().source +
+                     ": nothing to compare: no joint sensor, and no motor that moves with a known torque");
+  block_count_.assign(blocks / 2 + 1, std::vector<int>(channels(), 0));
+  for (const Place& p : places_)
+    if (!p.fit) ++block_count_[p.block][p.channel];
+  noise_ = channel_noise(records_, {model.nominal, model.effects});
+  find_floors(model);
+  find_spans(model);
+}
 
+int Evidence::add_rows(int r, const ArmModel& model, double block_s, int first_block, Split split) {
+  const Record& record = records_[r];
+  int end = first_block;
+  for (int c = 0; c < channels(); ++c) {
+    const int k = c % n_;
+    const bool joint = c >= n_;
+    if (joint ? !record.has_joint(k) : !record.has_torque(k)) continue;
+    const std::vector<double>& valid = joint ? record.joint_valid[k] : record.torque_valid[k];
+    const double v_s = model.nominal.joint[k].motor_smoothing;
+    for (std::size_t i = 0; i < record.size; i += stride_) {
+      if (valid[i] == 0 || (!joint && rests(record, k, i, v_s))) continue;
+      const int block = first_block + static_cast<int>(record.dt * static_cast<double>(i) / block_s);
+      const int index = static_cast<int>(i) / stride_;
+      if (split == Split::none) add_row({r, c, index, block, true}, record.time(i));
+      else add_row({r, c, index, block / 2, block % 2 == 0}, record.time(i));
+      end = std::max(end, block + 1);
+    }
+  }
+  return end;
+}
+
+void Evidence::add_row(const Place& place, double time) {
+  places_.push_back(place);
+  ++channel_rows_[place.channel];
+  if (!place.fit) return;
+  row_channel_.push_back(place.channel);
+  row_block_.push_back(place.block);
+  row_record_.push_back(place.record);
+  row_time_.push_back(time);
+  ++fit_count_[place.channel];
+}
+
+void Evidence::find_floors(const ArmModel& model) {
+  floor_.assign(channels(), 0);
+  std::vector<double> square(n_, 0), count(n_, 0);
+  for (const Place& p : places_)
+    if (p.channel < n_)
+      square[p.channel] += std::pow(records_[p.record].torque[p.channel][p.index * stride_], 2), count[p.channel] += 1;
+  for (int k = 0; k < n_; ++k) {
+    const JointParameters<double>& j = model.nominal.joint[k];
+    if (count[k] > 0) floor_[k] = kTorqueFloor * j.torque_scale * std::sqrt(square[k] / count[k]);
+    for (const Record& record : records_) {
+      if (!record.has_joint(k)) continue;
+      const double told = j.joint_encoder_resolution;
+      floor_[n_ + k] =
+          std::max(floor_[n_ + k], kResolutionFloor * (told > 0 ? told : smallest_step(record.joint_raw[k])));
+    }
+  }
+  for (int c = 0; c < channels(); ++c) floor_[c] = std::max(floor_[c], noise_[c].in_band);
+}
+
+void Evidence::find_spans(const ArmModel& model) {
   time_span_ = {records_.front().start, records_.front().start};
   for (const Record& r : records_)
     time_span_ = {std::min(time_span_.first, r.start), std::max(time_span_.last, r.time(r.size - 1))};
   for (int k = 0; k < n_; ++k) joint_span_.push_back(joint_span_of(records_, model.nominal, k));
-
-  block_count_.assign(first_block / 2 + 1, std::vector<int>(channels(), 0));
-  for (const Place& p : places_)
-    if (!p.fit) ++block_count_[p.block][p.channel];
-  if (row_channel_.empty())
-    throw InputError(records_.front().source +
-                     ": nothing to compare: no joint sensor, and no motor that moves with a known torque");
 }
 
 std::vector<std::vector<double>> Evidence::fit_rows(const std::vector<Hypothesis>& hypotheses) const {

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "diagnosis/noise/channel_noise.h"
 #include "diagnosis/prediction/prediction.h"
 
 namespace halyard {
@@ -20,9 +21,16 @@ struct Score {
   bool finite = true;
 };
 
+/// Which blocks a fit uses.
+enum class Split {
+  alternate,  ///< every other block; the rest decide
+  none,       ///< all: for the final fit of hypotheses that were chosen already. Nothing decides
+};
+
 class Evidence {
  public:
-  Evidence(std::vector<Record> records, const ArmModel& model);
+  /// Estimates the noise of each channel with the model as given. Throws InputError if nothing can be compared.
+  Evidence(std::vector<Record> records, const ArmModel& model, Split split = Split::alternate);
 
   int n() const { return n_; }
   int channels() const { return 2 * n_; }
@@ -42,9 +50,12 @@ class Evidence {
   /// Samples in each deciding block and channel: [block][2n].
   const std::vector<std::vector<int>>& block_count() const { return block_count_; }
 
-  /// Root mean square below which a channel's residual does not matter: encoder resolution for
-  /// joints, a fraction of the torque's own size for motors. [2n]
+  /// Root mean square below which a channel's residual does not matter: what its sensor resolves, or its noise if that
+  /// is larger. What a joint's sensor resolves is its rounding; what a motor's torque resolves is a fraction of its own
+  /// size. [2n]
   const std::vector<double>& floor() const { return floor_; }
+  /// Noise of each channel. [2n]
+  const std::vector<ChannelNoise>& noise() const { return noise_; }
   /// True if a change of the fitting rows has, in at least one channel, a root mean square above `times` its floor.
   bool exceeds_floor(const std::vector<double>& change, double times) const;
   /// Number of rows that equal one independent sample, because residuals are correlated.
@@ -66,17 +77,24 @@ class Evidence {
     bool fit;
   };
 
+  /// Adds the rows of record r; blocks are counted on from first_block. Returns the first block of the next record.
+  int add_rows(int r, const ArmModel& model, double block_s, int first_block, Split split);
+  void add_row(const Place& place, double time);
+  void find_floors(const ArmModel& model);
+  void find_spans(const ArmModel& model);
+
   int n_;
-  int stride_;
-  double correlated_rows_;
+  int stride_ = 1;
+  double correlated_rows_ = 1;
   std::vector<Record> records_;
   std::vector<Place> places_;
   std::vector<int> row_channel_, row_block_, row_record_;
   std::vector<double> row_time_;
   std::vector<int> channel_rows_, fit_count_;
   std::vector<std::vector<int>> block_count_;
+  std::vector<ChannelNoise> noise_;
   std::vector<double> floor_;
-  Span time_span_;
+  Span time_span_ = {};
   std::vector<Span> joint_span_;
 };
 

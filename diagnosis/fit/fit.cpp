@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/fit/block_variance.h"
+
 namespace halyard {
 namespace {
 
@@ -116,6 +118,92 @@ class Residual : public ceres::CostFunction {
   mutable std::vector<double> last_point_;  ///< where last_ was taken: the solver asks twice
   mutable std::vector<std::vector<double>> last_;
 };
+
+/// Residuals and sensitivities at a point; not finite if it cannot be integrated.
+struct LinearisedResidual {
+  LinearisedResidual(const Residual& residual, const std::vector<double>& u)
+      : r(residual.num_residuals()), J(residual.num_residuals(), u.size()) {
+    const double* at = u.data();
+    double* jacobian = J.data();
+    finite = residual.Evaluate(&at, r.data(), &jacobian);
+  }
+
+  std::vector<double> r;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
+  bool finite = false;
+};
+
+/// Bounded least squares from u on; false if the start cannot be integrated.
+bool minimise(const Residual& residual, const std::vector<FitParameter>& parameters, const FitOptions& options,
+              std::vector<double>& u) {
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  problem.AddResidualBlock(const_cast<Residual*>(&residual), nullptr, u.data());
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const FitParameter& p = parameters[i];
+    const double low = (p.lower - residual.origin(i)) / p.scale, high = (p.upper - residual.origin(i)) / p.scale;
+    problem.SetParameterLowerBound(u.data(), static_cast<int>(i), low);
+    problem.SetParameterUpperBound(u.data(), static_cast<int>(i), high);
+    u[i] = std::clamp(u[i], low, high);
+  }
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  solver.max_num_iterations = options.iterations;
+  solver.function_tolerance = options.cost_tolerance;
+  solver.parameter_tolerance = 1e-6;
+  solver.logging_type = ceres::SILENT;  // a trial step that cannot be integrated is foreseen
+  solver.num_threads = 1;
+  // Ceres would write to the log of the host program if the start cannot be integrated. The residual keeps what is
+  // computed here for Ceres' first step.
+  const LinearisedResidual first(residual, u);
+  if (!first.finite) return false;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  return summary.termination_type != ceres::FAILURE;
+}
+
+/// Rows between two correlation times, in blocks.
+double correlated_blocks(const Evidence& evidence, const Eigen::VectorXd& r) {
+  double rows = 1;
+  const std::vector<int>& channel = evidence.row_channel();
+  for (std::size_t first = 0, last = 0; first < channel.size(); first = last) {
+    while (last < channel.size() && channel[last] == channel[first]) ++last;
+    rows = std::max(rows, correlation_rows({r.data() + first, last - first}));
+  }
+  const auto [low, high] = std::ranges::minmax(evidence.row_block());
+  double most = 1;
+  for (int c = 0; c < evidence.channels(); ++c) most = std::max(most, static_cast<double>(evidence.fit_count(c)));
+  return rows / most * (high - low + 1);
+}
+
+/// Standard deviations and covariance at the minimum u.
+bool add_deviations(const Evidence& evidence, const Residual& residual, const std::vector<double>& u, Fit& result) {
+  constexpr double kCorrelationTimes = 4;  // a block is as long as so many
+  constexpr int kFewestBlocks = 10;
+  const LinearisedResidual end(residual, u);
+  if (!end.finite) return false;
+  const auto p = static_cast<Eigen::Index>(u.size());
+  const auto rows = static_cast<Eigen::Index>(evidence.row_channel().size());
+  const Eigen::MatrixXd J = end.J.topRows(rows);
+  const Eigen::VectorXd r = Eigen::Map<const Eigen::VectorXd>(end.r.data(), rows);
+  Eigen::VectorXd unit(p), prior(p);
+  for (Eigen::Index i = 0; i < p; ++i) {
+    unit(i) = result.parameters[i].scale;
+    prior(i) = result.parameters[i].effect < 0 ? 1 : 0;
+  }
+  Eigen::MatrixXd information = J.transpose() * J;
+  information.diagonal() += prior;
+  information.diagonal().array() += 1e-9;
+  result.covariance = unit.asDiagonal() * information.ldlt().solve(Eigen::MatrixXd::Identity(p, p)) * unit.asDiagonal();
+  const std::vector<int> blocks =
+      grouped_blocks(evidence.row_block(), kCorrelationTimes * correlated_blocks(evidence, r), kFewestBlocks);
+  const BlockVariance scatter = block_variance(J, r, prior, blocks);
+  result.blocks = scatter.blocks;
+  for (Eigen::Index i = 0; i < p; ++i)
+    result.std_deviation.push_back(unit(i) * std::sqrt(std::max(0.0, scatter.covariance(i, i))));
+  return true;
+}
 
 }  // namespace
 
@@ -260,51 +348,12 @@ Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<Fit
   std::vector<double> u;
   for (std::size_t i = 0; i < parameters.size(); ++i)
     u.push_back((parameter_value(start, parameters[i]) - residual.origin(i)) / parameters[i].scale);
-
-  ceres::Problem::Options ownership;
-  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem problem(ownership);
-  problem.AddResidualBlock(&residual, nullptr, u.data());
+  if (!minimise(residual, parameters, options, u)) return result;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    problem.SetParameterLowerBound(u.data(), static_cast<int>(i),
-                                   (parameters[i].lower - residual.origin(i)) / parameters[i].scale);
-    problem.SetParameterUpperBound(u.data(), static_cast<int>(i),
-                                   (parameters[i].upper - residual.origin(i)) / parameters[i].scale);
-    const double low = problem.GetParameterLowerBound(u.data(), static_cast<int>(i));
-    const double high = problem.GetParameterUpperBound(u.data(), static_cast<int>(i));
-    u[i] = std::clamp(u[i], low, high);
-  }
-  const std::size_t p = parameters.size(), rows = static_cast<std::size_t>(residual.num_residuals());
-  std::vector<double> r(rows);
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J(rows, p);
-  const double* block = u.data();
-  double* jacobian = J.data();
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  solver.max_num_iterations = options.iterations;
-  solver.function_tolerance = options.cost_tolerance;
-  solver.parameter_tolerance = 1e-6;
-  solver.logging_type = ceres::SILENT;  // of a trial step that cannot be integrated too, which is foreseen
-  solver.num_threads = 1;
-  // Of a start that cannot be integrated Ceres would write to the log of the host program. What is computed here is kept
-  // for Ceres' first step.
-  if (!residual.Evaluate(&block, r.data(), &jacobian)) return result;
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
-  if (summary.termination_type == ceres::FAILURE) return result;
-
-  if (!residual.Evaluate(&block, r.data(), &jacobian)) return result;
-  Eigen::MatrixXd information = J.transpose() * J;
-  information.diagonal().array() += 1e-9;
-  Eigen::VectorXd unit(p);
-  for (std::size_t i = 0; i < p; ++i) unit(static_cast<Eigen::Index>(i)) = parameters[i].scale;
-  result.covariance = unit.asDiagonal() * information.ldlt().solve(Eigen::MatrixXd::Identity(p, p)) * unit.asDiagonal();
-  for (std::size_t i = 0; i < p; ++i) {
     result.value.push_back(u[i] * parameters[i].scale + residual.origin(i));
-    result.std_deviation.push_back(std::sqrt(std::max(0.0, result.covariance(i, i))));
     set_parameter(result.hypothesis, parameters[i], result.value.back());
   }
-  result.usable = true;
+  result.usable = add_deviations(evidence, residual, u, result);
   return result;
 }
 

@@ -7,15 +7,11 @@
 namespace halyard {
 namespace {
 
-/// What is left matters above this many times the floor of its channel: about one resolution of a joint's encoder.
-constexpr double kRestFactor = 3;
-/// So little of a residual's root mean square is next to nothing.
-constexpr double kNextToNone = 0.1;
-
 /// For the significance of a gain: blocks that had next to no residual, a motor's rest say, neither carry nor spoil it.
 std::vector<double> floors_beside(const Evidence& evidence, const Score& before) {
   std::vector<double> least = squared_floors(evidence);
-  for (std::size_t c = 0; c < least.size(); ++c) least[c] += kNextToNone * kNextToNone * before.mean_square[c];
+  for (std::size_t c = 0; c < least.size(); ++c)
+    least[c] += kRule.next_to_none * kRule.next_to_none * before.mean_square[c];
   return least;
 }
 
@@ -30,7 +26,7 @@ Trial unusable(const PlacedEffect& effect) {
 std::vector<bool> significant_rest(const Evidence& evidence, const Score& score) {
   std::vector<bool> rest(evidence.channels(), false);
   for (int c = 0; c < evidence.channels(); ++c)
-    rest[c] = evidence.has_channel(c) && std::sqrt(score.mean_square[c]) > kRestFactor * evidence.floor()[c];
+    rest[c] = evidence.has_channel(c) && std::sqrt(score.mean_square[c]) > kRule.rest_ratio * evidence.floor()[c];
   return rest;
 }
 
@@ -55,6 +51,7 @@ Trial Judge::trial(const Hypothesis& with, const Scored& without, const PlacedEf
   t.log_likelihood = log_likelihood(evidence_, scored.score, least);
   t.gain = paired(evidence_, t.log_likelihood, log_likelihood(evidence_, without.score, least)).sum +
            stretch(without.hypothesis) - stretch(with);
+  t.stretch = stretch(with);
   t.p_value = p_of_gain(scored.score, without.score);
   if (!t.is_judged()) return t;
   t.at_bound = at_bound(scored, place);
@@ -87,7 +84,7 @@ bool Judge::explains_a_rest(const Score& before, const Score& after) const {
   const auto left = [&](int c) { return after.mean_square[c] / before.mean_square[c]; };
   for (int c = 0; c < evidence_.channels(); ++c)
     if (had[c] && (most < 0 || left(c) < left(most))) most = c;
-  return most >= 0 && (!has[most] || left(most) < kNextToNone * kNextToNone);
+  return most >= 0 && (!has[most] || left(most) < kRule.next_to_none * kRule.next_to_none);
 }
 
 /// True if a number ends at its bound and does more there than one number by chance: a size alone, or with the shapes
@@ -108,12 +105,12 @@ bool Judge::at_bound(const Scored& with, int place) const {
   const std::vector<ParameterGroup> groups = groups_of(parameters);
   for (const ParameterGroup& group : groups) {
     for (const std::size_t i : group.sizes)
-      if (ends(i) && does({i}) > kByChance) return true;
+      if (ends(i) && does({i}) > kRule.by_chance) return true;
     if (std::ranges::none_of(group.shapes, shape_ends)) continue;
     std::vector<std::size_t> all;
     for (const ParameterGroup& other : groups) all.insert(all.end(), other.sizes.begin(), other.sizes.end());
     const double own = does(group.sizes);
-    if (own > kByChance && own > kNextToNothing * does(all)) return true;
+    if (own > kRule.by_chance && own > kNextToNothing * does(all)) return true;
   }
   return false;
 }
@@ -128,7 +125,7 @@ bool Judge::is_as_good_at_bound(const Scored& with, const FitParameter& p) const
     Scored there{with.hypothesis, {}};
     set_parameter(there.hypothesis, p, bound);
     there.score = evidence_.score(there.hypothesis);
-    if (there.score.finite && cost(there) < cost(with) + kByChance) return true;
+    if (there.score.finite && cost(there) < cost(with) + kRule.by_chance) return true;
   }
   return false;
 }
@@ -149,15 +146,18 @@ bool Judge::within_tolerance(const Hypothesis& h, int place) const {
   return true;
 }
 
-/// The effect takes a share of a residual, and what it does to some signal is well above what its sensor resolves.
+/// The effect takes a share of a residual, which is more than the misfit of what was named before it, and its change of
+/// some signal is well above what the sensor resolves.
 bool Judge::matters(const Score& before, const Score& after, const Hypothesis& with, int place) const {
   bool share = false;
-  for (int c = 0; c < evidence_.channels(); ++c)
-    share =
-        share || (evidence_.has_channel(c) && before.mean_square[c] - after.mean_square[c] > kMattersShare * first_[c]);
+  for (int c = 0; c < evidence_.channels(); ++c) {
+    const double gain = before.mean_square[c] - after.mean_square[c];
+    const double misfit = std::pow(kRule.form_misfit, 2) * (first_[c] - before.mean_square[c]);
+    share = share || (evidence_.has_channel(c) && gain > std::max(kRule.share * before.mean_square[c], misfit));
+  }
   if (!share) return false;
   const auto rows = evidence_.fit_rows({with})[0], bare = evidence_.fit_rows({without_effect(with, place)})[0];
-  return !rows.empty() && (bare.empty() || evidence_.exceeds_floor(difference(rows, bare), kMattersFactor));
+  return !rows.empty() && (bare.empty() || evidence_.exceeds_floor(difference(rows, bare), kRule.above_floor));
 }
 
 double Judge::stretch(const Hypothesis& h) const {

@@ -18,19 +18,10 @@
 ///   with an equal likelihood there.
 
 #include "diagnosis/fit/fit.h"
+#include "diagnosis/judgement/decision_rule.h"
 #include "diagnosis/judgement/likelihood.h"
 
 namespace halyard {
-
-/// An effect has to explain this share of a channel's first mean square. Less may be the misfit of another effect's
-/// functional form, which is reported as an unexplained residual.
-inline constexpr double kMattersShare = 0.05;
-/// The change by an effect has to be this many times the floor of its channel, in at least one signal.
-inline constexpr double kMattersFactor = 1.5;
-/// Gain in log-likelihood by chance of one more parameter: two standard deviations.
-inline constexpr double kByChance = 2;
-/// A candidate whose quick fit has a larger p value than this is neither fitted fully nor judged further.
-inline constexpr double kWorthAFit = 0.05;
 
 /// A candidate and the results of its tests.
 struct Trial {
@@ -40,8 +31,9 @@ struct Trial {
   bool is_fitted = true;     ///< it was among the candidates that leave the smallest residual
   bool usable = false;       ///< it could be integrated
   double gain = 0;           ///< on the deciding blocks, above the baseline of its round
+  double stretch = 0;        ///< prior cost of the baseline's numbers with it
   double p_value = 1;        ///< of no gain, without correction for the number of candidates
-  bool is_judged() const { return usable && p_value <= kWorthAFit; }
+  bool is_judged() const { return usable && p_value <= kRule.worth_a_fit; }
   // Valid if is_judged():
   bool at_bound = false;
   bool is_refit = false;  ///< its sizes stay within the model's tolerance
@@ -75,6 +67,8 @@ class Judge {
 
   /// Cost of a fit: -ln L on the fitting blocks plus the stretch of the baseline parameters.
   double cost(const Scored& scored) const;
+  /// Prior cost of the refitted baseline parameters.
+  double stretch(const Hypothesis& h) const;
 
  private:
   double p_of_gain(const Score& with, const Score& without) const;
@@ -83,7 +77,6 @@ class Judge {
   bool is_as_good_at_bound(const Scored& with, const FitParameter& p) const;
   bool within_tolerance(const Hypothesis& h, int place) const;
   bool matters(const Score& before, const Score& after, const Hypothesis& with, int place) const;
-  double stretch(const Hypothesis& h) const;
 
   const Evidence& evidence_;
   const ArmModel& model_;

@@ -57,7 +57,7 @@ class Planner {
     reference_ln_ = log_likelihood(reference_.left);
     const double blocks = static_cast<double>(reference_ln_.size());
     if (blocks < 3) throw InputError(logs.front().source + ": too short to judge by; expected some seconds");
-    const double fitted = static_cast<double>(std::min(kMostFitted, candidates_.size()));
+    const double fitted = static_cast<double>(std::min(kRule.most_fitted, candidates_.size()));
     const double level = AttributionOptions{}.significance / fitted;
     significant_gain_ = -std::log(level);
     significant_t_ = boost::math::quantile(boost::math::complement(boost::math::students_t(blocks - 1), level));
@@ -152,7 +152,7 @@ class Planner {
     }
     if (!std::isfinite(best.cost)) return false;
     const Paired p = compared(reference_ln_, log_likelihood(best.left));
-    return p.t < kTellApart || p.sum < 2 * kTellApart * kTellApart;
+    return p.t < kRule.tell_apart || p.sum < 2 * kRule.tell_apart * kRule.tell_apart;
   }
 
   /// See Separation::cosine; one way.
@@ -274,13 +274,13 @@ class Planner {
   bool seen(const Eigen::VectorXd& change) const {
     if (change.size() == 0) return false;
     const Eigen::VectorXd left = reach_.take(residual_ + change).left;
-    if (!evidence_.exceeds_floor(reach_.rows(left - reference_.left), kMattersFactor) ||
-        !evidence_.exceeds_floor(reach_.rows(change), kMattersFactor))
+    if (!evidence_.exceeds_floor(reach_.rows(left - reference_.left), kRule.above_floor) ||
+        !evidence_.exceeds_floor(reach_.rows(change), kRule.above_floor))
       return false;
     const std::vector<double> square = mean_squares(reach_.rows(left));
     bool share = false;
     for (std::size_t c = 0; c < square.size(); ++c)
-      share = share || square[c] - reference_square_[c] > kMattersShare * square[c];
+      share = share || square[c] - reference_square_[c] > kRule.share * square[c];
     const Paired gain = compared(reference_ln_, log_likelihood(left));
     return share && (gain.t > significant_t_ || gain.sum > significant_gain_);
   }

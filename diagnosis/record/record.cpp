@@ -103,7 +103,10 @@ class Stretch {
     r.source = log_.source;
     r.motion_sigma = sigma_of(options_.motion_hz);
     r.compare = {1};
-    if (options_.compare_hz > 0) r.compare = gaussian_kernel(options_.compare_hz, r.dt).value;
+    if (options_.compare_hz > 0) {
+      r.compare = gaussian_kernel(options_.compare_hz, r.dt).value;
+      r.compare_sigma = sigma_of(options_.compare_hz);
+    }
     for (Signals* s : {&r.motor_angle, &r.motor_rate, &r.motor_acceleration, &r.torque, &r.joint, &r.joint_raw,
                        &r.external, &r.joint_measured, &r.torque_measured, &r.joint_valid, &r.torque_valid})
       s->resize(r.n);

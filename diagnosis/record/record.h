@@ -39,6 +39,7 @@ struct Record {
   Signals joint_measured, torque_measured;  ///< 1 at the grid points nearest to the signal's own samples
   Signals joint_valid, torque_valid;        ///< 0 where a sample cannot be compared
   double motion_sigma = 0;                  ///< σ_t of K_m, s
+  double compare_sigma = 0;                 ///< σ_t of K_c, s; 0: residuals are not filtered
   std::vector<double> compare;              ///< K_c on this grid, [2 reach + 1]
   std::string source;
   int place = -1;  ///< index among the records of an Evidence; -1: in none

@@ -9,20 +9,12 @@
 #include <optional>
 
 #include "diagnosis/judgement/false_discovery.h"
+#include "diagnosis/judgement/name_probability.h"
 #include "diagnosis/search/starts.h"
 #include "model/input_error.h"
 
 namespace halyard {
 namespace {
-
-/// A candidate that promises less than this share of the residual, to first order, is not fitted at all.
-constexpr double kPromise = 0.02;
-/// So many of those that were fitted are fitted whole: the best, if they gain this share of what the first of them does.
-constexpr std::size_t kLeaders = 4;
-constexpr double kLeads = 0.25;
-/// After so many passes those go on, to this many in all, that gain so much of what the first of them does by then.
-constexpr int kFirstPasses = 3, kMostPasses = 12;
-constexpr double kStillLeads = 0.5;
 
 class Search {
  public:
@@ -164,7 +156,7 @@ class Search {
 
   Fit refit(const Hypothesis& h, const Score& before) const {
     Refit r{h, before};
-    go_on(r, kMostPasses);
+    go_on(r, kRule.most_passes);
     return r.best;
   }
 
@@ -241,6 +233,7 @@ class Search {
       round.accepted = true;
       std::swap(round.trials[0], round.trials[named]);
     }
+    if (able.empty()) result_.no_effect = weight_of_no_effect(ground.without, round.trials);
     result_.rounds.push_back(std::move(round));
     return !able.empty();
   }
@@ -254,14 +247,14 @@ class Search {
     });
     std::vector<std::size_t> fitted;
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (starts[i].promise >= kPromise) fitted.push_back(i);
+      if (starts[i].promise >= kRule.promise) fitted.push_back(i);
     std::ranges::stable_sort(fitted, {}, [&](std::size_t i) { return starts[i].left; });
-    if (fitted.size() > kMostFitted) fitted.resize(kMostFitted);
+    if (fitted.size() > kRule.most_fitted) fitted.resize(kRule.most_fitted);
 
     std::vector<Trial> trials;
     for (std::size_t i = 0; i < all.size(); ++i) {
       trials.push_back(unusable(all[i]));
-      trials.back().promising = starts[i].promise >= kPromise;
+      trials.back().promising = starts[i].promise >= kRule.promise;
       trials.back().is_fitted = false;
     }
     each("fits" + ground.round, fitted.size(), [&](std::size_t f) {
@@ -294,7 +287,7 @@ class Search {
   /// Returns their fits, in the order of the trials, which are judged anew.
   std::vector<Fit> fit_leaders(const Ground& ground, std::vector<Trial>& trials) const {
     std::vector<Refit> refits;
-    for (std::size_t i = 0; i < std::min(kLeaders, trials.size()); ++i)
+    for (std::size_t i = 0; i < std::min(kRule.leaders, trials.size()); ++i)
       refits.push_back({with_effect(ground.from, trials[i].effect, trials[i].past), ground.without.score});
     const auto go_on_with = [&](const std::string& what, double share, int passes) {
       double best = 0;
@@ -307,8 +300,8 @@ class Search {
         t = refits[i].best.usable ? judge_->trial(refits[i].best.hypothesis, ground.without, effect) : unusable(effect);
       });
     };
-    go_on_with("best candidates", kLeads, kFirstPasses);
-    go_on_with("finalists", kStillLeads, kMostPasses - kFirstPasses);
+    go_on_with("best candidates", kRule.leads, kRule.first_passes);
+    go_on_with("finalists", kRule.still_leads, kRule.most_passes - kRule.first_passes);
     std::vector<Fit> fits;
     for (const Refit& r : refits) fits.push_back(r.best);
     return fits;
@@ -322,8 +315,8 @@ class Search {
     for (const std::size_t i : able) {
       if (i == best) continue;
       const Paired p = paired(evidence_, trials[best].log_likelihood, trials[i].log_likelihood);
-      if (shared_gain(trials[best].log_likelihood, trials[i].log_likelihood, ln_without) < kSharedGain) continue;
-      if (p.t < kTellApart || p.sum < 2 * kTellApart * kTellApart) alike.push_back(i);
+      if (shared_gain(trials[best].log_likelihood, trials[i].log_likelihood, ln_without) < kRule.shared_gain) continue;
+      if (p.t < kRule.tell_apart || p.sum < 2 * kRule.tell_apart * kRule.tell_apart) alike.push_back(i);
     }
     // Of those that cannot be told apart the best is named; of those that are as good one that only changes the
     // model's own numbers, and then the one with the fewest numbers of its own.
@@ -332,13 +325,52 @@ class Search {
       return std::pair(e.effect->stages() != 0, e.effect->parameters(model_.nominal, e.joint).size());
     };
     std::vector<std::size_t> as_good = alike;
-    std::erase_if(as_good, [&](std::size_t i) { return trials[i].gain < trials[best].gain - kByChance; });
+    std::erase_if(as_good, [&](std::size_t i) { return trials[i].gain < trials[best].gain - kRule.by_chance; });
     const std::size_t named = *std::ranges::min_element(as_good, {}, simplicity);
-    std::vector<PlacedEffect> like;
-    for (const std::size_t i : alike)
-      if (i != named) like.push_back(trials[i].effect);
-    result_.alternatives.push_back(like);
+    result_.namings.push_back(naming(without, trials, named, alike));
     return named;
+  }
+
+  /// The weights of a name and of those that compete with it: candidates that explain the same part of the residual.
+  Naming naming(const Scored& without, const std::vector<Trial>& trials, std::size_t named,
+                const std::vector<std::size_t>& alike) const {
+    constexpr double kWorthTelling = 0.01;
+    const Likelihood ln_without = log_likelihood(evidence_, without.score, squared_floors(evidence_));
+    std::vector<std::size_t> rivals = {named};
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      const Trial& t = trials[i];
+      if (i == named || !t.is_judged() || t.at_bound || t.is_refit || t.gain <= 0) continue;
+      if (shared_gain(trials[named].log_likelihood, t.log_likelihood, ln_without) >= kRule.shared_gain)
+        rivals.push_back(i);
+    }
+    const std::vector<double> weight = weights(without, ln_without, trials, rivals);
+    Naming naming;
+    naming.weight = weight[0];
+    for (std::size_t r = 1; r < rivals.size(); ++r)
+      if (weight[r] > kWorthTelling || std::ranges::count(alike, rivals[r]) > 0)
+        naming.alternatives.push_back({trials[rivals[r]].effect, weight[r], false});
+    std::ranges::stable_sort(naming.alternatives, std::ranges::greater{}, &Alternative::probability);
+    return naming;
+  }
+
+  double weight_of_no_effect(const Scored& without, const std::vector<Trial>& trials) const {
+    std::vector<std::size_t> rivals;
+    for (std::size_t i = 0; i < trials.size(); ++i)
+      if (trials[i].is_judged() && !trials[i].at_bound && !trials[i].is_refit && trials[i].matters) rivals.push_back(i);
+    const Likelihood ln_without = log_likelihood(evidence_, without.score, squared_floors(evidence_));
+    return weights(without, ln_without, trials, rivals).back();
+  }
+
+  /// Of the rivals, then of no effect.
+  std::vector<double> weights(const Scored& without, const Likelihood& ln_without, const std::vector<Trial>& trials,
+                              const std::vector<std::size_t>& rivals) const {
+    std::vector<Competitor> all;
+    for (const std::size_t i : rivals) {
+      const PlacedEffect& e = trials[i].effect;
+      all.push_back({&trials[i].log_likelihood, static_cast<int>(e.effect->parameters(model_.nominal, e.joint).size()),
+                     trials[i].stretch});
+    }
+    return name_weights(evidence_, all, {&ln_without, 0, judge_->stretch(without.hypothesis)});
   }
 
   /// Each effect is tried for removal: one that a later one made idle goes.
@@ -361,7 +393,7 @@ class Search {
       }
       if (gone == n) break;
       current = std::move(left);
-      result_.alternatives.erase(result_.alternatives.begin() + gone);
+      result_.namings.erase(result_.namings.begin() + static_cast<std::ptrdiff_t>(gone));
     }
   }
 

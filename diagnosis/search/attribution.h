@@ -6,19 +6,10 @@
 #include <functional>
 #include <string>
 
+#include "diagnosis/diagnose.h"
 #include "diagnosis/judgement/judge.h"
 
 namespace halyard {
-
-/// Two candidates whose gains differ by less than this many standard errors cannot be told apart.
-inline constexpr double kTellApart = 2.0;
-
-/// Two candidates are alternatives if they share at least this fraction of the smaller gain (shared_gain()). Otherwise
-/// they explain different parts of the data.
-inline constexpr double kSharedGain = 0.5;
-
-/// Number of candidates that are fitted in a round: those with the smallest residual at the start of their search.
-inline constexpr std::size_t kMostFitted = 16;
 
 /// One round of the search: all candidates against the same baseline.
 struct Round {
@@ -26,10 +17,17 @@ struct Round {
   bool accepted = false;      ///< the first trial was added
 };
 
+/// How an effect came to its name.
+struct Naming {
+  double weight = 0;                      ///< among the candidates of its round, see name_probability.h
+  std::vector<Alternative> alternatives;  ///< with their weights as probabilities
+};
+
 struct Attribution {
-  Fit baseline;                                         ///< parameters refitted within their tolerance, no effects
-  Fit final_fit;                                        ///< with the named effects
-  std::vector<std::vector<PlacedEffect>> alternatives;  ///< for each effect of final_fit
+  Fit baseline;                 ///< parameters refitted within their tolerance, no effects
+  Fit final_fit;                ///< with the named effects
+  std::vector<Naming> namings;  ///< for each effect of final_fit
+  double no_effect = 1;         ///< weight of "no effect" in the last round
   std::vector<Round> rounds;
   Score nominal_score, baseline_score, final_score;
 };

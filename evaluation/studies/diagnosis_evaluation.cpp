@@ -121,7 +121,7 @@ std::string alternatives_sentence(const NamedEffect& effect) {
   if (effect.alternatives.empty()) return "";
   std::string text = " These data cannot tell it from ";
   for (std::size_t i = 0; i < effect.alternatives.size(); ++i)
-    text += (i == 0 ? "" : ", ") + effect_label(effect.alternatives[i]);
+    text += (i == 0 ? "" : ", ") + effect_label(effect.alternatives[i].effect);
   return text + ".";
 }
 

@@ -40,7 +40,7 @@ TEST(Judge, AContactAtTheEndOfTheMotionDoesNotDiscardThePushBesideIt) {
   const Tug tug(1, 0.03), none(0, 0.2);
   const Trial both = tug.trial(1, 0.03), push = tug.trial(1, 0), contact = none.trial(0, 0.2);
   ASSERT_TRUE(both.is_judged() && push.is_judged() && contact.is_judged());
-  EXPECT_GT(both.gain, push.gain + kByChance) << "the contact mends the form of the push";
+  EXPECT_GT(both.gain, push.gain + kRule.by_chance) << "the contact mends the form of the push";
   EXPECT_FALSE(both.at_bound);
   EXPECT_FALSE(push.at_bound);
   EXPECT_TRUE(contact.at_bound);

@@ -1,0 +1,65 @@
+#pragma once
+/// The thresholds of a diagnosis in one place: what each means, its value, and why.
+
+#include <cstddef>
+
+namespace halyard {
+
+struct DecisionRule {
+  // A candidate is named.
+
+  /// A candidate has to explain this share of the mean square that is left in a channel. Less cannot be told from the
+  /// misfit of a number of the model. Reason: 5 % of the mean square is 2.5 % of the root mean square.
+  double share = 0.05;
+  /// Root mean square by which the functional form of a right name may miss the truth, relative to what it explains.
+  /// An effect that explains less than this beside a larger one may be its misfit. Reason: the logs with other equations
+  /// (rounded backlash, Bouc-Wen, LuGre) leave 2 to 15 % under the right name.
+  double form_misfit = 0.1;
+  /// The change by an effect has to be this many times the floor of its channel, in at least one signal.
+  double above_floor = 1.5;
+  /// Gain in log-likelihood by chance of one more parameter. Reason: two standard deviations of χ²(1) / 2.
+  double by_chance = 2;
+  /// A candidate whose quick fit has a larger p value than this is neither fitted fully nor judged further.
+  double worth_a_fit = 0.05;
+
+  // A rest is reported.
+
+  /// A residual matters above this many times the floor of its channel: about one resolution of a joint's encoder.
+  double rest_ratio = 3;
+  /// So little of a residual's root mean square is next to nothing.
+  double next_to_none = 0.1;
+
+  // Alternatives and probabilities.
+
+  /// Two candidates whose gains differ by less than this many standard errors cannot be told apart.
+  double tell_apart = 2;
+  /// Two candidates are alternatives if they share at least this fraction of the smaller gain (shared_gain()).
+  double shared_gain = 0.5;
+  /// s of P(none), see name_probability.h.
+  double none_sharpness = 1.5;
+  /// The set of names that is reported holds the truth with this probability.
+  double set_share = 0.9;
+
+  // Numbers of the model.
+
+  /// A refitted number is reported if it lies so many standard deviations off the model's number. Reason: of some
+  /// thirty numbers two in a thousand clean diagnoses then show one by chance.
+  double refit_deviations = 4;
+
+  // The effort of the search.
+
+  /// A candidate that promises less than this share of the residual, to first order, is not fitted.
+  double promise = 0.02;
+  /// Number of candidates that are fitted in a round: those with the smallest residual at the start of their search.
+  std::size_t most_fitted = 16;
+  /// So many of those are fitted whole, if they gain this share of what the first of them does.
+  std::size_t leaders = 4;
+  double leads = 0.25;
+  /// After so many passes those go on, to `most_passes` in all, that gain this share of the first by then.
+  int first_passes = 3, most_passes = 12;
+  double still_leads = 0.5;
+};
+
+inline constexpr DecisionRule kRule = {};
+
+}  // namespace halyard

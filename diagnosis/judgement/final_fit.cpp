@@ -1,0 +1,137 @@
+#include "diagnosis/judgement/final_fit.h"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+#include "diagnosis/judgement/decision_rule.h"
+#include "diagnosis/prediction/calibrate.h"
+
+namespace halyard {
+namespace {
+
+/// Resets uncertain parameters of a fit. The effect of a reset on the other parameters is computed to first order.
+class UncertainParameters {
+ public:
+  UncertainParameters(const ArmModel& model, const Fit& fit, std::size_t given)
+      : model_(model),
+        fit_(fit),
+        given_(static_cast<int>(given)),
+        value_(Eigen::Map<const Eigen::VectorXd>(fit.value.data(), static_cast<Eigen::Index>(fit.value.size()))),
+        covariance_(fit.covariance),
+        kept_(fit.parameters.size(), true),
+        groups_(groups_of(fit.parameters)) {}
+
+  /// kept()[i]: parameter i keeps its change.
+  const std::vector<bool>& kept() const { return kept_; }
+  double value(std::size_t i) const { return value_(static_cast<Eigen::Index>(i)); }
+
+  void reset_all() {
+    for (;;) {
+      std::size_t least = kept_.size();
+      double smallest = 1;
+      for (std::size_t i = 0; i < kept_.size(); ++i)
+        if (const double has = may_go(i) ? certainty(i) : 1; has < smallest) smallest = has, least = i;
+      if (least == kept_.size()) break;
+      reset(static_cast<Eigen::Index>(least));
+    }
+    // The shapes of sizes that are gone have no meaning. The past of an effect that the model came with has no sizes.
+    for (const ParameterGroup& group : groups_)
+      if (!group.sizes.empty() && std::ranges::none_of(group.sizes, [&](std::size_t i) { return kept_[i]; }))
+        for (const std::size_t i : group.shapes) kept_[i] = false;
+  }
+
+ private:
+  bool may_go(std::size_t i) const {
+    const FitParameter& p = fit_.parameters[i];
+    if (!kept_[i] || p.shape) return false;
+    return p.effect < 0 ? !is_unknown_scale(model_, p.index) : p.effect >= given_;
+  }
+
+  /// Change over the smallest change that is significant.
+  double certainty(std::size_t i) const {
+    if (is_exhausted(i)) return 0;
+    const FitParameter& p = fit_.parameters[i];
+    const auto at = static_cast<Eigen::Index>(i);
+    const double needed = p.effect < 0 ? kRule.refit_deviations : interval_factor(fit_);
+    const double shrunk = std::sqrt(covariance_(at, at) / fit_.covariance(at, at));
+    return std::abs(value_(at) - p.nominal) / (needed * shrunk * fit_.std_deviation[i]);
+  }
+
+  /// True for a parameter at its bound, and for a size with a shape at its bound.
+  bool is_exhausted(std::size_t i) const {
+    const auto ends = [&](std::size_t j) { return ends_at_bound(fit_.parameters[j], value(j)); };
+    return ends(i) || std::ranges::any_of(groups_, [&](const ParameterGroup& group) {
+             return std::ranges::count(group.sizes, i) > 0 && std::ranges::any_of(group.shapes, ends);
+           });
+  }
+
+  void reset(Eigen::Index i) {
+    const Eigen::VectorXd gain = covariance_.col(i) / covariance_(i, i);
+    value_ -= gain * (value_(i) - fit_.parameters[static_cast<std::size_t>(i)].nominal);
+    covariance_ -= gain * covariance_.row(i);
+    kept_[static_cast<std::size_t>(i)] = false;
+  }
+
+  const ArmModel& model_;
+  const Fit& fit_;
+  int given_;
+  Eigen::VectorXd value_;
+  Eigen::MatrixXd covariance_;
+  std::vector<bool> kept_;
+  std::vector<ParameterGroup> groups_;
+};
+
+std::vector<double> scale_at(const Evidence& whole, const Hypothesis& h) {
+  return channel_scale(whole, whole.score(h).fit_mean_square);
+}
+
+Fit keep_certain_parameters(const Evidence& whole, const ArmModel& model, const Fit& f, std::size_t given) {
+  UncertainParameters uncertain(model, f, given);
+  uncertain.reset_all();
+  Hypothesis h = f.hypothesis;
+  std::vector<FitParameter> left;
+  for (std::size_t i = 0; i < f.parameters.size(); ++i) {
+    const FitParameter& p = f.parameters[i];
+    const bool kept = uncertain.kept()[i];
+    set_parameter(h, p, kept ? std::clamp(uncertain.value(i), p.lower, p.upper) : p.nominal);
+    if (kept) left.push_back(p);
+  }
+  if (left.size() == f.parameters.size()) return f;
+  const Fit again = fit(whole, h, left, scale_at(whole, f.hypothesis));
+  if (!again.usable) return f;
+  bool at_bound = false;
+  for (std::size_t i = 0; i < left.size(); ++i)
+    at_bound = at_bound || (!left[i].shape && ends_at_bound(left[i], again.value[i]));
+  return at_bound ? keep_certain_parameters(whole, model, again, given) : again;
+}
+
+}  // namespace
+
+Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given) {
+  const Fit all = fit(whole, chosen.hypothesis, chosen.parameters, scale_at(whole, chosen.hypothesis));
+  return keep_certain_parameters(whole, model, all.usable ? all : chosen, given);
+}
+
+std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given) {
+  std::vector<std::size_t> idle;
+  for (std::size_t e = given; e < fit.hypothesis.effects.size(); ++e)
+    if (std::ranges::none_of(fit.parameters, [&](const FitParameter& p) {
+          return p.effect == static_cast<int>(e) && !is_past(p) && !p.shape;
+        }))
+      idle.push_back(e);
+  return idle;
+}
+
+double interval_factor(const Fit& fit) {
+  constexpr double kTwoSided95 = 0.025;
+  const boost::math::students_t distribution(std::max(1, fit.blocks - 1));
+  return boost::math::quantile(boost::math::complement(distribution, kTwoSided95));
+}
+
+bool is_refit(const Fit& fit, std::size_t i) {
+  const FitParameter& p = fit.parameters[i];
+  return p.effect < 0 && std::abs(fit.value[i] - p.nominal) > kRule.refit_deviations * fit.std_deviation[i];
+}
+
+}  // namespace halyard

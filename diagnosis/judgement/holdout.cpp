@@ -1,0 +1,136 @@
+#include "diagnosis/judgement/holdout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "diagnosis/judgement/paired_t.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double joint_error(const Record& r, const FullPrediction& p, int k, std::size_t i) {
+  return r.has_joint(k) && r.joint_valid[k][i] > 0 ? r.joint_raw[k][i] - p.joint_reading[k][i] : kNone;
+}
+
+double torque_error(const Record& r, const FullPrediction& p, int k, std::size_t i) {
+  return r.has_torque(k) && r.torque_valid[k][i] > 0 ? p.torque_residual[k][i] : kNone;
+}
+
+/// Root mean square and peak of what sample(record, prediction, i) gives, where it is not NaN.
+template <class Sample>
+std::pair<double, double> size_of(const std::vector<Record>& records, const std::vector<FullPrediction>& predictions,
+                                  const Sample& sample) {
+  double square = 0, count = 0, peak = 0;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    for (std::size_t i = 0; i < records[r].size; ++i) {
+      const double e = sample(records[r], predictions[r], i);
+      if (std::isnan(e)) continue;
+      square += e * e, count += 1, peak = std::max(peak, std::abs(e));
+    }
+  return count > 0 ? std::pair(std::sqrt(square / count), peak) : std::pair(kNone, kNone);
+}
+
+/// Takes out what was before a time.
+void compare_from(Record& r, double from) {
+  for (Signals* valid : {&r.joint_valid, &r.torque_valid})
+    for (std::vector<double>& x : *valid)
+      for (std::size_t i = 0; i < x.size() && r.time(i) < from; ++i) x[i] = 0;
+}
+
+/// True if the squares of `error` grow from `before` to `after`, beyond chance and beyond what matters.
+template <class Error>
+bool grows(const HoldOut& view, double floor, const Error& error) {
+  constexpr double kShare = 0.025, kSignificance = 0.01;
+  std::map<std::pair<std::size_t, int>, std::pair<double, double>> second;
+  double before = 0, after = 0, count = 0;
+  for (std::size_t r = 0; r < view.records.size(); ++r)
+    for (std::size_t i = 0; i < view.records[r].size; ++i) {
+      const Record& record = view.records[r];
+      const double e = error(record, view.before[r], i), f = error(record, view.after[r], i);
+      if (std::isnan(e) || std::isnan(f)) continue;
+      auto& [of_before, of_after] = second[{r, static_cast<int>(record.time(i))}];
+      of_before += e * e, of_after += f * f;
+      before += e * e, after += f * f, count += 1;
+    }
+  if (count == 0 || after - before < count * floor * floor || after - before < kShare * before) return false;
+  std::vector<double> differences;
+  for (const auto& [at, squares] : second) differences.push_back(squares.second - squares.first);
+  return p_value(paired(differences)) < kSignificance;
+}
+
+}  // namespace
+
+DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& training,
+                             const std::optional<Log>& holdout) {
+  DiagnosisData data;
+  const auto learn_from = [&](const Log& log) {
+    for (Record& r : make_records(log, model, kFitBand)) data.training.push_back(std::move(r));
+  };
+  const auto hold_out = [&](const Log& log, double from, std::size_t first) {
+    for (const auto& [view, how] :
+         {std::pair(&data.joint_view, kJointErrorBand), std::pair(&data.torque_view, kFitBand)})
+      for (Record& r : make_records(log, model, how)) {
+        if (r.time(r.size - 1) < from) continue;
+        compare_from(r, from);
+        for (std::size_t place = first; place < data.training.size(); ++place)
+          if (data.training[place].start == r.start) r.place = static_cast<int>(place);
+        view->records.push_back(std::move(r));
+      }
+  };
+  for (const Log& log : training) {
+    if (holdout) {
+      learn_from(log);
+    } else {
+      const auto [first, last] = split_log(log, 2.0 / 3);
+      const std::size_t place = data.training.size();
+      learn_from(first);
+      hold_out(log, last.time.front(), place);
+    }
+  }
+  if (holdout) hold_out(*holdout, holdout->time.front(), data.training.size());
+  return data;
+}
+
+PredictionError prediction_errors(const HoldOut& joints, const HoldOut& torques, int n,
+                                  std::vector<FullPrediction> HoldOut::*which) {
+  PredictionError e;
+  for (int k = 0; k < n; ++k) {
+    const auto [joint_rms, joint_peak] =
+        size_of(joints.records, joints.*which,
+                [k](const Record& r, const FullPrediction& p, std::size_t i) { return joint_error(r, p, k, i); });
+    const auto [torque_rms, torque_peak] =
+        size_of(torques.records, torques.*which,
+                [k](const Record& r, const FullPrediction& p, std::size_t i) { return torque_error(r, p, k, i); });
+    e.joint_rms.push_back(joint_rms);
+    e.joint_peak.push_back(joint_peak);
+    e.torque_rms.push_back(torque_rms);
+  }
+  return e;
+}
+
+std::vector<FullPrediction> predict_all(const std::vector<Record>& records, const Hypothesis& hypothesis) {
+  std::vector<FullPrediction> all;
+  for (const Record& r : records) all.push_back(predict_fully(r, hypothesis));
+  return all;
+}
+
+std::vector<int> worse_joints(const HoldOut& joints, const HoldOut& torques, const std::vector<double>& floor) {
+  const int n = static_cast<int>(floor.size()) / 2;
+  std::vector<int> worse;
+  for (int k = 0; k < n; ++k) {
+    const auto of_joint = [k](const Record& r, const FullPrediction& p, std::size_t i) {
+      return joint_error(r, p, k, i);
+    };
+    const auto of_torque = [k](const Record& r, const FullPrediction& p, std::size_t i) {
+      return torque_error(r, p, k, i);
+    };
+    if (grows(joints, floor[n + k], of_joint) || grows(torques, floor[k], of_torque)) worse.push_back(k);
+  }
+  return worse;
+}
+
+}  // namespace halyard

@@ -1,0 +1,47 @@
+#pragma once
+/// Data that no decision uses: a log of its own, or the last third of each training log. A model is adopted only if it
+/// does not predict these data worse than the model as given.
+
+#include <optional>
+
+#include "diagnosis/diagnose.h"
+#include "diagnosis/prediction/prediction.h"
+
+namespace halyard {
+
+/// Frequency band of fits and of reported torque errors. In this band the second derivative of a rounded angle is still
+/// meaningful.
+inline constexpr RecordOptions kFitBand = {};
+/// Frequency band of reported joint errors. It includes the vibrations of the cables.
+inline constexpr RecordOptions kJointErrorBand = {.motion_hz = 100, .compare_hz = 0, .settle_s = 0.5, .step_s = 0.001};
+
+/// Records of the hold-out, and their predictions by the given (before) and the revised model (after).
+struct HoldOut {
+  std::vector<Record> records;
+  std::vector<FullPrediction> before, after;
+};
+
+/// The logs of a diagnosis as records.
+struct DiagnosisData {
+  std::vector<Record> training;
+  HoldOut joint_view;   ///< in kJointErrorBand
+  HoldOut torque_view;  ///< in kFitBand
+};
+
+/// Without a hold-out log, the last third of each training log is held out. Cables have memory: the part before it is
+/// predicted along with it and not compared.
+DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& training,
+                             const std::optional<Log>& holdout);
+
+/// Errors of both views with one of their predictions, HoldOut::before or HoldOut::after; n joints.
+PredictionError prediction_errors(const HoldOut& joints, const HoldOut& torques, int n,
+                                  std::vector<FullPrediction> HoldOut::*which);
+
+/// Predictions of all records.
+std::vector<FullPrediction> predict_all(const std::vector<Record>& records, const Hypothesis& hypothesis);
+
+/// 0-based joints of which `after` predicts the position or the torque worse than `before`: the mean square is larger,
+/// significantly by a paired t test over seconds, and by more than a fortieth, or one squared floor [2n].
+std::vector<int> worse_joints(const HoldOut& joints, const HoldOut& torques, const std::vector<double>& floor);
+
+}  // namespace halyard

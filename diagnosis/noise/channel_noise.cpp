@@ -1,0 +1,177 @@
+#include "diagnosis/noise/channel_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <unsupported/Eigen/FFT>
+
+namespace halyard {
+namespace {
+
+constexpr double kLowest = 10;  ///< Hz; below it the errors of a model are
+constexpr double kSegment = 1;  ///< s, and at least so many samples:
+constexpr int kFewestSamples = 64;
+constexpr double kMedianOverMean = std::numbers::ln2;
+constexpr double kLineFrom = 22;     ///< Hz: above what is compared
+constexpr double kLineTo = 150;      ///< Hz: above, the filter of the record leaves nothing to see
+constexpr double kLineOver = 30;     ///< times its surroundings: by chance once in e^20 bins
+constexpr double kSurroundings = 8;  ///< Hz on either side
+
+double median(std::vector<double> x) {
+  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
+  std::ranges::nth_element(x, middle);
+  return *middle;
+}
+
+/// Mean of the bins of [from, to); infinite if there is none.
+double mean_of_band(const std::vector<double>& density, double resolution, double from, double to) {
+  double sum = 0, count = 0;
+  for (std::size_t b = 0; b < density.size(); ++b)
+    if (const double f = static_cast<double>(b) * resolution; f >= from && f < to) sum += density[b], count += 1;
+  return count > 0 ? sum / count : std::numeric_limits<double>::infinity();
+}
+
+/// The bins that stand out of their surroundings, each with its neighbours as one line.
+std::vector<NoiseLine> lines_of(const std::vector<double>& density, double resolution) {
+  std::vector<NoiseLine> lines;
+  const auto first = static_cast<std::size_t>(std::ceil(kLineFrom / resolution));
+  const auto last = std::min(density.size(), static_cast<std::size_t>(kLineTo / resolution));
+  const auto reach = static_cast<std::size_t>(kSurroundings / resolution);
+  // A Hann window spreads a sine over two bins on either side.
+  constexpr std::size_t kSpread = 2;
+  for (std::size_t b = first; b + kSpread < last; ++b) {
+    const auto from = density.begin() + static_cast<std::ptrdiff_t>(b - kSpread);
+    if (density[b] < *std::max_element(from, from + 2 * kSpread + 1)) continue;
+    std::vector<double> around;
+    for (std::size_t i = b - std::min(b, reach); i < std::min(density.size(), b + reach + 1); ++i)
+      if (i + kSpread < b || i > b + kSpread) around.push_back(density[i]);
+    if (around.empty()) continue;
+    const double ground = median(around);
+    if (!(density[b] > kLineOver * ground)) continue;
+    double power = 0;
+    for (std::size_t i = b - kSpread; i <= b + kSpread; ++i) power += std::max(0.0, density[i] - ground) * resolution;
+    // A line is no noise: the median over segments is its mean, which the density's correction has enlarged.
+    lines.push_back({static_cast<double>(b) * resolution, std::sqrt(2 * power * kMedianOverMean)});
+  }
+  return lines;
+}
+
+/// What a channel measured and the model predicted, on the samples that the sensor took.
+struct ChannelSamples {
+  std::vector<std::vector<double>> runs;  ///< evenly spaced, one for each record
+  double interval = 0;                    ///< s
+};
+
+ChannelSamples joint_samples(const std::vector<Record>& records, const std::vector<Residuals>& unfiltered, int k) {
+  ChannelSamples all;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const Record& record = records[r];
+    if (!record.has_joint(k)) continue;
+    std::vector<double> run, gaps;
+    double last = -1;
+    for (std::size_t i = 0; i < record.size; ++i) {
+      if (!(record.joint_measured[k][i] > 0)) continue;
+      // Raw reading less predicted reading.
+      run.push_back(unfiltered[r].channel[record.n + k][i] + record.joint_raw[k][i] - record.joint[k][i]);
+      if (last >= 0) gaps.push_back(record.time(i) - last);
+      last = record.time(i);
+    }
+    if (gaps.empty()) continue;
+    all.interval = std::max(all.interval, median(gaps));
+    all.runs.push_back(std::move(run));
+  }
+  return all;
+}
+
+ChannelSamples torque_samples(const std::vector<Record>& records, const std::vector<Residuals>& unfiltered, int k) {
+  ChannelSamples all;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    if (!records[r].has_torque(k)) continue;
+    all.interval = std::max(all.interval, records[r].dt);
+    all.runs.push_back(unfiltered[r].channel[k]);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<double> median_density(const std::vector<std::vector<double>>& samples, double interval, int segment) {
+  Eigen::FFT<double> fft;
+  std::vector<double> window(segment);
+  double power = 0;
+  for (int i = 0; i < segment; ++i) {
+    window[i] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (i + 0.5) / segment);
+    power += window[i] * window[i];
+  }
+  const int bins = segment / 2;
+  std::vector<std::vector<double>> at(bins);
+  std::vector<double> part(segment);
+  std::vector<std::complex<double>> amplitude;
+  for (const std::vector<double>& run : samples)
+    for (std::size_t first = 0; first + segment <= run.size(); first += segment / 2) {
+      double mean = 0;
+      for (int i = 0; i < segment; ++i) mean += run[first + i] / segment;
+      if (!std::isfinite(mean)) continue;
+      for (int i = 0; i < segment; ++i) part[i] = window[i] * (run[first + i] - mean);
+      fft.fwd(amplitude, part);
+      for (int b = 0; b < bins; ++b) at[b].push_back(2 * interval * std::norm(amplitude[b]) / power);
+    }
+  std::vector<double> density;
+  for (const std::vector<double>& of_bin : at)
+    if (!of_bin.empty()) density.push_back(median(of_bin) / kMedianOverMean);
+  return density;
+}
+
+ChannelNoise noise_of_density(const std::vector<double>& density, double resolution, double nyquist,
+                              double filter_sigma) {
+  ChannelNoise noise;
+  if (density.empty()) return noise;
+  double white = std::numeric_limits<double>::infinity();
+  // A slow sensor has the upper third of its spectrum alone.
+  if (nyquist <= 1.5 * kLowest) white = mean_of_band(density, resolution, nyquist * 2 / 3, nyquist);
+  else
+    for (double from = kLowest; from < 0.7 * nyquist; from *= 1.6)
+      white = std::min(white, mean_of_band(density, resolution, from, std::min(1.6 * from, nyquist)));
+  if (!std::isfinite(white)) return noise;
+  const double square = white * nyquist;
+  noise.white = std::sqrt(square);
+  noise.in_band = std::sqrt(std::min(square, white / (4 * std::sqrt(std::numbers::pi) * filter_sigma)));
+  noise.lines = lines_of(density, resolution);
+  return noise;
+}
+
+std::vector<ChannelNoise> channel_noise(const std::vector<Record>& records, const Hypothesis& given) {
+  const int n = records.front().n;
+  std::vector<ChannelNoise> noise(2 * n);
+  std::vector<Residuals> unfiltered;
+  double motion_sigma = 0, compare_sigma = 0;
+  for (Record record : records) {
+    motion_sigma = std::max(motion_sigma, record.motion_sigma);
+    compare_sigma = std::max(compare_sigma, record.compare_sigma);
+    record.compare = {1};
+    unfiltered.push_back(predict(record, {given}, 1)[0]);
+    if (!unfiltered.back().finite) return noise;
+  }
+  const double sigma = std::hypot(motion_sigma, compare_sigma);
+  for (int c = 0; c < 2 * n; ++c) {
+    const bool joint = c >= n;
+    const ChannelSamples samples =
+        joint ? joint_samples(records, unfiltered, c - n) : torque_samples(records, unfiltered, c);
+    if (samples.runs.empty()) continue;
+    const int segment = std::max(kFewestSamples, static_cast<int>(std::lround(kSegment / samples.interval)));
+    std::vector<double> density = median_density(samples.runs, samples.interval, segment);
+    const double resolution = 1 / (samples.interval * segment);
+    double highest = 0.5 / samples.interval;
+    if (!joint) {
+      // Above its cut-off the record's filter leaves too little of the torque to divide by.
+      highest = std::min(highest, 1 / (2 * std::numbers::pi * motion_sigma));
+      for (std::size_t b = 0; b < density.size(); ++b)
+        density[b] *= std::exp(std::pow(2 * std::numbers::pi * static_cast<double>(b) * resolution * motion_sigma, 2));
+    }
+    noise[c] = noise_of_density(density, resolution, highest, sigma);
+  }
+  return noise;
+}
+
+}  // namespace halyard

@@ -1,0 +1,53 @@
+#pragma once
+/// Sensor noise of each channel, estimated from a log, and lines in the spectrum above the compared band.
+///
+/// The errors of a model are slow: they follow the motion. What lies above 10 Hz is mostly noise of the sensors, so the
+/// spectrum of measured minus predicted tells how large that noise is:
+///
+///   S(f)     = median over segments of 2 Δ |Σ w e exp(-2πi f t)|² / Σ w² / ln 2     spectral density, unit² / Hz
+///   S_white  = least mean of S over bands of frequency above 10 Hz
+///   in_band² = S_white / (4 √π σ_t),   at most white²
+///
+///   e        residual of the model as given, before the comparing filter
+///   w        Hann window over a segment of one second; segments overlap by half
+///   ln 2     median over mean of an exponential distribution: what a density of noise is distributed by
+///   σ_t      standard deviation of both filters of a record together (record.h), s
+///
+/// The median ignores segments with a jump or an impact. The least of the bands ignores resonances and hum, which
+/// lie in one of them. A record's filter attenuates the torque by exp(-(2π f σ_m)²); S is corrected for it.
+/// Source: Welch, IEEE Trans. Audio Electroacoust. 15 (1967), with the median in place of the mean.
+
+#include <vector>
+
+#include "diagnosis/prediction/prediction.h"
+
+namespace halyard {
+
+/// A narrow line of a spectrum: hum of the mains, a resonance, chatter.
+struct NoiseLine {
+  double frequency = 0;  ///< Hz
+  double amplitude = 0;  ///< of the sine, unit of the channel
+};
+
+struct ChannelNoise {
+  double white = 0;    ///< standard deviation of a single sample
+  double in_band = 0;  ///< standard deviation of a compared sample, after the record's filters
+  std::vector<NoiseLine> lines;
+};
+
+/// Spectral density of a residual and the noise in it.
+///   density       [bins], bin b is the frequency b * resolution
+///   nyquist       Hz
+///   filter_sigma  σ_t of both filters of a record, s
+ChannelNoise noise_of_density(const std::vector<double>& density, double resolution, double nyquist,
+                              double filter_sigma);
+
+/// Median density over the segments of evenly spaced samples; segments with NaN do not count. Empty: no segment.
+///   interval  s, from a sample to the next
+///   segment   samples of a segment
+std::vector<double> median_density(const std::vector<std::vector<double>>& samples, double interval, int segment);
+
+/// [2n] as the channels of Residuals; zero where a channel has no data or the hypothesis cannot be integrated.
+std::vector<ChannelNoise> channel_noise(const std::vector<Record>& records, const Hypothesis& given);
+
+}  // namespace halyard
