@@ -46,7 +46,7 @@ compile_together(halyard_plugins checks host/conformance.cpp host/effect_module.
 compile_together(halyard_diagnosis records
   prediction/calibrate.cpp prediction/chebyshev.cpp prediction/filtered_effect.cpp record/record.cpp)
 compile_together(halyard_diagnosis fit
-  fit/baseline_reach.cpp fit/block_variance.cpp fit/evidence.cpp fit/fit.cpp noise/channel_noise.cpp)
+  fit/baseline_reach.cpp fit/block_variance.cpp fit/evidence.cpp fit/fit.cpp fit/nudged.cpp noise/channel_noise.cpp)
 compile_together(halyard_diagnosis judgement
   judgement/false_discovery.cpp judgement/final_fit.cpp judgement/holdout.cpp judgement/judge.cpp
   judgement/likelihood.cpp judgement/name_probability.cpp judgement/paired_t.cpp)

@@ -4,6 +4,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "diagnosis/fit/nudged.h"
 #include "diagnosis/judgement/decision_rule.h"
 #include "diagnosis/prediction/calibrate.h"
 
@@ -109,7 +110,9 @@ Fit keep_certain_parameters(const Evidence& whole, const ArmModel& model, const 
 }  // namespace
 
 Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given) {
-  const Fit all = fit(whole, chosen.hypothesis, chosen.parameters, scale_at(whole, chosen.hypothesis));
+  const std::vector<double> scale = scale_at(whole, chosen.hypothesis);
+  const Hypothesis start = nudged(whole, chosen.hypothesis, given, model.nominal, scale);
+  const Fit all = fit(whole, start, chosen.parameters, scale_at(whole, start));
   return keep_certain_parameters(whole, model, all.usable ? all : chosen, given);
 }
 

@@ -7,13 +7,11 @@
 #include <limits>
 #include <map>
 
+#include "diagnosis/prediction/driven_start.h"
 #include "diagnosis/prediction/filtered_effect.h"
 #include "diagnosis/prediction/lane_drive.h"
-#include "estimators/eigen_modes.h"
 #include "estimators/process/instruction_set.h"
 #include "transmission/arm_fields.h"
-#include "transmission/coupling.h"
-#include "transmission/jacobian.h"
 
 namespace halyard {
 namespace {
@@ -83,86 +81,6 @@ std::vector<double> past_states(const Hypothesis& h, const Record& record) {
   return all;
 }
 
-/// Jacobian of the driven state [q, q', z] at x.
-Eigen::MatrixXd driven_jacobian(const Transmission<Dual>& transmission, const Record& record, const DrivenInput& u,
-                                const DrivenState<double>& x) {
-  const int n = record.n, m = transmission.n_states(), size = 2 * n + m;
-  Eigen::VectorXd at(size), rate(size);
-  at << Eigen::Map<const Eigen::VectorXd>(x.q, n), Eigen::Map<const Eigen::VectorXd>(x.v, n),
-      Eigen::Map<const Eigen::VectorXd>(x.z, m);
-  Eigen::MatrixXd J(size, size);
-  const auto rate_at = [&](const Dual* y, Dual* y_dot) {
-    DrivenState<Dual> state, state_rate;
-    std::copy(y, y + n, state.q);
-    std::copy(y + n, y + 2 * n, state.v);
-    std::copy(y + 2 * n, y + size, state.z);
-    ChainOverStep<Dual> chain;
-    chain_over_step(transmission.arm(), state, 0.0, chain);
-    driven_derivative<Dual>(transmission, &chain, record.start, nullptr, u, state, state_rate, nullptr, nullptr);
-    std::copy(state_rate.q, state_rate.q + n, y_dot);
-    std::copy(state_rate.v, state_rate.v + n, y_dot + n);
-    std::copy(state_rate.z, state_rate.z + m, y_dot + 2 * n);
-  };
-  jacobian(rate_at, at, rate, J);
-  return J;
-}
-
-/// Where the joints stand at the record's first sample if no cable is stretched; at rest, effects without a past.
-DrivenState<double> unstretched_state(const Hypothesis& h, const Record& record, const DrivenInput& u) {
-  const int n = record.n;
-  const ArmParameters<double> arm = lift_transmission<double>(h.nominal, h.effects).arm();
-  Eigen::VectorXd q_m(n), q_undriven(n);
-  for (int k = 0; k < n; ++k) {
-    q_m(k) = u.motor_angle[k] - arm.joint[k].motor_encoder_offset;
-    q_undriven(k) = u.motor_angle[k] - arm.joint[k].joint_encoder_offset;
-  }
-  const Eigen::VectorXd q = unstretched_joints(arm, q_m, q_undriven);
-  DrivenState<double> x = {};
-  for (int k = 0; k < n; ++k) x.q[k] = q(k);
-  return x;
-}
-
-/// In motion, from x on, where each cable pulls as hard as its motor ever did: a cable may be stiffer there, and the
-/// joints' Coulomb friction no longer damps.
-DrivenState<double> working_state(const Hypothesis& h, const Record& record, const DrivenInput& u,
-                                  DrivenState<double> x) {
-  const Transmission<double> transmission = lift_transmission<double>(h.nominal, h.effects);
-  const ArmParameters<double>& arm = transmission.arm();
-  for (int k = 0; k < arm.n; ++k) {
-    if (arm.joint[k].drive != Drive::cable || !record.has_torque(k)) continue;
-    double most = 0;
-    for (const double torque : record.torque[k]) most = std::max(most, std::abs(torque));
-    const double wanted = most / arm.joint[k].motor_travel(), from = x.q[k];
-    constexpr double kFirst = 1e-6;  // rad | m, then twice as far each time
-    constexpr int kMostDoublings = 18;
-    for (int i = 0; i < kMostDoublings; ++i) {
-      x.q[k] = from + std::ldexp(kFirst, i);
-      JointSignals<double> s[kMaxJoints];
-      for (int j = 0; j < arm.n; ++j) s[j].motor_angle = u.motor_angle[j], s[j].joint_position = x.q[j];
-      double z_dot[kMaxStates];
-      transmission.evaluate(record.start, nullptr, x.z, s, z_dot);
-      if (std::abs(s[k].cable_force_joint) >= wanted) break;
-    }
-  }
-  constexpr double kBeyondSmoothing = 10;
-  for (int k = 0; k < arm.n; ++k) x.v[k] = kBeyondSmoothing * arm.joint[k].joint_smoothing;
-  return x;
-}
-
-/// With the motors held: at rest at x, and as it works. Empty if they cannot be told.
-std::vector<Eigenvalues> eigenvalues_of(const Hypothesis& h, const Record& record, const DrivenInput& held,
-                                        const DrivenState<double>& x) {
-  const Transmission<Dual> transmission = lift_transmission<Dual>(h.nominal, h.effects);
-  std::vector<Eigenvalues> spectra;
-  for (const DrivenState<double>& at : {x, working_state(h, record, held, x)}) {
-    const Eigen::MatrixXd J = driven_jacobian(transmission, record, held, at);
-    if (!J.allFinite()) return {};
-    const Eigen::VectorXcd lambda = eigenvalues(J);
-    spectra.emplace_back(lambda.begin(), lambda.end());
-  }
-  return spectra;
-}
-
 /// Everything that the motion of the joints depends on if the motors move as they were measured: not what acts between
 /// the command and the rotor, nor what a joint's sensor adds.
 std::vector<double> motion_key(const Hypothesis& h, const Record& record) {
@@ -206,6 +124,230 @@ double compared(const Record& record, const std::vector<double>& measured, std::
   return sum / weight;
 }
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kCommandStride = 4;  ///< samples; torques are band-limited
+
+/// Running sums of a variance.
+struct Moments {
+  double n = 0, x = 0, xx = 0;
+  void add(double value) { n += 1, x += value, xx += value * value; }
+  double variance() const { return xx / n - (x / n) * (x / n); }
+};
+
+/// Predictions of a record by hypotheses with the same effects.
+class Prediction {
+ public:
+  Prediction(const Record& record, const std::vector<Hypothesis>& hypotheses, int stride)
+      : record_(record),
+        hypotheses_(hypotheses),
+        stride_(stride),
+        inputs_(driven_inputs(record)),
+        history_(whole_history(record, inputs_)),
+        filtered_(hypotheses[0].effects, hypotheses[0].nominal, record.motion_sigma),
+        n_states_(lift_transmission<double>(hypotheses[0].nominal, hypotheses[0].effects).n_states()),
+        state_size_(2 * record.n + n_states_),
+        all_(hypotheses.size()) {}
+
+  std::vector<Residuals> run() {
+    find_movers();
+    find_starts();
+    states_.resize(replayed_.empty() ? 0 : movers_.size());
+    tbb::parallel_for(std::size_t{0}, batches(movers_.size()), [&](std::size_t b) { drive(b * kLaneWidth); });
+    tbb::parallel_for(std::size_t{0}, batches(replayed_.size()), [&](std::size_t b) { replay(b * kLaneWidth); });
+    return std::move(all_);
+  }
+
+ private:
+  static std::size_t batches(std::size_t count) { return (count + kLaneWidth - 1) / kLaneWidth; }
+
+  /// Hypotheses with the same motion are integrated once, by the first of them, and replayed for the others.
+  void find_movers() {
+    std::map<std::vector<double>, std::size_t> known;
+    mover_of_.resize(hypotheses_.size());
+    for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
+      const auto [entry, is_new] = known.try_emplace(motion_key(hypotheses_[h], record_), movers_.size());
+      mover_of_[h] = entry->second;
+      (is_new ? movers_ : replayed_).push_back(h);
+    }
+  }
+
+  /// Start and eigenvalues of each mover, and a scheme for all that can be integrated.
+  void find_starts() {
+    starts_.resize(movers_.size());
+    spectra_.resize(movers_.size());
+    tbb::parallel_for(std::size_t{0}, movers_.size(), [&](std::size_t i) {
+      const Hypothesis& h = hypotheses_[movers_[i]];
+      starts_[i] = unstretched_state(h, record_, inputs_[0]);
+      spectra_[i] = eigenvalues_of(h, record_, standing(inputs_[0]), starts_[i]);
+    });
+    std::vector<std::vector<Eigenvalues>> able;
+    for (std::size_t i = 0; i < movers_.size(); ++i)
+      if (is_able(i)) able.push_back(spectra_[i]);
+    scheme_ = scheme_for(able, record_.dt);
+  }
+
+  bool is_able(std::size_t mover) const {
+    return !spectra_[mover].empty() && stages_for(spectra_[mover], record_.dt) > 0;
+  }
+
+  /// Integrates movers first, first + 1, ... side by side.
+  void drive(std::size_t first) {
+    const std::size_t count = std::min<std::size_t>(kLaneWidth, movers_.size() - first);
+    std::vector<Lanes> out(record_.size * 2 * record_.n), path(states_.empty() ? 0 : record_.size * state_size_);
+    // A lane that cannot be integrated is filled with one that can, and reported.
+    const Hypothesis* able = nullptr;
+    for (std::size_t l = 0; l < count; ++l)
+      if (is_able(first + l)) able = &hypotheses_[movers_[first + l]];
+    if (able) {
+      const Hypothesis* filled[kLaneWidth];
+      DrivenState<Lanes> x;
+      for (int k = 0; k < record_.n; ++k) x.v[k] = 0.0;
+      for (int k = 0; k < n_states_; ++k) x.z[k] = 0.0;
+      for (int l = 0; l < kLaneWidth; ++l) {
+        const std::size_t i = first + std::min<std::size_t>(l, count - 1);
+        filled[l] = is_able(i) ? &hypotheses_[movers_[i]] : able;
+        for (int k = 0; k < record_.n; ++k) x.q[k].set(l, starts_[i].q[k]);
+      }
+      integrate(filled, x, out, path);
+    }
+    for (std::size_t l = 0; l < count; ++l) {
+      take(out, static_cast<int>(l), is_able(first + l), movers_[first + l]);
+      if (states_.empty()) continue;
+      states_[first + l].resize(path.size());
+      for (std::size_t i = 0; i < path.size(); ++i) states_[first + l][i] = path[i][static_cast<int>(l)];
+    }
+  }
+
+  /// Lowers the arm onto its cables with the motors held, adds the pasts, and drives it along the record.
+  void integrate(const Hypothesis* const (&lane)[kLaneWidth], DrivenState<Lanes>& x, std::vector<Lanes>& out,
+                 std::vector<Lanes>& path) const {
+    const Transmission<Lanes> transmission = pack_hypotheses(lane, filtered_);
+    const std::vector<DrivenInput> held(static_cast<std::size_t>(kLetDown / record_.dt) + 1, standing(inputs_[0]));
+    std::vector<Lanes> unused(held.size() * 2 * record_.n);
+    const double before = record_.start - record_.dt * static_cast<double>(held.size());
+    kernel().drive(transmission, held.data(), held.size(), before, record_.dt, scheme_, &history_, x, unused.data(),
+                   nullptr);
+    for (int l = 0; l < kLaneWidth; ++l) {
+      const std::vector<double> past = past_states(*lane[l], record_);
+      for (int k = 0; k < n_states_; ++k) x.z[k].set(l, x.z[k][l] + past[k]);
+    }
+    kernel().drive(transmission, inputs_.data(), record_.size, record_.start, record_.dt, scheme_, &history_, x,
+                   out.data(), path.empty() ? nullptr : path.data());
+  }
+
+  /// Outputs of hypotheses that share the motion of a mover.
+  void replay(std::size_t first) {
+    const std::size_t count = std::min<std::size_t>(kLaneWidth, replayed_.size() - first);
+    const Hypothesis* lane[kLaneWidth];
+    std::vector<Lanes> out(record_.size * 2 * record_.n), path(record_.size * state_size_);
+    for (std::size_t l = 0; l < kLaneWidth; ++l) {
+      const std::size_t h = replayed_[first + std::min(l, count - 1)];
+      lane[l] = &hypotheses_[h];
+      const std::vector<double>& of_mover = states_[mover_of_[h]];
+      for (std::size_t i = 0; i < path.size(); ++i) path[i].set(static_cast<int>(l), of_mover[i]);
+    }
+    kernel().replay(pack_hypotheses(lane, filtered_), inputs_.data(), record_.size, record_.start, record_.dt,
+                    &history_, path.data(), out.data());
+    for (std::size_t l = 0; l < count; ++l) {
+      const std::size_t h = replayed_[first + l];
+      take(out, static_cast<int>(l), all_[movers_[mover_of_[h]]].finite, h);
+    }
+  }
+
+  /// Residuals of hypothesis h from one lane of what drive or replay wrote.
+  void take(const std::vector<Lanes>& out, int lane, bool able, std::size_t h) {
+    Residuals& r = all_[h];
+    const int n = record_.n;
+    r.finite = able;
+    r.channel.assign(2 * n, {});
+    for (int k = 0; k < n; ++k) {
+      take_torque(out, lane, k, r);
+      if (!r.channel[k].empty()) in_measured_units(hypotheses_[h], k, r.channel[k]);
+      take_joint(out, lane, k, r);
+    }
+  }
+
+  void take_torque(const std::vector<Lanes>& out, int lane, int k, Residuals& r) const {
+    std::vector<double>& torque = r.channel[k];
+    if (record_.has_torque(k)) torque.assign(rows(), kNone);
+    const auto residual = [&](std::size_t t) { return out[t * 2 * record_.n + k][lane]; };
+    for (std::size_t i = 0; r.finite && i < rows(); ++i) {
+      const std::size_t at = i * stride_;
+      if (!std::isfinite(residual(at))) r.finite = false;
+      if (!torque.empty() && record_.torque_valid[k][at] > 0)
+        torque[i] = compared(record_, record_.torque_measured[k], at, residual);
+    }
+  }
+
+  void take_joint(const std::vector<Lanes>& out, int lane, int k, Residuals& r) const {
+    const int n = record_.n;
+    std::vector<double>& joint = r.channel[n + k];
+    if (record_.has_joint(k)) joint.assign(rows(), kNone);
+    const auto error = [&](std::size_t t) { return record_.joint[k][t] - out[t * 2 * n + n + k][lane]; };
+    for (std::size_t i = 0; r.finite && i < rows(); ++i) {
+      const std::size_t at = i * stride_;
+      if (!std::isfinite(out[at * 2 * n + n + k][lane])) r.finite = false;
+      if (!joint.empty() && record_.joint_valid[k][at] > 0)
+        joint[i] = compared(record_, record_.joint_measured[k], at, error);
+    }
+    const JointParameters<double>& sensors = hypotheses_[0].nominal.joint[k];
+    if (!sensors.motor_zero_known || !sensors.joint_zero_known) take_off_mean(joint);
+  }
+
+  /// Divides by the ratio of the acting to the measured torque. Otherwise a hypothesis by which the motor makes less
+  /// than it was commanded would win by shrinking the data.
+  void in_measured_units(const Hypothesis& h, int k, std::vector<double>& torque) const {
+    const double ratio = acting_over_commanded(h, k);
+    for (double& e : torque) e /= ratio;
+  }
+
+  /// Ratio of the standard deviations of the torque after the command stage and of the command.
+  double acting_over_commanded(const Hypothesis& h, int k) const {
+    constexpr double kLeast = 0.05;
+    const bool by_effect = std::ranges::any_of(h.effects, [](const PlacedEffect& e) {
+      return (e.effect->stages() & static_cast<unsigned>(EffectStage::command)) != 0;
+    });
+    const Transmission<double> transmission = lift_transmission<double>(h.nominal, h.effects);
+    if (!by_effect) return std::max(kLeast, std::abs(transmission.arm().joint[k].torque_scale));
+    const std::vector<double> z(kMaxStates, 0.0);
+    Moments commanded, acting;
+    for (std::size_t i = 0; i < record_.size; i += kCommandStride) {
+      JointSignals<double> s[kMaxJoints];
+      for (int j = 0; j < record_.n; ++j) {
+        s[j].command = inputs_[i].torque[j];
+        s[j].motor_angle = inputs_[i].motor_angle[j];
+        s[j].motor_rate = inputs_[i].motor_rate[j];
+      }
+      transmission.commanded_torque(record_.time(i), &history_, z.data(), s);
+      commanded.add(s[k].command);
+      acting.add(s[k].motor_torque);
+    }
+    const double ratio = std::sqrt(acting.variance() / commanded.variance());
+    return std::isfinite(ratio) ? std::max(kLeast, ratio) : 1;
+  }
+
+  std::size_t rows() const { return (record_.size + stride_ - 1) / stride_; }
+  static const LaneDrive& kernel() {
+    static const LaneDrive widest = lane_drive();
+    return widest;
+  }
+
+  const Record& record_;
+  const std::vector<Hypothesis>& hypotheses_;
+  int stride_;
+  std::vector<DrivenInput> inputs_;
+  CommandHistory history_;
+  FilteredEffects filtered_;
+  int n_states_, state_size_;
+  std::vector<std::size_t> movers_, replayed_;  ///< hypotheses that are integrated, and those that are replayed
+  std::vector<std::size_t> mover_of_;           ///< [hypothesis] index in movers_
+  std::vector<DrivenState<double>> starts_;     ///< [mover]
+  std::vector<std::vector<Eigenvalues>> spectra_;
+  Chebyshev scheme_;
+  std::vector<std::vector<double>> states_;  ///< [mover][sample * state_size], if anything is replayed
+  std::vector<Residuals> all_;
+};
+
 }  // namespace
 
 double Hypothesis::past_state(std::size_t effect, std::size_t i) const {
@@ -225,122 +367,7 @@ Hypothesis without_effect(Hypothesis h, std::size_t place) {
 }
 
 std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesis>& hypotheses, int stride) {
-  static const LaneDrive kernel = lane_drive();
-  const int n = record.n;
-  const std::size_t rows = (record.size + stride - 1) / stride;
-  const std::vector<DrivenInput> inputs = driven_inputs(record);
-  const CommandHistory history = whole_history(record, inputs);
-  std::vector<Residuals> all(hypotheses.size());
-  if (all.empty()) return all;
-  const FilteredEffects seen(hypotheses[0].effects, hypotheses[0].nominal, record.motion_sigma);
-
-  // Hypotheses that move alike are integrated once, by the first of them, and replayed by the others.
-  std::vector<std::size_t> movers, others, mover_of(hypotheses.size());
-  std::map<std::vector<double>, std::size_t> known;
-  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
-    const auto [entry, is_new] = known.try_emplace(motion_key(hypotheses[h], record), movers.size());
-    mover_of[h] = entry->second;
-    (is_new ? movers : others).push_back(h);
-  }
-
-  std::vector<DrivenState<double>> starts(movers.size());
-  std::vector<std::vector<Eigenvalues>> spectra(movers.size());
-  tbb::parallel_for(std::size_t{0}, movers.size(), [&](std::size_t i) {
-    const Hypothesis& h = hypotheses[movers[i]];
-    starts[i] = unstretched_state(h, record, inputs[0]);
-    spectra[i] = eigenvalues_of(h, record, standing(inputs[0]), starts[i]);
-  });
-  const auto is_able = [&](std::size_t i) { return !spectra[i].empty() && stages_for(spectra[i], record.dt) > 0; };
-  std::vector<std::vector<Eigenvalues>> able_spectra;
-  for (std::size_t i = 0; i < movers.size(); ++i)
-    if (is_able(i)) able_spectra.push_back(spectra[i]);
-  const Chebyshev scheme = scheme_for(able_spectra, record.dt);
-  const int n_states = lift_transmission<double>(hypotheses[0].nominal, hypotheses[0].effects).n_states();
-  const int state_size = 2 * n + n_states;
-  std::vector<std::vector<double>> states(others.empty() ? 0 : movers.size());  // [mover][sample][state_size]
-
-  // Residuals of one lane out of what drive and replay write.
-  const auto take = [&](const std::vector<Lanes>& out, int lane, bool able, Residuals& r) {
-    r.finite = able;
-    r.channel.assign(2 * n, {});
-    for (int k = 0; k < n; ++k) {
-      std::vector<double>&torque = r.channel[k], &joint = r.channel[n + k];
-      if (record.has_torque(k)) torque.assign(rows, std::numeric_limits<double>::quiet_NaN());
-      if (record.has_joint(k)) joint.assign(rows, std::numeric_limits<double>::quiet_NaN());
-      for (std::size_t i = 0; r.finite && i < rows; ++i) {
-        const std::size_t at = i * stride;
-        const auto tau = [&](std::size_t t) { return out[t * 2 * n + k][lane]; };
-        const auto error = [&](std::size_t t) { return record.joint[k][t] - out[t * 2 * n + n + k][lane]; };
-        if (!std::isfinite(tau(at)) || !std::isfinite(out[at * 2 * n + n + k][lane])) r.finite = false;
-        if (!torque.empty() && record.torque_valid[k][at] > 0)
-          torque[i] = compared(record, record.torque_measured[k], at, tau);
-        if (!joint.empty() && record.joint_valid[k][at] > 0)
-          joint[i] = compared(record, record.joint_measured[k], at, error);
-      }
-      const JointParameters<double>& sensors = hypotheses[0].nominal.joint[k];
-      if (!sensors.motor_zero_known || !sensors.joint_zero_known) take_off_mean(joint);
-    }
-  };
-
-  const auto batches = [](std::size_t count) { return (count + kLaneWidth - 1) / kLaneWidth; };
-  tbb::parallel_for(std::size_t{0}, batches(movers.size()), [&](std::size_t b) {
-    const std::size_t first = b * kLaneWidth, count = std::min<std::size_t>(kLaneWidth, movers.size() - first);
-    const Hypothesis* lane[kLaneWidth];
-    DrivenState<Lanes> x;
-    for (int k = 0; k < n; ++k) x.q[k] = x.v[k] = 0.0;
-    for (int k = 0; k < n_states; ++k) x.z[k] = 0.0;
-    for (std::size_t l = 0; l < kLaneWidth; ++l) {
-      const std::size_t i = first + std::min(l, count - 1);
-      lane[l] = is_able(i) ? &hypotheses[movers[i]] : nullptr;
-      for (int k = 0; k < n; ++k) x.q[k].set(static_cast<int>(l), starts[i].q[k]);
-    }
-    // A lane that cannot be integrated is replaced by one that can, and reported.
-    const Hypothesis* able = nullptr;
-    for (std::size_t l = 0; l < count; ++l)
-      if (lane[l]) able = lane[l];
-    std::vector<Lanes> out(record.size * 2 * n), path(states.empty() ? 0 : record.size * state_size);
-    if (able) {
-      const Hypothesis* filled[kLaneWidth];
-      for (int l = 0; l < kLaneWidth; ++l) filled[l] = lane[l] ? lane[l] : able;
-      const Transmission<Lanes> transmission = pack_hypotheses(filled, seen);
-      const std::vector<DrivenInput> held(static_cast<std::size_t>(kLetDown / record.dt) + 1, standing(inputs[0]));
-      std::vector<Lanes> unused(held.size() * 2 * n);
-      const double before = record.start - record.dt * static_cast<double>(held.size());
-      kernel.drive(transmission, held.data(), held.size(), before, record.dt, scheme, &history, x, unused.data(),
-                   nullptr);
-      for (int l = 0; l < kLaneWidth; ++l) {
-        const std::vector<double> past = past_states(*filled[l], record);
-        for (int k = 0; k < n_states; ++k) x.z[k].set(l, x.z[k][l] + past[k]);
-      }
-      kernel.drive(transmission, inputs.data(), record.size, record.start, record.dt, scheme, &history, x, out.data(),
-                   path.empty() ? nullptr : path.data());
-    }
-    for (std::size_t l = 0; l < count; ++l) {
-      take(out, static_cast<int>(l), lane[l] != nullptr, all[movers[first + l]]);
-      if (states.empty()) continue;
-      states[first + l].resize(path.size());
-      for (std::size_t i = 0; i < path.size(); ++i) states[first + l][i] = path[i][static_cast<int>(l)];
-    }
-  });
-
-  tbb::parallel_for(std::size_t{0}, batches(others.size()), [&](std::size_t b) {
-    const std::size_t first = b * kLaneWidth, count = std::min<std::size_t>(kLaneWidth, others.size() - first);
-    const Hypothesis* lane[kLaneWidth];
-    std::vector<Lanes> out(record.size * 2 * n), path(record.size * state_size);
-    for (std::size_t l = 0; l < kLaneWidth; ++l) {
-      const std::size_t h = others[first + std::min(l, count - 1)];
-      lane[l] = &hypotheses[h];
-      const std::vector<double>& of_mover = states[mover_of[h]];
-      for (std::size_t i = 0; i < path.size(); ++i) path[i].set(static_cast<int>(l), of_mover[i]);
-    }
-    kernel.replay(pack_hypotheses(lane, seen), inputs.data(), record.size, record.start, record.dt, &history,
-                  path.data(), out.data());
-    for (std::size_t l = 0; l < count; ++l) {
-      const std::size_t h = others[first + l];
-      take(out, static_cast<int>(l), all[movers[mover_of[h]]].finite, all[h]);
-    }
-  });
-  return all;
+  return hypotheses.empty() ? std::vector<Residuals>{} : Prediction(record, hypotheses, stride).run();
 }
 
 FullPrediction predict_fully(const Record& record, const Hypothesis& hypothesis) {

@@ -24,7 +24,8 @@ struct Hypothesis {
 Hypothesis without_effect(Hypothesis h, std::size_t place);
 
 /// Residuals of one record under one hypothesis, every stride-th sample: [2n][ceil(size / stride)].
-/// Channel k < n: torque residual of motor k, N m. Channel n + k: measured minus predicted reading of
+/// Channel k < n: torque residual of motor k in units of the measured torque, ε / κ with κ the ratio of the standard
+/// deviations of the acting and of the commanded torque, N m. Channel n + k: measured minus predicted reading of
 /// joint k, rad | m. Its mean is subtracted if the zero of one of the joint's encoders is unknown. NaN where the record
 /// has no such signal or the sample cannot be compared.
 struct Residuals {

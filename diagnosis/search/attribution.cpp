@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "diagnosis/fit/nudged.h"
 #include "diagnosis/judgement/false_discovery.h"
 #include "diagnosis/judgement/name_probability.h"
 #include "diagnosis/search/starts.h"

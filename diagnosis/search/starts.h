@@ -21,9 +21,4 @@ struct Start {
 Start best_start(const Evidence& evidence, const Screen& screen, const Hypothesis& with,
                  const ArmParameters<double>& nominal);
 
-/// The best of the hypothesis and of those in which one parameter of an effect, from index `first` on, is changed
-/// slightly. The criterion is the sum of squares of the fitting rows, each channel over its scale.
-Hypothesis nudged(const Evidence& evidence, Hypothesis h, std::size_t first, const ArmParameters<double>& nominal,
-                  const std::vector<double>& scale);
-
 }  // namespace halyard

@@ -1,0 +1,48 @@
+#include "diagnosis/fit/nudged.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace halyard {
+namespace {
+
+constexpr int kInstants = 10, kPositions = 6;  ///< parts of a record and of a motion: about as far apart as starts lie
+
+}  // namespace
+
+Hypothesis nudged(const Evidence& evidence, Hypothesis h, std::size_t first, const ArmParameters<double>& nominal,
+                  const std::vector<double>& scale) {
+  const auto cost = [&](const std::vector<double>& row) {
+    double sum = row.empty() ? std::numeric_limits<double>::infinity() : 0;
+    for (std::size_t r = 0; r < row.size(); ++r) sum += std::pow(row[r] / scale[evidence.row_channel()[r]], 2);
+    return sum;
+  };
+  for (std::size_t e = first; e < h.effects.size(); ++e)
+    for (const FitParameter& p : effect_parameters(evidence, h, nominal, static_cast<int>(e))) {
+      const double value = parameter_value(h, p);
+      std::vector<double> values;
+      if (p.range != SearchRange::own) {
+        const double spacing = (p.upper - p.lower) / (p.range == SearchRange::record_time ? kInstants : kPositions);
+        for (const double by : {0.5, 0.25, 0.1, 0.04, 0.015, 0.005, 0.002})
+          for (const double sign : {-1.0, 1.0}) values.push_back(value + sign * by * spacing);
+      } else if (!p.natural_bounds && p.lower >= 0) {
+        for (const double factor : {0.1, 0.3, 0.7, 0.9, 0.97, 0.99, 0.997, 1.003, 1.01, 1.03, 1.1, 1.4, 3.0, 10.0})
+          values.push_back(factor * value);
+      }
+      if (values.empty()) continue;
+      std::vector<Hypothesis> tried = {h};
+      for (const double v : values) {
+        tried.push_back(h);
+        set_parameter(tried.back(), p, std::clamp(v, p.lower, p.upper));
+      }
+      const auto rows = evidence.fit_rows(tried);
+      std::size_t least = 0;
+      for (std::size_t i = 1; i < rows.size(); ++i)
+        if (cost(rows[i]) < cost(rows[least])) least = i;
+      h = tried[least];
+    }
+  return h;
+}
+
+}  // namespace halyard

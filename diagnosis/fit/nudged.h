@@ -1,0 +1,14 @@
+#pragma once
+/// Leaves shallow minima before a fit: impacts, instants and gaps make the residual a rough function of some parameters.
+
+#include "diagnosis/fit/fit.h"
+
+namespace halyard {
+
+/// Changes the parameters of the effects from index `first` on, one after another, each by factors from 0.1 to 10, or an
+/// instant or position by up to half of the distance between two starts, and keeps each change that lowers the sum of
+/// squares of the fitting rows, each channel over its scale.
+Hypothesis nudged(const Evidence& evidence, Hypothesis h, std::size_t first, const ArmParameters<double>& nominal,
+                  const std::vector<double>& scale);
+
+}  // namespace halyard
