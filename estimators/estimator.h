@@ -15,7 +15,8 @@ struct Sample {
   Eigen::VectorXd motor_torque;    ///< [n] commanded from this time on, N m; NaN: missing, the last one is held
   Eigen::VectorXd motor_position;  ///< [n] measured at this time, rad; NaN: missing, no correction from it
   Eigen::VectorXd joint_torque;    ///< [n] measured external load, N m | N; empty: none
-  Eigen::VectorXd marker = {};     ///< [3] position of the tool's marker in the camera, base frame, m; empty: not seen
+  /// [3] position of the tool's marker as the camera measured it, in the base frame, m; empty: not seen
+  Eigen::VectorXd marker = {};
 };
 
 /// The difference between a measurement and its prediction, for the m of n motors that were measured.

@@ -33,15 +33,16 @@ inline constexpr int kMaxEffectStates = 8;  ///< of one effect
 struct EffectParameter {
   std::string name;  ///< as in model files and diagnosis.json
   std::string unit;
-  double neutral = 0;  ///< value without influence; of a shape parameter, the typical value
-  /// Order of magnitude that the physics of such an arm suggests. If a model file names the effect without this
-  /// parameter, it has this value.
+  /// value at which the parameter has no influence; for a shape parameter (below), the typical value
+  double neutral = 0;
+  /// Order of magnitude that the physics of such an arm suggests. If a model file lists the effect but not this
+  /// parameter, the parameter gets this value.
   double typical = 0;
   double lower = 0;  ///< physical bounds
   double upper = 0;
 
-  /// True if the parameter gives the shape of the effect, not its size. A shape comes after the sizes that it belongs
-  /// to: cosine, sine, order.
+  /// True if the parameter gives the shape of the effect, not its size. In parameters(), a shape comes after the sizes
+  /// that it belongs to: for example cosine and sine (sizes), then order (shape).
   bool is_shape() const { return neutral == typical; }
 };
 

@@ -25,10 +25,12 @@ struct Band {
 struct Series {
   std::string name = {};       ///< text in the legend; empty: not in the legend
   std::vector<double> x = {};  ///< in the unit of the chart's x label; empty for ChartKind::bar
-  std::vector<double> y = {};  ///< in the unit of the y label; as long as x, for ChartKind::bar as categories
+  /// in the unit of the y label; has the length of x, or, for ChartKind::bar, the length of `categories`
+  std::vector<double> y = {};
   bool dashed = false;
   std::optional<Band> band = std::nullopt;
-  std::optional<std::size_t> colour = std::nullopt;  ///< place in the palette of 8; otherwise the series' own place
+  /// index in the palette of 8 colours; none: the index of the series in the chart
+  std::optional<std::size_t> colour = std::nullopt;
 };
 
 /// An interval of the x axis, shaded over the whole height. Infinite ends reach the chart's edge.

@@ -11,10 +11,12 @@
 
 namespace halyard {
 
-/// As the paper's Table IV: what was simulated here beside what was measured on the robot, one row an estimator.
+/// In the form of the paper's Table IV: errors in this simulation beside errors measured on the robot, one row per
+/// estimator.
 report::Table mean_error_table(const std::vector<Experiment>& experiments);
 
-/// As the paper's Table III: each experiment and joint, beside what is known of it.
+/// In the form of the paper's Table III: errors for each experiment and joint, and the filter's improvement over
+/// kinematics, beside those entries of Table III that are known.
 report::Table experiment_table(const std::vector<Experiment>& experiments);
 
 /// Whether the filter's gains are ordered as on the robot, joint 1 < joint 2 < joint 3, in the mean and in each

@@ -24,7 +24,7 @@ class DiscreteProcess {
   virtual ~DiscreteProcess() = default;
   /// Every column of X [n x count] becomes f(column).
   virtual void advance(Eigen::MatrixXd& X) const = 0;
-  /// x becomes f(x), F [n x n] becomes ∂f/∂x there.
+  /// F [n x n] becomes ∂f/∂x at the old x; then x becomes f(x).
   virtual void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const = 0;
   /// Name of a state for messages: "joint_rate_2 at 3.1 s".
   virtual std::string name_of(int state) const = 0;
@@ -96,7 +96,8 @@ class GaussianFilter {
   void check_finite(const DiscreteProcess& process) const;
   static void check_measurement(const Eigen::VectorXd& nu);
 
-  /// A of backward_step(): the first columns of `predicted_columns_` before the prediction, [n x any].
+  /// Block A of backward_step(), [n x any]: the columns that the prediction turned into the first columns of
+  /// `predicted_columns_`.
   virtual Eigen::MatrixXd columns_before(const Eigen::MatrixXd& S_0) const = 0;
 
   Eigen::VectorXd x_;

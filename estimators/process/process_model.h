@@ -63,7 +63,7 @@ class ProcessModel {
   /// Every column of X [n_states x count] becomes f(column), eight at a time.
   void advance_many(const Step& step, Eigen::Ref<Eigen::MatrixXd> X) const { advance_many(step, X, lane_kernels()[0]); }
   void advance_many(const Step& step, Eigen::Ref<Eigen::MatrixXd> X, const LaneKernels& kernels) const;
-  /// x becomes f(x), and F the Jacobian there.
+  /// F becomes ∂f/∂x at the old x; then x becomes f(x).
   void advance_with_jacobian(const Step& step, double* x, Eigen::Ref<Eigen::MatrixXd> F) const {
     advance_with_jacobian(step, x, F, lane_kernels()[0]);
   }

@@ -13,9 +13,9 @@
 
 namespace halyard {
 
-/// The noise that the filters assume by default (estimators/process/noise.h), in a form that a simulation can draw:
-/// torques and joint forces with the spectral density 2 σ² τ, held over a tick, and encoder noise with the assumed
-/// standard deviation instead of rounding.
+/// The noise that the filters assume by default (σ and τ: estimators/process/noise.h), in a form that a simulation can
+/// draw. Torques and joint forces have the spectral density 2 σ² τ and are held over a tick. Encoder noise with the
+/// assumed standard deviation replaces the rounding.
 TickNoise assumed_noise(const ArmModel& model, double tick_s);
 
 /// One estimator over all runs.

@@ -54,7 +54,8 @@ ArmModel calibrate(const ExperimentsSetup& setup);
 
 /// Simulates the experiments in parallel and runs the built-in estimators over each, with raven2.xml and with the
 /// calibrated model. progress(fraction) may be called from any thread.
-/// Throws InputError if a model has not three joints, and as read_scenario, simulate and compare_estimators do.
+/// Throws InputError if a model does not have three joints. Also throws as read_scenario, simulate and
+/// compare_estimators do.
 std::vector<Experiment> compute_experiments(const ExperimentsSetup& setup,
                                             const std::function<void(double)>& progress = {});
 

@@ -8,7 +8,8 @@
 
 namespace halyard {
 
-/// One axis of a grid: parameters of the model that have the same value, or the same factor, at each point.
+/// One axis of a grid: parameters of the model that vary together. At a point of the grid they all have one value, or
+/// one factor.
 struct SweepAxis {
   enum class Target { robot, model, both };
 
