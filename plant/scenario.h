@@ -1,6 +1,6 @@
 #pragma once
 /// A scenario: a robot with its true effects, the motion that it is asked to follow, and how the simulation computes
-/// it. The struct has the defaults; a scenario file mirrors it.
+/// it. The initial values of the members are the defaults; a scenario file has the same structure.
 
 #include <cstdint>
 #include <filesystem>

@@ -30,7 +30,7 @@ HALYARD_INLINE T path_per_joint(const JointParameters<T>& joint_k, int j) {
   return joint_k.pulley_radius * joint_k.coupling[j];
 }
 
-/// Σ_j C_kj q_j: how far the joints move cable k, in units of joint k. q: [n]; works for rates as well.
+/// Σ_j C_kj q_j: how far the joints move cable k, expressed as motion of joint k. q: [n]; works for rates as well.
 template <class T>
 HALYARD_INLINE T coupled_motion(const JointParameters<T>& joint_k, int n, const T* q) {
   T sum = 0.0;

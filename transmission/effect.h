@@ -29,7 +29,7 @@ namespace halyard {
 inline constexpr int kMaxEffectParameters = 8;
 inline constexpr int kMaxEffectStates = 8;  ///< of one effect
 
-/// One number of an effect. The effect is absent when all its parameters are neutral.
+/// One parameter of an effect. The effect is absent when all its parameters are neutral.
 struct EffectParameter {
   std::string name;  ///< as in model files and diagnosis.json
   std::string unit;

@@ -17,7 +17,7 @@ struct CompareCommandOptions {
   std::vector<std::string> columns;  ///< entries of --column
   bool use_joint_torque = false;
   double skip_s = 0.5;
-  double step_limit_s = 10;     ///< of an estimator's step
+  double step_limit_s = 10;     ///< longest time for a step of an estimator
   int runs = 1;                 ///< only if `data` is a scenario: number of seeds that are simulated
   std::optional<double> noise;  ///< in multiples of the filters' assumed noise; none: the scenario's own noise
 };

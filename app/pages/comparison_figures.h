@@ -23,7 +23,7 @@ report::Chart trajectory_chart(const Comparison& comparison, int k);
 report::Chart error_chart(const Comparison& comparison, int k, std::optional<std::size_t> left_out = std::nullopt);
 /// Histogram of the errors of the same runs, in shares of the counted samples.
 report::Chart error_histogram(const Comparison& comparison, int k, std::optional<std::size_t> left_out = std::nullopt);
-/// One row per joint and estimator; the least mean absolute error of a joint is marked.
+/// One row per joint and estimator; the smallest mean absolute error of a joint is marked.
 report::Table error_table(const Comparison& comparison);
 
 /// For every joint: a heading "<prefix>Joint 1", the trajectories, and the errors if the truth is known. If the errors

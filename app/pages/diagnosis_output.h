@@ -21,7 +21,8 @@ std::string verdict_line(const Diagnosis& diagnosis);
 void add_verdict(report::Page& page, const Diagnosis& diagnosis, const DiagnosisEvaluation& evaluation = {});
 /// Errors on the hold-out, with the given and with the revised model, of the prediction from the motors' motion alone.
 void add_error_table(report::Page& page, const Diagnosis& diagnosis);
-/// Errors of the estimators before and after, and results from their innovations; nothing without an evaluation.
+/// Errors of the estimators with the given and with the revised model, and results from their innovations. Adds nothing
+/// without an evaluation.
 void add_estimator_table(report::Page& page, const ArmModel& model, const DiagnosisEvaluation& evaluation);
 
 /// Joint k's residuals on the hold-out, with the given and with the revised model: position over time, torque over

@@ -8,7 +8,7 @@
 
 namespace halyard {
 
-/// With a capital first letter; not for empty text.
+/// The text with a capital first letter. The text must not be empty.
 std::string capitalised(std::string text);
 
 /// One chart for each view of a residual. It shows the residual without the effect, the residual with the effect, and

@@ -10,15 +10,15 @@ namespace halyard::report {
 
 enum class ChartKind {
   line,       ///< points joined in the order given; x need not increase (loops)
-  scatter,    ///< points alone
+  scatter,    ///< points without lines
   bar,        ///< one group of bars per category, one bar per series
   histogram,  ///< bars on a numeric axis; x is the evenly spaced bin centre
 };
 
 /// An interval around a series, such as ± 2 standard deviations; drawn in line charts.
 struct Band {
-  std::vector<double> lower;  ///< as long as x
-  std::vector<double> upper;  ///< as long as x
+  std::vector<double> lower;  ///< has the length of x
+  std::vector<double> upper;  ///< has the length of x
 };
 
 /// A number that is not finite is a gap.

@@ -9,7 +9,7 @@ struct ExperimentsOptions {
   std::filesystem::path examples;  ///< empty: the examples that belong to this program
   /// file of a second model, with which the estimators are also run; empty: the command identifies this model
   std::filesystem::path calibrated;
-  double duration_s = 0;  ///< of each experiment; 0: the scenarios' own
+  double duration_s = 0;  ///< of each experiment; 0: the durations of the scenarios
   /// also compute how much each effect contributes to the error; this takes most of the computing time
   bool effect_study = true;
 };

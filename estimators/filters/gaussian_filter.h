@@ -70,7 +70,7 @@ class GaussianFilter {
   virtual void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) = 0;
   /// The backward step of the last predict(), which started at x_0, S_0, by the triangular root of
   ///
-  ///   [ D  Q_root ]      gives    [ S⁻       0 ]        D: predicted points less their mean, or columns F S_0
+  ///   [ D  Q_root ]      gives    [ S⁻       0 ]        D: predicted points minus their mean, or F S_0
   ///   [ A    0    ]               [ G S⁻   V_root ]     A: the same columns before the prediction
   ///
   BackwardStep backward_step(const Eigen::VectorXd& x_0, const Eigen::MatrixXd& S_0);

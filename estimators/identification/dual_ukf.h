@@ -23,12 +23,12 @@
 /// If a sample would move a weight by more than 0.02, the sample's noise is doubled until the step is at most 0.02.
 /// Otherwise early samples after a wrong start could move w to a region where f behaves differently. α = 0.03.
 ///
-/// Without the derivative of K, this is a recursive prediction-error method. With weights held, the sums over a record
-/// Σ Yᵀ S⁻¹ ν and Σ Yᵀ S⁻¹ Y are the gradient of the innovations' likelihood and its information. The points of held
-/// weights are 0.001 prior deviations apart, so that Y is a derivative. When a joint moves at 1 rad/s, this spacing of
-/// its coupling changes the speed of the coupled joint by 0.04 mrad/s. That is a hundredth of the speed v_s over which
-/// friction changes sign (smoothing, 5 mrad/s). At a spacing of 0.03 it was a quarter of v_s; near standstill, Y for
-/// the RAVEN-II's coupling C01 was then up to 1.7 times too large.
+/// Without the derivative of K, this is a recursive prediction-error method. If the weights are held, the sums over a
+/// record Σ Yᵀ S⁻¹ ν and Σ Yᵀ S⁻¹ Y are the gradient of the innovations' likelihood and its information. The points of
+/// held weights are 0.001 prior deviations apart, so that Y is a derivative. When a joint moves at 1 rad/s, this
+/// spacing of its coupling changes the speed of the coupled joint by 0.04 mrad/s. That is a hundredth of the speed v_s
+/// over which friction changes sign (smoothing, 5 mrad/s). At a spacing of 0.03 it was a quarter of v_s; near
+/// standstill, Y for the RAVEN-II's coupling C01 was then up to 1.7 times too large.
 ///
 /// Sources: Wan and Nelson, "Dual extended Kalman filter methods", and Wan and van der Merwe, "The unscented Kalman
 /// filter", in Haykin (ed.), "Kalman filtering and neural networks", 2001 (recurrent derivatives: 5.3); Ljung, IEEE

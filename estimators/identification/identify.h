@@ -26,7 +26,7 @@
 /// contained the coupling C01 in 8 logs. In the other 39 it did in 38.)
 ///
 /// The other parameters are estimated too, with half their tolerance as prior standard deviation. This keeps the
-/// requested parameters unbiased and their intervals wide enough, for example when a cable's stiffness is off by its
+/// requested parameters unbiased and their intervals wide enough, for example when a cable's stiffness is wrong by its
 /// tolerance. The model keeps its values of the other parameters.
 ///
 /// Sources: Ljung, "System identification", 2nd ed., chapters 7 and 9; Künsch, "The jackknife and the bootstrap for

@@ -21,14 +21,15 @@
 ///
 /// Without damping within a step this is [½ dt² ; dt] B σ √(2 τ / dt) (Bar-Shalom, Li, Kirubarajan 2001, section
 /// 6.3.2). That formula is wrong where a cable's damper has a rate λ of the order of 1/dt, because a joint then moves
-/// only 1/λ per unit of speed. For the RAVEN-II's third joint (λ = 2000 1/s, dt = 1 ms) it doubles the deviation.
+/// only 1/λ per unit of speed. For the RAVEN-II's third joint (λ = 2000 1/s, dt = 1 ms) it gives twice the
+/// correct standard deviation.
 ///
 /// τ = 1 ms by default. νᵀS⁻¹ν of the RAVEN-II's three motors in the paper's experiment A, with an expected value of 3:
 ///
-///   τ         exact model   all masses off by their tolerance   all frictions off by their tolerance
-///   0.1 ms    2.8           3.3                                 47 to 96
-///   1 ms      2.6           2.7                                 7 to 12
-///   10 ms     2.4           2.4                                 2.7 to 3.3
+///   τ         exact model   all masses wrong by their tolerance   all frictions wrong by their tolerance
+///   0.1 ms    2.8           3.3                                   47 to 96
+///   1 ms      2.6           2.7                                   7 to 12
+///   10 ms     2.4           2.4                                   2.7 to 3.3
 ///
 /// When τ increases from 0.1 to 10 ms, joint errors grow fourfold with the exact model and twofold with wrong
 /// frictions.

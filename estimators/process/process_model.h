@@ -8,9 +8,9 @@
 ///   z       reading of motor k: q_m + offset + sensor effects                                   [n]  rad
 ///
 /// Friction near standstill is far stiffer than cables, and an unstable step there makes a filter diverge. So the
-/// sub-step h satisfies h |λ| <= 2.2, λ the largest eigenvalue of ∂x'/∂x at standstill. (Runge-Kutta's limit is 2.6 in
-/// its least stable direction.) λ is searched for at home and at the ends of the joints' ranges, both unloaded and
-/// under the motors' full torque in either direction.
+/// sub-step h satisfies h |λ| <= 2.2, where λ is the largest eigenvalue of ∂x'/∂x at standstill. (Runge-Kutta's limit
+/// is 2.6 in its least stable direction.) λ is searched for at home and at the ends of the joints' ranges, both
+/// unloaded and under the motors' full torque in either direction.
 
 #include <Eigen/Core>
 #include <string>

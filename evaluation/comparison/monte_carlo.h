@@ -23,7 +23,8 @@ struct RunsOfEstimator {
   std::string name;
   long failures = 0;  ///< runs in which it failed
   std::string first_failure;
-  std::vector<ErrorStatistics> errors;       ///< [joint] rms: root of the runs' mean square; others: means of the runs
+  /// [joint] rms: root of the mean square over all runs; other statistics: means of the runs' values
+  std::vector<ErrorStatistics> errors;
   std::vector<double> rms_lower, rms_upper;  ///< [joint] 2.5 and 97.5 percentiles of the runs' RMS errors
   Consistency nis;
   std::vector<Consistency> nees;  ///< [joint]

@@ -1,5 +1,5 @@
 #pragma once
-/// Errors on held-out logs of estimators that get motor signals alone.
+/// Errors of estimators that get motor signals alone, on held-out logs.
 
 #include <string>
 #include <vector>

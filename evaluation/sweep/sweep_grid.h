@@ -25,7 +25,7 @@ struct SweepAxis {
 };
 
 /// Definition of a sweep, which computes the error of every estimator at every joint for every point of the grid. It
-/// holds all that merging and reporting need, and is stored with the results.
+/// contains everything that merging and reporting need, and is stored with the results.
 struct SweepGrid {
   std::string name;
   std::string id;               ///< equal for equal definitions: only results with equal ids can be merged

@@ -33,7 +33,7 @@ std::vector<std::string> conformance_faults(const std::string& name_or_path, con
 
 /// For estimators that are Kalman filters with the noise of noise.h. Compares the estimator with the textbook Kalman
 /// filter in covariance form, on an arm with linear equations: one slider on a cable, without gravity and Coulomb
-/// friction, pushed to and fro for 0.2 s. Returns one line for each difference. Positions must agree within 1e-9 m,
+/// friction, pushed back and forth for 0.2 s. Returns one line for each difference. Positions must agree within 1e-9 m,
 /// standard deviations within 1e-6 (relative).
 std::vector<std::string> kalman_faults(const std::string& name_or_path);
 

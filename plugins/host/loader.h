@@ -19,7 +19,7 @@ struct PluginInfo {
 };
 
 /// The plug-in folders that exist, in the order in which they are searched: beside the program (../lib/halyard/plugins
-/// and plugins/ of a build), beside halyard's libraries (for programs that live elsewhere), and each folder of the
+/// and plugins/ of a build), beside halyard's libraries (for programs in another place), and each folder of the
 /// environment variable HALYARD_PLUGIN_PATH, separated by ':'.
 std::vector<std::filesystem::path> plugin_folders();
 /// Sets the folders that plugin_folders() returns from now on. For a process that works for another process and must
