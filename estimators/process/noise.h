@@ -21,8 +21,8 @@
 ///
 /// Without damping within a step this is [½ dt² ; dt] B σ √(2 τ / dt) (Bar-Shalom, Li, Kirubarajan 2001, section
 /// 6.3.2). That formula is wrong where a cable's damper has a rate λ of the order of 1/dt, because a joint then moves
-/// only 1/λ per unit of speed. For the RAVEN-II's third joint (λ = 2000 1/s, dt = 1 ms) it gives twice the
-/// correct standard deviation.
+/// only 1/λ per unit of speed. For the RAVEN-II's third joint (λ = 2000 1/s, dt = 1 ms) it gives twice the correct
+/// standard deviation.
 ///
 /// τ = 1 ms by default. νᵀS⁻¹ν of the RAVEN-II's three motors in the paper's experiment A, with an expected value of 3:
 ///
