@@ -19,9 +19,8 @@
 ///
 ///   Δ = Σ_b (ln L_b(r0⊥) - ln L_b(residual of the other's fit)).
 ///
-/// The two are confused if Δ < tell_apart σ (tell_apart = 2), for either of two values of σ, the standard deviation of Δ.
-/// One is √(2Δ), for noise of the floor's size; the condition is then Δ < 2 tell_apart² = 8. The other is estimated from
-/// the blocks.
+/// The two are confused if Δ < 2 σ (DecisionRule::tell_apart), for either of two values of σ, the standard deviation of
+/// Δ. One is √(2Δ), for noise of the floor's size; the condition is then Δ < 8. The other is estimated from the blocks.
 ///
 /// The size of an effect is its first size parameter, on the same side of neutral as its typical value. Its shape
 /// parameters take the values with the largest change of the residual at the typical size. Instants are spread over the
