@@ -94,8 +94,8 @@ Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& m
 /// absent.
 ///
 /// Throws std::invalid_argument for a column whose length differs from that of time, for an infinite value, or for
-/// times that do not increase after rounding to 6 decimals. If the file cannot be written, throws as
-/// write_file_whole().
+/// times that do not increase after rounding to 6 decimals. If the file cannot be written, throws as write_file_whole()
+/// does.
 void write_log(const std::filesystem::path& path, const Log& log, const std::string& comment = "");
 
 /// The samples begin..end-1 of a log. If there are none, every column of the result is absent. Throws std::out_of_range

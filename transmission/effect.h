@@ -196,7 +196,8 @@ std::vector<int> effect_places(const Effect& effect, const ArmParameters<double>
 /// The effect with its typical parameters. Throws std::invalid_argument if the joint cannot have the effect, or if it
 /// has more than kMaxEffectParameters parameters.
 PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);
-/// The effect with neutral sizes and typical shapes; the caller then sets some of the sizes. Throws as place_effect().
+/// The effect with neutral sizes and typical shapes; the caller then sets some of the sizes. Throws as place_effect()
+/// does.
 PlacedEffect place_neutral_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);
 
 }  // namespace halyard
