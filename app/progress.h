@@ -13,7 +13,7 @@ namespace halyard {
 /// Nothing is written if stderr is not a terminal. Safe to call from several threads.
 class Progress {
  public:
-  /// total: amount of work; unit: unit of the displayed rate, total's unit per second.
+  /// total: amount of work. unit: text for the unit of the displayed rate, which is the unit of `total` per second.
   Progress(std::string label, double total, std::string unit);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

@@ -1,5 +1,5 @@
 #pragma once
-/// Finds the effects that a model lacks from measured logs, and returns the model with those effects.
+/// Finds, from measured logs, the effects that a model lacks, and returns the model with those effects.
 
 #include <functional>
 #include <memory>

@@ -1,7 +1,6 @@
 #pragma once
 /// Plans an experiment: which effects would a diagnosis detect in this motion, from which size on, and which of them
-/// could it tell apart? The logs are from an arm as the model describes
-/// it, for example from a simulation.
+/// could it distinguish? The logs come from an arm that equals the model, for example from a simulation.
 ///
 ///   r0     residual of the model on these logs
 ///   d(p)   change of the residual if the arm had the effect at size p; to first order the motors' motion is the same
@@ -20,12 +19,12 @@
 ///
 ///   Δ = Σ_b (ln L_b(r0⊥) - ln L_b(residual of the other's fit)).
 ///
-/// The two are confused if Δ is less than tell_apart (2) of its standard deviations. The standard deviation is √(2Δ), the
-/// value for noise of the floor's size, so that Δ < 8; or the value estimated from the blocks.
+/// The two are confused if Δ < 2 σ (DecisionRule::tell_apart), for either of two values of σ, the standard deviation of
+/// Δ. One is √(2Δ), for noise of the floor's size; the condition is then Δ < 8. The other is estimated from the blocks.
 ///
 /// The size of an effect is its first size parameter, on the same side of neutral as its typical value. Its shape
-/// parameters take the values that show most at the typical size. Instants are spread over the record; positions are in
-/// the middle of the motion.
+/// parameters take the values with the largest change of the residual at the typical size. Instants are spread over the
+/// record; positions are in the middle of the motion.
 
 #include <functional>
 #include <string>

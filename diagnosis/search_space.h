@@ -1,6 +1,6 @@
 #pragma once
-/// Search space of an effect: in which ranges and from which starts a diagnosis fits its parameters, and which changes
-/// the model's tolerances already explain.
+/// Search space of an effect: the ranges and start values with which a diagnosis fits its parameters, and the changes
+/// that the model's tolerances already explain.
 ///
 /// The search space is derived from the effect's bounds and neutral values. For the library's effects it is refined in
 /// search_space/. An effect of your own can refine it by deriving from RefinesSearch in addition to EffectOf.
@@ -22,8 +22,8 @@ enum class SearchRange {
   joint_position,  ///< the parameter is a position of the effect's joint: within the motion of the record
 };
 
-/// A model parameter with a tolerance that an effect's parameter changes. A change within the tolerance counts as a
-/// refit of the model parameter; only a larger one is an effect.
+/// A model parameter that has a tolerance and that a parameter of an effect changes. A change within the tolerance
+/// counts as a refit of the model parameter; only a larger one is an effect.
 struct TolerancedNumber {
   double Tolerances::*kind = nullptr;  ///< null: there is no such model parameter
   int joint = 0;                       ///< 0-based joint that has the tolerance

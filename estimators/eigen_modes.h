@@ -1,6 +1,6 @@
 #pragma once
 /// Eigenvalues of a real matrix that need not be symmetric: A v = λ v, A [n x n], λ [n] complex, unordered.
-/// Eigen's solver takes 14 s to compile, so one file holds it for all.
+/// Eigen's solver takes 14 s to compile. So only one source file includes it, and all other code calls these functions.
 
 #include <Eigen/Core>
 

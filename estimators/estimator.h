@@ -15,7 +15,8 @@ struct Sample {
   Eigen::VectorXd motor_torque;    ///< [n] commanded from this time on, N m; NaN: missing, the last one is held
   Eigen::VectorXd motor_position;  ///< [n] measured at this time, rad; NaN: missing, no correction from it
   Eigen::VectorXd joint_torque;    ///< [n] measured external load, N m | N; empty: none
-  Eigen::VectorXd marker = {};     ///< [3] position of the tool's marker in the camera, base frame, m; empty: not seen
+  /// [3] position of the tool's marker as the camera measured it, in the base frame, m; empty: not seen
+  Eigen::VectorXd marker = {};
 };
 
 /// The difference between a measurement and its prediction, for the m of n motors that were measured.
@@ -54,11 +55,11 @@ class Estimator {
   virtual ~Estimator() = default;
   /// Starts at a first sample, at rest.
   virtual void reset(const Sample& first) = 0;
-  /// Predicts to the sample's time under the torque of the sample before, then corrects with its motor positions.
-  /// Throws std::runtime_error if the state cannot be kept finite; the message names time and state.
+  /// Predicts to the sample's time with the torque of the previous sample, then corrects with this sample's motor
+  /// positions. Throws std::runtime_error if the state cannot be kept finite; the message names time and state.
   virtual Innovation update(const Sample& sample) = 0;
   virtual Estimate estimate() const = 0;
-  /// Names of the columns of Estimate::extra_outputs, such as "joint_force". They do not change.
+  /// Names of the columns of Estimate::extra_outputs, such as "joint_force". The names of an instance do not change.
   virtual std::vector<std::string> extra_output_names() const { return {}; }
   /// Returns a revised estimate of an earlier sample, or none. Call it after reset()
   /// and after each update() until it returns none; `at_end`: no sample follows. A filter never revises.

@@ -22,7 +22,7 @@ class CsvTable {
   void add(std::string_view text);
   void add(const char* text) { add(std::string_view(text)); }
 
-  /// The text so far. Throws std::logic_error within a row.
+  /// The text so far. Throws std::logic_error if the last row is incomplete.
   const std::string& text() const;
   /// Throws as text() and write_file_whole() do.
   void write(const std::filesystem::path& path) const;

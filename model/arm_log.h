@@ -10,7 +10,8 @@
 
 namespace halyard {
 
-/// Reads a log of the model's arm with the model's column map, and subtracts unknown zeros of its encoders (homing.h).
+/// Reads a log of the model's arm with the model's column map. If the model does not know an encoder's zero, estimates
+/// the zero from the log and subtracts it (homing.h).
 /// column_entries, NAME=COLUMN[,unit=U][,sign=-1][,scale=S][,offset=O], replace entries of the model's map.
 /// torque_required: every joint with a motor needs its motor_torque_k.
 /// Throws InputError as ColumnMap::add_entry(), read_log() and home_encoders() do.

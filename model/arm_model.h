@@ -62,8 +62,9 @@ struct ParameterInfo {
   double* value;                  ///< points into the arm given to named_parameters()
 };
 
-/// The parameters of an arm that have a noun in arm_fields.h, joint by joint. Coupling coefficients are listed only for
-/// inboard joints. Parameters that do not exist at a joint are left out, such as cable stiffness at a rigid drive.
+/// The parameters for which arm_fields.h gives a noun (a name in words), joint by joint. Coupling coefficients are
+/// listed only for inboard joints. Parameters that do not exist at a joint are left out, such as cable stiffness at a
+/// rigid drive.
 std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm);
 
 }  // namespace halyard

@@ -46,7 +46,7 @@ class ColumnMap {
 
   /// Adds one command-line entry; all but NAME=COLUMN is optional:
   ///   motor_torque_1=capstan_torque_1_Nm,unit=N.m,sign=-1,scale=0.0816,offset=0.1
-  /// Throws InputError, which quotes the entry: as add(), or if the text has another form.
+  /// Throws InputError where add() does, and if the text does not have this form. The message quotes the entry.
   void add_entry(std::string_view entry);
 
   /// Adds all sources of `other`. If both maps name a standard column, the source in `other` replaces this one.
@@ -65,7 +65,7 @@ class ColumnMap {
 /// `text` without blanks, tabs and carriage returns at either end.
 std::string_view trim(std::string_view text);
 
-/// Replaces `cells` by the trimmed texts between the commas of `line`; there is at least one.
+/// Splits `line` at its commas and replaces `cells` by the trimmed parts. There is always at least one part.
 void split(std::string_view line, std::vector<std::string_view>& cells);
 
 /// Parses the whole of `text` as a finite decimal number. Returns nothing for any other text, such as "nan", "inf", an

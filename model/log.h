@@ -20,7 +20,7 @@ using Signals = std::vector<std::vector<double>>;
 ///   member           column of a file          unit
 ///   time             time                      s, strictly increasing, gaps allowed
 ///   motor_torque     motor_torque_k            N·m at the motor shaft, absent at a joint without a motor
-///   motor_position   motor_position_k          rad at the motor shaft, likewise
+///   motor_position   motor_position_k          rad at the motor shaft, absent at a joint without a motor
 ///   joint_position   joint_position_k          rad | m
 ///   joint_velocity   joint_velocity_k          rad/s | m/s
 ///   joint_torque     joint_torque_k            N·m | N, external load on the joint
@@ -90,10 +90,12 @@ Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& m
              const ReadOptions& options = {});
 
 /// Writes the columns that the log has, in the order of the table above: time with up to 6 decimals, other values with
-/// 9 significant digits. Each line of `comment` becomes a comment line at the top. The file is complete or absent.
+/// 9 significant digits. Each line of `comment` becomes a comment line at the top. The file is either complete or
+/// absent.
 ///
-/// Throws std::invalid_argument for a column whose length differs from time's, an infinite value, or times that do not
-/// increase as printed. If the file cannot be written, throws as write_file_whole().
+/// Throws std::invalid_argument for a column whose length differs from that of time, for an infinite value, or for
+/// times that do not increase after rounding to 6 decimals. If the file cannot be written, throws as write_file_whole()
+/// does.
 void write_log(const std::filesystem::path& path, const Log& log, const std::string& comment = "");
 
 /// The samples begin..end-1 of a log. If there are none, every column of the result is absent. Throws std::out_of_range

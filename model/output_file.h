@@ -8,8 +8,8 @@
 namespace halyard {
 
 /// A file that appears complete or not at all: it is written as a temporary sibling and renamed by commit(). An older
-/// file of that name stays unchanged until commit(), and for good if commit() is never called. Numbers are written in
-/// the classic locale, whatever the global locale is.
+/// file of that name stays unchanged until commit() is called. Numbers are written in the classic locale, whatever the
+/// global locale is.
 class OutputFile {
  public:
   /// Creates missing parent folders. A link to a file is followed.

@@ -10,7 +10,8 @@ struct Tolerances {
   double stiffness = 0.10;  ///< stiffness and damping of cables
   double friction = 0.20;   ///< Coulomb and viscous
   double coupling = 0.02;
-  double torque_scale = 0.005;  ///< of a motor: 1 where a log's torque is a current or a voltage of unknown scale
+  /// scale of a motor's torque; use 1 if the log's torque is a current or a voltage of unknown scale
+  double torque_scale = 0.005;
 };
 
 }  // namespace halyard

@@ -32,7 +32,8 @@ class ArmPlant {
   void set_inputs(double time_s, const double* command, const double* external);
 
   void derivative(double time_s, const double* y, double* y_dot);
-  /// Contribution of some terms of the drive's forces to y', with q' = v for the joints that they move.
+  /// The part of y' that comes from these terms of the drive. It contains q' = v for the joints that the terms move,
+  /// and q' = 0 for the others.
   void derivative_of_terms(DriveTerms terms, double time_s, const double* y, double* y_dot);
   /// Jacobian of derivative_of_terms at fixed M and h: [0 I; M⁻¹ ∂F; ∂z']. Exact for the stiff terms. J: [size x size].
   void jacobian_of_terms(DriveTerms terms, double time_s, const double* y, Eigen::Ref<Eigen::MatrixXd> J);

@@ -2,15 +2,16 @@
 /// The plant without its rigid chain: motors, transmission with effects, and two energy meters.
 ///
 ///   drives        cable, rigid or none, as in transmission/drive.h; the chain carries the rotors of rigid drives
-///   meters        E_in' = Σ τ_c ω + Σ F_e q',   E_lost' = power into motors, cables and joints, minus power out
-///                 of them and power stored in stretched cables
+///   meters        E_in' = Σ τ_c ω + Σ F_e q'
+///                 E_lost' = (power into motors, cables and joints) - (power out of them)
+///                           - (power stored in stretched cables)
 ///
 ///   τ_c    torque at the shaft after the command stage, before friction               N m
 ///   F_e    external load on a joint                                                     N m | N
 ///   z      [q_m, ω of each cable drive; internal states of the effects; E_in, E_lost]    [n_z]
 ///
-/// The work of an effect at the joint, such as an external force, counts in E_lost: a loss is positive, a gain
-/// negative.
+/// The work of an effect at the joint, such as an external force, counts in E_lost: it is positive if the effect takes
+/// energy from the arm, and negative if it adds energy.
 
 #include <Eigen/Core>
 #include <vector>

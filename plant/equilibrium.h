@@ -1,7 +1,10 @@
 #pragma once
 /// Initial state of a run: at rest, with the cables stretched so that they hold the arm.
 ///
-///   R_cᵀ g = h(q) - other forces on the joints    solved for g, then g_k(q_m,k) = g_k for each motor
+///   R_cᵀ g = h(q) - other forces on the joints
+///
+/// This is solved for g. Then, for each cable drive, the motor angle q_m,k is found at which the cable's force
+/// g_k(q_m,k) equals this g_k.
 
 #include "plant/arm_plant.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 /// A scenario: a robot with its true effects, the motion that it is asked to follow, and how the simulation computes
-/// it. The struct has the defaults; a scenario file mirrors it.
+/// it. The initial values of the members are the defaults; a scenario file has the same structure.
 
 #include <cstdint>
 #include <filesystem>
@@ -72,9 +72,9 @@ struct Scenario {
   std::vector<JointTrajectory> trajectory;  ///< [n]
   IntegratorOptions integrator;
   bool quantise = true;  ///< round encoders to their resolution
-  /// True: the motors' zeros were set at the home pose with unstretched cables, with the parameters that the controller
-  /// assumes. Readings are then correct at that pose, whatever the robot's true ratios. Sensor errors of effects are
-  /// added to them.
+  /// True: the zeros of the motor encoders were set at the home pose, with unstretched cables. They were computed with
+  /// the parameters that the controller assumes. Readings are then correct at that pose, whatever the robot's true
+  /// ratios. Sensor errors of effects are added to them.
   bool homed = false;
   TickNoise noise;
   std::optional<Camera> camera;

@@ -2,12 +2,12 @@
 /// Desired motion of the joints.
 ///
 ///   hold            q = center
-///   sines           q = center + f(t / t_fade) Σ A sin(2π f t + φ)
+///   sines           q = center + p(t / t_fade) Σ A sin(2π f t + φ)
 ///   point_to_point  from points[0] to points[1] and so on, repeated until the run ends; each move takes move_s along
-///                   q = a + (b - a) f(t / move_s), then the joint rests for dwell_s
+///                   q = a + (b - a) p(t / move_s), then the joint rests for dwell_s
 ///   samples         linear between samples, constant outside
 ///
-///   f(s) = 10 s³ - 15 s⁴ + 6 s⁵: minimum jerk (Flash and Hogan 1985)
+///   p(s) = 10 s³ - 15 s⁴ + 6 s⁵: minimum jerk (Flash and Hogan 1985)
 
 #include "plant/scenario.h"
 

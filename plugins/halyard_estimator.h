@@ -41,8 +41,9 @@ typedef struct halyard_config {
   const char* const* option_values; /* [n_options] */
 } halyard_config;
 
-/* One row of a log. A joint without a drive has no motor: its torque is NaN and its position 0, or the values of the
- * log if the log has such columns. Do not use them, and give no innovation for them. */
+/* One row of a log. A joint without a drive has no motor. Its motor_torque is NaN and its motor_position is 0; if the
+ * log has these columns, they hold the log's values instead. Do not use these entries, and give no innovation for such
+ * a joint. */
 typedef struct halyard_sample {
   double time_s;                /* increases from call to call */
   const double* motor_torque;   /* [n] commanded from this time on, N m; NaN: missing, hold the last one */
@@ -55,9 +56,10 @@ typedef struct halyard_sample {
 
 /* Innovation of one measurement. An estimator that does not know cov(nu) sets m = 0. */
 typedef struct halyard_innovation {
-  size_t m;         /* number of entries of nu */
-  double* nu;       /* room for [n]: measured minus predicted position of the measured motors, base first, rad */
-  double* S_root;   /* room for [n x n]; holds [m x m] row by row without gaps: lower, S_root S_root' = cov(nu) */
+  size_t m;   /* number of entries of nu */
+  double* nu; /* room for [n]: measured minus predicted position of the measured motors, base first, rad */
+  /* Room for [n x n]; holds a lower triangular [m x m] matrix, row by row without gaps: S_root S_root' = cov(nu). */
+  double* S_root;
   int32_t accepted; /* 0: gated out, belief unchanged; 1 on entry */
 } halyard_innovation;
 
@@ -99,11 +101,11 @@ typedef struct halyard_estimator_table {
   /* Name of extra output i of every joint, used as a column name: letters, digits, '_', '-'. Returns NULL beyond the
    * last name. The names of an instance do not change. If the table's entry is NULL, there are no extra outputs. */
   const char* (*extra_output_name)(void* instance, size_t i);
-  /* Gives a revised estimate of an earlier sample: sets time_s to that sample's time, one of those since reset(), and
-   * fills `estimate`. time_s is NaN on entry; leave it NaN if there is no further revision. The host calls revise()
-   * after reset() and after each update() until there is none; at_end is 1 after the last sample. A revision replaces
-   * all earlier estimates of that sample, so it must fill `estimate` as estimate() does, `extra_outputs` included. If
-   * the table's entry is NULL, estimates are never revised. */
+  /* Gives a revised estimate of a sample that came since reset(): sets time_s to the time of that sample and fills
+   * `estimate`. time_s is NaN on entry; leave it NaN if there is no further revision. After reset() and after each
+   * update(), the host calls revise() repeatedly until it gives no further revision. at_end is 1 after the last sample.
+   * A revision replaces all earlier estimates of that sample, so it must fill `estimate` as estimate() does,
+   * `extra_outputs` included. If the table's entry is NULL, estimates are never revised. */
   int (*revise)(void* instance, int32_t at_end, double* time_s, halyard_estimate* estimate, char* message,
                 size_t message_size);
 } halyard_estimator_table;

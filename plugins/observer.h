@@ -53,7 +53,8 @@ class Observer : public Estimator {
   /// The arm's parameters, with the changes that the model's effects make to them.
   const ArmParameters<double>& arm() const { return arm_; }
 
-  /// Starts at rest at these readings of the motor encoders [n], rad. A missing reading is that of the home position.
+  /// Starts at rest at these readings of the motor encoders [n], rad. A missing reading is replaced by the reading at
+  /// the home position.
   virtual void start(const Eigen::VectorXd& motor_position) = 0;
   /// Advances the state by dt_s > 0 under constant torque [n], N m.
   virtual void predict(double dt_s, const Eigen::VectorXd& motor_torque) = 0;

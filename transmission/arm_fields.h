@@ -6,7 +6,8 @@
 ///   for_each_field(arm.n, [](const ArmField& field, const auto& value) { ... }, arm);
 ///
 /// If several arms are given, visit gets the same field of each, for example to compare or to copy arms. A field's part
-/// and name are those of the element and attribute in model files; keys use them too: joint2.motor.viscous.
+/// is the name of its element in model files, and its name is that of the attribute. Keys combine the two:
+/// joint2.motor.viscous.
 
 #include <cstddef>
 #include <string_view>
@@ -16,14 +17,14 @@
 
 namespace halyard {
 
-/// Kind of a field. Numbers of one kind are known about equally well.
+/// Kind of a field. Numbers of one kind are known with similar accuracy.
 enum class FieldKind {
   structure,  ///< not a measured number: a type, a frame
   length,     ///< radii, ratios, lengths
   mass,       ///< masses, centres of mass, inertias, including those of rotors
   stiffness,  ///< stiffness, damping and tension of cables
   friction,   ///< Coulomb and viscous
-  smoothing,  ///< speed over which friction's sign is regularised
+  smoothing,  ///< speed scale over which the sign of friction is smoothed: v_s of friction.h
   coupling,
   torque_scale,
   torque_bias,
@@ -54,7 +55,8 @@ struct FieldUnit {
   const char *revolute, *prismatic;
 };
 
-/// Unit of a coupling coefficient: motion of the cable of `joint`, in units of `joint`, per unit of joint `moving`.
+/// Unit of the coupling coefficient that says how far joint `moving` moves the cable of `joint`. The cable's motion is
+/// expressed as motion of `joint`, rad | m.
 constexpr const char* coupling_unit(JointType joint, JointType moving) {
   if (joint == moving) return "1";
   return joint == JointType::prismatic ? "m/rad" : "rad/m";

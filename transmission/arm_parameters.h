@@ -2,8 +2,8 @@
 /// All parameters in the equations of a cable-driven serial arm, over a scalar type T.
 ///
 /// Joint k moves link k about (revolute) or along (prismatic) the z axis of its own frame. Units are SI; "rad | m"
-/// means rad at a revolute and m at a prismatic joint. The motor's parameters refer to the motor shaft (the "consistent
-/// reading" of the paper's Table I).
+/// means rad at a revolute and m at a prismatic joint. The motor's parameters refer to the motor shaft. (The paper's
+/// Table I prints inertia and friction of the motors at the gearbox output, gear_ratio times as large.)
 
 #include "transmission/scalar.h"
 
@@ -46,8 +46,8 @@ struct JointParameters {
 
   // Cable.
   T pulley_radius = 1.0;  ///< r_l, m | 1
-  /// coupling[j]: motion of this cable per unit of joint j, in units of this joint (C_ji of the paper); 1 for this
-  /// joint itself.
+  /// coupling[j]: motion of this joint's cable per unit of motion of joint j, expressed as motion of this joint (C_ji
+  /// of the paper). It is 1 if j is this joint.
   T coupling[kMaxJoints] = {T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)};
   T stiffness = 0.0;  ///< k_e of each run, N/m
   T damping = 0.0;    ///< b_e of each run, N s/m

@@ -12,8 +12,8 @@
 ///   T_0     tension of each run at rest         N
 ///
 /// All three laws have the slope 2 k_e at rest. Eq. 6 takes the exponential of a length in metres, so it is linear
-/// within 1e-6 for a stretch of millimetres. It contains no tension, so it never goes slack. In the other two laws a
-/// run is slack, with tension zero, where its tension would be negative.
+/// within 1e-6 for a stretch of millimetres. It contains no tension, so under this law a cable never goes slack. In the
+/// other two laws a run is slack, with tension zero, where its tension would be negative.
 
 #include "transmission/arm_parameters.h"
 

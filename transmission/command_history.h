@@ -16,9 +16,9 @@ class CommandHistory {
   void push(double time_s, const double* command);
 
   /// Command of a joint at a time. Each command is held from its time to the next one's. The returned command is linear
-  /// between the middles of these hold intervals, so it has a derivative and no delay on average. Before the first
-  /// middle it is the first command, after the last middle the last command. The last hold interval is assumed to be as
-  /// long as the one before.
+  /// between the middles of these hold intervals, so it has a derivative and no delay on average. Before the middle of
+  /// the first interval the value is the first command; after the middle of the last interval it is the last command.
+  /// The last hold interval is assumed to be as long as the one before.
   double at(int joint, double time_s) const;
   Dual at(int joint, const Dual& time_s) const;
   Lanes at(int joint, const Lanes& time_s) const;

@@ -2,11 +2,12 @@
 /// Cables are routed past inboard pulleys, so one joint moves several cables. The path of the cables is s = R q
 /// with R = diag(r_l) C. The joint forces follow by virtual work: Γ = Rᵀ g.
 ///
-///   s, g   length of each cable that the joints take up, cable force   [n_cable]   m, N
-///   q, Γ   joint coordinate, force                                      [n_joint]   rad, N m | m, N
-///   C      coupling matrix: C_kj is the motion of cable k, in units of joint k, per unit of joint j; C_kk = 1
-///   r_l    link pulley radius                                           m | 1
-///   R_k    row k of R; in arms from model files, entries outboard of joint k are 0
+///   s, g   for each cable: the length that the joints take up, and the force   [n_cable]   m, N
+///   q, Γ   joint coordinate, force                                             [n_joint]   rad, N m | m, N
+///   C      coupling matrix: C_kj is the motion of cable k per unit of motion of joint j, expressed as motion of
+///          joint k; C_kk = 1
+///   r_l    link pulley radius                                                              m | 1
+///   R_k    row k of R; in arms from model files, R_kj = 0 for j > k (joints outboard of joint k do not move its cable)
 ///
 /// The paper gives the stretch (Eq. 8) but not the reaction Γ_j on the inboard joints; without this reaction the arm
 /// would create energy.
@@ -29,7 +30,7 @@ HALYARD_INLINE T path_per_joint(const JointParameters<T>& joint_k, int j) {
   return joint_k.pulley_radius * joint_k.coupling[j];
 }
 
-/// Σ_j C_kj q_j: how far the joints move cable k, in units of joint k. q: [n]; works for rates as well.
+/// Σ_j C_kj q_j: how far the joints move cable k, expressed as motion of joint k. q: [n]; works for rates as well.
 template <class T>
 HALYARD_INLINE T coupled_motion(const JointParameters<T>& joint_k, int n, const T* q) {
   T sum = 0.0;

@@ -29,19 +29,20 @@ namespace halyard {
 inline constexpr int kMaxEffectParameters = 8;
 inline constexpr int kMaxEffectStates = 8;  ///< of one effect
 
-/// One number of an effect. The effect is absent when all its parameters are neutral.
+/// One parameter of an effect. The effect is absent when all its parameters are neutral.
 struct EffectParameter {
   std::string name;  ///< as in model files and diagnosis.json
   std::string unit;
-  double neutral = 0;  ///< value without influence; of a shape parameter, the typical value
-  /// Order of magnitude that the physics of such an arm suggests. If a model file names the effect without this
-  /// parameter, it has this value.
+  /// value at which the parameter has no influence; for a shape parameter (below), the typical value
+  double neutral = 0;
+  /// Order of magnitude that the physics of such an arm suggests. If a model file lists the effect but not this
+  /// parameter, the parameter gets this value.
   double typical = 0;
   double lower = 0;  ///< physical bounds
   double upper = 0;
 
-  /// True if the parameter gives the shape of the effect, not its size. A shape comes after the sizes that it belongs
-  /// to: cosine, sine, order.
+  /// True if the parameter gives the shape of the effect, not its size. In parameters(), a shape comes after the sizes
+  /// that it belongs to: for example cosine and sine (sizes), then order (shape).
   bool is_shape() const { return neutral == typical; }
 };
 
@@ -195,7 +196,8 @@ std::vector<int> effect_places(const Effect& effect, const ArmParameters<double>
 /// The effect with its typical parameters. Throws std::invalid_argument if the joint cannot have the effect, or if it
 /// has more than kMaxEffectParameters parameters.
 PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);
-/// The effect with neutral sizes and typical shapes; the caller then sets some of the sizes. Throws as place_effect().
+/// The effect with neutral sizes and typical shapes; the caller then sets some of the sizes. Throws as place_effect()
+/// does.
 PlacedEffect place_neutral_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);
 
 }  // namespace halyard

@@ -4,8 +4,8 @@
 ///   F = F_c tanh(v / v_s) + F_v v,  opposing the motion v           (paper, Eqs. 4 and 5)
 ///
 ///   F_c, F_v   Coulomb level, viscous coefficient    N m | N,  N m s/rad | N s/m
-///   v_s        speed at which Coulomb friction reaches 76 % of F_c; near standstill its slope
-///              F_c / v_s is the stiffest term of the arm             rad/s | m/s
+///   v_s        speed at which Coulomb friction reaches 76 % of F_c; near standstill the slope of Coulomb friction,
+///              F_c / v_s, is the stiffest term in the arm's equations            rad/s | m/s
 
 #include "transmission/scalar.h"
 

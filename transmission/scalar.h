@@ -7,8 +7,8 @@
 ///            parameter sets, in little more time than one
 ///
 /// Code over a scalar T branches with select(condition, a, b) and uses min, max, abs, tanh, exp, sin, cos, sqrt, log of
-/// this header. A library's automatic differentiation type could serve as Dual, but its expression templates cannot be
-/// arguments of a virtual function and have no lanes.
+/// this header. A library's automatic differentiation type cannot replace Dual: its expression templates cannot be
+/// arguments of a virtual function, and they have no lanes.
 ///
 /// The vector operations are forced inline. Otherwise a file compiled for a wider instruction set would leave copies of
 /// them, and other files might call these copies.

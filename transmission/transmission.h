@@ -34,8 +34,9 @@ class Transmission {
   /// Internal states of all effects, in the order of the effects.
   int n_states() const { return n_states_; }
 
-  /// Computes the other signals of s, and z_dot [n_states], from the internal states z [n_states] and the inputs
-  /// s.command, s.motor_angle, s.motor_rate, s.joint_position, s.joint_rate and s.external_force. s: [n].
+  /// The inputs are the internal states z [n_states] and s.command, s.motor_angle, s.motor_rate, s.joint_position,
+  /// s.joint_rate and s.external_force. Computes z_dot [n_states] and all other signals of s except the sensor errors,
+  /// which sensor_errors() sets. s: [n].
   HALYARD_INLINE void evaluate(double time, const CommandHistory* history, const T* z, JointSignals<T>* s,
                                T* z_dot) const;
 

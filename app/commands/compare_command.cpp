@@ -101,7 +101,7 @@ void print_errors(const Comparison& comparison) {
                  shown_number(error.peak, unit), unit.shown);
       if (const auto baseline = comparison.baseline(); baseline && i != *baseline) {
         fmt::print(", {} better than kinematics", shown_percent(comparison.improvement_of(i, k)));
-        fmt::print(", RMS over its {}", in_words(comparison.paired[i][*baseline][k]));
+        fmt::print(", RMS ratio to kinematics {}", in_words(comparison.paired[i][*baseline][k]));
       }
       fmt::print("\n");
     }

@@ -13,7 +13,7 @@ struct EstimateCommandOptions {
   std::filesystem::path out;
   std::vector<std::string> columns;  ///< entries of --column
   bool use_joint_torque = false;
-  double skip_s = 0.5;  ///< start of the log that the printed errors leave out
+  double skip_s = 0.5;  ///< duration at the start of the log that is not counted in the printed errors
 };
 
 /// halyard estimate: runs one estimator over a log. Prints its error where the log has joint sensors.

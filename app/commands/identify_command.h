@@ -10,7 +10,7 @@ struct IdentifyCommandOptions {
   std::filesystem::path model;
   std::vector<std::filesystem::path> data;
   std::filesystem::path holdout;     ///< empty: the last third of each log
-  std::string parameters;            ///< kinds and keys, with commas
+  std::string parameters;            ///< kinds and keys of parameters, separated by commas
   std::filesystem::path out;         ///< folder
   std::vector<std::string> columns;  ///< entries of --column
 };

@@ -13,7 +13,8 @@ struct SimulateOptions {
 /// Turns "LOG.csv" into "LOG.truth.csv"; appends ".truth.csv" to any other name.
 std::filesystem::path truth_path(const std::filesystem::path& log);
 
-/// halyard simulate: runs the plant; writes the log of its sensors, and its ground truth beside it.
+/// halyard simulate: runs the plant. Writes the log of its sensors, and the ground truth into a second file beside the
+/// log.
 void run_simulate(const SimulateOptions& options);
 
 }  // namespace halyard

@@ -21,7 +21,7 @@ struct SweepCommandOptions {
 void run_sweep_command(const SweepCommandOptions& options);
 
 struct MergeCommandOptions {
-  std::vector<std::filesystem::path> parts;  ///< folders of sweep's parts
+  std::vector<std::filesystem::path> parts;  ///< folders of the parts of a sweep
   std::filesystem::path out;                 ///< folder; may be one of the parts
 };
 

@@ -12,7 +12,7 @@
 
 namespace halyard {
 
-/// "1.234 deg" without the unit; "-" for NaN.
+/// The number in the displayed unit, but without the name of the unit: "1.234" for 1.234 deg; "-" for NaN.
 std::string shown_number(double si_value, const JointUnit& unit);
 /// "36.8 %"; "-" for NaN.
 std::string shown_percent(double fraction);
@@ -21,9 +21,9 @@ std::string shown_percent(double fraction);
 report::Chart trajectory_chart(const Comparison& comparison, int k);
 /// Estimate minus truth over time, of all runs but `left_out`, if one is given.
 report::Chart error_chart(const Comparison& comparison, int k, std::optional<std::size_t> left_out = std::nullopt);
-/// Share of the counted samples by error, of the same runs.
+/// Histogram of the errors of the same runs, in shares of the counted samples.
 report::Chart error_histogram(const Comparison& comparison, int k, std::optional<std::size_t> left_out = std::nullopt);
-/// One row per joint and estimator; the least mean absolute error of a joint is marked.
+/// One row per joint and estimator; the smallest mean absolute error of a joint is marked.
 report::Table error_table(const Comparison& comparison);
 
 /// For every joint: a heading "<prefix>Joint 1", the trajectories, and the errors if the truth is known. If the errors

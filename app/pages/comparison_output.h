@@ -21,7 +21,8 @@ std::vector<std::string> error_columns();
 /// Adds these cells for one run and joint.
 void add_error_cells(CsvTable& table, const Comparison& comparison, std::size_t run, int k);
 
-/// Writes report.html, comparison.json and comparison.csv into the folder. runs: the same over many seeds.
+/// Writes report.html, comparison.json and comparison.csv into the folder. runs: the results of the same comparison
+/// over many seeds.
 void write_comparison(const std::filesystem::path& folder, const Comparison& comparison,
                       const std::optional<MonteCarlo>& runs = std::nullopt);
 

@@ -106,7 +106,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
 std::string verdict_line(const Diagnosis& d) {
   std::string line = verdict_word(d.verdict);
   for (std::size_t i = 0; i < d.effects.size(); ++i) line += (i == 0 ? ": " : ", ") + effect_label(d.effects[i].effect);
-  if (d.verdict == Diagnosis::Verdict::effects && !d.unexplained.empty()) line += ", and an unexplained rest";
+  if (d.verdict == Diagnosis::Verdict::effects && !d.unexplained.empty()) line += "; an unexplained residual remains";
   return line;
 }
 

@@ -19,13 +19,15 @@ std::string verdict_line(const Diagnosis& diagnosis);
 
 /// The verdict as a call-out of a page, with the reasons if there is an evaluation.
 void add_verdict(report::Page& page, const Diagnosis& diagnosis, const DiagnosisEvaluation& evaluation = {});
-/// Errors of the free prediction before and after.
+/// Errors on the hold-out, with the given and with the revised model, of the prediction from the motors' motion alone.
 void add_error_table(report::Page& page, const Diagnosis& diagnosis);
-/// Errors of the estimators before and after, and results from their innovations; nothing without an evaluation.
+/// Errors of the estimators with the given and with the revised model, and results from their innovations. Adds nothing
+/// without an evaluation.
 void add_estimator_table(report::Page& page, const ArmModel& model, const DiagnosisEvaluation& evaluation);
 
-/// Joint k's residuals on the hold-out before and after: position over time, torque over time, and over the motor's
-/// rate, where friction and gaps show as loops. Without a sensor there is no chart of it.
+/// Joint k's residuals on the hold-out, with the given and with the revised model: position over time, torque over
+/// time, and position over the motor's rate, where friction and gaps show as loops. Without a joint sensor there are no
+/// charts of the position, and the torque is drawn over the motor's rate.
 std::vector<report::Chart> residual_charts(const Diagnosis& diagnosis, int k);
 
 /// The whole report.

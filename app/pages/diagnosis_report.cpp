@@ -218,7 +218,7 @@ report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d, const Dia
       "Each candidate is fitted together with the model's own numbers, kept within their tolerance, on every other "
       "block of the training data; the gain in log-likelihood is counted on the blocks between, and p is the "
       "probability of such a gain if there were none: by a paired t test over blocks, or by the likelihood ratio of a "
-      "candidate that explains nearly all of a rest.");
+      "candidate that explains nearly all of a residual.");
   add_candidates(page, d);
   if (!d.not_excited.empty()) {
     std::string text = "Effects that these data could not show at their typical size: ";

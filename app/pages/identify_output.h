@@ -9,7 +9,7 @@
 
 namespace halyard {
 
-/// "converged", "still drifting in the last third: a longer log, ..." and what to do about it.
+/// "converged", or a phrase that says what is wrong and what to do about it.
 std::string in_words(Convergence convergence);
 
 /// The text of identify.json.

@@ -18,7 +18,7 @@ report::Table consistency_table(const Comparison& comparison);
 report::Table paired_table(const Comparison& comparison);
 /// Errors and failures over many runs; one row per joint and estimator.
 report::Table runs_error_table(const MonteCarlo& runs, const std::vector<JointUnit>& units);
-/// Consistency over many runs; likewise.
+/// Consistency over many runs; one row per joint and estimator.
 report::Table runs_consistency_table(const MonteCarlo& runs);
 
 nlohmann::ordered_json to_json(const Consistency& c);

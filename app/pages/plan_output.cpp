@@ -132,7 +132,7 @@ report::Page plan_page(const Plan& plan) {
       "the motion. At twice that size the effects of the last column would explain the same data about as well.");
   if (plan.names_nothing) page.verdict(report::VerdictKind::warning, kNamesNothing);
   report::Table table;
-  table.header = {"effect", "joint", "detection limit", "cannot be told from"};
+  table.header = {"effect", "joint", "detection limit", "not distinguishable from"};
   table.align = {report::Align::left, report::Align::right, report::Align::left, report::Align::left};
   for (const DetectionLimit& d : plan.limits)
     table.rows.push_back({d.effect.effect->name(), joint_text(d.effect.joint), limit_text(d), confused_text(d)});
@@ -149,7 +149,7 @@ report::Page plan_page(const Plan& plan) {
 
 std::string plan_text(const Plan& plan) {
   std::vector<std::array<std::string, 4>> rows = {
-      {"effect", "joint", "detection limit", "cannot be told from, at twice that size"}};
+      {"effect", "joint", "detection limit", "not distinguishable, at twice the limit, from"}};
   for (const DetectionLimit& d : plan.limits)
     rows.push_back({d.effect.effect->name(), joint_text(d.effect.joint), limit_text(d), confused_text(d)});
   std::array<std::size_t, 3> width{};

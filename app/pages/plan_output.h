@@ -12,7 +12,7 @@ namespace halyard {
 
 struct Plan {
   ArmModel model;
-  std::string scenario;  ///< its file, as given
+  std::string scenario;  ///< file of the scenario, as given
   bool joint_sensor = true;
   Log log;  ///< of the given motion
   std::vector<DetectionLimit> limits;

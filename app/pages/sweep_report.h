@@ -9,7 +9,7 @@
 namespace halyard {
 
 /// Writes sweep.csv (evaluation/sweep/sweep_table.h), and report.html with curves of the mean absolute error over the
-/// first axis, for every value of the others. cells: [grid.size()], in the order of the points.
+/// first axis, for every value of the other axes. cells: [grid.size()], in the order of the points.
 void write_sweep_report(const std::filesystem::path& folder, const SweepGrid& grid,
                         const std::vector<SweepCell>& cells);
 

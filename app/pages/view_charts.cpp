@@ -78,7 +78,7 @@ report::Chart spectrum_chart(const EffectEvidence& e, const View& v, const std::
     for (double& share : s.share) share *= 100;
     chart.series.push_back({.name = name, .x = s.frequency, .y = s.share, .colour = kPlace[colour]});
   };
-  add(is_rest ? "rest" : "without it", 0, e.without);
+  add(is_rest ? "residual" : "without it", 0, e.without);
   if (!is_rest) add("with it", 1, e.with);
   return chart;
 }
@@ -145,7 +145,7 @@ std::vector<report::Chart> view_charts(const EffectEvidence& e, const ArmParamet
     // All over the same abscissa, the revised model's, but for another residual.
     ResidualSignals shared = e.with;
     shared.residual = e.without.residual;
-    chart.series.push_back(points(is_rest ? "rest" : "without it", 0, e.without, shared, v, x.per_si, y.per_si));
+    chart.series.push_back(points(is_rest ? "residual" : "without it", 0, e.without, shared, v, x.per_si, y.per_si));
     if (!is_rest) chart.series.push_back(points("with it", 1, e.with, e.with, v, x.per_si, y.per_si));
     if (!over_time(v)) {
       chart.series.push_back(curve(shared, v, x.per_si, y.per_si));

@@ -10,25 +10,27 @@ namespace halyard::report {
 
 enum class ChartKind {
   line,       ///< points joined in the order given; x need not increase (loops)
-  scatter,    ///< points alone
+  scatter,    ///< points without lines
   bar,        ///< one group of bars per category, one bar per series
   histogram,  ///< bars on a numeric axis; x is the evenly spaced bin centre
 };
 
 /// An interval around a series, such as ± 2 standard deviations; drawn in line charts.
 struct Band {
-  std::vector<double> lower;  ///< as long as x
-  std::vector<double> upper;  ///< as long as x
+  std::vector<double> lower;  ///< has the length of x
+  std::vector<double> upper;  ///< has the length of x
 };
 
 /// A number that is not finite is a gap.
 struct Series {
   std::string name = {};       ///< text in the legend; empty: not in the legend
   std::vector<double> x = {};  ///< in the unit of the chart's x label; empty for ChartKind::bar
-  std::vector<double> y = {};  ///< in the unit of the y label; as long as x, for ChartKind::bar as categories
+  /// in the unit of the y label; has the length of x, or, for ChartKind::bar, the length of `categories`
+  std::vector<double> y = {};
   bool dashed = false;
   std::optional<Band> band = std::nullopt;
-  std::optional<std::size_t> colour = std::nullopt;  ///< place in the palette of 8; otherwise the series' own place
+  /// index in the palette of 8 colours; none: the index of the series in the chart
+  std::optional<std::size_t> colour = std::nullopt;
 };
 
 /// An interval of the x axis, shaded over the whole height. Infinite ends reach the chart's edge.

@@ -32,7 +32,7 @@ enum class Align { left, right };
 struct Table {
   std::string caption = {};
   std::vector<std::string> header = {};
-  std::vector<std::vector<Cell>> rows = {};  ///< each as long as the header
+  std::vector<std::vector<Cell>> rows = {};  ///< each has as many cells as the header
   std::vector<Align> align = {};             ///< one per column; empty: first column left, others right
 };
 

@@ -13,7 +13,8 @@ namespace {
 
 void print_summary(const std::vector<Experiment>& experiments) {
   const Comparison& first = experiments.front().comparison;
-  fmt::print("mean absolute error (the paper's Eq. 18), mean of experiments A, B, C, and gain over kinematics:\n");
+  fmt::print(
+      "mean absolute error (the paper's Eq. 18), mean of experiments A, B, C, and improvement over kinematics:\n");
   for (std::size_t i = 0; i < first.runs.size(); ++i) {
     double microseconds = 0;
     for (const Experiment& e : experiments) microseconds += e.comparison.runs[i].microseconds_per_step;

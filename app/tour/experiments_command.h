@@ -5,15 +5,18 @@
 namespace halyard {
 
 struct ExperimentsOptions {
-  std::filesystem::path out;         ///< folder
-  std::filesystem::path examples;    ///< empty: the examples that belong to this program
-  std::filesystem::path calibrated;  ///< model file that estimators are run with too; empty: identified here
-  double duration_s = 0;             ///< of each experiment; 0: the scenarios' own
-  bool effect_study = true;          ///< which effect makes how much of the error: most of the time
+  std::filesystem::path out;       ///< folder
+  std::filesystem::path examples;  ///< empty: the examples that belong to this program
+  /// file of a second model, with which the estimators are also run; empty: the command identifies this model
+  std::filesystem::path calibrated;
+  double duration_s = 0;  ///< of each experiment; 0: the durations of the scenarios
+  /// also compute how much each effect contributes to the error; this takes most of the computing time
+  bool effect_study = true;
 };
 
-/// halyard experiments: the paper's experiments A, B and C on the simulated RAVEN-II with the effects that the paper's
-/// robot is likely to have had, with all built-in estimators, beside the errors that the paper measured on the robot.
+/// halyard experiments: repeats the paper's experiments A, B and C in simulation. The simulated RAVEN-II has the
+/// effects that the paper's robot probably had. All built-in estimators are run; their errors are shown beside those
+/// that the paper measured on the robot.
 void run_experiments(const ExperimentsOptions& options);
 
 }  // namespace halyard

@@ -97,8 +97,8 @@ std::string calibration_sentence(const std::vector<Experiment>& experiments) {
   };
   return fmt::format(
       "Calibrated is a model whose numbers were identified with joint sensors on the same robot, as the paper "
-      "identified its couplings: {}. Kinematics gains {} by it (joints 1, 2, 3), without any filter, and the "
-      "filter with it gains {}.",
+      "identified its couplings: {}. Compared with kinematics on the given model, the errors fall by {} "
+      "with calibrated kinematics (joints 1, 2, 3), and by {} with the calibrated filter.",
       changes.empty() ? "the given model itself" : changes, gains("kinematics, calibrated"),
       gains("sr_ukf, calibrated"));
 }
@@ -188,12 +188,13 @@ report::Table mean_error_table(const std::vector<Experiment>& experiments) {
   const Comparison& comparison = first(experiments);
   report::Table table;
   table.caption =
-      "Mean absolute error (the paper's Eq. 18) and gain over kinematics, mean of experiments A, B and C; robot: "
-      "measured";
+      "Mean absolute error (the paper's Eq. 18) and improvement over kinematics, mean of experiments A, B and C; "
+      "robot: measured";
   table.header = {"where", "estimator"};
   table.align = {Align::left, Align::left};
   for (int k = 0; k < comparison.n_joints(); ++k) {
-    table.header.insert(table.header.end(), {fmt::format("joint {} [{}]", k + 1, comparison.units[k].shown), "gain"});
+    table.header.insert(table.header.end(),
+                        {fmt::format("joint {} [{}]", k + 1, comparison.units[k].shown), "improvement"});
     table.align.insert(table.align.end(), {Align::right, Align::right});
   }
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
@@ -222,10 +223,11 @@ report::Table experiment_table(const std::vector<Experiment>& experiments) {
   const std::size_t filter = run_named(experiments, "sr_ukf");
   report::Table table;
   table.caption =
-      "Mean absolute error by joint and experiment, and the filter's gain over kinematics here and on the robot";
+      "Mean absolute error by joint and experiment, and the filter's improvement over kinematics, here and on the "
+      "robot";
   table.header = {"joint", "experiment", "unit"};
   for (const EstimatorRun& run : all.runs) table.header.push_back(run.name);
-  table.header.insert(table.header.end(), {"gain of sr_ukf", "of the paper's UKF, robot"});
+  table.header.insert(table.header.end(), {"improvement by sr_ukf", "by the paper's UKF, robot"});
   table.align.assign(table.header.size(), Align::right);
   std::fill_n(table.align.begin(), 3, Align::left);
   for (int k = 0; k < all.n_joints(); ++k) {
@@ -259,8 +261,8 @@ std::string order_of_gains(const std::vector<Experiment>& experiments) {
   }
   const auto gain = [&](int k) { return mean_gain(experiments, filter, k); };
   return fmt::format(
-      "The filter gains {}, {} and {} (joints 1, 2, 3) here, {}, {} and {} on the robot. The robot's order, joint 1 < "
-      "joint 2 < joint 3, {} in the mean ({}).",
+      "The filter improves joints 1, 2 and 3 by {}, {} and {} here, and by {}, {} and {} on the robot. The robot's "
+      "order, joint 1 < joint 2 < joint 3, {} in the mean ({}).",
       shown_percent(gain(0)), shown_percent(gain(1)), shown_percent(gain(2)), shown_percent(published_gain(0)),
       shown_percent(published_gain(1)), shown_percent(published_gain(2)),
       ordered(gain(0), gain(1), gain(2)) ? "holds" : "does not hold", where);
@@ -298,8 +300,9 @@ report::Page experiments_page(const std::vector<Experiment>& experiments, const 
   page.table(mean_error_table(experiments));
   page.table(experiment_table(experiments));
   page.paragraph(
-      "Of Table III joint 2's gains are known here, that the filter made joint 1's peak error worse in all three "
-      "experiments, and that joint 3's rows of B and C are the same number, which is probably a slip.");
+      "Only a part of the paper's Table III is known here: the improvements of joint 2; that the filter made the peak "
+      "error of joint 1 worse in all three experiments; and that the rows of B and C for joint 3 are equal, which is "
+      "probably an error of the table.");
   add_meaning(page, experiments);
   if (study) add_study(page, *study, first(experiments).units);
   for (const Experiment& experiment : experiments) {

@@ -10,8 +10,8 @@ struct TourOptions {
   std::filesystem::path recordings;  ///< empty: shared/data beside the source tree, which need not exist
 };
 
-/// halyard tour: the paper's experiments, a diagnosis of a bundled log, and the recordings of real rigs where they are
-/// at hand, with one report that leads to all others.
+/// halyard tour: the paper's experiments, a diagnosis of a bundled log, and the recordings of real rigs if they are
+/// available. One report has links to all others.
 void run_tour(const TourOptions& options);
 
 }  // namespace halyard

@@ -11,10 +11,10 @@ namespace halyard {
 struct Rig {
   std::string name;  ///< folder of its results
   std::string title;
-  std::string folder;                 ///< below measured, and below the recordings
+  std::string folder;                 ///< name of the rig's sub-folder, in measured/ and in the folder of recordings
   std::string model;                  ///< file in measured/folder
   std::vector<std::string> training;  ///< files in the recordings' folder
-  std::string holdout;                ///< the same; empty: the last third of the training data
+  std::string holdout;                ///< file in the recordings' folder; empty: the last third of the training data
 };
 
 const std::vector<Rig>& measured_rigs();

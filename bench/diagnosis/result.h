@@ -67,7 +67,7 @@ struct Result {
 bool right_first(const Result& r);
 /// Every effect of the truth was named.
 bool all_named(const Result& r);
-/// The diagnosis says that something is left: unknown, or effects and an unexplained rest.
+/// The diagnosis says that something is left: unknown, or effects and an unexplained residual.
 bool admits_rest(const Result& r);
 /// The truth was named first, or is one of at most two alternatives to what was.
 bool right_or_alternative(const Result& r);

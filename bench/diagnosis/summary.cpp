@@ -303,7 +303,8 @@ std::string question_table(const Trials& t) {
   }
   question("form: effect and joint right, first", "", share(t.strong(Kind::form), right_first));
   question("form: right, or among at most two alternatives", "", share(t.strong(Kind::form), right_or_alternative));
-  question("outside: unknown, or named with an unexplained rest", "90 %", share(t.strong(Kind::outside), admits_rest));
+  question("outside: unknown, or named with an unexplained residual", "90 %",
+           share(t.strong(Kind::outside), admits_rest));
   question("pair: both named", "75 %", share(t.strong(Kind::pair), all_named));
   question("pair: one or both named", "", share(t.strong(Kind::pair), names_one_of_them));
   for (const Kind kind : kEffectKinds)
@@ -312,8 +313,8 @@ std::string question_table(const Trials& t) {
 }
 
 std::string outside_table(const Results& trials) {
-  std::string table =
-      fmt::format("| truth | unknown, or a rest: {} | clean |\n|---|{}|---:|\n", kShareHead, kShareRule);
+  std::string table = fmt::format("| truth | unknown, or an unexplained residual: {} | clean |\n|---|{}|---:|\n",
+                                  kShareHead, kShareRule);
   for (const std::string& name : names_of(trials, right_name)) {
     const Results some = those(trials, [&](const Result& r) { return right_name(r) == name; });
     table += fmt::format("| {} | {} | {} |\n", name, share(some, admits_rest).cells(),

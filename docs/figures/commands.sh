@@ -20,7 +20,7 @@ figure compare seconds
 figure_compare() {
   fenced transcript './run compare examples/raven2/experiment_a.xml --estimators kinematics,ekf,sr_ukf \
     --out out/compare' \
-    '^kinematics|^sr_ukf|joint 2|report:'
+    '^(kinematics|ekf|sr_ukf)|joint 2|report:'
 }
 
 figure diagnose seconds

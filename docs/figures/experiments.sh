@@ -11,7 +11,7 @@ experiment_rows() {
 figure experiments minutes
 figure_experiments() {
   ran "$experiments_command"
-  echo "Mean of A, B and C, from \`$experiments_command\`; gain over kinematics in brackets:"
+  echo "Mean of A, B and C, from \`$experiments_command\`; improvement over kinematics in brackets:"
   echo
   echo '| | joint 1 | joint 2 | joint 3 |'
   echo '|---|---|---|---|'

@@ -17,8 +17,6 @@ before_after() {
   printed "$1" | grep -E "$2" | head -n 1 | sed -E 's/.*: ([^ ]+) -> ([^ ]+) (.*)/\1 \3 | \2 \3/'
 }
 
-verdict() { printed "$1" | grep -E '^(clean|effects:|unknown)' | head -n 1; }
-
 davinci_model='--model examples/measured/davinci_tool/davinci_tool.xml'
 davinci_training='--data recordings/davinci_tool/run_L4_00.csv --data recordings/davinci_tool/run_L4_05.csv'
 davinci_zero() { echo "--column joint_position_1=jaw_pos_rad,sign=-1,offset=$1"; }
@@ -72,11 +70,22 @@ error_row() {
   echo "| $1 | $(before_after "$2" "$3" | sed "s/ | / | $4 | /") | $(named "$2") |"
 }
 
-# What the verdict names, without repeating "effects: ", and the alternatives that the data cannot tell from it.
+# What the verdict names, without "effects: ". Behind each effect are the alternatives that the data cannot distinguish
+# from it.
 named() {
-  local others
-  others=$(printed "$1" | sed -nE 's/^  [^:]+: or (.*)$/\1/p' | paste -sd , | sed 's/,/, /g')
-  echo "$(verdict "$1" | sed 's/^effects: //')${others:+; or: $others}"
+  printed "$1" | awk '
+    /^(clean|effects:|unknown)/ && verdict == "" { verdict = $0; sub(/^effects: /, "", verdict) }
+    match($0, /^  [^:]+: or /) {
+      effect = substr($0, 3, RLENGTH - 7)
+      others[effect] = others[effect] (effect in others && others[effect] != "" ? ", " : "") substr($0, RLENGTH + 1)
+    }
+    END {
+      for (effect in others) {
+        end = index(verdict, effect) + length(effect)
+        verdict = substr(verdict, 1, end - 1) " (alternatives: " others[effect] ")" substr(verdict, end)
+      }
+      print verdict
+    }'
 }
 
 # three_torques FIELD: the errors of the RAVEN-II's motor torques before (1) or after (3) the arrow.
@@ -105,7 +114,8 @@ figure_recordings() {
 | recording | given model | re-zeroed | revised model | named by `./run diagnose` |
 |---|---|---|---|---|
 TABLE
-  error_row 'da Vinci Si tool, jaw angle, three times the speed' "${davinci_run}L4_25.csv --out out/davinci_tool" \
+  error_row 'da Vinci Si tool, jaw angle, at three times the speed of the training runs' \
+    "${davinci_run}L4_25.csv --out out/davinci_tool" \
     '^  joint 1 position' "$(calculate %.3g "$speed * $per_rad") deg"
   error_row 'da Vinci Si tool, jaw angle, another pose of the wrist' \
     "${davinci_run}pitch0_003.csv --out out/davinci_pitch" \
@@ -122,7 +132,7 @@ rig_logs=(
   'clean-1|2|none' 'clean-2|2|none' 'capstan_ratio-j1|1|capstan of joint 1 larger by 5.64 %'
   'coupling-j2|2|coupling C01 larger by 0.035' 'backlash-j2|2|dead zone of ±0.35 mm at joint 2'
   'pulley_friction-j2|2|pulley friction 0.1 at joint 2, half on each side' 'payload|3|payload of 100 g'
-  'hysteresis-j3|3|55 % of cable 3 in sliders that yield' 'stiffness-j3|3|cable 3 with 40 % of its stiffness'
+  'hysteresis-j3|3|55 % of the stiffness of cable 3 in elastic-plastic sliders' 'stiffness-j3|3|cable 3 with 40 % of its stiffness'
 )
 
 rig_log_command() {

@@ -58,7 +58,7 @@ TABLE
     'clean_mistuned: an effect is named'
   trial_row 'every effect in turn: effect and joint right and first' 'each_effect: effect and joint right, first'
   trial_row 'outside the library: `unknown`, or an unexplained residual' \
-    'outside: unknown, or named with an unexplained rest'
+    'outside: unknown, or named with an unexplained residual'
   trial_row 'pairs, both named' 'pair: both named'
   trial_row 'true numbers within their 95 % interval, every effect in turn' \
     'a true parameter lies in its 95 % interval (each_effect)'
@@ -66,7 +66,7 @@ TABLE
 
 figure coverage hours bench
 figure_coverage() {
-  echo 'From `halyard_identify_coverage --runs 50 --seconds 12 --seed 11`, where all other numbers are exact:'
+  echo 'From `halyard_identify_coverage --runs 50 --seconds 12 --seed 11`, where all other parameters are exact:'
   echo
   ran "$bench/halyard_identify_coverage --runs 50 --seconds 12 --seed 11"
   printed "$bench/halyard_identify_coverage --runs 50 --seconds 12 --seed 11"

@@ -2,9 +2,10 @@
 /// A Gaussian filter on an arm. It predicts with the process model, corrects with the motor encoders, and handles gaps
 /// and missing samples of a log.
 ///
-///   start      when every motor has been read once; earlier samples are skipped. Joints: from kinematics, then in
-///              static equilibrium at the motors' readings. Speed: zero at the start of a record, otherwise from two
-///              readings; after a gap the second sample gives it
+///   start      when every motor has been read once; earlier samples are skipped. Joint positions: kinematics gives a
+///              first value, from which the static equilibrium at the motors' readings is computed. Speed: zero at the
+///              start of a record; otherwise it is computed from two readings. After a gap these are the first two
+///              readings after the gap, so the speed is set at the second sample
 ///   a step     the time between two samples, cut into equal pieces of at most `max_step`
 ///   restart    after a gap longer than `restart_gap`, or if the gate has rejected all readings for that long
 ///   NaN        torque: the last one is held; position of a motor: no correction from it
@@ -63,7 +64,7 @@ class ArmFilter final : public Estimator {
 
  private:
   void start(const Sample& sample);
-  /// S at the start at x, where the joints are at q.
+  /// S of the first belief. Its mean is x, in which the joint positions are q.
   Eigen::MatrixXd start_root(const Eigen::VectorXd& x, const Eigen::VectorXd& angle, const Eigen::VectorXd& q,
                              double dt_s) const;
   void predict(double to_time_s);
@@ -85,7 +86,7 @@ class ArmFilter final : public Estimator {
   double refused_since_ = 0;           // time from which the gate has rejected all readings, s; infinite: accepted
   Eigen::VectorXd reading_;            // last of each motor; NaN: none yet
   Eigen::VectorXd torque_, external_;  // held
-  EstimatorReport report_;             // its repaired factors exclude those since repaired_before_
+  EstimatorReport report_;             // counts repaired factors up to repaired_before_ only
   long repaired_before_ = 0;
 };
 

@@ -1,7 +1,8 @@
 #pragma once
 /// A filter that is also corrected by a camera, which sees a marker at the tool with a delay and in some samples only:
 ///
-///   z = p(q(t - L)) + v,  v ~ N(0, σ_c² I)             p: the marker's position by forward kinematics, base frame m
+///   z = p(q(t - L)) + v,  v ~ N(0, σ_c² I)             p: the marker's position by forward kinematics,
+///                                                     in the base frame, m
 ///
 ///   L     `camera_latency`, from exposure to arrival: a marker was seen L before its sample's time               s
 ///   σ_c   `camera_noise`, of each axis                                                                           m
@@ -42,13 +43,14 @@ struct CameraOptions {
 /// Reads the options above.
 CameraOptions read_camera_options(OptionReader& options, const ArmModel& model);
 
-/// The model with an unknown offset of the stretch of each cable, as its last effects.
+/// The model with one more effect for each cable: an unknown offset of its stretch. These effects are the last of the
+/// model.
 ArmModel with_unknown_offsets(const ArmModel& model, const CameraOptions& camera);
 
 class CameraFilter final : public Estimator {
  public:
-  /// augmented: from with_unknown_offsets(); process: of `augmented`. If it has unknown forces, options are from
-  /// with_force_wander().
+  /// `augmented` is a model from with_unknown_offsets(), and `process` is its process model. If `augmented` also has
+  /// unknown forces, `options` must come from with_force_wander().
   CameraFilter(const ArmModel& augmented, std::shared_ptr<const ProcessModel> process, ArmFilterOptions options,
                const CameraOptions& camera, std::unique_ptr<GaussianFilter> filter);
 
@@ -72,7 +74,7 @@ class CameraFilter final : public Estimator {
   CameraOptions camera_;
   double restart_gap_;
   ArmFilter filter_;
-  std::deque<Past> past_;  // from the last sample before the oldest exposure that can still arrive
+  std::deque<Past> past_;  // starts at the last sample before the exposure of the oldest frame that can still arrive
 };
 
 }  // namespace halyard

@@ -1,14 +1,14 @@
 #pragma once
 /// Fixed-lag smoother: estimates the joints with the help of later samples. The square-root unscented filter runs
-/// forwards; a backward pass goes from its newest belief over the predictions p, newest first:
+/// forwards. A backward pass starts at the newest belief and goes back through the predictions p, one by one:
 ///
 ///   x_s = x_0 + G (x_s' - x⁻)                         x_s': smoothed mean at the end of p, x_s: at its start
 ///   S_s = triangular root of [G S_s', V]              x_0, x⁻, G, V: BackwardStep of p (gaussian_filter.h)
 ///
-/// This is P_s = P + G (P_s' - P⁻) Gᵀ without a difference of covariances. Whenever the window of samples spans twice
-/// the lag, it is smoothed and the estimates of its older half are returned. So every estimate uses the samples of at
-/// least `lag` after it, at the cost of two backward steps a sample. A window also ends at a gap that restarts the
-/// filter and at the end of the record.
+/// This is equivalent to P_s = P + G (P_s' - P⁻) Gᵀ, but it never subtracts one covariance from another. Whenever the
+/// window of samples spans twice the lag, it is smoothed and the estimates of its older half are returned. So every
+/// estimate uses all samples up to a time at least `lag` after it. The cost is two backward steps per sample. A window
+/// also ends at a gap that restarts the filter and at the end of the record.
 ///
 /// Source: Särkkä, "Unscented Rauch-Tung-Striebel smoother", IEEE Trans. Automatic Control 53 (2008); the root as in
 /// Kailath, Sayed, Hassibi, "Linear Estimation", chapter 10.
@@ -58,11 +58,12 @@ class FixedLagSmoother final : public Estimator {
   FixedLagSmoother(const ArmModel& model, std::shared_ptr<const ProcessModel> process, const ArmFilterOptions& options,
                    std::unique_ptr<RecordingUkf> filter, double lag_s);
   void append(double time_s);
-  /// Smooths the window and moves the estimates that are `lag_s` older than its newest to due_.
+  /// Smooths the window. Then moves to due_ the estimates that are at least `lag_s` older than the newest sample of the
+  /// window.
   void smooth(double lag_s);
 
   std::shared_ptr<const ProcessModel> process_;
-  RecordingUkf* recorded_;  // filter_'s
+  RecordingUkf* recorded_;  // the filter inside filter_, which owns it
   ArmFilter filter_;
   double lag_s_;
   std::deque<FilteredBelief> window_;

@@ -24,7 +24,7 @@ class DiscreteProcess {
   virtual ~DiscreteProcess() = default;
   /// Every column of X [n x count] becomes f(column).
   virtual void advance(Eigen::MatrixXd& X) const = 0;
-  /// x becomes f(x), F [n x n] becomes ∂f/∂x there.
+  /// F [n x n] becomes ∂f/∂x at the old x; then x becomes f(x).
   virtual void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const = 0;
   /// Name of a state for messages: "joint_rate_2 at 3.1 s".
   virtual std::string name_of(int state) const = 0;
@@ -70,7 +70,7 @@ class GaussianFilter {
   virtual void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) = 0;
   /// The backward step of the last predict(), which started at x_0, S_0, by the triangular root of
   ///
-  ///   [ D  Q_root ]      gives    [ S⁻       0 ]        D: predicted points less their mean, or columns F S_0
+  ///   [ D  Q_root ]      gives    [ S⁻       0 ]        D: predicted points minus their mean, or F S_0
   ///   [ A    0    ]               [ G S⁻   V_root ]     A: the same columns before the prediction
   ///
   BackwardStep backward_step(const Eigen::VectorXd& x_0, const Eigen::MatrixXd& S_0);
@@ -96,7 +96,8 @@ class GaussianFilter {
   void check_finite(const DiscreteProcess& process) const;
   static void check_measurement(const Eigen::VectorXd& nu);
 
-  /// A of backward_step(): the first columns of `predicted_columns_` before the prediction, [n x any].
+  /// Block A of backward_step(), [n x any]: the columns that the prediction turned into the first columns of
+  /// `predicted_columns_`.
   virtual Eigen::MatrixXd columns_before(const Eigen::MatrixXd& S_0) const = 0;
 
   Eigen::VectorXd x_;

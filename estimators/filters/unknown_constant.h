@@ -7,7 +7,8 @@
 ///   σ     standard deviation at the start      [n]  unit of s
 ///   ρ     intensity of the random walk         [n]  unit of s per √second
 ///
-/// It is an effect of the model, but in no library: only filters can use it. Its parameter is σ.
+/// The constant is an effect of the model that is not in the library of effects, so that only filters can use it. The
+/// effect's parameter is σ.
 
 #include <optional>
 #include <string>

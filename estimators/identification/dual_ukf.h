@@ -20,14 +20,15 @@
 ///   Ψ' = cross(X, ω) P_w⁻¹,   Y = cross(y, ω) P_w⁻¹                  [n_states x p], [m x p]
 ///   Ψ = Ψ' - K Y,   cov(z) = Y P_w Yᵀ + S_k
 ///
-/// If a sample would move a weight by more than 0.02 at once, its noise is increased until the step is 0.02. Otherwise
-/// early samples after a wrong start could move w to a region where f behaves differently. α = 0.03.
+/// If a sample would move a weight by more than 0.02, the sample's noise is doubled until the step is at most 0.02.
+/// Otherwise early samples after a wrong start could move w to a region where f behaves differently. α = 0.03.
 ///
-/// Without the derivative of K, this is a recursive prediction-error method. With weights held, the sums over a record
-/// Σ Yᵀ S⁻¹ ν and Σ Yᵀ S⁻¹ Y are the gradient of the innovations' likelihood and its information. The points of held
-/// weights are 0.001 prior deviations apart, so that Y is a derivative. At this spacing a joint at 1 rad/s moves the
-/// joint coupled to it by 0.04 mrad/s, a hundredth of the speed at which friction changes sign (smoothing, 5 mrad/s).
-/// At a spacing of 0.03 it was a quarter, and Y of the RAVEN-II's C01 was up to 1.7 times too large near standstill.
+/// Without the derivative of K, this is a recursive prediction-error method. If the weights are held, the sums over a
+/// record Σ Yᵀ S⁻¹ ν and Σ Yᵀ S⁻¹ Y are the gradient of the innovations' likelihood and its information. The points of
+/// held weights are 0.001 prior deviations apart, so that Y is a derivative. When a joint moves at 1 rad/s, this
+/// spacing of its coupling changes the speed of the coupled joint by 0.04 mrad/s. That is a hundredth of the speed v_s
+/// over which friction changes sign (smoothing, 5 mrad/s). At a spacing of 0.03 it was a quarter of v_s; near
+/// standstill, Y for the RAVEN-II's coupling C01 was then up to 1.7 times too large.
 ///
 /// Sources: Wan and Nelson, "Dual extended Kalman filter methods", and Wan and van der Merwe, "The unscented Kalman
 /// filter", in Haykin (ed.), "Kalman filtering and neural networks", 2001 (recurrent derivatives: 5.3); Ljung, IEEE
@@ -58,7 +59,7 @@ struct EncoderSample : Sample {
   Eigen::VectorXd joint_position;  ///< [n] rad | m; NaN: not measured
 };
 
-/// The innovation of one sample, and its derivative by the weights.
+/// The innovation of one sample, and the derivative of the predicted reading ẑ with respect to the weights.
 struct DualStep {
   Eigen::VectorXd nu;      ///< z - ẑ                [m]; m = 0: nothing was measured, or the filter has just started
   Eigen::MatrixXd S_root;  ///< cov(ν) given w       [m x m]
@@ -69,9 +70,10 @@ struct DualUkfOptions {
   bool learn = true;         ///< false: the weights stay as they are
   double memory = 2;         ///< T_0, s
   double memory_growth = 2;  ///< τ, s
-  double settle = 0.5;       ///< s after a start in which the weights stay and steps are returned without ν
-  double max_step = 0.01;    ///< s
-  double restart_gap = 1;    ///< s
+  /// time after a start, s; during it the weights do not change and update() returns steps without ν
+  double settle = 0.5;
+  double max_step = 0.01;  ///< s
+  double restart_gap = 1;  ///< s
 };
 
 class DualUkf {

@@ -14,7 +14,8 @@ namespace halyard {
 /// for an unknown group or key, or for a parameter that is in no equation of the model.
 std::vector<std::string> identified_keys(const ArmModel& model, const std::string& text);
 
-/// True if the parameter is in an equation of the model. The cable law of the paper's Eq. 6, for one, has no tension.
+/// True if the parameter is in an equation of the model. For example, the cable law of the paper's Eq. 6 contains no
+/// tension.
 bool is_in_equations(const ArmModel& model, const ParameterInfo& info);
 
 }  // namespace halyard

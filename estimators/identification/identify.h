@@ -5,25 +5,28 @@
 /// The dual filter assumes that innovations are independent. Residuals of a real arm are correlated: encoders at rest
 /// are rounded, torque errors last for a while, and errors of other parameters are permanent. So the filter runs over
 /// the log again with weights held at u. The weights are the requested parameters and every other parameter for which
-/// the model states a tolerance. The least-squares sums are taken over blocks b of the log,
+/// the model states a tolerance. The least-squares sums are taken over blocks b of the log. The Gauss-Newton
+/// step for u is repeated until u of the requested parameters converges:
 ///
-///   A_b = Σ Yᵀ S⁻¹ Y,   g_b = Σ Yᵀ S⁻¹ ν,   A = Σ A_b + I,   u ← u + A⁻¹ (Σ g_b - u)          (Gauss and Newton)
+///   A_b = Σ Yᵀ S⁻¹ Y,   g_b = Σ Yᵀ S⁻¹ ν,   A = Σ A_b + I,   u ← u + A⁻¹ (Σ g_b - u)
 ///
-/// until u of the requested parameters converges. Y has to be the innovations' derivative: if it is too large, so is A,
-/// steps end short of Σ g_b = u, and intervals are too narrow. The variance of u has two parts. The first is that of
-/// estimates u_-b that leave out one block each (a block jackknife), so that errors that are constant within a block
-/// count once. The second is the remaining influence of the prior u ~ N(0, I):
+/// Y must be the derivative of the predicted readings (dual_ukf.h). If Y is too large, A is too large as well. The
+/// iteration then stops before Σ g_b = u, and the intervals are too narrow.
+///
+/// The variance of u has two parts. The first is the variance of the estimates u_-b, each of which leaves out one block
+/// (block jackknife). An error that is constant within a block therefore counts only once. The second is the remaining
+/// influence of the prior u ~ N(0, I):
 ///
 ///   var(u) = max( (B-1)/B Σ_b (u_-b - mean)² + |rows of A⁻¹|²,  diag A⁻¹ )
 ///
 /// Intervals use Student's t with B - 1 degrees of freedom. The filter's own covariance A⁻¹ is a lower bound. It is
 /// needed where the disturbances are smaller than the filter assumes: rounding errors of encoders do not average out,
-/// and blocks then agree better with each other than with the truth. (In 50 logs of docs/identification.md's study the
-/// jackknife interval alone contained C01 in 38 of 39 logs, but in 8 of 11 where disturbances were below a quarter of
-/// the filter's assumption.)
+/// and blocks then agree better with each other than with the truth. (The study in docs/identification.md has 50 logs.
+/// In 11 of them, disturbances were below a quarter of what the filter assumes: there the jackknife interval alone
+/// contained the coupling C01 in 8 logs. In the other 39 it did in 38.)
 ///
 /// The other parameters are estimated too, with half their tolerance as prior standard deviation. This keeps the
-/// requested parameters unbiased and their intervals wide enough, for example when a cable's stiffness is off by its
+/// requested parameters unbiased and their intervals wide enough, for example when a cable's stiffness is wrong by its
 /// tolerance. The model keeps its values of the other parameters.
 ///
 /// Sources: Ljung, "System identification", 2nd ed., chapters 7 and 9; Künsch, "The jackknife and the bootstrap for
@@ -53,8 +56,9 @@ struct IdentifiedNumber {
   double value = 0;
   double lower = 0, upper = 0;  ///< 95 % interval
   Convergence convergence = Convergence::converged;
-  std::vector<double> trace;      ///< the dual filter's estimate over Identification::time
-  std::vector<double> trace_std;  ///< its standard deviation; the part gained from data is widened as the interval is
+  std::vector<double> trace;  ///< the dual filter's estimate over Identification::time
+  /// its standard deviation; the part that the data contributed is widened by the same factor as the final interval
+  std::vector<double> trace_std;
 };
 
 /// A parameter that was not requested, but whose estimate is far from the model.

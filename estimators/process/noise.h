@@ -4,15 +4,16 @@
 ///   encoder        σ_z = max(resolution / √12, 1e-5 rad)                                  (rounding is uniform)
 ///   torque         σ_τ = t_f F_c,m                                     N m at the shaft
 ///   joint force    σ_F = t_f F_c,q + t_m max |gravity force|            N m | N
-///   effect states  a random walk of one scale of the state within `effect_noise_time`, 1e4 s. Motors hardly observe
-///                  these states: with 10 s, slow creep gave joint errors of several times the cable's stretch
+///   effect states  a random walk whose standard deviation reaches the typical size of the state after
+///                  `effect_noise_time`, 1e4 s. The motor encoders hardly observe these states. For slow creep (the
+///                  effect `creep`), 10 s gave joint errors of several times the cable's stretch
 ///
 ///   t_f, t_m       the model's relative tolerances of friction and masses
 ///   F_c,m, F_c,q   Coulomb levels of motor and joint
 ///
 /// Model errors persist: the errors of torque and force have a correlation time τ. A filter with white noise needs the
-/// spectral density 2 σ² τ for them. Over a step dt they act as a constant force of that density. Simpson's rule
-/// replaces it by impulses at the start, middle and end of the step:
+/// spectral density 2 σ² τ for them. Over a step dt they are modelled as a constant force whose variance is this
+/// density divided by dt. Simpson's rule replaces it by impulses at the start, middle and end of the step:
 ///
 ///   Q_root = (Δ_dt + 4 Δ_dt/2 + G) / 6,   Δ_h = f_h(x + G) - f_h(x),   G = B σ √(2 τ dt)
 ///
@@ -20,16 +21,18 @@
 ///
 /// Without damping within a step this is [½ dt² ; dt] B σ √(2 τ / dt) (Bar-Shalom, Li, Kirubarajan 2001, section
 /// 6.3.2). That formula is wrong where a cable's damper has a rate λ of the order of 1/dt, because a joint then moves
-/// only 1/λ per unit of speed. For the RAVEN-II's third joint (λ = 2000 1/s, dt = 1 ms) it doubles the deviation.
+/// only 1/λ per unit of speed. For the RAVEN-II's third joint (λ = 2000 1/s, dt = 1 ms) it gives twice the correct
+/// standard deviation.
 ///
 /// τ = 1 ms by default. νᵀS⁻¹ν of the RAVEN-II's three motors in the paper's experiment A, with an expected value of 3:
 ///
-///   τ         exact model   all masses off by their tolerance   all frictions off by their tolerance
-///   0.1 ms    2.8           3.3                                 47 to 96
-///   1 ms      2.6           2.7                                 7 to 12
-///   10 ms     2.4           2.4                                 2.7 to 3.3
+///   τ         exact model   all masses wrong by their tolerance   all frictions wrong by their tolerance
+///   0.1 ms    2.8           3.3                                   47 to 96
+///   1 ms      2.6           2.7                                   7 to 12
+///   10 ms     2.4           2.4                                   2.7 to 3.3
 ///
-/// From 0.1 to 10 ms joint errors grow fourfold with the exact model, and twofold with wrong frictions.
+/// When τ increases from 0.1 to 10 ms, joint errors grow fourfold with the exact model and twofold with wrong
+/// frictions.
 ///
 /// The options below set the levels per joint, as the paper does. With an adaptation time T > 0 the levels adapt to the
 /// record: the standard deviations of motor k's torque and joint k's force are c_k times the levels, and each
@@ -40,9 +43,9 @@
 /// so that the innovations match their predicted covariance (covariance matching, Mehra 1972). Adaptation cannot find
 /// errors that the motors do not observe, such as those of a joint behind a stiff cable.
 ///
-/// The start is at rest in static equilibrium. The stretch x of the cables is uncertain, because their stiffness K is
-/// uncertain and friction may hold the joints off: σ of the stretch is t_s |x| + F_c,q / (√3 K), t_s the model's
-/// relative tolerance of stiffness.
+/// The start is at rest in static equilibrium. The stretch x of the cables is uncertain: their stiffness K is
+/// uncertain, and friction may hold the joints away from equilibrium. So σ of the stretch is t_s |x| + F_c,q / (√3 K),
+/// where t_s is the model's relative tolerance of stiffness.
 
 #include <Eigen/Core>
 #include <vector>

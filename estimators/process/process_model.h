@@ -8,9 +8,9 @@
 ///   z       reading of motor k: q_m + offset + sensor effects                                   [n]  rad
 ///
 /// Friction near standstill is far stiffer than cables, and an unstable step there makes a filter diverge. So the
-/// sub-step h satisfies h |λ| <= 2.2, λ the largest eigenvalue of ∂x'/∂x at standstill. (Runge-Kutta's limit is 2.6 in
-/// its least stable direction.) λ is searched for at home and at the ends of the joints' ranges, both unloaded and
-/// under the motors' full torque in either direction.
+/// sub-step h satisfies h |λ| <= 2.2, where λ is the largest eigenvalue of ∂x'/∂x at standstill. (Runge-Kutta's limit
+/// is 2.6 in its least stable direction.) λ is searched for at home and at the ends of the joints' ranges, both
+/// unloaded and under the motors' full torque in either direction.
 
 #include <Eigen/Core>
 #include <string>
@@ -63,7 +63,7 @@ class ProcessModel {
   /// Every column of X [n_states x count] becomes f(column), eight at a time.
   void advance_many(const Step& step, Eigen::Ref<Eigen::MatrixXd> X) const { advance_many(step, X, lane_kernels()[0]); }
   void advance_many(const Step& step, Eigen::Ref<Eigen::MatrixXd> X, const LaneKernels& kernels) const;
-  /// x becomes f(x), and F the Jacobian there.
+  /// F becomes ∂f/∂x at the old x; then x becomes f(x).
   void advance_with_jacobian(const Step& step, double* x, Eigen::Ref<Eigen::MatrixXd> F) const {
     advance_with_jacobian(step, x, F, lane_kernels()[0]);
   }

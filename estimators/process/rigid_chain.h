@@ -82,8 +82,8 @@ HALYARD_INLINE void inertia_times(const T* I, const T* w, T* out) {
   out[2] = I[4] * w[0] + I[5] * w[1] + I[2] * w[2];
 }
 
-/// Sums the links' forces f and moments m (each about its own frame's origin) down the chain onto
-/// the joints first..n-1.
+/// Sums the forces f and the moments m of the links from the last link to the base, and sets the force on each joint.
+/// Each moment is about the origin of its link's frame.
 template <class T>
 HALYARD_INLINE void forces_to_joints(const ArmParameters<T>& arm, const ChainPose<T>& pose, T f[][3], T m[][3],
                                      T* force) {

@@ -3,8 +3,10 @@
 ///
 ///   F(q) + R_rᵀ λ = 0,   R_r q = s_r
 ///
-///   F     joint force at rest: cables and external load less gravity's holding force    [n]    N m | N
-///   R_r   rows of the path matrix of rigidly driven joints, s_r their motors' travel    [n_rigid x n], m
+///   F     joint force at rest: cables and external load, minus the force that holds
+///         the arm against gravity                                                       [n]    N m | N
+///   R_r   rows of the path matrix that belong to rigidly driven joints                  [n_rigid x n]
+///   s_r   travel of their motors                                                        [n_rigid]  m
 ///   λ     forces of the rigid transmissions                                             [n_rigid]  N
 ///
 /// Solved by pseudo-transient continuation, (M / δ - ∂F/∂q) Δq = F, with a step δ that grows as the force falls. Early

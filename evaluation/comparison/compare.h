@@ -27,7 +27,7 @@ struct Comparison {
   std::string data;              ///< scenario or log, as given
   std::string model;             ///< the estimators' model, as given
   std::string truth_from;        ///< source of the truth; empty: there is none, and no errors
-  double skip_s = 0;             ///< length of the start that errors leave out
+  double skip_s = 0;             ///< duration at the start that is not counted in the errors, s
   std::vector<JointUnit> units;  ///< [n]
   Log truth;                     ///< joint_position, where known
   std::vector<EstimatorRun> runs;
@@ -48,7 +48,8 @@ struct Comparison {
 struct CompareOptions {
   double skip_s = 0.5;
   bool use_joint_torque = false;
-  /// True: the truth is readings of joint sensors, with the sensor errors of the model. False: true joint positions.
+  /// True: the truth is given by readings of joint sensors, which have the sensor errors that the model states. False:
+  /// the truth is given by true joint positions.
   bool truth_is_sensed = false;
   /// True: an estimator that fails leaves a row without numbers. False: its failure is thrown.
   bool keep_going = false;

@@ -13,9 +13,9 @@
 
 namespace halyard {
 
-/// The noise that the filters assume by default (estimators/process/noise.h), in a form that a simulation can draw:
-/// torques and joint forces with the spectral density 2 σ² τ, held over a tick, and encoder noise with the assumed
-/// standard deviation instead of rounding.
+/// The noise that the filters assume by default (σ and τ: estimators/process/noise.h), in a form that a simulation can
+/// draw. Torques and joint forces have the spectral density 2 σ² τ and are held over a tick. Encoder noise with the
+/// assumed standard deviation replaces the rounding.
 TickNoise assumed_noise(const ArmModel& model, double tick_s);
 
 /// One estimator over all runs.
@@ -23,7 +23,8 @@ struct RunsOfEstimator {
   std::string name;
   long failures = 0;  ///< runs in which it failed
   std::string first_failure;
-  std::vector<ErrorStatistics> errors;       ///< [joint] rms: root of the runs' mean square; others: means of the runs
+  /// [joint] rms: root of the mean square over all runs; other statistics: means of the runs' values
+  std::vector<ErrorStatistics> errors;
   std::vector<double> rms_lower, rms_upper;  ///< [joint] 2.5 and 97.5 percentiles of the runs' RMS errors
   Consistency nis;
   std::vector<Consistency> nees;  ///< [joint]

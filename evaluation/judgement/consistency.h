@@ -40,7 +40,8 @@ Consistency consistency_of_runs(std::span<const Consistency> runs);
 struct Whiteness {
   double correlation = 0;  ///< of successive samples, ρ_1
   double with_torque = 0;  ///< largest correlation with the motor's torque, over lags of up to 20 samples
-  double chance = 0;       ///< 95 % bound of both by chance, corrected for 40 tests
+  /// bound that the correlations of white innovations exceed with probability 5 %, corrected for 40 tests
+  double chance = 0;
   bool is_white() const;
 };
 /// innovation, torque: one entry for each sample of the record, NaN where there is none.

@@ -35,7 +35,7 @@ ErrorStatistics error_statistics(std::span<const double> estimate, std::span<con
 /// Relative improvement of the mean absolute error over a baseline: 1 - error / baseline. NaN without a baseline.
 double improvement(const ErrorStatistics& error, const ErrorStatistics& baseline);
 
-/// Index of the first time that is at least skip_s after the first; time.size() if there is none.
+/// Index of the first sample with time >= time[0] + skip_s; time.size() if there is none.
 std::size_t first_counted_sample(std::span<const double> time, double skip_s);
 
 }  // namespace halyard

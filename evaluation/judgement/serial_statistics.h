@@ -11,13 +11,13 @@ namespace halyard {
 /// ρ_l = Σ (x_i - mean)(x_i+l - mean) / Σ (x_i - mean)², l = 0 .. lags. NaN entries do not count.
 std::vector<double> autocorrelation(std::span<const double> x, std::size_t lags);
 
-/// Number of independent samples, N / (1 + 2 Σ ρ_l), at least 1. The sum ends at the first pair of successive lags
-/// whose sum is not positive.
+/// Number of independent samples, N / (1 + 2 Σ ρ_l), at least 1. Σ ρ_l adds pairs of successive lags, and ends before
+/// the first pair with ρ_l + ρ_l+1 <= 0.
 /// Source: Geyer, "Practical Markov chain Monte Carlo", Statistical Science 7 (1992), initial positive sequence.
 double effective_samples(std::span<const double> x);
 
-/// The band that contains 95 % of the means of `dof` squared independent standard normal numbers: quantiles of
-/// χ²(dof) / dof.
+/// The band in which the mean of x_i², i = 1 .. dof, lies with probability 95 % if the x_i are independent standard
+/// normal numbers: quantiles of χ²(dof) / dof.
 std::pair<double, double> chi_square_band(double dof);
 
 /// Ratio of the root mean square of errors a to that of errors b at the same instants, and its 95 % interval.
@@ -32,9 +32,9 @@ struct PairedRatio {
   PairedRatio inverse() const { return {1 / ratio, 1 / upper, 1 / lower, block}; }
 };
 
-/// Circular block bootstrap: blocks of both errors together are drawn with replacement; the interval has percentiles of
-/// 2000 ratios. A block is twice as long as the number of samples that equal one independent sample. Samples where
-/// either error is NaN do not count. NaN without samples.
+/// Circular block bootstrap: blocks are drawn with replacement, the same blocks for both errors. The ends of the
+/// interval are percentiles of 2000 ratios. A block is twice as long as the number of samples that equal one
+/// independent sample. Samples where either error is NaN do not count. NaN without samples.
 /// Source: Politis and Romano, "A circular block-resampling procedure for stationary data" (1992).
 PairedRatio paired_ratio(std::span<const double> a, std::span<const double> b, std::uint64_t seed = 1);
 

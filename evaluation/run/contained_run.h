@@ -14,7 +14,7 @@ namespace halyard {
 /// unless the estimator runs in the calling process.
 ///
 /// The worker is found in the installation or build tree of the calling program or of halyard's libraries. A program
-/// that links halyard statically and is elsewhere gives its path in the environment variable HALYARD_WORKER.
+/// that links halyard statically and is elsewhere gives the worker's path in the environment variable HALYARD_WORKER.
 struct ContainmentOptions {
   double step_limit_s = 10;  ///< longest time for construction, for a step, or for one conformance test
   bool in_process = false;   ///< true: run in the calling process, without time limit; a crash ends that process

@@ -1,6 +1,7 @@
 #pragma once
 /// Contribution of each of a robot's effects to the estimators' errors. Each effect is switched on alone, and switched
-/// off alone. The two answers differ, because effects do not add up.
+/// off alone. The two answers differ, because the error that several effects cause together is not the sum of the
+/// errors that each causes alone.
 
 #include <functional>
 #include <string>
@@ -11,7 +12,7 @@
 
 namespace halyard {
 
-/// A robot with some of its effects, and how the estimators did on it.
+/// A robot with some of its effects, and the estimators' errors on it.
 struct StudiedRobot {
   enum class Has { none, one, all, all_but_one } has = Has::none;
   std::string effect;  ///< for one and all_but_one: the effect, on all joints; kCableLaw: the robot's cable law
@@ -27,7 +28,8 @@ inline constexpr const char* kCableLaw = "cable law";
 struct EffectStudy {
   std::vector<std::string> estimators;
   std::vector<std::string> effects;
-  std::vector<StudiedRobot> robots;  ///< none, each alone, all, all but each
+  /// in this order: without effects; with each effect alone; with all effects; without each effect
+  std::vector<StudiedRobot> robots;
 
   const StudiedRobot& robot(StudiedRobot::Has has, const std::string& effect = "") const;
 };
@@ -38,9 +40,9 @@ std::vector<std::string> effects_of(const std::vector<Scenario>& scenarios, cons
 /// The scenario with only these effects of its robot.
 Scenario with_effects(Scenario scenario, const ArmModel& model, const std::vector<std::string>& effects);
 
-/// Simulates every robot in every scenario, in parallel, and runs the estimators with the model over the logs. Errors
-/// leave out the first skip_s seconds. The result does not depend on the number of threads. progress(fraction) may be
-/// called from any thread. Throws as simulate and run_contained do.
+/// Simulates every robot in every scenario, in parallel, and runs the estimators with the model over the logs. The
+/// first skip_s seconds are not counted in the errors. The result does not depend on the number of threads.
+/// progress(fraction) may be called from any thread. Throws as simulate and run_contained do.
 EffectStudy study_effects(const std::vector<Scenario>& scenarios, const ArmModel& model,
                           const std::vector<std::string>& estimators, double skip_s,
                           const std::function<void(double)>& progress = {});

@@ -1,5 +1,5 @@
 #pragma once
-/// Errors on held-out logs of estimators that get motor signals alone.
+/// Errors of estimators that get motor signals alone, on held-out logs.
 
 #include <string>
 #include <vector>
@@ -13,10 +13,11 @@ namespace halyard {
 struct EstimatorErrors {
   std::vector<double> rms, peak;  ///< empty if it failed
   std::vector<double> time;       ///< s, of the signals below: all logs joined end to end
-  Signals innovation;             ///< [motor] over its predicted deviation, ~ N(0, 1) if the model is right; NaN: none
-  Signals joint_rate;             ///< [n] estimated, rad/s | m/s
-  double mean_nis = 0;            ///< mean of νᵀ S⁻¹ ν / m, ~ 1 if the model is right; 0: no innovations
-  std::string failure;            ///< why it failed
+  /// [motor] divided by its predicted standard deviation, ~ N(0, 1) if the model is right; NaN: none
+  Signals innovation;
+  Signals joint_rate;   ///< [n] estimated, rad/s | m/s
+  double mean_nis = 0;  ///< mean of νᵀ S⁻¹ ν / m, ~ 1 if the model is right; 0: no innovations
+  std::string failure;  ///< why it failed
 };
 /// A log, and the time in s from which its errors count. The samples before that time let the estimator's state settle.
 struct HeldOutLog {

@@ -89,7 +89,7 @@ std::vector<std::string> doubts(const IdentificationStudy& result) {
                                                 deviating[i].value, deviating[i].nominal, deviating[i].unit);
   if (deviating.size() > kNamed) names += fmt::format(" and {} more", deviating.size() - kNamed);
   if (!names.empty())
-    all.push_back("other numbers would move by more than twice their tolerance: " + names +
+    all.push_back("other parameters would move by more than twice their tolerance: " + names +
                   "; this is a sign that the model lacks an effect, which halyard diagnose can find");
   if (!result.identification.converged)
     all.push_back("the estimate still moves after the last pass over the data, and is not where its interval says");

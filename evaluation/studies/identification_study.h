@@ -11,7 +11,8 @@
 
 namespace halyard {
 
-/// An identification, and errors of estimators with motor signals alone, with the given and the identified model.
+/// An identification, and the errors of estimators that get motor signals alone: once with the given model, once with
+/// the identified model.
 struct IdentificationStudy {
   ArmModel given;
   std::string data, holdout;  ///< descriptions of the logs, for reports
@@ -27,12 +28,14 @@ IdentificationStudy study_identification(const ArmModel& model, const std::vecto
                                          const std::function<void(const std::string&, double)>& progress = {});
 
 /// True if the identified values are adopted as the model's. They are rejected if sr_ukf with them fails on the
-/// hold-out. They are also rejected if a joint's RMS error grows by more than a tenth and the product of after / before
-/// over all joints is above 1. Kinematics assumes rigid cables and is not used for this decision.
+/// hold-out. They are also rejected if two conditions hold together: the RMS error of a joint grows by more than a
+/// tenth, and the product of (RMS error after) / (RMS error before) over all joints is above 1. Kinematics assumes
+/// rigid cables and is not used for this decision.
 bool adopted(const IdentificationStudy& study);
 
-/// Reasons to doubt the identified values, one sentence each: other parameters estimated far from the model, no
-/// convergence, joints with larger errors on the hold-out, values that are not adopted. Empty if there are none.
+/// Reasons to doubt the identified values, one sentence each: parameters that were not to be identified have estimates
+/// far from the model's values; the estimate did not converge; joints have larger errors on the hold-out; the values
+/// are not adopted. Empty if there are none.
 std::vector<std::string> doubts(const IdentificationStudy& study);
 
 }  // namespace halyard

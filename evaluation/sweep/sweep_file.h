@@ -20,7 +20,7 @@ namespace halyard {
 ///   model        the estimators' model                         default: the scenario's own model file
 ///   estimators   names or plug-ins, separated by commas        a path is relative to the sweep file
 ///   seed, duration   replace the scenario's                    -, s
-///   skip         length of the start that errors leave out     s, default 0.5
+///   skip         time at the start that errors exclude         s, default 0.5
 ///   parameter    one or more keys, see sweep_parameter.h
 ///   values       or from, to, steps and scale (linear or log)  SI
 ///   factor       true: values multiply those of the model file default false

@@ -8,7 +8,8 @@
 
 namespace halyard {
 
-/// One axis of a grid: parameters of the model that have the same value, or the same factor, at each point.
+/// One axis of a grid: parameters of the model that vary together. At a point of the grid they all have one value, or
+/// one factor.
 struct SweepAxis {
   enum class Target { robot, model, both };
 
@@ -24,7 +25,7 @@ struct SweepAxis {
 };
 
 /// Definition of a sweep, which computes the error of every estimator at every joint for every point of the grid. It
-/// holds all that merging and reporting need, and is stored with the results.
+/// contains everything that merging and reporting need, and is stored with the results.
 struct SweepGrid {
   std::string name;
   std::string id;               ///< equal for equal definitions: only results with equal ids can be merged

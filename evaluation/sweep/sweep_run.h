@@ -29,8 +29,9 @@ struct SweepRunOptions {
 };
 
 /// Computes the shard's cells in parallel and stores each in the folder when it is done. The result does not depend on
-/// the number of jobs. Cells and tables of another sweep are removed from the folder first.
-/// Throws InputError if an estimator cannot be made, and, with resume, if the folder holds another sweep.
+/// the number of jobs. If the folder holds another sweep, its cells and tables are removed first; with `resume`, an
+/// InputError is thrown instead.
+/// Throws InputError also if an estimator cannot be made.
 void run_sweep(const Sweep& sweep, const std::filesystem::path& folder, const SweepRunOptions& options);
 
 }  // namespace halyard

@@ -27,14 +27,15 @@ struct WorkerWatch {
   double step_limit_s = 0;  ///< longest time for the start of the program, or for a step
   /// Called repeatedly with the number of steps that the worker has done.
   std::function<void(long)> step_done = [](long) {};
-  /// Describes for messages where the worker is; `promise`: the one under test.
+  /// Text for messages: what the worker is doing (which step, or which test). `promise`: the promise under test.
   std::function<std::string(long steps, const std::string& promise)> place;
 };
 
 /// Runs the task in a worker and returns the bytes of its result. The worker is killed if this process or the calling
 /// thread ends first.
-/// Throws InputError and std::runtime_error with the message of an exception in the worker, WorkerEnded (`PLACE: what`)
-/// if there is no answer, and std::system_error if the worker cannot be started.
+/// If the worker reports an InputError, throws an InputError with its message; if it reports another exception, throws
+/// a std::runtime_error with its message. Throws WorkerEnded (`PLACE: what`) if there is no answer, and
+/// std::system_error if the worker cannot be started.
 std::string result_of_worker(const WorkerTask& task, const WorkerWatch& watch);
 
 }  // namespace halyard

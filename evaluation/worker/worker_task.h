@@ -29,7 +29,7 @@ struct WorkerTask {
   ArmModel model;                           ///< passed as XML, as to every plug-in
   std::vector<std::string> effect_modules;  ///< for load_effects(), in this order
   std::vector<std::string> plugin_folders;  ///< searched for estimators by name
-  bool kalman = false;                      ///< examine: as a Kalman filter too
+  bool kalman = false;                      ///< for examine: also run the tests for Kalman filters
   bool use_joint_torque = false;            ///< run: EstimateOptions::use_joint_torque
   Log log = {};                             ///< run
 };

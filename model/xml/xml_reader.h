@@ -66,7 +66,8 @@ class XmlElement {
   std::filesystem::path path(std::string_view attribute) const;
   double number(std::string_view attribute, std::string_view unit, Sign sign = Sign::any) const;
   double number_or(std::string_view attribute, double fallback, std::string_view unit, Sign sign = Sign::any) const;
-  /// Numbers between blanks; count 0: one or more. A suffix at the end applies to all of them: "0 0 90 deg".
+  /// Numbers separated by blanks: exactly `count` numbers, or, if count is 0, one or more. A suffix at the end applies
+  /// to all of them: "0 0 90 deg".
   std::vector<double> numbers(std::string_view attribute, std::string_view unit, std::size_t count = 0) const;
   /// The element's own text, <gravity>-9.81 0 0</gravity>, as numbers; throws if it has attributes or children too.
   std::vector<double> text_numbers(std::string_view unit, std::size_t count = 0) const;

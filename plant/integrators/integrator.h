@@ -19,7 +19,8 @@ class Integrator {
   virtual const Eigen::VectorXd& state() const = 0;
 };
 
-/// The plant must outlive the integrator. Error control ignores the energy meters: they use the motion's steps.
+/// The plant must outlive the integrator. Error control ignores the energy meters: only the other states determine the
+/// step size.
 std::unique_ptr<Integrator> make_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,
                                             const Eigen::VectorXd& y);
 

@@ -1,5 +1,6 @@
 #pragma once
-/// The camera's columns of a log: where the marker at the tool was one latency ago, in the rows in which frames arrive.
+/// The camera's columns of a log: where the marker at the tool was one latency earlier, in the rows in which frames
+/// arrive.
 
 #include <random>
 

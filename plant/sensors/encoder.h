@@ -1,5 +1,5 @@
 #pragma once
-/// Encoders: reading = truth + error of the transmission's sensors, rounded to the resolution.
+/// Encoders: reading = truth + sensor error (Transmission::sensor_errors()), rounded to the resolution.
 
 #include <Eigen/Core>
 

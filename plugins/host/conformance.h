@@ -1,5 +1,5 @@
 #pragma once
-/// Conformance tests of estimator plug-ins, for the tests of their authors:
+/// Conformance tests for estimator plug-ins. Authors call them from their own tests:
 ///
 ///   EXPECT_EQ(halyard::conformance_faults("./my_estimator.so", model), std::vector<std::string>());
 
@@ -11,12 +11,13 @@
 
 namespace halyard {
 
-/// Runs the estimator over a synthetic record of 0.2 s: each joint swings about home by 2 % of its range, the motors
-/// follow without cable stretch, without torque. Returns one line for each promise of estimator.h that the estimator
-/// breaks:
+/// Runs the estimator over a synthetic record of 0.2 s. Each joint swings about home by 2 % of its range, the motors
+/// follow without cable stretch, and all motor torques are 0. Returns one line for each promise of estimator.h that the
+/// estimator breaks:
 ///
 ///   - estimates are finite and repeatable, and asking for one changes nothing
-///   - revisions are of samples given so far; after each sample there are at most as many as samples so far
+///   - each revision is of a sample that was already given; after each sample, the number of revisions is at most the
+///     number of samples given so far
 ///   - two instances that run in turn do not disturb each other and give the same numbers to the last bit
 ///   - reset() restarts the estimator; nothing remains of the run before
 ///   - missing samples (also at the start) and gaps do not stop it; a motor without a sample has no innovation
@@ -25,14 +26,14 @@ namespace halyard {
 ///   - an unknown option is refused
 ///   - standard deviations of estimates and innovations are finite and not negative
 ///
-/// Does not test how accurate the estimates are. Throws as make_estimator() if there is no such estimator. Calls
+/// Does not test how accurate the estimates are. Throws as make_estimator() does if there is no such estimator. Calls
 /// trying(promise) before it tests each promise.
 std::vector<std::string> conformance_faults(const std::string& name_or_path, const ArmModel& model,
                                             const std::function<void(const std::string&)>& trying = {});
 
 /// For estimators that are Kalman filters with the noise of noise.h. Compares the estimator with the textbook Kalman
 /// filter in covariance form, on an arm with linear equations: one slider on a cable, without gravity and Coulomb
-/// friction, pushed to and fro for 0.2 s. Returns one line for each difference. Positions must agree within 1e-9 m,
+/// friction, pushed back and forth for 0.2 s. Returns one line for each difference. Positions must agree within 1e-9 m,
 /// standard deviations within 1e-6 (relative).
 std::vector<std::string> kalman_faults(const std::string& name_or_path);
 

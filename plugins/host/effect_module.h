@@ -8,11 +8,12 @@
 
 namespace halyard {
 
-/// Adds the effects of a module to the library, all of them or none. The module stays open until the process ends.
-/// No other thread may read the library meanwhile.
-/// Throws InputError `plugin PATH: what; remedy` for a file that is no module (shared_module.h); a module without the
-/// exported function, built for another interface version, by another compiler or with another layout of types; and
-/// effects that cannot be used: a name that is taken or not valid, too many parameters or states.
+/// Adds the effects of a module to the library, all of them or none. The module stays open until the process ends. No
+/// other thread may read the library while this function runs.
+/// Throws InputError `plugin PATH: what; remedy` if the file is no module (shared_module.h); if the module lacks the
+/// exported function, or was built for another interface version, by another compiler or with another layout of types;
+/// or if an effect cannot be used, because its name is taken or not valid, or because it has too many parameters or
+/// states.
 void load_effects(const std::filesystem::path& path);
 
 /// Absolute paths of the modules that load_effects() has loaded, in the order of loading.

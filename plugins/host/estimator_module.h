@@ -8,9 +8,9 @@ namespace halyard {
 
 class EstimatorModule {
  public:
-  /// Loads the module and checks its table, the interface version first. Throws InputError
-  /// `plugin PATH: what; remedy` as SharedModule does, and for a module without the exported function, built for
-  /// another interface version, or with a table that is too small or lacks an entry.
+  /// Loads the module and checks its table, the interface version first. Throws InputError `plugin PATH: what; remedy`
+  /// as SharedModule does. Throws it also if the module lacks the exported function or was built for another interface
+  /// version, or if its table is too small or lacks an entry.
   explicit EstimatorModule(const std::filesystem::path& path);
 
   const halyard_estimator_table& table() const { return *table_; }

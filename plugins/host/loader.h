@@ -19,7 +19,7 @@ struct PluginInfo {
 };
 
 /// The plug-in folders that exist, in the order in which they are searched: beside the program (../lib/halyard/plugins
-/// and plugins/ of a build), beside halyard's libraries (for programs that live elsewhere), and each folder of the
+/// and plugins/ of a build), beside halyard's libraries (for programs in another place), and each folder of the
 /// environment variable HALYARD_PLUGIN_PATH, separated by ':'.
 std::vector<std::filesystem::path> plugin_folders();
 /// Sets the folders that plugin_folders() returns from now on. For a process that works for another process and must
@@ -33,10 +33,11 @@ std::vector<PluginInfo> find_plugins(std::vector<std::string>* refused = nullptr
 /// The plug-in that make_estimator() uses for a name or path. Throws InputError as make_estimator() does.
 PluginInfo find_plugin(const std::string& name_or_path);
 
-/// An estimator for the model, by the name of a found plug-in or the path of a module (anything with a '/' or ending in
-/// .so). The estimator gets the options that the model has under its name. The module stays open as long as the
-/// estimator lives. Throws InputError with one line for an unknown name (the message lists the known ones), a file that
-/// is no module, a module built for another interface version, or one that refuses the model or its options.
+/// Makes an estimator for the model. name_or_path is the name of a plug-in that find_plugins() lists, or the path of a
+/// module (any text that contains a '/' or ends in .so). The estimator gets the options that the model has under its
+/// name. The module stays open as long as the estimator lives. Throws InputError with one line for an unknown name (the
+/// message lists the known ones), a file that is no module, a module built for another interface version, or one that
+/// refuses the model or its options.
 std::unique_ptr<Estimator> make_estimator(const std::string& name_or_path, const ArmModel& model);
 
 }  // namespace halyard

@@ -31,7 +31,7 @@ class PluginEstimator : public Estimator {
 
  private:
   halyard_sample take(const Sample& sample);
-  /// The checked estimate that `fill`, a function of the table, gives; none if `fill` returns false.
+  /// Calls `fill`, a function of the table, and returns its estimate after the checks; none if `fill` returns false.
   template <class Fill>
   std::optional<Estimate> taken(const Fill& fill) const;
   template <class Call>

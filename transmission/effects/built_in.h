@@ -1,9 +1,9 @@
 #pragma once
-/// Each effect's file ends with this line, which makes the effect that the file defines:
+/// Each effect's file ends with this line. It instantiates the function that creates the file's effect:
 ///
 ///   template std::unique_ptr<const Effect> make_effect<Backlash>();
 ///
-/// library.cpp calls it, so a new effect needs its own file and one line in library.cpp.
+/// library.cpp calls this function, so a new effect needs its own file and one line in library.cpp.
 
 #include "transmission/effect.h"
 
