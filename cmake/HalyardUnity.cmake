@@ -51,7 +51,8 @@ compile_together(halyard_diagnosis judgement
   judgement/false_discovery.cpp judgement/final_fit.cpp judgement/holdout.cpp judgement/judge.cpp
   judgement/likelihood.cpp judgement/name_probability.cpp judgement/paired_t.cpp)
 compile_together(halyard_diagnosis search
-  search/attribution.cpp search/leaps.cpp search/screen.cpp search/starts.cpp)
+  search/attribution.cpp search/candidate_round.cpp search/leaps.cpp search/naming.cpp search/refit.cpp
+  search/screen.cpp search/starts.cpp)
 compile_together(halyard_diagnosis search_space
   search_space/cable.cpp search_space/joint.cpp search_space/motor.cpp search_space/search_space.cpp
   search_space/sensor.cpp)

@@ -29,6 +29,9 @@ struct DecisionRule {
   /// So little of a residual's root mean square is next to nothing.
   double next_to_none = 0.1;
 
+  /// The search ends if no channel has a residual above this many times its floor.
+  double explained_ratio = 1.1;
+
   // Alternatives and probabilities.
 
   /// Two candidates whose gains differ by less than this many standard errors cannot be told apart.

@@ -3,44 +3,69 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <limits>
-#include <optional>
 
-#include "diagnosis/fit/nudged.h"
-#include "diagnosis/judgement/false_discovery.h"
-#include "diagnosis/judgement/name_probability.h"
-#include "diagnosis/search/starts.h"
+#include "diagnosis/search/candidate_round.h"
 #include "model/input_error.h"
 
 namespace halyard {
 namespace {
 
+bool same_name(const PlacedEffect& a, const PlacedEffect& b) { return a.effect == b.effect && a.joint == b.joint; }
+
+/// True for effects of which a joint may have several: pushes, slips, ripples of several orders.
+bool may_repeat(const PlacedEffect& e, const ArmParameters<double>& arm) {
+  const SearchSpace space = search_space(*e.effect, arm, e.joint);
+  return space.order_of_motor_torque || std::ranges::any_of(space.parameters, [](const ParameterSearch& p) {
+           return p.range == SearchRange::record_time;
+         });
+}
+
+[[noreturn]] void refuse(const ArmModel& model) {
+  throw InputError(model.source +
+                   ": cannot be integrated along the measured motion; expected frictions and cables that settle "
+                   "more slowly: take larger smoothing speeds, or less damping");
+}
+
+/// The model without added effects: its parameters refitted within their tolerances.
+struct Baseline {
+  Score nominal_score;
+  Fit fit;
+  Score score;
+};
+
+Baseline baseline(const Evidence& evidence, const ArmModel& model, const Refitter& refitter) {
+  const Hypothesis nominal{model.nominal, model.effects};
+  Baseline b;
+  b.nominal_score = evidence.score(nominal);
+  if (b.nominal_score.finite && refitter.is_usable()) b.fit = refitter.refit(nominal, b.nominal_score);
+  if (!b.fit.usable) refuse(model);
+  b.score = evidence.score(b.fit.hypothesis);
+  return b;
+}
+
 class Search {
  public:
   Search(const Evidence& evidence, const ArmModel& model, const AttributionOptions& options,
-         const std::function<void(const std::string&, double)>& progress)
-      : evidence_(evidence), model_(model), options_(options), progress_(progress), given_(model.effects.size()) {}
+         const SearchProgress& progress)
+      : evidence_(evidence),
+        model_(model),
+        options_(options),
+        progress_(progress),
+        given_(model.effects.size()),
+        refitter_(evidence, model, given_),
+        baseline_(baseline(evidence, model, refitter_)),
+        judge_(evidence, model, refitter_.numbers(), baseline_.score.mean_square) {}
 
   Attribution run() {
-    const Hypothesis nominal{model_.nominal, model_.effects};
-    say("nominal model", 0);
-    result_.nominal_score = evidence_.score(nominal);
-    if (result_.nominal_score.finite && keep_sensitive_numbers(nominal))
-      result_.baseline = refit(nominal, result_.nominal_score);
-    if (!result_.baseline.usable)
-      throw InputError(model_.source +
-                       ": cannot be integrated along the measured motion; expected frictions and cables that settle "
-                       "more slowly: take larger smoothing speeds, or less damping");
-    result_.baseline_score = evidence_.score(result_.baseline.hypothesis);
-    judge_.emplace(evidence_, model_, numbers_, result_.baseline_score.mean_square);
-
-    Found current{result_.baseline, result_.baseline_score};
+    Found current{baseline_.fit, baseline_.score};
     for (int round = 0; round < options_.most_effects; ++round)
       if (!add_one(current)) break;
+    if (result_.namings.size() > 1) revise_names(current);
     remove_idle(current);
-
+    result_.baseline = baseline_.fit;
+    result_.nominal_score = baseline_.nominal_score;
+    result_.baseline_score = baseline_.score;
     result_.final_fit = current.fit;
     result_.final_score = current.score;
     return std::move(result_);
@@ -53,325 +78,131 @@ class Search {
     Scored scored() const { return {fit.hypothesis, score}; }
   };
 
-  /// What all candidates of a round start from.
-  struct Ground {
-    Scored without;                            ///< what they are judged against
-    Hypothesis from;                           ///< where their fits set out
-    std::vector<FitParameter> numbers;         ///< baseline numbers that no effect so far speaks for
-    std::vector<std::vector<double>> columns;  ///< sensitivities to them
-    std::vector<double> scale;                 ///< [2n] of the residual
-    std::string round;
+  /// The effect that a round names, if any.
+  struct Won {
+    Fit fit;
+    Naming naming;
   };
-
-  void say(const std::string& what, double fraction) const {
-    if (progress_) progress_(what, fraction);
-  }
-
-  /// Calls one(i) for all i < n, side by side.
-  template <class One>
-  void each(const std::string& what, std::size_t n, const One& one) const {
-    std::atomic<std::size_t> done{0};
-    tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
-      one(i);
-      say(what, static_cast<double>(++done) / static_cast<double>(n));
-    });
-  }
-
-  /// A number whose whole tolerance moves no channel by a tenth of its floor cannot be learnt from these data. False if
-  /// one cannot be told.
-  bool keep_sensitive_numbers(const Hypothesis& nominal) {
-    const std::vector<FitParameter> all = baseline_parameters(model_);
-    const auto columns = sensitivities(evidence_, nominal, all);
-    if (columns.size() < all.size()) return false;
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      std::vector<double> change = columns[i];
-      for (double& x : change) x = x * (all[i].upper - all[i].nominal) / all[i].scale;
-      if (evidence_.exceeds_floor(change, 0.1)) numbers_.push_back(all[i]);
-    }
-    return true;
-  }
-
-  /// Baseline numbers that no effect of the hypothesis speaks for, the past of its effects, and the parameters of the
-  /// added ones.
-  std::vector<FitParameter> all_parameters(const Hypothesis& h) const {
-    std::vector<FitParameter> all;
-    for (const FitParameter& b : numbers_) {
-      bool covered = false;
-      for (std::size_t e = given_; e < h.effects.size(); ++e)
-        covered = covered || effect_covers(h.effects[e], model_.nominal, b);
-      if (!covered) all.push_back(b);
-    }
-    for (std::size_t e = 0; e < h.effects.size(); ++e)
-      for (const FitParameter& p : effect_parameters(evidence_, h, model_.nominal, static_cast<int>(e)))
-        if (e >= given_ || is_past(p)) all.push_back(p);
-    return all;
-  }
-
-  /// A number that an effect speaks for goes back to the model's value.
-  Hypothesis with_effect(Hypothesis h, const PlacedEffect& effect, const std::vector<double>& past = {}) const {
-    h.effects.push_back(effect);
-    for (std::size_t i = 0; i < past.size(); ++i) h.set_past_state(h.effects.size() - 1, i, past[i]);
-    for (const FitParameter& b : baseline_parameters(model_))
-      if (effect_covers(effect, model_.nominal, b)) set_parameter(h, b, b.nominal);
-    return h;
-  }
-
-  /// A fit of all numbers under way.
-  struct Refit {
-    Hypothesis at;
-    Score score;  ///< there; before the first pass of whatever the first weights are to come from
-    Fit best = {};
-    double last = std::numeric_limits<double>::infinity();  ///< Σ ln of the mean squares after the last pass
-    bool settled = false;
-  };
-
-  /// Passes until it no longer helps, at most so many: each weighs the channels by what the last one left.
-  void go_on(Refit& r, int passes) const {
-    constexpr double kWorthAPass = 0.02;
-    for (; passes > 0 && !r.settled; --passes) {
-      r.settled = true;
-      const std::vector<double> scale = channel_scale(evidence_, r.score.fit_mean_square);
-      r.at = nudged(evidence_, r.at, given_, model_.nominal, scale);
-      const std::vector<FitParameter> parameters = all_parameters(r.at);
-      std::vector<FitParameter> numbers;
-      for (const FitParameter& p : parameters)
-        if (p.effect < 0) numbers.push_back(p);
-      const auto columns = sensitivities(evidence_, r.at, numbers);
-      if (columns.empty() && !numbers.empty()) return;
-      FitOptions options;
-      options.frozen_baseline = true;
-      const Fit f = fit(evidence_, r.at, parameters, scale, options, columns);
-      if (!f.usable) return;
-      r.score = evidence_.score(f.hypothesis);
-      if (!r.score.finite) return;
-      double now = 0;
-      for (int c = 0; c < evidence_.channels(); ++c)
-        if (evidence_.has_channel(c))
-          now += std::log(r.score.fit_mean_square[c] + evidence_.floor()[c] * evidence_.floor()[c]);
-      if (now < r.last) r.best = f;
-      r.at = f.hypothesis;
-      r.settled = now > r.last - kWorthAPass;
-      r.last = now;
-    }
-  }
-
-  Fit refit(const Hypothesis& h, const Score& before) const {
-    Refit r{h, before};
-    go_on(r, kRule.most_passes);
-    return r.best;
-  }
 
   /// Fits again from the model's own numbers, which on the way were bent by what was missing; keeps the better fit.
   void fit_afresh(Found& current) const {
     const Hypothesis& h = current.fit.hypothesis;
-    Found afresh{refit({model_.nominal, h.effects, h.past}, current.score), {}};
+    Found afresh{refitter_.refit({model_.nominal, h.effects, h.past}, current.score), {}};
     if (!afresh.fit.usable) return;
     afresh.score = evidence_.score(afresh.fit.hypothesis);
-    if (afresh.score.finite && judge_->cost(afresh.scored()) < judge_->cost(current.scored()))
+    if (afresh.score.finite && judge_.cost(afresh.scored()) < judge_.cost(current.scored()))
       current = std::move(afresh);
   }
 
   std::vector<PlacedEffect> candidates(const Hypothesis& h) const {
     std::vector<PlacedEffect> all = all_candidates(model_.nominal);
     std::erase_if(all, [&](const PlacedEffect& candidate) {
-      return std::any_of(h.effects.begin(), h.effects.end(), [&](const PlacedEffect& e) {
-        return e.effect == candidate.effect && e.joint == candidate.joint;
-      });
+      return !may_repeat(candidate, model_.nominal) &&
+             std::ranges::any_of(h.effects, [&](const PlacedEffect& e) { return same_name(e, candidate); });
     });
     return all;
-  }
-
-  /// Of each trial. One that could not be named counts among the tests, and not among what they find.
-  std::vector<bool> convincing(const std::vector<Trial>& trials) const {
-    std::vector<double> p;
-    for (const Trial& t : trials) {
-      const bool nameable = t.is_judged() && t.gain > 0 && !t.at_bound && !t.is_refit && t.matters;
-      if (t.is_fitted) p.push_back(nameable ? t.p_value : 1.0);
-    }
-    const std::vector<double> rate = false_discovery_rates(p);
-    std::vector<bool> is(trials.size(), false);
-    for (std::size_t i = 0, next = 0; i < trials.size(); ++i)
-      if (trials[i].is_fitted) is[i] = rate[next++] < options_.significance;
-    return is;
   }
 
   /// True if no channel has a residual left above its floor.
   bool explained(const Score& score) const {
     for (int c = 0; c < evidence_.channels(); ++c) {
-      const double enough = std::pow(evidence_.floor()[c], 2);
+      const double enough = std::pow(kRule.explained_ratio * evidence_.floor()[c], 2);
       if (evidence_.has_channel(c) && (score.mean_square[c] > enough || score.fit_mean_square[c] > enough))
         return false;
     }
     return true;
   }
 
-  /// One round: a quick look at every candidate, a full fit of the best, and the best of those.
-  bool add_one(Found& current) {
-    if (explained(current.score)) return false;
-    Ground ground{current.scored(), current.fit.hypothesis, {}, {}, {}, {}};
-    ground.round = " of round " + std::to_string(result_.rounds.size() + 1);
-    ground.scale = channel_scale(evidence_, current.score.fit_mean_square);
-    // Before any effect is named the baseline's refit is bent by what is missing: the look starts at the model's
-    // numbers.
-    if (result_.rounds.empty()) ground.from = {model_.nominal, model_.effects, current.fit.hypothesis.past};
-    for (const FitParameter& p : all_parameters(ground.from))
-      if (p.effect < 0) ground.numbers.push_back(p);
-    ground.columns = sensitivities(evidence_, ground.from, ground.numbers);
-    if (ground.columns.empty() && !ground.numbers.empty()) return false;
-
-    Round round;
-    round.trials = look(ground, candidates(current.fit.hypothesis));
-    const std::vector<Fit> fits = fit_leaders(ground, round.trials);
-    const std::vector<bool> convincing = this->convincing(round.trials);
+  /// All candidates compete for the place after the effects of `without`.
+  std::optional<Won> compete(const Scored& without, const Hypothesis& from, const std::vector<PlacedEffect>& candidates,
+                             const std::string& name) {
+    const CandidateRound round(evidence_, model_, refitter_, judge_, without, from, name, progress_);
+    Round told;
+    told.trials = round.look(candidates);
+    const std::vector<Fit> fits = round.fit_leaders(told.trials);
+    const std::vector<bool> is_convincing = convincing(told.trials, options_.significance);
     std::vector<std::size_t> able;
     for (std::size_t i = 0; i < fits.size(); ++i)
-      if (convincing[i] && fits[i].usable) able.push_back(i);
-    if (!able.empty()) {
-      const std::size_t named = choose(ground.without, round.trials, able);
-      current.fit = fits[named];
-      current.score = evidence_.score(current.fit.hypothesis);
-      if (!result_.rounds.empty()) fit_afresh(current);
-      round.accepted = true;
-      std::swap(round.trials[0], round.trials[named]);
+      if (is_convincing[i] && fits[i].usable) able.push_back(i);
+    const Competition competition(evidence_, model_, judge_, without, told.trials);
+    std::optional<Won> won;
+    if (able.empty()) {
+      result_.no_effect = competition.weight_of_no_effect();
+    } else {
+      const Competition::Choice choice = competition.choose(able);
+      won = {fits[choice.named], competition.naming(choice)};
+      told.accepted = true;
+      std::swap(told.trials[0], told.trials[choice.named]);
     }
-    if (able.empty()) result_.no_effect = weight_of_no_effect(ground.without, round.trials);
-    result_.rounds.push_back(std::move(round));
-    return !able.empty();
+    result_.rounds.push_back(std::move(told));
+    return won;
   }
 
-  /// A trial of each candidate, the best first.
-  std::vector<Trial> look(const Ground& ground, const std::vector<PlacedEffect>& all) const {
-    const Screen screen(evidence_, ground.from, ground.columns, ground.scale);
-    std::vector<Start> starts(all.size());
-    each("candidates" + ground.round, all.size(), [&](std::size_t i) {
-      starts[i] = best_start(evidence_, screen, with_effect(ground.from, all[i]), model_.nominal);
-    });
-    std::vector<std::size_t> fitted;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (starts[i].promise >= kRule.promise) fitted.push_back(i);
-    std::ranges::stable_sort(fitted, {}, [&](std::size_t i) { return starts[i].left; });
-    if (fitted.size() > kRule.most_fitted) fitted.resize(kRule.most_fitted);
-
-    std::vector<Trial> trials;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      trials.push_back(unusable(all[i]));
-      trials.back().promising = starts[i].promise >= kRule.promise;
-      trials.back().is_fitted = false;
-    }
-    each("fits" + ground.round, fitted.size(), [&](std::size_t f) {
-      const std::size_t i = fitted[f];
-      trials[i] = quick_look(ground, starts[i].hypothesis, all[i]);
-    });
-    std::ranges::stable_sort(trials, std::ranges::greater{}, &Trial::gain);
-    return trials;
+  /// One round with all candidates.
+  bool add_one(Found& current) {
+    if (explained(current.score)) return false;
+    // Before any effect is named the refitted baseline is distorted by what is missing: candidates start at the model's
+    // own parameters.
+    const Hypothesis from = result_.rounds.empty()
+                                ? Hypothesis{model_.nominal, model_.effects, current.fit.hypothesis.past}
+                                : current.fit.hypothesis;
+    const bool is_first = result_.rounds.empty();
+    const auto won = compete(current.scored(), from, candidates(current.fit.hypothesis),
+                             "round " + std::to_string(result_.rounds.size() + 1));
+    if (!won) return false;
+    current = {won->fit, evidence_.score(won->fit.hypothesis)};
+    result_.namings.push_back(won->naming);
+    if (!is_first) fit_afresh(current);
+    return true;
   }
 
-  Trial quick_look(const Ground& ground, const Hypothesis& start, const PlacedEffect& effect) const {
-    std::vector<FitParameter> parameters;
-    std::vector<std::vector<double>> kept;
-    for (std::size_t i = 0; i < ground.numbers.size(); ++i) {
-      if (effect_covers(effect, model_.nominal, ground.numbers[i])) continue;
-      parameters.push_back(ground.numbers[i]);
-      kept.push_back(ground.columns[i]);
-    }
-    for (const FitParameter& p : all_parameters(start))
-      if (p.effect >= 0) parameters.push_back(p);
-    FitOptions options;
-    options.iterations = 6;
-    options.cost_tolerance = 3e-4;
-    options.frozen_baseline = true;
-    const Fit f = fit(evidence_, start, parameters, ground.scale, options, kept);
-    return f.usable ? judge_->trial(f.hypothesis, ground.without, effect) : unusable(effect);
-  }
-
-  /// The quick look takes the baseline's sensitivities once; for the leaders they are renewed until nothing changes.
-  /// Returns their fits, in the order of the trials, which are judged anew.
-  std::vector<Fit> fit_leaders(const Ground& ground, std::vector<Trial>& trials) const {
-    std::vector<Refit> refits;
-    for (std::size_t i = 0; i < std::min(kRule.leaders, trials.size()); ++i)
-      refits.push_back({with_effect(ground.from, trials[i].effect, trials[i].past), ground.without.score});
-    const auto go_on_with = [&](const std::string& what, double share, int passes) {
-      double best = 0;
-      for (std::size_t i = 0; i < refits.size(); ++i) best = std::max(best, trials[i].gain);
-      each(what + ground.round, refits.size(), [&](std::size_t i) {
-        Trial& t = trials[i];
-        if (!t.is_judged() || !(t.gain > share * best) || refits[i].settled) return;
-        go_on(refits[i], passes);
-        const PlacedEffect effect = t.effect;
-        t = refits[i].best.usable ? judge_->trial(refits[i].best.hypothesis, ground.without, effect) : unusable(effect);
+  /// Each name was given while other effects were still missing. All candidates that had gained something compete for
+  /// its place once more, beside the other effects.
+  void revise_names(Found& current) {
+    const std::vector<PlacedEffect> pool = gainers();
+    for (std::size_t i = 0; i + 1 < result_.namings.size(); ++i) {
+      const PlacedEffect old = current.fit.hypothesis.effects[given_];
+      const Hypothesis others = without_effect(current.fit.hypothesis, given_);
+      const Fit refitted = refitter_.refit(others, current.score);
+      if (!refitted.usable) continue;
+      const Found without{refitted, evidence_.score(refitted.hypothesis)};
+      std::vector<PlacedEffect> rivals = candidates(others);
+      std::erase_if(rivals, [&](const PlacedEffect& r) {
+        return std::ranges::none_of(pool, [&](const PlacedEffect& p) { return same_name(p, r); });
       });
-    };
-    go_on_with("best candidates", kRule.leads, kRule.first_passes);
-    go_on_with("finalists", kRule.still_leads, kRule.most_passes - kRule.first_passes);
-    std::vector<Fit> fits;
-    for (const Refit& r : refits) fits.push_back(r.best);
-    return fits;
-  }
-
-  /// Which of the convincing leaders is named; the others that cannot be told from the best become its alternatives.
-  std::size_t choose(const Scored& without, const std::vector<Trial>& trials, const std::vector<std::size_t>& able) {
-    const std::size_t best = *std::ranges::max_element(able, {}, [&](std::size_t i) { return trials[i].gain; });
-    const Likelihood ln_without = log_likelihood(evidence_, without.score, squared_floors(evidence_));
-    std::vector<std::size_t> alike = {best};
-    for (const std::size_t i : able) {
-      if (i == best) continue;
-      const Paired p = paired(evidence_, trials[best].log_likelihood, trials[i].log_likelihood);
-      if (shared_gain(trials[best].log_likelihood, trials[i].log_likelihood, ln_without) < kRule.shared_gain) continue;
-      if (p.t < kRule.tell_apart || p.sum < 2 * kRule.tell_apart * kRule.tell_apart) alike.push_back(i);
+      const auto won =
+          compete(without.scored(), without.fit.hypothesis, rivals, "the revision of name " + std::to_string(i + 1));
+      // The new name comes last: after as many revisions the names are in their first order.
+      Found revised = won ? Found{won->fit, evidence_.score(won->fit.hypothesis)} : without;
+      const bool keeps = won && same_name(won->fit.hypothesis.effects.back(), old) &&
+                         judge_.cost(current.scored()) < judge_.cost(revised.scored());
+      if (keeps) revised = moved_back(current);
+      current = std::move(revised);
+      std::rotate(result_.namings.begin(), result_.namings.begin() + 1, result_.namings.end());
+      if (won) result_.namings.back() = won->naming;
+      else result_.namings.pop_back();
+      if (!won) break;
     }
-    // Of those that cannot be told apart the best is named; of those that are as good one that only changes the
-    // model's own numbers, and then the one with the fewest numbers of its own.
-    const auto simplicity = [&](std::size_t i) {
-      const PlacedEffect& e = trials[i].effect;
-      return std::pair(e.effect->stages() != 0, e.effect->parameters(model_.nominal, e.joint).size());
-    };
-    std::vector<std::size_t> as_good = alike;
-    std::erase_if(as_good, [&](std::size_t i) { return trials[i].gain < trials[best].gain - kRule.by_chance; });
-    const std::size_t named = *std::ranges::min_element(as_good, {}, simplicity);
-    result_.namings.push_back(naming(without, trials, named, alike));
-    return named;
   }
 
-  /// The weights of a name and of those that compete with it: candidates that explain the same part of the residual.
-  Naming naming(const Scored& without, const std::vector<Trial>& trials, std::size_t named,
-                const std::vector<std::size_t>& alike) const {
-    constexpr double kWorthTelling = 0.01;
-    const Likelihood ln_without = log_likelihood(evidence_, without.score, squared_floors(evidence_));
-    std::vector<std::size_t> rivals = {named};
-    for (std::size_t i = 0; i < trials.size(); ++i) {
-      const Trial& t = trials[i];
-      if (i == named || !t.is_judged() || t.at_bound || t.is_refit || t.gain <= 0) continue;
-      if (shared_gain(trials[named].log_likelihood, t.log_likelihood, ln_without) >= kRule.shared_gain)
-        rivals.push_back(i);
-    }
-    const std::vector<double> weight = weights(without, ln_without, trials, rivals);
-    Naming naming;
-    naming.weight = weight[0];
-    for (std::size_t r = 1; r < rivals.size(); ++r)
-      if (weight[r] > kWorthTelling || std::ranges::count(alike, rivals[r]) > 0)
-        naming.alternatives.push_back({trials[rivals[r]].effect, weight[r], false});
-    std::ranges::stable_sort(naming.alternatives, std::ranges::greater{}, &Alternative::probability);
-    return naming;
+  /// The same fit with its first added effect as the last.
+  Found moved_back(Found f) const {
+    const auto from = static_cast<std::ptrdiff_t>(given_);
+    Hypothesis& h = f.fit.hypothesis;
+    h.past.resize(h.effects.size());
+    std::rotate(h.effects.begin() + from, h.effects.begin() + from + 1, h.effects.end());
+    std::rotate(h.past.begin() + from, h.past.begin() + from + 1, h.past.end());
+    const Fit again = refitter_.refit(h, f.score);
+    return again.usable ? Found{again, evidence_.score(again.hypothesis)} : f;
   }
 
-  double weight_of_no_effect(const Scored& without, const std::vector<Trial>& trials) const {
-    std::vector<std::size_t> rivals;
-    for (std::size_t i = 0; i < trials.size(); ++i)
-      if (trials[i].is_judged() && !trials[i].at_bound && !trials[i].is_refit && trials[i].matters) rivals.push_back(i);
-    const Likelihood ln_without = log_likelihood(evidence_, without.score, squared_floors(evidence_));
-    return weights(without, ln_without, trials, rivals).back();
-  }
-
-  /// Of the rivals, then of no effect.
-  std::vector<double> weights(const Scored& without, const Likelihood& ln_without, const std::vector<Trial>& trials,
-                              const std::vector<std::size_t>& rivals) const {
-    std::vector<Competitor> all;
-    for (const std::size_t i : rivals) {
-      const PlacedEffect& e = trials[i].effect;
-      all.push_back({&trials[i].log_likelihood, static_cast<int>(e.effect->parameters(model_.nominal, e.joint).size()),
-                     trials[i].stretch});
-    }
-    return name_weights(evidence_, all, {&ln_without, 0, judge_->stretch(without.hypothesis)});
+  /// Candidates that gained in any round.
+  std::vector<PlacedEffect> gainers() const {
+    std::vector<PlacedEffect> all;
+    for (const Round& round : result_.rounds)
+      for (const Trial& t : round.trials)
+        if (t.usable && t.gain > 0) all.push_back(t.effect);
+    return all;
   }
 
   /// Each effect is tried for removal: one that a later one made idle goes.
@@ -381,7 +212,7 @@ class Search {
       std::vector<Fit> without(n, result_.baseline);
       if (n > 1)
         tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
-          without[i] = refit(without_effect(current.fit.hypothesis, given_ + i), current.score);
+          without[i] = refitter_.refit(without_effect(current.fit.hypothesis, given_ + i), current.score);
         });
       std::size_t gone = n;
       Found left;
@@ -389,7 +220,7 @@ class Search {
         if (!without[i].usable) continue;
         left = {without[i], evidence_.score(without[i].hypothesis)};
         const int place = static_cast<int>(given_ + i);
-        if (left.score.finite && !judge_->is_needed(current.scored(), left.scored(), place, options_.significance))
+        if (left.score.finite && !judge_.is_needed(current.scored(), left.scored(), place, options_.significance))
           gone = i;
       }
       if (gone == n) break;
@@ -401,10 +232,11 @@ class Search {
   const Evidence& evidence_;
   const ArmModel& model_;
   const AttributionOptions& options_;
-  const std::function<void(const std::string&, double)>& progress_;
-  std::size_t given_;                  ///< effects that the model came with
-  std::vector<FitParameter> numbers_;  ///< baseline numbers that the data can tell something of
-  std::optional<Judge> judge_;         ///< from the baseline's refit on
+  const SearchProgress& progress_;
+  std::size_t given_;  ///< effects that the model came with
+  Refitter refitter_;
+  Baseline baseline_;
+  Judge judge_;
   Attribution result_;
 };
 
@@ -423,7 +255,9 @@ std::vector<PlacedEffect> all_candidates(const ArmParameters<double>& arm) {
 
 Attribution attribute(const Evidence& evidence, const ArmModel& model, const AttributionOptions& options,
                       const std::function<void(const std::string&, double)>& progress) {
-  return Search(evidence, model, options, progress).run();
+  const SearchProgress say = progress ? progress : [](const std::string&, double) {};
+  say("nominal model", 0);
+  return Search(evidence, model, options, say).run();
 }
 
 }  // namespace halyard

@@ -6,8 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "diagnosis/diagnose.h"
-#include "diagnosis/judgement/judge.h"
+#include "diagnosis/search/naming.h"
 
 namespace halyard {
 
@@ -15,12 +14,6 @@ namespace halyard {
 struct Round {
   std::vector<Trial> trials;  ///< the added candidate first, then in the order of the gain of their quick fits
   bool accepted = false;      ///< the first trial was added
-};
-
-/// How an effect came to its name.
-struct Naming {
-  double weight = 0;                      ///< among the candidates of its round, see name_probability.h
-  std::vector<Alternative> alternatives;  ///< with their weights as probabilities
 };
 
 struct Attribution {

@@ -1,0 +1,104 @@
+#include "diagnosis/search/candidate_round.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "diagnosis/search/starts.h"
+
+namespace halyard {
+
+CandidateRound::CandidateRound(const Evidence& evidence, const ArmModel& model, const Refitter& refitter,
+                               const Judge& judge, Scored without, Hypothesis from, const std::string& name,
+                               const SearchProgress& progress)
+    : evidence_(evidence),
+      model_(model),
+      refitter_(refitter),
+      judge_(judge),
+      without_(std::move(without)),
+      from_(std::move(from)),
+      scale_(channel_scale(evidence, without_.score.fit_mean_square)),
+      name_(name),
+      progress_(progress) {
+  for (const FitParameter& p : refitter_.parameters(from_))
+    if (p.effect < 0) numbers_.push_back(p);
+  columns_ = sensitivities(evidence_, from_, numbers_);
+}
+
+void CandidateRound::each(const std::string& what, std::size_t n, const std::function<void(std::size_t)>& one) const {
+  std::atomic<std::size_t> done{0};
+  tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+    one(i);
+    progress_(what + " of " + name_, static_cast<double>(++done) / static_cast<double>(n));
+  });
+}
+
+std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candidates) const {
+  if (columns_.empty() && !numbers_.empty()) return {};
+  const Screen screen(evidence_, from_, columns_, scale_);
+  std::vector<Start> starts(candidates.size());
+  each("candidates", candidates.size(), [&](std::size_t i) {
+    starts[i] = best_start(evidence_, screen, refitter_.with_effect(from_, candidates[i]), model_.nominal);
+  });
+  std::vector<std::size_t> fitted;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (starts[i].promise >= kRule.promise) fitted.push_back(i);
+  std::ranges::stable_sort(fitted, {}, [&](std::size_t i) { return starts[i].left; });
+  if (fitted.size() > kRule.most_fitted) fitted.resize(kRule.most_fitted);
+
+  std::vector<Trial> trials;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    trials.push_back(unusable(candidates[i]));
+    trials.back().promising = starts[i].promise >= kRule.promise;
+    trials.back().is_fitted = false;
+  }
+  each("fits", fitted.size(), [&](std::size_t f) {
+    const std::size_t i = fitted[f];
+    trials[i] = quick_look(starts[i].hypothesis, candidates[i]);
+  });
+  std::ranges::stable_sort(trials, std::ranges::greater{}, &Trial::gain);
+  return trials;
+}
+
+Trial CandidateRound::quick_look(const Hypothesis& start, const PlacedEffect& effect) const {
+  std::vector<FitParameter> parameters;
+  std::vector<std::vector<double>> kept;
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    if (effect_covers(effect, model_.nominal, numbers_[i])) continue;
+    parameters.push_back(numbers_[i]);
+    kept.push_back(columns_[i]);
+  }
+  for (const FitParameter& p : refitter_.parameters(start))
+    if (p.effect >= 0) parameters.push_back(p);
+  FitOptions options;
+  options.iterations = 6;
+  options.cost_tolerance = 3e-4;
+  options.frozen_baseline = true;
+  const Fit f = fit(evidence_, start, parameters, scale_, options, kept);
+  return f.usable ? judge_.trial(f.hypothesis, without_, effect) : unusable(effect);
+}
+
+std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
+  std::vector<Refit> refits;
+  for (std::size_t i = 0; i < std::min(kRule.leaders, trials.size()); ++i)
+    refits.push_back({refitter_.with_effect(from_, trials[i].effect, trials[i].past), without_.score});
+  const auto go_on_with = [&](const std::string& what, double share, int passes) {
+    double best = 0;
+    for (std::size_t i = 0; i < refits.size(); ++i) best = std::max(best, trials[i].gain);
+    each(what, refits.size(), [&](std::size_t i) {
+      Trial& t = trials[i];
+      if (!t.is_judged() || !(t.gain > share * best) || refits[i].settled) return;
+      refitter_.go_on(refits[i], passes);
+      const PlacedEffect effect = t.effect;
+      t = refits[i].best.usable ? judge_.trial(refits[i].best.hypothesis, without_, effect) : unusable(effect);
+    });
+  };
+  go_on_with("best candidates", kRule.leads, kRule.first_passes);
+  go_on_with("finalists", kRule.still_leads, kRule.most_passes - kRule.first_passes);
+  std::vector<Fit> fits;
+  for (const Refit& r : refits) fits.push_back(r.best);
+  return fits;
+}
+
+}  // namespace halyard

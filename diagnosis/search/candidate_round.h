@@ -1,0 +1,47 @@
+#pragma once
+/// One round of the search: a quick look at every candidate, then a full fit of the best.
+
+#include <functional>
+#include <string>
+
+#include "diagnosis/judgement/judge.h"
+#include "diagnosis/search/refit.h"
+
+namespace halyard {
+
+/// Name of the current stage and its completed fraction; called by several threads.
+using SearchProgress = std::function<void(const std::string&, double)>;
+
+class CandidateRound {
+ public:
+  /// without: the hypothesis against which candidates are judged; from: where their fits start.
+  CandidateRound(const Evidence& evidence, const ArmModel& model, const Refitter& refitter, const Judge& judge,
+                 Scored without, Hypothesis from, const std::string& name, const SearchProgress& progress);
+
+  /// A trial of each candidate, the largest gain first. Empty if the sensitivities cannot be computed.
+  std::vector<Trial> look(const std::vector<PlacedEffect>& candidates) const;
+  /// Fits the first trials fully and judges them anew. The quick look computes the sensitivities of the model's
+  /// parameters once; here they are renewed until nothing changes. Returns the fits, in the order of the trials.
+  std::vector<Fit> fit_leaders(std::vector<Trial>& trials) const;
+
+  const Scored& without() const { return without_; }
+
+ private:
+  /// Calls one(i) for all i < n, side by side.
+  void each(const std::string& what, std::size_t n, const std::function<void(std::size_t)>& one) const;
+  Trial quick_look(const Hypothesis& start, const PlacedEffect& effect) const;
+
+  const Evidence& evidence_;
+  const ArmModel& model_;
+  const Refitter& refitter_;
+  const Judge& judge_;
+  Scored without_;
+  Hypothesis from_;
+  std::vector<FitParameter> numbers_;         ///< of the model, that no effect so far changes
+  std::vector<std::vector<double>> columns_;  ///< sensitivities to them
+  std::vector<double> scale_;                 ///< [2n] of the residual
+  std::string name_;
+  const SearchProgress& progress_;
+};
+
+}  // namespace halyard

@@ -1,0 +1,91 @@
+#include "diagnosis/search/naming.h"
+
+#include <algorithm>
+
+#include "diagnosis/judgement/false_discovery.h"
+#include "diagnosis/judgement/name_probability.h"
+
+namespace halyard {
+
+std::vector<bool> convincing(const std::vector<Trial>& trials, double significance) {
+  std::vector<double> p;
+  for (const Trial& t : trials) {
+    const bool nameable = t.is_judged() && t.gain > 0 && !t.at_bound && !t.is_refit && t.matters;
+    if (t.is_fitted) p.push_back(nameable ? t.p_value : 1.0);
+  }
+  const std::vector<double> rate = false_discovery_rates(p);
+  std::vector<bool> is(trials.size(), false);
+  for (std::size_t i = 0, next = 0; i < trials.size(); ++i)
+    if (trials[i].is_fitted) is[i] = rate[next++] < significance;
+  return is;
+}
+
+Competition::Competition(const Evidence& evidence, const ArmModel& model, const Judge& judge, const Scored& without,
+                         const std::vector<Trial>& trials)
+    : evidence_(evidence),
+      model_(model),
+      judge_(judge),
+      without_(without),
+      trials_(trials),
+      ln_without_(log_likelihood(evidence, without.score, squared_floors(evidence))) {}
+
+Competition::Choice Competition::choose(const std::vector<std::size_t>& able) const {
+  const std::size_t best = *std::ranges::max_element(able, {}, [&](std::size_t i) { return trials_[i].gain; });
+  std::vector<std::size_t> alike = {best};
+  for (const std::size_t i : able) {
+    if (i == best) continue;
+    const Paired p = paired(evidence_, trials_[best].log_likelihood, trials_[i].log_likelihood);
+    if (shared_gain(trials_[best].log_likelihood, trials_[i].log_likelihood, ln_without_) < kRule.shared_gain) continue;
+    if (p.t < kRule.tell_apart || p.sum < 2 * kRule.tell_apart * kRule.tell_apart) alike.push_back(i);
+  }
+  // Of those that cannot be told apart the best is named; of those that are as good one that only changes the
+  // model's own numbers, and then the one with the fewest numbers of its own.
+  const auto simplicity = [&](std::size_t i) {
+    const PlacedEffect& e = trials_[i].effect;
+    return std::pair(e.effect->stages() != 0, e.effect->parameters(model_.nominal, e.joint).size());
+  };
+  std::vector<std::size_t> as_good = alike;
+  std::erase_if(as_good, [&](std::size_t i) { return trials_[i].gain < trials_[best].gain - kRule.by_chance; });
+  const std::size_t named = *std::ranges::min_element(as_good, {}, simplicity);
+  return {named, alike};
+}
+
+Naming Competition::naming(const Choice& choice) const {
+  constexpr double kWorthTelling = 0.01;
+  std::vector<std::size_t> rivals = {choice.named};
+  for (std::size_t i = 0; i < trials_.size(); ++i) {
+    const Trial& t = trials_[i];
+    if (i == choice.named || !t.is_judged() || t.at_bound || t.is_refit || t.gain <= 0) continue;
+    if (shared_gain(trials_[choice.named].log_likelihood, t.log_likelihood, ln_without_) >= kRule.shared_gain)
+      rivals.push_back(i);
+  }
+  const std::vector<double> weight = weights(rivals);
+  Naming naming;
+  naming.weight = weight[0];
+  for (std::size_t r = 1; r < rivals.size(); ++r)
+    if (weight[r] > kWorthTelling || std::ranges::count(choice.alike, rivals[r]) > 0)
+      naming.alternatives.push_back({trials_[rivals[r]].effect, weight[r], false});
+  std::ranges::stable_sort(naming.alternatives, std::ranges::greater{}, &Alternative::probability);
+  return naming;
+}
+
+double Competition::weight_of_no_effect() const {
+  std::vector<std::size_t> rivals;
+  for (std::size_t i = 0; i < trials_.size(); ++i)
+    if (trials_[i].is_judged() && !trials_[i].at_bound && !trials_[i].is_refit && trials_[i].matters)
+      rivals.push_back(i);
+  return weights(rivals).back();
+}
+
+/// Of the rivals, then of no effect.
+std::vector<double> Competition::weights(const std::vector<std::size_t>& rivals) const {
+  std::vector<Competitor> all;
+  for (const std::size_t i : rivals) {
+    const PlacedEffect& e = trials_[i].effect;
+    all.push_back({&trials_[i].log_likelihood, static_cast<int>(e.effect->parameters(model_.nominal, e.joint).size()),
+                   trials_[i].stretch});
+  }
+  return name_weights(evidence_, all, {&ln_without_, 0, judge_.stretch(without_.hypothesis)});
+}
+
+}  // namespace halyard

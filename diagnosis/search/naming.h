@@ -1,0 +1,47 @@
+#pragma once
+/// Which candidate of a round is named, and which others these data cannot tell from it.
+
+#include "diagnosis/diagnose.h"
+#include "diagnosis/judgement/judge.h"
+
+namespace halyard {
+
+/// How an effect came to its name.
+struct Naming {
+  double weight = 0;                      ///< among the candidates of its round, see name_probability.h
+  std::vector<Alternative> alternatives;  ///< with their weights as probabilities
+};
+
+/// For each trial: it can be named, and its gain is significant at this false discovery rate. A candidate that cannot
+/// be named counts among the tests but not among the discoveries.
+std::vector<bool> convincing(const std::vector<Trial>& trials, double significance);
+
+/// The trials of one round, all against the same hypothesis `without` an effect more.
+class Competition {
+ public:
+  Competition(const Evidence& evidence, const ArmModel& model, const Judge& judge, const Scored& without,
+              const std::vector<Trial>& trials);
+
+  struct Choice {
+    std::size_t named;
+    std::vector<std::size_t> alike;  ///< trials that the data cannot tell from the best one, with the named one
+  };
+  /// Of the trials `able`, at least one.
+  Choice choose(const std::vector<std::size_t>& able) const;
+  /// The weights of a name and of the candidates that explain the same part of the residual.
+  Naming naming(const Choice& choice) const;
+  /// The weight of "no effect" against all candidates that could be named.
+  double weight_of_no_effect() const;
+
+ private:
+  std::vector<double> weights(const std::vector<std::size_t>& rivals) const;
+
+  const Evidence& evidence_;
+  const ArmModel& model_;
+  const Judge& judge_;
+  const Scored& without_;
+  const std::vector<Trial>& trials_;
+  Likelihood ln_without_;
+};
+
+}  // namespace halyard

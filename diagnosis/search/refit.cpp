@@ -1,0 +1,81 @@
+#include "diagnosis/search/refit.h"
+
+#include <cmath>
+
+#include "diagnosis/fit/nudged.h"
+#include "diagnosis/judgement/decision_rule.h"
+
+namespace halyard {
+
+Refitter::Refitter(const Evidence& evidence, const ArmModel& model, std::size_t given)
+    : evidence_(evidence), model_(model), given_(given) {
+  constexpr double kSensitive = 0.1;  // of a channel's floor
+  const std::vector<FitParameter> all = baseline_parameters(model_);
+  const auto columns = sensitivities(evidence_, {model_.nominal, model_.effects}, all);
+  if (columns.size() < all.size()) return;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    std::vector<double> change = columns[i];
+    for (double& x : change) x = x * (all[i].upper - all[i].nominal) / all[i].scale;
+    if (evidence_.exceeds_floor(change, kSensitive)) numbers_.push_back(all[i]);
+  }
+  usable_ = true;
+}
+
+std::vector<FitParameter> Refitter::parameters(const Hypothesis& h) const {
+  std::vector<FitParameter> all;
+  for (const FitParameter& b : numbers_) {
+    bool covered = false;
+    for (std::size_t e = given_; e < h.effects.size(); ++e)
+      covered = covered || effect_covers(h.effects[e], model_.nominal, b);
+    if (!covered) all.push_back(b);
+  }
+  for (std::size_t e = 0; e < h.effects.size(); ++e)
+    for (const FitParameter& p : effect_parameters(evidence_, h, model_.nominal, static_cast<int>(e)))
+      if (e >= given_ || is_past(p)) all.push_back(p);
+  return all;
+}
+
+Hypothesis Refitter::with_effect(Hypothesis h, const PlacedEffect& effect, const std::vector<double>& past) const {
+  h.effects.push_back(effect);
+  for (std::size_t i = 0; i < past.size(); ++i) h.set_past_state(h.effects.size() - 1, i, past[i]);
+  for (const FitParameter& b : baseline_parameters(model_))
+    if (effect_covers(effect, model_.nominal, b)) set_parameter(h, b, b.nominal);
+  return h;
+}
+
+void Refitter::go_on(Refit& r, int passes) const {
+  constexpr double kWorthAPass = 0.02;
+  for (; passes > 0 && !r.settled; --passes) {
+    r.settled = true;
+    const std::vector<double> scale = channel_scale(evidence_, r.score.fit_mean_square);
+    r.at = nudged(evidence_, r.at, given_, model_.nominal, scale);
+    const std::vector<FitParameter> parameters = this->parameters(r.at);
+    std::vector<FitParameter> numbers;
+    for (const FitParameter& p : parameters)
+      if (p.effect < 0) numbers.push_back(p);
+    const auto columns = sensitivities(evidence_, r.at, numbers);
+    if (columns.empty() && !numbers.empty()) return;
+    FitOptions options;
+    options.frozen_baseline = true;
+    const Fit f = fit(evidence_, r.at, parameters, scale, options, columns);
+    if (!f.usable) return;
+    r.score = evidence_.score(f.hypothesis);
+    if (!r.score.finite) return;
+    double now = 0;
+    for (int c = 0; c < evidence_.channels(); ++c)
+      if (evidence_.has_channel(c))
+        now += std::log(r.score.fit_mean_square[c] + evidence_.floor()[c] * evidence_.floor()[c]);
+    if (now < r.last) r.best = f;
+    r.at = f.hypothesis;
+    r.settled = now > r.last - kWorthAPass;
+    r.last = now;
+  }
+}
+
+Fit Refitter::refit(const Hypothesis& h, const Score& before) const {
+  Refit r{h, before};
+  go_on(r, kRule.most_passes);
+  return r.best;
+}
+
+}  // namespace halyard

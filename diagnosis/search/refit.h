@@ -1,0 +1,51 @@
+#pragma once
+/// Fits a hypothesis together with the parameters of the model, in passes: each pass weighs the channels by the residual
+/// that the last one left.
+
+#include <limits>
+#include <vector>
+
+#include "diagnosis/fit/fit.h"
+
+namespace halyard {
+
+/// A fit in progress.
+struct Refit {
+  Hypothesis at;
+  Score score;  ///< there; before the first pass: of the hypothesis from which the first weights come
+  Fit best = {};
+  double last = std::numeric_limits<double>::infinity();  ///< Σ ln of the mean squares after the last pass
+  bool settled = false;
+};
+
+class Refitter {
+ public:
+  /// Keeps the parameters of the model that the data are sensitive to: their whole tolerance moves a channel by at least
+  /// a tenth of its floor. given: number of effects that the model came with. Check is_usable().
+  Refitter(const Evidence& evidence, const ArmModel& model, std::size_t given);
+
+  /// False if the model cannot be integrated along the record.
+  bool is_usable() const { return usable_; }
+  /// The parameters of the model that the data are sensitive to.
+  const std::vector<FitParameter>& numbers() const { return numbers_; }
+
+  /// Parameters of the model that no effect of the hypothesis changes, the past of its effects, and the parameters of
+  /// the added effects.
+  std::vector<FitParameter> parameters(const Hypothesis& h) const;
+  /// The hypothesis with one more effect. Parameters of the model that this effect changes are reset.
+  Hypothesis with_effect(Hypothesis h, const PlacedEffect& effect, const std::vector<double>& past = {}) const;
+
+  /// At most so many passes, until one no longer helps.
+  void go_on(Refit& refit, int passes) const;
+  /// All passes, from h on; before: the score that gives the first weights.
+  Fit refit(const Hypothesis& h, const Score& before) const;
+
+ private:
+  const Evidence& evidence_;
+  const ArmModel& model_;
+  std::size_t given_;
+  std::vector<FitParameter> numbers_;
+  bool usable_ = false;
+};
+
+}  // namespace halyard
