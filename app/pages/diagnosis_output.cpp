@@ -28,7 +28,7 @@ Json numbers(const std::vector<double>& values) {
   return all;
 }
 
-Json joint_of(int joint) { return joint < 0 ? Json(nullptr) : Json(joint + 1); }
+Json joint_of(EffectPlace joint) { return joint ? Json(*joint + 1) : Json(nullptr); }
 
 Json before_after(const std::vector<double>& before, const std::vector<double>& after) {
   return {{"before", numbers(before)}, {"after", numbers(after)}};

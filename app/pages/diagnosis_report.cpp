@@ -224,7 +224,7 @@ report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d, const Dia
     std::string text = "Effects that these data could not show at their typical size: ";
     for (std::size_t i = 0; i < d.not_excited.size(); ++i)
       text += (i ? ", " : "") + d.not_excited[i].effect +
-              (d.not_excited[i].joint < 0 ? "" : fmt::format(" of joint {}", d.not_excited[i].joint + 1));
+              (d.not_excited[i].joint ? fmt::format(" of joint {}", *d.not_excited[i].joint + 1) : "");
     page.paragraph(text + ".");
   }
   return page;

@@ -22,14 +22,14 @@ namespace {
 constexpr std::array kEstimators = {"kinematics", "ekf", "sr_ukf"};
 
 EffectEvidence evidence_of(const std::vector<Record>& records, const Hypothesis& without, const Hypothesis& with,
-                           const std::vector<FullPrediction>& predicted_with, int joint) {
+                           const std::vector<FullPrediction>& predicted_with, EffectPlace joint) {
   std::vector<FullPrediction> predicted_without;
   for (const Record& r : records) predicted_without.push_back(predict_fully(r, without));
   // An effect of a joint that moves shows at that joint first, one of the arm anywhere.
   EffectEvidence best;
   double most = -1;
   for (int k = 0; k < with.nominal.n; ++k) {
-    if (joint >= 0 && k != joint) continue;
+    if (joint && k != *joint) continue;
     EffectEvidence e{k,
                      residual_signals(records, predicted_without, without, k),
                      residual_signals(records, predicted_with, with, k),
