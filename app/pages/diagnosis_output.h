@@ -22,7 +22,7 @@ void add_verdict(report::Page& page, const Diagnosis& diagnosis, const Diagnosis
 /// Errors of the free prediction before and after.
 void add_error_table(report::Page& page, const Diagnosis& diagnosis);
 /// Errors of the estimators before and after, and results from their innovations; nothing without an evaluation.
-void add_estimator_table(report::Page& page, const ArmModel& model, const DiagnosisEvaluation& evaluation);
+void add_estimator_errors(report::Page& page, const ArmModel& model, const DiagnosisEvaluation& evaluation);
 
 /// Joint k's residuals on the hold-out before and after: position over time, torque over time, and over the motor's
 /// rate, where friction and gaps show as loops. Without a sensor there is no chart of it.

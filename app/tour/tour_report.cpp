@@ -90,7 +90,7 @@ void add_bundled(Page& page, const Tour& tour) {
   add_verdict(page, tour.bundled.diagnosis, tour.bundled.evaluation);
   page.table(found_table(tour));
   add_error_table(page, tour.bundled.diagnosis);
-  add_estimator_table(page, tour.bundled.model, tour.bundled.evaluation);
+  add_estimator_errors(page, tour.bundled.model, tour.bundled.evaluation);
   for (const PlacedEffect& effect : tour.undeclared) {
     page.figure_row(residual_charts(tour.bundled.diagnosis, effect.joint.value_or(0)));
   }
