@@ -86,7 +86,7 @@ compile_together(halyard_app comparison_pages
 compile_together(halyard_app diagnosis_pages
   pages/diagnosis_output.cpp pages/diagnosis_report.cpp pages/view_charts.cpp)
 compile_together(halyard_app identify_pages
-  pages/identify_output.cpp pages/identify_report.cpp pages/plan_output.cpp)
+  pages/estimator_table.cpp pages/identify_output.cpp pages/identify_report.cpp pages/plan_output.cpp)
 compile_together(halyard_app experiments
   tour/experiments_command.cpp tour/experiments_report.cpp tour/tour_rigs.cpp)
 compile_together(halyard_app tour

@@ -49,7 +49,7 @@ struct Unexplained {
 /// An effect that these data could not have shown.
 struct NotExcited {
   std::string effect;
-  int joint;
+  EffectPlace joint;
   std::string why;
 };
 

@@ -62,12 +62,12 @@ class RefinesSearch {
  public:
   virtual ~RefinesSearch() = default;
   /// Changes the space that was derived from the bounds. Must not add or remove parameters.
-  virtual void refine_search(SearchSpace& space, const ArmParameters<double>& arm, int joint) const = 0;
+  virtual void refine_search(SearchSpace& space, const ArmParameters<double>& arm, EffectPlace joint) const = 0;
 };
 
-/// The search space of an effect at this 0-based joint; -1: the whole arm.
+/// The search space of an effect at this place.
 /// Throws InputError if the effect's own refinement throws or is invalid: starts that do not ascend or lie outside the
 /// bounds, or parameters that the effect does not have.
-SearchSpace search_space(const Effect& effect, const ArmParameters<double>& arm, int joint);
+SearchSpace search_space(const Effect& effect, const ArmParameters<double>& arm, EffectPlace joint);
 
 }  // namespace halyard

@@ -24,7 +24,7 @@ int main() {
     Eigen::VectorXd x = -path_matrix(arm.nominal) * q;
     for (int k = 0; k < 3; ++k) {
       const JointParameters<double>& j = arm.nominal.joint[k];
-      x(k) = (x(k) + j.motor_travel() * y(2 * at.n + at.motor_angle[k])) / j.pulley_radius;
+      x(k) = (x(k) + j.motor_travel() * y(2 * at.n + *at.motor_angle[k])) / j.pulley_radius;
     }
     return x;
   };

@@ -24,8 +24,8 @@ class HarnessSpring : public EffectOf<HarnessSpring> {
   std::string name() const override { return "harness_spring"; }
   std::string summary() const override { return "a cable harness that pulls the joint to where it lies relaxed"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const bool turns = arm.joint[joint].type == JointType::revolute;
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const bool turns = arm.joint[*joint].type == JointType::revolute;
     // Name, unit, neutral, typical, lower, upper.
     return {{"stiffness", turns ? "N m/rad" : "N/m", 0, 1, 0, 1000},
             {"relaxed_at", turns ? "rad" : "m", 0, 0, -10, 10}};
@@ -33,7 +33,7 @@ class HarnessSpring : public EffectOf<HarnessSpring> {
 
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[c.joint].joint_force -= c.p[0] * (s[c.joint].joint_position - c.p[1]);
+    s[*c.joint].joint_force -= c.p[0] * (s[*c.joint].joint_position - c.p[1]);
   }
 };
 

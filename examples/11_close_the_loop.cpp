@@ -43,11 +43,11 @@ int main() {
   const Diagnosis d = diagnose(nominal, {record(real, 12, 0.4)}, record(real, 4, 0.55), {});
 
   for (const NamedEffect& e : d.effects) {
-    fmt::print("found: {} at joint {}\n", e.effect.effect->name(), e.effect.joint + 1);
+    fmt::print("found: {}\n", effect_label(e.effect));
     for (const Estimated& p : e.parameters)
       fmt::print("  {} {:.4g} {}, 95 % interval {:.4g} to {:.4g}\n", p.name, p.value, p.unit, p.lower, p.upper);
     for (const Alternative& a : e.alternatives)
-      fmt::print("  these data cannot tell it from {} at joint {}\n", a.effect.effect->name(), a.effect.joint + 1);
+      fmt::print("  these data cannot tell it from {}\n", effect_label(a.effect));
   }
   const bool alone = d.effects.size() == 1 && d.effects[0].effect.effect == real.effects[0].effect;
   fmt::print("true: backlash, half_gap {:.4g} m; found and nothing else: {}\n", real.effects[0].p[0],

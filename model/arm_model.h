@@ -57,7 +57,7 @@ struct ParameterInfo {
   std::string name;  ///< "joint 2 cable stiffness"
   std::string key;   ///< "joint2.cable.stiffness", as sweeps name it
   std::string unit;
-  int joint;                      ///< 0-based; -1: the arm
+  int joint;                      ///< 0-based
   double Tolerances::*tolerance;  ///< the tolerance that applies to it; null: none
   double* value;                  ///< points into the arm given to named_parameters()
 };

@@ -219,7 +219,8 @@ PlacedEffect read_effect(const XmlElement& element, const ArmParameters<double>&
     element.fail("joint", "effect " + effect->name() + " is of the whole arm; remove the joint");
   }
   const bool of_arm = effect->scope() != EffectScope::joint && !element.has("joint");
-  const int joint = of_arm ? -1 : static_cast<int>(element.integer("joint", 1, arm.n)) - 1;
+  EffectPlace joint = kWholeArm;
+  if (!of_arm) joint = static_cast<int>(element.integer("joint", 1, arm.n)) - 1;
   PlacedEffect placed;
   std::vector<EffectParameter> parameters;
   try {

@@ -131,7 +131,7 @@ void write_effects(Writer& xml, const ArmModel& model) {
   for (const PlacedEffect& placed : model.effects) {
     xml.open("effect");
     xml.attribute("name", placed.effect->name());
-    if (placed.joint >= 0) xml.attribute("joint", std::to_string(placed.joint + 1));
+    if (placed.joint) xml.attribute("joint", std::to_string(*placed.joint + 1));
     const std::vector<EffectParameter> parameters = placed.effect->parameters(model.nominal, placed.joint);
     for (std::size_t i = 0; i < parameters.size(); ++i) xml.attribute(parameters[i].name.c_str(), placed.p[i]);
     xml.close();

@@ -15,9 +15,8 @@ constexpr double kHistorySpan = 2;
 PlantLayout make_layout(const Transmission<double>& transmission) {
   PlantLayout l;
   l.n = transmission.arm().n;
-  for (int k = 0; k < kMaxJoints; ++k) {
-    l.motor_angle[k] = l.motor_rate[k] = PlantLayout::kNone;
-    if (k >= l.n || transmission.arm().joint[k].drive != Drive::cable) continue;
+  for (int k = 0; k < l.n; ++k) {
+    if (transmission.arm().joint[k].drive != Drive::cable) continue;
     if (!(transmission.arm().joint[k].rotor_inertia > 0))
       throw std::invalid_argument("joint " + std::to_string(k + 1) +
                                   ": a motor that drives a cable needs a rotor inertia above 0");
@@ -67,8 +66,8 @@ void evaluate(const Transmission<T>& transmission, const PlantLayout& l, const M
     e.s[k].command = m.command[k];
     e.s[k].external_force = m.external[k];
     if (arm.joint[k].drive != Drive::cable) continue;
-    e.s[k].motor_angle = m.z[l.motor_angle[k]];
-    e.s[k].motor_rate = m.z[l.motor_rate[k]];
+    e.s[k].motor_angle = m.z[*l.motor_angle[k]];
+    e.s[k].motor_rate = m.z[*l.motor_rate[k]];
   }
   set_motion(arm, m.q, m.v, e.s);
   const T* effect_states = m.z + l.effect_states;
@@ -129,8 +128,8 @@ void term_rates(DriveTerms terms, const Transmission<T>& transmission, const Pla
   for (int k = 0; k < l.n; ++k) {
     if (arm.joint[k].drive != Drive::cable) continue;
     const bool counts = terms != DriveTerms::first_cable || k == 0;
-    z_dot[l.motor_angle[k]] = counts ? e.s[k].motor_rate : T(0.0);
-    z_dot[l.motor_rate[k]] = motor_acceleration[k];
+    z_dot[*l.motor_angle[k]] = counts ? e.s[k].motor_rate : T(0.0);
+    z_dot[*l.motor_rate[k]] = motor_acceleration[k];
   }
   for (int i = 0; i < l.n_effect_states; ++i)
     z_dot[l.effect_states + i] = terms == DriveTerms::first_cable ? T(0.0) : e.effect_rate[i];

@@ -14,6 +14,7 @@
 /// energy from the arm, and negative if it adds energy.
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "transmission/transmission.h"
@@ -23,19 +24,15 @@ namespace halyard {
 /// Maximum number of states z of one plant.
 inline constexpr int kMaxAuxiliaryStates = 80;
 
-/// Layout of the plant's state y = [q, q', z]; indices count from the start of z. Only motors of cable drives have
-/// states of their own.
+/// Layout of the plant's state y = [q, q', z]; indices count from the start of z.
 struct PlantLayout {
-  int n = 0;  ///< joints
-  int motor_angle[kMaxJoints];
-  int motor_rate[kMaxJoints];
-  int effect_states = 0;  ///< index of the first effect state
+  int n = 0;                                                           ///< joints
+  std::optional<int> motor_angle[kMaxJoints], motor_rate[kMaxJoints];  ///< only of motors that drive cables
+  int effect_states = 0;                                               ///< index of the first effect state
   int n_effect_states = 0;
   int input_energy = 0, lost_energy = 0;
   int n_z = 0;
   int size() const { return 2 * n + n_z; }
-  bool has_motor_states(int k) const { return motor_angle[k] != kNone; }
-  static constexpr int kNone = -1;
 };
 
 /// Selects terms of the drive's forces and rates.

@@ -42,12 +42,12 @@ Eigen::VectorXd resting_state(ArmPlant& plant, double time_s, const Eigen::Vecto
   y.head(l.n) = q;
   const Eigen::VectorXd unstretched = unstretched_motors(arm, q);
   for (int k = 0; k < l.n; ++k)
-    if (arm.joint[k].drive == Drive::cable) y(2 * l.n + l.motor_angle[k]) = unstretched(k);
+    if (arm.joint[k].drive == Drive::cable) y(2 * l.n + *l.motor_angle[k]) = unstretched(k);
 
   const Eigen::VectorXd needed = cable_forces_needed(plant, time_s, y);
   for (int k = 0; k < l.n; ++k) {
     if (arm.joint[k].drive != Drive::cable) continue;
-    double& angle = y(2 * l.n + l.motor_angle[k]);
+    double& angle = y(2 * l.n + *l.motor_angle[k]);
     const auto missing = [&](double stretch) {
       angle = unstretched(k) + stretch / arm.joint[k].motor_travel();
       JointSignals<double> s[kMaxJoints];

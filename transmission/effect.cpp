@@ -24,7 +24,7 @@ Library& library() {
 }  // namespace
 
 std::string effect_label(const PlacedEffect& effect) {
-  return effect.effect->name() + (effect.joint < 0 ? "" : " of joint " + std::to_string(effect.joint + 1));
+  return effect.effect->name() + (effect.joint ? " of joint " + std::to_string(*effect.joint + 1) : "");
 }
 
 const std::vector<const Effect*>& effect_library() { return library().all; }
@@ -45,9 +45,9 @@ void register_effect(std::unique_ptr<const Effect> effect) {
   library().owned.push_back(std::move(effect));
 }
 
-std::vector<int> effect_places(const Effect& effect, const ArmParameters<double>& arm) {
-  std::vector<int> places;
-  if (effect.scope() != EffectScope::joint) places.push_back(-1);
+std::vector<EffectPlace> effect_places(const Effect& effect, const ArmParameters<double>& arm) {
+  std::vector<EffectPlace> places;
+  if (effect.scope() != EffectScope::joint) places.push_back(kWholeArm);
   for (int joint = 0; joint < arm.n && effect.scope() != EffectScope::arm; ++joint)
     if (effect.applies(arm, joint)) places.push_back(joint);
   return places;
@@ -56,13 +56,14 @@ std::vector<int> effect_places(const Effect& effect, const ArmParameters<double>
 namespace {
 
 PlacedEffect place_with(double EffectParameter::*value, const Effect& effect, const ArmParameters<double>& arm,
-                        int joint) {
-  const std::vector<int> places = effect_places(effect, arm);
+                        EffectPlace joint) {
+  const std::vector<EffectPlace> places = effect_places(effect, arm);
   if (std::find(places.begin(), places.end(), joint) == places.end())
     throw std::invalid_argument("effect " + effect.name() +
                                 (effect.scope() == EffectScope::arm ? " belongs to the whole arm: name no joint"
-                                 : joint < 0                        ? " belongs to a joint: name one"
-                                             : " cannot be at joint " + std::to_string(joint + 1) + " of this arm"));
+                                 : joint == kWholeArm
+                                     ? " belongs to a joint: name one"
+                                     : " cannot be at joint " + std::to_string(*joint + 1) + " of this arm"));
   PlacedEffect placed;
   placed.effect = &effect;
   placed.joint = joint;
@@ -76,11 +77,11 @@ PlacedEffect place_with(double EffectParameter::*value, const Effect& effect, co
 
 }  // namespace
 
-PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, int joint) {
+PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, EffectPlace joint) {
   return place_with(&EffectParameter::typical, effect, arm, joint);
 }
 
-PlacedEffect place_neutral_effect(const Effect& effect, const ArmParameters<double>& arm, int joint) {
+PlacedEffect place_neutral_effect(const Effect& effect, const ArmParameters<double>& arm, EffectPlace joint) {
   return place_with(&EffectParameter::neutral, effect, arm, joint);
 }
 

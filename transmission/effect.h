@@ -18,6 +18,7 @@
 /// (scalar.h). effects/cable/backlash.cpp is an example without states, effects/cable/hysteresis.cpp one with states.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,11 @@ enum class EffectScope {
   either,  ///< at one joint, or at all joints alike (placed on the whole arm)
 };
 
+/// Where an effect is placed: the 0-based number of a joint, or kWholeArm. An effect that can only be at a joint
+/// (EffectScope::joint) always gets a joint and need not check.
+using EffectPlace = std::optional<int>;
+inline constexpr std::nullopt_t kWholeArm = std::nullopt;
+
 /// Signals of one joint at one instant. Torques and positions are positive in the joint's positive direction.
 template <class T>
 struct JointSignals {
@@ -76,7 +82,7 @@ struct JointSignals {
 template <class T>
 struct EffectContext {
   const ArmParameters<T>& arm;    ///< after change() of all effects
-  int joint;                      ///< 0-based; -1: the whole arm
+  EffectPlace joint;              ///< 0-based; kWholeArm for an effect of the whole arm
   const T* p;                     ///< the effect's parameters
   const T* z;                     ///< the effect's states
   double time;                    ///< s
@@ -95,20 +101,21 @@ class Effect {
   virtual EffectScope scope() const { return EffectScope::joint; }
   /// False if the joint cannot have the effect (no cable, no inboard joint, ...).
   virtual bool applies(const ArmParameters<double>&, int /*joint*/) const { return true; }
-  virtual std::vector<EffectParameter> parameters(const ArmParameters<double>&, int joint) const = 0;
+  virtual std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace joint) const = 0;
   virtual int n_states() const { return 0; }
   /// Typical size of each internal state.
-  virtual std::vector<double> state_scale(const ArmParameters<double>&, int /*joint*/, const double* /*p*/) const {
+  virtual std::vector<double> state_scale(const ArmParameters<double>&, EffectPlace /*joint*/,
+                                          const double* /*p*/) const {
     return std::vector<double>(n_states(), 1.0);
   }
   /// Bitwise OR of the stages at which the effect acts.
   virtual unsigned stages() const { return 0; }
 
-  virtual void change_parameters(ArmParameters<double>&, int joint, const double* p) const = 0;
-  virtual void change_parameters(ArmParameters<Dual>&, int joint, const Dual* p) const = 0;
-  virtual void change_parameters(ArmParameters<Lanes>&, int joint, const Lanes* p) const = 0;
+  virtual void change_parameters(ArmParameters<double>&, EffectPlace joint, const double* p) const = 0;
+  virtual void change_parameters(ArmParameters<Dual>&, EffectPlace joint, const Dual* p) const = 0;
+  virtual void change_parameters(ArmParameters<Lanes>&, EffectPlace joint, const Lanes* p) const = 0;
 
-  /// s: signals of all joints, [arm.n]; an effect at a joint reads and writes s[joint].
+  /// s: signals of all joints, [arm.n]; an effect at a joint reads and writes s[*joint].
   virtual void act(EffectStage, const EffectContext<double>&, JointSignals<double>* s) const = 0;
   virtual void act(EffectStage, const EffectContext<Dual>&, JointSignals<Dual>* s) const = 0;
   virtual void act(EffectStage, const EffectContext<Lanes>&, JointSignals<Lanes>* s) const = 0;
@@ -123,7 +130,7 @@ template <class Derived>
 class EffectOf : public Effect {
  public:
   template <class T>
-  void change(ArmParameters<T>&, int, const T*) const {}
+  void change(ArmParameters<T>&, EffectPlace, const T*) const {}
   template <class T>
   void on_command(const EffectContext<T>&, JointSignals<T>*) const {}
   template <class T>
@@ -139,9 +146,11 @@ class EffectOf : public Effect {
   template <class T>
   void state_rate(const EffectContext<T>&, const JointSignals<T>*, T*) const {}
 
-  void change_parameters(ArmParameters<double>& a, int k, const double* p) const final { self().change(a, k, p); }
-  void change_parameters(ArmParameters<Dual>& a, int k, const Dual* p) const final { self().change(a, k, p); }
-  void change_parameters(ArmParameters<Lanes>& a, int k, const Lanes* p) const final { self().change(a, k, p); }
+  void change_parameters(ArmParameters<double>& a, EffectPlace k, const double* p) const final {
+    self().change(a, k, p);
+  }
+  void change_parameters(ArmParameters<Dual>& a, EffectPlace k, const Dual* p) const final { self().change(a, k, p); }
+  void change_parameters(ArmParameters<Lanes>& a, EffectPlace k, const Lanes* p) const final { self().change(a, k, p); }
   void act(EffectStage g, const EffectContext<double>& c, JointSignals<double>* s) const final { dispatch(g, c, s); }
   void act(EffectStage g, const EffectContext<Dual>& c, JointSignals<Dual>* s) const final { dispatch(g, c, s); }
   void act(EffectStage g, const EffectContext<Lanes>& c, JointSignals<Lanes>* s) const final { dispatch(g, c, s); }
@@ -174,7 +183,7 @@ class EffectOf : public Effect {
 template <class T>
 struct EffectInstance {
   const Effect* effect = nullptr;
-  int joint = -1;  ///< 0-based; -1: the whole arm
+  EffectPlace joint = kWholeArm;  ///< 0-based
   T p[kMaxEffectParameters] = {};
 };
 using PlacedEffect = EffectInstance<double>;
@@ -190,14 +199,14 @@ const Effect* find_effect(const std::string& name);
 /// kMaxEffectStates states.
 void register_effect(std::unique_ptr<const Effect> effect);
 
-/// The joints where the arm can have the effect, 0-based; -1 means the whole arm.
-std::vector<int> effect_places(const Effect& effect, const ArmParameters<double>& arm);
+/// The places where the arm can have the effect: kWholeArm first, then the joints.
+std::vector<EffectPlace> effect_places(const Effect& effect, const ArmParameters<double>& arm);
 
 /// The effect with its typical parameters. Throws std::invalid_argument if the joint cannot have the effect, or if it
 /// has more than kMaxEffectParameters parameters.
-PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);
-/// The effect with neutral sizes and typical shapes; the caller then sets some of the sizes. Throws as place_effect()
-/// does.
-PlacedEffect place_neutral_effect(const Effect& effect, const ArmParameters<double>& arm, int joint);
+PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm, EffectPlace joint);
+/// The effect with neutral sizes and typical shapes; the caller then sets some of the sizes. Throws as
+/// place_effect() does.
+PlacedEffect place_neutral_effect(const Effect& effect, const ArmParameters<double>& arm, EffectPlace joint);
 
 }  // namespace halyard

@@ -17,7 +17,7 @@ std::string effect_list(const ArmModel& model) {
   std::vector<std::string> names;
   for (const PlacedEffect& placed : model.effects) {
     std::string name = placed.effect->name();
-    if (placed.joint >= 0) name += fmt::format(" (joint {})", placed.joint + 1);
+    if (placed.joint) name += fmt::format(" (joint {})", *placed.joint + 1);
     names.push_back(name);
   }
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));

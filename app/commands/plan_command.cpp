@@ -25,19 +25,21 @@ PlacedEffect parse_effect(const std::string& text, const ArmModel& model) {
     for (const Effect* e : effect_library()) names += (names.empty() ? "" : ", ") + e->name();
     throw InputError(where + "no such effect; expected one of " + names);
   }
-  int joint = 0;
+  EffectPlace joint = kWholeArm;
   if (at != text.npos) {
     const char* end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data() + at + 1, end, joint);
-    if (error != std::errc() || rest != end || joint < 1)
+    int number = 0;
+    const auto [rest, error] = std::from_chars(text.data() + at + 1, end, number);
+    if (error != std::errc() || rest != end || number < 1)
       throw InputError(where + "expected EFFECT@JOINT with a joint from 1 to " + std::to_string(model.n()) +
                        ", such as backlash@1");
+    joint = number - 1;
   }
   for (const PlacedEffect& e : model.effects)
-    if (e.effect == effect && e.joint == joint - 1)
+    if (e.effect == effect && e.joint == joint)
       throw InputError(where + "the model has this effect already; name one that it lacks");
   try {
-    return place_effect(*effect, model.nominal, joint - 1);
+    return place_effect(*effect, model.nominal, joint);
   } catch (const std::invalid_argument& error) {
     throw InputError(where + error.what());
   }

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "app/pages/estimator_table.h"
 #include "diagnosis/explanation/view_sentence.h"
 #include "evaluation/joint_unit.h"
 #include "model/model_file.h"
@@ -31,7 +31,7 @@ Json numbers(const std::vector<double>& values) {
 /// Three digits are more than a probability deserves.
 Json probability(double value) { return std::stod(fmt::format("{:.3f}", value)); }
 
-Json joint_of(int joint) { return joint < 0 ? Json(nullptr) : Json(joint + 1); }
+Json joint_of(EffectPlace joint) { return joint ? Json(*joint + 1) : Json(nullptr); }
 
 Json before_after(const std::vector<double>& before, const std::vector<double>& after) {
   return {{"before", numbers(before)}, {"after", numbers(after)}};
@@ -160,47 +160,20 @@ void add_error_table(report::Page& page, const Diagnosis& d) {
   page.table(table);
 }
 
-void add_estimator_table(report::Page& page, const ArmModel& model, const DiagnosisEvaluation& evaluation) {
+void add_estimator_errors(report::Page& page, const ArmModel& model, const DiagnosisEvaluation& evaluation) {
   if (evaluation.estimators.empty()) return;
-  const std::vector<JointUnit> units = joint_units(model);
-  report::Table table;
-  table.caption =
+  add_estimator_table(
+      page, model, evaluation.estimators, "revised",
       "Estimators on the hold-out, from motor signals and the load on the joint where it was measured: error of the "
-      "joint position";
-  table.header = {"joint", "estimator", "RMS, given model", "revised model", "peak, given model", "revised model"};
-  table.align = {report::Align::left,  report::Align::left,  report::Align::right,
-                 report::Align::right, report::Align::right, report::Align::right};
-  std::string innovations, failures;
-  for (int k = 0; k < model.n(); ++k) {
-    const ShownUnit unit{units[k].shown, units[k].shown_per_si};
-    const auto value = [k](const std::vector<double>& v) {
-      return v.empty() ? std::numeric_limits<double>::quiet_NaN() : v[k];
-    };
-    const auto cell = [&](const std::vector<double>& v) {
-      return v.empty() ? "failed" : std::isfinite(v[k]) ? shown(v[k], unit) : std::string("no sensor");
-    };
-    for (const EstimatorComparison& e : evaluation.estimators)
-      table.rows.push_back({fmt::format("{}", k + 1),
-                            e.name,
-                            cell(e.before.rms),
-                            {cell(e.after.rms), value(e.after.rms) < 0.9 * value(e.before.rms)},
-                            cell(e.before.peak),
-                            {cell(e.after.peak), value(e.after.peak) < 0.9 * value(e.before.peak)}});
-  }
-  page.table(table);
-  for (const EstimatorComparison& e : evaluation.estimators) {
+      "joint position");
+  std::string innovations;
+  for (const EstimatorComparison& e : evaluation.estimators)
     if (e.before.mean_nis > 0 && e.after.mean_nis > 0)
       innovations += fmt::format("{}{} {:.3g} with the given, {:.3g} with the revised model",
                                  innovations.empty() ? "" : "; ", e.name, e.before.mean_nis, e.after.mean_nis);
-    for (const bool after : {false, true})
-      if (const std::string& failure = (after ? e.after : e.before).failure; !failure.empty())
-        failures += fmt::format("{}{} failed with the {} model: {}", failures.empty() ? "" : "; ", e.name,
-                                after ? "revised" : "given", failure);
-  }
   if (!innovations.empty())
     page.paragraph("Innovations, mean of their squares over their predicted variance (1 if the model is right): " +
                    innovations + ".");
-  if (!failures.empty()) page.paragraph(failures + ".");
 }
 
 void write_diagnosis(const std::filesystem::path& folder, const ArmModel& model, const Diagnosis& d,

@@ -23,7 +23,7 @@ void add_verdict(report::Page& page, const Diagnosis& diagnosis, const Diagnosis
 void add_error_table(report::Page& page, const Diagnosis& diagnosis);
 /// Errors of the estimators with the given and with the revised model, and results from their innovations. Adds nothing
 /// without an evaluation.
-void add_estimator_table(report::Page& page, const ArmModel& model, const DiagnosisEvaluation& evaluation);
+void add_estimator_errors(report::Page& page, const ArmModel& model, const DiagnosisEvaluation& evaluation);
 
 /// Joint k's residuals on the hold-out, with the given and with the revised model: position over time, torque over
 /// time, and position over the motor's rate, where friction and gaps show as loops. Without a joint sensor there are no

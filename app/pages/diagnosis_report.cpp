@@ -207,7 +207,7 @@ report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d, const Dia
   page.paragraph(
       "Joint position is predicted from motor signals alone: the arm is driven by the measured motor motion and its "
       "joints follow through the cables. Torque is predicted from the same motion and low-pass filtered like it.");
-  add_estimator_table(page, model, evaluation);
+  add_estimator_errors(page, model, evaluation);
   add_evidence(page, d, evaluation);
   add_numbers(page, d);
   page.heading("Residuals on the hold-out");
@@ -224,7 +224,7 @@ report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d, const Dia
     std::string text = "Effects that these data could not show at their typical size: ";
     for (std::size_t i = 0; i < d.not_excited.size(); ++i)
       text += (i ? ", " : "") + d.not_excited[i].effect +
-              (d.not_excited[i].joint < 0 ? "" : fmt::format(" of joint {}", d.not_excited[i].joint + 1));
+              (d.not_excited[i].joint ? fmt::format(" of joint {}", *d.not_excited[i].joint + 1) : "");
     page.paragraph(text + ".");
   }
   return page;

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "app/pages/estimator_table.h"
 #include "app/pages/identify_output.h"
 #include "app/pages/view_charts.h"
-#include "evaluation/joint_unit.h"
 
 namespace halyard {
 namespace {
@@ -82,35 +81,9 @@ void add_numbers(report::Page& page, const Identification& found) {
 }
 
 void add_errors(report::Page& page, const IdentificationStudy& result) {
-  const std::vector<JointUnit> units = joint_units(result.given);
-  report::Table table;
-  table.caption = "Joint position from motor signals alone, on " + result.holdout;
-  table.header = {"joint",           "estimator", "RMS error, given model", "identified model", "peak, given model",
-                  "identified model"};
-  table.align = {report::Align::left,  report::Align::left,  report::Align::right,
-                 report::Align::right, report::Align::right, report::Align::right};
-  for (int k = 0; k < result.given.n(); ++k)
-    for (const EstimatorComparison& e : result.estimators) {
-      const auto value = [k](const std::vector<double>& v) {
-        return v.empty() ? std::numeric_limits<double>::quiet_NaN() : v[k];
-      };
-      const auto cell = [&](const std::vector<double>& v) {
-        if (v.empty()) return std::string("failed");
-        if (!std::isfinite(v[k])) return std::string("no sensor");
-        return fmt::format("{:.4g} {}", units[k].shown_per_si * v[k], units[k].shown);
-      };
-      table.rows.push_back({fmt::format("{}", k + 1),
-                            e.name,
-                            cell(e.before.rms),
-                            {cell(e.after.rms), value(e.after.rms) < 0.9 * value(e.before.rms)},
-                            cell(e.before.peak),
-                            {cell(e.after.peak), value(e.after.peak) < 0.9 * value(e.before.peak)}});
-    }
-  page.table(table);
+  add_estimator_table(page, result.given, result.estimators, "identified",
+                      "Joint position from motor signals alone, on " + result.holdout);
   page.paragraph("kinematics takes cables as rigid: a better coupling leaves it what they stretch.");
-  for (const EstimatorComparison& e : result.estimators)
-    for (const auto& [which, failure] : {std::pair{"given", e.before.failure}, {"identified", e.after.failure}})
-      if (!failure.empty()) page.paragraph(fmt::format("{} failed with the {} model: {}.", e.name, which, failure));
 }
 
 }  // namespace

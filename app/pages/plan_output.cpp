@@ -26,7 +26,7 @@ Json number(double value) {
   return std::isfinite(value) ? Json(std::stod(fmt::format("{:.4g}", value))) : Json(nullptr);
 }
 
-std::string joint_text(int joint) { return joint < 0 ? "arm" : fmt::format("{}", joint + 1); }
+std::string joint_text(EffectPlace joint) { return joint ? fmt::format("{}", *joint + 1) : "arm"; }
 
 std::string with_unit(double value, const std::string& unit) {
   return fmt::format("{:.4g}{}{}", value, unit == "1" ? "" : " ", unit == "1" ? "" : unit);
@@ -54,7 +54,7 @@ std::string separation_text(const Separation& s) {
 std::string pair_text(const SeparatingMotion& m) { return effect_label(m.first) + " and " + effect_label(m.second); }
 
 Json effect_json(const PlacedEffect& e) {
-  return {{"effect", e.effect->name()}, {"joint", e.joint < 0 ? Json(nullptr) : Json(e.joint + 1)}};
+  return {{"effect", e.effect->name()}, {"joint", e.joint ? Json(*e.joint + 1) : Json(nullptr)}};
 }
 
 Json limit_json(const DetectionLimit& d, const ArmModel& model) {

@@ -42,7 +42,7 @@ std::string sizes(const ArmModel& robot, const std::string& effect) {
   for (const PlacedEffect& e : robot.effects) {
     if (e.effect->name() != effect) continue;
     text += text.empty() ? "" : "; ";
-    if (e.joint >= 0) text += fmt::format("joint {}: ", e.joint + 1);
+    if (e.joint) text += fmt::format("joint {}: ", *e.joint + 1);
     const auto parameters = e.effect->parameters(robot.nominal, e.joint);
     for (std::size_t i = 0; i < parameters.size(); ++i) text += (i ? ", " : "") + shown_size(parameters[i], e.p[i]);
   }

@@ -90,9 +90,9 @@ void add_bundled(Page& page, const Tour& tour) {
   add_verdict(page, tour.bundled.diagnosis, tour.bundled.evaluation);
   page.table(found_table(tour));
   add_error_table(page, tour.bundled.diagnosis);
-  add_estimator_table(page, tour.bundled.model, tour.bundled.evaluation);
+  add_estimator_errors(page, tour.bundled.model, tour.bundled.evaluation);
   for (const PlacedEffect& effect : tour.undeclared) {
-    page.figure_row(residual_charts(tour.bundled.diagnosis, std::max(effect.joint, 0)));
+    page.figure_row(residual_charts(tour.bundled.diagnosis, effect.joint.value_or(0)));
   }
   page.link("The whole diagnosis, candidate by candidate", "undeclared_effect/report.html");
   page.link("The revised model, ready for every other command", "undeclared_effect/model.xml");

@@ -80,7 +80,7 @@ void draw_parameters(PlacedEffect& effect, const ArmModel& model, const Ranges& 
     switch (all[i].search.range) {
       case SearchRange::record_time: instants.push_back(i); break;
       case SearchRange::joint_position: {
-        const Range& reach = ranges.joint[std::max(0, effect.joint)];
+        const Range& reach = ranges.joint[effect.joint.value_or(0)];
         effect.p[i] = reach.from + random.uniform(0.2, 0.8) * (reach.to - reach.from);
         break;
       }

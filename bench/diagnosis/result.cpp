@@ -34,8 +34,12 @@ std::vector<double> numbers(const Json& list) {
   return all;
 }
 
-Json to_json(const Place& p) { return {{"effect", p.effect}, {"joint", p.joint}}; }
-Place place_from(const Json& j) { return {j.at("effect"), j.at("joint")}; }
+/// Files count joints from 1; 0 is the arm.
+Json to_json(const Place& p) { return {{"effect", p.effect}, {"joint", p.joint ? *p.joint + 1 : 0}}; }
+Place place_from(const Json& j) {
+  const int number = j.at("joint");
+  return {j.at("effect"), number == 0 ? EffectPlace(kWholeArm) : number - 1};
+}
 
 }  // namespace
 
@@ -48,7 +52,7 @@ Kind kind_of(const std::string& text) {
   return static_cast<Kind>(found - std::begin(kWords));
 }
 
-std::string label(const Place& p) { return p.joint == 0 ? p.effect : fmt::format("{} of joint {}", p.effect, p.joint); }
+std::string label(const Place& p) { return p.joint ? fmt::format("{} of joint {}", p.effect, *p.joint + 1) : p.effect; }
 
 bool right_first(const Result& r) {
   return !r.truth.empty() && !r.named.empty() && r.named[0].place == r.truth[0].place;

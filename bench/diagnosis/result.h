@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "transmission/effect.h"
+
 namespace halyard::blind {
 
 enum class Kind { clean_exact, clean_mistuned, effect, effect_mistuned, form, outside, pair, each_effect };
@@ -15,10 +17,9 @@ std::string word(Kind kind);
 /// Throws InputError for a word that is none.
 Kind kind_of(const std::string& word);
 
-/// An effect by its name, at a joint from 1 on, or 0: the arm.
 struct Place {
-  std::string effect;
-  int joint = 0;
+  std::string effect;  ///< name
+  EffectPlace joint = kWholeArm;
   bool operator==(const Place&) const = default;
 };
 std::string label(const Place& place);

@@ -212,14 +212,14 @@ std::string detection_csv(const Results& effect, const ArmParameters<double>& ar
     const Effect* e = find_effect(name);
     if (!e) continue;  // results of a build with other effects
     const double limit = detection_limit(those(effect, [&](const Result& r) { return right_name(r) == name; }), size);
-    for (const int joint : effect_places(*e, arm)) {
+    for (const EffectPlace joint : effect_places(*e, arm)) {
       const std::vector<EffectParameter> parameters = e->parameters(arm, joint);
       const SearchSpace space = search_space(*e, arm, joint);
       for (std::size_t i = 0; i < parameters.size(); ++i) {
         const EffectParameter& p = parameters[i];
         if (space.parameters[i].range != SearchRange::own || p.is_shape()) continue;
         const double typical = std::abs(p.typical - p.neutral);
-        text += fmt::format("{},{},{},{},{:.4g},{}\n", name, joint + 1, p.name, p.unit, typical,
+        text += fmt::format("{},{},{},{},{:.4g},{}\n", name, joint ? *joint + 1 : 0, p.name, p.unit, typical,
                             limit_text(limit * typical));
       }
     }

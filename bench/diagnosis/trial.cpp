@@ -159,7 +159,7 @@ const char* verdict_word(Diagnosis::Verdict verdict) {
   return "unknown";
 }
 
-Place place_of(const PlacedEffect& e) { return {e.effect->name(), e.joint + 1}; }
+Place place_of(const PlacedEffect& e) { return {e.effect->name(), e.joint}; }
 
 /// Nothing, with the reason in `failure`, if no recording could be drawn.
 std::optional<Recording> try_to_draw(const ArmModel& model, Kind kind, int index, double limit, Random& random,
@@ -183,7 +183,7 @@ std::vector<TrueEffect> truth_of(const Recording& recording, const ArmModel& mod
   const StrengthMeter meter(training_part(recording.training, !recording.holdout), model);
   for (const Hidden& h : recording.hidden) {
     const std::string acts = h.acts.effect->name();
-    truth.push_back({.place = {h.right_name, h.acts.joint + 1},
+    truth.push_back({.place = {h.right_name, h.acts.joint},
                      .form = acts == h.right_name ? "" : acts,
                      .size = relative_size(h.acts, model),
                      .strength = meter.strength(h.acts),

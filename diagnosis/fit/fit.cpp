@@ -252,7 +252,7 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
     f.range = search.range;
     if (search.range != SearchRange::own) {
       const Span span =
-          search.range == SearchRange::record_time ? evidence.time_span() : evidence.joint_span(std::max(0, e.joint));
+          search.range == SearchRange::record_time ? evidence.time_span() : evidence.joint_span(e.joint.value_or(0));
       f.lower = span.first;
       f.upper = span.last;
       f.scale = std::max(0.01 * (span.last - span.first), 1e-9);

@@ -14,17 +14,17 @@ class FilteredEffect : public EffectOf<FilteredEffect> {
   std::string summary() const override { return effect_.summary(); }
   EffectScope scope() const override { return effect_.scope(); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return effect_.applies(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
     return effect_.parameters(arm, joint);
   }
   int n_states() const override { return effect_.n_states(); }
-  std::vector<double> state_scale(const ArmParameters<double>& arm, int joint, const double* p) const override {
+  std::vector<double> state_scale(const ArmParameters<double>& arm, EffectPlace joint, const double* p) const override {
     return effect_.state_scale(arm, joint, p);
   }
   unsigned stages() const override { return effect_.stages(); }
 
   template <class T>
-  void change(ArmParameters<T>& arm, int joint, const T* p) const {
+  void change(ArmParameters<T>& arm, EffectPlace joint, const T* p) const {
     effect_.change_parameters(arm, joint, p);
   }
   template <class T>
@@ -41,7 +41,7 @@ class FilteredEffect : public EffectOf<FilteredEffect> {
   }
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
-    JointSignals<T>& own = s[c.joint];
+    JointSignals<T>& own = s[*c.joint];
     const T others = own.motor_torque;
     own.motor_torque = T(0.0);
     effect_.act(EffectStage::motor, c, s);

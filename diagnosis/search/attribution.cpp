@@ -245,10 +245,10 @@ class Search {
 std::vector<PlacedEffect> all_candidates(const ArmParameters<double>& arm) {
   std::vector<PlacedEffect> all;
   for (const Effect* effect : effect_library()) {
-    std::vector<int> places = effect_places(*effect, arm);
+    std::vector<EffectPlace> places = effect_places(*effect, arm);
     // Of a single joint "at all joints alike" says nothing more than "at joint 1".
-    if (effect->scope() == EffectScope::either && arm.n == 1) std::erase(places, -1);
-    for (const int joint : places) all.push_back(place_effect(*effect, arm, joint));
+    if (effect->scope() == EffectScope::either && arm.n == 1) std::erase(places, kWholeArm);
+    for (const EffectPlace joint : places) all.push_back(place_effect(*effect, arm, joint));
   }
   return all;
 }

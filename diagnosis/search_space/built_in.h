@@ -10,6 +10,7 @@ namespace halyard {
 
 struct BuiltInSpace {
   const char* effect;
+  /// joint: 0-based; 0 for an effect of the whole arm.
   void (*refine)(SearchSpace& space, const ArmParameters<double>& arm, int joint);
 };
 

@@ -50,7 +50,7 @@ void check(const SearchSpace& space, const std::vector<EffectParameter>& paramet
 
 }  // namespace
 
-SearchSpace search_space(const Effect& effect, const ArmParameters<double>& arm, int joint) {
+SearchSpace search_space(const Effect& effect, const ArmParameters<double>& arm, EffectPlace joint) {
   const std::vector<EffectParameter> parameters = effect.parameters(arm, joint);
   SearchSpace space = derived_space(parameters);
   if (const auto* own = dynamic_cast<const RefinesSearch*>(&effect)) {
@@ -61,7 +61,7 @@ SearchSpace search_space(const Effect& effect, const ArmParameters<double>& arm,
     }
     check(space, parameters, effect, arm);
   } else if (const BuiltInSpace* built_in = find_built_in(effect.name())) {
-    built_in->refine(space, arm, joint);
+    built_in->refine(space, arm, joint.value_or(0));
   }
   return space;
 }

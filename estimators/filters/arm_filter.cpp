@@ -113,7 +113,7 @@ void ArmFilter::start(const Sample& sample) {
   if (seen_moving) {
     for (int k = 0; k < process_->n_joints(); ++k) {
       x(process_->layout().rate[k]) = path(k) / since;
-      if (process_->layout().has_motor_states(k)) x(process_->layout().motor_rate[k]) = moved(k) / since;
+      if (const auto motor_rate = process_->layout().motor_rate[k]) x(*motor_rate) = moved(k) / since;
     }
   }
   // After a gap the arm need not rest; and a speed that no joint has says that one of the two readings is wrong.

@@ -21,7 +21,7 @@ class UnknownOffset : public UnknownConstant<UnknownOffset> {
 
   template <class T>
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[c.joint].stretch -= c.z[0];
+    s[*c.joint].stretch -= c.z[0];
   }
 };
 

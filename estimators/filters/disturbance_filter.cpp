@@ -19,7 +19,7 @@ class UnknownForce : public UnknownConstant<UnknownForce> {
 
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[c.joint].joint_force += c.z[0];
+    s[*c.joint].joint_force += c.z[0];
   }
 };
 

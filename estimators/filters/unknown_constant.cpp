@@ -16,7 +16,7 @@ std::vector<std::optional<int>> states_of(const Effect& constant, const ProcessM
   std::vector<std::optional<int>> states(process.n_joints());
   int next = process.layout().effect_states;
   for (const auto& e : process.transmission().effects()) {
-    if (e.effect == &constant) states[e.joint] = next;
+    if (e.effect == &constant) states[*e.joint] = next;
     next += e.effect->n_states();
   }
   return states;

@@ -23,9 +23,11 @@ namespace halyard {
 template <class Derived>
 class UnknownConstant : public EffectOf<Derived> {
  public:
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const final { return {}; }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const final { return {}; }
   int n_states() const final { return 1; }
-  std::vector<double> state_scale(const ArmParameters<double>&, int, const double* p) const final { return {p[0]}; }
+  std::vector<double> state_scale(const ArmParameters<double>&, EffectPlace, const double* p) const final {
+    return {p[0]};
+  }
 
   template <class T>
   void state_rate(const EffectContext<T>&, const JointSignals<T>*, T* z_dot) const {

@@ -153,7 +153,7 @@ void DualUkf::start(double time_s) {
   Eigen::MatrixXd H;
   const Eigen::VectorXd read = center_.readings(time_s, x, H);
   for (int k = 0; k < n; ++k) {
-    if (l.has_motor_states(k)) x(l.motor_angle[k]) += latest_(k) - read(k);
+    if (l.motor_angle[k]) x(*l.motor_angle[k]) += latest_(k) - read(k);
     if (!std::isnan(latest_(n + k))) x(l.position[k]) += latest_(n + k) - read(n + k);
   }
   Eigen::MatrixXd S = noise_.initial_root(x, kInfinity);
@@ -161,8 +161,8 @@ void DualUkf::start(double time_s) {
   for (int k = 0; k < n; ++k) {
     const double rate = std::max(model_.joints[k].upper - model_.joints[k].lower, S(l.rate[k], l.rate[k]));
     S(l.rate[k], l.rate[k]) = rate;
-    if (l.has_motor_states(k))
-      S(l.motor_rate[k], l.motor_rate[k]) = rate * std::abs(arm.joint[k].pulley_radius / arm.joint[k].motor_travel());
+    if (l.motor_rate[k])
+      S(*l.motor_rate[k], *l.motor_rate[k]) = rate * std::abs(arm.joint[k].pulley_radius / arm.joint[k].motor_travel());
   }
   state_filter_.reset(x, S);
   Psi_.setZero(structure_.n_states(), static_cast<Eigen::Index>(weights_.size()));

@@ -9,6 +9,8 @@
 /// that is driven rigidly or not at all. The internal states of the effects follow. The drives are those of
 /// transmission/drive.h: M includes the rotors of rigid drives.
 
+#include <optional>
+
 #include "estimators/process/rigid_chain.h"
 #include "transmission/drive.h"
 
@@ -16,16 +18,14 @@ namespace halyard {
 
 inline constexpr int kMaxStates = 64;
 
-/// Indices of each joint's quantities in the state. Only motors that drive cables have states.
+/// Indices of each joint's quantities in the state.
 struct StateLayout {
   int n_joints = 0;
   int n_effect_states = 0;
-  int motor_angle[kMaxJoints], motor_rate[kMaxJoints], position[kMaxJoints], rate[kMaxJoints];
-  int effect_states = 0;  ///< index of the first internal state
+  std::optional<int> motor_angle[kMaxJoints], motor_rate[kMaxJoints];  ///< only of motors that drive cables
+  int position[kMaxJoints] = {}, rate[kMaxJoints] = {};                ///< of the first n_joints
+  int effect_states = 0;                                               ///< index of the first internal state
   int size = 0;
-
-  bool has_motor_states(int k) const { return motor_angle[k] != kNone; }
-  static constexpr int kNone = -1;
 };
 
 template <class T>
@@ -34,9 +34,7 @@ StateLayout state_layout(const Transmission<T>& transmission) {
   l.n_joints = transmission.arm().n;
   l.n_effect_states = transmission.n_states();
   int next = 0;
-  for (int k = 0; k < kMaxJoints; ++k) {
-    l.motor_angle[k] = l.motor_rate[k] = l.position[k] = l.rate[k] = StateLayout::kNone;
-    if (k >= l.n_joints) continue;
+  for (int k = 0; k < l.n_joints; ++k) {
     if (transmission.arm().joint[k].drive == Drive::cable) {
       l.motor_angle[k] = next++;
       l.motor_rate[k] = next++;
@@ -57,8 +55,8 @@ HALYARD_INLINE void unpack_state(const ArmParameters<T>& arm, const StateLayout&
     q[k] = x[l.position[k]];
     v[k] = x[l.rate[k]];
     if (arm.joint[k].drive != Drive::cable) continue;
-    s[k].motor_angle = x[l.motor_angle[k]];
-    s[k].motor_rate = x[l.motor_rate[k]];
+    s[k].motor_angle = x[*l.motor_angle[k]];
+    s[k].motor_rate = x[*l.motor_rate[k]];
   }
   set_motion(arm, q, v, s);
 }
@@ -98,8 +96,8 @@ HALYARD_INLINE void state_derivative(const Transmission<T>& transmission, const 
     x_dot[l.position[k]] = v[k];
     x_dot[l.rate[k]] = a[k];
     if (arm.joint[k].drive != Drive::cable) continue;
-    x_dot[l.motor_angle[k]] = s[k].motor_rate;
-    x_dot[l.motor_rate[k]] = motor_acceleration[k];
+    x_dot[*l.motor_angle[k]] = s[k].motor_rate;
+    x_dot[*l.motor_rate[k]] = motor_acceleration[k];
   }
 }
 

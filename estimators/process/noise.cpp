@@ -92,7 +92,7 @@ const Eigen::MatrixXd& ArmNoise::process_root(const Step& step, const Eigen::Vec
     const double force = adapted_(k) * levels_.joint_force(k) * impulse,
                  torque = adapted_(k) * levels_.torque(k) * impulse;
     for (int i = 0; i < n; ++i) G_(l.rate[i], n + k) = M_inverse(i, k) * force;
-    if (j.drive == Drive::cable) G_(l.motor_rate[k], k) = torque / j.rotor_inertia;
+    if (j.drive == Drive::cable) G_(*l.motor_rate[k], k) = torque / j.rotor_inertia;
     if (j.drive != Drive::rigid) continue;
     for (int i = 0; i < n; ++i)
       for (int c = 0; c < n; ++c)
@@ -149,10 +149,10 @@ Eigen::MatrixXd ArmNoise::initial_root(const Eigen::VectorXd& x, double dt_s) co
     } else if (j.drive == Drive::rigid) {
       path_std(k) = encoder;
     } else {
-      const double stretch = travel * x(l.motor_angle[k]) - path(k);
+      const double stretch = travel * x(*l.motor_angle[k]) - path(k);
       path_std(k) = encoder + tolerance_(k) * std::abs(stretch) + friction_stretch_(k);
-      S(l.motor_angle[k], l.motor_angle[k]) = levels_.encoder(k);
-      S(l.motor_rate[k], l.motor_rate[k]) = std::max(j.motor_smoothing, std::sqrt(2) * levels_.encoder(k) / dt_s);
+      S(*l.motor_angle[k], *l.motor_angle[k]) = levels_.encoder(k);
+      S(*l.motor_rate[k], *l.motor_rate[k]) = std::max(j.motor_smoothing, std::sqrt(2) * levels_.encoder(k) / dt_s);
     }
     const double joint_per_travel = j.drive == Drive::none ? 0 : 1 / std::abs(j.pulley_radius);
     S(l.rate[k], l.rate[k]) = std::max(j.joint_smoothing, std::sqrt(2) * encoder * joint_per_travel / dt_s);

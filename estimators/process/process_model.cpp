@@ -17,8 +17,8 @@ constexpr double kStableStep = 2.2;  // h |λ|; see the header
 
 std::vector<std::string> name_states(const Transmission<double>& transmission, const StateLayout& l) {
   std::vector<std::string> names(l.size);
-  const auto put = [&](int index, const char* what, int k) {
-    if (index >= 0) names[index] = std::string(what).append("_").append(std::to_string(k + 1));
+  const auto put = [&](std::optional<int> index, const char* what, int k) {
+    if (index) names[*index] = std::string(what).append("_").append(std::to_string(k + 1));
   };
   for (int k = 0; k < l.n_joints; ++k) {
     put(l.motor_angle[k], "motor_angle", k);
@@ -30,7 +30,7 @@ std::vector<std::string> name_states(const Transmission<double>& transmission, c
   for (const auto& e : transmission.effects()) {
     for (int i = 0; i < e.effect->n_states(); ++i) {
       std::string& name = names[next++] = e.effect->name();
-      if (e.joint >= 0) name.append("_").append(std::to_string(e.joint + 1));
+      if (e.joint) name.append("_").append(std::to_string(*e.joint + 1));
       name.append("_state_").append(std::to_string(i + 1));
     }
   }
@@ -187,7 +187,7 @@ Eigen::VectorXd ProcessModel::state_at_rest(const Eigen::VectorXd& motor_angle,
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n_states());
   for (int k = 0; k < n_joints(); ++k) {
     x(layout_.position[k]) = joint_position(k);
-    if (layout_.has_motor_states(k)) x(layout_.motor_angle[k]) = motor_angle(k);
+    if (layout_.motor_angle[k]) x(*layout_.motor_angle[k]) = motor_angle(k);
   }
   return x;
 }

@@ -26,12 +26,14 @@ struct OneRun {
   Signals nees;  ///< [joint][instant]
 };
 
-OneRun run_one(const ArmModel& model, const std::string& name, const SimulationResult& simulation, double skip_s) {
-  const Comparison c = compare_estimators(model, {name}, simulation.measured, simulation.truth,
-                                          {.skip_s = skip_s, .keep_going = true, .make_all_first = false});
+OneRun run_one(const ArmModel& model, const std::string& name, const SimulationResult& simulation,
+               const MonteCarloOptions& options) {
+  const Comparison c = compare_estimators(
+      model, {name}, simulation.measured, simulation.truth,
+      {.skip_s = options.skip_s, .keep_going = true, .make_all_first = false, .containment = options.containment});
   OneRun one{c.runs[0].failure, c.errors[0], c.judgements[0], {}};
   if (!one.failure.empty()) return one;
-  const std::size_t size = c.truth.size(), first = first_counted_sample(c.truth.time, skip_s);
+  const std::size_t size = c.truth.size(), first = first_counted_sample(c.truth.time, options.skip_s);
   const std::size_t step = std::max<std::size_t>(1, (size - first) / kInstants);
   for (int k = 0; k < c.n_joints(); ++k) {
     const std::vector<double> squares =
@@ -133,7 +135,7 @@ MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, cons
   // A wrong name must not cost the runs' time. One that crashes as it is made fails run by run.
   for (const std::string& name : estimators) {
     try {
-      check_estimator(name, model);
+      check_estimator(name, model, options.containment);
     } catch (const InputError&) {
       throw;
     } catch (const std::runtime_error&) {}
@@ -143,8 +145,7 @@ MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, cons
     Scenario of_run = scenario;
     of_run.seed = scenario.seed + static_cast<std::uint64_t>(r);
     const SimulationResult simulation = simulate(of_run);
-    for (std::size_t e = 0; e < estimators.size(); ++e)
-      all[e][r] = run_one(model, estimators[e], simulation, options.skip_s);
+    for (std::size_t e = 0; e < estimators.size(); ++e) all[e][r] = run_one(model, estimators[e], simulation, options);
     if (options.run_done) options.run_done(1);
   });
 

@@ -8,6 +8,7 @@
 
 #include "evaluation/judgement/consistency.h"
 #include "evaluation/judgement/error_statistics.h"
+#include "evaluation/run/contained_run.h"
 #include "model/arm_model.h"
 #include "plant/scenario.h"
 
@@ -44,6 +45,7 @@ struct MonteCarlo {
 struct MonteCarloOptions {
   int runs = 1;
   double skip_s = 0.5;
+  ContainmentOptions containment = {};
   std::function<void(double)> run_done = {};  ///< called with 1 for each run, from any thread
 };
 

@@ -22,14 +22,14 @@ namespace {
 constexpr std::array kEstimators = {"kinematics", "ekf", "sr_ukf"};
 
 EffectEvidence evidence_of(const std::vector<Record>& records, const Hypothesis& without, const Hypothesis& with,
-                           const std::vector<FullPrediction>& predicted_with, int joint) {
+                           const std::vector<FullPrediction>& predicted_with, EffectPlace joint) {
   std::vector<FullPrediction> predicted_without;
   for (const Record& r : records) predicted_without.push_back(predict_fully(r, without));
   // An effect of a joint that moves shows at that joint first, one of the arm anywhere.
   EffectEvidence best;
   double most = -1;
   for (int k = 0; k < with.nominal.n; ++k) {
-    if (joint >= 0 && k != joint) continue;
+    if (joint && k != *joint) continue;
     EffectEvidence e{k,
                      residual_signals(records, predicted_without, without, k),
                      residual_signals(records, predicted_with, with, k),
@@ -93,7 +93,8 @@ DiagnosisEvidence evidence_for(const ArmModel& model, const Diagnosis& d, std::v
 
 /// Every estimator with the given and with the revised model, in parallel; none without a joint sensor.
 std::vector<EstimatorComparison> compare_on(const std::vector<HeldOutLog>& held_out, const Diagnosis& d,
-                                            const std::function<void(const std::string&, double)>& progress) {
+                                            const std::function<void(const std::string&, double)>& progress,
+                                            const ContainmentOptions& containment) {
   const bool sensed = std::any_of(held_out.begin(), held_out.end(), [](const HeldOutLog& h) {
     return std::any_of(h.log->joint_position.begin(), h.log->joint_position.end(),
                        [](const auto& column) { return !column.empty(); });
@@ -105,7 +106,7 @@ std::vector<EstimatorComparison> compare_on(const std::vector<HeldOutLog>& held_
   oneapi::tbb::parallel_for(std::size_t{0}, 2 * kEstimators.size(), [&](std::size_t job) {
     EstimatorComparison& of = all[job / 2];
     const bool after = job % 2 == 1;
-    EstimatorErrors errors = errors_of(kEstimators[job / 2], after ? d.revised : d.given, held_out);
+    EstimatorErrors errors = errors_of(kEstimators[job / 2], after ? d.revised : d.given, held_out, containment);
     const std::lock_guard lock(mutex);
     of.name = kEstimators[job / 2];
     (after ? of.after : of.before) = std::move(errors);
@@ -127,7 +128,8 @@ std::string alternatives_sentence(const NamedEffect& effect) {
 
 DiagnosisEvaluation evaluate_diagnosis(const ArmModel& model, const Diagnosis& d, const std::vector<Log>& training,
                                        const std::optional<Log>& holdout,
-                                       const std::function<void(const std::string&, double)>& progress) {
+                                       const std::function<void(const std::string&, double)>& progress,
+                                       const ContainmentOptions& containment) {
   std::vector<Record> records;
   std::vector<HeldOutLog> held_out;
   for (const Log& log : training) {
@@ -143,7 +145,7 @@ DiagnosisEvaluation evaluate_diagnosis(const ArmModel& model, const Diagnosis& d
   result.evidence = evidence;
   for (std::size_t i = 0; i < d.effects.size(); ++i)
     result.why.push_back(why_named(d.effects[i], evidence->effects[i], d.revised.nominal));
-  result.estimators = compare_on(held_out, d, progress);
+  result.estimators = compare_on(held_out, d, progress, containment);
   return result;
 }
 

@@ -27,7 +27,8 @@ struct DiagnosisEvaluation {
 /// never by two at once.
 DiagnosisEvaluation evaluate_diagnosis(const ArmModel& model, const Diagnosis& diagnosis,
                                        const std::vector<Log>& training, const std::optional<Log>& holdout,
-                                       const std::function<void(const std::string&, double)>& progress = {});
+                                       const std::function<void(const std::string&, double)>& progress = {},
+                                       const ContainmentOptions& containment = {});
 
 /// Sentence about an effect's alternatives: " These data cannot tell it from hysteresis of joint 2."; empty if none.
 std::string alternatives_sentence(const NamedEffect& effect);

@@ -4,7 +4,6 @@
 #include <exception>
 
 #include "evaluation/judgement/error_statistics.h"
-#include "evaluation/run/contained_run.h"
 #include "evaluation/run/sensor_readings.h"
 
 namespace halyard {
@@ -14,7 +13,8 @@ constexpr double kSkip = 0.5;  ///< s; a filter's start is not counted
 
 }  // namespace
 
-EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const std::vector<HeldOutLog>& logs) {
+EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const std::vector<HeldOutLog>& logs,
+                          const ContainmentOptions& containment) {
   const auto n = static_cast<std::size_t>(model.n());
   EstimatorErrors result;
   result.innovation.resize(n);
@@ -23,7 +23,7 @@ EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const 
   try {
     for (const auto& [held, from] : logs) {
       const Log& log = *held;
-      const EstimatorRun run = run_contained(name, model, log, {.use_joint_torque = true});
+      const EstimatorRun run = run_contained(name, model, log, {.use_joint_torque = true}, containment);
       const Signals readings = sensor_readings(model, run);
       const std::size_t first = first_counted_sample(log.time, std::max(kSkip, from - log.time.front()));
       const auto append = [first](const std::vector<double>& from, std::vector<double>& to) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/run/contained_run.h"
 #include "model/arm_model.h"
 #include "model/log.h"
 
@@ -24,9 +25,10 @@ struct HeldOutLog {
   const Log* log;
   double from;
 };
-/// The errors over all logs together. Each run has a process of its own. The estimator gets measured external loads,
-/// as the diagnosis' prediction does, because they are not part of the model.
-EstimatorErrors errors_of(const std::string& estimator, const ArmModel& model, const std::vector<HeldOutLog>& logs);
+/// The errors over all logs together. The estimator gets measured external loads, as the diagnosis' prediction does,
+/// because they are not part of the model.
+EstimatorErrors errors_of(const std::string& estimator, const ArmModel& model, const std::vector<HeldOutLog>& logs,
+                          const ContainmentOptions& containment = {});
 
 struct EstimatorComparison {
   std::string name;

@@ -43,7 +43,8 @@ std::string worse_joints(const IdentificationStudy& result) {
 
 IdentificationStudy study_identification(const ArmModel& model, const std::vector<Log>& logs,
                                          const std::optional<Log>& holdout, const std::vector<std::string>& keys,
-                                         const std::function<void(const std::string&, double)>& progress) {
+                                         const std::function<void(const std::string&, double)>& progress,
+                                         const ContainmentOptions& containment) {
   IdentificationStudy study;
   study.given = model;
   std::vector<Log> training;
@@ -65,8 +66,8 @@ IdentificationStudy study_identification(const ArmModel& model, const std::vecto
   study.identification = identify(model, training, keys, progress);
   for (const char* name : kEstimators) {
     if (progress) progress("estimators on the hold-out", 0);
-    study.estimators.push_back(
-        {name, errors_of(name, model, held_out), errors_of(name, study.identification.model, held_out)});
+    study.estimators.push_back({name, errors_of(name, model, held_out, containment),
+                                errors_of(name, study.identification.model, held_out, containment)});
   }
   return study;
 }

@@ -25,7 +25,8 @@ struct IdentificationStudy {
 /// Throws as identify() does. EstimatorErrors::failure reports an estimator that fails on the hold-out.
 IdentificationStudy study_identification(const ArmModel& model, const std::vector<Log>& logs,
                                          const std::optional<Log>& holdout, const std::vector<std::string>& keys,
-                                         const std::function<void(const std::string&, double)>& progress = {});
+                                         const std::function<void(const std::string&, double)>& progress = {},
+                                         const ContainmentOptions& containment = {});
 
 /// True if the identified values are adopted as the model's. They are rejected if sr_ukf with them fails on the
 /// hold-out. They are also rejected if two conditions hold together: the RMS error of a joint grows by more than a

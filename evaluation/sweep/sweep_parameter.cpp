@@ -13,7 +13,7 @@ namespace halyard {
 namespace {
 
 struct EffectKey {
-  int joint;  ///< 0-based; -1: the arm
+  EffectPlace joint;  ///< 0-based; a number that the user gave, not checked
   std::string effect, parameter;
 };
 
@@ -26,18 +26,19 @@ std::optional<EffectKey> parse_effect_key(std::string_view key) {
   };
   const std::string_view place = next_part();
   if (next_part() != "effect") return std::nullopt;
-  EffectKey parsed{-1, std::string(next_part()), std::string(key)};
+  EffectKey parsed{kWholeArm, std::string(next_part()), std::string(key)};
   if (place == "arm") return parsed;
   if (!place.starts_with("joint")) return std::nullopt;
   const char* end = place.data() + place.size();
-  const auto [rest, error] = std::from_chars(place.data() + 5, end, parsed.joint);
+  int number = 0;
+  const auto [rest, error] = std::from_chars(place.data() + 5, end, number);
   if (error != std::errc() || rest != end) return std::nullopt;
-  --parsed.joint;
+  parsed.joint = number - 1;
   return parsed;
 }
 
 /// The model's effect, or a new one. Placed for one of its sizes it has no other; for a shape it has typical sizes.
-PlacedEffect& placed_effect(ArmModel& model, const Effect& effect, int joint, const std::string& parameter) {
+PlacedEffect& placed_effect(ArmModel& model, const Effect& effect, EffectPlace joint, const std::string& parameter) {
   for (PlacedEffect& placed : model.effects) {
     if (placed.effect == &effect && placed.joint == joint) return placed;
   }
@@ -59,7 +60,9 @@ std::pair<double*, std::string> effect_parameter(ArmModel& model, const EffectKe
                      fmt::join(names, ", ")));
   }
   const EffectScope scope = effect->scope();
-  if ((key.joint < 0 ? scope == EffectScope::joint : scope == EffectScope::arm) || key.joint >= model.n()) {
+  const bool fits =
+      key.joint ? scope != EffectScope::arm && *key.joint >= 0 && *key.joint < model.n() : scope != EffectScope::joint;
+  if (!fits) {
     fail(scope == EffectScope::arm
              ? fmt::format("the effect is of the whole arm; write arm.effect.{}.{}", key.effect, key.parameter)
              : fmt::format("the effect is of a joint; write jointK.effect.{}.{} with K from 1 to {}", key.effect,

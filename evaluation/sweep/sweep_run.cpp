@@ -35,7 +35,7 @@ SweepCell::Result failure(const std::string& reason, std::size_t n_joints) {
 
 }  // namespace
 
-SweepCell run_point(const Sweep& sweep, std::size_t point) {
+SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOptions& containment) {
   const std::size_t n = sweep.grid.units.size();
   SweepCell cell{point, {}};
   SimulationResult data;
@@ -49,8 +49,8 @@ SweepCell run_point(const Sweep& sweep, std::size_t point) {
   const ArmModel model = sweep.model_at(point);
   for (const std::string& estimator : sweep.grid.estimators) {
     try {
-      Comparison comparison =
-          compare_estimators(model, {estimator}, data.measured, data.truth, {.skip_s = sweep.grid.skip_s});
+      Comparison comparison = compare_estimators(model, {estimator}, data.measured, data.truth,
+                                                 {.skip_s = sweep.grid.skip_s, .containment = containment});
       cell.results.push_back({"", std::move(comparison.errors[0])});
     } catch (const std::exception& error) {
       cell.results.push_back(failure(error.what(), n));
@@ -61,7 +61,8 @@ SweepCell run_point(const Sweep& sweep, std::size_t point) {
 
 void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions& options) {
   // A wrong estimator is found now, not in every cell.
-  for (const std::string& estimator : sweep.grid.estimators) check_estimator(estimator, sweep.model_at(0));
+  for (const std::string& estimator : sweep.grid.estimators)
+    check_estimator(estimator, sweep.model_at(0), options.containment);
 
   if (options.resume && holds_other_sweep(folder, sweep.grid)) {
     throw InputError(
@@ -81,7 +82,7 @@ void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions
   tbb::task_arena arena(jobs);
   arena.execute([&] {
     tbb::parallel_for_each(todo, [&](std::size_t point) {
-      write_cell(folder, sweep.grid, run_point(sweep, point));
+      write_cell(folder, sweep.grid, run_point(sweep, point, options.containment));
       if (const std::size_t now = ++done; options.progress) options.progress(now, todo.size());
     });
   });

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "evaluation/run/contained_run.h"
 #include "evaluation/sweep/sweep_file.h"
 #include "evaluation/sweep/sweep_store.h"
 
@@ -18,12 +19,13 @@ struct Shard {
 };
 
 /// Simulates a point and runs the estimators over its log. A failure is stored in the cell, not thrown.
-SweepCell run_point(const Sweep& sweep, std::size_t point);
+SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOptions& containment = {});
 
 struct SweepRunOptions {
   int jobs = 0;  ///< threads; 0: one per core
-  Shard shard;
+  Shard shard = {};
   bool resume = false;  ///< true: keep stored cells; false: compute all cells of the shard again
+  ContainmentOptions containment = {};
   /// Called once with done = 0 and then after each point; from any thread.
   std::function<void(std::size_t done, std::size_t total)> progress = {};
 };

@@ -168,6 +168,10 @@ std::optional<SweepCell> read_cell(const fs::path& folder, const SweepGrid& grid
     if (json.at("id").get<std::string>() != grid.id) {
       throw InputError(path.string() + ": belongs to another sweep; give a folder of its own to each sweep");
     }
+    if (const auto stored = json.at("point").get<std::size_t>(); stored != point) {
+      throw InputError(fmt::format("{}: holds point {}, but its name says point {}; remove it and run the sweep again",
+                                   path.string(), stored, point));
+    }
     SweepCell cell{point, {}};
     for (const ordered_json& result : json.at("estimators")) {
       cell.results.push_back({result.at("failure").get<std::string>(), {}});

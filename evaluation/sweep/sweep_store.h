@@ -34,7 +34,8 @@ void write_grid(const std::filesystem::path& folder, const SweepGrid& grid);
 SweepGrid read_grid(const std::filesystem::path& folder);
 
 void write_cell(const std::filesystem::path& folder, const SweepGrid& grid, const SweepCell& cell);
-/// Reads the cell of a point, if there is one. Throws InputError if the cell is damaged or of another sweep.
+/// Reads the cell of a point, if there is one. Throws InputError if the cell is damaged, of another sweep,
+/// or of another point.
 std::optional<SweepCell> read_cell(const std::filesystem::path& folder, const SweepGrid& grid, std::size_t point);
 void remove_cell(const std::filesystem::path& folder, std::size_t point);
 

@@ -23,8 +23,8 @@ class TightSpot : public EffectOf<TightSpot>, public RefinesSearch {
   std::string name() const override { return "tight_spot"; }
   std::string summary() const override { return "friction that rises around one position of the joint"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const JointParameters<double>& j = arm.joint[joint];
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const JointParameters<double>& j = arm.joint[*joint];
     const bool turns = j.type == JointType::revolute;
     const double level = typical_joint_friction(j), width = typical_width(j), far = turns ? 10 : 2;
     // Name, unit, neutral, typical, lower, upper.
@@ -32,17 +32,17 @@ class TightSpot : public EffectOf<TightSpot>, public RefinesSearch {
             {"position", turns ? "rad" : "m", 0, 0, -far, far},
             {"width", turns ? "rad" : "m", width, width, 0.1 * width, 10 * width}};
   }
-  void refine_search(SearchSpace& space, const ArmParameters<double>& arm, int joint) const override {
-    const double width = typical_width(arm.joint[joint]);
+  void refine_search(SearchSpace& space, const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double width = typical_width(arm.joint[*joint]);
     space["position"].range = SearchRange::joint_position;
     space["width"].starts = {0.5 * width, 2 * width};
   }
 
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
-    JointSignals<T>& own = s[c.joint];
+    JointSignals<T>& own = s[*c.joint];
     const T u = (own.joint_position - c.p[1]) / c.p[2];
-    own.joint_force -= c.p[0] * exp(T(-u * u)) * smooth_sign(own.joint_rate, c.arm.joint[c.joint].joint_smoothing);
+    own.joint_force -= c.p[0] * exp(T(-u * u)) * smooth_sign(own.joint_rate, c.arm.joint[*c.joint].joint_smoothing);
   }
 
  private:

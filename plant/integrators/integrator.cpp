@@ -35,7 +35,7 @@ Eigen::VectorXd absolute_tolerances(const PlantLayout& l, double tolerance) {
   all.segment(l.n, l.n) *= kRateTolerance;
   Eigen::Ref<Eigen::VectorXd> z = all.tail(l.n_z);
   for (int k = 0; k < l.n; ++k)
-    if (l.has_motor_states(k)) z(l.motor_rate[k]) *= kRateTolerance;
+    if (l.motor_rate[k]) z(*l.motor_rate[k]) *= kRateTolerance;
   z(l.input_energy) = z(l.lost_energy) = kUncontrolled;
   return all;
 }

@@ -71,7 +71,7 @@ void check_effect(const SharedModule& module, const Effect& effect) {
                   std::to_string(kMaxEffectStates));
   }
   const ArmParameters<double> arm = plain_arm();
-  for (const int place : effect_places(effect, arm)) {
+  for (const EffectPlace place : effect_places(effect, arm)) {
     const std::vector<EffectParameter> parameters = effect.parameters(arm, place);
     if (parameters.empty() || parameters.size() > kMaxEffectParameters) {
       refuse_effect("has " + std::to_string(parameters.size()) + " parameters; give it 1 to " +

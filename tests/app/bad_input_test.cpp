@@ -241,6 +241,8 @@ TEST_F(BadInput, ASweepThatCannotBeComputed) {
   expect_sweep_refused("<axis parameter=\"joint1.effect.backlsh.half_gap\" values=\"1\"/>", {"backlsh", "backlash"});
   expect_sweep_refused("<axis parameter=\"joint1.effect.backlash.gap\" values=\"1\"/>", {"backlash.gap", "half_gap"});
   expect_sweep_refused("<axis parameter=\"joint9.effect.backlash.half_gap\" values=\"1\"/>", {"joint9", "1 to 3"});
+  expect_sweep_refused("<axis parameter=\"joint0.effect.delay.command_delay\" values=\"1\"/>", {"joint0", "1 to 3"});
+  expect_sweep_refused("<axis parameter=\"joint0.effect.payload.mass\" values=\"1\"/>", {"arm.effect.payload.mass"});
   expect_sweep_refused("<axis parameter=\"joint1.cable.stiffness\" values=\"1e5 -2\"/>",
                        {"at joint1.cable.stiffness = -2 N/m, robot", "stiffness"});
   expect_sweep_refused("<axis parameter=\"joint1.cable.stiffness\" values=\"1e5 x\"/>", {"bad.xml:1:", "1e5 x"});

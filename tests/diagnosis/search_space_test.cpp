@@ -25,8 +25,8 @@ ArmParameters<double> mixed_arm() {
 TEST(SearchSpace, EachParameterOfTheLibraryHasOneWithStartsThatAscendInsideItsBounds) {
   for (const ArmParameters<double>& arm : {random_arm(1, CableLaw::linear), mixed_arm()})
     for (const Effect* effect : effect_library())
-      for (const int joint : effect_places(*effect, arm)) {
-        SCOPED_TRACE(effect->name() + " at joint " + std::to_string(joint + 1));
+      for (const EffectPlace joint : effect_places(*effect, arm)) {
+        SCOPED_TRACE(effect_label({effect, joint, {}}));
         const std::vector<EffectParameter> parameters = effect->parameters(arm, joint);
         const SearchSpace space = search_space(*effect, arm, joint);
         ASSERT_EQ(space.parameters.size(), parameters.size());
@@ -60,10 +60,10 @@ TEST(SearchSpace, EachRefinementBelongsToAnEffectOfTheLibrary) {
 
 TEST(SearchSpace, AnEffectThatChangesANumberOfTheModelFallsUnderThatNumbersTolerance) {
   const ArmParameters<double> arm = random_arm(3, CableLaw::linear);
-  const auto changes = [&](const char* effect, int joint, const char* parameter) {
+  const auto changes = [&](const char* effect, EffectPlace joint, const char* parameter) {
     return search_space(*find_effect(effect), arm, joint)[parameter].changes;
   };
-  const TolerancedNumber mass = changes("payload", -1, "mass");
+  const TolerancedNumber mass = changes("payload", kWholeArm, "mass");
   EXPECT_EQ(mass.kind, &Tolerances::mass);
   EXPECT_EQ(mass.joint, arm.n - 1) << "a payload adds to the last link";
   EXPECT_EQ(mass.size, arm.joint[arm.n - 1].mass);
@@ -85,7 +85,7 @@ class Bump : public EffectOf<Bump> {
  public:
   std::string name() const override { return "bump"; }
   std::string summary() const override { return "for tests"; }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"height", "N m", 0, 1, 0, 10}, {"width", "rad", 0.1, 0.1, 0.01, 1}};
   }
 };
@@ -107,7 +107,7 @@ TEST(SearchSpace, OfAUsersEffectIsDerivedFromItsBounds) {
 class RefinedBump : public Bump, public RefinesSearch {
  public:
   explicit RefinedBump(void (*refine)(SearchSpace&)) : refine_(refine) {}
-  void refine_search(SearchSpace& space, const ArmParameters<double>&, int) const override { refine_(space); }
+  void refine_search(SearchSpace& space, const ArmParameters<double>&, EffectPlace) const override { refine_(space); }
 
  private:
   void (*refine_)(SearchSpace&);

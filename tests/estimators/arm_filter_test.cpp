@@ -32,8 +32,8 @@ TEST(SrUkfOnTheArm, FindsTheJointsFromMotorSignals) {
 
 TEST(SrUkfOnTheArm, KeepsUpWithEffectsThatItKnows) {
   ArmModel model = raven2();
-  add_effect(model, "backlash", 2, {3.5e-4});
-  add_effect(model, "hysteresis", 3, {0.4, 1e-4});
+  add_effect(model, "backlash", 1, {3.5e-4});
+  add_effect(model, "hysteresis", 2, {0.4, 1e-4});
   const ArmRun run = run_arm(model, 3);
   const auto ukf = make_sr_ukf(model, {}), ignorant = make_sr_ukf(raven2(), {});
   const Eigen::VectorXd knowing = rms_error(*ukf, run, 0.5), unknowing = rms_error(*ignorant, run, 0.5);
@@ -292,7 +292,7 @@ TEST(SrUkfOnTheArm, FindsTheJointsOfTheSecondSimulatorThroughABacklashThatItKnow
   const ArmRun run = rig_run("backlash-j2/holdout.csv", 3);
   if (run.samples.empty()) GTEST_SKIP() << "shared data not found: rig/backlash-j2";
   ArmModel model = raven2();
-  add_effect(model, "backlash", 2, {3.5e-4});
+  add_effect(model, "backlash", 1, {3.5e-4});
   const auto ukf = make_sr_ukf(model, {});
   const Eigen::VectorXd rms = rms_error(*ukf, run, 0.5);
   EXPECT_LT(rms(0), 0.004 * M_PI / 180);

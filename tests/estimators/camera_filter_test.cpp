@@ -119,7 +119,7 @@ TEST(Camera, ErrsAndDropsFramesAsItIsToldAndLeavesOtherNoiseAlone) {
 
 TEST(CameraFilter, RemovesTheBiasOfARatioThatMotorsCannotTell) {
   Scenario s = scenario(3, {});
-  add_effect(s.robot, "capstan_ratio", 2, {1.03});
+  add_effect(s.robot, "capstan_ratio", 1, {1.03});
   const SimulationResult log = simulate(s);
   const auto seeing = make_camera_sr_ukf(raven2(), {}), blind = make_sr_ukf(raven2(), {});
   const Eigen::Vector3d with = errors(*seeing, log), without = errors(*blind, log);

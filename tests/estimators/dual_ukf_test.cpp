@@ -70,7 +70,7 @@ std::vector<EncoderSample> record_of(const ArmModel& model, double w, int sample
     EncoderSample s;
     s.time_s = kStep * i;
     s.motor_torque = Eigen::VectorXd::Constant(1, command_at(s.time_s));
-    s.motor_position = Eigen::VectorXd::Constant(1, x(l.motor_angle[0]) + sigma(0) * normal(random));
+    s.motor_position = Eigen::VectorXd::Constant(1, x(*l.motor_angle[0]) + sigma(0) * normal(random));
     s.joint_position = Eigen::VectorXd::Constant(1, x(l.position[0]) + sigma(1) * normal(random));
     record.push_back(s);
     Step step;
@@ -121,17 +121,17 @@ Posterior by_augmented_filter(const ArmModel& model, const std::vector<EncoderSa
   ArmNoise noise(model, process, noise_levels(model, process));
 
   Eigen::VectorXd start = Eigen::VectorXd::Zero(n);
-  start(l.motor_angle[0]) = record[0].motor_position(0);
+  start(*l.motor_angle[0]) = record[0].motor_position(0);
   start(l.position[0]) = record[0].joint_position(0);
   Eigen::MatrixXd S_0 = noise.initial_root(start, INFINITY);
   S_0(l.rate[0], l.rate[0]) = model.joints[0].upper - model.joints[0].lower;
-  S_0(l.motor_rate[0], l.motor_rate[0]) = S_0(l.rate[0], l.rate[0]) / j.motor_travel();
+  S_0(*l.motor_rate[0], *l.motor_rate[0]) = S_0(l.rate[0], l.rate[0]) / j.motor_travel();
 
   Vector x = Vector::Zero(n + 1);
   x.head(n) = start.cast<Real>();
   Matrix P = Matrix::Identity(n + 1, n + 1), H = Matrix::Zero(2, n + 1), F = Matrix::Identity(n + 1, n + 1);
   P.topLeftCorner(n, n) = (S_0 * S_0.transpose()).cast<Real>();
-  H(0, l.motor_angle[0]) = H(1, l.position[0]) = 1;
+  H(0, *l.motor_angle[0]) = H(1, l.position[0]) = 1;
   const Matrix R = encoder_noise(model).cwiseAbs2().asDiagonal().toDenseMatrix().cast<Real>();
 
   for (std::size_t i = 1; i < record.size(); ++i) {

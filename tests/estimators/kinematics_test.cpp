@@ -60,8 +60,8 @@ TEST(Kinematics, AMissingMotorSampleHoldsItsLastAngle) {
 
 TEST(Kinematics, TakesParametersThatEffectsChange) {
   ArmModel model = raven2();
-  add_effect(model, "capstan_ratio", 1, {1.05});
-  add_effect(model, "encoder_offset", 3, {0.004});
+  add_effect(model, "capstan_ratio", 0, {1.05});
+  add_effect(model, "encoder_offset", 2, {0.004});
   KinematicsEstimator kinematics(model);
   const ProcessModel process(model);
   const Eigen::Vector3d q(0.3, 1.7, 0.33);

@@ -29,7 +29,7 @@ Eigen::VectorXd moving(const ArmModel& model, const ProcessModel& process) {
   Eigen::VectorXd x = process.state_at_rest(angle, q);
   for (int k = 0; k < 3; ++k) {
     x(process.layout().rate[k]) = v(k);
-    x(process.layout().motor_rate[k]) = rate(k);
+    x(*process.layout().motor_rate[k]) = rate(k);
   }
   return x;
 }
@@ -71,8 +71,9 @@ TEST(ProcessNoise, OfTwoHalfStepsIsThatOfOne) {
   process.advance_with_jacobian({0, 1e-4, torque.data()}, middle.data(), F);
   const Eigen::MatrixXd Q = whole * whole.transpose();
   const Eigen::MatrixXd two = F * half * half.transpose() * F.transpose() + half * half.transpose();
-  for (const auto& rates : {process.layout().rate, process.layout().motor_rate})
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(two(rates[k], rates[k]) / Q(rates[k], rates[k]), 1, 0.02);
+  for (int k = 0; k < 3; ++k)
+    for (const int rate : {process.layout().rate[k], *process.layout().motor_rate[k]})
+      EXPECT_NEAR(two(rate, rate) / Q(rate, rate), 1, 0.02);
 }
 
 /// (e/σ)² of the joints in the mean over an arm on sines under the noise that the filter assumes, drawn as torques and
@@ -107,7 +108,7 @@ Nees nees_under_assumed_noise(GaussianFilter& filter) {
     Eigen::VectorXd torque = unstretched_motors(process.arm(), wanted) - process.motor_readings(0, x);
     for (int k = 0; k < 3; ++k) {
       const ControllerParameters& c = model.joints[k].controller;
-      torque(k) = 3 * c.kp * torque(k) - c.kd * x(process.layout().motor_rate[k]);
+      torque(k) = 3 * c.kp * torque(k) - c.kd * x(*process.layout().motor_rate[k]);
     }
     const Eigen::VectorXd w = draw(6), v = draw(3), none = Eigen::VectorXd::Zero(3);
     const Eigen::VectorXd disturbed = torque + held * levels.torque.cwiseProduct(w.head(3));

@@ -22,9 +22,9 @@ constexpr double kLoad[3] = {0.1, -0.2, 0.5};
 /// The arm with effects of every kind: states, parameters of the arm, friction that depends on load.
 ArmModel arm_with_effects() {
   ArmModel model = raven2();
-  add_effect(model, "hysteresis", 3, {0.4, 1e-4});
-  add_effect(model, "pulley_friction", 2, {0.05, 0.5});
-  add_effect(model, "payload", 0, {0.1});
+  add_effect(model, "hysteresis", 2, {0.4, 1e-4});
+  add_effect(model, "pulley_friction", 1, {0.05, 0.5});
+  add_effect(model, "payload", kWholeArm, {0.1});
   return model;
 }
 
@@ -36,9 +36,9 @@ Eigen::VectorXd state_sizes(const ProcessModel& process) {
     const JointParameters<double>& j = process.arm().joint[k];
     sizes(l.position[k]) = 1e-4;
     sizes(l.rate[k]) = j.joint_smoothing;
-    if (!l.has_motor_states(k)) continue;
-    sizes(l.motor_angle[k]) = 1e-4 / j.motor_travel();
-    sizes(l.motor_rate[k]) = j.motor_smoothing;
+    if (!l.motor_angle[k]) continue;
+    sizes(*l.motor_angle[k]) = 1e-4 / j.motor_travel();
+    sizes(*l.motor_rate[k]) = j.motor_smoothing;
   }
   return sizes;
 }
@@ -256,12 +256,12 @@ class EccentricEncoder : public EffectOf<EccentricEncoder> {
   std::string name() const override { return "test_eccentric_encoder"; }
   std::string summary() const override { return "for tests"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::sensors); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"amplitude", "rad", 0, 0.01, 0, 1}};
   }
   template <class T>
   void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[c.joint].motor_error += c.p[0] * sin(s[c.joint].motor_angle);
+    s[*c.joint].motor_error += c.p[0] * sin(s[*c.joint].motor_angle);
   }
 };
 
@@ -271,12 +271,12 @@ class Late : public EffectOf<Late> {
   std::string name() const override { return "test_late"; }
   std::string summary() const override { return "for tests"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::command); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"time", "s", 0, 0.01, 0, 1}};
   }
   template <class T>
   void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
-    if (c.history) s[c.joint].motor_torque = c.history->at(c.joint, T(c.time) - c.p[0]);
+    if (c.history) s[*c.joint].motor_torque = c.history->at(*c.joint, T(c.time) - c.p[0]);
   }
 };
 
@@ -292,7 +292,7 @@ class WithTestEffects : public ::testing::Test {
 TEST_F(WithTestEffects, SensorEffectsEnterTheReadingsAndTheirJacobian) {
   ArmModel model = raven2();
   EXPECT_TRUE(ProcessModel(model).readings_are_linear());
-  add_effect(model, "test_eccentric_encoder", 2, {0.02});
+  add_effect(model, "test_eccentric_encoder", 1, {0.02});
   const ProcessModel process(model);
   EXPECT_FALSE(process.readings_are_linear());
   const Eigen::VectorXd x = some_states(process, model, 1).col(0);
@@ -305,7 +305,7 @@ TEST_F(WithTestEffects, SensorEffectsEnterTheReadingsAndTheirJacobian) {
 
 TEST_F(WithTestEffects, DelayedCommandsComeFromTheHistoryInEveryPath) {
   ArmModel model = raven2();
-  add_effect(model, "test_late", 1, {0.005});
+  add_effect(model, "test_late", 0, {0.005});
   const ProcessModel process(model);
   CommandHistory history(3, 1);
   const double before[3] = {0.05, 0, 0}, now[3] = {-0.05, 0, 0};

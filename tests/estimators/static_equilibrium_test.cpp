@@ -34,7 +34,7 @@ TEST(StaticEquilibrium, CablesCarryGravityAndTheLoad) {
 
 TEST(StaticEquilibrium, GravityTakesABacklashToOneSide) {
   ArmModel model = raven2();
-  add_effect(model, "backlash", 2, {3.5e-4});
+  add_effect(model, "backlash", 1, {3.5e-4});
   const ProcessModel process(model);
   const ArmParameters<double>& arm = process.arm();
   const Eigen::VectorXd home = model.home(), none = Eigen::VectorXd::Zero(3);

@@ -23,6 +23,7 @@
 #include "plugins/host/effect_module.h"
 #include "plugins/host/loader.h"
 #include "tests/plugins/broken/effects/spring_effect.h"
+#include "tests/support/environment.h"
 #include "tests/support/message_of.h"
 
 namespace halyard {
@@ -82,16 +83,6 @@ std::string failure_of(const std::string& name, const ContainmentOptions& contai
   }
   return "no failure";
 }
-
-/// Sets an environment variable until the end of the scope.
-class Environment {
- public:
-  Environment(const char* name, const std::string& value) : name_(name) { setenv(name, value.c_str(), 1); }
-  ~Environment() { unsetenv(name_); }
-
- private:
-  const char* name_;
-};
 
 TEST(ContainedRun, GivesTheNumbersOfARunInThisProcessToTheLastBit) {
   const Log log = some_log();

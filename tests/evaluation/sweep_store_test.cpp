@@ -146,8 +146,9 @@ TEST_F(SweepStore, RefusesWhatIsDamaged) {
   write(folder / "sweep.json", "{\"sweep\": ");
   EXPECT_EQ(message_of([&] { read_grid(folder); }), damaged(folder / "sweep.json"));
   write_cell(folder, grid, some_cell(0));
-  for (const char* text : {"", "[]", "{\"id\": \"12ab\", \"estimators\": []}",
-                           "{\"id\": \"12ab\", \"estimators\": [{\"failure\": \"\", \"joints\": []}]}"}) {
+  for (const char* text :
+       {"", "[]", R"({"id": "12ab", "estimators": []})", R"({"id": "12ab", "point": 0, "estimators": []})",
+        R"({"id": "12ab", "point": 0, "estimators": [{"failure": "", "joints": []}]})"}) {
     write(cell("000000.json"), text);
     EXPECT_EQ(message_of([&] { read_cell(folder, grid, 0); }), damaged(cell("000000.json"))) << text;
   }
@@ -159,6 +160,14 @@ TEST_F(SweepStore, RefusesACellOfAnotherSweep) {
   write_cell(folder, other, some_cell(0));
   EXPECT_EQ(message_of([&] { read_cell(folder, grid, 0); }),
             cell("000000.json").string() + ": belongs to another sweep; give a folder of its own to each sweep");
+}
+
+TEST_F(SweepStore, RefusesACellThatWasRenamedToAnotherPoint) {
+  write_cell(folder, grid, some_cell(3));
+  fs::rename(cell("000003.json"), cell("000005.json"));
+  EXPECT_EQ(
+      message_of([&] { read_cell(folder, grid, 5); }),
+      cell("000005.json").string() + ": holds point 3, but its name says point 5; remove it and run the sweep again");
 }
 
 TEST_F(SweepStore, DiscardsCellsAndTablesOfAnotherSweepAndKeepsItsOwn) {

@@ -42,8 +42,8 @@ TEST(ModelFile, ReadsEveryElement) {
   EXPECT_EQ(model.effects[0].effect->name(), "backlash");
   EXPECT_EQ(model.effects[0].joint, 0);
   EXPECT_DOUBLE_EQ(model.effects[0].p[0], 3.5e-4);
-  EXPECT_EQ(model.effects[1].joint, -1);
-  EXPECT_EQ(model.effects[1].p[0], model.effects[1].effect->parameters(model.nominal, -1)[0].typical);
+  EXPECT_EQ(model.effects[1].joint, kWholeArm);
+  EXPECT_EQ(model.effects[1].p[0], model.effects[1].effect->parameters(model.nominal, kWholeArm)[0].typical);
   const ColumnSource& source = model.columns.sources().at("motor_position_1");
   EXPECT_EQ(source.column, "spindle <deg>");
   EXPECT_DOUBLE_EQ(source.scale, -2 * kDegree);

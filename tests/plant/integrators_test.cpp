@@ -121,10 +121,10 @@ class LostForce : public EffectOf<LostForce> {
   std::string name() const override { return "lost_force"; }
   std::string summary() const override { return "a force that is no number after 50 ms"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override { return {}; }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override { return {}; }
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
-    if (c.time > 0.05) s[c.joint].joint_force = T(std::numeric_limits<double>::quiet_NaN());
+    if (c.time > 0.05) s[*c.joint].joint_force = T(std::numeric_limits<double>::quiet_NaN());
   }
 };
 

@@ -19,7 +19,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 ArmModel raven2() { return read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml"); }
 
-PlacedEffect placed(const std::string& name, const ArmParameters<double>& arm, int joint) {
+PlacedEffect placed(const std::string& name, const ArmParameters<double>& arm, EffectPlace joint) {
   return place_effect(*find_effect(name), arm, joint);
 }
 
@@ -46,9 +46,9 @@ Eigen::VectorXd random_state(const ArmPlant& plant, std::mt19937_64& random) {
   y(2) = 0.4 + 0.1 * y(2);
   cable_path(arm, y.data(), path.data());
   for (int k = 0; k < l.n; ++k) {  // a millimetre of stretch, motors at speed
-    if (!l.has_motor_states(k)) continue;
-    y(2 * l.n + l.motor_angle[k]) = (path(k) + 1e-3 * unit(random)) / arm.joint[k].motor_travel();
-    y(2 * l.n + l.motor_rate[k]) = 30 * unit(random);
+    if (!l.motor_angle[k]) continue;
+    y(2 * l.n + *l.motor_angle[k]) = (path(k) + 1e-3 * unit(random)) / arm.joint[k].motor_travel();
+    y(2 * l.n + *l.motor_rate[k]) = 30 * unit(random);
   }
   for (int i = 0; i < l.n_effect_states; ++i) y(2 * l.n + l.effect_states + i) *= 1e-4;
   return y;
@@ -113,9 +113,9 @@ void expect_process_model(const ArmParameters<double>& arm, const std::vector<Pl
     for (int k = 0; k < l.n; ++k) {
       x(to.position[k]) = y(k);
       x(to.rate[k]) = y(l.n + k);
-      if (!l.has_motor_states(k)) continue;
-      x(to.motor_angle[k]) = y(2 * l.n + l.motor_angle[k]);
-      x(to.motor_rate[k]) = y(2 * l.n + l.motor_rate[k]);
+      if (!l.motor_angle[k]) continue;
+      x(*to.motor_angle[k]) = y(2 * l.n + *l.motor_angle[k]);
+      x(*to.motor_rate[k]) = y(2 * l.n + *l.motor_rate[k]);
     }
     for (int i = 0; i < l.n_effect_states; ++i) x(to.effect_states + i) = y(2 * l.n + l.effect_states + i);
     state_derivative(transmission, to, 0.0, &history, command, load, x.data(), x_dot.data());
@@ -125,9 +125,9 @@ void expect_process_model(const ArmParameters<double>& arm, const std::vector<Pl
     for (int k = 0; k < l.n; ++k) {
       EXPECT_NEAR(y_dot(k), x_dot(to.position[k]), tolerance);
       EXPECT_NEAR(y_dot(l.n + k), x_dot(to.rate[k]), tolerance);
-      if (!l.has_motor_states(k)) continue;
-      EXPECT_NEAR(y_dot(2 * l.n + l.motor_angle[k]), x_dot(to.motor_angle[k]), tolerance);
-      EXPECT_NEAR(y_dot(2 * l.n + l.motor_rate[k]), x_dot(to.motor_rate[k]), tolerance);
+      if (!l.motor_angle[k]) continue;
+      EXPECT_NEAR(y_dot(2 * l.n + *l.motor_angle[k]), x_dot(*to.motor_angle[k]), tolerance);
+      EXPECT_NEAR(y_dot(2 * l.n + *l.motor_rate[k]), x_dot(*to.motor_rate[k]), tolerance);
     }
     for (int i = 0; i < l.n_effect_states; ++i)
       EXPECT_NEAR(y_dot(2 * l.n + l.effect_states + i), x_dot(to.effect_states + i), tolerance);
@@ -138,8 +138,9 @@ TEST(ArmPlant, MovesAsTheProcessModelOfTheNominalArm) { expect_process_model(rav
 
 TEST(ArmPlant, MovesAsTheProcessModelWithEffects) {
   const ArmParameters<double> arm = raven2().nominal;
-  expect_process_model(arm, {placed("payload", arm, -1), placed("hysteresis", arm, 2), placed("backlash", arm, 1),
-                             placed("pulley_friction", arm, 0), placed("hysteresis", arm, 0)});
+  expect_process_model(arm,
+                       {placed("payload", arm, kWholeArm), placed("hysteresis", arm, 2), placed("backlash", arm, 1),
+                        placed("pulley_friction", arm, 0), placed("hysteresis", arm, 0)});
 }
 
 TEST(ArmPlant, MovesAsTheProcessModelWithRigidAndMissingDrives) {
@@ -169,7 +170,7 @@ TEST(ArmPlant, SplitsOffTheCablesAndTheFrictionOfAllAxes) {
     plant.derivative_of_terms(DriveTerms::cables_and_friction, 0, y.data(), part.data());
     for (int i = 3; i < 6; ++i) EXPECT_NEAR(part(i), all(i) - rest(i), 1e-9 * (1 + std::abs(all(i))));
     for (int k = 0; k < 3; ++k) {
-      const int i = 6 + plant.layout().motor_rate[k];
+      const int i = 6 + *plant.layout().motor_rate[k];
       EXPECT_NEAR(part(i), all(i) - rest(i), 1e-9 * (1 + std::abs(all(i))));
     }
   }

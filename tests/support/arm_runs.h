@@ -18,9 +18,9 @@ namespace halyard {
 
 inline ArmModel raven2() { return read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml"); }
 
-/// An effect of the library at a joint (1, 2, ...; 0: the arm) with these parameters.
-inline void add_effect(ArmModel& model, const std::string& name, int joint, const std::vector<double>& p) {
-  PlacedEffect placed = place_effect(*find_effect(name), model.nominal, joint - 1);
+/// Adds an effect of the library with these parameters.
+inline void add_effect(ArmModel& model, const std::string& name, EffectPlace joint, const std::vector<double>& p) {
+  PlacedEffect placed = place_effect(*find_effect(name), model.nominal, joint);
   for (std::size_t i = 0; i < p.size(); ++i) placed.p[i] = p[i];
   model.effects.push_back(placed);
 }
@@ -74,7 +74,7 @@ class DrivenArm {
     const Eigen::VectorXd wanted = unstretched_motors(process_.arm(), q_d);
     for (int k = 0; k < n; ++k) {
       const ControllerParameters& c = model_.joints[k].controller;
-      const double torque = 3 * c.kp * (wanted(k) - s.motor_position(k)) - c.kd * x_(process_.layout().motor_rate[k]);
+      const double torque = 3 * c.kp * (wanted(k) - s.motor_position(k)) - c.kd * x_(*process_.layout().motor_rate[k]);
       s.motor_torque(k) = std::min(c.torque_limit, std::max(-c.torque_limit, torque));
       const double resolution = model_.nominal.joint[k].motor_encoder_resolution;
       s.motor_position(k) = resolution * std::round(s.motor_position(k) / resolution);

@@ -13,7 +13,7 @@ namespace halyard {
 inline constexpr double kEps = std::numeric_limits<double>::epsilon();
 inline constexpr CableLaw kLaws[] = {CableLaw::paper, CableLaw::exponential, CableLaw::linear};
 
-inline PlacedEffect placed(const std::string& name, const ArmParameters<double>& arm, int joint,
+inline PlacedEffect placed(const std::string& name, const ArmParameters<double>& arm, EffectPlace joint,
                            const std::vector<double>& p) {
   PlacedEffect e = place_effect(*find_effect(name), arm, joint);
   for (std::size_t i = 0; i < p.size(); ++i) e.p[i] = p[i];

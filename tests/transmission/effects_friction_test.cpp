@@ -131,7 +131,7 @@ struct AddedFriction {
 };
 AddedFriction added_friction(const ArmParameters<double>& arm, const PlacedEffect& effect, const Motion& m,
                              double time = 0) {
-  const int k = effect.joint;
+  const int k = *effect.joint;
   const Evaluated without = evaluate(Transmission<double>(arm, {}), m, nullptr, time);
   const Evaluated with = evaluate(Transmission<double>(arm, {effect}), m, nullptr, time);
   return {without.s[k].motor_torque - with.s[k].motor_torque, without.s[k].joint_force - with.s[k].joint_force};

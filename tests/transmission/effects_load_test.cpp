@@ -10,7 +10,7 @@ namespace {
 TEST(Payload, IsTheDirectSumOfTwoBodies) {
   const ArmParameters<double> arm = random_arm(4, CableLaw::linear);
   for (const double mass : {0.3, -0.2}) {
-    const Transmission<double> with(arm, {placed("payload", arm, -1, {mass})});
+    const Transmission<double> with(arm, {placed("payload", arm, kWholeArm, {mass})});
     const JointParameters<double>&before = arm.joint[2], &after = with.arm().joint[2];
     const double* r = arm.payload_point;
     EXPECT_NEAR(after.mass, before.mass + mass, 2 * kEps * before.mass);
@@ -37,10 +37,10 @@ TEST(GravityTilt, TurnsGravityAndLeavesItsSize) {
   // Nominal gravity along an axis: the names of the two angles, and where gravity then points.
   const auto tilted = [&](int axis, const char* first, const char* second) {
     for (int i = 0; i < 3; ++i) arm.gravity[i] = i == axis ? -g : 0;
-    const auto parameters = find_effect("gravity_tilt")->parameters(arm, -1);
+    const auto parameters = find_effect("gravity_tilt")->parameters(arm, kWholeArm);
     EXPECT_EQ(parameters[0].name, first);
     EXPECT_EQ(parameters[1].name, second);
-    const Transmission<double> with(arm, {placed("gravity_tilt", arm, -1, {alpha, beta})});
+    const Transmission<double> with(arm, {placed("gravity_tilt", arm, kWholeArm, {alpha, beta})});
     const double* turned = with.arm().gravity;
     EXPECT_NEAR(std::hypot(turned[0], turned[1], turned[2]), g, g * 4 * kEps);
     return std::vector<double>(turned, turned + 3);

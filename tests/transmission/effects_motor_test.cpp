@@ -9,7 +9,7 @@ namespace {
 
 /// What an effect at a joint adds to its motor's torque.
 double added_torque(const ArmParameters<double>& arm, const PlacedEffect& effect, const Motion& m) {
-  const int k = std::max(effect.joint, 0);
+  const int k = effect.joint.value_or(0);
   return evaluate(Transmission<double>(arm, {effect}), m).s[k].motor_torque -
          evaluate(Transmission<double>(arm, {}), m).s[k].motor_torque;
 }
@@ -62,7 +62,7 @@ TEST(Delay, LetsTheTorqueActLateAtItsJointOrAtAll) {
   const double now = 0.1, delay = 0.025;
   Motion m;
   for (int k = 0; k < 3; ++k) m.command[k] = ramp(k, now);
-  for (const int place : {-1, 1}) {
+  for (const EffectPlace place : {EffectPlace(kWholeArm), EffectPlace(1)}) {
     const Transmission<double> with(arm, {placed("delay", arm, place, {delay, 0})});
     const Evaluated late = evaluate(with, m, nullptr, now, &history), blind = evaluate(with, m, nullptr, now);
     for (int k = 0; k < 3; ++k) {

@@ -19,7 +19,7 @@ std::vector<PlacedEffect> built_in_everywhere(const ArmParameters<double>& arm) 
   std::vector<PlacedEffect> all;
   for (const auto& made : built_in_effects()) {
     const Effect* effect = find_effect(made->name());
-    for (const int joint : effect_places(*effect, arm)) all.push_back(place_effect(*effect, arm, joint));
+    for (const EffectPlace joint : effect_places(*effect, arm)) all.push_back(place_effect(*effect, arm, joint));
   }
   return all;
 }
@@ -54,7 +54,7 @@ TEST(EffectLibrary, NeutralParametersChangeNothing) {
     const ArmParameters<double> arm = random_arm(2, law);
     const EvaluatedArm<double> bare{arm, {}};
     for (PlacedEffect e : built_in_everywhere(arm)) {
-      SCOPED_TRACE(e.effect->name() + " at joint " + std::to_string(e.joint + 1));
+      SCOPED_TRACE(effect_label(e));
       const auto parameters = e.effect->parameters(arm, e.joint);
       for (std::size_t i = 0; i < parameters.size(); ++i) e.p[i] = parameters[i].neutral;
       const EvaluatedArm<double> with{arm, e};
@@ -99,7 +99,7 @@ TEST(EffectLibrary, TypicalParametersChangeSomething) {
     const std::vector<double> expected = bare(u, 1.5), got = with(u, 1.5);
     bool differs = false;
     for (std::size_t r = 0; r < expected.size(); ++r) differs = differs || got[r + with.n_states()] != expected[r];
-    EXPECT_TRUE(differs) << e.effect->name() << " at joint " << e.joint + 1;
+    EXPECT_TRUE(differs) << effect_label(e);
   }
 }
 
@@ -191,7 +191,7 @@ TEST(EffectLibrary, EffectsAreFoundByNameAndRefusedWhereTheyCannotBe) {
   }
   EXPECT_TRUE(find_effect("joint_friction")->applies(arm, 2));
 
-  const auto message = [&](const char* name, int joint) -> std::string {
+  const auto message = [&](const char* name, EffectPlace joint) -> std::string {
     try {
       place_effect(*find_effect(name), arm, joint);
     } catch (const std::invalid_argument& e) {
@@ -201,6 +201,7 @@ TEST(EffectLibrary, EffectsAreFoundByNameAndRefusedWhereTheyCannotBe) {
   };
   EXPECT_EQ(message("backlash", 1), "effect backlash cannot be at joint 2 of this arm");
   EXPECT_EQ(message("backlash", 3), "effect backlash cannot be at joint 4 of this arm");
+  EXPECT_EQ(message("backlash", kWholeArm), "effect backlash belongs to a joint: name one");
   EXPECT_EQ(message("payload", 0), "effect payload belongs to the whole arm: name no joint");
 }
 
@@ -214,18 +215,18 @@ class SlowMotor : public EffectOf<SlowMotor> {
   std::string name() const override { return name_; }
   std::string summary() const override { return "late, slow, humming torque"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::command); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"delay", "s", 0, 0.02, 0, 0.1}, {"time_constant", "s", 0.05, 0.05, 0.01, 1}, {"hum", "N m", 0, 0.1, 0, 1}};
   }
   int n_states() const override { return 1; }
 
   template <class T>
   void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[c.joint].motor_torque = c.z[0] + c.p[2] * std::sin(kMains * c.time);
+    s[*c.joint].motor_torque = c.z[0] + c.p[2] * std::sin(kMains * c.time);
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
-    const T late = c.history ? c.history->at(c.joint, T(c.time) - c.p[0]) : s[c.joint].command;
+    const T late = c.history ? c.history->at(*c.joint, T(c.time) - c.p[0]) : s[*c.joint].command;
     z_dot[0] = (late - c.z[0]) / c.p[1];
   }
 
@@ -314,7 +315,7 @@ class ManyNumbers : public EffectOf<ManyNumbers> {
  public:
   std::string name() const override { return "many_numbers"; }
   std::string summary() const override { return "more parameters than an effect can have"; }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return std::vector<EffectParameter>(kMaxEffectParameters + 1, EffectParameter{"p", "1", 0, 1, 0, 2});
   }
 };

@@ -20,13 +20,11 @@ constexpr CableLaw kLaws[] = {CableLaw::paper, CableLaw::exponential, CableLaw::
 std::vector<PlacedEffect> every_effect(const ArmParameters<double>& arm) {
   std::vector<PlacedEffect> all = {PlacedEffect{}};
   for (const Effect* effect : effect_library())
-    for (const int joint : effect_places(*effect, arm)) all.push_back(place_effect(*effect, arm, joint));
+    for (const EffectPlace joint : effect_places(*effect, arm)) all.push_back(place_effect(*effect, arm, joint));
   return all;
 }
 
-std::string name_of(const PlacedEffect& e) {
-  return e.effect ? e.effect->name() + " at joint " + std::to_string(e.joint + 1) : "no effect";
-}
+std::string name_of(const PlacedEffect& e) { return e.effect ? effect_label(e) : "no effect"; }
 
 TEST(Coupling, MotorPowerIsJointPowerAndWhatStretchesTheCables) {
   std::mt19937_64 random(5);

@@ -16,8 +16,8 @@ class MaxwellSlip : public EffectOf<MaxwellSlip> {
   std::string summary() const override { return "a cable of parallel elements that yield one after another"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::cable_force); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_cable(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double stretch = typical_stretch(arm.joint[joint]);
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double stretch = typical_stretch(arm.joint[*joint]);
     return {{"share", "1", 0, 0.4, 0, 0.95},
             {"yield_stretch", "m", 0.2 * stretch, 0.2 * stretch, 1e-3 * stretch, 10 * stretch}};
   }
@@ -25,15 +25,15 @@ class MaxwellSlip : public EffectOf<MaxwellSlip> {
   template <class T>
   void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
     T slipped = 0.0;
-    for (int i = 0; i < kElements; ++i) slipped += c.z[i] - s[c.joint].stretch;
-    const T change = T(2.0 / kElements) * c.arm.joint[c.joint].stiffness * c.p[0] * slipped;
-    s[c.joint].cable_force_motor += change;
-    s[c.joint].cable_force_joint += change;
+    for (int i = 0; i < kElements; ++i) slipped += c.z[i] - s[*c.joint].stretch;
+    const T change = T(2.0 / kElements) * c.arm.joint[*c.joint].stiffness * c.p[0] * slipped;
+    s[*c.joint].cable_force_motor += change;
+    s[*c.joint].cable_force_joint += change;
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
     constexpr double kYield[kElements] = {0.3, 0.7, 1.2, 1.8};
-    const T rate = s[c.joint].stretch_rate;
+    const T rate = s[*c.joint].stretch_rate;
     for (int i = 0; i < kElements; ++i) {
       const T u = c.z[i] / (T(kYield[i]) * c.p[1]);
       z_dot[i] = rate * (T(1.0) - select(rate * u > T(0.0), T(u * u * u * u), T(0.0)));
@@ -54,16 +54,16 @@ class RoundBacklash : public EffectOf<RoundBacklash> {
   std::string summary() const override { return "a dead zone with round edges"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::stretch); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_cable(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double radius = arm.joint[joint].capstan_radius;
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double radius = arm.joint[*joint].capstan_radius;
     return {{"half_gap", "m", 0, 0.03 * radius, 0, radius}};
   }
   template <class T>
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T h = max(c.p[0], T(1e-9)), edge = T(0.2) * h, x = s[c.joint].stretch;
+    const T h = max(c.p[0], T(1e-9)), edge = T(0.2) * h, x = s[*c.joint].stretch;
     const T forward = (x - h) / edge, backward = (-x - h) / edge;
-    s[c.joint].stretch = edge * (softplus(forward) - softplus(backward));
-    s[c.joint].stretch_rate *= step(forward) + step(backward);
+    s[*c.joint].stretch = edge * (softplus(forward) - softplus(backward));
+    s[*c.joint].stretch_rate *= step(forward) + step(backward);
   }
 
  private:
@@ -87,16 +87,16 @@ class QuadraticStiffening : public EffectOf<QuadraticStiffening> {
   std::string summary() const override { return "a cable that stiffens with the square of its stretch"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::cable_force); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_cable(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"stiffening", "1", 0, 2, 0, 30}};
   }
   template <class T>
   void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const JointParameters<T>& j = c.arm.joint[c.joint];
+    const JointParameters<T>& j = c.arm.joint[*c.joint];
     // x_t: the stretch at which the tension of rest has doubled.
-    const T x = s[c.joint].stretch, change = T(2.0) * j.stiffness * c.p[0] * x * abs(x) * j.stiffness / j.tension;
-    s[c.joint].cable_force_motor += change;
-    s[c.joint].cable_force_joint += change;
+    const T x = s[*c.joint].stretch, change = T(2.0) * j.stiffness * c.p[0] * x * abs(x) * j.stiffness / j.tension;
+    s[*c.joint].cable_force_motor += change;
+    s[*c.joint].cable_force_joint += change;
   }
 };
 
@@ -110,17 +110,17 @@ class TwoRateCreep : public EffectOf<TwoRateCreep> {
   std::string summary() const override { return "a cable that creeps with two time constants"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::stretch); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_cable(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"compliance", "1", 0, 1, 0, 20}, {"time", "s", 0.8, 0.8, 0.1, 10}};
   }
   int n_states() const override { return 2; }
   template <class T>
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[c.joint].stretch -= c.z[0] + c.z[1];
+    s[*c.joint].stretch -= c.z[0] + c.z[1];
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
-    const T end = T(0.25) * c.p[0] * s[c.joint].cable_force_joint / c.arm.joint[c.joint].stiffness;
+    const T end = T(0.25) * c.p[0] * s[*c.joint].cable_force_joint / c.arm.joint[*c.joint].stiffness;
     z_dot[0] = (end - c.z[0]) / c.p[1];
     z_dot[1] = (end - c.z[1]) / (T(6.0) * c.p[1]);
   }
@@ -135,19 +135,19 @@ class GradualSlip : public EffectOf<GradualSlip>, public RefinesSearch {
   std::string summary() const override { return "a lasting slip of the cable that takes half a second"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::stretch); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_cable(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double radius = arm.joint[joint].capstan_radius;
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double radius = arm.joint[*joint].capstan_radius;
     return {{"slip", "m", 0, 0.05 * radius, -2 * radius, 2 * radius}, {"time", "s", 1, 1, -1e10, 1e10}};
   }
-  void refine_search(SearchSpace& space, const ArmParameters<double>&, int) const override {
+  void refine_search(SearchSpace& space, const ArmParameters<double>&, EffectPlace) const override {
     space["time"].range = SearchRange::record_time;
   }
   template <class T>
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
     constexpr double kTakes = 0.5;  // s
     const T u = max(T(0.0), min(T(1.0), T((T(c.time) - c.p[1]) / T(kTakes))));
-    s[c.joint].stretch -= c.p[0] * u * u * (T(3.0) - T(2.0) * u);
-    s[c.joint].stretch_rate -= c.p[0] * T(6.0 / kTakes) * u * (T(1.0) - u);
+    s[*c.joint].stretch -= c.p[0] * u * u * (T(3.0) - T(2.0) * u);
+    s[*c.joint].stretch_rate -= c.p[0] * T(6.0 / kTakes) * u * (T(1.0) - u);
   }
 };
 

@@ -16,18 +16,18 @@ class DahlMotorFriction : public EffectOf<DahlMotorFriction> {
   std::string summary() const override { return "more friction at the motor, elastic before it slides"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::motor); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double level = typical_motor_friction(arm.joint[joint]);
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double level = typical_motor_friction(arm.joint[*joint]);
     return {{"coulomb", "N m", 0, 0.5 * level, 0, 30 * level}, {"presliding", "rad", 0.3, 0.3, 0.01, 3}};
   }
   int n_states() const override { return 1; }
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[c.joint].motor_torque -= c.p[0] * c.z[0] / c.p[1];
+    s[*c.joint].motor_torque -= c.p[0] * c.z[0] / c.p[1];
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
-    const T v = s[c.joint].motor_rate;
+    const T v = s[*c.joint].motor_rate;
     z_dot[0] = v - abs(v) * c.z[0] / c.p[1];
   }
 };
@@ -40,9 +40,9 @@ class LuGreJointFriction : public EffectOf<LuGreJointFriction> {
   std::string name() const override { return "lugre_joint_friction"; }
   std::string summary() const override { return "more friction at the joint, by bristles"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const bool turns = arm.joint[joint].type == JointType::revolute;
-    const double level = typical_joint_friction(arm.joint[joint]), z_y = turns ? 2e-3 : 2e-4;
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const bool turns = arm.joint[*joint].type == JointType::revolute;
+    const double level = typical_joint_friction(arm.joint[*joint]), z_y = turns ? 2e-3 : 2e-4;
     return {{"coulomb", turns ? "N m" : "N", 0, 0.5 * level, 0, 30 * level},
             {"presliding", turns ? "rad" : "m", z_y, z_y, 0.1 * z_y, 10 * z_y},
             {"viscous", turns ? "N m s/rad" : "N s/m", 0, 0.1 * level, 0, 30 * level}};
@@ -50,12 +50,12 @@ class LuGreJointFriction : public EffectOf<LuGreJointFriction> {
   int n_states() const override { return 1; }
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T v = s[c.joint].joint_rate;
-    s[c.joint].joint_force -= c.p[0] / c.p[1] * (c.z[0] + T(5e-3) * bristle_rate(c, v)) + c.p[2] * v;
+    const T v = s[*c.joint].joint_rate;
+    s[*c.joint].joint_force -= c.p[0] / c.p[1] * (c.z[0] + T(5e-3) * bristle_rate(c, v)) + c.p[2] * v;
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
-    z_dot[0] = bristle_rate(c, s[c.joint].joint_rate);
+    z_dot[0] = bristle_rate(c, s[*c.joint].joint_rate);
   }
 
  private:
@@ -74,14 +74,15 @@ class ExponentialStribeck : public EffectOf<ExponentialStribeck> {
   std::string summary() const override { return "friction that falls exponentially with speed"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::motor); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double level = typical_motor_friction(arm.joint[joint]);
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double level = typical_motor_friction(arm.joint[*joint]);
     return {{"static_excess", "N m", 0, 0.6 * level, 0, 10 * level}, {"speed", "rad/s", 15, 15, 1, 200}};
   }
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T v = s[c.joint].motor_rate;
-    s[c.joint].motor_torque -= c.p[0] * exp(T(-abs(v) / c.p[1])) * smooth_sign(v, c.arm.joint[c.joint].motor_smoothing);
+    const T v = s[*c.joint].motor_rate;
+    s[*c.joint].motor_torque -=
+        c.p[0] * exp(T(-abs(v) / c.p[1])) * smooth_sign(v, c.arm.joint[*c.joint].motor_smoothing);
   }
 };
 
@@ -97,20 +98,20 @@ class LinearFrictionDrift : public EffectOf<LinearFrictionDrift> {
     return static_cast<unsigned>(EffectStage::motor) | static_cast<unsigned>(EffectStage::joint);
   }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"share", "1", 0, -0.5, -0.9, 3}};
   }
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const JointParameters<T>& j = c.arm.joint[c.joint];
-    s[c.joint].motor_torque -=
-        share_now(c) * friction(j.motor_coulomb, j.motor_viscous, j.motor_smoothing, s[c.joint].motor_rate);
+    const JointParameters<T>& j = c.arm.joint[*c.joint];
+    s[*c.joint].motor_torque -=
+        share_now(c) * friction(j.motor_coulomb, j.motor_viscous, j.motor_smoothing, s[*c.joint].motor_rate);
   }
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const JointParameters<T>& j = c.arm.joint[c.joint];
-    s[c.joint].joint_force -=
-        share_now(c) * friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, s[c.joint].joint_rate);
+    const JointParameters<T>& j = c.arm.joint[*c.joint];
+    s[*c.joint].joint_force -=
+        share_now(c) * friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, s[*c.joint].joint_rate);
   }
 
  private:

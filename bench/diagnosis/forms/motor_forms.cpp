@@ -17,14 +17,14 @@ class GradualSaturation : public EffectOf<GradualSaturation> {
   std::string summary() const override { return "a motor torque that saturates gradually"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::command); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double one_over = 1 / (6 * typical_motor_friction(arm.joint[joint]));
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double one_over = 1 / (6 * typical_motor_friction(arm.joint[*joint]));
     return {{"one_over_limit", "1/(N m)", 0, one_over, 0, 10 * one_over}};
   }
   template <class T>
   void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
     const T p = max(c.p[0], T(1e-9));
-    s[c.joint].motor_torque = tanh(T(p * s[c.joint].motor_torque)) / p;
+    s[*c.joint].motor_torque = tanh(T(p * s[*c.joint].motor_torque)) / p;
   }
 };
 
@@ -36,20 +36,20 @@ class HalfSineLoad : public EffectOf<HalfSineLoad>, public RefinesSearch {
   std::string name() const override { return "half_sine_load"; }
   std::string summary() const override { return "a force on the joint that swells and fades as half a sine"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double level = typical_joint_friction(arm.joint[joint]);
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double level = typical_joint_friction(arm.joint[*joint]);
     return {
-        {"force", arm.joint[joint].type == JointType::revolute ? "N m" : "N", 0, 2 * level, -60 * level, 60 * level},
+        {"force", arm.joint[*joint].type == JointType::revolute ? "N m" : "N", 0, 2 * level, -60 * level, 60 * level},
         {"start", "s", 1, 1, -1e10, 1e10},
         {"duration", "s", 3, 3, 0.5, 10}};
   }
-  void refine_search(SearchSpace& space, const ArmParameters<double>&, int) const override {
+  void refine_search(SearchSpace& space, const ArmParameters<double>&, EffectPlace) const override {
     space["start"].range = SearchRange::record_time;
   }
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
     const T u = max(T(0.0), min(T(1.0), T((T(c.time) - c.p[1]) / c.p[2])));
-    s[c.joint].joint_force += c.p[0] * sin(T(T(std::numbers::pi) * u));
+    s[*c.joint].joint_force += c.p[0] * sin(T(T(std::numbers::pi) * u));
   }
 };
 
@@ -62,19 +62,19 @@ class RippleWithHarmonic : public EffectOf<RippleWithHarmonic>, public RefinesSe
   std::string summary() const override { return "a motor torque periodic in the motor angle, with a second harmonic"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::command); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double level = typical_motor_friction(arm.joint[joint]);
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double level = typical_motor_friction(arm.joint[*joint]);
     return {{"cosine", "N m", 0, 0.5 * level, -20 * level, 20 * level},
             {"sine", "N m", 0, 0.5 * level, -20 * level, 20 * level},
             {"order", "1", 2, 2, 0.5, 100}};
   }
-  void refine_search(SearchSpace& space, const ArmParameters<double>&, int) const override {
+  void refine_search(SearchSpace& space, const ArmParameters<double>&, EffectPlace) const override {
     space["order"].starts = {1, 2, 3, 4, 6};
   }
   template <class T>
   void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T u = c.p[2] * s[c.joint].motor_angle;
-    s[c.joint].motor_torque += c.p[0] * cos(u) + c.p[1] * sin(u) + T(0.4) * c.p[0] * sin(T(T(2.0) * u));
+    const T u = c.p[2] * s[*c.joint].motor_angle;
+    s[*c.joint].motor_torque += c.p[0] * cos(u) + c.p[1] * sin(u) + T(0.4) * c.p[0] * sin(T(T(2.0) * u));
   }
 };
 

@@ -18,12 +18,12 @@ class TorqueCrosstalk : public EffectOf<TorqueCrosstalk> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.n > 1 && has_motor(arm, joint) && has_motor(arm, (joint + 1) % arm.n);
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"share", "1", 0, 0.3, -2, 2}};
   }
   template <class T>
   void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[c.joint].motor_torque += c.p[0] * s[(c.joint + 1) % c.arm.n].command;
+    s[*c.joint].motor_torque += c.p[0] * s[(*c.joint + 1) % c.arm.n].command;
   }
 };
 
@@ -36,14 +36,14 @@ class SharedGuide : public EffectOf<SharedGuide> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.n > 1 && has_motor(arm, joint) && has_motor(arm, (joint + 1) % arm.n);
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double level = typical_motor_friction(arm.joint[joint]);
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double level = typical_motor_friction(arm.joint[*joint]);
     return {{"drag", "N m", 0, 0.5 * level, -10 * level, 10 * level}};
   }
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const int other = (c.joint + 1) % c.arm.n;
-    s[c.joint].motor_torque += c.p[0] * smooth_sign(s[other].motor_rate, c.arm.joint[other].motor_smoothing);
+    const int other = (*c.joint + 1) % c.arm.n;
+    s[*c.joint].motor_torque += c.p[0] * smooth_sign(s[other].motor_rate, c.arm.joint[other].motor_smoothing);
   }
 };
 
@@ -53,19 +53,19 @@ class PositionFriction : public EffectOf<PositionFriction>, public RefinesSearch
   std::string name() const override { return "position_friction"; }
   std::string summary() const override { return "friction at the joint that depends on its position"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const bool turns = arm.joint[joint].type == JointType::revolute;
-    const double level = typical_joint_friction(arm.joint[joint]), period = turns ? 0.25 : 0.05;
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const bool turns = arm.joint[*joint].type == JointType::revolute;
+    const double level = typical_joint_friction(arm.joint[*joint]), period = turns ? 0.25 : 0.05;
     return {{"amplitude", turns ? "N m" : "N", 0, 0.5 * level, -level, level},
             {"period", turns ? "rad" : "m", period, period, 0.2 * period, 5 * period}};
   }
-  void refine_search(SearchSpace& space, const ArmParameters<double>&, int) const override {
+  void refine_search(SearchSpace& space, const ArmParameters<double>&, EffectPlace) const override {
     space["amplitude"].natural_bounds = true;
   }
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[c.joint].joint_force -= c.p[0] * sin(T(T(2 * std::numbers::pi) * s[c.joint].joint_position / c.p[1])) *
-                              smooth_sign(s[c.joint].joint_rate, c.arm.joint[c.joint].joint_smoothing);
+    s[*c.joint].joint_force -= c.p[0] * sin(T(T(2 * std::numbers::pi) * s[*c.joint].joint_position / c.p[1])) *
+                               smooth_sign(s[*c.joint].joint_rate, c.arm.joint[*c.joint].joint_smoothing);
   }
 };
 
@@ -76,8 +76,8 @@ class SwingingMass : public EffectOf<SwingingMass> {
   std::string name() const override { return "swinging_mass"; }
   std::string summary() const override { return "a mass that swings on the joint"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const JointParameters<double>& j = arm.joint[joint];
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const JointParameters<double>& j = arm.joint[*joint];
     const bool turns = j.type == JointType::revolute;
     const double arm_length = turns ? std::hypot(j.com[0], j.com[1], j.com[2]) : 1;
     const double inertia = j.mass * arm_length * arm_length;
@@ -87,11 +87,11 @@ class SwingingMass : public EffectOf<SwingingMass> {
   int n_states() const override { return 2; }
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[c.joint].joint_force -= c.p[0] * acceleration(c, s);
+    s[*c.joint].joint_force -= c.p[0] * acceleration(c, s);
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
-    z_dot[0] = s[c.joint].joint_rate - c.z[1];
+    z_dot[0] = s[*c.joint].joint_rate - c.z[1];
     z_dot[1] = acceleration(c, s);
   }
 
@@ -99,7 +99,7 @@ class SwingingMass : public EffectOf<SwingingMass> {
   template <class T>
   static T acceleration(const EffectContext<T>& c, const JointSignals<T>* s) {
     constexpr double kDamping = 0.05;
-    return c.p[1] * c.p[1] * c.z[0] + T(2 * kDamping) * c.p[1] * (s[c.joint].joint_rate - c.z[1]);
+    return c.p[1] * c.p[1] * c.z[0] + T(2 * kDamping) * c.p[1] * (s[*c.joint].joint_rate - c.z[1]);
   }
 };
 
@@ -111,10 +111,10 @@ class WanderingSensor : public EffectOf<WanderingSensor> {
   std::string summary() const override { return "a joint sensor that wanders"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::sensors); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double size = arm.joint[joint].type == JointType::revolute ? 0.01 : 0.002;
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double size = arm.joint[*joint].type == JointType::revolute ? 0.01 : 0.002;
     std::vector<EffectParameter> all = {
-        {"deviation", arm.joint[joint].type == JointType::revolute ? "rad" : "m", 0, size, -100 * size, 100 * size}};
+        {"deviation", arm.joint[*joint].type == JointType::revolute ? "rad" : "m", 0, size, -100 * size, 100 * size}};
     for (int i = 1; i <= kTerms; ++i) all.push_back({"term_" + std::to_string(i), "1", 1, 1, -3, 3});
     return all;
   }
@@ -127,7 +127,7 @@ class WanderingSensor : public EffectOf<WanderingSensor> {
       // Signs that alternate irregularly: equal ones would give a smooth bump at the start.
       sum += c.p[i] * T((i % 3 == 2 ? -1 : 1) * std::numbers::sqrt2 * std::sin(w * c.time / kSpan) / w);
     }
-    s[c.joint].joint_error += c.p[0] * sum;
+    s[*c.joint].joint_error += c.p[0] * sum;
   }
 
  private:
@@ -141,16 +141,16 @@ class KinkedSensor : public EffectOf<KinkedSensor>, public RefinesSearch {
   std::string summary() const override { return "a joint sensor with another gain on either side of a position"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::sensors); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
     return {{"gain", "1", 0, 0.05, -0.5, 0.5},
-            {"position", arm.joint[joint].type == JointType::revolute ? "rad" : "m", 0, 0, -10, 10}};
+            {"position", arm.joint[*joint].type == JointType::revolute ? "rad" : "m", 0, 0, -10, 10}};
   }
-  void refine_search(SearchSpace& space, const ArmParameters<double>&, int) const override {
+  void refine_search(SearchSpace& space, const ArmParameters<double>&, EffectPlace) const override {
     space["position"].range = SearchRange::joint_position;
   }
   template <class T>
   void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[c.joint].joint_error += c.p[0] * abs(T(s[c.joint].joint_position - c.p[1]));
+    s[*c.joint].joint_error += c.p[0] * abs(T(s[*c.joint].joint_position - c.p[1]));
   }
 };
 

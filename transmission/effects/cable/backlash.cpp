@@ -19,14 +19,14 @@ class Backlash : public EffectOf<Backlash> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive == Drive::cable;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double radius = arm.joint[joint].capstan_radius;
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double radius = arm.joint[*joint].capstan_radius;
     return {{"half_gap", "m", 0, 0.03 * radius, 0, 2 * radius}};
   }
 
   template <class T>
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
-    JointSignals<T>& own = s[c.joint];
+    JointSignals<T>& own = s[*c.joint];
     const T inside = min(max(own.stretch, T(-c.p[0])), c.p[0]);
     own.stretch_rate = select(abs(own.stretch) >= c.p[0], own.stretch_rate, T(0.0));
     own.stretch -= inside;

@@ -21,16 +21,16 @@ class CableSlip : public EffectOf<CableSlip> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive == Drive::cable;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double radius = arm.joint[joint].capstan_radius;
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double radius = arm.joint[*joint].capstan_radius;
     return {{"jump", "m", 0, 0.03 * radius, -2 * radius, 2 * radius}, {"time", "s", 1, 1, -1e10, 1e10}};
   }
 
   template <class T>
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
     const SmoothStep<T> step = smooth_step(c.time, c.p[1]);
-    s[c.joint].stretch -= c.p[0] * step.value;
-    s[c.joint].stretch_rate -= c.p[0] * step.rate;
+    s[*c.joint].stretch -= c.p[0] * step.value;
+    s[*c.joint].stretch_rate -= c.p[0] * step.rate;
   }
 };
 

@@ -21,22 +21,22 @@ class CapstanEccentricity : public EffectOf<CapstanEccentricity> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive == Drive::cable;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"cosine", "1", 0, 0.02, -0.3, 0.3}, {"sine", "1", 0, 0.02, -0.3, 0.3}};
   }
 
   template <class T>
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const JointParameters<T>& j = c.arm.joint[c.joint];
-    JointSignals<T>& own = s[c.joint];
+    const JointParameters<T>& j = c.arm.joint[*c.joint];
+    JointSignals<T>& own = s[*c.joint];
     const T theta = own.motor_angle / j.gear_ratio, cosine = cos(theta), sine = sin(theta);
     own.stretch += j.capstan_radius * (c.p[0] * sine + c.p[1] * (T(1.0) - cosine));
     own.stretch_rate += j.motor_travel() * (c.p[0] * cosine + c.p[1] * sine) * own.motor_rate;
   }
   template <class T>
   void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T theta = s[c.joint].motor_angle / c.arm.joint[c.joint].gear_ratio;
-    s[c.joint].cable_force_motor *= T(1.0) + c.p[0] * cos(theta) + c.p[1] * sin(theta);
+    const T theta = s[*c.joint].motor_angle / c.arm.joint[*c.joint].gear_ratio;
+    s[*c.joint].cable_force_motor *= T(1.0) + c.p[0] * cos(theta) + c.p[1] * sin(theta);
   }
 };
 

@@ -17,13 +17,13 @@ class CapstanRatio : public EffectOf<CapstanRatio> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive != Drive::none;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"ratio", "1", 1, 1.02, 0.5, 2}};
   }
 
   template <class T>
-  void change(ArmParameters<T>& arm, int joint, const T* p) const {
-    arm.joint[joint].capstan_radius *= p[0];
+  void change(ArmParameters<T>& arm, EffectPlace joint, const T* p) const {
+    arm.joint[*joint].capstan_radius *= p[0];
   }
 };
 

@@ -16,10 +16,10 @@ class CouplingError : public EffectOf<CouplingError> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return joint > 0 && arm.joint[joint].drive != Drive::none;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const JointParameters<double>& j = arm.joint[joint];
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const JointParameters<double>& j = arm.joint[*joint];
     std::vector<EffectParameter> all;
-    for (int i = 0; i < joint; ++i) {
+    for (int i = 0; i < *joint; ++i) {
       const double reach =
           j.type == JointType::prismatic ? 0.1 : 1.0;  // a pulley of 0.1 m, or as much as the joint itself
       all.push_back({"from_joint_" + std::to_string(i + 1), coupling_unit(j.type, arm.joint[i].type), 0,
@@ -29,8 +29,8 @@ class CouplingError : public EffectOf<CouplingError> {
   }
 
   template <class T>
-  void change(ArmParameters<T>& arm, int joint, const T* p) const {
-    for (int i = 0; i < joint; ++i) arm.joint[joint].coupling[i] += p[i];
+  void change(ArmParameters<T>& arm, EffectPlace joint, const T* p) const {
+    for (int i = 0; i < *joint; ++i) arm.joint[*joint].coupling[i] += p[i];
   }
 };
 

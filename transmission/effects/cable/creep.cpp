@@ -25,21 +25,21 @@ class Creep : public EffectOf<Creep> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive == Drive::cable;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"compliance_share", "1", 0, 0.3, 0, 5}, {"time_constant", "s", 3, 3, 0.2, 300}};
   }
   int n_states() const override { return 1; }
-  std::vector<double> state_scale(const ArmParameters<double>& arm, int joint, const double*) const override {
-    return {typical_stretch(arm.joint[joint])};
+  std::vector<double> state_scale(const ArmParameters<double>& arm, EffectPlace joint, const double*) const override {
+    return {typical_stretch(arm.joint[*joint])};
   }
 
   template <class T>
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[c.joint].stretch -= c.p[0] * c.z[0];
+    s[*c.joint].stretch -= c.p[0] * c.z[0];
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
-    z_dot[0] = (s[c.joint].stretch - c.z[0]) / c.p[1];
+    z_dot[0] = (s[*c.joint].stretch - c.z[0]) / c.p[1];
   }
 };
 

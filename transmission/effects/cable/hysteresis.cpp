@@ -23,23 +23,25 @@ class Hysteresis : public EffectOf<Hysteresis> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive == Drive::cable;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double stretch = typical_stretch(arm.joint[joint]);
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double stretch = typical_stretch(arm.joint[*joint]);
     return {{"share", "1", 0, 0.4, 0, 0.95},
             {"yield_stretch", "m", 0.1 * stretch, 0.1 * stretch, 1e-4 * stretch, 10 * stretch}};
   }
   int n_states() const override { return 1; }
-  std::vector<double> state_scale(const ArmParameters<double>&, int, const double* p) const override { return {p[1]}; }
+  std::vector<double> state_scale(const ArmParameters<double>&, EffectPlace, const double* p) const override {
+    return {p[1]};
+  }
 
   template <class T>
   void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T change = T(2.0) * c.arm.joint[c.joint].stiffness * c.p[0] * (c.z[0] - s[c.joint].stretch);
-    s[c.joint].cable_force_motor += change;
-    s[c.joint].cable_force_joint += change;
+    const T change = T(2.0) * c.arm.joint[*c.joint].stiffness * c.p[0] * (c.z[0] - s[*c.joint].stretch);
+    s[*c.joint].cable_force_motor += change;
+    s[*c.joint].cable_force_joint += change;
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
-    const T rate = s[c.joint].stretch_rate;
+    const T rate = s[*c.joint].stretch_rate;
     const T loading = rate * c.z[0];
     z_dot[0] = rate - select(loading > T(0.0), T(abs(rate) * c.z[0] / c.p[1]), T(0.0));
   }

@@ -25,14 +25,14 @@ class PulleyFriction : public EffectOf<PulleyFriction> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive == Drive::cable;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"coefficient", "1", 0, 0.05, 0, 1}, {"motor_share", "1", 0.5, 0.5, 0, 1}};
   }
 
   template <class T>
   void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const JointParameters<T>& j = c.arm.joint[c.joint];
-    JointSignals<T>& own = s[c.joint];
+    const JointParameters<T>& j = c.arm.joint[*c.joint];
+    JointSignals<T>& own = s[*c.joint];
     T v[kMaxJoints];
     for (int i = 0; i < c.arm.n; ++i) v[i] = s[i].joint_rate;
     const T path_rate = coupled_motion(j, c.arm.n, v);

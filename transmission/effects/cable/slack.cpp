@@ -25,16 +25,16 @@ class Slack : public EffectOf<Slack> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive == Drive::cable;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const JointParameters<double>& j = arm.joint[joint];
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const JointParameters<double>& j = arm.joint[*joint];
     const double tension = j.stiffness * typical_stretch(j);  // the model's, or what moves the joint
     return {{"share", "1", 0, 1, 0, 1}, {"tension", "N", 0.5 * tension, 0.5 * tension, 1e-3 * tension, 10 * tension}};
   }
 
   template <class T>
   void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const JointParameters<T>& j = c.arm.joint[c.joint];
-    JointSignals<T>& own = s[c.joint];
+    const JointParameters<T>& j = c.arm.joint[*c.joint];
+    JointSignals<T>& own = s[*c.joint];
     JointParameters<T> loose = j;
     loose.tension = c.p[1];
     const RunTensions<T> run = run_tensions(loose, own.stretch, own.stretch_rate);

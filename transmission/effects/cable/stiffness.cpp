@@ -22,23 +22,23 @@ class Stiffness : public EffectOf<Stiffness> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive == Drive::cable;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double stretch = typical_stretch(arm.joint[joint]), stiffening = 1 / (stretch * stretch);
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double stretch = typical_stretch(arm.joint[*joint]), stiffening = 1 / (stretch * stretch);
     return {{"stiffness_ratio", "1", 1, 0.8, 0.02, 50},
             {"damping_ratio", "1", 1, 0.8, 0.02, 50},
             {"stiffening", "1/m^2", 0, 0.1 * stiffening, 0, 100 * stiffening}};
   }
 
   template <class T>
-  void change(ArmParameters<T>& arm, int joint, const T* p) const {
-    arm.joint[joint].stiffness *= p[0];
-    arm.joint[joint].damping *= p[1];
+  void change(ArmParameters<T>& arm, EffectPlace joint, const T* p) const {
+    arm.joint[*joint].stiffness *= p[0];
+    arm.joint[*joint].damping *= p[1];
   }
   template <class T>
   void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T x = s[c.joint].stretch, change = T(2.0) * c.arm.joint[c.joint].stiffness * c.p[2] * x * x * x;
-    s[c.joint].cable_force_motor += change;
-    s[c.joint].cable_force_joint += change;
+    const T x = s[*c.joint].stretch, change = T(2.0) * c.arm.joint[*c.joint].stiffness * c.p[2] * x * x * x;
+    s[*c.joint].cable_force_motor += change;
+    s[*c.joint].cable_force_joint += change;
   }
 };
 

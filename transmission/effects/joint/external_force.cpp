@@ -19,8 +19,8 @@ class ExternalForce : public EffectOf<ExternalForce> {
   std::string name() const override { return "external_force"; }
   std::string summary() const override { return "a force on a joint for part of the time, or a contact"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const JointParameters<double>& j = arm.joint[joint];
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const JointParameters<double>& j = arm.joint[*joint];
     const bool turns = j.type == JointType::revolute;
     const double level = typical_joint_friction(j), reach = turns ? 0.1 : 0.01;
     // A wall as stiff as the cable cannot be distinguished from a stiffer one.
@@ -35,9 +35,10 @@ class ExternalForce : public EffectOf<ExternalForce> {
 
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T *p = c.p, beyond = s[c.joint].joint_position - p[4];
+    const T *p = c.p, beyond = s[*c.joint].joint_position - p[4];
     const T depth = max(T(0.0), select(p[3] >= T(0.0), beyond, T(-beyond)));
-    s[c.joint].joint_force += p[0] * (smooth_step(c.time, p[1]).value - smooth_step(c.time, p[2]).value) - p[3] * depth;
+    s[*c.joint].joint_force +=
+        p[0] * (smooth_step(c.time, p[1]).value - smooth_step(c.time, p[2]).value) - p[3] * depth;
   }
 };
 

@@ -34,22 +34,22 @@ class FrictionDrift : public EffectOf<FrictionDrift> {
   unsigned stages() const override {
     return static_cast<unsigned>(EffectStage::motor) | static_cast<unsigned>(EffectStage::joint);
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"rate", "1/s", 0, -0.01, -2, 2}, {"settling_rate", "1/s", 0, 0, 0, 1}};
   }
 
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const JointParameters<T>& j = c.arm.joint[c.joint];
+    const JointParameters<T>& j = c.arm.joint[*c.joint];
     if (j.drive == Drive::none) return;
-    s[c.joint].motor_torque -=
-        growth(c) * friction(j.motor_coulomb, j.motor_viscous, j.motor_smoothing, s[c.joint].motor_rate);
+    s[*c.joint].motor_torque -=
+        growth(c) * friction(j.motor_coulomb, j.motor_viscous, j.motor_smoothing, s[*c.joint].motor_rate);
   }
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const JointParameters<T>& j = c.arm.joint[c.joint];
-    s[c.joint].joint_force -=
-        growth(c) * friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, s[c.joint].joint_rate);
+    const JointParameters<T>& j = c.arm.joint[*c.joint];
+    s[*c.joint].joint_force -=
+        growth(c) * friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, s[*c.joint].joint_rate);
   }
 };
 

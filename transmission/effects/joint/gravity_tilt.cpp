@@ -37,7 +37,7 @@ class GravityTilt : public EffectOf<GravityTilt> {
   std::string name() const override { return "gravity_tilt"; }
   std::string summary() const override { return "the base is not level: gravity points another way"; }
   EffectScope scope() const override { return EffectScope::arm; }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace) const override {
     std::vector<EffectParameter> all;
     for (int axis = 0; axis < 3; ++axis)
       if (axis != vertical_axis(arm)) all.push_back({std::string("about_") + "xyz"[axis], "rad", 0, 0.03, -0.5, 0.5});
@@ -45,7 +45,7 @@ class GravityTilt : public EffectOf<GravityTilt> {
   }
 
   template <class T>
-  void change(ArmParameters<T>& arm, int, const T* p) const {
+  void change(ArmParameters<T>& arm, EffectPlace, const T* p) const {
     const int vertical = vertical_axis(arm);
     turn(arm.gravity, vertical == 2 ? 1 : 2, p[1]);
     turn(arm.gravity, vertical == 0 ? 1 : 0, p[0]);

@@ -19,8 +19,8 @@ class JointFriction : public EffectOf<JointFriction> {
   std::string name() const override { return "joint_friction"; }
   std::string summary() const override { return "another Coulomb or viscous friction at the joint, or its asymmetry"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const JointParameters<double>& j = arm.joint[joint];
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const JointParameters<double>& j = arm.joint[*joint];
     const bool turns = j.type == JointType::revolute;
     const double level = typical_joint_friction(j);
     const double viscous = std::max(j.joint_viscous, 0.02 * level);
@@ -31,15 +31,15 @@ class JointFriction : public EffectOf<JointFriction> {
   }
 
   template <class T>
-  void change(ArmParameters<T>& arm, int joint, const T* p) const {
-    arm.joint[joint].joint_coulomb += p[0];
-    arm.joint[joint].joint_viscous += p[1];
+  void change(ArmParameters<T>& arm, EffectPlace joint, const T* p) const {
+    arm.joint[*joint].joint_coulomb += p[0];
+    arm.joint[*joint].joint_viscous += p[1];
   }
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const JointParameters<T>& j = c.arm.joint[c.joint];
-    const T v = s[c.joint].joint_rate, sign = smooth_sign(v, j.joint_smoothing);
-    s[c.joint].joint_force -= (c.p[2] * j.joint_coulomb * sign + c.p[3] * j.joint_viscous * v) * sign;
+    const JointParameters<T>& j = c.arm.joint[*c.joint];
+    const T v = s[*c.joint].joint_rate, sign = smooth_sign(v, j.joint_smoothing);
+    s[*c.joint].joint_force -= (c.p[2] * j.joint_coulomb * sign + c.p[3] * j.joint_viscous * v) * sign;
   }
 };
 

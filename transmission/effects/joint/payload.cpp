@@ -15,14 +15,14 @@ class Payload : public EffectOf<Payload> {
   std::string name() const override { return "payload"; }
   std::string summary() const override { return "a point mass at the tool"; }
   EffectScope scope() const override { return EffectScope::arm; }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace) const override {
     const JointParameters<double>& last = arm.joint[arm.n - 1];
     const double whole = std::max(last.mass, 1e-3);
     return {{"mass", "kg", 0, 0.1 * whole, -0.9 * whole, 20 * whole}};
   }
 
   template <class T>
-  void change(ArmParameters<T>& arm, int, const T* p) const {
+  void change(ArmParameters<T>& arm, EffectPlace, const T* p) const {
     JointParameters<T>& last = arm.joint[arm.n - 1];
     const T total = last.mass + p[0], reduced = last.mass * p[0] / total;
     T d[3];

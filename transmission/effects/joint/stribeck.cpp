@@ -36,8 +36,8 @@ class Stribeck : public EffectOf<Stribeck> {
   unsigned stages() const override {
     return static_cast<unsigned>(EffectStage::motor) | static_cast<unsigned>(EffectStage::joint);
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const JointParameters<double>& j = arm.joint[joint];
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const JointParameters<double>& j = arm.joint[*joint];
     const bool turns = j.type == JointType::revolute;
     const double at_joint = typical_joint_friction(j);
     std::vector<EffectParameter> all = {{"joint_rise", turns ? "N m" : "N", 0, 0.5 * at_joint, 0, 10 * at_joint},
@@ -51,12 +51,12 @@ class Stribeck : public EffectOf<Stribeck> {
 
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[c.joint].joint_force -= stribeck(c.p[0], c.p[1], c.arm.joint[c.joint].joint_smoothing, s[c.joint].joint_rate);
+    s[*c.joint].joint_force -= stribeck(c.p[0], c.p[1], c.arm.joint[*c.joint].joint_smoothing, s[*c.joint].joint_rate);
   }
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
-    if (c.arm.joint[c.joint].drive == Drive::none) return;
-    s[c.joint].motor_torque -= stribeck(c.p[2], c.p[3], c.arm.joint[c.joint].motor_smoothing, s[c.joint].motor_rate);
+    if (c.arm.joint[*c.joint].drive == Drive::none) return;
+    s[*c.joint].motor_torque -= stribeck(c.p[2], c.p[3], c.arm.joint[*c.joint].motor_smoothing, s[*c.joint].motor_rate);
   }
 };
 

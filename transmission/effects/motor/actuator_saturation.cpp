@@ -23,8 +23,8 @@ class ActuatorSaturation : public EffectOf<ActuatorSaturation> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive != Drive::none;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double level = typical_motor_friction(arm.joint[joint]), no_limit = 1e4;
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double level = typical_motor_friction(arm.joint[*joint]), no_limit = 1e4;
     return {{"share", "1", 0, 1, 0, 1},
             {"limit", "N m", 4 * level, 4 * level, 0.1 * level, 300 * level},
             {"no_load_speed", "rad/s", no_limit, no_limit, 1, 1e5}};
@@ -32,7 +32,7 @@ class ActuatorSaturation : public EffectOf<ActuatorSaturation> {
 
   template <class T>
   void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
-    JointSignals<T>& own = s[c.joint];
+    JointSignals<T>& own = s[*c.joint];
     const T slip = own.motor_rate / c.p[2];
     const T forward = c.p[1] * max(T(0.0), min(T(1.0), T(T(1.0) - slip)));
     const T backward = c.p[1] * max(T(0.0), min(T(1.0), T(T(1.0) + slip)));

@@ -21,7 +21,7 @@ class Delay : public EffectOf<Delay> {
   unsigned stages() const override {
     return static_cast<unsigned>(EffectStage::command) | static_cast<unsigned>(EffectStage::sensors);
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"command_delay", "s", 0, 0.005, 0, 0.05}, {"sensor_delay", "s", 0, 0.005, -0.05, 0.05}};
   }
 
@@ -40,11 +40,11 @@ class Delay : public EffectOf<Delay> {
  private:
   template <class T>
   static int first(const EffectContext<T>& c) {
-    return c.joint < 0 ? 0 : c.joint;
+    return c.joint.value_or(0);
   }
   template <class T>
   static int end(const EffectContext<T>& c) {
-    return c.joint < 0 ? c.arm.n : c.joint + 1;
+    return c.joint ? *c.joint + 1 : c.arm.n;
   }
 };
 

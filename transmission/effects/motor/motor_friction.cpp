@@ -22,8 +22,8 @@ class MotorFriction : public EffectOf<MotorFriction> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive != Drive::none;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const JointParameters<double>& j = arm.joint[joint];
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const JointParameters<double>& j = arm.joint[*joint];
     const double level = typical_motor_friction(j);
     const double viscous = std::max(j.motor_viscous, 0.002 * level);
     return {{"coulomb_change", "N m", 0, 0.3 * level, -j.motor_coulomb, 30 * level},
@@ -33,15 +33,15 @@ class MotorFriction : public EffectOf<MotorFriction> {
   }
 
   template <class T>
-  void change(ArmParameters<T>& arm, int joint, const T* p) const {
-    arm.joint[joint].motor_coulomb += p[0];
-    arm.joint[joint].motor_viscous += p[1];
+  void change(ArmParameters<T>& arm, EffectPlace joint, const T* p) const {
+    arm.joint[*joint].motor_coulomb += p[0];
+    arm.joint[*joint].motor_viscous += p[1];
   }
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const JointParameters<T>& j = c.arm.joint[c.joint];
-    const T v = s[c.joint].motor_rate, sign = smooth_sign(v, j.motor_smoothing);
-    s[c.joint].motor_torque -= (c.p[2] * j.motor_coulomb * sign + c.p[3] * j.motor_viscous * v) * sign;
+    const JointParameters<T>& j = c.arm.joint[*c.joint];
+    const T v = s[*c.joint].motor_rate, sign = smooth_sign(v, j.motor_smoothing);
+    s[*c.joint].motor_torque -= (c.p[2] * j.motor_coulomb * sign + c.p[3] * j.motor_viscous * v) * sign;
   }
 };
 

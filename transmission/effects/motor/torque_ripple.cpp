@@ -22,8 +22,8 @@ class TorqueRipple : public EffectOf<TorqueRipple> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive != Drive::none;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double level = typical_motor_friction(arm.joint[joint]);
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double level = typical_motor_friction(arm.joint[*joint]);
     return {{"cosine", "N m", 0, 0.2 * level, -30 * level, 30 * level},
             {"sine", "N m", 0, 0.2 * level, -30 * level, 30 * level},
             {"order", "1", 12, 12, 0.5, 100}};
@@ -31,8 +31,8 @@ class TorqueRipple : public EffectOf<TorqueRipple> {
 
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T phase = c.p[2] * s[c.joint].motor_angle;
-    s[c.joint].motor_torque += c.p[0] * cos(phase) + c.p[1] * sin(phase);
+    const T phase = c.p[2] * s[*c.joint].motor_angle;
+    s[*c.joint].motor_torque += c.p[0] * cos(phase) + c.p[1] * sin(phase);
   }
 };
 

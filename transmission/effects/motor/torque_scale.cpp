@@ -19,15 +19,15 @@ class TorqueScale : public EffectOf<TorqueScale> {
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive != Drive::none;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double level = typical_motor_friction(arm.joint[joint]);
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double level = typical_motor_friction(arm.joint[*joint]);
     return {{"scale", "1", 1, 1.05, 0.2, 5}, {"bias", "N m", 0, 0.3 * level, -30 * level, 30 * level}};
   }
 
   template <class T>
-  void change(ArmParameters<T>& arm, int joint, const T* p) const {
-    arm.joint[joint].torque_scale *= p[0];
-    arm.joint[joint].torque_bias += p[1];
+  void change(ArmParameters<T>& arm, EffectPlace joint, const T* p) const {
+    arm.joint[*joint].torque_scale *= p[0];
+    arm.joint[*joint].torque_bias += p[1];
   }
 };
 

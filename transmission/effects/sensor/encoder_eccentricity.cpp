@@ -17,8 +17,8 @@ class EncoderEccentricity : public EffectOf<EncoderEccentricity> {
   std::string name() const override { return "encoder_eccentricity"; }
   std::string summary() const override { return "a joint encoder error periodic in its angle"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::sensors); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    if (arm.joint[joint].type == JointType::revolute)
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    if (arm.joint[*joint].type == JointType::revolute)
       return {
           {"cosine", "rad", 0, 2e-3, -0.2, 0.2}, {"sine", "rad", 0, 2e-3, -0.2, 0.2}, {"order", "1", 1, 1, 0.5, 64}};
     return {{"cosine", "m", 0, 2e-4, -0.02, 0.02},
@@ -28,8 +28,8 @@ class EncoderEccentricity : public EffectOf<EncoderEccentricity> {
 
   template <class T>
   void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T phase = c.p[2] * s[c.joint].joint_position;
-    s[c.joint].joint_error += c.p[0] * cos(phase) + c.p[1] * sin(phase);
+    const T phase = c.p[2] * s[*c.joint].joint_position;
+    s[*c.joint].joint_error += c.p[0] * cos(phase) + c.p[1] * sin(phase);
   }
 };
 

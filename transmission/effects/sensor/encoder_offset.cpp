@@ -19,15 +19,15 @@ class EncoderOffset : public EffectOf<EncoderOffset> {
     const JointParameters<double>& j = arm.joint[joint];
     return j.drive != Drive::none && j.motor_zero_known && j.joint_zero_known;
   }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const bool turns = arm.joint[joint].type == JointType::revolute;
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const bool turns = arm.joint[*joint].type == JointType::revolute;
     const double reach = turns ? 0.5 : 0.05;
     return {{"offset", turns ? "rad" : "m", 0, 0.01 * reach, -reach, reach}};
   }
 
   template <class T>
-  void change(ArmParameters<T>& arm, int joint, const T* p) const {
-    JointParameters<T>& j = arm.joint[joint];
+  void change(ArmParameters<T>& arm, EffectPlace joint, const T* p) const {
+    JointParameters<T>& j = arm.joint[*joint];
     j.motor_encoder_offset += p[0] * j.pulley_radius / j.motor_travel();
   }
 };

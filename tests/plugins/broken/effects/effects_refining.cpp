@@ -3,7 +3,8 @@
 class RefiningSpring : public Spring, public halyard::RefinesSearch {
  public:
   std::string name() const override { return "fixture_refining_spring"; }
-  void refine_search(halyard::SearchSpace& space, const halyard::ArmParameters<double>&, int) const override {
+  void refine_search(halyard::SearchSpace& space, const halyard::ArmParameters<double>&,
+                     halyard::EffectPlace) const override {
     space["stiffness"].starts = {1, 10};
   }
 };

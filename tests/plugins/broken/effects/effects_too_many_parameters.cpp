@@ -2,7 +2,8 @@
 
 class Greedy : public Spring {
  public:
-  std::vector<halyard::EffectParameter> parameters(const halyard::ArmParameters<double>&, int) const override {
+  std::vector<halyard::EffectParameter> parameters(const halyard::ArmParameters<double>&,
+                                                   halyard::EffectPlace) const override {
     return std::vector<halyard::EffectParameter>(halyard::kMaxEffectParameters + 1, {"p", "1", 0, 1, 0, 2});
   }
 };

@@ -1,0 +1,89 @@
+/// Studies hand ContainmentOptions on to the estimators: with in_process they need no worker.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "diagnosis/diagnosis_details.h"
+#include "evaluation/comparison/monte_carlo.h"
+#include "evaluation/joint_unit.h"
+#include "evaluation/studies/diagnosis_evaluation.h"
+#include "evaluation/studies/identification_study.h"
+#include "evaluation/sweep/sweep_run.h"
+#include "plant/simulate.h"
+#include "tests/support/environment.h"
+#include "tests/support/message_of.h"
+#include "tests/support/short_arm.h"
+
+namespace halyard {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kNoWorker = "HALYARD_WORKER: '/no/such/program' is no file; give the path of halyard_worker";
+
+/// An arm of two joints that moves. No worker can be started.
+class InProcess : public testing::Test {
+ protected:
+  Log log_of(double duration_s) {
+    scenario.duration_s = duration_s;
+    return simulate(scenario).measured;
+  }
+
+  void expect_runs(const std::vector<EstimatorComparison>& estimators) const {
+    ASSERT_FALSE(estimators.empty());
+    for (const EstimatorComparison& e : estimators)
+      for (const EstimatorErrors& errors : {e.before, e.after}) {
+        EXPECT_EQ(errors.failure, "") << e.name;
+        EXPECT_EQ(std::ssize(errors.rms), scenario.robot.n()) << e.name;
+      }
+  }
+
+  Scenario scenario = motion(first_joints(2), 1);
+  const Environment worker{"HALYARD_WORKER", "/no/such/program"};
+};
+
+TEST_F(InProcess, AMonteCarloStudyNeedsNoWorker) {
+  const auto study = [&](bool in_process) {
+    return run_monte_carlo(scenario, scenario.robot, {"kinematics"},
+                           {.runs = 2, .containment = {.in_process = in_process}});
+  };
+  EXPECT_EQ(study(true).estimators.at(0).failures, 0);
+  EXPECT_EQ(message_of([&] { study(false); }), kNoWorker);
+}
+
+TEST_F(InProcess, ASweepNeedsNoWorker) {
+  Sweep sweep;
+  sweep.scenario = scenario;
+  sweep.model = scenario.robot;
+  sweep.grid.name = sweep.grid.id = "in process";
+  sweep.grid.axes = {{.parameters = {"joint2.cable.stiffness"}, .is_factor = true, .unit = "", .values = {1}}};
+  sweep.grid.estimators = {"kinematics"};
+  sweep.grid.units = joint_units(sweep.model);
+  const fs::path folder = fs::temp_directory_path() / ("halyard_in_process_" + std::to_string(::getpid()));
+  run_sweep(sweep, folder, {.containment = {.in_process = true}});
+  const std::optional<SweepCell> cell = read_cell(folder, sweep.grid, 0);
+  fs::remove_all(folder);
+  ASSERT_TRUE(cell.has_value());
+  EXPECT_EQ(cell->results.at(0).failure, "");
+  EXPECT_EQ(message_of([&] { run_sweep(sweep, folder, {}); }), kNoWorker);
+}
+
+TEST_F(InProcess, TheEvaluationOfADiagnosisNeedsNoWorker) {
+  Diagnosis nothing_found;
+  nothing_found.given = nothing_found.revised = scenario.robot;
+  nothing_found.details = std::make_shared<DiagnosisDetails>();
+  const Log log = log_of(2);  // diagnose() needs 1.5 s
+  expect_runs(evaluate_diagnosis(scenario.robot, nothing_found, {log}, log, {}, {.in_process = true}).estimators);
+}
+
+TEST_F(InProcess, AStudyOfAnIdentificationNeedsNoWorker) {
+  const Log log = log_of(3.1);  // identify() needs 3 s
+  expect_runs(study_identification(scenario.robot, {log}, log, {"joint2.coupling.joint1"}, {}, {.in_process = true})
+                  .estimators);
+}
+
+}  // namespace
+}  // namespace halyard
