@@ -50,6 +50,12 @@ struct DetectionLimit {
 std::vector<DetectionLimit> detection_limits(const ArmModel& model, const std::vector<Log>& logs,
                                              const std::function<void(const std::string&, double)>& progress = {});
 
+/// The share of an effect's sizes, all of them together and from neutral, from which on the effect is detected; 1: as it
+/// is given. Infinite if not even the given sizes are. Shapes stay as they are. One entry for each effect; each is
+/// looked at alone. Throws as detection_limits() does.
+std::vector<double> detected_from(const ArmModel& model, const std::vector<Log>& logs,
+                                  const std::vector<PlacedEffect>& effects);
+
 /// True if each joint moves along one sine or stands still. A diagnosis may then detect effects, but names none.
 bool names_nothing(const ArmModel& model, const std::vector<Log>& logs);
 

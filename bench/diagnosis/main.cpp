@@ -1,6 +1,7 @@
 /// halyard_blind_trials: the diagnosis' test of itself, see bench/README.md.
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for_each.h>
@@ -9,8 +10,9 @@
 #include <cstdio>
 #include <mutex>
 
-#include "bench/diagnosis/summary.h"
-#include "bench/diagnosis/trial.h"
+#include "bench/diagnosis/results/scoring.h"
+#include "bench/diagnosis/summary/summary.h"
+#include "bench/diagnosis/trial/trial.h"
 #include "bench/program.h"
 #include "model/model_file.h"
 
@@ -20,7 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::vector<std::string> kinds = {"all"};
+  std::vector<int> rows;
+  std::vector<std::string> kinds, sensors = {"good"};
+  int off = 1;
+  std::string arms = "mixed";
   int trials = 20;
   TrialOptions trial;
   fs::path out;
@@ -31,23 +36,34 @@ struct Options {
 };
 
 struct Job {
-  Kind kind;
+  Situation situation;
   int index;
 };
+
+std::vector<Situation> situations_of(const Options& options) {
+  const Arms arms = arms_of(options.arms);
+  std::vector<Situation> all;
+  const auto add = [&](const Situation& s) {
+    if (std::ranges::find(all, s) == all.end()) all.push_back(s);
+  };
+  for (const int row : options.rows)
+    for (const Situation& s : situations_of_row(row, arms)) add(s);
+  for (const std::string& kind : options.kinds)
+    for (const std::string& sensors : options.sensors) add({kind_of(kind), sensors_of(sensors), options.off, arms});
+  if (all.empty()) throw InputError("--row, --kind: both are missing; give --row 1, for example");
+  return all;
+}
 
 std::vector<Job> jobs_of(const Options& options) {
   int part = 0, parts = 0;
   char rest = 0;
   if (std::sscanf(options.shard.c_str(), "%d/%d%c", &part, &parts, &rest) != 2 || part < 1 || part > parts)
     throw InputError("--shard: " + in_quotes(options.shard) + ": expected i/n with i from 1 to n, such as 2/5");
-  std::vector<Kind> kinds;
-  for (const std::string& text : options.kinds)
-    for (int k = 0; k < kKinds; ++k)
-      if (text == "all" || kind_of(text) == static_cast<Kind>(k)) kinds.push_back(static_cast<Kind>(k));
+  const std::vector<Situation> situations = situations_of(options);
   std::vector<Job> jobs;
-  // A run that is stopped early has some of each kind.
+  // A run that is stopped early has some of each situation.
   for (int i = part - 1; i < options.trials; i += parts)
-    for (const Kind kind : kinds) jobs.push_back({kind, i});
+    for (const Situation& situation : situations) jobs.push_back({situation, i});
   return jobs;
 }
 
@@ -55,15 +71,15 @@ std::vector<Job> jobs_of(const Options& options) {
 std::vector<Job> jobs_left(const Options& options) {
   std::vector<Job> left;
   for (const Job& job : jobs_of(options)) {
-    const fs::path path = result_path(options.out, job.kind, job.index);
+    const fs::path path = result_path(options.out, job.situation, job.index);
     if (!options.resume || !fs::exists(path)) {
       left.push_back(job);
       continue;
     }
     const Result r = read_result(path);
-    if (r.seed != options.trial.seed || r.limit != options.trial.limit)
+    if (r.seed != options.trial.seed || r.outliers != options.trial.outliers)
       throw InputError(path.string() +
-                       ": is of another --seed or --limit; give those, leave out --resume, or take another folder");
+                       ": is of another --seed or --outliers; give those, leave out --resume, or take another folder");
   }
   return left;
 }
@@ -71,16 +87,16 @@ std::vector<Job> jobs_left(const Options& options) {
 std::string line(const Result& r) {
   std::string truth, named = r.failure.empty() ? r.verdict : r.failure;
   for (const TrueEffect& t : r.truth)
-    truth += fmt::format(" {}{} (strength {:.3g})", label(t.place), t.form.empty() ? "" : " as " + t.form, t.strength);
+    truth += fmt::format(" {}{} (seen from {:.3g} of it)", label(t.place), t.form.empty() ? "" : " as " + t.form,
+                         t.seen_from);
   for (const Named& n : r.named) named += ", " + label(n.place);
-  return fmt::format("{}-{:06}:{} -> {}{}", word(r.kind), r.index, truth.empty() ? " nothing" : truth, named,
-                     is_right(r) ? ": right" : "");
+  const char* score = strictly_right(r) ? ": strictly right" : loosely_right(r) ? ": loosely right" : "";
+  return fmt::format("{}-{:06}, {} of {} joints, {:.0f} s:{} -> {}{}", label(r.situation), r.index, r.arm, r.joints,
+                     r.cpu_s, truth.empty() ? " nothing" : truth, named, score);
 }
 
-ArmModel raven2() { return read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml"); }
-
 void run(const Options& options) {
-  const ArmModel model = raven2();
+  const ArmModel raven2 = read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml");
   const std::vector<Job> jobs = jobs_left(options);
   const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
@@ -90,7 +106,7 @@ void run(const Options& options) {
     tbb::parallel_for_each(jobs, [&](const Job& job) {
       // A trial stays on one thread: its own loops give way to other trials, and its processor time can be told.
       tbb::task_arena alone(1);
-      const Result r = alone.execute([&] { return run_trial(model, job.kind, job.index, options.trial); });
+      const Result r = alone.execute([&] { return run_trial(raven2, job.situation, job.index, options.trial); });
       write_result(options.out, r);
       const std::lock_guard<std::mutex> lock(one_at_a_time);
       fmt::print("{}\n", line(r));
@@ -111,33 +127,45 @@ void summarise(const Options& options) {
   std::vector<Result> results;
   for (const fs::path& path : paths) results.push_back(read_result(path));
   const fs::path out = options.out.empty() ? options.summary[0] : options.out;
-  write_summary(out, results, raven2().nominal, options.trial.limit);
-  fmt::print("{}\n", (out / "summary.md").string());
+  fmt::print("{}{}\n", write_summary(out, results), (out / "summary.md").string());
+}
+
+void add_situation_options(CLI::App& app, Options& options) {
+  app.add_option("--row", options.rows, "all situations of this row of the acceptance table; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+  app.add_option("--kind", options.kinds, fmt::format("{}; may be repeated", fmt::join(kind_words(), ", ")))
+      ->take_all()
+      ->allow_extra_args(false);
+  app.add_option("--sensors", options.sensors,
+                 fmt::format("of --kind: {}; may be repeated", fmt::join(sensor_words(), ", ")))
+      ->take_all()
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  app.add_option("--off", options.off, "of --kind: largest error of the model's numbers, in tolerances")
+      ->check(CLI::Range(0, 2))
+      ->capture_default_str();
+  app.add_option("--arms", options.arms, fmt::format("{}", fmt::join(arm_words(), ", ")))->capture_default_str();
 }
 
 int run_command_line(int argc, char** argv) {
   CLI::App app("Blind trials of the diagnosis: the truth is hidden, diagnose() is asked.");
   Options options;
-  app.add_option(
-         "--kind", options.kinds,
-         "clean_exact, clean_mistuned, effect, effect_mistuned, form, outside, pair, each_effect or all; may be "
-         "repeated")
-      ->take_all()
-      ->allow_extra_args(false);
-  app.add_option("--trials", options.trials, "trials of each kind")
+  add_situation_options(app, options);
+  app.add_option("--trials", options.trials, "trials of each situation")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   app.add_option("--seed", options.trial.seed, "seed of all")->capture_default_str();
-  app.add_option("--limit", options.trial.limit, "strength above which an effect counts")
-      ->check(CLI::PositiveNumber)
+  app.add_option("--outliers", options.trial.outliers, "share of the joint readings that are wrong")
+      ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
   app.add_option("--out", options.out, "folder of the results");
-  app.add_option("--logs", options.trial.logs, "keep the logs in this folder, to diagnose one of them by hand");
+  app.add_option("--logs", options.trial.logs, "keep models and logs in this folder, to diagnose one of them by hand");
   app.add_option("--shard", options.shard, "run part i of n")->type_name("i/n");
   app.add_flag("--resume", options.resume, "keep what is there, run the rest");
   app.add_option("--threads", options.threads, "trials at a time; default: one per core")->check(CLI::Range(1, 1024));
   app.add_option("--summary", options.summary,
-                 "no trials: sum up those of these folders, into --out or the first of them")
+                 "no trials: summarise those of these folders, in --out or the first of them")
       ->type_name("DIR...");
   return run_program(app, argc, argv, [&] {
     if (!options.summary.empty()) {

@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <map>
 
-#include "bench/diagnosis/motion.h"
-#include "bench/diagnosis/proportion.h"
+#include "bench/diagnosis/draw/motion.h"
+#include "bench/diagnosis/results/proportion.h"
 #include "bench/program.h"
 #include "estimators/identification/identify.h"
 #include "model/model_file.h"

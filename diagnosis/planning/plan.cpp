@@ -134,6 +134,21 @@ class Planner {
     return shown;
   }
 
+  /// The smallest share of the effect's sizes that is seen; infinite if there is none.
+  double detected_from(const PlacedEffect& effect) const {
+    Hypothesis with = nominal_;
+    with.effects.push_back(effect);
+    const auto parameters =
+        effect_parameters(evidence_, with, model_.nominal, static_cast<int>(nominal_.effects.size()));
+    const auto at = [&](double share) {
+      Hypothesis h = with;
+      for (const FitParameter& p : parameters)
+        if (!p.shape) set_parameter(h, p, std::lerp(p.nominal, parameter_value(with, p), share));
+      return h;
+    };
+    return smallest_seen(at, 1);
+  }
+
   /// True if the other effect explains what the first one does at twice its limit nearly as well.
   bool confused(const Shown& right, const Shown& other) const {
     if (!right.limit.excited) return false;
@@ -362,6 +377,14 @@ std::vector<DetectionLimit> detection_limits(const ArmModel& model, const std::v
     say("effects that look alike");
   });
   return limits;
+}
+
+std::vector<double> detected_from(const ArmModel& model, const std::vector<Log>& logs,
+                                  const std::vector<PlacedEffect>& effects) {
+  const Planner planner(model, logs);
+  std::vector<double> shares;
+  for (const PlacedEffect& effect : effects) shares.push_back(planner.detected_from(effect));
+  return shares;
 }
 
 bool names_nothing(const ArmModel& model, const std::vector<Log>& logs) {

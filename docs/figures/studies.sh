@@ -33,35 +33,18 @@ TABLE
   noise_row '`--noise 0.1`' "$a $options --noise 0.1 --runs 20 --out out/noise_01" 20
 }
 
-trial_row() {  # TEXT QUESTION: of summary.md, count and interval
-  awk -F ' [|] ' -v text="$1" -v question="| $2" '
-    $1 == question { sub(/ \|$/, "", $5); print "| " text " | " $3 " | " $5 " |" }' "$work/out/trials/summary.md"
-}
-
 figure blind_trials hours bench
 figure_blind_trials() {
   local trials="$bench/halyard_blind_trials --seed 2028 --out out/trials"
-  ran "$trials --kind clean_exact --kind clean_mistuned --trials 150"
-  ran "$trials --kind each_effect --trials 46"
-  ran "$trials --kind pair --trials 14"
-  ran "$trials --kind outside --trials 10"
+  ran "$trials --row 1 --row 2 --trials 100"
+  ran "$trials --row 3 --row 4 --row 6 --trials 30"
   ran "$bench/halyard_blind_trials --summary out/trials"
   cat <<'TABLE'
-From `halyard_blind_trials --seed 2028` with `--kind clean_exact --kind clean_mistuned --trials 150`,
-`--kind each_effect --trials 46`, `--kind pair --trials 14` and `--kind outside --trials 10`:
+From `halyard_blind_trials --seed 2028` with `--row 1 --row 2 --trials 100` and
+`--row 3 --row 4 --row 6 --trials 30`:
 
-| | count | 95 % interval |
-|---|---:|---:|
 TABLE
-  trial_row 'clean arms with an effect named, exact numbers' 'clean_exact: an effect is named'
-  trial_row 'clean arms with an effect named, every number off within its tolerance' \
-    'clean_mistuned: an effect is named'
-  trial_row 'every effect in turn: effect and joint right and first' 'each_effect: effect and joint right, first'
-  trial_row 'outside the library: `unknown`, or an unexplained residual' \
-    'outside: unknown, or named with an unexplained residual'
-  trial_row 'pairs, both named' 'pair: both named'
-  trial_row 'true numbers within their 95 % interval, every effect in turn' \
-    'a true parameter lies in its 95 % interval (each_effect)'
+  awk '/^## /{ inside = $2 == "Acceptance" } inside && /^[|]/' "$work/out/trials/summary.md"
 }
 
 figure coverage hours bench

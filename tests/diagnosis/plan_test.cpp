@@ -72,6 +72,22 @@ TEST(DetectionLimit, IsWhereADiagnosisBeginsToSee) {
   EXPECT_EQ(below.verdict, Diagnosis::Verdict::clean);
 }
 
+TEST(DetectionLimit, IsTheShareOfAGivenEffectFromWhichItIsDetected) {
+  const ArmModel model = first_joints(1);
+  const Log log = log_of(motion(model, 8));
+  PlacedEffect offset = placed("encoder_offset", model, 0);
+  const DetectionLimit found = separation(model, {log}, offset, placed("backlash", model, 0)).first;
+  ASSERT_TRUE(found.excited);
+  PlacedEffect twice = found.effect, half = found.effect;
+  twice.p[0] = found.neutral + 2 * (found.limit - found.neutral);
+  half.p[0] = found.neutral + 0.5 * (found.limit - found.neutral);
+  const std::vector<double> share = detected_from(model, {log}, {found.effect, twice, half});
+  // Both are the smallest detected size to 9 %, on grids that need not coincide.
+  EXPECT_NEAR(share[0], 1, 0.1);
+  EXPECT_NEAR(share[1], 0.5, 0.1 * 0.5);
+  EXPECT_TRUE(std::isinf(share[2]));
+}
+
 TEST(DetectionLimit, GrowsWithTheSensorsResolution) {
   ArmModel fine = first_joints(1);
   ArmModel coarse = fine;

@@ -1,4 +1,4 @@
-#include "bench/diagnosis/unregistered.h"
+#include "bench/diagnosis/forms/unregistered.h"
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
 

@@ -1,6 +1,6 @@
 #include <numbers>
 
-#include "bench/diagnosis/unregistered.h"
+#include "bench/diagnosis/forms/unregistered.h"
 #include "transmission/effects/typical_size.h"
 
 /// Motors and loads of other forms than the library's.
@@ -26,6 +26,36 @@ class GradualSaturation : public EffectOf<GradualSaturation> {
     const T p = max(c.p[0], T(1e-9));
     s[*c.joint].motor_torque = tanh(T(p * s[*c.joint].motor_torque)) / p;
   }
+};
+
+/// A current loop of first order instead of a dead time:
+///   τ = scale · i + bias,   i' = (τ_c - i) / T
+/// Source: the closed current loop of a drive is commonly reduced to its dominant pole; Leonhard, Control of Electrical
+/// Drives (2001), section 7.
+class CurrentLoop : public EffectOf<CurrentLoop> {
+ public:
+  std::string name() const override { return "current_loop"; }
+  std::string summary() const override { return "a motor torque that follows its command with a lag of first order"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::command); }
+  bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+    return {{"time", "s", 0, 0.005, 0, 0.05}};
+  }
+  int n_states() const override { return 1; }
+  template <class T>
+  void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const T share = min(T(1.0), T(c.p[0] / T(kShortest)));
+    s[c.joint].motor_torque += share * c.arm.joint[c.joint].torque_scale * (c.z[0] - s[c.joint].command);
+  }
+  template <class T>
+  void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
+    z_dot[0] = (s[c.joint].command - c.z[0]) / max(c.p[0], T(kShortest));
+  }
+
+ private:
+  /// s. A plan's prediction steps by 2 ms and cannot integrate shorter lags: they act as a share of this one, which
+  /// delays a slow torque by as much. Lags that are drawn are longer.
+  static constexpr double kShortest = 0.002;
 };
 
 /// A load on the joint that swells and fades as half a sine, instead of a rectangle:
@@ -82,6 +112,7 @@ class RippleWithHarmonic : public EffectOf<RippleWithHarmonic>, public RefinesSe
 
 void add_motor_forms(OwnedEffects& to) {
   to.emplace_back(std::make_unique<GradualSaturation>(), "actuator_saturation");
+  to.emplace_back(std::make_unique<CurrentLoop>(), "delay");
   to.emplace_back(std::make_unique<HalfSineLoad>(), "external_force");
   to.emplace_back(std::make_unique<RippleWithHarmonic>(), "torque_ripple");
 }

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "bench/diagnosis/unregistered.h"
+#include "bench/diagnosis/forms/unregistered.h"
 
 namespace halyard::blind {
 

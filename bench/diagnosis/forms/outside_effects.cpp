@@ -1,6 +1,6 @@
 #include <numbers>
 
-#include "bench/diagnosis/unregistered.h"
+#include "bench/diagnosis/forms/unregistered.h"
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
 
@@ -154,6 +154,51 @@ class KinkedSensor : public EffectOf<KinkedSensor>, public RefinesSearch {
   }
 };
 
+/// Drag that grows with the square of the speed: F = F - c q' |q'|.
+class QuadraticDrag : public EffectOf<QuadraticDrag> {
+ public:
+  std::string name() const override { return "quadratic_drag"; }
+  std::string summary() const override { return "drag at the joint that grows with the square of the speed"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const bool turns = arm.joint[joint].type == JointType::revolute;
+    const double speed = turns ? 1 : 0.1, drag = typical_joint_friction(arm.joint[joint]) / (speed * speed);
+    return {{"drag", turns ? "N m s^2/rad^2" : "N s^2/m^2", 0, drag, 0, 30 * drag}};
+  }
+  template <class T>
+  void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
+    s[c.joint].joint_force -= c.p[0] * s[c.joint].joint_rate * abs(s[c.joint].joint_rate);
+  }
+};
+
+/// Hum of the mains on a motor: τ = τ + A sin(2π f t). The rotor nearly moves alone, by A / (J (2π f)²); typically three
+/// counts of its encoder.
+class Hum : public EffectOf<Hum>, public AboveBand {
+ public:
+  std::string name() const override { return "hum"; }
+  std::string summary() const override { return "a motor torque at the frequency of the mains"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::motor); }
+  bool applies(const ArmParameters<double>& arm, int joint) const override { return has_cable(arm, joint); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
+    const double torque = 3 * torque_of_a_count(arm.joint[joint], kMains);
+    return {{"amplitude", "N m", 0, torque, -100 * torque, 100 * torque}, {"frequency", "Hz", kMains, kMains, 45, 65}};
+  }
+  template <class T>
+  void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
+    s[c.joint].motor_torque += c.p[0] * sin(T(T(2 * std::numbers::pi * c.time) * c.p[1]));
+  }
+  double encoder_counts(const ArmParameters<double>& arm, int joint, const double* p) const override {
+    return std::abs(p[0]) / torque_of_a_count(arm.joint[joint], p[1]);
+  }
+
+ private:
+  static constexpr double kMains = 50;
+  static double torque_of_a_count(const JointParameters<double>& j, double frequency) {
+    const double w = 2 * std::numbers::pi * frequency;
+    return j.motor_encoder_resolution * j.rotor_inertia * w * w;
+  }
+};
+
 }  // namespace
 
 std::vector<const Effect*> outside_effects() {
@@ -163,7 +208,10 @@ std::vector<const Effect*> outside_effects() {
   static const SwingingMass swinging_mass;
   static const WanderingSensor wandering_sensor;
   static const KinkedSensor kinked_sensor;
-  return {&torque_crosstalk, &shared_guide, &position_friction, &swinging_mass, &wandering_sensor, &kinked_sensor};
+  static const QuadraticDrag quadratic_drag;
+  static const Hum hum;
+  return {&torque_crosstalk, &shared_guide,  &position_friction, &swinging_mass,
+          &wandering_sensor, &kinked_sensor, &quadratic_drag,    &hum};
 }
 
 }  // namespace halyard::blind

@@ -21,6 +21,14 @@ std::vector<OtherForm> other_forms();
 /// Effects for which the library has no name: the right answer is that something unknown is left.
 std::vector<const Effect*> outside_effects();
 
+/// An effect whose motion lies above the band of frequencies that a diagnosis compares, so that no plan tells its size.
+class AboveBand {
+ public:
+  virtual ~AboveBand() = default;
+  /// Amplitude of the motor's motion in counts of its encoder.
+  virtual double encoder_counts(const ArmParameters<double>& arm, int joint, const double* p) const = 0;
+};
+
 using OwnedEffects = std::vector<std::pair<std::unique_ptr<const Effect>, std::string>>;
 void add_friction_forms(OwnedEffects& to);
 void add_cable_forms(OwnedEffects& to);

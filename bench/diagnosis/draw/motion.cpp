@@ -1,4 +1,4 @@
-#include "bench/diagnosis/motion.h"
+#include "bench/diagnosis/draw/motion.h"
 
 #include <algorithm>
 #include <numbers>

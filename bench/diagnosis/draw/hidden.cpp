@@ -1,9 +1,10 @@
-#include "bench/diagnosis/draw.h"
+#include "bench/diagnosis/draw/hidden.h"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
-#include "bench/diagnosis/unregistered.h"
+#include "bench/diagnosis/forms/unregistered.h"
 #include "diagnosis/fit/fit.h"
 
 namespace halyard::blind {
@@ -50,9 +51,8 @@ double draw_shape(const Drawn& drawn, Random& random) {
   return std::clamp(is_order ? start : start * random.log_uniform(0.5, 2), p.lower, p.upper);
 }
 
-}  // namespace
-
-Hidden draw_effect(const ArmModel& model, Kind kind, int index, const std::vector<Hidden>& beside, Random& random) {
+/// What trials of this kind may hide in this arm, without places.
+std::vector<Hidden> choices(const ArmModel& model, Kind kind) {
   std::vector<Hidden> all;
   if (kind == Kind::form) {
     for (const OtherForm& form : other_forms()) all.push_back({{form.effect}, form.like});
@@ -62,14 +62,58 @@ Hidden draw_effect(const ArmModel& model, Kind kind, int index, const std::vecto
     for (const Effect* effect : effect_library()) all.push_back({{effect}, effect->name()});
   }
   std::erase_if(all, [&](const Hidden& h) { return effect_places(*h.acts.effect, model.nominal).empty(); });
-  for (;;) {
-    Hidden hidden = kind == Kind::each_effect ? all[index % all.size()] : random.one_of(all);
-    hidden.acts.joint = random.one_of(effect_places(*hidden.acts.effect, model.nominal));
-    const bool free = std::ranges::none_of(beside, [&](const Hidden& other) {
-      return other.acts.effect == hidden.acts.effect || other.acts.joint == hidden.acts.joint;
+  return all;
+}
+
+/// One effect of the library that may stand beside the others; at `joint`, if that is not null.
+Hidden draw_beside(const ArmModel& model, const std::vector<Hidden>& others, const int* joint, Random& random) {
+  std::vector<Hidden> all;
+  for (const Hidden& choice : choices(model, Kind::effect)) {
+    Hidden hidden = choice;
+    std::vector<int> places = effect_places(*choice.acts.effect, model.nominal);
+    std::erase_if(places, [&](int place) {
+      return (joint && place != *joint) || std::ranges::any_of(others, [&](const Hidden& other) {
+               return other.acts.effect == choice.acts.effect && other.acts.joint == place;
+             });
     });
-    if (free) return hidden;
+    if (places.empty()) continue;
+    hidden.acts.joint = random.one_of(places);
+    all.push_back(hidden);
   }
+  if (all.empty()) throw std::runtime_error("the arm cannot have as many effects");
+  return random.one_of(all);
+}
+
+}  // namespace
+
+Place place_of(const PlacedEffect& effect, int joints) {
+  return {effect.effect->name(), joints == 1 ? 1 : effect.joint ? *effect.joint + 1 : 0};
+}
+
+std::vector<Hidden> draw_effects(const ArmModel& model, Kind kind, int index, Random& random) {
+  std::vector<Hidden> hidden;
+  switch (kind) {
+    case Kind::clean: break;
+    case Kind::effect:
+    case Kind::form:
+    case Kind::outside: {
+      const std::vector<Hidden> all = choices(model, kind);
+      hidden.push_back(all[static_cast<std::size_t>(index) % all.size()]);
+      hidden[0].acts.joint = random.one_of(effect_places(*hidden[0].acts.effect, model.nominal));
+      break;
+    }
+    case Kind::two_at_joint: {
+      const int joint = random.below(model.n());
+      for (int i = 0; i < 2; ++i) hidden.push_back(draw_beside(model, hidden, &joint, random));
+      break;
+    }
+    case Kind::three:
+      for (int i = 0; i < 3; ++i) hidden.push_back(draw_beside(model, hidden, nullptr, random));
+      break;
+  }
+  // A delay acts on what comes before it.
+  std::ranges::stable_partition(hidden, [](const Hidden& h) { return h.right_name == "delay"; });
+  return hidden;
 }
 
 void draw_parameters(PlacedEffect& effect, const ArmModel& model, const Ranges& ranges, Random& random) {
@@ -104,18 +148,6 @@ void draw_parameters(PlacedEffect& effect, const ArmModel& model, const Ranges& 
   }
 }
 
-bool enlarge(PlacedEffect& effect, const ArmModel& model, double factor) {
-  const std::vector<Drawn> all = drawn_parameters(effect, model);
-  bool moved = false;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!all[i].is_size()) continue;
-    const double larger = within_bounds(all[i], all[i].p.neutral + factor * (effect.p[i] - all[i].p.neutral));
-    moved = moved || larger != effect.p[i];
-    effect.p[i] = larger;
-  }
-  return moved;
-}
-
 double relative_size(const PlacedEffect& effect, const ArmModel& model) {
   const std::vector<Drawn> all = drawn_parameters(effect, model);
   double most = 0;
@@ -136,23 +168,41 @@ std::vector<TrueParameter> true_parameters(const PlacedEffect& effect, const Arm
   return told;
 }
 
-bool happens_at_an_instant(const PlacedEffect& effect, const ArmModel& model) {
-  return std::ranges::any_of(search_space(*effect.effect, model.nominal, effect.joint).parameters,
-                             [](const ParameterSearch& p) { return p.range == SearchRange::record_time; });
-}
-
-void mistune(ArmModel& robot, Random& random) {
+void mistune(ArmModel& robot, int off, const std::vector<Hidden>& hidden, Random& random) {
+  const ArmParameters<double> model = robot.nominal;
   Hypothesis h{robot.nominal, {}};
-  for (const FitParameter& p : baseline_parameters(robot)) set_parameter(h, p, random.uniform(p.lower, p.upper));
+  for (const FitParameter& p : baseline_parameters(robot)) {
+    const double by = off * random.uniform(-1, 1) * (p.upper - p.nominal);
+    const bool is_effects =
+        std::ranges::any_of(hidden, [&](const Hidden& e) { return effect_covers(e.acts, model, p); });
+    if (!is_effects) set_parameter(h, p, p.nominal + by);
+  }
   robot.nominal = h.nominal;
   for (int k = 0; k < robot.n(); ++k) {
     JointParameters<double>& j = robot.nominal.joint[k];
     const Tolerances& tolerances = robot.joints[k].tolerances;
-    for (double& x : j.com) x *= 1 + tolerances.length * random.uniform(-1, 1);
+    for (double& x : j.com) x *= 1 + off * tolerances.length * random.uniform(-1, 1);
     // One factor for all moments: six of their own need not belong to any body.
-    const double factor = 1 + tolerances.mass * random.uniform(-1, 1);
+    const double factor = 1 + off * tolerances.mass * random.uniform(-1, 1);
     for (double& moment : j.inertia) moment *= factor;
   }
+}
+
+std::vector<Place> names_beyond_tolerance(const ArmModel& model, const ArmModel& robot) {
+  std::vector<FitParameter> beyond;
+  const Hypothesis truth{robot.nominal, {}};
+  for (const FitParameter& p : baseline_parameters(model)) {
+    const double value = parameter_value(truth, p);
+    if (value < p.lower || value > p.upper) beyond.push_back(p);
+  }
+  std::vector<Place> names;
+  for (const Effect* effect : effect_library())
+    for (const int joint : effect_places(*effect, model.nominal)) {
+      const PlacedEffect placed = place_effect(*effect, model.nominal, joint);
+      if (std::ranges::any_of(beyond, [&](const FitParameter& p) { return effect_covers(placed, model.nominal, p); }))
+        names.push_back(place_of(placed, model.n()));
+    }
+  return names;
 }
 
 }  // namespace halyard::blind

@@ -1,0 +1,166 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "bench/diagnosis/results/result.h"
+#include "model/input_error.h"
+#include "model/output_file.h"
+
+namespace halyard::blind {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// JSON has neither infinities nor NaN.
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+double number(const Json& j, double without) { return j.is_null() ? without : j.get<double>(); }
+
+Json maybe(const std::optional<double>& x) { return x ? number(*x) : Json(nullptr); }
+std::optional<double> maybe(const Json& j) { return j.is_null() ? std::nullopt : std::optional(j.get<double>()); }
+
+Json numbers(const std::vector<double>& all) {
+  Json list = Json::array();
+  for (const double x : all) list.push_back(number(x));
+  return list;
+}
+std::vector<double> numbers(const Json& list) {
+  std::vector<double> all;
+  for (const Json& x : list) all.push_back(number(x, std::numeric_limits<double>::quiet_NaN()));
+  return all;
+}
+
+Json to_json(const Place& p) { return {{"effect", p.effect}, {"joint", p.joint}}; }
+Place place_from(const Json& j) { return {j.at("effect"), j.at("joint")}; }
+
+Json to_json(const Situation& s) {
+  return {{"kind", word(s.kind)}, {"sensors", word(s.sensors)}, {"off", s.off}, {"arms", word(s.arms)}};
+}
+Situation situation_from(const Json& j) {
+  return {kind_of(j.at("kind")), sensors_of(j.at("sensors")), j.at("off"), arms_of(j.at("arms"))};
+}
+
+Json to_json(const TrueEffect& t) {
+  Json parameters = Json::object();
+  for (const TrueParameter& p : t.parameters) parameters[p.name] = {{"value", number(p.value)}, {"acts", p.acts}};
+  Json each = to_json(t.place);
+  each.update({{"form", t.form},
+               {"size", number(t.size)},
+               {"seen_from", number(t.seen_from)},
+               {"parameters", std::move(parameters)}});
+  return each;
+}
+TrueEffect truth_from(const Json& j) {
+  TrueEffect t{place_from(j), j.at("form"), number(j.at("size"), 0), number(j.at("seen_from"), kInfinity), {}};
+  for (const auto& [name, p] : j.at("parameters").items())
+    t.parameters.push_back({name, number(p.at("value"), 0), p.at("acts")});
+  return t;
+}
+
+Json to_json(const Named& n) {
+  Json alternatives = Json::array(), parameters = Json::object();
+  for (const Alternative& a : n.alternatives) {
+    alternatives.push_back(to_json(a.place));
+    alternatives.back().update({{"probability", number(a.probability)}, {"in_set", a.in_set}});
+  }
+  for (const Parameter& p : n.parameters)
+    parameters[p.name] = {{"value", number(p.value)}, {"ci95", {number(p.lower), number(p.upper)}}};
+  Json each = to_json(n.place);
+  each.update({{"probability", number(n.probability)},
+               {"alternatives", std::move(alternatives)},
+               {"parameters", std::move(parameters)}});
+  return each;
+}
+Named named_from(const Json& j) {
+  Named n{place_from(j), number(j.at("probability"), 0), {}, {}};
+  for (const Json& a : j.at("alternatives"))
+    n.alternatives.push_back({place_from(a), number(a.at("probability"), 0), a.at("in_set")});
+  for (const auto& [name, p] : j.at("parameters").items())
+    n.parameters.push_back({name, number(p.at("value"), 0), number(p.at("ci95").at(0), -kInfinity),
+                            number(p.at("ci95").at(1), kInfinity)});
+  return n;
+}
+
+template <class Things>
+Json list_of(const Things& things) {
+  Json list = Json::array();
+  for (const auto& thing : things) list.push_back(to_json(thing));
+  return list;
+}
+
+Json to_json(const HoldOutErrors& e) {
+  return {{"before", numbers(e.before)},
+          {"after", numbers(e.after)},
+          {"true_model", numbers(e.true_model)},
+          {"rise", numbers(e.rise)}};
+}
+HoldOutErrors holdout_from(const Json& j) {
+  return {numbers(j.at("before")), numbers(j.at("after")), numbers(j.at("true_model")), numbers(j.at("rise"))};
+}
+
+Result result_from(const Json& all) {
+  Result r;
+  r.situation = situation_from(all.at("situation"));
+  r.index = all.at("index");
+  r.seed = all.at("seed");
+  r.failure = all.at("failure");
+  r.arm = all.at("arm");
+  r.joints = all.at("joints");
+  r.latency_s = all.at("sensors").at("latency_s");
+  r.joint_rate_hz = all.at("sensors").at("joint_rate_hz");
+  r.outliers = all.at("sensors").at("outliers");
+  for (const Json& t : all.at("truth")) r.truth.push_back(truth_from(t));
+  for (const Json& p : all.at("also_true")) r.also_true.push_back(place_from(p));
+  r.verdict = all.at("verdict");
+  for (const Json& n : all.at("named")) r.named.push_back(named_from(n));
+  r.unexplained = all.at("unexplained").get<std::vector<int>>();
+  r.probability_clean = maybe(all.at("probability_clean"));
+  r.probability_none = maybe(all.at("probability_none"));
+  r.holdout = holdout_from(all.at("joint_position_rms"));
+  r.wall_s = all.at("seconds").at("wall");
+  r.cpu_s = all.at("seconds").at("cpu");
+  return r;
+}
+
+}  // namespace
+
+std::string label(const Place& p) { return p.joint == 0 ? p.effect : fmt::format("{} of joint {}", p.effect, p.joint); }
+
+std::filesystem::path result_path(const std::filesystem::path& folder, const Situation& situation, int index) {
+  return folder / "trials" / fmt::format("{}-{:06}.json", label(situation), index);
+}
+
+void write_result(const std::filesystem::path& folder, const Result& r) {
+  const Json all = {
+      {"situation", to_json(r.situation)},
+      {"index", r.index},
+      {"seed", r.seed},
+      {"failure", r.failure},
+      {"arm", r.arm},
+      {"joints", r.joints},
+      {"sensors", {{"latency_s", r.latency_s}, {"joint_rate_hz", r.joint_rate_hz}, {"outliers", r.outliers}}},
+      {"truth", list_of(r.truth)},
+      {"also_true", list_of(r.also_true)},
+      {"verdict", r.verdict},
+      {"named", list_of(r.named)},
+      {"unexplained", r.unexplained},
+      {"probability_clean", maybe(r.probability_clean)},
+      {"probability_none", maybe(r.probability_none)},
+      {"joint_position_rms", to_json(r.holdout)},
+      {"seconds", {{"wall", r.wall_s}, {"cpu", r.cpu_s}}}};
+  write_file_whole(result_path(folder, r.situation, r.index), all.dump(1) + "\n");
+}
+
+Result read_result(const std::filesystem::path& path) {
+  try {
+    std::ifstream stream(path);
+    return result_from(Json::parse(stream));
+  } catch (const Json::exception& error) {
+    throw InputError(path.string() + ": not a result of a blind trial (" + error.what() + "); remove the file");
+  }
+}
+
+}  // namespace halyard::blind

@@ -1,0 +1,70 @@
+#include "bench/diagnosis/summary/summary.h"
+
+#include <fmt/ranges.h>
+
+#include "bench/diagnosis/summary/acceptance.h"
+#include "bench/diagnosis/summary/by_effect.h"
+#include "bench/diagnosis/summary/calibration.h"
+#include "bench/diagnosis/summary/trials_csv.h"
+#include "model/output_file.h"
+
+namespace halyard::blind {
+namespace {
+
+std::string section(const std::string& title, const std::string& text) {
+  return text.empty() ? "" : "## " + title + "\n\n" + text;
+}
+
+std::string head(const Results& all, const Results& ran) {
+  return fmt::format(
+      "# Blind trials of the diagnosis\n\n{} trials; {} could not be drawn, in {} the diagnosis failed. An effect "
+      "counts "
+      "if `--plan` promises that a diagnosis detects it; smaller ones have lines of their own. Seconds are those of "
+      "one "
+      "processor.\n\n",
+      all.size(), all.size() - ran.size(), share(ran, [](const Result& r) { return !r.failure.empty(); }).hits);
+}
+
+/// Clean arms and those with one visible effect.
+Results with_at_most_one(const Results& ran) {
+  return those(ran, [](const Result& r) { return r.truth.size() <= 1 && !is_too_small(r); });
+}
+
+std::string tables_by_effect(const Results& ran) {
+  std::string text;
+  for (const Kind kind : {Kind::effect, Kind::form, Kind::outside})
+    for (const Sensors sensors : {Sensors::good, Sensors::poor, Sensors::motors})
+      for (const int off : {0, 1, 2}) {
+        const Results some = those(ran, [&](const Result& r) {
+          return r.situation.kind == kind && r.situation.sensors == sensors && r.situation.off == off;
+        });
+        if (!some.empty())
+          text +=
+              section(fmt::format("By effect: {}, {} sensors, off by {} tolerances", word(kind), word(sensors), off),
+                      effect_table(some));
+      }
+  return text;
+}
+
+}  // namespace
+
+std::string write_summary(const std::filesystem::path& out, const std::vector<Result>& results) {
+  Results all;
+  for (const Result& r : results) all.push_back(&r);
+  const Results ran =
+      those(all, [](const Result& r) { return r.failure.empty() || r.failure.starts_with("diagnose"); });
+  const std::string acceptance = acceptance_table(ran);
+  const auto table = confusion(with_at_most_one(ran));
+  std::string csv;
+  for (const auto& row : table) csv += fmt::format("{}\n", fmt::join(row, ","));
+  write_file_whole(out / "confusion.csv", csv);
+  write_file_whole(out / "trials.csv", trials_csv(all));
+  write_file_whole(out / "summary.md",
+                   head(all, ran) + section("Acceptance", acceptance) +
+                       section("Probabilities against observed frequencies", calibration_table(claims_of(ran))) +
+                       tables_by_effect(ran) +
+                       section("Confusion: clean arms, and single effects that can be seen", markdown(table)));
+  return acceptance;
+}
+
+}  // namespace halyard::blind

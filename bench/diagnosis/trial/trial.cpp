@@ -1,0 +1,101 @@
+#include "bench/diagnosis/trial/trial.h"
+
+#include <fmt/core.h>
+#include <time.h>
+
+#include <chrono>
+#include <optional>
+#include <stdexcept>
+
+#include "bench/diagnosis/trial/recording.h"
+#include "bench/diagnosis/trial/take_over.h"
+#include "model/model_file.h"
+#include "model/output_file.h"
+
+namespace halyard::blind {
+namespace {
+
+double thread_seconds() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// Nothing, with the reason in `failure`, if no recording could be drawn.
+std::optional<Recording> try_to_draw(const ArmModel& raven2, const Situation& situation, int index,
+                                     const TrialOptions& options, Random& random, std::string& failure) {
+  constexpr int kAttempts = 40;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    try {
+      Recording recording = draw_recording(raven2, situation, index, options, random);
+      failure.clear();
+      return recording;
+    } catch (const std::runtime_error& error) {
+      failure = error.what();
+    }
+  }
+  return std::nullopt;
+}
+
+/// What is hidden, in the words of a result.
+void describe(const Recording& recording, Result& r) {
+  r.arm = recording.model.name;
+  r.joints = recording.model.n();
+  r.latency_s = recording.sensors.latency_s;
+  if (recording.sensors.sees_joints)
+    r.joint_rate_hz = recording.sensors.interval_s > 0 ? 1 / recording.sensors.interval_s : 1000;
+  for (std::size_t i = 0; i < recording.hidden.size(); ++i) {
+    const Hidden& h = recording.hidden[i];
+    const std::string acts = h.acts.effect->name();
+    Place place = place_of(h.acts, r.joints);
+    place.effect = h.right_name;
+    r.truth.push_back({.place = place,
+                       .form = acts == h.right_name ? "" : acts,
+                       .size = relative_size(h.acts, recording.model),
+                       .seen_from = recording.seen_from[i],
+                       .parameters = true_parameters(h.acts, recording.model)});
+  }
+  r.also_true = names_beyond_tolerance(recording.model, recording.robot);
+  if (r.latency_s > 0)
+    for (int joint = 0; joint <= r.joints; ++joint) r.also_true.push_back({"delay", joint});
+}
+
+void write_logs(const std::filesystem::path& folder, const Recording& recording) {
+  std::filesystem::create_directories(folder);
+  write_file_whole(folder / "model.xml", model_to_xml(recording.model));
+  write_log(folder / "train.csv", recording.training);
+  write_log(folder / "holdout.csv", recording.holdout);
+}
+
+}  // namespace
+
+Result run_trial(const ArmModel& raven2, const Situation& situation, int index, const TrialOptions& options) {
+  Random random(options.seed, stream_of(situation), static_cast<std::uint32_t>(index));
+  Result r;
+  r.situation = situation;
+  r.index = index;
+  r.seed = options.seed;
+  r.outliers = options.outliers;
+  const std::optional<Recording> recording = try_to_draw(raven2, situation, index, options, random, r.failure);
+  if (!recording) return r;
+  describe(*recording, r);
+  if (!options.logs.empty()) write_logs(options.logs / fmt::format("{}-{:06}", label(situation), index), *recording);
+
+  const auto wall = std::chrono::steady_clock::now();
+  const double cpu = thread_seconds();
+  Diagnosis d;
+  try {
+    DiagnosisOptions how;
+    how.tell_not_excited = false;  // is not asked for, and would take as long as a clean log's whole diagnosis
+    d = diagnose(recording->model, {recording->training}, recording->holdout, how);
+  } catch (const std::exception& error) {
+    r.failure = std::string("diagnose: ") + error.what();
+    return r;
+  }
+  r.cpu_s = thread_seconds() - cpu;
+  r.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+  take_over(d, recording->robot, r);
+  return r;
+}
+
+}  // namespace halyard::blind

@@ -1,0 +1,36 @@
+#pragma once
+/// A blind trial: an arm with a hidden truth moves at random, and diagnose() is asked what the model lacks.
+///
+/// The trial's situation says what is hidden (results/situation.h), its number which effect: `effect`, `form` and
+/// `outside` take every one in turn. Arms, sensors and motions are drawn as draw/arms.h, draw/sensors.h and
+/// draw/motion.h say. Then the place of the effect is drawn, and its sizes once: each is present with probability 1/2,
+/// at least one is: typical size times log-uniform 0.5 to 3, of random sign where the bounds allow both, at most 95 % of
+/// the way to a bound that is no limit of nature. Shapes are one of the effect's starts, or typical times log-uniform
+/// 0.5 to 2. An instant lies in the first 10 to 70 % of the training, a position in the middle 60 % of the joint's
+/// motion. Effects that are too small to be seen (recording.h) stay in, and are counted apart.
+///
+/// Every parameter with a tolerance is off by up to Situation::off tolerances, uniformly, except those that a hidden
+/// effect changes: their change is the effect's.
+///
+/// Logs start after the motion has faded in: 30 s of training, and 10 s of another motion as hold-out, whose sensors
+/// have no noise. Both have the same clock, which starts with each run: what happens at an instant happens in both.
+/// Motors are disturbed by up to 5 % of their friction, control gains scatter by ±40 %.
+
+#include <cstdint>
+#include <filesystem>
+
+#include "bench/diagnosis/results/result.h"
+#include "model/arm_model.h"
+
+namespace halyard::blind {
+
+struct TrialOptions {
+  std::uint64_t seed = 1;
+  double outliers = 0;         ///< share of joint readings of the training that are wrong by 50 to 500 counts
+  std::filesystem::path logs;  ///< folder for the logs and models that were diagnosed; empty: they are not kept
+};
+
+/// Depends on its arguments alone. A trial that cannot be run tells why in Result::failure.
+Result run_trial(const ArmModel& raven2, const Situation& situation, int index, const TrialOptions& options);
+
+}  // namespace halyard::blind
