@@ -105,9 +105,7 @@ class Diagnoser {
     const std::vector<Naming>& namings = attribution().namings;
     for (std::size_t e = given_; e < f.hypothesis.effects.size(); ++e) {
       NamedEffect named{f.hypothesis.effects[e], namings[e - given_].weight, {}, namings[e - given_].alternatives};
-      for (std::size_t i = 0; i < f.parameters.size(); ++i)
-        if (f.parameters[i].effect == static_cast<int>(e) && !is_past(f.parameters[i]))
-          named.parameters.push_back(estimated(f, i));
+      named.parameters = estimated_parameters(evidence, e);
       const double none = probability_of_none_for(evidence, e);
       result_.probability_none = std::max(result_.probability_none, none);
       std::vector<double> all = {named.probability *= 1 - none};
@@ -123,6 +121,23 @@ class Diagnoser {
       result_.refitted.push_back(estimated(f, i));
       if (was_unknown) result_.refitted.back().nominal = parameter_value({model_.nominal, {}}, p);
     }
+  }
+
+  /// The fitted parameters of an effect, and its whole numbers, which have no interval.
+  std::vector<Estimated> estimated_parameters(const Evidence& evidence, std::size_t effect) {
+    const Fit& f = attribution().final_fit;
+    std::vector<Estimated> all;
+    for (const FitParameter& p :
+         effect_parameters(evidence, f.hypothesis, result_.given.nominal, static_cast<int>(effect))) {
+      if (is_past(p)) continue;
+      const auto fitted = std::ranges::find_if(
+          f.parameters, [&](const FitParameter& other) { return other.effect == p.effect && other.index == p.index; });
+      const double value = parameter_value(f.hypothesis, p);
+      if (fitted != f.parameters.end())
+        all.push_back(estimated(f, static_cast<std::size_t>(fitted - f.parameters.begin())));
+      else if (p.is_whole) all.push_back({p.name, p.unit, value, value, value, p.nominal});
+    }
+    return all;
   }
 
   static Estimated estimated(const Fit& f, std::size_t i) {

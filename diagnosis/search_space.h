@@ -15,6 +15,8 @@
 
 namespace halyard {
 
+inline constexpr double kFewestPeriods = 1.5;
+
 /// The range in which a parameter is fitted.
 enum class SearchRange {
   own,             ///< the bounds and starts of the parameter itself
@@ -40,14 +42,20 @@ struct ParameterSearch {
   /// True if a bound is a physical limit that the true value can reach (zero friction, a share of one). False if it is
   /// the end of the plausible range: a fit that ends there explains nothing.
   bool natural_bounds = false;
+  /// True if only whole numbers are plausible, such as the order of a ripple. The fit keeps the value of a start.
+  bool is_whole = false;
   TolerancedNumber changes = {};  ///< the model parameter that it changes, if any
 };
 
+/// The motion of a record has to contain at least kFewestPeriods periods of an effect that is periodic in a position:
+/// within less, a sine looks like a zero error, a slope and a curvature.
 struct SearchSpace {
   std::vector<ParameterSearch> parameters;  ///< in the order of Effect::parameters()
   /// For an effect whose torque is periodic in the motor's angle: index of the parameter that gives the number of
   /// periods per motor turn. The faster the motor turns, the less of that torque a record shows (filtered_effect.h).
   std::optional<std::size_t> order_of_motor_torque = {};
+  /// For an effect that is periodic in the joint's position: index of the parameter k of its phase k q.
+  std::optional<std::size_t> order_of_joint_position = {};
 
   /// Throws std::invalid_argument for an unknown name.
   ParameterSearch& operator[](const std::string& name) {

@@ -136,7 +136,15 @@ void Evidence::find_spans(const ArmModel& model) {
   time_span_ = {records_.front().start, records_.front().start};
   for (const Record& r : records_)
     time_span_ = {std::min(time_span_.first, r.start), std::max(time_span_.last, r.time(r.size - 1))};
-  for (int k = 0; k < n_; ++k) joint_span_.push_back(joint_span_of(records_, model.nominal, k));
+  for (int k = 0; k < n_; ++k) {
+    joint_span_.push_back(joint_span_of(records_, model.nominal, k));
+    Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const Record& r : records_) {
+      const auto [low, high] = std::ranges::minmax(r.motor_angle[k]);
+      span = {std::min(span.first, low), std::max(span.last, high)};
+    }
+    motor_span_.push_back(span);
+  }
 }
 
 std::vector<std::vector<double>> Evidence::fit_rows(const std::vector<Hypothesis>& hypotheses) const {

@@ -64,6 +64,8 @@ class Evidence {
   Span time_span() const { return time_span_; }
   /// Range of joint k's motion, from its sensor or from the motors.
   Span joint_span(int k) const { return joint_span_[k]; }
+  /// Range of motor k's angle, rad; of a joint without a motor: of the joint's own motion.
+  Span motor_span(int k) const { return motor_span_[k]; }
   /// Number of fitting rows of a channel.
   int fit_count(int c) const { return fit_count_[c]; }
   bool has_channel(int c) const { return channel_rows_[c] > 0; }
@@ -95,7 +97,7 @@ class Evidence {
   std::vector<ChannelNoise> noise_;
   std::vector<double> floor_;
   Span time_span_ = {};
-  std::vector<Span> joint_span_;
+  std::vector<Span> joint_span_, motor_span_;
 };
 
 }  // namespace halyard

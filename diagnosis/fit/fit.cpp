@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "diagnosis/fit/block_variance.h"
 
@@ -14,6 +15,16 @@ namespace {
 /// Step of a sensitivity, in units of the optimiser. It has to bridge the roughness of residuals with impacts: at 0.02
 /// a half gap stayed where its search began.
 constexpr double kStep = 0.1;
+
+/// Raises the lower bound of an order so far that the motion contains kFewestPeriods periods, and drops lower starts.
+void limit_period(FitParameter& f, const SearchSpace& space, std::size_t index, const Evidence& evidence, int joint) {
+  if (space.order_of_motor_torque != index && space.order_of_joint_position != index) return;
+  const Span span = space.order_of_motor_torque == index ? evidence.motor_span(joint) : evidence.joint_span(joint);
+  const double least = kFewestPeriods * 2 * std::numbers::pi / std::max(span.last - span.first, 1e-9);
+  f.lower = std::min(std::max(f.lower, least), f.upper);
+  std::erase_if(f.starts, [&](double start) { return start < f.lower; });
+  if (f.starts.empty()) f.starts = {f.is_whole ? std::min(std::ceil(f.lower), f.upper) : f.lower};
+}
 
 /// How far the starts of a search lie apart around a value: about as far as it finds its way.
 double spacing_around(const std::vector<double>& starts, double value) {
@@ -250,6 +261,8 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
     f.shape = p.is_shape();
     f.starts = search.starts;
     f.range = search.range;
+    f.is_whole = search.is_whole;
+    limit_period(f, space, i, evidence, e.joint.value_or(0));
     if (search.range != SearchRange::own) {
       const Span span =
           search.range == SearchRange::record_time ? evidence.time_span() : evidence.joint_span(e.joint.value_or(0));
@@ -334,10 +347,12 @@ std::vector<std::vector<double>> sensitivities(const Evidence& evidence, const H
   return columns;
 }
 
-Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& parameters,
+Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& all,
         const std::vector<double>& scale, const FitOptions& options,
         const std::vector<std::vector<double>>& baseline_sensitivities) {
   Fit result;
+  std::vector<FitParameter> parameters = all;
+  std::erase_if(parameters, [](const FitParameter& p) { return p.is_whole; });
   result.parameters = parameters;
   result.hypothesis = start;
   if (parameters.empty()) {

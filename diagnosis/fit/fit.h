@@ -30,6 +30,7 @@ struct FitParameter {
   bool shape = false;               ///< a shape of an effect, see EffectParameter
   std::vector<double> starts = {};  ///< start values; for a past in units of its scale
   SearchRange range = SearchRange::own;
+  bool is_whole = false;  ///< a whole number: tried at its starts and not fitted
 };
 
 /// True for an effect's state at the start of a record (its past), which belongs to the data and not to the arm.
@@ -40,6 +41,7 @@ void set_parameter(Hypothesis& h, const FitParameter& p, double value);
 /// Baseline parameters for which the model states a tolerance. A drive's ratio is one parameter, the capstan's radius.
 std::vector<FitParameter> baseline_parameters(const ArmModel& model);
 /// The parameters of the effect with index `place`; instants and positions are limited to the range of the records.
+/// A period of an effect is short enough for the motion to contain kFewestPeriods of them.
 /// The effect's states at the start of each record follow as shapes, unless there are more than a dozen records.
 std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,
                                             const ArmParameters<double>& nominal, int place);
@@ -78,7 +80,7 @@ std::vector<double> channel_scale(const Evidence& evidence, const std::vector<do
 std::vector<std::vector<double>> sensitivities(const Evidence& evidence, const Hypothesis& at,
                                                const std::vector<FitParameter>& parameters);
 
-/// Fits `parameters`. baseline_sensitivities: those of the baseline parameters among them, in order, for
+/// Fits `parameters`, except whole numbers, which keep their value. baseline_sensitivities: those of the baseline parameters among them, in order, for
 /// frozen_baseline.
 Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& parameters,
         const std::vector<double>& scale, const FitOptions& options = {},

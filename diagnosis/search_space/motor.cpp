@@ -24,6 +24,7 @@ void torque_ripple(SearchSpace& space, const Arm&, int) {
   std::vector<double>& orders = space["order"].starts;
   for (int n = 1; n <= 24; ++n) orders.push_back(n);
   for (const int n : {28, 30, 32, 36, 42, 48}) orders.push_back(n);
+  space["order"].is_whole = true;
   space.order_of_motor_torque = 2;
 }
 

@@ -4,8 +4,13 @@ namespace halyard {
 namespace {
 
 void encoder_eccentricity(SearchSpace& space, const ArmParameters<double>& arm, int joint) {
-  if (arm.joint[joint].type == JointType::revolute) space["order"].starts = {1, 2, 3, 4, 6, 8, 12, 16};
-  else space["wave_number"].starts = {20, 43, 93, 200, 430, 930, 2000};
+  if (arm.joint[joint].type == JointType::revolute) {
+    space["order"].starts = {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32};
+    space["order"].is_whole = true;
+  } else {
+    space["wave_number"].starts = {20, 43, 93, 200, 430, 930, 2000};
+  }
+  space.order_of_joint_position = 2;
 }
 
 }  // namespace
