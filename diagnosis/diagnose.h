@@ -14,7 +14,7 @@ namespace halyard {
 
 struct DiagnosisOptions {
   int most_effects = 6;          ///< largest number of effects added to the model
-  double significance = 0.01;    ///< of each search round: expected share of false effects among those added
+  double significance = 0.01;    ///< expected share of false effects among those that a search round adds
   bool tell_not_excited = true;  ///< fill Diagnosis::not_excited; costs one prediction for each candidate
 };
 
@@ -25,11 +25,11 @@ struct Estimated {
   double nominal = 0;
 };
 
-/// An effect that may be the right name instead of the named one.
+/// An effect that may be the true one instead of the effect that was named.
 struct Alternative {
   PlacedEffect effect;
-  double probability = 0;  ///< that it is the right name, given the log
-  bool in_set = false;     ///< it belongs to the smallest set of names that holds the right one with 90 %
+  double probability = 0;  ///< that it is the true effect, given the log
+  bool in_set = false;     ///< it is in the smallest set of effects that contains the true one with probability 90 %
 };
 
 /// An effect that the diagnosis found.
@@ -68,8 +68,10 @@ struct Diagnosis {
   std::vector<Unexplained> unexplained;
   std::vector<NotExcited> not_excited;
   double probability_clean = 0;  ///< that the arm has no effect which the model lacks
-  double probability_none = 0;   ///< that what is left, or what was named, has no right name among the candidates
-  ArmModel given;                ///< the model as given, with unknown torque scales calibrated
+  /// that none of the candidates is the right name for a remaining residual or for a named effect; the largest of these
+  /// probabilities
+  double probability_none = 0;
+  ArmModel given;  ///< the model as given, with unknown torque scales calibrated
   ArmModel revised;
   std::string holdout;            ///< description of the hold-out data
   PredictionError before, after;  ///< on the hold-out, with `given` and with `revised`

@@ -9,22 +9,27 @@
 ///
 /// An effect is detected at size p if it meets the conditions of a diagnosis (judge.h):
 ///
-///   rms((r0 + d)⊥ - r0⊥) and rms(d) > kMattersFactor floors of a channel;
-///   ms((r0 + d)⊥) - ms(r0⊥) > kMattersShare ms((r0 + d)⊥) in a channel;
-///   ln L_b(r0⊥) - ln L_b((r0 + d)⊥) over the blocks b of time passes the t test at the level 1 % / n, n the number of
-///   candidates that a search fits; or its sum over b exceeds ln(n / 1 %).
+///   change         rms((r0 + d)⊥ - r0⊥) and rms(d) each exceed a certain multiple of the floor in some channel
+///   share          ms((r0 + d)⊥) - ms(r0⊥) exceeds a certain share of ms((r0 + d)⊥) in some channel
+///   significance   the gains G_b = ln L_b(r0⊥) - ln L_b((r0 + d)⊥) of the blocks b of time pass a t test at the level
+///                  1 % / n, or Σ_b G_b > ln(n / 1 %). Here n is the number of candidates that a search fits
+///
+/// The multiple and the share are those of a diagnosis (docs/diagnosis.md). The floor of a channel is the smallest
+/// error that its sensor resolves, or its noise if that is larger.
 ///
 /// The detection limit is the smallest such size, to 9 %. At twice the limit the effect is compared with the best fit
 /// of every other effect, by the gain in log-likelihood of the right effect over the other:
 ///
 ///   Δ = Σ_b (ln L_b(r0⊥) - ln L_b(residual of the other's fit)).
 ///
-/// The two are confused if Δ < 2 σ (DecisionRule::tell_apart), for either of two values of σ, the standard deviation of
-/// Δ. One is √(2Δ), for noise of the floor's size; the condition is then Δ < 8. The other is estimated from the blocks.
+/// The standard deviation σ of Δ is computed in two ways. The two effects are confused if Δ < 2 σ for at least one of
+/// them. One is √(2Δ), for noise of the floor's size; the condition is then Δ < 8. The other is estimated from the
+/// blocks.
 ///
 /// The size of an effect is its first size parameter, on the same side of neutral as its typical value. Its shape
-/// parameters take the values with the largest change of the residual at the typical size. Instants are spread over the
-/// record; positions are in the middle of the motion.
+/// parameters take the values with the largest change of the residual at the typical size. A shape parameter that is an
+/// instant is placed within the record (several are spread over it). One that is a joint position is placed in the
+/// middle of the joint's motion.
 
 #include <functional>
 #include <string>
@@ -62,8 +67,8 @@ bool names_nothing(const ArmModel& model, const std::vector<Log>& logs);
 /// Two effects, and how similar their changes of the residual are in these logs.
 struct Separation {
   DetectionLimit first, second;
-  /// Cosine of the angle between the change d⊥ by one effect at twice its limit and the best fit of the other effect to
-  /// it. Computed both ways; this is the larger value. 1 if one of them is not excited.
+  /// Cosine of the angle between d⊥ and a fit. d⊥ is the change of the residual by one effect at twice its limit; the
+  /// other effect is fitted to it. Computed both ways; this is the larger value. 1 if one of them is not excited.
   double cosine = 1;
   bool told_apart = false;  ///< both are detected, neither is confused with the other, and names_nothing() is false
 };

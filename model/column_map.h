@@ -49,7 +49,8 @@ class ColumnMap {
   /// Throws InputError where add() does, and if the text does not have this form. The message quotes the entry.
   void add_entry(std::string_view entry);
 
-  /// Adds all sources of `other`. If both maps name a standard column, the source in `other` replaces this one.
+  /// Adds all sources of `other`. If both maps name a standard column, the source in `other` replaces the source in
+  /// this map.
   void override_with(const ColumnMap& other);
 
   /// Throws InputError if the map names a joint beyond n_joints.

@@ -8,7 +8,7 @@
 namespace halyard {
 
 /// An error in the user's input: a file, an option, a number in one of them. The program prints what() on one line and
-/// exits with code 2. The message says where, what, what was expected and the remedy:
+/// exits with code 2. The message states the place, the error, what was expected, and the remedy:
 ///
 ///   log.csv:12: column 'motor_torque_1': 'abc' is not a number; write a decimal number, or leave the cell empty
 ///

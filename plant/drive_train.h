@@ -10,8 +10,8 @@
 ///   F_e    external load on a joint                                                     N m | N
 ///   z      [q_m, ω of each cable drive; internal states of the effects; E_in, E_lost]    [n_z]
 ///
-/// The work of an effect at the joint, such as an external force, counts in E_lost: it is positive if the effect takes
-/// energy from the arm, and negative if it adds energy.
+/// The work of an effect that acts at the joint, such as the effect external_force, counts in E_lost and not in E_in.
+/// It is positive if the effect takes energy from the arm, and negative if it adds energy.
 
 #include <Eigen/Core>
 #include <optional>

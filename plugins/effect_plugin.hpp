@@ -25,8 +25,8 @@
 /// Increases when anything that crosses the boundary changes its meaning or place.
 #define HALYARD_EFFECT_INTERFACE 2
 
-/// The first two members may be read whatever the version, `compiler` and `layout` only if the version matches. The
-/// host checks all four before it calls make.
+/// The first two members may be read for any version; `compiler` and `layout` may be read only if the version matches.
+/// The host checks all four before it calls make.
 struct halyard_effect_table {
   std::uint32_t interface_version;  ///< HALYARD_EFFECT_INTERFACE of the headers that the module was built with
   std::uint32_t table_size;         ///< sizeof(halyard_effect_table)

@@ -189,7 +189,8 @@ std::unique_ptr<Estimator> construct(const ArmModel& model, const EstimatorOptio
 
 }  // namespace plugin
 
-/// The table of the estimator that `make` creates. name and description must outlive the module's use: string literals.
+/// The table of the estimator that `make` creates. name and description must stay valid as long as the module is
+/// loaded; use string literals.
 template <EstimatorFactory make>
 halyard_estimator_table estimator_table(const char* name, const char* description) {
   return {HALYARD_ESTIMATOR_INTERFACE,

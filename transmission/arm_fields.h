@@ -5,9 +5,9 @@
 ///
 ///   for_each_field(arm.n, [](const ArmField& field, const auto& value) { ... }, arm);
 ///
-/// If several arms are given, visit gets the same field of each, for example to compare or to copy arms. A field's part
-/// is the name of its element in model files, and its name is that of the attribute. Keys combine the two:
-/// joint2.motor.viscous.
+/// If several arms are given, visit gets the same field of each, for example to compare or to copy arms. In a model
+/// file, ArmField::part is the name of an element, and ArmField::name is the name of an attribute of that element. Keys
+/// combine the two: joint2.motor.viscous.
 
 #include <cstddef>
 #include <string_view>

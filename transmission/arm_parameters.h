@@ -3,7 +3,8 @@
 ///
 /// Joint k moves link k about (revolute) or along (prismatic) the z axis of its own frame. Units are SI; "rad | m"
 /// means rad at a revolute and m at a prismatic joint. The motor's parameters refer to the motor shaft. (The paper's
-/// Table I prints inertia and friction of the motors at the gearbox output, gear_ratio times as large.)
+/// Table I prints inertia and friction of the motors at the gearbox output. Its values are gear_ratio times the values
+/// here.)
 
 #include "transmission/scalar.h"
 

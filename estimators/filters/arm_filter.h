@@ -4,8 +4,8 @@
 ///
 ///   start      when every motor has been read once; earlier samples are skipped. Joint positions: kinematics gives a
 ///              first value, from which the static equilibrium at the motors' readings is computed. Speed: zero at the
-///              start of a record; otherwise it is computed from two readings. After a gap these are the first two
-///              readings after the gap, so the speed is set at the second sample
+///              start of a record. At a restart it is computed from two successive readings. After a gap, both must
+///              come from after the gap, so the speed is set only at the second sample
 ///   a step     the time between two samples, cut into equal pieces of at most `max_step`
 ///   restart    after a gap longer than `restart_gap`, or if the gate has rejected all readings for that long
 ///   NaN        torque: the last one is held; position of a motor: no correction from it
@@ -86,8 +86,8 @@ class ArmFilter final : public Estimator {
   double refused_since_ = 0;           // time from which the gate has rejected all readings, s; infinite: accepted
   Eigen::VectorXd reading_;            // last of each motor; NaN: none yet
   Eigen::VectorXd torque_, external_;  // held
-  EstimatorReport report_;             // counts repaired factors up to repaired_before_ only
-  long repaired_before_ = 0;
+  EstimatorReport report_;             // without the factors repaired since reset() or restore(); report() adds them
+  long repaired_before_ = 0;           // filter_->repaired() at that reset() or restore()
 };
 
 }  // namespace halyard

@@ -68,10 +68,11 @@ class GaussianFilter {
   void reset(const Eigen::VectorXd& x, const Eigen::MatrixXd& S) { x_ = x, S_ = S; }
   /// Throws std::runtime_error naming the state if the belief is no longer finite.
   virtual void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) = 0;
-  /// The backward step of the last predict(), which started at x_0, S_0, by the triangular root of
+  /// The backward step of the last predict(), which started at x_0, S_0. The triangular root of the left array is the
+  /// right array:
   ///
-  ///   [ D  Q_root ]      gives    [ S⁻       0 ]        D: predicted points minus their mean, or F S_0
-  ///   [ A    0    ]               [ G S⁻   V_root ]     A: the same columns before the prediction
+  ///   [ D  Q_root ]      →    [ S⁻       0    ]     D: predicted points minus their mean, or F S_0
+  ///   [ A    0    ]           [ G S⁻   V_root ]     A: the same columns before the prediction
   ///
   BackwardStep backward_step(const Eigen::VectorXd& x_0, const Eigen::MatrixXd& S_0);
   /// A measurement with νᵀ S⁻¹ ν > `gate` is not accepted: the belief does not change. Throws std::runtime_error if z
@@ -85,12 +86,12 @@ class GaussianFilter {
   long repaired() const { return repaired_; }
 
  protected:
-  /// The exact update with a linear measurement, by the triangular root of
+  /// The exact update with a linear measurement. The triangular root of the left array is the right array:
   ///
-  ///   [ R_root  H S ]     gives    [ S_y      0  ]
-  ///   [   0      S  ]              [ P_xy S_y⁻ᵀ  S' ]
+  ///   [ R_root  H S ]     →    [ S_y         0  ]
+  ///   [   0      S  ]          [ P_xy S_y⁻ᵀ  S' ]
   ///
-  /// and x' = x + (P_xy S_y⁻ᵀ) S_y⁻¹ ν. Source: Kailath, Sayed, Hassibi, "Linear Estimation", chapter 12.
+  /// Then x' = x + (P_xy S_y⁻ᵀ) S_y⁻¹ ν. Source: Kailath, Sayed, Hassibi, "Linear Estimation", chapter 12.
   Innovation update_linear(const Eigen::VectorXd& nu, const Eigen::MatrixXd& H, const Eigen::MatrixXd& R_root,
                            double gate);
   void check_finite(const DiscreteProcess& process) const;

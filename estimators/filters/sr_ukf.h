@@ -2,8 +2,8 @@
 /// The square-root unscented Kalman filter. The sigma points are X_0 = x and X_±i = x ± γ S_i, γ² = n + λ = α² (n + κ).
 /// All X_±i have the weight W = 1 / (2 (n + λ)); the weights of X_0 are W_0m = 1 - 2nW and W_0c = W_0m + 1 - α² + β.
 /// With the paper's α = 1e-3 and 12 states, n + λ is so small that W is 4e4 and W_0m is -1e6. A weighted sum of motor
-/// angles near 431 rad then has a rounding error of about |W_0m| 431 rad eps = 1e-7 rad. Relative to the central point
-/// the large weight cancels exactly:
+/// angles near 431 rad then has a rounding error of about |W_0m| 431 rad eps = 1e-7 rad. If all points are taken
+/// relative to the central point X_0, the large weight cancels exactly:
 ///
 ///   d_i = f(X_i) - f(X_0),   δ = W Σ d_i
 ///   x = f(X_0) + δ,   P = W Σ d_i d_iᵀ + (β - α²) δ δᵀ + Q
@@ -32,8 +32,8 @@ struct UkfWeights {
   double beta = 2;
   double kappa = 0;
   /// δ of a state is set to zero if it exceeds this fraction of √(W Σ d_i²). At a kink (a cable that goes slack, a gap
-  /// that closes) the sigma points see an apparent curvature: the difference of the two slopes, divided by γ. With a
-  /// small alpha δ then exceeds the limit of Jensen's inequality, δ² <= W Σ d_i². Even below that limit, δ is a
+  /// that closes) the sigma points see an apparent curvature: the difference of the two slopes, divided by γ. If
+  /// alpha is small, δ then exceeds the limit of Jensen's inequality, δ² <= W Σ d_i². Even below that limit, δ is a
   /// reliable Taylor term only if it is small.
   double curvature_limit = std::numeric_limits<double>::infinity();
 };

@@ -1,6 +1,6 @@
 #pragma once
-/// Least squares with a prior u ~ N(0, I) over the blocks b of a record. The variance comes from estimates that leave
-/// out one block each:
+/// Least squares over the blocks b of a record, with the prior u ~ N(0, I). The variance comes from estimates that
+/// leave out one block each:
 ///
 ///   A = Σ A_b + I,   step = A⁻¹ (Σ g_b - u),   var(u) = max( (B-1)/B Σ_b (u_-b - mean)² + |rows of A⁻¹|²,  diag A⁻¹ )
 ///

@@ -14,20 +14,21 @@
 ///
 /// x_k-1 depends on w: another w since the start would have led to another state. Within 1 ms a coupling moves nothing
 /// measurable; its influence shows only in this accumulated dependence Ψ = dx/dw. So each of the weights' sigma points
-/// ω_±i = w ± α √p S_w,i starts at a state of its own, and Ψ is propagated through prediction and correction:
+/// ω_±i = w ± α √p S_w,i, with α = 0.03, starts at a state of its own, and Ψ is propagated through prediction and
+/// correction:
 ///
 ///   X_±i = f(x + Ψ (ω_±i - w), ω_±i),   y_±i = h(X_±i, ω_±i)
 ///   Ψ' = cross(X, ω) P_w⁻¹,   Y = cross(y, ω) P_w⁻¹                  [n_states x p], [m x p]
 ///   Ψ = Ψ' - K Y,   cov(z) = Y P_w Yᵀ + S_k
 ///
 /// If a sample would move a weight by more than 0.02, the sample's noise is doubled until the step is at most 0.02.
-/// Otherwise early samples after a wrong start could move w to a region where f behaves differently. α = 0.03.
+/// Otherwise early samples after a wrong start could move w to a region where f behaves differently.
 ///
 /// Without the derivative of K, this is a recursive prediction-error method. If the weights are held, the sums over a
 /// record Σ Yᵀ S⁻¹ ν and Σ Yᵀ S⁻¹ Y are the gradient of the innovations' likelihood and its information. The points of
-/// held weights are 0.001 prior deviations apart, so that Y is a derivative. When a joint moves at 1 rad/s, this
-/// spacing of its coupling changes the speed of the coupled joint by 0.04 mrad/s. That is a hundredth of the speed v_s
-/// over which friction changes sign (smoothing, 5 mrad/s). At a spacing of 0.03 it was a quarter of v_s; near
+/// held weights are 0.001 prior deviations apart, so that Y is a derivative. If a coupling changes by this spacing
+/// while its joint moves at 1 rad/s, the speed of the coupled joint changes by 0.04 mrad/s. That is a hundredth of the
+/// speed v_s over which friction changes sign (smoothing, 5 mrad/s). At a spacing of 0.03 it was a quarter of v_s; near
 /// standstill, Y for the RAVEN-II's coupling C01 was then up to 1.7 times too large.
 ///
 /// Sources: Wan and Nelson, "Dual extended Kalman filter methods", and Wan and van der Merwe, "The unscented Kalman

@@ -57,7 +57,9 @@ struct IdentifiedNumber {
   double lower = 0, upper = 0;  ///< 95 % interval
   Convergence convergence = Convergence::converged;
   std::vector<double> trace;  ///< the dual filter's estimate over Identification::time
-  /// its standard deviation; the part that the data contributed is widened by the same factor as the final interval
+  /// Standard deviation of that estimate. In the filter's standard deviation, the part that comes from the data is
+  /// multiplied by a factor: the final standard deviation of `value`, divided by that of the filter at the end. The
+  /// part that comes from the prior is unchanged.
   std::vector<double> trace_std;
 };
 

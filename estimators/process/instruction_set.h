@@ -1,6 +1,6 @@
 #pragma once
 /// Vector instructions of this processor. Code over Lanes is compiled once for each set (files *_generic.cpp,
-/// *_avx2.cpp, *_avx512.cpp). Callers must choose the compiled copy by this list.
+/// *_avx2.cpp, *_avx512.cpp). Callers must choose a copy whose set is in instruction_sets().
 
 #include <vector>
 

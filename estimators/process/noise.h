@@ -5,8 +5,9 @@
 ///   torque         σ_τ = t_f F_c,m                                     N m at the shaft
 ///   joint force    σ_F = t_f F_c,q + t_m max |gravity force|            N m | N
 ///   effect states  a random walk whose standard deviation reaches the typical size of the state after
-///                  `effect_noise_time`, 1e4 s. The motor encoders hardly observe these states. For slow creep (the
-///                  effect `creep`), 10 s gave joint errors of several times the cable's stretch
+///                  `effect_noise_time`, 1e4 s. The motor encoders hardly observe these states. With the slow effect
+///                  `creep`, an `effect_noise_time` of only 10 s gave joint errors of several times the cable's
+///                  stretch
 ///
 ///   t_f, t_m       the model's relative tolerances of friction and masses
 ///   F_c,m, F_c,q   Coulomb levels of motor and joint

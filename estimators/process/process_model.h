@@ -33,8 +33,8 @@ struct Step {
 
 class ProcessModel {
  public:
-  /// Limit of the cost at 1 kHz: the largest number of sub-steps in a step, or in each millisecond of a step longer
-  /// than 1 ms. A model that needs more is too stiff.
+  /// Largest number of sub-steps in a step of up to 1 ms; a longer step may have as many in each millisecond. This
+  /// limits the cost at 1 kHz. A model that needs more is too stiff.
   static constexpr int kMaxSubsteps = 500;
 
   /// Throws std::runtime_error if the model gives no finite derivative at standstill.

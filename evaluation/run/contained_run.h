@@ -32,8 +32,9 @@ EstimatorRun run_contained(const std::string& name, const ArmModel& model, const
 void check_estimator(const std::string& name, const ArmModel& model, const ContainmentOptions& containment = {});
 
 /// Runs the tests of plugins/host/conformance.h on the estimator in a worker; `kalman`: also those for Kalman filters.
-/// Returns a line for each promise that the estimator breaks. A crash or a test beyond the time limit ends the tests
-/// and is the last line. Throws as run_contained does if the estimator cannot be made.
+/// Returns a line for each promise that the estimator breaks. A crash, or a test that exceeds the time limit, ends
+/// the tests; the result is then a single line that reports it. Throws as run_contained does if the estimator cannot be
+/// made.
 std::vector<std::string> contained_faults(const std::string& name, const ArmModel& model, bool kalman,
                                           const ContainmentOptions& containment = {});
 

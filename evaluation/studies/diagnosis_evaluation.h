@@ -12,7 +12,8 @@
 
 namespace halyard {
 
-/// The residuals behind the sentences, for charts. Defined in diagnosis_evidence.h, which is not installed.
+/// The residuals on which the sentences of DiagnosisEvaluation::why are based, for charts. Defined in
+/// diagnosis_evidence.h, which is not installed.
 struct DiagnosisEvidence;
 
 struct DiagnosisEvaluation {

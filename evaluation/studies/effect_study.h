@@ -15,7 +15,9 @@ namespace halyard {
 /// A robot with some of its effects, and the estimators' errors on it.
 struct StudiedRobot {
   enum class Has { none, one, all, all_but_one } has = Has::none;
-  std::string effect;  ///< for one and all_but_one: the effect, on all joints; kCableLaw: the robot's cable law
+  /// If `has` is Has::one or Has::all_but_one: name of the effect, on all joints. kCableLaw stands for the robot's
+  /// cable law.
+  std::string effect;
   /// [estimator][joint] mean absolute error, SI, mean of the scenarios.
   std::vector<std::vector<double>> error;
 

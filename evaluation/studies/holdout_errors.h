@@ -1,5 +1,5 @@
 #pragma once
-/// Errors of estimators that get motor signals alone, on held-out logs.
+/// Errors of estimators without joint sensors, on held-out logs.
 
 #include <string>
 #include <vector>
@@ -25,8 +25,8 @@ struct HeldOutLog {
   const Log* log;
   double from;
 };
-/// The errors over all logs together. The estimator gets measured external loads, as the diagnosis' prediction does,
-/// because they are not part of the model.
+/// The errors over all logs together. The estimator gets motor signals, and measured external loads, because these are
+/// not part of the model (the diagnosis' prediction gets them too). It gets no joint sensors.
 EstimatorErrors errors_of(const std::string& estimator, const ArmModel& model, const std::vector<HeldOutLog>& logs,
                           const ContainmentOptions& containment = {});
 

@@ -2,9 +2,10 @@
 /// Proposes a motion that tells two effects apart. A seeded random search simulates the arm, with its controller and
 /// torque limits, in several motions and chooses the one with the smallest Separation::cosine of the two effects.
 ///
-///   each joint, within its range:  two or three sines, the slowest of 0.1 to 0.8 Hz, the next 1.3 to 4 times as fast,
-///   or
-///                                  moves of 0.3 to 3 s between three to six points with rests of up to 1 s
+/// Each joint moves within its range in one of two ways:
+///
+///   sines   two or three; the slowest has 0.1 to 0.8 Hz, and each next one is 1.3 to 4 times as fast
+///   moves   of 0.3 to 3 s each, between three to six points, with rests of up to 1 s
 ///
 /// A motion is considered only if the detection limits of both effects are at most twice those in the given motion.
 

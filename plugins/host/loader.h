@@ -19,8 +19,8 @@ struct PluginInfo {
 };
 
 /// The plug-in folders that exist, in the order in which they are searched: beside the program (../lib/halyard/plugins
-/// and plugins/ of a build), beside halyard's libraries (for programs in another place), and each folder of the
-/// environment variable HALYARD_PLUGIN_PATH, separated by ':'.
+/// in an installation, plugins/ in a build tree), beside halyard's libraries (for programs installed elsewhere), and
+/// each folder of the environment variable HALYARD_PLUGIN_PATH, separated by ':'.
 std::vector<std::filesystem::path> plugin_folders();
 /// Sets the folders that plugin_folders() returns from now on. For a process that works for another process and must
 /// find the same plug-ins. No other thread may look for plug-ins meanwhile.
