@@ -334,7 +334,7 @@ TEST(LogCheck, FindsNothingInARightLogWhateverItsSensors) {
 }
 
 TEST(LogCheck, FindsNothingInALogOfLargeEffects) {
-  const auto with = [](const std::string& name, int joint, const std::vector<double>& p) {
+  const auto with = [](const std::string& name, EffectPlace joint, const std::vector<double>& p) {
     ArmModel truth = raven();
     truth.effects.push_back(place_neutral_effect(*find_effect(name), truth.nominal, joint));
     std::copy(p.begin(), p.end(), truth.effects[0].p);
@@ -342,7 +342,7 @@ TEST(LogCheck, FindsNothingInALogOfLargeEffects) {
   };
   with("capstan_ratio", 0, {1.056});
   with("backlash", 1, {5e-4});
-  with("payload", -1, {0.3});
+  with("payload", kWholeArm, {0.3});
   with("motor_friction", 2, {3 * raven().nominal.joint[2].motor_coulomb});
   with("encoder_offset", 1, {0.05});
 }
