@@ -273,13 +273,18 @@ void add_plugins_command(CLI::App& app) {
 }
 
 void add_check_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("check", "validate a model, scenario, sweep or estimator");
+  CLI::App& command = *app.add_subcommand("check", "validate a model, scenario, sweep or estimator; or check a log");
   const auto options = std::make_shared<CheckOptions>();
-  command.add_option("FILE.xml", options->file, "model, scenario or sweep; or the module of an estimator, MODULE.so")
+  command
+      .add_option("FILE", options->file,
+                  "model, scenario or sweep; the module of an estimator, MODULE.so; or a log, LOG.csv")
       ->type_name("")
       ->required();
-  command.add_option("--model", options->model, "of an estimator: the arm to try it with; default: the RAVEN-II")
+  command
+      .add_option("--model", options->model,
+                  "of a log: its arm, required; of an estimator: the arm to try it with; default: the RAVEN-II")
       ->type_name("M.xml");
+  add_columns_option(command, options->columns);
   command.add_flag("--kalman", options->kalman,
                    "of an estimator: it is a Kalman filter with halyard's noise; hold it "
                    "against the textbook's on a linear arm");

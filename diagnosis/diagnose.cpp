@@ -19,6 +19,19 @@ namespace {
 
 using Progress = std::function<void(const std::string&, double)>;
 
+/// Suspicious findings about the logs. Throws InputError if there is a gross one.
+std::vector<LogFinding> findings_of(const ArmModel& model, const std::vector<Log>& training,
+                                    const std::optional<Log>& holdout, const ColumnMap& columns) {
+  std::vector<const Log*> logs;
+  for (const Log& log : training) logs.push_back(&log);
+  if (holdout) logs.push_back(&*holdout);
+  std::vector<LogFinding> all;
+  for (const Log* log : logs)
+    for (LogFinding& finding : check_log(*log, model, columns)) all.push_back(std::move(finding));
+  stop_at_gross_finding(all);
+  return all;
+}
+
 /// What the stages of one diagnosis share.
 class Diagnoser {
  public:
@@ -27,6 +40,7 @@ class Diagnoser {
       : model_(model), training_(training), options_(options), progress_(progress), given_(model.effects.size()) {}
 
   Diagnosis run(const std::optional<Log>& holdout) {
+    result_.log_findings = findings_of(model_, training_, holdout, options_.columns.value_or(model_.columns));
     DiagnosisData data = diagnosis_data(model_, training_, holdout);
     result_.holdout = holdout ? holdout->source : "last third of the training data";
     result_.given = calibrated(model_, data.training);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/log_check/log_check.h"
 #include "model/arm_model.h"
 #include "model/log.h"
 
@@ -16,6 +17,8 @@ struct DiagnosisOptions {
   int most_effects = 6;          ///< largest number of effects added to the model
   double significance = 0.01;    ///< expected share of false effects among those that a search round adds
   bool tell_not_excited = true;  ///< fill Diagnosis::not_excited; costs one prediction for each candidate
+  /// The map with which the logs were read, for the remedies in log_findings; none: the model's.
+  std::optional<ColumnMap> columns = std::nullopt;
 };
 
 /// A number with its unit and 95 % interval.
@@ -67,7 +70,8 @@ struct Diagnosis {
   std::vector<Estimated> refitted;
   std::vector<Unexplained> unexplained;
   std::vector<NotExcited> not_excited;
-  double probability_clean = 0;  ///< that the arm has no effect which the model lacks
+  std::vector<LogFinding> log_findings;  ///< suspicious findings of check_log() about all logs
+  double probability_clean = 0;          ///< that the arm has no effect which the model lacks
   /// that none of the candidates is the right name for a remaining residual or for a named effect; the largest of these
   /// probabilities
   double probability_none = 0;
@@ -81,7 +85,7 @@ struct Diagnosis {
 /// Diagnoses a model from training logs. The hold-out does not influence the result: only the errors are computed on
 /// it. Without a hold-out, the last third of each training log is held out. progress(what, fraction of it) is never
 /// called by two threads at once.
-/// Throws InputError for logs that cannot be compared with the model.
+/// Throws InputError for logs that cannot be compared with the model, and for gross findings of check_log().
 Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, const std::optional<Log>& holdout,
                    const DiagnosisOptions& options = {},
                    const std::function<void(const std::string&, double)>& progress = {});

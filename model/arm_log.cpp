@@ -4,12 +4,17 @@
 
 namespace halyard {
 
-Log read_log_of(const ArmModel& model, const std::filesystem::path& path,
-                const std::vector<std::string>& column_entries, bool torque_required) {
+ColumnMap columns_of(const ArmModel& model, const std::vector<std::string>& column_entries) {
   ColumnMap given;
   for (const std::string& entry : column_entries) given.add_entry(entry);
   ColumnMap map = model.columns;
   map.override_with(given);
+  return map;
+}
+
+Log read_log_of(const ArmModel& model, const std::filesystem::path& path,
+                const std::vector<std::string>& column_entries, bool torque_required) {
+  const ColumnMap map = columns_of(model, column_entries);
   ReadOptions options{.torque_required = torque_required};
   for (int k = 0; k < model.n(); ++k)
     if (model.nominal.joint[k].drive == Drive::none) options.without_motor.push_back(k);

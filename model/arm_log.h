@@ -10,6 +10,9 @@
 
 namespace halyard {
 
+/// The model's column map with the entries of --column in place of its own.
+ColumnMap columns_of(const ArmModel& model, const std::vector<std::string>& column_entries);
+
 /// Reads a log of the model's arm with the model's column map. If the model does not know an encoder's zero, estimates
 /// the zero from the log and subtracts it (homing.h).
 /// column_entries, NAME=COLUMN[,unit=U][,sign=-1][,scale=S][,offset=O], replace entries of the model's map.

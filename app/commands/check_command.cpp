@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include "app/bundled_files.h"
+#include "diagnosis/log_check/log_check.h"
 #include "evaluation/run/contained_run.h"
 #include "evaluation/sweep/sweep_file.h"
+#include "model/arm_log.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "model/xml/xml_reader.h"
@@ -70,14 +72,32 @@ void check_estimator_module(const CheckOptions& options) {
              options.kalman ? ", and is the Kalman filter on a linear arm" : "", model.source);
 }
 
+/// Prints suspicious findings; the first gross one is the error.
+void check_log_file(const CheckOptions& options) {
+  if (options.model.empty())
+    throw InputError("halyard check: the log " + in_quotes(options.file.string()) +
+                     " is checked against the model of its arm; give it with --model M.xml");
+  const ArmModel model = read_model(options.model);
+  const Log log = read_log_of(model, options.file, options.columns, /*torque_required=*/false);
+  if (const std::string note = ignored_columns_note(log); !note.empty()) fmt::print("{}\n", note);
+  const std::vector<LogFinding> findings = check_log(log, model, columns_of(model, options.columns));
+  for (const LogFinding& f : findings) fmt::print("{}: {}\n", severity_word(f.severity), finding_line(f));
+  stop_at_gross_finding(findings);
+  fmt::print("{}: {} samples over {:.4g} s of \"{}\", {}\n", options.file.string(), log.size(), log.duration(),
+             model.name, findings.empty() ? "nothing suspicious" : fmt::format("{} suspicious", findings.size()));
+}
+
 }  // namespace
 
 void run_check(const CheckOptions& options) {
   const std::filesystem::path& file = options.file;
   if (file.extension() == ".so") return check_estimator_module(options);
-  if (options.kalman || !options.model.empty())
-    throw InputError("halyard check: --model and --kalman are for an estimator's module, and " +
-                     in_quotes(file.string()) + " is none; leave them out");
+  if (file.extension() == ".csv" && !options.kalman) return check_log_file(options);
+  if (options.kalman || !options.model.empty() || !options.columns.empty())
+    throw InputError(
+        "halyard check: --model is for a log (.csv) and an estimator's module (.so), --column for a log and "
+        "--kalman for a module, and " +
+        in_quotes(file.string()) + " is none of these; leave them out");
   const XmlElement root = XmlElement::read_file(file);
   if (root.tag() == "arm") return check_model(file);
   if (root.tag() == "scenario") return check_scenario(file);

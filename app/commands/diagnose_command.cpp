@@ -36,6 +36,7 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
     fmt::print("  {}: {}\n", effect_label(d.effects[i].effect), evaluation.why[i]);
   for (const Estimated& p : d.refitted)
     fmt::print("  refitted {}: {:.5g} -> {:.5g} {}\n", p.name, p.nominal, p.value, p.unit);
+  for (const LogFinding& f : d.log_findings) fmt::print("  suspicious: {}\n", finding_line(f));
   for (const Unexplained& u : d.unexplained) fmt::print("  unexplained, joint {}: {}\n", u.joint + 1, u.signature);
 }
 
@@ -77,7 +78,7 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
   {
     StageProgress progress("diagnose");
     const auto tell = [&](const std::string& what, double fraction) { progress.set(what, fraction); };
-    d = diagnose(model, training, holdout, {}, tell);
+    d = diagnose(model, training, holdout, {.columns = columns_of(model, options.columns)}, tell);
     evaluation = evaluate_diagnosis(model, d, training, holdout, tell);
   }
   write_diagnosis(options.out, model, d, evaluation);

@@ -87,6 +87,13 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
     unexplained.push_back({{"joint", u.joint + 1}, {"signature", u.signature}});
   for (const NotExcited& n : d.not_excited)
     not_excited.push_back({{"effect", n.effect}, {"joint", joint_of(n.joint)}, {"why", n.why}});
+  Json log_check = Json::array();
+  for (const LogFinding& f : d.log_findings)
+    log_check.push_back({{"log", f.log},
+                         {"column", f.column},
+                         {"what", f.what},
+                         {"remedy", f.remedy},
+                         {"severity", severity_word(f.severity)}});
   const Json all = {{"verdict", verdict_word(d.verdict)},
                     {"effects", effects},
                     {"refitted", refitted},
@@ -94,6 +101,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
                     {"probability_none", probability(d.probability_none)},
                     {"unexplained", unexplained},
                     {"not_excited", not_excited},
+                    {"log_check", log_check},
                     {"error",
                      {{"holdout", d.holdout},
                       {"joint_position_rms", before_after(d.before.joint_rms, d.after.joint_rms)},
@@ -135,6 +143,13 @@ void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluati
       break;
     }
   }
+}
+
+void add_log_findings(report::Page& page, const Diagnosis& d) {
+  if (d.log_findings.empty()) return;
+  std::string text = "Check the log first. These columns look suspicious:";
+  for (const LogFinding& f : d.log_findings) text += "\n" + finding_line(f) + ".";
+  page.verdict(report::VerdictKind::warning, text);
 }
 
 void add_error_table(report::Page& page, const Diagnosis& d) {

@@ -203,6 +203,7 @@ std::vector<report::Chart> residual_charts(const Diagnosis& d, int k) {
 report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   report::Page page("Diagnosis of " + model.name, "What the model lacks, by measured data");
   add_verdict(page, d, evaluation);
+  add_log_findings(page, d);
   add_error_table(page, d);
   page.paragraph(
       "Joint position is predicted from motor signals alone: the arm is driven by the measured motor motion and its "

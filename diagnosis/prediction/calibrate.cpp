@@ -4,13 +4,12 @@
 
 #include <cmath>
 
-#include "diagnosis/prediction/prediction.h"
+#include "diagnosis/prediction/torque_comparison.h"
 #include "model/input_error.h"
 
 namespace halyard {
 namespace {
 
-constexpr int kStride = 5;         ///< samples; torques are band-limited to 20 Hz
 constexpr double kGoesWith = 0.3;  ///< least correlation of recorded and needed torque
 
 bool is_unknown(const ArmModel& model, int k) {
@@ -32,42 +31,24 @@ struct Regression {
 
 ArmModel calibrated(const ArmModel& model, const std::vector<Record>& records) {
   const int n = model.n();
-  const Hypothesis once{model.nominal, model.effects};
-  Hypothesis twice = once;
   bool any = false;
-  for (int k = 0; k < n; ++k)
-    if (is_unknown(model, k)) twice.nominal.joint[k].torque_scale *= 2, any = true;
+  for (int k = 0; k < n; ++k) any = any || is_unknown(model, k);
   if (!any) return model;
 
-  std::vector<Regression> needed_over_recorded(n);
-  for (const Record& record : records) {
-    const std::vector<Residuals> e = predict(record, {once, twice}, kStride);
-    for (int k = 0; k < n; ++k) {
-      if (!record.has_torque(k) || !is_unknown(model, k)) continue;
-      for (std::size_t i = 0; i < e[0].channel[k].size(); ++i) {
-        const bool moves = std::abs(record.motor_rate[k][i * kStride]) > 2 * model.nominal.joint[k].motor_smoothing;
-        const double recorded = e[1].channel[k][i] - e[0].channel[k][i], needed = recorded - e[0].channel[k][i];
-        if (moves && std::isfinite(needed)) needed_over_recorded[k].add(recorded, needed);
-      }
-    }
-  }
+  const TorqueComparison torques = compare_torques(model, records);
   ArmModel result = model;
   for (int k = 0; k < n; ++k) {
-    const Regression& r = needed_over_recorded[k];
+    if (!is_unknown(model, k)) continue;
+    Regression r;
+    for (std::size_t i = 0; i < torques.needed[k].size(); ++i)
+      if (std::isfinite(torques.needed[k][i])) r.add(torques.recorded[k][i], torques.needed[k][i]);
     if (r.n == 0) continue;
-    const auto fail = [&](const std::string& what) {
-      throw InputError(fmt::format("{}: motor_torque_{}, of unknown scale, {}", records.front().source, k + 1, what));
-    };
     const double correlation = r.correlation();
-    if (correlation < -kGoesWith)
-      fail(
-          "goes against the torque that the motion needs; give its column sign=-1, or correct the sign of the motor's "
-          "position");
     if (!(correlation > kGoesWith))
-      fail(fmt::format(
-          "does not go with the motor's motion (correlation {:.2f}); give a record in which the motor moves, "
-          "and that motor's own column",
-          correlation));
+      throw InputError(fmt::format(
+          "{}: motor_torque_{}, of unknown scale, does not go with the motor's motion (correlation {:.2f}); give a "
+          "record in which the motor moves, and that motor's own column",
+          records.front().source, k + 1, correlation));
     result.nominal.joint[k].torque_scale *= r.slope();
   }
   return result;

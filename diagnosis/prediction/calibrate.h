@@ -12,7 +12,7 @@
 namespace halyard {
 
 /// The model with its unknown torque scales estimated. Throws InputError if a torque is not correlated with its motor's
-/// motion, or has the wrong sign.
+/// motion. check_log() finds wrong signs before.
 ArmModel calibrated(const ArmModel& model, const std::vector<Record>& records);
 
 /// True if an entry of named_parameters() is a torque scale that the model does not know.

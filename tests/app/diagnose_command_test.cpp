@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/support/program_run.h"
+#include "tests/support/app_runs.h"
 
 namespace halyard::testing_program {
 namespace {
@@ -53,6 +53,45 @@ TEST_F(DiagnoseCommand, SaysWhyAndByHowMuchEachEstimatorGains) {
   EXPECT_TRUE(contains(page, "ekf failed with the given model: estimator ekf on "));
   EXPECT_TRUE(contains(page, "crashed: Segm"));
   EXPECT_TRUE(contains(page, "joint behind its motors, over load"));
+}
+
+/// The bundled log with one column times -1.
+class ReversedLog : public App {
+ protected:
+  void write(const std::string& column) const {
+    const CsvFile table(kLog);
+    std::string text;
+    for (const std::string& name : table.header) text += (text.empty() ? "" : ",") + name;
+    for (const auto& row : table.rows) {
+      text += "\n";
+      for (std::size_t i = 0; i < row.size(); ++i)
+        text += (i ? "," : "") + (table.header[i] == column ? std::to_string(-std::stod(row[i])) : row[i]);
+    }
+    write_text(path("reversed.csv"), text + "\n");
+  }
+};
+
+TEST_F(ReversedLog, IsRefusedByCheckAndDiagnoseWithTheOptionThatMendsIt) {
+  write("motor_position_2");
+  const std::string option = "motor_position_2=motor_position_2,sign=-1";
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"check", "reversed.csv", "--model", kModel},
+        std::vector<std::string>{"diagnose", "--model", kModel, "--data", "reversed.csv", "--out", "out"}}) {
+    const RunResult result = run(command);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(lines_of(result.err).size(), 1u) << result.err;
+    EXPECT_TRUE(result.err.starts_with("reversed.csv: motor_position_2: is reversed")) << result.err;
+    EXPECT_TRUE(contains(result.err, "--column " + option)) << result.err;
+  }
+  const std::string printed = done({"check", "reversed.csv", "--model", kModel, "--column", option});
+  EXPECT_TRUE(contains(printed, "nothing suspicious")) << printed;
+}
+
+TEST_F(ReversedLog, NeedsAModelToBeChecked) {
+  write("");
+  const RunResult result = run({"check", "reversed.csv"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.err, "give it with --model M.xml")) << result.err;
 }
 
 }  // namespace

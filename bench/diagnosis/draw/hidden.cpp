@@ -66,12 +66,12 @@ std::vector<Hidden> choices(const ArmModel& model, Kind kind) {
 }
 
 /// One effect of the library that may stand beside the others; at `joint`, if that is not null.
-Hidden draw_beside(const ArmModel& model, const std::vector<Hidden>& others, const int* joint, Random& random) {
+Hidden draw_beside(const ArmModel& model, const std::vector<Hidden>& others, const EffectPlace* joint, Random& random) {
   std::vector<Hidden> all;
   for (const Hidden& choice : choices(model, Kind::effect)) {
     Hidden hidden = choice;
-    std::vector<int> places = effect_places(*choice.acts.effect, model.nominal);
-    std::erase_if(places, [&](int place) {
+    std::vector<EffectPlace> places = effect_places(*choice.acts.effect, model.nominal);
+    std::erase_if(places, [&](EffectPlace place) {
       return (joint && place != *joint) || std::ranges::any_of(others, [&](const Hidden& other) {
                return other.acts.effect == choice.acts.effect && other.acts.joint == place;
              });
@@ -103,7 +103,7 @@ std::vector<Hidden> draw_effects(const ArmModel& model, Kind kind, int index, Ra
       break;
     }
     case Kind::two_at_joint: {
-      const int joint = random.below(model.n());
+      const EffectPlace joint = random.below(model.n());
       for (int i = 0; i < 2; ++i) hidden.push_back(draw_beside(model, hidden, &joint, random));
       break;
     }
@@ -197,7 +197,7 @@ std::vector<Place> names_beyond_tolerance(const ArmModel& model, const ArmModel&
   }
   std::vector<Place> names;
   for (const Effect* effect : effect_library())
-    for (const int joint : effect_places(*effect, model.nominal)) {
+    for (const EffectPlace joint : effect_places(*effect, model.nominal)) {
       const PlacedEffect placed = place_effect(*effect, model.nominal, joint);
       if (std::ranges::any_of(beyond, [&](const FitParameter& p) { return effect_covers(placed, model.nominal, p); }))
         names.push_back(place_of(placed, model.n()));

@@ -54,22 +54,22 @@ class BoucWen : public EffectOf<BoucWen> {
   std::string summary() const override { return "a loop of the cable's force with a sharp knee"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::cable_force); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_cable(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double stretch = typical_stretch(arm.joint[joint]);
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double stretch = typical_stretch(arm.joint[*joint]);
     return {{"share", "1", 0, 0.4, 0, 0.95},
             {"yield_stretch", "m", 0.1 * stretch, 0.1 * stretch, 1e-3 * stretch, 10 * stretch}};
   }
   int n_states() const override { return 1; }
   template <class T>
   void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T change = T(2.0) * c.arm.joint[c.joint].stiffness * c.p[0] * (c.z[0] - s[c.joint].stretch);
-    s[c.joint].cable_force_motor += change;
-    s[c.joint].cable_force_joint += change;
+    const T change = T(2.0) * c.arm.joint[*c.joint].stiffness * c.p[0] * (c.z[0] - s[*c.joint].stretch);
+    s[*c.joint].cable_force_motor += change;
+    s[*c.joint].cable_force_joint += change;
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
     constexpr double kBeta = 0.7, kGamma = 0.3;
-    const T rate = s[c.joint].stretch_rate, u = c.z[0] / c.p[1];
+    const T rate = s[*c.joint].stretch_rate, u = c.z[0] / c.p[1];
     z_dot[0] = rate - T(kBeta) * abs(rate) * u * abs(u) - T(kGamma) * rate * u * u;
   }
 };

@@ -38,18 +38,18 @@ class CurrentLoop : public EffectOf<CurrentLoop> {
   std::string summary() const override { return "a motor torque that follows its command with a lag of first order"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::command); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>&, int) const override {
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"time", "s", 0, 0.005, 0, 0.05}};
   }
   int n_states() const override { return 1; }
   template <class T>
   void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
     const T share = min(T(1.0), T(c.p[0] / T(kShortest)));
-    s[c.joint].motor_torque += share * c.arm.joint[c.joint].torque_scale * (c.z[0] - s[c.joint].command);
+    s[*c.joint].motor_torque += share * c.arm.joint[*c.joint].torque_scale * (c.z[0] - s[*c.joint].command);
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
-    z_dot[0] = (s[c.joint].command - c.z[0]) / max(c.p[0], T(kShortest));
+    z_dot[0] = (s[*c.joint].command - c.z[0]) / max(c.p[0], T(kShortest));
   }
 
  private:

@@ -160,14 +160,14 @@ class QuadraticDrag : public EffectOf<QuadraticDrag> {
   std::string name() const override { return "quadratic_drag"; }
   std::string summary() const override { return "drag at the joint that grows with the square of the speed"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const bool turns = arm.joint[joint].type == JointType::revolute;
-    const double speed = turns ? 1 : 0.1, drag = typical_joint_friction(arm.joint[joint]) / (speed * speed);
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const bool turns = arm.joint[*joint].type == JointType::revolute;
+    const double speed = turns ? 1 : 0.1, drag = typical_joint_friction(arm.joint[*joint]) / (speed * speed);
     return {{"drag", turns ? "N m s^2/rad^2" : "N s^2/m^2", 0, drag, 0, 30 * drag}};
   }
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[c.joint].joint_force -= c.p[0] * s[c.joint].joint_rate * abs(s[c.joint].joint_rate);
+    s[*c.joint].joint_force -= c.p[0] * s[*c.joint].joint_rate * abs(s[*c.joint].joint_rate);
   }
 };
 
@@ -179,13 +179,13 @@ class Hum : public EffectOf<Hum>, public AboveBand {
   std::string summary() const override { return "a motor torque at the frequency of the mains"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::motor); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_cable(arm, joint); }
-  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, int joint) const override {
-    const double torque = 3 * torque_of_a_count(arm.joint[joint], kMains);
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const double torque = 3 * torque_of_a_count(arm.joint[*joint], kMains);
     return {{"amplitude", "N m", 0, torque, -100 * torque, 100 * torque}, {"frequency", "Hz", kMains, kMains, 45, 65}};
   }
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[c.joint].motor_torque += c.p[0] * sin(T(T(2 * std::numbers::pi * c.time) * c.p[1]));
+    s[*c.joint].motor_torque += c.p[0] * sin(T(T(2 * std::numbers::pi * c.time) * c.p[1]));
   }
   double encoder_counts(const ArmParameters<double>& arm, int joint, const double* p) const override {
     return std::abs(p[0]) / torque_of_a_count(arm.joint[joint], p[1]);

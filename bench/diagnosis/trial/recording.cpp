@@ -82,7 +82,7 @@ std::vector<double> seen_from(const ArmModel& model, const Log& probe, const std
   std::vector<double> shares = detected_from(model, {probe}, effects);
   for (std::size_t i = 0; i < hidden.size(); ++i)
     if (const auto* above = dynamic_cast<const AboveBand*>(effects[i].effect))
-      shares[i] = 1 / above->encoder_counts(model.nominal, effects[i].joint, effects[i].p);
+      shares[i] = 1 / above->encoder_counts(model.nominal, effects[i].joint.value_or(0), effects[i].p);
   return shares;
 }
 

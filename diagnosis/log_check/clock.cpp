@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/log_check/checks.h"
+#include "diagnosis/log_check/robust.h"
+
+namespace halyard {
+namespace {
+
+std::vector<double> intervals(const std::vector<double>& time) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
+  return steps;
+}
+
+/// False if some time does not increase.
+bool check_order(LogUnderCheck& c, const std::vector<double>& steps) {
+  const auto bad = std::ranges::find_if(steps, [](double step) { return !(step > 0); });
+  if (bad == steps.end()) return true;
+  const auto count = std::ranges::count_if(steps, [](double step) { return !(step > 0); });
+  const std::size_t row = static_cast<std::size_t>(bad - steps.begin()) + 1;
+  c.reject("time",
+           fmt::format("{:.6g} s follows {:.6g} s in sample {}, the first of {} times that do not increase",
+                       c.log.time[row], c.log.time[row - 1], row + 1, count),
+           "sort the rows, remove repeated ones, and split a log whose clock was set back");
+  return false;
+}
+
+/// False if the sample rate is implausible.
+bool check_unit(LogUnderCheck& c, double step) {
+  const double slowest = 1 / c.rule.slowest_hz, fastest = 1 / c.rule.fastest_hz;
+  if (step > fastest && step <= slowest * (1 + 1e-6)) return true;
+  const auto is_plausible = [&](double factor) { return step * factor > fastest && step * factor <= slowest; };
+  std::string units, remedy = "give the times in s, or a record with at least 10 samples a second";
+  for (const auto& [factor, name] : {std::pair(1e-3, "milliseconds"), std::pair(1e-6, "microseconds")}) {
+    if (!is_plausible(factor)) continue;
+    if (units.empty()) remedy = "read it with " + c.option("time", Correction{.factor = factor});
+    units += (units.empty() ? "; it looks like a time in " : " or ") + std::string(name);
+  }
+  c.reject("time",
+           fmt::format("a sample follows another after {:.4g} s; expected at least {:g} and at most {:g} samples a "
+                       "second{}",
+                       step, c.rule.slowest_hz, c.rule.fastest_hz, units),
+           remedy);
+  return false;
+}
+
+void check_regularity(LogUnderCheck& c, const std::vector<double>& steps, double step) {
+  double missing = 0, longest = 0, regular = 0;
+  for (const double s : steps) {
+    if (s <= c.rule.gap * step) regular += 1;
+    else missing += std::round(s / step) - 1, longest = std::max(longest, s);
+  }
+  const auto rows = static_cast<double>(steps.size());
+  if (missing > c.rule.missing * rows)
+    c.suspect(
+        "time",
+        fmt::format("{:g} rows are missing in {:g} gaps, the longest of {:.3g} s, beside {} samples every {:.4g} s",
+                    missing, rows - regular, longest, steps.size() + 1, step),
+        "record without losses; gaps longer than 0.05 s split the log");
+  std::vector<double> between;
+  for (const double s : steps)
+    if (s <= c.rule.gap * step) between.push_back(s);
+  const double width = quantile(between, 0.95) - quantile(between, 0.05);
+  if (width > c.rule.jitter * step)
+    c.suspect("time",
+              fmt::format("the sample interval jitters: {:.4g} s in the median, 90 % of them within {:.4g} to {:.4g} s",
+                          step, quantile(between, 0.05), quantile(between, 0.95)),
+              "record the time at which each sample was taken, not the time at which it was written");
+}
+
+}  // namespace
+
+void check_clock(LogUnderCheck& c) {
+  const std::vector<double> steps = intervals(c.log.time);
+  if (steps.empty())
+    return c.reject("time", fmt::format("has {} samples; expected a motion", c.log.size()), "record at least 2 s");
+  if (!check_order(c, steps)) return;
+  const double step = median(steps);
+  if (!check_unit(c, step)) return;
+  check_regularity(c, steps, step);
+}
+
+}  // namespace halyard

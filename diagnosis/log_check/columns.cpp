@@ -1,0 +1,319 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "diagnosis/log_check/checks.h"
+#include "diagnosis/log_check/robust.h"
+#include "diagnosis/record/record.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kShortestFreeze = 0.05;  ///< s; slow sensors hold a reading for 33 ms
+constexpr const char* kLeaveEmpty = "leave these cells empty, or leave the column out";
+
+/// The samples that a column has.
+struct Samples {
+  std::vector<double> time, x;
+  Samples(const Log& log, const std::vector<double>& column) {
+    for (std::size_t i = 0; i < column.size(); ++i)
+      if (std::isfinite(column[i])) time.push_back(log.time[i]), x.push_back(column[i]);
+  }
+  std::size_t size() const { return x.size(); }
+  /// Leaves the samples at which the value changes: those of a sensor whose reading is held in between.
+  void drop_repeated() {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (i == 0 || x[i] != x[kept - 1]) time[kept] = time[i], x[kept] = x[i], ++kept;
+    time.resize(kept), x.resize(kept);
+  }
+};
+
+/// Samples begin..end-1 that are equal.
+struct Run {
+  std::size_t begin, end;
+  std::size_t size() const { return end - begin; }
+};
+
+std::vector<Run> runs_of(const std::vector<double>& x) {
+  std::vector<Run> runs;
+  for (std::size_t begin = 0, end = 0; begin < x.size(); begin = end) {
+    for (end = begin + 1; end < x.size() && x[end] == x[begin];) ++end;
+    runs.push_back({begin, end});
+  }
+  return runs;
+}
+
+/// Samples for which a reading usually keeps its value: a slow sensor repeats the last one.
+double usual_length(const std::vector<Run>& runs) {
+  std::vector<double> lengths;
+  for (const Run& run : runs) lengths.push_back(static_cast<double>(run.size()));
+  // A column that hardly changes has no usual length: at most a twentieth of it.
+  return std::min(median(lengths), static_cast<double>(runs.back().end) / 20);
+}
+
+struct PositionColumn {
+  Signals Log::*signal;
+  int k;
+  double resolution;
+  double significant;  ///< motion that counts as such, unit of the column
+  bool turns;          ///< an angle
+};
+
+std::vector<PositionColumn> position_columns(const LogUnderCheck& c) {
+  std::vector<PositionColumn> columns;
+  for (int k = 0; k < c.n(); ++k) {
+    const JointParameters<double>& j = c.model.nominal.joint[k];
+    const double least = c.rule.least_motion * c.range(k);
+    if (c.is_driven(k) && !c.log.motor_position[k].empty())
+      columns.push_back(
+          {&Log::motor_position, k, j.motor_encoder_resolution, least / std::abs(c.joint_per_motor(k)), true});
+    if (!c.log.joint_position[k].empty())
+      columns.push_back({&Log::joint_position, k, j.joint_encoder_resolution, least, j.type == JointType::revolute});
+  }
+  return columns;
+}
+
+/// Steps between two samples that no motion explains and that stay.
+struct Jumps {
+  std::size_t count = 0;
+  double step = 0, when = 0;  ///< of the first
+  double usual = 0;           ///< 99th percentile of the steps
+  bool alike = true;          ///< all of the same size
+};
+
+Jumps jumps_of(const LogUnderCheck& c, const PositionColumn& column) {
+  const Samples s(c.log, (c.log.*column.signal)[column.k]);
+  std::vector<double> steps, rates;
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    steps.push_back(std::abs(s.x[i] - s.x[i - 1]));
+    rates.push_back(steps.back() / (s.time[i] - s.time[i - 1]));
+  }
+  Jumps jumps{.usual = quantile(steps, 0.99)};
+  const double usual_rate = quantile(rates, 0.99);
+  for (std::size_t i = 2; i + 2 < s.size(); ++i) {
+    const double step = s.x[i] - s.x[i - 1];
+    if (std::abs(step) < column.significant || rates[i - 1] < c.rule.jump * usual_rate) continue;
+    // A jump stays; an outlier returns.
+    const double stays = 0.5 * (s.x[i] + s.x[i + 1]) - 0.5 * (s.x[i - 1] + s.x[i - 2]);
+    if (std::abs(stays / step - 1) > 0.25) continue;
+    if (jumps.count++ == 0) jumps.step = step, jumps.when = s.time[i];
+    jumps.alike = jumps.alike && std::abs(std::abs(step) - std::abs(jumps.step)) < 4 * jumps.usual;
+  }
+  return jumps;
+}
+
+/// "2 turns" or "2^16 counts of its encoder" if a counter that wraps around jumps so.
+std::string wrap_of(const Jumps& jumps, const PositionColumn& column) {
+  const double turn = 2 * std::numbers::pi, step = std::abs(jumps.step);
+  const double tolerance = std::clamp(2 * jumps.usual, 0.02 * turn, 0.1 * turn);
+  const double turns = std::round(step / turn);
+  if (column.turns && jumps.alike && turns >= 1 && std::abs(step - turns * turn) < tolerance)
+    return fmt::format("{:g} turn{}", turns, turns > 1 ? "s" : "");
+  // A single jump may have any size by chance.
+  if (column.resolution <= 0 || jumps.count < 2 || !jumps.alike) return "";
+  for (const int bits : {10, 12, 13, 14, 15, 16, 17, 18, 20, 24, 32})
+    if (std::abs(step / column.resolution / std::pow(2, bits) - 1) < 0.02)
+      return fmt::format("2^{} counts of its encoder", bits);
+  return "";
+}
+
+std::string describe(const Jumps& jumps) {
+  return fmt::format("jumps by {:.5g} between two samples at {:.4g} s", jumps.step, jumps.when) +
+         (jumps.count > 1 ? fmt::format(", the first of {} jumps", jumps.count) : "");
+}
+
+void check_wraps(LogUnderCheck& c, const PositionColumn& column) {
+  const Jumps jumps = jumps_of(c, column);
+  const std::string wrap = jumps.count > 0 ? wrap_of(jumps, column) : "";
+  if (!wrap.empty())
+    c.reject(column_name(column.signal, column.k),
+             describe(jumps) + ", which is " + wrap + "; expected a continuous position",
+             "unwrap the counter before the log is written: add the jump to all later samples");
+}
+
+void check_jumps(LogUnderCheck& c, const PositionColumn& column) {
+  const std::string name = column_name(column.signal, column.k);
+  // A sensor that froze jumps where it wakes up, and a corrected column is told already.
+  if (c.has_finding(name)) return;
+  if (const Jumps jumps = jumps_of(c, column); jumps.count > 0)
+    c.suspect(name, describe(jumps) + "; a motor or joint cannot follow",
+              std::string("if the sensor froze or lost counts: ") + kLeaveEmpty);
+}
+
+/// The step of a rounded reading.
+double smallest_step(const std::vector<double>& x) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if (x[i] != x[i - 1]) smallest = std::min(smallest, std::abs(x[i] - x[i - 1]));
+  return std::isfinite(smallest) ? smallest : 0;
+}
+
+void check_outliers(LogUnderCheck& c, const PositionColumn& column) {
+  Samples s(c.log, (c.log.*column.signal)[column.k]);
+  s.drop_repeated();
+  // From the neighbours' median, which a steady motion does not change, and from their mean, which shows the noise.
+  std::vector<double> off(s.size(), 0), from_median, from_mean;
+  for (std::size_t i = 2; i + 2 < s.size(); ++i) {
+    off[i] = s.x[i] - median({s.x[i - 2], s.x[i - 1], s.x[i], s.x[i + 1], s.x[i + 2]});
+    from_median.push_back(std::abs(off[i]));
+    from_mean.push_back(std::abs(s.x[i] - 0.5 * (s.x[i - 1] + s.x[i + 1])));
+  }
+  // Of a rounded reading most differences are 0: the 95th percentile is two standard deviations of the others.
+  double usual = std::max(smallest_step(s.x), 1e-6 * spread(s.x));
+  for (const auto* size : {&from_median, &from_mean})
+    usual = std::max({usual, 1.48 * median(*size), 0.5 * quantile(*size, 0.95)});
+  if (s.size() < 5 || usual == 0) return;
+  std::size_t count = 0;
+  double largest = 0, when = 0;
+  for (std::size_t i = 2; i + 2 < s.size(); ++i) {
+    const double neighbours = std::max(std::abs(off[i - 1]), std::abs(off[i + 1]));
+    if (std::abs(off[i]) < c.rule.outlier * usual || neighbours > 0.5 * std::abs(off[i])) continue;
+    ++count;
+    if (std::abs(off[i]) > std::abs(largest)) largest = off[i], when = s.time[i];
+  }
+  if (count > 0)
+    c.suspect(
+        column_name(column.signal, column.k),
+        fmt::format("{} single sample{} differ{} from the neighbours, at most by {:.4g} at {:.4g} s; usual is {:.2g}",
+                    count, count == 1 ? "" : "s", count == 1 ? "s" : "", largest, when, usual),
+        "leave the cells of these samples empty");
+}
+
+/// The longest time during which a sensor does not change although it should.
+void check_frozen(LogUnderCheck& c, const PositionColumn& column, const SampledMotion& m) {
+  const int k = column.k;
+  if (m.expected[k].empty() || m.joint[k].empty()) return;
+  const bool is_stuck = std::ranges::count(stuck_joint_sensors(c.log, c.model), k) > 0;
+  const Samples s(c.log, (c.log.*column.signal)[k]);
+  const bool is_motor = column.signal == &Log::motor_position;
+  const double least = c.rule.least_motion * c.range(k);
+  double frozen = 0, from = 0, to = 0;
+  const std::vector<Run> runs = runs_of(s.x);
+  if (runs.empty()) return;
+  const double held = usual_length(runs);
+  for (const Run& run : runs) {
+    std::vector<double> mismatch, other;
+    const double begin = s.time[run.begin], end = s.time[run.end - 1];
+    if (static_cast<double>(run.size()) < 5 * held || end - begin < kShortestFreeze) continue;
+    for (auto i = static_cast<std::size_t>(std::ceil((begin - m.time[0]) / m.step));
+         i < m.time.size() && m.time[i] <= end; ++i) {
+      mismatch.push_back(m.joint[k][i] - m.expected[k][i]);
+      other.push_back((is_motor ? m.joint : m.expected)[k][i]);
+    }
+    if (spread(mismatch) < least || spread(other) < least) continue;
+    frozen += end - begin;
+    if (end - begin > to - from) from = begin, to = end;
+  }
+  if (frozen == 0) return;
+  const bool all = is_motor ? frozen > 0.9 * c.log.duration() : is_stuck;
+  const std::string what =
+      all ? fmt::format("never changes, while the {} moves the joint by {:.3g}", is_motor ? "joint's sensor" : "motor",
+                        spread(is_motor ? m.joint[k] : m.expected[k]))
+          : fmt::format("stands still for {:.3g} s while the {} moves, longest from {:.4g} to {:.4g} s", frozen,
+                        is_motor ? "joint" : "motor", from, to);
+  // A motor's angle drives every prediction; a joint's sensor is only compared.
+  if (is_motor)
+    c.reject(column_name(column.signal, k), what + "; expected the angle of the motor",
+             "give the column of this motor's encoder, or a record in which it works");
+  else c.suspect(column_name(column.signal, k), what + "; the sensor is stuck or not connected", kLeaveEmpty);
+}
+
+/// A position that often stops abruptly at the same extreme value: the end of a counter.
+void check_end_of_counter(LogUnderCheck& c, const PositionColumn& column) {
+  const Samples s(c.log, (c.log.*column.signal)[column.k]);
+  // A frozen sensor is told already.
+  if (s.size() < 20 || c.has_finding(column_name(column.signal, column.k))) return;
+  std::vector<double> steps;
+  for (std::size_t i = 3; i < s.size(); ++i) steps.push_back(std::abs(s.x[i] - s.x[i - 3]));
+  const double usual = quantile(steps, 0.9);
+  const std::vector<Run> runs = runs_of(s.x);
+  const double held = std::max(10.0, 5 * usual_length(runs));
+  const auto [low, high] = std::ranges::minmax(s.x);
+  for (const double end : {low, high}) {
+    std::size_t abrupt = 0, all = 0;
+    double time = 0;
+    for (const Run& run : runs) {
+      if (s.x[run.begin] != end || static_cast<double>(run.size()) < held || run.begin < 4 || run.end + 4 > s.size())
+        continue;
+      ++all;
+      time += s.time[run.end - 1] - s.time[run.begin];
+      const double before = std::abs(s.x[run.begin] - s.x[run.begin - 4]), after = std::abs(s.x[run.end + 3] - end);
+      if (std::min(before, after) > 0.5 * usual) ++abrupt;
+    }
+    if (abrupt >= 2 && 2 * abrupt > all)
+      c.suspect(column_name(column.signal, column.k),
+                fmt::format("stops abruptly at its extreme value {:.6g} {} times, for {:.3g} s together: a counter or "
+                            "converter at its end",
+                            end, all, time),
+                kLeaveEmpty);
+  }
+}
+
+void check_clipped_torque(LogUnderCheck& c, int k) {
+  const Samples s(c.log, c.log.motor_torque[k]);
+  const double limit = c.model.joints[k].controller.torque_limit, usual = 0.5 * spread(s.x);
+  if (s.size() < 20 || usual == 0) return;
+  const auto [low, high] = std::ranges::minmax(s.x);
+  for (const double end : {low, high}) {
+    const bool is_limit = limit > 0 && std::abs(std::abs(end) / limit - 1) < 0.02;
+    double held = 0;
+    for (const Run& run : runs_of(s.x))
+      if (s.x[run.begin] == end && run.size() >= 3) held += static_cast<double>(run.size());
+    const double share = held / static_cast<double>(s.size());
+    if (std::abs(end) > 0 && !is_limit && share > c.rule.clipped && share < 0.5 && std::abs(end) > 0.5 * usual)
+      c.suspect(
+          column_name(&Log::motor_torque, k),
+          fmt::format("is exactly {:.6g} in {:.2g} % of the samples, its extreme value: clipped", end, 100 * share),
+          "record the torque with a larger range; if the drive limits it, state the model's torque_limit");
+  }
+}
+
+void check_idle(LogUnderCheck& c) {
+  bool moves = false, torque = false, any = false;
+  for (int k = 0; k < c.n(); ++k) {
+    if (!c.is_driven(k)) continue;
+    any = true;
+    const double counts = 3 * c.model.nominal.joint[k].motor_encoder_resolution;
+    const double least = std::max(counts, 1e-4 * c.range(k) / std::abs(c.joint_per_motor(k)));
+    moves = moves || spread(c.log.motor_position[k]) > least;
+    torque = torque || std::ranges::any_of(c.log.motor_torque[k], [](double t) { return std::isfinite(t) && t != 0; });
+  }
+  if (!any || moves) return;
+  c.reject("motor_position_1",
+           torque
+               ? "torque is commanded and no motor moves: there is nothing to learn from; expected a motion"
+               : "no motor moves and no torque is commanded, as of a robot that is switched off: there is nothing to "
+                 "learn from; expected a motion",
+           "give a record in which the motors move; if they did, give the columns of their encoders, such as --column "
+           "motor_position_1=NAME");
+}
+
+}  // namespace
+
+void check_counters(LogUnderCheck& c) {
+  for (const PositionColumn& column : position_columns(c)) check_wraps(c, column);
+  if (!c.has_gross()) check_idle(c);
+}
+
+void check_columns(LogUnderCheck& c) {
+  const SampledMotion m = sampled_motion(c.log, c.model);
+  for (const PositionColumn& column : position_columns(c)) {
+    const std::size_t before = c.findings.size();
+    check_frozen(c, column, m);
+    check_end_of_counter(c, column);
+    check_jumps(c, column);
+    // Where a sensor jumps or wakes up, a sample may lie between.
+    if (c.findings.size() == before) check_outliers(c, column);
+  }
+}
+
+void check_clipped_torques(LogUnderCheck& c) {
+  for (int k = 0; k < c.n(); ++k)
+    if (c.is_driven(k)) check_clipped_torque(c, k);
+}
+
+}  // namespace halyard

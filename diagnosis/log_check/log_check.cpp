@@ -1,0 +1,51 @@
+#include "diagnosis/log_check/log_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "diagnosis/log_check/checks.h"
+#include "model/homing.h"
+#include "model/input_error.h"
+
+namespace halyard {
+
+std::vector<LogFinding> check_log(const Log& log, const ArmModel& model, const ColumnMap& columns,
+                                  const LogCheckRule& rule) {
+  LogUnderCheck c(log, model, columns, rule);
+  check_clock(c);
+  if (c.has_gross()) return c.findings;
+  home_encoders(c.log, model);
+  check_counters(c);
+  if (c.has_gross()) return c.findings;
+  check_positions(c);
+  check_columns(c);
+  check_torques(c);
+  check_clipped_torques(c);
+  check_zeros(c);
+  check_delays(c);
+  return c.findings;
+}
+
+std::vector<LogFinding> check_log(const Log& log, const ArmModel& model) {
+  return check_log(log, model, model.columns);
+}
+
+const char* severity_word(LogFinding::Severity severity) {
+  return severity == LogFinding::Severity::gross ? "gross" : "suspicious";
+}
+
+std::string finding_line(const LogFinding& f) {
+  return fmt::format("{}: {}: {}; {}", f.log, f.column, f.what, f.remedy);
+}
+
+void stop_at_gross_finding(const std::vector<LogFinding>& findings) {
+  const auto is_gross = [](const LogFinding& f) { return f.severity == LogFinding::Severity::gross; };
+  const auto first = std::ranges::find_if(findings, is_gross);
+  if (first == findings.end()) return;
+  const auto others = std::ranges::count_if(findings, is_gross) - 1;
+  throw InputError(finding_line(*first) +
+                   (others > 0 ? fmt::format(" (and {} more: run halyard check on the log)", others) : ""));
+}
+
+}  // namespace halyard

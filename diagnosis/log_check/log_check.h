@@ -1,0 +1,111 @@
+#pragma once
+/// Checks a log against the model of its arm before anything is concluded from it.
+///
+/// The check compares each joint's reading with the reading that the motors' angles give through an unstretched
+/// transmission, and each motor's torque with the torque that its motion requires. An error of the log (a sign, a
+/// unit, a swapped column) changes these relations by far more than any physical effect. All estimates are robust:
+/// medians, and slopes that minimise the sum of absolute errors.
+///
+///   s   slope of the reading over the expected reading; 1 in a correct log       1
+///   w   share of the reading's motion that s times the expected motion explains, 1 - Σ|Δq - s Δp| / Σ|Δq|
+///   r   correlation of the recorded torque with the required torque while the motor moves
+
+#include <string>
+#include <vector>
+
+#include "model/arm_model.h"
+#include "model/log.h"
+
+namespace halyard {
+
+/// An error of a log, or what looks like one.
+struct LogFinding {
+  enum class Severity {
+    suspicious,  ///< may be an effect of the arm as well; a diagnosis continues
+    gross,       ///< an error of the log; a diagnosis would be meaningless
+  };
+  std::string log;     ///< path of the log
+  std::string column;  ///< standard name of the column, such as motor_position_2, or time
+  std::string what;    ///< observation and expectation
+  std::string remedy;  ///< option or model attribute that corrects it
+  Severity severity = Severity::suspicious;
+};
+
+/// Thresholds of the check.
+struct LogCheckRule {
+  /// Least motion of a joint, as a share of its range, from which a relation is read. The same share as in
+  /// stuck_joint_sensors(): rounding, backlash and stretch are well below it.
+  double least_motion = 0.05;
+  /// Least w for a conclusion from a slope. Two unrelated motions have w below 0.3; backlash of a fifth of the motion
+  /// leaves 0.6.
+  double explained = 0.5;
+  /// w of a swapped column in its right place. The swap removes the whole mismatch; 0.8 leaves a margin for effects.
+  double explained_by_swap = 0.8;
+  /// A slope in 1/ratio..ratio may be an effect. Capstans wear by some 10 %, and model tolerances of lengths reach 5 %;
+  /// the closest unit is 2π away.
+  double ratio = 1.5;
+  /// Unknown ratios beyond this factor are gross: no transmission deviates that much from its model.
+  double gross_ratio = 3;
+  /// A unit explains a slope within this factor. It is wider than an effect, and far below the distance of two units.
+  double unit = 1.25;
+  /// r below which a torque opposes the motion. Friction makes r positive in every arm that moves.
+  double torque_opposes = -0.5;
+  /// Least r for a conclusion from a torque's size, and for a swapped torque in its right place.
+  double torque_goes_with = 0.7;
+  /// Two torques are swapped if the exchange leaves at most this share of the variance that each r leaves, 1 - r², and no
+  /// r was above own_torque before. Joints that move together have torques that resemble each other.
+  double swap_leaves = 0.25, own_torque = 0.9;
+  /// A torque's size may deviate by this factor because of effects: friction times three and a payload together.
+  double torque_ratio = 6;
+  /// A unit explains the size of a torque within this factor; effects change the size as well.
+  double torque_unit = 2.5;
+  /// Samples further apart than this count as independent, s. The same time as in the diagnosis' tests.
+  double independent_s = 0.25;
+  /// A correlation is significant beyond this many standard deviations of chance.
+  double significance = 4;
+  /// Share of the range by which a position may lie outside its range, and by which a zero may be off.
+  double outside = 0.25, zero = 0.5;
+  /// Slowest and fastest plausible sample rate, Hz. Records need 10 Hz.
+  double slowest_hz = 10, fastest_hz = 50e3;
+  /// Width of the central 90 % of the sample intervals, relative to the median, that counts as jitter.
+  double jitter = 0.3;
+  /// A gap is an interval longer than this many median intervals. Jitter stays below.
+  double gap = 2.5;
+  /// Number of missing rows from which they are reported, as a share of all rows.
+  double missing = 1e-3;
+  /// A column is late if it is late by more than this many of its own sample intervals, and by more than late_s. Cables
+  /// and gears delay a joint by a few ms.
+  double late_samples = 3, late_s = 6e-3;
+  /// Share of the squared mismatch that a shift in time must remove before it is called late. Backlash and hysteresis
+  /// resemble a delay, but a shift removes at most 80 % of them.
+  double late_explains = 0.9;
+  /// A step from one sample to the next is a jump if its rate exceeds this many times the 99th percentile.
+  double jump = 20;
+  /// A sample is an outlier if it differs from the median of five by this many times the usual difference. Gaussian
+  /// noise reaches 6 once in 10^9 samples.
+  double outlier = 10;
+  /// A torque that stays at exactly its largest value for this share of the samples is clipped.
+  double clipped = 0.01;
+};
+
+/// Findings about a log, the most fundamental first. A gross finding about the clock or a counter ends the
+/// check, because later checks would only repeat it. A column that is found wrong is corrected in the check's own copy
+/// before the next column is compared, so that one error is one finding.
+///
+/// columns: the map with which the log was read; remedies repeat its scales and offsets.
+/// Throws InputError as home_encoders() does.
+std::vector<LogFinding> check_log(const Log& log, const ArmModel& model, const ColumnMap& columns,
+                                  const LogCheckRule& rule = {});
+/// For a log that was read with the model's own map.
+std::vector<LogFinding> check_log(const Log& log, const ArmModel& model);
+
+/// "suspicious" or "gross".
+const char* severity_word(LogFinding::Severity severity);
+
+/// "log.csv: motor_position_2: what; remedy".
+std::string finding_line(const LogFinding& finding);
+
+/// Throws InputError with the first gross finding, if there is one; the message says how many others there are.
+void stop_at_gross_finding(const std::vector<LogFinding>& findings);
+
+}  // namespace halyard

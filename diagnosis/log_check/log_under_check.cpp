@@ -1,0 +1,156 @@
+#include "diagnosis/log_check/log_under_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "diagnosis/log_check/robust.h"
+#include "diagnosis/record/sampled_column.h"
+#include "transmission/coupling.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMostPoints = 4000;  ///< of a grid: 130 Hz over 30 s, enough for the motion of an arm
+constexpr double kHole = 0.1;         ///< s; a longer hole in a column is not bridged
+
+/// A column at the instants; NaN in holes. Empty if the log lacks it.
+std::vector<double> at_instants(const Log& log, const std::vector<double>& column, const std::vector<double>& time) {
+  const SampledColumn sampled(log.time, column);
+  if (!sampled.is_there()) return {};
+  const double bridged = std::max(kHole, 1.5 * sampled.interval());
+  std::vector<double> values;
+  for (const double t : time) values.push_back(sampled.hole_at(t) <= bridged ? sampled.at(t) : kNone);
+  return values;
+}
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+}  // namespace
+
+SampledMotion sampled_motion(const Log& log, const ArmModel& model) {
+  SampledMotion m;
+  const int n = log.n_joints;
+  m.step = std::max(SampledColumn(log.time, log.time).interval(), log.duration() / kMostPoints);
+  for (double t = log.time.front(); t <= log.time.back(); t += m.step) m.time.push_back(t);
+  Signals motor(n);
+  for (int k = 0; k < n; ++k) {
+    if (model.nominal.joint[k].drive != Drive::none) motor[k] = at_instants(log, log.motor_position[k], m.time);
+    m.joint.push_back(at_instants(log, log.joint_position[k], m.time));
+  }
+  m.expected.resize(n), m.own.resize(n);
+  for (int k = 0; k < n; ++k)
+    if (!motor[k].empty()) m.expected[k].resize(m.time.size()), m.own[k].resize(m.time.size());
+  Eigen::VectorXd q_m = Eigen::VectorXd::Zero(n), undriven = model.home();
+  for (std::size_t i = 0; i < m.time.size(); ++i) {
+    for (int k = 0; k < n; ++k) {
+      const JointParameters<double>& j = model.nominal.joint[k];
+      if (!motor[k].empty()) q_m(k) = motor[k][i] - j.motor_encoder_offset;
+      else if (!m.joint[k].empty()) undriven(k) = m.joint[k][i] - j.joint_encoder_offset;
+    }
+    const Eigen::VectorXd q = unstretched_joints(model.nominal, q_m, undriven);
+    for (int k = 0; k < n; ++k) {
+      const JointParameters<double>& j = model.nominal.joint[k];
+      if (motor[k].empty()) continue;
+      m.expected[k][i] = q(k) + j.joint_encoder_offset;
+      m.own[k][i] = j.motor_travel() / j.pulley_radius * q_m(k);
+    }
+  }
+  return m;
+}
+
+double LogUnderCheck::joint_per_motor(int k) const {
+  const JointParameters<double>& j = model.nominal.joint[k];
+  return j.motor_travel() / j.pulley_radius;
+}
+
+bool LogUnderCheck::has_gross() const {
+  return std::ranges::any_of(findings, [](const LogFinding& f) { return f.severity == LogFinding::Severity::gross; });
+}
+
+bool LogUnderCheck::has_finding(const std::string& column) const {
+  return std::ranges::count(findings, column, &LogFinding::column) > 0;
+}
+
+double LogUnderCheck::beyond_range(int k, const std::vector<double>& position, bool zero_known) const {
+  if (!(range(k) > 0)) return 0;
+  // Motors and joints overshoot their range a little.
+  double beyond = std::max(0.0, spread(position) / range(k) - 1.2);
+  if (zero_known) {
+    const double level = median(position);
+    beyond += std::max({0.0, model.joints[k].lower - level, level - model.joints[k].upper}) / range(k);
+  }
+  return beyond;
+}
+
+ColumnSource LogUnderCheck::source_of(const std::string& column) const {
+  const auto found = columns_.sources().find(column);
+  return found == columns_.sources().end() ? ColumnSource{column} : found->second;
+}
+
+std::string LogUnderCheck::option(const std::string& column, const ColumnSource& source) const {
+  std::string text = fmt::format("--column {}={}", column, source.column);
+  const double size = std::abs(source.scale);
+  std::vector<UnitGuess> units = {{"ms", 1e-3, ""}, {"us", 1e-6, ""}};
+  if (column.find("torque") != column.npos) units = {{"mN.m", 1e-3, ""}};
+  if (column.find("position") != column.npos) {
+    units = position_units(false, 0);
+    const std::vector<UnitGuess> lengths = position_units(true, 0);
+    units.insert(units.end(), lengths.begin(), lengths.end());
+  }
+  const auto unit = std::ranges::find_if(
+      units, [&](const UnitGuess& u) { return !u.name.empty() && std::abs(size / u.factor - 1) < 1e-6; });
+  if (unit != units.end()) text += ",unit=" + unit->name;
+  else if (std::abs(size - 1) > 1e-9) text += fmt::format(",scale={:.6g}", size);
+  if (source.scale < 0) text += ",sign=-1";
+  if (source.offset != 0) text += fmt::format(",offset={:.6g}", source.offset);
+  return text;
+}
+
+std::string LogUnderCheck::option(const std::string& column, const Correction& c) const {
+  ColumnSource source = source_of(column);
+  source.scale *= c.factor;
+  source.offset = c.factor * source.offset + c.offset;
+  return option(column, source);
+}
+
+std::string LogUnderCheck::swap_options(const std::string& a, const std::string& b) const {
+  ColumnSource of_a = source_of(a), of_b = source_of(b);
+  std::swap(of_a.column, of_b.column);
+  return option(a, of_a) + " " + option(b, of_b);
+}
+
+void LogUnderCheck::correct(Signals Log::*signal, int k, const Correction& c) {
+  for (double& x : (log.*signal)[k]) x = c.factor * x + c.offset;
+}
+
+void LogUnderCheck::swap(Signals Log::*signal, int i, int j) {
+  const ColumnSource of_i = source_of(column_name(signal, i)), of_j = source_of(column_name(signal, j));
+  std::swap((log.*signal)[i], (log.*signal)[j]);
+  const auto rescale = [&](int k, const ColumnSource& from, const ColumnSource& to) {
+    for (double& x : (log.*signal)[k]) x = (x - from.offset) / from.scale * to.scale + to.offset;
+  };
+  rescale(i, of_j, of_i), rescale(j, of_i, of_j);
+}
+
+std::string column_name(Signals Log::*signal, int k) {
+  const char* name = signal == &Log::motor_torque     ? "motor_torque"
+                     : signal == &Log::motor_position ? "motor_position"
+                     : signal == &Log::joint_position ? "joint_position"
+                                                      : "joint_torque";
+  return fmt::format("{}_{}", name, k + 1);
+}
+
+std::vector<UnitGuess> position_units(bool prismatic, double resolution) {
+  std::vector<UnitGuess> units;
+  if (prismatic) units = {{"mm", 1e-3, "millimetres"}, {"um", 1e-6, "micrometres"}, {"", 1e-2, "centimetres"}};
+  else units = {{"deg", kDegree, "degrees"}, {"turn", 2 * std::numbers::pi, "turns"}, {"", 1e-3, "milliradians"}};
+  if (resolution > 0) units.push_back({"", resolution, "counts of its encoder"});
+  return units;
+}
+
+}  // namespace halyard

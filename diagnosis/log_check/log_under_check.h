@@ -1,0 +1,82 @@
+#pragma once
+/// The check's own copy of a log, its findings so far, and the remedies that it proposes.
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/log_check/log_check.h"
+
+namespace halyard {
+
+/// A log on a uniform time grid of at most some thousand points; NaN in holes.
+struct SampledMotion {
+  double step = 0;           ///< s
+  std::vector<double> time;  ///< s
+  Signals expected;          ///< joint readings that the motors give without stretch; empty: no motor
+  Signals own;               ///< the part of expected that the joint's own motor gives; the rest is coupling
+  Signals joint;             ///< joint readings; empty: no sensor
+};
+SampledMotion sampled_motion(const Log& log, const ArmModel& model);
+
+/// Value in SI units = factor · (value in the log) + offset.
+struct Correction {
+  double factor = 1, offset = 0;
+};
+
+/// A unit that a column may be in by mistake.
+struct UnitGuess {
+  std::string name;   ///< as --column knows it; empty: it has no name there
+  double factor = 1;  ///< SI unit per unit
+  std::string what;   ///< "degrees"
+};
+
+class LogUnderCheck {
+ public:
+  LogUnderCheck(const Log& log, const ArmModel& model, const ColumnMap& columns, const LogCheckRule& rule)
+      : log(log), model(model), rule(rule), columns_(columns) {}
+
+  Log log;  ///< corrected as errors are found
+  const ArmModel& model;
+  const LogCheckRule& rule;
+  std::vector<LogFinding> findings;
+
+  int n() const { return log.n_joints; }
+  bool is_driven(int k) const { return model.nominal.joint[k].drive != Drive::none; }
+  double range(int k) const { return model.joints[k].upper - model.joints[k].lower; }
+  /// Expected reading of joint k per reading of motor k.
+  double joint_per_motor(int k) const;
+
+  void suspect(const std::string& column, const std::string& what, const std::string& remedy) {
+    findings.push_back({log.source, column, what, remedy, LogFinding::Severity::suspicious});
+  }
+  void reject(const std::string& column, const std::string& what, const std::string& remedy) {
+    findings.push_back({log.source, column, what, remedy, LogFinding::Severity::gross});
+  }
+  bool has_gross() const;
+  bool has_finding(const std::string& column) const;
+  /// How implausible a position is in joint k's range: 0 within it; 1 for each range by which its motion is wider, and,
+  /// if its zero is known, by which its median lies outside.
+  double beyond_range(int k, const std::vector<double>& position, bool zero_known) const;
+
+  /// "--column joint_position_2=q2,unit=deg": reads the column with the correction on top of its present map.
+  std::string option(const std::string& column, const Correction& correction) const;
+  /// Options that exchange the columns of the file behind two standard columns.
+  std::string swap_options(const std::string& a, const std::string& b) const;
+
+  void correct(Signals Log::*signal, int k, const Correction& correction);
+  /// Exchanges the raw values behind two columns of a signal; each keeps its own scale and offset.
+  void swap(Signals Log::*signal, int i, int j);
+
+ private:
+  ColumnSource source_of(const std::string& column) const;
+  std::string option(const std::string& column, const ColumnSource& source) const;
+
+  const ColumnMap& columns_;
+};
+
+/// "motor_position_2" of Log::motor_position and k = 1.
+std::string column_name(Signals Log::*signal, int k);
+/// Units of a joint's or a motor's position. Counts only where the model states the encoder's resolution.
+std::vector<UnitGuess> position_units(bool prismatic, double resolution);
+
+}  // namespace halyard

@@ -1,0 +1,70 @@
+#include "diagnosis/log_check/robust.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace halyard {
+
+double quantile(std::vector<double> x, double share) {
+  std::erase_if(x, [](double v) { return !std::isfinite(v); });
+  if (x.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto at = x.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(x.size() - 1) + 0.5);
+  std::nth_element(x.begin(), at, x.end());
+  return *at;
+}
+
+double spread(const std::vector<double>& x) {
+  const double width = quantile(x, 0.99) - quantile(x, 0.01);
+  return std::isfinite(width) ? width : 0;
+}
+
+Slope slope_of(const std::vector<double>& reading, const std::vector<double>& expected, std::size_t change) {
+  struct Change {
+    double slope, dq, dp;
+  };
+  std::vector<Change> changes;
+  double weight = 0, all = 0;
+  for (std::size_t i = change; i < std::min(reading.size(), expected.size()); ++i) {
+    const double dq = reading[i] - reading[i - change], dp = expected[i] - expected[i - change];
+    if (!std::isfinite(dq) || !std::isfinite(dp) || dp == 0) continue;
+    changes.push_back({dq / dp, dq, dp});
+    weight += std::abs(dp), all += std::abs(dq);
+  }
+  if (changes.empty() || all == 0) return {};
+  std::ranges::sort(changes, {}, &Change::slope);
+  Slope result;
+  double below = 0;
+  for (const Change& c : changes) {
+    below += std::abs(c.dp);
+    result.slope = c.slope;
+    if (below >= weight / 2) break;
+  }
+  double left = 0;
+  for (const Change& c : changes) left += std::abs(c.dq - result.slope * c.dp);
+  result.explained = 1 - left / all;
+  return result;
+}
+
+Correlation correlation_of(const std::vector<double>& x, const std::vector<double>& y) {
+  std::vector<double> a, b;
+  for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
+    if (std::isfinite(x[i]) && std::isfinite(y[i])) a.push_back(x[i]), b.push_back(y[i]);
+  Correlation result{.n = a.size()};
+  if (a.size() < 3) return result;
+  double mean_a = 0, mean_b = 0, aa = 0, ab = 0, bb = 0;
+  for (auto* signal : {&a, &b}) {
+    const double low = quantile(*signal, 0.01), high = quantile(*signal, 0.99);
+    double& mean = signal == &a ? mean_a : mean_b;
+    for (double& v : *signal) v = std::clamp(v, low, high), mean += v / static_cast<double>(signal->size());
+  }
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    aa += (a[i] - mean_a) * (a[i] - mean_a);
+    ab += (a[i] - mean_a) * (b[i] - mean_b);
+    bb += (b[i] - mean_b) * (b[i] - mean_b);
+  }
+  if (aa > 0 && bb > 0) result.r = ab / std::sqrt(aa * bb), result.size = std::sqrt(bb / aa);
+  return result;
+}
+
+}  // namespace halyard

@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "diagnosis/log_check/checks.h"
+#include "diagnosis/log_check/robust.h"
+#include "diagnosis/prediction/torque_comparison.h"
+#include "model/input_error.h"
+
+namespace halyard {
+namespace {
+
+/// Nothing if no stretch of the log is long enough for a record; diagnose() says so itself.
+std::optional<TorqueComparison> torques_of(const LogUnderCheck& c) {
+  try {
+    return compare_torques(c.model, make_records(c.log, c.model, {}));
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+/// The correlation if it is significant for its number of independent samples; 0 otherwise.
+Correlation significant(const LogUnderCheck& c, const TorqueComparison& t, int recorded, int needed) {
+  Correlation r = correlation_of(t.recorded[recorded], t.needed[needed]);
+  const double independent = static_cast<double>(r.n) * t.step / c.rule.independent_s;
+  if (independent < 4 || std::abs(r.r) * std::sqrt(independent) < c.rule.significance) return {};
+  return r;
+}
+
+bool has_known_scale(const LogUnderCheck& c, int k) { return c.model.joints[k].tolerances.torque_scale < 1; }
+
+/// Without a sensor at the joint, the torque's or the motor angle's sign may be wrong: the joint's range tells which.
+void check_torque_sign(LogUnderCheck& c, const SampledMotion& m, int k, const Correlation& r) {
+  const JointParameters<double>& j = c.model.nominal.joint[k];
+  const std::string torque = column_name(&Log::motor_torque, k), motor = column_name(&Log::motor_position, k);
+  const std::string seen = fmt::format(
+      "the recorded torque opposes the torque that the motor's motion requires (correlation {:.2f} while it moves; "
+      "expected a positive one)",
+      r.r);
+  const std::string torque_remedy = "reverse it with " + c.option(torque, Correction{.factor = -1});
+  const std::string motor_remedy = c.option(motor, Correction{.factor = -1});
+  if (!c.log.joint_position[k].empty()) {
+    c.reject(torque, seen, torque_remedy);
+    return c.correct(&Log::motor_torque, k, {.factor = -1});
+  }
+  std::vector<double> reversed = m.expected[k];
+  for (double& q : reversed) q = -q;
+  const bool zero_known = j.motor_zero_known && j.motor_encoder_offset == 0;
+  const double as_is = c.beyond_range(k, m.expected[k], zero_known), turned = c.beyond_range(k, reversed, zero_known);
+  if (as_is > turned + c.rule.outside) {
+    c.reject(motor, fmt::format("is reversed: {}, and the joint would be outside its range", seen),
+             "reverse it with " + motor_remedy);
+    return c.correct(&Log::motor_position, k, {.factor = -1});
+  }
+  const bool told = turned > as_is + c.rule.outside;
+  c.reject(torque, seen, torque_remedy + (told ? "" : ", or the motor's angle with " + motor_remedy));
+  c.correct(&Log::motor_torque, k, {.factor = -1});
+}
+
+void check_torque_unit(LogUnderCheck& c, int k, const Correlation& r) {
+  if (r.r < c.rule.torque_goes_with || !has_known_scale(c, k)) return;
+  if (std::abs(std::log(r.size)) < std::log(c.rule.torque_ratio)) return;
+  const double gear = c.model.nominal.joint[k].gear_ratio;
+  const std::vector<UnitGuess> units = {{"mN.m", 1e-3, "mN m"},
+                                        {"", 1 / gear, "the torque behind the gear"},
+                                        {"", gear, "the torque at the motor times the ratio's inverse"},
+                                        {"", 1e3, "kN m"},
+                                        {"", 1e-2, "N cm"}};
+  const auto misfit = [&](const UnitGuess& u) { return std::abs(std::log(r.size / u.factor)); };
+  const UnitGuess best = *std::ranges::min_element(units, {}, misfit);
+  const std::string torque = column_name(&Log::motor_torque, k);
+  const std::string seen = fmt::format(
+      "the motion requires {:.3g} times the recorded torque (expected 1 within a factor "
+      "of {:g})",
+      r.size, c.rule.torque_ratio);
+  const std::string current =
+      fmt::format("if it is a current or a voltage, state torque_scale=\"1\" in <tolerances> of joint {}", k + 1);
+  if (misfit(best) > std::log(c.rule.torque_unit))
+    return c.suspect(torque, seen, "give the column its unit or scale; " + current);
+  const Correction correction{.factor = best.factor};
+  c.reject(torque, seen + ", as if it were " + best.what,
+           "read it with " + c.option(torque, correction) + "; " + current);
+  c.correct(&Log::motor_torque, k, correction);
+}
+
+bool check_torque_swap(LogUnderCheck& c, const TorqueComparison& t, int i, int j) {
+  if (!has_known_scale(c, i) || !has_known_scale(c, j)) return false;
+  double straight = 0, crossed = 1;
+  for (const auto& [own, other] : {std::pair(i, j), std::pair(j, i)}) {
+    const double r_own = significant(c, t, own, own).r, r_other = significant(c, t, other, own).r;
+    const bool better = 1 - r_other * r_other < c.rule.swap_leaves * (1 - r_own * r_own);
+    if (r_own > c.rule.own_torque || r_other < c.rule.torque_goes_with || !better) return false;
+    straight = std::max(straight, r_own), crossed = std::min(crossed, r_other);
+  }
+  const std::string a = column_name(&Log::motor_torque, i), b = column_name(&Log::motor_torque, j);
+  c.reject(a,
+           fmt::format("seems to be exchanged with {}: each goes with the other motor's motion (correlation at least "
+                       "{:.2f}) and less with its own (at most {:.2f})",
+                       b, crossed, straight),
+           "exchange them with " + c.swap_options(a, b));
+  c.swap(&Log::motor_torque, i, j);
+  return true;
+}
+
+}  // namespace
+
+std::vector<int> torque_senses(const LogUnderCheck& c) {
+  std::vector<int> senses(c.n(), 0);
+  const auto t = torques_of(c);
+  for (int k = 0; t && k < c.n(); ++k) {
+    const double r = significant(c, *t, k, k).r;
+    senses[k] = r < c.rule.torque_opposes ? -1 : r > -c.rule.torque_opposes ? 1 : 0;
+  }
+  return senses;
+}
+
+void check_torques(LogUnderCheck& c) {
+  auto t = torques_of(c);
+  for (int i = 0; t && i < c.n(); ++i)
+    for (int j = i + 1; t && j < c.n(); ++j)
+      if (check_torque_swap(c, *t, i, j)) t = torques_of(c);
+  const SampledMotion m = sampled_motion(c.log, c.model);
+  for (int k = 0; t && k < c.n(); ++k) {
+    const Correlation r = significant(c, *t, k, k);
+    if (r.r < c.rule.torque_opposes) check_torque_sign(c, m, k, r);
+    else check_torque_unit(c, k, r);
+  }
+}
+
+}  // namespace halyard

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/log_check/checks.h"
+#include "diagnosis/log_check/robust.h"
+#include "diagnosis/record/sampled_column.h"
+
+namespace halyard {
+namespace {
+
+double beyond(const LogUnderCheck& c, int k, double level) { return c.beyond_range(k, {level}, true); }
+
+void check_zero(LogUnderCheck& c, const SampledMotion& m, int k) {
+  const JointParameters<double>& j = c.model.nominal.joint[k];
+  if (!(c.range(k) > 0) || m.expected[k].empty()) return;
+  const std::string motor = column_name(&Log::motor_position, k), joint = column_name(&Log::joint_position, k);
+  const std::string range = fmt::format("{:.4g} to {:.4g}", c.model.joints[k].lower, c.model.joints[k].upper);
+  const double expected = median(m.expected[k]), per_motor = c.joint_per_motor(k);
+  const bool has_sensor = !m.joint[k].empty() && j.joint_zero_known && j.motor_zero_known;
+  if (has_sensor) {
+    const double read = median(m.joint[k]), off = read - expected;
+    const bool reading_out = beyond(c, k, read) > c.rule.outside && beyond(c, k, expected) <= c.rule.outside;
+    const bool motor_out = beyond(c, k, expected) > c.rule.outside && beyond(c, k, read) <= c.rule.outside;
+    if (!motor_out && (reading_out || std::abs(off) > c.rule.zero * c.range(k)))
+      return c.suspect(
+          joint,
+          fmt::format("is {:.4g} in the median where the motors say {:.4g}; the joint's range is {}", read, expected,
+                      range),
+          fmt::format("correct its zero with {}, or state joint_offset=\"unknown\" in <encoders> of joint {}",
+                      c.option(joint, Correction{.offset = -off}), k + 1));
+    if (motor_out)
+      return c.suspect(
+          motor,
+          fmt::format("puts joint {} at {:.4g} in the median; its sensor says {:.4g}, its range is {}", k + 1, expected,
+                      read, range),
+          fmt::format("correct its zero with {}, or state motor_offset=\"unknown\" in <encoders> of joint {}",
+                      c.option(motor, Correction{.offset = off / per_motor}), k + 1));
+  }
+  if (beyond(c, k, expected) > c.rule.outside && j.motor_zero_known)
+    c.suspect(motor,
+              fmt::format("puts joint {} at {:.4g} in the median, outside its range, {}", k + 1, expected, range),
+              "check the sign and the zero of this column, or the range in the model; an offset goes into " +
+                  c.option(motor, Correction{.offset = 0}) + ",offset=...");
+}
+
+/// Mismatch of a joint's reading with its expectation a time earlier, less a slope and a mean: Σ e² / samples.
+double mismatch(const SampledMotion& m, const SampledColumn& reading, int k, double late) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  for (std::size_t i = 0; i < m.time.size(); ++i) {
+    const double t = m.time[i] + late, p = m.expected[k][i];
+    if (!std::isfinite(p) || t < m.time.front() || t > m.time.back() || !std::isfinite(m.joint[k][i])) continue;
+    const double q = reading.at(t);
+    n += 1, x += p, y += q, xx += p * p, xy += p * q, yy += q * q;
+  }
+  if (n < 10 || n * xx <= x * x) return 0;
+  const double cxx = xx - x * x / n, cxy = xy - x * y / n, cyy = yy - y * y / n;
+  return std::max(0.0, cyy - cxy * cxy / cxx) / n;
+}
+
+void check_delay(LogUnderCheck& c, const SampledMotion& m, int k) {
+  if (m.expected[k].empty() || m.joint[k].empty()) return;
+  if (spread(m.expected[k]) < c.rule.least_motion * c.range(k)) return;
+  const SampledColumn reading(c.log.time, c.log.joint_position[k]), motor(c.log.time, c.log.motor_position[k]);
+  const double least = std::max(c.rule.late_s, c.rule.late_samples * std::max(reading.interval(), motor.interval()));
+  const double at_zero = mismatch(m, reading, k, 0);
+  double best = at_zero, late = 0;
+  const double longest = std::min(0.5, 0.1 * c.log.duration());
+  const double step = std::max(1e-3, least / 6);
+  for (double t = -longest; t <= longest; t += step)
+    if (const double e = mismatch(m, reading, k, t); e < best) best = e, late = t;
+  if (std::abs(late) <= least || best > (1 - c.rule.late_explains) * at_zero) return;
+  c.suspect(
+      column_name(&Log::joint_position, k),
+      fmt::format("is {:.3g} ms {} motor_position_{}; the shift removes {:.0f} % of the squared mismatch",
+                  1e3 * std::abs(late), late > 0 ? "late against" : "ahead of", k + 1, 100 * (1 - best / at_zero)),
+      "record both with one clock; a constant lag is named by the diagnosis as the effect delay");
+}
+
+}  // namespace
+
+void check_zeros(LogUnderCheck& c) {
+  const SampledMotion m = sampled_motion(c.log, c.model);
+  for (int k = 0; k < c.n(); ++k) check_zero(c, m, k);
+}
+
+void check_delays(LogUnderCheck& c) {
+  const SampledMotion m = sampled_motion(c.log, c.model);
+  for (int k = 0; k < c.n(); ++k) check_delay(c, m, k);
+}
+
+}  // namespace halyard
