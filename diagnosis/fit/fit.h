@@ -66,11 +66,13 @@ struct FitOptions {
 struct Fit {
   Hypothesis hypothesis;
   std::vector<FitParameter> parameters;
-  std::vector<double> value;          ///< [parameters]
-  std::vector<double> std_deviation;  ///< [parameters] from the scatter of blocks, see block_variance.h
-  int blocks = 0;                     ///< that scatter; degrees of freedom and one
-  Eigen::MatrixXd covariance;         ///< from the curvature at the end, if rows were independent, [parameters]²
-  bool usable = false;                ///< false: the start could not be integrated
+  std::vector<double> value;  ///< [parameters]
+  /// [parameters] The larger of two: from the scatter of blocks (block_variance.h), which knows how residuals are
+  /// correlated, and from the curvature, which knows errors of a floor's size that all blocks share.
+  std::vector<double> std_deviation;
+  int blocks = 0;              ///< that scatter; degrees of freedom and one
+  Eigen::MatrixXd covariance;  ///< from the curvature at the end, if rows were independent, [parameters]²
+  bool usable = false;         ///< false: the start could not be integrated
 };
 
 /// Channel scales from residuals: sqrt(max(mean square, floor²)). [2n]

@@ -1,0 +1,60 @@
+/// Logs of an independent simulator that an earlier diagnosis judged wrongly. They are not part of the project.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "diagnosis/diagnose.h"
+#include "model/model_file.h"
+
+namespace halyard {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kCases = fs::path(HALYARD_SOURCE_DIR) / "../shared/data/cases";
+
+/// The diagnosis of a case; its hold-out is a log of its own, or the last third of the training.
+Diagnosis diagnose_case(const std::string& name, bool own_holdout = true) {
+  const ArmModel model = read_model(fs::path(HALYARD_SOURCE_DIR) / "examples/raven2/raven2.xml");
+  DiagnosisOptions options;
+  options.tell_not_excited = false;
+  const auto log = [&](const char* file) { return read_log(kCases / name / file, model.n()); };
+  return diagnose(model, {log("train.csv")}, own_holdout ? std::optional(log("holdout.csv")) : std::nullopt, options);
+}
+
+#define SKIP_WITHOUT_CASES() \
+  if (!fs::exists(kCases)) GTEST_SKIP() << "the logs of the cases are not at hand: " << kCases
+
+TEST(Cases, WhiteNoiseOfTheJointSensorsIsNoEffectAndNoResidual) {
+  SKIP_WITHOUT_CASES();
+  for (const char* name : {"clean_noisy", "clean_slow"}) {
+    const Diagnosis d = diagnose_case(name);
+    EXPECT_EQ(d.verdict, Diagnosis::Verdict::clean) << name;
+    EXPECT_GT(d.probability_clean, 0.9) << name;
+  }
+}
+
+TEST(Cases, HumAboveTheComparedBandIsReported) {
+  SKIP_WITHOUT_CASES();
+  const Diagnosis d = diagnose_case("hum-j3");
+  EXPECT_TRUE(d.effects.empty());
+  ASSERT_EQ(d.unexplained.size(), 1U);
+  EXPECT_EQ(d.unexplained[0].joint, 2);
+  // The truth is 10 mN m at 50 Hz.
+  EXPECT_NE(d.unexplained[0].signature.find("a sine of 50 Hz with an amplitude of 10 mN m"), std::string::npos)
+      << d.unexplained[0].signature;
+}
+
+TEST(Cases, AForceUntilAfterTheTrainingDataIsNoSlip) {
+  SKIP_WITHOUT_CASES();
+  const Diagnosis d = diagnose_case("push_to_the_end-j1", false);
+  ASSERT_EQ(d.effects.size(), 1U);
+  EXPECT_EQ(d.effects[0].effect.effect->name(), "external_force");
+  EXPECT_EQ(d.effects[0].effect.joint, 0);
+  EXPECT_TRUE(d.unexplained.empty());
+  EXPECT_NEAR(d.effects[0].parameters[0].value, 1.409, 0.05 * 1.409) << "the truth, N m, within a twentieth";
+}
+
+}  // namespace
+}  // namespace halyard

@@ -1,0 +1,15 @@
+#pragma once
+/// Evidence of an arm of two joints on a few seconds of motion, without any effect.
+
+#include "diagnosis/fit/evidence.h"
+#include "plant/simulate.h"
+#include "tests/support/short_arm.h"
+
+namespace halyard {
+
+inline Evidence small_evidence() {
+  const ArmModel model = first_joints(2);
+  return Evidence(make_records(simulate(motion(model, 6)).measured, model, {}), model);
+}
+
+}  // namespace halyard
