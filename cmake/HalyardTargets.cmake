@@ -38,6 +38,8 @@ function(halyard_library room)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/halyard>)
   target_link_libraries(halyard_${room} PRIVATE $<BUILD_INTERFACE:halyard_warnings>)
+  # A library calls its own inline functions, not those of the same name of a program or room that is optimised less.
+  target_link_options(halyard_${room} PRIVATE LINKER:-Bsymbolic-functions)
   target_compile_features(halyard_${room} PUBLIC cxx_std_20)
   set_property(GLOBAL APPEND PROPERTY HALYARD_COMPONENTS ${room})
   halyard_install(TARGETS halyard_${room} EXPORT halyard-${room}
