@@ -1,19 +1,17 @@
 /// The Runge-Kutta-Chebyshev method against the polynomial that it is made of.
 
 #include "diagnosis/chebyshev.h"
+#include "tests/support/limits.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <vector>
 
 namespace halyard {
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 /// The method for y' = -rate y over a sample of 1 s: one step, with stages enough for it.
 Chebyshev method_for_decay(double rate) { return scheme_for({{{-rate}}}, 1); }

@@ -1,17 +1,15 @@
 /// Curves through samples: exact where the signal is one, and no better than chance where there is none.
 
 #include "diagnosis/curve_fit.h"
+#include "tests/support/limits.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 namespace halyard {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(CurveFit, RecoversAPolygonWithCornersAtItsKnots) {
   // 101 samples: three knots are the ends and the middle.

@@ -1,17 +1,15 @@
 /// The paired t test against closed forms and its own promise.
 
 #include "diagnosis/paired_t.h"
+#include "tests/support/limits.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 namespace halyard {
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 TEST(PairedT, IsMeanOverItsStandardError) {
   const Paired p = paired({1, 2, 3});
