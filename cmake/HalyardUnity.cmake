@@ -1,6 +1,7 @@
 # Groups of files that are compiled as one, so that their common headers are read, and their common templates
 # instantiated, once: a cold build takes less than half the time, and a changed file is compiled with up to a dozen
-# others. The names in the unnamed namespaces of a group have to differ. A file that is not listed here is compiled alone.
+# others. The names in the unnamed namespaces of a group have to differ, and those of a test from its room's headers in
+# support/: the compiler takes two functions of one name for overloads. A file that is not listed here is compiled alone.
 option(HALYARD_UNITY_BUILD "Compile groups of files as one: a cold build is shorter" ON)
 
 # compile_together(TARGET GROUP file...)
@@ -25,6 +26,7 @@ compile_together(halyard_model model
   arm_log.cpp arm_model.cpp column_map.cpp homing.cpp log.cpp model_file.cpp model_writer.cpp output_file.cpp
   xml/field_reader.cpp)
 
+compile_together(halyard_simbody simbody arm_plant.cpp integrators/simbody_integrator.cpp simbody_arm.cpp)
 compile_together(halyard_plant simulation
   controller.cpp drive_train.cpp equilibrium.cpp integrators/integrator.cpp scenario_file.cpp sensors/camera.cpp
   sensors/encoder.cpp simulate.cpp trajectory.cpp)
