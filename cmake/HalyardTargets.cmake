@@ -51,6 +51,18 @@ function(halyard_optimise_a_little target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
 endfunction()
 
+# share_precompiled_header(TARGET FIRST header...): precompiles the headers for the target FIRST, and has them used by
+# TARGET, which is compiled with the same options.
+function(share_precompiled_header target first)
+  set_target_properties(${target} PROPERTIES DEFINE_SYMBOL "")  # TARGET_EXPORTS, which would tell the targets apart
+  if(target STREQUAL first)
+    list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  else()
+    target_precompile_headers(${target} REUSE_FROM ${first})
+  endif()
+endfunction()
+
 # halyard_lane_files(ROOM STEM): STEM_generic.cpp, STEM_avx2.cpp and STEM_avx512.cpp, one file per instruction set, of
 # which one is chosen at run time. They are optimised in every configuration: a function that is not inlined there would
 # be left, compiled for its set, where the linker may give it to all. For the same reason GCC must not guess the targets
