@@ -38,6 +38,8 @@ function(halyard_library room)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/halyard>)
   target_link_libraries(halyard_${room} PRIVATE $<BUILD_INTERFACE:halyard_warnings>)
+  # A library calls its own inline functions, not those of the same name of a program or room that is optimised less.
+  target_link_options(halyard_${room} PRIVATE LINKER:-Bsymbolic-functions)
   target_compile_features(halyard_${room} PUBLIC cxx_std_20)
   set_property(GLOBAL APPEND PROPERTY HALYARD_COMPONENTS ${room})
   halyard_install(TARGETS halyard_${room} EXPORT halyard-${room}
@@ -47,6 +49,18 @@ endfunction()
 # halyard_optimise_a_little(TARGET): for code that takes longer to optimise than it ever runs.
 function(halyard_optimise_a_little target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
+endfunction()
+
+# share_precompiled_header(TARGET FIRST header...): precompiles the headers for the target FIRST, and has them used by
+# TARGET, which is compiled with the same options.
+function(share_precompiled_header target first)
+  set_target_properties(${target} PROPERTIES DEFINE_SYMBOL "")  # TARGET_EXPORTS, which would tell the targets apart
+  if(target STREQUAL first)
+    list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  else()
+    target_precompile_headers(${target} REUSE_FROM ${first})
+  endif()
 endfunction()
 
 # halyard_lane_files(ROOM STEM): STEM_generic.cpp, STEM_avx2.cpp and STEM_avx512.cpp, one file per instruction set, of

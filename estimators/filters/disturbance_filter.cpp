@@ -8,7 +8,7 @@
 namespace halyard {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// F' = F + d.
 class UnknownForce : public UnknownConstant<UnknownForce> {
@@ -81,7 +81,7 @@ Estimate DisturbanceFilter::estimate() const {
   process_->transmission().evaluate(time_, nullptr, x.data() + l.effect_states, s, z_dot);
 
   Estimate e = filter_.estimate();
-  e.extra_outputs.setConstant(n, 3, kNan);
+  e.extra_outputs.setConstant(n, 3, kUnknown);
   const std::vector<std::optional<int>> states = states_of(unknown_force(), *process_);
   for (int k = 0; k < n; ++k) {
     if (states[k]) {

@@ -10,7 +10,7 @@
 namespace halyard {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kDraws = 2000;
 
 std::vector<double> without_nan(std::span<const double> x) {
@@ -79,7 +79,7 @@ PairedRatio paired_ratio(std::span<const double> a, std::span<const double> b, s
     before.push_back({before.back().first + a[i] * a[i], before.back().second + b[i] * b[i]});
   }
   const std::size_t n = difference.size();
-  if (n < 2) return {kNan, kNan, kNan, 0};
+  if (n < 2) return {kUnknown, kUnknown, kUnknown, 0};
   const double alike = static_cast<double>(n) / effective_samples(difference);
   const std::size_t block = std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(2 * alike)), 1, n);
   const std::size_t blocks = (n + block - 1) / block;
@@ -98,7 +98,7 @@ PairedRatio paired_ratio(std::span<const double> a, std::span<const double> b, s
 }
 
 PairedRatio paired_ratio_of_runs(std::span<const std::pair<double, double>> squares, std::uint64_t seed) {
-  if (squares.size() < 2) return {kNan, kNan, kNan, 0};
+  if (squares.size() < 2) return {kUnknown, kUnknown, kUnknown, 0};
   double all_a = 0, all_b = 0;
   for (const auto& [a, b] : squares) all_a += a, all_b += b;
   boost::random::uniform_int_distribution<std::size_t> run(0, squares.size() - 1);

@@ -15,6 +15,7 @@
 #include "app/report/chart.h"
 #include "app/report/page.h"
 #include "model/output_file.h"
+#include "tests/support/limits.h"
 
 namespace halyard {
 namespace {
@@ -24,8 +25,6 @@ using report::Chart;
 using report::ChartKind;
 using report::Page;
 using report::Series;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Chart line_chart(std::vector<double> x, std::vector<double> y) {
   Chart chart{.title = "residual", .x_label = "time [s]", .y_label = "position [m]"};

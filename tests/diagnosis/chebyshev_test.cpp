@@ -7,13 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <vector>
+
+#include "tests/support/limits.h"
 
 namespace halyard {
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 /// The method for y' = -rate y over a sample of 1 s: one step, with stages enough for it.
 Chebyshev method_for_decay(double rate) { return scheme_for({{{-rate}}}, 1); }

@@ -5,13 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
+
+#include "tests/support/limits.h"
 
 namespace halyard {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(CurveFit, RecoversAPolygonWithCornersAtItsKnots) {
   // 101 samples: three knots are the ends and the middle.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <random>
 
 #include "diagnosis/diagnose.h"
@@ -15,13 +14,12 @@
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
+#include "tests/support/limits.h"
 #include "tests/support/message_of.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// EMPS-like: one mass on a screw, rigid, no sensor but the motor's.
 ArmModel screw() { return read_model(HALYARD_SOURCE_DIR "/examples/measured/emps/emps.xml"); }

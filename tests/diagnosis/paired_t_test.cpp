@@ -5,13 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
+
+#include "tests/support/limits.h"
 
 namespace halyard {
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 TEST(PairedT, IsMeanOverItsStandardError) {
   const Paired p = paired({1, 2, 3});

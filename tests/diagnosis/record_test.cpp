@@ -4,19 +4,17 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 
 #include "model/input_error.h"
 #include "model/model_file.h"
+#include "tests/support/limits.h"
 
 namespace halyard {
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 /// One kernel, of 20 Hz.
 const RecordOptions kOneKernel{.motion_hz = 20, .compare_hz = 0};
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 ArmModel raven2() { return read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml"); }
 

@@ -5,18 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "estimators/built_in.h"
 #include "estimators/filters/sr_ukf.h"
 #include "model/input_error.h"
 #include "tests/support/arm_runs.h"
+#include "tests/support/limits.h"
 #include "tests/support/torn_record.h"
 
 namespace halyard {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(SrUkfOnTheArm, FindsTheJointsFromMotorSignals) {
   const ArmModel model = raven2();
@@ -64,9 +62,9 @@ TEST(SrUkfOnTheArm, BearsDropoutsAndGaps) {
   for (std::size_t i = 0; i < whole.samples.size(); ++i) {
     if (i % 500 >= 470) continue;  // rows missing for 30 ms, cut into steps
     Sample s = whole.samples[i];
-    if (i % 700 > 600) s.motor_position(1) = kNaN;  // motor 2 blind for 0.1 s
-    if (i % 900 > 880) s.motor_torque(0) = kNaN;    // torque held for 20 ms
-    if (i % 400 == 7) s.motor_position.setConstant(kNaN);
+    if (i % 700 > 600) s.motor_position(1) = kNan;  // motor 2 blind for 0.1 s
+    if (i % 900 > 880) s.motor_torque(0) = kNan;    // torque held for 20 ms
+    if (i % 400 == 7) s.motor_position.setConstant(kNan);
     holes.samples.push_back(s);
     holes.joint_position.push_back(whole.joint_position[i]);
   }
@@ -82,13 +80,13 @@ TEST(SrUkfOnTheArm, InnovationsAreOfTheMotorsThatWereRead) {
   const auto ukf = make_sr_ukf(model, {});
   ukf->reset(run.samples[0]);
   Sample s = run.samples[1];
-  s.motor_position(1) = kNaN;
+  s.motor_position(1) = kNan;
   const Innovation two = ukf->update(s);
   EXPECT_EQ(two.nu.size(), 2);
   EXPECT_EQ(two.S_root.rows(), 2);
   EXPECT_EQ(two.time_s, s.time_s);
   s = run.samples[2];
-  s.motor_position.setConstant(kNaN);
+  s.motor_position.setConstant(kNan);
   const Innovation none = ukf->update(s);
   EXPECT_EQ(none.nu.size(), 0);
   EXPECT_EQ(none.nis(), 0);
@@ -100,7 +98,7 @@ TEST(SrUkfOnTheArm, WaitsForMotorsThatHaveNotBeenRead) {
   const ArmRun run = run_arm(model, 0.01);
   const auto ukf = make_sr_ukf(model, {});
   Sample blind = run.samples[0];
-  blind.motor_position(2) = kNaN;
+  blind.motor_position(2) = kNan;
   ukf->reset(blind);
   const Eigen::VectorXd home = model.home();
   EXPECT_EQ(ukf->estimate().joint_position, home);

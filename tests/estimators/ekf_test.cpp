@@ -11,8 +11,6 @@
 namespace halyard {
 namespace {
 
-constexpr double kNoGate = std::numeric_limits<double>::infinity();
-
 TEST(Ekf, IsTheKalmanFilterOnALinearProblem) {
   ExtendedKalmanFilter filter;
   // About 100 roundings of numbers up to 10 a step, forgotten within a few steps.

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "estimators/built_in.h"
@@ -16,8 +15,6 @@
 
 namespace halyard {
 namespace {
-
-constexpr double kNoGate = std::numeric_limits<double>::infinity();
 
 /// Largest differences of smoothed means and covariances from those of the covariances' own recursion.
 double largest_difference_smoothed(GaussianFilter& filter, const LinearGaussian& p) {

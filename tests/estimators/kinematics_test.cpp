@@ -2,18 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "estimators/built_in.h"
 #include "model/input_error.h"
 #include "tests/support/arm_runs.h"
+#include "tests/support/limits.h"
 #include "transmission/coupling.h"
 
 namespace halyard {
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Sample at_angles(double time_s, const Eigen::VectorXd& q_m) {
   Sample s;
@@ -53,7 +49,7 @@ TEST(Kinematics, AMissingMotorSampleHoldsItsLastAngle) {
   kinematics.reset(at_angles(0, q_m));
   const Eigen::VectorXd before = kinematics.estimate().joint_position;
   Eigen::VectorXd gone = q_m;
-  gone(1) = kNaN;
+  gone(1) = kNan;
   kinematics.update(at_angles(0.001, gone));
   EXPECT_EQ(kinematics.estimate().joint_position, before);
 }

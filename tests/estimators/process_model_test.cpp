@@ -9,13 +9,13 @@
 
 #include "estimators/process/static_equilibrium.h"
 #include "tests/support/arm_runs.h"
+#include "tests/support/limits.h"
 #include "tests/support/pendulum.h"
 #include "transmission/coupling.h"
 
 namespace halyard {
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kTorque[3] = {0.02, -0.01, 0.015};
 constexpr double kLoad[3] = {0.1, -0.2, 0.5};
 

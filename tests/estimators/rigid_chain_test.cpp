@@ -4,15 +4,13 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <limits>
 
 #include "estimators/process/arm_dynamics.h"
 #include "tests/support/arm_runs.h"
+#include "tests/support/limits.h"
 
 namespace halyard {
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 class Raven2Chain : public ::testing::Test {
  protected:

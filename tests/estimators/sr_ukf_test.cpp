@@ -3,17 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "tests/support/arm_runs.h"
+#include "tests/support/limits.h"
 #include "tests/support/linear_gaussian.h"
 
 namespace halyard {
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kNoGate = std::numeric_limits<double>::infinity();
 
 TEST(SrUkf, IsTheKalmanFilterOnALinearProblem) {
   const LinearGaussian problem(200);

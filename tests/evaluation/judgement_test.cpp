@@ -3,16 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "evaluation/judgement/consistency.h"
 #include "evaluation/judgement/error_statistics.h"
+#include "tests/support/limits.h"
 
 namespace halyard {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// x_i = rho x_i-1 + √(1 - rho²) w_i: unit variance, ρ_l = rho^l.
 std::vector<double> autoregressive(std::size_t n, double rho, std::uint64_t seed) {

@@ -7,17 +7,15 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <set>
 
+#include "tests/support/limits.h"
 #include "tests/support/message_of.h"
 
 namespace halyard {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 SweepGrid grid_of_six() {
   SweepGrid grid;

@@ -28,7 +28,7 @@ Log read_text(const std::string& text, const ColumnMap& map = {}, const ReadOpti
 }
 
 /// The message for a log of one joint with this content; the path is cut off.
-std::string message_for(const std::string& text, const ColumnMap& map = {}) {
+std::string refusal_of(const std::string& text, const ColumnMap& map = {}) {
   const std::string message = message_of([&] { read_text(text, map); });
   const std::string path = temporary_path().string();
   return message.starts_with(path) ? message.substr(path.size()) : message;
@@ -85,18 +85,18 @@ TEST(ReadLog, AMarkerHasThreeAxesOrNone) {
   EXPECT_TRUE(std::isnan(log.marker[1][0]));
   EXPECT_EQ(log.marker[2][1], 5);
   EXPECT_FALSE(read_text("time,motor_torque_1,motor_position_1\n0,1,2\n").has_marker());
-  EXPECT_HAS(message_for(start + "\n0,1,2,3,4\n"), ": no marker_z beside the marker's other axes; give all three of ");
+  EXPECT_HAS(refusal_of(start + "\n0,1,2,3,4\n"), ": no marker_z beside the marker's other axes; give all three of ");
   EXPECT_EQ(read_text(start + ",up_mm\n0,1,2,3,4,5\n", map_of({"marker_z=up_mm,unit=mm"})).marker[2][0], 5e-3);
 }
 
 TEST(ReadLog, TorqueIsOptionalOnRequest) {
-  EXPECT_HAS(message_for("time,motor_position_1\n0,1\n"), ":1: no column 'motor_torque_1'; the file has 'time', ");
+  EXPECT_HAS(refusal_of("time,motor_position_1\n0,1\n"), ":1: no column 'motor_torque_1'; the file has 'time', ");
   EXPECT_FALSE(read_text("time,motor_position_1\n0,1\n", {}, {.torque_required = false}).has_motor_torque(0));
 }
 
 TEST(ReadLog, AJointWithoutMotorNeedsNoColumnsOfOne) {
   const std::string text = "time,joint_position_1\n0,1\n1,2\n";
-  EXPECT_HAS(message_for(text), ": no column 'motor_torque_1', 'motor_position_1'; ");
+  EXPECT_HAS(refusal_of(text), ": no column 'motor_torque_1', 'motor_position_1'; ");
   const Log log = read_text(text, {}, {.without_motor = {0}});
   EXPECT_TRUE(log.motor_position[0].empty());
   EXPECT_EQ(log.joint_position[0], (std::vector<double>{1, 2}));
@@ -124,36 +124,36 @@ TEST(ReadLog, SaysWhatIsWrongWithTheFile) {
   std::filesystem::remove(path);
   EXPECT_EQ(message_of([&] { read_log(path, 1); }), path.string() + ": no such file; give the path of a CSV log");
   EXPECT_HAS(message_of([] { read_log(testing::TempDir(), 1); }), ": is a directory; ");
-  EXPECT_HAS(message_for(""), ": is empty; ");
-  EXPECT_HAS(message_for("# only a comment\n\n"), ": is empty; ");
-  EXPECT_HAS(message_for(kHeader), ": has a header but no samples; ");
-  EXPECT_HAS(message_for(std::string("PK\3\4,\0\n", 7)), ": is not text; ");
-  EXPECT_HAS(message_for("time;motor_torque_1;motor_position_1\n0;1;2\n"), ":1: the columns are separated by semi");
-  EXPECT_HAS(message_for("# no header\n0.5,1,2\n"), ":2: the first row starts with the number '0.5'; ");
+  EXPECT_HAS(refusal_of(""), ": is empty; ");
+  EXPECT_HAS(refusal_of("# only a comment\n\n"), ": is empty; ");
+  EXPECT_HAS(refusal_of(kHeader), ": has a header but no samples; ");
+  EXPECT_HAS(refusal_of(std::string("PK\3\4,\0\n", 7)), ": is not text; ");
+  EXPECT_HAS(refusal_of("time;motor_torque_1;motor_position_1\n0;1;2\n"), ":1: the columns are separated by semi");
+  EXPECT_HAS(refusal_of("# no header\n0.5,1,2\n"), ":2: the first row starts with the number '0.5'; ");
   EXPECT_THROW(read_log(path, 0), std::invalid_argument);
 }
 
 TEST(ReadLog, SaysWhichColumnIsWrong) {
   EXPECT_EQ(
-      message_for("\nt_s,motor_torque_1,spindle\n0,1,2\n"),
+      refusal_of("\nt_s,motor_torque_1,spindle\n0,1,2\n"),
       ":2: no column 'time', 'motor_position_1'; the file has 't_s', 'motor_torque_1', 'spindle'; say which column "
       "is which by a column map, such as motor_position_1=NAME,unit=rad, in the model file or on the command line");
-  EXPECT_HAS(message_for("time,motor_torque_1,motor_position_1,time\n0,1,2,3\n"), ":1: column 'time' stands twice");
-  EXPECT_HAS(message_for(kHeader + "0,1,\n1,2,\n"), ": motor_position_1 is empty in every row; ");
+  EXPECT_HAS(refusal_of("time,motor_torque_1,motor_position_1,time\n0,1,2,3\n"), ":1: column 'time' stands twice");
+  EXPECT_HAS(refusal_of(kHeader + "0,1,\n1,2,\n"), ": motor_position_1 is empty in every row; ");
 }
 
 TEST(ReadLog, SaysWhichRowIsWrong) {
-  EXPECT_EQ(message_for(kHeader + "0,1,2\n1,1.5volt,2\n"),
+  EXPECT_EQ(refusal_of(kHeader + "0,1,2\n1,1.5volt,2\n"),
             ":3: column 'motor_torque_1': '1.5volt' is not a number; write a finite decimal number, or leave the cell "
             "empty for a missing sample");
   for (const std::string text : {"nan", "NaN", "inf", "-Infinity", "0x1p3", "1e999", "--1", "+-1", "+", "\x01\x02"}) {
-    EXPECT_NE(message_for(kHeader + "0,1," + text + "\n"), "no InputError") << text;
+    EXPECT_NE(refusal_of(kHeader + "0,1," + text + "\n"), "no InputError") << text;
   }
-  EXPECT_HAS(message_for(kHeader + "0,1,2\n# c\n0.5,1\n"), ":4: the row has 2 cells, the header 3; ");
-  EXPECT_HAS(message_for(kHeader + "0,1,2,\n"), ":2: the row has 4 cells, the header 3; ");
-  EXPECT_HAS(message_for(kHeader + ",1,2\n"), ":2: the time is missing; ");
-  EXPECT_HAS(message_for(kHeader + "0.5,1,2\n0.25,1,2\n"), ":3: time 0.25 s follows 0.5 s; time must increase: ");
-  EXPECT_HAS(message_for(kHeader + "0,1,2\n0,1,2\n"), ":3: time 0 s follows 0 s; ");
+  EXPECT_HAS(refusal_of(kHeader + "0,1,2\n# c\n0.5,1\n"), ":4: the row has 2 cells, the header 3; ");
+  EXPECT_HAS(refusal_of(kHeader + "0,1,2,\n"), ":2: the row has 4 cells, the header 3; ");
+  EXPECT_HAS(refusal_of(kHeader + ",1,2\n"), ":2: the time is missing; ");
+  EXPECT_HAS(refusal_of(kHeader + "0.5,1,2\n0.25,1,2\n"), ":3: time 0.25 s follows 0.5 s; time must increase: ");
+  EXPECT_HAS(refusal_of(kHeader + "0,1,2\n0,1,2\n"), ":3: time 0 s follows 0 s; ");
 }
 
 TEST(ColumnMap, ScalesUnitsSignsAndOffsets) {
@@ -207,11 +207,11 @@ TEST(ColumnMap, SaysWhatIsWrongWithAnEntry) {
 }
 
 TEST(ColumnMap, MustFitFileAndArm) {
-  EXPECT_HAS(message_for("t,motor_torque_1,motor_position_1\n0,1,2\n", map_of({"time=t", "joint_torque_1=load"})),
+  EXPECT_HAS(refusal_of("t,motor_torque_1,motor_position_1\n0,1,2\n", map_of({"time=t", "joint_torque_1=load"})),
              ":1: no column 'load' (mapped to joint_torque_1); the file has 't', ");
-  EXPECT_HAS(message_for(kHeader, map_of({"joint_position_2=q2"})),
+  EXPECT_HAS(refusal_of(kHeader, map_of({"joint_position_2=q2"})),
              "column map: 'joint_position_2': the last joint of the arm is 1; ");
-  EXPECT_HAS(message_for(kHeader + "0,1,1e300\n", map_of({"motor_position_1=motor_position_1,scale=1e300"})),
+  EXPECT_HAS(refusal_of(kHeader + "0,1,1e300\n", map_of({"motor_position_1=motor_position_1,scale=1e300"})),
              ":2: column 'motor_position_1': '1e300' is too large once scaled");
 }
 

@@ -2,15 +2,14 @@
 /// For tests of single effects: a random arm's transmission evaluated at a motion.
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "tests/support/limits.h"
 #include "tests/support/random_arm.h"
 
 namespace halyard {
 
-inline constexpr double kEps = std::numeric_limits<double>::epsilon();
 inline constexpr CableLaw kLaws[] = {CableLaw::paper, CableLaw::exponential, CableLaw::linear};
 
 inline PlacedEffect placed(const std::string& name, const ArmParameters<double>& arm, EffectPlace joint,

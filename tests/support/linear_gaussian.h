@@ -13,6 +13,8 @@
 
 namespace halyard {
 
+inline constexpr double kNoGate = std::numeric_limits<double>::infinity();
+
 class LinearProcess final : public DiscreteProcess {
  public:
   explicit LinearProcess(const Eigen::MatrixXd& F) : F_(F) {}

@@ -1,20 +1,19 @@
 /// The tension of a cable over its stretch.
 
 #include "transmission/cable_law.h"
+#include "tests/support/limits.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
-#include <limits>
 
 #include "transmission/arm_parameters.h"
 
 namespace halyard {
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr CableLaw kLaws[] = {CableLaw::paper, CableLaw::exponential, CableLaw::linear};
 
 /// Joint 2 of the RAVEN-II.

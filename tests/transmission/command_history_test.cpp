@@ -1,15 +1,13 @@
 #include "transmission/command_history.h"
+#include "tests/support/limits.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace halyard {
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 TEST(CommandHistory, IsLinearBetweenTheMiddlesOfHoldsAndHeldOutside) {
   CommandHistory history(2, 10);

@@ -1,9 +1,9 @@
 #include "transmission/drive.h"
+#include "tests/support/limits.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "tests/support/random_arm.h"
@@ -11,8 +11,6 @@
 
 namespace halyard {
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 /// Three rigid drives, each coupled with the joints inboard of it.
 ArmParameters<double> rigid_arm() {

@@ -1,18 +1,16 @@
 /// Dual numbers against finite differences, lanes against plain numbers.
 
 #include "transmission/scalar.h"
+#include "tests/support/limits.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 #include <string>
 
 namespace halyard {
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 struct OneArgument {
   const char* name;

@@ -1,9 +1,9 @@
 #include "transmission/transmission.h"
+#include "tests/support/limits.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "tests/support/random_arm.h"
 #include "transmission/coupling.h"
@@ -12,8 +12,7 @@
 namespace halyard {
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kStep = 1e-5;  // of central differences
+constexpr double kDifference = 1e-5;  // of central differences
 constexpr CableLaw kLaws[] = {CableLaw::paper, CableLaw::exponential, CableLaw::linear};
 
 /// All effects of the library at all places of the arm, and none.
@@ -139,7 +138,7 @@ TEST(Transmission, DerivativesAreThoseOfFiniteDifferencesWithEachEffect) {
         seeded[i] = Dual::seed(u[i], i % kDualWidth);
         const std::vector<Dual> out = dual(seeded);
         // Parameters may be small numbers that something is divided by.
-        const double step = i < 6 * arm.n ? kStep : 0.1 * kStep;
+        const double step = i < 6 * arm.n ? kDifference : 0.1 * kDifference;
         std::vector<double> above = u, below = u;
         above[i] += step;
         below[i] -= step;
