@@ -76,7 +76,7 @@ double independent_samples(const std::vector<double>& residual, const std::vecto
   return m_y.n / (2 * area);
 }
 
-double range_of(const std::vector<double>& x) {
+double extent_of(const std::vector<double>& x) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const double v : x)
     if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
@@ -128,8 +128,8 @@ bool is_told(const ResidualSignals& s, const View& v) {
   const std::vector<double>& x = abscissa_of(s, v.residual, v.abscissa);
   if (s.of(v.residual).empty() || x.empty()) return false;
   if (v.abscissa == Abscissa::stretch && v.residual == ResidualKind::transmission) return false;  // it is the stretch
-  if (is_angle(v.abscissa)) return range_of(x) > 2 * kTurn;
-  return v.abscissa == Abscissa::constant || range_of(x) > 0;
+  if (is_angle(v.abscissa)) return extent_of(x) > 2 * kTurn;
+  return v.abscissa == Abscissa::constant || extent_of(x) > 0;
 }
 
 /// Abscissae that are much the same thing.
@@ -246,7 +246,7 @@ std::vector<View> telling_views(const ResidualSignals& rest) {
 
 Spectrum angle_spectrum(const ResidualSignals& s, ResidualKind residual, Abscissa angle) {
   const std::vector<double>&x = abscissa_of(s, residual, angle), &y = s.of(residual);
-  const double turns = range_of(x) / kTurn;
+  const double turns = extent_of(x) / kTurn;
   if (y.empty() || turns < 2) return {};
   // A line whose frequency in time is beyond the residual's band at the usual rate cannot be seen.
   std::vector<double> rate;

@@ -162,15 +162,18 @@ std::vector<std::vector<double>> Evidence::fit_rows(const std::vector<Hypothesis
   return rows;
 }
 
-bool Evidence::exceeds_floor(const std::vector<double>& change, double times) const {
+double Evidence::over_floor(const std::vector<double>& change) const {
   std::vector<double> square(channels(), 0), count(channels(), 0);
   for (std::size_t r = 0; r < change.size(); ++r) {
     square[row_channel_[r]] += change[r] * change[r];
     count[row_channel_[r]] += 1;
   }
-  for (int c = 0; c < channels(); ++c)
-    if (count[c] > 0 && std::sqrt(square[c] / count[c]) > times * floor_[c]) return true;
-  return false;
+  double most = 0;
+  for (int c = 0; c < channels(); ++c) {
+    const double rms = count[c] > 0 ? std::sqrt(square[c] / count[c]) : 0;
+    if (rms > 0) most = std::max(most, rms / floor_[c]);
+  }
+  return most;
 }
 
 Score Evidence::score(const Hypothesis& hypothesis) const {

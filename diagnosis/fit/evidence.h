@@ -56,8 +56,9 @@ class Evidence {
   const std::vector<double>& floor() const { return floor_; }
   /// Noise of each channel. [2n]
   const std::vector<ChannelNoise>& noise() const { return noise_; }
-  /// True if a change of the fitting rows has, in at least one channel, a root mean square above `times` its floor.
-  bool exceeds_floor(const std::vector<double>& change, double times) const;
+  /// The largest root mean square of a change of the fitting rows over the channels, each over its floor.
+  double over_floor(const std::vector<double>& change) const;
+  bool exceeds_floor(const std::vector<double>& change, double times) const { return over_floor(change) > times; }
   /// Number of rows that equal one independent sample, because residuals are correlated.
   double correlated_rows() const { return correlated_rows_; }
   /// From the first to the last sample of all records, s.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/fit/nudged.h"
 #include "diagnosis/judgement/decision_rule.h"
@@ -14,8 +15,10 @@ namespace {
 /// Resets uncertain parameters of a fit. The effect of a reset on the other parameters is computed to first order.
 class UncertainParameters {
  public:
-  UncertainParameters(const ArmModel& model, const Fit& fit, std::size_t given)
+  /// reach: the largest root mean square over the channels, in floors, of the change by one unit of each parameter.
+  UncertainParameters(const ArmModel& model, const Fit& fit, std::vector<double> reach, std::size_t given)
       : model_(model),
+        reach_(std::move(reach)),
         fit_(fit),
         given_(static_cast<int>(given)),
         value_(Eigen::Map<const Eigen::VectorXd>(fit.value.data(), static_cast<Eigen::Index>(fit.value.size()))),
@@ -54,6 +57,8 @@ class UncertainParameters {
     if (is_exhausted(i)) return 0;
     const FitParameter& p = fit_.parameters[i];
     const auto at = static_cast<Eigen::Index>(i);
+    // What no sensor resolves is no refit of the model.
+    if (p.effect < 0 && reach_[i] * std::abs(value_(at) - p.nominal) / p.scale < 1) return 0;
     const double needed = p.effect < 0 ? kRule.refit_deviations : interval_factor(fit_);
     const double shrunk = std::sqrt(covariance_(at, at) / fit_.covariance(at, at));
     return std::abs(value_(at) - p.nominal) / (needed * shrunk * fit_.std_deviation[i]);
@@ -75,6 +80,7 @@ class UncertainParameters {
   }
 
   const ArmModel& model_;
+  std::vector<double> reach_;
   const Fit& fit_;
   int given_;
   Eigen::VectorXd value_;
@@ -87,8 +93,16 @@ std::vector<double> scale_at(const Evidence& whole, const Hypothesis& h) {
   return channel_scale(whole, whole.score(h).fit_mean_square);
 }
 
+/// Of each parameter of the fit, see UncertainParameters; infinite if it cannot be computed.
+std::vector<double> reach_in_floors(const Evidence& whole, const Fit& f) {
+  const auto columns = sensitivities(whole, f.hypothesis, f.parameters);
+  std::vector<double> reach(f.parameters.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < columns.size(); ++i) reach[i] = whole.over_floor(columns[i]);
+  return reach;
+}
+
 Fit keep_certain_parameters(const Evidence& whole, const ArmModel& model, const Fit& f, std::size_t given) {
-  UncertainParameters uncertain(model, f, given);
+  UncertainParameters uncertain(model, f, reach_in_floors(whole, f), given);
   uncertain.reset_all();
   Hypothesis h = f.hypothesis;
   std::vector<FitParameter> left;

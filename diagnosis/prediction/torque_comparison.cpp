@@ -9,7 +9,7 @@ namespace halyard {
 namespace {
 
 constexpr int kStride = 5;  ///< samples; torques are band-limited to 20 Hz
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoTorque = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -28,13 +28,13 @@ TorqueComparison compare_torques(const ArmModel& model, const std::vector<Record
       const std::size_t samples = (record.size + kStride - 1) / kStride;
       for (std::size_t i = 0; i < samples; ++i) {
         if (!record.has_torque(k) || i >= e[0].channel[k].size()) {
-          c.recorded[k].push_back(kNone), c.needed[k].push_back(kNone);
+          c.recorded[k].push_back(kNoTorque), c.needed[k].push_back(kNoTorque);
           continue;
         }
         const bool moves = std::abs(record.motor_rate[k][i * kStride]) > 2 * model.nominal.joint[k].motor_smoothing;
         const double recorded = 2 * e[1].channel[k][i] - e[0].channel[k][i];
         c.recorded[k].push_back(recorded);
-        c.needed[k].push_back(moves ? recorded - e[0].channel[k][i] : kNone);
+        c.needed[k].push_back(moves ? recorded - e[0].channel[k][i] : kNoTorque);
       }
     }
   }

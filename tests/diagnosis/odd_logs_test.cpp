@@ -34,9 +34,9 @@ struct Logs {
   Log train, holdout;
 };
 
-constexpr double kDuration = 5;  // s
+constexpr double kLogDuration = 5;  // s
 
-Logs logs_of(const ArmModel& truth, double duration = kDuration) {
+Logs logs_of(const ArmModel& truth, double duration = kLogDuration) {
   return {simulate(motion(truth, duration)).measured, simulate(motion(truth, 2.5, 1)).measured};
 }
 
@@ -134,7 +134,7 @@ TEST(LogOfAScrewWithItsMotorAlone, IsCleanAndShowsFrictionOfTheScrew) {
   ArmModel truth = model;
   truth.nominal.joint[0].motor_coulomb *= 2;
   const auto logs = [](const ArmModel& robot) {
-    Scenario s = motion(robot, kDuration);
+    Scenario s = motion(robot, kLogDuration);
     s.robot.joints[0].controller = {.kp = 4e5, .kd = 1.2e4, .torque_limit = 0};
     s.trajectory[0].center = 0.12;
     s.trajectory[0].sines = {{0.06, 0.4, 0}, {0.02, 1.1, 1}};
@@ -182,7 +182,7 @@ TEST(SlowJointSensor, IsComparedAtItsOwnSamples) {
 TEST(SlowLog, IsClean) {
   // Without rounding: the controller turns each step of the encoder into a spike of torque, and of those a slow logger
   // takes every tenth.
-  Scenario train = motion(first_joints(1), kDuration), holdout = motion(first_joints(1), 2.5, 1);
+  Scenario train = motion(first_joints(1), kLogDuration), holdout = motion(first_joints(1), 2.5, 1);
   train.quantise = holdout.quantise = false;
   const Logs logs{simulate(train).measured, simulate(holdout).measured};
   expect_clean(diagnosis_of(first_joints(1), {slower(logs.train, 10), slower(logs.holdout, 10)}));  // 100 Hz
@@ -356,7 +356,7 @@ TEST(JointHeldFixed, StandsAtHome) {
   ArmModel truth = first_joints(2);
   truth.nominal.joint[0].joint_coulomb = 500;  // clamped: creeps by less than its sensor's step
   const auto logs = [&](int variant) {
-    Scenario s = motion(truth, kDuration, variant);
+    Scenario s = motion(truth, kLogDuration, variant);
     s.trajectory[0].sines.clear();
     Log log = simulate(s).measured;
     log.motor_position[0].clear(), log.motor_torque[0].clear(), log.joint_position[0].clear();
