@@ -8,7 +8,11 @@ namespace {
 using Arm = ArmParameters<double>;
 
 void external_force(SearchSpace& space, const Arm&, int) {
-  space["start"].range = space["stop"].range = SearchRange::record_time;
+  // A force may begin before the record and end after it.
+  for (const char* instant : {"start", "stop"}) {
+    space[instant].range = SearchRange::record_time;
+    space[instant].natural_bounds = true;
+  }
   space["contact_position"].range = SearchRange::joint_position;
 }
 

@@ -150,7 +150,7 @@ TEST(SearchSpace, ARefinementThatIsWrongIsRefusedWithTheEffectsName) {
             "effect 'bump': the number that 'height' changes is negative or of no joint; give a joint of the arm, and "
             "a size of 0 or more");
   EXPECT_EQ(refusal([](SearchSpace& s) { s.order_of_motor_torque = 2; }),
-            "effect 'bump': its order of the motor torque is no parameter of it; give the place of one");
+            "effect 'bump': the index of its order is no parameter of it; give the index of one");
 }
 
 }  // namespace
