@@ -133,7 +133,8 @@ void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluati
       std::string text = "The model lacks:";
       for (std::size_t i = 0; i < d.effects.size(); ++i) {
         const NamedEffect& e = d.effects[i];
-        text += "\n" + effect_label(e.effect) + ": " + e.effect.effect->summary() + ".";
+        text += fmt::format("\n{}: {} (probability {:.0f} %).", effect_label(e.effect), e.effect.effect->summary(),
+                            100 * e.probability);
         if (i < evaluation.why.size()) text += " " + evaluation.why[i];
         else text += alternatives_sentence(e);
       }
@@ -155,7 +156,7 @@ void add_log_findings(report::Page& page, const Diagnosis& d) {
 void add_error_table(report::Page& page, const Diagnosis& d) {
   const std::vector<JointUnit> units = joint_units(d.revised);
   report::Table table;
-  table.caption = "Free prediction: error on the hold-out (" + d.holdout + "), which no decision has seen";
+  table.caption = "Free prediction: error on the hold-out (" + d.holdout + "), which no fit has seen";
   table.header = {"joint", "position RMS before",     "after", "position peak before",
                   "after", "motor torque RMS before", "after"};
   const auto add = [](std::vector<report::Cell>& row, double before, double after, const ShownUnit& unit) {

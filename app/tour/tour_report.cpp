@@ -121,7 +121,7 @@ void add_rig_rows(report::Table& table, const RigResult& result) {
 void add_rigs(Page& page, const Tour& tour) {
   page.heading("3. Recordings of real rigs");
   report::Table table;
-  table.caption = "Errors on the hold-out, which no decision has seen, with the given and the revised model (RMS)";
+  table.caption = "Errors on the hold-out, which no fit has seen, with the given and the revised model (RMS)";
   table.header = {"rig", "verdict", "joint", "position before", "after", "torque or force before", "after"};
   table.align = {Align::left, Align::left, Align::right, Align::right, Align::right, Align::right, Align::right};
   std::string missing;
