@@ -241,9 +241,10 @@ class Diagnoser {
       view->after = predict_all(view->records, final_hypothesis());
     }
     const std::vector<int> worse = worse_joints(joints, torques, evidence.floor());
-    if (!worse.empty() && !result_.effects.empty()) {
+    if (!worse.empty() && !(result_.effects.empty() && result_.refitted.empty())) {
       std::string names;
       for (const NamedEffect& e : result_.effects) names += (names.empty() ? "" : ", ") + effect_label(e.effect);
+      if (names.empty()) names = "refitted parameters";
       give_up_revision(evidence);
       for (const int k : worse)
         result_.unexplained.push_back(

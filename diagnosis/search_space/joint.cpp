@@ -8,11 +8,9 @@ namespace {
 using Arm = ArmParameters<double>;
 
 void external_force(SearchSpace& space, const Arm&, int) {
-  // A force may begin before the record and end after it.
-  for (const char* instant : {"start", "stop"}) {
-    space[instant].range = SearchRange::record_time;
-    space[instant].natural_bounds = true;
-  }
+  space["start"].range = space["stop"].range = SearchRange::record_time;
+  // A force may end after the record. One that lasts from its first sample to its last is an offset and no push.
+  space["stop"].natural_bounds = true;
   space["contact_position"].range = SearchRange::joint_position;
 }
 
