@@ -104,6 +104,7 @@ bool Judge::at_bound(const Scored& with, int place) const {
   };
   const std::vector<ParameterGroup> groups = groups_of(parameters);
   for (const ParameterGroup& group : groups) {
+    if (lasts_the_whole_record(h, parameters, group)) return true;
     for (const std::size_t i : group.sizes)
       if (ends(i) && does({i}) > kRule.by_chance) return true;
     if (std::ranges::none_of(group.shapes, shape_ends)) continue;
@@ -113,6 +114,17 @@ bool Judge::at_bound(const Scored& with, int place) const {
     if (own > kRule.by_chance && own > kNextToNothing * does(all)) return true;
   }
   return false;
+}
+
+/// True for an effect between two instants that acts nearly all the time: it is an offset, which other effects explain.
+bool Judge::lasts_the_whole_record(const Hypothesis& h, const std::vector<FitParameter>& parameters,
+                                   const ParameterGroup& group) const {
+  constexpr double kNearlyAll = 0.95;
+  std::vector<double> instants;
+  for (const std::size_t i : group.shapes)
+    if (parameters[i].range == SearchRange::record_time) instants.push_back(parameter_value(h, parameters[i]));
+  const Span span = evidence_.time_span();
+  return instants.size() == 2 && instants[1] - instants[0] > kNearlyAll * (span.last - span.first);
 }
 
 /// True if a shape is near the end of what is plausible, and the data cannot tell it from there.

@@ -74,6 +74,8 @@ class Judge {
   double p_of_gain(const Score& with, const Score& without) const;
   bool explains_a_rest(const Score& before, const Score& after) const;
   bool at_bound(const Scored& with, int place) const;
+  bool lasts_the_whole_record(const Hypothesis& h, const std::vector<FitParameter>& parameters,
+                              const ParameterGroup& group) const;
   bool is_as_good_at_bound(const Scored& with, const FitParameter& p) const;
   bool within_tolerance(const Hypothesis& h, int place) const;
   bool matters(const Score& before, const Score& after, const Hypothesis& with, int place) const;
