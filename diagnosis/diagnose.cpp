@@ -48,7 +48,6 @@ class Diagnoser {
     details_->torque_view = std::move(data.torque_view);
     const Evidence evidence(data.training, result_.given);
     const Evidence whole(std::move(data.training), result_.given, Split::none);
-    details_->noise = whole.noise();
     search(evidence, whole);
     if (is_one_sine(evidence)) refuse_names(evidence);
     else tell_names(evidence);
@@ -290,6 +289,15 @@ class Diagnoser {
 };
 
 }  // namespace
+
+const char* verdict_word(Diagnosis::Verdict verdict) {
+  switch (verdict) {
+    case Diagnosis::Verdict::clean: return "clean";
+    case Diagnosis::Verdict::effects: return "effects";
+    case Diagnosis::Verdict::unknown: break;
+  }
+  return "unknown";
+}
 
 Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, const std::optional<Log>& holdout,
                    const DiagnosisOptions& options, const Progress& progress) {

@@ -82,6 +82,9 @@ struct Diagnosis {
   std::shared_ptr<const DiagnosisDetails> details;
 };
 
+/// clean | effects | unknown
+const char* verdict_word(Diagnosis::Verdict verdict);
+
 /// Diagnoses a model from training logs. The hold-out can only veto: if the revised model predicts a joint worse there
 /// than the given model, no effect is named. Without a hold-out, the last third of each training log is held out.
 /// progress(what, fraction of it) is never called by two threads at once.

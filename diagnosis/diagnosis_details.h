@@ -15,7 +15,6 @@ struct DiagnosisDetails {
   std::vector<std::vector<double>> past;  ///< Hypothesis::past of the revised model's effects, for the training records
   HoldOut joint_view;                     ///< in kJointErrorBand
   HoldOut torque_view;                    ///< in kFitBand
-  std::vector<ChannelNoise> noise;        ///< [2n] as the channels of Residuals
 };
 
 }  // namespace halyard

@@ -37,15 +37,6 @@ Json before_after(const std::vector<double>& before, const std::vector<double>& 
   return {{"before", numbers(before)}, {"after", numbers(after)}};
 }
 
-const char* verdict_word(Diagnosis::Verdict verdict) {
-  switch (verdict) {
-    case Diagnosis::Verdict::clean: return "clean";
-    case Diagnosis::Verdict::effects: return "effects";
-    case Diagnosis::Verdict::unknown: break;
-  }
-  return "unknown";
-}
-
 /// {"joint_position_rms": {"before": [...], "after": [...]}, ...} of each estimator; null where it failed.
 Json estimators_json(const DiagnosisEvaluation& evaluation) {
   const auto of = [](const std::vector<double>& values) { return values.empty() ? Json(nullptr) : numbers(values); };

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
+#include "diagnosis/log_check/robust.h"
+
 namespace halyard {
 namespace {
 
@@ -17,12 +19,6 @@ constexpr double kLineFrom = 22;     ///< Hz: above what is compared
 constexpr double kLineTo = 150;      ///< Hz: above, the filter of the record leaves nothing to see
 constexpr double kLineOver = 30;     ///< times its surroundings: by chance once in e^20 bins
 constexpr double kSurroundings = 8;  ///< Hz on either side
-
-double median(std::vector<double> x) {
-  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
-  std::ranges::nth_element(x, middle);
-  return *middle;
-}
 
 /// Mean of the bins of [from, to); infinite if there is none.
 double mean_of_band(const std::vector<double>& density, double resolution, double from, double to) {

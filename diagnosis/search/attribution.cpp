@@ -143,10 +143,9 @@ class Search {
     if (explained(current.score)) return false;
     // Before any effect is named the refitted baseline is distorted by what is missing: candidates start at the model's
     // own parameters.
-    const Hypothesis from = result_.rounds.empty()
-                                ? Hypothesis{model_.nominal, model_.effects, current.fit.hypothesis.past}
-                                : current.fit.hypothesis;
     const bool is_first = result_.rounds.empty();
+    const Hypothesis from =
+        is_first ? Hypothesis{model_.nominal, model_.effects, current.fit.hypothesis.past} : current.fit.hypothesis;
     const auto won = compete(current.scored(), from, candidates(current.fit.hypothesis),
                              "round " + std::to_string(result_.rounds.size() + 1));
     if (!won) return false;
@@ -209,7 +208,7 @@ class Search {
   void remove_idle(Found& current) {
     while (current.fit.hypothesis.effects.size() > given_) {
       const std::size_t n = current.fit.hypothesis.effects.size() - given_;
-      std::vector<Fit> without(n, result_.baseline);
+      std::vector<Fit> without(n, baseline_.fit);
       if (n > 1)
         tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
           without[i] = refitter_.refit(without_effect(current.fit.hypothesis, given_ + i), current.score);

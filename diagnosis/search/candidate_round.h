@@ -24,8 +24,6 @@ class CandidateRound {
   /// parameters once; here they are renewed until nothing changes. Returns the fits, in the order of the trials.
   std::vector<Fit> fit_leaders(std::vector<Trial>& trials) const;
 
-  const Scored& without() const { return without_; }
-
  private:
   /// Calls one(i) for all i < n, side by side.
   void each(const std::string& what, std::size_t n, const std::function<void(std::size_t)>& one) const;

@@ -7,15 +7,6 @@
 namespace halyard::blind {
 namespace {
 
-const char* verdict_word(Diagnosis::Verdict verdict) {
-  switch (verdict) {
-    case Diagnosis::Verdict::clean: return "clean";
-    case Diagnosis::Verdict::effects: return "effects";
-    case Diagnosis::Verdict::unknown: break;
-  }
-  return "unknown";
-}
-
 Named named_of(const NamedEffect& e, int joints) {
   Named named{.place = place_of(e.effect, joints), .probability = e.probability, .alternatives = {}, .parameters = {}};
   for (const halyard::Alternative& a : e.alternatives)
