@@ -72,8 +72,8 @@ struct Diagnosis {
   std::vector<NotExcited> not_excited;
   std::vector<LogFinding> log_findings;  ///< suspicious findings of check_log() about all logs
   double probability_clean = 0;          ///< that the arm has no effect which the model lacks
-  /// that none of the candidates is the right name for a remaining residual or for a named effect; the largest of these
-  /// probabilities
+  /// probability that none of the candidates is the right name for a remaining residual or for a named effect; the
+  /// largest of these probabilities
   double probability_none = 0;
   ArmModel given;  ///< the model as given, with unknown torque scales calibrated
   ArmModel revised;

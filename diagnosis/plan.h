@@ -22,14 +22,14 @@
 ///
 ///   Δ = Σ_b (ln L_b(r0⊥) - ln L_b(residual of the other's fit)).
 ///
-/// The standard deviation σ of Δ is computed in two ways. The two effects are confused if Δ < 2 σ for at least one of
-/// them. One is √(2Δ), for noise of the floor's size; the condition is then Δ < 8. The other is estimated from the
-/// blocks.
+/// The standard deviation σ of Δ is computed in two ways: as √(2Δ), for noise of the floor's size, and from the blocks.
+/// The two effects are confused if Δ < 2 σ for at least one of these two values of σ. For the first value the condition
+/// is Δ < 8.
 ///
 /// The size of an effect is its first size parameter, on the same side of neutral as its typical value. Its shape
 /// parameters take the values with the largest change of the residual at the typical size. A shape parameter that is an
-/// instant is placed within the record (several are spread over it). One that is a joint position is placed in the
-/// middle of the joint's motion.
+/// instant is placed within the record; several instants of one effect are spread over it. A shape parameter that is a
+/// joint position is placed in the middle of the joint's motion.
 
 #include <functional>
 #include <string>
@@ -55,9 +55,10 @@ struct DetectionLimit {
 std::vector<DetectionLimit> detection_limits(const ArmModel& model, const std::vector<Log>& logs,
                                              const std::function<void(const std::string&, double)>& progress = {});
 
-/// The share of an effect's sizes, all of them together and from neutral, from which on the effect is detected; 1: as it
-/// is given. Infinite if not even the given sizes are. Shapes stay as they are. One entry for each effect; each is
-/// looked at alone. Throws as detection_limits() does.
+/// The smallest share of an effect's given sizes at which the effect is detected. All sizes are scaled together, from
+/// their neutral values; at a share of 1 they are as given. Infinite if the effect is not detected even at the given
+/// sizes. Shapes stay as they are. One entry for each effect; each is looked at alone. Throws as detection_limits()
+/// does.
 std::vector<double> detected_from(const ArmModel& model, const std::vector<Log>& logs,
                                   const std::vector<PlacedEffect>& effects);
 

@@ -74,7 +74,7 @@ struct Scenario {
   bool quantise = true;  ///< round encoders to their resolution
   /// True: the zeros of the motor encoders were set at the home pose, with unstretched cables. They were computed with
   /// the parameters that the controller assumes. Readings are then correct at that pose, whatever the robot's true
-  /// ratios. Sensor errors of effects are added to them.
+  /// ratios. Sensor errors of effects are added to the readings.
   bool homed = false;
   TickNoise noise;
   std::optional<Camera> camera;

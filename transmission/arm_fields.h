@@ -1,7 +1,7 @@
 #pragma once
 /// The list of an arm's parameters: each field of ArmParameters and JointParameters appears once, with its description.
-/// Code that treats all fields alike iterates over this list: the reader and writer of model files, the conversion to
-/// other scalar types, parameter studies, the keys of predictions. A new field needs one line here.
+/// Code that treats all fields alike iterates over this list. Examples are the reader and writer of model files, the
+/// conversion to other scalar types, parameter studies, and the keys of predictions. A new field needs one line here.
 ///
 ///   for_each_field(arm.n, [](const ArmField& field, const auto& value) { ... }, arm);
 ///

@@ -21,7 +21,7 @@ std::string verdict_line(const Diagnosis& diagnosis);
 void add_verdict(report::Page& page, const Diagnosis& diagnosis, const DiagnosisEvaluation& evaluation = {});
 /// Suspicious findings about the logs as a call-out; nothing if there are none.
 void add_log_findings(report::Page& page, const Diagnosis& diagnosis);
-/// Errors on the hold-out, with the given and with the revised model, of the prediction from the motors' motion alone.
+/// Errors of the prediction from the motors' motion alone: on the hold-out, with the given and with the revised model.
 void add_error_table(report::Page& page, const Diagnosis& diagnosis);
 /// Errors of the estimators with the given and with the revised model, and results from their innovations. Adds nothing
 /// without an evaluation.

@@ -12,7 +12,7 @@ namespace halyard {
 
 /// Knots of one curve, and its values there.
 struct Curve {
-  double direction = 0;  ///< 1 | -1: of the motion for which it holds; 0: of any
+  double direction = 0;  ///< 1 | -1: direction of the motion for which the curve holds; 0: both directions
   std::vector<double> x, y;
 };
 
@@ -20,7 +20,7 @@ struct CurveFit {
   std::vector<Curve> curves;
   double explained = 0;  ///< R², of the variance of y
   int numbers = 0;       ///< of fitted coefficients, B
-  double swing() const;  ///< greatest less least value
+  double swing() const;  ///< largest value minus smallest value
 };
 
 /// x, y, and direction (1 | -1; empty: one curve for both) have equal lengths; samples that are not finite do not

@@ -13,7 +13,7 @@ struct ShownUnit {
   double per_si = 1;
 };
 
-/// A motor whose angle equals the position of a prismatic joint, 1 m per rad, has a force in N.
+/// If a motor's angle equals the position of a prismatic joint, 1 m per rad, its torque is shown as a force in N.
 ShownUnit residual_unit(const ArmParameters<double>& arm, int joint, ResidualKind residual);
 ShownUnit abscissa_unit(const ArmParameters<double>& arm, int joint, ResidualKind residual, Abscissa abscissa);
 
@@ -27,8 +27,8 @@ std::string shown(double value, const ShownUnit& unit);
 /// "81 %", "0.4 %", "less than 0.1 %", "over 99 %"
 std::string shown_share(double share);
 
-/// What a residual does before: "steps by ±0.35 deg at each reversal: 81 % of its variance goes with the direction of
-/// motion".
+/// What the residual does before the addition to the model: "steps by ±0.35 deg at each reversal: 81 % of its variance
+/// goes with the direction of motion".
 std::string view_phrase(const View& view, const ArmParameters<double>& arm, int joint);
 
 }  // namespace halyard

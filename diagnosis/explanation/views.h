@@ -8,8 +8,8 @@
 ///   y, x   residual, abscissa    ρ_y, ρ_x   their autocorrelations, ρ(0) counts half    n   samples
 ///
 /// For a constant, shares are of the mean square. A loop has a curve for each direction of motion.
-/// Sources: Ezekiel, Methods of Correlation Analysis (1930), of R² less chance; Bartlett, J. R. Stat. Soc. 98 (1935),
-/// of N.
+/// Sources: for R² corrected for chance, Ezekiel, Methods of Correlation Analysis (1930); for N, Bartlett, J. R. Stat.
+/// Soc. 98 (1935).
 
 #include "diagnosis/explanation/curve_fit.h"
 #include "diagnosis/explanation/residual_signals.h"
@@ -37,11 +37,12 @@ struct View {
   ResidualKind residual = ResidualKind::joint_position;
   Abscissa abscissa = Abscissa::constant;
   bool loop = false;
-  /// Share of the variance before that the curve over the abscissa explains; for a constant: of the mean square.
+  /// Before the addition: share of the variance that the curve over the abscissa explains; for a constant, share of the
+  /// mean square.
   double explained_before = 0;
   double explained_after = 0;  ///< the same after
-  double variance_left = 0;    ///< variance after over before; a constant: mean square
-  double left = 0;             ///< mean square after over before
+  double variance_left = 0;    ///< variance after / variance before; for a constant: of the mean squares
+  double left = 0;             ///< mean square after / mean square before
   double chance = 0;           ///< noise alone may give an explained_before up to this
   double swing = 0;            ///< range of the curve before; for a constant its value
   Line line = {};              ///< for angles: strongest spectral line before, order per turn

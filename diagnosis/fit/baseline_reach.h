@@ -5,7 +5,7 @@
 ///   minimise  |x - J u - E a|² + |u|²,   |u_i| <= 2,   lower <= a <= upper
 ///
 ///   x   change of the fitting rows, weighted: each channel over its scale and √m                      [rows]
-///   J   sensitivities to the baseline's parameters, weighted; a unit is half a tolerance, its prior   [rows x numbers]
+///   J   sensitivities to the baseline's parameters, weighted, per half tolerance (the prior)          [rows x numbers]
 ///   E   sensitivities to an effect's sizes, weighted                                                  [rows x sizes]
 ///
 /// This is fit.h's problem to first order. Source of the bounded minimum: Bertsekas, Projected Newton methods, SIAM J.
@@ -39,7 +39,7 @@ class BaselineReach {
   BaselineReach(const Evidence& evidence, const std::vector<std::vector<double>>& columns,
                 const std::vector<double>& scale);
 
-  /// Rows in the weights of x, and back.
+  /// weighted() multiplies fitting rows by the weights of x; rows() divides by them.
   Eigen::VectorXd weighted(const std::vector<double>& rows) const;
   std::vector<double> rows(const Eigen::VectorXd& weighted) const;
 

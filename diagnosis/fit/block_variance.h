@@ -25,12 +25,12 @@ struct BlockVariance {
 BlockVariance block_variance(const Eigen::MatrixXd& J, const Eigen::VectorXd& r, const Eigen::VectorXd& prior,
                              std::span<const int> block);
 
-/// Correlation time of residuals in blocks: τ = 1 + 2 Σ_l ρ_l over the lags before ρ_l falls below 0.1; rows follow each
-/// other. At least 1, in rows.
+/// Correlation time of the residuals of consecutive rows, in rows, at least 1: τ = 1 + 2 Σ_l ρ_l, summed over the lags
+/// l before ρ_l falls below 0.1.
 double correlation_rows(std::span<const double> residual);
 
-/// Groups consecutive blocks so that each group is at least so many blocks long, but at least `fewest` groups are left.
-/// Returns the group of each row.
+/// Groups consecutive blocks. Each group is at least `blocks_long` blocks long, unless fewer than `fewest` groups would
+/// be left. Returns the group of each row.
 std::vector<int> grouped_blocks(std::span<const int> block, double blocks_long, int fewest);
 
 }  // namespace halyard

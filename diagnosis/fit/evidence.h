@@ -51,12 +51,13 @@ class Evidence {
   const std::vector<std::vector<int>>& block_count() const { return block_count_; }
 
   /// Root mean square below which a channel's residual does not matter: what its sensor resolves, or its noise if that
-  /// is larger. What a joint's sensor resolves is its rounding; what a motor's torque resolves is a fraction of its own
-  /// size. [2n]
+  /// is larger. A joint's sensor resolves its rounding. For a motor's torque the limit is a fraction of the torque's
+  /// own size. [2n]
   const std::vector<double>& floor() const { return floor_; }
   /// Noise of each channel. [2n]
   const std::vector<ChannelNoise>& noise() const { return noise_; }
-  /// The largest root mean square of a change of the fitting rows over the channels, each over its floor.
+  /// Root mean square of a change of the fitting rows, divided by the floor of its channel; the largest of all
+  /// channels.
   double over_floor(const std::vector<double>& change) const;
   bool exceeds_floor(const std::vector<double>& change, double times) const { return over_floor(change) > times; }
   /// Number of rows that equal one independent sample, because residuals are correlated.

@@ -21,7 +21,8 @@ struct FitParameter {
   std::string name;
   std::string unit;
   int effect = -1;  ///< index in Hypothesis::effects; -1: a baseline parameter
-  /// Baseline: index in named_parameters(). Effect: index of its parameter, or from kMaxEffectParameters on its past.
+  /// Baseline: index in named_parameters(). Effect: index of its parameter; indices from kMaxEffectParameters on are
+  /// the states of its past.
   int index = 0;
   double nominal = 0;  ///< baseline: the model's value
   double lower = 0, upper = 0;
@@ -38,10 +39,11 @@ inline bool is_past(const FitParameter& p) { return p.effect >= 0 && p.index >= 
 double parameter_value(const Hypothesis& h, const FitParameter& p);
 void set_parameter(Hypothesis& h, const FitParameter& p, double value);
 
-/// Baseline parameters for which the model states a tolerance. A drive's ratio is one parameter, the capstan's radius.
+/// Baseline parameters for which the model states a tolerance. The ratio of a drive is a single parameter: the
+/// capstan's radius represents it.
 std::vector<FitParameter> baseline_parameters(const ArmModel& model);
 /// The parameters of the effect with index `place`; instants and positions are limited to the range of the records.
-/// A period of an effect is short enough for the motion to contain kFewestPeriods of them.
+/// The period of a periodic effect is limited, so that the motion contains at least kFewestPeriods periods.
 /// The effect's states at the start of each record follow as shapes, unless there are more than a dozen records.
 std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,
                                             const ArmParameters<double>& nominal, int place);
@@ -53,7 +55,8 @@ struct ParameterGroup {
 std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameters);
 /// True if an effect's parameter is at its plausible bound. False at its neutral value, even if that is a bound.
 bool ends_at_bound(const FitParameter& p, double value);
-/// True if a change of the effect's parameters is also a change of that baseline parameter, and covers it.
+/// True if a change of the effect's parameters also changes that baseline parameter, so that the baseline parameter
+/// need not be fitted beside the effect.
 bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline);
 
 struct FitOptions {
@@ -67,10 +70,11 @@ struct Fit {
   Hypothesis hypothesis;
   std::vector<FitParameter> parameters;
   std::vector<double> value;  ///< [parameters]
-  /// [parameters] The larger of two: from the scatter of blocks (block_variance.h), which knows how residuals are
-  /// correlated, and from the curvature, which knows errors of a floor's size that all blocks share.
+  /// [parameters] The larger of two estimates. One comes from the scatter of blocks (block_variance.h), which accounts
+  /// for the correlation of residuals. The other comes from the curvature, which accounts for errors of a floor's size
+  /// that all blocks share.
   std::vector<double> std_deviation;
-  int blocks = 0;              ///< that scatter; degrees of freedom and one
+  int blocks = 0;              ///< number of blocks in that scatter: its degrees of freedom plus one
   Eigen::MatrixXd covariance;  ///< from the curvature at the end, if rows were independent, [parameters]²
   bool usable = false;         ///< false: the start could not be integrated
 };
@@ -82,8 +86,8 @@ std::vector<double> channel_scale(const Evidence& evidence, const std::vector<do
 std::vector<std::vector<double>> sensitivities(const Evidence& evidence, const Hypothesis& at,
                                                const std::vector<FitParameter>& parameters);
 
-/// Fits `parameters`, except whole numbers, which keep their value. baseline_sensitivities: those of the baseline parameters among them, in order, for
-/// frozen_baseline.
+/// Fits `parameters`, except whole numbers, which keep their value. For frozen_baseline, baseline_sensitivities holds
+/// the sensitivities to the baseline parameters among `parameters`, in the same order.
 Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& parameters,
         const std::vector<double>& scale, const FitOptions& options = {},
         const std::vector<std::vector<double>>& baseline_sensitivities = {});

@@ -8,25 +8,26 @@ namespace halyard {
 struct DecisionRule {
   // A candidate is named.
 
-  /// A candidate has to explain this share of the mean square that is left in a channel. Less cannot be told from the
-  /// misfit of a number of the model. Reason: 5 % of the mean square is 2.5 % of the root mean square.
+  /// A candidate has to explain this share of the mean square that is left in a channel. A smaller share cannot be told
+  /// from an error of a parameter of the model. Reason: 5 % of the mean square is 2.5 % of the root mean square.
   double share = 0.05;
-  /// Root mean square by which the functional form of a right name may miss the truth, relative to what it explains.
-  /// An effect that explains less than this beside a larger one may be its misfit. Reason: the logs with other equations
-  /// (rounded backlash, Bouc-Wen, LuGre) leave 2 to 15 % under the right name.
+  /// Even the right effect may miss the truth, because the form of its equation differs. This is the root mean square
+  /// of what it may miss, relative to what it explains. An effect that explains less than this beside a larger effect
+  /// may be the larger effect's error of form. Reason: in the logs with other equations (rounded backlash, Bouc-Wen,
+  /// LuGre) the right effect leaves 2 to 15 %.
   double form_misfit = 0.1;
   /// The change by an effect has to be this many times the floor of its channel, in at least one signal.
   double above_floor = 1.5;
-  /// Gain in log-likelihood by chance of one more parameter. Reason: two standard deviations of χ²(1) / 2.
+  /// Gain in log-likelihood that one more parameter gives by chance. Reason: two standard deviations of χ²(1) / 2.
   double by_chance = 2;
   /// A candidate whose quick fit has a larger p value than this is neither fitted fully nor judged further.
   double worth_a_fit = 0.05;
 
-  // A rest is reported.
+  // A remaining residual is reported.
 
   /// A residual matters above this many times the floor of its channel: about one resolution of a joint's encoder.
   double rest_ratio = 3;
-  /// So little of a residual's root mean square is next to nothing.
+  /// A residual whose root mean square falls to this share is next to nothing.
   double next_to_none = 0.1;
 
   /// The search ends if no channel has a residual above this many times its floor.
@@ -45,8 +46,8 @@ struct DecisionRule {
 
   // Numbers of the model.
 
-  /// A refitted number is reported if it lies so many standard deviations off the model's number. Reason: of some
-  /// thirty numbers two in a thousand clean diagnoses then show one by chance.
+  /// A refitted number is reported if it lies so many standard deviations off the model's number. Reason: a model has
+  /// some thirty numbers. Then two in a thousand diagnoses of clean arms report a number by chance.
   double refit_deviations = 4;
 
   // The effort of the search.
@@ -55,10 +56,11 @@ struct DecisionRule {
   double promise = 0.02;
   /// Number of candidates that are fitted in a round: those with the smallest residual at the start of their search.
   std::size_t most_fitted = 16;
-  /// So many of those are fitted whole, if they gain this share of what the first of them does.
+  /// The first `leaders` of those are fitted fully, if their gain is at least the share `leads` of the largest gain.
   std::size_t leaders = 4;
   double leads = 0.25;
-  /// After so many passes those go on, to `most_passes` in all, that gain this share of the first by then.
+  /// After `first_passes` passes, those whose gain is then at least the share `still_leads` of the largest gain go on,
+  /// up to `most_passes` in all.
   int first_passes = 3, most_passes = 12;
   double still_leads = 0.5;
 };

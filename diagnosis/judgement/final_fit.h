@@ -6,9 +6,10 @@
 namespace halyard {
 
 /// Fits the parameters of `chosen` again on `whole`, an Evidence without deciding blocks. Then parameters that did not
-/// change significantly are reset, one at a time, the least certain first, and the rest is fitted again: a number of the
-/// model to its own value (also if its change moves no channel by its floor), a size of an effect to its neutral value. If the data determine only a combination of two
-/// parameters, one of them keeps its change. An effect all of whose sizes are reset has no parameter in the result.
+/// change significantly are reset, one at a time, the least certain first, and the others are fitted again. A number of
+/// the model is reset to its own value, also if its change moves no channel by its floor. A size of an effect is reset
+/// to its neutral value. If the data determine only a combination of two parameters, one of them keeps its change. An
+/// effect all of whose sizes are reset has no parameter in the result.
 /// given: number of effects that the model came with; they stay.
 Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given);
 

@@ -28,8 +28,8 @@ struct DiagnosisData {
   HoldOut torque_view;  ///< in kFitBand
 };
 
-/// Without a hold-out log, the last third of each training log is held out. Cables have memory: the part before it is
-/// predicted along with it and not compared.
+/// Without a hold-out log, the last third of each training log is held out. Cables have memory, so the part of the log
+/// before that third is predicted as well, but not compared.
 DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& training,
                              const std::optional<Log>& holdout);
 
@@ -40,8 +40,8 @@ PredictionError prediction_errors(const HoldOut& joints, const HoldOut& torques,
 /// Predictions of all records.
 std::vector<FullPrediction> predict_all(const std::vector<Record>& records, const Hypothesis& hypothesis);
 
-/// 0-based joints of which `after` predicts the position or the torque worse than `before`: the mean square is larger,
-/// significantly by a paired t test over seconds, and by more than a fortieth, or one squared floor [2n].
+/// 0-based joints of which `after` predicts the position or the torque worse than `before`. Worse means that the mean
+/// square grows significantly, by a paired t test over seconds, and by at least a fortieth and one squared floor [2n].
 std::vector<int> worse_joints(const HoldOut& joints, const HoldOut& torques, const std::vector<double>& floor);
 
 }  // namespace halyard

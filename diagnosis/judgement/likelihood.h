@@ -29,7 +29,7 @@ std::vector<double> squared_floors(const Evidence& evidence);
 /// The paired differences with - without over the deciding blocks that have rows.
 Paired paired(const Evidence& evidence, const Likelihood& with, const Likelihood& without);
 
-/// Fraction of the smaller of two candidates' gains that the other candidate gains in the same blocks and channels.
+/// The gain that two candidates have in the same blocks and channels, as a fraction of the smaller of their two gains.
 double shared_gain(const Likelihood& a, const Likelihood& b, const Likelihood& without);
 
 }  // namespace halyard

@@ -6,12 +6,12 @@
 ///
 ///   l_ib   ln L of candidate i on deciding block b (likelihood.h)
 ///   ω_d    one draw of weights of the B blocks, Dirichlet(1, ..., 1): another log of the same arm
-///   π_i    prior: exp(-numbers that the candidate adds)
+///   π_i    prior: exp(-(numbers that the candidate adds) - (its stretch of the model's own numbers, judge.h))
 ///
 /// Source: pseudo-BMA+ of Yao, Vehtari, Simpson, Gelman, Bayesian Analysis 13 (2018), section 3.4.
 ///
-/// None of the candidates may be right. What is left in a channel then is larger than noise and the misfit of a right
-/// name's functional form can explain:
+/// It is possible that no candidate is right. Then more residual is left in a channel than noise and the error in the
+/// functional form of a right effect can explain together:
 ///
 ///   ρ = max over channels of  MSE_after / (floor² + η² MSE_before)
 ///   P(none) = 1 / (1 + (ρ0 / ρ)^s)
@@ -24,18 +24,18 @@ namespace halyard {
 struct Competitor {
   const Likelihood* log_likelihood = nullptr;
   int numbers = 0;        ///< that it adds to the model
-  double prior_cost = 0;  ///< nats by which it stretches the model's own numbers
+  double prior_cost = 0;  ///< of its changes of the model's own numbers, nats
 };
 
-/// [competitors], then that of no effect; they sum to one. The draws have a fixed seed.
+/// The weight of each competitor, then that of no effect; they sum to one. The draws have a fixed seed.
 std::vector<double> name_weights(const Evidence& evidence, const std::vector<Competitor>& competitors,
                                  const Competitor& no_effect);
 
 /// P(none) of one channel.
 double probability_of_none(double mean_square_after, double mean_square_before, double floor);
 
-/// Of names with these probabilities: true for those of the smallest set that holds the right one with `share` of all
-/// probability in the list.
+/// probability: of each name. True for the names of the smallest set that holds the right name with `share` of the sum
+/// of all these probabilities.
 std::vector<bool> credible_set(const std::vector<double>& probability, double share);
 
 }  // namespace halyard

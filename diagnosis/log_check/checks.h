@@ -14,12 +14,12 @@ void check_counters(LogUnderCheck& c);
 /// Frozen and saturated position sensors, jumps and outliers. Runs after check_positions(), on corrected units.
 void check_columns(LogUnderCheck& c);
 
-/// Joint readings against the motors' angles: swapped columns, ratios, units, signs. The sense
-/// of the motor's torque tells a motor's sign from a joint sensor's.
+/// Joint readings against the motors' angles: swapped columns, ratios, units, signs. If a sign is wrong, the sense of
+/// the motor's torque decides whether it is the motor's or the joint sensor's.
 void check_positions(LogUnderCheck& c);
 
-/// Torques at the end of their range. Runs after check_torques(), on corrected units: the model's torque_limit is no
-/// finding.
+/// Torques at the end of their range. Torques that stop at the model's torque_limit are not reported. Runs after
+/// check_torques(), because this comparison needs corrected units.
 void check_clipped_torques(LogUnderCheck& c);
 
 /// Recorded torques against those that the motion requires: swapped columns, signs, units.
@@ -29,8 +29,8 @@ void check_torques(LogUnderCheck& c);
 void check_zeros(LogUnderCheck& c);
 void check_delays(LogUnderCheck& c);
 
-/// Whether motor k's recorded torque goes with (1), opposes (-1) or does not tell (0) the torque that its motion
-/// requires, [n].
+/// For each motor k, [n]: 1 if the recorded torque goes with the torque that the motor's motion requires, -1 if it
+/// opposes that torque, 0 if the log does not show which.
 std::vector<int> torque_senses(const LogUnderCheck& c);
 
 }  // namespace halyard

@@ -33,27 +33,30 @@ struct LogFinding {
 
 /// Thresholds of the check.
 struct LogCheckRule {
-  /// Least motion of a joint, as a share of its range, from which a relation is read. The same share as in
+  /// Least motion of a joint from which a conclusion is drawn, as a share of its range. The same share as in
   /// stuck_joint_sensors(): rounding, backlash and stretch are well below it.
   double least_motion = 0.05;
   /// Least w for a conclusion from a slope. Two unrelated motions have w below 0.3; backlash of a fifth of the motion
   /// leaves 0.6.
   double explained = 0.5;
-  /// w of a swapped column in its right place. The swap removes the whole mismatch; 0.8 leaves a margin for effects.
+  /// Least w of a swapped column after it is put in its right place. The swap removes the whole mismatch; 0.8 leaves a
+  /// margin for effects.
   double explained_by_swap = 0.8;
   /// A slope in 1/ratio..ratio may be an effect. Capstans wear by some 10 %, and model tolerances of lengths reach 5 %;
   /// the closest unit is 2π away.
   double ratio = 1.5;
   /// Unknown ratios beyond this factor are gross: no transmission deviates that much from its model.
   double gross_ratio = 3;
-  /// A unit explains a slope within this factor. It is wider than an effect, and far below the distance of two units.
+  /// A wrong unit explains a slope that is within this factor of the slope which that unit would give. The margin is
+  /// wider than the change by an effect, and far below the factor between two units.
   double unit = 1.25;
   /// r below which a torque opposes the motion. Friction makes r positive in every arm that moves.
   double torque_opposes = -0.5;
   /// Least r for a conclusion from a torque's size, and for a swapped torque in its right place.
   double torque_goes_with = 0.7;
-  /// Two torques are swapped if the exchange leaves at most this share of the variance that each r leaves, 1 - r², and no
-  /// r was above own_torque before. Joints that move together have torques that resemble each other.
+  /// Two torques are swapped if two conditions hold for each of them. After the exchange, its unexplained share of the
+  /// variance, 1 - r², is at most swap_leaves times the one before; and its r before was at most own_torque. Joints
+  /// that move together have torques that resemble each other.
   double swap_leaves = 0.25, own_torque = 0.9;
   /// A torque's size may deviate by this factor because of effects: friction times three and a payload together.
   double torque_ratio = 6;
@@ -71,7 +74,7 @@ struct LogCheckRule {
   double jitter = 0.3;
   /// A gap is an interval longer than this many median intervals. Jitter stays below.
   double gap = 2.5;
-  /// Number of missing rows from which they are reported, as a share of all rows.
+  /// Share of all rows from which on missing rows are reported.
   double missing = 1e-3;
   /// A column is late if it is late by more than this many of its own sample intervals, and by more than late_s. Cables
   /// and gears delay a joint by a few ms.

@@ -54,8 +54,8 @@ class LogUnderCheck {
   }
   bool has_gross() const;
   bool has_finding(const std::string& column) const;
-  /// How implausible a position is in joint k's range: 0 within it; 1 for each range by which its motion is wider, and,
-  /// if its zero is known, by which its median lies outside.
+  /// How implausible a position is in joint k's range; 0 if it is within the range. Adds 1 for each range by which its
+  /// motion is wider. If its zero is known, adds 1 for each range by which its median lies outside.
   double beyond_range(int k, const std::vector<double>& position, bool zero_known) const;
 
   /// "--column joint_position_2=q2,unit=deg": reads the column with the correction on top of its present map.
@@ -76,7 +76,8 @@ class LogUnderCheck {
 
 /// "motor_position_2" of Log::motor_position and k = 1.
 std::string column_name(Signals Log::*signal, int k);
-/// Units of a joint's or a motor's position. Counts only where the model states the encoder's resolution.
+/// Units of a joint's or a motor's position. Encoder counts are among them only if the model states the encoder's
+/// resolution.
 std::vector<UnitGuess> position_units(bool prismatic, double resolution);
 
 }  // namespace halyard

@@ -10,7 +10,7 @@
 ///
 ///   e        residual of the model as given, before the comparing filter
 ///   w        Hann window over a segment of one second; segments overlap by half
-///   ln 2     median over mean of an exponential distribution: what a density of noise is distributed by
+///   ln 2     median over mean of an exponential distribution, which the spectral density of noise has
 ///   σ_t      standard deviation of both filters of a record together (record.h), s
 ///
 /// The median ignores segments with a jump or an impact. The least of the bands ignores resonances and hum, which

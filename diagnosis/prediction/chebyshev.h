@@ -1,6 +1,6 @@
 #pragma once
-/// The second-order Runge-Kutta-Chebyshev method with s stages: explicit, and stable for -|λ| h down to 2/3 (s² - 1)
-/// along the negative real axis. Friction and cable damping put the arm's fast eigenvalues λ there. It is not stable
+/// The second-order Runge-Kutta-Chebyshev method with s stages. It is explicit, and on the negative real axis it is
+/// stable for λ h >= -2/3 (s² - 1). Friction and cable damping put the arm's fast eigenvalues λ there. It is not stable
 /// away from that axis: an arm with oscillating modes needs several steps for each sample.
 ///
 ///   growth of a mode over a step h, z = λ h:   |1 - b_s T_s(w0) + b_s T_s(w0 + w1 z)|
@@ -31,8 +31,8 @@ using Eigenvalues = std::vector<std::complex<double>>;
 /// kMostStages are needed.
 int stages_for(const std::vector<Eigenvalues>& spectra, double h);
 
-/// The method with the fewest steps for each sample, and stages for each step, that suit several systems at once. Each
-/// system is given by the spectra at some of its states. The stages would also suffice for the sample as one step.
+/// The method that suits several systems at once with the fewest steps for each sample, and then with the fewest stages
+/// for each step. Each system is given by the spectra at some of its states.
 Chebyshev scheme_for(const std::vector<std::vector<Eigenvalues>>& systems, double sample_s);
 
 }  // namespace halyard

@@ -12,7 +12,7 @@ namespace halyard {
 struct Hypothesis {
   ArmParameters<double> nominal;
   std::vector<PlacedEffect> effects;
-  /// Effects' internal states at a record's start, less those of an arm that was just lowered onto its cables:
+  /// Effects' internal states at a record's start, minus those of an arm that was just lowered onto its cables:
   /// [effect][record's place * n_states + state]; missing entries are 0.
   std::vector<std::vector<double>> past = {};
 
@@ -24,10 +24,10 @@ struct Hypothesis {
 Hypothesis without_effect(Hypothesis h, std::size_t place);
 
 /// Residuals of one record under one hypothesis, every stride-th sample: [2n][ceil(size / stride)].
-/// Channel k < n: torque residual of motor k in units of the measured torque, ε / κ with κ the ratio of the standard
-/// deviations of the acting and of the commanded torque, N m. Channel n + k: measured minus predicted reading of
-/// joint k, rad | m. Its mean is subtracted if the zero of one of the joint's encoders is unknown. NaN where the record
-/// has no such signal or the sample cannot be compared.
+/// Channel k < n: torque residual of motor k, ε / κ, N m. The division by κ converts it to the unit of the measured
+/// torque; κ is the ratio of the standard deviation of the acting torque to that of the commanded torque. Channel n +
+/// k: measured minus predicted reading of joint k, rad | m. Its mean is subtracted if the zero of one of the joint's
+/// encoders is unknown. NaN where the record has no such signal or the sample cannot be compared.
 struct Residuals {
   std::vector<std::vector<double>> channel;
   bool finite = true;  ///< false: the motion of this hypothesis cannot be integrated

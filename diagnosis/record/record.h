@@ -50,10 +50,11 @@ struct Record {
 };
 
 struct RecordOptions {
-  double motion_hz = 60;        ///< of K_m
-  double compare_hz = 20;       ///< of K_c; 0: residuals are not filtered
-  double settle_s = 0.5;        ///< start of a record that is not compared, because its past is unknown
-  double step_s = 0.002;        ///< largest grid step; the fastest sensor's interval times or divided by a whole number
+  double motion_hz = 60;   ///< of K_m
+  double compare_hz = 20;  ///< of K_c; 0: residuals are not filtered
+  double settle_s = 0.5;   ///< start of a record that is not compared, because its past is unknown
+  /// largest grid step; the grid step is the fastest sensor's interval, multiplied or divided by a whole number
+  double step_s = 0.002;
   double longest_gap_s = 0.05;  ///< longer gaps in a motor's position split a log into several records
 };
 
@@ -61,7 +62,8 @@ struct RecordOptions {
 ///
 /// These signals are left out: sensors that are stuck, see stuck_joint_sensors(); a joint sensor that never changes and
 /// whose resolution the model does not state; a torque that is always 0.
-/// A command is assumed to be held for its sample, but at most for kLongestHold: a slower log has a slow logger.
+/// A command is assumed to be held until the next sample, but at most for kLongestHold. A longer interval is assumed to
+/// be the logger's, not the controller's.
 ///
 /// Throws InputError if no stretch is at least a second longer than the settling time, or if there are fewer than ten
 /// samples a second; and as home_encoders() does.

@@ -35,7 +35,7 @@ class CandidateRound {
   const Judge& judge_;
   Scored without_;
   Hypothesis from_;
-  std::vector<FitParameter> numbers_;         ///< of the model, that no effect so far changes
+  std::vector<FitParameter> numbers_;         ///< parameters of the model that no effect so far changes
   std::vector<std::vector<double>> columns_;  ///< sensitivities to them
   std::vector<double> scale_;                 ///< [2n] of the residual
   std::string name_;

@@ -12,7 +12,8 @@
 namespace halyard {
 
 /// Instants around each of the strongest jumps, ascending, s. They are spaced so that one of them is at most half a row
-/// from the jump; there are two dozen if rows of deciding blocks lie between. rows: residuals of the fitting rows.
+/// from the jump. A jump has at most two dozen instants; it has so many if rows of deciding blocks lie in between.
+/// rows: residuals of the fitting rows.
 std::vector<double> leaps(const Evidence& evidence, const std::vector<double>& rows);
 
 }  // namespace halyard

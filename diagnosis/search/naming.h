@@ -16,7 +16,7 @@ struct Naming {
 /// be named counts among the tests but not among the discoveries.
 std::vector<bool> convincing(const std::vector<Trial>& trials, double significance);
 
-/// The trials of one round, all against the same hypothesis `without` an effect more.
+/// The trials of one round. Each adds one effect to the same hypothesis, `without`.
 class Competition {
  public:
   Competition(const Evidence& evidence, const ArmModel& model, const Judge& judge, const Scored& without,
@@ -24,9 +24,9 @@ class Competition {
 
   struct Choice {
     std::size_t named;
-    std::vector<std::size_t> alike;  ///< trials that the data cannot tell from the best one, with the named one
+    std::vector<std::size_t> alike;  ///< trials that the data cannot tell from the best one, including the named one
   };
-  /// Of the trials `able`, at least one.
+  /// Chooses among the trials `able`; there must be at least one.
   Choice choose(const std::vector<std::size_t>& able) const;
   /// The weights of a name and of the candidates that explain the same part of the residual.
   Naming naming(const Choice& choice) const;

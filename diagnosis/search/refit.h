@@ -12,7 +12,7 @@ namespace halyard {
 /// A fit in progress.
 struct Refit {
   Hypothesis at;
-  Score score;  ///< there; before the first pass: of the hypothesis from which the first weights come
+  Score score;  ///< of `at`; before the first pass: of the hypothesis that gives the first weights
   Fit best = {};
   double last = std::numeric_limits<double>::infinity();  ///< Σ ln of the mean squares after the last pass
   bool settled = false;
@@ -35,9 +35,9 @@ class Refitter {
   /// The hypothesis with one more effect. Parameters of the model that this effect changes are reset.
   Hypothesis with_effect(Hypothesis h, const PlacedEffect& effect, const std::vector<double>& past = {}) const;
 
-  /// At most so many passes, until one no longer helps.
+  /// Runs passes until one no longer helps, but at most `passes` of them.
   void go_on(Refit& refit, int passes) const;
-  /// All passes, from h on; before: the score that gives the first weights.
+  /// Runs all passes, starting from h. `before` is the score that gives the first weights.
   Fit refit(const Hypothesis& h, const Score& before) const;
 
  private:

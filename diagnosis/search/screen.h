@@ -1,6 +1,6 @@
 #pragma once
-/// A linear screening of candidates: which share of the residual r⊥, which the baseline's parameters cannot explain,
-/// could a candidate explain?
+/// A linear screening of candidates. r⊥ is the part of the residual that the baseline's parameters cannot explain.
+/// Which share of it could a candidate explain?
 ///
 ///   r⊥ = r - J (Jᵀ J + P)⁻¹ Jᵀ r,  d⊥ likewise,  promise = (r⊥ · d⊥)² / (|r⊥|² |d⊥|²)
 ///

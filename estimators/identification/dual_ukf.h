@@ -12,10 +12,10 @@
 ///        follow a wrong start, are forgotten faster than later ones
 ///   e    cov e_k = S_k, the innovation covariance of the state's filter
 ///
-/// x_k-1 depends on w: another w since the start would have led to another state. Within 1 ms a coupling moves nothing
-/// measurable; its influence shows only in this accumulated dependence Ψ = dx/dw. So each of the weights' sigma points
-/// ω_±i = w ± α √p S_w,i, with α = 0.03, starts at a state of its own, and Ψ is propagated through prediction and
-/// correction:
+/// x_k-1 depends on w: another w since the start would have led to another state. Within one step of 1 ms the influence
+/// of a coupling is too small to measure; it shows only in this accumulated dependence Ψ = dx/dw. So each of the
+/// weights' sigma points ω_±i = w ± α √p S_w,i, with α = 0.03, starts at a state of its own, and Ψ is propagated
+/// through prediction and correction:
 ///
 ///   X_±i = f(x + Ψ (ω_±i - w), ω_±i),   y_±i = h(X_±i, ω_±i)
 ///   Ψ' = cross(X, ω) P_w⁻¹,   Y = cross(y, ω) P_w⁻¹                  [n_states x p], [m x p]

@@ -23,7 +23,7 @@
 /// needed where the disturbances are smaller than the filter assumes: rounding errors of encoders do not average out,
 /// and blocks then agree better with each other than with the truth. (The study in docs/identification.md has 50 logs.
 /// In 11 of them, disturbances were below a quarter of what the filter assumes: there the jackknife interval alone
-/// contained the coupling C01 in 8 logs. In the other 39 it did in 38.)
+/// contained the coupling C01 in 8 logs. In the other 39 logs, the jackknife interval alone contained C01 in 38.)
 ///
 /// The other parameters are estimated too, with half their tolerance as prior standard deviation. This keeps the
 /// requested parameters unbiased and their intervals wide enough, for example when a cable's stiffness is wrong by its

@@ -14,7 +14,8 @@ void advance(const Transmission<T>& transmission, const StateLayout& layout, dou
     runge_kutta_4(transmission, layout, time + i * h, h, history, command, external, x);
 }
 
-// Local to each set: the address of the inline state_derivative() would be that of one copy shared by all sets.
+// Local to each set. state_derivative() is inline: the linker keeps one copy for all sets, and its address would lead
+// to that copy.
 void derivative(const Transmission<Dual>& transmission, const StateLayout& layout, double time,
                 const CommandHistory* history, const Dual* command, const Dual* external, const Dual* x, Dual* x_dot) {
   state_derivative(transmission, layout, time, history, command, external, x, x_dot);

@@ -33,9 +33,9 @@ struct PairedRatio {
 };
 
 /// Circular block bootstrap: blocks are drawn with replacement, the same blocks for both errors. The ends of the
-/// interval are percentiles of 2000 ratios. A block has 2 N / effective_samples() samples, with
-/// effective_samples() of a² - b²: twice as many as carry the information of one independent sample. Samples where
-/// either error is NaN do not count. NaN without samples.
+/// interval are percentiles of 2000 ratios. A block has 2 N / n samples, where n = effective_samples() of a² - b². This
+/// is twice the number of samples that carry the information of one independent sample. Samples where either error is
+/// NaN do not count. NaN without samples.
 /// Source: Politis and Romano, "A circular block-resampling procedure for stationary data" (1992).
 PairedRatio paired_ratio(std::span<const double> a, std::span<const double> b, std::uint64_t seed = 1);
 

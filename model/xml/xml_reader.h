@@ -9,8 +9,8 @@
 ///   const auto law = cable.choice<CableLaw>("law", {{"paper", CableLaw::paper}, {"linear", CableLaw::linear}});
 ///   for (const XmlElement& run : cable.children("run")) ...
 ///
-/// Numbers are SI and finite. With unit "rad" a text may end in " deg", with unit "m" in " mm"; a unit of "" is a pure
-/// number. Lists of attributes and elements are in the order of the file; comments are skipped.
+/// Numbers are SI and finite. A text may end in " deg" if the unit is "rad", and in " mm" if the unit is "m". A unit of
+/// "" is a pure number. Lists of attributes and elements are in the order of the file; comments are skipped.
 
 #include <cstdint>
 #include <filesystem>

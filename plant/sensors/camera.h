@@ -1,6 +1,6 @@
 #pragma once
-/// The camera's columns of a log: where the marker at the tool was one latency earlier, in the rows in which frames
-/// arrive.
+/// The camera's columns of a log: the position that the marker at the tool had one latency earlier. Only the rows in
+/// which a frame arrives have a value.
 
 #include <random>
 
