@@ -41,14 +41,14 @@ HALYARD_INLINE RunTensions<T> run_tensions(const JointParameters<T>& j, const T&
     }
     case CableLaw::paper: break;
   }
-  const T half = T(0.5) * j.stiffness * (exp(x) - exp(T(-x))) + damping;
+  const T half = j.stiffness * sinh(x) + damping;
   return {j.tension + half, j.tension - half};
 }
 
 /// The force difference g, N.
 template <class T>
 HALYARD_INLINE T cable_force(const JointParameters<T>& j, const T& x, const T& x_dot) {
-  if (j.law == CableLaw::paper) return j.stiffness * (exp(x) - exp(T(-x))) + T(2.0) * j.damping * x_dot;
+  if (j.law == CableLaw::paper) return T(2.0) * (j.stiffness * sinh(x) + j.damping * x_dot);
   const RunTensions<T> t = run_tensions(j, x, x_dot);
   return t.forward - t.backward;
 }

@@ -6,7 +6,7 @@
 ///   Lanes    kLaneWidth values side by side in vector registers: many sigma points, or many
 ///            parameter sets, in little more time than one
 ///
-/// Code over a scalar T branches with select(condition, a, b) and uses min, max, abs, tanh, exp, sin, cos, sqrt, log of
+/// Code over a scalar T branches with select(condition, a, b) and uses min, max, abs, tanh, exp, sinh, sin, cos, sin_cos, sqrt, log of
 /// this header. A library's automatic differentiation type cannot replace Dual: its expression templates cannot be
 /// arguments of a virtual function, and they have no lanes.
 ///
@@ -16,7 +16,7 @@
 #include <cmath>
 #include <cstddef>
 
-#define HALYARD_INLINE inline __attribute__((always_inline))
+#include "transmission/lane_math.h"
 
 namespace halyard {
 
@@ -78,45 +78,38 @@ HALYARD_INLINE Lanes select(const LaneMask& c, const Lanes& a, const Lanes& b) {
   return r;
 }
 
-/// Vector mathematics of the C library, at the width that this file is compiled for.
-#if defined(__AVX512F__)
-#define HALYARD_VECTOR_PREFIX(name) _ZGVeN8v_##name
-inline constexpr int kNativeWidth = 8;
-#elif defined(__AVX2__)
-#define HALYARD_VECTOR_PREFIX(name) _ZGVdN4v_##name
-inline constexpr int kNativeWidth = 4;
-#elif defined(__x86_64__)
-#define HALYARD_VECTOR_PREFIX(name) _ZGVbN2v_##name
-inline constexpr int kNativeWidth = 2;
-#endif
-
-#if defined(HALYARD_VECTOR_PREFIX)
-typedef double NativeVector __attribute__((vector_size(8 * kNativeWidth)));
-#define HALYARD_LANE_FUNCTION(name)                                   \
-  extern "C" NativeVector HALYARD_VECTOR_PREFIX(name)(NativeVector);  \
-  HALYARD_INLINE Lanes name(const Lanes& a) {                         \
-    Lanes r;                                                          \
-    NativeVector part[kLaneWidth / kNativeWidth];                     \
-    __builtin_memcpy(part, &a.v, sizeof a.v);                         \
-    for (NativeVector & p : part) p = HALYARD_VECTOR_PREFIX(name)(p); \
-    __builtin_memcpy(&r.v, part, sizeof r.v);                         \
-    return r;                                                         \
+#define HALYARD_LANE_FUNCTION(name)                              \
+  HALYARD_INLINE Lanes name(const Lanes& a) {                    \
+    Lanes r;                                                     \
+    r.v = lane_math::name<Lanes::Vector, LaneMask::Vector>(a.v); \
+    return r;                                                    \
   }
-#else
-#define HALYARD_LANE_FUNCTION(name)                                  \
-  HALYARD_INLINE Lanes name(const Lanes& a) {                        \
-    Lanes r;                                                         \
-    for (int i = 0; i < kLaneWidth; ++i) r.v[i] = std::name(a.v[i]); \
-    return r;                                                        \
-  }
-#endif
-HALYARD_LANE_FUNCTION(sin)
-HALYARD_LANE_FUNCTION(cos)
 HALYARD_LANE_FUNCTION(tanh)
 HALYARD_LANE_FUNCTION(exp)
-HALYARD_LANE_FUNCTION(log)
+HALYARD_LANE_FUNCTION(sinh)
 #undef HALYARD_LANE_FUNCTION
 
+HALYARD_INLINE void sin_cos(const Lanes& a, Lanes& sine, Lanes& cosine) {
+  const auto both = lane_math::sine_and_cosine<Lanes::Vector, LaneMask::Vector>(a.v);
+  sine.v = both.sine;
+  cosine.v = both.cosine;
+}
+HALYARD_INLINE Lanes sin(const Lanes& a) {
+  Lanes sine, cosine;
+  sin_cos(a, sine, cosine);
+  return sine;
+}
+HALYARD_INLINE Lanes cos(const Lanes& a) {
+  Lanes sine, cosine;
+  sin_cos(a, sine, cosine);
+  return cosine;
+}
+
+HALYARD_INLINE Lanes log(const Lanes& a) {
+  Lanes r;
+  for (int i = 0; i < kLaneWidth; ++i) r.v[i] = std::log(a.v[i]);
+  return r;
+}
 HALYARD_INLINE Lanes sqrt(const Lanes& a) {
   Lanes r;
   for (int i = 0; i < kLaneWidth; ++i) r.v[i] = __builtin_sqrt(a.v[i]);
@@ -177,6 +170,11 @@ HALYARD_INLINE bool operator<=(const Dual& x, const Dual& y) { return x.a <= y.a
 HALYARD_INLINE bool operator>=(const Dual& x, const Dual& y) { return x.a >= y.a; }
 HALYARD_INLINE Dual sin(const Dual& x) { return {std::sin(x.a), x.d * std::cos(x.a)}; }
 HALYARD_INLINE Dual cos(const Dual& x) { return {std::cos(x.a), -x.d * std::sin(x.a)}; }
+HALYARD_INLINE void sin_cos(const Dual& x, Dual& sine, Dual& cosine) {
+  const double s = std::sin(x.a), c = std::cos(x.a);
+  sine = {s, x.d * c};
+  cosine = {c, -x.d * s};
+}
 HALYARD_INLINE Dual tanh(const Dual& x) {
   const double t = std::tanh(x.a);
   return {t, x.d * (1 - t * t)};
@@ -185,6 +183,7 @@ HALYARD_INLINE Dual exp(const Dual& x) {
   const double e = std::exp(x.a);
   return {e, x.d * e};
 }
+HALYARD_INLINE Dual sinh(const Dual& x) { return {std::sinh(x.a), x.d * std::cosh(x.a)}; }
 HALYARD_INLINE Dual log(const Dual& x) { return {std::log(x.a), x.d / x.a}; }
 HALYARD_INLINE Dual sqrt(const Dual& x) {
   const double s = std::sqrt(x.a);
@@ -197,9 +196,14 @@ using std::cos;
 using std::exp;
 using std::log;
 using std::sin;
+using std::sinh;
 using std::sqrt;
 using std::tanh;
 
+HALYARD_INLINE void sin_cos(double x, double& sine, double& cosine) {
+  sine = std::sin(x);
+  cosine = std::cos(x);
+}
 HALYARD_INLINE double select(bool c, double a, double b) { return c ? a : b; }
 HALYARD_INLINE Dual select(bool c, const Dual& a, const Dual& b) { return c ? a : b; }
 

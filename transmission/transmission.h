@@ -8,12 +8,31 @@
 ///
 /// Effects act at each of these places (effect.h). The plant and the estimators both use this code.
 
+#include <cstddef>
+
 #include "transmission/cable_law.h"
 #include "transmission/coupling.h"
 #include "transmission/effect.h"
 #include "transmission/friction.h"
 
 namespace halyard {
+
+/// Signals of all joints. Neither the inputs nor what evaluate() computes is initialised; what may be left out is 0.
+template <class T>
+class ArmSignals {
+ public:
+  HALYARD_INLINE explicit ArmSignals(int n) {
+    for (int k = 0; k < n; ++k) joint()[k].motor_torque = joint()[k].motor_error = joint()[k].joint_error = T(0.0);
+  }
+  HALYARD_INLINE JointSignals<T>* joint() { return reinterpret_cast<JointSignals<T>*>(storage_); }
+
+ private:
+  alignas(JointSignals<T>) std::byte storage_[kMaxJoints * sizeof(JointSignals<T>)];
+};
+
+/// Whether evaluate() computes the torques on the motors' rotors. Where the motors' motion is given, the joints' motion
+/// does not depend on them.
+enum class MotorTorques { wanted, unwanted };
 
 /// The arm with effects, over scalar T.
 template <class T>
@@ -25,7 +44,10 @@ class Transmission {
       e.effect->change_parameters(arm_, e.joint, e.p);
       n_states_ += e.effect->n_states();
       stages_ |= e.effect->stages();
+      states_need_motors_ =
+          states_need_motors_ || (e.effect->n_states() > 0 && (e.effect->stages() & kMotorStages) != 0);
     }
+    for (int k = 0; k < arm_.n; ++k) travel_[k] = arm_.joint[k].motor_travel();
   }
 
   /// The parameters with the changes that the effects make to them.
@@ -36,9 +58,9 @@ class Transmission {
 
   /// The inputs are the internal states z [n_states] and s.command, s.motor_angle, s.motor_rate, s.joint_position,
   /// s.joint_rate and s.external_force. Computes z_dot [n_states] and all other signals of s except the sensor errors,
-  /// which sensor_errors() sets. s: [n].
-  HALYARD_INLINE void evaluate(double time, const CommandHistory* history, const T* z, JointSignals<T>* s,
-                               T* z_dot) const;
+  /// which sensor_errors() sets. s: [n]. If motors are unwanted, s.motor_torque may be left out.
+  HALYARD_INLINE void evaluate(double time, const CommandHistory* history, const T* z, JointSignals<T>* s, T* z_dot,
+                               MotorTorques motors = MotorTorques::wanted) const;
 
   /// Sets s.motor_error and s.joint_error: sensor reading minus truth.
   HALYARD_INLINE void sensor_errors(double time, const T* z, JointSignals<T>* s) const {
@@ -58,6 +80,11 @@ class Transmission {
   }
 
  private:
+  static constexpr unsigned kMotorStages =
+      static_cast<unsigned>(EffectStage::command) | static_cast<unsigned>(EffectStage::motor);
+
+  HALYARD_INLINE void stretch_cables(JointSignals<T>* s) const;
+  HALYARD_INLINE void add_motor_friction(JointSignals<T>* s) const;
   HALYARD_INLINE void apply(EffectStage stage, double time, const CommandHistory* history, const T* z,
                             JointSignals<T>* s) const {
     if (!(stages_ & static_cast<unsigned>(stage))) return;
@@ -69,37 +96,32 @@ class Transmission {
 
   ArmParameters<T> arm_;
   std::vector<EffectInstance<T>> owned_;
+  T travel_[kMaxJoints];  ///< r_m / N
   int n_states_ = 0;
   unsigned stages_ = 0;
+  bool states_need_motors_ = false;  ///< an effect with states acts at the command or motor stage
 };
 
 template <class T>
-HALYARD_INLINE void Transmission<T>::evaluate(double time, const CommandHistory* history, const T* z,
-                                              JointSignals<T>* s, T* z_dot) const {
+HALYARD_INLINE void Transmission<T>::stretch_cables(JointSignals<T>* s) const {
   const int n = arm_.n;
-  commanded_torque(time, history, z, s);
-
   T q[kMaxJoints], v[kMaxJoints], path[kMaxJoints], path_rate[kMaxJoints];
   for (int i = 0; i < n; ++i) q[i] = s[i].joint_position, v[i] = s[i].joint_rate;
   cable_path(arm_, q, path);
   cable_path(arm_, v, path_rate);
   for (int i = 0; i < n; ++i) {
-    const JointParameters<T>& j = arm_.joint[i];
-    if (j.drive == Drive::cable) {
-      s[i].stretch = j.motor_travel() * s[i].motor_angle - path[i];
-      s[i].stretch_rate = j.motor_travel() * s[i].motor_rate - path_rate[i];
+    if (arm_.joint[i].drive == Drive::cable) {
+      s[i].stretch = travel_[i] * s[i].motor_angle - path[i];
+      s[i].stretch_rate = travel_[i] * s[i].motor_rate - path_rate[i];
     } else {
       s[i].stretch = s[i].stretch_rate = T(0.0);
     }
   }
-  apply(EffectStage::stretch, time, history, z, s);
+}
 
-  for (int i = 0; i < n; ++i)
-    s[i].cable_force_motor = s[i].cable_force_joint =
-        arm_.joint[i].drive == Drive::cable ? cable_force(arm_.joint[i], s[i].stretch, s[i].stretch_rate) : T(0.0);
-  apply(EffectStage::cable_force, time, history, z, s);
-
-  for (int i = 0; i < n; ++i) {
+template <class T>
+HALYARD_INLINE void Transmission<T>::add_motor_friction(JointSignals<T>* s) const {
+  for (int i = 0; i < arm_.n; ++i) {
     const JointParameters<T>& j = arm_.joint[i];
     if (j.drive == Drive::none) {
       s[i].motor_torque = T(0.0);
@@ -107,15 +129,34 @@ HALYARD_INLINE void Transmission<T>::evaluate(double time, const CommandHistory*
     }
     s[i].motor_torque -= friction(j.motor_coulomb, j.motor_viscous, j.motor_smoothing, s[i].motor_rate);
   }
-  apply(EffectStage::motor, time, history, z, s);
+}
+
+template <class T>
+HALYARD_INLINE void Transmission<T>::evaluate(double time, const CommandHistory* history, const T* z,
+                                              JointSignals<T>* s, T* z_dot, MotorTorques motors) const {
+  const int n = arm_.n;
+  const bool with_motors = motors == MotorTorques::wanted || states_need_motors_;
+  if (with_motors) commanded_torque(time, history, z, s);
+  stretch_cables(s);
+  apply(EffectStage::stretch, time, history, z, s);
+
+  for (int i = 0; i < n; ++i)
+    s[i].cable_force_motor = s[i].cable_force_joint =
+        arm_.joint[i].drive == Drive::cable ? cable_force(arm_.joint[i], s[i].stretch, s[i].stretch_rate) : T(0.0);
+  apply(EffectStage::cable_force, time, history, z, s);
+
+  if (with_motors) {
+    add_motor_friction(s);
+    apply(EffectStage::motor, time, history, z, s);
+  }
 
   T g[kMaxJoints], reaction[kMaxJoints];
   for (int i = 0; i < n; ++i) g[i] = s[i].cable_force_joint;
   joint_reaction(arm_, g, reaction);
   for (int i = 0; i < n; ++i) {
     const JointParameters<T>& j = arm_.joint[i];
-    s[i].joint_force =
-        reaction[i] - friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, v[i]) + s[i].external_force;
+    s[i].joint_force = reaction[i] - friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, s[i].joint_rate) +
+                       s[i].external_force;
   }
   apply(EffectStage::joint, time, history, z, s);
 

@@ -10,6 +10,8 @@
 /// R q'' = (r_m / N) q_m'' and replaces g. A joint without a motor has its own motion prescribed, with q'' given: an
 /// unknown force λ holds or drives it.
 
+#include <utility>
+
 #include "diagnosis/prediction/chebyshev.h"
 #include "estimators/process/arm_dynamics.h"
 
@@ -93,7 +95,8 @@ HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const
                                       DrivenState<T>& rate, T* torque_residual, T* joint_reading) {
   const ArmParameters<T>& arm = transmission.arm();
   const int n = arm.n;
-  JointSignals<T> s[kMaxJoints];
+  ArmSignals<T> signals(n);
+  JointSignals<T>* s = signals.joint();
   for (int k = 0; k < n; ++k) {
     s[k].command = u.torque[k];
     s[k].motor_angle = u.motor_angle[k];
@@ -108,7 +111,7 @@ HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const
     s[k].motor_angle -= s[k].motor_error;
     if (joint_reading) joint_reading[k] = x.q[k] + s[k].joint_error;
   }
-  transmission.evaluate(time, history, x.z, s, rate.z);
+  transmission.evaluate(time, history, x.z, s, rate.z, torque_residual ? MotorTorques::wanted : MotorTorques::unwanted);
 
   T a[kMaxJoints];
   for (int k = 0; k < n; ++k) a[k] = chain ? T(s[k].joint_force - chain->bias[k]) : T(0.0);
@@ -151,42 +154,64 @@ HALYARD_INLINE void axpy(int n, int m, double h, const DrivenState<T>& x, const 
   for (int k = 0; k < m; ++k) y.z[k] = x.z[k] + T(h) * rate.z[k];
 }
 
+/// The input between two samples, at the share u of their distance; the torque is held.
+HALYARD_INLINE void interpolate(int n, const DrivenInput& a, const DrivenInput& b, double u, DrivenInput& at) {
+  for (int k = 0; k < n; ++k) {
+    at.motor_angle[k] = a.motor_angle[k] + u * (b.motor_angle[k] - a.motor_angle[k]);
+    at.motor_rate[k] = a.motor_rate[k] + u * (b.motor_rate[k] - a.motor_rate[k]);
+    at.motor_acceleration[k] = a.motor_acceleration[k] + u * (b.motor_acceleration[k] - a.motor_acceleration[k]);
+    at.torque[k] = a.torque[k];
+    at.external[k] = a.external[k] + u * (b.external[k] - a.external[k]);
+  }
+}
+
+/// The recursion of an inner stage: before, the stage before the last, becomes the new stage.
+template <class T>
+struct StageRecursion {
+  T stay, mu, nu, mu_h, gamma_h;
+
+  HALYARD_INLINE StageRecursion(const Chebyshev& c, int j, double h)
+      : stay(1 - c.mu[j] - c.nu[j]), mu(c.mu[j]), nu(c.nu[j]), mu_h(c.mu_h[j] * h), gamma_h(c.gamma_h[j] * h) {}
+  HALYARD_INLINE void advance(int n, const T* start, const T* last, const T* rate, const T* first_rate,
+                              T* before) const {
+    for (int k = 0; k < n; ++k)
+      before[k] = stay * start[k] + mu * last[k] + nu * before[k] + mu_h * rate[k] + gamma_h * first_rate[k];
+  }
+};
+
 template <class T>
 HALYARD_INLINE void copy_state(int n, int m, const DrivenState<T>& from, DrivenState<T>& to) {
   for (int k = 0; k < n; ++k) to.q[k] = from.q[k], to.v[k] = from.v[k];
   for (int k = 0; k < m; ++k) to.z[k] = from.z[k];
 }
 
-/// One step of x from time over h; input(t) gives the DrivenInput. row, if not null: torque residual [n] and joint
-/// reading [n] at the start of the step.
+/// One step of x from time over h; input(t, at) sets the DrivenInput at time t. row, if not null: torque residual [n] and
+/// joint reading [n] at the start of the step.
 template <class T, class Input>
 HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time, double h, const Chebyshev& c,
                                 const CommandHistory* history, const Input& input, DrivenState<T>& x, T* row) {
   const int n = transmission.arm().n, m = transmission.n_states();
   ChainOverStep<T> chain;
   chain_over_step(transmission.arm(), x, 0.5 * h, chain);
-  DrivenState<T> f0, f, before, now;
-  driven_derivative<T>(transmission, &chain, time, history, input(time), x, f0, row, row ? row + n : nullptr);
-  copy_state(n, m, x, before);
-  axpy(n, m, c.mu_h[1] * h, x, f0, now);
+  DrivenInput at;
+  DrivenState<T> f0, f, stage[2];
+  input(time, at);
+  driven_derivative<T>(transmission, &chain, time, history, at, x, f0, row, row ? row + n : nullptr);
+  copy_state(n, m, x, stage[0]);
+  axpy(n, m, c.mu_h[1] * h, x, f0, stage[1]);
+  DrivenState<T>*before = &stage[0], *last = &stage[1];
   for (int j = 2; j <= c.stages; ++j) {
-    const double at = time + c.node[j - 1] * h;
+    const double then = time + c.node[j - 1] * h;
+    input(then, at);
     // Past commands affect the torque residual only, which inner stages do not compute.
-    driven_derivative<T>(transmission, &chain, at, nullptr, input(at), now, f, nullptr, nullptr);
-    const T stay = 1 - c.mu[j] - c.nu[j], mu = c.mu[j], nu = c.nu[j], mu_h = c.mu_h[j] * h, gamma_h = c.gamma_h[j] * h;
-    const auto next = [&](const T& x0, const T& y1, T& y2, const T& rate, const T& rate0) {
-      y2 = stay * x0 + mu * y1 + nu * y2 + mu_h * rate + gamma_h * rate0;
-    };
-    for (int k = 0; k < n; ++k) {
-      next(x.q[k], now.q[k], before.q[k], f.q[k], f0.q[k]);
-      next(x.v[k], now.v[k], before.v[k], f.v[k], f0.v[k]);
-    }
-    for (int k = 0; k < m; ++k) next(x.z[k], now.z[k], before.z[k], f.z[k], f0.z[k]);
-    copy_state(n, m, now, f);  // f is free: it carries the stage over
-    copy_state(n, m, before, now);
-    copy_state(n, m, f, before);
+    driven_derivative<T>(transmission, &chain, then, nullptr, at, *last, f, nullptr, nullptr);
+    const StageRecursion<T> recursion(c, j, h);
+    recursion.advance(n, x.q, last->q, f.q, f0.q, before->q);
+    recursion.advance(n, x.v, last->v, f.v, f0.v, before->v);
+    recursion.advance(m, x.z, last->z, f.z, f0.z, before->z);
+    std::swap(before, last);
   }
-  copy_state(n, m, now, x);
+  copy_state(n, m, *last, x);
 }
 
 /// Integrates a whole record. Sample i writes the torque residual to out[i * 2n + k] and the predicted joint reading to
@@ -208,17 +233,7 @@ HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const Driv
       for (int k = 0; k < n; ++k) row[k] = x.q[k], row[n + k] = x.v[k];
       for (int k = 0; k < m; ++k) row[2 * n + k] = x.z[k];
     }
-    const auto input = [&](double t) {
-      const double u = (t - time) / dt;
-      DrivenInput at = a;
-      for (int k = 0; k < n; ++k) {
-        at.motor_angle[k] += u * (b.motor_angle[k] - a.motor_angle[k]);
-        at.motor_rate[k] += u * (b.motor_rate[k] - a.motor_rate[k]);
-        at.motor_acceleration[k] += u * (b.motor_acceleration[k] - a.motor_acceleration[k]);
-        at.external[k] += u * (b.external[k] - a.external[k]);
-      }
-      return at;
-    };
+    const auto input = [&](double t, DrivenInput& at) { interpolate(n, a, b, (t - time) / dt, at); };
     const double h = dt / scheme.steps;
     for (int s = 0; s < scheme.steps; ++s)
       driven_step(transmission, time + s * h, h, scheme, history, input, x, s == 0 ? out + i * 2 * n : nullptr);

@@ -111,17 +111,18 @@ void take_off_mean(std::vector<double>& residual) {
   for (double& e : residual) e -= sum / count;
 }
 
-/// K_c * x around a sample that can be compared, over the samples that were measured.
-template <class Signal>
-double compared(const Record& record, const std::vector<double>& measured, std::size_t at, const Signal& x) {
+/// K_c * x around a sample that can be compared, over the samples that were measured. T: double or Lanes.
+template <class T, class Signal>
+T compared(const Record& record, const std::vector<double>& measured, std::size_t at, const Signal& x) {
   const std::size_t reach = record.compare.size() / 2, size = record.size;
-  double sum = 0, weight = 0;
+  T sum = 0.0;
+  double weight = 0;
   for (std::size_t t = at - std::min(at, reach); t <= std::min(at + reach, size - 1); ++t) {
     const double w = record.compare[t + reach - at] * measured[t];
-    if (w > 0) sum += w * x(t);
+    if (w > 0) sum += T(w) * x(t);
     weight += w;
   }
-  return sum / weight;
+  return sum / T(weight);
 }
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -210,9 +211,10 @@ class Prediction {
       }
       integrate(filled, x, out, path);
     }
-    for (std::size_t l = 0; l < count; ++l) {
-      take(out, static_cast<int>(l), is_able(first + l), movers_[first + l]);
-      if (states_.empty()) continue;
+    std::vector<Taken> taken;
+    for (std::size_t l = 0; l < count; ++l) taken.push_back({movers_[first + l], is_able(first + l)});
+    take(out, taken);
+    for (std::size_t l = 0; l < count && !states_.empty(); ++l) {
       states_[first + l].resize(path.size());
       for (std::size_t i = 0; i < path.size(); ++i) states_[first + l][i] = path[i][static_cast<int>(l)];
     }
@@ -248,50 +250,65 @@ class Prediction {
     }
     kernel().replay(pack_hypotheses(lane, filtered_), inputs_.data(), record_.size, record_.start, record_.dt,
                     &history_, path.data(), out.data());
+    std::vector<Taken> taken;
     for (std::size_t l = 0; l < count; ++l) {
       const std::size_t h = replayed_[first + l];
-      take(out, static_cast<int>(l), all_[movers_[mover_of_[h]]].finite, h);
+      taken.push_back({h, all_[movers_[mover_of_[h]]].finite});
     }
+    take(out, taken);
   }
 
-  /// Residuals of hypothesis h from one lane of what drive or replay wrote.
-  void take(const std::vector<Lanes>& out, int lane, bool able, std::size_t h) {
-    Residuals& r = all_[h];
+  /// A hypothesis in a lane, and whether that lane was integrated.
+  struct Taken {
+    std::size_t hypothesis;
+    bool able;
+  };
+
+  /// Residuals of the hypotheses in the first lanes of what drive or replay wrote.
+  void take(const std::vector<Lanes>& out, const std::vector<Taken>& taken) {
     const int n = record_.n;
-    r.finite = able;
-    r.channel.assign(2 * n, {});
+    for (const Taken& t : taken) {
+      all_[t.hypothesis].finite = t.able;
+      all_[t.hypothesis].channel.assign(2 * n, {});
+    }
     for (int k = 0; k < n; ++k) {
-      take_torque(out, lane, k, r);
-      if (!r.channel[k].empty()) in_measured_units(hypotheses_[h], k, r.channel[k]);
-      take_joint(out, lane, k, r);
+      const auto residual = [&, k](std::size_t t) { return out[t * 2 * n + k]; };
+      const auto reading = [&, k](std::size_t t) { return out[t * 2 * n + n + k]; };
+      const auto error = [&, k](std::size_t t) { return Lanes(record_.joint[k][t]) - reading(t); };
+      check_finite(taken, residual);
+      check_finite(taken, reading);
+      if (record_.has_torque(k)) take_channel(taken, k, record_.torque_valid[k], record_.torque_measured[k], residual);
+      if (record_.has_joint(k)) take_channel(taken, n + k, record_.joint_valid[k], record_.joint_measured[k], error);
+      for (const Taken& t : taken) finish(t.hypothesis, k);
     }
   }
 
-  void take_torque(const std::vector<Lanes>& out, int lane, int k, Residuals& r) const {
-    std::vector<double>& torque = r.channel[k];
-    if (record_.has_torque(k)) torque.assign(rows(), kNone);
-    const auto residual = [&](std::size_t t) { return out[t * 2 * record_.n + k][lane]; };
-    for (std::size_t i = 0; r.finite && i < rows(); ++i) {
+  /// Marks hypotheses as not finite whose signal is not at a compared sample.
+  template <class Signal>
+  void check_finite(const std::vector<Taken>& taken, const Signal& signal) {
+    Lanes sum = 0.0;
+    for (std::size_t i = 0; i < rows(); ++i) sum += Lanes(0.0) * signal(i * stride_);
+    for (std::size_t l = 0; l < taken.size(); ++l)
+      if (!std::isfinite(sum[static_cast<int>(l)])) all_[taken[l].hypothesis].finite = false;
+  }
+
+  template <class Signal>
+  void take_channel(const std::vector<Taken>& taken, int c, const std::vector<double>& valid,
+                    const std::vector<double>& measured, const Signal& signal) {
+    for (const Taken& t : taken) all_[t.hypothesis].channel[c].assign(rows(), kNone);
+    for (std::size_t i = 0; i < rows(); ++i) {
       const std::size_t at = i * stride_;
-      if (!std::isfinite(residual(at))) r.finite = false;
-      if (!torque.empty() && record_.torque_valid[k][at] > 0)
-        torque[i] = compared(record_, record_.torque_measured[k], at, residual);
+      if (!(valid[at] > 0)) continue;
+      const Lanes row = compared<Lanes>(record_, measured, at, signal);
+      for (std::size_t l = 0; l < taken.size(); ++l) all_[taken[l].hypothesis].channel[c][i] = row[static_cast<int>(l)];
     }
   }
 
-  void take_joint(const std::vector<Lanes>& out, int lane, int k, Residuals& r) const {
-    const int n = record_.n;
-    std::vector<double>& joint = r.channel[n + k];
-    if (record_.has_joint(k)) joint.assign(rows(), kNone);
-    const auto error = [&](std::size_t t) { return record_.joint[k][t] - out[t * 2 * n + n + k][lane]; };
-    for (std::size_t i = 0; r.finite && i < rows(); ++i) {
-      const std::size_t at = i * stride_;
-      if (!std::isfinite(out[at * 2 * n + n + k][lane])) r.finite = false;
-      if (!joint.empty() && record_.joint_valid[k][at] > 0)
-        joint[i] = compared(record_, record_.joint_measured[k], at, error);
-    }
+  void finish(std::size_t h, int k) {
+    Residuals& r = all_[h];
+    if (record_.has_torque(k)) in_measured_units(hypotheses_[h], k, r.channel[k]);
     const JointParameters<double>& sensors = hypotheses_[0].nominal.joint[k];
-    if (!sensors.motor_zero_known || !sensors.joint_zero_known) take_off_mean(joint);
+    if (!sensors.motor_zero_known || !sensors.joint_zero_known) take_off_mean(r.channel[record_.n + k]);
   }
 
   /// Divides by the ratio of the acting to the measured torque. Otherwise a hypothesis by which the motor makes less

@@ -68,7 +68,8 @@ HALYARD_INLINE void state_derivative(const Transmission<T>& transmission, const 
                                      T* x_dot) {
   const ArmParameters<T>& arm = transmission.arm();
   const int n = arm.n;
-  JointSignals<T> s[kMaxJoints];
+  ArmSignals<T> signals(n);
+  JointSignals<T>* s = signals.joint();
   unpack_state(arm, l, x, s);
   T q[kMaxJoints], v[kMaxJoints], zero[kMaxJoints], bias[kMaxJoints];
   for (int k = 0; k < n; ++k) {

@@ -46,7 +46,8 @@ HALYARD_INLINE ChainPose<T> chain_pose(const ArmParameters<T>& arm, const T* q) 
   for (int i = 0; i < arm.n; ++i) {
     const JointParameters<T>& j = arm.joint[i];
     if (j.type == JointType::revolute) {
-      const T c = cos(q[i]), s = sin(q[i]);
+      T s, c;
+      sin_cos(q[i], s, c);
       for (int r = 0; r < 3; ++r) {
         pose.R[i][r][0] = j.frame_R[r][0] * c + j.frame_R[r][1] * s;
         pose.R[i][r][1] = j.frame_R[r][1] * c - j.frame_R[r][0] * s;
@@ -173,23 +174,32 @@ HALYARD_INLINE void mass_matrix(const ArmParameters<T>& arm, const ChainPose<T>&
   }
 }
 
-/// Replaces a symmetric positive definite A by its factors, A = L D Lᵀ; ldl_solve() then solves A x = b in
-/// place for any number of right-hand sides.
+/// Replaces a symmetric positive definite A by its factors, A = L D Lᵀ, with 1/D on the diagonal; ldl_solve() then solves
+/// A x = b in place for any number of right-hand sides.
 template <class T, int Stride>
 HALYARD_INLINE void ldl_factor(int n, T A[][Stride]) {
-  for (int j = 0; j < n; ++j)
-    for (int i = j; i < n; ++i) {
-      T sum = A[i][j];
-      for (int k = 0; k < j; ++k) sum -= A[i][k] * A[j][k] * A[k][k];
-      A[i][j] = i == j ? sum : sum / A[j][j];
+  T D[Stride];
+  for (int j = 0; j < n; ++j) {
+    T scaled[Stride];  // row j of L D
+    D[j] = A[j][j];
+    for (int k = 0; k < j; ++k) {
+      scaled[k] = A[j][k] * D[k];
+      D[j] -= A[j][k] * scaled[k];
     }
+    A[j][j] = T(1.0) / D[j];
+    for (int i = j + 1; i < n; ++i) {
+      T sum = A[i][j];
+      for (int k = 0; k < j; ++k) sum -= A[i][k] * scaled[k];
+      A[i][j] = sum * A[j][j];
+    }
+  }
 }
 
 template <class T, int Stride>
 HALYARD_INLINE void ldl_solve(int n, const T A[][Stride], T* x) {
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < i; ++k) x[i] -= A[i][k] * x[k];
-  for (int i = 0; i < n; ++i) x[i] /= A[i][i];
+  for (int i = 0; i < n; ++i) x[i] *= A[i][i];
   for (int i = n - 1; i >= 0; --i)
     for (int k = i + 1; k < n; ++k) x[i] -= A[k][i] * x[k];
 }
