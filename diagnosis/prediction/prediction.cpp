@@ -10,6 +10,7 @@
 #include "diagnosis/prediction/driven_start.h"
 #include "diagnosis/prediction/filtered_effect.h"
 #include "diagnosis/prediction/lane_drive.h"
+#include "diagnosis/prediction/measured_units.h"
 #include "estimators/process/instruction_set.h"
 #include "transmission/arm_fields.h"
 
@@ -126,14 +127,6 @@ T compared(const Record& record, const std::vector<double>& measured, std::size_
 }
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kCommandStride = 4;  ///< samples; torques are band-limited
-
-/// Running sums of a variance.
-struct Moments {
-  double n = 0, x = 0, xx = 0;
-  void add(double value) { n += 1, x += value, xx += value * value; }
-  double variance() const { return xx / n - (x / n) * (x / n); }
-};
 
 /// Predictions of a record by hypotheses with the same effects.
 class Prediction {
@@ -306,41 +299,13 @@ class Prediction {
 
   void finish(std::size_t h, int k) {
     Residuals& r = all_[h];
-    if (record_.has_torque(k)) in_measured_units(hypotheses_[h], k, r.channel[k]);
+    if (record_.has_torque(k)) {
+      // Otherwise a hypothesis by which the motor makes less than it was commanded would win by shrinking the data.
+      const double ratio = acting_over_commanded(record_, hypotheses_[h], k, history_);
+      for (double& e : r.channel[k]) e /= ratio;
+    }
     const JointParameters<double>& sensors = hypotheses_[0].nominal.joint[k];
     if (!sensors.motor_zero_known || !sensors.joint_zero_known) take_off_mean(r.channel[record_.n + k]);
-  }
-
-  /// Divides by the ratio of the acting to the measured torque. Otherwise a hypothesis by which the motor makes less
-  /// than it was commanded would win by shrinking the data.
-  void in_measured_units(const Hypothesis& h, int k, std::vector<double>& torque) const {
-    const double ratio = acting_over_commanded(h, k);
-    for (double& e : torque) e /= ratio;
-  }
-
-  /// Ratio of the standard deviations of the torque after the command stage and of the command.
-  double acting_over_commanded(const Hypothesis& h, int k) const {
-    constexpr double kLeast = 0.05;
-    const bool by_effect = std::ranges::any_of(h.effects, [](const PlacedEffect& e) {
-      return (e.effect->stages() & static_cast<unsigned>(EffectStage::command)) != 0;
-    });
-    const Transmission<double> transmission = lift_transmission<double>(h.nominal, h.effects);
-    if (!by_effect) return std::max(kLeast, std::abs(transmission.arm().joint[k].torque_scale));
-    const std::vector<double> z(kMaxStates, 0.0);
-    Moments commanded, acting;
-    for (std::size_t i = 0; i < record_.size; i += kCommandStride) {
-      JointSignals<double> s[kMaxJoints];
-      for (int j = 0; j < record_.n; ++j) {
-        s[j].command = inputs_[i].torque[j];
-        s[j].motor_angle = inputs_[i].motor_angle[j];
-        s[j].motor_rate = inputs_[i].motor_rate[j];
-      }
-      transmission.commanded_torque(record_.time(i), &history_, z.data(), s);
-      commanded.add(s[k].command);
-      acting.add(s[k].motor_torque);
-    }
-    const double ratio = std::sqrt(acting.variance() / commanded.variance());
-    return std::isfinite(ratio) ? std::max(kLeast, ratio) : 1;
   }
 
   std::size_t rows() const { return (record_.size + stride_ - 1) / stride_; }
