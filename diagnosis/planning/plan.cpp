@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "diagnosis/explanation/signature.h"
 #include "diagnosis/fit/baseline_reach.h"
+#include "diagnosis/planning/change_detector.h"
 #include "diagnosis/search/attribution.h"
 #include "model/input_error.h"
 
@@ -52,62 +53,26 @@ class Planner {
       });
     });
     residual_ = reach_.weighted(base_);
-    reference_ = reach_.take(residual_);
-    reference_square_ = mean_squares(reach_.rows(reference_.left));
-    reference_ln_ = log_likelihood(reference_.left);
-    const double blocks = static_cast<double>(reference_ln_.size());
-    if (blocks < 3) throw InputError(logs.front().source + ": too short to judge by; expected some seconds");
     const double fitted = static_cast<double>(std::min(kRule.most_fitted, candidates_.size()));
-    const double level = AttributionOptions{}.significance / fitted;
-    significant_gain_ = -std::log(level);
-    significant_t_ = boost::math::quantile(boost::math::complement(boost::math::students_t(blocks - 1), level));
+    detector_.emplace(evidence_, reach_, residual_, AttributionOptions{}.significance / fitted);
   }
 
   const std::vector<PlacedEffect>& candidates() const { return candidates_; }
 
   Shown show(const PlacedEffect& candidate) const {
     Shown shown;
-    Hypothesis with = nominal_;
-    with.effects.push_back(candidate);
-    const int place = static_cast<int>(nominal_.effects.size());
-    const auto parameters = effect_parameters(evidence_, with, model_.nominal, place);
-    std::vector<std::size_t> sizes;
-    std::vector<double> unit;  // typical sizes, from neutral
-    for (std::size_t i = 0; i < parameters.size(); ++i)
-      if (!parameters[i].shape) {
-        sizes.push_back(i);
-        unit.push_back(parameter_value(with, parameters[i]) - parameters[i].nominal);
-      }
     shown.limit.effect = candidate;
-    if (sizes.empty()) return shown;
-    const FitParameter& size = parameters[sizes[0]];
-    const double typical = parameter_value(with, size);
-    Hypothesis neutral = with;
-    place_shapes(neutral, parameters);
+    const SizedCandidate c = sized(candidate);
+    if (c.sizes.empty()) return shown;
+    std::vector<Eigen::VectorXd> columns;
+    const Hypothesis shaped = best_shapes(c, shown, columns);
 
-    // One size at a time at its typical value, at each set of shapes.
-    std::vector<Hypothesis> shaped = shape_sets(neutral, parameters, sizes[0]), tried;
-    for (const Hypothesis& h : shaped)
-      for (const std::size_t i : sizes) {
-        tried.push_back(h);
-        set_parameter(tried.back(), parameters[i], parameter_value(with, parameters[i]));
-      }
-    const auto changes = changes_by(tried);
-    std::vector<std::vector<Eigen::VectorXd>> columns;
-    std::size_t best = 0;
-    double most = -1;
-    for (std::size_t s = 0; s < shaped.size(); ++s) {
-      columns.emplace_back(changes.begin() + s * sizes.size(), changes.begin() + (s + 1) * sizes.size());
-      add_fitted(shown, columns.back(), unit, parameters, sizes);
-      const double shows = columns[s][0].size() ? reach_.take(columns[s][0]).cost : 0;
-      if (shows > most) most = shows, best = s;
-    }
-
-    const double bound = typical > size.nominal ? size.upper : size.lower;
-    const double largest = (bound - size.nominal) / (typical - size.nominal);
+    const FitParameter& size = c.parameters[c.sizes[0]];
+    const double typical = c.unit[0], bound = typical > 0 ? size.upper : size.lower;
+    const double largest = (bound - size.nominal) / typical;
     const auto at = [&](double factor) {
-      Hypothesis h = shaped[best];
-      set_parameter(h, size, factor < largest ? size.nominal + factor * (typical - size.nominal) : bound);
+      Hypothesis h = shaped;
+      set_parameter(h, size, factor < largest ? size.nominal + factor * typical : bound);
       return h;
     };
     const double factor = smallest_seen(at, largest);
@@ -125,11 +90,10 @@ class Planner {
     const auto near = changes_by({at(around[0]), at(around[1]), at(around[2])});
     shown.change = near[near[0].size() > 0 ? 0 : 1];
     for (std::size_t i = 0; i < near.size(); ++i) {
-      std::vector<Eigen::VectorXd> column = columns[best];
-      column[0] = near[i];
-      std::vector<double> column_unit = unit;
-      column_unit[0] *= around[i];
-      add_fitted(shown, column, column_unit, parameters, sizes);
+      columns[0] = near[i];
+      std::vector<double> unit = c.unit;
+      unit[0] *= around[i];
+      add_fitted(shown, columns, unit, c);
     }
     return shown;
   }
@@ -166,8 +130,7 @@ class Planner {
       if (!at_end && t.cost < best.cost) best = std::move(t);
     }
     if (!std::isfinite(best.cost)) return false;
-    const Paired p = compared(reference_ln_, log_likelihood(best.left));
-    return p.t < kRule.tell_apart || p.sum < 2 * kRule.tell_apart * kRule.tell_apart;
+    return !detector_->tells_from_reference(best.left);
   }
 
   /// See Separation::cosine; one way.
@@ -205,6 +168,51 @@ class Planner {
     }
   }
 
+  /// A candidate with its sizes at their typical values.
+  struct SizedCandidate {
+    Hypothesis with;
+    std::vector<FitParameter> parameters;
+    std::vector<std::size_t> sizes;  ///< indices in parameters
+    std::vector<double> unit;        ///< [sizes] typical size less the neutral one
+  };
+
+  SizedCandidate sized(const PlacedEffect& candidate) const {
+    SizedCandidate c{nominal_, {}, {}, {}};
+    c.with.effects.push_back(candidate);
+    c.parameters = effect_parameters(evidence_, c.with, model_.nominal, static_cast<int>(nominal_.effects.size()));
+    for (std::size_t i = 0; i < c.parameters.size(); ++i)
+      if (!c.parameters[i].shape) {
+        c.sizes.push_back(i);
+        c.unit.push_back(parameter_value(c.with, c.parameters[i]) - c.parameters[i].nominal);
+      }
+    return c;
+  }
+
+  /// The shapes at which the first size changes most, and what each size changes there. One size at a time is tried at its
+  /// typical value, at each set of shapes.
+  Hypothesis best_shapes(const SizedCandidate& c, Shown& shown, std::vector<Eigen::VectorXd>& columns) const {
+    Hypothesis neutral = c.with;
+    place_shapes(neutral, c.parameters);
+    const std::vector<Hypothesis> shaped = shape_sets(neutral, c.parameters, c.sizes[0]);
+    std::vector<Hypothesis> tried;
+    for (const Hypothesis& h : shaped)
+      for (const std::size_t i : c.sizes) {
+        tried.push_back(h);
+        set_parameter(tried.back(), c.parameters[i], parameter_value(c.with, c.parameters[i]));
+      }
+    const auto changes = changes_by(tried);
+    std::size_t best = 0;
+    double most = -1;
+    for (std::size_t s = 0; s < shaped.size(); ++s) {
+      const auto first = changes.begin() + static_cast<std::ptrdiff_t>(s * c.sizes.size());
+      const std::vector<Eigen::VectorXd> here(first, first + static_cast<std::ptrdiff_t>(c.sizes.size()));
+      add_fitted(shown, here, c.unit, c);
+      const double shows = here[0].size() ? reach_.take(here[0]).cost : 0;
+      if (shows > most) most = shows, best = s, columns = here;
+    }
+    return shaped[best];
+  }
+
   /// Every combination of the starts of the shapes that follow the first size.
   static std::vector<Hypothesis> shape_sets(const Hypothesis& h, const std::vector<FitParameter>& parameters,
                                             std::size_t main) {
@@ -235,13 +243,13 @@ class Planner {
 
   /// unit: what an amount of 1 is of each size.
   void add_fitted(Shown& shown, const std::vector<Eigen::VectorXd>& columns, const std::vector<double>& unit,
-                  const std::vector<FitParameter>& parameters, const std::vector<std::size_t>& sizes) const {
+                  const SizedCandidate& c) const {
     Shown::Fitted f;
     std::vector<Eigen::VectorXd> used;
     std::vector<double> lower, upper;
-    for (std::size_t i = 0; i < sizes.size(); ++i) {
+    for (std::size_t i = 0; i < c.sizes.size(); ++i) {
       if (columns[i].size() == 0 || columns[i].squaredNorm() == 0) continue;
-      const FitParameter& p = parameters[sizes[i]];
+      const FitParameter& p = c.parameters[c.sizes[i]];
       const auto [low, high] = std::minmax({(p.lower - p.nominal) / unit[i], (p.upper - p.nominal) / unit[i]});
       used.push_back(columns[i]);
       lower.push_back(low), upper.push_back(high);
@@ -263,7 +271,7 @@ class Planner {
       for (const double f : factors) h.push_back(at(f));
       const auto changes = changes_by(h);
       std::size_t i = 0;
-      while (i < changes.size() && !seen(changes[i])) ++i;
+      while (i < changes.size() && !detector_->detects(changes[i])) ++i;
       return i;
     };
     double unseen = 0, least = std::numeric_limits<double>::infinity();
@@ -286,71 +294,14 @@ class Planner {
     return first < between.size() ? between[first] : least;
   }
 
-  bool seen(const Eigen::VectorXd& change) const {
-    if (change.size() == 0) return false;
-    const Eigen::VectorXd left = reach_.take(residual_ + change).left;
-    if (!evidence_.exceeds_floor(reach_.rows(left - reference_.left), kRule.above_floor) ||
-        !evidence_.exceeds_floor(reach_.rows(change), kRule.above_floor))
-      return false;
-    const std::vector<double> square = mean_squares(reach_.rows(left));
-    bool share = false;
-    for (std::size_t c = 0; c < square.size(); ++c)
-      share = share || square[c] - reference_square_[c] > kRule.share * square[c];
-    const Paired gain = compared(reference_ln_, log_likelihood(left));
-    return share && (gain.t > significant_t_ || gain.sum > significant_gain_);
-  }
-
-  std::vector<double> mean_squares(const std::vector<double>& rows) const {
-    std::vector<double> square(evidence_.channels(), 0), count(evidence_.channels(), 0);
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      square[evidence_.row_channel()[r]] += rows[r] * rows[r];
-      count[evidence_.row_channel()[r]] += 1;
-    }
-    for (std::size_t c = 0; c < square.size(); ++c) square[c] /= std::max(1.0, count[c]);
-    return square;
-  }
-
-  /// Of each block that has rows, as likelihood.h says.
-  std::vector<double> log_likelihood(const Eigen::VectorXd& left) const {
-    const std::vector<double> rows = reach_.rows(left);
-    const std::size_t channels = evidence_.channels();
-    std::vector<double> square, count;
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      const std::size_t place = evidence_.row_block()[r] * channels + evidence_.row_channel()[r];
-      if (place >= square.size())
-        square.resize((evidence_.row_block()[r] + 1) * channels, 0), count.resize(square.size(), 0);
-      square[place] += rows[r] * rows[r];
-      count[place] += 1;
-    }
-    std::vector<double> ln;
-    for (std::size_t block = 0; block < square.size(); block += channels) {
-      double sum = 0, any = 0;
-      for (std::size_t c = 0; c < channels; ++c) {
-        const double n = count[block + c];
-        if (n > 0) sum += block_log_likelihood(evidence_, n, square[block + c] / n, std::pow(evidence_.floor()[c], 2));
-        any += n;
-      }
-      if (any > 0) ln.push_back(sum);
-    }
-    return ln;
-  }
-
-  static Paired compared(const std::vector<double>& with, const std::vector<double>& without) {
-    std::vector<double> differences;
-    for (std::size_t b = 0; b < with.size(); ++b) differences.push_back(with[b] - without[b]);
-    return paired(differences);
-  }
-
   const ArmModel& model_;
   Hypothesis nominal_;
   Evidence evidence_;
   std::vector<double> base_;  ///< fitting rows of the model as it is
   BaselineReach reach_;
   std::vector<PlacedEffect> candidates_;
-  Eigen::VectorXd residual_;        ///< r0
-  BaselineReach::Taken reference_;  ///< r0⊥
-  std::vector<double> reference_square_, reference_ln_;
-  double significant_t_ = 0, significant_gain_ = 0;
+  Eigen::VectorXd residual_;  ///< r0
+  std::optional<ChangeDetector> detector_;
 };
 
 }  // namespace

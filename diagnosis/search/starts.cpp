@@ -54,100 +54,140 @@ std::vector<std::vector<double>> combinations(const Hypothesis& h, const std::ve
   return all;
 }
 
-}  // namespace
+class StartSearch {
+ public:
+  StartSearch(const Evidence& evidence, const Screen& screen, const Hypothesis& with,
+              const ArmParameters<double>& nominal)
+      : evidence_(evidence),
+        screen_(screen),
+        nominal_(nominal),
+        with_(with),
+        parameters_(effect_parameters(evidence, with, nominal, static_cast<int>(with.effects.size()) - 1)),
+        neutral_(with) {
+    for (const FitParameter& p : parameters_)
+      if (!p.shape) set_parameter(neutral_, p, p.nominal);
+    for (const ParameterGroup& group : groups_of(parameters_)) add_group(group);
+  }
 
-Start best_start(const Evidence& evidence, const Screen& screen, const Hypothesis& with,
-                 const ArmParameters<double>& nominal) {
-  const auto parameters = effect_parameters(evidence, with, nominal, static_cast<int>(with.effects.size()) - 1);
-  Hypothesis neutral = with;
-  for (const FitParameter& p : parameters)
-    if (!p.shape) set_parameter(neutral, p, p.nominal);
+  Start run() {
+    Start start;
+    start.hypothesis = with_;
+    std::vector<Hypothesis> first;
+    for (const Tried& t : tried_) first.push_back(t.hypothesis);
+    const auto rows = evidence_.fit_rows(first);
+    for (std::size_t i = 0; i < tried_.size(); ++i)
+      start.promise = std::max(start.promise, ask(tried_[i], screen_.direction(rows[i])));
+    if (start.promise == 0) return start;
 
-  // One size moved, at some shapes: what the linear fit would make of it tells the promise and a better size.
+    const std::vector<Hypothesis> second = most_promising();
+    const auto second_rows = evidence_.fit_rows(second);
+    const auto consider = [&](const Hypothesis& h, const std::vector<double>& row) {
+      const double left = screen_.left(row);
+      if (left < start.left) start.left = left, start.hypothesis = h;
+    };
+    for (std::size_t i = 0; i < first.size(); ++i) consider(first[i], rows[i]);
+    for (std::size_t i = 0; i < second.size(); ++i) consider(second[i], second_rows[i]);
+    return start;
+  }
+
+ private:
+  /// One size moved, at some shapes: what the linear fit would make of it tells the promise and a better size.
   struct Tried {
     Hypothesis hypothesis;
     std::size_t combination, size;
   };
-  std::vector<Tried> tried;
-  std::size_t n_combinations = 0;
-  for (const ParameterGroup& group : groups_of(parameters)) {
-    const auto shapes = combinations(with, parameters, group.shapes, screen.instants());
+  /// What the linear fits ask for at one combination of shapes.
+  struct Asked {
+    Hypothesis hypothesis;
+    double promise = 0;
+    bool any = false;
+  };
+
+  void add_group(const ParameterGroup& group) {
+    const auto shapes = combinations(with_, parameters_, group.shapes, screen_.instants());
     const bool one_sided = std::any_of(group.shapes.begin(), group.shapes.end(), [&](std::size_t s) {
-      return parameters[s].range == SearchRange::joint_position;
+      return parameters_[s].range == SearchRange::joint_position;
     });
     for (const auto& values : shapes) {
-      Hypothesis shaped = neutral;
-      for (std::size_t s = 0; s < values.size(); ++s) {
-        const std::size_t i = group.shapes[s];
-        // How far a past can be off is told by the shapes before it.
-        const double unit =
-            is_past(parameters[i]) ? effect_parameters(evidence, shaped, nominal, parameters[i].effect)[i].scale : 1;
-        set_parameter(shaped, parameters[i], unit * values[s]);
-      }
-      for (const std::size_t size : group.sizes) {
-        const FitParameter& p = parameters[size];
-        const auto add = [&](double value) {
-          tried.push_back({shaped, n_combinations, size});
-          set_parameter(tried.back().hypothesis, p, std::clamp(value, p.lower, p.upper));
-        };
-        add(p.nominal + p.scale);
-        if (one_sided && p.lower < p.nominal) add(p.nominal - p.scale);
-        if (shapes.size() > 1 || p.natural_bounds || p.lower < 0) continue;
-        constexpr int kSizes = 7;
-        constexpr double kSizeSpan = 30, kRatioSpan = 12;
-        const bool ratio = p.nominal == 1;
-        const double typical = ratio ? 1 : p.nominal + p.scale, span = ratio ? kRatioSpan : kSizeSpan;
-        for (int i = 0; i < kSizes; ++i) add(typical * std::pow(span, (2.0 * i + 1) / kSizes - 1));
-      }
-      ++n_combinations;
+      const Hypothesis at = shaped(group, values);
+      for (const std::size_t size : group.sizes) add_sizes(at, size, one_sided, shapes.size() > 1);
+      asked_.push_back({neutral_});
     }
   }
-  std::vector<Hypothesis> all;
-  for (const Tried& t : tried) all.push_back(t.hypothesis);
-  const auto rows = evidence.fit_rows(all);
 
-  Start start;
-  start.hypothesis = with;
-  std::vector<double> promise(n_combinations, 0);
-  std::vector<Hypothesis> asked(n_combinations, neutral);
-  std::vector<int> best_of(n_combinations, -1);
-  for (std::size_t i = 0; i < tried.size(); ++i) {
-    const Screen::Direction d = screen.direction(rows[i]);
-    const FitParameter& p = parameters[tried[i].size];
-    const double moved = parameter_value(tried[i].hypothesis, p) - p.nominal;
+  Hypothesis shaped(const ParameterGroup& group, const std::vector<double>& values) const {
+    Hypothesis h = neutral_;
+    for (std::size_t s = 0; s < values.size(); ++s) {
+      const FitParameter& p = parameters_[group.shapes[s]];
+      // How far a past can be off is told by the shapes before it.
+      const double unit = is_past(p) ? effect_parameters(evidence_, h, nominal_, p.effect)[group.shapes[s]].scale : 1;
+      set_parameter(h, p, unit * values[s]);
+    }
+    return h;
+  }
+
+  /// The size at its typical value; without shapes also over decades.
+  void add_sizes(const Hypothesis& at, std::size_t size, bool one_sided, bool has_shapes) {
+    constexpr int kSizes = 7;
+    constexpr double kSizeSpan = 30, kRatioSpan = 12;
+    const FitParameter& p = parameters_[size];
+    const auto add = [&](double value) {
+      tried_.push_back({at, asked_.size(), size});
+      set_parameter(tried_.back().hypothesis, p, std::clamp(value, p.lower, p.upper));
+    };
+    add(p.nominal + p.scale);
+    if (one_sided && p.lower < p.nominal) add(p.nominal - p.scale);
+    if (has_shapes || p.natural_bounds || p.lower < 0) return;
+    const bool ratio = p.nominal == 1;
+    const double typical = ratio ? 1 : p.nominal + p.scale, span = ratio ? kRatioSpan : kSizeSpan;
+    for (int i = 0; i < kSizes; ++i) add(typical * std::pow(span, (2.0 * i + 1) / kSizes - 1));
+  }
+
+  /// Notes what the linear fit asks for. Returns its promise; 0 if it asks for nothing.
+  double ask(const Tried& t, const Screen::Direction& d) {
+    const FitParameter& p = parameters_[t.size];
+    const double moved = parameter_value(t.hypothesis, p) - p.nominal;
     const double wanted = p.nominal + d.amount * moved;
     // A size that would have to be where it cannot be takes nothing.
-    if (std::clamp(wanted, p.lower, p.upper) == p.nominal || moved == 0) continue;
-    const std::size_t c = tried[i].combination;
+    if (std::clamp(wanted, p.lower, p.upper) == p.nominal || moved == 0) return 0;
+    Asked& asked = asked_[t.combination];
     // Shapes come with the first hypothesis of their combination; of several sizes each asks for its own.
-    if (best_of[c] < 0) asked[c] = tried[i].hypothesis, promise[c] = 0;
-    if (best_of[c] < 0)
-      for (const FitParameter& other : parameters)
-        if (!other.shape) set_parameter(asked[c], other, other.nominal);
-    best_of[c] = static_cast<int>(i);
-    set_parameter(asked[c], p, std::clamp(wanted, p.lower, p.upper));
-    promise[c] = std::max(promise[c], d.promise);
-    start.promise = std::max(start.promise, d.promise);
+    if (!asked.any) {
+      asked = {t.hypothesis, 0, true};
+      for (const FitParameter& other : parameters_)
+        if (!other.shape) set_parameter(asked.hypothesis, other, other.nominal);
+    }
+    set_parameter(asked.hypothesis, p, std::clamp(wanted, p.lower, p.upper));
+    asked.promise = std::max(asked.promise, d.promise);
+    return d.promise;
   }
-  if (start.promise == 0) return start;
 
-  // The most promising of what the linear fits ask for, beside everything that was tried.
-  constexpr std::size_t kAsked = 8;
-  std::vector<std::size_t> order(n_combinations);
-  for (std::size_t c = 0; c < n_combinations; ++c) order[c] = c;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return promise[a] > promise[b]; });
-  std::vector<Hypothesis> second;
-  for (std::size_t i = 0; i < std::min(kAsked, order.size()); ++i)
-    if (promise[order[i]] > 0) second.push_back(asked[order[i]]);
-  const auto second_rows = evidence.fit_rows(second);
+  /// The most promising of what the linear fits ask for.
+  std::vector<Hypothesis> most_promising() const {
+    constexpr std::size_t kMost = 8;
+    std::vector<Asked> order = asked_;
+    std::ranges::stable_sort(order, std::ranges::greater{}, &Asked::promise);
+    std::vector<Hypothesis> all;
+    for (std::size_t i = 0; i < std::min(kMost, order.size()); ++i)
+      if (order[i].promise > 0) all.push_back(order[i].hypothesis);
+    return all;
+  }
 
-  const auto consider = [&](const Hypothesis& h, const std::vector<double>& row) {
-    const double left = screen.left(row);
-    if (left < start.left) start.left = left, start.hypothesis = h;
-  };
-  for (std::size_t i = 0; i < all.size(); ++i) consider(all[i], rows[i]);
-  for (std::size_t i = 0; i < second.size(); ++i) consider(second[i], second_rows[i]);
-  return start;
+  const Evidence& evidence_;
+  const Screen& screen_;
+  const ArmParameters<double>& nominal_;
+  const Hypothesis& with_;
+  std::vector<FitParameter> parameters_;
+  Hypothesis neutral_;  ///< shapes as in with_
+  std::vector<Tried> tried_;
+  std::vector<Asked> asked_;  ///< [combination of shapes]
+};
+
+}  // namespace
+
+Start best_start(const Evidence& evidence, const Screen& screen, const Hypothesis& with,
+                 const ArmParameters<double>& nominal) {
+  return StartSearch(evidence, screen, with, nominal).run();
 }
 
 }  // namespace halyard
