@@ -12,6 +12,7 @@
 #include "diagnosis/explanation/view_sentence.h"
 #include "diagnosis/judgement/final_fit.h"
 #include "diagnosis/judgement/name_probability.h"
+#include "diagnosis/judgement/prediction_interval.h"
 #include "diagnosis/prediction/calibrate.h"
 
 namespace halyard {
@@ -255,8 +256,11 @@ class Diagnoser {
     result_.revised.nominal = final_hypothesis().nominal;
     result_.revised.effects = final_hypothesis().effects;
     details_->past = final_hypothesis().past;
-    result_.before = prediction_errors(joints, torques, model_.n(), &HoldOut::before);
-    result_.after = prediction_errors(joints, torques, model_.n(), &HoldOut::after);
+    result_.before = prediction_errors(joints, torques, result_.given.nominal, &HoldOut::before);
+    result_.after = prediction_errors(joints, torques, result_.given.nominal, &HoldOut::after);
+    joints.half_width =
+        half_widths(joints.records, attribution().final_fit, residual_quantiles(evidence, final_hypothesis()));
+    result_.joint_interval = prediction_interval(joints, model_.n());
   }
 
   /// Effects whose typical size changes no signal of the training data by more than its floor.

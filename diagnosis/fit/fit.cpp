@@ -33,14 +33,6 @@ double spacing_around(const std::vector<double>& starts, double value) {
   return starts[i] - starts[i - 1];
 }
 
-Hypothesis moved(const Hypothesis& h, const FitParameter& p, double by) {
-  Hypothesis m = h;
-  const double value = parameter_value(h, p) + by * p.scale;
-  // At a bound the step goes inward.
-  set_parameter(m, p, value > p.upper ? value - 2 * by * p.scale : value);
-  return m;
-}
-
 class Residual : public ceres::CostFunction {
  public:
   Residual(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& parameters,
@@ -72,7 +64,7 @@ class Residual : public ceres::CostFunction {
     std::vector<double> step(p, 0);
     for (std::size_t i = 0; (wanted || frozen_) && i < p; ++i) {
       if (is_frozen(i)) continue;
-      all.push_back(moved(all[0], parameters_[i], kStep));
+      all.push_back(stepped(all[0], parameters_[i]));
       step[i] = (parameter_value(all.back(), parameters_[i]) - parameter_value(all[0], parameters_[i])) /
                 parameters_[i].scale;
     }
@@ -233,6 +225,13 @@ void set_parameter(Hypothesis& h, const FitParameter& p, double value) {
   else *named_parameters(h.nominal)[p.index].value = value;
 }
 
+Hypothesis stepped(const Hypothesis& h, const FitParameter& p) {
+  Hypothesis m = h;
+  const double value = parameter_value(h, p) + kStep * p.scale;
+  set_parameter(m, p, value > p.upper ? value - 2 * kStep * p.scale : value);
+  return m;
+}
+
 std::vector<FitParameter> baseline_parameters(const ArmModel& model) {
   ArmParameters<double> arm = model.nominal;
   std::vector<FitParameter> all;
@@ -335,7 +334,7 @@ std::vector<double> channel_scale(const Evidence& evidence, const std::vector<do
 std::vector<std::vector<double>> sensitivities(const Evidence& evidence, const Hypothesis& at,
                                                const std::vector<FitParameter>& parameters) {
   std::vector<Hypothesis> all = {at};
-  for (const FitParameter& p : parameters) all.push_back(moved(at, p, kStep));
+  for (const FitParameter& p : parameters) all.push_back(stepped(at, p));
   auto rows = evidence.fit_rows(all);
   for (const auto& r : rows)
     if (r.empty()) return {};

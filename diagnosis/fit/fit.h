@@ -39,6 +39,9 @@ inline bool is_past(const FitParameter& p) { return p.effect >= 0 && p.index >= 
 double parameter_value(const Hypothesis& h, const FitParameter& p);
 void set_parameter(Hypothesis& h, const FitParameter& p, double value);
 
+/// The hypothesis with the parameter moved by the step of a sensitivity. At a bound the step goes inward.
+Hypothesis stepped(const Hypothesis& h, const FitParameter& p);
+
 /// Baseline parameters for which the model states a tolerance. The ratio of a drive is a single parameter: the
 /// capstan's radius represents it.
 std::vector<FitParameter> baseline_parameters(const ArmModel& model);

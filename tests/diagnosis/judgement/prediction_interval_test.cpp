@@ -1,0 +1,120 @@
+#include "diagnosis/judgement/prediction_interval.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "diagnosis/judgement/final_fit.h"
+#include "plant/simulate.h"
+#include "tests/support/short_arm.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kNoise = 1e-3;  // rad, 14 times what is left without it
+
+const Log& log_of_one_joint() {
+  static const Log log = simulate(motion(first_joints(1), 6)).measured;
+  return log;
+}
+
+Log noisy_log(unsigned seed) {
+  Log log = log_of_one_joint();
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0, kNoise);
+  for (double& q : log.joint_position[0]) q += normal(random);
+  return log;
+}
+
+Evidence evidence_of(const Log& log) {
+  const ArmModel model = first_joints(1);
+  return Evidence(make_records(log, model, kFitBand), model);
+}
+
+/// A fit of no parameter.
+Fit no_parameters() {
+  Fit fit;
+  fit.hypothesis = {first_joints(1).nominal, {}};
+  fit.blocks = 10;
+  fit.usable = true;
+  return fit;
+}
+
+HoldOut holdout_of(const Log& log, const Fit& fit, const std::vector<double>& quantile) {
+  HoldOut view;
+  view.records = make_records(log, first_joints(1), kJointErrorBand);
+  view.after = predict_all(view.records, fit.hypothesis);
+  view.half_width = half_widths(view.records, fit, quantile);
+  return view;
+}
+
+TEST(PredictionInterval, HasTheLargerDeviationsAndTheCorrelationsOfTheFit) {
+  Fit fit;
+  fit.covariance = (Eigen::Matrix2d() << 4, 1, 1, 9).finished();
+  fit.std_deviation = {4, 3};
+  const Eigen::MatrixXd C = parameter_covariance(fit);
+  EXPECT_DOUBLE_EQ(C(0, 0), 16);
+  EXPECT_DOUBLE_EQ(C(0, 1), 2);
+  EXPECT_DOUBLE_EQ(C(1, 0), 2);
+  EXPECT_DOUBLE_EQ(C(1, 1), 9);
+  EXPECT_EQ(parameter_covariance(no_parameters()).size(), 0);
+}
+
+TEST(PredictionInterval, OfWhiteNoiseContains95PercentOfTheSamples) {
+  const Fit fit = no_parameters();
+  const std::vector<double> quantile = residual_quantiles(evidence_of(noisy_log(1)), fit.hypothesis);
+  // A quantile of m = 1250 independent samples (2.5 s, every 2 ms): its coverage deviates by sqrt(0.95 * 0.05 / m) =
+  // 0.62 %, and the density at 1.96 deviations, 2 * 0.0584, makes 0.053 deviations of it. Three times that.
+  EXPECT_NEAR(quantile[0] / kNoise, 1.96, 3 * 0.053);
+
+  const PredictionInterval interval = prediction_interval(holdout_of(noisy_log(2), fit, quantile), 1);
+  EXPECT_EQ(interval.half_width[0], quantile[0]);
+  // The binomial deviation of 5500 new samples, 0.29 %, beside that of the quantile: three times 0.68 %.
+  EXPECT_NEAR(interval.coverage[0], 0.95, 3 * 0.0068);
+
+  const std::vector<double> half = {0.5 * quantile[0]};
+  EXPECT_LT(prediction_interval(holdout_of(noisy_log(2), fit, half), 1).coverage[0], 0.75) << "67 % within 0.98";
+}
+
+TEST(PredictionInterval, TakesTheResidualFromTheDecidingBlocks) {
+  constexpr double kBlock = 0.25, kOffset = 0.05;  // s: the shortest block; rad
+  for (const int shifted : {0, 1}) {
+    Log log = log_of_one_joint();
+    for (std::size_t i = 0; i < log.size(); ++i)
+      if (static_cast<int>((log.time[i] - log.time[0]) / kBlock) % 2 == shifted) log.joint_position[0][i] += kOffset;
+    const double q = residual_quantiles(evidence_of(log), no_parameters().hypothesis)[0];
+    // Of the exact arm only the encoders' steps are left.
+    EXPECT_NEAR(q, shifted == 1 ? kOffset : 0, 1e-3) << (shifted == 1 ? "deciding" : "fitting");
+  }
+}
+
+TEST(PredictionInterval, AddsTheDeviationOfAParameterByItsSensitivity) {
+  constexpr double kDeviation = 2e-3, kQuantile = 1e-3;  // rad
+  const ArmModel model = first_joints(1);
+  Fit fit = no_parameters();
+  fit.hypothesis.effects = {place_effect(*find_effect("encoder_offset"), model.nominal, 0)};
+  fit.hypothesis.effects[0].p[0] = 0;
+  fit.parameters = effect_parameters(evidence_of(log_of_one_joint()), fit.hypothesis, model.nominal, 0);
+  ASSERT_EQ(fit.parameters.size(), 1u);
+  fit.value = {0};
+  fit.covariance = Eigen::MatrixXd::Constant(1, 1, kDeviation * kDeviation);
+  fit.std_deviation = {kDeviation};
+  const PredictionInterval interval = prediction_interval(holdout_of(log_of_one_joint(), fit, {kQuantile}), 1);
+  // A zero error moves the predicted joint by itself, but for the cable's stretch under the changed gravity.
+  const double half = std::hypot(interval_factor(fit) * kDeviation, kQuantile);
+  EXPECT_NEAR(interval.half_width[0], half, 0.01 * half);
+  EXPECT_EQ(interval.coverage[0], 1);
+}
+
+TEST(PredictionInterval, IsUnknownIfASensitivityCannotBeIntegrated) {
+  Fit fit = no_parameters();
+  fit.hypothesis.nominal.joint[0].mass = std::nan("");
+  const HoldOut view = holdout_of(log_of_one_joint(), fit, {1e-3});
+  const PredictionInterval interval = prediction_interval(view, 1);
+  EXPECT_TRUE(std::isnan(interval.half_width[0]));
+  EXPECT_TRUE(std::isnan(interval.coverage[0]));
+}
+
+}  // namespace
+}  // namespace halyard
