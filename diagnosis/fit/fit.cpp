@@ -203,9 +203,10 @@ bool add_deviations(const Evidence& evidence, const Residual& residual, const st
       grouped_blocks(evidence.row_block(), kCorrelationTimes * correlated_blocks(evidence, r), kFewestBlocks);
   const BlockVariance scatter = block_variance(J, r, prior, blocks);
   result.blocks = scatter.blocks;
+  result.block_covariance = unit.asDiagonal() * scatter.covariance * unit.asDiagonal();
   for (Eigen::Index i = 0; i < p; ++i) {
-    const double by_scatter = unit(i) * std::sqrt(std::max(0.0, scatter.covariance(i, i)));
-    result.std_deviation.push_back(std::max(by_scatter, std::sqrt(std::max(0.0, result.covariance(i, i)))));
+    const double larger = std::max(result.block_covariance(i, i), result.covariance(i, i));
+    result.std_deviation.push_back(std::sqrt(std::max(0.0, larger)));
   }
   return true;
 }

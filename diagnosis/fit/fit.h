@@ -77,9 +77,10 @@ struct Fit {
   /// for the correlation of residuals. The other comes from the curvature, which accounts for errors of a floor's size
   /// that all blocks share.
   std::vector<double> std_deviation;
-  int blocks = 0;              ///< number of blocks in that scatter: its degrees of freedom plus one
-  Eigen::MatrixXd covariance;  ///< from the curvature at the end, if rows were independent, [parameters]²
-  bool usable = false;         ///< false: the start could not be integrated
+  int blocks = 0;                    ///< number of blocks in that scatter: its degrees of freedom plus one
+  Eigen::MatrixXd covariance;        ///< from the curvature at the end, if rows were independent, [parameters]²
+  Eigen::MatrixXd block_covariance;  ///< from the scatter of blocks, [parameters]²
+  bool usable = false;               ///< false: the start could not be integrated
 };
 
 /// Channel scales from residuals: sqrt(max(mean square, floor²)). [2n]

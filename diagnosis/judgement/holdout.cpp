@@ -79,8 +79,17 @@ bool grows(const HoldOut& view, int k, double floor, ErrorOfSample error) {
 DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& training,
                              const std::optional<Log>& holdout) {
   DiagnosisData data;
+  const auto place_among_training = [&](Record& r, std::size_t first) {
+    for (std::size_t place = first; place < data.training.size(); ++place)
+      if (data.training[place].start == r.start) r.place = static_cast<int>(place);
+  };
   const auto learn_from = [&](const Log& log) {
+    const std::size_t first = data.training.size();
     for (Record& r : make_records(log, model, kFitBand)) data.training.push_back(std::move(r));
+    for (Record& r : make_records(log, model, kJointErrorBand)) {
+      place_among_training(r, first);
+      data.training_joints.push_back(std::move(r));
+    }
   };
   const auto hold_out = [&](const Log& log, double from, std::size_t first) {
     for (const auto& [view, how] :
@@ -88,8 +97,7 @@ DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& trai
       for (Record& r : make_records(log, model, how)) {
         if (r.time(r.size - 1) < from) continue;
         compare_from(r, from);
-        for (std::size_t place = first; place < data.training.size(); ++place)
-          if (data.training[place].start == r.start) r.place = static_cast<int>(place);
+        place_among_training(r, first);
         view->records.push_back(std::move(r));
       }
   };

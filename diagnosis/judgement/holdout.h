@@ -26,8 +26,9 @@ struct HoldOut {
 /// The logs of a diagnosis as records.
 struct DiagnosisData {
   std::vector<Record> training;
-  HoldOut joint_view;   ///< in kJointErrorBand
-  HoldOut torque_view;  ///< in kFitBand
+  std::vector<Record> training_joints;  ///< the training data in kJointErrorBand
+  HoldOut joint_view;                   ///< in kJointErrorBand
+  HoldOut torque_view;                  ///< in kFitBand
 };
 
 /// Without a hold-out log, the last third of each training log is held out. Cables have memory, so the part of the log

@@ -1,5 +1,6 @@
 #include "diagnosis/judgement/prediction_interval.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -36,28 +37,31 @@ Eigen::MatrixXd channel_sensitivities(const std::vector<Residuals>& residuals, c
   return g;
 }
 
-}  // namespace
-
-Eigen::MatrixXd parameter_covariance(const Fit& fit) {
-  const auto p = static_cast<Eigen::Index>(fit.std_deviation.size());
-  Eigen::VectorXd larger(p);
-  for (Eigen::Index i = 0; i < p; ++i) {
-    const double by_curvature = std::sqrt(fit.covariance(i, i));
-    larger(i) = by_curvature > 0 ? fit.std_deviation[static_cast<std::size_t>(i)] / by_curvature : 0;
+/// s_i of every sample, from its sensitivities.
+std::vector<double> deviations(const Fit& fit, const Eigen::MatrixXd& g) {
+  std::vector<double> s(static_cast<std::size_t>(g.rows()), 0);
+  if (g.cols() == 0) return s;
+  for (const Eigen::MatrixXd* covariance : {&fit.covariance, &fit.block_covariance}) {
+    const Eigen::VectorXd square = (g * *covariance).cwiseProduct(g).rowwise().sum();
+    for (std::size_t i = 0; i < s.size(); ++i)
+      s[i] = std::max(s[i], std::sqrt(std::max(0.0, square(static_cast<Eigen::Index>(i)))));
   }
-  return larger.asDiagonal() * fit.covariance * larger.asDiagonal();
+  return s;
 }
 
-std::vector<double> residual_quantiles(const Evidence& evidence, const Hypothesis& hypothesis) {
+}  // namespace
+
+std::vector<double> residual_quantiles(const Evidence& evidence, const std::vector<Record>& training,
+                                       const Hypothesis& hypothesis) {
   std::vector<std::vector<double>> size(evidence.n());
-  for (std::size_t r = 0; r < evidence.records().size(); ++r) {
-    Record unfiltered = evidence.records()[r];
-    unfiltered.compare = {1};
-    const FullPrediction prediction = predict_fully(unfiltered, hypothesis);
-    for (int k = 0; k < evidence.n(); ++k)
-      for (std::size_t i = 0; i < unfiltered.size; ++i)
-        if (evidence.decides(static_cast<int>(r), i))
-          size[k].push_back(std::abs(joint_error(unfiltered, prediction, k, i)));
+  for (const Record& record : training) {
+    if (record.place < 0) continue;
+    const double of_evidence = record.dt / evidence.records()[record.place].dt;
+    const FullPrediction prediction = predict_fully(record, hypothesis);
+    for (std::size_t i = 0; i < record.size; ++i) {
+      if (!evidence.decides(record.place, static_cast<std::size_t>(of_evidence * static_cast<double>(i)))) continue;
+      for (int k = 0; k < evidence.n(); ++k) size[k].push_back(std::abs(joint_error(record, prediction, k, i)));
+    }
   }
   std::vector<double> quantiles;
   for (std::vector<double>& of_joint : size) quantiles.push_back(quantile(std::move(of_joint), kIntervalShare));
@@ -67,7 +71,6 @@ std::vector<double> residual_quantiles(const Evidence& evidence, const Hypothesi
 std::vector<Signals> half_widths(const std::vector<Record>& records, const Fit& fit,
                                  const std::vector<double>& quantile) {
   const Steps steps(fit);
-  const Eigen::MatrixXd C = parameter_covariance(fit);
   const double t = interval_factor(fit);
   std::vector<Signals> all;
   for (const Record& record : records) {
@@ -78,10 +81,8 @@ std::vector<Signals> half_widths(const std::vector<Record>& records, const Fit& 
       if (!record.has_joint(k)) continue;
       half[k].assign(record.size, std::numeric_limits<double>::quiet_NaN());
       if (!known) continue;
-      const Eigen::MatrixXd g = channel_sensitivities(residuals, steps.size, record.n + k);
-      const Eigen::VectorXd square = (g * C).cwiseProduct(g).rowwise().sum();
-      for (std::size_t i = 0; i < record.size; ++i)
-        half[k][i] = std::hypot(t * std::sqrt(std::max(0.0, square(static_cast<Eigen::Index>(i)))), quantile[k]);
+      const std::vector<double> s = deviations(fit, channel_sensitivities(residuals, steps.size, record.n + k));
+      for (std::size_t i = 0; i < record.size; ++i) half[k][i] = std::hypot(t * s[i], quantile[k]);
     }
   }
   return all;
