@@ -59,7 +59,7 @@ TEST_F(DiagnoseCommand, SaysWhyAndByHowMuchEachEstimatorGains) {
       };
       // Nine digits are written.
       EXPECT_NEAR(std::hypot(part("_bias"), part("_spread")), part("_rms"), 1e-8 * part("_rms"));
-      const auto [least, most] = std::minmax(part("_rms_moving"), part("_rms_resting"));
+      const auto [least, most] = std::minmax({part("_rms_moving"), part("_rms_resting")});
       EXPECT_TRUE(least <= part("_rms") && part("_rms") <= most);
     }
   const json& interval = error.at("joint_position_interval95");
