@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "diagnosis/judgement/final_fit.h"
@@ -66,6 +67,14 @@ std::vector<double> residual_quantiles(const Evidence& evidence, const std::vect
   std::vector<double> quantiles;
   for (std::vector<double>& of_joint : size) quantiles.push_back(quantile(std::move(of_joint), kIntervalShare));
   return quantiles;
+}
+
+Fit with_all_numbers(const Evidence& whole, const Fit& fit, const std::vector<FitParameter>& numbers) {
+  std::vector<FitParameter> all = numbers;
+  std::erase_if(all, [](const FitParameter& p) { return p.effect >= 0; });
+  std::ranges::copy_if(fit.parameters, std::back_inserter(all), [](const FitParameter& p) { return p.effect >= 0; });
+  const std::vector<double> scale = channel_scale(whole, whole.score(fit.hypothesis).fit_mean_square);
+  return halyard::fit(whole, fit.hypothesis, all, scale, {.iterations = 0});
 }
 
 std::vector<Signals> half_widths(const std::vector<Record>& records, const Fit& fit,

@@ -4,15 +4,15 @@
 ///   h_i² = (t s_i)² + q_k²,   s_i² = max(g_iᵀ C g_i, g_iᵀ B g_i)
 ///
 ///   h_i  half-width at sample i of joint k                                                 rad | m
-///   g_i  sensitivities of the predicted reading to the parameters of the final fit         [p]
+///   g_i  sensitivities of the predicted reading to the parameters, see with_all_numbers()  [p]
 ///   C, B Fit::covariance and Fit::block_covariance of these parameters                     [p x p]
 ///   t    interval_factor()
 ///   q_k  95 % quantile of |measured - predicted| on the deciding blocks of the training data: the noise of the sensor
 ///        and the errors of the model's form
 ///
-/// The sensitivities are differences over one step, that is, of first order. Parameters that the final fit has reset do
-/// not count. The intervals hold for motions and loads like those of the training data; their coverage of the hold-out
-/// measures how well.
+/// The sensitivities are differences over one step, that is, of first order. What wrong parameters do to the training data
+/// is in both terms, so the intervals are rather too wide. They hold for motions and loads like those of the training
+/// data; their coverage of the hold-out measures how well.
 
 #include "diagnosis/fit/fit.h"
 #include "diagnosis/judgement/holdout.h"
@@ -23,6 +23,12 @@ namespace halyard {
 ///   training  the records of the evidence in the band of the hold-out, see DiagnosisData::training_joints
 std::vector<double> residual_quantiles(const Evidence& evidence, const std::vector<Record>& training,
                                        const Hypothesis& hypothesis);
+
+/// Covariances at the fit's hypothesis of its effects' parameters together with baseline parameters, also those that the
+/// final fit has reset: the data did not show that they differ from the model's values, but they may.
+///   whole    all training data
+///   numbers  the baseline parameters that the data are sensitive to; other entries are ignored
+Fit with_all_numbers(const Evidence& whole, const Fit& fit, const std::vector<FitParameter>& numbers);
 
 /// h_i of the fit's hypothesis: [record], each [n][size]. Empty for a joint without sensor; NaN if a sensitivity cannot be
 /// integrated or the fit is not usable.

@@ -63,9 +63,12 @@ TEST_F(DiagnoseCommand, SaysWhyAndByHowMuchEachEstimatorGains) {
       EXPECT_TRUE(least <= part("_rms") && part("_rms") <= most);
     }
   const json& interval = error.at("joint_position_interval95");
-  // The hold-out is a part of the same motion. Empirical: 0.956 was observed.
-  EXPECT_NEAR(interval.at("coverage").at(1).get<double>(), 0.95, 0.04);
-  EXPECT_LT(interval.at("half_width").at(1).get<double>(), error.at("joint_position_rms").at("before").at(1));
+  // The hold-out, 2500 samples, is a part of the same motion: at least 95 % less three binomial deviations. It is
+  // more, because the other numbers of this model are exact, which the interval cannot know: 99 % were observed.
+  EXPECT_GT(interval.at("coverage").at(1).get<double>(), 0.95 - 3 * 0.0044);
+  // Not by being idle: of a normal error 95 % lie within two deviations.
+  EXPECT_LT(interval.at("half_width").at(1).get<double>(),
+            2.5 * error.at("joint_position_rms").at("after").at(1).get<double>());
   const std::string page = text_of(path("out/report.html"));
   EXPECT_TRUE(contains(page, "Joint 2: position error and interval"));
   EXPECT_TRUE(contains(page, "ekf failed with the given model: estimator ekf on "));

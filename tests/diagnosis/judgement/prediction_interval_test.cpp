@@ -122,6 +122,25 @@ TEST(PredictionInterval, KeepsParametersThatCancelEachOther) {
   EXPECT_NEAR(interval.half_width[0], half, 0.01 * half);
 }
 
+TEST(PredictionInterval, CountsANumberThatTheFinalFitHasReset) {
+  const ArmModel model = first_joints(1);
+  const Evidence whole(make_records(log_of_one_joint(), model, kFitBand), model, Split::none);
+  const std::vector<FitParameter> numbers = baseline_parameters(model);
+  const Fit all = with_all_numbers(whole, no_parameters(), numbers);
+  ASSERT_TRUE(all.usable);
+  ASSERT_EQ(all.parameters.size(), numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    EXPECT_EQ(parameter_value(all.hypothesis, numbers[i]), numbers[i].nominal) << numbers[i].name;
+    // At most the prior's deviation, half the tolerance; 1e-6 for the rounding of an inverse.
+    EXPECT_LE(std::sqrt(all.covariance(at, at)), numbers[i].scale * (1 + 1e-6)) << numbers[i].name;
+  }
+  const HoldOut with = holdout_of(log_of_one_joint(), all, {0}),
+                without = holdout_of(log_of_one_joint(), no_parameters(), {0});
+  EXPECT_GT(prediction_interval(with, 1).half_width[0], 0);
+  EXPECT_EQ(prediction_interval(without, 1).half_width[0], 0);
+}
+
 TEST(PredictionInterval, IsUnknownIfASensitivityCannotBeIntegrated) {
   Fit fit = no_parameters();
   fit.hypothesis.nominal.joint[0].mass = std::nan("");
