@@ -10,9 +10,9 @@
 ///   q_k  95 % quantile of |measured - predicted| on the deciding blocks of the training data: the noise of the sensor
 ///        and the errors of the model's form
 ///
-/// The sensitivities are differences over one step, that is, of first order. What wrong parameters do to the training data
-/// is in both terms, so the intervals are rather too wide. They hold for motions and loads like those of the training
-/// data; their coverage of the hold-out measures how well.
+/// The sensitivities are differences over one step, that is, of first order. Both terms count the effect of wrong
+/// parameters on the training data, so the intervals are rather too wide. They hold for motions and loads like those of
+/// the training data; their coverage of the hold-out measures how well.
 
 #include "diagnosis/fit/fit.h"
 #include "diagnosis/judgement/holdout.h"
@@ -24,14 +24,14 @@ namespace halyard {
 std::vector<double> residual_quantiles(const Evidence& evidence, const std::vector<Record>& training,
                                        const Hypothesis& hypothesis);
 
-/// Covariances at the fit's hypothesis of its effects' parameters together with baseline parameters, also those that the
-/// final fit has reset: the data did not show that they differ from the model's values, but they may.
+/// Covariances at the fit's hypothesis of its effects' parameters together with baseline parameters, also those that
+/// the final fit has reset: the data did not show that they differ from the model's values, but they may.
 ///   whole    all training data
 ///   numbers  the baseline parameters that the data are sensitive to; other entries are ignored
 Fit with_all_numbers(const Evidence& whole, const Fit& fit, const std::vector<FitParameter>& numbers);
 
-/// h_i of the fit's hypothesis: [record], each [n][size]. Empty for a joint without sensor; NaN if a sensitivity cannot be
-/// integrated or the fit is not usable.
+/// h_i of the fit's hypothesis: [record], each [n][size]. Empty for a joint without sensor; NaN if a
+/// sensitivity cannot be integrated or the fit is not usable.
 ///   quantile  q_k, [n]
 std::vector<Signals> half_widths(const std::vector<Record>& records, const Fit& fit,
                                  const std::vector<double>& quantile);
