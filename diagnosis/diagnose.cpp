@@ -12,6 +12,7 @@
 #include "diagnosis/explanation/view_sentence.h"
 #include "diagnosis/judgement/final_fit.h"
 #include "diagnosis/judgement/name_probability.h"
+#include "diagnosis/judgement/prediction_interval.h"
 #include "diagnosis/prediction/calibrate.h"
 
 namespace halyard {
@@ -52,7 +53,7 @@ class Diagnoser {
     if (is_one_sine(evidence)) refuse_names(evidence);
     else tell_names(evidence);
     tell_rests(evidence);
-    predict_holdout(evidence);
+    predict_holdout(evidence, whole, data.training_joints);
     tell_probabilities(evidence);
     tell_stuck_sensors();
     result_.verdict = !result_.effects.empty()      ? Diagnosis::Verdict::effects
@@ -231,7 +232,7 @@ class Diagnoser {
   }
 
   /// Errors by both models. A revised model that predicts the hold-out worse than the given one is not adopted.
-  void predict_holdout(const Evidence& evidence) {
+  void predict_holdout(const Evidence& evidence, const Evidence& whole, const std::vector<Record>& training_joints) {
     say("hold-out", 0);
     HoldOut &joints = details_->joint_view, &torques = details_->torque_view;
     const Hypothesis before{result_.given.nominal, result_.given.effects, attribution().baseline.hypothesis.past};
@@ -255,8 +256,12 @@ class Diagnoser {
     result_.revised.nominal = final_hypothesis().nominal;
     result_.revised.effects = final_hypothesis().effects;
     details_->past = final_hypothesis().past;
-    result_.before = prediction_errors(joints, torques, model_.n(), &HoldOut::before);
-    result_.after = prediction_errors(joints, torques, model_.n(), &HoldOut::after);
+    result_.before = prediction_errors(joints, torques, result_.given.nominal, &HoldOut::before);
+    result_.after = prediction_errors(joints, torques, result_.given.nominal, &HoldOut::after);
+    joints.half_width =
+        half_widths(joints.records, with_all_numbers(whole, attribution().final_fit, attribution().baseline.parameters),
+                    residual_quantiles(evidence, training_joints, final_hypothesis()));
+    result_.joint_interval = prediction_interval(joints, model_.n());
   }
 
   /// Effects whose typical size changes no signal of the training data by more than its floor.

@@ -56,9 +56,23 @@ struct NotExcited {
   std::string why;
 };
 
+/// Parts of the error of one signal, [n]: rms² = bias² + spread². NaN where there is no sensor or no such sample.
+struct ErrorParts {
+  std::vector<double> bias;                     ///< mean of measured minus predicted
+  std::vector<double> spread;                   ///< standard deviation about that mean
+  std::vector<double> moving_rms, resting_rms;  ///< over samples at which the joint's motor moves, and rests
+};
+
 /// Errors per joint, [n]; NaN where there is no sensor.
 struct PredictionError {
   std::vector<double> joint_rms, joint_peak, torque_rms;
+  ErrorParts joint, torque;
+};
+
+/// 95 % intervals of the predicted joint position on the hold-out, [n]; NaN where there is no sensor.
+struct PredictionInterval {
+  std::vector<double> half_width;  ///< median over the samples, rad | m
+  std::vector<double> coverage;    ///< share of the samples that lie in their interval
 };
 
 /// Intermediate results of the diagnosis, for reports. Defined in diagnosis_details.h, which is not installed.
@@ -77,8 +91,9 @@ struct Diagnosis {
   double probability_none = 0;
   ArmModel given;  ///< the model as given, with unknown torque scales calibrated
   ArmModel revised;
-  std::string holdout;            ///< description of the hold-out data
-  PredictionError before, after;  ///< on the hold-out, with `given` and with `revised`
+  std::string holdout;                ///< description of the hold-out data
+  PredictionError before, after;      ///< on the hold-out, with `given` and with `revised`
+  PredictionInterval joint_interval;  ///< of `revised`
   std::shared_ptr<const DiagnosisDetails> details;
 };
 

@@ -37,6 +37,26 @@ Json before_after(const std::vector<double>& before, const std::vector<double>& 
   return {{"before", numbers(before)}, {"after", numbers(after)}};
 }
 
+/// Errors on the hold-out and the intervals of the predicted joint positions.
+Json error_json(const Diagnosis& d) {
+  const PredictionError &b = d.before, &a = d.after;
+  Json error = {{"holdout", d.holdout},
+                {"joint_position_rms", before_after(b.joint_rms, a.joint_rms)},
+                {"joint_position_peak", before_after(b.joint_peak, a.joint_peak)},
+                {"motor_torque_rms", before_after(b.torque_rms, a.torque_rms)}};
+  const auto add_parts = [&error](const std::string& signal, const ErrorParts& before, const ErrorParts& after) {
+    error[signal + "_bias"] = before_after(before.bias, after.bias);
+    error[signal + "_spread"] = before_after(before.spread, after.spread);
+    error[signal + "_rms_moving"] = before_after(before.moving_rms, after.moving_rms);
+    error[signal + "_rms_resting"] = before_after(before.resting_rms, after.resting_rms);
+  };
+  add_parts("joint_position", b.joint, a.joint);
+  add_parts("motor_torque", b.torque, a.torque);
+  error["joint_position_interval95"] = {{"half_width", numbers(d.joint_interval.half_width)},
+                                        {"coverage", numbers(d.joint_interval.coverage)}};
+  return error;
+}
+
 /// {"joint_position_rms": {"before": [...], "after": [...]}, ...} of each estimator; null where it failed.
 Json estimators_json(const DiagnosisEvaluation& evaluation) {
   const auto of = [](const std::vector<double>& values) { return values.empty() ? Json(nullptr) : numbers(values); };
@@ -93,11 +113,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
                     {"unexplained", unexplained},
                     {"not_excited", not_excited},
                     {"log_check", log_check},
-                    {"error",
-                     {{"holdout", d.holdout},
-                      {"joint_position_rms", before_after(d.before.joint_rms, d.after.joint_rms)},
-                      {"joint_position_peak", before_after(d.before.joint_peak, d.after.joint_peak)},
-                      {"motor_torque_rms", before_after(d.before.torque_rms, d.after.torque_rms)}}},
+                    {"error", error_json(d)},
                     {"estimators", estimators_json(evaluation)}};
   return all.dump(2) + "\n";
 }
@@ -144,8 +160,16 @@ void add_log_findings(report::Page& page, const Diagnosis& d) {
   page.verdict(report::VerdictKind::warning, text);
 }
 
+namespace {
+
+ShownUnit position_unit(const Diagnosis& d, int k) {
+  const JointUnit unit = joint_units(d.revised)[k];
+  return {unit.shown, unit.shown_per_si};
+}
+
+}  // namespace
+
 void add_error_table(report::Page& page, const Diagnosis& d) {
-  const std::vector<JointUnit> units = joint_units(d.revised);
   report::Table table;
   table.caption = "Free prediction: error on the hold-out (" + d.holdout + "), which no fit has seen";
   table.header = {"joint", "position RMS before",     "after", "position peak before",
@@ -156,7 +180,7 @@ void add_error_table(report::Page& page, const Diagnosis& d) {
     row.emplace_back(cell(after), after < 0.9 * before);
   };
   for (int k = 0; k < d.revised.n(); ++k) {
-    const ShownUnit position{units[k].shown, units[k].shown_per_si};
+    const ShownUnit position = position_unit(d, k);
     std::vector<report::Cell> row = {fmt::format("{}", k + 1)};
     add(row, d.before.joint_rms[k], d.after.joint_rms[k], position);
     add(row, d.before.joint_peak[k], d.after.joint_peak[k], position);
@@ -165,6 +189,61 @@ void add_error_table(report::Page& page, const Diagnosis& d) {
     table.rows.push_back(std::move(row));
   }
   page.table(table);
+}
+
+void add_error_parts(report::Page& page, const Diagnosis& d) {
+  report::Table table;
+  table.caption = "The same errors in parts";
+  table.header = {"joint", "signal", "model", "bias", "spread", "RMS moving", "RMS resting"};
+  table.align = {report::Align::left,  report::Align::left,  report::Align::left, report::Align::right,
+                 report::Align::right, report::Align::right, report::Align::right};
+  const auto add = [&](int k, const char* signal, const ErrorParts& before, const ErrorParts& after,
+                       const ShownUnit& unit) {
+    if (!std::isfinite(before.spread[k])) return;
+    std::vector<report::Cell> given = {fmt::format("{}", k + 1), signal, "given"}, revised = {"", "", "revised"};
+    for (const auto part :
+         {&ErrorParts::bias, &ErrorParts::spread, &ErrorParts::moving_rms, &ErrorParts::resting_rms}) {
+      const double b = (before.*part)[k], a = (after.*part)[k];
+      const auto cell = [&](double v) { return std::isfinite(v) ? shown(v, unit) : std::string("-"); };
+      given.emplace_back(cell(b));
+      revised.emplace_back(cell(a), std::abs(a) < 0.9 * std::abs(b));
+    }
+    table.rows.push_back(std::move(given));
+    table.rows.push_back(std::move(revised));
+  };
+  for (int k = 0; k < d.revised.n(); ++k) {
+    add(k, "position", d.before.joint, d.after.joint, position_unit(d, k));
+    add(k, "motor torque", d.before.torque, d.after.torque,
+        residual_unit(d.revised.nominal, k, ResidualKind::motor_torque));
+  }
+  if (table.rows.empty()) return;
+  page.table(table);
+  page.paragraph(
+      "Bias is the mean of measured minus predicted, spread the standard deviation about it. A sample is resting if "
+      "the "
+      "joint's motor stands still; static friction can then have any value, so the torque says little.");
+}
+
+void add_intervals(report::Page& page, const Diagnosis& d) {
+  report::Table table;
+  table.caption = "95 % interval of the joint position that the revised model predicts on the hold-out";
+  table.header = {"joint", "half-width (median)", "samples inside"};
+  std::vector<report::Chart> charts;
+  for (int k = 0; k < d.revised.n(); ++k) {
+    const double half = d.joint_interval.half_width[k];
+    if (!std::isfinite(half)) continue;
+    table.rows.push_back({fmt::format("{}", k + 1), shown(half, position_unit(d, k)),
+                          fmt::format("{:.1f} %", 100 * d.joint_interval.coverage[k])});
+    charts.push_back(interval_chart(d, k));
+  }
+  if (table.rows.empty()) return;
+  page.table(table);
+  page.paragraph(
+      "The interval contains the uncertainty of the fitted parameters and the errors that remain on the training data. "
+      "If far fewer than 95 % of the samples lie inside, the model has errors on the hold-out that the training data "
+      "do "
+      "not show.");
+  page.figure_row(charts);
 }
 
 void add_estimator_errors(report::Page& page, const ArmModel& model, const DiagnosisEvaluation& evaluation) {

@@ -23,6 +23,10 @@ void add_verdict(report::Page& page, const Diagnosis& diagnosis, const Diagnosis
 void add_log_findings(report::Page& page, const Diagnosis& diagnosis);
 /// Errors of the prediction from the motors' motion alone: on the hold-out, with the given and with the revised model.
 void add_error_table(report::Page& page, const Diagnosis& diagnosis);
+/// These errors as bias and spread, and of moving and resting samples. Adds nothing if nothing is compared.
+void add_error_parts(report::Page& page, const Diagnosis& diagnosis);
+/// 95 % intervals of the predicted joint positions, and how many samples they contain. Adds nothing without joint sensors.
+void add_intervals(report::Page& page, const Diagnosis& diagnosis);
 /// Errors of the estimators with the given and with the revised model, and results from their innovations. Adds nothing
 /// without an evaluation.
 void add_estimator_errors(report::Page& page, const ArmModel& model, const DiagnosisEvaluation& evaluation);
@@ -31,6 +35,9 @@ void add_estimator_errors(report::Page& page, const ArmModel& model, const Diagn
 /// time, and position over the motor's rate, where friction and gaps show as loops. Without a joint sensor there are no
 /// charts of the position, and the torque is drawn over the motor's rate.
 std::vector<report::Chart> residual_charts(const Diagnosis& diagnosis, int k);
+
+/// Joint k's position error by the revised model over time, between the ends of its 95 % interval.
+report::Chart interval_chart(const Diagnosis& diagnosis, int k);
 
 /// The whole report.
 report::Page diagnosis_page(const ArmModel& model, const Diagnosis& diagnosis, const DiagnosisEvaluation& evaluation);

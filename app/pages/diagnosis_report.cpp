@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "app/pages/diagnosis_output.h"
 #include "app/pages/view_charts.h"
@@ -160,17 +159,16 @@ void add_candidates(report::Page& page, const Diagnosis& d) {
 
 std::vector<report::Chart> residual_charts(const Diagnosis& d, int k) {
   const JointUnit unit = joint_units(d.revised)[k];
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   const double scale = unit.shown_per_si;
   const ShownUnit torque_unit = residual_unit(d.revised.nominal, k, ResidualKind::motor_torque);
   const std::string torque_name = residual_name(d.revised.nominal, k, ResidualKind::motor_torque);
   const Value time = [](const Record& r, const FullPrediction&, std::size_t i) { return r.time(i); };
   const Value rate = [k](const Record& r, const FullPrediction&, std::size_t i) { return r.motor_rate[k][i]; };
   const Value joint = [=](const Record& r, const FullPrediction& p, std::size_t i) {
-    return r.has_joint(k) && r.joint_valid[k][i] > 0 ? scale * (r.joint_raw[k][i] - p.joint_reading[k][i]) : nan;
+    return scale * joint_error(r, p, k, i);
   };
   const Value torque = [=](const Record& r, const FullPrediction& p, std::size_t i) {
-    return r.has_torque(k) && r.torque_valid[k][i] > 0 ? torque_unit.per_si * p.torque_residual[k][i] : nan;
+    return torque_unit.per_si * torque_error(r, p, k, i);
   };
   std::vector<report::Chart> charts;
   const auto add = [&](report::Chart chart, const std::string& x, const std::string& y, report::ChartKind kind) {
@@ -200,6 +198,28 @@ std::vector<report::Chart> residual_charts(const Diagnosis& d, int k) {
   return charts;
 }
 
+report::Chart interval_chart(const Diagnosis& d, int k) {
+  const JointUnit unit = joint_units(d.revised)[k];
+  const HoldOut& view = d.details->joint_view;
+  report::Series error{.name = "after", .colour = 1};
+  report::Series upper{.name = "95 % interval", .dashed = true, .colour = 0}, lower = upper;
+  lower.name = "";
+  for (std::size_t r = 0; r < view.records.size(); ++r)
+    for (std::size_t i = 0; i < view.records[r].size; ++i) {
+      const double e = joint_error(view.records[r], view.after[r], k, i);
+      if (std::isnan(e)) continue;
+      for (report::Series* s : {&error, &upper, &lower}) s->x.push_back(view.records[r].time(i));
+      const double half = unit.shown_per_si * view.half_width[r][k][i];
+      error.y.push_back(unit.shown_per_si * e);
+      upper.y.push_back(half);
+      lower.y.push_back(-half);
+    }
+  return {.title = fmt::format("Joint {}: position error and interval", k + 1),
+          .x_label = "time [s]",
+          .y_label = "measured - predicted [" + unit.shown + "]",
+          .series = {std::move(error), std::move(upper), std::move(lower)}};
+}
+
 report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   report::Page page("Diagnosis of " + model.name, "What the model lacks, by measured data");
   add_verdict(page, d, evaluation);
@@ -208,6 +228,8 @@ report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d, const Dia
   page.paragraph(
       "Joint position is predicted from motor signals alone: the arm is driven by the measured motor motion and its "
       "joints follow through the cables. Torque is predicted from the same motion and low-pass filtered like it.");
+  add_error_parts(page, d);
+  add_intervals(page, d);
   add_estimator_errors(page, model, evaluation);
   add_evidence(page, d, evaluation);
   add_numbers(page, d);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/record/resting.h"
 #include "model/input_error.h"
 #include "transmission/coupling.h"
 
@@ -23,16 +24,6 @@ double smallest_step(const std::vector<double>& x) {
     if (d > 1e-12 && (step == 0 || d < step)) step = d;
   }
   return step;
-}
-
-/// True if the motor stands still for most of what the comparing kernel sees about a sample: friction then takes any
-/// value that balance asks for, and the torque says nothing. A motor that turns round without a stop does not rest.
-bool rests(const Record& record, int k, std::size_t at, double v_s) {
-  const std::size_t reach = record.compare.size() / 2;
-  double still = 0;
-  for (std::size_t t = at - std::min(at, reach); t <= std::min(at + reach, record.size - 1); ++t)
-    if (std::abs(record.motor_rate[k][t]) < 2 * v_s) still += record.compare[t + reach - at];
-  return still > 0.5;
 }
 
 Span joint_span_of(const std::vector<Record>& records, const ArmParameters<double>& arm, int k) {
@@ -61,14 +52,15 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model, Split spl
   for (const Record& r : records_) total += r.dt * static_cast<double>(r.size), dt = std::min(dt, r.dt);
   stride_ = std::max(1, static_cast<int>(std::lround(1 / (kRowRate * dt))));
   correlated_rows_ = std::max(1.0, kCorrelationTime / (stride_ * dt));
-  const double block_s = std::clamp(total / 60, kCorrelationTime, 1.0);
+  block_s_ = std::clamp(total / 60, kCorrelationTime, 1.0);
 
   channel_rows_.assign(channels(), 0);
   fit_count_.assign(channels(), 0);
   int blocks = 0;
   for (std::size_t r = 0; r < records_.size(); ++r) {
     records_[r].place = static_cast<int>(r);
-    blocks = add_rows(static_cast<int>(r), model, block_s, blocks, split);
+    first_block_.push_back(blocks);
+    blocks = add_rows(static_cast<int>(r), model, split);
   }
   if (row_channel_.empty())
     throw InputError(records_.front().source +
@@ -81,9 +73,9 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model, Split spl
   find_spans(model);
 }
 
-int Evidence::add_rows(int r, const ArmModel& model, double block_s, int first_block, Split split) {
+int Evidence::add_rows(int r, const ArmModel& model, Split split) {
   const Record& record = records_[r];
-  int end = first_block;
+  int end = first_block_[r];
   for (int c = 0; c < channels(); ++c) {
     const int k = c % n_;
     const bool joint = c >= n_;
@@ -92,14 +84,18 @@ int Evidence::add_rows(int r, const ArmModel& model, double block_s, int first_b
     const double v_s = model.nominal.joint[k].motor_smoothing;
     for (std::size_t i = 0; i < record.size; i += stride_) {
       if (valid[i] == 0 || (!joint && rests(record, k, i, v_s))) continue;
-      const int block = first_block + static_cast<int>(record.dt * static_cast<double>(i) / block_s);
+      const int block = block_of(r, i);
       const int index = static_cast<int>(i) / stride_;
       if (split == Split::none) add_row({r, c, index, block, true}, record.time(i));
-      else add_row({r, c, index, block / 2, block % 2 == 0}, record.time(i));
+      else add_row({r, c, index, block / 2, !decides(r, i)}, record.time(i));
       end = std::max(end, block + 1);
     }
   }
   return end;
+}
+
+int Evidence::block_of(int r, std::size_t i) const {
+  return first_block_[r] + static_cast<int>(records_[r].dt * static_cast<double>(i) / block_s_);
 }
 
 void Evidence::add_row(const Place& place, double time) {

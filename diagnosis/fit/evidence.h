@@ -47,6 +47,8 @@ class Evidence {
   const std::vector<double>& row_time() const { return row_time_; }
   /// Mean squares on both kinds of blocks.
   Score score(const Hypothesis& hypothesis) const;
+  /// True if Split::alternate leaves sample i of record r to a deciding block.
+  bool decides(int r, std::size_t i) const { return block_of(r, i) % 2 != 0; }
   /// Samples in each deciding block and channel: [block][2n].
   const std::vector<std::vector<int>>& block_count() const { return block_count_; }
 
@@ -81,8 +83,10 @@ class Evidence {
     bool fit;
   };
 
-  /// Adds the rows of record r; blocks are counted on from first_block. Returns the first block of the next record.
-  int add_rows(int r, const ArmModel& model, double block_s, int first_block, Split split);
+  /// Adds the rows of record r. Returns the first block of the next record.
+  int add_rows(int r, const ArmModel& model, Split split);
+  /// The block of sample i of record r, over all records.
+  int block_of(int r, std::size_t i) const;
   void add_row(const Place& place, double time);
   void find_floors(const ArmModel& model);
   void find_spans(const ArmModel& model);
@@ -90,6 +94,8 @@ class Evidence {
   int n_;
   int stride_ = 1;
   double correlated_rows_ = 1;
+  double block_s_ = 1;
+  std::vector<int> first_block_;  ///< [record]
   std::vector<Record> records_;
   std::vector<Place> places_;
   std::vector<int> row_channel_, row_block_, row_record_;

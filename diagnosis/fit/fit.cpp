@@ -33,14 +33,6 @@ double spacing_around(const std::vector<double>& starts, double value) {
   return starts[i] - starts[i - 1];
 }
 
-Hypothesis moved(const Hypothesis& h, const FitParameter& p, double by) {
-  Hypothesis m = h;
-  const double value = parameter_value(h, p) + by * p.scale;
-  // At a bound the step goes inward.
-  set_parameter(m, p, value > p.upper ? value - 2 * by * p.scale : value);
-  return m;
-}
-
 class Residual : public ceres::CostFunction {
  public:
   Residual(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& parameters,
@@ -72,7 +64,7 @@ class Residual : public ceres::CostFunction {
     std::vector<double> step(p, 0);
     for (std::size_t i = 0; (wanted || frozen_) && i < p; ++i) {
       if (is_frozen(i)) continue;
-      all.push_back(moved(all[0], parameters_[i], kStep));
+      all.push_back(stepped(all[0], parameters_[i]));
       step[i] = (parameter_value(all.back(), parameters_[i]) - parameter_value(all[0], parameters_[i])) /
                 parameters_[i].scale;
     }
@@ -211,9 +203,10 @@ bool add_deviations(const Evidence& evidence, const Residual& residual, const st
       grouped_blocks(evidence.row_block(), kCorrelationTimes * correlated_blocks(evidence, r), kFewestBlocks);
   const BlockVariance scatter = block_variance(J, r, prior, blocks);
   result.blocks = scatter.blocks;
+  result.block_covariance = unit.asDiagonal() * scatter.covariance * unit.asDiagonal();
   for (Eigen::Index i = 0; i < p; ++i) {
-    const double by_scatter = unit(i) * std::sqrt(std::max(0.0, scatter.covariance(i, i)));
-    result.std_deviation.push_back(std::max(by_scatter, std::sqrt(std::max(0.0, result.covariance(i, i)))));
+    const double larger = std::max(result.block_covariance(i, i), result.covariance(i, i));
+    result.std_deviation.push_back(std::sqrt(std::max(0.0, larger)));
   }
   return true;
 }
@@ -231,6 +224,13 @@ void set_parameter(Hypothesis& h, const FitParameter& p, double value) {
   if (is_past(p)) h.set_past_state(p.effect, p.index - kMaxEffectParameters, value);
   else if (p.effect >= 0) h.effects[p.effect].p[p.index] = value;
   else *named_parameters(h.nominal)[p.index].value = value;
+}
+
+Hypothesis stepped(const Hypothesis& h, const FitParameter& p) {
+  Hypothesis m = h;
+  const double value = parameter_value(h, p) + kStep * p.scale;
+  set_parameter(m, p, value > p.upper ? value - 2 * kStep * p.scale : value);
+  return m;
 }
 
 std::vector<FitParameter> baseline_parameters(const ArmModel& model) {
@@ -335,7 +335,7 @@ std::vector<double> channel_scale(const Evidence& evidence, const std::vector<do
 std::vector<std::vector<double>> sensitivities(const Evidence& evidence, const Hypothesis& at,
                                                const std::vector<FitParameter>& parameters) {
   std::vector<Hypothesis> all = {at};
-  for (const FitParameter& p : parameters) all.push_back(moved(at, p, kStep));
+  for (const FitParameter& p : parameters) all.push_back(stepped(at, p));
   auto rows = evidence.fit_rows(all);
   for (const auto& r : rows)
     if (r.empty()) return {};

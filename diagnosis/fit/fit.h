@@ -39,6 +39,9 @@ inline bool is_past(const FitParameter& p) { return p.effect >= 0 && p.index >= 
 double parameter_value(const Hypothesis& h, const FitParameter& p);
 void set_parameter(Hypothesis& h, const FitParameter& p, double value);
 
+/// The hypothesis with the parameter moved by the step of a sensitivity. At a bound the step goes inward.
+Hypothesis stepped(const Hypothesis& h, const FitParameter& p);
+
 /// Baseline parameters for which the model states a tolerance. The ratio of a drive is a single parameter: the
 /// capstan's radius represents it.
 std::vector<FitParameter> baseline_parameters(const ArmModel& model);
@@ -74,9 +77,10 @@ struct Fit {
   /// for the correlation of residuals. The other comes from the curvature, which accounts for errors of a floor's size
   /// that all blocks share.
   std::vector<double> std_deviation;
-  int blocks = 0;              ///< number of blocks in that scatter: its degrees of freedom plus one
-  Eigen::MatrixXd covariance;  ///< from the curvature at the end, if rows were independent, [parameters]²
-  bool usable = false;         ///< false: the start could not be integrated
+  int blocks = 0;                    ///< number of blocks in that scatter: its degrees of freedom plus one
+  Eigen::MatrixXd covariance;        ///< from the curvature at the end, if rows were independent, [parameters]²
+  Eigen::MatrixXd block_covariance;  ///< from the scatter of blocks, [parameters]²
+  bool usable = false;               ///< false: the start could not be integrated
 };
 
 /// Channel scales from residuals: sqrt(max(mean square, floor²)). [2n]

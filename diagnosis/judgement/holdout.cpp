@@ -6,33 +6,46 @@
 #include <map>
 
 #include "diagnosis/judgement/paired_t.h"
+#include "diagnosis/record/resting.h"
 
 namespace halyard {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-double joint_error(const Record& r, const FullPrediction& p, int k, std::size_t i) {
-  return r.has_joint(k) && r.joint_valid[k][i] > 0 ? r.joint_raw[k][i] - p.joint_reading[k][i] : kNone;
-}
+/// Sums of errors.
+struct ErrorSums {
+  double count = 0, sum = 0, square = 0, peak = 0;
 
-double torque_error(const Record& r, const FullPrediction& p, int k, std::size_t i) {
-  return r.has_torque(k) && r.torque_valid[k][i] > 0 ? p.torque_residual[k][i] : kNone;
-}
+  void add(double e) { count += 1, sum += e, square += e * e, peak = std::max(peak, std::abs(e)); }
+  double mean() const { return count > 0 ? sum / count : kNone; }
+  double rms() const { return count > 0 ? std::sqrt(square / count) : kNone; }
+  double spread() const { return count > 0 ? std::sqrt(std::max(0.0, square / count - mean() * mean())) : kNone; }
+};
 
-/// Root mean square and peak of what sample(record, prediction, i) gives, where it is not NaN.
-template <class Sample>
-std::pair<double, double> size_of(const std::vector<Record>& records, const std::vector<FullPrediction>& predictions,
-                                  const Sample& sample) {
-  double square = 0, count = 0, peak = 0;
-  for (std::size_t r = 0; r < records.size(); ++r)
-    for (std::size_t i = 0; i < records[r].size; ++i) {
-      const double e = sample(records[r], predictions[r], i);
-      if (std::isnan(e)) continue;
-      square += e * e, count += 1, peak = std::max(peak, std::abs(e));
-    }
-  return count > 0 ? std::pair(std::sqrt(square / count), peak) : std::pair(kNone, kNone);
-}
+using ErrorOfSample = double (*)(const Record&, const FullPrediction&, int, std::size_t);
+
+struct ErrorsOfJoint {
+  ErrorsOfJoint(const std::vector<Record>& records, const std::vector<FullPrediction>& predictions, int k, double v_s,
+                ErrorOfSample error) {
+    for (std::size_t r = 0; r < records.size(); ++r)
+      for (std::size_t i = 0; i < records[r].size; ++i) {
+        const double e = error(records[r], predictions[r], k, i);
+        if (std::isnan(e)) continue;
+        all.add(e);
+        (rests(records[r], k, i, v_s) ? resting : moving).add(e);
+      }
+  }
+
+  void add_to(ErrorParts& parts) const {
+    parts.bias.push_back(all.mean());
+    parts.spread.push_back(all.spread());
+    parts.moving_rms.push_back(moving.rms());
+    parts.resting_rms.push_back(resting.rms());
+  }
+
+  ErrorSums all, moving, resting;
+};
 
 /// Takes out what was before a time.
 void compare_from(Record& r, double from) {
@@ -42,15 +55,14 @@ void compare_from(Record& r, double from) {
 }
 
 /// True if the squares of `error` grow from `before` to `after`, beyond chance and beyond what matters.
-template <class Error>
-bool grows(const HoldOut& view, double floor, const Error& error) {
+bool grows(const HoldOut& view, int k, double floor, ErrorOfSample error) {
   constexpr double kShare = 0.025, kSignificance = 0.01;
   std::map<std::pair<std::size_t, int>, std::pair<double, double>> second;
   double before = 0, after = 0, count = 0;
   for (std::size_t r = 0; r < view.records.size(); ++r)
     for (std::size_t i = 0; i < view.records[r].size; ++i) {
       const Record& record = view.records[r];
-      const double e = error(record, view.before[r], i), f = error(record, view.after[r], i);
+      const double e = error(record, view.before[r], k, i), f = error(record, view.after[r], k, i);
       if (std::isnan(e) || std::isnan(f)) continue;
       auto& [of_before, of_after] = second[{r, static_cast<int>(record.time(i))}];
       of_before += e * e, of_after += f * f;
@@ -67,8 +79,17 @@ bool grows(const HoldOut& view, double floor, const Error& error) {
 DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& training,
                              const std::optional<Log>& holdout) {
   DiagnosisData data;
+  const auto place_among_training = [&](Record& r, std::size_t first) {
+    for (std::size_t place = first; place < data.training.size(); ++place)
+      if (data.training[place].start == r.start) r.place = static_cast<int>(place);
+  };
   const auto learn_from = [&](const Log& log) {
+    const std::size_t first = data.training.size();
     for (Record& r : make_records(log, model, kFitBand)) data.training.push_back(std::move(r));
+    for (Record& r : make_records(log, model, kJointErrorBand)) {
+      place_among_training(r, first);
+      data.training_joints.push_back(std::move(r));
+    }
   };
   const auto hold_out = [&](const Log& log, double from, std::size_t first) {
     for (const auto& [view, how] :
@@ -76,8 +97,7 @@ DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& trai
       for (Record& r : make_records(log, model, how)) {
         if (r.time(r.size - 1) < from) continue;
         compare_from(r, from);
-        for (std::size_t place = first; place < data.training.size(); ++place)
-          if (data.training[place].start == r.start) r.place = static_cast<int>(place);
+        place_among_training(r, first);
         view->records.push_back(std::move(r));
       }
   };
@@ -95,19 +115,26 @@ DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& trai
   return data;
 }
 
-PredictionError prediction_errors(const HoldOut& joints, const HoldOut& torques, int n,
+double joint_error(const Record& r, const FullPrediction& p, int k, std::size_t i) {
+  return r.has_joint(k) && r.joint_valid[k][i] > 0 ? r.joint_raw[k][i] - p.joint_reading[k][i] : kNone;
+}
+
+double torque_error(const Record& r, const FullPrediction& p, int k, std::size_t i) {
+  return r.has_torque(k) && r.torque_valid[k][i] > 0 ? p.torque_residual[k][i] : kNone;
+}
+
+PredictionError prediction_errors(const HoldOut& joints, const HoldOut& torques, const ArmParameters<double>& arm,
                                   std::vector<FullPrediction> HoldOut::*which) {
   PredictionError e;
-  for (int k = 0; k < n; ++k) {
-    const auto [joint_rms, joint_peak] =
-        size_of(joints.records, joints.*which,
-                [k](const Record& r, const FullPrediction& p, std::size_t i) { return joint_error(r, p, k, i); });
-    const auto [torque_rms, torque_peak] =
-        size_of(torques.records, torques.*which,
-                [k](const Record& r, const FullPrediction& p, std::size_t i) { return torque_error(r, p, k, i); });
-    e.joint_rms.push_back(joint_rms);
-    e.joint_peak.push_back(joint_peak);
-    e.torque_rms.push_back(torque_rms);
+  for (int k = 0; k < arm.n; ++k) {
+    const double v_s = arm.joint[k].motor_smoothing;
+    const ErrorsOfJoint joint(joints.records, joints.*which, k, v_s, joint_error);
+    const ErrorsOfJoint torque(torques.records, torques.*which, k, v_s, torque_error);
+    e.joint_rms.push_back(joint.all.rms());
+    e.joint_peak.push_back(joint.all.count > 0 ? joint.all.peak : kNone);
+    e.torque_rms.push_back(torque.all.rms());
+    joint.add_to(e.joint);
+    torque.add_to(e.torque);
   }
   return e;
 }
@@ -122,13 +149,7 @@ std::vector<int> worse_joints(const HoldOut& joints, const HoldOut& torques, con
   const int n = static_cast<int>(floor.size()) / 2;
   std::vector<int> worse;
   for (int k = 0; k < n; ++k) {
-    const auto of_joint = [k](const Record& r, const FullPrediction& p, std::size_t i) {
-      return joint_error(r, p, k, i);
-    };
-    const auto of_torque = [k](const Record& r, const FullPrediction& p, std::size_t i) {
-      return torque_error(r, p, k, i);
-    };
-    if (grows(joints, floor[n + k], of_joint) || grows(torques, floor[k], of_torque)) worse.push_back(k);
+    if (grows(joints, k, floor[n + k], joint_error) || grows(torques, k, floor[k], torque_error)) worse.push_back(k);
   }
   return worse;
 }

@@ -19,13 +19,16 @@ inline constexpr RecordOptions kJointErrorBand = {.motion_hz = 100, .compare_hz 
 struct HoldOut {
   std::vector<Record> records;
   std::vector<FullPrediction> before, after;
+  /// 95 % intervals of the joint readings in `after`, see prediction_interval.h: [record], each [n][size].
+  std::vector<Signals> half_width = {};
 };
 
 /// The logs of a diagnosis as records.
 struct DiagnosisData {
   std::vector<Record> training;
-  HoldOut joint_view;   ///< in kJointErrorBand
-  HoldOut torque_view;  ///< in kFitBand
+  std::vector<Record> training_joints;  ///< the training data in kJointErrorBand
+  HoldOut joint_view;                   ///< in kJointErrorBand
+  HoldOut torque_view;                  ///< in kFitBand
 };
 
 /// Without a hold-out log, the last third of each training log is held out. Cables have memory, so the part of the log
@@ -33,8 +36,13 @@ struct DiagnosisData {
 DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& training,
                              const std::optional<Log>& holdout);
 
-/// Errors of both views with one of their predictions, HoldOut::before or HoldOut::after; n joints.
-PredictionError prediction_errors(const HoldOut& joints, const HoldOut& torques, int n,
+/// Measured minus predicted at sample i of joint k; NaN where nothing is compared.
+double joint_error(const Record& r, const FullPrediction& p, int k, std::size_t i);
+double torque_error(const Record& r, const FullPrediction& p, int k, std::size_t i);
+
+/// Errors of both views with one of their predictions, HoldOut::before or HoldOut::after. A sample of a joint or of its
+/// torque is resting if the joint's motor rests there, see resting.h.
+PredictionError prediction_errors(const HoldOut& joints, const HoldOut& torques, const ArmParameters<double>& arm,
                                   std::vector<FullPrediction> HoldOut::*which);
 
 /// Predictions of all records.

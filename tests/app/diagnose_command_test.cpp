@@ -1,6 +1,8 @@
 // halyard diagnose end to end: what is told of a log whose robot has a backlash that the model lacks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/app_runs.h"
@@ -49,7 +51,26 @@ TEST_F(DiagnoseCommand, SaysWhyAndByHowMuchEachEstimatorGains) {
   };
   EXPECT_LT(left("joint_position_rms"), 0.05);
   EXPECT_LT(left("joint_position_peak"), 1);
+  const json& error = diagnosis.at("error");
+  for (const char* signal : {"joint_position", "motor_torque"})
+    for (const char* when : {"before", "after"}) {
+      const auto part = [&](const char* name) {
+        return error.at(std::string(signal) + name).at(when).at(1).get<double>();
+      };
+      // Nine digits are written.
+      EXPECT_NEAR(std::hypot(part("_bias"), part("_spread")), part("_rms"), 1e-8 * part("_rms"));
+      const auto [least, most] = std::minmax({part("_rms_moving"), part("_rms_resting")});
+      EXPECT_TRUE(least <= part("_rms") && part("_rms") <= most);
+    }
+  const json& interval = error.at("joint_position_interval95");
+  // The hold-out, 2500 samples, is a part of the same motion: at least 95 % less three binomial deviations. It is
+  // more, because the other numbers of this model are exact, which the interval cannot know: 99 % were observed.
+  EXPECT_GT(interval.at("coverage").at(1).get<double>(), 0.95 - 3 * 0.0044);
+  // Not by being idle: of a normal error 95 % lie within two deviations.
+  EXPECT_LT(interval.at("half_width").at(1).get<double>(),
+            2.5 * error.at("joint_position_rms").at("after").at(1).get<double>());
   const std::string page = text_of(path("out/report.html"));
+  EXPECT_TRUE(contains(page, "Joint 2: position error and interval"));
   EXPECT_TRUE(contains(page, "ekf failed with the given model: estimator ekf on "));
   EXPECT_TRUE(contains(page, "crashed: Segm"));
   EXPECT_TRUE(contains(page, "joint behind its motors, over load"));

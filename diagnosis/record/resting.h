@@ -1,0 +1,14 @@
+#pragma once
+/// Tells the samples of a record at which a motor rests.
+
+#include "diagnosis/record/record.h"
+
+namespace halyard {
+
+/// True if motor k stands still for most of what the comparing kernel sees about sample `at`: friction then has any
+/// value that balance asks for. A motor that reverses without a stop does not rest. For a joint without a motor the
+/// joint's own motion counts.
+///   v_s  motor_smoothing of the joint, rad/s: below 2 v_s the model's friction has not reached its level
+bool rests(const Record& record, int k, std::size_t at, double v_s);
+
+}  // namespace halyard

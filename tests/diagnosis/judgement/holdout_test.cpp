@@ -1,0 +1,107 @@
+#include "diagnosis/judgement/holdout.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diagnosis/record/resting.h"
+#include "tests/support/limits.h"
+
+namespace halyard {
+namespace {
+
+constexpr std::size_t kSamples = 400;
+constexpr double kSmoothing = 0.5;  // rad/s
+// Sums of so many numbers of about one.
+constexpr double kRounding = 4 * kSamples * kEps;
+
+/// One joint with a sensor, and a torque, all zero. The motor turns at 10 rad/s in the first quarter and then rests.
+Record small_record() {
+  Record r;
+  r.n = 1;
+  r.dt = 0.01;
+  r.size = kSamples;
+  r.compare = {1};
+  const Signals zero(1, std::vector<double>(kSamples, 0)), one(1, std::vector<double>(kSamples, 1));
+  r.motor_rate = r.torque = r.joint = r.joint_raw = zero;
+  r.joint_valid = r.torque_valid = one;
+  for (std::size_t i = 0; i < kSamples / 4; ++i) r.motor_rate[0][i] = 10;
+  return r;
+}
+
+/// A hold-out of that record with the errors error(i) of joint and torque.
+template <class Error>
+HoldOut holdout_with(const Record& record, const Error& error) {
+  FullPrediction p{Signals(1), Signals(1)};
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    p.joint_reading[0].push_back(-error(i));
+    p.torque_residual[0].push_back(error(i));
+  }
+  return {{record}, {p}, {p}};
+}
+
+template <class Error>
+PredictionError errors_with(const Record& record, const Error& error) {
+  ArmParameters<double> arm;
+  arm.n = 1;
+  arm.joint[0].motor_smoothing = kSmoothing;
+  const HoldOut view = holdout_with(record, error);
+  return prediction_errors(view, view, arm, &HoldOut::after);
+}
+
+TEST(HoldOutError, IsTheBiasOfAKnownOffsetAndTheSpreadAboutIt) {
+  const auto e = errors_with(small_record(), [](std::size_t i) { return i % 2 == 0 ? 0.5 : -0.1; });
+  for (const ErrorParts& parts : {e.joint, e.torque}) {
+    EXPECT_NEAR(parts.bias[0], 0.2, kRounding);
+    EXPECT_NEAR(parts.spread[0], 0.3, kRounding);
+  }
+  EXPECT_NEAR(e.joint_rms[0], std::hypot(0.2, 0.3), kRounding);
+  EXPECT_EQ(e.joint_peak[0], 0.5);
+}
+
+TEST(HoldOutError, IsCountedSeparatelyWhereTheMotorMovesAndRests) {
+  const auto e = errors_with(small_record(), [](std::size_t i) { return i < kSamples / 4 ? 3.0 : -1.0; });
+  for (const ErrorParts& parts : {e.joint, e.torque}) {
+    EXPECT_NEAR(parts.moving_rms[0], 3, kRounding);
+    EXPECT_NEAR(parts.resting_rms[0], 1, kRounding);
+  }
+  EXPECT_NEAR(e.torque_rms[0], std::sqrt((9 + 3 * 1) / 4.0), kRounding);
+}
+
+TEST(HoldOutError, OfAMotorThatNeverRestsHasNoRestingPart) {
+  Record record = small_record();
+  record.motor_rate[0].assign(kSamples, -10);
+  const auto e = errors_with(record, [](std::size_t) { return 1.0; });
+  EXPECT_TRUE(std::isnan(e.joint.resting_rms[0]));
+  EXPECT_NEAR(e.joint.moving_rms[0], 1, kRounding);
+}
+
+TEST(HoldOutError, IgnoresSamplesThatAreNotCompared) {
+  Record record = small_record();
+  record.joint_valid[0][7] = record.torque_valid[0][7] = 0;
+  const auto e = errors_with(record, [](std::size_t i) { return i == 7 ? 100.0 : 0.0; });
+  EXPECT_EQ(e.joint_peak[0], 0);
+  EXPECT_EQ(e.torque.bias[0], 0);
+}
+
+TEST(Resting, IsMostOfWhatTheComparingKernelSees) {
+  Record record = small_record();
+  record.compare = {0.2, 0.2, 0.2, 0.2, 0.2};
+  record.motor_rate[0].assign(kSamples, 10);
+  record.motor_rate[0][100] = record.motor_rate[0][101] = 0;
+  EXPECT_FALSE(rests(record, 0, 100, kSmoothing)) << "it reverses";
+  record.motor_rate[0][102] = 0;
+  EXPECT_TRUE(rests(record, 0, 101, kSmoothing));
+  EXPECT_FALSE(rests(record, 0, 99, kSmoothing));
+}
+
+TEST(Resting, IsSlowerThanTwiceTheSmoothingOfFriction) {
+  Record record = small_record();
+  record.motor_rate[0].assign(kSamples, -1.99 * kSmoothing);
+  EXPECT_TRUE(rests(record, 0, 50, kSmoothing));
+  record.motor_rate[0].assign(kSamples, -2.01 * kSmoothing);
+  EXPECT_FALSE(rests(record, 0, 50, kSmoothing));
+}
+
+}  // namespace
+}  // namespace halyard
