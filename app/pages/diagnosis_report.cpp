@@ -128,14 +128,17 @@ void add_candidates(report::Page& page, const Diagnosis& d) {
   for (std::size_t r = 0; r < d.details->attribution.rounds.size(); ++r) {
     const Round& round = d.details->attribution.rounds[r];
     report::Table table;
-    table.caption = fmt::format("Round {}: {}", r + 1,
-                                round.accepted ? "the first candidate was added" : "no candidate was convincing");
+    const char* what = round.at_once
+                           ? (round.accepted ? "several candidates were added at once"
+                                             : "several candidates at once were not convincing")
+                           : (round.accepted ? "the first candidate was added" : "no candidate was convincing");
+    table.caption = fmt::format("Round {}: {}", r + 1, what);
     table.header = {"candidate", "gain [nats]", "p", "verdict"};
     table.align = {report::Align::left, report::Align::right, report::Align::right, report::Align::left};
     std::size_t shown = 0;
     for (const Trial& t : round.trials) {
       if (++shown > 8) break;
-      const bool taken = round.accepted && &t == &round.trials.front();
+      const bool taken = round.accepted && (round.at_once || &t == &round.trials.front());
       table.rows.push_back({{effect_label(t.effect), taken},
                             t.usable ? fmt::format("{:.1f}", t.gain) : std::string("-"),
                             t.usable ? fmt::format("{:.2g}", t.p_value) : std::string("-"),

@@ -23,6 +23,12 @@ struct DecisionRule {
   /// A candidate whose quick fit has a larger p value than this is neither fitted fully nor judged further.
   double worth_a_fit = 0.05;
 
+  // Several effects are proposed together.
+
+  /// So many sets of each size are grown further in the selection. Reason: of two effects that hide each other, one is
+  /// rarely the best alone, but among the best few.
+  std::size_t sets_kept = 4;
+
   // A remaining residual is reported.
 
   /// A residual matters above this many times the floor of its channel: about one resolution of a joint's encoder.

@@ -39,14 +39,13 @@ Judge::Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitPar
              std::vector<double> first)
     : evidence_(evidence), model_(model), numbers_(std::move(numbers)), first_(std::move(first)) {}
 
-Trial Judge::trial(const Hypothesis& with, const Scored& without, const PlacedEffect& effect) const {
-  Trial t = unusable(effect);
+Trial Judge::trial(const Hypothesis& with, const Scored& without, std::size_t index) const {
+  Trial t = unusable(with.effects[index]);
   const Scored scored{with, evidence_.score(with)};
-  if (!scored.score.finite) return t;
-  const int place = static_cast<int>(with.effects.size()) - 1;
+  if (!scored.score.finite || !without.score.finite) return t;
+  const int place = static_cast<int>(index);
   t.usable = true;
-  t.effect = with.effects.back();
-  if (static_cast<std::size_t>(place) < with.past.size()) t.past = with.past[place];
+  if (index < with.past.size()) t.past = with.past[index];
   const std::vector<double> least = squared_floors(evidence_);
   t.log_likelihood = log_likelihood(evidence_, scored.score, least);
   t.gain = paired(evidence_, t.log_likelihood, log_likelihood(evidence_, without.score, least)).sum +
@@ -65,7 +64,7 @@ bool Judge::is_needed(const Scored& with, const Scored& without, int place, doub
          p_of_gain(with.score, without.score) <= significance;
 }
 
-/// The probability of such a gain by chance: by the scatter of the blocks, or, of an effect that explains a rest
+/// By the scatter of the blocks, or, of an effect that explains a rest
 /// whole, by the likelihood ratio as well, so that a few moments are enough.
 double Judge::p_of_gain(const Score& with, const Score& without) const {
   const auto compared = [&](const std::vector<double>& least) {

@@ -61,18 +61,19 @@ class Judge {
   /// numbers: baseline parameters that the data are sensitive to. first: mean squares [2n] before any effect.
   Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers, std::vector<double> first);
 
-  /// Tests the last effect of `with` against the hypothesis without it.
-  Trial trial(const Hypothesis& with, const Scored& without, const PlacedEffect& effect) const;
+  /// Tests the effect with index `place` in `with` against the hypothesis without it.
+  Trial trial(const Hypothesis& with, const Scored& without, std::size_t place) const;
   /// True if the effect with index `place` in `with` is still needed.
   bool is_needed(const Scored& with, const Scored& without, int place, double significance) const;
 
+  /// Probability of such a gain by chance.
+  double p_of_gain(const Score& with, const Score& without) const;
   /// Cost of a fit: -ln L on the fitting blocks plus the stretch of the baseline parameters.
   double cost(const Scored& scored) const;
   /// Prior cost of the refitted baseline parameters.
   double stretch(const Hypothesis& h) const;
 
  private:
-  double p_of_gain(const Score& with, const Score& without) const;
   bool explains_a_rest(const Score& before, const Score& after) const;
   bool at_bound(const Scored& with, int place) const;
   bool lasts_the_whole_record(const Hypothesis& h, const std::vector<FitParameter>& parameters,

@@ -59,8 +59,7 @@ class Search {
 
   Attribution run() {
     Found current{baseline_.fit, baseline_.score};
-    for (int round = 0; round < options_.most_effects; ++round)
-      if (!add_one(current)) break;
+    while (n_added(current) < options_.most_effects && add(current)) {}
     if (result_.namings.size() > 1) revise_names(current);
     remove_idle(current);
     result_.baseline = baseline_.fit;
@@ -77,6 +76,8 @@ class Search {
     Score score;
     Scored scored() const { return {fit.hypothesis, score}; }
   };
+
+  int n_added(const Found& f) const { return static_cast<int>(f.fit.hypothesis.effects.size() - given_); }
 
   /// The effect that a round names, if any.
   struct Won {
@@ -113,10 +114,13 @@ class Search {
     return true;
   }
 
+  CandidateRound round_of(const Found& without, const Hypothesis& from, const std::string& name) const {
+    return {evidence_, model_, refitter_, judge_, without.scored(), from, name, progress_};
+  }
+
   /// All candidates compete for the place after the effects of `without`.
-  std::optional<Won> compete(const Scored& without, const Hypothesis& from, const std::vector<PlacedEffect>& candidates,
-                             const std::string& name) {
-    const CandidateRound round(evidence_, model_, refitter_, judge_, without, from, name, progress_);
+  std::optional<Won> compete(CandidateRound& round, const Scored& without,
+                             const std::vector<PlacedEffect>& candidates) {
     Round told;
     told.trials = round.look(candidates);
     const std::vector<Fit> fits = round.fit_leaders(told.trials);
@@ -138,20 +142,37 @@ class Search {
     return won;
   }
 
-  /// One round with all candidates.
-  bool add_one(Found& current) {
+  /// One round with all candidates, and if none of them is convincing alone, with several at once.
+  bool add(Found& current) {
     if (explained(current.score)) return false;
     // Before any effect is named the refitted baseline is distorted by what is missing: candidates start at the model's
     // own parameters.
     const bool is_first = result_.rounds.empty();
     const Hypothesis from =
         is_first ? Hypothesis{model_.nominal, model_.effects, current.fit.hypothesis.past} : current.fit.hypothesis;
-    const auto won = compete(current.scored(), from, candidates(current.fit.hypothesis),
-                             "round " + std::to_string(result_.rounds.size() + 1));
-    if (!won) return false;
+    CandidateRound round = round_of(current, from, "round " + std::to_string(result_.rounds.size() + 1));
+    const auto won = compete(round, current.scored(), candidates(current.fit.hypothesis));
+    if (!won) return add_together(current, round);
     current = {won->fit, evidence_.score(won->fit.hypothesis)};
     result_.namings.push_back(won->naming);
     if (!is_first) fit_afresh(current);
+    return true;
+  }
+
+  /// Several effects at once, if that was not done yet.
+  bool add_together(Found& current, const CandidateRound& round) {
+    const bool is_done = std::ranges::any_of(result_.rounds, &Round::at_once);
+    if (is_done) return false;
+    progress_("several effects at once", 0);
+    const JointSearch search(evidence_, model_, refitter_, judge_, given_);
+    const JointProposal proposal = search.propose(round.linear(), current.scored(), options_.significance,
+                                                  options_.most_effects - n_added(current));
+    if (proposal.trials.empty()) return false;
+    result_.rounds.push_back({proposal.trials, proposal.is_convincing, true});
+    if (!proposal.is_convincing) return false;
+    current = {proposal.fit, proposal.score};
+    result_.namings.resize(result_.namings.size() + proposal.trials.size());
+    fit_afresh(current);
     return true;
   }
 
@@ -159,18 +180,19 @@ class Search {
   /// its place once more, beside the other effects.
   void revise_names(Found& current) {
     const std::vector<PlacedEffect> pool = gainers();
-    for (std::size_t i = 0; i + 1 < result_.namings.size(); ++i) {
+    const std::size_t n = result_.namings.size() - (last_name_competed() ? 1 : 0);
+    for (std::size_t i = 0; i < n; ++i) {
       const PlacedEffect old = current.fit.hypothesis.effects[given_];
       const Hypothesis others = without_effect(current.fit.hypothesis, given_);
       const Fit refitted = refitter_.refit(others, current.score);
-      if (!refitted.usable) continue;
+      if (!refitted.usable) return;
       const Found without{refitted, evidence_.score(refitted.hypothesis)};
       std::vector<PlacedEffect> rivals = candidates(others);
       std::erase_if(rivals, [&](const PlacedEffect& r) {
         return std::ranges::none_of(pool, [&](const PlacedEffect& p) { return same_name(p, r); });
       });
-      const auto won =
-          compete(without.scored(), without.fit.hypothesis, rivals, "the revision of name " + std::to_string(i + 1));
+      CandidateRound round = round_of(without, without.fit.hypothesis, "the revision of name " + std::to_string(i + 1));
+      const auto won = compete(round, without.scored(), rivals);
       // The new name comes last: after as many revisions the names are in their first order.
       Found revised = won ? Found{won->fit, evidence_.score(won->fit.hypothesis)} : without;
       const bool keeps = won && same_name(won->fit.hypothesis.effects.back(), old) &&
@@ -180,8 +202,15 @@ class Search {
       std::rotate(result_.namings.begin(), result_.namings.begin() + 1, result_.namings.end());
       if (won) result_.namings.back() = won->naming;
       else result_.namings.pop_back();
-      if (!won) break;
     }
+  }
+
+  /// True if the last name came from a round beside all the others. Names that were added at once have not competed yet.
+  bool last_name_competed() const {
+    bool competed = false;
+    for (const Round& round : result_.rounds)
+      if (round.accepted) competed = !round.at_once;
+    return competed;
   }
 
   /// The same fit with its first added effect as the last.

@@ -1,7 +1,8 @@
 #pragma once
 /// Finds the effects that explain the residual. In each round, candidates are fitted together with the baseline's
 /// parameters on the fitting blocks and judged on the deciding blocks (judge.h). The best is added, until none helps
-/// significantly. Then the removal of each added effect is tried.
+/// significantly. When none helps alone, a few are tried together (joint_proposal.h). Then all names but the last that won
+/// a round are revised, and the removal of each added effect is tried.
 
 #include <functional>
 #include <string>
@@ -10,10 +11,11 @@
 
 namespace halyard {
 
-/// One round of the search: all candidates against the same baseline.
+/// One round of the search: all candidates against the same baseline, or several effects at once.
 struct Round {
   std::vector<Trial> trials;  ///< the added candidate first, then in the order of the gain of their quick fits
-  bool accepted = false;      ///< the first trial was added
+  bool accepted = false;      ///< the first trial was added; of several at once: all were
+  bool at_once = false;       ///< the trials are of effects that were proposed together, each beside the others
 };
 
 struct Attribution {

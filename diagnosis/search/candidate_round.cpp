@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <atomic>
 
-#include "diagnosis/search/starts.h"
-
 namespace halyard {
 
 CandidateRound::CandidateRound(const Evidence& evidence, const ArmModel& model, const Refitter& refitter,
@@ -17,13 +15,13 @@ CandidateRound::CandidateRound(const Evidence& evidence, const ArmModel& model, 
       refitter_(refitter),
       judge_(judge),
       without_(std::move(without)),
-      from_(std::move(from)),
+      linear_{std::move(from), {}, {}, {}},
       scale_(channel_scale(evidence, without_.score.fit_mean_square)),
       name_(name),
       progress_(progress) {
-  for (const FitParameter& p : refitter_.parameters(from_))
-    if (p.effect < 0) numbers_.push_back(p);
-  columns_ = sensitivities(evidence_, from_, numbers_);
+  for (const FitParameter& p : refitter_.parameters(linear_.from))
+    if (p.effect < 0) linear_.numbers.push_back(p);
+  linear_.columns = sensitivities(evidence_, linear_.from, linear_.numbers);
 }
 
 void CandidateRound::each(const std::string& what, std::size_t n, const std::function<void(std::size_t)>& one) const {
@@ -34,28 +32,29 @@ void CandidateRound::each(const std::string& what, std::size_t n, const std::fun
   });
 }
 
-std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candidates) const {
-  if (columns_.empty() && !numbers_.empty()) return {};
-  const Screen screen(evidence_, from_, columns_, scale_);
-  std::vector<Start> starts(candidates.size());
+std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candidates) {
+  if (linear_.columns.empty() && !linear_.numbers.empty()) return {};
+  const Screen screen(evidence_, linear_.from, linear_.columns, scale_);
+  linear_.starts.assign(candidates.size(), {});
   each("candidates", candidates.size(), [&](std::size_t i) {
-    starts[i] = best_start(evidence_, screen, refitter_.with_effect(from_, candidates[i]), model_.nominal);
+    linear_.starts[i] =
+        best_start(evidence_, screen, refitter_.with_effect(linear_.from, candidates[i]), model_.nominal);
   });
   std::vector<std::size_t> fitted;
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (starts[i].promise >= kRule.promise) fitted.push_back(i);
-  std::ranges::stable_sort(fitted, {}, [&](std::size_t i) { return starts[i].left; });
+    if (linear_.starts[i].promise >= kRule.promise) fitted.push_back(i);
+  std::ranges::stable_sort(fitted, {}, [&](std::size_t i) { return linear_.starts[i].left; });
   if (fitted.size() > kRule.most_fitted) fitted.resize(kRule.most_fitted);
 
   std::vector<Trial> trials;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     trials.push_back(unusable(candidates[i]));
-    trials.back().promising = starts[i].promise >= kRule.promise;
+    trials.back().promising = linear_.starts[i].promise >= kRule.promise;
     trials.back().is_fitted = false;
   }
   each("fits", fitted.size(), [&](std::size_t f) {
     const std::size_t i = fitted[f];
-    trials[i] = quick_look(starts[i].hypothesis, candidates[i]);
+    trials[i] = quick_look(linear_.starts[i].hypothesis, candidates[i]);
   });
   std::ranges::stable_sort(trials, std::ranges::greater{}, &Trial::gain);
   return trials;
@@ -64,10 +63,10 @@ std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candida
 Trial CandidateRound::quick_look(const Hypothesis& start, const PlacedEffect& effect) const {
   std::vector<FitParameter> parameters;
   std::vector<std::vector<double>> kept;
-  for (std::size_t i = 0; i < numbers_.size(); ++i) {
-    if (effect_covers(effect, model_.nominal, numbers_[i])) continue;
-    parameters.push_back(numbers_[i]);
-    kept.push_back(columns_[i]);
+  for (std::size_t i = 0; i < linear_.numbers.size(); ++i) {
+    if (effect_covers(effect, model_.nominal, linear_.numbers[i])) continue;
+    parameters.push_back(linear_.numbers[i]);
+    kept.push_back(linear_.columns[i]);
   }
   for (const FitParameter& p : refitter_.parameters(start))
     if (p.effect >= 0) parameters.push_back(p);
@@ -76,13 +75,13 @@ Trial CandidateRound::quick_look(const Hypothesis& start, const PlacedEffect& ef
   options.cost_tolerance = 3e-4;
   options.frozen_baseline = true;
   const Fit f = fit(evidence_, start, parameters, scale_, options, kept);
-  return f.usable ? judge_.trial(f.hypothesis, without_, effect) : unusable(effect);
+  return f.usable ? judge_.trial(f.hypothesis, without_, f.hypothesis.effects.size() - 1) : unusable(effect);
 }
 
 std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
   std::vector<Refit> refits;
   for (std::size_t i = 0; i < std::min(kRule.leaders, trials.size()); ++i)
-    refits.push_back({refitter_.with_effect(from_, trials[i].effect, trials[i].past), without_.score});
+    refits.push_back({refitter_.with_effect(linear_.from, trials[i].effect, trials[i].past), without_.score});
   const auto go_on_with = [&](const std::string& what, double share, int passes) {
     double best = 0;
     for (std::size_t i = 0; i < refits.size(); ++i) best = std::max(best, trials[i].gain);
@@ -90,8 +89,8 @@ std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
       Trial& t = trials[i];
       if (!t.is_judged() || !(t.gain > share * best) || refits[i].settled) return;
       refitter_.go_on(refits[i], passes);
-      const PlacedEffect effect = t.effect;
-      t = refits[i].best.usable ? judge_.trial(refits[i].best.hypothesis, without_, effect) : unusable(effect);
+      const Hypothesis& h = refits[i].best.hypothesis;
+      t = refits[i].best.usable ? judge_.trial(h, without_, h.effects.size() - 1) : unusable(t.effect);
     });
   };
   go_on_with("best candidates", kRule.leads, kRule.first_passes);

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "diagnosis/judgement/judge.h"
-#include "diagnosis/search/refit.h"
+#include "diagnosis/search/joint_proposal.h"
 
 namespace halyard {
 
@@ -19,10 +19,12 @@ class CandidateRound {
                  Scored without, Hypothesis from, const std::string& name, const SearchProgress& progress);
 
   /// A trial of each candidate, the largest gain first. Empty if the sensitivities cannot be computed.
-  std::vector<Trial> look(const std::vector<PlacedEffect>& candidates) const;
+  std::vector<Trial> look(const std::vector<PlacedEffect>& candidates);
   /// Fits the first trials fully and judges them anew. The quick look computes the sensitivities of the model's
   /// parameters once; here they are renewed until nothing changes. Returns the fits, in the order of the trials.
   std::vector<Fit> fit_leaders(std::vector<Trial>& trials) const;
+  /// What the look has found to first order.
+  const LinearRound& linear() const { return linear_; }
 
  private:
   /// Calls one(i) for all i < n, side by side.
@@ -34,10 +36,8 @@ class CandidateRound {
   const Refitter& refitter_;
   const Judge& judge_;
   Scored without_;
-  Hypothesis from_;
-  std::vector<FitParameter> numbers_;         ///< parameters of the model that no effect so far changes
-  std::vector<std::vector<double>> columns_;  ///< sensitivities to them
-  std::vector<double> scale_;                 ///< [2n] of the residual
+  LinearRound linear_;
+  std::vector<double> scale_;  ///< [2n] of the residual
   std::string name_;
   const SearchProgress& progress_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace halyard {
 namespace {
@@ -74,9 +75,14 @@ class StartSearch {
     start.hypothesis = with_;
     std::vector<Hypothesis> first;
     for (const Tried& t : tried_) first.push_back(t.hypothesis);
+    first.push_back(neutral_);
     const auto rows = evidence_.fit_rows(first);
-    for (std::size_t i = 0; i < tried_.size(); ++i)
-      start.promise = std::max(start.promise, ask(tried_[i], screen_.direction(rows[i])));
+    for (std::size_t i = 0; i < tried_.size(); ++i) {
+      const Screen::Direction d = screen_.direction(rows[i]);
+      tried_[i].promise = d.promise;
+      start.promise = std::max(start.promise, ask(tried_[i], d));
+    }
+    start.directions = directions(rows);
     if (start.promise == 0) return start;
 
     const std::vector<Hypothesis> second = most_promising();
@@ -85,7 +91,7 @@ class StartSearch {
       const double left = screen_.left(row);
       if (left < start.left) start.left = left, start.hypothesis = h;
     };
-    for (std::size_t i = 0; i < first.size(); ++i) consider(first[i], rows[i]);
+    for (std::size_t i = 0; i < tried_.size(); ++i) consider(first[i], rows[i]);
     for (std::size_t i = 0; i < second.size(); ++i) consider(second[i], second_rows[i]);
     return start;
   }
@@ -95,6 +101,12 @@ class StartSearch {
   struct Tried {
     Hypothesis hypothesis;
     std::size_t combination, size;
+    double promise = 0;
+  };
+  /// Values of the shapes of one group.
+  struct Combination {
+    ParameterGroup group;
+    Hypothesis shaped;  ///< with them and without any size
   };
   /// What the linear fits ask for at one combination of shapes.
   struct Asked {
@@ -111,6 +123,7 @@ class StartSearch {
     for (const auto& values : shapes) {
       const Hypothesis at = shaped(group, values);
       for (const std::size_t size : group.sizes) add_sizes(at, size, one_sided, shapes.size() > 1);
+      combinations_.push_back({group, at});
       asked_.push_back({neutral_});
     }
   }
@@ -173,6 +186,43 @@ class StartSearch {
     return all;
   }
 
+  /// At the most promising combinations of shapes. rows: of what was tried, then of neutral_.
+  std::vector<Directions> directions(const std::vector<std::vector<double>>& rows) const {
+    constexpr std::size_t kCombinations = 3;
+    std::vector<std::size_t> order(combinations_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t c) { return asked_[c].promise; });
+    std::vector<Directions> all;
+    if (rows.back().empty()) return all;
+    for (const std::size_t c : order) {
+      if (all.size() == kCombinations) break;
+      const ParameterGroup& group = combinations_[c].group;
+      Directions d{combinations_[c].shaped, {}, {}, group.sizes.size() + group.shapes.size()};
+      for (const std::size_t size : group.sizes) add_direction(d, c, size, rows);
+      if (!d.sizes.empty()) all.push_back(std::move(d));
+    }
+    return all;
+  }
+
+  /// The change by the most promising value of a size that was tried there, if any can be integrated.
+  void add_direction(Directions& d, std::size_t combination, std::size_t size,
+                     const std::vector<std::vector<double>>& rows) const {
+    const FitParameter& p = parameters_[size];
+    const auto moved = [&](const Tried& t) { return parameter_value(t.hypothesis, p) - p.nominal; };
+    std::size_t best = tried_.size();
+    for (std::size_t i = 0; i < tried_.size(); ++i) {
+      const Tried& t = tried_[i];
+      if (t.combination != combination || t.size != size || rows[i].empty() || moved(t) == 0) continue;
+      if (best == tried_.size() || t.promise > tried_[best].promise) best = i;
+    }
+    if (best == tried_.size()) return;
+    std::vector<double> column = rows[best];
+    for (std::size_t r = 0; r < column.size(); ++r)
+      column[r] = (column[r] - rows.back()[r]) * p.scale / moved(tried_[best]);
+    d.sizes.push_back(p);
+    d.columns.push_back(std::move(column));
+  }
+
   const Evidence& evidence_;
   const Screen& screen_;
   const ArmParameters<double>& nominal_;
@@ -180,6 +230,7 @@ class StartSearch {
   std::vector<FitParameter> parameters_;
   Hypothesis neutral_;  ///< shapes as in with_
   std::vector<Tried> tried_;
+  std::vector<Combination> combinations_;
   std::vector<Asked> asked_;  ///< [combination of shapes]
 };
 

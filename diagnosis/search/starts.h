@@ -9,10 +9,19 @@
 
 namespace halyard {
 
+/// First-order changes of the fitting rows by the sizes of one group of a candidate's parameters, at some of its shapes.
+struct Directions {
+  Hypothesis neutral;                        ///< with the candidate, its last effect, at these shapes and no size
+  std::vector<FitParameter> sizes;           ///< of the group
+  std::vector<std::vector<double>> columns;  ///< change of the rows by a unit (FitParameter::scale) of each size
+  std::size_t numbers = 0;                   ///< sizes and shapes
+};
+
 struct Start {
   Hypothesis hypothesis;                                  ///< with the candidate, its last effect, at the best start
   double promise = 0;                                     ///< at the best start, see screen.h; 0: it explains nothing
   double left = std::numeric_limits<double>::infinity();  ///< |r⊥ + d⊥|² there
+  std::vector<Directions> directions;                     ///< at the most promising shapes, the best first
 };
 
 /// `with`: the candidate is its last effect. Each size is tried with each start of the shapes that follow it, at its

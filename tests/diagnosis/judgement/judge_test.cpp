@@ -32,7 +32,7 @@ struct Tug {
   Trial trial(double force, double stiffness) const {
     Hypothesis with{model.nominal, {push}}, without{model.nominal, {}};
     with.effects[0].p[0] = force, with.effects[0].p[3] = stiffness;
-    return judge.trial(with, {without, evidence.score(without)}, push);
+    return judge.trial(with, {without, evidence.score(without)}, 0);
   }
 };
 

@@ -1,0 +1,64 @@
+#include "diagnosis/search/joint_proposal.h"
+
+#include <gtest/gtest.h>
+
+#include "diagnosis/search/attribution.h"
+#include "diagnosis/search/candidate_round.h"
+#include "plant/simulate.h"
+#include "tests/support/short_arm.h"
+
+namespace halyard {
+namespace {
+
+PlacedEffect of_first_joint(const std::string& name, const ArmModel& model, double size) {
+  PlacedEffect e = place_neutral_effect(*find_effect(name), model.nominal, 0);
+  e.p[0] = size;
+  return e;
+}
+
+/// Two joints in motion. The drive of the first is faster than the model's, if at all, and its encoder was set to zero
+/// in the middle of the motion: ratio and offset cancel there. What is left is the ratio times the distance from the
+/// middle, of which the offset explains nothing and the ratio 5 %, since the joint is always far from zero.
+Evidence recorded(const ArmModel& model, double ratio) {
+  ArmModel robot = model;
+  if (ratio != 1)
+    robot.effects = {of_first_joint("capstan_ratio", model, ratio),
+                     of_first_joint("encoder_offset", model, (ratio - 1) * model.joints[0].home)};
+  return Evidence(make_records(simulate(motion(robot, 6)).measured, model, {}), model);
+}
+
+TEST(JointProposal, FindsTwoEffectsThatEachExplainLittleAlone) {
+  const ArmModel model = first_joints(2);
+  const Attribution a = attribute(recorded(model, 1.06), model, {}, {});
+  ASSERT_GE(a.rounds.size(), 2u);
+  EXPECT_FALSE(a.rounds[0].accepted) << "one of them was named alone: the test shows nothing";
+  EXPECT_TRUE(a.rounds[1].at_once && a.rounds[1].accepted);
+  const std::vector<PlacedEffect>& found = a.final_fit.hypothesis.effects;
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].effect->name(), "capstan_ratio");
+  EXPECT_EQ(found[1].effect->name(), "encoder_offset");
+  // A count of the joint's encoder over the range of the motion is 8e-5 / 0.8 = 1e-4.
+  EXPECT_NEAR(found[0].p[0], 1.06, 2e-4);
+  EXPECT_NEAR(found[1].p[0], 0.06 * model.joints[0].home, 2e-4);
+  // Both have competed for their names since.
+  for (const Naming& naming : a.namings) EXPECT_GT(naming.weight, 0.5);
+}
+
+TEST(JointProposal, OfAnArmWithoutEffectsProposesNothing) {
+  const ArmModel model = first_joints(2);
+  const Evidence evidence = recorded(model, 1);
+  const Refitter refitter(evidence, model, 0);
+  const Hypothesis nominal{model.nominal, {}};
+  const Fit baseline = refitter.refit(nominal, evidence.score(nominal));
+  const Scored without{baseline.hypothesis, evidence.score(baseline.hypothesis)};
+  const Judge judge(evidence, model, refitter.numbers(), without.score.mean_square);
+  const SearchProgress quiet = [](const std::string&, double) {};
+  CandidateRound round(evidence, model, refitter, judge, without, nominal, "a round", quiet);
+  round.look(all_candidates(model.nominal));
+  ASSERT_EQ(round.linear().starts.size(), all_candidates(model.nominal).size());
+  const JointSearch search(evidence, model, refitter, judge, 0);
+  EXPECT_FALSE(search.propose(round.linear(), without, 0.01, 6).is_convincing);
+}
+
+}  // namespace
+}  // namespace halyard
