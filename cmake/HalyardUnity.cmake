@@ -47,8 +47,8 @@ compile_together(halyard_plugins checks host/conformance.cpp host/effect_module.
 
 compile_together(halyard_diagnosis records
   explanation/curve_fit.cpp explanation/residual_signals.cpp explanation/signature.cpp explanation/spectrum.cpp
-  explanation/view_sentence.cpp explanation/views.cpp prediction/calibrate.cpp prediction/chebyshev.cpp
-  prediction/driven_start.cpp prediction/filtered_effect.cpp prediction/torque_comparison.cpp record/record.cpp search_space/cable.cpp search_space/joint.cpp
+  explanation/view_sentence.cpp explanation/views.cpp calibration/calibrate.cpp prediction/chebyshev.cpp
+  prediction/driven_start.cpp prediction/filtered_effect.cpp calibration/torque_comparison.cpp record/record.cpp search_space/cable.cpp search_space/joint.cpp
   search_space/motor.cpp search_space/search_space.cpp search_space/sensor.cpp)
 compile_together(halyard_diagnosis log_check
   log_check/clock.cpp log_check/columns.cpp log_check/log_check.cpp log_check/log_under_check.cpp

@@ -7,13 +7,13 @@
 #include <cmath>
 #include <mutex>
 
+#include "diagnosis/calibration/calibrate.h"
 #include "diagnosis/diagnosis_details.h"
 #include "diagnosis/explanation/signature.h"
 #include "diagnosis/explanation/view_sentence.h"
 #include "diagnosis/judgement/final_fit.h"
 #include "diagnosis/judgement/name_probability.h"
 #include "diagnosis/judgement/prediction_interval.h"
-#include "diagnosis/prediction/calibrate.h"
 
 namespace halyard {
 namespace {
@@ -33,6 +33,13 @@ std::vector<LogFinding> findings_of(const ArmModel& model, const std::vector<Log
   return all;
 }
 
+LogFinding finding_of(const DiagnosisData::Late& late) {
+  return {late.log, "joint_position",
+          fmt::format("the joint sensors, slower than the motors' encoders, are {:.3g} ms {} them",
+                      1e3 * std::abs(late.seconds), late.seconds > 0 ? "late against" : "ahead of"),
+          "nothing to do: the diagnosis has moved their readings by this time"};
+}
+
 /// What the stages of one diagnosis share.
 class Diagnoser {
  public:
@@ -43,6 +50,7 @@ class Diagnoser {
   Diagnosis run(const std::optional<Log>& holdout) {
     result_.log_findings = findings_of(model_, training_, holdout, options_.columns.value_or(model_.columns));
     DiagnosisData data = diagnosis_data(model_, training_, holdout);
+    for (const DiagnosisData::Late& late : data.late) result_.log_findings.push_back(finding_of(late));
     result_.holdout = holdout ? holdout->source : "last third of the training data";
     result_.given = calibrated(model_, data.training);
     details_->joint_view = std::move(data.joint_view);

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/calibration/calibrate.h"
 #include "diagnosis/fit/nudged.h"
 #include "diagnosis/judgement/decision_rule.h"
-#include "diagnosis/prediction/calibrate.h"
 
 namespace halyard {
 namespace {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "diagnosis/calibration/lateness.h"
 #include "diagnosis/judgement/paired_t.h"
 #include "diagnosis/record/resting.h"
 
@@ -83,18 +84,27 @@ DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& trai
     for (std::size_t place = first; place < data.training.size(); ++place)
       if (data.training[place].start == r.start) r.place = static_cast<int>(place);
   };
-  const auto learn_from = [&](const Log& log) {
+  const auto lateness_of = [&](const Log& log) {
+    const double late = slow_sensor_lateness(log, model);
+    if (late != 0) data.late.push_back({log.source, late});
+    return late;
+  };
+  const auto in_band = [](RecordOptions band, double late) {
+    band.slow_sensors_late_s = late;
+    return band;
+  };
+  const auto learn_from = [&](const Log& log, double late) {
     const std::size_t first = data.training.size();
-    for (Record& r : make_records(log, model, kFitBand)) data.training.push_back(std::move(r));
-    for (Record& r : make_records(log, model, kJointErrorBand)) {
+    for (Record& r : make_records(log, model, in_band(kFitBand, late))) data.training.push_back(std::move(r));
+    for (Record& r : make_records(log, model, in_band(kJointErrorBand, late))) {
       place_among_training(r, first);
       data.training_joints.push_back(std::move(r));
     }
   };
-  const auto hold_out = [&](const Log& log, double from, std::size_t first) {
+  const auto hold_out = [&](const Log& log, double late, double from, std::size_t first) {
     for (const auto& [view, how] :
          {std::pair(&data.joint_view, kJointErrorBand), std::pair(&data.torque_view, kFitBand)})
-      for (Record& r : make_records(log, model, how)) {
+      for (Record& r : make_records(log, model, in_band(how, late))) {
         if (r.time(r.size - 1) < from) continue;
         compare_from(r, from);
         place_among_training(r, first);
@@ -103,15 +113,16 @@ DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& trai
   };
   for (const Log& log : training) {
     if (holdout) {
-      learn_from(log);
+      learn_from(log, lateness_of(log));
     } else {
       const auto [first, last] = split_log(log, 2.0 / 3);
       const std::size_t place = data.training.size();
-      learn_from(first);
-      hold_out(log, last.time.front(), place);
+      const double late = lateness_of(first);
+      learn_from(first, late);
+      hold_out(log, late, last.time.front(), place);
     }
   }
-  if (holdout) hold_out(*holdout, holdout->time.front(), data.training.size());
+  if (holdout) hold_out(*holdout, lateness_of(*holdout), holdout->time.front(), data.training.size());
   return data;
 }
 

@@ -29,6 +29,12 @@ struct DiagnosisData {
   std::vector<Record> training_joints;  ///< the training data in kJointErrorBand
   HoldOut joint_view;                   ///< in kJointErrorBand
   HoldOut torque_view;                  ///< in kFitBand
+  /// Lateness of slow joint sensors that was taken out of a log's records, see lateness.h.
+  struct Late {
+    std::string log;
+    double seconds;
+  };
+  std::vector<Late> late;  ///< only logs with a lateness
 };
 
 /// Without a hold-out log, the last third of each training log is held out. Cables have memory, so the part of the log

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "diagnosis/calibration/torque_comparison.h"
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/robust.h"
-#include "diagnosis/prediction/torque_comparison.h"
 #include "model/input_error.h"
 
 namespace halyard {

@@ -5,6 +5,7 @@
 
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/robust.h"
+#include "diagnosis/record/record.h"
 #include "diagnosis/record/sampled_column.h"
 
 namespace halyard {
@@ -61,7 +62,8 @@ double mismatch(const SampledMotion& m, const SampledColumn& reading, int k, dou
 
 void check_delay(LogUnderCheck& c, const SampledMotion& m, int k) {
   if (m.expected[k].empty() || m.joint[k].empty()) return;
-  if (spread(m.expected[k]) < c.rule.least_motion * c.range(k)) return;
+  // A diagnosis measures the lag of slow sensors better, and takes it out.
+  if (spread(m.expected[k]) < c.rule.least_motion * c.range(k) || has_slow_joint_sensor(c.log, c.model, k)) return;
   const SampledColumn reading(c.log.time, c.log.joint_position[k]), motor(c.log.time, c.log.motor_position[k]);
   const double least = std::max(c.rule.late_s, c.rule.late_samples * std::max(reading.interval(), motor.interval()));
   const double at_zero = mismatch(m, reading, k, 0);
@@ -75,7 +77,9 @@ void check_delay(LogUnderCheck& c, const SampledMotion& m, int k) {
       column_name(&Log::joint_position, k),
       fmt::format("is {:.3g} ms {} motor_position_{}; the shift removes {:.0f} % of the squared mismatch",
                   1e3 * std::abs(late), late > 0 ? "late against" : "ahead of", k + 1, 100 * (1 - best / at_zero)),
-      "record both with one clock; a constant lag is named by the diagnosis as the effect delay");
+      "record both with one clock; the diagnosis takes a constant lag out if the sensor is slower than its motor's, "
+      "and "
+      "names it as the effect delay otherwise");
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ namespace {
 constexpr double kLowest = 10;  ///< Hz; below it the errors of a model are
 constexpr double kSegment = 1;  ///< s, and at least so many samples:
 constexpr int kFewestSamples = 64;
+constexpr double kUnattenuated = 0.6;  ///< of the Nyquist frequency: up to there, interpolation hardly attenuates
 constexpr double kMedianOverMean = std::numbers::ln2;
 constexpr double kLineFrom = 22;     ///< Hz: above what is compared
 constexpr double kLineTo = 150;      ///< Hz: above, the filter of the record leaves nothing to see
@@ -57,6 +58,7 @@ std::vector<NoiseLine> lines_of(const std::vector<double>& density, double resol
 struct ChannelSamples {
   std::vector<std::vector<double>> runs;  ///< evenly spaced, one for each record
   double interval = 0;                    ///< s
+  double own_interval = 0;                ///< of the sensor, s; larger if `runs` contain interpolated samples
 };
 
 ChannelSamples joint_samples(const std::vector<Record>& records, const std::vector<Residuals>& unfiltered, int k) {
@@ -75,6 +77,7 @@ ChannelSamples joint_samples(const std::vector<Record>& records, const std::vect
     }
     if (gaps.empty()) continue;
     all.interval = std::max(all.interval, median(gaps));
+    all.own_interval = std::max(all.own_interval, record.joint_interval[k]);
     all.runs.push_back(std::move(run));
   }
   return all;
@@ -159,6 +162,10 @@ std::vector<ChannelNoise> channel_noise(const std::vector<Record>& records, cons
     std::vector<double> density = median_density(samples.runs, samples.interval, segment);
     const double resolution = 1 / (samples.interval * segment);
     double highest = 0.5 / samples.interval;
+    // Between the samples of a sensor whose interval is no multiple of the record's, the readings are interpolated, which
+    // attenuates noise near the sensor's own Nyquist frequency.
+    if (samples.own_interval > samples.interval)
+      highest = std::min(highest, kUnattenuated * 0.5 / samples.own_interval);
     if (!joint) {
       // Above its cut-off the record's filter leaves too little of the torque to divide by.
       highest = std::min(highest, 1 / (2 * std::numbers::pi * motion_sigma));

@@ -69,6 +69,11 @@ std::vector<double> correlate(const std::vector<double>& x, const std::vector<do
   return y;
 }
 
+std::vector<double> earlier(std::vector<double> time, double by) {
+  for (double& t : time) t -= by;
+  return time;
+}
+
 /// A stretch of a log: its columns, and the fine grid on which they are filtered.
 class Stretch {
  public:
@@ -80,7 +85,8 @@ class Stretch {
       const bool driven = model.nominal.joint[k].drive != Drive::none;
       motion_.emplace_back(log.time, driven ? log.motor_position[k] : log.joint_position[k]);
       torque_.emplace_back(log.time, log.motor_torque[k]);
-      joint_.emplace_back(log.time, log.joint_position[k]);
+      const bool slow = options.slow_sensors_late_s != 0 && has_slow_joint_sensor(log, model, k);
+      joint_.emplace_back(slow ? earlier(log.time, options.slow_sensors_late_s) : log.time, log.joint_position[k]);
       external_.emplace_back(log.time, log.joint_torque[k]);
       for (const SampledColumn* c : {&motion_[k], &torque_[k], &joint_[k]})
         if (c->is_there()) fastest = std::min(fastest, c->interval());
@@ -110,7 +116,10 @@ class Stretch {
     for (Signals* s : {&r.motor_angle, &r.motor_rate, &r.motor_acceleration, &r.torque, &r.joint, &r.joint_raw,
                        &r.external, &r.joint_measured, &r.torque_measured, &r.joint_valid, &r.torque_valid})
       s->resize(r.n);
-    for (int k = 0; k < r.n; ++k) add_joint(k, r);
+    for (int k = 0; k < r.n; ++k) {
+      r.joint_interval.push_back(joint_[k].interval());
+      add_joint(k, r);
+    }
     return r;
   }
 
@@ -246,6 +255,13 @@ std::vector<Row> mark_gaps(const Log& log, const ArmModel& model, double longest
 }
 
 }  // namespace
+
+bool has_slow_joint_sensor(const Log& log, const ArmModel& model, int k) {
+  constexpr double kSlower = 1.5;
+  if (model.nominal.joint[k].drive == Drive::none) return false;
+  const SampledColumn sensor(log.time, log.joint_position[k]), motor(log.time, log.motor_position[k]);
+  return sensor.is_there() && motor.is_there() && sensor.interval() > kSlower * motor.interval();
+}
 
 std::vector<int> stuck_joint_sensors(const Log& log, const ArmModel& model) {
   constexpr double kMotion = 0.05;    // of the joint's range

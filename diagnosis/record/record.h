@@ -37,6 +37,7 @@ struct Record {
   Signals joint_raw;                        ///< the reading itself, interpolated between its samples
   Signals external;                         ///< measured load on the joint; empty: none
   Signals joint_measured, torque_measured;  ///< 1 at the grid points nearest to the signal's own samples
+  std::vector<double> joint_interval;       ///< [n_joints] from a sample of the sensor to its next, s; 0: no sensor
   Signals joint_valid, torque_valid;        ///< 0 where a sample cannot be compared
   double motion_sigma = 0;                  ///< σ_t of K_m, s
   double compare_sigma = 0;                 ///< σ_t of K_c, s; 0: residuals are not filtered
@@ -55,7 +56,8 @@ struct RecordOptions {
   double settle_s = 0.5;   ///< start of a record that is not compared, because its past is unknown
   /// largest grid step; the grid step is the fastest sensor's interval, multiplied or divided by a whole number
   double step_s = 0.002;
-  double longest_gap_s = 0.05;  ///< longer gaps in a motor's position split a log into several records
+  double slow_sensors_late_s = 0;  ///< readings of joint sensors slower than their motor's are moved earlier by this
+  double longest_gap_s = 0.05;     ///< longer gaps in a motor's position split a log into several records
 };
 
 /// One record per stretch of the log without a long gap; encoders of unknown zero are homed first.
@@ -69,6 +71,9 @@ struct RecordOptions {
 /// samples a second; and as home_encoders() does.
 std::vector<Record> make_records(const Log& log, const ArmModel& model, const RecordOptions& options);
 inline constexpr double kLongestHold = 0.002;  ///< s
+
+/// True if the sensor of joint k is slower than its motor's encoder: it has a clock of its own.
+bool has_slow_joint_sensor(const Log& log, const ArmModel& model, int k);
 
 /// 0-based joints whose sensor does not change by a single bit while the motors move the joint by more than 5 % of its
 /// range.

@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
+
+#include "plant/simulate.h"
+#include "tests/support/short_arm.h"
 
 namespace {
 
@@ -78,6 +82,24 @@ TEST(ChannelNoise, OfASlowSensorIsThatOfItsSamples) {
   // Ten bins of 27 segments each scatter by 8 %, two deviations.
   EXPECT_NEAR(noise.white, 1e-4, 0.16 * 1e-4);
   EXPECT_DOUBLE_EQ(noise.in_band, noise.white) << "the filter averages over less than one sample";
+}
+
+TEST(ChannelNoise, OfASensorBetweenTheRowsOfTheLogIsNotUnderestimated) {
+  constexpr double kDeviation = 1e-3, kRate = 342;  // rad, Hz; the log has rows of 1 ms
+  const halyard::ArmModel model = halyard::first_joints(1);
+  halyard::Log log = simulate(halyard::motion(model, 12)).measured;
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal(0, kDeviation);
+  for (std::size_t i = 0, reading = 0; i < log.size(); ++i) {
+    const bool is_read = kInterval * static_cast<double>(i) >= static_cast<double>(reading) / kRate;
+    if (is_read) ++reading;
+    log.joint_position[0][i] += is_read ? normal(random) : std::numeric_limits<double>::quiet_NaN();
+  }
+  const halyard::Hypothesis given{model.nominal, model.effects};
+  const auto noise = channel_noise(halyard::make_records(log, model, {}), given)[1];
+  const double in_band = kDeviation * std::sqrt(1 / kRate / (2 * std::sqrt(std::numbers::pi) * kFilter));
+  // The log is shorter than those above: half as many segments again to scatter by.
+  EXPECT_NEAR(noise.in_band, in_band, 1.5 * kScatter * in_band);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-#include "diagnosis/prediction/calibrate.h"
+#include "diagnosis/calibration/calibrate.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "diagnosis/prediction/torque_comparison.h"
+#include "diagnosis/calibration/torque_comparison.h"
 #include "model/input_error.h"
 
 namespace halyard {

@@ -1,4 +1,4 @@
-#include "diagnosis/prediction/torque_comparison.h"
+#include "diagnosis/calibration/torque_comparison.h"
 
 #include <cmath>
 #include <limits>

@@ -1,0 +1,158 @@
+#include "diagnosis/calibration/lateness.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "diagnosis/fit/fit.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kBlock = 1;  ///< s
+constexpr std::size_t kFewestBlocks = 5;
+constexpr double kAgree = 3;          ///< standard deviations
+constexpr double kModelError = 2e-3;  ///< s; friction and stretch that are off by their tolerance look so late
+constexpr double kExplains = 0.5;     ///< of the squares that offset and slope leave
+constexpr double kLongest = 0.1;      ///< s
+constexpr int kPasses = 3;
+constexpr double kSettled = 1e-4;  ///< s
+
+/// Sums of the normal equations of e = a + s p - d p'.
+struct Normal {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  double square = 0;
+
+  void add(double e, double p, double p_dot) {
+    const Eigen::Vector3d x(1, p, -p_dot);
+    A += x * x.transpose();
+    b += x * e;
+    square += e * e;
+  }
+  Normal without(const Normal& block) const { return {A - block.A, b - block.b, square - block.square}; }
+  Eigen::Vector3d solution() const { return A.completeOrthogonalDecomposition().solve(b); }
+  double left() const { return square - b.dot(solution()); }
+  /// What is left if d is 0.
+  double left_without_delay() const {
+    const Eigen::Matrix2d A2 = A.topLeftCorner<2, 2>();
+    return square - b.head<2>().dot(A2.completeOrthogonalDecomposition().solve(b.head<2>()));
+  }
+};
+
+struct JointLateness {
+  double delay = 0, variance = 0;
+  double explains = 0;  ///< share of the squares that offset and slope leave
+};
+
+/// Of joint k; nothing if too little is known.
+std::optional<JointLateness> joint_lateness(const std::vector<Record>& records,
+                                            const std::vector<FullPrediction>& predictions, int k) {
+  Normal all;
+  std::map<std::pair<std::size_t, int>, Normal> blocks;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const Record& record = records[r];
+    if (!record.has_joint(k)) continue;
+    const std::vector<double>& p = predictions[r].joint_reading[k];
+    for (std::size_t i = 1; i + 1 < record.size; ++i) {
+      if (!(record.joint_valid[k][i] > 0) || !(record.joint_measured[k][i] > 0)) continue;
+      const double e = record.joint_raw[k][i] - p[i], rate = (p[i + 1] - p[i - 1]) / (2 * record.dt);
+      if (!std::isfinite(e) || !std::isfinite(rate)) continue;
+      all.add(e, p[i], rate);
+      blocks[{r, static_cast<int>(record.time(i) / kBlock)}].add(e, p[i], rate);
+    }
+  }
+  if (blocks.size() < kFewestBlocks || !(all.left_without_delay() > 0)) return std::nullopt;
+  JointLateness j;
+  j.delay = all.solution()(2);
+  const double n = static_cast<double>(blocks.size());
+  double mean = 0, square = 0;
+  for (const auto& [at, block] : blocks) {
+    const double d = all.without(block).solution()(2);
+    mean += d / n, square += d * d / n;
+  }
+  j.variance = std::max(0.0, (n - 1) * (square - mean * mean));
+  j.explains = 1 - all.left() / all.left_without_delay();
+  return j;
+}
+
+double weighted_mean(const std::vector<JointLateness>& joints, double error) {
+  double sum = 0, weight = 0;
+  for (const JointLateness& j : joints) {
+    const double w = 1 / (j.variance + error * error);
+    sum += w * j.delay, weight += w;
+  }
+  return weight > 0 ? sum / weight : 0;
+}
+
+/// True if all joints are as late as that, and it explains most of what is left in one of them.
+bool is_common(const std::vector<JointLateness>& joints, double late) {
+  return std::ranges::all_of(joints,
+                             [&](const JointLateness& j) {
+                               return std::abs(j.delay - late) <= kAgree * std::sqrt(j.variance) + kModelError;
+                             }) &&
+         std::ranges::any_of(joints, [](const JointLateness& j) { return j.explains > kExplains; });
+}
+
+std::vector<Record> records_of(const Log& log, const ArmModel& model, double late) {
+  RecordOptions options;
+  options.slow_sensors_late_s = late;
+  return make_records(log, model, options);
+}
+
+/// Without the model's tolerances: 0 if the sensors do not agree.
+double first_estimate(const Log& log, const ArmModel& model, const std::vector<int>& slow) {
+  const std::vector<Record> records = records_of(log, model, 0);
+  std::vector<FullPrediction> predictions;
+  for (const Record& r : records) predictions.push_back(predict_fully(r, {model.nominal, model.effects}));
+  std::vector<JointLateness> joints;
+  for (const int k : slow)
+    if (const auto j = joint_lateness(records, predictions, k)) joints.push_back(*j);
+  const double late = weighted_mean(joints, kModelError);
+  return is_common(joints, late) ? late : 0;
+}
+
+/// What a fit of the model's numbers together with a delay of each slow sensor adds to `late`.
+double correction(const Log& log, const ArmModel& model, const std::vector<int>& slow, double late) {
+  const Evidence evidence(records_of(log, model, late), model, Split::none);
+  Hypothesis h{model.nominal, model.effects};
+  std::vector<FitParameter> parameters = baseline_parameters(model);
+  const auto columns = sensitivities(evidence, h, parameters);
+  if (columns.size() != parameters.size()) return 0;
+  const std::size_t first = parameters.size();
+  for (const int k : slow) {
+    h.effects.push_back(place_neutral_effect(*find_effect("delay"), model.nominal, k));
+    const auto of_delay = effect_parameters(evidence, h, model.nominal, static_cast<int>(h.effects.size()) - 1);
+    for (const FitParameter& p : of_delay)
+      if (p.name.ends_with("sensor_delay")) parameters.push_back(p);
+  }
+  FitOptions options;
+  options.frozen_baseline = true;
+  const std::vector<double> scale = channel_scale(evidence, evidence.score(h).fit_mean_square);
+  const Fit f = fit(evidence, h, parameters, scale, options, columns);
+  if (!f.usable) return 0;
+  std::vector<JointLateness> joints;
+  for (std::size_t i = first; i < parameters.size(); ++i)
+    joints.push_back({f.value[i], f.std_deviation[i] * f.std_deviation[i], 1});
+  return weighted_mean(joints, kSettled);
+}
+
+}  // namespace
+
+double slow_sensor_lateness(const Log& log, const ArmModel& model) {
+  std::vector<int> slow;
+  for (int k = 0; k < model.n(); ++k)
+    if (has_slow_joint_sensor(log, model, k)) slow.push_back(k);
+  double late = slow.empty() ? 0 : first_estimate(log, model, slow);
+  for (int pass = 0; pass < kPasses && late != 0; ++pass) {
+    const double more = correction(log, model, slow, late);
+    late += more;
+    if (std::abs(late) > kLongest) return 0;
+    if (std::abs(more) < kSettled) break;
+  }
+  return late;
+}
+
+}  // namespace halyard

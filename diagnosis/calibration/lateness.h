@@ -1,0 +1,23 @@
+#pragma once
+/// How late the joint sensors of a log are against its motors' encoders, if they are slower. A sensor with a sample rate of
+/// its own, such as a camera or a tracker, has its own transport delay, which is a property of the log and not of the
+/// arm. Sensors as fast as the motors' encoders share their clock: if one of them is late, the effect `delay` says so.
+///
+///   e_k = a_k + s_k p_k - d_k p_k' + rest       regression over the samples of joint k
+///   d   = Σ_k d_k / σ_k² / Σ_k 1 / σ_k²         one delay for all slow sensors
+///
+///   e_k   measured minus predicted reading      p_k   reading that the model predicts from the motors
+///   d_k   lateness of joint k                   σ_k   its standard deviation, from blocks of time (jackknife)
+///
+/// The result is 0 unless all slow sensors agree on d and d explains most of what a and s leave in at least one of them.
+/// Friction and stretch that are a little off look late, too. Therefore d is then corrected: the readings are moved by d,
+/// and the model's own numbers are fitted together with a remaining delay of each sensor, until d settles.
+
+#include "diagnosis/record/record.h"
+
+namespace halyard {
+
+/// Lateness d, s; negative: the motors' readings are late. 0 if there are no slow sensors or no common lateness.
+double slow_sensor_lateness(const Log& log, const ArmModel& model);
+
+}  // namespace halyard

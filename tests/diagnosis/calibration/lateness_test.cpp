@@ -1,0 +1,79 @@
+/// The lateness of slow joint sensors, on logs of the plant whose joint sensors were read late.
+
+#include "diagnosis/calibration/lateness.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "plant/simulate.h"
+#include "tests/support/short_arm.h"
+
+namespace halyard {
+namespace {
+
+constexpr std::size_t kEvery = 10;  // rows of 1 ms: a sensor of 100 Hz
+constexpr double kRow = 1e-3;       // s
+
+/// What a sensor wrote that reads so many rows late, in every n-th row.
+void read_late(std::vector<double>& column, std::size_t rows_late, std::size_t every) {
+  const std::vector<double> truth = column;
+  for (std::size_t i = 0; i < column.size(); ++i)
+    column[i] = i % every == 0 ? truth[i - std::min(i, rows_late)] : std::numeric_limits<double>::quiet_NaN();
+}
+
+const Log& two_joint_log() {
+  static const Log log = simulate(motion(first_joints(2), 8)).measured;
+  return log;
+}
+
+/// The log with its joint sensors late by so many rows each.
+Log late_by(std::size_t first, std::size_t second, std::size_t every = kEvery) {
+  Log log = two_joint_log();
+  read_late(log.joint_position[0], first, every);
+  read_late(log.joint_position[1], second, every);
+  return log;
+}
+
+TEST(SlowSensors, ThatAreLateAreFoundLateByTheirDelay) {
+  for (const std::size_t rows : {4u, 17u})
+    EXPECT_NEAR(slow_sensor_lateness(late_by(rows, rows), first_joints(2)), kRow * static_cast<double>(rows), 1e-4);
+}
+
+TEST(SlowSensors, OfAnArmWithOtherFrictionAndStiffnessAreFoundAsLate) {
+  ArmModel model = first_joints(2);
+  for (int k = 0; k < 2; ++k) {
+    model.nominal.joint[k].stiffness *= 1.08;
+    model.nominal.joint[k].joint_coulomb *= 0.85;
+  }
+  EXPECT_NEAR(slow_sensor_lateness(late_by(12, 12), model), 0.012, 3e-4);
+}
+
+TEST(SlowSensors, InTimeAreNotLate) { EXPECT_EQ(slow_sensor_lateness(late_by(0, 0), first_joints(2)), 0); }
+
+TEST(SlowSensors, OfWhichOneIsLateHaveNoCommonDelay) {
+  EXPECT_EQ(slow_sensor_lateness(late_by(0, 15), first_joints(2)), 0);
+}
+
+TEST(FastSensors, AreNeverLate) { EXPECT_EQ(slow_sensor_lateness(late_by(15, 15, 1), first_joints(2)), 0); }
+
+TEST(SlowSensors, OfALargerCapstanAreNotLate) {
+  ArmModel model = first_joints(2);
+  model.nominal.joint[0].capstan_radius *= 1.05;
+  EXPECT_EQ(slow_sensor_lateness(late_by(0, 0), model), 0);
+}
+
+TEST(LateReadings, AreMovedToTheTimeAtWhichTheyWereTrue) {
+  constexpr std::size_t kRowsLate = 2 * kEvery;  // so that the samples are the same
+  RecordOptions options;
+  const Record in_time = make_records(late_by(0, 0), first_joints(2), options)[0];
+  options.slow_sensors_late_s = kRow * kRowsLate;
+  const Record moved = make_records(late_by(kRowsLate, kRowsLate), first_joints(2), options)[0];
+
+  for (std::size_t i = 50; i + 50 < in_time.size; ++i)
+    EXPECT_NEAR(moved.joint_raw[1][i], in_time.joint_raw[1][i], 1e-9) << i;
+}
+
+}  // namespace
+}  // namespace halyard
