@@ -6,6 +6,7 @@
 
 #include "diagnosis/diagnose.h"
 #include "model/model_file.h"
+#include "plant/simulate.h"
 
 namespace halyard {
 namespace {
@@ -54,6 +55,23 @@ TEST(Cases, AForceUntilAfterTheTrainingDataIsNoSlip) {
   EXPECT_EQ(d.effects[0].effect.joint, 0);
   EXPECT_TRUE(d.unexplained.empty());
   EXPECT_NEAR(d.effects[0].parameters[0].value, 1.409, 0.05 * 1.409) << "the truth, N m, within a twentieth";
+}
+
+TEST(Cases, BacklashOfAGearedJointIsNoStiffness) {
+  SKIP_WITHOUT_CASES();
+  const fs::path folder = kCases / "geared_arm";
+  for (const double half_gap : {0.2e-3, 0.6e-3, 1.5e-3}) {  // rad; the scenario's is the second
+    Scenario scenario = read_scenario(folder / "scenario.xml");
+    for (PlacedEffect& e : scenario.robot.effects) e.p[0] = half_gap;
+    DiagnosisOptions options;
+    options.tell_not_excited = false;
+    const Diagnosis d = diagnose(read_model(folder / "arm.xml"), {simulate(scenario).measured}, std::nullopt, options);
+    ASSERT_EQ(d.effects.size(), 1U) << half_gap;
+    EXPECT_EQ(d.effects[0].effect.effect->name(), "backlash");
+    EXPECT_EQ(d.effects[0].effect.joint, 1);
+    EXPECT_TRUE(d.unexplained.empty()) << half_gap;
+    EXPECT_NEAR(d.effects[0].parameters[0].value, half_gap, 0.02 * half_gap);
+  }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "transmission/effects/built_in.h"
+#include "transmission/effects/typical_size.h"
 
 /// A dead zone in the path from motor to joint: the cable is stretched only beyond the gap,
 ///
@@ -20,8 +21,11 @@ class Backlash : public EffectOf<Backlash> {
     return arm.joint[joint].drive == Drive::cable;
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
-    const double radius = arm.joint[*joint].capstan_radius;
-    return {{"half_gap", "m", 0, 0.03 * radius, 0, 2 * radius}};
+    // A gap of a cable is some hundredths of its capstan. A gear's, with a radius of 1, is about what its teeth yield.
+    constexpr double kOfRadius = 0.03, kOfStretch = 10;
+    const JointParameters<double>& j = arm.joint[*joint];
+    const double typical = std::min(kOfRadius * j.capstan_radius, kOfStretch * typical_stretch(j));
+    return {{"half_gap", "m", 0, typical, 0, 2 * j.capstan_radius}};
   }
 
   template <class T>
