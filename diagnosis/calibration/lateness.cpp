@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "diagnosis/fit/fit.h"
+#include "diagnosis/log_check/robust.h"
 
 namespace halyard {
 namespace {
@@ -43,6 +44,7 @@ struct Normal {
 };
 
 struct JointLateness {
+  int joint = 0;
   double delay = 0, variance = 0;
   double explains = 0;  ///< share of the squares that offset and slope leave
 };
@@ -65,7 +67,7 @@ std::optional<JointLateness> joint_lateness(const std::vector<Record>& records,
     }
   }
   if (blocks.size() < kFewestBlocks || !(all.left_without_delay() > 0)) return std::nullopt;
-  JointLateness j;
+  JointLateness j{.joint = k};
   j.delay = all.solution()(2);
   const double n = static_cast<double>(blocks.size());
   double mean = 0, square = 0;
@@ -87,13 +89,17 @@ double weighted_mean(const std::vector<JointLateness>& joints, double error) {
   return weight > 0 ? sum / weight : 0;
 }
 
-/// True if all joints are as late as that, and it explains most of what is left in one of them.
-bool is_common(const std::vector<JointLateness>& joints, double late) {
-  return std::ranges::all_of(joints,
-                             [&](const JointLateness& j) {
-                               return std::abs(j.delay - late) <= kAgree * std::sqrt(j.variance) + kModelError;
-                             }) &&
-         std::ranges::any_of(joints, [](const JointLateness& j) { return j.explains > kExplains; });
+/// The joints that agree on a lateness, if they are the majority. An effect at one joint disturbs that joint's.
+std::vector<JointLateness> agreeing(std::vector<JointLateness> joints) {
+  if (joints.empty()) return {};
+  std::vector<double> delays;
+  for (const JointLateness& j : joints) delays.push_back(j.delay);
+  const double late = median(delays);
+  const std::size_t all = joints.size();
+  std::erase_if(joints, [&](const JointLateness& j) {
+    return std::abs(j.delay - late) > kAgree * std::sqrt(j.variance) + kModelError;
+  });
+  return 2 * joints.size() > all ? joints : std::vector<JointLateness>{};
 }
 
 std::vector<Record> records_of(const Log& log, const ArmModel& model, double late) {
@@ -102,28 +108,30 @@ std::vector<Record> records_of(const Log& log, const ArmModel& model, double lat
   return make_records(log, model, options);
 }
 
-/// Without the model's tolerances: 0 if the sensors do not agree.
-double first_estimate(const Log& log, const ArmModel& model, const std::vector<int>& slow) {
+/// Without the model's tolerances: the joints that agree; none if lateness explains little.
+std::vector<JointLateness> first_estimate(const Log& log, const ArmModel& model) {
   const std::vector<Record> records = records_of(log, model, 0);
   std::vector<FullPrediction> predictions;
   for (const Record& r : records) predictions.push_back(predict_fully(r, {model.nominal, model.effects}));
   std::vector<JointLateness> joints;
-  for (const int k : slow)
-    if (const auto j = joint_lateness(records, predictions, k)) joints.push_back(*j);
-  const double late = weighted_mean(joints, kModelError);
-  return is_common(joints, late) ? late : 0;
+  for (int k = 0; k < model.n(); ++k)
+    if (has_slow_joint_sensor(log, model, k))
+      if (const auto j = joint_lateness(records, predictions, k)) joints.push_back(*j);
+  joints = agreeing(std::move(joints));
+  const bool explains = std::ranges::any_of(joints, [](const JointLateness& j) { return j.explains > kExplains; });
+  return explains ? joints : std::vector<JointLateness>{};
 }
 
 /// What a fit of the model's numbers together with a delay of each slow sensor adds to `late`.
-double correction(const Log& log, const ArmModel& model, const std::vector<int>& slow, double late) {
+double correction(const Log& log, const ArmModel& model, const std::vector<JointLateness>& joints, double late) {
   const Evidence evidence(records_of(log, model, late), model, Split::none);
   Hypothesis h{model.nominal, model.effects};
   std::vector<FitParameter> parameters = baseline_parameters(model);
   const auto columns = sensitivities(evidence, h, parameters);
   if (columns.size() != parameters.size()) return 0;
   const std::size_t first = parameters.size();
-  for (const int k : slow) {
-    h.effects.push_back(place_neutral_effect(*find_effect("delay"), model.nominal, k));
+  for (const JointLateness& j : joints) {
+    h.effects.push_back(place_neutral_effect(*find_effect("delay"), model.nominal, j.joint));
     const auto of_delay = effect_parameters(evidence, h, model.nominal, static_cast<int>(h.effects.size()) - 1);
     for (const FitParameter& p : of_delay)
       if (p.name.ends_with("sensor_delay")) parameters.push_back(p);
@@ -133,21 +141,21 @@ double correction(const Log& log, const ArmModel& model, const std::vector<int>&
   const std::vector<double> scale = channel_scale(evidence, evidence.score(h).fit_mean_square);
   const Fit f = fit(evidence, h, parameters, scale, options, columns);
   if (!f.usable) return 0;
-  std::vector<JointLateness> joints;
+  std::vector<JointLateness> left;
   for (std::size_t i = first; i < parameters.size(); ++i)
-    joints.push_back({f.value[i], f.std_deviation[i] * f.std_deviation[i], 1});
-  return weighted_mean(joints, kSettled);
+    left.push_back({.delay = f.value[i], .variance = f.std_deviation[i] * f.std_deviation[i]});
+  return weighted_mean(left, kSettled);
 }
 
 }  // namespace
 
 double slow_sensor_lateness(const Log& log, const ArmModel& model) {
-  std::vector<int> slow;
-  for (int k = 0; k < model.n(); ++k)
-    if (has_slow_joint_sensor(log, model, k)) slow.push_back(k);
-  double late = slow.empty() ? 0 : first_estimate(log, model, slow);
+  bool any = false;
+  for (int k = 0; k < model.n(); ++k) any = any || has_slow_joint_sensor(log, model, k);
+  const std::vector<JointLateness> joints = any ? first_estimate(log, model) : std::vector<JointLateness>{};
+  double late = weighted_mean(joints, kModelError);
   for (int pass = 0; pass < kPasses && late != 0; ++pass) {
-    const double more = correction(log, model, slow, late);
+    const double more = correction(log, model, joints, late);
     late += more;
     if (std::abs(late) > kLongest) return 0;
     if (std::abs(more) < kSettled) break;

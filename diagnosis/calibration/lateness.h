@@ -9,7 +9,8 @@
 ///   e_k   measured minus predicted reading      p_k   reading that the model predicts from the motors
 ///   d_k   lateness of joint k                   σ_k   its standard deviation, from blocks of time (jackknife)
 ///
-/// The result is 0 unless all slow sensors agree on d and d explains most of what a and s leave in at least one of them.
+/// The sum is over the joints that agree with the median of all d_k: an effect at one joint disturbs that joint's. The
+/// result is 0 unless they are the majority and d explains most of what a and s leave in at least one of them.
 /// Friction and stretch that are a little off look late, too. Therefore d is then corrected: the readings are moved by d,
 /// and the model's own numbers are fitted together with a remaining delay of each sensor, until d settles.
 

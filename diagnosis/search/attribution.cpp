@@ -60,7 +60,7 @@ class Search {
   Attribution run() {
     Found current{baseline_.fit, baseline_.score};
     while (n_added(current) < options_.most_effects && add(current)) {}
-    if (result_.namings.size() > 1) revise_names(current);
+    if (!result_.namings.empty()) revise_names(current);
     remove_idle(current);
     result_.baseline = baseline_.fit;
     result_.nominal_score = baseline_.nominal_score;
@@ -170,14 +170,15 @@ class Search {
     if (proposal.trials.empty()) return false;
     result_.rounds.push_back({proposal.trials, proposal.is_convincing, true});
     if (!proposal.is_convincing) return false;
+    for (const Trial& t : proposal.trials)
+      result_.namings.push_back(Competition(evidence_, model_, judge_, current.scored(), {t}).naming({0, {0}}));
     current = {proposal.fit, proposal.score};
-    result_.namings.resize(result_.namings.size() + proposal.trials.size());
     fit_afresh(current);
     return true;
   }
 
   /// Each name was given while other effects were still missing. All candidates that had gained something compete for
-  /// its place once more, beside the other effects.
+  /// its place once more, beside the other effects. A name that no candidate wins stays if it is still needed.
   void revise_names(Found& current) {
     const std::vector<PlacedEffect> pool = gainers();
     const std::size_t n = result_.namings.size() - (last_name_competed() ? 1 : 0);
@@ -197,11 +198,13 @@ class Search {
       Found revised = won ? Found{won->fit, evidence_.score(won->fit.hypothesis)} : without;
       const bool keeps = won && same_name(won->fit.hypothesis.effects.back(), old) &&
                          judge_.cost(current.scored()) < judge_.cost(revised.scored());
-      if (keeps) revised = moved_back(current);
+      const bool stays =
+          !won && judge_.is_needed(current.scored(), without.scored(), static_cast<int>(given_), options_.significance);
+      if (keeps || stays) revised = moved_back(current);
       current = std::move(revised);
       std::rotate(result_.namings.begin(), result_.namings.begin() + 1, result_.namings.end());
       if (won) result_.namings.back() = won->naming;
-      else result_.namings.pop_back();
+      else if (!stays) result_.namings.pop_back();
     }
   }
 

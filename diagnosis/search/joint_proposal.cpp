@@ -134,19 +134,20 @@ std::vector<Trial> JointSearch::trials(const JointProposal& p, std::size_t first
 
 JointProposal JointSearch::propose(const LinearRound& round, const Scored& without, double significance,
                                    int most) const {
-  constexpr std::size_t kFewest = 2;
   JointProposal p;
   const std::size_t first = round.from.effects.size();
   const Hypothesis start = select(round, most);
-  if (start.effects.size() < first + kFewest) return p;
+  if (start.effects.size() == first) return p;
   const Score at_start = evidence_.score(start);
   p.fit = refitter_.refit(start, at_start.finite ? at_start : without.score);
-  while (p.fit.usable && p.fit.hypothesis.effects.size() >= first + kFewest) {
+  while (p.fit.usable && p.fit.hypothesis.effects.size() > first) {
     p.score = evidence_.score(p.fit.hypothesis);
     if (!p.score.finite) return p;
     std::vector<Fit> fits;
     p.trials = trials(p, first, fits);
-    const double each = significance / static_cast<double>(p.trials.size());
+    // A single effect has failed in the round: it is one of all its candidates that were tried twice.
+    const std::size_t tried = p.trials.size() > 1 ? p.trials.size() : round.starts.size();
+    const double each = significance / static_cast<double>(tried);
     std::size_t worst = p.trials.size();
     for (std::size_t i = 0; i < p.trials.size(); ++i)
       if (!passes(p.trials[i], each) && (worst == p.trials.size() || p.trials[i].gain < p.trials[worst].gain))

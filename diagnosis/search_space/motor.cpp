@@ -9,7 +9,7 @@ using Arm = ArmParameters<double>;
 void actuator_saturation(SearchSpace& space, const Arm& arm, int joint) {
   const double level = typical_motor_friction(arm.joint[joint]), no_limit = 1e4;
   space["share"].natural_bounds = space["no_load_speed"].natural_bounds = true;
-  space["limit"].starts = {level, 2 * level, 4 * level, 8 * level, 16 * level};
+  space["limit"].starts = {level, 2 * level, 4 * level, 8 * level, 16 * level, 32 * level, 64 * level};
   space["no_load_speed"].starts = {50, 200, no_limit};
 }
 

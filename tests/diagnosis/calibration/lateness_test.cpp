@@ -56,6 +56,14 @@ TEST(SlowSensors, OfWhichOneIsLateHaveNoCommonDelay) {
   EXPECT_EQ(slow_sensor_lateness(late_by(0, 15), first_joints(2)), 0);
 }
 
+TEST(SlowSensors, OfAJointThatDisagreesAreOutvoted) {
+  const ArmModel model = first_joints(3);
+  Log log = simulate(motion(model, 8)).measured;
+  read_late(log.joint_position[0], 0, kEvery);
+  for (const int k : {1, 2}) read_late(log.joint_position[k], 12, kEvery);
+  EXPECT_NEAR(slow_sensor_lateness(log, model), 0.012, 1e-4);
+}
+
 TEST(FastSensors, AreNeverLate) { EXPECT_EQ(slow_sensor_lateness(late_by(15, 15, 1), first_joints(2)), 0); }
 
 TEST(SlowSensors, OfALargerCapstanAreNotLate) {
