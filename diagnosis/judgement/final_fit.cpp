@@ -1,13 +1,13 @@
 #include "diagnosis/judgement/final_fit.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
 #include "diagnosis/calibration/calibrate.h"
 #include "diagnosis/fit/nudged.h"
 #include "diagnosis/judgement/decision_rule.h"
+#include "diagnosis/judgement/paired_t.h"
 
 namespace halyard {
 namespace {
@@ -142,8 +142,7 @@ std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given) {
 
 double interval_factor(const Fit& fit) {
   constexpr double kTwoSided95 = 0.025;
-  const boost::math::students_t distribution(std::max(1, fit.blocks - 1));
-  return boost::math::quantile(boost::math::complement(distribution, kTwoSided95));
+  return t_quantile(std::max(1, fit.blocks - 1), kTwoSided95);
 }
 
 bool is_refit(const Fit& fit, std::size_t i) {

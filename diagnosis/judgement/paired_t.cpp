@@ -20,4 +20,8 @@ double p_value(const Paired& p) {
   return boost::math::cdf(boost::math::complement(distribution, p.t));
 }
 
+double t_quantile(double degrees_of_freedom, double upper_tail) {
+  return boost::math::quantile(boost::math::complement(boost::math::students_t(degrees_of_freedom), upper_tail));
+}
+
 }  // namespace halyard

@@ -1,7 +1,6 @@
 #include "diagnosis/planning/change_detector.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 #include "diagnosis/judgement/decision_rule.h"
@@ -29,7 +28,7 @@ ChangeDetector::ChangeDetector(const Evidence& evidence, const BaselineReach& re
   if (blocks < 3)
     throw InputError(evidence.records().front().source + ": too short to judge by; expected some seconds");
   significant_gain_ = -std::log(level);
-  significant_t_ = boost::math::quantile(boost::math::complement(boost::math::students_t(blocks - 1), level));
+  significant_t_ = t_quantile(blocks - 1, level);
 }
 
 bool ChangeDetector::detects(const Eigen::VectorXd& change) const {
