@@ -54,6 +54,7 @@ Eigen::VectorXd static_equilibrium(const ProcessModel& process, double time_s, c
   constexpr int kMaxIterations = 2000;
   constexpr double kFirstStep = 1e-4;   // s²: 1 mm or 1 mrad at the acceleration of gravity
   constexpr double kConverged = 1e-12;  // rad | m, far below any encoder
+  constexpr double kBalanced = 1e-11;   // of the first acceleration: what is left are rounding errors
   const ArmParameters<double>& arm = process.arm();
   const int n = arm.n;
 
@@ -71,6 +72,8 @@ Eigen::VectorXd static_equilibrium(const ProcessModel& process, double time_s, c
     const Eigen::MatrixXd M = mass_matrix_at(arm, q);
     const double acceleration = M.llt().solve(F + held).norm();
     if (iteration == 0) first_acceleration = acceleration;
+    // A joint that nothing holds has no position of its own, and rounding errors would move it for ever.
+    else if (acceleration < kBalanced * first_acceleration) return q;
     const double delta = acceleration > 0 ? kFirstStep * first_acceleration / acceleration : 1 / kConverged;
     A.topLeftCorner(n, n) = K + M / delta;
     rest.head(n) = F;
