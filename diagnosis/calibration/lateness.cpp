@@ -109,14 +109,13 @@ std::vector<Record> records_of(const Log& log, const ArmModel& model, double lat
 }
 
 /// Without the model's tolerances: the joints that agree; none if lateness explains little.
-std::vector<JointLateness> first_estimate(const Log& log, const ArmModel& model) {
+std::vector<JointLateness> first_estimate(const Log& log, const ArmModel& model, const std::vector<int>& slow) {
   const std::vector<Record> records = records_of(log, model, 0);
   std::vector<FullPrediction> predictions;
   for (const Record& r : records) predictions.push_back(predict_fully(r, {model.nominal, model.effects}));
   std::vector<JointLateness> joints;
-  for (int k = 0; k < model.n(); ++k)
-    if (has_slow_joint_sensor(log, model, k))
-      if (const auto j = joint_lateness(records, predictions, k)) joints.push_back(*j);
+  for (const int k : slow)
+    if (const auto j = joint_lateness(records, predictions, k)) joints.push_back(*j);
   joints = agreeing(std::move(joints));
   const bool explains = std::ranges::any_of(joints, [](const JointLateness& j) { return j.explains > kExplains; });
   return explains ? joints : std::vector<JointLateness>{};
@@ -134,7 +133,7 @@ double correction(const Log& log, const ArmModel& model, const std::vector<Joint
     h.effects.push_back(place_neutral_effect(*find_effect("delay"), model.nominal, j.joint));
     const auto of_delay = effect_parameters(evidence, h, model.nominal, static_cast<int>(h.effects.size()) - 1);
     for (const FitParameter& p : of_delay)
-      if (p.name.ends_with("sensor_delay")) parameters.push_back(p);
+      if (p.name == "sensor_delay") parameters.push_back(p);
   }
   FitOptions options;
   options.frozen_baseline = true;
@@ -150,9 +149,11 @@ double correction(const Log& log, const ArmModel& model, const std::vector<Joint
 }  // namespace
 
 double slow_sensor_lateness(const Log& log, const ArmModel& model) {
-  bool any = false;
-  for (int k = 0; k < model.n(); ++k) any = any || has_slow_joint_sensor(log, model, k);
-  const std::vector<JointLateness> joints = any ? first_estimate(log, model) : std::vector<JointLateness>{};
+  std::vector<int> slow;
+  for (int k = 0; k < model.n(); ++k)
+    if (has_slow_joint_sensor(log, model, k)) slow.push_back(k);
+  if (slow.empty()) return 0;
+  const std::vector<JointLateness> joints = first_estimate(log, model, slow);
   double late = weighted_mean(joints, kModelError);
   for (int pass = 0; pass < kPasses && late != 0; ++pass) {
     const double more = correction(log, model, joints, late);

@@ -112,18 +112,18 @@ void take_off_mean(std::vector<double>& residual) {
   for (double& e : residual) e -= sum / count;
 }
 
-/// K_c * x around a sample that can be compared, over the samples that were measured. T: double or Lanes.
-template <class T, class Signal>
-T compared(const Record& record, const std::vector<double>& measured, std::size_t at, const Signal& x) {
+/// K_c * x around a sample that can be compared, over the samples that were measured.
+template <class Signal>
+Lanes compared(const Record& record, const std::vector<double>& measured, std::size_t at, const Signal& x) {
   const std::size_t reach = record.compare.size() / 2, size = record.size;
-  T sum = 0.0;
+  Lanes sum = 0.0;
   double weight = 0;
   for (std::size_t t = at - std::min(at, reach); t <= std::min(at + reach, size - 1); ++t) {
     const double w = record.compare[t + reach - at] * measured[t];
-    if (w > 0) sum += T(w) * x(t);
+    if (w > 0) sum += Lanes(w) * x(t);
     weight += w;
   }
-  return sum / T(weight);
+  return sum / Lanes(weight);
 }
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -276,7 +276,7 @@ class Prediction {
     }
   }
 
-  /// Marks hypotheses as not finite whose signal is not at a compared sample.
+  /// Marks the hypotheses whose signal is not finite at a compared sample.
   template <class Signal>
   void check_finite(const std::vector<Taken>& taken, const Signal& signal) {
     Lanes sum = 0.0;
@@ -292,7 +292,7 @@ class Prediction {
     for (std::size_t i = 0; i < rows(); ++i) {
       const std::size_t at = i * stride_;
       if (!(valid[at] > 0)) continue;
-      const Lanes row = compared<Lanes>(record_, measured, at, signal);
+      const Lanes row = compared(record_, measured, at, signal);
       for (std::size_t l = 0; l < taken.size(); ++l) all_[taken[l].hypothesis].channel[c][i] = row[static_cast<int>(l)];
     }
   }
