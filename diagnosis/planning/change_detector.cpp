@@ -3,21 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/judgement/decision_rule.h"
-#include "diagnosis/judgement/likelihood.h"
+#include "diagnosis/judgement/judge.h"
 #include "model/input_error.h"
 
 namespace halyard {
-namespace {
-
-/// The gain in log-likelihood of the first over the second, block by block.
-Paired gain_over(const std::vector<double>& first, const std::vector<double>& second) {
-  std::vector<double> differences;
-  for (std::size_t b = 0; b < first.size(); ++b) differences.push_back(first[b] - second[b]);
-  return paired(differences);
-}
-
-}  // namespace
 
 ChangeDetector::ChangeDetector(const Evidence& evidence, const BaselineReach& reach, const Eigen::VectorXd& residual,
                                double level)
@@ -41,12 +30,12 @@ bool ChangeDetector::detects(const Eigen::VectorXd& change) const {
   bool share = false;
   for (std::size_t c = 0; c < square.size(); ++c)
     share = share || square[c] - reference_square_[c] > kRule.share * square[c];
-  const Paired gain = gain_over(reference_ln_, log_likelihood(left));
+  const Paired gain = paired(difference(reference_ln_, log_likelihood(left)));
   return share && (gain.t > significant_t_ || gain.sum > significant_gain_);
 }
 
 bool ChangeDetector::tells_from_reference(const Eigen::VectorXd& left) const {
-  const Paired p = gain_over(reference_ln_, log_likelihood(left));
+  const Paired p = paired(difference(reference_ln_, log_likelihood(left)));
   return p.t >= kRule.tell_apart && p.sum >= 2 * kRule.tell_apart * kRule.tell_apart;
 }
 
