@@ -9,14 +9,11 @@
 /// Code over a scalar T branches with select(condition, a, b) and uses min, max, abs, tanh, exp, sinh, sin, cos, sin_cos, sqrt, log of
 /// this header. A library's automatic differentiation type cannot replace Dual: its expression templates cannot be
 /// arguments of a virtual function, and they have no lanes.
-///
-/// The vector operations are forced inline. Otherwise a file compiled for a wider instruction set would leave copies of
-/// them, and other files might call these copies.
 
 #include <cmath>
 #include <cstddef>
 
-#include "transmission/lane_math.h"
+#include "transmission/packed.h"
 
 namespace halyard {
 
@@ -25,20 +22,17 @@ inline constexpr int kDualWidth = 4;
 
 // ------------------------------------------------------------------------------------- Lanes
 
-// The alignment is explicit: a vector type's default differs between instruction sets.
-struct alignas(8 * kLaneWidth) LaneMask {
-  typedef long long Vector __attribute__((vector_size(8 * kLaneWidth)));
-  Vector m;
-};
+using LaneMask = PackedMask<kLaneWidth, kRegisterWidth>;
 
-struct alignas(8 * kLaneWidth) Lanes {
-  typedef double Vector __attribute__((vector_size(8 * kLaneWidth)));
+struct Lanes {
+  using Vector = Packed<kLaneWidth, kRegisterWidth>;
   Vector v;
 
   HALYARD_INLINE Lanes() = default;
-  HALYARD_INLINE Lanes(double s) : v(s - Vector{}) {}  // NOLINT: a constant is a scalar too
+  HALYARD_INLINE Lanes(double s) : v(s) {}  // NOLINT: a constant is a scalar too
+  HALYARD_INLINE explicit Lanes(const Vector& values) : v(values) {}
   HALYARD_INLINE double operator[](int i) const { return v[i]; }
-  HALYARD_INLINE void set(int i, double s) { v[i] = s; }
+  HALYARD_INLINE void set(int i, double s) { v.set(i, s); }
 
   HALYARD_INLINE Lanes& operator+=(const Lanes& b) {
     v += b.v;
@@ -62,27 +56,19 @@ HALYARD_INLINE Lanes operator+(Lanes a, const Lanes& b) { return a += b; }
 HALYARD_INLINE Lanes operator-(Lanes a, const Lanes& b) { return a -= b; }
 HALYARD_INLINE Lanes operator*(Lanes a, const Lanes& b) { return a *= b; }
 HALYARD_INLINE Lanes operator/(Lanes a, const Lanes& b) { return a /= b; }
-HALYARD_INLINE Lanes operator-(Lanes a) {
-  a.v = -a.v;
-  return a;
-}
-HALYARD_INLINE LaneMask operator<(const Lanes& a, const Lanes& b) { return {a.v < b.v}; }
-HALYARD_INLINE LaneMask operator>(const Lanes& a, const Lanes& b) { return {a.v > b.v}; }
-HALYARD_INLINE LaneMask operator<=(const Lanes& a, const Lanes& b) { return {a.v <= b.v}; }
-HALYARD_INLINE LaneMask operator>=(const Lanes& a, const Lanes& b) { return {a.v >= b.v}; }
-HALYARD_INLINE LaneMask operator&&(const LaneMask& a, const LaneMask& b) { return {a.m & b.m}; }
-HALYARD_INLINE LaneMask operator||(const LaneMask& a, const LaneMask& b) { return {a.m | b.m}; }
-HALYARD_INLINE Lanes select(const LaneMask& c, const Lanes& a, const Lanes& b) {
-  Lanes r;
-  r.v = c.m ? a.v : b.v;
-  return r;
-}
+HALYARD_INLINE Lanes operator-(const Lanes& a) { return Lanes(-a.v); }
+HALYARD_INLINE LaneMask operator<(const Lanes& a, const Lanes& b) { return LaneMask::less(a.v, b.v); }
+HALYARD_INLINE LaneMask operator>(const Lanes& a, const Lanes& b) { return LaneMask::less(b.v, a.v); }
+HALYARD_INLINE LaneMask operator<=(const Lanes& a, const Lanes& b) { return LaneMask::less_or_equal(a.v, b.v); }
+HALYARD_INLINE LaneMask operator>=(const Lanes& a, const Lanes& b) { return LaneMask::less_or_equal(b.v, a.v); }
+HALYARD_INLINE LaneMask operator&&(LaneMask a, const LaneMask& b) { return a &= b; }
+HALYARD_INLINE LaneMask operator||(LaneMask a, const LaneMask& b) { return a |= b; }
+HALYARD_INLINE Lanes select(const LaneMask& c, const Lanes& a, const Lanes& b) { return Lanes(c.choose(a.v, b.v)); }
 
-#define HALYARD_LANE_FUNCTION(name)                              \
-  HALYARD_INLINE Lanes name(const Lanes& a) {                    \
-    Lanes r;                                                     \
-    r.v = lane_math::name<Lanes::Vector, LaneMask::Vector>(a.v); \
-    return r;                                                    \
+#define HALYARD_LANE_FUNCTION(name)                                                                  \
+  HALYARD_INLINE Lanes name(const Lanes& a) {                                                        \
+    using V = Lanes::Vector;                                                                         \
+    return Lanes(a.v.each([](const V::Piece& x) { return lane_math::name<V::Piece, V::Bits>(x); })); \
   }
 HALYARD_LANE_FUNCTION(tanh)
 HALYARD_LANE_FUNCTION(exp)
@@ -90,9 +76,12 @@ HALYARD_LANE_FUNCTION(sinh)
 #undef HALYARD_LANE_FUNCTION
 
 HALYARD_INLINE void sin_cos(const Lanes& a, Lanes& sine, Lanes& cosine) {
-  const auto both = lane_math::sine_and_cosine<Lanes::Vector, LaneMask::Vector>(a.v);
-  sine.v = both.sine;
-  cosine.v = both.cosine;
+  using V = Lanes::Vector;
+  for (int i = 0; i < V::kPieces; ++i) {
+    const auto both = lane_math::sine_and_cosine<V::Piece, V::Bits>(a.v.piece[i]);
+    sine.v.piece[i] = both.sine;
+    cosine.v.piece[i] = both.cosine;
+  }
 }
 HALYARD_INLINE Lanes sin(const Lanes& a) {
   Lanes sine, cosine;
@@ -105,31 +94,29 @@ HALYARD_INLINE Lanes cos(const Lanes& a) {
   return cosine;
 }
 
-HALYARD_INLINE Lanes log(const Lanes& a) {
-  Lanes r;
-  for (int i = 0; i < kLaneWidth; ++i) r.v[i] = std::log(a.v[i]);
-  return r;
+HALYARD_INLINE Lanes log(Lanes a) {
+  for (int i = 0; i < kLaneWidth; ++i) a.set(i, std::log(a[i]));
+  return a;
 }
-HALYARD_INLINE Lanes sqrt(const Lanes& a) {
-  Lanes r;
-  for (int i = 0; i < kLaneWidth; ++i) r.v[i] = __builtin_sqrt(a.v[i]);
-  return r;
+HALYARD_INLINE Lanes sqrt(Lanes a) {
+  for (int i = 0; i < kLaneWidth; ++i) a.set(i, __builtin_sqrt(a[i]));
+  return a;
 }
 
 // -------------------------------------------------------------------------------------- Dual
 
 /// a + b eps with eps² = 0, for kDualWidth directions at once.
-struct alignas(8 * kDualWidth) Dual {
-  typedef double Vector __attribute__((vector_size(8 * kDualWidth)));
+struct Dual {
+  using Vector = Packed<kDualWidth, kDualWidth>;
   double a;
   Vector d;
 
   HALYARD_INLINE Dual() = default;
-  HALYARD_INLINE Dual(double value) : a(value), d{} {}  // NOLINT: a constant is a scalar too
+  HALYARD_INLINE Dual(double value) : a(value), d(0.0) {}  // NOLINT: a constant is a scalar too
   HALYARD_INLINE Dual(double value, const Vector& derivative) : a(value), d(derivative) {}
   HALYARD_INLINE static Dual seed(double value, int direction) {
     Dual x(value);
-    x.d[direction] = 1;
+    x.d.set(direction, 1);
     return x;
   }
 
@@ -223,6 +210,6 @@ HALYARD_INLINE T abs(const T& a) {
 /// The plain value: the value of a Dual, lane 0 of Lanes.
 HALYARD_INLINE double value(double x) { return x; }
 HALYARD_INLINE double value(const Dual& x) { return x.a; }
-HALYARD_INLINE double value(const Lanes& x) { return x.v[0]; }
+HALYARD_INLINE double value(const Lanes& x) { return x[0]; }
 
 }  // namespace halyard
