@@ -1,11 +1,12 @@
 #include "diagnosis/explanation/views.h"
 
 #include <algorithm>
-#include <boost/math/distributions/beta.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
+
+#include "estimators/distributions.h"
 
 namespace halyard {
 namespace {
@@ -118,10 +119,9 @@ Explained explained(const ResidualSignals& s, const View& v) {
   if (fit.numbers < 2 || n <= fit.numbers) return {};
   const auto less_chance = [&](double r_squared) { return 1 - (1 - r_squared) * (n - 1) / (n - fit.numbers); };
   // Of noise R² has a beta distribution (Cramér 1946): as rarely beyond this as a normal number beyond 3 deviations.
-  const boost::math::beta_distribution<> of_noise(0.5 * (fit.numbers - 1), 0.5 * (n - fit.numbers));
   constexpr double kRare = 0.00135;
-  return {std::max(0.0, less_chance(fit.explained)),
-          std::max(0.0, less_chance(boost::math::quantile(boost::math::complement(of_noise, kRare)))), fit.swing()};
+  const double of_noise = beta_quantile(0.5 * (fit.numbers - 1), 0.5 * (n - fit.numbers), kRare);
+  return {std::max(0.0, less_chance(fit.explained)), std::max(0.0, less_chance(of_noise)), fit.swing()};
 }
 
 bool is_told(const ResidualSignals& s, const View& v) {

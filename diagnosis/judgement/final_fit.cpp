@@ -8,6 +8,7 @@
 #include "diagnosis/fit/nudged.h"
 #include "diagnosis/judgement/decision_rule.h"
 #include "diagnosis/judgement/paired_t.h"
+#include "estimators/distributions.h"
 
 namespace halyard {
 namespace {

@@ -1,7 +1,8 @@
 #include "diagnosis/judgement/paired_t.h"
 
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+
+#include "estimators/distributions.h"
 
 namespace halyard {
 
@@ -16,12 +17,7 @@ Paired paired(const std::vector<double>& differences) {
 
 double p_value(const Paired& p) {
   if (p.pairs < 3) return 1;
-  const boost::math::students_t distribution(p.pairs - 1);
-  return boost::math::cdf(boost::math::complement(distribution, p.t));
-}
-
-double t_quantile(double degrees_of_freedom, double upper_tail) {
-  return boost::math::quantile(boost::math::complement(boost::math::students_t(degrees_of_freedom), upper_tail));
+  return t_upper_tail(p.pairs - 1, p.t);
 }
 
 }  // namespace halyard

@@ -16,7 +16,5 @@ struct Paired {
 Paired paired(const std::vector<double>& differences);
 /// One-sided probability of a t this large or larger if the mean were zero; 1 for fewer than three pairs.
 double p_value(const Paired& p);
-/// The value that Student's distribution exceeds with probability `upper_tail`.
-double t_quantile(double degrees_of_freedom, double upper_tail);
 
 }  // namespace halyard

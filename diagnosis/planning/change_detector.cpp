@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/judgement/judge.h"
+#include "estimators/distributions.h"
 #include "model/input_error.h"
 
 namespace halyard {

@@ -1,10 +1,10 @@
 #include "estimators/filters/arm_filter.h"
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "estimators/distributions.h"
 #include "estimators/process/arm_models.h"
 #include "estimators/process/static_equilibrium.h"
 #include "transmission/coupling.h"
@@ -151,7 +151,7 @@ void ArmFilter::predict(double to_time_s) {
 }
 
 double ArmFilter::gate_threshold(int m) const {
-  return options_.gate < 1 ? boost::math::quantile(boost::math::chi_squared(m), options_.gate) : kInfinity;
+  return options_.gate < 1 ? chi_square_quantile(m, options_.gate) : kInfinity;
 }
 
 Innovation ArmFilter::correct(const Sample& sample) {

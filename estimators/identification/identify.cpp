@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "estimators/distributions.h"
 #include "estimators/identification/block_jackknife.h"
 #include "model/input_error.h"
 
@@ -247,8 +247,7 @@ Refined refine(const ArmModel& model, const Unknowns& unknowns, const std::vecto
 void tell_number(const Unknowns& unknowns, Eigen::Index i, const JackknifeEstimate& estimate, const FilterTrace& trace,
                  IdentifiedNumber& number) {
   const Weight& weight = unknowns.weights[i];
-  const double t = boost::math::quantile(boost::math::students_t(estimate.blocks - 1), 0.975);
-  const double u = estimate.u(i), reach = t * estimate.deviation(i);
+  const double u = estimate.u(i), reach = t_quantile(estimate.blocks - 1, 0.025) * estimate.deviation(i);
   number.value = weight.value(u);
   number.lower = weight.value(u - reach);
   number.upper = weight.value(u + reach);

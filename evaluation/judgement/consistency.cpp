@@ -3,9 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
+
+#include "estimators/distributions.h"
 
 namespace halyard {
 namespace {
@@ -66,7 +67,7 @@ Whiteness whiteness(std::span<const double> innovation, std::span<const double> 
     const double c = correlation(torque, lag, true);
     if (std::abs(c) > std::abs(w.with_torque)) w.with_torque = c;
   }
-  w.chance = boost::math::quantile(boost::math::normal(), 1 - 0.025 / (2 * kLags)) / std::sqrt(count);
+  w.chance = normal_quantile(1 - 0.025 / (2 * kLags)) / std::sqrt(count);
   return w;
 }
 

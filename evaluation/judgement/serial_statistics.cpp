@@ -1,11 +1,12 @@
 #include "evaluation/judgement/serial_statistics.h"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_int_distribution.hpp>
 #include <cmath>
 #include <limits>
+
+#include "estimators/distributions.h"
 
 namespace halyard {
 namespace {
@@ -66,8 +67,7 @@ double effective_samples(std::span<const double> x) {
 }
 
 std::pair<double, double> chi_square_band(double dof) {
-  const boost::math::chi_squared distribution(dof);
-  return {boost::math::quantile(distribution, 0.025) / dof, boost::math::quantile(distribution, 0.975) / dof};
+  return {chi_square_quantile(dof, 0.025) / dof, chi_square_quantile(dof, 0.975) / dof};
 }
 
 PairedRatio paired_ratio(std::span<const double> a, std::span<const double> b, std::uint64_t seed) {
