@@ -32,7 +32,7 @@ compile_together(halyard_plant simulation
   sensors/encoder.cpp simulate.cpp trajectory.cpp)
 
 compile_together(halyard_estimators filters
-  built_in.cpp eigen_modes.cpp estimator.cpp estimator_options.cpp
+  built_in.cpp distributions.cpp eigen_modes.cpp estimator.cpp estimator_options.cpp
   filters/arm_filter.cpp filters/camera_filter.cpp filters/disturbance_filter.cpp filters/ekf.cpp
   filters/fixed_lag_smoother.cpp filters/gaussian_filter.cpp filters/kinematics.cpp filters/sr_ukf.cpp
   filters/unknown_constant.cpp)
@@ -46,19 +46,22 @@ compile_together(halyard_plugins estimators
 compile_together(halyard_plugins checks host/conformance.cpp host/effect_module.cpp)
 
 compile_together(halyard_diagnosis records
-  explanation/curve_fit.cpp explanation/residual_signals.cpp explanation/signature.cpp explanation/spectrum.cpp
-  explanation/view_sentence.cpp explanation/views.cpp calibration/calibrate.cpp prediction/chebyshev.cpp
-  prediction/driven_start.cpp prediction/filtered_effect.cpp calibration/torque_comparison.cpp record/record.cpp search_space/cable.cpp search_space/joint.cpp
+  calibration/calibrate.cpp calibration/torque_comparison.cpp explanation/curve_fit.cpp
+  explanation/residual_signals.cpp explanation/signature.cpp explanation/spectrum.cpp explanation/view_sentence.cpp
+  explanation/views.cpp prediction/chebyshev.cpp prediction/driven_start.cpp prediction/filtered_effect.cpp
+  prediction/measured_units.cpp record/record.cpp record/resting.cpp search_space/cable.cpp search_space/joint.cpp
   search_space/motor.cpp search_space/search_space.cpp search_space/sensor.cpp)
 compile_together(halyard_diagnosis log_check
   log_check/clock.cpp log_check/columns.cpp log_check/log_check.cpp log_check/log_under_check.cpp
   log_check/positions.cpp log_check/robust.cpp log_check/torques.cpp log_check/zeros.cpp)
 compile_together(halyard_diagnosis fit
-  fit/baseline_reach.cpp fit/block_variance.cpp fit/evidence.cpp fit/fit.cpp fit/nudged.cpp noise/channel_noise.cpp)
+  calibration/lateness.cpp fit/baseline_reach.cpp fit/block_variance.cpp fit/evidence.cpp fit/fit.cpp fit/nudged.cpp
+  noise/channel_noise.cpp planning/change_detector.cpp planning/plan.cpp)
 compile_together(halyard_diagnosis judgement
-  judgement/false_discovery.cpp judgement/final_fit.cpp judgement/holdout.cpp judgement/judge.cpp
-  judgement/likelihood.cpp judgement/name_probability.cpp judgement/paired_t.cpp search/attribution.cpp
-  search/candidate_round.cpp search/leaps.cpp search/naming.cpp search/refit.cpp search/screen.cpp search/starts.cpp)
+  diagnose.cpp judgement/false_discovery.cpp judgement/final_fit.cpp judgement/holdout.cpp judgement/judge.cpp
+  judgement/likelihood.cpp judgement/name_probability.cpp judgement/paired_t.cpp judgement/prediction_interval.cpp
+  search/attribution.cpp search/candidate_round.cpp search/joint_proposal.cpp search/leaps.cpp search/naming.cpp
+  search/refit.cpp search/screen.cpp search/sparse_selection.cpp search/starts.cpp)
 
 compile_together(halyard_evaluation studies
   comparison/compare.cpp estimator_list.cpp judgement/consistency.cpp judgement/error_statistics.cpp
@@ -73,15 +76,16 @@ compile_together(halyard_running run csv.cpp run/estimate.cpp worker/worker_task
 compile_together(halyard_report report chart.cpp chart_json.cpp page.cpp)
 compile_together(halyard_app commands
   command_line.cpp commands/check_command.cpp commands/compare_command.cpp commands/diagnose_command.cpp
-  commands/identify_command.cpp commands/plan_command.cpp commands/plugins_command.cpp
-  commands/simulate_command.cpp commands/sweep_command.cpp log_input.cpp main.cpp output_check.cpp progress.cpp)
+  commands/estimate_command.cpp commands/identify_command.cpp commands/plan_command.cpp commands/plugins_command.cpp
+  commands/simulate_command.cpp commands/sweep_command.cpp log_input.cpp main.cpp output_check.cpp progress.cpp
+  tour/experiments_command.cpp tour/tour_command.cpp)
 compile_together(halyard_app pages
-  pages/comparison_figures.cpp pages/comparison_output.cpp pages/diagnosis_report.cpp pages/estimator_table.cpp pages/identify_output.cpp
-  pages/identify_report.cpp pages/judgement_tables.cpp pages/plan_output.cpp pages/sweep_report.cpp
-  pages/view_charts.cpp tour/experiments_report.cpp)
+  pages/comparison_figures.cpp pages/comparison_output.cpp pages/diagnosis_report.cpp pages/estimator_table.cpp
+  pages/identify_output.cpp pages/identify_report.cpp pages/judgement_tables.cpp pages/sweep_report.cpp
+  pages/plan_output.cpp pages/view_charts.cpp tour/experiments_report.cpp)
 compile_together(halyard_app tour
-  commands/estimate_command.cpp pages/diagnosis_output.cpp tour/experiments_command.cpp tour/experiments_output.cpp
-  tour/tour.cpp tour/tour_command.cpp tour/tour_report.cpp tour/tour_rigs.cpp)
+  pages/diagnosis_output.cpp tour/experiments_output.cpp tour/tour.cpp tour/tour_report.cpp
+  tour/tour_rigs.cpp)
 
 # The tests, which tests/CMakeLists.txt lists by their folders: those of a room in groups of so many files, 0 for all.
 foreach(group transmission:6 model:0 plant:2 estimators:7 plugins:0 diagnosis:8 evaluation:0 app:0)

@@ -1,6 +1,6 @@
 #include "estimators/estimator.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 namespace halyard {
 

@@ -12,7 +12,7 @@
 namespace halyard {
 namespace {
 
-void print_errors(const Comparison& comparison) {
+void print_run_errors(const Comparison& comparison) {
   for (int k = 0; k < comparison.n_joints(); ++k) {
     if (!comparison.has_truth(k)) continue;
     const ErrorStatistics& error = comparison.errors[0][k];
@@ -52,7 +52,7 @@ void run_estimate(const EstimateCommandOptions& options) {
   if (run.report.gated > 0 || run.report.repaired_factors > 0) {
     fmt::print("{} measurements not accepted, {} factors repaired\n", run.report.gated, run.report.repaired_factors);
   }
-  print_errors(comparison);
+  print_run_errors(comparison);
   fmt::print("estimates: {}\n", options.out.string());
 }
 

@@ -1,6 +1,6 @@
 #include "diagnosis/calibration/lateness.h"
 
-#include <Eigen/QR>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -34,13 +34,12 @@ struct Normal {
     square += e * e;
   }
   Normal without(const Normal& block) const { return {A - block.A, b - block.b, square - block.square}; }
-  Eigen::Vector3d solution() const { return A.completeOrthogonalDecomposition().solve(b); }
+  Eigen::VectorXd solution(Eigen::Index unknowns = 3) const {
+    return Eigen::MatrixXd(A.topLeftCorner(unknowns, unknowns)).ldlt().solve(Eigen::VectorXd(b.head(unknowns)));
+  }
   double left() const { return square - b.dot(solution()); }
   /// What is left if d is 0.
-  double left_without_delay() const {
-    const Eigen::Matrix2d A2 = A.topLeftCorner<2, 2>();
-    return square - b.head<2>().dot(A2.completeOrthogonalDecomposition().solve(b.head<2>()));
-  }
+  double left_without_delay() const { return square - b.head<2>().dot(solution(2)); }
 };
 
 struct JointLateness {

@@ -19,7 +19,7 @@ namespace {
 
 /// Sizes are tried over powers of two of the typical size, so many at once, and between two of them in so many steps.
 constexpr int kRungs = 8;
-constexpr double kLowest = 1.0 / 32, kLeast = 1e-7;
+constexpr double kFirstStrength = 1.0 / 32, kLeast = 1e-7;
 
 /// What a candidate may do, in the reach's weights.
 struct Shown {
@@ -275,7 +275,7 @@ class Planner {
       return i;
     };
     double unseen = 0, least = std::numeric_limits<double>::infinity();
-    for (double from = kLowest;;) {
+    for (double from = kFirstStrength;;) {
       std::vector<double> factors;
       for (int i = 0; i < kRungs && (factors.empty() || factors.back() < largest); ++i)
         factors.push_back(std::min(std::ldexp(from, i), largest));

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kCommandStride = 4;  ///< samples; torques are band-limited
 
 /// Running sums of a variance.
-struct Moments {
+struct TorqueMoments {
   double n = 0, x = 0, xx = 0;
   void add(double value) { n += 1, x += value, xx += value * value; }
   double variance() const { return xx / n - (x / n) * (x / n); }
@@ -27,7 +27,7 @@ double acting_over_commanded(const Record& record, const Hypothesis& h, int k, c
   const Transmission<double> transmission = lift_transmission<double>(h.nominal, h.effects);
   if (!by_effect) return std::max(kLeast, std::abs(transmission.arm().joint[k].torque_scale));
   const std::vector<double> z(kMaxStates, 0.0);
-  Moments commanded, acting;
+  TorqueMoments commanded, acting;
   for (std::size_t i = 0; i < record.size; i += kCommandStride) {
     JointSignals<double> s[kMaxJoints];
     for (int j = 0; j < record.n; ++j) {

@@ -1,6 +1,5 @@
 #include "estimators/process/process_model.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -73,14 +72,14 @@ void ProcessModel::find_stiffest_rate(const ArmModel& model) {
     for (int i = 0; i < n_states(); ++i)
       if (!std::isfinite(x_dot(i)) || !A.row(i).allFinite()) throw_not_finite(0, i);
     const EigenModes modes = eigen_modes(A);
-    int k = 0;
+    int k = 0, k_left = 0;
     const double rate = modes.eigenvalues.cwiseAbs().maxCoeff(&k);
     if (rate <= stiffest_rate_) continue;
     stiffest_rate_ = rate;
     // Participation factors, right times left eigenvector, do not depend on the states' units.
-    const Eigen::MatrixXcd& V = modes.eigenvectors;
-    const Eigen::VectorXcd left = V.transpose().fullPivLu().solve(Eigen::VectorXcd::Unit(n_states(), k));
-    V.col(k).cwiseProduct(left).cwiseAbs().maxCoeff(&stiffest_state_);
+    const EigenModes left = eigen_modes(A.transpose());
+    (left.eigenvalues.array() - modes.eigenvalues(k)).abs().minCoeff(&k_left);
+    (modes.eigenvectors.col(k).array() * left.eigenvectors.col(k_left).array()).abs().maxCoeff(&stiffest_state_);
   }
 }
 

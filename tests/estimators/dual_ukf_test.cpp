@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -152,7 +152,7 @@ Posterior by_augmented_filter(const ArmModel& model, const std::vector<EncoderSa
     P.topLeftCorner(n, n) += Q_root * Q_root.transpose();
 
     const Vector z = (Vector(2) << record[i].motor_position(0), record[i].joint_position(0)).finished();
-    const Matrix S = H * P * H.transpose() + R;
+    const Eigen::Matrix<Real, 2, 2> S = H * P * H.transpose() + R;
     const Matrix K = P * H.transpose() * S.inverse();
     const Matrix rest = Matrix::Identity(n + 1, n + 1) - K * H;
     x += K * (z - H * x);

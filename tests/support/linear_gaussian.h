@@ -2,7 +2,7 @@
 /// A linear problem with Gaussian noise of full rank, and the textbook's Kalman filter for it: what every Kalman filter
 /// must agree with.
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 #include <random>
