@@ -14,7 +14,10 @@ void external_force(SearchSpace& space, const Arm&, int) {
   space["contact_position"].range = SearchRange::joint_position;
 }
 
-void friction_drift(SearchSpace& space, const Arm&, int) { space["settling_rate"].starts = {0, 0.03, 0.1, 0.3}; }
+void friction_drift(SearchSpace& space, const Arm&, int) {
+  space["settling_rate"].starts = {0, 0.03, 0.1, 0.3};
+  space["joint_share"].starts = {0, 1};
+}
 
 void joint_friction(SearchSpace& space, const Arm& arm, int joint) {
   for (ParameterSearch& p : space.parameters) p.natural_bounds = true;

@@ -57,6 +57,21 @@ TEST(Cases, AForceUntilAfterTheTrainingDataIsNoSlip) {
   EXPECT_NEAR(d.effects[0].parameters[0].value, 1.409, 0.05 * 1.409) << "the truth, N m, within a twentieth";
 }
 
+TEST(Cases, FrictionThatFadesAtTheMotorAloneIsADrift) {
+  SKIP_WITHOUT_CASES();
+  const Diagnosis d = diagnose_case("friction_drift-j2");
+  ASSERT_EQ(d.effects.size(), 1U);
+  EXPECT_EQ(d.effects[0].effect.effect->name(), "friction_drift");
+  EXPECT_EQ(d.effects[0].effect.joint, 1);
+  EXPECT_TRUE(d.unexplained.empty());
+  const std::vector<Estimated>& p = d.effects[0].parameters;
+  const double rate = p[0].value, start = p[1].value, settling_rate = p[2].value, joint_share = p[3].value;
+  // The truth is 1.356 exp(-t / 7.99 s) of the motor's own friction, which is off by up to a fifth.
+  EXPECT_NEAR(start, 1.356, 0.2 * 1.356);
+  EXPECT_NEAR(-rate / settling_rate, start, 0.2 * 1.356);
+  EXPECT_LT(joint_share, 0.1);
+}
+
 TEST(Cases, BacklashOfAGearedJointIsNoStiffness) {
   SKIP_WITHOUT_CASES();
   const fs::path folder = kCases / "geared_arm";

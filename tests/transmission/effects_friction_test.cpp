@@ -178,14 +178,17 @@ TEST(Stribeck, HasOnlyTheJointsPartWhereThereIsNoMotor) {
   EXPECT_EQ(f.motor, 0);
 }
 
-TEST(FrictionDrift, ScalesAllFrictionOfMotorAndJointFromOnceToItsEnd) {
+TEST(FrictionDrift, ScalesAllFrictionOfMotorAndJointFromItsStartToItsEnd) {
   ArmParameters<double> arm = random_arm(21, CableLaw::linear);
   ArmParameters<double> twice = arm;  // the model's friction twice: the difference is the friction itself
   JointParameters<double>& j = twice.joint[0];
   j.motor_coulomb *= 2, j.motor_viscous *= 2, j.joint_coulomb *= 2, j.joint_viscous *= 2;
   std::mt19937_64 random(5);
   const double tau = 20;
-  for (const double drift : {-0.4, 1.5}) {
+  struct Course {
+    double start, drift, joint_share;
+  };
+  for (const auto& [start, drift, joint_share] : {Course{0, -0.4, 1}, {0, 1.5, 1}, {1.4, -1.4, 0}}) {
     const Motion m = random_motion(random);
     const Evaluated one = evaluate(Transmission<double>(arm, {}), m),
                     two = evaluate(Transmission<double>(twice, {}), m);
@@ -194,10 +197,11 @@ TEST(FrictionDrift, ScalesAllFrictionOfMotorAndJointFromOnceToItsEnd) {
     ASSERT_GT(std::abs(motor), 0.01);
     ASSERT_GT(std::abs(joint), 0.01);
     for (const double time : {-5.0, 0.0, 20.0, 60.0, 2000.0}) {
-      const double share = time <= 0 ? 0 : 1 - std::exp(-time / tau);
-      const AddedFriction f = added_friction(arm, placed("friction_drift", arm, 0, {drift / tau, 1 / tau}), m, time);
-      EXPECT_NEAR(f.motor, drift * share * motor, 10 * 4 * kEps) << time;
-      EXPECT_NEAR(f.joint, drift * share * joint, 100 * 4 * kEps) << time;  // cables pull with up to 100 N
+      const double change = start + drift * (time <= 0 ? 0 : 1 - std::exp(-time / tau));
+      const AddedFriction f =
+          added_friction(arm, placed("friction_drift", arm, 0, {drift / tau, start, 1 / tau, joint_share}), m, time);
+      EXPECT_NEAR(f.motor, change * motor, 10 * 4 * kEps) << time;
+      EXPECT_NEAR(f.joint, joint_share * change * joint, 100 * 4 * kEps) << time;  // cables pull with up to 100 N
     }
   }
 }

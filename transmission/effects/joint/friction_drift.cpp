@@ -1,13 +1,16 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/friction.h"
 
-/// Friction that changes in time, as in a drive that warms up. The Coulomb levels and viscous coefficients of motor and
-/// joint are all multiplied by
+/// Friction that changes in time, as in a drive that warms up. The Coulomb level and viscous coefficient of the motor are
+/// multiplied by 1 + g, those of the joint by 1 + σ g:
 ///
-///   max(0, 1 + ρ (1 - exp(-λ t)) / λ),   t >= 0
+///   g = max(-1, α + ρ (1 - exp(-λ t)) / λ),   t >= 0
 ///
-///   ρ   `rate`: relative change per second at the start; the final change is ρ / λ       1/s
+///   ρ   `rate`: relative change per second at the start; in all it changes by ρ / λ      1/s
+///   α   `start`: relative change at t = 0, as of a drive that is colder then than when the
+///       model's friction was measured                                                    1
 ///   λ   `settling_rate`: inverse of the time constant; 0: linear in time                 1/s
+///   σ   `joint_share`: 1: the joint's bearing warms up like the drive; 0: it does not    1
 ///   t   time on the log's clock                                                          s
 ///
 /// Source: Bittencourt and Axelsson, IEEE/ASME Trans. Mechatronics 19 (2014), friction over temperature. A body
@@ -21,8 +24,8 @@ constexpr double kSlowest = 1e-6;
 
 template <class T>
 T growth(const EffectContext<T>& c) {
-  const T settling = max(T(kSlowest), c.p[1]);
-  return max(T(-1.0), T(c.p[0] * (T(1.0) - exp(T(T(-std::max(c.time, 0.0)) * settling))) / settling));
+  const T settling = max(T(kSlowest), c.p[2]);
+  return max(T(-1.0), T(c.p[1] + c.p[0] * (T(1.0) - exp(T(T(-std::max(c.time, 0.0)) * settling))) / settling));
 }
 
 }  // namespace
@@ -35,7 +38,10 @@ class FrictionDrift : public EffectOf<FrictionDrift> {
     return static_cast<unsigned>(EffectStage::motor) | static_cast<unsigned>(EffectStage::joint);
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
-    return {{"rate", "1/s", 0, -0.01, -2, 2}, {"settling_rate", "1/s", 0, 0, 0, 1}};
+    return {{"rate", "1/s", 0, -0.01, -2, 2},
+            {"start", "1", 0, 0.3, -1, 5},
+            {"settling_rate", "1/s", 0, 0, 0, 1},
+            {"joint_share", "1", 1, 1, 0, 1}};
   }
 
   template <class T>
@@ -49,7 +55,7 @@ class FrictionDrift : public EffectOf<FrictionDrift> {
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
     const JointParameters<T>& j = c.arm.joint[*c.joint];
     s[*c.joint].joint_force -=
-        growth(c) * friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, s[*c.joint].joint_rate);
+        c.p[3] * growth(c) * friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, s[*c.joint].joint_rate);
   }
 };
 
