@@ -37,7 +37,7 @@ LogFinding finding_of(const DiagnosisData::Late& late) {
   return {late.log, "joint_position",
           fmt::format("the joint sensors, slower than the motors' encoders, are {:.3g} ms {} them",
                       1e3 * std::abs(late.seconds), late.seconds > 0 ? "late against" : "ahead of"),
-          "nothing to do: the diagnosis has moved their readings by this time"};
+          "nothing to do: the diagnosis has moved their readings by this time", LogFinding::Severity::corrected};
 }
 
 /// What the stages of one diagnosis share.

@@ -84,7 +84,7 @@ struct Diagnosis {
   std::vector<Estimated> refitted;
   std::vector<Unexplained> unexplained;
   std::vector<NotExcited> not_excited;
-  std::vector<LogFinding> log_findings;  ///< suspicious findings of check_log() about all logs
+  std::vector<LogFinding> log_findings;  ///< of check_log() about all logs, and what was corrected
   double probability_clean = 0;          ///< that the arm has no effect which the model lacks
   /// probability that none of the candidates is the right name for a remaining residual or for a named effect; the
   /// largest of these probabilities

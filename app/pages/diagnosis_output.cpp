@@ -154,10 +154,13 @@ void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluati
 }
 
 void add_log_findings(report::Page& page, const Diagnosis& d) {
-  if (d.log_findings.empty()) return;
-  std::string text = "Check the log first. These columns look suspicious:";
-  for (const LogFinding& f : d.log_findings) text += "\n" + finding_line(f) + ".";
-  page.verdict(report::VerdictKind::warning, text);
+  std::string suspicious;
+  for (const LogFinding& f : d.log_findings)
+    if (f.severity == LogFinding::Severity::corrected)
+      page.paragraph("Corrected before the diagnosis: " + finding_line(f) + ".");
+    else suspicious += "\n" + finding_line(f) + ".";
+  if (!suspicious.empty())
+    page.verdict(report::VerdictKind::warning, "Check the log first. These columns look suspicious:" + suspicious);
 }
 
 namespace {

@@ -147,11 +147,12 @@ double correction(const Log& log, const ArmModel& model, const std::vector<Joint
 
 }  // namespace
 
-double slow_sensor_lateness(const Log& log, const ArmModel& model) {
+std::optional<double> slow_sensor_lateness(const Log& log, const ArmModel& model) {
   std::vector<int> slow;
   for (int k = 0; k < model.n(); ++k)
     if (has_slow_joint_sensor(log, model, k)) slow.push_back(k);
   if (slow.empty()) return 0;
+  if (log.duration() < kBlock * kFewestBlocks) return std::nullopt;
   const std::vector<JointLateness> joints = first_estimate(log, model, slow);
   double late = weighted_mean(joints, kModelError);
   for (int pass = 0; pass < kPasses && late != 0; ++pass) {

@@ -14,11 +14,14 @@
 /// Friction and stretch that are a little off look late, too. Therefore d is then corrected: the readings are moved by d,
 /// and the model's own numbers are fitted together with a remaining delay of each sensor, until d settles.
 
+#include <optional>
+
 #include "diagnosis/record/record.h"
 
 namespace halyard {
 
-/// Lateness d, s; negative: the motors' readings are late. 0 if there are no slow sensors or no common lateness.
-double slow_sensor_lateness(const Log& log, const ArmModel& model);
+/// Lateness d, s; negative: the motors' readings are late. 0 if there are no slow sensors or no common lateness; nothing if
+/// the log is too short to tell.
+std::optional<double> slow_sensor_lateness(const Log& log, const ArmModel& model);
 
 }  // namespace halyard

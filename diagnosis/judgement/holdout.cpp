@@ -84,10 +84,12 @@ DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& trai
     for (std::size_t place = first; place < data.training.size(); ++place)
       if (data.training[place].start == r.start) r.place = static_cast<int>(place);
   };
+  // A log that is too short to tell has the sensors of the others.
+  double known = 0;
   const auto lateness_of = [&](const Log& log) {
-    const double late = slow_sensor_lateness(log, model);
-    if (late != 0) data.late.push_back({log.source, late});
-    return late;
+    known = slow_sensor_lateness(log, model).value_or(known);
+    if (known != 0) data.late.push_back({log.source, known});
+    return known;
   };
   const auto in_band = [](RecordOptions band, double late) {
     band.slow_sensors_late_s = late;

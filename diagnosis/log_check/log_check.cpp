@@ -32,7 +32,12 @@ std::vector<LogFinding> check_log(const Log& log, const ArmModel& model) {
 }
 
 const char* severity_word(LogFinding::Severity severity) {
-  return severity == LogFinding::Severity::gross ? "gross" : "suspicious";
+  switch (severity) {
+    case LogFinding::Severity::corrected: return "corrected";
+    case LogFinding::Severity::suspicious: return "suspicious";
+    case LogFinding::Severity::gross: break;
+  }
+  return "gross";
 }
 
 std::string finding_line(const LogFinding& f) {

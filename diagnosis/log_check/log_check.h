@@ -21,6 +21,7 @@ namespace halyard {
 /// An error of a log, or what looks like one.
 struct LogFinding {
   enum class Severity {
+    corrected,   ///< an error that the diagnosis measures and takes out; there is nothing to do
     suspicious,  ///< may be an effect of the arm as well; a diagnosis continues
     gross,       ///< an error of the log; a diagnosis would be meaningless
   };
@@ -102,7 +103,7 @@ std::vector<LogFinding> check_log(const Log& log, const ArmModel& model, const C
 /// For a log that was read with the model's own map.
 std::vector<LogFinding> check_log(const Log& log, const ArmModel& model);
 
-/// "suspicious" or "gross".
+/// "corrected", "suspicious" or "gross".
 const char* severity_word(LogFinding::Severity severity);
 
 /// "log.csv: motor_position_2: what; remedy".

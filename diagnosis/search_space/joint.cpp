@@ -16,7 +16,8 @@ void external_force(SearchSpace& space, const Arm&, int) {
 
 void friction_drift(SearchSpace& space, const Arm&, int) {
   space["settling_rate"].starts = {0, 0.03, 0.1, 0.3};
-  space["joint_share"].starts = {0, 1};
+  space["joint_share"].starts = {0.2, 1};
+  space["joint_share"].natural_bounds = true;
 }
 
 void joint_friction(SearchSpace& space, const Arm& arm, int joint) {

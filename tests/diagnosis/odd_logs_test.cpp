@@ -234,6 +234,23 @@ TEST(ClockOffsetBetweenSensors, IsNamedDelay) {
   EXPECT_NEAR(d.effects[0].effect.p[1], 8e-3, 0.5e-3);
 }
 
+TEST(ClockOffsetBetweenSensors, OfASlowSensorIsCorrectedAndSaid) {
+  Logs logs = clean_logs();
+  for (Log* log : {&logs.train, &logs.holdout}) {
+    std::vector<double>& q = log->joint_position[0];
+    q.insert(q.begin(), 12, q.front());  // 12 ms late
+    q.resize(log->size());
+    thin(q, 10, 0);
+  }
+  const Diagnosis d = diagnosis_of(first_joints(1), logs);
+  expect_clean(d);
+  ASSERT_EQ(d.log_findings.size(), 2u);  // of both logs
+  for (const LogFinding& f : d.log_findings) {
+    EXPECT_EQ(f.severity, LogFinding::Severity::corrected) << finding_line(f);
+    EXPECT_NE(f.what.find("12 ms late"), std::string::npos) << finding_line(f);
+  }
+}
+
 TEST(Clock, OfTheUnixEpochAndInMillisecondsIsTheLogsOwn) {
   const auto path = std::filesystem::path(testing::TempDir()) / "halyard_odd_clock.csv";
   const Log& log = clean_logs().train;
