@@ -115,11 +115,8 @@ Fit keep_certain_parameters(const Evidence& whole, const ArmModel& model, const 
   }
   if (left.size() == f.parameters.size()) return f;
   const Fit again = fit(whole, h, left, scale_at(whole, f.hypothesis));
-  if (!again.usable) return f;
-  bool at_bound = false;
-  for (std::size_t i = 0; i < left.size(); ++i)
-    at_bound = at_bound || (!left[i].shape && ends_at_bound(left[i], again.value[i]));
-  return at_bound ? keep_certain_parameters(whole, model, again, given) : again;
+  // What was certain beside what is gone may not be so any more.
+  return again.usable ? keep_certain_parameters(whole, model, again, given) : f;
 }
 
 }  // namespace

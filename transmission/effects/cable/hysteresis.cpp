@@ -25,8 +25,9 @@ class Hysteresis : public EffectOf<Hysteresis> {
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
     const double stretch = typical_stretch(arm.joint[*joint]);
-    return {{"share", "1", 0, 0.4, 0, 0.95},
-            {"yield_stretch", "m", 0.1 * stretch, 0.1 * stretch, 1e-4 * stretch, 10 * stretch}};
+    // A loop that yields earlier is a softer cable: stretch changes by more than that from one sample to the next.
+    const double least = 2e-3 * stretch;
+    return {{"share", "1", 0, 0.4, 0, 0.95}, {"yield_stretch", "m", 0.1 * stretch, 0.1 * stretch, least, 10 * stretch}};
   }
   int n_states() const override { return 1; }
   std::vector<double> state_scale(const ArmParameters<double>&, EffectPlace, const double* p) const override {
