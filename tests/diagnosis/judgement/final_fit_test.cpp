@@ -1,0 +1,64 @@
+#include "diagnosis/judgement/final_fit.h"
+
+#include <gtest/gtest.h>
+
+#include "diagnosis/search/refit.h"
+#include "plant/simulate.h"
+#include "tests/support/short_arm.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kJump = 2e-4, kTime = 2.613;  // m, s
+
+PlacedEffect slip(const ArmModel& model, double jump, double time) {
+  PlacedEffect e = place_effect(*find_effect("cable_slip"), model.nominal, 0);
+  e.p[0] = jump, e.p[1] = time;
+  return e;
+}
+
+/// A cable that slipped once, and the final fit of so many slips whose jumps add up to that one.
+struct Slipped {
+  ArmModel model = first_joints(1);
+  Fit fit;
+
+  explicit Slipped(const std::vector<PlacedEffect>& named) {
+    ArmModel robot = model;
+    robot.effects = {slip(model, kJump, kTime)};
+    const std::vector<Record> records = make_records(simulate(motion(robot, 5)).measured, model, {});
+    const Evidence evidence(records, model), whole(records, model, Split::none);
+    const Refitter refitter(evidence, model, 0);
+    const Hypothesis h{model.nominal, named};
+    fit = final_fit(whole, model, refitter.refit(h, evidence.score(h)), 0);
+  }
+  /// Changes of the sizes that are left over half of their interval.
+  std::vector<double> certainties() const {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+      if (fit.parameters[i].effect >= 0 && !fit.parameters[i].shape)
+        all.push_back(std::abs(fit.value[i] - fit.parameters[i].nominal) /
+                      (interval_factor(fit) * fit.std_deviation[i]));
+    return all;
+  }
+};
+
+TEST(FinalFit, KeepsASlipThatTheDataDetermine) {
+  const Slipped one({slip(first_joints(1), 0.9 * kJump, kTime)});
+  ASSERT_EQ(one.certainties().size(), 1u);
+  EXPECT_TRUE(idle_effects(one.fit, 0).empty());
+  EXPECT_NEAR(one.fit.hypothesis.effects[0].p[0], kJump, 0.01 * kJump);
+}
+
+TEST(FinalFit, KeepsNoSizeWhoseIntervalContainsItsNeutralValue) {
+  const ArmModel model = first_joints(1);
+  const Slipped two({slip(model, 3 * kJump, kTime), slip(model, -2 * kJump, kTime + 1e-3)});
+  ASSERT_TRUE(two.fit.usable);
+  for (const double certainty : two.certainties()) EXPECT_GT(certainty, 1);
+  ASSERT_EQ(idle_effects(two.fit, 0).size(), 1u) << "of two slips at one instant the data determine the sum";
+  double sum = 0;
+  for (const PlacedEffect& e : two.fit.hypothesis.effects) sum += e.p[0];
+  EXPECT_NEAR(sum, kJump, 0.02 * kJump);
+}
+
+}  // namespace
+}  // namespace halyard
