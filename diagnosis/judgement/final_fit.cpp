@@ -7,7 +7,6 @@
 #include "diagnosis/calibration/calibrate.h"
 #include "diagnosis/fit/nudged.h"
 #include "diagnosis/judgement/decision_rule.h"
-#include "diagnosis/judgement/paired_t.h"
 #include "estimators/distributions.h"
 
 namespace halyard {

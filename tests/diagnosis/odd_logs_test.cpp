@@ -221,13 +221,19 @@ TEST(SeveralLogs, OfOtherRatesAndSensorsCountTogether) {
 
 // --------------------------------------------------------------------------------------------- clocks
 
-TEST(ClockOffsetBetweenSensors, IsNamedDelay) {
+/// The clean logs with a joint sensor that is so many rows of 1 ms late.
+Logs logs_with_late_joint(std::size_t rows) {
   Logs logs = clean_logs();
   for (Log* log : {&logs.train, &logs.holdout}) {
     std::vector<double>& q = log->joint_position[0];
-    q.insert(q.begin(), 8, q.front());  // 8 ms late
+    q.insert(q.begin(), rows, q.front());
     q.resize(log->size());
   }
+  return logs;
+}
+
+TEST(ClockOffsetBetweenSensors, IsNamedDelay) {
+  const Logs logs = logs_with_late_joint(8);
   const Diagnosis d = diagnosis_of(first_joints(1), logs);
   ASSERT_EQ(d.effects.size(), 1u);
   EXPECT_EQ(d.effects[0].effect.effect->name(), "delay");
@@ -235,13 +241,8 @@ TEST(ClockOffsetBetweenSensors, IsNamedDelay) {
 }
 
 TEST(ClockOffsetBetweenSensors, OfASlowSensorIsCorrectedAndSaid) {
-  Logs logs = clean_logs();
-  for (Log* log : {&logs.train, &logs.holdout}) {
-    std::vector<double>& q = log->joint_position[0];
-    q.insert(q.begin(), 12, q.front());  // 12 ms late
-    q.resize(log->size());
-    thin(q, 10, 0);
-  }
+  Logs logs = logs_with_late_joint(12);
+  for (Log* log : {&logs.train, &logs.holdout}) thin(log->joint_position[0], 10);
   const Diagnosis d = diagnosis_of(first_joints(1), logs);
   expect_clean(d);
   ASSERT_EQ(d.log_findings.size(), 2u);  // of both logs
