@@ -1,7 +1,6 @@
 #include "diagnosis/diagnose.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "diagnosis/judgement/final_fit.h"
 #include "diagnosis/judgement/name_probability.h"
 #include "diagnosis/judgement/prediction_interval.h"
+#include "diagnosis/prediction/side_by_side.h"
 
 namespace halyard {
 namespace {
@@ -279,7 +279,7 @@ class Diagnoser {
     const auto base = evidence.fit_rows({at})[0];
     const std::vector<PlacedEffect> candidates = all_candidates(model_.nominal);
     std::vector<char> shows(candidates.size(), 1);
-    tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
+    run_side_by_side(candidates.size(), [&](std::size_t i) {
       Hypothesis with = at;
       with.effects.push_back(candidates[i]);
       const auto rows = evidence.fit_rows({with})[0];

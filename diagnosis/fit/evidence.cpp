@@ -143,10 +143,15 @@ void Evidence::find_spans(const ArmModel& model) {
   }
 }
 
+std::vector<std::vector<Residuals>> Evidence::predict_all(const std::vector<Hypothesis>& hypotheses) const {
+  std::vector<PredictionRequest> requests;
+  for (const Record& record : records_) requests.push_back({&record, &hypotheses, stride_});
+  return predict(requests);
+}
+
 std::vector<std::vector<double>> Evidence::fit_rows(const std::vector<Hypothesis>& hypotheses) const {
   std::vector<std::vector<double>> rows(hypotheses.size());
-  std::vector<std::vector<Residuals>> of_record;
-  for (const Record& record : records_) of_record.push_back(predict(record, hypotheses, stride_));
+  const std::vector<std::vector<Residuals>> of_record = predict_all(hypotheses);
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
     bool finite = true;
     for (const auto& residuals : of_record) finite = finite && residuals[h].finite;
@@ -178,14 +183,11 @@ Score Evidence::score(const Hypothesis& hypothesis) const {
   s.fit_mean_square.assign(channels(), 0);
   s.block_sum.assign(block_count_.size(), std::vector<double>(channels(), 0));
   std::vector<double> fit_count(channels(), 0), count(channels(), 0);
-  std::vector<Residuals> of_record;
-  for (const Record& record : records_) {
-    of_record.push_back(predict(record, {hypothesis}, stride_)[0]);
-    s.finite = s.finite && of_record.back().finite;
-  }
+  const std::vector<std::vector<Residuals>> of_record = predict_all({hypothesis});
+  for (const auto& residuals : of_record) s.finite = s.finite && residuals[0].finite;
   if (!s.finite) return s;
   for (const Place& p : places_) {
-    const double e = of_record[p.record].channel[p.channel][p.index];
+    const double e = of_record[p.record][0].channel[p.channel][p.index];
     if (p.fit) {
       s.fit_mean_square[p.channel] += e * e, fit_count[p.channel] += 1;
     } else {

@@ -75,6 +75,8 @@ class Evidence {
   bool has_channel(int c) const { return channel_rows_[c] > 0; }
 
  private:
+  /// [record][hypothesis]
+  std::vector<std::vector<Residuals>> predict_all(const std::vector<Hypothesis>& hypotheses) const;
   struct Place {
     int record;
     int channel;

@@ -2,7 +2,7 @@
 /// Where a prediction starts, and how fast the driven arm moves there: its eigenvalues decide the steps of the
 /// integration (chebyshev.h).
 
-#include "diagnosis/prediction/motion_kernel.h"
+#include "diagnosis/motion/motion_kernel.h"
 #include "diagnosis/prediction/prediction.h"
 
 namespace halyard {

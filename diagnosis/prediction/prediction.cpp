@@ -3,16 +3,17 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 
+#include "diagnosis/motion/lane_drive.h"
 #include "diagnosis/prediction/driven_start.h"
-#include "diagnosis/prediction/filtered_effect.h"
-#include "diagnosis/prediction/lane_drive.h"
-#include "diagnosis/prediction/measured_units.h"
+#include "diagnosis/prediction/lane_residuals.h"
+#include "diagnosis/prediction/motion_key.h"
+#include "diagnosis/prediction/shared_lanes.h"
+#include "diagnosis/prediction/side_by_side.h"
 #include "estimators/process/instruction_set.h"
-#include "transmission/arm_fields.h"
 
 namespace halyard {
 namespace {
@@ -30,6 +31,11 @@ LaneDrive lane_drive() {
 #endif
   (void)set;
   return generic_lane_drive();
+}
+
+const LaneDrive& kernel() {
+  static const LaneDrive widest = lane_drive();
+  return widest;
 }
 
 std::vector<DrivenInput> driven_inputs(const Record& record) {
@@ -58,276 +64,203 @@ CommandHistory whole_history(const Record& record, const std::vector<DrivenInput
   return history;
 }
 
-/// seen: the effects as the record shows them.
-Transmission<Lanes> pack_hypotheses(const Hypothesis* const* lane, const FilteredEffects& seen) {
-  ArmParameters<double> arms[kLaneWidth];
-  std::vector<EffectInstance<Lanes>> effects;
-  for (std::size_t e = 0; e < lane[0]->effects.size(); ++e) effects.push_back({seen[e], lane[0]->effects[e].joint, {}});
-  for (int l = 0; l < kLaneWidth; ++l) {
-    arms[l] = lane[l]->nominal;
-    for (std::size_t e = 0; e < effects.size(); ++e)
-      for (int i = 0; i < kMaxEffectParameters; ++i) effects[e].p[i].set(l, lane[l]->effects[e].p[i]);
-  }
-  return Transmission<Lanes>(pack(arms), std::move(effects));
-}
+/// A hypothesis on its way to its residuals.
+struct Job {
+  const Hypothesis* hypothesis;
+  std::size_t request;
+  Residuals* residuals;
+  std::vector<double> motion = {};  ///< motion_key()
+  std::size_t mover = 0;            ///< the first job of the request with the same motion: itself, if it is integrated
+  bool is_replayed_later = false;
+  DrivenState<double> start = {};
+  std::vector<Eigenvalues> spectrum = {};
+  bool is_able = false;             ///< can be integrated
+  std::vector<double> states = {};  ///< [sample * own state size], if another job is replayed from them
+};
 
-/// Of all effects, one after another.
-std::vector<double> past_states(const Hypothesis& h, const Record& record) {
-  std::vector<double> all;
-  for (std::size_t e = 0; e < h.effects.size(); ++e) {
-    const int states = h.effects[e].effect->n_states();
-    for (int s = 0; s < states; ++s)
-      all.push_back(record.place < 0 ? 0.0 : h.past_state(e, static_cast<std::size_t>(record.place * states + s)));
-  }
-  return all;
-}
-
-/// Everything that the motion of the joints depends on if the motors move as they were measured: not what acts between
-/// the command and the rotor, nor what a joint's sensor adds.
-std::vector<double> motion_key(const Hypothesis& h, const Record& record) {
-  const ArmParameters<double> arm = lift_transmission<double>(h.nominal, h.effects).arm();
-  std::vector<double> key = past_states(h, record);
-  const auto append = [&](const auto& entry) { key.push_back(static_cast<double>(entry)); };
-  for_each_arm_field([&](const ArmField&, const auto& value) { for_each_entry(append, value); }, arm);
-  for (int k = 0; k < arm.n; ++k) {
-    const auto append_if_it_moves = [&](const ArmField& field, const auto& value) {
-      // A joint without a motor moves as its own sensor says.
-      const bool of_moving_sensor = field.influence == Influence::sensor_reading && arm.joint[k].drive == Drive::none;
-      if (field.influence == Influence::motion || of_moving_sensor) for_each_entry(append, value);
-    };
-    for_each_joint_field(append_if_it_moves, arm.joint[k]);
-  }
-  constexpr unsigned kMotor = static_cast<unsigned>(EffectStage::command) | static_cast<unsigned>(EffectStage::motor);
-  for (const PlacedEffect& e : h.effects)
-    if ((e.effect->stages() & ~kMotor) != 0 || e.effect->n_states() > 0)
-      key.insert(key.end(), e.p, e.p + kMaxEffectParameters);
-  return key;
-}
-
-/// Takes off the mean: where the zero of an encoder is unknown, that is what it says.
-void take_off_mean(std::vector<double>& residual) {
-  double sum = 0, count = 0;
-  for (const double e : residual)
-    if (!std::isnan(e)) sum += e, count += 1;
-  for (double& e : residual) e -= sum / count;
-}
-
-/// K_c * x around a sample that can be compared, over the samples that were measured.
-template <class Signal>
-Lanes compared(const Record& record, const std::vector<double>& measured, std::size_t at, const Signal& x) {
-  const std::size_t reach = record.compare.size() / 2, size = record.size;
-  Lanes sum = 0.0;
-  double weight = 0;
-  for (std::size_t t = at - std::min(at, reach); t <= std::min(at + reach, size - 1); ++t) {
-    const double w = record.compare[t + reach - at] * measured[t];
-    if (w > 0) sum += Lanes(w) * x(t);
-    weight += w;
-  }
-  return sum / Lanes(weight);
-}
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-/// Predictions of a record by hypotheses with the same effects.
+/// All requests about one record at one stride.
 class Prediction {
  public:
-  Prediction(const Record& record, const std::vector<Hypothesis>& hypotheses, int stride)
-      : record_(record),
-        hypotheses_(hypotheses),
-        stride_(stride),
-        inputs_(driven_inputs(record)),
-        history_(whole_history(record, inputs_)),
-        filtered_(hypotheses[0].effects, hypotheses[0].nominal, record.motion_sigma),
-        n_states_(lift_transmission<double>(hypotheses[0].nominal, hypotheses[0].effects).n_states()),
-        state_size_(2 * record.n + n_states_),
-        all_(hypotheses.size()) {}
+  Prediction(const Record& record, int stride)
+      : record_(record), stride_(stride), inputs_(driven_inputs(record)), history_(whole_history(record, inputs_)) {}
 
-  std::vector<Residuals> run() {
+  void add(const std::vector<Hypothesis>& hypotheses, std::vector<Residuals>& residuals) {
+    residuals.resize(hypotheses.size());
+    for (std::size_t h = 0; h < hypotheses.size(); ++h) jobs_.push_back({&hypotheses[h], n_requests_, &residuals[h]});
+    ++n_requests_;
+  }
+
+  void run() {
     find_movers();
     find_starts();
-    states_.resize(replayed_.empty() ? 0 : movers_.size());
-    tbb::parallel_for(std::size_t{0}, batches(movers_.size()), [&](std::size_t b) { drive(b * kLaneWidth); });
-    tbb::parallel_for(std::size_t{0}, batches(replayed_.size()), [&](std::size_t b) { replay(b * kLaneWidth); });
-    return std::move(all_);
+    std::vector<std::size_t> movers, replayed;
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+      const bool is_able = jobs_[jobs_[i].mover].is_able;
+      jobs_[i].residuals->finite = is_able;
+      if (is_able) (jobs_[i].mover == i ? movers : replayed).push_back(i);
+    }
+    each_batch(movers, [&](const std::vector<std::size_t>& batch) { drive(batch); });
+    each_batch(replayed, [&](const std::vector<std::size_t>& batch) { replay(batch); });
   }
 
  private:
-  static std::size_t batches(std::size_t count) { return (count + kLaneWidth - 1) / kLaneWidth; }
-
-  /// Hypotheses with the same motion are integrated once, by the first of them, and replayed for the others.
+  /// Jobs of a request with the same motion are integrated once, by the first of them, and replayed for the others.
   void find_movers() {
-    std::map<std::vector<double>, std::size_t> known;
-    mover_of_.resize(hypotheses_.size());
-    for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
-      const auto [entry, is_new] = known.try_emplace(motion_key(hypotheses_[h], record_), movers_.size());
-      mover_of_[h] = entry->second;
-      (is_new ? movers_ : replayed_).push_back(h);
+    tbb::parallel_for(std::size_t{0}, jobs_.size(),
+                      [&](std::size_t i) { jobs_[i].motion = motion_key(*jobs_[i].hypothesis, record_); });
+    std::map<std::pair<std::size_t, std::vector<double>>, std::size_t> known;
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+      const auto [entry, is_new] = known.try_emplace({jobs_[i].request, std::move(jobs_[i].motion)}, i);
+      jobs_[i].mover = entry->second;
+      if (!is_new) jobs_[entry->second].is_replayed_later = true;
     }
   }
 
-  /// Start and eigenvalues of each mover, and a scheme for all that can be integrated.
+  /// Start and eigenvalues of each mover, and for each request a scheme for all movers that can be integrated.
   void find_starts() {
-    starts_.resize(movers_.size());
-    spectra_.resize(movers_.size());
-    tbb::parallel_for(std::size_t{0}, movers_.size(), [&](std::size_t i) {
-      const Hypothesis& h = hypotheses_[movers_[i]];
-      starts_[i] = unstretched_state(h, record_, inputs_[0]);
-      spectra_[i] = eigenvalues_of(h, record_, standing(inputs_[0]), starts_[i]);
+    tbb::parallel_for(std::size_t{0}, jobs_.size(), [&](std::size_t i) {
+      Job& job = jobs_[i];
+      if (job.mover != i) return;
+      job.start = unstretched_state(*job.hypothesis, record_, inputs_[0]);
+      job.spectrum = eigenvalues_of(*job.hypothesis, record_, standing(inputs_[0]), job.start);
+      job.is_able = !job.spectrum.empty() && stages_for(job.spectrum, record_.dt) > 0;
     });
-    std::vector<std::vector<Eigenvalues>> able;
-    for (std::size_t i = 0; i < movers_.size(); ++i)
-      if (is_able(i)) able.push_back(spectra_[i]);
-    scheme_ = scheme_for(able, record_.dt);
+    std::vector<std::vector<std::vector<Eigenvalues>>> able(n_requests_);
+    for (const Job& job : jobs_)
+      if (job.is_able) able[job.request].push_back(job.spectrum);
+    for (const auto& spectra : able) schemes_.push_back(scheme_for(spectra, record_.dt));
   }
 
-  bool is_able(std::size_t mover) const {
-    return !spectra_[mover].empty() && stages_for(spectra_[mover], record_.dt) > 0;
-  }
-
-  /// Integrates movers first, first + 1, ... side by side.
-  void drive(std::size_t first) {
-    const std::size_t count = std::min<std::size_t>(kLaneWidth, movers_.size() - first);
-    std::vector<Lanes> out(record_.size * 2 * record_.n), path(states_.empty() ? 0 : record_.size * state_size_);
-    // A lane that cannot be integrated is filled with one that can, and reported.
-    const Hypothesis* able = nullptr;
-    for (std::size_t l = 0; l < count; ++l)
-      if (is_able(first + l)) able = &hypotheses_[movers_[first + l]];
-    if (able) {
-      const Hypothesis* filled[kLaneWidth];
-      DrivenState<Lanes> x;
-      for (int k = 0; k < record_.n; ++k) x.v[k] = 0.0;
-      for (int k = 0; k < n_states_; ++k) x.z[k] = 0.0;
-      for (int l = 0; l < kLaneWidth; ++l) {
-        const std::size_t i = first + std::min<std::size_t>(l, count - 1);
-        filled[l] = is_able(i) ? &hypotheses_[movers_[i]] : able;
-        for (int k = 0; k < record_.n; ++k) x.q[k].set(l, starts_[i].q[k]);
+  /// Calls work for batches that fill the lanes with jobs of the same scheme, jobs with the same effects beside each
+  /// other.
+  template <class Work>
+  void each_batch(std::vector<std::size_t> jobs, const Work& work) const {
+    std::vector<const std::vector<PlacedEffect>*> lists;
+    std::vector<std::tuple<int, int, std::size_t>> kind(jobs_.size());
+    for (const std::size_t i : jobs) {
+      const Chebyshev& scheme = schemes_[jobs_[i].request];
+      kind[i] = {scheme.steps, scheme.stages, index_of_list(jobs_[i].hypothesis->effects, lists)};
+    }
+    std::ranges::stable_sort(jobs, {}, [&](std::size_t i) { return kind[i]; });
+    std::vector<std::vector<std::size_t>> batches;
+    CommonEffects common;
+    for (const std::size_t i : jobs) {
+      CommonEffects more = common;
+      more.add(jobs_[i].hypothesis->effects);
+      const bool fits = !batches.empty() && batches.back().size() < kLaneWidth && n_states_with(more) <= kMaxStates &&
+                        has_same_scheme(batches.back()[0], i);
+      if (fits) {
+        batches.back().push_back(i);
+        common = std::move(more);
+      } else {
+        batches.push_back({i});
+        common = {};
+        common.add(jobs_[i].hypothesis->effects);
       }
-      integrate(filled, x, out, path);
     }
-    std::vector<Taken> taken;
-    for (std::size_t l = 0; l < count; ++l) taken.push_back({movers_[first + l], is_able(first + l)});
-    take(out, taken);
-    for (std::size_t l = 0; l < count && !states_.empty(); ++l) {
-      states_[first + l].resize(path.size());
-      for (std::size_t i = 0; i < path.size(); ++i) states_[first + l][i] = path[i][static_cast<int>(l)];
+    tbb::parallel_for(std::size_t{0}, batches.size(), [&](std::size_t b) { work(batches[b]); });
+  }
+
+  static std::size_t index_of_list(const std::vector<PlacedEffect>& effects,
+                                   std::vector<const std::vector<PlacedEffect>*>& known) {
+    const auto found = std::ranges::find_if(known, [&](const auto* list) {
+      return std::ranges::equal(*list, effects, [](const PlacedEffect& a, const PlacedEffect& b) {
+        return a.effect == b.effect && a.joint == b.joint;
+      });
+    });
+    if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
+    known.push_back(&effects);
+    return known.size() - 1;
+  }
+
+  int n_states_with(const CommonEffects& common) const { return 2 * record_.n + common.n_states(); }
+  bool has_same_scheme(std::size_t i, std::size_t j) const {
+    const Chebyshev &a = schemes_[jobs_[i].request], &b = schemes_[jobs_[j].request];
+    return a.steps == b.steps && a.stages == b.stages;
+  }
+
+  SharedLanes lanes_of(const std::vector<std::size_t>& batch) const {
+    std::vector<const Hypothesis*> hypotheses;
+    for (const std::size_t i : batch) hypotheses.push_back(jobs_[i].hypothesis);
+    return {std::move(hypotheses), record_};
+  }
+
+  void drive(const std::vector<std::size_t>& batch) {
+    const SharedLanes lanes = lanes_of(batch);
+    const bool keeps = std::ranges::any_of(batch, [&](std::size_t i) { return jobs_[i].is_replayed_later; });
+    std::vector<Lanes> out(record_.size * 2 * record_.n);
+    std::vector<Lanes> path(keeps ? record_.size * (2 * record_.n + lanes.n_states()) : 0);
+    DrivenState<Lanes> x;
+    for (int k = 0; k < record_.n; ++k) {
+      x.v[k] = 0.0;
+      for (int l = 0; l < kLaneWidth; ++l) x.q[k].set(l, jobs_[batch[l < std::ssize(batch) ? l : 0]].start.q[k]);
     }
+    for (int k = 0; k < lanes.n_states(); ++k) x.z[k] = 0.0;
+    integrate(lanes, schemes_[jobs_[batch[0]].request], x, out, path);
+    take(batch, out);
+    for (std::size_t l = 0; l < batch.size(); ++l)
+      if (jobs_[batch[l]].is_replayed_later) jobs_[batch[l]].states = states_of_lane(lanes, l, path);
   }
 
   /// Lowers the arm onto its cables with the motors held, adds the pasts, and drives it along the record.
-  void integrate(const Hypothesis* const (&lane)[kLaneWidth], DrivenState<Lanes>& x, std::vector<Lanes>& out,
+  void integrate(const SharedLanes& lanes, const Chebyshev& scheme, DrivenState<Lanes>& x, std::vector<Lanes>& out,
                  std::vector<Lanes>& path) const {
-    const Transmission<Lanes> transmission = pack_hypotheses(lane, filtered_);
     const std::vector<DrivenInput> held(static_cast<std::size_t>(kLetDown / record_.dt) + 1, standing(inputs_[0]));
     std::vector<Lanes> unused(held.size() * 2 * record_.n);
     const double before = record_.start - record_.dt * static_cast<double>(held.size());
-    kernel().drive(transmission, held.data(), held.size(), before, record_.dt, scheme_, &history_, x, unused.data(),
-                   nullptr);
-    for (int l = 0; l < kLaneWidth; ++l) {
-      const std::vector<double> past = past_states(*lane[l], record_);
-      for (int k = 0; k < n_states_; ++k) x.z[k].set(l, x.z[k][l] + past[k]);
-    }
-    kernel().drive(transmission, inputs_.data(), record_.size, record_.start, record_.dt, scheme_, &history_, x,
+    kernel().drive(lanes.transmission(), held.data(), held.size(), before, record_.dt, scheme, &history_, x,
+                   unused.data(), nullptr);
+    lanes.add_past(x.z);
+    kernel().drive(lanes.transmission(), inputs_.data(), record_.size, record_.start, record_.dt, scheme, &history_, x,
                    out.data(), path.empty() ? nullptr : path.data());
   }
 
-  /// Outputs of hypotheses that share the motion of a mover.
-  void replay(std::size_t first) {
-    const std::size_t count = std::min<std::size_t>(kLaneWidth, replayed_.size() - first);
-    const Hypothesis* lane[kLaneWidth];
-    std::vector<Lanes> out(record_.size * 2 * record_.n), path(record_.size * state_size_);
-    for (std::size_t l = 0; l < kLaneWidth; ++l) {
-      const std::size_t h = replayed_[first + std::min(l, count - 1)];
-      lane[l] = &hypotheses_[h];
-      const std::vector<double>& of_mover = states_[mover_of_[h]];
-      for (std::size_t i = 0; i < path.size(); ++i) path[i].set(static_cast<int>(l), of_mover[i]);
+  /// [q, q', z] of a hypothesis at each sample, with the states of its own effects alone.
+  std::vector<double> states_of_lane(const SharedLanes& lanes, std::size_t lane, const std::vector<Lanes>& path) const {
+    const std::size_t moving = 2 * record_.n, size = moving + lanes.n_states();
+    std::vector<double> states;
+    states.reserve(record_.size * (moving + lanes.states_of(lane).size()));
+    const int l = static_cast<int>(lane);
+    for (std::size_t i = 0; i < record_.size; ++i) {
+      const Lanes* row = path.data() + i * size;
+      for (std::size_t k = 0; k < moving; ++k) states.push_back(row[k][l]);
+      for (const int s : lanes.states_of(lane)) states.push_back(row[moving + s][l]);
     }
-    kernel().replay(pack_hypotheses(lane, filtered_), inputs_.data(), record_.size, record_.start, record_.dt,
-                    &history_, path.data(), out.data());
-    std::vector<Taken> taken;
-    for (std::size_t l = 0; l < count; ++l) {
-      const std::size_t h = replayed_[first + l];
-      taken.push_back({h, all_[movers_[mover_of_[h]]].finite});
-    }
-    take(out, taken);
+    return states;
   }
 
-  /// A hypothesis in a lane, and whether that lane was integrated.
-  struct Taken {
-    std::size_t hypothesis;
-    bool able;
-  };
-
-  /// Residuals of the hypotheses in the first lanes of what drive or replay wrote.
-  void take(const std::vector<Lanes>& out, const std::vector<Taken>& taken) {
-    const int n = record_.n;
-    for (const Taken& t : taken) {
-      all_[t.hypothesis].finite = t.able;
-      all_[t.hypothesis].channel.assign(2 * n, {});
+  /// Outputs of jobs that share the motion of a mover.
+  void replay(const std::vector<std::size_t>& batch) {
+    const SharedLanes lanes = lanes_of(batch);
+    const std::size_t moving = 2 * record_.n, size = moving + lanes.n_states();
+    std::vector<Lanes> out(record_.size * moving), path(record_.size * size, Lanes(0.0));
+    for (int l = 0; l < kLaneWidth; ++l) {
+      const std::size_t lane = l < std::ssize(batch) ? static_cast<std::size_t>(l) : 0;
+      const double* of_mover = jobs_[jobs_[batch[lane]].mover].states.data();
+      for (std::size_t i = 0; i < record_.size; ++i) {
+        Lanes* row = path.data() + i * size;
+        for (std::size_t k = 0; k < moving; ++k) row[k].set(l, *of_mover++);
+        for (const int s : lanes.states_of(lane)) row[moving + s].set(l, *of_mover++);
+      }
     }
-    for (int k = 0; k < n; ++k) {
-      const auto residual = [&, k](std::size_t t) { return out[t * 2 * n + k]; };
-      const auto reading = [&, k](std::size_t t) { return out[t * 2 * n + n + k]; };
-      const auto error = [&, k](std::size_t t) { return Lanes(record_.joint[k][t]) - reading(t); };
-      check_finite(taken, residual);
-      check_finite(taken, reading);
-      if (record_.has_torque(k)) take_channel(taken, k, record_.torque_valid[k], record_.torque_measured[k], residual);
-      if (record_.has_joint(k)) take_channel(taken, n + k, record_.joint_valid[k], record_.joint_measured[k], error);
-      for (const Taken& t : taken) finish(t.hypothesis, k);
-    }
+    kernel().replay(lanes.transmission(), inputs_.data(), record_.size, record_.start, record_.dt, &history_,
+                    path.data(), out.data());
+    take(batch, out);
   }
 
-  /// Marks the hypotheses whose signal is not finite at a compared sample.
-  template <class Signal>
-  void check_finite(const std::vector<Taken>& taken, const Signal& signal) {
-    Lanes sum = 0.0;
-    for (std::size_t i = 0; i < rows(); ++i) sum += Lanes(0.0) * signal(i * stride_);
-    for (std::size_t l = 0; l < taken.size(); ++l)
-      if (!std::isfinite(sum[static_cast<int>(l)])) all_[taken[l].hypothesis].finite = false;
-  }
-
-  template <class Signal>
-  void take_channel(const std::vector<Taken>& taken, int c, const std::vector<double>& valid,
-                    const std::vector<double>& measured, const Signal& signal) {
-    for (const Taken& t : taken) all_[t.hypothesis].channel[c].assign(rows(), kNone);
-    for (std::size_t i = 0; i < rows(); ++i) {
-      const std::size_t at = i * stride_;
-      if (!(valid[at] > 0)) continue;
-      const Lanes row = compared(record_, measured, at, signal);
-      for (std::size_t l = 0; l < taken.size(); ++l) all_[taken[l].hypothesis].channel[c][i] = row[static_cast<int>(l)];
-    }
-  }
-
-  void finish(std::size_t h, int k) {
-    Residuals& r = all_[h];
-    if (record_.has_torque(k)) {
-      // Otherwise a hypothesis by which the motor makes less than it was commanded would win by shrinking the data.
-      const double ratio = acting_over_commanded(record_, hypotheses_[h], k, history_);
-      for (double& e : r.channel[k]) e /= ratio;
-    }
-    const JointParameters<double>& sensors = hypotheses_[0].nominal.joint[k];
-    if (!sensors.motor_zero_known || !sensors.joint_zero_known) take_off_mean(r.channel[record_.n + k]);
-  }
-
-  std::size_t rows() const { return (record_.size + stride_ - 1) / stride_; }
-  static const LaneDrive& kernel() {
-    static const LaneDrive widest = lane_drive();
-    return widest;
+  void take(const std::vector<std::size_t>& batch, const std::vector<Lanes>& out) const {
+    std::vector<LaneOwner> owners;
+    for (const std::size_t i : batch) owners.push_back({jobs_[i].hypothesis, jobs_[i].residuals});
+    take_residuals(record_, history_, stride_, out, owners);
   }
 
   const Record& record_;
-  const std::vector<Hypothesis>& hypotheses_;
   int stride_;
   std::vector<DrivenInput> inputs_;
   CommandHistory history_;
-  FilteredEffects filtered_;
-  int n_states_, state_size_;
-  std::vector<std::size_t> movers_, replayed_;  ///< hypotheses that are integrated, and those that are replayed
-  std::vector<std::size_t> mover_of_;           ///< [hypothesis] index in movers_
-  std::vector<DrivenState<double>> starts_;     ///< [mover]
-  std::vector<std::vector<Eigenvalues>> spectra_;
-  Chebyshev scheme_;
-  std::vector<std::vector<double>> states_;  ///< [mover][sample * state_size], if anything is replayed
-  std::vector<Residuals> all_;
+  std::vector<Job> jobs_;
+  std::size_t n_requests_ = 0;
+  std::vector<Chebyshev> schemes_;  ///< [request]
 };
 
 }  // namespace
@@ -348,8 +281,30 @@ Hypothesis without_effect(Hypothesis h, std::size_t place) {
   return h;
 }
 
+std::vector<std::vector<Residuals>> predict_at_once(const std::vector<PredictionRequest>& requests) {
+  std::vector<std::vector<Residuals>> residuals(requests.size());
+  std::vector<std::tuple<const Record*, int, Prediction>> predictions;
+  for (std::size_t r = 0; r < requests.size(); ++r) {
+    const auto& [record, hypotheses, stride] = requests[r];
+    auto of_record = std::ranges::find_if(
+        predictions, [&](const auto& p) { return std::get<0>(p) == record && std::get<1>(p) == stride; });
+    if (of_record == predictions.end()) {
+      predictions.emplace_back(record, stride, Prediction(*record, stride));
+      of_record = std::prev(predictions.end());
+    }
+    std::get<2>(*of_record).add(*hypotheses, residuals[r]);
+  }
+  tbb::parallel_for(std::size_t{0}, predictions.size(), [&](std::size_t p) { std::get<2>(predictions[p]).run(); });
+  return residuals;
+}
+
+std::vector<std::vector<Residuals>> predict(const std::vector<PredictionRequest>& requests) {
+  SideBySide* const beside = SideBySide::of_this_thread();
+  return beside ? beside->predict(requests) : predict_at_once(requests);
+}
+
 std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesis>& hypotheses, int stride) {
-  return hypotheses.empty() ? std::vector<Residuals>{} : Prediction(record, hypotheses, stride).run();
+  return std::move(predict({{&record, &hypotheses, stride}})[0]);
 }
 
 FullPrediction predict_fully(const Record& record, const Hypothesis& hypothesis) {

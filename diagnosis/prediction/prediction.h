@@ -33,9 +33,20 @@ struct Residuals {
   bool finite = true;  ///< false: the motion of this hypothesis cannot be integrated
 };
 
-/// Residuals of each hypothesis over a record. All hypotheses must have the same effects at the same
-/// joints; only parameters differ. The result does not depend on the number of threads.
+/// Hypotheses about a record that are integrated with the same steps, so that their residuals can be compared. They have
+/// the same effects at the same joints; only parameters differ.
+struct PredictionRequest {
+  const Record* record;
+  const std::vector<Hypothesis>* hypotheses;
+  int stride;
+};
+
+/// Residuals of each hypothesis of each request. They depend neither on the other requests nor on the number of threads.
+/// Inside run_side_by_side() (side_by_side.h) the requests of all jobs share lanes.
+std::vector<std::vector<Residuals>> predict(const std::vector<PredictionRequest>& requests);
 std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesis>& hypotheses, int stride);
+/// Without waiting for other jobs.
+std::vector<std::vector<Residuals>> predict_at_once(const std::vector<PredictionRequest>& requests);
 
 /// Joint readings predicted at every sample, [n][size], and the torque residuals, for reports.
 struct FullPrediction {

@@ -1,10 +1,9 @@
 #include "diagnosis/search/attribution.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/search/candidate_round.h"
 #include "model/input_error.h"
 
@@ -242,7 +241,7 @@ class Search {
       const std::size_t n = current.fit.hypothesis.effects.size() - given_;
       std::vector<Fit> without(n, baseline_.fit);
       if (n > 1)
-        tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+        run_side_by_side(n, [&](std::size_t i) {
           without[i] = refitter_.refit(without_effect(current.fit.hypothesis, given_ + i), current.score);
         });
       std::size_t gone = n;

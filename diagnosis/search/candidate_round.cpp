@@ -1,9 +1,9 @@
 #include "diagnosis/search/candidate_round.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
+
+#include "diagnosis/prediction/side_by_side.h"
 
 namespace halyard {
 
@@ -26,7 +26,7 @@ CandidateRound::CandidateRound(const Evidence& evidence, const ArmModel& model, 
 
 void CandidateRound::each(const std::string& what, std::size_t n, const std::function<void(std::size_t)>& one) const {
   std::atomic<std::size_t> done{0};
-  tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+  run_side_by_side(n, [&](std::size_t i) {
     one(i);
     progress_(what + " of " + name_, static_cast<double>(++done) / static_cast<double>(n));
   });

@@ -1,10 +1,9 @@
 #include "diagnosis/search/joint_proposal.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/search/sparse_selection.h"
 
 namespace halyard {
@@ -121,7 +120,7 @@ std::vector<Trial> JointSearch::trials(const JointProposal& p, std::size_t first
   const std::size_t n = p.fit.hypothesis.effects.size() - first;
   std::vector<Trial> all(n);
   without.assign(n, {});
-  tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+  run_side_by_side(n, [&](std::size_t i) {
     const std::size_t place = first + i;
     Refit refit{without_effect(p.fit.hypothesis, place), p.score};
     refitter_.go_on(refit, kRule.first_passes);

@@ -1,6 +1,6 @@
 /// The Runge-Kutta-Chebyshev method against the polynomial that it is made of.
 
-#include "diagnosis/prediction/chebyshev.h"
+#include "diagnosis/motion/chebyshev.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 /// The code that each lane_drive_<set>.cpp compiles for its instruction set. It is in an unnamed namespace, so that the
 /// linker cannot use it for other files.
 
-#include "diagnosis/prediction/lane_drive.h"
+#include "diagnosis/motion/lane_drive.h"
 
 namespace halyard {
 namespace {

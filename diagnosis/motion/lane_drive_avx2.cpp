@@ -1,4 +1,4 @@
-#include "diagnosis/prediction/lane_drive_body.h"
+#include "diagnosis/motion/lane_drive_body.h"
 
 namespace halyard {
 

@@ -1,4 +1,4 @@
-#include "diagnosis/prediction/chebyshev.h"
+#include "diagnosis/motion/chebyshev.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// drive_record and replay_record over lanes, compiled once per instruction set. The widest set that the processor
 /// supports is chosen at run time.
 
-#include "diagnosis/prediction/motion_kernel.h"
+#include "diagnosis/motion/motion_kernel.h"
 
 namespace halyard {
 

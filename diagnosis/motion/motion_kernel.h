@@ -12,7 +12,7 @@
 
 #include <utility>
 
-#include "diagnosis/prediction/chebyshev.h"
+#include "diagnosis/motion/chebyshev.h"
 #include "estimators/process/arm_dynamics.h"
 
 namespace halyard {
