@@ -157,6 +157,8 @@ bool minimise(const Residual& residual, const std::vector<FitParameter>& paramet
   solver.parameter_tolerance = 1e-6;
   solver.logging_type = ceres::SILENT;  // a trial step that cannot be integrated is foreseen
   solver.num_threads = 1;
+  // With bounds Ceres would add a line search to each step: two of three evaluations, and no better minimum.
+  solver.max_num_line_search_step_size_iterations = 0;
   // Ceres would write to the log of the host program if the start cannot be integrated. The residual keeps what is
   // computed here for Ceres' first step.
   const LinearisedResidual first(residual, u);
