@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+std::size_t rows_of(const Record& record, int stride) { return (record.size + stride - 1) / stride; }
+
 /// Takes off the mean: where the zero of an encoder is unknown, that is what it says.
 void take_off_mean(std::vector<double>& residual) {
   double sum = 0, count = 0;
@@ -61,7 +63,7 @@ class LaneResiduals {
   }
 
  private:
-  std::size_t rows() const { return (record_.size + stride_ - 1) / stride_; }
+  std::size_t rows() const { return rows_of(record_, stride_); }
 
   const Record& record_;
   int stride_;
@@ -95,6 +97,15 @@ void take_residuals(const Record& record, const CommandHistory& history, int str
     if (record.has_joint(k)) lanes.take(n + k, record.joint_valid[k], record.joint_measured[k], error);
     for (const LaneOwner& owner : owners) finish_joint(record, history, *owner.hypothesis, k, *owner.residuals);
   }
+}
+
+Residuals unknown_residuals(const Record& record, int stride) {
+  Residuals unknown{std::vector<std::vector<double>>(2 * record.n), false};
+  for (int k = 0; k < record.n; ++k) {
+    if (record.has_torque(k)) unknown.channel[k].assign(rows_of(record, stride), kNone);
+    if (record.has_joint(k)) unknown.channel[record.n + k].assign(rows_of(record, stride), kNone);
+  }
+  return unknown;
 }
 
 }  // namespace halyard

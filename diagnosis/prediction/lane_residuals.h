@@ -18,4 +18,7 @@ struct LaneOwner {
 void take_residuals(const Record& record, const CommandHistory& history, int stride, const std::vector<Lanes>& out,
                     const std::vector<LaneOwner>& owners);
 
+/// Those of a hypothesis that cannot be integrated: NaN throughout.
+Residuals unknown_residuals(const Record& record, int stride);
+
 }  // namespace halyard

@@ -95,9 +95,8 @@ class Prediction {
     find_starts();
     std::vector<std::size_t> movers, replayed;
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
-      const bool is_able = jobs_[jobs_[i].mover].is_able;
-      jobs_[i].residuals->finite = is_able;
-      if (is_able) (jobs_[i].mover == i ? movers : replayed).push_back(i);
+      if (jobs_[jobs_[i].mover].is_able) (jobs_[i].mover == i ? movers : replayed).push_back(i);
+      else *jobs_[i].residuals = unknown_residuals(record_, stride_);
     }
     each_batch(movers, [&](const std::vector<std::size_t>& batch) { drive(batch); });
     each_batch(replayed, [&](const std::vector<std::size_t>& batch) { replay(batch); });
