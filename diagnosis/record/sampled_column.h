@@ -2,10 +2,8 @@
 /// A column of a log as a function of time. It has its own sample rate, and samples may be missing.
 
 #include <algorithm>
-#include <boost/math/interpolators/cubic_hermite.hpp>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <vector>
 
 namespace halyard {
@@ -21,7 +19,7 @@ class SampledColumn {
     for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = t_[i + 1] - t_[i];
     std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
     interval_ = steps[steps.size() / 2];
-    between_.emplace(std::vector<double>(t_), std::vector<double>(x_), slopes());
+    slope_ = slopes();
   }
 
   /// True if there are enough samples to describe a motion and to interpolate.
@@ -31,7 +29,12 @@ class SampledColumn {
 
   double at(double time) const {
     if (!is_there()) return x_.empty() ? 0 : x_.front();
-    return (*between_)(std::clamp(time, t_.front(), t_.back()));
+    time = std::clamp(time, t_.front(), t_.back());
+    const std::size_t i = sample_before(time);
+    // The cubic Hermite polynomial between two samples.
+    const double h = t_[i + 1] - t_[i], s = (time - t_[i]) / h, chord = (x_[i + 1] - x_[i]) / h;
+    const double bend = slope_[i] + slope_[i + 1] - 2 * chord;
+    return x_[i] + h * s * (slope_[i] + s * (3 * chord - 2 * slope_[i] - slope_[i + 1] + s * bend));
   }
 
   /// Time from the sample before to the one after; infinite before the first and after the last.
@@ -50,6 +53,18 @@ class SampledColumn {
   }
 
  private:
+  /// The sample at a time or the last one before it, but not the last of all. Samples are nearly even: its place is
+  /// guessed, and searched for only if the guess is wrong.
+  std::size_t sample_before(double time) const {
+    const auto guess = static_cast<std::size_t>((time - t_.front()) / (t_.back() - t_.front()) *
+                                                static_cast<double>(t_.size() - 1));
+    const std::size_t last = t_.size() - 2, near = std::min(guess > 0 ? guess - 1 : 0, last);
+    for (std::size_t i = near; i <= std::min(near + 2, last); ++i)
+      if (t_[i] <= time && (time < t_[i + 1] || i == last)) return i;
+    const auto after = std::upper_bound(t_.begin(), t_.end(), time);
+    return std::min(static_cast<std::size_t>(after - t_.begin()) - 1, last);
+  }
+
   /// Slope at each sample: that of the parabola through it and its neighbours; at the ends that of the chord.
   std::vector<double> slopes() const {
     const auto chord = [&](std::size_t i) { return (x_[i + 1] - x_[i]) / (t_[i + 1] - t_[i]); };
@@ -63,9 +78,8 @@ class SampledColumn {
     return slope;
   }
 
-  std::vector<double> t_, x_;
+  std::vector<double> t_, x_, slope_;
   double interval_ = 0;
-  std::optional<boost::math::interpolators::cubic_hermite<std::vector<double>>> between_;
 };
 
 }  // namespace halyard
