@@ -134,10 +134,8 @@ double correction(const Log& log, const ArmModel& model, const std::vector<Joint
     for (const FitParameter& p : of_delay)
       if (p.name == "sensor_delay") parameters.push_back(p);
   }
-  FitOptions options;
-  options.frozen_baseline = true;
   const std::vector<double> scale = channel_scale(evidence, evidence.score(h).fit_mean_square);
-  const Fit f = fit(evidence, h, parameters, scale, options, columns);
+  const Fit f = fit(evidence, h, parameters, scale, {}, columns);
   if (!f.usable) return 0;
   std::vector<JointLateness> left;
   for (std::size_t i = first; i < parameters.size(); ++i)

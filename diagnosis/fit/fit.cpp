@@ -36,8 +36,8 @@ double spacing_around(const std::vector<double>& starts, double value) {
 class Residual : public ceres::CostFunction {
  public:
   Residual(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& parameters,
-           const std::vector<double>& scale, bool frozen, const std::vector<std::vector<double>>& frozen_columns)
-      : evidence_(evidence), start_(start), parameters_(parameters), frozen_(frozen), frozen_columns_(frozen_columns) {
+           const std::vector<double>& scale, const std::vector<std::vector<double>>& linear)
+      : evidence_(evidence), start_(start), parameters_(parameters), linear_(linear) {
     for (const int c : evidence.row_channel())
       weight_.push_back(1 / (scale[c] * std::sqrt(evidence.correlated_rows())));
     for (std::size_t i = 0; i < parameters.size(); ++i)
@@ -49,7 +49,7 @@ class Residual : public ceres::CostFunction {
   Hypothesis hypothesis(const double* u) const {
     Hypothesis h = start_;
     for (std::size_t i = 0; i < parameters_.size(); ++i)
-      if (!is_frozen(i)) set_parameter(h, parameters_[i], u[i] * parameters_[i].scale + origin(i));
+      if (!is_linear(i)) set_parameter(h, parameters_[i], u[i] * parameters_[i].scale + origin(i));
     return h;
   }
   /// Value of the optimiser's zero: the model's number for a baseline parameter, 0 for an effect's.
@@ -59,19 +59,20 @@ class Residual : public ceres::CostFunction {
     const double* u = blocks[0];
     const std::size_t rows = weight_.size(), p = parameters_.size();
     const bool wanted = jacobians && jacobians[0];
-    // With the baseline frozen the few sensitivities that are left ride in the lanes beside the value.
+    // A few sensitivities ride in the lanes beside the value.
+    const bool few = p - linear_.size() < kLaneWidth;
     std::vector<Hypothesis> all = {hypothesis(u)};
     std::vector<double> step(p, 0);
-    for (std::size_t i = 0; (wanted || frozen_) && i < p; ++i) {
-      if (is_frozen(i)) continue;
+    for (std::size_t i = 0; (wanted || few) && i < p; ++i) {
+      if (is_linear(i)) continue;
       all.push_back(stepped(all[0], parameters_[i]));
       step[i] = (parameter_value(all.back(), parameters_[i]) - parameter_value(all[0], parameters_[i])) /
                 parameters_[i].scale;
     }
-    // What is frozen moves no hypothesis.
+    // What is linear moves no hypothesis.
     std::vector<double> point;
     for (std::size_t i = 0; i < p; ++i)
-      if (!is_frozen(i)) point.push_back(u[i]);
+      if (!is_linear(i)) point.push_back(u[i]);
     if (last_point_ != point || last_.size() < all.size()) {
       last_ = evidence_.fit_rows(all);
       last_point_ = point;
@@ -81,11 +82,9 @@ class Residual : public ceres::CostFunction {
       if (column.empty()) return false;
 
     std::vector<double> base = out[0];
-    for (std::size_t i = 0, f = 0; i < p; ++i) {
-      if (!is_frozen(i)) continue;
+    for (std::size_t i = 0; i < linear_.size(); ++i) {
       const double by = u[i] - (parameter_value(start_, parameters_[i]) - origin(i)) / parameters_[i].scale;
-      for (std::size_t r = 0; r < rows; ++r) base[r] += by * frozen_columns_[f][r];
-      ++f;
+      for (std::size_t r = 0; r < rows; ++r) base[r] += by * linear_[i][r];
     }
     for (std::size_t r = 0; r < rows; ++r) residuals[r] = weight_[r] * base[r];
     for (std::size_t i = 0; i < prior_.size(); ++i) residuals[rows + i] = u[prior_[i]];
@@ -93,11 +92,9 @@ class Residual : public ceres::CostFunction {
 
     double* J = jacobians[0];
     std::fill(J, J + (rows + prior_.size()) * p, 0.0);
-    std::size_t column = 1, f = 0;
-    for (std::size_t i = 0; i < p; ++i) {
-      if (is_frozen(i)) {
-        for (std::size_t r = 0; r < rows; ++r) J[r * p + i] = weight_[r] * frozen_columns_[f][r];
-        ++f;
+    for (std::size_t i = 0, column = 1; i < p; ++i) {
+      if (is_linear(i)) {
+        for (std::size_t r = 0; r < rows; ++r) J[r * p + i] = weight_[r] * linear_[i][r];
       } else {
         for (std::size_t r = 0; r < rows; ++r) J[r * p + i] = weight_[r] * (out[column][r] - out[0][r]) / step[i];
         ++column;
@@ -109,13 +106,12 @@ class Residual : public ceres::CostFunction {
   }
 
  private:
-  bool is_frozen(std::size_t i) const { return frozen_ && parameters_[i].effect < 0; }
+  bool is_linear(std::size_t i) const { return i < linear_.size(); }
 
   const Evidence& evidence_;
   const Hypothesis& start_;
   const std::vector<FitParameter>& parameters_;
-  bool frozen_;
-  const std::vector<std::vector<double>>& frozen_columns_;
+  const std::vector<std::vector<double>>& linear_;  ///< [first parameters] sensitivities
   std::vector<double> weight_;
   std::vector<int> prior_;
   mutable std::vector<double> last_point_;  ///< where last_ was taken: the solver asks twice
@@ -353,7 +349,7 @@ std::vector<std::vector<double>> sensitivities(const Evidence& evidence, const H
 
 Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& all,
         const std::vector<double>& scale, const FitOptions& options,
-        const std::vector<std::vector<double>>& baseline_sensitivities) {
+        const std::vector<std::vector<double>>& linear) {
   Fit result;
   std::vector<FitParameter> parameters = all;
   std::erase_if(parameters, [](const FitParameter& p) { return p.is_whole; });
@@ -363,7 +359,7 @@ Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<Fit
     result.usable = true;
     return result;
   }
-  Residual residual(evidence, start, parameters, scale, options.frozen_baseline, baseline_sensitivities);
+  Residual residual(evidence, start, parameters, scale, linear);
   std::vector<double> u;
   for (std::size_t i = 0; i < parameters.size(); ++i)
     u.push_back((parameter_value(start, parameters[i]) - residual.origin(i)) / parameters[i].scale);

@@ -65,8 +65,6 @@ bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nomi
 struct FitOptions {
   int iterations = 10;
   double cost_tolerance = 1e-5;  ///< stops after a step that lowers the cost by a smaller share
-  /// Compute sensitivities of baseline parameters only once, at the start.
-  bool frozen_baseline = false;
 };
 
 struct Fit {
@@ -90,10 +88,10 @@ std::vector<double> channel_scale(const Evidence& evidence, const std::vector<do
 std::vector<std::vector<double>> sensitivities(const Evidence& evidence, const Hypothesis& at,
                                                const std::vector<FitParameter>& parameters);
 
-/// Fits `parameters`, except whole numbers, which keep their value. For frozen_baseline, baseline_sensitivities holds
-/// the sensitivities to the baseline parameters among `parameters`, in the same order.
+/// Fits `parameters`, except whole numbers, which keep their value. The first of them are linear: they have the constant
+/// sensitivities `linear`. Whole numbers are not among these.
 Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& parameters,
         const std::vector<double>& scale, const FitOptions& options = {},
-        const std::vector<std::vector<double>>& baseline_sensitivities = {});
+        const std::vector<std::vector<double>>& linear = {});
 
 }  // namespace halyard

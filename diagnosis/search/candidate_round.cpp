@@ -19,9 +19,12 @@ CandidateRound::CandidateRound(const Evidence& evidence, const ArmModel& model, 
       scale_(channel_scale(evidence, without_.score.fit_mean_square)),
       name_(name),
       progress_(progress) {
-  for (const FitParameter& p : refitter_.parameters(linear_.from))
+  for (const FitParameter& p : refitter_.parameters(linear_.from)) {
     if (p.effect < 0) linear_.numbers.push_back(p);
+    else if (!p.is_whole) found_.push_back(p);
+  }
   linear_.columns = sensitivities(evidence_, linear_.from, linear_.numbers);
+  found_columns_ = sensitivities(evidence_, linear_.from, found_);
 }
 
 void CandidateRound::each(const std::string& what, std::size_t n, const std::function<void(std::size_t)>& one) const {
@@ -33,7 +36,7 @@ void CandidateRound::each(const std::string& what, std::size_t n, const std::fun
 }
 
 std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candidates) {
-  if (linear_.columns.empty() && !linear_.numbers.empty()) return {};
+  if (linear_.columns.size() < linear_.numbers.size() || found_columns_.size() < found_.size()) return {};
   const Screen screen(evidence_, linear_.from, linear_.columns, scale_);
   linear_.starts.assign(candidates.size(), {});
   each("candidates", candidates.size(), [&](std::size_t i) {
@@ -62,19 +65,21 @@ std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candida
 
 Trial CandidateRound::quick_look(const Hypothesis& start, const PlacedEffect& effect) const {
   std::vector<FitParameter> parameters;
-  std::vector<std::vector<double>> kept;
+  std::vector<std::vector<double>> linear;
   for (std::size_t i = 0; i < linear_.numbers.size(); ++i) {
     if (effect_covers(effect, model_.nominal, linear_.numbers[i])) continue;
     parameters.push_back(linear_.numbers[i]);
-    kept.push_back(linear_.columns[i]);
+    linear.push_back(linear_.columns[i]);
   }
+  parameters.insert(parameters.end(), found_.begin(), found_.end());
+  linear.insert(linear.end(), found_columns_.begin(), found_columns_.end());
+  const int own = static_cast<int>(start.effects.size()) - 1;
   for (const FitParameter& p : refitter_.parameters(start))
-    if (p.effect >= 0) parameters.push_back(p);
+    if (p.effect == own) parameters.push_back(p);
   FitOptions options;
   options.iterations = 6;
   options.cost_tolerance = 3e-4;
-  options.frozen_baseline = true;
-  const Fit f = fit(evidence_, start, parameters, scale_, options, kept);
+  const Fit f = fit(evidence_, start, parameters, scale_, options, linear);
   return f.usable ? judge_.trial(f.hypothesis, without_, f.hypothesis.effects.size() - 1) : unusable(effect);
 }
 

@@ -55,9 +55,7 @@ void Refitter::go_on(Refit& r, int passes) const {
       if (p.effect < 0) numbers.push_back(p);
     const auto columns = sensitivities(evidence_, r.at, numbers);
     if (columns.empty() && !numbers.empty()) return;
-    FitOptions options;
-    options.frozen_baseline = true;
-    const Fit f = fit(evidence_, r.at, parameters, scale, options, columns);
+    const Fit f = fit(evidence_, r.at, parameters, scale, {}, columns);
     if (!f.usable) return;
     r.score = evidence_.score(f.hypothesis);
     if (!r.score.finite) return;
