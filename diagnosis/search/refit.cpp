@@ -1,5 +1,6 @@
 #include "diagnosis/search/refit.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/fit/nudged.h"
@@ -48,14 +49,23 @@ void Refitter::go_on(Refit& r, int passes) const {
   for (; passes > 0 && !r.settled; --passes) {
     r.settled = true;
     const std::vector<double> scale = channel_scale(evidence_, r.score.fit_mean_square);
-    r.at = nudged(evidence_, r.at, given_, model_.nominal, scale);
+    // A nudge that finds nothing better will not find it near the next minimum.
+    if (r.is_nudged) {
+      const Hypothesis before = r.at;
+      r.at = nudged(evidence_, r.at, given_, model_.nominal, scale);
+      r.is_nudged = !std::ranges::equal(before.effects, r.at.effects, [](const PlacedEffect& a, const PlacedEffect& b) {
+        return std::ranges::equal(a.p, b.p);
+      });
+    }
     const std::vector<FitParameter> parameters = this->parameters(r.at);
     std::vector<FitParameter> numbers;
     for (const FitParameter& p : parameters)
       if (p.effect < 0) numbers.push_back(p);
     const auto columns = sensitivities(evidence_, r.at, numbers);
     if (columns.empty() && !numbers.empty()) return;
-    const Fit f = fit(evidence_, r.at, parameters, scale, {}, columns);
+    FitOptions options;
+    options.cost_tolerance = 1e-3;
+    const Fit f = fit(evidence_, r.at, parameters, scale, options, columns);
     if (!f.usable) return;
     r.score = evidence_.score(f.hypothesis);
     if (!r.score.finite) return;

@@ -16,6 +16,7 @@ struct Refit {
   Fit best = {};
   double last = std::numeric_limits<double>::infinity();  ///< Σ ln of the mean squares after the last pass
   bool settled = false;
+  bool is_nudged = true;  ///< before each pass
 };
 
 class Refitter {
