@@ -157,14 +157,18 @@ bool Judge::within_tolerance(const Hypothesis& h, int place) const {
   return true;
 }
 
-/// The effect takes a share of a residual, which is more than the misfit of what was named before it, and its change of
-/// some signal is well above what the sensor resolves.
+/// The effect takes a share of a residual that noise does not explain. This share is more than the misfit of what was
+/// named before it, and the effect changes some signal by much more than the sensor resolves.
 bool Judge::matters(const Score& before, const Score& after, const Hypothesis& with, int place) const {
+  const auto has_rest = [&](const Score& score, int c) {
+    const double floor = kRule.explained_ratio * evidence_.floor()[c];
+    return evidence_.has_channel(c) && std::max(score.mean_square[c], score.fit_mean_square[c]) > floor * floor;
+  };
   bool share = false;
   for (int c = 0; c < evidence_.channels(); ++c) {
     const double gain = before.mean_square[c] - after.mean_square[c];
     const double misfit = std::pow(kRule.form_misfit, 2) * (first_[c] - before.mean_square[c]);
-    share = share || (evidence_.has_channel(c) && gain > std::max(kRule.share * before.mean_square[c], misfit));
+    share = share || (has_rest(before, c) && gain > std::max(kRule.share * before.mean_square[c], misfit));
   }
   if (!share) return false;
   const auto rows = evidence_.fit_rows({with})[0], bare = evidence_.fit_rows({without_effect(with, place)})[0];

@@ -11,10 +11,11 @@
 namespace halyard {
 namespace {
 
-constexpr double kLowest = 10;  ///< Hz; below it the errors of a model are
+constexpr double kLowest = 10;   ///< Hz; below it the errors of a model are
 constexpr double kSegment = 1;  ///< s, and at least so many samples:
 constexpr int kFewestSamples = 64;
-constexpr double kUnattenuated = 0.6;  ///< of the Nyquist frequency: up to there, interpolation hardly attenuates
+constexpr double kHighest = 80;  ///< Hz; an encoder's rounding is not white far above what is compared
+constexpr double kBand = 2;      ///< from the lower edge of a band to the upper
 constexpr double kMedianOverMean = std::numbers::ln2;
 constexpr double kLineFrom = 22;     ///< Hz: above what is compared
 constexpr double kLineTo = 150;      ///< Hz: above, the filter of the record leaves nothing to see
@@ -58,26 +59,24 @@ std::vector<NoiseLine> lines_of(const std::vector<double>& density, double resol
 struct ChannelSamples {
   std::vector<std::vector<double>> runs;  ///< evenly spaced, one for each record
   double interval = 0;                    ///< s
-  double own_interval = 0;                ///< of the sensor, s; larger if `runs` contain interpolated samples
 };
 
+/// The sensor's own samples: between them, the readings of a record are interpolated, which attenuates noise.
 ChannelSamples joint_samples(const std::vector<Record>& records, const std::vector<Residuals>& unfiltered, int k) {
   ChannelSamples all;
   for (std::size_t r = 0; r < records.size(); ++r) {
     const Record& record = records[r];
     if (!record.has_joint(k)) continue;
-    std::vector<double> run, gaps;
-    double last = -1;
-    for (std::size_t i = 0; i < record.size; ++i) {
-      if (!(record.joint_measured[k][i] > 0)) continue;
-      // Raw reading less predicted reading.
-      run.push_back(unfiltered[r].channel[record.n + k][i] + record.joint_raw[k][i] - record.joint[k][i]);
-      if (last >= 0) gaps.push_back(record.time(i) - last);
-      last = record.time(i);
+    const auto predicted = [&](std::size_t i) { return record.joint[k][i] - unfiltered[r].channel[record.n + k][i]; };
+    std::vector<double> run;
+    for (const SensorSample& s : record.joint_samples[k]) {
+      const double at = (s.time - record.start) / record.dt;
+      if (!(at >= 0 && at < static_cast<double>(record.size - 1))) continue;
+      const auto i = static_cast<std::size_t>(at);
+      const double e = s.value - std::lerp(predicted(i), predicted(i + 1), at - static_cast<double>(i));
+      if (std::isfinite(e)) run.push_back(e);
     }
-    if (gaps.empty()) continue;
-    all.interval = std::max(all.interval, median(gaps));
-    all.own_interval = std::max(all.own_interval, record.joint_interval[k]);
+    all.interval = std::max(all.interval, record.joint_interval[k]);
     all.runs.push_back(std::move(run));
   }
   return all;
@@ -130,8 +129,8 @@ ChannelNoise noise_of_density(const std::vector<double>& density, double resolut
   // A slow sensor has the upper third of its spectrum alone.
   if (nyquist <= 1.5 * kLowest) white = mean_of_band(density, resolution, nyquist * 2 / 3, nyquist);
   else
-    for (double from = kLowest; from < 0.7 * nyquist; from *= 1.6)
-      white = std::min(white, mean_of_band(density, resolution, from, std::min(1.6 * from, nyquist)));
+    for (double from = kLowest; from < std::min(0.7 * nyquist, kHighest); from *= kBand)
+      white = std::min(white, mean_of_band(density, resolution, from, std::min(kBand * from, nyquist)));
   if (!std::isfinite(white)) return noise;
   const double square = white * nyquist;
   noise.white = std::sqrt(square);
@@ -162,10 +161,6 @@ std::vector<ChannelNoise> channel_noise(const std::vector<Record>& records, cons
     std::vector<double> density = median_density(samples.runs, samples.interval, segment);
     const double resolution = 1 / (samples.interval * segment);
     double highest = 0.5 / samples.interval;
-    // Between the samples of a sensor whose interval is no multiple of the record's, the readings are interpolated, which
-    // attenuates noise near the sensor's own Nyquist frequency.
-    if (samples.own_interval > samples.interval)
-      highest = std::min(highest, kUnattenuated * 0.5 / samples.own_interval);
     if (!joint) {
       // Above its cut-off the record's filter leaves too little of the torque to divide by.
       highest = std::min(highest, 1 / (2 * std::numbers::pi * motion_sigma));

@@ -5,7 +5,7 @@
 /// spectrum of measured minus predicted tells how large that noise is:
 ///
 ///   S(f)     = median over segments of 2 Δ |Σ w e exp(-2πi f t)|² / Σ w² / ln 2     spectral density, unit² / Hz
-///   S_white  = least mean of S over bands of frequency above 10 Hz
+///   S_white  = least mean of S over the bands 10 to 20, 20 to 40, 40 to 80 Hz
 ///   in_band² = S_white / (4 √π σ_t),   at most white²
 ///
 ///   e        residual of the model as given, before the comparing filter

@@ -118,6 +118,7 @@ class Stretch {
       s->resize(r.n);
     for (int k = 0; k < r.n; ++k) {
       r.joint_interval.push_back(joint_[k].interval());
+      r.joint_samples.push_back(joint_[k].samples());
       add_joint(k, r);
     }
     return r;

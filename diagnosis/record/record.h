@@ -24,6 +24,11 @@
 
 namespace halyard {
 
+/// A reading of a sensor.
+struct SensorSample {
+  double time = 0, value = 0;
+};
+
 /// [n_joints][n_samples] everywhere; weights are 0 or 1.
 struct Record {
   int n = 0;
@@ -38,6 +43,7 @@ struct Record {
   Signals external;                         ///< measured load on the joint; empty: none
   Signals joint_measured, torque_measured;  ///< 1 at the grid points nearest to the signal's own samples
   std::vector<double> joint_interval;       ///< [n_joints] from a sample of the sensor to its next, s; 0: no sensor
+  std::vector<std::vector<SensorSample>> joint_samples;  ///< [n_joints] the readings as they were taken
   Signals joint_valid, torque_valid;        ///< 0 where a sample cannot be compared
   double motion_sigma = 0;                  ///< σ_t of K_m, s
   double compare_sigma = 0;                 ///< σ_t of K_c, s; 0: residuals are not filtered

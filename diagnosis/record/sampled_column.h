@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "diagnosis/record/record.h"
+
 namespace halyard {
 
 /// The available samples of a column, and their interpolation.
@@ -26,6 +28,12 @@ class SampledColumn {
   bool is_there() const { return t_.size() >= 4; }
   /// The usual time from a sample to the next, s.
   double interval() const { return interval_; }
+
+  std::vector<SensorSample> samples() const {
+    std::vector<SensorSample> all;
+    for (std::size_t i = 0; i < t_.size(); ++i) all.push_back({t_[i], x_[i]});
+    return all;
+  }
 
   double at(double time) const {
     if (!is_there()) return x_.empty() ? 0 : x_.front();

@@ -63,6 +63,7 @@ void describe(const Recording& recording, Result& r) {
 void write_logs(const std::filesystem::path& folder, const Recording& recording) {
   std::filesystem::create_directories(folder);
   write_file_whole(folder / "model.xml", model_to_xml(recording.model));
+  write_file_whole(folder / "truth.xml", model_to_xml(recording.robot));
   write_log(folder / "train.csv", recording.training);
   write_log(folder / "holdout.csv", recording.holdout);
 }

@@ -37,10 +37,9 @@ ChannelNoise noise_of(const std::vector<double>& x) {
                                    0.5 / kInterval, kFilter);
 }
 
-// The least of nine bands of 6 bins and more, each bin the median of 59 overlapping segments: a bin scatters by some
-// 17 %, the narrowest band by 7 %, so that the least of nine is 10 % low at worst: 5 % of the deviation, and two
-// deviations more.
-constexpr double kScatter = 0.12;
+// The least of three bands of 10 bins and more, each bin the median of 59 overlapping segments: a bin scatters by some
+// 17 %, the narrowest band by 5 %, so that the least of three is 5 % low: 3 % of the deviation, and two deviations more.
+constexpr double kScatter = 0.08;
 
 TEST(ChannelNoise, IsTheDeviationOfWhiteNoise) {
   const ChannelNoise noise = noise_of(white_noise(3e-4, 1));
