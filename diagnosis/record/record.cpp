@@ -259,9 +259,15 @@ std::vector<Row> mark_gaps(const Log& log, const ArmModel& model, double longest
 
 bool has_slow_joint_sensor(const Log& log, const ArmModel& model, int k) {
   constexpr double kSlower = 1.5;
+  constexpr double kOften = 0.02;
   if (model.nominal.joint[k].drive == Drive::none) return false;
   const SampledColumn sensor(log.time, log.joint_position[k]), motor(log.time, log.motor_position[k]);
-  return sensor.is_there() && motor.is_there() && sensor.interval() > kSlower * motor.interval();
+  if (!sensor.is_there() || !motor.is_there()) return false;
+  const std::vector<SensorSample> samples = sensor.samples();
+  double longer = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    longer += samples[i].time - samples[i - 1].time > kSlower * motor.interval();
+  return longer > kOften * static_cast<double>(samples.size());
 }
 
 std::vector<int> stuck_joint_sensors(const Log& log, const ArmModel& model) {
