@@ -18,6 +18,7 @@ constexpr double kAgree = 3;          ///< standard deviations
 constexpr double kModelError = 2e-3;  ///< s; friction and stretch that are off by their tolerance look so late
 constexpr double kExplains = 0.5;     ///< of the squares that offset and slope leave
 constexpr double kLongest = 0.1;      ///< s
+constexpr double kLeastTold = 5e-4;   ///< s; half a sample of most logs
 constexpr int kPasses = 3;
 constexpr double kSettled = 1e-4;  ///< s
 
@@ -107,26 +108,33 @@ std::vector<Record> records_of(const Log& log, const ArmModel& model, double lat
   return make_records(log, model, options);
 }
 
-/// Without the model's tolerances: the joints that agree; none if lateness explains little.
-std::vector<JointLateness> first_estimate(const Log& log, const ArmModel& model, const std::vector<int>& slow) {
+/// By the regression, without the model's tolerances.
+std::vector<JointLateness> regressed(const Log& log, const ArmModel& model, const std::vector<int>& slow) {
   const std::vector<Record> records = records_of(log, model, 0);
   std::vector<FullPrediction> predictions;
   for (const Record& r : records) predictions.push_back(predict_fully(r, {model.nominal, model.effects}));
   std::vector<JointLateness> joints;
   for (const int k : slow)
     if (const auto j = joint_lateness(records, predictions, k)) joints.push_back(*j);
-  joints = agreeing(std::move(joints));
-  const bool explains = std::ranges::any_of(joints, [](const JointLateness& j) { return j.explains > kExplains; });
-  return explains ? joints : std::vector<JointLateness>{};
+  return joints;
 }
 
-/// What a fit of the model's numbers together with a delay of each slow sensor adds to `late`.
-double correction(const Log& log, const ArmModel& model, const std::vector<JointLateness>& joints, double late) {
+/// Of the joint that tells it most precisely, of those where it explains much; 0 if there is none.
+double first_estimate(std::vector<JointLateness> joints) {
+  std::erase_if(joints, [](const JointLateness& j) { return !(j.explains > kExplains); });
+  const auto best = std::ranges::min_element(joints, {}, &JointLateness::variance);
+  return best == joints.end() ? 0 : best->delay;
+}
+
+/// What a fit of the model's numbers together with a delay of each slow sensor adds to `late`, by the joints that agree;
+/// nothing if too few agree.
+std::optional<double> correction(const Log& log, const ArmModel& model, const std::vector<JointLateness>& joints,
+                                 double late) {
   const Evidence evidence(records_of(log, model, late), model, Split::none);
   Hypothesis h{model.nominal, model.effects};
   std::vector<FitParameter> parameters = baseline_parameters(model);
   const auto columns = sensitivities(evidence, h, parameters);
-  if (columns.size() != parameters.size()) return 0;
+  if (columns.size() != parameters.size()) return std::nullopt;
   const std::size_t first = parameters.size();
   for (const JointLateness& j : joints) {
     h.effects.push_back(place_neutral_effect(*find_effect("delay"), model.nominal, j.joint));
@@ -136,10 +144,12 @@ double correction(const Log& log, const ArmModel& model, const std::vector<Joint
   }
   const std::vector<double> scale = channel_scale(evidence, evidence.score(h).fit_mean_square);
   const Fit f = fit(evidence, h, parameters, scale, {}, columns);
-  if (!f.usable) return 0;
+  if (!f.usable) return std::nullopt;
   std::vector<JointLateness> left;
   for (std::size_t i = first; i < parameters.size(); ++i)
     left.push_back({.delay = f.value[i], .variance = f.std_deviation[i] * f.std_deviation[i]});
+  left = agreeing(std::move(left));
+  if (left.empty()) return std::nullopt;
   return weighted_mean(left, kSettled);
 }
 
@@ -151,15 +161,16 @@ std::optional<double> slow_sensor_lateness(const Log& log, const ArmModel& model
     if (has_slow_joint_sensor(log, model, k)) slow.push_back(k);
   if (slow.empty()) return 0;
   if (log.duration() < kBlock * kFewestBlocks) return std::nullopt;
-  const std::vector<JointLateness> joints = first_estimate(log, model, slow);
-  double late = weighted_mean(joints, kModelError);
+  const std::vector<JointLateness> joints = regressed(log, model, slow);
+  double late = first_estimate(joints);
   for (int pass = 0; pass < kPasses && late != 0; ++pass) {
-    const double more = correction(log, model, joints, late);
-    late += more;
+    const std::optional<double> more = correction(log, model, joints, late);
+    if (!more) return 0;
+    late += *more;
     if (std::abs(late) > kLongest) return 0;
-    if (std::abs(more) < kSettled) break;
+    if (std::abs(*more) < kSettled) break;
   }
-  return late;
+  return std::abs(late) < kLeastTold ? 0 : late;
 }
 
 }  // namespace halyard

@@ -9,10 +9,11 @@
 ///   e_k   measured minus predicted reading      p_k   reading that the model predicts from the motors
 ///   d_k   lateness of joint k                   σ_k   its standard deviation, from blocks of time (jackknife)
 ///
-/// The sum is over the joints that agree with the median of all d_k: an effect at one joint disturbs that joint's. The
-/// result is 0 unless they are the majority and d explains most of what a and s leave in at least one of them.
-/// Friction and stretch that are a little off look late, too. Therefore d is then corrected: the readings are moved by d,
-/// and the model's own numbers are fitted together with a remaining delay of each sensor, until d settles.
+/// Friction and stretch that are a little off look late, too, by several milliseconds. Therefore the regression only gives
+/// a first estimate: the most precise d_k, of the joints in which it explains most of what a and s leave. The readings are
+/// moved by it, and the model's own numbers are fitted together with a remaining delay of each sensor. The sum is over
+/// these delays, of the joints that agree with the median: an effect at one joint disturbs that joint's. d is corrected by
+/// the sum until it settles. The result is 0 if these joints are not the majority, or if d is below half a millisecond.
 
 #include <optional>
 
