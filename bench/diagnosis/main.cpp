@@ -160,7 +160,8 @@ int run_command_line(int argc, char** argv) {
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
   app.add_option("--out", options.out, "folder of the results");
-  app.add_option("--logs", options.trial.logs, "keep models, truths and logs in this folder, to diagnose one of them by hand");
+  app.add_option("--logs", options.trial.logs,
+                 "keep models, truths and logs in this folder, to diagnose one of them by hand");
   app.add_option("--shard", options.shard, "run part i of n")->type_name("i/n");
   app.add_flag("--resume", options.resume, "keep what is there, run the rest");
   app.add_option("--threads", options.threads, "trials at a time; default: one per core")->check(CLI::Range(1, 1024));

@@ -348,8 +348,7 @@ std::vector<std::vector<double>> sensitivities(const Evidence& evidence, const H
 }
 
 Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& all,
-        const std::vector<double>& scale, const FitOptions& options,
-        const std::vector<std::vector<double>>& linear) {
+        const std::vector<double>& scale, const FitOptions& options, const std::vector<std::vector<double>>& linear) {
   Fit result;
   std::vector<FitParameter> parameters = all;
   std::erase_if(parameters, [](const FitParameter& p) { return p.is_whole; });

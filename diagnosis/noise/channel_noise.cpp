@@ -11,7 +11,7 @@
 namespace halyard {
 namespace {
 
-constexpr double kLowest = 10;   ///< Hz; below it the errors of a model are
+constexpr double kLowest = 10;  ///< Hz; below it the errors of a model are
 constexpr double kSegment = 1;  ///< s, and at least so many samples:
 constexpr int kFewestSamples = 64;
 constexpr double kHighest = 80;  ///< Hz; an encoder's rounding is not white far above what is compared

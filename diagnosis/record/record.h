@@ -44,10 +44,10 @@ struct Record {
   Signals joint_measured, torque_measured;  ///< 1 at the grid points nearest to the signal's own samples
   std::vector<double> joint_interval;       ///< [n_joints] from a sample of the sensor to its next, s; 0: no sensor
   std::vector<std::vector<SensorSample>> joint_samples;  ///< [n_joints] the readings as they were taken
-  Signals joint_valid, torque_valid;        ///< 0 where a sample cannot be compared
-  double motion_sigma = 0;                  ///< σ_t of K_m, s
-  double compare_sigma = 0;                 ///< σ_t of K_c, s; 0: residuals are not filtered
-  std::vector<double> compare;              ///< K_c on this grid, [2 reach + 1]
+  Signals joint_valid, torque_valid;                     ///< 0 where a sample cannot be compared
+  double motion_sigma = 0;                               ///< σ_t of K_m, s
+  double compare_sigma = 0;                              ///< σ_t of K_c, s; 0: residuals are not filtered
+  std::vector<double> compare;                           ///< K_c on this grid, [2 reach + 1]
   std::string source;
   int place = -1;  ///< index among the records of an Evidence; -1: in none
 

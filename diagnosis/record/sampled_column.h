@@ -64,8 +64,8 @@ class SampledColumn {
   /// The sample at a time or the last one before it, but not the last of all. Samples are nearly even: its place is
   /// guessed, and searched for only if the guess is wrong.
   std::size_t sample_before(double time) const {
-    const auto guess = static_cast<std::size_t>((time - t_.front()) / (t_.back() - t_.front()) *
-                                                static_cast<double>(t_.size() - 1));
+    const auto guess =
+        static_cast<std::size_t>((time - t_.front()) / (t_.back() - t_.front()) * static_cast<double>(t_.size() - 1));
     const std::size_t last = t_.size() - 2, near = std::min(guess > 0 ? guess - 1 : 0, last);
     for (std::size_t i = near; i <= std::min(near + 2, last); ++i)
       if (t_[i] <= time && (time < t_[i + 1] || i == last)) return i;

@@ -37,9 +37,9 @@ class CandidateRound {
   const Judge& judge_;
   Scored without_;
   LinearRound linear_;
-  std::vector<FitParameter> found_;  ///< of the effects so far
+  std::vector<FitParameter> found_;                 ///< of the effects so far
   std::vector<std::vector<double>> found_columns_;  ///< sensitivities to them
-  std::vector<double> scale_;  ///< [2n] of the residual
+  std::vector<double> scale_;                       ///< [2n] of the residual
   std::string name_;
   const SearchProgress& progress_;
 };

@@ -67,6 +67,31 @@ TEST(SlowSensors, OfAJointThatDisagreesAreOutvoted) {
   EXPECT_NEAR(*slow_sensor_lateness(log, model), 0.012, 1e-4);
 }
 
+TEST(SlowSensors, BesideAnEffectAtOneJointAndFrictionThatIsOffAreFoundAsLate) {
+  const ArmModel model = first_joints(3);
+  ArmModel robot = model;
+  for (int k = 0; k < 3; ++k) robot.nominal.joint[k].joint_coulomb *= 1.15;
+  PlacedEffect coupling = place_neutral_effect(*find_effect("coupling"), model.nominal, 1);
+  coupling.p[0] = 0.035;
+  robot.effects = {coupling};
+  Scenario scenario = motion(robot, 8);
+  for (auto& part : scenario.trajectory[2].sines) part.amplitude *= 0.2;  // m, within the slide's range
+  Log log = simulate(scenario).measured;
+  for (int k = 0; k < 3; ++k) read_late(log.joint_position[k], 15, kEvery);
+  EXPECT_NEAR(*slow_sensor_lateness(log, model), 0.015, 3e-4);
+}
+
+TEST(SlowSensors, AreThoseThatOftenLackTheReadingOfTheirMotorsEncoder) {
+  const ArmModel model = first_joints(2);
+  Log log = two_joint_log();
+  std::vector<double>& column = log.joint_position[0];
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 1000; i < 2000; ++i) column[i] = none;  // a hole of a second is no clock
+  EXPECT_FALSE(has_slow_joint_sensor(log, model, 0));
+  for (std::size_t i = 0; i < column.size(); i += 9) column[i] = none;  // about 890 Hz
+  EXPECT_TRUE(has_slow_joint_sensor(log, model, 0));
+}
+
 TEST(SlowSensors, OfAShortLogTellNothing) {
   EXPECT_FALSE(slow_sensor_lateness(split_log(late_by(12, 12), 0.5).first, first_joints(2)));
 }

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
 
@@ -44,6 +47,32 @@ TEST(Judge, AContactAtTheEndOfTheMotionDoesNotDiscardThePushBesideIt) {
   EXPECT_FALSE(both.at_bound);
   EXPECT_FALSE(push.at_bound);
   EXPECT_TRUE(contact.at_bound);
+}
+
+/// Motor 1 has more Coulomb friction than its model, and its torque is noisy.
+TEST(Judge, AnEffectThatOnlyTakesWhatNoiseExplainsDoesNotMatter) {
+  const ArmModel model = first_joints(2);
+  const double change = 0.6 * model.nominal.joint[0].motor_coulomb;
+  ArmModel robot = model;
+  robot.nominal.joint[0].motor_coulomb += change;
+  Log log = simulate(motion(robot, 6)).measured;
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 6e-3);  // N m; 1e-3 in the compared band
+  for (double& torque : log.motor_torque[0]) torque += noise(random);
+  const Evidence evidence(make_records(log, model, {}), model);
+  Hypothesis with{model.nominal, {place_neutral_effect(*find_effect("motor_friction"), model.nominal, 0)}};
+  with.effects[0].p[0] = change;
+  Hypothesis given{model.nominal, {}}, refitted = given;
+  const Score first = evidence.score(given);
+  const Judge judge(evidence, model, {}, first.mean_square);
+  EXPECT_TRUE(judge.trial(with, {given, first}, 0).matters);
+
+  // Nearly refitted: noise explains the rest, although the effect takes a share of it.
+  refitted.nominal.joint[0].motor_coulomb += 0.91 * change;
+  const Score rest = evidence.score(refitted), none = evidence.score(with);
+  ASSERT_LT(std::sqrt(rest.mean_square[0]), kRule.explained_ratio * evidence.floor()[0]);
+  ASSERT_LT(none.mean_square[0], (1 - kRule.share) * rest.mean_square[0]);
+  EXPECT_FALSE(judge.trial(with, {refitted, rest}, 0).matters);
 }
 
 }  // namespace
