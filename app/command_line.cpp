@@ -160,6 +160,8 @@ void add_diagnose_command(CLI::App& app) {
           ->type_name("DIR");
   add_columns_option(command, options->columns);
   add_effects_option(command);
+  command.add_flag("--progress", options->progress_in_pipe,
+                   "tell the progress even if stderr is not a terminal: a line every ten seconds");
   CLI::Option* planned = command
                              .add_option("--plan", *plan_files,
                                          "before there are data: which effects a diagnosis of this model in the "

@@ -11,6 +11,7 @@ namespace halyard {
 namespace {
 
 constexpr std::chrono::milliseconds kDrawEvery{100};
+constexpr std::chrono::seconds kLineEvery{10};
 constexpr const char* kWipeLine = "\r\033[K";
 
 std::string duration_text(double seconds) {
@@ -62,8 +63,13 @@ void Progress::draw() {
   std::fflush(stderr);
 }
 
-StageProgress::StageProgress(std::string label)
-    : label_(std::move(label)), visible_(::isatty(STDERR_FILENO)), stage_start_(Clock::now()) {}
+StageProgress::StageProgress(std::string label, std::vector<UsualStage> run, PipedProgress piped)
+    : label_(std::move(label)),
+      on_terminal_(::isatty(STDERR_FILENO)),
+      in_lines_(!on_terminal_ && piped == PipedProgress::lines),
+      start_(Clock::now()),
+      estimate_(std::move(run)),
+      last_line_(start_) {}
 
 StageProgress::~StageProgress() {
   if (drawn_) {
@@ -73,18 +79,18 @@ StageProgress::~StageProgress() {
 }
 
 void StageProgress::set(const std::string& stage, double fraction) {
-  if (!visible_) return;
+  if (!on_terminal_ && !in_lines_) return;
   const std::lock_guard lock(mutex_);
   const Clock::time_point now = Clock::now();
-  if (stage != stage_) {
-    stage_ = stage;
-    stage_start_ = now;
-  }
-  const double elapsed = std::chrono::duration<double>(now - stage_start_).count();
-  fmt::print(stderr, "{}{}: {}: {:3.0f} %", kWipeLine, label_, stage, 100 * std::min(1.0, fraction));
-  if (fraction > 0) fmt::print(stderr, "   {} left", duration_text(elapsed * (1 - fraction) / fraction));
+  const double left = estimate_.left(stage, fraction, std::chrono::duration<double>(now - start_).count());
+  if (in_lines_ && now - last_line_ < kLineEvery) return;
+  fmt::print(stderr, "{}{}: {}: {:3.0f} %", on_terminal_ ? kWipeLine : "", label_, stage,
+             100 * std::min(1.0, fraction));
+  if (left > 0) fmt::print(stderr, "   at least {} left", duration_text(left));
+  if (in_lines_) fmt::print(stderr, "\n");
   std::fflush(stderr);
-  drawn_ = true;
+  last_line_ = now;
+  drawn_ = on_terminal_;
 }
 
 }  // namespace halyard

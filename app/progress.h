@@ -3,6 +3,9 @@
 #include <chrono>
 #include <mutex>
 #include <string>
+#include <vector>
+
+#include "app/run_estimate.h"
 
 namespace halyard {
 
@@ -39,12 +42,16 @@ class Progress {
   bool drawn_ = false;
 };
 
-/// The same for work in stages of unknown length:
+/// Where progress goes if stderr is not a terminal.
+enum class PipedProgress { nothing, lines };  ///< lines: one every ten seconds
+
+/// The same for work in stages, with the time that the whole run still takes if no stage comes again:
 ///
-///   diagnose: candidates of round 1:  42 %   3.1 s left
+///   diagnose: candidates of round 1:  42 %   at least 3.1 s left
 class StageProgress {
  public:
-  explicit StageProgress(std::string label);
+  explicit StageProgress(std::string label, std::vector<UsualStage> run = {},
+                         PipedProgress piped = PipedProgress::nothing);
   StageProgress(const StageProgress&) = delete;
   StageProgress& operator=(const StageProgress&) = delete;
   ~StageProgress();
@@ -56,10 +63,11 @@ class StageProgress {
   using Clock = std::chrono::steady_clock;
 
   const std::string label_;
-  const bool visible_;
+  const bool on_terminal_, in_lines_;
+  const Clock::time_point start_;
   std::mutex mutex_;
-  std::string stage_;
-  Clock::time_point stage_start_;
+  RunEstimate estimate_;
+  Clock::time_point last_line_;
   bool drawn_ = false;
 };
 

@@ -81,7 +81,7 @@ compile_together(halyard_app commands
   command_line.cpp commands/check_command.cpp commands/compare_command.cpp commands/diagnose_command.cpp
   commands/estimate_command.cpp commands/identify_command.cpp commands/plan_command.cpp commands/plugins_command.cpp
   commands/simulate_command.cpp commands/sweep_command.cpp log_input.cpp main.cpp output_check.cpp progress.cpp
-  tour/experiments_command.cpp tour/tour_command.cpp)
+  run_estimate.cpp  tour/experiments_command.cpp tour/tour_command.cpp)
 compile_together(halyard_app pages
   pages/comparison_figures.cpp pages/comparison_output.cpp pages/diagnosis_report.cpp pages/estimator_table.cpp
   pages/identify_output.cpp pages/identify_report.cpp pages/judgement_tables.cpp pages/sweep_report.cpp

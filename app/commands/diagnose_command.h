@@ -12,6 +12,7 @@ struct DiagnoseCommandOptions {
   std::filesystem::path holdout;            ///< empty: the last third of each training log
   std::filesystem::path out;                ///< folder
   std::vector<std::string> columns;         ///< entries of --column
+  bool progress_in_pipe = false;            ///< lines of progress even if stderr is not a terminal
 };
 
 /// halyard diagnose: finds the effects that the model lacks. Writes diagnosis.json, model.xml and report.html.

@@ -1,7 +1,7 @@
 #include "diagnosis/search/candidate_round.h"
 
 #include <algorithm>
-#include <atomic>
+#include <mutex>
 
 #include "diagnosis/prediction/side_by_side.h"
 
@@ -28,9 +28,12 @@ CandidateRound::CandidateRound(const Evidence& evidence, const ArmModel& model, 
 }
 
 void CandidateRound::each(const std::string& what, std::size_t n, const std::function<void(std::size_t)>& one) const {
-  std::atomic<std::size_t> done{0};
+  std::mutex one_at_a_time;
+  std::size_t done = 0;
+  progress_(what + " of " + name_, 0);
   run_side_by_side(n, [&](std::size_t i) {
     one(i);
+    const std::lock_guard lock(one_at_a_time);
     progress_(what + " of " + name_, static_cast<double>(++done) / static_cast<double>(n));
   });
 }
