@@ -18,7 +18,7 @@ constexpr double kAgree = 3;          ///< standard deviations
 constexpr double kModelError = 2e-3;  ///< s; friction and stretch that are off by their tolerance look so late
 constexpr double kExplains = 0.5;     ///< of the squares that offset and slope leave
 constexpr double kLongest = 0.1;      ///< s
-constexpr double kLeastTold = 5e-4;   ///< s; half a sample of most logs
+constexpr double kLeastTold = 2e-4;   ///< s; stretch under the largest rates that a log contains looks so late
 constexpr int kPasses = 3;
 constexpr double kSettled = 1e-4;  ///< s
 
@@ -119,7 +119,8 @@ std::vector<JointLateness> regressed(const Log& log, const ArmModel& model, cons
   return joints;
 }
 
-/// Of the joint that tells it most precisely, of those where it explains much; 0 if there is none.
+/// Of the joint that tells it most precisely, of those where it explains much; 0 if there is none: a small lateness
+/// explains little.
 double first_estimate(std::vector<JointLateness> joints) {
   std::erase_if(joints, [](const JointLateness& j) { return !(j.explains > kExplains); });
   const auto best = std::ranges::min_element(joints, {}, &JointLateness::variance);
@@ -127,26 +128,40 @@ double first_estimate(std::vector<JointLateness> joints) {
 }
 
 /// What a fit of the model's numbers together with a delay of each slow sensor adds to `late`, by the joints that agree;
-/// nothing if too few agree.
+/// nothing if too few agree. Zero and ratio of each joint are free, as in the regression.
 std::optional<double> correction(const Log& log, const ArmModel& model, const std::vector<JointLateness>& joints,
                                  double late) {
   const Evidence evidence(records_of(log, model, late), model, Split::none);
   Hypothesis h{model.nominal, model.effects};
-  std::vector<FitParameter> parameters = baseline_parameters(model);
-  const auto columns = sensitivities(evidence, h, parameters);
-  if (columns.size() != parameters.size()) return std::nullopt;
-  const std::size_t first = parameters.size();
+  const std::vector<FitParameter> numbers = baseline_parameters(model);
+  std::vector<FitParameter> parameters = numbers;
+  std::vector<std::size_t> delays;
+  const auto add = [&](const char* effect, int joint, const char* parameter) {
+    if (!std::ranges::count(effect_places(*find_effect(effect), model.nominal), EffectPlace(joint))) return;
+    h.effects.push_back(place_neutral_effect(*find_effect(effect), model.nominal, joint));
+    for (const FitParameter& p :
+         effect_parameters(evidence, h, model.nominal, static_cast<int>(h.effects.size()) - 1)) {
+      if (p.name != parameter) continue;
+      if (std::string(effect) == "delay") delays.push_back(parameters.size());
+      parameters.push_back(p);
+    }
+  };
   for (const JointLateness& j : joints) {
-    h.effects.push_back(place_neutral_effect(*find_effect("delay"), model.nominal, j.joint));
-    const auto of_delay = effect_parameters(evidence, h, model.nominal, static_cast<int>(h.effects.size()) - 1);
-    for (const FitParameter& p : of_delay)
-      if (p.name == "sensor_delay") parameters.push_back(p);
+    add("delay", j.joint, "sensor_delay");
+    add("encoder_offset", j.joint, "offset");
+    add("capstan_ratio", j.joint, "ratio");
   }
-  const std::vector<double> scale = channel_scale(evidence, evidence.score(h).fit_mean_square);
-  const Fit f = fit(evidence, h, parameters, scale, {}, columns);
-  if (!f.usable) return std::nullopt;
+  // The second fit weighs the channels by what the first one leaves.
+  Fit f;
+  for (int times = 0; times < 2; ++times) {
+    const auto columns = sensitivities(evidence, h, numbers);
+    if (columns.size() != numbers.size()) return std::nullopt;
+    f = fit(evidence, h, parameters, channel_scale(evidence, evidence.score(h).fit_mean_square), {}, columns);
+    if (!f.usable) return std::nullopt;
+    h = f.hypothesis;
+  }
   std::vector<JointLateness> left;
-  for (std::size_t i = first; i < parameters.size(); ++i)
+  for (const std::size_t i : delays)
     left.push_back({.delay = f.value[i], .variance = f.std_deviation[i] * f.std_deviation[i]});
   left = agreeing(std::move(left));
   if (left.empty()) return std::nullopt;
@@ -163,7 +178,7 @@ std::optional<double> slow_sensor_lateness(const Log& log, const ArmModel& model
   if (log.duration() < kBlock * kFewestBlocks) return std::nullopt;
   const std::vector<JointLateness> joints = regressed(log, model, slow);
   double late = first_estimate(joints);
-  for (int pass = 0; pass < kPasses && late != 0; ++pass) {
+  for (int pass = 0; pass < kPasses && !joints.empty(); ++pass) {
     const std::optional<double> more = correction(log, model, joints, late);
     if (!more) return 0;
     late += *more;

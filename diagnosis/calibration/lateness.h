@@ -10,10 +10,11 @@
 ///   d_k   lateness of joint k                   σ_k   its standard deviation, from blocks of time (jackknife)
 ///
 /// Friction and stretch that are a little off look late, too, by several milliseconds. Therefore the regression only gives
-/// a first estimate: the most precise d_k, of the joints in which it explains most of what a and s leave. The readings are
-/// moved by it, and the model's own numbers are fitted together with a remaining delay of each sensor. The sum is over
-/// these delays, of the joints that agree with the median: an effect at one joint disturbs that joint's. d is corrected by
-/// the sum until it settles. The result is 0 if these joints are not the majority, or if d is below half a millisecond.
+/// a first estimate: the most precise d_k, of the joints in which it explains most of what a and s leave, or 0. The
+/// readings are moved by it. Then the model's own numbers are fitted together with zero, ratio and remaining delay of each
+/// sensor. The sum is over these delays, of the joints that agree with the median: an effect at one joint disturbs that
+/// joint's. d is corrected by the sum until it settles. The result is 0 if these joints are not the majority, or if d is
+/// below 0.2 ms.
 
 #include <optional>
 
