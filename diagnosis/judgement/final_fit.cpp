@@ -101,6 +101,20 @@ std::vector<double> reach_in_floors(const Evidence& whole, const Fit& f) {
   return reach;
 }
 
+/// True if a channel has a residual beyond noise that is larger than before: what was reset is uncertain only because
+/// the parameters can stand in for each other.
+bool leaves_more(const Evidence& whole, const Hypothesis& now, const Hypothesis& before) {
+  constexpr double kMore = 1.05;
+  const Score left = whole.score(now), had = whole.score(before);
+  if (!left.finite) return true;
+  for (int c = 0; c < whole.channels(); ++c) {
+    const double allowed =
+        std::max(kRule.explained_ratio * whole.floor()[c], kMore * std::sqrt(had.fit_mean_square[c]));
+    if (whole.has_channel(c) && std::sqrt(left.fit_mean_square[c]) > allowed) return true;
+  }
+  return false;
+}
+
 Fit keep_certain_parameters(const Evidence& whole, const ArmModel& model, const Fit& f, std::size_t given) {
   UncertainParameters uncertain(model, f, reach_in_floors(whole, f), given);
   uncertain.reset_all();
@@ -114,8 +128,9 @@ Fit keep_certain_parameters(const Evidence& whole, const ArmModel& model, const 
   }
   if (left.size() == f.parameters.size()) return f;
   const Fit again = fit(whole, h, left, scale_at(whole, f.hypothesis));
+  if (!again.usable || leaves_more(whole, again.hypothesis, f.hypothesis)) return f;
   // What was certain beside what is gone may not be so any more.
-  return again.usable ? keep_certain_parameters(whole, model, again, given) : f;
+  return keep_certain_parameters(whole, model, again, given);
 }
 
 }  // namespace
