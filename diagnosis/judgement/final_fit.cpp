@@ -16,11 +16,13 @@ namespace {
 class UncertainParameters {
  public:
   /// reach: the largest root mean square over the channels, in floors, of the change by one unit of each parameter.
-  UncertainParameters(const ArmModel& model, const Fit& fit, std::vector<double> reach, std::size_t given)
+  UncertainParameters(const ArmModel& model, const Fit& fit, std::vector<double> reach, std::size_t given,
+                      bool numbers_may_go)
       : model_(model),
         reach_(std::move(reach)),
         fit_(fit),
         given_(static_cast<int>(given)),
+        numbers_may_go_(numbers_may_go),
         value_(Eigen::Map<const Eigen::VectorXd>(fit.value.data(), static_cast<Eigen::Index>(fit.value.size()))),
         covariance_(fit.covariance),
         kept_(fit.parameters.size(), true),
@@ -49,7 +51,7 @@ class UncertainParameters {
   bool may_go(std::size_t i) const {
     const FitParameter& p = fit_.parameters[i];
     if (!kept_[i] || p.shape) return false;
-    return p.effect < 0 ? !is_unknown_scale(model_, p.index) : p.effect >= given_;
+    return p.effect < 0 ? numbers_may_go_ && !is_unknown_scale(model_, p.index) : p.effect >= given_;
   }
 
   /// Change over the smallest change that is significant.
@@ -83,6 +85,7 @@ class UncertainParameters {
   std::vector<double> reach_;
   const Fit& fit_;
   int given_;
+  bool numbers_may_go_;
   Eigen::VectorXd value_;
   Eigen::MatrixXd covariance_;
   std::vector<bool> kept_;
@@ -101,8 +104,8 @@ std::vector<double> reach_in_floors(const Evidence& whole, const Fit& f) {
   return reach;
 }
 
-/// True if a channel has a residual beyond noise that is larger than before: what was reset is uncertain only because
-/// the parameters can stand in for each other.
+/// True if a channel has a residual beyond noise that is larger than before: then the model's numbers are uncertain only
+/// because they can stand in for each other.
 bool leaves_more(const Evidence& whole, const Hypothesis& now, const Hypothesis& before) {
   constexpr double kMore = 1.05;
   const Score left = whole.score(now), had = whole.score(before);
@@ -115,8 +118,10 @@ bool leaves_more(const Evidence& whole, const Hypothesis& now, const Hypothesis&
   return false;
 }
 
-Fit keep_certain_parameters(const Evidence& whole, const ArmModel& model, const Fit& f, std::size_t given) {
-  UncertainParameters uncertain(model, f, reach_in_floors(whole, f), given);
+/// Resets until all that is left is certain. numbers_may_go: the model's numbers, too.
+Fit keep_certain_parameters(const Evidence& whole, const ArmModel& model, const Fit& f, std::size_t given,
+                            bool numbers_may_go = true) {
+  UncertainParameters uncertain(model, f, reach_in_floors(whole, f), given, numbers_may_go);
   uncertain.reset_all();
   Hypothesis h = f.hypothesis;
   std::vector<FitParameter> left;
@@ -128,9 +133,11 @@ Fit keep_certain_parameters(const Evidence& whole, const ArmModel& model, const 
   }
   if (left.size() == f.parameters.size()) return f;
   const Fit again = fit(whole, h, left, scale_at(whole, f.hypothesis));
-  if (!again.usable || leaves_more(whole, again.hypothesis, f.hypothesis)) return f;
+  if (!again.usable) return f;
+  if (numbers_may_go && leaves_more(whole, again.hypothesis, f.hypothesis))
+    return keep_certain_parameters(whole, model, f, given, false);
   // What was certain beside what is gone may not be so any more.
-  return keep_certain_parameters(whole, model, again, given);
+  return keep_certain_parameters(whole, model, again, given, numbers_may_go);
 }
 
 }  // namespace
