@@ -92,7 +92,7 @@ std::string line(const Result& r) {
   for (const Named& n : r.named) named += ", " + label(n.place);
   const char* score = strictly_right(r) ? ": strictly right" : loosely_right(r) ? ": loosely right" : "";
   return fmt::format("{}-{:06}, {} of {} joints, {:.0f} s:{} -> {}{}", label(r.situation), r.index, r.arm, r.joints,
-                     r.cpu_s, truth.empty() ? " nothing" : truth, named, score);
+                     r.wall_s, truth.empty() ? " nothing" : truth, named, score);
 }
 
 void run(const Options& options) {

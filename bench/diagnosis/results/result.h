@@ -80,7 +80,7 @@ struct Result {
   std::vector<int> unexplained;                               ///< joints from 1 on
   std::optional<double> probability_clean, probability_none;  ///< empty without a diagnosis
   HoldOutErrors holdout;
-  double wall_s = 0, cpu_s = 0;  ///< of diagnose(), on one thread
+  double wall_s = 0;  ///< of diagnose(), beside the other trials that ran at that time
 };
 
 std::filesystem::path result_path(const std::filesystem::path& folder, const Situation& situation, int index);

@@ -121,7 +121,6 @@ Result result_from(const Json& all) {
   r.probability_none = maybe(all.at("probability_none"));
   r.holdout = holdout_from(all.at("joint_position_rms"));
   r.wall_s = all.at("seconds").at("wall");
-  r.cpu_s = all.at("seconds").at("cpu");
   return r;
 }
 
@@ -150,7 +149,7 @@ void write_result(const std::filesystem::path& folder, const Result& r) {
       {"probability_clean", maybe(r.probability_clean)},
       {"probability_none", maybe(r.probability_none)},
       {"joint_position_rms", to_json(r.holdout)},
-      {"seconds", {{"wall", r.wall_s}, {"cpu", r.cpu_s}}}};
+      {"seconds", {{"wall", r.wall_s}}}};
   write_file_whole(result_path(folder, r.situation, r.index), all.dump(1) + "\n");
 }
 

@@ -25,12 +25,12 @@ inline Proportion share(const Results& all, const Test& hit) {
   return s;
 }
 
-/// Seconds of one processor that a diagnosis took, of those that ended.
+/// Seconds that a diagnosis took beside other trials, of those that ended.
 inline std::vector<double> run_times(const Results& all) {
-  std::vector<double> cpu;
+  std::vector<double> wall;
   for (const Result* r : all)
-    if (r->failure.empty()) cpu.push_back(r->cpu_s);
-  return cpu;
+    if (r->failure.empty()) wall.push_back(r->wall_s);
+  return wall;
 }
 
 }  // namespace halyard::blind

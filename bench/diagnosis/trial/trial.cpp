@@ -1,7 +1,6 @@
 #include "bench/diagnosis/trial/trial.h"
 
 #include <fmt/core.h>
-#include <time.h>
 
 #include <chrono>
 #include <optional>
@@ -14,12 +13,6 @@
 
 namespace halyard::blind {
 namespace {
-
-double thread_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 /// Nothing, with the reason in `failure`, if no recording could be drawn.
 std::optional<Recording> try_to_draw(const ArmModel& raven2, const Situation& situation, int index,
@@ -83,7 +76,6 @@ Result run_trial(const ArmModel& raven2, const Situation& situation, int index, 
   if (!options.logs.empty()) write_logs(options.logs / fmt::format("{}-{:06}", label(situation), index), *recording);
 
   const auto wall = std::chrono::steady_clock::now();
-  const double cpu = thread_seconds();
   Diagnosis d;
   try {
     DiagnosisOptions how;
@@ -93,7 +85,6 @@ Result run_trial(const ArmModel& raven2, const Situation& situation, int index, 
     r.failure = std::string("diagnose: ") + error.what();
     return r;
   }
-  r.cpu_s = thread_seconds() - cpu;
   r.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
   take_over(d, recording->robot, r);
   return r;
