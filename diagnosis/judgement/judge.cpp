@@ -30,6 +30,12 @@ std::vector<bool> significant_rest(const Evidence& evidence, const Score& score)
   return rest;
 }
 
+bool is_beyond_noise(const Evidence& evidence, const Score& score, int channel) {
+  const double explained = std::pow(kRule.explained_ratio * evidence.floor()[channel], 2);
+  return evidence.has_channel(channel) &&
+         std::max(score.mean_square[channel], score.fit_mean_square[channel]) > explained;
+}
+
 std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
   for (std::size_t r = 0; r < a.size(); ++r) a[r] -= b[r];
   return a;
@@ -160,15 +166,12 @@ bool Judge::within_tolerance(const Hypothesis& h, int place) const {
 /// The effect takes a share of a residual that noise does not explain. This share is more than the misfit of what was
 /// named before it, and the effect changes some signal by much more than the sensor resolves.
 bool Judge::matters(const Score& before, const Score& after, const Hypothesis& with, int place) const {
-  const auto has_rest = [&](const Score& score, int c) {
-    const double floor = kRule.explained_ratio * evidence_.floor()[c];
-    return evidence_.has_channel(c) && std::max(score.mean_square[c], score.fit_mean_square[c]) > floor * floor;
-  };
   bool share = false;
   for (int c = 0; c < evidence_.channels(); ++c) {
     const double gain = before.mean_square[c] - after.mean_square[c];
     const double misfit = std::pow(kRule.form_misfit, 2) * (first_[c] - before.mean_square[c]);
-    share = share || (has_rest(before, c) && gain > std::max(kRule.share * before.mean_square[c], misfit));
+    share = share ||
+            (is_beyond_noise(evidence_, before, c) && gain > std::max(kRule.share * before.mean_square[c], misfit));
   }
   if (!share) return false;
   const auto rows = evidence_.fit_rows({with})[0], bare = evidence_.fit_rows({without_effect(with, place)})[0];

@@ -53,6 +53,10 @@ struct Scored {
 /// [2n] True for channels whose residual on the deciding blocks is well above the channel's floor.
 std::vector<bool> significant_rest(const Evidence& evidence, const Score& score);
 
+/// True if noise alone does not explain the residual of a channel: on fitting or on deciding blocks it is above
+/// explained_ratio times the floor.
+bool is_beyond_noise(const Evidence& evidence, const Score& score, int channel);
+
 /// a - b, row by row; both have the same length.
 std::vector<double> difference(std::vector<double> a, const std::vector<double>& b);
 

@@ -1,7 +1,6 @@
 #include "diagnosis/search/attribution.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/search/candidate_round.h"
@@ -105,11 +104,8 @@ class Search {
 
   /// True if no channel has a residual left above its floor.
   bool explained(const Score& score) const {
-    for (int c = 0; c < evidence_.channels(); ++c) {
-      const double enough = std::pow(kRule.explained_ratio * evidence_.floor()[c], 2);
-      if (evidence_.has_channel(c) && (score.mean_square[c] > enough || score.fit_mean_square[c] > enough))
-        return false;
-    }
+    for (int c = 0; c < evidence_.channels(); ++c)
+      if (is_beyond_noise(evidence_, score, c)) return false;
     return true;
   }
 
