@@ -10,6 +10,7 @@
 #include "diagnosis/explanation/signature.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
+#include "tests/support/finite_numbers.h"
 #include "tests/support/short_arm.h"
 #include "transmission/coupling.h"
 
@@ -113,15 +114,6 @@ std::vector<Hypothesis> some_hypotheses(const ArmModel& model, int count) {
   return all;
 }
 
-/// Residuals as one list of numbers that can be compared.
-std::vector<double> numbers(const Residuals& r) {
-  std::vector<double> all;
-  for (const auto& channel : r.channel)
-    for (const double x : channel)
-      if (std::isfinite(x)) all.push_back(x);
-  return all;
-}
-
 TEST(Prediction, OfAHypothesisDoesNotDependOnItsLaneNorOnWhatRunsBesideIt) {
   const ArmModel model = two_joints();
   const Record record = make_records(unquantised_log(model, 2), model, {})[0];
@@ -131,12 +123,12 @@ TEST(Prediction, OfAHypothesisDoesNotDependOnItsLaneNorOnWhatRunsBesideIt) {
   const std::vector<Hypothesis> backwards(all.rbegin(), all.rend());
   const auto reversed = predict(record, backwards, 4);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto expected = numbers(together[i]);
+    const auto expected = finite_numbers(together[i]);
     ASSERT_GT(expected.size(), 500u);
-    EXPECT_EQ(numbers(predict(record, {all[i]}, 4)[0]), expected) << i;
-    EXPECT_EQ(numbers(reversed[all.size() - 1 - i]), expected) << i;
+    EXPECT_EQ(finite_numbers(predict(record, {all[i]}, 4)[0]), expected) << i;
+    EXPECT_EQ(finite_numbers(reversed[all.size() - 1 - i]), expected) << i;
   }
-  EXPECT_NE(numbers(together[0]), numbers(together[1]));
+  EXPECT_NE(finite_numbers(together[0]), finite_numbers(together[1]));
 }
 
 TEST(Prediction, ChangesByLessThanItsOwnErrorBesideAHypothesisThatNeedsMoreStages) {
@@ -166,7 +158,7 @@ TEST(Prediction, IsTheSameOnOneThreadAndOnTwo) {
     const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
     by_two = predict(record, all, 4);
   }
-  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(numbers(by_one[i]), numbers(by_two[i])) << i;
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(finite_numbers(by_one[i]), finite_numbers(by_two[i])) << i;
 }
 
 TEST(Prediction, AHypothesisThatCannotBeIntegratedSaysSoAndLeavesItsNeighboursAlone) {
@@ -179,7 +171,7 @@ TEST(Prediction, AHypothesisThatCannotBeIntegratedSaysSoAndLeavesItsNeighboursAl
   EXPECT_FALSE(beside[1].finite);
   for (const int i : {0, 2}) {
     EXPECT_TRUE(beside[i].finite);
-    EXPECT_EQ(numbers(beside[i]), numbers(expected[i]));
+    EXPECT_EQ(finite_numbers(beside[i]), finite_numbers(expected[i]));
   }
 }
 

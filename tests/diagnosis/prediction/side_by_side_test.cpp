@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <cmath>
 #include <stdexcept>
 
 #include "diagnosis/prediction/shared_lanes.h"
 #include "plant/simulate.h"
+#include "tests/support/finite_numbers.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
@@ -35,14 +35,6 @@ struct Recorded {
     return all;
   }
 };
-
-std::vector<double> finite_numbers(const Residuals& r) {
-  std::vector<double> all;
-  for (const auto& channel : r.channel)
-    for (const double x : channel)
-      if (std::isfinite(x)) all.push_back(x);
-  return all;
-}
 
 TEST(SharedLanes, GiveEachHypothesisTheNumbersThatItHasAlone) {
   const Recorded r;
