@@ -26,10 +26,12 @@ compile_together(halyard_model model
   arm_log.cpp arm_model.cpp column_map.cpp homing.cpp log.cpp model_file.cpp model_writer.cpp output_file.cpp
   xml/field_reader.cpp)
 
-compile_together(halyard_simbody simbody arm_plant.cpp integrators/simbody_integrator.cpp simbody_arm.cpp)
+compile_together(halyard_simbody simbody integrators/simbody_integrator.cpp simbody_arm.cpp)
 compile_together(halyard_plant simulation
-  controller.cpp drive_train.cpp equilibrium.cpp integrators/integrator.cpp scenario_file.cpp sensors/camera.cpp
-  sensors/encoder.cpp simulate.cpp trajectory.cpp)
+  arm_plant.cpp controller.cpp drive_train.cpp equilibrium.cpp integrators/integrator.cpp
+  integrators/sundials_integrator.cpp scenario_file.cpp sensors/camera.cpp sensors/encoder.cpp simulate.cpp
+  trajectory.cpp)
+compile_together(halyard_plant own_chain integrators/rosenbrock_integrator.cpp newton_euler_arm.cpp)
 
 compile_together(halyard_estimators filters
   built_in.cpp distributions.cpp eigen_modes.cpp estimator.cpp estimator_options.cpp

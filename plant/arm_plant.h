@@ -1,5 +1,5 @@
 #pragma once
-/// The arm as a system of differential equations: Simbody's rigid chain, moved by a drive train.
+/// The arm as a system of differential equations: a rigid chain, moved by a drive train.
 ///
 ///   (M(q) + M_rotors) q'' + h(q, q') = F(q, q', z),   z' from the drive train
 ///
@@ -14,24 +14,28 @@
 #include <memory>
 
 #include "plant/drive_train.h"
+#include "plant/engine.h"
 
 namespace halyard {
 
-struct SimbodyArm;
+class RigidArm;
 
 class ArmPlant {
  public:
   /// Throws std::invalid_argument as DriveTrain does, and for link inertias that are physically impossible.
-  explicit ArmPlant(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects = {});
+  explicit ArmPlant(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects = {},
+                    Engine engine = Engine::simbody);
   ~ArmPlant();
 
-  const DriveTrain& drive() const;
-  const PlantLayout& layout() const { return drive().layout(); }
+  const DriveTrain& drive() const { return drive_; }
+  const PlantLayout& layout() const { return drive_.layout(); }
 
   /// Sets the commanded motor torques and external loads on the joints, [n] each, that hold from time_s on.
   void set_inputs(double time_s, const double* command, const double* external);
 
   void derivative(double time_s, const double* y, double* y_dot);
+  /// ∂y'/∂y, exact; J: [size x size]. Engine::halyard only: std::logic_error with Simbody.
+  void jacobian(double time_s, const double* y, Eigen::Ref<Eigen::MatrixXd> J);
   /// The part of y' that comes from these terms of the drive. It contains q' = v for the joints that the terms move,
   /// and q' = 0 for the others.
   void derivative_of_terms(DriveTerms terms, double time_s, const double* y, double* y_dot);
@@ -55,11 +59,12 @@ class ArmPlant {
   long derivative_evaluations() const { return evaluations_; }
   void count_evaluations(long n) { evaluations_ += n; }
 
-  /// For code that uses Simbody: plant/simbody_arm.h.
-  SimbodyArm& simbody() { return *arm_; }
+  /// For the integrators of one engine: plant/rigid_arm.h.
+  RigidArm& chain() { return *chain_; }
 
  private:
-  std::unique_ptr<SimbodyArm> arm_;
+  DriveTrain drive_;
+  std::unique_ptr<RigidArm> chain_;
   long evaluations_ = 0;
 };
 

@@ -159,16 +159,17 @@ void DriveTrain::rates(DriveTerms terms, double time_s, const double* q, const d
 
 void DriveTrain::slopes(DriveTerms terms, double time_s, const double* q, const double* v, const double* z,
                         Eigen::MatrixXd& slopes) const {
-  const int n = layout_.n, rows = n + layout_.n_z;
-  Eigen::VectorXd y(layout_.size()), rates(rows);
+  const int n = layout_.n, rows = n + layout_.n_z, others = 2 * n + layout_.input_energy;
+  Eigen::VectorXd y(others), values(rows);
   y << Eigen::Map<const Eigen::VectorXd>(q, n), Eigen::Map<const Eigen::VectorXd>(v, n),
-      Eigen::Map<const Eigen::VectorXd>(z, layout_.n_z);
+      Eigen::Map<const Eigen::VectorXd>(z, layout_.input_energy);
   slopes.resize(rows, layout_.size());
   const auto rates_at = [&](const Dual* at, Dual* out) {
     term_rates(terms, slope_transmission_, layout_,
                Motion<Dual>{time_s, &history_, command_, external_, at, at + n, at + 2 * n}, out, out + n);
   };
-  jacobian(rates_at, y, rates, slopes);
+  jacobian(rates_at, y, values, slopes.leftCols(others));
+  slopes.rightCols(layout_.size() - others).setZero();
 }
 
 void DriveTrain::signals(double time_s, const double* q, const double* v, const double* z,

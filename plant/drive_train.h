@@ -60,6 +60,7 @@ class DriveTrain {
              double* z_dot) const;
 
   /// Exact derivatives of rates(): rows joint_force and z_dot, columns q, v, z; [n + n_z x size].
+  /// Nothing depends on the meters: their columns are 0.
   void slopes(DriveTerms terms, double time_s, const double* q, const double* v, const double* z,
               Eigen::MatrixXd& slopes) const;
 

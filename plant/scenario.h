@@ -10,12 +10,16 @@
 
 #include "model/arm_model.h"
 #include "model/log.h"
+#include "plant/engine.h"
 
 namespace halyard {
 
 /// How the plant is integrated; docs/architecture.md explains the purpose of each kind.
 enum class IntegratorKind {
-  dirk,            ///< ARKODE, diagonally implicit third order: all implicit (default)
+  /// rosenbrock with Engine::halyard, unless an effect acts at the command stage; else dirk (default)
+  automatic,
+  rosenbrock,      ///< Rosenbrock's, fourth order, with the exact Jacobian of Engine::halyard
+  dirk,            ///< ARKODE, diagonally implicit third order: all implicit
   imex,            ///< ARKODE, fourth order: cables and friction implicit, the rest explicit
   imex_link1,      ///< ARKODE, fourth order: only the first link's cable implicit
   bdf,             ///< CVODE at 1e-5 times the given tolerances: the reference
@@ -25,7 +29,7 @@ enum class IntegratorKind {
 };
 
 struct IntegratorOptions {
-  IntegratorKind kind = IntegratorKind::dirk;
+  IntegratorKind kind = IntegratorKind::automatic;
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-9;
 };
@@ -70,6 +74,8 @@ struct Scenario {
   double control_period_s = 1e-3;
   double fade_in_s = 2;                     ///< sines grow from zero over this time
   std::vector<JointTrajectory> trajectory;  ///< [n]
+  /// None: the reference, Engine::simbody, in simulate(); studies of many runs take Engine::halyard (faster()).
+  std::optional<Engine> engine;
   IntegratorOptions integrator;
   bool quantise = true;  ///< round encoders to their resolution
   /// True: the zeros of the motor encoders were set at the home pose, with unstretched cables. They were computed with
@@ -80,6 +86,9 @@ struct Scenario {
   std::optional<Camera> camera;
   std::uint64_t seed = 1;
 };
+
+/// The scenario with Engine::halyard, if it does not choose an engine, nor an integrator that needs Simbody.
+Scenario faster(Scenario scenario);
 
 /// Throws InputError if the scenario cannot be run: numbers out of range, desired motion beyond a joint's range.
 void check_scenario(const Scenario& scenario);

@@ -117,7 +117,8 @@ ArmModel read_robot(const std::filesystem::path& path, const ArmParameters<doubl
 void read_integrator(const XmlElement& element, IntegratorOptions& options) {
   element.only({"treatment", "relative_tolerance", "absolute_tolerance"});
   options.kind = element.choice_or<IntegratorKind>("treatment", options.kind,
-                                                   {{"dirk", IntegratorKind::dirk},
+                                                   {{"rosenbrock", IntegratorKind::rosenbrock},
+                                                    {"dirk", IntegratorKind::dirk},
                                                     {"imex", IntegratorKind::imex},
                                                     {"imex_link1", IntegratorKind::imex_link1},
                                                     {"bdf", IntegratorKind::bdf},
@@ -132,7 +133,7 @@ void read_integrator(const XmlElement& element, IntegratorOptions& options) {
 
 Scenario read_scenario(const std::filesystem::path& path, const std::filesystem::path& robot) {
   const XmlElement root = XmlElement::read_file(path, "scenario");
-  root.only({"name", "model", "duration", "seed"},
+  root.only({"name", "model", "duration", "seed", "engine"},
             {"set", "effects", "trajectory", "control", "integrator", "sensors", "camera"});
   Scenario scenario;
   scenario.name = root.text("name");
@@ -142,6 +143,8 @@ Scenario read_scenario(const std::filesystem::path& path, const std::filesystem:
   if (!robot.empty()) scenario.robot = read_robot(robot, *scenario.assumed, scenario.model);
   scenario.duration_s = root.number_or("duration", scenario.duration_s, "s", Sign::positive);
   scenario.seed = static_cast<std::uint64_t>(root.integer_or("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
+  if (root.has("engine"))
+    scenario.engine = root.choice<Engine>("engine", {{"simbody", Engine::simbody}, {"halyard", Engine::halyard}});
   for (const XmlElement& set : root.children("set")) read_change(set, scenario.robot);
   if (const auto effects = root.optional_child("effects"))
     for (const PlacedEffect& e : read_effects(*effects, scenario.robot.nominal)) scenario.robot.effects.push_back(e);

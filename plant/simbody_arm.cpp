@@ -47,7 +47,7 @@ class DriveForce : public SimTK::Force::Custom::Implementation {
     arm_.forces.updZDot(state) = rates(l.n, l.n_z);
   }
 
-  double calcPotentialEnergy(const State&) const override { return 0; }  // ArmPlant::stored_energy adds the cables'
+  double calcPotentialEnergy(const State&) const override { return 0; }  // energy() takes the cables' from the drive
 
  private:
   /// F becomes F - M_rotors q'', where q'' solves (M + M_rotors) q'' = F - h.
@@ -92,10 +92,14 @@ void build_chain(const ArmParameters<double>& arm, SimTK::SimbodyMatterSubsystem
   }
 }
 
+Eigen::VectorXd to_eigen(const Vector& v) { return Eigen::Map<const Eigen::VectorXd>(&v[0], v.size()); }
+
+Vector to_simbody(const Eigen::VectorXd& v) { return Vector(static_cast<int>(v.size()), v.data()); }
+
 }  // namespace
 
-SimbodyArm::SimbodyArm(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects)
-    : drive(nominal, effects),
+SimbodyArm::SimbodyArm(const DriveTrain& drive_train)
+    : drive(drive_train),
       matter(system),
       forces(system),
       gravity(forces, matter, Vec3(drive.arm().gravity[0], drive.arm().gravity[1], drive.arm().gravity[2])) {
@@ -105,11 +109,30 @@ SimbodyArm::SimbodyArm(const ArmParameters<double>& nominal, const std::vector<P
   system.realizeModel(state);
 }
 
+void SimbodyArm::inputs_changed() { state.invalidateAllCacheAtOrAbove(Stage::Dynamics); }
+
 void SimbodyArm::set_state(double time_s, const double* y) {
-  const SimTK::Vector& now = state.getY();
+  const Vector& now = state.getY();
   if (state.getTime() == time_s && std::memcmp(&now[0], y, now.size() * sizeof(double)) == 0) return;
   state.setTime(time_s);
   std::memcpy(&state.updY()[0], y, drive.layout().size() * sizeof(double));
+}
+
+void SimbodyArm::derivative(double time_s, const double* y, double* y_dot) {
+  set_state(time_s, y);
+  system.realize(state, Stage::Acceleration);
+  const Vector& rate = state.getYDot();
+  std::memcpy(y_dot, &rate[0], rate.size() * sizeof(double));
+}
+
+void SimbodyArm::jacobian(double, const double*, Eigen::Ref<Eigen::MatrixXd>) {
+  throw std::logic_error("Simbody has no derivatives of the chain's equations");
+}
+
+const Eigen::MatrixXd& SimbodyArm::total_mass(double time_s, const double* y) {
+  set_state(time_s, y);
+  system.realize(state, Stage::Position);
+  return total_mass(state);
 }
 
 const Eigen::MatrixXd& SimbodyArm::total_mass(const SimTK::State& s) const {
@@ -119,5 +142,39 @@ const Eigen::MatrixXd& SimbodyArm::total_mass(const SimTK::State& s) const {
     for (int c = 0; c < M_.ncol(); ++c) total_(r, c) += M_(r, c);
   return total_;
 }
+
+Eigen::VectorXd SimbodyArm::holding_force(const Eigen::VectorXd& q) {
+  state.updQ() = to_simbody(q);
+  state.updU() = 0;
+  system.realize(state, Stage::Velocity);
+  Vector force;
+  matter.calcResidualForceIgnoringConstraints(state, Vector(), gravity.getBodyForces(state), Vector(), force);
+  return to_eigen(force);
+}
+
+Eigen::VectorXd SimbodyArm::velocity_force(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  state.updQ() = to_simbody(q);
+  state.updU() = to_simbody(v);
+  system.realize(state, Stage::Velocity);
+  Vector force;
+  matter.calcResidualForceIgnoringConstraints(state, Vector(), Vector_<SpatialVec>(), Vector(), force);
+  return to_eigen(force);
+}
+
+Eigen::Vector3d SimbodyArm::position_of(const double* point, const Eigen::VectorXd& q) {
+  state.updQ() = to_simbody(q);
+  system.realize(state, Stage::Position);
+  const SimTK::MobilizedBodyIndex last(matter.getNumBodies() - 1);
+  const Vec3 at = matter.getMobilizedBody(last).findStationLocationInGround(state, Vec3(point[0], point[1], point[2]));
+  return {at[0], at[1], at[2]};
+}
+
+double SimbodyArm::energy(double time_s, const double* y) {
+  set_state(time_s, y);
+  system.realize(state, Stage::Dynamics);
+  return system.calcEnergy(state);
+}
+
+std::unique_ptr<RigidArm> make_simbody_arm(const DriveTrain& drive) { return std::make_unique<SimbodyArm>(drive); }
 
 }  // namespace halyard

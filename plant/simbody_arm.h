@@ -4,22 +4,28 @@
 
 #include <Simbody.h>
 
-#include <Eigen/Core>
-
-#include "plant/drive_train.h"
+#include "plant/rigid_arm.h"
 
 namespace halyard {
 
 /// The chain as a Simbody System whose State holds all of y: q, u, and z as auxiliary variables.
-struct SimbodyArm {
-  SimbodyArm(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects);
+class SimbodyArm : public RigidArm {
+ public:
+  explicit SimbodyArm(const DriveTrain& drive);
 
-  /// Copies y into the state. Realized results stay valid if nothing changed.
-  void set_state(double time_s, const double* y);
+  void inputs_changed() override;
+  void derivative(double time_s, const double* y, double* y_dot) override;
+  void jacobian(double time_s, const double* y, Eigen::Ref<Eigen::MatrixXd> J) override;
+  const Eigen::MatrixXd& total_mass(double time_s, const double* y) override;
+  Eigen::VectorXd holding_force(const Eigen::VectorXd& q) override;
+  Eigen::VectorXd velocity_force(const Eigen::VectorXd& q, const Eigen::VectorXd& v) override;
+  Eigen::Vector3d position_of(const double* point, const Eigen::VectorXd& q) override;
+  double energy(double time_s, const double* y) override;
+
   /// M + M_rotors at the state's q.
   const Eigen::MatrixXd& total_mass(const SimTK::State& s) const;
 
-  DriveTrain drive;
+  const DriveTrain& drive;
   SimTK::MultibodySystem system;
   SimTK::SimbodyMatterSubsystem matter;
   SimTK::GeneralForceSubsystem forces;
@@ -27,6 +33,9 @@ struct SimbodyArm {
   SimTK::State state;
 
  private:
+  /// Copies y into the state. Realized results stay valid if nothing changed.
+  void set_state(double time_s, const double* y);
+
   mutable SimTK::Matrix M_;
   mutable Eigen::MatrixXd total_;
 };

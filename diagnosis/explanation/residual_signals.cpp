@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "estimators/process/rigid_chain.h"
+#include "model/rigid_chain.h"
 #include "transmission/coupling.h"
 #include "transmission/transmission.h"
 

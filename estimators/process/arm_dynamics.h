@@ -11,7 +11,7 @@
 
 #include <optional>
 
-#include "estimators/process/rigid_chain.h"
+#include "model/rigid_chain.h"
 #include "transmission/drive.h"
 
 namespace halyard {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "estimators/process/rigid_chain.h"
+#include "model/rigid_chain.h"
 #include "transmission/coupling.h"
 
 namespace halyard {

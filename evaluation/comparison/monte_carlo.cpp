@@ -142,7 +142,7 @@ MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, cons
   }
   std::vector<std::vector<OneRun>> all(estimators.size(), std::vector<OneRun>(options.runs));
   tbb::parallel_for(0, options.runs, [&](int r) {
-    Scenario of_run = scenario;
+    Scenario of_run = faster(scenario);
     of_run.seed = scenario.seed + static_cast<std::uint64_t>(r);
     const SimulationResult simulation = simulate(of_run);
     for (std::size_t e = 0; e < estimators.size(); ++e) all[e][r] = run_one(model, estimators[e], simulation, options);

@@ -40,7 +40,7 @@ SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOpti
   SweepCell cell{point, {}};
   SimulationResult data;
   try {
-    data = simulate(sweep.scenario_at(point));
+    data = simulate(faster(sweep.scenario_at(point)));
   } catch (const std::exception& error) {
     cell.results.assign(sweep.grid.estimators.size(), failure(std::string("simulation: ") + error.what(), n));
     return cell;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 
 #include "plant/arm_plant.h"
 #include "plant/scenario.h"
@@ -24,8 +25,22 @@ class Integrator {
 std::unique_ptr<Integrator> make_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,
                                             const Eigen::VectorXd& y);
 
-/// For the kinds simbody_rkm and simbody_cpodes.
+/// For the kind rosenbrock, which needs Engine::halyard.
+std::unique_ptr<Integrator> make_rosenbrock_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,
+                                                       const Eigen::VectorXd& y);
+/// For the kinds simbody_rkm and simbody_cpodes, which need Engine::simbody.
 std::unique_ptr<Integrator> make_simbody_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,
                                                     const Eigen::VectorXd& y);
+/// For the other kinds.
+std::unique_ptr<Integrator> make_sundials_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,
+                                                     const Eigen::VectorXd& y);
+
+/// From here on a tolerance is none.
+inline constexpr double kUncontrolled = 1e30;
+/// The absolute tolerance of each state, [size], for that of positions; kUncontrolled for the energy meters.
+Eigen::VectorXd absolute_tolerances(const PlantLayout& layout, double tolerance);
+
+/// Throws the std::runtime_error of an integration that failed.
+[[noreturn]] void fail_between(double from_s, double until_s, const std::string& why);
 
 }  // namespace halyard

@@ -11,7 +11,7 @@ class SimbodyIntegrator : public Integrator {
  public:
   SimbodyIntegrator(ArmPlant& plant, const IntegratorOptions& options, double time_s, const Eigen::VectorXd& y)
       : plant_(plant), y_(y) {
-    SimbodyArm& arm = plant.simbody();
+    auto& arm = dynamic_cast<SimbodyArm&>(plant.chain());
     if (options.kind == IntegratorKind::simbody_cpodes)
       integrator_ = std::make_unique<SimTK::CPodesIntegrator>(arm.system, SimTK::CPodes::BDF, SimTK::CPodes::Newton);
     else integrator_ = std::make_unique<SimTK::RungeKuttaMersonIntegrator>(arm.system);

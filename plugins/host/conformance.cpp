@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "estimators/process/noise.h"
-#include "estimators/process/rigid_chain.h"
 #include "model/input_error.h"
+#include "model/rigid_chain.h"
 #include "plugins/host/loader.h"
 #include "transmission/coupling.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "estimators/process/rigid_chain.h"
+#include "model/rigid_chain.h"
 #include "tests/support/small_arm.h"
 #include "transmission/coupling.h"
 

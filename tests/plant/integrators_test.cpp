@@ -15,13 +15,16 @@
 namespace halyard {
 namespace {
 
-const std::map<IntegratorKind, std::string> kIntegrators = {{IntegratorKind::dirk, "dirk"},
+const std::map<IntegratorKind, std::string> kIntegrators = {{IntegratorKind::rosenbrock, "rosenbrock"},
+                                                            {IntegratorKind::dirk, "dirk"},
                                                             {IntegratorKind::imex, "imex"},
                                                             {IntegratorKind::imex_link1, "imex_link1"},
                                                             {IntegratorKind::bdf, "bdf"},
                                                             {IntegratorKind::explicit_rk, "explicit_rk"},
                                                             {IntegratorKind::simbody_rkm, "simbody_rkm"},
                                                             {IntegratorKind::simbody_cpodes, "simbody_cpodes"}};
+
+Engine engine_of(IntegratorKind kind) { return kind == IntegratorKind::rosenbrock ? Engine::halyard : Engine::simbody; }
 
 /// Experiment A without rounded readings, which turn errors of 1e-12 into other torques.
 Scenario smooth_scenario(IntegratorKind kind) {
@@ -30,6 +33,7 @@ Scenario smooth_scenario(IntegratorKind kind) {
   s.fade_in_s = 0.5;
   s.quantise = false;
   s.integrator.kind = kind;
+  s.engine = engine_of(kind);
   return s;
 }
 
@@ -60,13 +64,44 @@ TEST(Integrators, AllAgreeWithTheReferenceAndConvergeToIt) {
   }
 }
 
+/// The motion on the own chain with default options; the reference with Simbody and CVODE.
+void expect_near_reference(Scenario scenario, const std::string& what) {
+  scenario.duration_s = 0.5;
+  scenario.engine = Engine::halyard;
+  scenario.integrator.kind = IntegratorKind::automatic;
+  const Log fast = simulate(scenario).truth;
+  scenario.engine = Engine::simbody;
+  scenario.integrator.kind = IntegratorKind::bdf;
+  const Log reference = simulate(scenario).truth;
+  for (int k = 0; k < 3; ++k) EXPECT_LT(largest_difference(fast, reference, k), 1e-6) << what << ", joint " << k + 1;
+}
+
+TEST(Integrators, OfTheOwnChainStayWithTheReferenceOfAStifferArm) {
+  Scenario scenario = smooth_scenario(IntegratorKind::rosenbrock);
+  ArmParameters<double>& arm = scenario.robot.nominal;
+  arm.joint[0].stiffness *= 100, arm.joint[0].damping *= 100;
+  expect_near_reference(scenario, "stiff");
+  for (int k = 0; k < 3; ++k) arm.joint[k].joint_smoothing /= 10, arm.joint[k].motor_smoothing /= 10;
+  expect_near_reference(scenario, "sharp");
+  for (JointTrajectory& t : scenario.trajectory) t.sines.clear();
+  expect_near_reference(scenario, "at rest");
+}
+
+TEST(Integrators, OfTheOwnChainStayWithTheReferenceWithEffects) {
+  for (const char* name : {"backlash", "hysteresis", "delay", "torque_ripple", "external_force", "stribeck"}) {
+    Scenario scenario = smooth_scenario(IntegratorKind::rosenbrock);
+    scenario.robot.effects = {place_effect(*find_effect(name), scenario.robot.nominal, 1)};
+    expect_near_reference(scenario, name);
+  }
+}
+
 TEST(Integrators, OfSundialsAndOfSimbodyTakeTurnsInOneProcess) {
   const Scenario scenario = smooth_scenario(IntegratorKind::bdf);
   const std::vector<double> command = {0.02, 0.03, -0.01}, no_load = {0, 0, 0};
   std::vector<std::unique_ptr<ArmPlant>> plants;
   std::vector<std::unique_ptr<Integrator>> integrators;
   for (const auto& [kind, name] : kIntegrators) {
-    plants.push_back(std::make_unique<ArmPlant>(scenario.robot.nominal));
+    plants.push_back(std::make_unique<ArmPlant>(scenario.robot.nominal, scenario.robot.effects, engine_of(kind)));
     const Eigen::VectorXd start = resting_state(*plants.back(), 0, scenario.robot.home());
     IntegratorOptions options{kind, 1e-7, 1e-10};
     integrators.push_back(make_integrator(*plants.back(), options, 0, start));
@@ -84,7 +119,7 @@ TEST(Integrators, OfSundialsAndOfSimbodyTakeTurnsInOneProcess) {
 
 TEST(Integrators, StandSharpFrictionInStick) {
   // tanh(v / 1e-3) at the joints and at the motors: eigenvalues of -1e4 and -3e5 per second.
-  for (const IntegratorKind kind : {IntegratorKind::dirk, IntegratorKind::imex}) {
+  for (const IntegratorKind kind : {IntegratorKind::rosenbrock, IntegratorKind::dirk, IntegratorKind::imex}) {
     Scenario scenario = smooth_scenario(kind);
     scenario.duration_s = 0.3;
     for (JointTrajectory& t : scenario.trajectory) t.sines.clear();
@@ -94,6 +129,7 @@ TEST(Integrators, StandSharpFrictionInStick) {
     }
     const SimulationResult result = simulate(scenario);
     scenario.integrator.kind = IntegratorKind::bdf;
+    scenario.engine = Engine::simbody;
     const Log reference = simulate(scenario).truth;
     for (int k = 0; k < 3; ++k) EXPECT_LT(largest_difference(result.truth, reference, k), 1e-8);
     // An explicit method needs a step of 1e-5 s here, 400 derivatives a tick of 1 ms.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -43,7 +44,7 @@ Eigen::VectorXd random_state(const ArmPlant& plant, std::mt19937_64& random) {
   const ArmParameters<double>& arm = plant.drive().arm();
   Eigen::VectorXd y(l.size()), q(l.n), path(l.n);
   for (int i = 0; i < l.size(); ++i) y(i) = unit(random);
-  y(2) = 0.4 + 0.1 * y(2);
+  if (l.n > 2) y(2) = 0.4 + 0.1 * y(2);
   cable_path(arm, y.data(), path.data());
   for (int k = 0; k < l.n; ++k) {  // a millimetre of stretch, motors at speed
     if (!l.motor_angle[k]) continue;
@@ -152,6 +153,82 @@ TEST(ArmPlant, MovesAsTheProcessModelWithRigidAndMissingDrives) {
   expect_process_model(arm, {});
   arm.joint[2].drive = Drive::none;
   expect_process_model(arm, {});
+}
+
+/// 1 to 7 joints of any kind and drive, at random frames.
+ArmParameters<double> random_arm(int n, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  ArmParameters<double> arm;
+  arm.n = n;
+  for (int k = 0; k < n; ++k) {
+    JointParameters<double>& j = arm.joint[k];
+    j = raven2().nominal.joint[k % 3];
+    std::fill(std::begin(j.coupling), std::end(j.coupling), 0.0);
+    for (int i = 0; i < k; ++i) j.coupling[i] = unit(random) - 0.5;
+    j.coupling[k] = 1;
+    j.drive = static_cast<Drive>(static_cast<int>(3 * unit(random)));
+    const Eigen::Matrix3d R =
+        Eigen::Quaterniond(unit(random), unit(random), unit(random), unit(random)).normalized().toRotationMatrix();
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) j.frame_R[r][c] = R(r, c);
+      j.frame_p[r] = 0.3 * unit(random);
+      j.com[r] = 0.1 * unit(random);
+      j.inertia[r] = 1e-3 * (1 + unit(random));
+      j.inertia[3 + r] = 1e-4 * unit(random);
+    }
+    j.mass = 0.2 + unit(random);
+  }
+  return arm;
+}
+
+/// Of two plants of the same arm on different engines.
+void expect_alike(ArmPlant& simbody, ArmPlant& own, std::mt19937_64& random) {
+  const PlantLayout& l = own.layout();
+  const Eigen::VectorXd y = random_state(own, random), command = 0.02 * Eigen::VectorXd::Random(l.n);
+  for (ArmPlant* plant : {&simbody, &own}) plant->set_inputs(0, command.data(), command.data());
+  Eigen::VectorXd expected(l.size()), rates(l.size());
+  simbody.derivative(0.1, y.data(), expected.data());
+  own.derivative(0.1, y.data(), rates.data());
+  EXPECT_LT((rates - expected).cwiseAbs().maxCoeff(), 1e-9 * (1 + expected.cwiseAbs().maxCoeff()));
+  const Eigen::VectorXd other = random_state(own, random);
+  const double rise = simbody.stored_energy(0, other.data()) - simbody.stored_energy(0, y.data());
+  EXPECT_NEAR(own.stored_energy(0, other.data()) - own.stored_energy(0, y.data()), rise, 1e-9 * (1 + std::abs(rise)));
+}
+
+TEST(ArmPlant, HasTheSameMotionAndEnergyOnBothEngines) {
+  std::mt19937_64 random(11);
+  for (int trial = 0; trial < 40; ++trial) {
+    const ArmParameters<double> arm = random_arm(1 + trial % 7, random);
+    std::vector<PlacedEffect> effects;
+    for (const Effect* effect : effect_library())
+      for (const EffectPlace place : effect_places(*effect, arm))
+        if (random() % 8 == 0 && effects.size() < 6) effects.push_back(place_effect(*effect, arm, place));
+    ArmPlant simbody(arm, effects), own(arm, effects, Engine::halyard);
+    for (int state = 0; state < 5; ++state) expect_alike(simbody, own, random);
+  }
+}
+
+TEST(ArmPlant, HasTheExactJacobianOnItsOwnChain) {
+  std::mt19937_64 random(12);
+  for (int n = 1; n <= 7; ++n) {
+    const ArmParameters<double> arm = random_arm(n, random);
+    ArmPlant plant(arm, {place_effect(*find_effect("joint_friction"), arm, n - 1)}, Engine::halyard);
+    const Eigen::VectorXd y = random_state(plant, random);
+    const auto size = y.size();
+    Eigen::MatrixXd J(size, size);
+    plant.jacobian(0, y.data(), J);
+    for (Eigen::Index c = 0; c < size; ++c) {
+      const double d = 1e-6;
+      Eigen::VectorXd above = y, below = y, rate_above(size), rate_below(size);
+      above(c) += d, below(c) -= d;
+      plant.derivative(0, above.data(), rate_above.data());
+      plant.derivative(0, below.data(), rate_below.data());
+      const Eigen::VectorXd difference = (rate_above - rate_below) / (2 * d);
+      // The difference's own error: rounding of rates up to 1e5 over 2e-6.
+      EXPECT_LT((J.col(c) - difference).cwiseAbs().maxCoeff(), 1e-4 * (1 + difference.cwiseAbs().maxCoeff()))
+          << n << ' ' << c;
+    }
+  }
 }
 
 TEST(ArmPlant, SplitsOffTheCablesAndTheFrictionOfAllAxes) {

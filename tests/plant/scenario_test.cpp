@@ -75,7 +75,7 @@ TEST(Experiments, AreThoseOfThePaper) {
     EXPECT_DOUBLE_EQ(s->trajectory[1].center, 90 * kDegree);
     EXPECT_DOUBLE_EQ(s->trajectory[2].sines.at(0).amplitude, 0.040);
     EXPECT_EQ(s->control_period_s, 1e-3);
-    EXPECT_EQ(s->integrator.kind, IntegratorKind::dirk);
+    EXPECT_EQ(s->integrator.kind, IntegratorKind::automatic);
     EXPECT_TRUE(s->quantise);
   }
 }
@@ -169,8 +169,13 @@ TEST_F(ScenarioFile, SaysWhatIsWrongAndWhere) {
             "joint1.motor.torque_bias, joint1.cable.stiffness, joint1.cable.damping, joint1.cable.tension, "
             "joint1.cable.pulley_radius, joint1.friction.coulomb, joint1.friction.viscous");
   EXPECT_EQ(message(R"(<integrator treatment="euler"/>)"),
-            "s.xml:2: <integrator treatment=\"euler\">: expected one of dirk, imex, imex_link1, bdf, explicit_rk, "
-            "simbody_rkm, simbody_cpodes");
+            "s.xml:2: <integrator treatment=\"euler\">: expected one of rosenbrock, dirk, imex, imex_link1, bdf, "
+            "explicit_rk, simbody_rkm, simbody_cpodes");
+  EXPECT_EQ(message("", R"(engine="mujoco")"),
+            "s.xml:1: <scenario engine=\"mujoco\">: expected one of simbody, halyard");
+  EXPECT_NE(message(R"(<integrator treatment="rosenbrock"/>)").find("needs engine=\"halyard\""), std::string::npos);
+  EXPECT_NE(message(R"(<integrator treatment="simbody_rkm"/>)", R"(engine="halyard")").find("needs engine=\"simbody\""),
+            std::string::npos);
   EXPECT_NE(message(R"(<trajectory joint="1" kind="hold" centre="0"/>)").find("<trajectory centre="),
             std::string::npos);
   EXPECT_NE(message(R"(<control period="1e-12"/>)").find("more than 1e8 control periods"), std::string::npos);
@@ -179,6 +184,16 @@ TEST_F(ScenarioFile, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(message("", "duration=\"-1\"").find("s.xml:1: <scenario duration=\"-1\">"), std::string::npos);
   EXPECT_NE(message(R"(<effects><effect name="stickiness" joint="1"/></effects>)").find("unknown effect"),
             std::string::npos);
+}
+
+TEST(Faster, LeavesAChosenEngineAlone) {
+  Scenario scenario;
+  EXPECT_EQ(faster(scenario).engine, Engine::halyard);
+  scenario.engine = Engine::simbody;
+  EXPECT_EQ(faster(scenario).engine, Engine::simbody);
+  scenario.engine.reset();
+  scenario.integrator.kind = IntegratorKind::simbody_rkm;
+  EXPECT_EQ(faster(scenario).engine, std::nullopt);
 }
 
 TEST_F(ScenarioFile, SaysWhatIsWrongWithASampleFile) {

@@ -59,7 +59,7 @@ Log record(Scenario scenario, const ArmModel& robot, const SensorDraw& sensors, 
   scenario.robot = robot;
   // The sensors here add noise before they round.
   for (int k = 0; k < robot.n(); ++k) scenario.robot.nominal.joint[k].joint_encoder_resolution = 0;
-  const SimulationResult run = simulate(scenario);
+  const SimulationResult run = simulate(faster(scenario));
   check_that_it_followed(robot, run.truth);
   const Log log = read_sensors(sensors, run.measured, robot, random);
   const auto first = static_cast<std::size_t>(std::lround(kFadeIn / scenario.control_period_s));

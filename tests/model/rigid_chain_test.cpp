@@ -1,4 +1,4 @@
-#include "estimators/process/rigid_chain.h"
+#include "model/rigid_chain.h"
 
 #include <gtest/gtest.h>
 
