@@ -79,23 +79,45 @@ class Diagnoser {
   Attribution& attribution() { return details_->attribution; }
   const Hypothesis& final_hypothesis() const { return details_->attribution.final_fit.hypothesis; }
 
-  /// The search, and the final fit on all training data. Effects that these do not determine are dropped.
+  /// The search, and the final fit on all training data. Effects that these do not determine, and names that are
+  /// probably wrong, are dropped.
   void search(const Evidence& evidence, const Evidence& whole) {
     attribution() = attribute(evidence, result_.given, {options_.most_effects, options_.significance}, progress_);
     say("final fit", 0);
-    Fit f = final_fit(whole, result_.given, attribution().final_fit, given_);
-    for (auto idle = idle_effects(f, given_); !idle.empty(); idle = idle_effects(f, given_)) {
-      const std::size_t gone = idle.back();
-      Fit without = f;
-      without.hypothesis = without_effect(f.hypothesis, gone);
-      std::erase_if(without.parameters, [&](const FitParameter& p) { return p.effect == static_cast<int>(gone); });
-      for (FitParameter& p : without.parameters)
-        if (p.effect > static_cast<int>(gone)) --p.effect;
-      attribution().namings.erase(attribution().namings.begin() + static_cast<std::ptrdiff_t>(gone - given_));
-      f = final_fit(whole, result_.given, without, given_);
+    fit_finally(evidence, whole, attribution().final_fit);
+    while (const std::optional<std::size_t> gone = idle_or_doubtful(evidence)) {
+      attribution().namings.erase(attribution().namings.begin() + static_cast<std::ptrdiff_t>(*gone - given_));
+      fit_finally(evidence, whole, fit_without(attribution().final_fit, *gone));
     }
-    attribution().final_fit = f;
-    attribution().final_score = evidence.score(f.hypothesis);
+  }
+
+  void fit_finally(const Evidence& evidence, const Evidence& whole, const Fit& start) {
+    attribution().final_fit = final_fit(whole, result_.given, start, given_);
+    attribution().final_score = evidence.score(final_hypothesis());
+  }
+
+  static Fit fit_without(Fit f, std::size_t effect) {
+    f.hypothesis = without_effect(f.hypothesis, effect);
+    std::erase_if(f.parameters, [&](const FitParameter& p) { return p.effect == static_cast<int>(effect); });
+    for (FitParameter& p : f.parameters)
+      if (p.effect > static_cast<int>(effect)) --p.effect;
+    return f;
+  }
+
+  /// An effect that the data do not determine; if there is none, the effect whose names are the least probable, if it is
+  /// more probable that all of them are wrong.
+  std::optional<std::size_t> idle_or_doubtful(const Evidence& evidence) {
+    if (const auto idle = idle_effects(attribution().final_fit, given_); !idle.empty()) return idle.back();
+    std::optional<std::size_t> doubtful;
+    double least = kRule.worth_a_name;
+    for (std::size_t e = given_; e < final_hypothesis().effects.size(); ++e) {
+      const double any =
+          probability_of_any_name(attribution().namings[e - given_], probability_of_none_for(evidence, e));
+      if (any >= least) continue;
+      least = any;
+      doubtful = e;
+    }
+    return doubtful;
   }
 
   /// One sine fits many effects alike: a name taken from it would be a guess.

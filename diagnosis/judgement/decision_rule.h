@@ -47,6 +47,9 @@ struct DecisionRule {
   double shared_gain = 0.5;
   /// s of P(none), see name_probability.h.
   double none_sharpness = 1.5;
+  /// An effect is told if this is the least probability that its name or one of its alternatives is right. Reason: below
+  /// one half it is more probable that all of them are wrong.
+  double worth_a_name = 0.5;
   /// The set of names that is reported holds the truth with this probability.
   double set_share = 0.9;
 

@@ -7,6 +7,12 @@
 
 namespace halyard {
 
+double probability_of_any_name(const Naming& naming, double none) {
+  double sum = naming.weight;
+  for (const Alternative& a : naming.alternatives) sum += a.probability;
+  return (1 - none) * sum;
+}
+
 std::vector<bool> convincing(const std::vector<Trial>& trials, double significance) {
   std::vector<double> p;
   for (const Trial& t : trials) {

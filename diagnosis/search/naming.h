@@ -12,6 +12,9 @@ struct Naming {
   std::vector<Alternative> alternatives;  ///< with their weights as probabilities
 };
 
+/// That the name or one of its alternatives is right. none: probability that no name is (name_probability.h).
+double probability_of_any_name(const Naming& naming, double none);
+
 /// For each trial: it can be named, and its gain is significant at this false discovery rate. A candidate that cannot
 /// be named counts among the tests but not among the discoveries.
 std::vector<bool> convincing(const std::vector<Trial>& trials, double significance);
