@@ -55,7 +55,8 @@ struct Named {
   std::vector<Parameter> parameters;
 };
 
-/// Errors of the joint position on the hold-out, RMS of each joint: of the given model, the revised one, the truth.
+/// Errors of the joint position on the hold-out, RMS of each joint: of the given model, the revised one, the truth. NaN
+/// for a joint without readings.
 struct HoldOutErrors {
   std::vector<double> before, after, true_model;
   /// (after² - before²) over its standard deviation, of each joint; see hold_out_errors().
@@ -79,8 +80,9 @@ struct Result {
   std::vector<Named> named;
   std::vector<int> unexplained;                               ///< joints from 1 on
   std::optional<double> probability_clean, probability_none;  ///< empty without a diagnosis
-  HoldOutErrors holdout;
-  double wall_s = 0;  ///< of diagnose(), beside the other trials that ran at that time
+  HoldOutErrors holdout;                                      ///< against the joints themselves: sensors without noise
+  HoldOutErrors sensed_holdout;  ///< against the same motion as the sensors of the training read it
+  double wall_s = 0;             ///< of diagnose(), beside the other trials that ran at that time
 };
 
 std::filesystem::path result_path(const std::filesystem::path& folder, const Situation& situation, int index);

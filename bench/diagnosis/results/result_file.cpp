@@ -120,6 +120,7 @@ Result result_from(const Json& all) {
   r.probability_clean = maybe(all.at("probability_clean"));
   r.probability_none = maybe(all.at("probability_none"));
   r.holdout = holdout_from(all.at("joint_position_rms"));
+  r.sensed_holdout = holdout_from(all.at("joint_position_rms_as_sensed"));
   r.wall_s = all.at("seconds").at("wall");
   return r;
 }
@@ -149,6 +150,7 @@ void write_result(const std::filesystem::path& folder, const Result& r) {
       {"probability_clean", maybe(r.probability_clean)},
       {"probability_none", maybe(r.probability_none)},
       {"joint_position_rms", to_json(r.holdout)},
+      {"joint_position_rms_as_sensed", to_json(r.sensed_holdout)},
       {"seconds", {{"wall", r.wall_s}}}};
   write_file_whole(result_path(folder, r.situation, r.index), all.dump(1) + "\n");
 }

@@ -2,6 +2,8 @@
 
 #include "bench/diagnosis/summary/calibration.h"
 
+#include <cmath>
+
 namespace halyard::blind {
 namespace {
 
@@ -163,17 +165,21 @@ std::string median_and_90(const std::vector<double>& x) {
 }
 
 /// Over the true model's error: only of trials whose truth a revised model can express.
-void add_ratio_lines(std::vector<Line>& lines, const Results& diagnosed, Sensors sensors) {
+/// errors: which hold-out, told in `against`.
+void add_ratio_lines(std::vector<Line>& lines, const Results& diagnosed, Sensors sensors, HoldOutErrors Result::*errors,
+                     const std::string& against) {
   std::vector<double> worst, mean;
   for (const Result* r : diagnosed) {
     if (r->situation.sensors != sensors || r->situation.kind == Kind::form || r->situation.kind == Kind::outside)
       continue;
-    const ErrorRatio ratio = error_ratio(*r, r->holdout.true_model);
+    const HoldOutErrors& e = r->*errors;
+    const ErrorRatio ratio = error_ratio(e.after, e.true_model);
+    if (!std::isfinite(ratio.mean)) continue;
     worst.push_back(ratio.worst);
     mean.push_back(ratio.mean);
   }
   if (worst.empty()) return;
-  const std::string what = "hold-out error over the true model's, " + sensor_text(sensors);
+  const std::string what = "hold-out error" + against + " over the true model's, " + sensor_text(sensors);
   lines.push_back({"7", what + ", mean of the joints: " + median_and_90(mean), "median 1.2", {}, {}, {}, {}});
   lines.push_back({"7", what + ", worst joint: " + median_and_90(worst), "", {}, {}, {}, {}});
 }
@@ -182,9 +188,11 @@ void add_holdout_lines(std::vector<Line>& lines, const Results& ran) {
   const Results diagnosed = those(ran, [](const Result& r) { return r.failure.empty() && !r.holdout.after.empty(); });
   if (diagnosed.empty()) return;
   for (const Sensors sensors : {Sensors::good, Sensors::poor, Sensors::motors})
-    add_ratio_lines(lines, diagnosed, sensors);
+    add_ratio_lines(lines, diagnosed, sensors, &Result::holdout, "");
+  for (const Sensors sensors : {Sensors::good, Sensors::poor})
+    add_ratio_lines(lines, diagnosed, sensors, &Result::sensed_holdout, ", as these sensors read it,");
   std::vector<double> over_given;
-  for (const Result* r : diagnosed) over_given.push_back(error_ratio(*r, r->holdout.before).worst);
+  for (const Result* r : diagnosed) over_given.push_back(error_ratio(r->holdout.after, r->holdout.before).worst);
   lines.push_back(
       {"7", "hold-out error over the given model's, worst joint: " + median_and_90(over_given), "", {}, {}, {}, {}});
   lines.push_back({"7",

@@ -88,10 +88,10 @@ Proportion interval_coverage(const Results& ran) {
   return s;
 }
 
-ErrorRatio error_ratio(const Result& r, const std::vector<double>& other) {
+ErrorRatio error_ratio(const std::vector<double>& error, const std::vector<double>& other) {
   double worst = 0, sum = 0, count = 0;
-  for (std::size_t k = 0; k < r.holdout.after.size(); ++k) {
-    const double ratio = r.holdout.after[k] / other[k];
+  for (std::size_t k = 0; k < error.size(); ++k) {
+    const double ratio = error[k] / other[k];
     if (!std::isfinite(ratio)) continue;  // a joint whose error cannot be told
     worst = std::max(worst, ratio);
     sum += std::log(ratio);

@@ -30,11 +30,11 @@ Proportion set_coverage(const Results& ran);
 /// Intervals of the effects that were named rightly, over their true parameters.
 Proportion interval_coverage(const Results& ran);
 
-/// Hold-out error of the revised model over another one's: the worst joint, and the geometric mean.
+/// Hold-out error over another one: the worst joint, and the geometric mean of the joints that have both; NaN if none.
 struct ErrorRatio {
   double worst, mean;
 };
-ErrorRatio error_ratio(const Result& r, const std::vector<double>& other);
+ErrorRatio error_ratio(const std::vector<double>& error, const std::vector<double>& other);
 /// A joint's error is above the given model's by at least 1 %, and by 3 standard deviations of the difference, estimated
 /// from the hold-out's seconds: about one such joint in a thousand by chance.
 bool rises_above_given(const Result& r);

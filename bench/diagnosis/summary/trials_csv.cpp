@@ -26,14 +26,15 @@ std::string line_of(const Result& r) {
   std::ranges::replace_if(
       failure, [](char c) { return c == ',' || c == '\n'; }, ';');
   const bool ran = r.failure.empty();
-  const double of_truth = ran ? error_ratio(r, r.holdout.true_model).worst : 0;
-  const double of_given = ran ? error_ratio(r, r.holdout.before).worst : 0;
-  return fmt::format("{},{},{},{},{},{},{},{:.0f},{:.4f},{},{},{},{},{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.2f}\n",
-                     word(r.situation.kind), word(r.situation.sensors), r.situation.off, r.index, r.seed, r.arm,
-                     r.joints, r.joint_rate_hz, r.latency_s, failure, joined(truth), joined(seen_from), r.verdict,
-                     joined(named), joined(probabilities), joined(alternatives), fmt::join(r.unexplained, "; "),
-                     probability(r.probability_clean), probability(r.probability_none), strictly_right(r) ? 1 : 0,
-                     loosely_right(r) ? 1 : 0, of_truth, of_given, r.wall_s);
+  const auto of_truth = [&](const HoldOutErrors& e) { return ran ? error_ratio(e.after, e.true_model).worst : 0; };
+  const double of_given = ran ? error_ratio(r.holdout.after, r.holdout.before).worst : 0;
+  return fmt::format(
+      "{},{},{},{},{},{},{},{:.0f},{:.4f},{},{},{},{},{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.2f}\n",
+      word(r.situation.kind), word(r.situation.sensors), r.situation.off, r.index, r.seed, r.arm, r.joints,
+      r.joint_rate_hz, r.latency_s, failure, joined(truth), joined(seen_from), r.verdict, joined(named),
+      joined(probabilities), joined(alternatives), fmt::join(r.unexplained, "; "), probability(r.probability_clean),
+      probability(r.probability_none), strictly_right(r) ? 1 : 0, loosely_right(r) ? 1 : 0, of_truth(r.holdout),
+      of_truth(r.sensed_holdout), of_given, r.wall_s);
 }
 
 }  // namespace
@@ -42,7 +43,7 @@ std::string trials_csv(const Results& all) {
   std::string text =
       "kind,sensors,off,index,seed,arm,joints,joint_rate_hz,latency_s,failure,truth,seen_from,verdict,named,"
       "probabilities,alternatives,unexplained,probability_clean,probability_none,strictly_right,loosely_right,"
-      "error_over_true_model,error_over_given,wall_s\n";
+      "error_over_true_model,error_over_true_model_as_sensed,error_over_given,wall_s\n";
   for (const Result* r : all) text += line_of(*r);
   return text;
 }

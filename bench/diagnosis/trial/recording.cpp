@@ -54,16 +54,21 @@ void check_that_it_followed(const ArmModel& robot, const Log& truth) {
   }
 }
 
-/// The log of a run without its fading in.
-Log record(Scenario scenario, const ArmModel& robot, const SensorDraw& sensors, Random& random) {
+/// The log of a run without its fading in, as each of these sensors reads it.
+std::vector<Log> record(Scenario scenario, const ArmModel& robot, const std::vector<SensorDraw>& sensors,
+                        Random& random) {
   scenario.robot = robot;
   // The sensors here add noise before they round.
   for (int k = 0; k < robot.n(); ++k) scenario.robot.nominal.joint[k].joint_encoder_resolution = 0;
   const SimulationResult run = simulate(faster(scenario));
   check_that_it_followed(robot, run.truth);
-  const Log log = read_sensors(sensors, run.measured, robot, random);
   const auto first = static_cast<std::size_t>(std::lround(kFadeIn / scenario.control_period_s));
-  return slice(log, first, log.size());
+  std::vector<Log> logs;
+  for (const SensorDraw& s : sensors) {
+    const Log log = read_sensors(s, run.measured, robot, random);
+    logs.push_back(slice(log, first, log.size()));
+  }
+  return logs;
 }
 
 Ranges ranges_of(const Scenario& training) {
@@ -108,11 +113,14 @@ Recording draw_recording(const ArmModel& raven2, const Situation& situation, int
   r.robot = controlled;
   mistune(r.robot, situation.off, r.hidden, random);
   for (const Hidden& h : r.hidden) r.robot.effects.push_back(h.acts);
-  r.training = record(training, r.robot, r.sensors, random);
+  r.training = record(training, r.robot, {r.sensors}, random)[0];
   r.training.source = "training";
-  r.holdout = record(holdout, r.robot, ideal_sensors(r.model), random);
-  r.holdout.source = "hold-out";
-  if (!r.hidden.empty()) r.seen_from = seen_from(r.model, record(training, controlled, r.sensors, random), r.hidden);
+  const std::vector<Log> holdouts = record(holdout, r.robot, {ideal_sensors(r.model), r.sensors}, random);
+  r.holdout = holdouts[0];
+  r.sensed_holdout = holdouts[1];
+  r.holdout.source = r.sensed_holdout.source = "hold-out";
+  if (!r.hidden.empty())
+    r.seen_from = seen_from(r.model, record(training, controlled, {r.sensors}, random)[0], r.hidden);
   return r;
 }
 

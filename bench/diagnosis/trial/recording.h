@@ -16,7 +16,8 @@ namespace halyard::blind {
 /// What the diagnosis is given, and what it is not.
 struct Recording {
   ArmModel model;         ///< given
-  Log training, holdout;  ///< given
+  Log training, holdout;  ///< given; the hold-out's sensors have no noise
+  Log sensed_holdout;     ///< the same motion as the hold-out, read by the training's sensors
   ArmModel robot;         ///< the truth
   SensorDraw sensors;
   std::vector<Hidden> hidden;

@@ -42,23 +42,22 @@ class SquaredErrors {
   std::vector<double> sum_, count_;
 };
 
-/// Over the diagnosis' own hold-out.
-HoldOutErrors hold_out_errors(const Diagnosis& d, const ArmModel& robot) {
+/// Of the models on the records of a hold-out.
+HoldOutErrors hold_out_errors(const std::vector<Record>& records, const Diagnosis& d, const ArmModel& robot) {
   HoldOutErrors errors;
-  const HoldOut& view = d.details->joint_view;
-  std::vector<FullPrediction> truth;
-  for (const Record& record : view.records) truth.push_back(predict_fully(record, {robot.nominal, robot.effects}));
+  const auto by = [&](const ArmModel& model) { return predict_all(records, {model.nominal, model.effects}); };
+  const std::vector<FullPrediction> given = by(d.given), revised = by(d.revised), truth = by(robot);
   for (int k = 0; k < robot.n(); ++k) {
     SquaredErrors before, after, true_model;
-    for (std::size_t r = 0; r < view.records.size(); ++r) {
-      const Record& record = view.records[r];
+    for (std::size_t r = 0; r < records.size(); ++r) {
+      const Record& record = records[r];
       long second = -1;
       for (std::size_t i = 0; record.has_joint(k) && i < record.size; ++i) {
         const double q = record.joint_raw[k][i], of_truth = q - truth[r].joint_reading[k][i];
         if (!(record.joint_valid[k][i] > 0) || std::isnan(of_truth)) continue;
         const long now = std::lround(std::floor(record.time(i)));
-        before.add(q - view.before[r].joint_reading[k][i], now != second);
-        after.add(q - view.after[r].joint_reading[k][i], now != second);
+        before.add(q - given[r].joint_reading[k][i], now != second);
+        after.add(q - revised[r].joint_reading[k][i], now != second);
         true_model.add(of_truth, now != second);
         second = now;
       }
@@ -73,13 +72,16 @@ HoldOutErrors hold_out_errors(const Diagnosis& d, const ArmModel& robot) {
 
 }  // namespace
 
-void take_over(const Diagnosis& d, const ArmModel& robot, Result& r) {
+void take_over(const Diagnosis& d, const Recording& recording, Result& r) {
+  const ArmModel& robot = recording.robot;
   r.verdict = verdict_word(d.verdict);
   for (const NamedEffect& e : d.effects) r.named.push_back(named_of(e, robot.n()));
   for (const Unexplained& u : d.unexplained) r.unexplained.push_back(u.joint + 1);
   r.probability_clean = d.probability_clean;
   r.probability_none = d.probability_none;
-  r.holdout = hold_out_errors(d, robot);
+  r.holdout = hold_out_errors(d.details->joint_view.records, d, robot);
+  const DiagnosisData sensed = diagnosis_data(d.given, {recording.training}, recording.sensed_holdout);
+  r.sensed_holdout = hold_out_errors(sensed.joint_view.records, d, robot);
 }
 
 }  // namespace halyard::blind

@@ -1,12 +1,13 @@
 #pragma once
 /// What a diagnosis says, in the words of a result.
 
-#include "bench/diagnosis/draw/hidden.h"
+#include "bench/diagnosis/results/result.h"
+#include "bench/diagnosis/trial/recording.h"
 #include "diagnosis/diagnose.h"
 
 namespace halyard::blind {
 
-/// Verdict, names, probabilities and hold-out errors. robot: the truth.
-void take_over(const Diagnosis& d, const ArmModel& robot, Result& r);
+/// Verdict, names, probabilities and hold-out errors.
+void take_over(const Diagnosis& d, const Recording& recording, Result& r);
 
 }  // namespace halyard::blind

@@ -59,6 +59,7 @@ void write_logs(const std::filesystem::path& folder, const Recording& recording)
   write_file_whole(folder / "truth.xml", model_to_xml(recording.robot));
   write_log(folder / "train.csv", recording.training);
   write_log(folder / "holdout.csv", recording.holdout);
+  write_log(folder / "holdout_as_sensed.csv", recording.sensed_holdout);
 }
 
 }  // namespace
@@ -86,7 +87,7 @@ Result run_trial(const ArmModel& raven2, const Situation& situation, int index, 
     return r;
   }
   r.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
-  take_over(d, recording->robot, r);
+  take_over(d, *recording, r);
   return r;
 }
 

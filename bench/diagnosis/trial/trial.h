@@ -13,7 +13,7 @@
 /// effect changes: their change is the effect's.
 ///
 /// Logs start after the motion has faded in: 30 s of training, and 10 s of another motion as hold-out, whose sensors
-/// have no noise. Both have the same clock, which starts with each run: what happens at an instant happens in both.
+/// have no noise. Errors are also counted against the hold-out as the training's sensors would read it. Both have the same clock, which starts with each run: what happens at an instant happens in both.
 /// Motors are disturbed by up to 5 % of their friction, control gains scatter by ±40 %.
 
 #include <cstdint>
