@@ -89,6 +89,13 @@ class Diagnoser {
       attribution().namings.erase(attribution().namings.begin() + static_cast<std::ptrdiff_t>(*gone - given_));
       fit_finally(evidence, whole, fit_without(attribution().final_fit, *gone));
     }
+    changed_ = changed_numbers(whole, result_.given, attribution().final_fit);
+    // A model that lacks nothing stays as it is.
+    if (!changed_.empty() || final_hypothesis().effects.size() > given_) return;
+    const Fit as_given = with_given_numbers(whole, result_.given, attribution().final_fit);
+    if (!as_given.usable) return;
+    attribution().final_fit = as_given;
+    attribution().final_score = evidence.score(final_hypothesis());
   }
 
   void fit_finally(const Evidence& evidence, const Evidence& whole, const Fit& start) {
@@ -158,12 +165,10 @@ class Diagnoser {
       for (std::size_t a = 0; a < named.alternatives.size(); ++a) named.alternatives[a].in_set = in[a + 1];
       result_.effects.push_back(std::move(named));
     }
-    for (std::size_t i = 0; i < f.parameters.size(); ++i) {
+    for (const std::size_t i : changed_) {
       const FitParameter& p = f.parameters[i];
-      const bool was_unknown = p.effect < 0 && is_unknown_scale(model_, p.index);
-      if (!was_unknown && !is_refit(f, i)) continue;
       result_.refitted.push_back(estimated(f, i));
-      if (was_unknown) result_.refitted.back().nominal = parameter_value({model_.nominal, {}}, p);
+      if (is_unknown_scale(model_, p.index)) result_.refitted.back().nominal = parameter_value({model_.nominal, {}}, p);
     }
   }
 
@@ -318,7 +323,8 @@ class Diagnoser {
   const std::vector<Log>& training_;
   const DiagnosisOptions& options_;
   const Progress& progress_;
-  std::size_t given_;  ///< effects that the model came with
+  std::size_t given_;                 ///< effects that the model came with
+  std::vector<std::size_t> changed_;  ///< see changed_numbers()
   std::shared_ptr<DiagnosisDetails> details_ = std::make_shared<DiagnosisDetails>();
   Diagnosis result_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "diagnosis/record/resting.h"
 #include "model/input_error.h"
@@ -52,6 +53,9 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model, Split spl
   for (const Record& r : records_) total += r.dt * static_cast<double>(r.size), dt = std::min(dt, r.dt);
   stride_ = std::max(1, static_cast<int>(std::lround(1 / (kRowRate * dt))));
   correlated_rows_ = std::max(1.0, kCorrelationTime / (stride_ * dt));
+  // The autocorrelation of white noise behind a Gaussian filter is exp(-t² / (4 σ²)).
+  const double noise_s = 2 * std::sqrt(std::numbers::pi) * records_.front().compare_sigma;
+  noise_rows_ = std::max(1.0, noise_s / (stride_ * dt));
   block_s_ = std::clamp(total / 60, kCorrelationTime, 1.0);
 
   channel_rows_.assign(channels(), 0);
@@ -125,6 +129,7 @@ void Evidence::find_floors(const ArmModel& model) {
           std::max(floor_[n_ + k], kResolutionFloor * (told > 0 ? told : smallest_step(record.joint_raw[k])));
     }
   }
+  resolved_ = floor_;
   for (int c = 0; c < channels(); ++c) floor_[c] = std::max(floor_[c], noise_[c].in_band);
 }
 

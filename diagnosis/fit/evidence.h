@@ -56,6 +56,8 @@ class Evidence {
   /// is larger. A joint's sensor resolves its rounding. For a motor's torque the limit is a fraction of the torque's
   /// own size. [2n]
   const std::vector<double>& floor() const { return floor_; }
+  /// The part of the floor that is not noise: what each channel's sensor resolves. [2n]
+  const std::vector<double>& resolved() const { return resolved_; }
   /// Noise of each channel. [2n]
   const std::vector<ChannelNoise>& noise() const { return noise_; }
   /// Root mean square of a change of the fitting rows, divided by the floor of its channel; the largest of all
@@ -64,6 +66,8 @@ class Evidence {
   bool exceeds_floor(const std::vector<double>& change, double times) const { return over_floor(change) > times; }
   /// Number of rows that equal one independent sample, because residuals are correlated.
   double correlated_rows() const { return correlated_rows_; }
+  /// The same for a sensor's white noise, which only the filter of the residuals correlates.
+  double noise_rows() const { return noise_rows_; }
   /// From the first to the last sample of all records, s.
   Span time_span() const { return time_span_; }
   /// Range of joint k's motion, from its sensor or from the motors.
@@ -95,7 +99,7 @@ class Evidence {
 
   int n_;
   int stride_ = 1;
-  double correlated_rows_ = 1;
+  double correlated_rows_ = 1, noise_rows_ = 1;
   double block_s_ = 1;
   std::vector<int> first_block_;  ///< [record]
   std::vector<Record> records_;
@@ -105,7 +109,7 @@ class Evidence {
   std::vector<int> channel_rows_, fit_count_;
   std::vector<std::vector<int>> block_count_;
   std::vector<ChannelNoise> noise_;
-  std::vector<double> floor_;
+  std::vector<double> floor_, resolved_;
   Span time_span_ = {};
   std::vector<Span> joint_span_, motor_span_;
 };

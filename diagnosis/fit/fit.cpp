@@ -36,10 +36,10 @@ double spacing_around(const std::vector<double>& starts, double value) {
 class Residual : public ceres::CostFunction {
  public:
   Residual(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& parameters,
-           const std::vector<double>& scale, const std::vector<std::vector<double>>& linear)
+           const std::vector<double>& scale, const std::vector<double>& correlated_rows,
+           const std::vector<std::vector<double>>& linear)
       : evidence_(evidence), start_(start), parameters_(parameters), linear_(linear) {
-    for (const int c : evidence.row_channel())
-      weight_.push_back(1 / (scale[c] * std::sqrt(evidence.correlated_rows())));
+    for (const int c : evidence.row_channel()) weight_.push_back(1 / (scale[c] * std::sqrt(correlated_rows[c])));
     for (std::size_t i = 0; i < parameters.size(); ++i)
       if (parameters[i].effect < 0) prior_.push_back(static_cast<int>(i));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
@@ -330,6 +330,17 @@ std::vector<double> channel_scale(const Evidence& evidence, const std::vector<do
   return scale;
 }
 
+std::vector<double> independent_rows(const Evidence& evidence, const std::vector<double>& scale) {
+  std::vector<double> rows(evidence.channels(), 1.0);
+  for (int c = 0; c < evidence.channels(); ++c) {
+    if (!evidence.has_channel(c)) continue;
+    const double square = scale[c] * scale[c], noise = std::pow(evidence.noise()[c].in_band, 2);
+    const double of_model = std::max(square - noise, std::pow(evidence.resolved()[c], 2));
+    rows[c] = (noise * evidence.noise_rows() + of_model * evidence.correlated_rows()) / square;
+  }
+  return rows;
+}
+
 std::vector<std::vector<double>> sensitivities(const Evidence& evidence, const Hypothesis& at,
                                                const std::vector<FitParameter>& parameters) {
   std::vector<Hypothesis> all = {at};
@@ -358,7 +369,9 @@ Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<Fit
     result.usable = true;
     return result;
   }
-  Residual residual(evidence, start, parameters, scale, linear);
+  std::vector<double> correlated_rows = options.correlated_rows;
+  if (correlated_rows.empty()) correlated_rows.assign(evidence.channels(), evidence.correlated_rows());
+  Residual residual(evidence, start, parameters, scale, correlated_rows, linear);
   std::vector<double> u;
   for (std::size_t i = 0; i < parameters.size(); ++i)
     u.push_back((parameter_value(start, parameters[i]) - residual.origin(i)) / parameters[i].scale);

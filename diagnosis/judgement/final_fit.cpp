@@ -15,14 +15,12 @@ namespace {
 /// Resets uncertain parameters of a fit. The effect of a reset on the other parameters is computed to first order.
 class UncertainParameters {
  public:
-  /// reach: the largest root mean square over the channels, in floors, of the change by one unit of each parameter.
-  UncertainParameters(const ArmModel& model, const Fit& fit, std::vector<double> reach, std::size_t given,
-                      bool numbers_may_go)
-      : model_(model),
-        reach_(std::move(reach)),
+  /// may_go: the parameters that may be reset. reach: the largest root mean square over the channels, in floors, of the
+  /// change by one unit of each parameter.
+  UncertainParameters(const Fit& fit, std::vector<bool> may_go, std::vector<double> reach)
+      : reach_(std::move(reach)),
         fit_(fit),
-        given_(static_cast<int>(given)),
-        numbers_may_go_(numbers_may_go),
+        may_go_(std::move(may_go)),
         value_(Eigen::Map<const Eigen::VectorXd>(fit.value.data(), static_cast<Eigen::Index>(fit.value.size()))),
         covariance_(fit.covariance),
         kept_(fit.parameters.size(), true),
@@ -37,7 +35,7 @@ class UncertainParameters {
       std::size_t least = kept_.size();
       double smallest = 1;
       for (std::size_t i = 0; i < kept_.size(); ++i)
-        if (const double has = may_go(i) ? certainty(i) : 1; has < smallest) smallest = has, least = i;
+        if (const double has = kept_[i] && may_go_[i] ? certainty(i) : 1; has < smallest) smallest = has, least = i;
       if (least == kept_.size()) break;
       reset(static_cast<Eigen::Index>(least));
     }
@@ -48,12 +46,6 @@ class UncertainParameters {
   }
 
  private:
-  bool may_go(std::size_t i) const {
-    const FitParameter& p = fit_.parameters[i];
-    if (!kept_[i] || p.shape) return false;
-    return p.effect < 0 ? numbers_may_go_ && !is_unknown_scale(model_, p.index) : p.effect >= given_;
-  }
-
   /// Change over the smallest change that is significant.
   double certainty(std::size_t i) const {
     if (is_exhausted(i)) return 0;
@@ -81,19 +73,22 @@ class UncertainParameters {
     kept_[static_cast<std::size_t>(i)] = false;
   }
 
-  const ArmModel& model_;
   std::vector<double> reach_;
   const Fit& fit_;
-  int given_;
-  bool numbers_may_go_;
+  std::vector<bool> may_go_;
   Eigen::VectorXd value_;
   Eigen::MatrixXd covariance_;
   std::vector<bool> kept_;
   std::vector<ParameterGroup> groups_;
 };
 
-std::vector<double> scale_at(const Evidence& whole, const Hypothesis& h) {
-  return channel_scale(whole, whole.score(h).fit_mean_square);
+/// Fits with the weights that the residual at the start tells. The data then count against the tolerances as much as
+/// they are worth: noise of a sensor counts by its samples, an error of the model by its correlation time.
+Fit weighed_fit(const Evidence& whole, const Hypothesis& start, const std::vector<FitParameter>& parameters) {
+  const std::vector<double> scale = channel_scale(whole, whole.score(start).fit_mean_square);
+  FitOptions options;
+  options.correlated_rows = independent_rows(whole, scale);
+  return fit(whole, start, parameters, scale, options);
 }
 
 /// Of each parameter of the fit, see UncertainParameters; infinite if it cannot be computed.
@@ -104,24 +99,11 @@ std::vector<double> reach_in_floors(const Evidence& whole, const Fit& f) {
   return reach;
 }
 
-/// True if a channel has a residual beyond noise that is larger than before: then the model's numbers are uncertain only
-/// because they can stand in for each other.
-bool leaves_more(const Evidence& whole, const Hypothesis& now, const Hypothesis& before) {
-  constexpr double kMore = 1.05;
-  const Score left = whole.score(now), had = whole.score(before);
-  if (!left.finite) return true;
-  for (int c = 0; c < whole.channels(); ++c) {
-    const double allowed =
-        std::max(kRule.explained_ratio * whole.floor()[c], kMore * std::sqrt(had.fit_mean_square[c]));
-    if (whole.has_channel(c) && std::sqrt(left.fit_mean_square[c]) > allowed) return true;
-  }
-  return false;
-}
-
-/// Resets until all that is left is certain. numbers_may_go: the model's numbers, too.
-Fit keep_certain_parameters(const Evidence& whole, const ArmModel& model, const Fit& f, std::size_t given,
-                            bool numbers_may_go = true) {
-  UncertainParameters uncertain(model, f, reach_in_floors(whole, f), given, numbers_may_go);
+/// Resets the sizes of added effects until all that are left are certain. The numbers of the model stay in the fit.
+Fit keep_certain_sizes(const Evidence& whole, const Fit& f, std::size_t given) {
+  std::vector<bool> is_size;
+  for (const FitParameter& p : f.parameters) is_size.push_back(p.effect >= static_cast<int>(given) && !p.shape);
+  UncertainParameters uncertain(f, is_size, std::vector<double>(f.parameters.size(), 0));
   uncertain.reset_all();
   Hypothesis h = f.hypothesis;
   std::vector<FitParameter> left;
@@ -132,21 +114,37 @@ Fit keep_certain_parameters(const Evidence& whole, const ArmModel& model, const 
     if (kept) left.push_back(p);
   }
   if (left.size() == f.parameters.size()) return f;
-  const Fit again = fit(whole, h, left, scale_at(whole, f.hypothesis));
-  if (!again.usable) return f;
-  if (numbers_may_go && leaves_more(whole, again.hypothesis, f.hypothesis))
-    return keep_certain_parameters(whole, model, f, given, false);
+  const Fit again = weighed_fit(whole, h, left);
   // What was certain beside what is gone may not be so any more.
-  return keep_certain_parameters(whole, model, again, given, numbers_may_go);
+  return again.usable ? keep_certain_sizes(whole, again, given) : f;
 }
 
 }  // namespace
 
 Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given) {
-  const std::vector<double> scale = scale_at(whole, chosen.hypothesis);
+  const std::vector<double> scale = channel_scale(whole, whole.score(chosen.hypothesis).fit_mean_square);
   const Hypothesis start = nudged(whole, chosen.hypothesis, given, model.nominal, scale);
-  const Fit all = fit(whole, start, chosen.parameters, scale_at(whole, start));
-  return keep_certain_parameters(whole, model, all.usable ? all : chosen, given);
+  const Fit all = weighed_fit(whole, start, chosen.parameters);
+  return keep_certain_sizes(whole, all.usable ? all : chosen, given);
+}
+
+std::vector<std::size_t> changed_numbers(const Evidence& whole, const ArmModel& model, const Fit& fit) {
+  std::vector<bool> may_go;
+  for (const FitParameter& p : fit.parameters) may_go.push_back(p.effect < 0 && !is_unknown_scale(model, p.index));
+  UncertainParameters uncertain(fit, may_go, reach_in_floors(whole, fit));
+  uncertain.reset_all();
+  std::vector<std::size_t> changed;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+    if (fit.parameters[i].effect < 0 && uncertain.kept()[i]) changed.push_back(i);
+  return changed;
+}
+
+Fit with_given_numbers(const Evidence& whole, const ArmModel& model, const Fit& f) {
+  Hypothesis h = f.hypothesis;
+  h.nominal = model.nominal;
+  std::vector<FitParameter> others = f.parameters;
+  std::erase_if(others, [](const FitParameter& p) { return p.effect < 0; });
+  return weighed_fit(whole, h, others);
 }
 
 std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given) {
@@ -162,11 +160,6 @@ std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given) {
 double interval_factor(const Fit& fit) {
   constexpr double kTwoSided95 = 0.025;
   return t_quantile(std::max(1, fit.blocks - 1), kTwoSided95);
-}
-
-bool is_refit(const Fit& fit, std::size_t i) {
-  const FitParameter& p = fit.parameters[i];
-  return p.effect < 0 && std::abs(fit.value[i] - p.nominal) > kRule.refit_deviations * fit.std_deviation[i];
 }
 
 }  // namespace halyard

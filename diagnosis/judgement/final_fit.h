@@ -5,11 +5,13 @@
 
 namespace halyard {
 
-/// Fits the parameters of `chosen` again on `whole`, an Evidence without deciding blocks. Then parameters that did not
-/// change significantly are reset, one at a time, the least certain first, and the others are fitted again. A number of
-/// the model is reset to its own value, also if its change moves no channel by its floor. A size of an effect is reset
-/// to its neutral value. If the data determine only a combination of two parameters, one of them keeps its change. An
-/// effect all of whose sizes are reset has no parameter in the result.
+/// Fits the parameters of `chosen` again on `whole`, an Evidence without deciding blocks. The channels have
+/// the weights of independent_rows().
+///
+/// All numbers of the model stay in the fit, held by their tolerances: a number that was set back to the model's value
+/// would be taken for exact, and what it is off would go into the effects' parameters. Sizes of effects that did not
+/// change significantly are reset to neutral, one at a time, the least certain first, and the others are fitted again.
+/// An effect all of whose sizes are reset has no parameter in the result.
 /// given: number of effects that the model came with; they stay.
 Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given);
 
@@ -19,7 +21,12 @@ std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given);
 /// Half of the 95 % interval over the standard deviation: Student's quantile for the fit's blocks.
 double interval_factor(const Fit& fit);
 
-/// True if the refitted number of the model differs from it significantly.
-bool is_refit(const Fit& fit, std::size_t parameter);
+/// The numbers of the model that the data changed significantly, as indices of the fit's parameters, and torque scales
+/// that the model does not know. A change that moves no channel by its floor does not count. If the data determine only
+/// a combination of two numbers, one of them counts.
+std::vector<std::size_t> changed_numbers(const Evidence& whole, const ArmModel& model, const Fit& fit);
+
+/// The fit with the numbers of the model as given; only its other parameters are fitted.
+Fit with_given_numbers(const Evidence& whole, const ArmModel& model, const Fit& fit);
 
 }  // namespace halyard

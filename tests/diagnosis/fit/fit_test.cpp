@@ -1,11 +1,14 @@
-/// A fit says what it came to in its result, and writes nothing.
+/// A fit says what it came to in its result, and writes nothing. Its rows count as much as they are worth.
 
 #include "diagnosis/fit/fit.h"
 
 #include <glog/logging.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
+#include <random>
 
 #include "diagnosis/diagnose.h"
 #include "plant/simulate.h"
@@ -32,6 +35,25 @@ TEST(Fit, LeavesTheLogOfTheProgramAlone) {
   EXPECT_FALSE(fit_from(impossible).usable) << "its motion cannot be integrated";
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(FLAGS_minloglevel, level);
+}
+
+TEST(IndependentRows, ManyOfNoiseAndFewOfErrorsOfTheModel) {
+  const ArmModel model = first_joints(1);
+  Log log = simulate(motion(model, 6)).measured;
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 20 * model.nominal.joint[0].joint_encoder_resolution);
+  for (double& q : log.joint_position[0]) q += noise(random);
+  const Evidence evidence(make_records(log, model, {}), model);
+  // Residuals of 20 Hz, 50 times a second: 2 √π σ_t = 1 / (20 √π) s.
+  EXPECT_NEAR(evidence.noise_rows(), 50 / (20 * std::sqrt(std::numbers::pi)), 1e-9);
+  EXPECT_GT(evidence.correlated_rows(), 8 * evidence.noise_rows());
+
+  std::vector<double> scale = evidence.floor();
+  // The sensor's resolution is a twentieth of its noise before the filter, and about a tenth behind it.
+  EXPECT_NEAR(independent_rows(evidence, scale)[1], evidence.noise_rows(), 0.2 * evidence.noise_rows());
+  for (double& s : scale) s *= 100;
+  // The noise is a ten-thousandth of such a mean square.
+  EXPECT_NEAR(independent_rows(evidence, scale)[1], evidence.correlated_rows(), 2e-4 * evidence.correlated_rows());
 }
 
 }  // namespace
