@@ -259,7 +259,7 @@ void check_clipped_torque(LogUnderCheck& c, int k) {
   if (s.size() < 20 || usual == 0) return;
   const auto [low, high] = std::ranges::minmax(s.x);
   for (const double end : {low, high}) {
-    const bool is_limit = limit > 0 && std::abs(std::abs(end) / limit - 1) < 0.02;
+    const bool is_limit = limit > 0 && std::abs(std::abs(end) / limit - 1) < c.rule.at_limit;
     double held = 0;
     for (const Run& run : runs_of(s.x))
       if (s.x[run.begin] == end && run.size() >= 3) held += static_cast<double>(run.size());

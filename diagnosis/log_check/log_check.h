@@ -61,7 +61,9 @@ struct LogCheckRule {
   double swap_leaves = 0.25, own_torque = 0.9;
   /// A torque's size may deviate by this factor because of effects: friction times three and a payload together.
   double torque_ratio = 6;
-  /// A unit explains the size of a torque within this factor; effects change the size as well.
+  /// A unit explains the size of a torque within this factor; effects change the size as well. A motor that saturates
+  /// explains it if it does so better than every factor within this one (saturating_torque.h), by a log-likelihood of
+  /// significance² / 2.
   double torque_unit = 2.5;
   /// Samples further apart than this count as independent, s. The same time as in the diagnosis' tests.
   double independent_s = 0.25;
@@ -90,6 +92,8 @@ struct LogCheckRule {
   double outlier = 10;
   /// A torque that stays at exactly its largest value for this share of the samples is clipped.
   double clipped = 0.01;
+  /// A torque is at the model's torque_limit within this share of it: sensors of current err by about 1 %.
+  double at_limit = 0.02;
 };
 
 /// Findings about a log, the most fundamental first. A gross finding about the clock or a counter ends the

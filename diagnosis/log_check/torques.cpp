@@ -7,6 +7,7 @@
 #include "diagnosis/calibration/torque_comparison.h"
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/robust.h"
+#include "diagnosis/log_check/saturating_torque.h"
 #include "model/input_error.h"
 
 namespace halyard {
@@ -59,7 +60,33 @@ void check_torque_sign(LogUnderCheck& c, const SampledMotion& m, int k, const Co
   c.correct(&Log::motor_torque, k, {.factor = -1});
 }
 
-void check_torque_unit(LogUnderCheck& c, int k, const Correlation& r) {
+/// True if a motor that saturates explains the required torque significantly better than a factor of about `unit`.
+bool saturates(const LogUnderCheck& c, const TorqueComparison& t, int k, double unit, const Correlation& r) {
+  const double independent = static_cast<double>(r.n) * t.step / c.rule.independent_s;
+  return evidence_of_saturation(t.recorded[k], t.needed[k], unit / c.rule.torque_unit, unit * c.rule.torque_unit,
+                                independent) > 0.5 * c.rule.significance * c.rule.significance;
+}
+
+/// True if the recorded torque stops at the torque_limit of the model's controller. In another unit it would stop
+/// elsewhere.
+bool stops_at_limit_of_model(const LogUnderCheck& c, int k) {
+  const double limit = c.model.joints[k].controller.torque_limit;
+  std::vector<double> size = c.log.motor_torque[k];
+  for (double& x : size) x = std::abs(x);
+  // From the share of samples that counts as clipped up to all but a tenth of them.
+  for (const double beyond : {c.rule.clipped, 0.1 * c.rule.clipped})
+    if (!(limit > 0) || !(std::abs(quantile(size, 1 - beyond) / limit - 1) < c.rule.at_limit)) return false;
+  return true;
+}
+
+/// Why the size of a torque is no matter of its unit, if so.
+std::string not_of_unit(const LogUnderCheck& c, const TorqueComparison& t, int k, double unit, const Correlation& r) {
+  if (stops_at_limit_of_model(c, k)) return ", but it stops at the model's torque_limit, as in the right unit";
+  if (saturates(c, t, k, unit, r)) return ", but about the recorded torque where that is small";
+  return "";
+}
+
+void check_torque_unit(LogUnderCheck& c, const TorqueComparison& t, int k, const Correlation& r) {
   if (r.r < c.rule.torque_goes_with || !has_known_scale(c, k)) return;
   if (std::abs(std::log(r.size)) < std::log(c.rule.torque_ratio)) return;
   const double gear = c.model.nominal.joint[k].gear_ratio;
@@ -79,6 +106,8 @@ void check_torque_unit(LogUnderCheck& c, int k, const Correlation& r) {
       fmt::format("if it is a current or a voltage, state torque_scale=\"1\" in <tolerances> of joint {}", k + 1);
   if (misfit(best) > std::log(c.rule.torque_unit))
     return c.suspect(torque, seen, "give the column its unit or scale; " + current);
+  if (const std::string why = not_of_unit(c, t, k, best.factor, r); !why.empty())
+    return c.suspect(torque, seen + why, "nothing to do if the motor saturates below its command");
   const Correction correction{.factor = best.factor};
   c.reject(torque, seen + ", as if it were " + best.what,
            "read it with " + c.option(torque, correction) + "; " + current);
@@ -125,7 +154,7 @@ void check_torques(LogUnderCheck& c) {
   for (int k = 0; t && k < c.n(); ++k) {
     const Correlation r = significant(c, *t, k, k);
     if (r.r < c.rule.torque_opposes) check_torque_sign(c, m, k, r);
-    else check_torque_unit(c, k, r);
+    else check_torque_unit(c, *t, k, r);
   }
 }
 
