@@ -275,7 +275,8 @@ class Diagnoser {
       view->before = predict_all(view->records, before);
       view->after = predict_all(view->records, final_hypothesis());
     }
-    const std::vector<int> worse = worse_joints(joints, torques, evidence.floor());
+    const std::vector<int> worse =
+        worse_joints(joints, torques, holdout_floors(evidence, result_.given, joints, torques));
     if (!worse.empty() && !(result_.effects.empty() && result_.refitted.empty())) {
       std::string names;
       for (const NamedEffect& e : result_.effects) names += (names.empty() ? "" : ", ") + effect_label(e.effect);

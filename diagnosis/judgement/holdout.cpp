@@ -6,6 +6,7 @@
 #include <map>
 
 #include "diagnosis/calibration/lateness.h"
+#include "diagnosis/fit/fit.h"
 #include "diagnosis/judgement/paired_t.h"
 #include "diagnosis/record/resting.h"
 
@@ -73,6 +74,28 @@ bool grows(const HoldOut& view, int k, double floor, ErrorOfSample error) {
   std::vector<double> differences;
   for (const auto& [at, squares] : second) differences.push_back(squares.second - squares.first);
   return p_value(paired(differences)) < kSignificance;
+}
+
+/// Root mean square of the change of a channel that the tolerances of the model cause together; NaN without samples.
+double tolerance_spread(const std::vector<Record>& records, const ArmModel& model, int channel) {
+  constexpr int kStride = 10;  // residuals change slowly with the model's numbers
+  std::vector<Hypothesis> all = {{model.nominal, model.effects}};
+  for (const FitParameter& p : baseline_parameters(model)) {
+    all.push_back(all[0]);
+    set_parameter(all.back(), p, p.upper);
+  }
+  double sum = 0, count = 0;
+  for (const Record& record : records) {
+    const std::vector<Residuals> e = predict(record, all, kStride);
+    const std::vector<double>& given = e[0].channel[channel];
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      if (std::isnan(given[i])) continue;
+      count += 1;
+      for (std::size_t p = 1; p < e.size(); ++p)
+        sum += e[p].finite ? std::pow(e[p].channel[channel][i] - given[i], 2) : 0;
+    }
+  }
+  return std::sqrt(sum / count);
 }
 
 }  // namespace
@@ -156,6 +179,19 @@ std::vector<FullPrediction> predict_all(const std::vector<Record>& records, cons
   std::vector<FullPrediction> all;
   for (const Record& r : records) all.push_back(predict_fully(r, hypothesis));
   return all;
+}
+
+std::vector<double> holdout_floors(const Evidence& evidence, const ArmModel& model, const HoldOut& joints,
+                                   const HoldOut& torques) {
+  std::vector<double> floor = evidence.floor();
+  for (int c = 0; c < evidence.channels(); ++c) {
+    const std::vector<Record>& records = (c < evidence.n() ? torques : joints).records;
+    const int k = c % evidence.n();
+    const bool is_shown = std::ranges::any_of(
+        records, [&](const Record& r) { return c < evidence.n() ? r.has_torque(k) : r.has_joint(k); });
+    if (is_shown && !evidence.has_channel(c)) floor[c] = std::max(floor[c], tolerance_spread(records, model, c));
+  }
+  return floor;
 }
 
 std::vector<int> worse_joints(const HoldOut& joints, const HoldOut& torques, const std::vector<double>& floor) {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "diagnosis/diagnose.h"
-#include "diagnosis/prediction/prediction.h"
+#include "diagnosis/fit/evidence.h"
 
 namespace halyard {
 
@@ -54,8 +54,17 @@ PredictionError prediction_errors(const HoldOut& joints, const HoldOut& torques,
 /// Predictions of all records.
 std::vector<FullPrediction> predict_all(const std::vector<Record>& records, const Hypothesis& hypothesis);
 
+/// [2n] The floor of each channel on the hold-out. It is the evidence's floor, except for a channel that no training data
+/// show: nothing was fitted to it, so the model's numbers are wrong there by as much as their tolerances allow. A change of
+/// the model that is right elsewhere may add to this error by chance, but by less than the error itself.
+///
+///   floor² = mean over samples of Σ_p (∂r/∂θ_p · tolerance_p)²        r: residual, θ_p: numbers of the model
+std::vector<double> holdout_floors(const Evidence& evidence, const ArmModel& model, const HoldOut& joints,
+                                   const HoldOut& torques);
+
 /// 0-based joints of which `after` predicts the position or the torque worse than `before`. Worse means that the mean
-/// square grows significantly, by a paired t test over seconds, and by at least a fortieth and one squared floor [2n].
+/// square grows significantly, by a paired t test over seconds, and by at least a fortieth and one squared floor [2n],
+/// see holdout_floors().
 std::vector<int> worse_joints(const HoldOut& joints, const HoldOut& torques, const std::vector<double>& floor);
 
 }  // namespace halyard

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "diagnosis/record/resting.h"
+#include "plant/simulate.h"
 #include "tests/support/limits.h"
+#include "tests/support/short_arm.h"
 
 namespace halyard {
 namespace {
@@ -82,6 +84,30 @@ TEST(HoldOutError, IgnoresSamplesThatAreNotCompared) {
   const auto e = errors_with(record, [](std::size_t i) { return i == 7 ? 100.0 : 0.0; });
   EXPECT_EQ(e.joint_peak[0], 0);
   EXPECT_EQ(e.torque.bias[0], 0);
+}
+
+/// The training data have no joint sensor, the hold-out has one. A drive's ratio that is off within its tolerance moves
+/// the joint's reading: nothing that the training data could tell, and no reason to give up what they told.
+TEST(HoldOutFloors, AllowTheTolerancesWhereNoTrainingDataAre) {
+  const ArmModel model = first_joints(1);
+  const Log holdout = simulate(motion(model, 4, 1)).measured;
+  Log training = simulate(motion(model, 4)).measured;
+  training.joint_position[0].clear();
+  const Evidence evidence(make_records(training, model, {}), model);
+  HoldOut joints{make_records(holdout, model, kJointErrorBand), {}, {}},
+      torques{make_records(holdout, model, {}), {}, {}};
+  const std::vector<double> floor = holdout_floors(evidence, model, joints, torques);
+  EXPECT_EQ(floor[0], evidence.floor()[0]) << "the training data have the torque";
+  const Hypothesis given{model.nominal, {}};
+  joints.before = predict_all(joints.records, given), torques.before = predict_all(torques.records, given);
+  const auto worse_with = [&](double tolerances) {
+    Hypothesis revised = given;
+    revised.nominal.joint[0].capstan_radius *= 1 + tolerances * model.joints[0].tolerances.length;
+    joints.after = predict_all(joints.records, revised), torques.after = torques.before;
+    return worse_joints(joints, torques, floor);
+  };
+  EXPECT_TRUE(worse_with(0.5).empty());
+  EXPECT_EQ(worse_with(5), std::vector<int>{0});
 }
 
 TEST(Resting, IsMostOfWhatTheComparingKernelSees) {
