@@ -56,6 +56,9 @@ struct SearchSpace {
   std::optional<std::size_t> order_of_motor_torque = {};
   /// For an effect that is periodic in the joint's position: index of the parameter k of its phase k q.
   std::optional<std::size_t> order_of_joint_position = {};
+  /// For an effect that limits the speed of the motor: index of the parameter that is this speed, rad/s. A motor hardly
+  /// exceeds it, so the search also starts a little above the fastest motion of the records.
+  std::optional<std::size_t> greatest_motor_speed = {};
 
   /// Throws std::invalid_argument for an unknown name.
   ParameterSearch& operator[](const std::string& name) {

@@ -140,11 +140,14 @@ void Evidence::find_spans(const ArmModel& model) {
   for (int k = 0; k < n_; ++k) {
     joint_span_.push_back(joint_span_of(records_, model.nominal, k));
     Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    double fastest = 0;
     for (const Record& r : records_) {
       const auto [low, high] = std::ranges::minmax(r.motor_angle[k]);
       span = {std::min(span.first, low), std::max(span.last, high)};
+      for (const double rate : r.motor_rate[k]) fastest = std::max(fastest, std::abs(rate));
     }
     motor_span_.push_back(span);
+    greatest_speed_.push_back(fastest);
   }
 }
 

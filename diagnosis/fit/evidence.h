@@ -74,6 +74,8 @@ class Evidence {
   Span joint_span(int k) const { return joint_span_[k]; }
   /// Range of motor k's angle, rad; of a joint without a motor: of the joint's own motion.
   Span motor_span(int k) const { return motor_span_[k]; }
+  /// Greatest speed of motor k, rad/s; of a joint without a motor: of the joint.
+  double greatest_speed(int k) const { return greatest_speed_[k]; }
   /// Number of fitting rows of a channel.
   int fit_count(int c) const { return fit_count_[c]; }
   bool has_channel(int c) const { return channel_rows_[c] > 0; }
@@ -112,6 +114,7 @@ class Evidence {
   std::vector<double> floor_, resolved_;
   Span time_span_ = {};
   std::vector<Span> joint_span_, motor_span_;
+  std::vector<double> greatest_speed_;
 };
 
 }  // namespace halyard

@@ -26,6 +26,17 @@ void limit_period(FitParameter& f, const SearchSpace& space, std::size_t index, 
   if (f.starts.empty()) f.starts = {f.is_whole ? std::min(std::ceil(f.lower), f.upper) : f.lower};
 }
 
+/// Adds starts above the fastest motion, at which a torque that falls with speed reaches these shares of its value at
+/// standstill. The motor's own friction is what it still has to overcome there: some hundredths to half of that torque.
+void add_greatest_speeds(FitParameter& f, const SearchSpace& space, std::size_t index, const Evidence& evidence,
+                         int joint) {
+  if (space.greatest_motor_speed != index) return;
+  for (const double share_left : {0.02, 0.06, 0.2, 0.5})
+    f.starts.push_back(std::clamp(evidence.greatest_speed(joint) / (1 - share_left), f.lower, f.upper));
+  std::ranges::sort(f.starts);
+  f.starts.erase(std::ranges::unique(f.starts).begin(), f.starts.end());
+}
+
 /// How far the starts of a search lie apart around a value: about as far as it finds its way.
 double spacing_around(const std::vector<double>& starts, double value) {
   std::size_t i = 1;
@@ -257,9 +268,10 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
     const ParameterSearch& search = space.parameters[i];
     FitParameter f{p.name, p.unit, place, static_cast<int>(i), p.neutral, p.lower, p.upper, 1, search.natural_bounds};
     f.scale = std::max({std::abs(p.typical - p.neutral), 0.1 * std::abs(p.typical), 1e-3 * (p.upper - p.lower)});
-    if (p.is_shape() && search.starts.size() > 1) f.scale = 0.1 * spacing_around(search.starts, e.p[i]);
     f.shape = p.is_shape();
     f.starts = search.starts;
+    add_greatest_speeds(f, space, i, evidence, e.joint.value_or(0));
+    if (f.shape && f.starts.size() > 1) f.scale = 0.1 * spacing_around(f.starts, e.p[i]);
     f.range = search.range;
     f.is_whole = search.is_whole;
     limit_period(f, space, i, evidence, e.joint.value_or(0));

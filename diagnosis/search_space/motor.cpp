@@ -11,6 +11,7 @@ void actuator_saturation(SearchSpace& space, const Arm& arm, int joint) {
   space["share"].natural_bounds = space["no_load_speed"].natural_bounds = true;
   space["limit"].starts = {level, 2 * level, 4 * level, 8 * level, 16 * level, 32 * level, 64 * level};
   space["no_load_speed"].starts = {50, 200, no_limit};
+  space.greatest_motor_speed = 2;
 }
 
 void motor_friction(SearchSpace& space, const Arm& arm, int joint) {

@@ -47,6 +47,8 @@ void check(const SearchSpace& space, const std::vector<EffectParameter>& paramet
   for (const auto& order : {space.order_of_motor_torque, space.order_of_joint_position})
     if (order && *order >= parameters.size())
       refuse(effect, "the index of its order is no parameter of it; give the index of one");
+  if (space.greatest_motor_speed && *space.greatest_motor_speed >= parameters.size())
+    refuse(effect, "the index of its greatest motor speed is no parameter of it; give the index of one");
 }
 
 }  // namespace
