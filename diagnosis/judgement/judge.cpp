@@ -41,8 +41,7 @@ std::vector<double> difference(std::vector<double> a, const std::vector<double>&
   return a;
 }
 
-Judge::Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers,
-             std::vector<double> first)
+Judge::Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers, Score first)
     : evidence_(evidence), model_(model), numbers_(std::move(numbers)), first_(std::move(first)) {}
 
 Trial Judge::trial(const Hypothesis& with, const Scored& without, std::size_t index) const {
@@ -163,16 +162,28 @@ bool Judge::within_tolerance(const Hypothesis& h, int place) const {
   return true;
 }
 
-/// The effect takes a share of a residual that noise does not explain. This share is more than the misfit of what was
-/// named before it, and the effect changes some signal by much more than the sensor resolves.
+/// True if the effect takes a share of the residual that is more than the misfit of what was named before it. Where the
+/// earlier effects explain little, their misfit is little as well: blocks whose whole residual may be misfit do not
+/// count, and a small effect shows where a large one does not act.
+bool Judge::takes_a_share(const Score& before, const Score& after, int c) const {
+  double all = 0, gain = 0, misfit = 0;  // sums of squares
+  for (std::size_t b = 0; b < before.block_sum.size(); ++b) {
+    const double had = before.block_sum[b][c], explained = std::max(0.0, first_.block_sum[b][c] - had);
+    const double may_miss = kRule.form_misfit * kRule.form_misfit * explained;
+    all += had;
+    if (had <= may_miss) continue;
+    gain += had - after.block_sum[b][c];
+    misfit += may_miss;
+  }
+  return gain > std::max(kRule.share * all, misfit);
+}
+
+/// The effect takes a share of a residual that noise does not explain, and changes some signal by much more than the
+/// sensor resolves.
 bool Judge::matters(const Score& before, const Score& after, const Hypothesis& with, int place) const {
   bool share = false;
-  for (int c = 0; c < evidence_.channels(); ++c) {
-    const double gain = before.mean_square[c] - after.mean_square[c];
-    const double misfit = std::pow(kRule.form_misfit, 2) * (first_[c] - before.mean_square[c]);
-    share = share ||
-            (is_beyond_noise(evidence_, before, c) && gain > std::max(kRule.share * before.mean_square[c], misfit));
-  }
+  for (int c = 0; c < evidence_.channels(); ++c)
+    share = share || (is_beyond_noise(evidence_, before, c) && takes_a_share(before, after, c));
   if (!share) return false;
   const auto rows = evidence_.fit_rows({with})[0], bare = evidence_.fit_rows({without_effect(with, place)})[0];
   return !rows.empty() && (bare.empty() || evidence_.exceeds_floor(difference(rows, bare), kRule.above_floor));

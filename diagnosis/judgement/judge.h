@@ -62,8 +62,8 @@ std::vector<double> difference(std::vector<double> a, const std::vector<double>&
 
 class Judge {
  public:
-  /// numbers: baseline parameters that the data are sensitive to. first: mean squares [2n] before any effect.
-  Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers, std::vector<double> first);
+  /// numbers: baseline parameters that the data are sensitive to. first: score before any effect.
+  Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers, Score first);
 
   /// Tests the effect with index `place` in `with` against the hypothesis without it.
   Trial trial(const Hypothesis& with, const Scored& without, std::size_t place) const;
@@ -84,12 +84,13 @@ class Judge {
                               const ParameterGroup& group) const;
   bool is_as_good_at_bound(const Scored& with, const FitParameter& p) const;
   bool within_tolerance(const Hypothesis& h, int place) const;
+  bool takes_a_share(const Score& before, const Score& after, int channel) const;
   bool matters(const Score& before, const Score& after, const Hypothesis& with, int place) const;
 
   const Evidence& evidence_;
   const ArmModel& model_;
   std::vector<FitParameter> numbers_;
-  std::vector<double> first_;
+  Score first_;
 };
 
 }  // namespace halyard

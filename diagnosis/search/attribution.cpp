@@ -53,7 +53,7 @@ class Search {
         given_(model.effects.size()),
         refitter_(evidence, model, given_),
         baseline_(baseline(evidence, model, refitter_)),
-        judge_(evidence, model, refitter_.numbers(), baseline_.score.mean_square) {}
+        judge_(evidence, model, refitter_.numbers(), baseline_.score) {}
 
   Attribution run() {
     Found current{baseline_.fit, baseline_.score};

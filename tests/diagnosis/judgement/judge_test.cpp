@@ -19,7 +19,8 @@ struct Tug {
   Judge judge;
 
   Tug(double force, double stiffness)
-      : evidence(make_records(record(force, stiffness), model, {}), model), judge(evidence, model, {}, squares()) {
+      : evidence(make_records(record(force, stiffness), model, {}), model),
+        judge(evidence, model, {}, nominal_score()) {
     // The something is where the motion ends: the end of what a search may ask for.
     push.p[4] = evidence.joint_span(1).first;
   }
@@ -30,7 +31,7 @@ struct Tug {
     robot.effects = {push};
     return simulate(motion(robot, 6)).measured;
   }
-  std::vector<double> squares() const { return evidence.score({model.nominal, {}}).mean_square; }
+  Score nominal_score() const { return evidence.score({model.nominal, {}}); }
   /// The verdict on a push and a contact of these sizes.
   Trial trial(double force, double stiffness) const {
     Hypothesis with{model.nominal, {push}}, without{model.nominal, {}};
@@ -64,7 +65,7 @@ TEST(Judge, AnEffectThatOnlyTakesWhatNoiseExplainsDoesNotMatter) {
   with.effects[0].p[0] = change;
   Hypothesis given{model.nominal, {}}, refitted = given;
   const Score first = evidence.score(given);
-  const Judge judge(evidence, model, {}, first.mean_square);
+  const Judge judge(evidence, model, {}, first);
   EXPECT_TRUE(judge.trial(with, {given, first}, 0).matters);
 
   // Nearly refitted: noise explains the rest, although the effect takes a share of it.
@@ -73,6 +74,37 @@ TEST(Judge, AnEffectThatOnlyTakesWhatNoiseExplainsDoesNotMatter) {
   ASSERT_LT(std::sqrt(rest.mean_square[0]), kRule.explained_ratio * evidence.floor()[0]);
   ASSERT_LT(none.mean_square[0], (1 - kRule.share) * rest.mean_square[0]);
   EXPECT_FALSE(judge.trial(with, {refitted, rest}, 0).matters);
+}
+
+/// A large push has been found, and little is left beside it: friction that acts at all times, or an error of the push.
+TEST(Judge, ASmallEffectMattersBesideALargeOneIfItActsAtOtherTimes) {
+  const ArmModel model = first_joints(2);
+  PlacedEffect push = place_neutral_effect(*find_effect("external_force"), model.nominal, 1);
+  push.p[0] = 10, push.p[1] = 2, push.p[2] = 4, push.p[3] = 0;
+  PlacedEffect friction = place_neutral_effect(*find_effect("motor_friction"), model.nominal, 1);
+  friction.p[0] = 0.4 * model.nominal.joint[1].motor_coulomb;
+  ArmModel robot = model;
+  robot.effects = {push, friction};
+  const Evidence evidence(make_records(simulate(motion(robot, 12)).measured, model, {}), model);
+  const Score first = evidence.score({model.nominal, {}});
+  const Judge judge(evidence, model, {}, first);
+  const auto trial = [&](const Hypothesis& without, const PlacedEffect& small) {
+    Hypothesis with = without;
+    with.effects.push_back(small);
+    const Score before = evidence.score(without), after = evidence.score(with);
+    // It would be too small if the push had acted all the time.
+    EXPECT_LT(before.mean_square[1] - after.mean_square[1],
+              std::pow(kRule.form_misfit, 2) * (first.mean_square[1] - before.mean_square[1]));
+    return judge.trial(with, {without, before}, with.effects.size() - 1);
+  };
+  const Trial of_friction = trial({model.nominal, {push}}, friction);
+  EXPECT_TRUE(of_friction.is_judged());
+  EXPECT_TRUE(of_friction.matters);
+  PlacedEffect weak = push, rest = push;
+  weak.p[0] = 9.5, rest.p[0] = 0.5;
+  const Trial of_error = trial({model.nominal, {friction, weak}}, rest);
+  EXPECT_TRUE(of_error.is_judged());
+  EXPECT_FALSE(of_error.matters);
 }
 
 }  // namespace

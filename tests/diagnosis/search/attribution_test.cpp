@@ -1,0 +1,41 @@
+#include "diagnosis/search/attribution.h"
+
+#include <gtest/gtest.h>
+
+#include "plant/simulate.h"
+#include "tests/support/short_arm.h"
+
+namespace halyard {
+namespace {
+
+PlacedEffect of_first_joint(const std::string& name, const ArmModel& model, const std::vector<double>& p) {
+  PlacedEffect e = place_neutral_effect(*find_effect(name), model.nominal, 0);
+  std::copy(p.begin(), p.end(), e.p);
+  return e;
+}
+
+const PlacedEffect* found(const Attribution& a, const std::string& name) {
+  for (const PlacedEffect& e : a.final_fit.hypothesis.effects)
+    if (e.effect->name() == name) return &e;
+  return nullptr;
+}
+
+/// The motor reaches its no-load speed. Its ripple is small beside what it loses there, but it acts at other times.
+TEST(Attribution, FindsALimitOfTheMotorsSpeedAndTheSmallRippleBesideIt) {
+  const ArmModel model = first_joints(1);
+  ArmModel robot = model;
+  robot.effects = {of_first_joint("actuator_saturation", model, {1, 0.3, 150}),
+                   of_first_joint("torque_ripple", model, {0.002, 0.003, 4})};
+  const Evidence evidence(make_records(simulate(motion(robot, 12)).measured, model, {}), model);
+  ASSERT_GT(evidence.greatest_speed(0), 140) << "the limit is not reached";
+  const Attribution a = attribute(evidence, model, {}, {});
+  ASSERT_TRUE(found(a, "actuator_saturation"));
+  ASSERT_TRUE(found(a, "torque_ripple"));
+  EXPECT_EQ(a.final_fit.hypothesis.effects.size(), 2u);
+  // 1 % of the speed changes the limit by 3 mN m; the ripple is fitted within a tenth of that.
+  EXPECT_NEAR(found(a, "actuator_saturation")->p[2], 150, 1.5);
+  EXPECT_NEAR(found(a, "torque_ripple")->p[0], 0.002, 0.0003);
+}
+
+}  // namespace
+}  // namespace halyard
