@@ -189,11 +189,14 @@ class Diagnoser {
     return all;
   }
 
-  static Estimated estimated(const Fit& f, std::size_t i) {
+  Estimated estimated(const Fit& f, std::size_t i) const {
     const FitParameter& p = f.parameters[i];
     const double half = interval_factor(f) * f.std_deviation[i];
-    // No interval reaches beyond what the number can be.
-    const double lower = std::max(f.value[i] - half, p.lower), upper = std::min(f.value[i] + half, p.upper);
+    // No interval reaches beyond what the number can be. A size of an effect that was found is not neutral.
+    double lower = std::max(f.value[i] - half, p.lower), upper = std::min(f.value[i] + half, p.upper);
+    const bool is_found_size = p.effect >= static_cast<int>(given_) && !p.shape;
+    if (is_found_size && f.value[i] > p.nominal) lower = std::max(lower, p.nominal);
+    if (is_found_size && f.value[i] < p.nominal) upper = std::min(upper, p.nominal);
     return {p.name, p.unit, f.value[i], lower, upper, p.nominal};
   }
 

@@ -109,6 +109,32 @@ TEST(FinalFit, IntervalsCountWhatTheNumbersOfTheModelMayBeOff) {
   EXPECT_LT(changed, numbers) << "a number that did not change significantly stays in the fit, too";
 }
 
+TEST(FinalFit, IntervalsCountTheSizesOfTheSameEffectThatAreReset) {
+  // More Coulomb friction of the motor; more viscous friction is nearly the same (effects/motor/motor_friction.cpp).
+  constexpr int kCoulomb = 0, kViscous = 1;
+  const ArmModel model = first_joints(1);
+  PlacedEffect truth = place_neutral_effect(*find_effect("motor_friction"), model.nominal, 0);
+  truth.p[kCoulomb] = 0.01;
+  ArmModel robot = model;
+  robot.effects = {truth};
+  const std::vector<Record> records = make_records(simulate(motion(robot, 8)).measured, model, {});
+  const Evidence evidence(records, model), whole(records, model, Split::none);
+  const Hypothesis h{model.nominal, {truth}};
+  const Fit both = Refitter(evidence, model, 0).refit(h, evidence.score(h));
+  Fit one = both;  // as if the viscous friction were known to be the model's
+  std::erase_if(one.parameters, [](const FitParameter& p) { return p.effect == 0 && p.index == kViscous; });
+  const auto deviation = [&](const Fit& chosen) {
+    const Fit fit = final_fit(whole, model, chosen, 0);
+    const auto is = [](int index) {
+      return [index](const FitParameter& p) { return p.effect == 0 && p.index == index; };
+    };
+    EXPECT_TRUE(std::ranges::none_of(fit.parameters, is(kViscous))) << "it is not reset";
+    const auto rise = std::ranges::find_if(fit.parameters, is(kCoulomb)) - fit.parameters.begin();
+    return rise < std::ssize(fit.parameters) ? fit.std_deviation[rise] : 0;
+  };
+  EXPECT_GT(deviation(both), 1.05 * deviation(one));
+}
+
 TEST(FinalFit, GivesTheModelsNumbersBack) {
   const Rubbing arm;
   const Evidence whole(arm.records, arm.model, Split::none);
