@@ -165,6 +165,12 @@ class Diagnoser {
       for (std::size_t a = 0; a < named.alternatives.size(); ++a) named.alternatives[a].in_set = in[a + 1];
       result_.effects.push_back(std::move(named));
     }
+    tell_refits();
+  }
+
+  void tell_refits() {
+    const Fit& f = attribution().final_fit;
+    result_.refitted.clear();
     for (const std::size_t i : changed_) {
       const FitParameter& p = f.parameters[i];
       result_.refitted.push_back(estimated(f, i));
@@ -269,7 +275,8 @@ class Diagnoser {
                                               "stuck, not connected, or the joint is not driven by this motor"});
   }
 
-  /// Errors by both models. A revised model that predicts the hold-out worse than the given one is not adopted.
+  /// Errors by both models. A revised model that predicts the hold-out worse than the given one is not adopted: first
+  /// without the numbers that move the joints, then not at all.
   void predict_holdout(const Evidence& evidence, const Evidence& whole, const std::vector<Record>& training_joints) {
     say("hold-out", 0);
     HoldOut &joints = details_->joint_view, &torques = details_->torque_view;
@@ -278,18 +285,11 @@ class Diagnoser {
       view->before = predict_all(view->records, before);
       view->after = predict_all(view->records, final_hypothesis());
     }
-    const std::vector<int> worse =
-        worse_joints(joints, torques, holdout_floors(evidence, result_.given, joints, torques));
-    if (!worse.empty() && !(result_.effects.empty() && result_.refitted.empty())) {
-      std::string names;
-      for (const NamedEffect& e : result_.effects) names += (names.empty() ? "" : ", ") + effect_label(e.effect);
-      if (names.empty()) names = "refitted parameters";
-      give_up_revision(evidence);
-      for (const int k : worse)
-        result_.unexplained.push_back(
-            {k,
-             fmt::format("{} would explain the training data, but predict this joint worse on the hold-out", names)});
-      for (HoldOut* view : {&joints, &torques}) view->after = view->before;
+    if (is_revised() && !worse_joints(joints, torques, evidence.floor()).empty()) {
+      give_motion_back(whole);
+      for (HoldOut* view : {&joints, &torques}) view->after = predict_all(view->records, final_hypothesis());
+      const auto floors = holdout_floors(evidence, result_.given, joints, torques);
+      if (const std::vector<int> worse = worse_joints(joints, torques, floors); !worse.empty()) refuse(evidence, worse);
     }
     result_.revised = result_.given;
     result_.revised.nominal = final_hypothesis().nominal;
@@ -301,6 +301,25 @@ class Diagnoser {
         half_widths(joints.records, with_all_numbers(whole, attribution().final_fit, attribution().baseline.parameters),
                     residual_quantiles(evidence, training_joints, final_hypothesis()));
     result_.joint_interval = prediction_interval(joints, model_.n());
+  }
+
+  bool is_revised() const { return !result_.effects.empty() || !result_.refitted.empty(); }
+
+  void give_motion_back(const Evidence& whole) {
+    attribution().final_fit = with_given_motion(whole, result_.given, attribution().final_fit);
+    changed_ = changed_numbers(whole, result_.given, attribution().final_fit);
+    tell_refits();
+  }
+
+  void refuse(const Evidence& evidence, const std::vector<int>& worse) {
+    if (!is_revised()) return;
+    std::string names;
+    for (const NamedEffect& e : result_.effects) names += (names.empty() ? "" : ", ") + effect_label(e.effect);
+    give_up_revision(evidence);
+    for (const int k : worse)
+      result_.unexplained.push_back(
+          {k, fmt::format("{} would explain the training data, but predict this joint worse on the hold-out", names)});
+    for (HoldOut* view : {&details_->joint_view, &details_->torque_view}) view->after = view->before;
   }
 
   /// Effects whose typical size changes no signal of the training data by more than its floor.

@@ -7,6 +7,7 @@
 #include "diagnosis/calibration/calibrate.h"
 #include "diagnosis/fit/nudged.h"
 #include "diagnosis/judgement/decision_rule.h"
+#include "diagnosis/prediction/motion_key.h"
 #include "estimators/distributions.h"
 
 namespace halyard {
@@ -170,6 +171,22 @@ Fit with_given_numbers(const Evidence& whole, const ArmModel& model, const Fit& 
   std::vector<FitParameter> others = f.parameters;
   std::erase_if(others, [](const FitParameter& p) { return p.effect < 0; });
   return weighed_fit(whole, h, others);
+}
+
+Fit with_given_motion(const Evidence& whole, const ArmModel& model, const Fit& f) {
+  Hypothesis h = f.hypothesis;
+  h.nominal = model.nominal;
+  const Record& record = whole.records().front();
+  const std::vector<double> motion = motion_key(h, record);
+  std::vector<FitParameter> others;
+  for (const FitParameter& p : f.parameters) {
+    if (p.effect >= 0) continue;
+    Hypothesis changed = h;
+    set_parameter(changed, p, p.upper);
+    if (motion_key(changed, record) == motion) others.push_back(p);
+  }
+  const Fit fit = weighed_fit(whole, h, others);
+  return fit.usable ? fit : weighed_fit(whole, h, {});
 }
 
 std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given) {

@@ -162,6 +162,19 @@ TEST(LogWithAMeasuredLoad, IsCleanAndWithoutTheMeasurementNot) {
   expect_clean(diagnosis_of(first_joints(1), logs));
 }
 
+TEST(LogOfMotorsOnly, ChangesNoNumberThatPredictsTheJointsWorse) {
+  // Without a joint sensor the training data cannot tell friction of the motor from friction of the joint.
+  ArmModel truth = first_joints(1);
+  truth.nominal.joint[0].motor_coulomb *= 1.15;
+  Logs logs = logs_of(truth);
+  logs.train.joint_position[0].clear();
+  logs.holdout = simulate(motion(truth, 8, 1)).measured;  // long enough to tell which model is worse
+  const Diagnosis d = diagnosis_of(first_joints(1), logs);
+  EXPECT_EQ(d.verdict, Diagnosis::Verdict::clean);
+  EXPECT_EQ(d.after.joint_rms[0], d.before.joint_rms[0]);
+  EXPECT_LT(d.after.torque_rms[0], 0.5 * d.before.torque_rms[0]) << "the motor's own friction is refitted";
+}
+
 TEST(StuckJointSensor, IsLeftOutAndTold) {
   Logs logs = clean_logs();
   logs.train.joint_position[0].assign(logs.train.size(), 0.7);
