@@ -171,8 +171,8 @@ TEST_F(BadInput, AScenarioThatCannotBeRun) {
   };
   expect_scenario_refused(replaced(scenario, "model=\"raven2.xml\"", "model=\"none.xml\""), {"none.xml"});
   expect_scenario_refused(replaced(scenario, "center=\"0.40\"", "center=\"4.0\""), {"bad.xml", "joint 3", "range"});
-  expect_scenario_refused(replaced(scenario, "treatment=\"dirk\"", "treatment=\"euler\""),
-                          {"bad.xml:", "euler", "dirk"});
+  expect_scenario_refused(replaced(scenario, "model=\"raven2.xml\"", "model=\"raven2.xml\" engine=\"mujoco\""),
+                          {"bad.xml:", "mujoco", "simbody"});
   expect_refused({"simulate", "raven2.xml", "--out", "new.csv"}, {"raven2.xml:", "<scenario>"});
 }
 
