@@ -312,11 +312,12 @@ class Diagnoser {
   }
 
   void refuse(const Evidence& evidence, const std::vector<int>& worse) {
-    if (!is_revised()) return;
+    const bool is_told = is_revised();  // numbers that changed too little to be told go back without a word
     std::string names;
     for (const NamedEffect& e : result_.effects) names += (names.empty() ? "" : ", ") + effect_label(e.effect);
+    if (names.empty()) names = "refitted parameters";
     give_up_revision(evidence);
-    for (const int k : worse)
+    for (const int k : is_told ? worse : std::vector<int>())
       result_.unexplained.push_back(
           {k, fmt::format("{} would explain the training data, but predict this joint worse on the hold-out", names)});
     for (HoldOut* view : {&details_->joint_view, &details_->torque_view}) view->after = view->before;
