@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "model/rigid_chain.h"
 #include "tests/support/small_arm.h"
 #include "transmission/coupling.h"
 
@@ -73,29 +72,6 @@ TEST(ModelFile, EveryNumberOfTheRavenArrives) {
     EXPECT_EQ(description.controller.kd, kd[k]);
     EXPECT_EQ(description.controller.torque_limit, limit[k]);
   }
-}
-
-TEST(ModelFile, RavenChainGivesTheIndependentDerivation) {
-  const ArmParameters<double> arm = read_model(kExamples / "raven2.xml").nominal;
-  const double q[3] = {30 * kDegree, 90 * kDegree, 0.40}, rest[3] = {}, v[3] = {0.5, -0.4, 0.1};
-  const ChainPose<double> pose = chain_pose(arm, q);
-  double M[kMaxJoints][kMaxJoints], holding[3], moving[3];
-  mass_matrix(arm, pose, M);
-  inverse_dynamics(arm, pose, rest, rest, holding);
-  inverse_dynamics(arm, pose, v, rest, moving);
-  // Half a unit of the last digit that the check values are given with.
-  EXPECT_NEAR(M[0][0], 0.148012, 5e-7);
-  EXPECT_NEAR(M[0][1], 0.021593, 5e-7);
-  EXPECT_NEAR(M[0][2], -0.007846, 5e-7);
-  EXPECT_NEAR(M[1][1], 0.080530, 5e-7);
-  EXPECT_NEAR(M[1][2], 0.0000641, 5e-8);
-  EXPECT_NEAR(M[2][2], 0.407, 1e-15);
-  EXPECT_NEAR(holding[0], -0.402541, 5e-7);
-  EXPECT_NEAR(holding[1], -0.545831, 5e-7);
-  EXPECT_NEAR(holding[2], 3.7496, 5e-5);
-  EXPECT_NEAR(moving[0] - holding[0], 0.00926842, 5e-9);
-  EXPECT_NEAR(moving[1] - holding[1], -0.00143779, 5e-9);
-  EXPECT_NEAR(moving[2] - holding[2], -0.0441737, 5e-8);
 }
 
 TEST(ModelFile, RavenPathMatrixIsEquation8) {
