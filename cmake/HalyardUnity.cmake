@@ -62,7 +62,7 @@ compile_together(halyard_diagnosis log_check
   log_check/zeros.cpp)
 compile_together(halyard_diagnosis fit
   calibration/lateness.cpp fit/baseline_reach.cpp fit/block_variance.cpp fit/evidence.cpp fit/fit.cpp fit/nudged.cpp
-  noise/channel_noise.cpp planning/change_detector.cpp planning/plan.cpp)
+  noise/channel_noise.cpp noise/ripple_free.cpp planning/change_detector.cpp planning/plan.cpp planning/planner.cpp)
 compile_together(halyard_diagnosis judgement
   diagnose.cpp judgement/false_discovery.cpp judgement/final_fit.cpp judgement/holdout.cpp judgement/judge.cpp
   judgement/likelihood.cpp judgement/name_probability.cpp judgement/paired_t.cpp judgement/prediction_interval.cpp

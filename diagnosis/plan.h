@@ -26,12 +26,16 @@
 /// The two effects are confused if Δ < 2 σ for at least one of these two values of σ. For the first value the condition
 /// is Δ < 8.
 ///
+/// The naming limit is the smallest size from the detection limit on, to 9 %, at which the effect is confused with no
+/// other. Between the two limits a diagnosis sees that something is there, but another name may fit as well.
+///
 /// The size of an effect is its first size parameter, on the same side of neutral as its typical value. Its shape
 /// parameters take the values with the largest change of the residual at the typical size. A shape parameter that is an
 /// instant is placed within the record; several instants of one effect are spread over it. A shape parameter that is a
 /// joint position is placed in the middle of the joint's motion.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +51,7 @@ struct DetectionLimit {
   double neutral = 0;                       ///< value of the size parameter without the effect
   double limit = 0;                         ///< its value at the limit; its largest value if not excited
   std::vector<PlacedEffect> confused_with;  ///< at twice the limit
+  std::optional<double> naming_limit;       ///< value of the size parameter; none: another effect always fits as well
 };
 
 /// Detection limits of all candidates that the model does not have already, in a fixed order. progress(what, fraction)
@@ -61,6 +66,10 @@ std::vector<DetectionLimit> detection_limits(const ArmModel& model, const std::v
 /// does.
 std::vector<double> detected_from(const ArmModel& model, const std::vector<Log>& logs,
                                   const std::vector<PlacedEffect>& effects);
+
+/// The smallest share of an effect's given sizes at which the effect is detected and confused with no other; infinite
+/// if there is none. Throws as detection_limits() does.
+double named_from(const ArmModel& model, const std::vector<Log>& logs, const PlacedEffect& effect);
 
 /// True if each joint moves along one sine or stands still. A diagnosis may then detect effects, but names none.
 bool names_nothing(const ArmModel& model, const std::vector<Log>& logs);

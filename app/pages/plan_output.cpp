@@ -43,6 +43,10 @@ std::string confused_text(const DetectionLimit& d) {
   return text;
 }
 
+std::string naming_text(const DetectionLimit& d) {
+  return d.naming_limit ? with_unit(*d.naming_limit, d.unit) : d.excited ? "never" : "";
+}
+
 /// "|cos| 0.97, not told apart", and a line for each effect.
 std::string separation_text(const Separation& s) {
   std::string text = fmt::format("|cos| {:.3f}, {}\n", s.cosine, s.told_apart ? "told apart" : "not told apart");
@@ -68,6 +72,7 @@ Json limit_json(const DetectionLimit& d, const ArmModel& model) {
   json["parameter"] = d.parameter;
   json[d.excited ? "limit" : "largest"] = {{"value", number(d.limit)}, {"unit", d.unit}};
   json["neutral"] = number(d.neutral);
+  json["naming_limit"] = d.naming_limit ? Json{{"value", number(*d.naming_limit)}, {"unit", d.unit}} : Json(nullptr);
   json["shapes"] = shapes;
   json["confused_with"] = confused;
   return json;
@@ -129,13 +134,17 @@ report::Page plan_page(const Plan& plan) {
       "than its "
       "sensor resolves and more than the model's own numbers can take within their tolerances, significantly over the "
       "length of "
-      "the motion. At twice that size the effects of the last column would explain the same data about as well.");
+      "the motion. From the naming limit on, no other effect explains the same data about as well. The last column has "
+      "the "
+      "effects that do at twice the detection limit.");
   if (plan.names_nothing) page.verdict(report::VerdictKind::warning, kNamesNothing);
   report::Table table;
-  table.header = {"effect", "joint", "detection limit", "not distinguishable from"};
-  table.align = {report::Align::left, report::Align::right, report::Align::left, report::Align::left};
+  table.header = {"effect", "joint", "detection limit", "naming limit", "not distinguishable from"};
+  table.align = {report::Align::left, report::Align::right, report::Align::left, report::Align::left,
+                 report::Align::left};
   for (const DetectionLimit& d : plan.limits)
-    table.rows.push_back({d.effect.effect->name(), joint_text(d.effect.joint), limit_text(d), confused_text(d)});
+    table.rows.push_back(
+        {d.effect.effect->name(), joint_text(d.effect.joint), limit_text(d), naming_text(d), confused_text(d)});
   page.table(table);
   if (plan.separating) add_separation(page, *plan.separating);
   if (const auto charts = motion_charts(plan); !charts.empty()) {
@@ -148,11 +157,12 @@ report::Page plan_page(const Plan& plan) {
 }  // namespace
 
 std::string plan_text(const Plan& plan) {
-  std::vector<std::array<std::string, 4>> rows = {
-      {"effect", "joint", "detection limit", "not distinguishable, at twice the limit, from"}};
+  std::vector<std::array<std::string, 5>> rows = {{"effect", "joint", "detection limit", "naming limit",
+                                                   "not distinguishable, at twice the detection limit, from"}};
   for (const DetectionLimit& d : plan.limits)
-    rows.push_back({d.effect.effect->name(), joint_text(d.effect.joint), limit_text(d), confused_text(d)});
-  std::array<std::size_t, 3> width{};
+    rows.push_back(
+        {d.effect.effect->name(), joint_text(d.effect.joint), limit_text(d), naming_text(d), confused_text(d)});
+  std::array<std::size_t, 4> width{};
   for (const auto& row : rows)
     for (std::size_t i = 0; i < width.size(); ++i) width[i] = std::max(width[i], row[i].size());
   std::string text;

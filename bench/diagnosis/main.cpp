@@ -87,8 +87,8 @@ std::vector<Job> jobs_left(const Options& options) {
 std::string line(const Result& r) {
   std::string truth, named = r.failure.empty() ? r.verdict : r.failure;
   for (const TrueEffect& t : r.truth)
-    truth += fmt::format(" {}{} (seen from {:.3g} of it)", label(t.place), t.form.empty() ? "" : " as " + t.form,
-                         t.seen_from);
+    truth += fmt::format(" {}{} (seen from {:.3g} of it, named from {:.3g})", label(t.place),
+                         t.form.empty() ? "" : " as " + t.form, t.seen_from, t.named_from);
   for (const Named& n : r.named) named += ", " + label(n.place);
   const char* score = strictly_right(r) ? ": strictly right" : loosely_right(r) ? ": loosely right" : "";
   return fmt::format("{}-{:06}, {} of {} joints, {:.0f} s:{} -> {}{}", label(r.situation), r.index, r.arm, r.joints,

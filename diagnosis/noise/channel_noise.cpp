@@ -7,6 +7,7 @@
 #include <unsupported/Eigen/FFT>
 
 #include "diagnosis/log_check/robust.h"
+#include "diagnosis/noise/ripple_free.h"
 
 namespace halyard {
 namespace {
@@ -57,8 +58,9 @@ std::vector<NoiseLine> lines_of(const std::vector<double>& density, double resol
 
 /// What a channel measured and the model predicted, on the samples that the sensor took.
 struct ChannelSamples {
-  std::vector<std::vector<double>> runs;  ///< evenly spaced, one for each record
-  double interval = 0;                    ///< s
+  std::vector<std::vector<double>> runs;         ///< evenly spaced, one for each record
+  std::vector<std::vector<double>> motor_angle;  ///< of a torque: the motor's, at the same samples
+  double interval = 0;                           ///< s
 };
 
 /// The sensor's own samples: between them, the readings of a record are interpolated, which attenuates noise.
@@ -88,8 +90,41 @@ ChannelSamples torque_samples(const std::vector<Record>& records, const std::vec
     if (!records[r].has_torque(k)) continue;
     all.interval = std::max(all.interval, records[r].dt);
     all.runs.push_back(unfiltered[r].channel[k]);
+    all.motor_angle.push_back(records[r].motor_angle[k]);
   }
   return all;
+}
+
+/// σ_t of a record's filters, s.
+struct Filters {
+  double motion_sigma = 0, compare_sigma = 0;
+};
+
+/// is_torque: the filter of the motion has attenuated it.
+ChannelNoise noise_of(const ChannelSamples& samples, const Filters& filters, bool is_torque) {
+  if (samples.runs.empty()) return {};
+  const int segment = std::max(kFewestSamples, static_cast<int>(std::lround(kSegment / samples.interval)));
+  std::vector<double> density = median_density(samples.runs, samples.interval, segment);
+  const double resolution = 1 / (samples.interval * segment);
+  double highest = 0.5 / samples.interval;
+  if (is_torque) {
+    const double omega_sigma = 2 * std::numbers::pi * filters.motion_sigma;
+    // Above its cut-off the record's filter leaves too little of the torque to divide by.
+    highest = std::min(highest, 1 / omega_sigma);
+    for (std::size_t b = 0; b < density.size(); ++b)
+      density[b] *= std::exp(std::pow(omega_sigma * static_cast<double>(b) * resolution, 2));
+  }
+  return noise_of_density(density, resolution, highest, std::hypot(filters.motion_sigma, filters.compare_sigma));
+}
+
+ChannelNoise torque_noise(ChannelSamples samples, const Filters& filters) {
+  // So many sines fit a part of any noise: in the narrowest band of 30 s of noise less than a tenth of its size.
+  constexpr double kByChance = 0.8;
+  ChannelNoise noise = noise_of(samples, filters, true);
+  samples.runs = ripple_free(std::move(samples.runs), samples.motor_angle);
+  const ChannelNoise without = noise_of(samples, filters, true);
+  if (without.white < kByChance * noise.white) noise.white = without.white, noise.in_band = without.in_band;
+  return noise;
 }
 
 }  // namespace
@@ -143,31 +178,17 @@ std::vector<ChannelNoise> channel_noise(const std::vector<Record>& records, cons
   const int n = records.front().n;
   std::vector<ChannelNoise> noise(2 * n);
   std::vector<Residuals> unfiltered;
-  double motion_sigma = 0, compare_sigma = 0;
+  Filters filters;
   for (Record record : records) {
-    motion_sigma = std::max(motion_sigma, record.motion_sigma);
-    compare_sigma = std::max(compare_sigma, record.compare_sigma);
+    filters.motion_sigma = std::max(filters.motion_sigma, record.motion_sigma);
+    filters.compare_sigma = std::max(filters.compare_sigma, record.compare_sigma);
     record.compare = {1};
     unfiltered.push_back(predict(record, {given}, 1)[0]);
     if (!unfiltered.back().finite) return noise;
   }
-  const double sigma = std::hypot(motion_sigma, compare_sigma);
-  for (int c = 0; c < 2 * n; ++c) {
-    const bool joint = c >= n;
-    const ChannelSamples samples =
-        joint ? joint_samples(records, unfiltered, c - n) : torque_samples(records, unfiltered, c);
-    if (samples.runs.empty()) continue;
-    const int segment = std::max(kFewestSamples, static_cast<int>(std::lround(kSegment / samples.interval)));
-    std::vector<double> density = median_density(samples.runs, samples.interval, segment);
-    const double resolution = 1 / (samples.interval * segment);
-    double highest = 0.5 / samples.interval;
-    if (!joint) {
-      // Above its cut-off the record's filter leaves too little of the torque to divide by.
-      highest = std::min(highest, 1 / (2 * std::numbers::pi * motion_sigma));
-      for (std::size_t b = 0; b < density.size(); ++b)
-        density[b] *= std::exp(std::pow(2 * std::numbers::pi * static_cast<double>(b) * resolution * motion_sigma, 2));
-    }
-    noise[c] = noise_of_density(density, resolution, highest, sigma);
+  for (int k = 0; k < n; ++k) {
+    noise[k] = torque_noise(torque_samples(records, unfiltered, k), filters);
+    noise[n + k] = noise_of(joint_samples(records, unfiltered, k), filters, false);
   }
   return noise;
 }

@@ -140,13 +140,19 @@ class Search {
   /// One round with all candidates, and if none of them is convincing alone, with several at once.
   bool add(Found& current) {
     if (explained(current.score)) return false;
-    // Before any effect is named the refitted baseline is distorted by what is missing: candidates start at the model's
-    // own parameters.
     const bool is_first = result_.rounds.empty();
-    const Hypothesis from =
-        is_first ? Hypothesis{model_.nominal, model_.effects, current.fit.hypothesis.past} : current.fit.hypothesis;
-    CandidateRound round = round_of(current, from, "round " + std::to_string(result_.rounds.size() + 1));
-    const auto won = compete(round, current.scored(), candidates(current.fit.hypothesis));
+    const Hypothesis refitted = current.fit.hypothesis;
+    const auto next_round = [&](const Hypothesis& from) {
+      return round_of(current, from, "round " + std::to_string(result_.rounds.size() + 1));
+    };
+    // Before any effect is named the refitted baseline is distorted by what is missing: candidates start at the model's
+    // own parameters. But where these are far off, a small effect is lost beside what is not linear in them.
+    CandidateRound round = next_round(is_first ? Hypothesis{model_.nominal, model_.effects, refitted.past} : refitted);
+    auto won = compete(round, current.scored(), candidates(refitted));
+    if (!won && is_first) {
+      CandidateRound second = next_round(refitted);
+      won = compete(second, current.scored(), candidates(refitted));
+    }
     if (!won) return add_together(current, round);
     current = {won->fit, evidence_.score(won->fit.hypothesis)};
     result_.namings.push_back(won->naming);

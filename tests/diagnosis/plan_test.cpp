@@ -88,6 +88,16 @@ TEST(DetectionLimit, IsTheShareOfAGivenEffectFromWhichItIsDetected) {
   EXPECT_TRUE(std::isinf(share[2]));
 }
 
+TEST(NamingLimit, OfABacklashUnderALoadIsWhereItsGapIsCrossed) {
+  // Gravity keeps the cable on one side of a small gap, which then looks like an offset of the encoder.
+  const ArmModel model = first_joints(2);
+  const Log log = log_of(motion(model, 8));
+  PlacedEffect small = placed("backlash", model, 1), large = small;
+  small.p[0] = 2e-5, large.p[0] = 2e-3;
+  EXPECT_LE(detected_from(model, {log}, {small})[0], 1);
+  EXPECT_LE(named_from(model, {log}, large), 1);
+}
+
 TEST(DetectionLimit, GrowsWithTheSensorsResolution) {
   ArmModel fine = first_joints(1);
   ArmModel coarse = fine;

@@ -32,9 +32,13 @@ struct TrueEffect {
   /// The share of its sizes from which on `--plan` promises that a diagnosis sees it (recording.h). Infinite: not even
   /// all of it.
   double seen_from = 0;
+  /// Of a single effect of the library: the share from which on `--plan` promises a name. Infinite: another effect fits
+  /// as well, or the plan was not asked.
+  double named_from = 0;
   std::vector<TrueParameter> parameters;
-  /// True if the plan promises that it is seen.
+  /// True if the plan promises that it is seen, or that it is named.
   bool is_visible() const { return seen_from <= 1; }
+  bool is_nameable() const { return named_from <= 1; }
 };
 
 struct Parameter {

@@ -50,11 +50,17 @@ Json to_json(const TrueEffect& t) {
   each.update({{"form", t.form},
                {"size", number(t.size)},
                {"seen_from", number(t.seen_from)},
+               {"named_from", number(t.named_from)},
                {"parameters", std::move(parameters)}});
   return each;
 }
 TrueEffect truth_from(const Json& j) {
-  TrueEffect t{place_from(j), j.at("form"), number(j.at("size"), 0), number(j.at("seen_from"), kInfinity), {}};
+  TrueEffect t{place_from(j),
+               j.at("form"),
+               number(j.at("size"), 0),
+               number(j.at("seen_from"), kInfinity),
+               number(j.at("named_from"), kInfinity),
+               {}};
   for (const auto& [name, p] : j.at("parameters").items())
     t.parameters.push_back({name, number(p.at("value"), 0), p.at("acts")});
   return t;

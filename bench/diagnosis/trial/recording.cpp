@@ -119,8 +119,12 @@ Recording draw_recording(const ArmModel& raven2, const Situation& situation, int
   r.holdout = holdouts[0];
   r.sensed_holdout = holdouts[1];
   r.holdout.source = r.sensed_holdout.source = "hold-out";
-  if (!r.hidden.empty())
-    r.seen_from = seen_from(r.model, record(training, controlled, {r.sensors}, random)[0], r.hidden);
+  if (!r.hidden.empty()) {
+    const Log probe = record(training, controlled, {r.sensors}, random)[0];
+    r.seen_from = seen_from(r.model, probe, r.hidden);
+    if (situation.kind == Kind::effect && r.seen_from[0] <= 1)
+      r.named_from = named_from(r.model, {probe}, r.hidden[0].acts);
+  }
   return r;
 }
 

@@ -46,6 +46,7 @@ void describe(const Recording& recording, Result& r) {
                        .form = acts == h.right_name ? "" : acts,
                        .size = relative_size(h.acts, recording.model),
                        .seen_from = recording.seen_from[i],
+                       .named_from = recording.named_from,
                        .parameters = true_parameters(h.acts, recording.model)});
   }
   r.also_true = names_beyond_tolerance(recording.model, recording.robot);

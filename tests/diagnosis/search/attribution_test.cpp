@@ -37,5 +37,20 @@ TEST(Attribution, FindsALimitOfTheMotorsSpeedAndTheSmallRippleBesideIt) {
   EXPECT_NEAR(found(a, "torque_ripple")->p[0], 0.002, 0.0003);
 }
 
+/// Where the model's numbers are far off, what is not linear in them hides a small ripple at first. Its frequencies are
+/// those of noise, but it is none.
+TEST(Attribution, FindsASmallRippleBesideNumbersThatAreOff) {
+  const ArmModel model = first_joints(1);
+  ArmModel robot = model;
+  JointParameters<double>& j = robot.nominal.joint[0];
+  j.joint_coulomb *= 1.2, j.joint_viscous *= 0.8, j.motor_coulomb *= 1.2, j.capstan_radius *= 1.002;
+  robot.effects = {of_first_joint("torque_ripple", model, {0.00027, 0.0008, 2})};
+  const Evidence evidence(make_records(simulate(motion(robot, 12)).measured, model, {}), model);
+  const Attribution a = attribute(evidence, model, {}, {});
+  ASSERT_TRUE(found(a, "torque_ripple"));
+  EXPECT_EQ(a.final_fit.hypothesis.effects.size(), 1u);
+  EXPECT_EQ(found(a, "torque_ripple")->p[2], 2);
+}
+
 }  // namespace
 }  // namespace halyard
