@@ -76,9 +76,12 @@ function(halyard_lane_files room stem)
   set_source_files_properties(${stem}_generic.cpp PROPERTIES COMPILE_OPTIONS "${options};-O2")
   target_sources(halyard_${room} PRIVATE ${stem}_generic.cpp)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    set_source_files_properties(${stem}_avx2.cpp PROPERTIES COMPILE_OPTIONS "${options};-mavx2;-mfma")
+    # Otherwise GCC copies wide vectors in pieces of 16 bytes, and the processor waits when it loads them whole.
+    set(wide_moves $<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,12>>)
+    set_source_files_properties(${stem}_avx2.cpp PROPERTIES
+      COMPILE_OPTIONS "${options};-mavx2;-mfma;$<${wide_moves}:-mmove-max=256;-mstore-max=256>")
     set_source_files_properties(${stem}_avx512.cpp PROPERTIES
-      COMPILE_OPTIONS "${options};-mavx512f;-mavx512dq;-mfma")
+      COMPILE_OPTIONS "${options};-mavx512f;-mavx512dq;-mfma;$<${wide_moves}:-mmove-max=512;-mstore-max=512>")
     target_sources(halyard_${room} PRIVATE ${stem}_avx2.cpp ${stem}_avx512.cpp)
   endif()
 endfunction()
