@@ -40,10 +40,11 @@ HALYARD_INLINE void into_parent(const T R[3][3], const T* v, T* out) {
   for (int i = 0; i < 3; ++i) out[i] = R[i][0] * v[0] + R[i][1] * v[1] + R[i][2] * v[2];
 }
 
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE ChainPose<T> chain_pose(const ArmParameters<T>& arm, const T* q) {
+  const int n = joint_count<known>(arm);
   ChainPose<T> pose;
-  for (int i = 0; i < arm.n; ++i) {
+  for (int i = 0; i < n; ++i) {
     const JointParameters<T>& j = arm.joint[i];
     if (j.type == JointType::revolute) {
       T s, c;
@@ -85,10 +86,10 @@ HALYARD_INLINE void inertia_times(const T* I, const T* w, T* out) {
 
 /// Sums the forces f and the moments m of the links from the last link to the base, and sets the force on each joint.
 /// Each moment is about the origin of its link's frame.
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE void forces_to_joints(const ArmParameters<T>& arm, const ChainPose<T>& pose, T f[][3], T m[][3],
                                      T* force) {
-  for (int i = arm.n - 1; i >= 0; --i) {
+  for (int i = joint_count<known>(arm) - 1; i >= 0; --i) {
     force[i] = arm.joint[i].type == JointType::revolute ? m[i][2] : f[i][2];
     if (i == 0) break;
     T fp[3], mp[3];
@@ -100,13 +101,14 @@ HALYARD_INLINE void forces_to_joints(const ArmParameters<T>& arm, const ChainPos
 }
 
 /// F = M(q) a + h(q, v), h with the arm's gravity.
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE void inverse_dynamics(const ArmParameters<T>& arm, const ChainPose<T>& pose, const T* v, const T* a,
                                      T* force) {
   T w[3] = {T(0.0), T(0.0), T(0.0)}, dw[3] = {T(0.0), T(0.0), T(0.0)};
   T acc[3] = {-arm.gravity[0], -arm.gravity[1], -arm.gravity[2]};
   T f[kMaxJoints][3], m[kMaxJoints][3];
-  for (int i = 0; i < arm.n; ++i) {
+  const int n = joint_count<known>(arm);
+  for (int i = 0; i < n; ++i) {
     const JointParameters<T>& j = arm.joint[i];
     T at[3] = {acc[0], acc[1], acc[2]};  // acceleration of this frame's origin, parent's frame
     T wp[3] = {T(0.0), T(0.0), T(0.0)};
@@ -141,18 +143,19 @@ HALYARD_INLINE void inverse_dynamics(const ArmParameters<T>& arm, const ChainPos
     for (int k = 0; k < 3; ++k) f[i][k] = j.mass * ac[k];
     cross_add(j.com, f[i], m[i]);
   }
-  forces_to_joints(arm, pose, f, m, force);
+  forces_to_joints<known>(arm, pose, f, m, force);
 }
 
 /// M(q). Column c holds the forces of a unit acceleration of joint c, at rest, without gravity.
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE void mass_matrix(const ArmParameters<T>& arm, const ChainPose<T>& pose, T M[][kMaxJoints]) {
-  for (int c = 0; c < arm.n; ++c) {
+  const int n = joint_count<known>(arm);
+  for (int c = 0; c < n; ++c) {
     T f[kMaxJoints][3], m[kMaxJoints][3], dw[3], acc[3];
     for (int i = 0; i < c; ++i)
       for (int k = 0; k < 3; ++k) f[i][k] = m[i][k] = T(0.0);
     for (int k = 0; k < 3; ++k) dw[k] = acc[k] = T(0.0);
-    for (int i = c; i < arm.n; ++i) {
+    for (int i = c; i < n; ++i) {
       const JointParameters<T>& j = arm.joint[i];
       if (i == c) {
         (j.type == JointType::revolute ? dw : acc)[2] = T(1.0);
@@ -169,7 +172,7 @@ HALYARD_INLINE void mass_matrix(const ArmParameters<T>& arm, const ChainPose<T>&
       cross_add(j.com, f[i], m[i]);
     }
     T column[kMaxJoints];
-    forces_to_joints(arm, pose, f, m, column);
+    forces_to_joints<known>(arm, pose, f, m, column);
     for (int r = 0; r <= c; ++r) M[r][c] = M[c][r] = column[r];
   }
 }

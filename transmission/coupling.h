@@ -39,17 +39,19 @@ HALYARD_INLINE T coupled_motion(const JointParameters<T>& joint_k, int n, const 
 }
 
 /// s = R q. q, s: [n]; works for rates as well.
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE void cable_path(const ArmParameters<T>& arm, const T* q, T* s) {
-  for (int k = 0; k < arm.n; ++k) s[k] = arm.joint[k].pulley_radius * coupled_motion(arm.joint[k], arm.n, q);
+  const int n = joint_count<known>(arm);
+  for (int k = 0; k < n; ++k) s[k] = arm.joint[k].pulley_radius * coupled_motion(arm.joint[k], n, q);
 }
 
 /// Γ = Rᵀ g. g, force: [n].
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE void joint_reaction(const ArmParameters<T>& arm, const T* g, T* force) {
-  for (int j = 0; j < arm.n; ++j) {
+  const int n = joint_count<known>(arm);
+  for (int j = 0; j < n; ++j) {
     T sum = 0.0;
-    for (int i = 0; i < arm.n; ++i) sum += path_per_joint(arm.joint[i], j) * g[i];
+    for (int i = 0; i < n; ++i) sum += path_per_joint(arm.joint[i], j) * g[i];
     force[j] = sum;
   }
 }

@@ -58,13 +58,16 @@ class Transmission {
 
   /// The inputs are the internal states z [n_states] and s.command, s.motor_angle, s.motor_rate, s.joint_position,
   /// s.joint_rate and s.external_force. Computes z_dot [n_states] and all other signals of s except the sensor errors,
-  /// which sensor_errors() sets. s: [n]. If motors are unwanted, s.motor_torque may be left out.
+  /// which sensor_errors() sets. s: [n]. If motors are unwanted, s.motor_torque may be left out. known: see
+  /// joint_count().
+  template <int known = 0>
   HALYARD_INLINE void evaluate(double time, const CommandHistory* history, const T* z, JointSignals<T>* s, T* z_dot,
                                MotorTorques motors = MotorTorques::wanted) const;
 
   /// Sets s.motor_error and s.joint_error: sensor reading minus truth.
+  template <int known = 0>
   HALYARD_INLINE void sensor_errors(double time, const T* z, JointSignals<T>* s) const {
-    for (int i = 0; i < arm_.n; ++i) {
+    for (int i = 0, n = joint_count<known>(arm_); i < n; ++i) {
       s[i].motor_error = arm_.joint[i].motor_encoder_offset;
       s[i].joint_error = arm_.joint[i].joint_encoder_offset;
     }
@@ -72,9 +75,10 @@ class Transmission {
   }
 
   /// Runs only the command stage: sets s.motor_torque from s.command, without friction.
+  template <int known = 0>
   HALYARD_INLINE void commanded_torque(double time, const CommandHistory* history, const T* z,
                                        JointSignals<T>* s) const {
-    for (int i = 0; i < arm_.n; ++i)
+    for (int i = 0, n = joint_count<known>(arm_); i < n; ++i)
       s[i].motor_torque = arm_.joint[i].torque_scale * s[i].command + arm_.joint[i].torque_bias;
     apply(EffectStage::command, time, history, z, s);
   }
@@ -83,7 +87,9 @@ class Transmission {
   static constexpr unsigned kMotorStages =
       static_cast<unsigned>(EffectStage::command) | static_cast<unsigned>(EffectStage::motor);
 
+  template <int known>
   HALYARD_INLINE void stretch_cables(JointSignals<T>* s) const;
+  template <int known>
   HALYARD_INLINE void add_motor_friction(JointSignals<T>* s) const;
   HALYARD_INLINE void apply(EffectStage stage, double time, const CommandHistory* history, const T* z,
                             JointSignals<T>* s) const {
@@ -103,12 +109,13 @@ class Transmission {
 };
 
 template <class T>
+template <int known>
 HALYARD_INLINE void Transmission<T>::stretch_cables(JointSignals<T>* s) const {
-  const int n = arm_.n;
+  const int n = joint_count<known>(arm_);
   T q[kMaxJoints], v[kMaxJoints], path[kMaxJoints], path_rate[kMaxJoints];
   for (int i = 0; i < n; ++i) q[i] = s[i].joint_position, v[i] = s[i].joint_rate;
-  cable_path(arm_, q, path);
-  cable_path(arm_, v, path_rate);
+  cable_path<known>(arm_, q, path);
+  cable_path<known>(arm_, v, path_rate);
   for (int i = 0; i < n; ++i) {
     if (arm_.joint[i].drive == Drive::cable) {
       s[i].stretch = travel_[i] * s[i].motor_angle - path[i];
@@ -120,8 +127,9 @@ HALYARD_INLINE void Transmission<T>::stretch_cables(JointSignals<T>* s) const {
 }
 
 template <class T>
+template <int known>
 HALYARD_INLINE void Transmission<T>::add_motor_friction(JointSignals<T>* s) const {
-  for (int i = 0; i < arm_.n; ++i) {
+  for (int i = 0, n = joint_count<known>(arm_); i < n; ++i) {
     const JointParameters<T>& j = arm_.joint[i];
     if (j.drive == Drive::none) {
       s[i].motor_torque = T(0.0);
@@ -132,12 +140,13 @@ HALYARD_INLINE void Transmission<T>::add_motor_friction(JointSignals<T>* s) cons
 }
 
 template <class T>
+template <int known>
 HALYARD_INLINE void Transmission<T>::evaluate(double time, const CommandHistory* history, const T* z,
                                               JointSignals<T>* s, T* z_dot, MotorTorques motors) const {
-  const int n = arm_.n;
+  const int n = joint_count<known>(arm_);
   const bool with_motors = motors == MotorTorques::wanted || states_need_motors_;
-  if (with_motors) commanded_torque(time, history, z, s);
-  stretch_cables(s);
+  if (with_motors) commanded_torque<known>(time, history, z, s);
+  stretch_cables<known>(s);
   apply(EffectStage::stretch, time, history, z, s);
 
   for (int i = 0; i < n; ++i)
@@ -146,13 +155,13 @@ HALYARD_INLINE void Transmission<T>::evaluate(double time, const CommandHistory*
   apply(EffectStage::cable_force, time, history, z, s);
 
   if (with_motors) {
-    add_motor_friction(s);
+    add_motor_friction<known>(s);
     apply(EffectStage::motor, time, history, z, s);
   }
 
   T g[kMaxJoints], reaction[kMaxJoints];
   for (int i = 0; i < n; ++i) g[i] = s[i].cable_force_joint;
-  joint_reaction(arm_, g, reaction);
+  joint_reaction<known>(arm_, g, reaction);
   for (int i = 0; i < n; ++i) {
     const JointParameters<T>& j = arm_.joint[i];
     s[i].joint_force = reaction[i] - friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, s[i].joint_rate) +

@@ -30,9 +30,9 @@ struct DrivenState {
 };
 
 /// Sets the position and rate of joints with prescribed motion.
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE void prescribe(const ArmParameters<T>& arm, const DrivenInput& u, DrivenState<T>& x) {
-  for (int k = 0; k < arm.n; ++k) {
+  for (int k = 0, n = joint_count<known>(arm); k < n; ++k) {
     const JointParameters<T>& j = arm.joint[k];
     if (j.drive == Drive::none) {
       x.q[k] = T(u.motor_angle[k]) - j.joint_encoder_offset;
@@ -56,15 +56,15 @@ struct ChainOverStep {
   T A[kMaxJoints][kMaxJoints];         ///< factored R M⁻¹ Rᵀ
 };
 
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE void chain_over_step(const ArmParameters<T>& arm, const DrivenState<T>& x, double ahead,
                                     ChainOverStep<T>& chain) {
-  const int n = arm.n;
+  const int n = joint_count<known>(arm);
   T q[kMaxJoints], zero[kMaxJoints];
   for (int k = 0; k < n; ++k) q[k] = x.q[k] + T(ahead) * x.v[k], zero[k] = T(0.0);
-  const ChainPose<T> pose = chain_pose(arm, q);
-  inverse_dynamics(arm, pose, x.v, zero, chain.bias);
-  mass_matrix(arm, pose, chain.M);
+  const ChainPose<T> pose = chain_pose<known>(arm, q);
+  inverse_dynamics<known>(arm, pose, x.v, zero, chain.bias);
+  mass_matrix<known>(arm, pose, chain.M);
   ldl_factor<T, kMaxJoints>(n, chain.M);
   chain.n_prescribed = 0;
   for (int k = 0; k < n; ++k)
@@ -89,12 +89,12 @@ HALYARD_INLINE void chain_over_step(const ArmParameters<T>& arm, const DrivenSta
 
 /// Rates of x; torque_residual [n] and joint_reading [n] if not null. Without a chain there are no accelerations; only
 /// arms with cables at all joints allow this.
-template <class T>
+template <class T, int known = 0>
 HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const ChainOverStep<T>* chain, double time,
                                       const CommandHistory* history, const DrivenInput& u, const DrivenState<T>& x,
                                       DrivenState<T>& rate, T* torque_residual, T* joint_reading) {
   const ArmParameters<T>& arm = transmission.arm();
-  const int n = arm.n;
+  const int n = joint_count<known>(arm);
   ArmSignals<T> signals(n);
   JointSignals<T>* s = signals.joint();
   for (int k = 0; k < n; ++k) {
@@ -106,12 +106,13 @@ HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const
     s[k].external_force = u.external[k];
   }
   // The angle from the encoder's reading: errors are small, so one correction is enough.
-  transmission.sensor_errors(time, x.z, s);
+  transmission.template sensor_errors<known>(time, x.z, s);
   for (int k = 0; k < n; ++k) {
     s[k].motor_angle -= s[k].motor_error;
     if (joint_reading) joint_reading[k] = x.q[k] + s[k].joint_error;
   }
-  transmission.evaluate(time, history, x.z, s, rate.z, torque_residual ? MotorTorques::wanted : MotorTorques::unwanted);
+  transmission.template evaluate<known>(time, history, x.z, s, rate.z,
+                                        torque_residual ? MotorTorques::wanted : MotorTorques::unwanted);
 
   T a[kMaxJoints];
   for (int k = 0; k < n; ++k) a[k] = chain ? T(s[k].joint_force - chain->bias[k]) : T(0.0);
@@ -187,16 +188,16 @@ HALYARD_INLINE void copy_state(int n, int m, const DrivenState<T>& from, DrivenS
 
 /// One step of x from time over h; input(t, at) sets the DrivenInput at time t. row, if not null: torque residual [n] and
 /// joint reading [n] at the start of the step.
-template <class T, class Input>
+template <int known = 0, class T, class Input>
 HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time, double h, const Chebyshev& c,
                                 const CommandHistory* history, const Input& input, DrivenState<T>& x, T* row) {
-  const int n = transmission.arm().n, m = transmission.n_states();
+  const int n = joint_count<known>(transmission.arm()), m = transmission.n_states();
   ChainOverStep<T> chain;
-  chain_over_step(transmission.arm(), x, 0.5 * h, chain);
+  chain_over_step<known>(transmission.arm(), x, 0.5 * h, chain);
   DrivenInput at;
   DrivenState<T> f0, f, stage[2];
   input(time, at);
-  driven_derivative<T>(transmission, &chain, time, history, at, x, f0, row, row ? row + n : nullptr);
+  driven_derivative<T, known>(transmission, &chain, time, history, at, x, f0, row, row ? row + n : nullptr);
   copy_state(n, m, x, stage[0]);
   axpy(n, m, c.mu_h[1] * h, x, f0, stage[1]);
   DrivenState<T>*before = &stage[0], *last = &stage[1];
@@ -204,7 +205,7 @@ HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time
     const double then = time + c.node[j - 1] * h;
     input(then, at);
     // Past commands affect the torque residual only, which inner stages do not compute.
-    driven_derivative<T>(transmission, &chain, then, nullptr, at, *last, f, nullptr, nullptr);
+    driven_derivative<T, known>(transmission, &chain, then, nullptr, at, *last, f, nullptr, nullptr);
     const StageRecursion<T> recursion(c, j, h);
     recursion.advance(n, x.q, last->q, f.q, f0.q, before->q);
     recursion.advance(n, x.v, last->v, f.v, f0.v, before->v);
@@ -216,18 +217,18 @@ HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time
 
 /// Integrates a whole record. Sample i writes the torque residual to out[i * 2n + k] and the predicted joint reading to
 /// out[i * 2n + n + k]. x is the initial state and becomes the final one. states [size][2n + effects' states], if not
-/// null, receives x at every sample.
-template <class T>
+/// null, receives x at every sample. known: see joint_count().
+template <int known = 0, class T>
 HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
                                  double start, double dt, const Chebyshev& scheme, const CommandHistory* history,
                                  DrivenState<T>& x, T* out, T* states) {
   const ArmParameters<T>& arm = transmission.arm();
-  const int n = arm.n, m = transmission.n_states();
+  const int n = joint_count<known>(arm), m = transmission.n_states();
   for (std::size_t i = 0; i < size; ++i) {
     const double time = start + dt * static_cast<double>(i);
     // After the last sample its input is held.
     const DrivenInput &a = samples[i], &b = samples[std::min(i + 1, size - 1)];
-    prescribe(arm, a, x);
+    prescribe<known>(arm, a, x);
     if (states) {
       T* row = states + i * (2 * n + m);
       for (int k = 0; k < n; ++k) row[k] = x.q[k], row[n + k] = x.v[k];
@@ -236,17 +237,17 @@ HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const Driv
     const auto input = [&](double t, DrivenInput& at) { interpolate(n, a, b, (t - time) / dt, at); };
     const double h = dt / scheme.steps;
     for (int s = 0; s < scheme.steps; ++s)
-      driven_step(transmission, time + s * h, h, scheme, history, input, x, s == 0 ? out + i * 2 * n : nullptr);
+      driven_step<known>(transmission, time + s * h, h, scheme, history, input, x, s == 0 ? out + i * 2 * n : nullptr);
   }
 }
 
 /// Computes the output of drive_record from known `states`: for hypotheses that differ only in parameters on which the
 /// motion does not depend.
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE void replay_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
                                   double start, double dt, const CommandHistory* history, const T* states, T* out) {
   const ArmParameters<T>& arm = transmission.arm();
-  const int n = arm.n, m = transmission.n_states();
+  const int n = joint_count<known>(arm), m = transmission.n_states();
   bool prescribed = false;
   for (int k = 0; k < n; ++k) prescribed = prescribed || arm.joint[k].drive != Drive::cable;
   for (std::size_t i = 0; i < size; ++i) {
@@ -255,10 +256,10 @@ HALYARD_INLINE void replay_record(const Transmission<T>& transmission, const Dri
     for (int k = 0; k < n; ++k) x.q[k] = from[k], x.v[k] = from[n + k];
     for (int k = 0; k < m; ++k) x.z[k] = from[2 * n + k];
     ChainOverStep<T> chain;
-    if (prescribed) chain_over_step(arm, x, 0.5 * dt, chain);
+    if (prescribed) chain_over_step<known>(arm, x, 0.5 * dt, chain);
     T* row = out + i * 2 * n;
-    driven_derivative<T>(transmission, prescribed ? &chain : nullptr, start + dt * static_cast<double>(i), history,
-                         samples[i], x, rate, row, row + n);
+    driven_derivative<T, known>(transmission, prescribed ? &chain : nullptr, start + dt * static_cast<double>(i),
+                                history, samples[i], x, rate, row, row + n);
   }
 }
 

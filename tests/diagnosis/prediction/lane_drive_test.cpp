@@ -1,0 +1,79 @@
+#include "diagnosis/motion/lane_drive.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/support/random_arm.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kDt = 2e-3;
+constexpr std::size_t kSamples = 50;
+
+/// The first n joints of a random arm; joints beyond the third repeat the first.
+ArmParameters<double> arm_of(int n) {
+  ArmParameters<double> arm = random_arm(7, CableLaw::linear);
+  for (int k = arm.n; k < n; ++k) {
+    arm.joint[k] = arm.joint[0];
+    arm.joint[k].coupling[0] = 0;
+    arm.joint[k].coupling[k] = 1;
+  }
+  arm.n = n;
+  return arm;
+}
+
+std::vector<DrivenInput> swinging_motors(int n) {
+  std::vector<DrivenInput> all(kSamples, DrivenInput{});
+  for (std::size_t i = 0; i < kSamples; ++i)
+    for (int k = 0; k < n; ++k) {
+      const double rate = 3.0 + k, phase = rate * kDt * static_cast<double>(i);
+      all[i].motor_angle[k] = 0.2 * std::sin(phase);
+      all[i].motor_rate[k] = 0.2 * rate * std::cos(phase);
+      all[i].motor_acceleration[k] = -0.2 * rate * rate * std::sin(phase);
+      all[i].torque[k] = 0.1 * k;
+    }
+  return all;
+}
+
+template <class T>
+DrivenState<T> at_rest() {
+  DrivenState<T> x;
+  for (T& q : x.q) q = T(0.01);
+  for (T& v : x.v) v = T(0.0);
+  return x;
+}
+
+TEST(LaneDrive, EveryLaneMovesLikeASingleArmForAnyNumberOfJoints) {
+  const Chebyshev scheme = scheme_for({{{{-100.0, 0.0}}}}, kDt);
+  for (int n = 1; n <= kMaxJoints; ++n) {
+    const ArmParameters<double> arm = arm_of(n);
+    const std::vector<DrivenInput> motors = swinging_motors(n);
+    const std::size_t size = kSamples * 2 * static_cast<std::size_t>(n);
+
+    std::vector<double> single(size);
+    DrivenState<double> x = at_rest<double>();
+    drive_record(lift_transmission<double>(arm, {}), motors.data(), kSamples, 0.0, kDt, scheme, nullptr, x,
+                 single.data(), static_cast<double*>(nullptr));
+
+    const Transmission<Lanes> lanes = lift_transmission<Lanes>(arm, {});
+    std::vector<Lanes> driven(size), states(size), replayed(size);
+    DrivenState<Lanes> y = at_rest<Lanes>();
+    generic_lane_drive().drive(lanes, motors.data(), kSamples, 0.0, kDt, scheme, nullptr, y, driven.data(),
+                               states.data());
+    generic_lane_drive().replay(lanes, motors.data(), kSamples, 0.0, kDt, nullptr, states.data(), replayed.data());
+
+    constexpr double kRounding = 1e-12;  // of some hundred stages with numbers of the order of one
+    for (std::size_t i = 0; i < size; ++i)
+      for (const int lane : {0, kLaneWidth - 1}) {
+        EXPECT_NEAR(driven[i][lane], single[i], kRounding) << n << " joints";
+        EXPECT_NEAR(replayed[i][lane], single[i], kRounding) << n << " joints";
+      }
+    EXPECT_GT(std::abs(x.q[n - 1] - 0.01), 1e-4) << "the arm does not move";
+  }
+}
+
+}  // namespace
+}  // namespace halyard
