@@ -1,11 +1,15 @@
 #include "app/command_line.h"
 
 // The one file that includes CLI11: it takes seconds to compile.
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "app/commands/check_command.h"
@@ -21,6 +25,7 @@
 #include "app/tour/tour_command.h"
 #include "evaluation/estimator_list.h"
 #include "halyard/version.h"
+#include "model/column_map.h"
 #include "model/input_error.h"
 #include "plugins/host/effect_module.h"
 
@@ -56,16 +61,32 @@ void add_effects_option(CLI::App& command) {
       ->allow_extra_args(false);
 }
 
-std::string not_negative(const std::string& text) {
-  double value = 0;
-  const bool good = CLI::detail::lexical_cast(text, value) && value >= 0 && std::isfinite(value);
-  return good ? "" : in_quotes(text) + ": expected a number, 0 or more";
+/// What an option that is a number may be.
+struct NumberRange {
+  double least = 0, most = std::numeric_limits<double>::max();
+  bool above_least = false;  ///< without `least` itself
+};
+
+/// For every option that is a number. CLI11's own checks let NaN pass.
+template <class Number>
+CLI::Option* add_number(CLI::App& command, const std::string& name, Number& value, const NumberRange& range,
+                        const std::string& description) {
+  const bool whole = std::is_integral_v<Number>;
+  const auto fault = [range, whole](const std::string& text) -> std::string {
+    const std::optional<double> number = parse_number(text);
+    if (number && (*number > range.least || (*number == range.least && !range.above_least)) && *number <= range.most &&
+        (!whole || text.find_first_not_of("0123456789") == text.npos))
+      return "";
+    return in_quotes(text) + ": expected a " + (whole ? "whole " : "finite ") + "number, " +
+           (range.above_least ? "above " : "at least ") + fmt::format("{:g}", range.least) +
+           (range.most < std::numeric_limits<double>::max() ? fmt::format(", at most {:g}", range.most) : "");
+  };
+  return command.add_option(name, value, description)->check(fault)->type_name("N");
 }
 
 void add_skip_option(CLI::App& command, double& skip_s) {
-  command.add_option("--skip", skip_s, "start of the record that the errors leave out, in s")
+  add_number(command, "--skip", skip_s, {}, "start of the record that the errors leave out, in s")
       ->type_name("S")
-      ->check(not_negative)
       ->capture_default_str();
 }
 
@@ -121,18 +142,16 @@ void add_compare_command(CLI::App& app) {
   add_columns_option(command, options->columns);
   add_joint_torque_flag(command, options->use_joint_torque);
   add_skip_option(command, options->skip_s);
-  command
-      .add_option("--step-limit", options->step_limit_s, "an estimator that takes longer for a step is stopped, in s")
-      ->check(CLI::PositiveNumber)
+  add_number(command, "--step-limit", options->step_limit_s, {.above_least = true},
+             "an estimator that takes longer for a step is stopped, in s")
+      ->type_name("S")
       ->capture_default_str();
-  command.add_option("--runs", options->runs, "for a scenario: simulate so many seeds and compare over all of them")
-      ->check(CLI::Range(1, 100000))
+  add_number(command, "--runs", options->runs, {.least = 1, .most = 100000},
+             "for a scenario: simulate so many seeds and compare over all of them")
       ->capture_default_str();
-  command
-      .add_option("--noise", options->noise,
-                  "of a scenario: disturb the arm by so many times the process and measurement noise that the filters "
-                  "assume")
-      ->check(CLI::NonNegativeNumber);
+  add_number(
+      command, "--noise", options->noise, {},
+      "of a scenario: disturb the arm by so many times the process and measurement noise that the filters assume");
   add_effects_option(command);
   finish(command, [options, estimators] {
     options->estimators = split_estimators(*estimators);
@@ -232,9 +251,9 @@ void add_experiments_command(CLI::App& app) {
                   "calibrated model that kinematics and sr_ukf are run with too; default: raven2.xml with couplings "
                   "identified here")
       ->type_name("M.xml");
-  command.add_option("--duration", options->duration_s, "of each experiment, in s; default: the scenarios'")
-      ->type_name("S")
-      ->check(CLI::PositiveNumber);
+  add_number(command, "--duration", options->duration_s, {.above_least = true},
+             "of each experiment, in s; default: the scenarios'")
+      ->type_name("S");
   command.add_flag_callback(
       "--no-effect-study", [options] { options->effect_study = false; },
       "leave out the study of single effects, which takes most of the time");
@@ -247,9 +266,7 @@ void add_sweep_command(CLI::App& app) {
   const auto shard = std::make_shared<std::string>();
   command.add_option("SWEEP.xml", options->sweep, "sweep file")->type_name("")->required();
   command.add_option("--out", options->out, "folder of the results")->type_name("DIR")->required();
-  command.add_option("--jobs", options->run.jobs, "threads; default: one per core")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024));
+  add_number(command, "--jobs", options->run.jobs, {.least = 1, .most = 1024}, "threads; default: one per core");
   command.add_option("--shard", *shard, "compute part i of n, for halyard merge")->type_name("i/n");
   command.add_flag("--resume", options->run.resume, "keep what is finished, compute the rest");
   add_effects_option(command);
@@ -290,10 +307,9 @@ void add_check_command(CLI::App& app) {
   command.add_flag("--kalman", options->kalman,
                    "of an estimator: it is a Kalman filter with halyard's noise; hold it "
                    "against the textbook's on a linear arm");
-  command
-      .add_option("--time-limit", options->time_limit_s,
-                  "of an estimator: a promise whose test takes longer is broken, in s")
-      ->check(CLI::PositiveNumber)
+  add_number(command, "--time-limit", options->time_limit_s, {.above_least = true},
+             "of an estimator: a promise whose test takes longer is broken, in s")
+      ->type_name("S")
       ->capture_default_str();
   add_effects_option(command);
   finish(command, [options] { run_check(*options); });

@@ -3,58 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/support/program_run.h"
+#include "tests/support/bad_input.h"
 
 namespace halyard::testing_program {
 namespace {
-
-const std::string kHeader =
-    "time,motor_torque_1,motor_torque_2,motor_torque_3,motor_position_1,motor_position_2,motor_position_3\n";
-const std::string kRows = "0,0,0,0,107,204,904\n0.001,0,0,0,107,204,904\n";
-
-class BadInput : public ProgramTest {
- protected:
-  void SetUp() override {
-    ProgramTest::SetUp();
-    write_short_scenario("experiment_a.xml", "0.1");
-    write_text(path("log.csv"), kHeader + kRows);
-  }
-
-  /// Runs, and expects exit code `code`, one line with all of `parts`, nothing on stdout, and the folder as it was.
-  void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& parts,
-                      int code = 2) const {
-    std::string command = "halyard";
-    for (const std::string& argument : arguments) command += " " + argument;
-    SCOPED_TRACE(command);
-    const auto before = files_in(folder_);
-    const RunResult result = run(arguments);
-    EXPECT_EQ(result.exit_code, code);
-    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
-    EXPECT_TRUE(result.err.ends_with('\n') && result.err.size() > 1);
-    for (const std::string& part : parts) EXPECT_TRUE(contains(result.err, part)) << result.err << "lacks: " << part;
-    EXPECT_EQ(result.out, "");
-    EXPECT_TRUE(files_in(folder_) == before) << "files were left or changed";
-  }
-
-  void expect_estimate_refused(const std::string& data, const std::vector<std::string>& parts) const {
-    expect_refused(
-        {"estimate", "--model", "raven2.xml", "--estimator", "kinematics", "--data", data, "--out", "est.csv"}, parts);
-    expect_refused({"compare", data, "--model", "raven2.xml", "--estimators", "kinematics", "--out", "cmp"}, parts);
-  }
-
-  void expect_log_refused(const std::string& text, const std::vector<std::string>& parts) const {
-    write_text(path("bad.csv"), text);
-    expect_estimate_refused("bad.csv", parts);
-  }
-
-  void expect_sweep_refused(const std::string& axes, const std::vector<std::string>& parts,
-                            const std::string& attributes = "estimators=\"kinematics\"") const {
-    write_text(path("bad.xml"),
-               "<sweep name=\"bad\" scenario=\"experiment_a.xml\" " + attributes + ">" + axes + "</sweep>");
-    expect_refused({"check", "bad.xml"}, parts);
-    expect_refused({"sweep", "bad.xml", "--out", "out"}, parts);
-  }
-};
 
 TEST_F(BadInput, ALogThatIsNotWhatItShouldBe) {
   expect_log_refused(replaced(kHeader, ",motor_torque_2", "") + "0,0,0,107,204,904\n",
