@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "model/input_error.h"
+#include "model/output/output_files.h"
 
 namespace halyard {
 namespace {
@@ -16,8 +17,7 @@ namespace fs = std::filesystem;
   throw InputError("--out " + in_quotes(path.string()) + ": " + what);
 }
 
-}  // namespace
-
+/// Unless files can be written into that folder, which need not exist yet.
 void check_output_folder(const fs::path& path) {
   if (path.empty()) fail(path, "is empty; give a path");
   std::error_code error;
@@ -31,6 +31,15 @@ void check_output_folder(const fs::path& path) {
   if (::access(existing.c_str(), W_OK | X_OK) != 0) {
     fail(path, "no permission to write in " + in_quotes(existing.string()) + "; give another path");
   }
+}
+
+}  // namespace
+
+std::unique_ptr<FolderLock> lock_output_folder(const fs::path& path) {
+  check_output_folder(path);
+  auto lock = std::make_unique<FolderLock>(path);
+  remove_leftovers(path);
+  return lock;
 }
 
 void check_output_file(const fs::path& path) {

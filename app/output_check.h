@@ -2,6 +2,9 @@
 /// Checks, before long computations, that the results can be written.
 
 #include <filesystem>
+#include <memory>
+
+#include "model/output/folder_lock.h"
 
 namespace halyard {
 
@@ -11,7 +14,8 @@ void check_output_file(const std::filesystem::path& path);
 /// Throws InputError if `out` is the same file as `input`, because writing would replace the input.
 void check_not_input(const std::filesystem::path& out, const std::filesystem::path& input);
 
-/// Throws InputError unless files can be written into that folder, which need not exist yet.
-void check_output_folder(const std::filesystem::path& path);
+/// Locks a folder for the outputs of a command, and makes it if it is missing. Throws InputError if another run writes
+/// into it, or unless files can be written into it.
+[[nodiscard]] std::unique_ptr<FolderLock> lock_output_folder(const std::filesystem::path& path);
 
 }  // namespace halyard

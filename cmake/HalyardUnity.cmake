@@ -23,7 +23,8 @@ foreach(place cable joint motor sensor)
 endforeach()
 
 compile_together(halyard_model model
-  arm_log.cpp arm_model.cpp column_map.cpp homing.cpp log.cpp model_file.cpp model_writer.cpp output_file.cpp
+  arm_log.cpp arm_model.cpp column_map.cpp homing.cpp log.cpp model_file.cpp model_writer.cpp
+  output/folder_lock.cpp output/output_files.cpp output/unfinished.cpp
   xml/field_reader.cpp)
 
 compile_together(halyard_simbody simbody integrators/simbody_integrator.cpp simbody_arm.cpp)
@@ -83,8 +84,8 @@ compile_together(halyard_report report chart.cpp chart_json.cpp page.cpp)
 compile_together(halyard_app commands
   command_line.cpp commands/check_command.cpp commands/compare_command.cpp commands/diagnose_command.cpp
   commands/estimate_command.cpp commands/identify_command.cpp commands/plan_command.cpp commands/plugins_command.cpp
-  commands/simulate_command.cpp commands/sweep_command.cpp log_input.cpp main.cpp output_check.cpp progress.cpp
-  run_estimate.cpp  tour/experiments_command.cpp tour/tour_command.cpp)
+  commands/simulate_command.cpp commands/sweep_command.cpp log_input.cpp main.cpp output_check.cpp
+  progress.cpp run_estimate.cpp tour/experiments_command.cpp tour/tour_command.cpp)
 compile_together(halyard_app pages
   pages/comparison_figures.cpp pages/comparison_output.cpp pages/diagnosis_report.cpp pages/estimator_table.cpp
   pages/identify_output.cpp pages/identify_report.cpp pages/judgement_tables.cpp pages/sweep_report.cpp

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "model/output_file.h"
+#include "model/output/output_files.h"
 
 namespace halyard {
 

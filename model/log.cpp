@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "model/input_error.h"
-#include "model/output_file.h"
+#include "model/output/output_files.h"
 
 namespace halyard {
 namespace {
@@ -221,7 +221,7 @@ Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& m
   return log;
 }
 
-void write_log(const std::filesystem::path& path, const Log& log, const std::string& comment) {
+std::string log_csv(const Log& log, const std::string& comment) {
   std::string text;
   std::istringstream comment_lines(comment);
   for (std::string line; std::getline(comment_lines, line);) text += "# " + line + "\n";
@@ -251,7 +251,11 @@ void write_log(const std::filesystem::path& path, const Log& log, const std::str
     text += "\n";
     previous = std::move(time);
   }
-  write_file_whole(path, text);
+  return text;
+}
+
+void write_log(const std::filesystem::path& path, const Log& log, const std::string& comment) {
+  write_file_whole(path, log_csv(log, comment));
 }
 
 Log slice(const Log& log, std::size_t begin, std::size_t end) {

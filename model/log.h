@@ -89,13 +89,14 @@ struct ReadOptions {
 Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& map = {},
              const ReadOptions& options = {});
 
-/// Writes the columns that the log has, in the order of the table above: time with up to 6 decimals, other values with
-/// 9 significant digits. Each line of `comment` becomes a comment line at the top. The file is either complete or
-/// absent.
+/// The text of a log's file: the columns that the log has, in the order of the table above, time with up to 6 decimals,
+/// other values with 9 significant digits. Each line of `comment` becomes a comment line at the top.
 ///
 /// Throws std::invalid_argument for a column whose length differs from that of time, for an infinite value, or for
-/// times that do not increase after rounding to 6 decimals. If the file cannot be written, throws as write_file_whole()
-/// does.
+/// times that do not increase after rounding to 6 decimals.
+std::string log_csv(const Log& log, const std::string& comment = "");
+
+/// Writes log_csv() as a file that is complete or absent. Throws as log_csv() and write_file_whole() do.
 void write_log(const std::filesystem::path& path, const Log& log, const std::string& comment = "");
 
 /// The samples begin..end-1 of a log. If there are none, every column of the result is absent. Throws std::out_of_range

@@ -122,7 +122,7 @@ void print_runs(const MonteCarlo& runs, const std::vector<JointUnit>& units) {
 }  // namespace
 
 void run_compare(const CompareCommandOptions& options) {
-  check_output_folder(options.out);
+  const auto lock = lock_output_folder(options.out);
   const Data data = options.data.extension() == ".xml" ? simulated_data(options) : logged_data(options);
   Comparison comparison;
   {
@@ -149,7 +149,9 @@ void run_compare(const CompareCommandOptions& options) {
         {.runs = options.runs, .skip_s = options.skip_s, .run_done = [&](double amount) { progress.add(amount); }});
     runs->noise = options.noise;
   }
-  write_comparison(options.out, comparison, runs);
+  OutputFiles files;
+  write_comparison(files, options.out, comparison, runs);
+  files.commit();
   print_errors(comparison);
   if (runs) print_runs(*runs, comparison.units);
   fmt::print("report: {}\n", (options.out / "report.html").string());

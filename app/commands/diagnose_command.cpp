@@ -77,7 +77,7 @@ void print_errors(const ArmModel& model, const Diagnosis& d, const DiagnosisEval
 }  // namespace
 
 void run_diagnose(const DiagnoseCommandOptions& options) {
-  check_output_folder(options.out);
+  const auto lock = lock_output_folder(options.out);
   const ArmModel model = read_model(options.model);
   std::vector<std::filesystem::path> all = options.data;
   if (!options.holdout.empty()) all.push_back(options.holdout);
@@ -96,7 +96,9 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
     d = diagnose(model, training, holdout, {.columns = columns_of(model, options.columns)}, tell);
     evaluation = evaluate_diagnosis(model, d, training, holdout, tell);
   }
-  write_diagnosis(options.out, model, d, evaluation);
+  OutputFiles files;
+  write_diagnosis(files, options.out, model, d, evaluation);
+  files.commit();
   print_findings(d, evaluation);
   print_errors(model, d, evaluation);
   fmt::print("model: {}\n", (options.out / "model.xml").string());

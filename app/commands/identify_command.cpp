@@ -34,7 +34,7 @@ void print(const IdentificationStudy& result) {
 }  // namespace
 
 void run_identify(const IdentifyCommandOptions& options) {
-  check_output_folder(options.out);
+  const auto lock = lock_output_folder(options.out);
   const ArmModel model = read_model(options.model);
   const std::vector<std::string> keys = identified_keys(model, options.parameters);
   std::vector<std::filesystem::path> paths = options.data;
@@ -57,7 +57,9 @@ void run_identify(const IdentifyCommandOptions& options) {
     result = study_identification(model, logs, holdout, keys,
                                   [&](const std::string& what, double fraction) { progress.set(what, fraction); });
   }
-  write_identification(options.out, result);
+  OutputFiles files;
+  write_identification(files, options.out, result);
+  files.commit();
   fmt::print("{}", notes);
   print(result);
   fmt::print("model: {}{}\n", (options.out / "model.xml").string(),

@@ -68,7 +68,7 @@ std::string left_out(const Scenario& scenario, const ArmModel& model) {
 }  // namespace
 
 void run_plan(const PlanCommandOptions& options) {
-  if (!options.out.empty()) check_output_folder(options.out);
+  const auto lock = options.out.empty() ? nullptr : lock_output_folder(options.out);
   Plan plan;
   plan.model = read_model(options.model);
   plan.model.source = options.model.string();
@@ -98,7 +98,11 @@ void run_plan(const PlanCommandOptions& options) {
         plan.separating->scenario->name = effect_label(pair->first) + " from " + effect_label(pair->second);
     }
   }
-  if (!options.out.empty()) write_plan(options.out, plan);
+  if (!options.out.empty()) {
+    OutputFiles files;
+    write_plan(files, options.out, plan);
+    files.commit();
+  }
   fmt::print("{}", plan_text(plan));
   if (options.out.empty()) return;
   if (plan.separating && plan.separating->scenario)

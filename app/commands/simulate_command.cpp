@@ -9,6 +9,7 @@
 #include "app/progress.h"
 #include "evaluation/joint_unit.h"
 #include "model/log.h"
+#include "model/output/output_files.h"
 #include "plant/scenario.h"
 #include "plant/simulate.h"
 
@@ -52,8 +53,10 @@ void run_simulate(const SimulateOptions& options) {
     result = simulate(scenario, [&](double fraction) { progress.set(fraction * scenario.duration_s); });
   }
   const std::string about = fmt::format("halyard simulate, scenario \"{}\"", scenario.name);
-  write_log(truth, result.truth, about + ", ground truth");
-  write_log(options.out, result.measured, about);
+  OutputFiles files;
+  files.add(truth, log_csv(result.truth, about + ", ground truth"));
+  files.add(options.out, log_csv(result.measured, about));
+  files.commit();
 
   fmt::print("scenario \"{}\": {} samples, {:g} s, {} joints\n", scenario.name, result.measured.size(),
              result.measured.duration(), result.measured.n_joints);

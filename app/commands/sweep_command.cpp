@@ -47,7 +47,7 @@ Shard parse_shard(std::string_view text) {
 }
 
 void run_sweep_command(const SweepCommandOptions& options) {
-  check_output_folder(options.out);
+  const auto lock = lock_output_folder(options.out);
   const Sweep sweep = read_sweep(options.sweep);
   {
     std::optional<Progress> line;
@@ -64,14 +64,18 @@ void run_sweep_command(const SweepCommandOptions& options) {
     return;
   }
   const std::vector<SweepCell> cells = collect_cells({options.out}, sweep.grid);
-  write_sweep_report(options.out, sweep.grid, cells);
+  OutputFiles files;
+  write_sweep_report(files, options.out, sweep.grid, cells);
+  files.commit();
   print_result(options.out, sweep.grid, cells);
 }
 
 void run_merge_command(const MergeCommandOptions& options) {
-  check_output_folder(options.out);
-  const auto [grid, cells] = merge_sweep(options.parts, options.out);
-  write_sweep_report(options.out, grid, cells);
+  const auto lock = lock_output_folder(options.out);
+  OutputFiles files;
+  const auto [grid, cells] = merge_sweep(files, options.parts, options.out);
+  write_sweep_report(files, options.out, grid, cells);
+  files.commit();
   print_result(options.out, grid, cells);
 }
 

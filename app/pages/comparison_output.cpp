@@ -8,7 +8,6 @@
 #include "app/pages/judgement_tables.h"
 #include "app/report/page.h"
 #include "evaluation/json.h"
-#include "model/output_file.h"
 
 namespace halyard {
 namespace {
@@ -146,7 +145,7 @@ void add_error_cells(CsvTable& table, const Comparison& comparison, std::size_t 
   }
 }
 
-void write_comparison(const std::filesystem::path& folder, const Comparison& comparison,
+void write_comparison(OutputFiles& files, const std::filesystem::path& folder, const Comparison& comparison,
                       const std::optional<MonteCarlo>& runs) {
   std::vector<std::string> header = error_columns();
   header.insert(header.begin(), "estimator");
@@ -157,13 +156,11 @@ void write_comparison(const std::filesystem::path& folder, const Comparison& com
       add_error_cells(table, comparison, i, k);
     }
   }
-  const report::Page page = comparison_page(comparison, runs);
   ordered_json all = to_json(comparison);
   if (runs) all["monte_carlo"] = to_json(*runs);
-  const std::string json = json_text(all);
-  table.write(folder / "comparison.csv");
-  write_file_whole(folder / "comparison.json", json);
-  page.write(folder / "report.html");
+  files.add(folder / "comparison.csv", table.text());
+  files.add(folder / "comparison.json", json_text(all));
+  files.add(folder / "report.html", comparison_page(comparison, runs).html());
 }
 
 }  // namespace halyard

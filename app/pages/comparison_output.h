@@ -10,6 +10,7 @@
 #include "evaluation/comparison/compare.h"
 #include "evaluation/comparison/monte_carlo.h"
 #include "evaluation/csv.h"
+#include "model/output/output_files.h"
 
 namespace halyard {
 
@@ -21,9 +22,9 @@ std::vector<std::string> error_columns();
 /// Adds these cells for one run and joint.
 void add_error_cells(CsvTable& table, const Comparison& comparison, std::size_t run, int k);
 
-/// Writes report.html, comparison.json and comparison.csv into the folder. runs: the results of the same comparison
+/// Adds report.html, comparison.json and comparison.csv into the folder. runs: the results of the same comparison
 /// over many seeds.
-void write_comparison(const std::filesystem::path& folder, const Comparison& comparison,
+void write_comparison(OutputFiles& files, const std::filesystem::path& folder, const Comparison& comparison,
                       const std::optional<MonteCarlo>& runs = std::nullopt);
 
 }  // namespace halyard

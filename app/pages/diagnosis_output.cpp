@@ -9,7 +9,6 @@
 #include "diagnosis/explanation/view_sentence.h"
 #include "evaluation/joint_unit.h"
 #include "model/model_file.h"
-#include "model/output_file.h"
 
 namespace halyard {
 namespace {
@@ -265,12 +264,12 @@ void add_estimator_errors(report::Page& page, const ArmModel& model, const Diagn
                    innovations + ".");
 }
 
-void write_diagnosis(const std::filesystem::path& folder, const ArmModel& model, const Diagnosis& d,
+void write_diagnosis(OutputFiles& files, const std::filesystem::path& folder, const ArmModel& model, const Diagnosis& d,
                      const DiagnosisEvaluation& evaluation) {
   const bool given = d.effects.empty() && d.refitted.empty();
-  write_file_whole(folder / "model.xml", model_to_xml(given ? model : d.revised));
-  write_file_whole(folder / "diagnosis.json", diagnosis_json(d, evaluation));
-  diagnosis_page(model, d, evaluation).write(folder / "report.html");
+  files.add(folder / "model.xml", model_to_xml(given ? model : d.revised));
+  files.add(folder / "diagnosis.json", diagnosis_json(d, evaluation));
+  files.add(folder / "report.html", diagnosis_page(model, d, evaluation).html());
 }
 
 }  // namespace halyard

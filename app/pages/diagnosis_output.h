@@ -8,6 +8,7 @@
 #include "app/report/page.h"
 #include "diagnosis/diagnose.h"
 #include "evaluation/studies/diagnosis_evaluation.h"
+#include "model/output/output_files.h"
 
 namespace halyard {
 
@@ -42,9 +43,9 @@ report::Chart interval_chart(const Diagnosis& diagnosis, int k);
 /// The whole report.
 report::Page diagnosis_page(const ArmModel& model, const Diagnosis& diagnosis, const DiagnosisEvaluation& evaluation);
 
-/// Writes model.xml, diagnosis.json and report.html into the folder; model.xml is the given model if nothing changed.
+/// Adds model.xml, diagnosis.json and report.html into the folder; model.xml is the given model if nothing changed.
 /// Without an evaluation the report has no reasons and no estimators.
-void write_diagnosis(const std::filesystem::path& folder, const ArmModel& model, const Diagnosis& diagnosis,
-                     const DiagnosisEvaluation& evaluation = {});
+void write_diagnosis(OutputFiles& files, const std::filesystem::path& folder, const ArmModel& model,
+                     const Diagnosis& diagnosis, const DiagnosisEvaluation& evaluation = {});
 
 }  // namespace halyard

@@ -10,7 +10,6 @@
 #include "evaluation/csv.h"
 #include "evaluation/json.h"
 #include "model/model_file.h"
-#include "model/output_file.h"
 
 namespace halyard {
 namespace {
@@ -32,7 +31,7 @@ Json numbers(const std::vector<double>& values) {
   return all;
 }
 
-void write_convergence(const std::filesystem::path& path, const Identification& identification) {
+std::string convergence_csv(const Identification& identification) {
   std::vector<std::string> header = {"time"};
   for (const IdentifiedNumber& number : identification.numbers) {
     header.push_back(number.key);
@@ -46,7 +45,7 @@ void write_convergence(const std::filesystem::path& path, const Identification& 
       table.add(number.trace_std[i]);
     }
   }
-  table.write(path);
+  return table.text();
 }
 
 }  // namespace
@@ -86,12 +85,11 @@ std::string identify_json(const IdentificationStudy& result) {
   return json_text(all);
 }
 
-void write_identification(const std::filesystem::path& folder, const IdentificationStudy& result) {
-  const report::Page page = identify_page(result);
-  write_file_whole(folder / "model.xml", model_to_xml(adopted(result) ? result.identification.model : result.given));
-  write_file_whole(folder / "identify.json", identify_json(result));
-  write_convergence(folder / "convergence.csv", result.identification);
-  page.write(folder / "report.html");
+void write_identification(OutputFiles& files, const std::filesystem::path& folder, const IdentificationStudy& result) {
+  files.add(folder / "model.xml", model_to_xml(adopted(result) ? result.identification.model : result.given));
+  files.add(folder / "identify.json", identify_json(result));
+  files.add(folder / "convergence.csv", convergence_csv(result.identification));
+  files.add(folder / "report.html", identify_page(result).html());
 }
 
 }  // namespace halyard

@@ -6,6 +6,7 @@
 
 #include "app/report/page.h"
 #include "evaluation/studies/identification_study.h"
+#include "model/output/output_files.h"
 
 namespace halyard {
 
@@ -17,8 +18,8 @@ std::string identify_json(const IdentificationStudy& result);
 
 report::Page identify_page(const IdentificationStudy& result);
 
-/// Writes model.xml, identify.json, convergence.csv and report.html into the folder. model.xml is the identified model
+/// Adds model.xml, identify.json, convergence.csv and report.html into the folder. model.xml is the identified model
 /// if adopted() is true, otherwise the given model.
-void write_identification(const std::filesystem::path& folder, const IdentificationStudy& result);
+void write_identification(OutputFiles& files, const std::filesystem::path& folder, const IdentificationStudy& result);
 
 }  // namespace halyard

@@ -10,7 +10,6 @@
 #include "app/pages/diagnosis_output.h"
 #include "app/report/page.h"
 #include "evaluation/joint_unit.h"
-#include "model/output_file.h"
 
 namespace halyard {
 namespace {
@@ -198,14 +197,14 @@ std::string plan_json(const Plan& plan) {
   return all.dump(2) + "\n";
 }
 
-void write_plan(const std::filesystem::path& folder, const Plan& plan) {
+void write_plan(OutputFiles& files, const std::filesystem::path& folder, const Plan& plan) {
   namespace fs = std::filesystem;
   if (plan.separating && plan.separating->scenario) {
     const fs::path model = fs::proximate(fs::absolute(plan.model.source), fs::absolute(folder));
-    write_file_whole(folder / "scenario.xml", proposal_xml(*plan.separating->scenario, model.string()));
+    files.add(folder / "scenario.xml", proposal_xml(*plan.separating->scenario, model.string()));
   }
-  write_file_whole(folder / "plan.json", plan_json(plan));
-  plan_page(plan).write(folder / "plan.html");
+  files.add(folder / "plan.json", plan_json(plan));
+  files.add(folder / "plan.html", plan_page(plan).html());
 }
 
 }  // namespace halyard

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "evaluation/studies/motion_proposal.h"
+#include "model/output/output_files.h"
 
 namespace halyard {
 
@@ -24,7 +25,7 @@ struct Plan {
 std::string plan_text(const Plan& plan);
 std::string plan_json(const Plan& plan);
 
-/// Writes plan.html, plan.json and, if a motion is proposed, scenario.xml into the folder.
-void write_plan(const std::filesystem::path& folder, const Plan& plan);
+/// Adds plan.html, plan.json and, if a motion is proposed, scenario.xml into the folder.
+void write_plan(OutputFiles& files, const std::filesystem::path& folder, const Plan& plan);
 
 }  // namespace halyard

@@ -134,11 +134,10 @@ report::Page sweep_page(const SweepGrid& grid, const std::vector<SweepCell>& cel
 
 }  // namespace
 
-void write_sweep_report(const std::filesystem::path& folder, const SweepGrid& grid,
+void write_sweep_report(OutputFiles& files, const std::filesystem::path& folder, const SweepGrid& grid,
                         const std::vector<SweepCell>& cells) {
-  const report::Page page = sweep_page(grid, cells);
-  write_sweep_table(folder / "sweep.csv", grid, cells);
-  page.write(folder / "report.html");
+  files.add(folder / "sweep.csv", sweep_csv(grid, cells));
+  files.add(folder / "report.html", sweep_page(grid, cells).html());
 }
 
 }  // namespace halyard

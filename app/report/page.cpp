@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "app/report/assets.h"
-#include "model/output_file.h"
 
 namespace halyard::report {
 namespace {
@@ -135,7 +134,5 @@ std::string Page::html() const {
   html.append(assets::page_js).append("</script>\n</body>\n</html>\n");
   return html;
 }
-
-void Page::write(const std::filesystem::path& path) const { write_file_whole(path, html()); }
 
 }  // namespace halyard::report

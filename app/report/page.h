@@ -61,9 +61,6 @@ class Page {
 
   std::string html() const;
 
-  /// Throws std::runtime_error with path and reason; an existing file is then unchanged.
-  void write(const std::filesystem::path& path) const;
-
  private:
   std::string title_;
   std::string subtitle_;

@@ -43,7 +43,7 @@ void print_study(const EffectStudy& study, const std::vector<JointUnit>& units) 
 }  // namespace
 
 void run_experiments(const ExperimentsOptions& options) {
-  check_output_folder(options.out);
+  const auto lock = lock_output_folder(options.out);
   const ExperimentsSetup setup{.raven2 = examples_folder(options.examples, "experiments") / "raven2",
                                .calibrated = options.calibrated,
                                .duration_s = options.duration_s};
@@ -55,7 +55,9 @@ void run_experiments(const ExperimentsOptions& options) {
     if (options.effect_study)
       study = study_experiments(setup, [&](double done) { progress.set("effects one by one", done); });
   }
-  write_experiments(options.out, experiments, study);
+  OutputFiles files;
+  write_experiments(files, options.out, experiments, study);
+  files.commit();
   print_summary(experiments);
   if (study) print_study(*study, experiments.front().comparison.units);
   fmt::print("report: {}\n", (options.out / "report.html").string());

@@ -5,7 +5,6 @@
 #include "app/pages/comparison_output.h"
 #include "app/tour/experiments_report.h"
 #include "evaluation/json.h"
-#include "model/output_file.h"
 
 namespace halyard {
 namespace {
@@ -88,15 +87,12 @@ CsvTable study_csv(const EffectStudy& study, const std::vector<JointUnit>& units
 
 }  // namespace
 
-void write_experiments(const std::filesystem::path& folder, const std::vector<Experiment>& experiments,
-                       const std::optional<EffectStudy>& study) {
-  const CsvTable table = experiments_csv(experiments);
-  const std::string json = json_text(experiments_json(experiments, study));
-  const report::Page page = experiments_page(experiments, study);
-  table.write(folder / "experiments.csv");
-  if (study) study_csv(*study, first(experiments).units).write(folder / "effects.csv");
-  write_file_whole(folder / "experiments.json", json);
-  page.write(folder / "report.html");
+void write_experiments(OutputFiles& files, const std::filesystem::path& folder,
+                       const std::vector<Experiment>& experiments, const std::optional<EffectStudy>& study) {
+  files.add(folder / "experiments.csv", experiments_csv(experiments).text());
+  if (study) files.add(folder / "effects.csv", study_csv(*study, first(experiments).units).text());
+  files.add(folder / "experiments.json", json_text(experiments_json(experiments, study)));
+  files.add(folder / "report.html", experiments_page(experiments, study).html());
 }
 
 }  // namespace halyard

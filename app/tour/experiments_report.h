@@ -8,6 +8,7 @@
 
 #include "app/report/page.h"
 #include "evaluation/experiments/raven_experiments.h"
+#include "model/output/output_files.h"
 
 namespace halyard {
 
@@ -31,8 +32,9 @@ std::string share_of_published(const std::vector<Experiment>& experiments);
 
 report::Page experiments_page(const std::vector<Experiment>& experiments, const std::optional<EffectStudy>& study);
 
-/// Writes report.html, experiments.json and experiments.csv into the folder, and effects.csv if there is a study.
-void write_experiments(const std::filesystem::path& folder, const std::vector<Experiment>& experiments,
+/// Adds report.html, experiments.json and experiments.csv into the folder, and effects.csv if there is a study.
+void write_experiments(OutputFiles& files, const std::filesystem::path& folder,
+                       const std::vector<Experiment>& experiments,
                        const std::optional<EffectStudy>& study = std::nullopt);
 
 }  // namespace halyard

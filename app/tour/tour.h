@@ -13,6 +13,7 @@
 #include "evaluation/experiments/raven_experiments.h"
 #include "evaluation/studies/diagnosis_evaluation.h"
 #include "model/arm_model.h"
+#include "model/output/output_files.h"
 
 namespace halyard {
 
@@ -44,8 +45,8 @@ struct Tour {
 Tour compute_tour(const std::filesystem::path& examples, const std::filesystem::path& recordings,
                   const std::function<void(const std::string&, double)>& progress = {});
 
-/// Writes report.html, and one sub-folder for the experiments and one for every diagnosis.
-void write_tour(const std::filesystem::path& folder, const Tour& tour);
+/// Adds report.html, and one sub-folder for the experiments and one for every diagnosis.
+void write_tour(OutputFiles& files, const std::filesystem::path& folder, const Tour& tour);
 
 /// One parameter of an effect of the bundled log's robot, with the diagnosis' estimate.
 struct FoundParameter {

@@ -95,7 +95,7 @@ void print_rigs(const Tour& tour) {
 }  // namespace
 
 void run_tour(const TourOptions& options) {
-  check_output_folder(options.out);
+  const auto lock = lock_output_folder(options.out);
   const fs::path examples = examples_folder(options.examples, "tour");
   const fs::path recordings = recordings_folder(options.recordings);
   Tour tour;
@@ -104,7 +104,9 @@ void run_tour(const TourOptions& options) {
     tour = compute_tour(examples, recordings,
                         [&](const std::string& what, double fraction) { progress.set(what, fraction); });
   }
-  write_tour(options.out, tour);
+  OutputFiles files;
+  write_tour(files, options.out, tour);
+  files.commit();
   print_experiments(tour.experiments);
   print_bundled(tour);
   print_rigs(tour);

@@ -148,7 +148,7 @@ void add_rigs(Page& page, const Tour& tour) {
 
 }  // namespace
 
-void write_tour(const std::filesystem::path& folder, const Tour& tour) {
+void write_tour(OutputFiles& files, const std::filesystem::path& folder, const Tour& tour) {
   Page page("Halyard on one page",
             "Joint positions of cable-driven arms from motor signals: the paper's experiments, a diagnosis, and "
             "recordings of real rigs");
@@ -156,14 +156,15 @@ void write_tour(const std::filesystem::path& folder, const Tour& tour) {
   add_bundled(page, tour);
   add_rigs(page, tour);
 
-  write_experiments(folder / "experiments", tour.experiments);
-  write_diagnosis(folder / "undeclared_effect", tour.bundled.model, tour.bundled.diagnosis, tour.bundled.evaluation);
+  write_experiments(files, folder / "experiments", tour.experiments);
+  write_diagnosis(files, folder / "undeclared_effect", tour.bundled.model, tour.bundled.diagnosis,
+                  tour.bundled.evaluation);
   for (const RigResult& result : tour.rigs) {
     if (!result.diagnosed) continue;
     const auto& [model, diagnosis, evaluation] = *result.diagnosed;
-    write_diagnosis(folder / result.rig.name, model, diagnosis, evaluation);
+    write_diagnosis(files, folder / result.rig.name, model, diagnosis, evaluation);
   }
-  page.write(folder / "report.html");
+  files.add(folder / "report.html", page.html());
 }
 
 }  // namespace halyard

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for_each.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <mutex>
 
@@ -15,6 +16,7 @@
 #include "bench/diagnosis/trial/trial.h"
 #include "bench/program.h"
 #include "model/model_file.h"
+#include "model/output/folder_lock.h"
 
 namespace halyard::blind {
 namespace {
@@ -96,6 +98,9 @@ std::string line(const Result& r) {
 }
 
 void run(const Options& options) {
+  std::string part = options.shard;
+  std::ranges::replace(part, '/', '-');
+  const FolderLock lock(options.out, part);
   const ArmModel raven2 = read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml");
   const std::vector<Job> jobs = jobs_left(options);
   const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();

@@ -42,7 +42,7 @@ std::vector<SweepCell> collect_cells(const std::vector<fs::path>& folders, const
   return cells;
 }
 
-SweepResult merge_sweep(const std::vector<fs::path>& parts, const fs::path& out) {
+SweepResult merge_sweep(OutputFiles& files, const std::vector<fs::path>& parts, const fs::path& out) {
   if (parts.empty()) throw std::invalid_argument("merge_sweep: no part");
   SweepResult whole{read_grid(parts.front()), {}};
   for (const fs::path& part : parts) {
@@ -52,9 +52,9 @@ SweepResult merge_sweep(const std::vector<fs::path>& parts, const fs::path& out)
     }
   }
   whole.cells = collect_cells(parts, whole.grid);
-  discard_other_sweep(out, whole.grid);
-  write_grid(out, whole.grid);
-  for (const SweepCell& cell : whole.cells) write_cell(out, whole.grid, cell);
+  discard_other_sweep(files, out, whole.grid);
+  write_grid(files, out, whole.grid);
+  for (const SweepCell& cell : whole.cells) write_cell(files, out, whole.grid, cell);
   return whole;
 }
 

@@ -19,10 +19,11 @@ struct SweepResult {
   std::vector<SweepCell> cells;  ///< [grid.size()], in the order of the points
 };
 
-/// Collects the cells of all parts and stores them in the folder `out`, which may be one of the parts. Cells and tables
-/// of another sweep are first removed from `out`.
+/// Collects the cells of all parts and adds them to the files of the folder `out`, which may be one of the parts. Cells
+/// and tables of another sweep are removed from `out` by files.commit().
 /// Throws std::invalid_argument without parts, InputError if the parts are of different sweeps, and as collect_cells()
 /// does.
-SweepResult merge_sweep(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& out);
+SweepResult merge_sweep(OutputFiles& files, const std::vector<std::filesystem::path>& parts,
+                        const std::filesystem::path& out);
 
 }  // namespace halyard

@@ -70,9 +70,12 @@ void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions
         ": holds results of another sweep, or of this one before its files were changed; leave out --resume "
         "to compute it anew, or give another folder");
   }
-  discard_other_sweep(folder, sweep.grid);
+  OutputFiles grid;
+  discard_other_sweep(grid, folder, sweep.grid);
+  write_grid(grid, folder, sweep.grid);
+  grid.commit();
+  remove_leftovers(folder / "cells");
   const std::vector<std::size_t> todo = points_to_do(sweep.grid, folder, options);
-  write_grid(folder, sweep.grid);
 
   namespace tbb = oneapi::tbb;
   const int jobs = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
@@ -82,7 +85,9 @@ void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions
   tbb::task_arena arena(jobs);
   arena.execute([&] {
     tbb::parallel_for_each(todo, [&](std::size_t point) {
-      write_cell(folder, sweep.grid, run_point(sweep, point, options.containment));
+      OutputFiles cell;
+      write_cell(cell, folder, sweep.grid, run_point(sweep, point, options.containment));
+      cell.commit();
       if (const std::size_t now = ++done; options.progress) options.progress(now, todo.size());
     });
   });

@@ -9,7 +9,6 @@
 
 #include "evaluation/json.h"
 #include "model/input_error.h"
-#include "model/output_file.h"
 
 namespace halyard {
 namespace {
@@ -101,13 +100,14 @@ bool holds_other_sweep(const fs::path& folder, const SweepGrid& grid) {
   return fs::exists(grid_path(folder)) && read_grid(folder).id != grid.id;
 }
 
-void discard_other_sweep(const fs::path& folder, const SweepGrid& grid) {
+void discard_other_sweep(OutputFiles& files, const fs::path& folder, const SweepGrid& grid) {
   if (!holds_other_sweep(folder, grid)) return;
-  fs::remove_all(folder / "cells");
-  for (const char* table : {"sweep.csv", "report.html"}) fs::remove(folder / table);
+  if (fs::exists(folder / "cells"))
+    for (const auto& cell : fs::directory_iterator(folder / "cells")) files.remove(cell.path());
+  for (const char* table : {"sweep.csv", "report.html"}) files.remove(folder / table);
 }
 
-void write_grid(const fs::path& folder, const SweepGrid& grid) {
+void write_grid(OutputFiles& files, const fs::path& folder, const SweepGrid& grid) {
   ordered_json axes = ordered_json::array(), joints = ordered_json::array();
   for (const SweepAxis& axis : grid.axes) axes.push_back(to_json(axis));
   for (const JointUnit& unit : grid.units) {
@@ -122,7 +122,7 @@ void write_grid(const fs::path& folder, const SweepGrid& grid) {
                              {"axes", axes},
                              {"estimators", grid.estimators},
                              {"joints", joints}};
-  write_file_whole(grid_path(folder), json_text(json));
+  files.add(grid_path(folder), json_text(json));
 }
 
 SweepGrid read_grid(const fs::path& folder) {
@@ -149,7 +149,7 @@ SweepGrid read_grid(const fs::path& folder) {
   });
 }
 
-void write_cell(const fs::path& folder, const SweepGrid& grid, const SweepCell& cell) {
+void write_cell(OutputFiles& files, const fs::path& folder, const SweepGrid& grid, const SweepCell& cell) {
   ordered_json results = ordered_json::array();
   for (std::size_t i = 0; i < cell.results.size(); ++i) {
     ordered_json joints = ordered_json::array();
@@ -158,7 +158,7 @@ void write_cell(const fs::path& folder, const SweepGrid& grid, const SweepCell& 
   }
   const ordered_json json = {
       {"id", grid.id}, {"point", cell.point}, {"values", grid.values(cell.point)}, {"estimators", results}};
-  write_file_whole(cell_path(folder, cell.point), json_text(json));
+  files.add(cell_path(folder, cell.point), json_text(json));
 }
 
 std::optional<SweepCell> read_cell(const fs::path& folder, const SweepGrid& grid, std::size_t point) {

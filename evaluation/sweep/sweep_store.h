@@ -9,6 +9,7 @@
 
 #include "evaluation/judgement/error_statistics.h"
 #include "evaluation/sweep/sweep_grid.h"
+#include "model/output/output_files.h"
 
 namespace halyard {
 
@@ -26,14 +27,15 @@ struct SweepCell {
 
 /// True if the folder holds results of a sweep with another id. Throws as read_grid() does.
 bool holds_other_sweep(const std::filesystem::path& folder, const SweepGrid& grid);
-/// Removes cells and tables of such a sweep, so that new results are not mixed with old ones.
-void discard_other_sweep(const std::filesystem::path& folder, const SweepGrid& grid);
+/// Has cells and tables of such a sweep removed with the commit of `files`, so that new results are not mixed with old
+/// ones.
+void discard_other_sweep(OutputFiles& files, const std::filesystem::path& folder, const SweepGrid& grid);
 
-void write_grid(const std::filesystem::path& folder, const SweepGrid& grid);
+void write_grid(OutputFiles& files, const std::filesystem::path& folder, const SweepGrid& grid);
 /// Throws InputError if the folder has no sweep.json, or one that this program did not write.
 SweepGrid read_grid(const std::filesystem::path& folder);
 
-void write_cell(const std::filesystem::path& folder, const SweepGrid& grid, const SweepCell& cell);
+void write_cell(OutputFiles& files, const std::filesystem::path& folder, const SweepGrid& grid, const SweepCell& cell);
 /// Reads the cell of a point, if there is one. Throws InputError if the cell is damaged, of another sweep,
 /// or of another point.
 std::optional<SweepCell> read_cell(const std::filesystem::path& folder, const SweepGrid& grid, std::size_t point);

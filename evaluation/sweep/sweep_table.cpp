@@ -8,9 +8,8 @@
 #include "evaluation/csv.h"
 
 namespace halyard {
-namespace {
 
-CsvTable sweep_table(const SweepGrid& grid, const std::vector<SweepCell>& cells) {
+std::string sweep_csv(const SweepGrid& grid, const std::vector<SweepCell>& cells) {
   std::vector<std::string> header = {"point"};
   for (const SweepAxis& axis : grid.axes) {
     header.push_back(fmt::format("{}{}", fmt::join(axis.parameters, " "), axis.is_factor ? " (factor)" : ""));
@@ -37,10 +36,8 @@ CsvTable sweep_table(const SweepGrid& grid, const std::vector<SweepCell>& cells)
       }
     }
   }
-  return table;
+  return table.text();
 }
-
-}  // namespace
 
 std::size_t count_failures(const std::vector<SweepCell>& cells) {
   std::size_t failures = 0;
@@ -48,10 +45,6 @@ std::size_t count_failures(const std::vector<SweepCell>& cells) {
     failures += std::ranges::count_if(cell.results, [](const auto& result) { return !result.failure.empty(); });
   }
   return failures;
-}
-
-void write_sweep_table(const std::filesystem::path& path, const SweepGrid& grid, const std::vector<SweepCell>& cells) {
-  sweep_table(grid, cells).write(path);
 }
 
 }  // namespace halyard

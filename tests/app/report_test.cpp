@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +13,6 @@
 
 #include "app/report/chart.h"
 #include "app/report/page.h"
-#include "model/output_file.h"
 #include "tests/support/limits.h"
 
 namespace halyard {
@@ -48,28 +46,6 @@ std::size_t count(const std::string& text, const std::string& part) {
 }
 
 bool contains(const std::string& text, const std::string& part) { return count(text, part) > 0; }
-
-class OutputFolder : public testing::Test {
- protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / (std::string(test->name()) + "-" + std::to_string(::getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
-  }
-
-  static std::string content(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
-  fs::path folder_;
-};
 
 TEST(ReportPage, EscapesTextEverywhere) {
   const std::string nasty = "<b>&\"'";
@@ -255,55 +231,6 @@ TEST(Histogram, OneValueOrNoneIsDrawnToo) {
   EXPECT_EQ(one.series[0].y, (std::vector<double>{0, 100}));
   EXPECT_TRUE(report::histogram("h", "e [m]", {{"a", {}}}, 2).series[0].x.empty());
   EXPECT_THROW(report::histogram("h", "e [m]", {}, 0), std::invalid_argument);
-}
-
-TEST_F(OutputFolder, WithoutCommitTheFileIsAbsent) {
-  {
-    OutputFile file(folder_ / "log.csv");
-    file.stream() << "half" << std::flush;
-    EXPECT_FALSE(fs::exists(folder_ / "log.csv"));
-    EXPECT_EQ(files(), 1u);
-  }
-  EXPECT_EQ(files(), 0u);
-}
-
-TEST_F(OutputFolder, WithoutCommitTheOlderFileStays) {
-  write_file_whole(folder_ / "log.csv", "old");
-  { OutputFile(folder_ / "log.csv").stream() << "half"; }
-  EXPECT_EQ(content(folder_ / "log.csv"), "old");
-  EXPECT_EQ(files(), 1u);
-}
-
-TEST_F(OutputFolder, CommitReplacesTheFileAndLeavesNothingElse) {
-  write_file_whole(folder_ / "log.csv", "old");
-  write_file_whole(folder_ / "log.csv", std::string_view("new\0\n", 5));
-  EXPECT_EQ(content(folder_ / "log.csv"), std::string("new\0\n", 5));
-  EXPECT_EQ(files(), 1u);
-}
-
-TEST_F(OutputFolder, ParentFoldersAreCreated) {
-  Page("report", "").write(folder_ / "a" / "b" / "report.html");
-  EXPECT_EQ(content(folder_ / "a" / "b" / "report.html"), Page("report", "").html());
-}
-
-TEST_F(OutputFolder, ALinkIsFollowedAndStaysALink) {
-  write_file_whole(folder_ / "real.csv", "old");
-  fs::create_symlink("real.csv", folder_ / "link.csv");
-  write_file_whole(folder_ / "link.csv", "new");
-  EXPECT_TRUE(fs::is_symlink(folder_ / "link.csv"));
-  EXPECT_EQ(content(folder_ / "real.csv"), "new");
-}
-
-TEST_F(OutputFolder, WhatCannotBeWrittenIsNamedWithTheReason) {
-  EXPECT_EQ(message_of([&] { write_file_whole(folder_, ""); }),
-            folder_.string() + ": cannot be written: it is a folder; give a file name");
-  EXPECT_EQ(message_of([] { write_file_whole("/dev/null", ""); }),
-            "/dev/null: cannot be written: it is not a plain file");
-
-  write_file_whole(folder_ / "file", "");
-  const fs::path below = folder_ / "file" / "log.csv";
-  EXPECT_EQ(message_of([&] { write_file_whole(below, ""); }),
-            below.string() + ": cannot create its folder: Not a directory");
 }
 
 }  // namespace

@@ -31,13 +31,22 @@ class SweepMerge : public testing::Test {
   fs::path part(const std::string& name, const std::vector<std::size_t>& points, const std::string& id = "1") {
     SweepGrid grid = grid_;
     grid.id = id;
-    write_grid(folder_ / name, grid);
+    OutputFiles files;
+    write_grid(files, folder_ / name, grid);
     for (const std::size_t p : points) {
       SweepCell cell{p, {{"", {{}}}}};
       cell.results[0].errors[0].rms = static_cast<double>(p);
-      write_cell(folder_ / name, grid, cell);
+      write_cell(files, folder_ / name, grid, cell);
     }
+    files.commit();
     return folder_ / name;
+  }
+
+  SweepResult merge(const std::vector<fs::path>& parts) {
+    OutputFiles files;
+    SweepResult whole = merge_sweep(files, parts, folder_ / "whole");
+    files.commit();
+    return whole;
   }
 
   SweepGrid grid_;
@@ -45,7 +54,7 @@ class SweepMerge : public testing::Test {
 };
 
 TEST_F(SweepMerge, PutsTheCellsOfItsPartsInOrder) {
-  const SweepResult whole = merge_sweep({part("a", {2}), part("b", {0, 1})}, folder_ / "whole");
+  const SweepResult whole = merge({part("a", {2}), part("b", {0, 1})});
   ASSERT_EQ(whole.cells.size(), 3u);
   for (std::size_t p = 0; p < 3; ++p) {
     EXPECT_EQ(whole.cells[p].point, p);
@@ -55,25 +64,23 @@ TEST_F(SweepMerge, PutsTheCellsOfItsPartsInOrder) {
 }
 
 TEST_F(SweepMerge, NamesThePointThatNoPartHas) {
-  const std::string message = message_of([&] { merge_sweep({part("a", {0}), part("b", {2})}, folder_ / "whole"); });
+  const std::string message = message_of([&] { merge({part("a", {0}), part("b", {2})}); });
   EXPECT_NE(message.find("1 of 3 points are in none of the folders, the first is point 1"), message.npos) << message;
   EXPECT_FALSE(fs::exists(folder_ / "whole")) << "nothing is written of a sweep that is not whole";
 }
 
 TEST_F(SweepMerge, RefusesPartsOfDifferentSweeps) {
-  const std::string message = message_of([&] {
-    merge_sweep({part("a", {0, 1}), part("b", {2}, "2")}, folder_ / "whole");
-  });
+  const std::string message = message_of([&] { merge({part("a", {0, 1}), part("b", {2}, "2")}); });
   EXPECT_NE(message.find("b: holds another sweep than"), message.npos) << message;
-  EXPECT_THROW(merge_sweep({}, folder_ / "whole"), std::invalid_argument);
+  EXPECT_THROW(merge({}), std::invalid_argument);
 }
 
 TEST_F(SweepMerge, WritesATableWithARowForEachPointEstimatorAndJoint) {
-  SweepResult whole = merge_sweep({part("a", {0, 1, 2})}, folder_ / "whole");
+  SweepResult whole = merge({part("a", {0, 1, 2})});
   EXPECT_EQ(count_failures(whole.cells), 0u);
   whole.cells[1].results[0].failure = "crashed";
   EXPECT_EQ(count_failures(whole.cells), 1u);
-  write_sweep_table(folder_ / "sweep.csv", whole.grid, whole.cells);
+  write_file_whole(folder_ / "sweep.csv", sweep_csv(whole.grid, whole.cells));
   std::ifstream file(folder_ / "sweep.csv");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(text,

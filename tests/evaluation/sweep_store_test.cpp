@@ -17,6 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+template <class Add>
+void store(const Add& add) {
+  OutputFiles files;
+  add(files);
+  files.commit();
+}
+
 SweepGrid grid_of_six() {
   SweepGrid grid;
   grid.name = "stiffness and \"tension\"";
@@ -90,7 +97,7 @@ TEST(SweepGrid, DescribesAPoint) {
 }
 
 TEST_F(SweepStore, GivesTheGridBack) {
-  write_grid(folder, grid);
+  store([&](auto& files) { write_grid(files, folder, grid); });
   const SweepGrid read = read_grid(folder);
   EXPECT_EQ(read.name, grid.name);
   EXPECT_EQ(read.id, grid.id);
@@ -113,7 +120,7 @@ TEST_F(SweepStore, GivesTheGridBack) {
 }
 
 TEST_F(SweepStore, GivesACellBackToTheLastBit) {
-  write_cell(folder, grid, some_cell(4));
+  store([&](auto& files) { write_cell(files, folder, grid, some_cell(4)); });
   EXPECT_FALSE(read_cell(folder, grid, 3).has_value());
   const std::optional<SweepCell> read = read_cell(folder, grid, 4);
   ASSERT_TRUE(read.has_value());
@@ -143,7 +150,7 @@ TEST_F(SweepStore, RefusesWhatIsDamaged) {
   };
   write(folder / "sweep.json", "{\"sweep\": ");
   EXPECT_EQ(message_of([&] { read_grid(folder); }), damaged(folder / "sweep.json"));
-  write_cell(folder, grid, some_cell(0));
+  store([&](auto& files) { write_cell(files, folder, grid, some_cell(0)); });
   for (const char* text :
        {"", "[]", R"({"id": "12ab", "estimators": []})", R"({"id": "12ab", "point": 0, "estimators": []})",
         R"({"id": "12ab", "point": 0, "estimators": [{"failure": "", "joints": []}]})"}) {
@@ -155,13 +162,13 @@ TEST_F(SweepStore, RefusesWhatIsDamaged) {
 TEST_F(SweepStore, RefusesACellOfAnotherSweep) {
   SweepGrid other = grid;
   other.id = "34cd";
-  write_cell(folder, other, some_cell(0));
+  store([&](auto& files) { write_cell(files, folder, other, some_cell(0)); });
   EXPECT_EQ(message_of([&] { read_cell(folder, grid, 0); }),
             cell("000000.json").string() + ": belongs to another sweep; give a folder of its own to each sweep");
 }
 
 TEST_F(SweepStore, RefusesACellThatWasRenamedToAnotherPoint) {
-  write_cell(folder, grid, some_cell(3));
+  store([&](auto& files) { write_cell(files, folder, grid, some_cell(3)); });
   fs::rename(cell("000003.json"), cell("000005.json"));
   EXPECT_EQ(
       message_of([&] { read_cell(folder, grid, 5); }),
@@ -169,17 +176,17 @@ TEST_F(SweepStore, RefusesACellThatWasRenamedToAnotherPoint) {
 }
 
 TEST_F(SweepStore, DiscardsCellsAndTablesOfAnotherSweepAndKeepsItsOwn) {
-  write_grid(folder, grid);
-  write_cell(folder, grid, some_cell(0));
+  store([&](auto& files) { write_grid(files, folder, grid); });
+  store([&](auto& files) { write_cell(files, folder, grid, some_cell(0)); });
   for (const char* name : {"sweep.csv", "report.html", "notes.txt"}) write(folder / name, "text");
   EXPECT_FALSE(holds_other_sweep(folder, grid));
-  discard_other_sweep(folder, grid);
+  store([&](auto& files) { discard_other_sweep(files, folder, grid); });
   EXPECT_TRUE(fs::exists(cell("000000.json")));
   SweepGrid other = grid;
   other.id = "34cd";
   EXPECT_TRUE(holds_other_sweep(folder, other));
-  discard_other_sweep(folder, other);
-  EXPECT_FALSE(fs::exists(folder / "cells"));
+  store([&](auto& files) { discard_other_sweep(files, folder, other); });
+  EXPECT_TRUE(fs::is_empty(folder / "cells"));
   EXPECT_FALSE(fs::exists(folder / "sweep.csv"));
   EXPECT_FALSE(fs::exists(folder / "report.html"));
   EXPECT_TRUE(fs::exists(folder / "notes.txt")) << "a file of the user's";

@@ -7,7 +7,7 @@
 
 #include "bench/diagnosis/results/result.h"
 #include "model/input_error.h"
-#include "model/output_file.h"
+#include "model/output/output_files.h"
 
 namespace halyard::blind {
 namespace {

@@ -6,7 +6,7 @@
 #include "bench/diagnosis/summary/by_effect.h"
 #include "bench/diagnosis/summary/calibration.h"
 #include "bench/diagnosis/summary/trials_csv.h"
-#include "model/output_file.h"
+#include "model/output/output_files.h"
 
 namespace halyard::blind {
 namespace {

@@ -9,7 +9,7 @@
 #include "bench/diagnosis/trial/recording.h"
 #include "bench/diagnosis/trial/take_over.h"
 #include "model/model_file.h"
-#include "model/output_file.h"
+#include "model/output/output_files.h"
 
 namespace halyard::blind {
 namespace {

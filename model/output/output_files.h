@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "model/output/unfinished.h"
+
+namespace halyard {
+
+/// The files that a command writes. They appear together, each complete, or not at all: each is written under a
+/// temporary name in its own folder and brought to the disk; commit() gives all of them their names. Older files of
+/// these names stay unchanged until then. Without commit(), temporary files and new folders are removed.
+///
+/// If one name cannot be given, the names given before are taken back. A file system without an atomic exchange of two
+/// names (Linux, RENAME_EXCHANGE) keeps those that replaced an older file.
+class OutputFiles {
+ public:
+  /// Makes missing parent folders. A link to a file is followed.
+  /// Throws std::runtime_error with path and reason: the path is a folder or a device, no permission, a full disk.
+  void add(const std::filesystem::path& path, std::string_view content);
+
+  /// Has commit() remove an older file that has no place beside the new ones, unless a new one has its name.
+  void remove(const std::filesystem::path& path) { obsolete_.push_back(path); }
+
+  /// Call once, last. Throws std::runtime_error with path and reason.
+  void commit();
+
+ private:
+  struct File {
+    std::filesystem::path path, temporary;
+    bool exchanged = false;  ///< `temporary` is now the older file
+  };
+  static int give_name(File& f);
+  static void take_back(const File& f);
+  void give_names();
+
+  std::vector<File> files_;
+  std::vector<std::filesystem::path> obsolete_;
+  Unfinished unfinished_;
+};
+
+/// Writes a single file. Throws as OutputFiles does.
+void write_file_whole(const std::filesystem::path& path, std::string_view content);
+
+/// Removes what processes that were killed (SIGKILL, power) left of their temporary files in this folder, not below it.
+/// Files of processes that still run on this machine stay.
+void remove_leftovers(const std::filesystem::path& folder);
+
+}  // namespace halyard

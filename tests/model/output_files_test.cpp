@@ -1,0 +1,214 @@
+/// Files that appear together or not at all, and the lock of their folder.
+
+#include "model/output/output_files.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "model/output/folder_lock.h"
+#include "tests/support/message_of.h"
+
+namespace halyard {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OutputFolder : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / (std::string(test->name()) + "-" + std::to_string(::getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+
+  static std::string content(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  fs::path folder_;
+};
+
+std::string failure_message(const auto& action) {
+  try {
+    action();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "no failure";
+}
+
+TEST_F(OutputFolder, WithoutCommitThereIsNeitherFileNorFolder) {
+  {
+    OutputFiles out;
+    out.add(folder_ / "new" / "log.csv", "text");
+    EXPECT_FALSE(fs::exists(folder_ / "new" / "log.csv"));
+    EXPECT_EQ(files(), 1u);
+  }
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(OutputFolder, WithoutCommitOlderFilesStay) {
+  write_file_whole(folder_ / "log.csv", "old");
+  {
+    OutputFiles out;
+    out.add(folder_ / "log.csv", "new");
+    out.remove(folder_ / "log.csv");
+  }
+  EXPECT_EQ(content(folder_ / "log.csv"), "old");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(OutputFolder, CommitReplacesTheFileAndLeavesNothingElse) {
+  write_file_whole(folder_ / "log.csv", "old");
+  write_file_whole(folder_ / "log.csv", std::string_view("new\0\n", 5));
+  EXPECT_EQ(content(folder_ / "log.csv"), std::string("new\0\n", 5));
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(OutputFolder, CommitRemovesWhatHasNoPlaceBesideTheNewFiles) {
+  for (const char* name : {"kept.csv", "replaced.csv", "obsolete.csv"}) write_file_whole(folder_ / name, "old");
+  OutputFiles out;
+  out.remove(folder_ / "obsolete.csv");
+  out.remove(folder_ / "replaced.csv");
+  out.add(folder_ / "replaced.csv", "new");
+  EXPECT_TRUE(fs::exists(folder_ / "obsolete.csv"));
+  out.commit();
+  EXPECT_EQ(files(), 2u);
+  EXPECT_EQ(content(folder_ / "replaced.csv"), "new");
+}
+
+TEST_F(OutputFolder, ParentFoldersAreCreated) {
+  write_file_whole(folder_ / "a" / "b" / "report.html", "page");
+  EXPECT_EQ(content(folder_ / "a" / "b" / "report.html"), "page");
+}
+
+TEST_F(OutputFolder, ALinkIsFollowedAndStaysALink) {
+  write_file_whole(folder_ / "real.csv", "old");
+  fs::create_symlink("real.csv", folder_ / "link.csv");
+  write_file_whole(folder_ / "link.csv", "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link.csv"));
+  EXPECT_EQ(content(folder_ / "real.csv"), "new");
+}
+
+TEST_F(OutputFolder, WhatCannotBeWrittenIsNamedWithTheReason) {
+  EXPECT_EQ(failure_message([&] { write_file_whole(folder_, ""); }),
+            folder_.string() + ": cannot be written: it is a folder; give a file name");
+  EXPECT_EQ(failure_message([] { write_file_whole("/dev/null", ""); }),
+            "/dev/null: cannot be written: it is not a plain file");
+
+  write_file_whole(folder_ / "file", "");
+  const fs::path below = folder_ / "file" / "log.csv";
+  EXPECT_EQ(failure_message([&] { write_file_whole(below, ""); }),
+            below.string() + ": cannot create its folder: Not a directory");
+}
+
+TEST_F(OutputFolder, IfOneNameCannotBeGivenTheOthersAreTakenBack) {
+  write_file_whole(folder_ / "older.csv", "old");
+  const fs::path blocked = folder_ / "blocked.csv";
+  OutputFiles out;
+  out.add(folder_ / "older.csv", "new");
+  out.add(folder_ / "fresh.csv", "new");
+  out.add(blocked, "new");
+  fs::create_directories(blocked);
+  const std::string message = failure_message([&] { out.commit(); });
+  EXPECT_EQ(message, blocked.string() + ": not written: Is a directory");
+  EXPECT_EQ(content(folder_ / "older.csv"), "old");
+  EXPECT_FALSE(fs::exists(folder_ / "fresh.csv"));
+  EXPECT_TRUE(fs::is_directory(blocked));
+}
+
+TEST_F(OutputFolder, AFullDiskLeavesEverythingAsItWas) {
+  write_file_whole(folder_ / "a.csv", "old");
+  rlimit usual;
+  ::getrlimit(RLIMIT_FSIZE, &usual);
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = usual;
+  small.rlim_cur = 1000;
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  const std::string message = failure_message([&] {
+    OutputFiles out;
+    out.add(folder_ / "a.csv", "new");
+    out.add(folder_ / "b.csv", std::string(2000, 'x'));
+    out.commit();
+  });
+  ::setrlimit(RLIMIT_FSIZE, &usual);
+  std::signal(SIGXFSZ, before);
+  EXPECT_EQ(message, (folder_ / "b.csv").string() + ": not written: File too large");
+  EXPECT_EQ(content(folder_ / "a.csv"), "old");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(OutputFolder, LeftoversOfKilledProcessesGoAndThoseOfRunningOnesStay) {
+  const pid_t ended = ::fork();
+  if (ended == 0) ::_exit(0);
+  ::waitpid(ended, nullptr, 0);
+  const std::string of_ended = "log.csv.part-" + std::to_string(ended) + "-0";
+  const std::string of_this = "log.csv.part-" + std::to_string(::getpid()) + "-7";
+  for (const std::string& name : {of_ended, of_this, std::string("log.csv.part-of-a-name"), of_ended + "a"})
+    write_file_whole(folder_ / name, "");
+  remove_leftovers(folder_);
+  EXPECT_FALSE(fs::exists(folder_ / of_ended));
+  EXPECT_EQ(files(), 3u);
+}
+
+TEST_F(OutputFolder, IsLockedForOneRunAtATime) {
+  const fs::path out = folder_ / "new" / "out";
+  {
+    const FolderLock lock(out);
+    EXPECT_EQ(
+        message_of([&] { FolderLock second(out); }),
+        "--out '" + out.string() + "': another run writes into this folder; wait for its end, or give another folder");
+    EXPECT_TRUE(fs::is_directory(out));
+  }
+  EXPECT_EQ(files(), 0u) << "nothing was written into the folder that the lock made";
+  EXPECT_NO_THROW(FolderLock again(out));
+}
+
+TEST_F(OutputFolder, ALockOfAKilledRunIsTakenOver) {
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const FolderLock lock(folder_);
+    [[maybe_unused]] const ssize_t written = ::write(ready[1], "x", 1);
+    for (;;) ::pause();
+  }
+  char byte;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+  EXPECT_NE(message_of([&] { FolderLock second(folder_); }), "no InputError");
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  EXPECT_NO_THROW(FolderLock second(folder_));
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(OutputFolder, AnEndingProcessLeavesNothingUnfinished) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const FolderLock lock(folder_ / "out");
+    OutputFiles out;
+    out.add(folder_ / "out" / "log.csv", "text");
+    remove_everything_unfinished();
+    ::_exit(0);
+  }
+  ::waitpid(child, nullptr, 0);
+  EXPECT_EQ(files(), 0u);
+}
+
+}  // namespace
+}  // namespace halyard
