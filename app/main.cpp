@@ -1,6 +1,7 @@
 /// halyard: joint positions of cable-driven arms from motor signals.
 ///
-/// Exit codes: 0 done; 2 wrong usage or unreadable or invalid input; 1 anything else. A failure is one line on stderr.
+/// Exit codes: 0 done; 2 wrong usage or unreadable or invalid input; 128 + signal if a signal ended it; 1 anything else.
+/// A failure is one line on stderr.
 
 #include <glog/logging.h>
 
@@ -13,6 +14,7 @@
 #include <string>
 
 #include "app/command_line.h"
+#include "app/interruption.h"
 #include "model/input_error.h"
 
 namespace {
@@ -35,6 +37,8 @@ void flush_stdout() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  halyard::occupy_closed_streams();
+  halyard::end_cleanly_on_signals();
   // Ceres writes to the log of why it gives up; what a fit came to is in the output, and stderr is for one line.
   FLAGS_minloglevel = google::GLOG_FATAL;
   try {

@@ -2,8 +2,8 @@
 // halyard's library, with the numbers of two open files: the shared memory with the task, and the pipe for the answer.
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,6 +15,7 @@
 #include <cstring>
 #include <iterator>
 #include <optional>
+#include <thread>
 
 #include "evaluation/worker/bytes.h"
 #include "evaluation/worker/worker_task.h"
@@ -87,6 +88,14 @@ std::optional<int> open_file(const char* argument) {
   return file;
 }
 
+/// A worker whose answer nobody reads any more, because the parent was killed, works for nobody. Ends all that the
+/// estimator started too: the worker leads a process group.
+void end_without_reader(int answer) {
+  pollfd reader{answer, 0, 0};
+  while (poll(&reader, 1, -1) <= 0) {}
+  kill(0, SIGKILL);
+}
+
 WorkerPage* shared_page(int file) {
   struct stat status;
   if (fstat(file, &status) != 0 || status.st_size < static_cast<off_t>(sizeof(WorkerPage))) return nullptr;
@@ -107,9 +116,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   page->has_started = true;
-  // A worker whose parent is gone works for nobody. The parent may have ended before the first of these lines.
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != page->parent) return 0;
+  std::thread(end_without_reader, *answer).detach();
   write_all(*answer, answer_to(*page));
   _exit(0);  // without the destructors of an estimator that is not trusted
 }

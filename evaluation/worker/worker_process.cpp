@@ -53,11 +53,11 @@ class SharedPage {
  public:
   explicit SharedPage(const std::string& task)
       : file_(memfd_create("halyard_task", MFD_CLOEXEC), "memfd_create"), size_(sizeof(WorkerPage) + task.size()) {
-    if (ftruncate(file_.get(), static_cast<off_t>(size_)) != 0) fail(errno, "ftruncate");
+    if (ftruncate(file_.get(), static_cast<off_t>(size_)) != 0)
+      fail(errno, "the memory shared with the process of an estimator");
     start_ = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED, file_.get(), 0);
     if (start_ == MAP_FAILED) fail(errno, "mmap");
     auto* page = new (start_) WorkerPage;
-    page->parent = getpid();
     page->task_size = task.size();
     std::memcpy(static_cast<char*>(start_) + sizeof(WorkerPage), task.data(), task.size());
   }
@@ -75,7 +75,30 @@ class SharedPage {
   void* start_;
 };
 
-/// A started worker; killed at the end of the scope, unless it was waited for.
+/// Attributes of a worker's start: it leads a process group, and its signals are not blocked or ignored, whatever the
+/// calling program does with its own.
+class WorkerAttributes {
+ public:
+  WorkerAttributes() {
+    posix_spawnattr_init(&attributes_);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    sigset_t signals;
+    sigemptyset(&signals);
+    posix_spawnattr_setsigmask(&attributes_, &signals);
+    for (const int signal : {SIGPIPE, SIGXFSZ}) sigaddset(&signals, signal);
+    posix_spawnattr_setsigdefault(&attributes_, &signals);
+    posix_spawnattr_setpgroup(&attributes_, 0);
+  }
+  WorkerAttributes(const WorkerAttributes&) = delete;
+  WorkerAttributes& operator=(const WorkerAttributes&) = delete;
+  ~WorkerAttributes() { posix_spawnattr_destroy(&attributes_); }
+  const posix_spawnattr_t* get() const { return &attributes_; }
+
+ private:
+  posix_spawnattr_t attributes_;
+};
+
+/// A started worker; at the end of the scope it and all that its estimator started are killed.
 class Worker {
  public:
   Worker(const fs::path& program, int page, int answer) {
@@ -85,21 +108,23 @@ class Worker {
     for (const int file : {page, answer}) posix_spawn_file_actions_adddup2(&actions, file, file);
     std::string arguments[] = {program.string(), std::to_string(page), std::to_string(answer)};
     char* argv[] = {arguments[0].data(), arguments[1].data(), arguments[2].data(), nullptr};
-    const int error = posix_spawn(&id_, program.c_str(), &actions, nullptr, argv, environ);
+    const int error = posix_spawn(&id_, program.c_str(), &actions, WorkerAttributes().get(), argv, environ);
     posix_spawn_file_actions_destroy(&actions);
     if (error != 0) fail(error, program.string() + " cannot be started");
   }
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
   ~Worker() {
-    if (id_ < 0) return;
-    kill();
-    wait();
+    if (id_ >= 0) end();
   }
 
-  void kill() const { ::kill(id_, SIGKILL); }
-  /// How it ended, as waitpid() says it.
-  int wait() {
+  bool has_ended() const {
+    siginfo_t info{};
+    return waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == id_;
+  }
+  /// Kills what still runs of its group, and returns how the worker ended, as waitpid() says it.
+  int end() {
+    ::kill(-id_, SIGKILL);
     int status = 0;
     while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {}
     id_ = -1;
@@ -110,20 +135,26 @@ class Worker {
   pid_t id_ = -1;
 };
 
-/// Reads the answer until its end. Returns false if a step took longer than the limit.
-bool read_answer(int file, const WorkerPage& page, const WorkerWatch& watch, std::string& answer) {
+/// Reads the answer until the worker has ended: a process that the estimator started may hold the pipe open for longer.
+/// Returns false if a step took longer than the limit.
+bool read_answer(int file, const Worker& worker, const WorkerPage& page, const WorkerWatch& watch,
+                 std::string& answer) {
   using Clock = std::chrono::steady_clock;
-  constexpr int kLookEvery = 50;  // ms
+  constexpr int kLookEvery = 50, kWaitForEnd = 1;  // ms
   long steps = 0;
   auto since = Clock::now();
+  bool open = true;
   for (char buffer[65536];;) {
-    pollfd wait{file, POLLIN, 0};
-    if (poll(&wait, 1, kLookEvery) > 0) {
+    pollfd wait{open ? file : -1, POLLIN, 0};
+    const bool ended = worker.has_ended();
+    if (poll(&wait, 1, ended ? 0 : open ? kLookEvery : kWaitForEnd) > 0) {
       const ssize_t n = read(file, buffer, sizeof buffer);
       if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return true;
-      answer.append(buffer, static_cast<std::size_t>(n));
+      open = n > 0;
+      if (open) answer.append(buffer, static_cast<std::size_t>(n));
       since = Clock::now();
+    } else if (ended) {
+      return true;
     }
     if (const long now = page.steps; now != steps) {
       steps = now, since = Clock::now();
@@ -174,9 +205,8 @@ std::string result_of_worker(const WorkerTask& task, const WorkerWatch& watch) {
   worker_end.close();
 
   std::string answer;
-  const bool in_time = read_answer(answer_end.get(), *page, watch, answer);
-  if (!in_time) worker.kill();
-  const int status = worker.wait();
+  const bool in_time = read_answer(answer_end.get(), worker, *page, watch, answer);
+  const int status = worker.end();
   const std::string promise(page->promise, strnlen(page->promise, sizeof page->promise));
   const auto ended = [&](const std::string& how) {
     return WorkerEnded(watch.place(page->steps, promise) + ": " + how);

@@ -4,8 +4,6 @@
 ///   shared memory   WorkerPage, followed by the task: worker_task_bytes()
 ///   pipe            the answer: one byte of Answer, then the result's bytes or the error's message
 
-#include <sys/types.h>
-
 #include <atomic>
 #include <string>
 #include <string_view>
@@ -49,7 +47,6 @@ enum class Answer : char { result = 'R', input_error = 'I', failure = 'F' };
 
 /// Memory shared by both processes: the worker's progress.
 struct WorkerPage {
-  pid_t parent = 0;
   std::size_t task_size = 0;             ///< bytes
   std::atomic<bool> has_started{false};  ///< the worker's own code runs
   std::atomic<long> steps{0};            ///< rows done, or conformance tests begun

@@ -116,8 +116,9 @@ class ProgramTest : public ::testing::Test {
 
   fs::path path(const std::string& name) const { return folder_ / name; }
 
-  /// Runs in the test's folder, where relative paths then count from.
-  RunResult run(const std::vector<std::string>& arguments) const {
+  /// Runs in the test's folder, where relative paths then count from. `first`: shell commands that the program's shell
+  /// runs before, such as "ulimit -f 8;".
+  RunResult run(const std::vector<std::string>& arguments, const std::string& first = "") const {
     // Outside the folder, so that tests see there what the program left and nothing else.
     const fs::path out = folder_.string() + ".out", err = folder_.string() + ".err";
     std::string command = "cd";
@@ -127,7 +128,7 @@ class ProgramTest : public ::testing::Test {
       command += "'";
     };
     append(folder_.string());
-    command += " && exec";
+    command += " && " + first + " exec";
     append(program_.string());
     for (const std::string& argument : arguments) append(argument);
     command += " >";
