@@ -87,7 +87,7 @@ void print_errors(const Comparison& comparison) {
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
     const EstimatorRun& run = comparison.runs[i];
     if (!run.failure.empty()) {
-      fmt::print("{}: failed\n", run.name);
+      fmt::print("{}: {}\n", run.name, run.refused ? "refused the data" : "failed");
       fmt::print(stderr, "{}\n", run.failure);
       continue;
     }
@@ -136,8 +136,11 @@ void run_compare(const CompareCommandOptions& options) {
                                      .containment = {.step_limit_s = options.step_limit_s},
                                      .progress = [&](double fraction) { progress.set(fraction * work_s); }});
   }
-  if (std::ranges::none_of(comparison.runs, &std::string::empty, &EstimatorRun::failure))
-    throw std::runtime_error(comparison.runs[0].failure);
+  if (std::ranges::none_of(comparison.runs, &std::string::empty, &EstimatorRun::failure)) {
+    const EstimatorRun& first = comparison.runs[0];
+    if (first.refused) throw InputError(first.failure);
+    throw std::runtime_error(first.failure);
+  }
   comparison.data = options.data.string();
   comparison.model = data.model_path;
   comparison.truth_from = data.truth_from;

@@ -61,12 +61,12 @@ template <class Action>
 EstimatorRun attempt(const std::string& name, const Log& measured, bool keep_going, const Action& action) {
   try {
     return action();
-  } catch (const InputError&) {
-    throw;
   } catch (const std::exception& error) {
-    if (!keep_going) throw;
+    const bool refused = dynamic_cast<const EstimatorRefusal*>(&error);
+    if (!keep_going || (dynamic_cast<const InputError*>(&error) && !refused)) throw;
     EstimatorRun none = no_run(name, measured);
     none.failure = error.what();
+    none.refused = refused;
     return none;
   }
 }

@@ -51,7 +51,7 @@ struct CompareOptions {
   /// True: the truth is given by readings of joint sensors, which have the sensor errors that the model states. False:
   /// the truth is given by true joint positions.
   bool truth_is_sensed = false;
-  /// True: an estimator that fails leaves a row without numbers. False: its failure is thrown.
+  /// True: an estimator that fails or refuses the log leaves a row without numbers. False: its failure is thrown.
   bool keep_going = false;
   /// Make all estimators before the first run, so that a wrong name is found early.
   bool make_all_first = true;

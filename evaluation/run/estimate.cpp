@@ -137,6 +137,9 @@ EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const 
   const std::size_t report_every = std::max<std::size_t>(1, log.size() / 100);
   const auto begin = std::chrono::steady_clock::now();
   std::size_t i = start;
+  const auto place = [&] {
+    return fmt::format("estimator {} on {} at {:.12g} s: ", name, log.source, log.time[std::min(i, log.size() - 1)]);
+  };
   try {
     estimator.reset(samples.first(start));
     record(run, estimator.estimate(), start);
@@ -152,11 +155,10 @@ EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const 
       if (options.progress && i % report_every == 0) options.progress(double(i) / double(log.size()));
     }
     record_revisions(run, estimator, start, log.size() - 1, true);
-  } catch (const InputError&) {
-    throw;
+  } catch (const InputError& error) {
+    throw EstimatorRefusal(place() + "refused: " + error.what());
   } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("estimator {} on {} at {:.12g} s: {}", name, log.source,
-                                         log.time[std::min(i, log.size() - 1)], error.what()));
+    throw std::runtime_error(place() + error.what());
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   run.microseconds_per_step = 1e6 * seconds / double(log.size() - start);

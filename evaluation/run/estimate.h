@@ -5,9 +5,17 @@
 #include <string>
 
 #include "estimators/estimator.h"
+#include "model/input_error.h"
 #include "model/log.h"
 
 namespace halyard {
+
+/// An estimator refuses a log: HALYARD_REFUSED, or an InputError of its functions. The message names estimator, log and
+/// time.
+class EstimatorRefusal : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 /// The results of an estimator on a log, sample by sample.
 struct EstimatorRun {
@@ -21,6 +29,7 @@ struct EstimatorRun {
   Signals innovation;                ///< [n] S_root⁻¹ ν, ~ N(0, 1) each if the model is right; NaN: none
   double microseconds_per_step = 0;  ///< wall time: differs from run to run
   std::string failure;               ///< why there is no estimate; empty: no failure
+  bool refused = false;              ///< because of the log, not of the estimator
 };
 
 /// Mean of the values that are not NaN; NaN if there are none.
@@ -42,8 +51,8 @@ EstimatorRun no_run(const std::string& name, const Log& log);
 /// ask for it. It starts at the first sample that has the position of every motor. A revised estimate replaces the
 /// earlier one of that sample.
 ///
-/// Throws InputError if no sample has the position of every motor. Throws std::runtime_error, naming estimator and
-/// time, if the estimator fails, if an estimate is not finite, or if a revision's time is not that of a sample.
+/// Throws InputError if no sample has the position of every motor, EstimatorRefusal, or std::runtime_error, naming
+/// estimator and time, if the estimator fails, if an estimate is not finite, or if a revision's time is no sample's.
 EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const Log& log,
                            const EstimateOptions& options = {});
 

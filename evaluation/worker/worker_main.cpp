@@ -64,6 +64,8 @@ std::string answer_to(WorkerPage& page) {
   try {
     const std::string_view bytes(reinterpret_cast<const char*>(&page + 1), page.task_size);
     return said(Answer::result, result_of(receive_worker_task(bytes), page));
+  } catch (const EstimatorRefusal& error) {
+    return said(Answer::refusal, error.what());
   } catch (const InputError& error) {
     return said(Answer::input_error, error.what());
   } catch (const std::exception& error) {

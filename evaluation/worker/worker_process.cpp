@@ -170,6 +170,7 @@ std::string result_in(const std::string& answer) {
   const std::string rest = answer.substr(1);
   switch (static_cast<Answer>(answer[0])) {
     case Answer::result: return rest;
+    case Answer::refusal: throw EstimatorRefusal(rest);
     case Answer::input_error: throw InputError(rest);
     case Answer::failure: throw std::runtime_error(rest);
   }

@@ -27,5 +27,28 @@ TEST_F(BadInput, ANumberThatIsNoneOrOutOfRange) {
       }
 }
 
+TEST_F(BadInput, AnEstimatorThatRefusesTheLogEndsItsOwnRowOfTheComparison) {
+  const std::string refuses = HALYARD_BROKEN_PLUGINS "/refuses_in_update.so";
+  const std::string message =
+      "estimator " + refuses +
+      " on moving.csv at 0.002 s: refused: plugin fixture: at 0.002 s: the record is not for me";
+  write_moving_log();
+  const RunResult run = this->run(
+      {"compare", "moving.csv", "--model", "raven2.xml", "--estimators", "kinematics," + refuses, "--out", "cmp"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.err, message + "\n");
+  EXPECT_TRUE(contains(run.out, refuses + ": refused the data\n")) << run.out;
+  const nlohmann::json result = nlohmann::json::parse(text_of(path("cmp/comparison.json"))).at("estimators");
+  EXPECT_TRUE(result.at(0).at("failure").is_null());
+  EXPECT_EQ(result.at(1).at("failure"), message);
+  EXPECT_TRUE(contains(text_of(path("cmp/report.html")), "the record is not for me"));
+  fs::remove_all(path("cmp"));
+  expect_refused({"compare", "moving.csv", "--model", "raven2.xml", "--estimators", refuses, "--out", "cmp"},
+                 {message});
+  expect_refused(
+      {"estimate", "--model", "raven2.xml", "--estimator", refuses, "--data", "moving.csv", "--out", "e.csv"},
+      {message});
+}
+
 }  // namespace
 }  // namespace halyard::testing_program
