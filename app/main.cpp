@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -47,6 +48,8 @@ int main(int argc, char** argv) {
     return code;
   } catch (const halyard::InputError& error) {
     return fail(error, 2);
+  } catch (const std::bad_alloc&) {
+    return fail(std::runtime_error("halyard: memory ran out; use shorter logs or scenarios, or fewer --jobs"), 1);
   } catch (const std::exception& error) {
     return fail(error, 1);
   }

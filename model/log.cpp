@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "model/input_error.h"
+#include "model/memory_limit.h"
 #include "model/output/output_files.h"
 
 namespace halyard {
@@ -24,6 +25,9 @@ std::string read_text(const std::filesystem::path& path) {
   const auto status = std::filesystem::status(path, unknown);
   if (!std::filesystem::exists(status)) fail("no such file; give the path of a CSV log");
   if (std::filesystem::is_directory(status)) fail("is a directory; give the path of a CSV log");
+  constexpr double kBytesInMemory = 3;  // the text, its copy as it is read, and the numbers
+  if (const auto size = std::filesystem::file_size(path, unknown); !unknown)
+    check_memory(kBytesInMemory * static_cast<double>(size), path.string(), "cut the log into shorter ones");
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (file) text << file.rdbuf();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "model/input_error.h"
+#include "model/memory_limit.h"
 #include "plant/controller.h"
 #include "plant/equilibrium.h"
 #include "plant/integrators/integrator.h"
@@ -46,6 +47,13 @@ std::vector<ControllerParameters> controller_parameters(const ArmModel& robot) {
   std::vector<ControllerParameters> parameters;
   for (const JointDescription& j : robot.joints) parameters.push_back(j.controller);
   return parameters;
+}
+
+/// Both logs of simulate() in memory, and one of them as the text of its file: 8 and, while the text grows, about twice
+/// as many bytes a number.
+double bytes_of_a_tick(const Scenario& scenario) {
+  constexpr double kSignals = 7, kBytes = 24;  // of the truth 4 signals a joint, of the measured log 3
+  return kBytes * (2 + kSignals * scenario.robot.n());
 }
 
 std::string place(const Scenario& scenario) { return "scenario " + in_quotes(scenario.name) + ": "; }
@@ -184,9 +192,8 @@ void check_scenario(const Scenario& scenario) {
   if (!(scenario.duration_s > 0) || !(scenario.control_period_s > 0) ||
       !(scenario.duration_s >= scenario.control_period_s))
     throw InputError(where + "the duration must be at least one control period, and both above 0 s");
-  constexpr double kMostTicks = 1e8;  // a day at 1 kHz; more does not fit into memory
-  if (scenario.duration_s / scenario.control_period_s > kMostTicks)
-    throw InputError(where + "the run has more than 1e8 control periods; take a shorter duration or a longer period");
+  check_memory(scenario.duration_s / scenario.control_period_s * bytes_of_a_tick(scenario), where + "the run",
+               "take a shorter duration or a longer control period");
   if (!(scenario.integrator.relative_tolerance > 0) || !(scenario.integrator.absolute_tolerance > 0))
     throw InputError(where + "the integrator's tolerances must be above 0");
   const IntegratorKind kind = scenario.integrator.kind;

@@ -27,6 +27,24 @@ TEST_F(BadInput, ANumberThatIsNoneOrOutOfRange) {
       }
 }
 
+TEST_F(BadInput, ARunThatDoesNotFitIntoMemory) {
+  write_text(path("long.xml"), replaced(text_of(path("experiment_a.xml")), "duration=\"0.1\"", "duration=\"1e9\""));
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"check", "long.xml"},
+                                             {"simulate", "long.xml", "--out", "new.csv"},
+                                             {"compare", "long.xml", "--estimators", "kinematics", "--out", "cmp"}})
+    expect_refused(command, {"long.xml: scenario", "of memory", "take a shorter duration"});
+}
+
+TEST_F(BadInput, ALogThatDoesNotFitIntoMemory) {
+  write_text(path("huge.csv"), "time\n");
+  fs::resize_file(path("huge.csv"), std::uintmax_t(1) << 43);  // 8 TB, none of them on the disk
+  const RunResult run =
+      this->run({"estimate", "--model", "raven2.xml", "--estimator", "ekf", "--data", "huge.csv", "--out", "e.csv"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_TRUE(contains(run.err, "huge.csv: needs about 2.64e+04 GB of memory")) << run.err;
+}
+
 TEST_F(BadInput, AnEstimatorThatRefusesTheLogEndsItsOwnRowOfTheComparison) {
   const std::string refuses = HALYARD_BROKEN_PLUGINS "/refuses_in_update.so";
   const std::string message =
