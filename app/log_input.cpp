@@ -1,6 +1,7 @@
 #include "app/log_input.h"
 
-#include "model/input_error.h"
+#include "diagnosis/log_check/log_check.h"
+#include "model/arm_log.h"
 
 namespace halyard {
 
@@ -11,6 +12,16 @@ void check_given_once(const std::vector<std::filesystem::path>& logs) {
       if (std::filesystem::equivalent(logs[i], logs[j], error) && !error)
         throw InputError(logs[i].string() + ": is given twice among --data and --holdout; give each log once");
     }
+}
+
+std::optional<std::string> explained_by_log(const std::string& failure, const std::vector<Log>& logs,
+                                            const ArmModel& model, const std::vector<std::string>& column_entries) {
+  const ColumnMap columns = columns_of(model, column_entries);
+  for (const Log& log : logs)
+    for (const LogFinding& finding : check_log(log, model, columns))
+      if (finding.severity == LogFinding::Severity::gross && !finding.stands_still)
+        return finding_line(finding) + " (" + failure + ")";
+  return std::nullopt;
 }
 
 }  // namespace halyard

@@ -1,11 +1,36 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
+
+#include "model/arm_model.h"
+#include "model/input_error.h"
+#include "model/log.h"
 
 namespace halyard {
 
 /// Throws InputError if a log occurs twice in --data and --holdout, because it would then count as twice the evidence.
 void check_given_once(const std::vector<std::filesystem::path>& logs);
+
+/// After a failure on a log: the first gross error that the check of the log finds (diagnosis/log_check/log_check.h),
+/// and behind it the failure. Nothing if the check finds none: then the log does not explain the failure.
+std::optional<std::string> explained_by_log(const std::string& failure, const std::vector<Log>& logs,
+                                            const ArmModel& model, const std::vector<std::string>& column_entries);
+
+/// What `run` returns. If it fails and an error of the logs explains that, throws InputError with that error.
+template <class Run>
+auto blaming_wrong_logs(const std::vector<Log>& logs, const ArmModel& model,
+                        const std::vector<std::string>& column_entries, const Run& run) {
+  try {
+    return run();
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    if (const auto why = explained_by_log(error.what(), logs, model, column_entries)) throw InputError(*why);
+    throw;
+  }
+}
 
 }  // namespace halyard

@@ -57,6 +57,7 @@ class Lines {
   }
 
   std::string_view line() const { return line_; }
+  std::size_t number() const { return number_; }
 
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(source_ + ":" + std::to_string(number_) + ": " + what);
@@ -223,6 +224,16 @@ Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& m
                      " beside the marker's other axes; give all three of marker_x, marker_y, marker_z, or none");
   }
   return log;
+}
+
+std::size_t line_of_sample(const Log& log, std::size_t sample) {
+  try {
+    const std::string text = read_text(log.source);
+    Lines lines(text, log.source);
+    for (std::size_t i = 0; lines.next(); ++i)  // the header is not a sample
+      if (i == sample + 1) return lines.number();
+  } catch (const InputError&) {}
+  return 0;
 }
 
 std::string log_csv(const Log& log, const std::string& comment) {

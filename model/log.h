@@ -89,6 +89,9 @@ struct ReadOptions {
 Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& map = {},
              const ReadOptions& options = {});
 
+/// The line of the file log.source that holds a sample, as an editor counts; 0 if it cannot be told.
+std::size_t line_of_sample(const Log& log, std::size_t sample);
+
 /// The text of a log's file: the columns that the log has, in the order of the table above, time with up to 6 decimals,
 /// other values with 9 significant digits. Each line of `comment` becomes a comment line at the top.
 ///

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/log_input.h"
 #include "app/output_check.h"
 #include "app/pages/comparison_figures.h"
 #include "app/pages/comparison_output.h"
@@ -83,6 +84,17 @@ Data logged_data(const CompareCommandOptions& options) {
   return data;
 }
 
+/// Failures that an error of the log explains become refusals that name it.
+void blame_wrong_log(Comparison& comparison, const Data& data, const std::vector<std::string>& columns) {
+  for (EstimatorRun& run : comparison.runs) {
+    if (run.failure.empty() || run.refused) continue;
+    const auto why = explained_by_log(run.failure, {data.measured}, data.model, columns);
+    if (!why) return;
+    run.failure = *why;
+    run.refused = true;
+  }
+}
+
 void print_errors(const Comparison& comparison) {
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
     const EstimatorRun& run = comparison.runs[i];
@@ -136,6 +148,7 @@ void run_compare(const CompareCommandOptions& options) {
                                      .containment = {.step_limit_s = options.step_limit_s},
                                      .progress = [&](double fraction) { progress.set(fraction * work_s); }});
   }
+  if (!data.scenario) blame_wrong_log(comparison, data, options.columns);
   if (std::ranges::none_of(comparison.runs, &std::string::empty, &EstimatorRun::failure)) {
     const EstimatorRun& first = comparison.runs[0];
     if (first.refused) throw InputError(first.failure);

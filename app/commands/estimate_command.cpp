@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "app/log_input.h"
 #include "app/output_check.h"
 #include "app/progress.h"
 #include "evaluation/comparison/compare.h"
@@ -36,11 +37,13 @@ void run_estimate(const EstimateCommandOptions& options) {
   Comparison comparison;
   {
     Progress progress("estimate", log.duration(), "s");
-    comparison = compare_estimators(model, {options.estimator}, log, log,
-                                    {.skip_s = options.skip_s,
-                                     .use_joint_torque = options.use_joint_torque,
-                                     .truth_is_sensed = true,
-                                     .progress = [&](double fraction) { progress.set(fraction * log.duration()); }});
+    comparison = blaming_wrong_logs({log}, model, options.columns, [&] {
+      return compare_estimators(model, {options.estimator}, log, log,
+                                {.skip_s = options.skip_s,
+                                 .use_joint_torque = options.use_joint_torque,
+                                 .truth_is_sensed = true,
+                                 .progress = [&](double fraction) { progress.set(fraction * log.duration()); }});
+    });
   }
   const EstimatorRun& run = comparison.runs[0];
   write_estimates(options.out, run,

@@ -54,8 +54,10 @@ void run_identify(const IdentifyCommandOptions& options) {
   IdentificationStudy result;
   {
     StageProgress progress("identify");
-    result = study_identification(model, logs, holdout, keys,
+    result = blaming_wrong_logs(logs, model, options.columns, [&] {
+      return study_identification(model, logs, holdout, keys,
                                   [&](const std::string& what, double fraction) { progress.set(what, fraction); });
+    });
   }
   OutputFiles files;
   write_identification(files, options.out, result);

@@ -22,6 +22,9 @@ void check_positions(LogUnderCheck& c);
 /// check_torques(), because this comparison needs corrected units.
 void check_clipped_torques(LogUnderCheck& c);
 
+/// Single torques of an impossible size.
+void check_torque_spikes(LogUnderCheck& c);
+
 /// Recorded torques against those that the motion requires: swapped columns, signs, units.
 void check_torques(LogUnderCheck& c);
 

@@ -16,6 +16,7 @@ std::vector<LogFinding> check_log(const Log& log, const ArmModel& model, const C
   check_clock(c);
   if (c.has_gross()) return c.findings;
   home_encoders(c.log, model);
+  check_torque_spikes(c);
   check_counters(c);
   if (c.has_gross()) return c.findings;
   check_positions(c);
@@ -41,7 +42,8 @@ const char* severity_word(LogFinding::Severity severity) {
 }
 
 std::string finding_line(const LogFinding& f) {
-  return fmt::format("{}: {}: {}; {}", f.log, f.column, f.what, f.remedy);
+  const std::string line = f.line > 0 ? fmt::format(":{}", f.line) : "";
+  return fmt::format("{}{}: {}: {}; {}", f.log, line, f.column, f.what, f.remedy);
 }
 
 void stop_at_gross_finding(const std::vector<LogFinding>& findings) {

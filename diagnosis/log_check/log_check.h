@@ -30,6 +30,8 @@ struct LogFinding {
   std::string what;    ///< observation and expectation
   std::string remedy;  ///< option or model attribute that corrects it
   Severity severity = Severity::suspicious;
+  std::size_t line = 0;       ///< of the file, if the error is in one line
+  bool stands_still = false;  ///< the numbers may be right, but there is nothing to learn from them
 };
 
 /// Thresholds of the check.
@@ -90,6 +92,8 @@ struct LogCheckRule {
   /// A sample is an outlier if it differs from the median of five by this many times the usual difference. Gaussian
   /// noise reaches 6 once in 10^9 samples.
   double outlier = 10;
+  /// A torque beyond this many times the 95th percentile of its column is a wrong number: no motor has such a peak.
+  double torque_spike = 1000;
   /// A torque that stays at exactly its largest value for this share of the samples is clipped.
   double clipped = 0.01;
   /// A torque is at the model's torque_limit within this share of it: sensors of current err by about 1 %.
@@ -110,7 +114,7 @@ std::vector<LogFinding> check_log(const Log& log, const ArmModel& model);
 /// "corrected", "suspicious" or "gross".
 const char* severity_word(LogFinding::Severity severity);
 
-/// "log.csv: motor_position_2: what; remedy".
+/// "log.csv: motor_position_2: what; remedy", with the line after the path if there is one.
 std::string finding_line(const LogFinding& finding);
 
 /// Throws InputError with the first gross finding, if there is one; the message says how many others there are.

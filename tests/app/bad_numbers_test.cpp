@@ -9,6 +9,35 @@
 namespace halyard::testing_program {
 namespace {
 
+/// A log whose columns are changed.
+class ChangedLog {
+ public:
+  explicit ChangedLog(const std::vector<std::string>& lines) : lines_(lines) {}
+
+  template <class Change>
+  std::string with(const std::vector<std::string>& columns, const Change& change) const {
+    std::string text;
+    std::vector<bool> changed;
+    for (const std::string& line : lines_) {
+      if (line.starts_with('#')) continue;
+      std::istringstream cells(line);
+      std::string row;
+      std::size_t i = 0;
+      const bool header = changed.empty();
+      for (std::string cell; std::getline(cells, cell, ','); ++i) {
+        if (header) changed.push_back(std::ranges::find(columns, cell) != columns.end());
+        else if (changed[i]) cell = std::to_string(change(std::stod(cell)));
+        row += (i == 0 ? "" : ",") + cell;
+      }
+      text += row + "\n";
+    }
+    return text;
+  }
+
+ private:
+  std::vector<std::string> lines_;
+};
+
 TEST_F(BadInput, ANumberThatIsNoneOrOutOfRange) {
   const std::vector<std::string> compare = {"compare", "experiment_a.xml", "--estimators", "kinematics", "--out",
                                             "out"};
@@ -66,6 +95,31 @@ TEST_F(BadInput, AnEstimatorThatRefusesTheLogEndsItsOwnRowOfTheComparison) {
   expect_refused(
       {"estimate", "--model", "raven2.xml", "--estimator", refuses, "--data", "moving.csv", "--out", "e.csv"},
       {message});
+}
+
+TEST_F(BadInput, AWrongNumberOfTheLogIsBlamedForTheFailureOfAnEstimator) {
+  write_moving_log("3");
+  const std::vector<std::string> lines = lines_of(text_of(path("moving.csv")));
+  std::string spike;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::size_t first = lines[i].find(','), second = lines[i].find(',', first + 1);
+    spike += (i == 60 ? lines[i].substr(0, first) + ",1e6" + lines[i].substr(second) : lines[i]) + "\n";
+  }
+  write_text(path("spike.csv"), spike);
+  const auto expect_blamed = [&](const std::string& data, const std::vector<std::string>& parts) {
+    expect_refused({"estimate", "--model", "raven2.xml", "--estimator", "ekf", "--data", data, "--out", "e.csv"},
+                   parts);
+    expect_refused({"compare", data, "--model", "raven2.xml", "--estimators", "ekf", "--out", "cmp"}, parts);
+    const RunResult run =
+        this->run({"compare", data, "--model", "raven2.xml", "--estimators", "kinematics,ekf", "--out", "cmp"});
+    EXPECT_EQ(run.exit_code, 0);
+    for (const std::string& part : parts) EXPECT_TRUE(contains(run.err, part)) << run.err;
+    fs::remove_all(path("cmp"));
+  };
+  write_text(path("degrees.csv"), ChangedLog(lines).with({"motor_position_1", "motor_position_2", "motor_position_3"},
+                                                         [](double x) { return 180 / 3.14159265 * x; }));
+  expect_blamed("degrees.csv", {"degrees.csv: motor_position_1:", "as if it were degrees", "(estimator ekf on"});
+  expect_blamed("spike.csv", {"spike.csv:61: motor_torque_1: 1e+06 N m at", "correct this cell", "(estimator ekf on"});
 }
 
 }  // namespace

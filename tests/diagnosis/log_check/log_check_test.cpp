@@ -42,6 +42,15 @@ TEST(LogCheck, NamesAReversedTorque) {
                {"opposes", option(numbered("motor_torque_", k), "sign=-1")});
 }
 
+TEST(LogCheck, NamesASingleTorqueOfAnImpossibleSize) {
+  Log log = right_log();
+  log.motor_torque[1][700] = -1e6;
+  expect_one(log, "motor_torque_2", Severity::gross, {"-1e+06 N m at 0.7 s", "correct this cell"});
+  for (double& x : log.motor_torque[1]) x *= 1e3;  // all of one size: a unit
+  log.motor_torque[1][700] = 0;
+  for (const LogFinding& f : check_log(log, raven())) EXPECT_EQ(f.what.find("N m at"), f.what.npos) << finding_line(f);
+}
+
 TEST(LogCheck, TellsAReversedMotorFromAReversedTorqueWithoutJointSensors) {
   expect_one(without_joint_sensors(scaled(&Log::motor_position, 1, -1)), "motor_position_2", Severity::gross,
              {"outside its range", option("motor_position_2", "sign=-1")});
