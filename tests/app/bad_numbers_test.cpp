@@ -122,5 +122,64 @@ TEST_F(BadInput, AWrongNumberOfTheLogIsBlamedForTheFailureOfAnEstimator) {
   expect_blamed("spike.csv", {"spike.csv:61: motor_torque_1: 1e+06 N m at", "correct this cell", "(estimator ekf on"});
 }
 
+TEST_F(BadInput, AModelThatNoArmCanHave) {
+  struct Case {
+    const char *from, *to;
+    std::vector<std::string> parts;
+  };
+  const std::vector<Case> cases = {
+      {"inertia=\"3.0309e-3 1.4398e-3 1.6716e-3 0.0286e-3 -0.0762e-3 -1.2880e-3\"",
+       "inertia=\"1e-3 1e-3 4e-3 0 0 0\"",
+       {"<link inertia=", "expected none above the sum of the other two", "check the entries"}},
+      {"mass=\"0.503\"", "mass=\"-0.503\"", {"<link mass=\"-0.503\">: expected a number of at least 0"}},
+      {"gear_ratio=\"12.25\"", "gear_ratio=\"0\"", {"<motor gear_ratio=\"0\">: expected a number greater than 0"}},
+      {"coefficient=\"0.007797\"",
+       "coefficient=\"1e18\"",
+       {"coupling matrix [3 x 3] has rank", "correct the coupling coefficients"}},
+      {"home=\"45 deg\"", "home=\"100 deg\"", {"<range home=\"100 deg\">: expected a position from lower to upper"}},
+      {"lower=\"0 deg\"", "lower=\"91 deg\"", {"<range upper=", "expected an upper end above the lower one"}}};
+  for (const Case& c : cases) {
+    write_text(path("bad.xml"), replaced(text_of(example("raven2.xml")), c.from, c.to));
+    std::vector<std::string> parts = c.parts;
+    parts.push_back("bad.xml:");
+    expect_refused({"check", "bad.xml"}, parts);
+    expect_refused({"diagnose", "--model", "bad.xml", "--data", "log.csv", "--out", "out"}, parts);
+  }
+}
+
+TEST_F(BadInput, AScenarioWithoutTime) {
+  const std::string scenario = text_of(path("experiment_a.xml"));
+  for (const auto& [to, part] : std::vector<std::pair<std::string, std::string>>{
+           {"duration=\"0\"", "bad.xml:4: <scenario duration=\"0\">: expected a number greater than 0"},
+           {"duration=\"1e-6\"",
+            "bad.xml: scenario 'A: high tension': the duration must be at least one control period"}}) {
+    write_text(path("bad.xml"), replaced(scenario, "duration=\"0.1\"", to));
+    expect_refused({"check", "bad.xml"}, {part});
+    expect_refused({"simulate", "bad.xml", "--out", "new.csv"}, {part});
+  }
+  write_text(path("bad.xml"), replaced(scenario, "<control period=\"0.001\"", "<control period=\"0\""));
+  expect_refused({"check", "bad.xml"}, {"<control period=\"0\">: expected a number greater than 0"});
+}
+
+TEST_F(BadInput, ALogInOtherUnitsOrOfAnArmThatIsOff) {
+  write_moving_log();
+  const ChangedLog moving(lines_of(text_of(path("moving.csv"))));
+  const auto expect_found = [&](const std::string& text, const std::vector<std::string>& parts) {
+    write_text(path("bad.csv"), text);
+    const RunResult check = run({"check", "bad.csv", "--model", "raven2.xml"});
+    EXPECT_EQ(check.exit_code, 2);
+    for (const std::string& part : parts) EXPECT_TRUE(contains(check.err, part)) << check.err;
+    expect_refused({"diagnose", "--model", "raven2.xml", "--data", "bad.csv", "--out", "out"}, parts);
+  };
+  const auto times = [](double factor) { return [factor](double x) { return factor * x; }; };
+  expect_found(moving.with({"time"}, times(1e3)), {"bad.csv: time:", "milliseconds", "unit=ms"});
+  expect_found(moving.with({"motor_position_1"}, times(180 / 3.14159265)),
+               {"bad.csv: motor_position_1:", "degrees", "unit=deg"});
+  expect_found(moving.with({"motor_torque_1", "motor_torque_2", "motor_torque_3", "motor_position_1",
+                            "motor_position_2", "motor_position_3"},
+                           times(0)),
+               {"bad.csv: motor_position_1:", "switched off", "give a record in which the motors move"});
+}
+
 }  // namespace
 }  // namespace halyard::testing_program
