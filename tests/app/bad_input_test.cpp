@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/support/bad_input.h"
+#include "tests/app/bad_input.h"
 
 namespace halyard::testing_program {
 namespace {

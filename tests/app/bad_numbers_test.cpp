@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/input_error.h"
-#include "tests/support/bad_input.h"
+#include "tests/app/bad_input.h"
 
 namespace halyard::testing_program {
 namespace {
