@@ -213,7 +213,7 @@ ArmModel slider() {
   ArmModel model;
   model.name = "slider";
   model.source = "the slider of the conformance suite";
-  model.joints = {{.name = "slider", .lower = -1, .upper = 1, .home = 0, .controller = {}}};
+  model.joints = {{.name = "slider", .lower = -1, .upper = 1, .home = 0, .controller = {}, .tolerances = {}}};
   ArmParameters<double>& arm = model.nominal;
   arm.n = 1;
   for (double& g : arm.gravity) g = 0;
