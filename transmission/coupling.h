@@ -95,9 +95,20 @@ HALYARD_INLINE void add_rotor_mass(const ArmParameters<T>& arm, T M[][kMaxJoints
 /// R [n x n]. It has a row also for a joint without a drive, though no cable belongs to that row.
 Eigen::MatrixXd path_matrix(const ArmParameters<double>& arm);
 
-/// Kinematics without elasticity (Eq. 8 inverted): the q [n] at which no driven cable is stretched, for motor angles
-/// q_m [n]. A joint without a drive gets its position from q_undriven [n]. Throws std::invalid_argument if R of the
-/// driven joints is singular.
+/// Kinematics without elasticity (Eq. 8 inverted): the joint positions at which no driven cable is stretched. A joint
+/// without a drive has a position of its own.
+class UnstretchedJoints {
+ public:
+  /// Throws std::invalid_argument if R of the driven joints is singular.
+  explicit UnstretchedJoints(const ArmParameters<double>& arm);
+  /// q [n] of motor angles q_m [n]; an undriven joint gets its position from q_undriven [n].
+  void solve(const Eigen::VectorXd& q_m, const Eigen::VectorXd& q_undriven, Eigen::VectorXd& q) const;
+
+ private:
+  Eigen::MatrixXd per_motor_, per_undriven_;  // ∂q/∂q_m, ∂q/∂q_undriven
+};
+
+/// The same for a single q_m.
 Eigen::VectorXd unstretched_joints(const ArmParameters<double>& arm, const Eigen::VectorXd& q_m,
                                    const Eigen::VectorXd& q_undriven);
 

@@ -3,24 +3,24 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "transmission/coupling.h"
 #include "transmission/transmission.h"
 
 namespace halyard {
 
 KinematicsEstimator::KinematicsEstimator(const ArmModel& model)
-    : arm_(Transmission<double>(model.nominal, model.effects).arm()), home_(model.home()) {}
+    : arm_(Transmission<double>(model.nominal, model.effects).arm()), joints_(arm_), home_(model.home()) {}
 
-Eigen::VectorXd KinematicsEstimator::joint_position(const Sample& sample) {
+void KinematicsEstimator::read(const Sample& sample) {
   for (int k = 0; k < arm_.n; ++k)
     if (std::isfinite(sample.motor_position(k)))
       motor_angle_(k) = sample.motor_position(k) - arm_.joint[k].motor_encoder_offset;
-  return unstretched_joints(arm_, motor_angle_, home_);
+  joints_.solve(motor_angle_, home_, position_);
 }
 
 void KinematicsEstimator::reset(const Sample& first) {
   motor_angle_ = unstretched_motors(arm_, home_);
-  estimate_.joint_position = joint_position(first);
+  read(first);
+  estimate_.joint_position = position_;
   estimate_.joint_velocity = estimate_.joint_position_std = Eigen::VectorXd::Zero(arm_.n);
   time_ = first.time_s;
   report_ = {};
@@ -30,9 +30,9 @@ Innovation KinematicsEstimator::update(const Sample& sample) {
   const double dt = sample.time_s - time_;
   if (!(dt > 0))
     throw std::invalid_argument("kinematics: time does not increase at " + std::to_string(sample.time_s) + " s");
-  const Eigen::VectorXd q = joint_position(sample);
-  estimate_.joint_velocity = (q - estimate_.joint_position) / dt;
-  estimate_.joint_position = q;
+  read(sample);
+  estimate_.joint_velocity = (position_ - estimate_.joint_position) / dt;
+  estimate_.joint_position = position_;
   time_ = sample.time_s;
   ++report_.steps;
   Innovation innovation;

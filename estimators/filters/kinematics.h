@@ -4,6 +4,7 @@
 
 #include "estimators/estimator.h"
 #include "model/arm_model.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 
@@ -20,10 +21,12 @@ class KinematicsEstimator final : public Estimator {
   EstimatorReport report() const override { return report_; }
 
  private:
-  Eigen::VectorXd joint_position(const Sample& sample);
+  /// Sets position_ from the sample's angles.
+  void read(const Sample& sample);
 
   ArmParameters<double> arm_;  // with the effects' changes
-  Eigen::VectorXd home_, motor_angle_;
+  UnstretchedJoints joints_;
+  Eigen::VectorXd home_, motor_angle_, position_;
   double time_ = 0;
   Estimate estimate_;
   EstimatorReport report_;
