@@ -7,19 +7,24 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <vector>
+#include <array>
+#include <stdexcept>
 
 #include "transmission/scalar.h"
 
 namespace halyard {
 
+/// Most entries of x and y: they are on the stack, because memory from the heap costs as much as a small f.
+inline constexpr int kMaxJacobian = 128;
+
 /// Fills y and J, which must have the size of the result. f(const Dual* x, Dual* y) writes all of y and is called once
-/// for every kDualWidth entries of x.
+/// for every kDualWidth entries of x. Throws std::invalid_argument if x or y has more than kMaxJacobian entries.
 template <class Function>
 void jacobian(Function&& f, const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> y,
               Eigen::Ref<Eigen::MatrixXd> J) {
   const int n_x = static_cast<int>(x.size()), n_y = static_cast<int>(y.size());
-  std::vector<Dual> at(n_x), value(n_y);
+  if (std::max(n_x, n_y) > kMaxJacobian) throw std::invalid_argument("Jacobian by dual numbers: too many variables");
+  std::array<Dual, kMaxJacobian> at, value;
   for (int first = 0; first < n_x; first += kDualWidth) {
     const int end = std::min(first + kDualWidth, n_x);
     for (int i = 0; i < n_x; ++i) at[i] = i >= first && i < end ? Dual::seed(x(i), i - first) : Dual(x(i));

@@ -46,6 +46,7 @@ ArmFilter::ArmFilter(const ArmModel& model, std::shared_ptr<const ProcessModel> 
       process_(std::move(process)),
       options_(options),
       noise_(model_, *process_, options.noise),
+      exponential_(*process_),
       filter_(std::move(filter)),
       history_(model.n(), kHistorySpan),
       last_command_(-kInfinity) {
@@ -146,7 +147,9 @@ void ArmFilter::predict(double to_time_s) {
   step.history = &history_;
   for (int i = 0; i < pieces; ++i) {
     step.time_s = time_ + i * step.dt_s;
-    filter_->predict(ArmProcess(*process_, step), noise_.process_root(step, filter_->x()));
+    const bool accepted = options_.exponential && exponential_.start(step, filter_->x(), filter_->S());
+    ExponentialStep* const exponential = accepted ? &exponential_ : nullptr;
+    filter_->predict(ArmProcess(*process_, step, exponential), noise_.process_root(step, filter_->x(), exponential));
   }
 }
 
@@ -155,15 +158,21 @@ double ArmFilter::gate_threshold(int m) const {
 }
 
 Innovation ArmFilter::correct(const Sample& sample) {
-  std::vector<int> read;
+  read_.clear();
   for (const int k : motors_)
-    if (std::isfinite(sample.motor_position(k))) read.push_back(k);
-  if (read.empty()) return {};
-  const Eigen::MatrixXd R_root = Eigen::VectorXd(noise_.encoder()(read)).asDiagonal();
-  const Innovation innovation =
-      filter_->update(MotorReadings(*process_, sample.time_s, read), sample.motor_position(read), R_root,
-                      gate_threshold(static_cast<int>(read.size())));
-  noise_.adapt(read, innovation, sample.time_s - time_);
+    if (std::isfinite(sample.motor_position(k))) read_.push_back(k);
+  if (read_.empty()) return {};
+  const auto m = static_cast<Eigen::Index>(read_.size());
+  z_.resize(m);
+  R_root_.setZero(m, m);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const int k = read_[static_cast<std::size_t>(i)];
+    z_(i) = sample.motor_position(k);
+    R_root_(i, i) = noise_.encoder()(k);
+  }
+  Innovation innovation =
+      filter_->update(MotorReadings(*process_, sample.time_s, read_), z_, R_root_, gate_threshold(static_cast<int>(m)));
+  noise_.adapt(read_, innovation, sample.time_s - time_);
   refused_since_ = innovation.accepted ? kInfinity : std::min(refused_since_, sample.time_s);
   return innovation;
 }

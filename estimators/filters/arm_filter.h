@@ -20,9 +20,10 @@ namespace halyard {
 
 struct ArmFilterOptions {
   NoiseLevels noise;
-  double max_step = 0.01;  ///< s
-  double restart_gap = 1;  ///< s
-  double gate = 1;         ///< probability
+  double max_step = 0.01;   ///< s
+  double restart_gap = 1;   ///< s
+  double gate = 1;          ///< probability
+  bool exponential = true;  ///< take the exponential step where its guard accepts it; false: always sub-steps
   /// Effect states that shift the joints' equilibrium at the start: their uncertainty adds to that of the joints.
   std::vector<int> settled = {};
 };
@@ -76,8 +77,12 @@ class ArmFilter final : public Estimator {
   std::shared_ptr<const ProcessModel> process_;
   ArmFilterOptions options_;
   ArmNoise noise_;
+  ExponentialStep exponential_;
   std::unique_ptr<GaussianFilter> filter_;
   std::vector<int> motors_;  // joints that have a motor
+  std::vector<int> read_;    // those with a reading in this sample
+  Eigen::VectorXd z_;        // their readings
+  Eigen::MatrixXd R_root_;   // and the root of their covariance
   CommandHistory history_;
   double last_command_ = 0;  // time of the newest command in history_, s
   bool started_ = false;

@@ -50,10 +50,10 @@ class MarkerPosition final : public MeasurementModel {
     position_of(model_.arm(), chain_pose(model_.arm(), q), model_.arm().payload_point, z.data());
     return z;
   }
-  Eigen::VectorXd linearise(const Eigen::VectorXd& x, Eigen::MatrixXd& H) const override {
+  void linearise(const Eigen::VectorXd& x, Eigen::VectorXd& z, Eigen::MatrixXd& H) const override {
     const ArmParameters<Dual>& arm = model_.dual_transmission().arm();
     const std::vector<int> at(model_.layout().position, model_.layout().position + arm.n);
-    Eigen::VectorXd z(3);
+    z.resize(3);
     Eigen::MatrixXd of_joints(3, arm.n);
     const auto position_at = [&](const Dual* q, Dual* out) {
       position_of(arm, chain_pose(arm, q), arm.payload_point, out);
@@ -61,7 +61,6 @@ class MarkerPosition final : public MeasurementModel {
     jacobian(position_at, x(at), z, of_joints);
     H.setZero(3, x.size());
     H(Eigen::all, at) = of_joints;
-    return read(x);
   }
 
  private:

@@ -16,9 +16,7 @@ void ExtendedKalmanFilter::predict(const DiscreteProcess& process, const Eigen::
 
 Innovation ExtendedKalmanFilter::update(const MeasurementModel& measurement, const Eigen::VectorXd& z,
                                         const Eigen::MatrixXd& R_root, double gate) {
-  Eigen::MatrixXd H;
-  const Eigen::VectorXd predicted = measurement.linearise(x_, H);
-  return update_linear(z - predicted, H, R_root, gate);
+  return update_linear(measurement, z, R_root, gate);
 }
 
 }  // namespace halyard

@@ -1,8 +1,8 @@
 #pragma once
-/// The extended Kalman filter in square-root form, with the exact Jacobian of the discrete step:
+/// The extended Kalman filter in square-root form, with the Jacobian of the discrete step:
 ///
 ///   predict   x = f(x),  S = root of [F S, Q_root]              F = ∂f/∂x at the old x
-///   update    GaussianFilter::update_linear() with H = ∂h/∂x
+///   update    GaussianFilter::update_linear()
 ///
 /// Source: Jazwinski, "Stochastic Processes and Filtering Theory", 1970; Kailath, Sayed, Hassibi, chapter 12.
 

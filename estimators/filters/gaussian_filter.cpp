@@ -7,32 +7,33 @@
 namespace halyard {
 
 void LowerRoot::compute(const Eigen::MatrixXd& A, Eigen::MatrixXd& L) {
-  const Eigen::Index n = A.rows();
-  qr_.compute(A.transpose());
+  const int n = static_cast<int>(A.rows());
+  columns_.set_zero(static_cast<int>(A.cols()), n);
+  columns_.view() = A.transpose();
   L.setZero(n, n);
-  for (Eigen::Index c = 0; c < n; ++c) {
-    const double sign = qr_.matrixQR()(c, c) < 0 ? -1 : 1;
-    for (Eigen::Index r = c; r < n; ++r) L(r, c) = sign * qr_.matrixQR()(c, r);
-  }
+  matrix_kernels()[0].lower_root(n, columns_.blocks(), columns_.lanes(), L.data(), n);
 }
 
-Innovation GaussianFilter::update_linear(const Eigen::VectorXd& nu, const Eigen::MatrixXd& H,
+Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, const Eigen::VectorXd& z,
                                          const Eigen::MatrixXd& R_root, double gate) {
-  check_measurement(nu);
-  const Eigen::Index m = nu.size(), n = x_.size();
+  measurement.linearise(x_, nu_, H_);
+  nu_ = z - nu_;
+  check_measurement(nu_);
+  const Eigen::Index m = nu_.size(), n = x_.size();
   array_.setZero(m + n, m + n);
   array_.topLeftCorner(m, m) = R_root;
-  array_.topRightCorner(m, n).noalias() = H * S_;
+  array_.topRightCorner(m, n).noalias() = H_ * S_;
   array_.bottomRightCorner(n, n) = S_;
   array_root_.compute(array_, triangle_);
 
   Innovation innovation;
-  innovation.nu = nu;
+  innovation.nu = nu_;
   innovation.S_root = triangle_.topLeftCorner(m, m);
-  const Eigen::VectorXd whitened = innovation.S_root.triangularView<Eigen::Lower>().solve(nu);
-  innovation.accepted = whitened.squaredNorm() <= gate;
+  whitened_ = nu_;
+  innovation.S_root.triangularView<Eigen::Lower>().solveInPlace(whitened_);
+  innovation.accepted = whitened_.squaredNorm() <= gate;
   if (innovation.accepted) {
-    x_.noalias() += triangle_.bottomLeftCorner(n, m) * whitened;
+    x_.noalias() += triangle_.bottomLeftCorner(n, m) * whitened_;
     S_ = triangle_.bottomRightCorner(n, n);
   }
   return innovation;

@@ -11,10 +11,10 @@
 /// cannot lose definiteness.
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <string>
 
 #include "estimators/estimator.h"
+#include "estimators/matrix/lane_matrix.h"
 
 namespace halyard {
 
@@ -37,8 +37,8 @@ class MeasurementModel {
   /// True if h is affine, so that its linearisation is exact.
   virtual bool is_affine() const = 0;
   virtual Eigen::VectorXd read(const Eigen::VectorXd& x) const = 0;
-  /// h(x), and H = ∂h/∂x [m x n].
-  virtual Eigen::VectorXd linearise(const Eigen::VectorXd& x, Eigen::MatrixXd& H) const = 0;
+  /// z becomes h(x), H becomes ∂h/∂x [m x n].
+  virtual void linearise(const Eigen::VectorXd& x, Eigen::VectorXd& z, Eigen::MatrixXd& H) const = 0;
 };
 
 /// Lower triangular L with L Lᵀ = A Aᵀ and diagonal >= 0, by Householder reflections of Aᵀ. A: [n x m], m >= n.
@@ -47,7 +47,7 @@ class LowerRoot {
   void compute(const Eigen::MatrixXd& A, Eigen::MatrixXd& L);
 
  private:
-  Eigen::HouseholderQR<Eigen::MatrixXd> qr_;  // kept for its memory
+  LaneMatrix columns_;  // Aᵀ; kept for its memory
 };
 
 /// The state x before a prediction, given the state x' after it (a Rauch-Tung-Striebel step):
@@ -86,13 +86,14 @@ class GaussianFilter {
   long repaired() const { return repaired_; }
 
  protected:
-  /// The exact update with a linear measurement. The triangular root of the left array is the right array:
+  /// The exact update with a measurement that is affine, or linearised at x: with ν = z - h(x) and H = ∂h/∂x, the
+  /// triangular root of the left array is the right array:
   ///
   ///   [ R_root  H S ]     →    [ S_y         0  ]
   ///   [   0      S  ]          [ P_xy S_y⁻ᵀ  S' ]
   ///
   /// Then x' = x + (P_xy S_y⁻ᵀ) S_y⁻¹ ν. Source: Kailath, Sayed, Hassibi, "Linear Estimation", chapter 12.
-  Innovation update_linear(const Eigen::VectorXd& nu, const Eigen::MatrixXd& H, const Eigen::MatrixXd& R_root,
+  Innovation update_linear(const MeasurementModel& measurement, const Eigen::VectorXd& z, const Eigen::MatrixXd& R_root,
                            double gate);
   void check_finite(const DiscreteProcess& process) const;
   static void check_measurement(const Eigen::VectorXd& nu);
@@ -109,7 +110,8 @@ class GaussianFilter {
   LowerRoot root_;
 
  private:
-  Eigen::MatrixXd array_, triangle_;
+  Eigen::VectorXd nu_, whitened_;
+  Eigen::MatrixXd H_, array_, triangle_;
   LowerRoot array_root_;
 };
 

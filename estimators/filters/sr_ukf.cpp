@@ -12,13 +12,15 @@ namespace {
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kRoundings = 4;  // of one evaluation of f or h, relative to result and argument
 
-/// W Σ d_i over the columns of d, less what is rounding of numbers of that `size` or beyond the limit.
-Eigen::VectorXd mean_shift(const Eigen::Ref<const Eigen::MatrixXd>& d, const Eigen::VectorXd& size, double W,
-                           double curvature_limit) {
-  const Eigen::VectorXd sum = W * d.rowwise().sum();
-  const Eigen::ArrayXd rounding = kRoundings * kEps * W * static_cast<double>(d.cols()) * size.array();
-  const Eigen::ArrayXd spread = (W * d.rowwise().squaredNorm()).cwiseSqrt();
-  return (sum.array().abs() > rounding && sum.array().abs() <= curvature_limit * spread).select(sum, 0.0);
+/// `shift` becomes W Σ d_i over the columns of d, less what is rounding of numbers of that `size` or beyond the limit.
+void set_mean_shift(const Eigen::Ref<const Eigen::MatrixXd>& d, const Eigen::VectorXd& size, double W,
+                    double curvature_limit, Eigen::VectorXd& shift) {
+  shift = W * d.rowwise().sum();
+  const double rounding = kRoundings * kEps * W * static_cast<double>(d.cols());
+  for (Eigen::Index i = 0; i < shift.size(); ++i) {
+    const double curvature = std::abs(shift(i)), spread = std::sqrt(W * d.row(i).squaredNorm());
+    if (!(curvature > rounding * size(i) && curvature <= curvature_limit * spread)) shift(i) = 0;
+  }
 }
 
 }  // namespace
@@ -71,12 +73,12 @@ void SquareRootUkf::predict(const DiscreteProcess& process, const Eigen::MatrixX
   predicted_columns_.resize(n, points + Q_root.cols() + 1);
   auto d = predicted_columns_.leftCols(points);
   d = X_.rightCols(points).colwise() - X_.col(0);
-  const Eigen::VectorXd size = x_.cwiseAbs().cwiseMax(X_.cwiseAbs().rowwise().maxCoeff());
-  const Eigen::VectorXd delta = mean_shift(d, size, W, weights_.curvature_limit);
-  x_ = X_.col(0) + delta;
+  size_ = x_.cwiseAbs().cwiseMax(X_.cwiseAbs().rowwise().maxCoeff());
+  set_mean_shift(d, size_, W, weights_.curvature_limit, delta_);
+  x_ = X_.col(0) + delta_;
   d *= std::sqrt(W);
   predicted_columns_.middleCols(points, Q_root.cols()) = Q_root;
-  root_with_central(predicted_columns_, delta, S_);
+  root_with_central(predicted_columns_, delta_, S_);
   x_predicted_ = x_;
   check_finite(process);
 }
@@ -89,18 +91,15 @@ Eigen::MatrixXd SquareRootUkf::columns_before(const Eigen::MatrixXd& S_0) const 
 
 Innovation SquareRootUkf::update(const MeasurementModel& measurement, const Eigen::VectorXd& z,
                                  const Eigen::MatrixXd& R_root, double gate) {
-  if (measurement.is_affine()) {
-    Eigen::MatrixXd H;
-    const Eigen::VectorXd predicted = measurement.linearise(x_, H);
-    return update_linear(z - predicted, H, R_root, gate);
-  }
+  if (measurement.is_affine()) return update_linear(measurement, z, R_root, gate);
   const Eigen::Index n = x_.size(), m = z.size(), points = 2 * n;
   const double W = 0.5 / spread_squared();
   place_sigma_points(X_);
   const Eigen::VectorXd z_0 = measurement.read(X_.col(0));
   Eigen::MatrixXd e(m, points + m + 1);
   for (Eigen::Index i = 0; i < points; ++i) e.col(i) = measurement.read(X_.col(i + 1)) - z_0;
-  const Eigen::VectorXd epsilon = mean_shift(e.leftCols(points), z_0.cwiseAbs(), W, weights_.curvature_limit);
+  Eigen::VectorXd epsilon;
+  set_mean_shift(e.leftCols(points), z_0.cwiseAbs(), W, weights_.curvature_limit, epsilon);
   const Eigen::VectorXd nu = z - z_0 - epsilon;
   check_measurement(nu);
 

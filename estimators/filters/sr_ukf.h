@@ -56,6 +56,7 @@ class SquareRootUkf : public GaussianFilter {
   void root_with_central(Eigen::MatrixXd& columns, const Eigen::VectorXd& v, Eigen::MatrixXd& L);
 
   UkfWeights weights_;
+  Eigen::VectorXd size_, delta_;
   Eigen::MatrixXd X_, columns_;
 };
 

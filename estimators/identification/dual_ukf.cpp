@@ -76,9 +76,9 @@ class Linearised final : public MeasurementModel {
       : x_(std::move(x)), z_(std::move(z)), H_(std::move(H)) {}
   bool is_affine() const override { return true; }
   Eigen::VectorXd read(const Eigen::VectorXd& x) const override { return z_ + H_ * (x - x_); }
-  Eigen::VectorXd linearise(const Eigen::VectorXd& x, Eigen::MatrixXd& H) const override {
+  void linearise(const Eigen::VectorXd& x, Eigen::VectorXd& z, Eigen::MatrixXd& H) const override {
     H = H_;
-    return read(x);
+    z = read(x);
   }
 
  private:

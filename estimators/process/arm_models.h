@@ -3,21 +3,25 @@
 
 #include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "estimators/filters/gaussian_filter.h"
+#include "estimators/process/exponential_step.h"
 #include "estimators/process/process_model.h"
 
 namespace halyard {
 
-/// f over one step. The process model must outlive this object.
+/// f over one step: by `exponential`, which has been started at the mean of the belief, where its guard accepts that;
+/// else by the process model's sub-steps. Both must outlive this object.
 class ArmProcess : public DiscreteProcess {
  public:
-  ArmProcess(const ProcessModel& model, const Step& step) : model_(model), step_(step) {}
-  void advance(Eigen::MatrixXd& X) const override { model_.advance_many(step_, X); }
+  ArmProcess(const ProcessModel& model, const Step& step, ExponentialStep* exponential = nullptr)
+      : model_(model), step_(step), exponential_(exponential) {}
+  void advance(Eigen::MatrixXd& X) const override {
+    if (!exponential_ || !exponential_->advance(X)) model_.advance_many(step_, X);
+  }
   void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const override {
-    model_.advance_with_jacobian(step_, x.data(), F);
+    if (!exponential_ || !exponential_->advance_with_jacobian(x, F)) model_.advance_with_jacobian(step_, x.data(), F);
   }
   std::string name_of(int state) const override {
     std::ostringstream text;
@@ -28,26 +32,36 @@ class ArmProcess : public DiscreteProcess {
  protected:
   const ProcessModel& model_;
   Step step_;
+  ExponentialStep* exponential_;
 };
 
-/// h for some of the motors, given by the 0-based indices of their joints. The process model must outlive this object.
+/// h for some of the motors, given by the 0-based indices of their joints. The process model and the indices must
+/// outlive this object.
 class MotorReadings final : public MeasurementModel {
  public:
-  MotorReadings(const ProcessModel& model, double time_s, std::vector<int> motors)
-      : model_(model), time_(time_s), motors_(std::move(motors)) {}
+  MotorReadings(const ProcessModel& model, double time_s, const std::vector<int>& motors)
+      : model_(model), time_(time_s), motors_(motors) {}
   bool is_affine() const override { return model_.readings_are_linear(); }
   Eigen::VectorXd read(const Eigen::VectorXd& x) const override { return model_.motor_readings(time_, x)(motors_); }
-  Eigen::VectorXd linearise(const Eigen::VectorXd& x, Eigen::MatrixXd& H) const override {
-    Eigen::MatrixXd all;
-    const Eigen::VectorXd z = model_.motor_readings(time_, x, &all);
-    H = all(motors_, Eigen::all);
-    return z(motors_);
+  void linearise(const Eigen::VectorXd& x, Eigen::VectorXd& z, Eigen::MatrixXd& H) const override {
+    Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxJoints, 1> all(model_.n_joints());
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxJoints, kMaxStates> slopes(
+        model_.n_joints(), model_.n_states());
+    model_.linearise_readings(time_, x, all, slopes);
+    const auto m = static_cast<Eigen::Index>(motors_.size());
+    z.resize(m);
+    H.resize(m, slopes.cols());
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const int k = motors_[static_cast<std::size_t>(i)];
+      z(i) = all(k);
+      H.row(i) = slopes.row(k);
+    }
   }
 
  private:
   const ProcessModel& model_;
   double time_;
-  std::vector<int> motors_;
+  const std::vector<int>& motors_;
 };
 
 }  // namespace halyard

@@ -1,6 +1,7 @@
 /// The kernels of lane_kernels.h, for the instruction set that the including file is compiled for.
 /// No include guard: each lanes_<set>.cpp includes it exactly once.
 
+#include "estimators/process/arm_linearisation.h"
 #include "estimators/process/lane_kernels.h"
 
 namespace halyard {
@@ -14,14 +15,23 @@ void advance(const Transmission<T>& transmission, const StateLayout& layout, dou
     runge_kutta_4(transmission, layout, time + i * h, h, history, command, external, x);
 }
 
-// Local to each set. state_derivative() is inline: the linker keeps one copy for all sets, and its address would lead
-// to that copy.
-void derivative(const Transmission<Dual>& transmission, const StateLayout& layout, double time,
-                const CommandHistory* history, const Dual* command, const Dual* external, const Dual* x, Dual* x_dot) {
+// Local to each set. state_derivative() and linearised_derivative() are inline: the linker keeps one copy for all sets,
+// and its address would lead to that copy.
+void derivative(const Transmission<Lanes>& transmission, const StateLayout& layout, double time,
+                const CommandHistory* history, const Lanes* command, const Lanes* external, const Lanes* x,
+                Lanes* x_dot) {
   state_derivative(transmission, layout, time, history, command, external, x, x_dot);
 }
 
-constexpr LaneKernels kernels_named(const char* name) { return {name, advance<Lanes>, advance<Dual>, derivative}; }
+void linearise(const Transmission<Dual>& transmission, const ArmParameters<double>& arm, const StateLayout& layout,
+               double time, const CommandHistory* history, const Dual* command, const Dual* external, const double* x,
+               double* x_dot, double* A) {
+  linearised_derivative(transmission, arm, layout, time, history, command, external, x, x_dot, A);
+}
+
+constexpr LaneKernels kernels_named(const char* name) {
+  return {name, advance<Lanes>, advance<Dual>, derivative, linearise};
+}
 
 }  // namespace
 }  // namespace halyard

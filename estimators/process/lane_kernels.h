@@ -19,10 +19,14 @@ struct LaneKernels {
   /// The same with derivatives.
   void (*advance_dual)(const Transmission<Dual>& transmission, const StateLayout& layout, double time, double dt,
                        int substeps, const CommandHistory* history, const Dual* command, const Dual* external, Dual* x);
-  /// x' with derivatives.
-  void (*derivative_dual)(const Transmission<Dual>& transmission, const StateLayout& layout, double time,
-                          const CommandHistory* history, const Dual* command, const Dual* external, const Dual* x,
-                          Dual* x_dot);
+  /// x'.
+  void (*derivative)(const Transmission<Lanes>& transmission, const StateLayout& layout, double time,
+                     const CommandHistory* history, const Lanes* command, const Lanes* external, const Lanes* x,
+                     Lanes* x_dot);
+  /// x' and A = ∂x'/∂x, column-major (arm_linearisation.h).
+  void (*linearise)(const Transmission<Dual>& transmission, const ArmParameters<double>& arm, const StateLayout& layout,
+                    double time, const CommandHistory* history, const Dual* command, const Dual* external,
+                    const double* x, double* x_dot, double* A);
 };
 
 /// The kernels that this processor can run, the widest first; the last is the generic one.

@@ -22,13 +22,15 @@ Eigen::VectorXd effect_scales(const ProcessModel& process) {
   return scales;
 }
 
-/// Accelerations of the joints per joint force, motors of rigid drives carried along: M(q)⁻¹.
-Eigen::MatrixXd mobility(const ArmParameters<double>& arm, const Eigen::VectorXd& q) {
+using JointMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxJoints, kMaxJoints>;
+
+/// Accelerations of the joints per joint force, motors of rigid drives carried along: M(q)⁻¹. q: [n].
+JointMatrix mobility(const ArmParameters<double>& arm, const double* q) {
   double M[kMaxJoints][kMaxJoints];
-  mass_matrix(arm, chain_pose(arm, q.data()), M);
+  mass_matrix(arm, chain_pose(arm, q), M);
   add_rotor_mass(arm, M);
   ldl_factor(arm.n, M);
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(arm.n, arm.n);
+  JointMatrix inverse = JointMatrix::Identity(arm.n, arm.n);
   for (int c = 0; c < arm.n; ++c) ldl_solve(arm.n, M, inverse.col(c).data());
   return inverse;
 }
@@ -78,14 +80,15 @@ ArmNoise::ArmNoise(const ArmModel& model, const ProcessModel& process, const Noi
   }
 }
 
-const Eigen::MatrixXd& ArmNoise::process_root(const Step& step, const Eigen::VectorXd& x) {
+const Eigen::MatrixXd& ArmNoise::process_root(const Step& step, const Eigen::VectorXd& x,
+                                              ExponentialStep* exponential) {
   const ArmParameters<double>& arm = process_.arm();
   const StateLayout& l = process_.layout();
   const int n = arm.n, n_z = l.n_effect_states, forces = 2 * n;
   const double impulse = std::sqrt(2 * levels_.correlation_time * step.dt_s);
-  Eigen::VectorXd q(n);
-  for (int k = 0; k < n; ++k) q(k) = x(l.position[k]);
-  const Eigen::MatrixXd M_inverse = mobility(arm, q);
+  double q[kMaxJoints];
+  for (int k = 0; k < n; ++k) q[k] = x(l.position[k]);
+  const JointMatrix M_inverse = mobility(arm, q);
   G_.setZero(l.size, forces);
   for (int k = 0; k < n; ++k) {
     const JointParameters<double>& j = arm.joint[k];
@@ -98,10 +101,12 @@ const Eigen::MatrixXd& ArmNoise::process_root(const Step& step, const Eigen::Vec
       for (int c = 0; c < n; ++c)
         G_(l.rate[i], k) += M_inverse(i, c) * path_per_joint(j, c) / j.motor_travel() * torque;
   }
+  Q_root_.setZero(l.size, forces + n_z);
+  for (int i = 0; i < n_z; ++i) Q_root_(l.effect_states + i, forces + i) = levels_.wander(i) * std::sqrt(step.dt_s);
+  if (exponential && exponential->respond(G_, Q_root_.leftCols(forces))) return Q_root_;
   points_.resize(l.size, forces + 1);
   points_.col(0) = x;
   points_.rightCols(forces) = G_.colwise() + x;
-  Q_root_.setZero(l.size, forces + n_z);
   auto Gamma = Q_root_.leftCols(forces);
   Gamma = G_ / 6;
   Step half = step;
@@ -111,7 +116,6 @@ const Eigen::MatrixXd& ArmNoise::process_root(const Step& step, const Eigen::Vec
     half.time_s += half.dt_s;
     Gamma += weight * (points_.rightCols(forces).colwise() - points_.col(0));
   }
-  for (int i = 0; i < n_z; ++i) Q_root_(l.effect_states + i, forces + i) = levels_.wander(i) * std::sqrt(step.dt_s);
   return Q_root_;
 }
 

@@ -20,6 +20,8 @@
 ///
 ///   f_h   the process model's step of length h        B   accelerations of motors and joints per torque and force
 ///
+/// An exponential step whose guard accepts it takes Δ from its own matrix exponentials (Γ of exponential_step.h).
+///
 /// Without damping within a step this is [½ dt² ; dt] B σ √(2 τ / dt) (Bar-Shalom, Li, Kirubarajan 2001, section
 /// 6.3.2). That formula is wrong where a cable's damper has a rate λ of the order of 1/dt, because a joint then moves
 /// only 1/λ per unit of speed. For the RAVEN-II's third joint (λ = 2000 1/s, dt = 1 ms) it gives twice the correct
@@ -53,6 +55,7 @@
 
 #include "estimators/estimator.h"
 #include "estimators/estimator_options.h"
+#include "estimators/process/exponential_step.h"
 #include "estimators/process/process_model.h"
 
 namespace halyard {
@@ -75,8 +78,9 @@ class ArmNoise {
  public:
   ArmNoise(const ArmModel& model, const ProcessModel& process, const NoiseLevels& levels);
 
-  /// Q_root [n_states x sources] of a step that starts at x.
-  const Eigen::MatrixXd& process_root(const Step& step, const Eigen::VectorXd& x);
+  /// Q_root [n_states x sources] of a step that starts at x. exponential: the same step, if it has been started.
+  const Eigen::MatrixXd& process_root(const Step& step, const Eigen::VectorXd& x,
+                                      ExponentialStep* exponential = nullptr);
   /// Adapts c to an innovation of these motors; dt_s: time since the innovation before, s.
   void adapt(const std::vector<int>& motors, const Innovation& innovation, double dt_s);
   /// The adapted factors c [n], initially 1.

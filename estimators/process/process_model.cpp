@@ -48,6 +48,15 @@ struct StepInputs {
   }
 };
 
+/// Eight columns of X from `first` on; the last one fills unused lanes.
+void load_lanes(const Eigen::Ref<const Eigen::MatrixXd>& X, int first, Lanes* x) {
+  const int last = static_cast<int>(X.cols()) - 1;
+  for (int lane = 0; lane < kLaneWidth; ++lane) {
+    const double* column = X.col(std::min(first + lane, last)).data();
+    for (Eigen::Index i = 0; i < X.rows(); ++i) x[i].set(lane, column[i]);
+  }
+}
+
 }  // namespace
 
 ProcessModel::ProcessModel(const ArmModel& model)
@@ -61,6 +70,9 @@ ProcessModel::ProcessModel(const ArmModel& model)
   state_names_ = name_states(transmission_, layout_);
   for (const auto& e : transmission_.effects())
     if (e.effect->stages() & static_cast<unsigned>(EffectStage::sensors)) readings_are_linear_ = false;
+  linear_z_.resize(n_joints());
+  linear_H_.resize(n_joints(), n_states());
+  differentiate_readings(0, Eigen::VectorXd::Zero(n_states()), linear_z_, linear_H_);
   find_stiffest_rate(model);
 }
 
@@ -118,10 +130,7 @@ void ProcessModel::advance_many(const Step& step, Eigen::Ref<Eigen::MatrixXd> X,
   for (int first = 0; first < count; first += kLaneWidth) {
     const int used = std::min(kLaneWidth, count - first);
     Lanes x[kMaxStates];
-    for (int lane = 0; lane < kLaneWidth; ++lane) {
-      const double* column = X.col(first + std::min(lane, used - 1)).data();  // the last one fills unused lanes
-      for (int i = 0; i < n; ++i) x[i].set(lane, column[i]);
-    }
+    load_lanes(X, first, x);
     kernels.advance(lanes_, layout_, step.time_s, step.dt_s, parts, step.history, in.command, in.external, x);
     for (int lane = 0; lane < used; ++lane)
       for (int i = 0; i < n; ++i) {
@@ -135,7 +144,7 @@ void ProcessModel::advance_with_jacobian(const Step& step, double* x, Eigen::Ref
                                          const LaneKernels& kernels) const {
   const StepInputs<Dual> in(step, n_joints());
   const int parts = substeps(step.dt_s), n = n_states();
-  Eigen::VectorXd next(n);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxStates, 1> next(n);
   const auto one_step = [&](const Dual* at, Dual* after) {
     std::copy(at, at + n, after);
     kernels.advance_dual(dual_, layout_, step.time_s, step.dt_s, parts, step.history, in.command, in.external, after);
@@ -148,21 +157,39 @@ void ProcessModel::advance_with_jacobian(const Step& step, double* x, Eigen::Ref
 }
 
 Eigen::VectorXd ProcessModel::derivative(const Step& step, const Eigen::VectorXd& x, Eigen::MatrixXd* A) const {
-  const int n = n_states();
-  Eigen::VectorXd x_dot(n);
-  if (!A) {
-    const StepInputs<double> in(step, n_joints());
-    state_derivative(transmission_, layout_, step.time_s, step.history, in.command, in.external, x.data(),
-                     x_dot.data());
-    return x_dot;
-  }
-  const StepInputs<Dual> in(step, n_joints());
-  A->resize(n, n);
-  const auto rate_of = [&](const Dual* at, Dual* rate) {
-    lane_kernels()[0].derivative_dual(dual_, layout_, step.time_s, step.history, in.command, in.external, at, rate);
-  };
-  jacobian(rate_of, x, x_dot, *A);
+  Eigen::VectorXd x_dot;
+  if (A) linearise(step, x, x_dot, *A);
+  else derivative(step, x, x_dot);
   return x_dot;
+}
+
+void ProcessModel::derivative(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot) const {
+  const StepInputs<double> in(step, n_joints());
+  x_dot.resize(n_states());
+  state_derivative(transmission_, layout_, step.time_s, step.history, in.command, in.external, x.data(), x_dot.data());
+}
+
+void ProcessModel::linearise(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot,
+                             Eigen::MatrixXd& A) const {
+  const StepInputs<Dual> in(step, n_joints());
+  x_dot.resize(n_states());
+  A.resize(n_states(), n_states());
+  lane_kernels()[0].linearise(dual_, arm(), layout_, step.time_s, step.history, in.command, in.external, x.data(),
+                              x_dot.data(), A.data());
+}
+
+void ProcessModel::derivatives(const Step& step, const Eigen::Ref<const Eigen::MatrixXd>& X,
+                               Eigen::Ref<Eigen::MatrixXd> X_dot) const {
+  const StepInputs<Lanes> in(step, n_joints());
+  const int n = n_states(), count = static_cast<int>(X.cols());
+  for (int first = 0; first < count; first += kLaneWidth) {
+    const int used = std::min(kLaneWidth, count - first);
+    Lanes x[kMaxStates], x_dot[kMaxStates];
+    load_lanes(X, first, x);
+    lane_kernels()[0].derivative(lanes_, layout_, step.time_s, step.history, in.command, in.external, x, x_dot);
+    for (int lane = 0; lane < used; ++lane)
+      for (int i = 0; i < n; ++i) X_dot(i, first + lane) = x_dot[i][lane];
+  }
 }
 
 Eigen::VectorXd ProcessModel::motor_readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd* H) const {
@@ -170,6 +197,20 @@ Eigen::VectorXd ProcessModel::motor_readings(double time_s, const Eigen::VectorX
   Eigen::MatrixXd own;
   Eigen::MatrixXd& slopes = H ? *H : own;
   slopes.resize(n_joints(), n_states());
+  linearise_readings(time_s, x, z, slopes);
+  return z;
+}
+
+void ProcessModel::linearise_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
+                                      Eigen::Ref<Eigen::MatrixXd> H) const {
+  if (!readings_are_linear_) return differentiate_readings(time_s, x, z, H);
+  z = linear_z_;
+  z.noalias() += linear_H_ * x;
+  H = linear_H_;
+}
+
+void ProcessModel::differentiate_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
+                                          Eigen::Ref<Eigen::MatrixXd> H) const {
   const auto read = [&](const Dual* at, Dual* reading) {
     JointSignals<Dual> s[kMaxJoints];
     unpack_state(dual_.arm(), layout_, at, s);
@@ -177,8 +218,7 @@ Eigen::VectorXd ProcessModel::motor_readings(double time_s, const Eigen::VectorX
     for (int k = 0; k < n_joints(); ++k)
       reading[k] = arm().joint[k].drive == Drive::none ? Dual(0.0) : s[k].motor_angle + s[k].motor_error;
   };
-  jacobian(read, x, z, slopes);
-  return z;
+  jacobian(read, x, z, H);
 }
 
 Eigen::VectorXd ProcessModel::state_at_rest(const Eigen::VectorXd& motor_angle,

@@ -72,9 +72,18 @@ class ProcessModel {
 
   /// x' at x, and its Jacobian A = ∂x'/∂x [n_states x n_states].
   Eigen::VectorXd derivative(const Step& step, const Eigen::VectorXd& x, Eigen::MatrixXd* A = nullptr) const;
+  /// The same into memory of the caller.
+  void derivative(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot) const;
+  void linearise(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot, Eigen::MatrixXd& A) const;
+  /// x' at every column of X [n_states x count], eight at a time.
+  void derivatives(const Step& step, const Eigen::Ref<const Eigen::MatrixXd>& X,
+                   Eigen::Ref<Eigen::MatrixXd> X_dot) const;
 
   /// h(x) [n] and H = ∂h/∂x [n x n_states]; the row of a joint without motor is zero.
   Eigen::VectorXd motor_readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd* H = nullptr) const;
+  /// The same into memory of the caller: z [n], H [n x n_states].
+  void linearise_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
+                          Eigen::Ref<Eigen::MatrixXd> H) const;
   /// True if h is affine, that is, if no effect acts at the sensors.
   bool readings_are_linear() const { return readings_are_linear_; }
 
@@ -90,7 +99,12 @@ class ProcessModel {
   Transmission<Lanes> lanes_;
   StateLayout layout_;
   std::vector<std::string> state_names_;
+  void differentiate_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
+                              Eigen::Ref<Eigen::MatrixXd> H) const;
+
   bool readings_are_linear_ = true;
+  Eigen::VectorXd linear_z_;  // h(0), and H, if they are linear
+  Eigen::MatrixXd linear_H_;
   double stiffest_rate_ = 0;
   int stiffest_state_ = 0;
 };

@@ -44,9 +44,9 @@ class Square final : public DiscreteProcess, public MeasurementModel {
   std::string name_of(int) const override { return "the square at 1 s"; }
   bool is_affine() const override { return false; }
   Eigen::VectorXd read(const Eigen::VectorXd& x) const override { return x.cwiseProduct(x); }
-  Eigen::VectorXd linearise(const Eigen::VectorXd& x, Eigen::MatrixXd& H) const override {
+  void linearise(const Eigen::VectorXd& x, Eigen::VectorXd& z, Eigen::MatrixXd& H) const override {
     H = 2 * x;
-    return read(x);
+    z = read(x);
   }
 };
 

@@ -35,9 +35,9 @@ class LinearReadings final : public MeasurementModel {
   LinearReadings(const Eigen::MatrixXd& H, bool admits_it) : H_(H), affine_(admits_it) {}
   bool is_affine() const override { return affine_; }
   Eigen::VectorXd read(const Eigen::VectorXd& x) const override { return H_ * x; }
-  Eigen::VectorXd linearise(const Eigen::VectorXd& x, Eigen::MatrixXd& H) const override {
+  void linearise(const Eigen::VectorXd& x, Eigen::VectorXd& z, Eigen::MatrixXd& H) const override {
     H = H_;
-    return H_ * x;
+    z = H_ * x;
   }
 
  private:

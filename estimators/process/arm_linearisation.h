@@ -1,0 +1,115 @@
+#pragma once
+/// x' of arm_dynamics.h and its Jacobian A, by the structure of the equations:
+///
+///   M(q) a + h(q, q') = F(x, z)      ∂a = M⁻¹ (∂F - ∂(M a + h) at constant a)
+///
+///   a   accelerations of the joints     [n]      rad/s² | m/s²
+///   F   forces on the joints            [n]      N m | N
+///
+/// Dual numbers differentiate the transmission in all directions of the state, and the inverse dynamics only in those
+/// of q and q'. They never pass through the mass matrix, its factors or its columns.
+
+#include "estimators/process/arm_dynamics.h"
+
+namespace halyard {
+
+/// F, and its slopes in all directions of the state.
+struct JointForces {
+  double value[kMaxJoints];
+  double slope[kMaxJoints][kMaxStates];
+};
+
+/// F, and all rows of x_dot and A but those of the joints' rates.
+HALYARD_INLINE void linearise_transmission(const Transmission<Dual>& transmission, const StateLayout& l, double time,
+                                           const CommandHistory* history, const Dual* command, const Dual* external,
+                                           const double* x, double* x_dot, double* A, JointForces& forces) {
+  const ArmParameters<Dual>& arm = transmission.arm();
+  const int n = arm.n;
+  for (int first = 0; first < l.size; first += kDualWidth) {
+    const int count = l.size - first < kDualWidth ? l.size - first : kDualWidth;
+    Dual at[kMaxStates], z_dot[kMaxStates];
+    for (int i = 0; i < l.size; ++i) at[i] = Dual(x[i]);
+    for (int i = 0; i < count; ++i) at[first + i].d.set(i, 1);
+    ArmSignals<Dual> signals(n);
+    JointSignals<Dual>* s = signals.joint();
+    unpack_state(arm, l, at, s);
+    for (int k = 0; k < n; ++k) s[k].command = command[k], s[k].external_force = external[k];
+    transmission.evaluate(time, history, at + l.effect_states, s, z_dot);
+    Dual force[kMaxJoints], torque[kMaxJoints], pull[kMaxJoints], motor_acceleration[kMaxJoints];
+    for (int k = 0; k < n; ++k) {
+      force[k] = s[k].joint_force;
+      torque[k] = s[k].motor_torque;
+      pull[k] = s[k].cable_force_motor;
+    }
+    drive_forces(arm, torque, pull, force, motor_acceleration);
+    const auto put = [&](int row, const Dual& rate) __attribute__((always_inline)) {
+      x_dot[row] = rate.a;
+      for (int i = 0; i < count; ++i) A[row + (first + i) * l.size] = rate.d[i];
+    };
+    for (int k = 0; k < n; ++k) {
+      forces.value[k] = force[k].a;
+      for (int i = 0; i < count; ++i) forces.slope[k][first + i] = force[k].d[i];
+      put(l.position[k], at[l.rate[k]]);
+      if (arm.joint[k].drive != Drive::cable) continue;
+      put(*l.motor_angle[k], at[*l.motor_rate[k]]);
+      put(*l.motor_rate[k], motor_acceleration[k]);
+    }
+    for (int i = 0; i < l.n_effect_states; ++i) put(l.effect_states + i, z_dot[i]);
+  }
+}
+
+/// Subtracts from the slopes those of M(q) a + h(q, q') at constant a.
+HALYARD_INLINE void subtract_chain_slopes(const ArmParameters<Dual>& arm, const StateLayout& l, const double* x,
+                                          const double* a, JointForces& forces) {
+  const int n = arm.n;
+  for (int first = 0; first < 2 * n; first += kDualWidth) {  // directions: q, then q'
+    Dual q[kMaxJoints], v[kMaxJoints], held[kMaxJoints], force[kMaxJoints];
+    for (int k = 0; k < n; ++k) {
+      q[k] = Dual(x[l.position[k]]);
+      v[k] = Dual(x[l.rate[k]]);
+      held[k] = Dual(a[k]);
+    }
+    const int count = 2 * n - first < kDualWidth ? 2 * n - first : kDualWidth;
+    for (int i = 0; i < count; ++i) {
+      const int direction = first + i;
+      (direction < n ? q[direction] : v[direction - n]).d.set(i, 1);
+    }
+    inverse_dynamics(arm, chain_pose(arm, q), v, held, force);
+    for (int i = 0; i < count; ++i) {
+      const int direction = first + i;
+      const int column = direction < n ? l.position[direction] : l.rate[direction - n];
+      for (int k = 0; k < n; ++k) forces.slope[k][column] -= force[k].d[i];
+    }
+  }
+}
+
+/// x_dot [size] and A = ∂x'/∂x [size x size], column-major. `arm`: the parameters of the transmission. command,
+/// external: [n].
+HALYARD_INLINE void linearised_derivative(const Transmission<Dual>& transmission, const ArmParameters<double>& arm,
+                                          const StateLayout& l, double time, const CommandHistory* history,
+                                          const Dual* command, const Dual* external, const double* x, double* x_dot,
+                                          double* A) {
+  const int n = arm.n;
+  JointForces forces;
+  linearise_transmission(transmission, l, time, history, command, external, x, x_dot, A, forces);
+  double q[kMaxJoints], v[kMaxJoints], zero[kMaxJoints], bias[kMaxJoints], a[kMaxJoints];
+  for (int k = 0; k < n; ++k) q[k] = x[l.position[k]], v[k] = x[l.rate[k]], zero[k] = 0;
+  const ChainPose<double> pose = chain_pose(arm, q);
+  inverse_dynamics(arm, pose, v, zero, bias);
+  double M[kMaxJoints][kMaxJoints];
+  mass_matrix(arm, pose, M);
+  add_rotor_mass(arm, M);
+  ldl_factor<double, kMaxJoints>(n, M);
+  for (int k = 0; k < n; ++k) a[k] = forces.value[k] - bias[k];
+  ldl_solve<double, kMaxJoints>(n, M, a);
+  subtract_chain_slopes(transmission.arm(), l, x, a, forces);
+  for (int c = 0; c < l.size; ++c) {
+    double column[kMaxJoints];
+    for (int k = 0; k < n; ++k) column[k] = forces.slope[k][c];
+    ldl_solve<double, kMaxJoints>(n, M, column);
+    for (int k = 0; k < n; ++k) A[l.rate[k] + c * l.size] = column[k];
+  }
+  for (int k = 0; k < n; ++k) x_dot[l.rate[k]] = a[k];
+}
+
+}  // namespace halyard

@@ -1,0 +1,155 @@
+/// The exponential step against many small Runge-Kutta steps.
+
+#include "estimators/process/exponential_step.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/arm_runs.h"
+#include "tests/support/limits.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kStep = 1e-3;  // s
+
+/// At home with these joint speeds, cables unstretched.
+Eigen::VectorXd at_speed(const ArmModel& model, const ProcessModel& process, const Eigen::Vector3d& v) {
+  const Eigen::VectorXd rate = unstretched_motors(process.arm(), v);
+  Eigen::VectorXd x = process.state_at_rest(unstretched_motors(process.arm(), model.home()), model.home());
+  for (int k = 0; k < 3; ++k) {
+    x(process.layout().rate[k]) = v(k);
+    x(*process.layout().motor_rate[k]) = rate(k);
+  }
+  return x;
+}
+
+const Eigen::Vector3d kFast(0.5, -0.5, 0.05), kSlow(0.006, -0.006, 0.006);  // beyond friction's smoothing; within
+
+/// A belief so wide that the guard accepts every mean, or so narrow that it accepts none.
+Eigen::MatrixXd belief(double deviation) { return deviation * Eigen::MatrixXd::Identity(12, 12); }
+
+struct Moved {
+  Eigen::VectorXd exponential, exact;
+};
+
+Moved moved(const ProcessModel& process, const Eigen::VectorXd& x, double dt_s) {
+  const Eigen::Vector3d torque(0.02, -0.02, 0.01);
+  const Step step{0, dt_s, torque.data()};
+  ExponentialStep exponential(process);
+  EXPECT_TRUE(exponential.start(step, x, belief(1e6)));
+  Moved m{x, x};
+  Eigen::MatrixXd F;
+  EXPECT_TRUE(exponential.advance_with_jacobian(m.exponential, F));
+  constexpr int kParts = 100;
+  for (int i = 0; i < kParts; ++i) process.advance({0, dt_s / kParts, torque.data()}, m.exact.data());
+  return m;
+}
+
+TEST(ExponentialStep, TheMeanIsOfThirdOrder) {
+  const ArmModel model = raven2();
+  const ProcessModel process(model);
+  const Eigen::VectorXd x = at_speed(model, process, kFast);
+  const auto error = [&](double dt_s) {
+    const Moved m = moved(process, x, dt_s);
+    return (m.exponential - m.exact)(process.layout().rate[2]);
+  };
+  // A local error of h⁴, a little more in stiff directions: 8 to 16 for half the step.
+  EXPECT_GT(std::abs(error(2 * kStep)), 7 * std::abs(error(kStep)));
+}
+
+TEST(ExponentialStep, TheMeanIsExactEnoughWhereFrictionReverses) {
+  const ArmModel model = raven2();
+  const ProcessModel process(model);
+  const Eigen::VectorXd x = at_speed(model, process, kSlow);
+  const Moved m = moved(process, x, kStep);
+  for (int k = 0; k < 3; ++k) {
+    const int rate = process.layout().rate[k];
+    EXPECT_NEAR(m.exponential(rate), m.exact(rate), 0.02 * std::abs(m.exact(rate) - x(rate))) << "joint " << k + 1;
+  }
+}
+
+TEST(ExponentialStep, TheTransitionIsThatOfTheSubSteps) {
+  const ArmModel model = raven2();
+  const ProcessModel process(model);
+  Eigen::VectorXd x = at_speed(model, process, kFast), y = x;
+  const Eigen::Vector3d torque(0.02, -0.02, 0.01);
+  const Step step{0, kStep, torque.data()};
+  ExponentialStep exponential(process);
+  Eigen::MatrixXd F, G(12, 12);
+  ASSERT_TRUE(exponential.start(step, x, belief(1e6)));
+  ASSERT_TRUE(exponential.advance_with_jacobian(x, F));
+  process.advance_with_jacobian(step, y.data(), G);
+  // A changes by about 1 % within a step at this speed.
+  for (int c = 0; c < 12; ++c) EXPECT_LT((F - G).col(c).norm(), 0.02 * G.col(c).norm()) << c;
+}
+
+TEST(ExponentialStep, DeviationsOfAnySizeMoveAsTheModelMovesThem) {
+  const ArmModel model = raven2();
+  const ProcessModel process(model);
+  const Eigen::VectorXd x = at_speed(model, process, kFast);
+  const Eigen::Vector3d torque(0.02, -0.02, 0.01);
+  const Step step{0, kStep, torque.data()};
+  for (const double size : {1e-6, 1e-2}) {
+    Eigen::MatrixXd X = x.replicate(1, 7), Y;
+    for (int k = 0; k < 3; ++k) {
+      X(process.layout().rate[k], 1 + k) += size;
+      X(*process.layout().motor_rate[k], 4 + k) += 50 * size;
+    }
+    Y = X;
+    ExponentialStep exponential(process);
+    ASSERT_TRUE(exponential.start(step, x, belief(1e6)));
+    ASSERT_TRUE(exponential.advance(X));
+    process.advance_many(step, Y);
+    for (int c = 1; c < 7; ++c) {
+      const Eigen::VectorXd d = X.col(c) - X.col(0), exact = Y.col(c) - Y.col(0);
+      EXPECT_LT((d - exact).norm(), 0.01 * exact.norm()) << size << " " << c;
+    }
+  }
+}
+
+TEST(ExponentialStep, AHeldForceMovesTheArmAsTheModelMovesIt) {
+  const ArmModel model = raven2();
+  const ProcessModel process(model);
+  const Eigen::VectorXd x = at_speed(model, process, kFast);
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  ExponentialStep exponential(process);
+  ASSERT_TRUE(exponential.start({0, kStep, none.data(), none.data()}, x, belief(1e6)));
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(12, 3), Gamma(12, 3);
+  const auto torque_of = [&](int k) { return 0.01 * process.arm().joint[k].motor_coulomb; };
+  for (int k = 0; k < 3; ++k)
+    G(*process.layout().motor_rate[k], k) = torque_of(k) / process.arm().joint[k].rotor_inertia * kStep;
+  ASSERT_TRUE(exponential.respond(G, Gamma));
+  for (int k = 0; k < 3; ++k) {
+    Eigen::Vector3d torque = none;
+    torque(k) = torque_of(k);
+    Eigen::VectorXd free = x, forced = x;
+    process.advance({0, kStep, none.data(), none.data()}, free.data());
+    process.advance({0, kStep, torque.data(), none.data()}, forced.data());
+    const int rate = *process.layout().motor_rate[k];
+    EXPECT_NEAR(Gamma(rate, k), (forced - free)(rate), 0.03 * std::abs((forced - free)(rate))) << "joint " << k + 1;
+  }
+}
+
+TEST(ExponentialStep, TheGuardRefusesAMeanThatIsNotSureEnough) {
+  const ArmModel model = raven2();
+  const ProcessModel process(model);
+  Eigen::VectorXd x = at_speed(model, process, kSlow);
+  const Eigen::Vector3d torque(0.02, -0.02, 0.01);
+  ExponentialStep exponential(process);
+  EXPECT_FALSE(exponential.start({0, kStep, torque.data()}, x, belief(1e-9)));
+  Eigen::MatrixXd F, X = x;
+  EXPECT_FALSE(exponential.advance_with_jacobian(x, F));
+  EXPECT_FALSE(exponential.advance(X));
+}
+
+TEST(ExponentialStep, TheGuardRefusesWhatIsNotFinite) {
+  const ArmModel model = raven2();
+  const ProcessModel process(model);
+  Eigen::VectorXd x = at_speed(model, process, kFast);
+  x(3) = kNan;
+  ExponentialStep exponential(process);
+  EXPECT_FALSE(exponential.start({0, kStep}, x, belief(1)));
+}
+
+}  // namespace
+}  // namespace halyard

@@ -1,0 +1,70 @@
+#include "estimators/matrix/phi_functions.h"
+
+#include <gtest/gtest.h>
+
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "tests/support/limits.h"
+
+namespace halyard {
+namespace {
+
+/// An oscillator of two masses with a stiff damper, in units of very different size; h A.
+Eigen::MatrixXd stiff_oscillator(double unit) {
+  Eigen::MatrixXd Z(4, 4);
+  Z << 0, 1, 0, 0, -2, -8, 1.5, 3, 0, 0, 0, 1, 0.5, 1, -0.7, -0.2;
+  const Eigen::Vector4d scale(1, unit, unit * unit, 1 / unit);
+  return scale.asDiagonal() * Z * scale.cwiseInverse().asDiagonal();
+}
+
+TEST(PhiFunctions, TheExponentialIsThatOfEigen) {
+  PhiFunctions phi;
+  const Eigen::MatrixXd Z = stiff_oscillator(1);
+  ASSERT_TRUE(phi.compute(Z));
+  // The polynomial's remainder, 2e-11 at most, doubled five times.
+  EXPECT_LT((phi.E().view() - Z.exp()).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((phi.E_half().view() - (0.5 * Z).exp()).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((phi.E_part().view() - (Z / phi.parts()).exp()).cwiseAbs().maxCoeff(), 1e-10);
+  EXPECT_GT(phi.parts(), 4);
+}
+
+TEST(PhiFunctions, SatisfyTheirRecurrence) {
+  PhiFunctions phi;
+  const Eigen::MatrixXd Z = stiff_oscillator(1), I = Eigen::MatrixXd::Identity(4, 4);
+  ASSERT_TRUE(phi.compute(Z));
+  // As above, times the norm of Z, 11.
+  EXPECT_LT((Z * phi.phi_1().view() - (phi.E().view() - I)).norm(), 1e-8);
+  EXPECT_LT((Z * phi.phi_2().view() - (phi.phi_1().view() - I)).norm(), 1e-8);
+  EXPECT_LT((Z * phi.phi_3().view() - (phi.phi_2().view() - 0.5 * I)).norm(), 1e-8);
+}
+
+TEST(PhiFunctions, DoNotDependOnTheUnitsOfTheStates) {
+  const double unit = 1 << 10;
+  const Eigen::MatrixXd Z = stiff_oscillator(unit);
+  PhiFunctions phi, plain;
+  phi.balance(Z);
+  ASSERT_TRUE(phi.compute(Z));
+  ASSERT_TRUE(plain.compute(stiff_oscillator(1)));
+  const Eigen::Vector4d scale(1, unit, unit * unit, 1 / unit);
+  const Eigen::MatrixXd back = scale.cwiseInverse().asDiagonal() * phi.phi_1().view() * scale.asDiagonal();
+  EXPECT_LT((back - plain.phi_1().view()).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(PhiFunctions, OfZeroAreTheReciprocalFactorials) {
+  PhiFunctions phi;
+  const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(3, 3);
+  ASSERT_TRUE(phi.compute(Eigen::MatrixXd::Zero(3, 3)));
+  EXPECT_LT((phi.E().view() - I).norm(), 10 * kEps);
+  EXPECT_LT((phi.phi_1().view() - I).norm(), 10 * kEps);
+  EXPECT_LT((phi.phi_2().view() - I / 2).norm(), 10 * kEps);
+  EXPECT_LT((phi.phi_3().view() - I / 6).norm(), 10 * kEps);
+}
+
+TEST(PhiFunctions, RefuseAMatrixThatIsNotFiniteOrTooLarge) {
+  PhiFunctions phi;
+  EXPECT_FALSE(phi.compute(Eigen::MatrixXd::Constant(2, 2, kNan)));
+  EXPECT_FALSE(phi.compute(Eigen::MatrixXd::Constant(2, 2, 1e9)));
+}
+
+}  // namespace
+}  // namespace halyard
