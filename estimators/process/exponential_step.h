@@ -1,5 +1,5 @@
 #pragma once
-/// A step of the process model by an exponential integrator: one Jacobian, no sub-steps. With the rates f(t, x) of
+/// A step of the process model by an exponential integrator, without sub-steps. With the rates f(t, x) of
 /// arm_dynamics.h, A = ∂f/∂x at the start x, and E, φ_k of h A (phi_functions.h),
 ///
 ///   mean          x_2 = x + h φ_1 f(t, x)                            second order: exponential Rosenbrock-Euler
