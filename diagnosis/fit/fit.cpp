@@ -16,6 +16,10 @@ namespace {
 /// a half gap stayed where its search began.
 constexpr double kStep = 0.1;
 
+/// Unit of an instant, s: the step of its sensitivity is one sample of a record. A cable that slips makes its joint
+/// vibrate, which is not linear in the instant beyond a fraction of a period.
+constexpr double kInstantScale = RecordOptions{}.step_s / kStep;
+
 /// Raises the lower bound of an order so far that the motion contains kFewestPeriods periods, and drops lower starts.
 void limit_period(FitParameter& f, const SearchSpace& space, std::size_t index, const Evidence& evidence, int joint) {
   if (space.order_of_motor_torque != index && space.order_of_joint_position != index) return;
@@ -280,7 +284,8 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
           search.range == SearchRange::record_time ? evidence.time_span() : evidence.joint_span(e.joint.value_or(0));
       f.lower = span.first;
       f.upper = span.last;
-      f.scale = std::max(0.01 * (span.last - span.first), 1e-9);
+      f.scale =
+          search.range == SearchRange::record_time ? kInstantScale : std::max(0.01 * (span.last - span.first), 1e-9);
     }
     all.push_back(f);
   }

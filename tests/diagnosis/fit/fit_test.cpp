@@ -56,5 +56,22 @@ TEST(IndependentRows, ManyOfNoiseAndFewOfErrorsOfTheModel) {
   EXPECT_NEAR(independent_rows(evidence, scale)[1], evidence.correlated_rows(), 2e-4 * evidence.correlated_rows());
 }
 
+TEST(Fit, FindsTheInstantOfASlipThatIsAPeriodOfTheCableOff) {
+  constexpr double kJump = 2e-4, kTime = 2.613;  // m, s
+  const ArmModel model = first_joints(2);
+  Hypothesis truth{model.nominal, {place_effect(*find_effect("cable_slip"), model.nominal, 1)}};
+  truth.effects[0].p[0] = kJump, truth.effects[0].p[1] = kTime;
+  ArmModel robot = model;
+  robot.effects = truth.effects;
+  const Evidence evidence(make_records(simulate(motion(robot, 5)).measured, model, {}), model);
+  Hypothesis start = truth;
+  start.effects[0].p[1] = kTime + 0.008;
+  const Fit found = fit(evidence, start, effect_parameters(evidence, start, model.nominal, 0),
+                        channel_scale(evidence, evidence.score(start).fit_mean_square));
+  ASSERT_TRUE(found.usable);
+  EXPECT_NEAR(found.hypothesis.effects[0].p[1], kTime, 0.0015);
+  EXPECT_NEAR(found.hypothesis.effects[0].p[0], kJump, 0.02 * kJump);
+}
+
 }  // namespace
 }  // namespace halyard
