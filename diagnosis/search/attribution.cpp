@@ -42,6 +42,9 @@ Baseline baseline(const Evidence& evidence, const ArmModel& model, const Refitte
   return b;
 }
 
+/// Each costs a round.
+constexpr int kMostBetterFits = 3;
+
 class Search {
  public:
   Search(const Evidence& evidence, const ArmModel& model, const AttributionOptions& options,
@@ -141,23 +144,47 @@ class Search {
   bool add(Found& current) {
     if (explained(current.score)) return false;
     const bool is_first = result_.rounds.empty();
-    const Hypothesis refitted = current.fit.hypothesis;
+    const Hypothesis so_far = current.fit.hypothesis;
     const auto next_round = [&](const Hypothesis& from) {
       return round_of(current, from, "round " + std::to_string(result_.rounds.size() + 1));
     };
     // Before any effect is named the refitted baseline is distorted by what is missing: candidates start at the model's
     // own parameters. But where these are far off, a small effect is lost beside what is not linear in them.
-    CandidateRound round = next_round(is_first ? Hypothesis{model_.nominal, model_.effects, refitted.past} : refitted);
-    auto won = compete(round, current.scored(), candidates(refitted));
+    CandidateRound round = next_round(is_first ? Hypothesis{model_.nominal, model_.effects, so_far.past} : so_far);
+    auto won = compete(round, current.scored(), candidates(so_far));
     if (!won && is_first) {
-      CandidateRound second = next_round(refitted);
-      won = compete(second, current.scored(), candidates(refitted));
+      CandidateRound second = next_round(so_far);
+      won = compete(second, current.scored(), candidates(so_far));
     }
     if (!won) return add_together(current, round);
-    current = {won->fit, evidence_.score(won->fit.hypothesis)};
+    Found with{won->fit, evidence_.score(won->fit.hypothesis)};
+    if (!convinces_against_its_own_fit(current, with)) return ++better_fits_ <= kMostBetterFits;
+    current = std::move(with);
     result_.namings.push_back(won->naming);
     if (!is_first) fit_afresh(current);
     return true;
+  }
+
+  Found refitted(const Hypothesis& h, const Score& before) const {
+    Found f{refitter_.refit(h, before), {}};
+    if (f.fit.usable) f.score = evidence_.score(f.fit.hypothesis);
+    return f;
+  }
+
+  /// Fits with several effects have several minima. A candidate may win because its fit found a better one for everything
+  /// else. Therefore the hypothesis without it is fitted again from where the winner ended. If this fits better, it
+  /// replaces `current`, and the winner has to convince against it. If it does not, the next round starts from there.
+  bool convinces_against_its_own_fit(Found& current, const Found& with) {
+    const std::size_t last = with.fit.hypothesis.effects.size() - 1;
+    Found without = refitted(without_effect(with.fit.hypothesis, last), with.score);
+    if (!without.fit.usable || !without.score.finite ||
+        judge_.cost(without.scored()) + kRule.by_chance > judge_.cost(current.scored()))
+      return true;
+    current = std::move(without);
+    Round& told = result_.rounds.back();
+    told.trials[0] = judge_.trial(with.fit.hypothesis, current.scored(), last);
+    told.accepted = convincing(told.trials, options_.significance)[0];
+    return told.accepted;
   }
 
   /// Several effects at once, if that was not done yet.
@@ -183,30 +210,40 @@ class Search {
   void revise_names(Found& current) {
     const std::vector<PlacedEffect> pool = gainers();
     const std::size_t n = result_.namings.size() - (last_name_competed() ? 1 : 0);
+    std::size_t kept = 0;  // names that have been revised and stay in front of the others
     for (std::size_t i = 0; i < n; ++i) {
-      const PlacedEffect old = current.fit.hypothesis.effects[given_];
-      const Hypothesis others = without_effect(current.fit.hypothesis, given_);
-      const Fit refitted = refitter_.refit(others, current.score);
-      if (!refitted.usable) return;
-      const Found without{refitted, evidence_.score(refitted.hypothesis)};
+      const std::size_t place = given_ + kept;
+      const PlacedEffect old = current.fit.hypothesis.effects[place];
+      const Hypothesis others = without_effect(current.fit.hypothesis, place);
+      const Found without = refitted(others, current.score);
+      if (!without.fit.usable) return;
       std::vector<PlacedEffect> rivals = candidates(others);
       std::erase_if(rivals, [&](const PlacedEffect& r) {
         return std::ranges::none_of(pool, [&](const PlacedEffect& p) { return same_name(p, r); });
       });
       CandidateRound round = round_of(without, without.fit.hypothesis, "the revision of name " + std::to_string(i + 1));
       const auto won = compete(round, without.scored(), rivals);
-      // The new name comes last: after as many revisions the names are in their first order.
+      const auto naming = result_.namings.begin() + static_cast<std::ptrdiff_t>(kept);
+      const bool is_same = won && same_name(won->fit.hypothesis.effects.back(), old);
+      if (is_same) *naming = won->naming;
       Found revised = won ? Found{won->fit, evidence_.score(won->fit.hypothesis)} : without;
-      const bool keeps = won && same_name(won->fit.hypothesis.effects.back(), old) &&
-                         judge_.cost(current.scored()) < judge_.cost(revised.scored());
-      const bool stays =
-          !won && judge_.is_needed(current.scored(), without.scored(), static_cast<int>(given_), options_.significance);
-      if (keeps || stays) revised = moved_back(current);
+      if (won ? is_beaten(revised, current, is_same)
+              : judge_.is_needed(current.scored(), without.scored(), static_cast<int>(place), options_.significance)) {
+        ++kept;
+        continue;
+      }
+      const Naming its = won ? won->naming : Naming{};
+      result_.namings.erase(naming);
+      if (won) result_.namings.push_back(its);
       current = std::move(revised);
-      std::rotate(result_.namings.begin(), result_.namings.begin() + 1, result_.namings.end());
-      if (won) result_.namings.back() = won->naming;
-      else if (!stays) result_.namings.pop_back();
     }
+  }
+
+  /// True if the name that won a revision stays behind what was there before it: from another start its fit may miss
+  /// what the earlier fit had found.
+  bool is_beaten(const Found& revised, const Found& before, bool is_same) const {
+    if (is_same) return judge_.cost(before.scored()) < judge_.cost(revised.scored());
+    return judge_.p_of_gain(before.score, revised.score) <= options_.significance;
   }
 
   /// True if the last name came from a round beside all the others. Names that were added at once have not competed yet.
@@ -215,17 +252,6 @@ class Search {
     for (const Round& round : result_.rounds)
       if (round.accepted) competed = !round.at_once;
     return competed;
-  }
-
-  /// The same fit with its first added effect as the last.
-  Found moved_back(Found f) const {
-    const auto from = static_cast<std::ptrdiff_t>(given_);
-    Hypothesis& h = f.fit.hypothesis;
-    h.past.resize(h.effects.size());
-    std::rotate(h.effects.begin() + from, h.effects.begin() + from + 1, h.effects.end());
-    std::rotate(h.past.begin() + from, h.past.begin() + from + 1, h.past.end());
-    const Fit again = refitter_.refit(h, f.score);
-    return again.usable ? Found{again, evidence_.score(again.hypothesis)} : f;
   }
 
   /// Candidates that gained in any round.
@@ -270,6 +296,7 @@ class Search {
   Baseline baseline_;
   Judge judge_;
   Attribution result_;
+  int better_fits_ = 0;  ///< rounds without a name that ended with a better fit of the effects so far
 };
 
 }  // namespace
