@@ -7,7 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "transmission/arm_parameters.h"
+
 namespace halyard {
+
+/// The most numbers that are measured at a time: the encoders of motors and joints.
+inline constexpr int kMaxReadings = 2 * kMaxJoints;
+/// They have their memory in themselves, so that an update takes none from the heap. Their layout does not depend on
+/// the compiler's flags.
+using ReadingVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor | Eigen::DontAlign, kMaxReadings, 1>;
+using ReadingMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor | Eigen::DontAlign,
+                                    kMaxReadings, kMaxReadings>;
 
 /// One row of a log, as an estimator sees it.
 struct Sample {
@@ -16,16 +26,16 @@ struct Sample {
   Eigen::VectorXd motor_position;  ///< [n] measured at this time, rad; NaN: missing, no correction from it
   Eigen::VectorXd joint_torque;    ///< [n] measured external load, N m | N; empty: none
   /// [3] position of the tool's marker as the camera measured it, in the base frame, m; empty: not seen
-  Eigen::VectorXd marker = {};
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor | Eigen::DontAlign, 3, 1> marker = {};
 };
 
 /// The difference between a measurement and its prediction, for the m of n motors that were measured.
 struct Innovation {
   double time_s = 0;
-  Eigen::VectorXd nu;      ///< z - ẑ                          [m], rad
-  Eigen::MatrixXd S_root;  ///< lower, S_root S_rootᵀ = cov(ν)  [m x m]
-  bool accepted = true;    ///< false: gated out, belief unchanged
-  double nis() const;      ///< νᵀ S⁻¹ ν ~ χ²(m) if the model is right; 0 if m = 0
+  ReadingVector nu;      ///< z - ẑ                          [m], rad
+  ReadingMatrix S_root;  ///< lower, S_root S_rootᵀ = cov(ν)  [m x m]
+  bool accepted = true;  ///< false: gated out, belief unchanged
+  double nis() const;    ///< νᵀ S⁻¹ ν ~ χ²(m) if the model is right; 0 if m = 0
 };
 
 /// Estimated motion of the joints.

@@ -6,6 +6,17 @@ namespace halyard {
 
 CommandHistory::CommandHistory(int n_joints, double span_s) : n_(n_joints), span_(span_s) {}
 
+void CommandHistory::reserve(std::size_t samples) {
+  time_.reserve(samples);
+  command_.reserve(samples * static_cast<std::size_t>(n_));
+}
+
+void CommandHistory::clear() {
+  time_.clear();
+  command_.clear();
+  first_ = 0;
+}
+
 void CommandHistory::push(double time_s, const double* command) {
   time_.push_back(time_s);
   command_.insert(command_.end(), command, command + n_);

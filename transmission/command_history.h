@@ -12,6 +12,10 @@ class CommandHistory {
   /// Remembers commands of n joints for at least the last `span_s` seconds.
   CommandHistory(int n_joints, double span_s);
 
+  /// Takes the memory for so many commands at once. Twice those of the span are enough.
+  void reserve(std::size_t samples);
+  /// Forgets all commands.
+  void clear();
   /// Adds the command that holds from time_s until the next one. Times must increase.
   void push(double time_s, const double* command);
 

@@ -15,6 +15,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFastest = 0.05;   // s, for a joint to cross its range
 constexpr double kHistorySpan = 2;  // s, longer than any delay
+constexpr double kUsualRate = 1e3;  // Hz; at this rate and below, the history never asks for more memory
 
 }  // namespace
 
@@ -27,8 +28,7 @@ ArmFilterOptions read_arm_filter_options(OptionReader& options, const ArmModel& 
   return o;
 }
 
-Estimate joint_estimate(const StateLayout& l, const Eigen::VectorXd& x, const Eigen::MatrixXd& S) {
-  Estimate e;
+void set_joint_estimate(const StateLayout& l, const Eigen::VectorXd& x, const Eigen::MatrixXd& S, Estimate& e) {
   e.joint_position.resize(l.n_joints);
   e.joint_velocity.resize(l.n_joints);
   e.joint_position_std.resize(l.n_joints);
@@ -37,7 +37,6 @@ Estimate joint_estimate(const StateLayout& l, const Eigen::VectorXd& x, const Ei
     e.joint_velocity(k) = x(l.rate[k]);
     e.joint_position_std(k) = S.row(l.position[k]).norm();
   }
-  return e;
 }
 
 ArmFilter::ArmFilter(const ArmModel& model, std::shared_ptr<const ProcessModel> process,
@@ -50,6 +49,7 @@ ArmFilter::ArmFilter(const ArmModel& model, std::shared_ptr<const ProcessModel> 
       filter_(std::move(filter)),
       history_(model.n(), kHistorySpan),
       last_command_(-kInfinity) {
+  history_.reserve(static_cast<std::size_t>(2.1 * kHistorySpan * kUsualRate));
   for (int k = 0; k < model.n(); ++k)
     if (process_->arm().joint[k].drive != Drive::none) motors_.push_back(k);
 }
@@ -60,7 +60,7 @@ void ArmFilter::reset(const Sample& first) {
   time_ = first.time_s;
   reading_ = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
   torque_ = external_ = Eigen::VectorXd::Zero(n);
-  history_ = CommandHistory(n, kHistorySpan);
+  history_.clear();
   last_command_ = -kInfinity;
   report_ = {};
   repaired_before_ = filter_->repaired();
@@ -163,15 +163,15 @@ Innovation ArmFilter::correct(const Sample& sample) {
     if (std::isfinite(sample.motor_position(k))) read_.push_back(k);
   if (read_.empty()) return {};
   const auto m = static_cast<Eigen::Index>(read_.size());
-  z_.resize(m);
-  R_root_.setZero(m, m);
+  ReadingVector z(m);
+  ReadingMatrix R_root = ReadingMatrix::Zero(m, m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const int k = read_[static_cast<std::size_t>(i)];
-    z_(i) = sample.motor_position(k);
-    R_root_(i, i) = noise_.encoder()(k);
+    z(i) = sample.motor_position(k);
+    R_root(i, i) = noise_.encoder()(k);
   }
   Innovation innovation =
-      filter_->update(MotorReadings(*process_, sample.time_s, read_), z_, R_root_, gate_threshold(static_cast<int>(m)));
+      filter_->update(MotorReadings(*process_, sample.time_s, read_), z, R_root, gate_threshold(static_cast<int>(m)));
   noise_.adapt(read_, innovation, sample.time_s - time_);
   refused_since_ = innovation.accepted ? kInfinity : std::min(refused_since_, sample.time_s);
   return innovation;
@@ -196,18 +196,18 @@ Innovation ArmFilter::update(const Sample& sample) {
   return innovation;
 }
 
-ArmFilter::Snapshot ArmFilter::snapshot() const {
-  return {.started = started_,
-          .speed_is_due = speed_is_due_,
-          .time_s = time_,
-          .refused_since = refused_since_,
-          .x = filter_->x(),
-          .reading = reading_,
-          .torque = torque_,
-          .external = external_,
-          .adapted = noise_.adapted(),
-          .S = filter_->S(),
-          .report = report()};
+void ArmFilter::save(Snapshot& snapshot) const {
+  snapshot.started = started_;
+  snapshot.speed_is_due = speed_is_due_;
+  snapshot.time_s = time_;
+  snapshot.refused_since = refused_since_;
+  snapshot.x = filter_->x();
+  snapshot.reading = reading_;
+  snapshot.torque = torque_;
+  snapshot.external = external_;
+  snapshot.adapted = noise_.adapted();
+  snapshot.S = filter_->S();
+  snapshot.report = report();
 }
 
 void ArmFilter::restore(const Snapshot& snapshot) {
@@ -224,8 +224,8 @@ void ArmFilter::restore(const Snapshot& snapshot) {
   filter_->reset(snapshot.x, snapshot.S);
 }
 
-Innovation ArmFilter::correct_at(double time_s, const MeasurementModel& measurement, const Eigen::VectorXd& z,
-                                 const Eigen::MatrixXd& R_root) {
+Innovation ArmFilter::correct_at(double time_s, const MeasurementModel& measurement, const ReadingVector& z,
+                                 const ReadingMatrix& R_root) {
   if (time_s > time_) predict(time_s);
   time_ = time_s;
   Innovation innovation = filter_->update(measurement, z, R_root, gate_threshold(static_cast<int>(z.size())));
@@ -234,7 +234,11 @@ Innovation ArmFilter::correct_at(double time_s, const MeasurementModel& measurem
   return innovation;
 }
 
-Estimate ArmFilter::estimate() const { return joint_estimate(process_->layout(), filter_->x(), filter_->S()); }
+Estimate ArmFilter::estimate() const {
+  Estimate e;
+  set_joint_estimate(process_->layout(), filter_->x(), filter_->S(), e);
+  return e;
+}
 
 EstimatorReport ArmFilter::report() const {
   EstimatorReport r = report_;

@@ -31,8 +31,8 @@ struct ArmFilterOptions {
 /// Reads the noise options, max_step, restart_gap and gate.
 ArmFilterOptions read_arm_filter_options(OptionReader& options, const ArmModel& model, const ProcessModel& process);
 
-/// The joints' part of a belief x, S.
-Estimate joint_estimate(const StateLayout& layout, const Eigen::VectorXd& x, const Eigen::MatrixXd& S);
+/// The joints' part of a belief x, S, into memory of the caller.
+void set_joint_estimate(const StateLayout& layout, const Eigen::VectorXd& x, const Eigen::MatrixXd& S, Estimate& e);
 
 class ArmFilter final : public Estimator {
  public:
@@ -56,12 +56,12 @@ class ArmFilter final : public Estimator {
     Eigen::MatrixXd S;
     EstimatorReport report;
   };
-  Snapshot snapshot() const;
+  void save(Snapshot& snapshot) const;
   /// Goes back to a snapshot taken since reset(). Samples after the snapshot may then be processed again.
   void restore(const Snapshot& snapshot);
   /// Predicts to a time and corrects with a measurement other than the motors'. The filter must have started.
-  Innovation correct_at(double time_s, const MeasurementModel& measurement, const Eigen::VectorXd& z,
-                        const Eigen::MatrixXd& R_root);
+  Innovation correct_at(double time_s, const MeasurementModel& measurement, const ReadingVector& z,
+                        const ReadingMatrix& R_root);
 
  private:
   void start(const Sample& sample);
@@ -81,8 +81,6 @@ class ArmFilter final : public Estimator {
   std::unique_ptr<GaussianFilter> filter_;
   std::vector<int> motors_;  // joints that have a motor
   std::vector<int> read_;    // those with a reading in this sample
-  Eigen::VectorXd z_;        // their readings
-  Eigen::MatrixXd R_root_;   // and the root of their covariance
   CommandHistory history_;
   double last_command_ = 0;  // time of the newest command in history_, s
   bool started_ = false;

@@ -43,23 +43,21 @@ class MarkerPosition final : public MeasurementModel {
  public:
   explicit MarkerPosition(const ProcessModel& model) : model_(model) {}
   bool is_affine() const override { return false; }
-  Eigen::VectorXd read(const Eigen::VectorXd& x) const override {
+  void read(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> z) const override {
     double q[kMaxJoints];
     for (int k = 0; k < model_.n_joints(); ++k) q[k] = x(model_.layout().position[k]);
-    Eigen::VectorXd z(3);
     position_of(model_.arm(), chain_pose(model_.arm(), q), model_.arm().payload_point, z.data());
-    return z;
   }
-  void linearise(const Eigen::VectorXd& x, Eigen::VectorXd& z, Eigen::MatrixXd& H) const override {
+  void linearise(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
+                 Eigen::Ref<Eigen::MatrixXd> H) const override {
     const ArmParameters<Dual>& arm = model_.dual_transmission().arm();
     const std::vector<int> at(model_.layout().position, model_.layout().position + arm.n);
-    z.resize(3);
     Eigen::MatrixXd of_joints(3, arm.n);
     const auto position_at = [&](const Dual* q, Dual* out) {
       position_of(arm, chain_pose(arm, q), arm.payload_point, out);
     };
     jacobian(position_at, x(at), z, of_joints);
-    H.setZero(3, x.size());
+    H.setZero();
     H(Eigen::all, at) = of_joints;
   }
 
@@ -115,8 +113,11 @@ Innovation CameraFilter::update(const Sample& sample) {
 
 void CameraFilter::remember(const Sample& sample) {
   if (!past_.empty() && sample.time_s - past_.back().sample.time_s > restart_gap_) past_.clear();
-  past_.push_back({sample, filter_.snapshot()});
-  while (past_.size() > 1 && past_[1].sample.time_s <= sample.time_s - camera_.latency_s + kRounding) past_.pop_front();
+  Past& past = past_.append();
+  past.sample = sample;
+  filter_.save(past.after);
+  while (past_.size() > 1 && past_[1].sample.time_s <= sample.time_s - camera_.latency_s + kRounding)
+    past_.remove_front();
 }
 
 void CameraFilter::take_marker(const Sample& sample) {
@@ -126,10 +127,10 @@ void CameraFilter::take_marker(const Sample& sample) {
   filter_.restore(past_.front().after);
   filter_.correct_at(std::max(exposed, past_.front().sample.time_s), MarkerPosition(*process_), sample.marker,
                      camera_.noise_m * Eigen::Matrix3d::Identity());
-  past_.front().after = filter_.snapshot();
+  filter_.save(past_.front().after);
   for (std::size_t i = 1; i < past_.size(); ++i) {
     filter_.update(past_[i].sample);
-    past_[i].after = filter_.snapshot();
+    filter_.save(past_[i].after);
   }
 }
 

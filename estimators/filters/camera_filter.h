@@ -28,9 +28,8 @@
 /// Source: delayed measurements by recalculation: Larsen, Andersen, Ravn, Poulsen, "Incorporation of time delayed
 /// measurements in a discrete-time Kalman filter", CDC 1998.
 
-#include <deque>
-
 #include "estimators/filters/unknown_constant.h"
+#include "estimators/recycling_queue.h"
 
 namespace halyard {
 
@@ -74,7 +73,8 @@ class CameraFilter final : public Estimator {
   CameraOptions camera_;
   double restart_gap_;
   ArmFilter filter_;
-  std::deque<Past> past_;  // starts at the last sample before the exposure of the oldest frame that can still arrive
+  RecyclingQueue<Past>
+      past_;  // starts at the last sample before the exposure of the oldest frame that can still arrive
 };
 
 }  // namespace halyard

@@ -14,8 +14,8 @@ void ExtendedKalmanFilter::predict(const DiscreteProcess& process, const Eigen::
   check_finite(process);
 }
 
-Innovation ExtendedKalmanFilter::update(const MeasurementModel& measurement, const Eigen::VectorXd& z,
-                                        const Eigen::MatrixXd& R_root, double gate) {
+Innovation ExtendedKalmanFilter::update(const MeasurementModel& measurement, const ReadingVector& z,
+                                        const ReadingMatrix& R_root, double gate) {
   return update_linear(measurement, z, R_root, gate);
 }
 

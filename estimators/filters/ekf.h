@@ -13,11 +13,14 @@ namespace halyard {
 class ExtendedKalmanFilter final : public GaussianFilter {
  public:
   void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) override;
-  Innovation update(const MeasurementModel& measurement, const Eigen::VectorXd& z, const Eigen::MatrixXd& R_root,
+  Innovation update(const MeasurementModel& measurement, const ReadingVector& z, const ReadingMatrix& R_root,
                     double gate) override;
 
  private:
-  Eigen::MatrixXd columns_before(const Eigen::MatrixXd& S_0) const override { return S_0; }
+  int count_columns_before() const override { return static_cast<int>(x_.size()); }
+  void set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A_transposed) const override {
+    A_transposed = S_0.transpose();
+  }
 
   Eigen::MatrixXd F_;
 };

@@ -2,30 +2,25 @@
 
 namespace halyard {
 
-void smooth_backwards(const std::deque<FilteredBelief>& window,
-                      const std::function<void(std::size_t, const Eigen::VectorXd&, const Eigen::MatrixXd&)>& visit) {
-  if (window.empty()) return;
-  LowerRoot root;
-  Eigen::VectorXd x = window.back().x;
-  Eigen::MatrixXd S = window.back().S;
-  Eigen::MatrixXd columns(x.size(), 2 * x.size());
-  for (std::size_t i = window.size(); i-- > 0;) {
-    visit(i, x, S);
-    if (i == 0) break;
-    for (auto step = window[i].steps.rbegin(); step != window[i].steps.rend(); ++step) {
-      x = step->x_0 + step->G * (x - step->x_predicted);
-      columns.leftCols(x.size()).noalias() = step->G * S;
-      columns.rightCols(x.size()) = step->V_root;
-      root.compute(columns, S);
-    }
+void BackwardPass::go_back_before(const FilteredBelief& belief) {
+  const Eigen::Index n = x_.size();
+  columns_.resize(n, 2 * n);
+  for (std::size_t i = belief.steps.size(); i-- > 0;) {
+    const BackwardStep& step = belief.steps[i];
+    deviation_ = x_ - step.x_predicted;
+    x_ = step.x_0;
+    x_.noalias() += step.G * deviation_;
+    columns_.leftCols(n).noalias() = step.G * S_;
+    columns_.rightCols(n) = step.V_root;
+    root_.compute(columns_, S_);
   }
 }
 
 void FixedLagSmoother::RecordingUkf::predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) {
-  const Eigen::VectorXd x_0 = x_;
-  const Eigen::MatrixXd S_0 = S_;
+  x_0_ = x_;
+  S_0_ = S_;
   SquareRootUkf::predict(process, Q_root);
-  steps.push_back(backward_step(x_0, S_0));
+  backward_step(x_0_, S_0_, steps.append());
 }
 
 FixedLagSmoother::FixedLagSmoother(const ArmModel& model, std::shared_ptr<const ProcessModel> process,
@@ -59,26 +54,38 @@ Innovation FixedLagSmoother::update(const Sample& sample) {
 }
 
 void FixedLagSmoother::append(double time_s) {
-  window_.push_back({time_s, recorded_->x(), recorded_->S(), std::move(recorded_->steps)});
+  FilteredBelief& belief = window_.append();
+  belief.time_s = time_s;
+  belief.x = recorded_->x();
+  belief.S = recorded_->S();
+  std::swap(belief.steps, recorded_->steps);
   recorded_->steps.clear();
 }
 
 void FixedLagSmoother::smooth(double lag_s) {
   if (window_.empty()) return;
   const double until = window_.back().time_s - lag_s;
-  std::deque<Revision> told;
-  smooth_backwards(window_, [&](std::size_t i, const Eigen::VectorXd& x, const Eigen::MatrixXd& S) {
-    if (window_[i].time_s <= until) told.push_front({window_[i].time_s, joint_estimate(process_->layout(), x, S)});
-  });
-  window_.erase(window_.begin(), window_.begin() + static_cast<std::ptrdiff_t>(told.size()));
-  due_.insert(due_.end(), told.begin(), told.end());
+  std::size_t ready = 0;
+  while (ready < window_.size() && window_[ready].time_s <= until) ++ready;
+  const std::size_t told = due_.size();
+  for (std::size_t i = 0; i < ready; ++i) due_.append();
+  pass_.start(window_.back());
+  for (std::size_t i = window_.size(); i-- > 0;) {
+    if (i < ready) {
+      Revision& revision = due_[told + i];
+      revision.time_s = window_[i].time_s;
+      set_joint_estimate(process_->layout(), pass_.x(), pass_.S(), revision.estimate);
+    }
+    if (i > 0) pass_.go_back_before(window_[i]);
+  }
+  window_.remove_front(ready);
 }
 
 std::optional<Revision> FixedLagSmoother::revise(bool at_end) {
   if (at_end) smooth(0);
   if (due_.empty()) return std::nullopt;
-  Revision next = std::move(due_.front());
-  due_.pop_front();
+  Revision next = due_.front();
+  due_.remove_front();
   return next;
 }
 

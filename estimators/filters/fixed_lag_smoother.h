@@ -13,12 +13,9 @@
 /// Source: Särkkä, "Unscented Rauch-Tung-Striebel smoother", IEEE Trans. Automatic Control 53 (2008); the root as in
 /// Kailath, Sayed, Hassibi, "Linear Estimation", chapter 10.
 
-#include <deque>
-#include <functional>
-#include <vector>
-
 #include "estimators/filters/arm_filter.h"
 #include "estimators/filters/sr_ukf.h"
+#include "estimators/recycling_queue.h"
 
 namespace halyard {
 
@@ -27,12 +24,23 @@ struct FilteredBelief {
   double time_s = 0;
   Eigen::VectorXd x;
   Eigen::MatrixXd S;
-  std::vector<BackwardStep> steps;
+  RecyclingQueue<BackwardStep> steps;
 };
 
-/// Calls visit(i, x_s, S_s) for the beliefs of the window, from the last to the first. The last one stays as it is.
-void smooth_backwards(const std::deque<FilteredBelief>& window,
-                      const std::function<void(std::size_t, const Eigen::VectorXd&, const Eigen::MatrixXd&)>& visit);
+/// The backward pass, x_s and S_s.
+class BackwardPass {
+ public:
+  void start(const FilteredBelief& last) { x_ = last.x, S_ = last.S; }
+  /// From the end of the belief's predictions to their start.
+  void go_back_before(const FilteredBelief& belief);
+  const Eigen::VectorXd& x() const { return x_; }
+  const Eigen::MatrixXd& S() const { return S_; }
+
+ private:
+  Eigen::VectorXd x_, deviation_;
+  Eigen::MatrixXd S_, columns_;
+  LowerRoot root_;
+};
 
 class FixedLagSmoother final : public Estimator {
  public:
@@ -52,7 +60,11 @@ class FixedLagSmoother final : public Estimator {
    public:
     using SquareRootUkf::SquareRootUkf;
     void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) override;
-    std::vector<BackwardStep> steps;
+    RecyclingQueue<BackwardStep> steps;
+
+   private:
+    Eigen::VectorXd x_0_;
+    Eigen::MatrixXd S_0_;
   };
 
   FixedLagSmoother(const ArmModel& model, std::shared_ptr<const ProcessModel> process, const ArmFilterOptions& options,
@@ -66,8 +78,9 @@ class FixedLagSmoother final : public Estimator {
   RecordingUkf* recorded_;  // the filter inside filter_, which owns it
   ArmFilter filter_;
   double lag_s_;
-  std::deque<FilteredBelief> window_;
-  std::deque<Revision> due_;
+  RecyclingQueue<FilteredBelief> window_;
+  BackwardPass pass_;
+  RecyclingQueue<Revision> due_;
 };
 
 }  // namespace halyard

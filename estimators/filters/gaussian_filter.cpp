@@ -6,51 +6,57 @@
 
 namespace halyard {
 
-void LowerRoot::compute(const Eigen::MatrixXd& A, Eigen::MatrixXd& L) {
-  const int n = static_cast<int>(A.rows());
-  columns_.set_zero(static_cast<int>(A.cols()), n);
-  columns_.view() = A.transpose();
-  L.setZero(n, n);
-  matrix_kernels()[0].lower_root(n, columns_.blocks(), columns_.lanes(), L.data(), n);
+void LowerRoot::finish(Eigen::Ref<Eigen::MatrixXd> L) {
+  L.setZero();
+  matrix_kernels()[0].lower_root(columns_.columns(), columns_.blocks(), columns_.lanes(), L.data(),
+                                 static_cast<int>(L.outerStride()));
 }
 
-Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, const Eigen::VectorXd& z,
-                                         const Eigen::MatrixXd& R_root, double gate) {
-  measurement.linearise(x_, nu_, H_);
-  nu_ = z - nu_;
-  check_measurement(nu_);
-  const Eigen::Index m = nu_.size(), n = x_.size();
-  array_.setZero(m + n, m + n);
-  array_.topLeftCorner(m, m) = R_root;
-  array_.topRightCorner(m, n).noalias() = H_ * S_;
-  array_.bottomRightCorner(n, n) = S_;
-  array_root_.compute(array_, triangle_);
-
+Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, const ReadingVector& z,
+                                         const ReadingMatrix& R_root, double gate) {
+  const int m = static_cast<int>(z.size()), n = static_cast<int>(x_.size());
   Innovation innovation;
-  innovation.nu = nu_;
-  innovation.S_root = triangle_.topLeftCorner(m, m);
-  whitened_ = nu_;
-  innovation.S_root.triangularView<Eigen::Lower>().solveInPlace(whitened_);
-  innovation.accepted = whitened_.squaredNorm() <= gate;
+  innovation.nu.resize(m);
+  H_.set_zero(m, n);
+  measurement.linearise(x_, innovation.nu, H_.view());
+  innovation.nu = z - innovation.nu;
+  check_measurement(innovation.nu);
+  auto array = array_root_.start(m + n, m + n);  // transposed
+  array.topLeftCorner(m, m) = R_root.transpose();
+  array.bottomLeftCorner(n, m).noalias() = S_.transpose() * H_.view().transpose();
+  array.bottomRightCorner(n, n) = S_.transpose();
+  triangle_.set_zero(m + n, m + n);
+  const auto triangle = triangle_.view();
+  array_root_.finish(triangle);
+
+  innovation.S_root = triangle.topLeftCorner(m, m);
+  ReadingVector whitened = innovation.nu;
+  innovation.S_root.triangularView<Eigen::Lower>().solveInPlace(whitened);
+  innovation.accepted = whitened.squaredNorm() <= gate;
   if (innovation.accepted) {
-    x_.noalias() += triangle_.bottomLeftCorner(n, m) * whitened_;
-    S_ = triangle_.bottomRightCorner(n, n);
+    x_.noalias() += triangle.bottomLeftCorner(n, m) * whitened;
+    S_ = triangle.bottomRightCorner(n, n);
   }
   return innovation;
 }
 
-BackwardStep GaussianFilter::backward_step(const Eigen::VectorXd& x_0, const Eigen::MatrixXd& S_0) {
-  const Eigen::Index n = x_predicted_.size();
-  const Eigen::MatrixXd before = columns_before(S_0);
-  array_.setZero(2 * n, std::max(predicted_columns_.cols(), 2 * n));
-  array_.topLeftCorner(n, predicted_columns_.cols()) = predicted_columns_;
-  array_.bottomLeftCorner(n, before.cols()) = before;
-  array_root_.compute(array_, triangle_);
-  BackwardStep step{x_0, x_predicted_, {}, triangle_.bottomRightCorner(n, n)};
-  Eigen::MatrixXd S = triangle_.topLeftCorner(n, n);
-  S.diagonal() = (S.diagonal().array() > 0).select(S.diagonal(), 1.0);  // a state without doubt has no gain either
-  step.G = S.transpose().triangularView<Eigen::Upper>().solve(triangle_.bottomLeftCorner(n, n).transpose()).transpose();
-  return step;
+void GaussianFilter::backward_step(const Eigen::VectorXd& x_0, const Eigen::MatrixXd& S_0, BackwardStep& step) {
+  const int n = static_cast<int>(x_predicted_.size()), before = count_columns_before(),
+            predicted = static_cast<int>(predicted_columns_.cols());
+  auto array = array_root_.start(2 * n, std::max({predicted, before, 2 * n}));  // transposed
+  array.topLeftCorner(predicted, n) = predicted_columns_.transpose();
+  set_columns_before(S_0, array.topRightCorner(before, n));
+  triangle_.set_zero(2 * n, 2 * n);
+  auto triangle = triangle_.view();
+  array_root_.finish(triangle);
+  step.x_0 = x_0;
+  step.x_predicted = x_predicted_;
+  step.V_root = triangle.bottomRightCorner(n, n);
+  step.G = triangle.bottomLeftCorner(n, n);
+  auto S = triangle.topLeftCorner(n, n);
+  for (int i = 0; i < n; ++i)
+    if (!(S(i, i) > 0)) S(i, i) = 1;  // a state without doubt has no gain either
+  S.triangularView<Eigen::Lower>().solveInPlace<Eigen::OnTheRight>(step.G);
 }
 
 void GaussianFilter::check_finite(const DiscreteProcess& process) const {
@@ -60,7 +66,7 @@ void GaussianFilter::check_finite(const DiscreteProcess& process) const {
                                " is not finite; check the noise options and the model's parameters");
 }
 
-void GaussianFilter::check_measurement(const Eigen::VectorXd& nu) {
+void GaussianFilter::check_measurement(const ReadingVector& nu) {
   if (!nu.allFinite()) throw std::runtime_error("filter: a measurement is not finite; leave missing samples out");
 }
 

@@ -36,18 +36,31 @@ class MeasurementModel {
   virtual ~MeasurementModel() = default;
   /// True if h is affine, so that its linearisation is exact.
   virtual bool is_affine() const = 0;
-  virtual Eigen::VectorXd read(const Eigen::VectorXd& x) const = 0;
-  /// z becomes h(x), H becomes ∂h/∂x [m x n].
-  virtual void linearise(const Eigen::VectorXd& x, Eigen::VectorXd& z, Eigen::MatrixXd& H) const = 0;
+  /// z [m] becomes h(x).
+  virtual void read(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> z) const = 0;
+  /// z [m] becomes h(x), H [m x n] becomes ∂h/∂x.
+  virtual void linearise(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
+                         Eigen::Ref<Eigen::MatrixXd> H) const = 0;
 };
 
-/// Lower triangular L with L Lᵀ = A Aᵀ and diagonal >= 0, by Householder reflections of Aᵀ. A: [n x m], m >= n.
+/// Lower triangular L [n x n] with L Lᵀ = A Aᵀ and diagonal >= 0, by Householder reflections of Aᵀ. A: [n x m],
+/// m >= n. Keeps its memory.
 class LowerRoot {
  public:
-  void compute(const Eigen::MatrixXd& A, Eigen::MatrixXd& L);
+  /// Aᵀ [m x n], zero, for the caller to fill.
+  LaneMatrix::View start(int n, int m) {
+    columns_.set_zero(m, n);
+    return columns_.view();
+  }
+  /// L of the matrix that was filled in; destroys it.
+  void finish(Eigen::Ref<Eigen::MatrixXd> L);
+  void compute(const Eigen::Ref<const Eigen::MatrixXd>& A, Eigen::Ref<Eigen::MatrixXd> L) {
+    start(static_cast<int>(A.rows()), static_cast<int>(A.cols())) = A.transpose();
+    finish(L);
+  }
 
  private:
-  LaneMatrix columns_;  // Aᵀ; kept for its memory
+  LaneMatrix columns_;
 };
 
 /// The state x before a prediction, given the state x' after it (a Rauch-Tung-Striebel step):
@@ -74,11 +87,11 @@ class GaussianFilter {
   ///   [ D  Q_root ]      →    [ S⁻       0    ]     D: predicted points minus their mean, or F S_0
   ///   [ A    0    ]           [ G S⁻   V_root ]     A: the same columns before the prediction
   ///
-  BackwardStep backward_step(const Eigen::VectorXd& x_0, const Eigen::MatrixXd& S_0);
+  void backward_step(const Eigen::VectorXd& x_0, const Eigen::MatrixXd& S_0, BackwardStep& step);
   /// A measurement with νᵀ S⁻¹ ν > `gate` is not accepted: the belief does not change. Throws std::runtime_error if z
   /// is not finite. The caller sets the innovation's time.
-  virtual Innovation update(const MeasurementModel& measurement, const Eigen::VectorXd& z,
-                            const Eigen::MatrixXd& R_root, double gate) = 0;
+  virtual Innovation update(const MeasurementModel& measurement, const ReadingVector& z, const ReadingMatrix& R_root,
+                            double gate) = 0;
 
   const Eigen::VectorXd& x() const { return x_; }
   const Eigen::MatrixXd& S() const { return S_; }
@@ -93,14 +106,15 @@ class GaussianFilter {
   ///   [   0      S  ]          [ P_xy S_y⁻ᵀ  S' ]
   ///
   /// Then x' = x + (P_xy S_y⁻ᵀ) S_y⁻¹ ν. Source: Kailath, Sayed, Hassibi, "Linear Estimation", chapter 12.
-  Innovation update_linear(const MeasurementModel& measurement, const Eigen::VectorXd& z, const Eigen::MatrixXd& R_root,
+  Innovation update_linear(const MeasurementModel& measurement, const ReadingVector& z, const ReadingMatrix& R_root,
                            double gate);
   void check_finite(const DiscreteProcess& process) const;
-  static void check_measurement(const Eigen::VectorXd& nu);
+  static void check_measurement(const ReadingVector& nu);
 
-  /// Block A of backward_step(), [n x any]: the columns that the prediction turned into the first columns of
+  /// Block A of backward_step(), transposed [any x n]: the columns that the prediction turned into the first columns of
   /// `predicted_columns_`.
-  virtual Eigen::MatrixXd columns_before(const Eigen::MatrixXd& S_0) const = 0;
+  virtual void set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A_transposed) const = 0;
+  virtual int count_columns_before() const = 0;
 
   Eigen::VectorXd x_;
   Eigen::MatrixXd S_;
@@ -110,8 +124,7 @@ class GaussianFilter {
   LowerRoot root_;
 
  private:
-  Eigen::VectorXd nu_, whitened_;
-  Eigen::MatrixXd H_, array_, triangle_;
+  LaneMatrix H_, triangle_;
   LowerRoot array_root_;
 };
 

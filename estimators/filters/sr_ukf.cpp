@@ -1,6 +1,5 @@
 #include "estimators/filters/sr_ukf.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
@@ -13,8 +12,8 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kRoundings = 4;  // of one evaluation of f or h, relative to result and argument
 
 /// `shift` becomes W Σ d_i over the columns of d, less what is rounding of numbers of that `size` or beyond the limit.
-void set_mean_shift(const Eigen::Ref<const Eigen::MatrixXd>& d, const Eigen::VectorXd& size, double W,
-                    double curvature_limit, Eigen::VectorXd& shift) {
+void set_mean_shift(const Eigen::Ref<const Eigen::MatrixXd>& d, const Eigen::Ref<const Eigen::VectorXd>& size, double W,
+                    double curvature_limit, Eigen::Ref<Eigen::VectorXd> shift) {
   shift = W * d.rowwise().sum();
   const double rounding = kRoundings * kEps * W * static_cast<double>(d.cols());
   for (Eigen::Index i = 0; i < shift.size(); ++i) {
@@ -45,23 +44,25 @@ void SquareRootUkf::place_sigma_points(Eigen::MatrixXd& X) const {
   X.rightCols(n) = (-(X.middleCols(1, n).colwise() - x_)).colwise() + x_;
 }
 
-void SquareRootUkf::root_with_central(Eigen::MatrixXd& columns, const Eigen::VectorXd& v, Eigen::MatrixXd& L) {
+void SquareRootUkf::root_with_central(Eigen::Ref<Eigen::MatrixXd> columns, const Eigen::Ref<const Eigen::VectorXd>& v,
+                                      Eigen::Ref<Eigen::MatrixXd> L) {
   const double c = weights_.beta - weights_.alpha * weights_.alpha;
   columns.rightCols(1) = std::sqrt(std::max(c, 0.0)) * v;
   root_.compute(columns, L);
   if (c >= 0) return;
   // A down-date, by the covariance itself; one that has lost its definiteness gets a floor.
-  const Eigen::MatrixXd P = L * L.transpose() + c * v * v.transpose();
-  const Eigen::LLT<Eigen::MatrixXd> llt(P);
-  if (llt.info() == Eigen::Success) {
-    L = llt.matrixL();
+  P_ = L.lazyProduct(L.transpose());
+  P_.noalias() += c * v * v.transpose();
+  llt_.compute(P_);
+  if (llt_.info() == Eigen::Success) {
+    L = llt_.matrixL();
     return;
   }
   ++repaired_;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(P);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(P_);
   const double floor = kEps * modes.eigenvalues().cwiseAbs().maxCoeff();
-  columns.leftCols(P.rows()) = modes.eigenvectors() * modes.eigenvalues().cwiseMax(floor).cwiseSqrt().asDiagonal();
-  columns.rightCols(columns.cols() - P.cols()).setZero();
+  columns.leftCols(P_.rows()) = modes.eigenvectors() * modes.eigenvalues().cwiseMax(floor).cwiseSqrt().asDiagonal();
+  columns.rightCols(columns.cols() - P_.cols()).setZero();
   root_.compute(columns, L);
 }
 
@@ -73,6 +74,7 @@ void SquareRootUkf::predict(const DiscreteProcess& process, const Eigen::MatrixX
   predicted_columns_.resize(n, points + Q_root.cols() + 1);
   auto d = predicted_columns_.leftCols(points);
   d = X_.rightCols(points).colwise() - X_.col(0);
+  delta_.resize(n);
   size_ = x_.cwiseAbs().cwiseMax(X_.cwiseAbs().rowwise().maxCoeff());
   set_mean_shift(d, size_, W, weights_.curvature_limit, delta_);
   x_ = X_.col(0) + delta_;
@@ -83,46 +85,56 @@ void SquareRootUkf::predict(const DiscreteProcess& process, const Eigen::MatrixX
   check_finite(process);
 }
 
-Eigen::MatrixXd SquareRootUkf::columns_before(const Eigen::MatrixXd& S_0) const {
-  Eigen::MatrixXd columns(S_0.rows(), 2 * S_0.cols());
-  columns << S_0, -S_0;
-  return std::sqrt(0.5) * columns;  // √W γ
+void SquareRootUkf::set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A_transposed) const {
+  const double factor = std::sqrt(0.5);  // √W γ
+  A_transposed.topRows(S_0.cols()) = factor * S_0.transpose();
+  A_transposed.bottomRows(S_0.cols()) = -factor * S_0.transpose();
 }
 
-Innovation SquareRootUkf::update(const MeasurementModel& measurement, const Eigen::VectorXd& z,
-                                 const Eigen::MatrixXd& R_root, double gate) {
+Innovation SquareRootUkf::update(const MeasurementModel& measurement, const ReadingVector& z,
+                                 const ReadingMatrix& R_root, double gate) {
   if (measurement.is_affine()) return update_linear(measurement, z, R_root, gate);
-  const Eigen::Index n = x_.size(), m = z.size(), points = 2 * n;
-  const double W = 0.5 / spread_squared();
+  const int n = static_cast<int>(x_.size()), m = static_cast<int>(z.size()), points = 2 * n;
+  const double W = 0.5 / spread_squared(), root_W = std::sqrt(W);
   place_sigma_points(X_);
-  const Eigen::VectorXd z_0 = measurement.read(X_.col(0));
-  Eigen::MatrixXd e(m, points + m + 1);
-  for (Eigen::Index i = 0; i < points; ++i) e.col(i) = measurement.read(X_.col(i + 1)) - z_0;
-  Eigen::VectorXd epsilon;
-  set_mean_shift(e.leftCols(points), z_0.cwiseAbs(), W, weights_.curvature_limit, epsilon);
-  const Eigen::VectorXd nu = z - z_0 - epsilon;
-  check_measurement(nu);
+  ReadingVector z_0(m), epsilon(m);
+  measurement.read(X_.col(0), z_0);
+  const ReadingVector size = z_0.cwiseAbs();
+  e_.set_zero(m, points + m + 1);
+  auto e = e_.view();
+  for (int i = 0; i < points; ++i) {
+    measurement.read(X_.col(i + 1), e.col(i));
+    e.col(i) -= z_0;
+  }
+  set_mean_shift(e.leftCols(points), size, W, weights_.curvature_limit, epsilon);
 
   Innovation innovation;
-  innovation.nu = nu;
-  const double root_W = std::sqrt(W);
+  innovation.nu = z - z_0 - epsilon;
+  check_measurement(innovation.nu);
   e.leftCols(points) *= root_W;
   e.middleCols(points, m) = R_root;
+  innovation.S_root.resize(m, m);
   root_with_central(e, epsilon, innovation.S_root);
   const auto S_y = innovation.S_root.triangularView<Eigen::Lower>();
-  innovation.accepted = S_y.solve(nu).squaredNorm() <= gate;
+  ReadingVector whitened = innovation.nu;
+  S_y.solveInPlace(whitened);
+  innovation.accepted = whitened.squaredNorm() <= gate;
   if (!innovation.accepted) return innovation;
 
-  columns_.resize(n, points + m + 1);
-  auto d = columns_.leftCols(points);
+  columns_.set_zero(n, points + m + 1);
+  auto columns = columns_.view();
+  auto d = columns.leftCols(points);
   d = root_W * (X_.rightCols(points).colwise() - x_);
-  const Eigen::MatrixXd P_yx = e.leftCols(points) * d.transpose();
-  const auto S_y_transposed = innovation.S_root.transpose().triangularView<Eigen::Upper>();
-  const Eigen::MatrixXd K = S_y_transposed.solve(S_y.solve(P_yx)).transpose();
-  x_ += K * nu;
-  d -= K * e.leftCols(points);
-  columns_.middleCols(points, m) = K * R_root;
-  root_with_central(columns_, K * epsilon, S_);
+  P_yx_.set_zero(m, n);
+  auto K_transposed = P_yx_.view();
+  K_transposed.noalias() = e.leftCols(points) * d.transpose();
+  S_y.solveInPlace(K_transposed);
+  innovation.S_root.transpose().triangularView<Eigen::Upper>().solveInPlace(K_transposed);
+  x_.noalias() += K_transposed.transpose() * innovation.nu;
+  d.noalias() -= K_transposed.transpose() * e.leftCols(points);
+  columns.middleCols(points, m).noalias() = K_transposed.transpose() * R_root;
+  delta_.noalias() = K_transposed.transpose() * epsilon;
+  root_with_central(columns, delta_, S_);
   return innovation;
 }
 

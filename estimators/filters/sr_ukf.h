@@ -20,6 +20,7 @@
 /// Source: van der Merwe and Wan, "The square-root unscented Kalman filter for state and parameter-estimation",
 /// ICASSP 2001; weights of Haghighipanah et al., IROS 2015.
 
+#include <Eigen/Cholesky>
 #include <limits>
 
 #include "estimators/filters/gaussian_filter.h"
@@ -44,20 +45,24 @@ class SquareRootUkf : public GaussianFilter {
   explicit SquareRootUkf(const UkfWeights& weights = {});
 
   void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) override;
-  Innovation update(const MeasurementModel& measurement, const Eigen::VectorXd& z, const Eigen::MatrixXd& R_root,
+  Innovation update(const MeasurementModel& measurement, const ReadingVector& z, const ReadingMatrix& R_root,
                     double gate) override;
 
  private:
   /// √W (X_±i - x) of the sigma points before the prediction.
-  Eigen::MatrixXd columns_before(const Eigen::MatrixXd& S_0) const override;
+  int count_columns_before() const override { return 2 * static_cast<int>(x_.size()); }
+  void set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A_transposed) const override;
   double spread_squared() const;  // γ²
   void place_sigma_points(Eigen::MatrixXd& X) const;
-  /// L = root of [A, √c v], c = β - α² of any sign; A: [n x m].
-  void root_with_central(Eigen::MatrixXd& columns, const Eigen::VectorXd& v, Eigen::MatrixXd& L);
+  /// L = root of [A, √c v], c = β - α² of any sign; columns: A and a last column that is set here.
+  void root_with_central(Eigen::Ref<Eigen::MatrixXd> columns, const Eigen::Ref<const Eigen::VectorXd>& v,
+                         Eigen::Ref<Eigen::MatrixXd> L);
 
   UkfWeights weights_;
   Eigen::VectorXd size_, delta_;
-  Eigen::MatrixXd X_, columns_;
+  Eigen::MatrixXd X_, P_;
+  Eigen::LLT<Eigen::MatrixXd> llt_;
+  LaneMatrix columns_, e_, P_yx_;
 };
 
 }  // namespace halyard

@@ -75,10 +75,13 @@ class Linearised final : public MeasurementModel {
   Linearised(Eigen::VectorXd x, Eigen::VectorXd z, Eigen::MatrixXd H)
       : x_(std::move(x)), z_(std::move(z)), H_(std::move(H)) {}
   bool is_affine() const override { return true; }
-  Eigen::VectorXd read(const Eigen::VectorXd& x) const override { return z_ + H_ * (x - x_); }
-  void linearise(const Eigen::VectorXd& x, Eigen::VectorXd& z, Eigen::MatrixXd& H) const override {
+  void read(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> z) const override {
+    z = z_ + H_ * (x - x_);
+  }
+  void linearise(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
+                 Eigen::Ref<Eigen::MatrixXd> H) const override {
     H = H_;
-    z = read(x);
+    read(x, z);
   }
 
  private:

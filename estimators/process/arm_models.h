@@ -42,16 +42,18 @@ class MotorReadings final : public MeasurementModel {
   MotorReadings(const ProcessModel& model, double time_s, const std::vector<int>& motors)
       : model_(model), time_(time_s), motors_(motors) {}
   bool is_affine() const override { return model_.readings_are_linear(); }
-  Eigen::VectorXd read(const Eigen::VectorXd& x) const override { return model_.motor_readings(time_, x)(motors_); }
-  void linearise(const Eigen::VectorXd& x, Eigen::VectorXd& z, Eigen::MatrixXd& H) const override {
-    Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxJoints, 1> all(model_.n_joints());
+  void read(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> z) const override {
+    AllReadings all(model_.n_joints());
+    model_.read(time_, x, all);
+    for (std::size_t i = 0; i < motors_.size(); ++i) z(static_cast<Eigen::Index>(i)) = all(motors_[i]);
+  }
+  void linearise(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
+                 Eigen::Ref<Eigen::MatrixXd> H) const override {
+    AllReadings all(model_.n_joints());
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxJoints, kMaxStates> slopes(
         model_.n_joints(), model_.n_states());
     model_.linearise_readings(time_, x, all, slopes);
-    const auto m = static_cast<Eigen::Index>(motors_.size());
-    z.resize(m);
-    H.resize(m, slopes.cols());
-    for (Eigen::Index i = 0; i < m; ++i) {
+    for (Eigen::Index i = 0; i < z.size(); ++i) {
       const int k = motors_[static_cast<std::size_t>(i)];
       z(i) = all(k);
       H.row(i) = slopes.row(k);
@@ -59,6 +61,8 @@ class MotorReadings final : public MeasurementModel {
   }
 
  private:
+  using AllReadings = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxJoints, 1>;
+
   const ProcessModel& model_;
   double time_;
   const std::vector<int>& motors_;

@@ -201,6 +201,15 @@ Eigen::VectorXd ProcessModel::motor_readings(double time_s, const Eigen::VectorX
   return z;
 }
 
+void ProcessModel::read(double time_s, const Eigen::Ref<const Eigen::VectorXd>& x,
+                        Eigen::Ref<Eigen::VectorXd> z) const {
+  JointSignals<double> s[kMaxJoints];
+  unpack_state(arm(), layout_, x.data(), s);
+  transmission_.sensor_errors(time_s, x.data() + layout_.effect_states, s);
+  for (int k = 0; k < n_joints(); ++k)
+    z(k) = arm().joint[k].drive == Drive::none ? 0 : s[k].motor_angle + s[k].motor_error;
+}
+
 void ProcessModel::linearise_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
                                       Eigen::Ref<Eigen::MatrixXd> H) const {
   if (!readings_are_linear_) return differentiate_readings(time_s, x, z, H);

@@ -81,7 +81,9 @@ class ProcessModel {
 
   /// h(x) [n] and H = ∂h/∂x [n x n_states]; the row of a joint without motor is zero.
   Eigen::VectorXd motor_readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd* H = nullptr) const;
-  /// The same into memory of the caller: z [n], H [n x n_states].
+  /// z [n] becomes h(x).
+  void read(double time_s, const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> z) const;
+  /// z [n] becomes h(x), H [n x n_states] its slopes.
   void linearise_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
                           Eigen::Ref<Eigen::MatrixXd> H) const;
   /// True if h is affine, that is, if no effect acts at the sensors.

@@ -182,7 +182,8 @@ TEST(SrUkfOnTheArm, GoesBackToASnapshotWithAllThatItKnew) {
   filter.reset(samples[0]);
   for (int next = 1; const int from : {100, 220, 340}) {  // learning; 20 ms of refusals; the first after the gap
     while (next <= from) filter.update(samples[next++]);
-    const ArmFilter::Snapshot snapshot = filter.snapshot();
+    ArmFilter::Snapshot snapshot;
+    filter.save(snapshot);
     for (int i = 1; i <= 60; ++i) filter.update(samples[from + i]);
     const Eigen::VectorXd x = filter.filter().x();
     const Eigen::MatrixXd S = filter.filter().S();

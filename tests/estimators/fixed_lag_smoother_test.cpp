@@ -18,7 +18,7 @@ namespace {
 
 /// Largest differences of smoothed means and covariances from those of the covariances' own recursion.
 double largest_difference_smoothed(GaussianFilter& filter, const LinearGaussian& p) {
-  std::deque<FilteredBelief> window;
+  RecyclingQueue<FilteredBelief> window;
   std::vector<KalmanFilter> textbook;
   KalmanFilter kalman{p.x_0, initial_root() * initial_root().transpose()};
   filter.reset(p.x_0, initial_root());
@@ -26,9 +26,11 @@ double largest_difference_smoothed(GaussianFilter& filter, const LinearGaussian&
     const Eigen::VectorXd x_0 = filter.x();
     const Eigen::MatrixXd S_0 = filter.S();
     filter.predict(LinearProcess(p.F), p.Q_root);
-    const BackwardStep step = filter.backward_step(x_0, S_0);
+    FilteredBelief& belief = window.append();
+    filter.backward_step(x_0, S_0, belief.steps.append());
     filter.update(LinearReadings(p.H, true), z, p.R_root, kNoGate);
-    window.push_back({0, filter.x(), filter.S(), {step}});
+    belief.x = filter.x();
+    belief.S = filter.S();
     kalman.step(p, z);
     textbook.push_back(kalman);
   }
@@ -41,10 +43,13 @@ double largest_difference_smoothed(GaussianFilter& filter, const LinearGaussian&
     now.P = (now.P + G * (next.P - P) * G.transpose()).eval();
   }
   double largest = 0;
-  smooth_backwards(window, [&](std::size_t i, const Eigen::VectorXd& x, const Eigen::MatrixXd& S) {
-    largest = std::max({largest, (x - textbook[i].x).cwiseAbs().maxCoeff(),
-                        (S * S.transpose() - textbook[i].P).cwiseAbs().maxCoeff()});
-  });
+  BackwardPass pass;
+  pass.start(window.back());
+  for (std::size_t i = window.size(); i-- > 0;) {
+    largest = std::max({largest, (pass.x() - textbook[i].x).cwiseAbs().maxCoeff(),
+                        (pass.S() * pass.S().transpose() - textbook[i].P).cwiseAbs().maxCoeff()});
+    pass.go_back_before(window[i]);
+  }
   return largest;
 }
 

@@ -43,10 +43,13 @@ class Square final : public DiscreteProcess, public MeasurementModel {
   }
   std::string name_of(int) const override { return "the square at 1 s"; }
   bool is_affine() const override { return false; }
-  Eigen::VectorXd read(const Eigen::VectorXd& x) const override { return x.cwiseProduct(x); }
-  void linearise(const Eigen::VectorXd& x, Eigen::VectorXd& z, Eigen::MatrixXd& H) const override {
+  void read(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> z) const override {
+    z = x.cwiseProduct(x);
+  }
+  void linearise(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
+                 Eigen::Ref<Eigen::MatrixXd> H) const override {
     H = 2 * x;
-    z = read(x);
+    read(x, z);
   }
 };
 

@@ -34,8 +34,9 @@ class LinearReadings final : public MeasurementModel {
   /// `admits_it`: says that it is affine, so that a filter may take it exactly.
   LinearReadings(const Eigen::MatrixXd& H, bool admits_it) : H_(H), affine_(admits_it) {}
   bool is_affine() const override { return affine_; }
-  Eigen::VectorXd read(const Eigen::VectorXd& x) const override { return H_ * x; }
-  void linearise(const Eigen::VectorXd& x, Eigen::VectorXd& z, Eigen::MatrixXd& H) const override {
+  void read(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> z) const override { z = H_ * x; }
+  void linearise(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
+                 Eigen::Ref<Eigen::MatrixXd> H) const override {
     H = H_;
     z = H_ * x;
   }
