@@ -4,10 +4,9 @@
 #include <utility>
 
 namespace halyard {
-
 void PhiFunctions::balance(Eigen::MatrixXd Z) {
-  scale_.setOnes(Z.rows());
-  if (!Z.allFinite()) return;
+  Eigen::ArrayXd scale = Eigen::ArrayXd::Ones(Z.rows());
+  if (!Z.allFinite()) return set_units(scale);
   constexpr int kSweeps = 10;
   bool changed = true;
   for (int sweep = 0; changed && sweep < kSweeps; ++sweep) {
@@ -17,16 +16,31 @@ void PhiFunctions::balance(Eigen::MatrixXd Z) {
       const double column = Z.col(i).cwiseAbs().sum() - own, row = Z.row(i).cwiseAbs().sum() - own;
       if (!(column > 0 && row > 0) || (column < 2 * row && row < 2 * column)) continue;
       const double factor = std::exp2(std::round(0.5 * std::log2(row / column)));
-      scale_(i) *= factor;
+      scale(i) *= factor;
       Z.col(i) *= factor;
       Z.row(i) /= factor;
       changed = true;
     }
   }
+  set_units(scale);
+}
+
+void PhiFunctions::set_units(const Eigen::ArrayXd& scale) {
+  const int n = static_cast<int>(scale.size());
+  unit_.set_zero(n, n);
+  for (int c = 0; c < n; ++c) unit_.view().col(c) = scale / scale(c);
+}
+
+void PhiFunctions::take_memory(int n) {
+  if (unit_.rows() != n) set_units(Eigen::ArrayXd::Ones(n));
+  if (!levels_.empty() && levels_[0].E.rows() == n) return;
+  levels_.resize(kMostDoublings + 1);
+  for (Level& level : levels_)
+    for (LaneMatrix* A : {&level.E, &level.phi_1, &level.phi_2}) A->set_zero(n, n);
 }
 
 /// The φ_k and E of Y.
-void PhiFunctions::polynomials() {
+void PhiFunctions::polynomials(Level& level) {
   const int n = Y_.rows();
   set_product(Y_, Y_.view(), Y2_);
   set_product(Y2_, Y_.view(), Y3_);
@@ -38,58 +52,56 @@ void PhiFunctions::polynomials() {
     S.diagonal().array() += c_0;
   };
   // 1 / k! of k = 3 to 11, by Horner's scheme in Y³.
-  quadratic(next_[0], 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800);
-  quadratic(next_[1], 1.0 / 720, 1.0 / 5040, 1.0 / 40320);
-  quadratic(phi_[2], 1.0 / 6, 1.0 / 24, 1.0 / 120);
-  add_product(Y3_, next_[0].view(), next_[1]);
-  add_product(Y3_, next_[1].view(), phi_[2]);
+  quadratic(next_, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800);
+  quadratic(level.E, 1.0 / 720, 1.0 / 5040, 1.0 / 40320);
+  quadratic(phi_3_, 1.0 / 6, 1.0 / 24, 1.0 / 120);
+  add_product(Y3_, next_.view(), level.E);
+  add_product(Y3_, level.E.view(), phi_3_);
   const auto below = [&](const LaneMatrix& phi, double constant, LaneMatrix& lower) {
     lower.set_zero(n, n);
     lower.view().diagonal().setConstant(constant);
     add_product(Y_, phi.view(), lower);
   };
-  below(phi_[2], 0.5, phi_[1]);
-  below(phi_[1], 1, phi_[0]);
-  below(phi_[0], 1, E_);
+  below(phi_3_, 0.5, level.phi_2);
+  below(level.phi_2, 1, level.phi_1);
+  below(level.phi_1, 1, level.E);
 }
 
-void PhiFunctions::double_argument() {
-  for (LaneMatrix& next : next_) next.set_zero(E_.rows(), E_.rows());
-  next_[0].view() = phi_[0].view();
-  next_[1].view() = phi_[0].view() + phi_[1].view();
-  next_[2].view() = 0.5 * phi_[0].view() + phi_[1].view() + phi_[2].view();
-  for (int k = 0; k < 3; ++k) {
-    add_product(E_, phi_[k].view(), next_[k]);
-    phi_[k].view() = std::exp2(-(k + 1)) * next_[k].view();
-  }
-  std::swap(E_, E_half_);
-  set_product(E_half_, E_half_.view(), E_);
+void PhiFunctions::double_argument(const Level& half, Level& whole) {
+  next_.set_zero(Y_.rows(), Y_.rows());
+  next_.view() = 0.125 * (0.5 * half.phi_1.view() + half.phi_2.view() + phi_3_.view());
+  Y_.view() = 0.125 * phi_3_.view();
+  add_product(half.E, Y_.view(), next_);
+  std::swap(next_, phi_3_);
+  whole.phi_2.view() = half.phi_1.view() + half.phi_2.view();
+  add_product(half.E, half.phi_2.view(), whole.phi_2);
+  whole.phi_2.view() *= 0.25;
+  whole.phi_1.view() = half.phi_1.view();
+  add_product(half.E, half.phi_1.view(), whole.phi_1);
+  whole.phi_1.view() *= 0.5;
+  set_product(half.E, half.E.view(), whole.E);
 }
 
-void PhiFunctions::restore_units(LaneMatrix& A) const {
-  auto a = A.view();
-  for (int c = 0; c < A.columns(); ++c) a.col(c).array() *= scale_ / scale_(c);
-}
+void PhiFunctions::restore_units(LaneMatrix& A) const { A.view().array() *= unit_.view().array(); }
 
 bool PhiFunctions::compute(const Eigen::Ref<const Eigen::MatrixXd>& Z) {
   constexpr double kMostNorm = 0.5;
-  constexpr int kMostDoublings = 21;
   if (!Z.allFinite()) return false;
   const int n = static_cast<int>(Z.rows());
-  if (scale_.size() != n) scale_.setOnes(n);
+  take_memory(n);
   Y_.set_zero(n, n);
-  for (int c = 0; c < n; ++c) Y_.view().col(c) = Z.col(c).array() * (scale_(c) / scale_);
+  Y_.view() = Z.array() / unit_.view().array();
   const double norm = Y_.view().cwiseAbs().colwise().sum().maxCoeff();
   int exponent = 0;
   std::frexp(norm / kMostNorm, &exponent);  // norm / kMostNorm < 2^exponent
-  const int doublings = std::max(exponent, 1);
-  if (!(doublings <= kMostDoublings)) return false;
-  Y_.view() *= std::exp2(-doublings);
-  polynomials();
-  parts_ = 1 << doublings;
-  E_part_ = E_;
-  for (int i = 0; i < doublings; ++i) double_argument();
-  for (LaneMatrix* A : {&E_, &E_half_, &E_part_, &phi_[0], &phi_[1], &phi_[2]}) restore_units(*A);
+  doublings_ = std::max(exponent, 1);
+  if (!(doublings_ <= kMostDoublings)) return false;
+  Y_.view() *= std::exp2(-doublings_);
+  polynomials(levels_[static_cast<std::size_t>(doublings_)]);
+  for (auto k = static_cast<std::size_t>(doublings_); k-- > 0;) double_argument(levels_[k + 1], levels_[k]);
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(doublings_); ++k)
+    for (LaneMatrix* A : {&levels_[k].E, &levels_[k].phi_1, &levels_[k].phi_2}) restore_units(*A);
+  restore_units(phi_3_);
   return true;
 }
 

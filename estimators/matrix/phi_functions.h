@@ -21,27 +21,35 @@ namespace halyard {
 
 class PhiFunctions {
  public:
+  static constexpr int kMostDoublings = 16;
+
   /// Chooses D for matrices like this one. Without this call, and if Z is not finite, D is the unit matrix.
   void balance(Eigen::MatrixXd Z);
-  /// Z [n x n]. False, and the functions are not computed, if Z is not finite or its norm is beyond 2^20.
+  /// Z [n x n]. False, and the functions are not computed, if Z is not finite or its norm is beyond 2^15.
   bool compute(const Eigen::Ref<const Eigen::MatrixXd>& Z);
 
-  const LaneMatrix& E() const { return E_; }
-  const LaneMatrix& E_half() const { return E_half_; }  ///< exp(Z / 2)
-  const LaneMatrix& E_part() const { return E_part_; }  ///< exp(Z / parts())
-  int parts() const { return parts_; }                  ///< 2^s
-  const LaneMatrix& phi_1() const { return phi_[0]; }
-  const LaneMatrix& phi_2() const { return phi_[1]; }
-  const LaneMatrix& phi_3() const { return phi_[2]; }
+  /// The functions of Z / 2^k.
+  struct Level {
+    LaneMatrix E, phi_1, phi_2;
+  };
+  const Level& level(int k) const { return levels_[static_cast<std::size_t>(k)]; }
+  int doublings() const { return doublings_; }  ///< s, at least 1: the last level
+  const LaneMatrix& E() const { return levels_[0].E; }
+  const LaneMatrix& phi_1() const { return levels_[0].phi_1; }
+  const LaneMatrix& phi_2() const { return levels_[0].phi_2; }
+  const LaneMatrix& phi_3() const { return phi_3_; }
 
  private:
-  void polynomials();
-  void double_argument();
+  void take_memory(int n);
+  void polynomials(Level& level);
+  void double_argument(const Level& half, Level& whole);
   void restore_units(LaneMatrix& A) const;
+  void set_units(const Eigen::ArrayXd& scale);
 
-  int parts_ = 1;
-  Eigen::ArrayXd scale_;  // D
-  LaneMatrix Y_, Y2_, Y3_, E_, E_part_, E_half_, phi_[3], next_[3];
+  int doublings_ = 0;
+  LaneMatrix unit_;  // D_i / D_j
+  std::vector<Level> levels_;
+  LaneMatrix Y_, Y2_, Y3_, phi_3_, next_;
 };
 
 }  // namespace halyard

@@ -1,5 +1,6 @@
 #include "estimators/process/exponential_step.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace halyard {
@@ -48,28 +49,24 @@ bool ExponentialStep::start(const Step& step, const Eigen::VectorXd& x, const Ei
   return usable_;
 }
 
-void ExponentialStep::evaluate_around(const Step& at, const Eigen::VectorXd& x, const LaneMatrix& d, Rates& rates) {
-  rates.points.resize(x.size(), d.columns() + 1);
-  rates.points.col(0) = x;
-  rates.points.rightCols(d.columns()) = d.view().colwise() + x;
-  rates.x_dot.resize(rates.points.rows(), rates.points.cols());
-  process_.derivatives(at, rates.points, rates.x_dot);
-}
-
-void ExponentialStep::set_nonlinear_part(const Rates& rates, const LaneMatrix& d, LaneMatrix& N) {
+void ExponentialStep::set_nonlinear_part(const Step& at, const Eigen::Ref<const Eigen::VectorXd>& x,
+                                         const Eigen::VectorXd& f, const LaneMatrix& d, LaneMatrix& N) {
+  points_.set_zero(d.rows(), d.columns());
+  points_.view() = d.view().colwise() + x;
   N.set_zero(d.rows(), d.columns());
-  N.view() = step_.dt_s * (rates.x_dot.rightCols(d.columns()).colwise() - rates.x_dot.col(0));
+  auto h_N = N.view();
+  process_.derivatives(at, points_.view(), h_N);
+  h_N = step_.dt_s * (h_N.colwise() - f);
   add_product(minus_Z_, d.view(), N);
 }
 
 bool ExponentialStep::respond(const Eigen::MatrixXd& G, Eigen::Ref<Eigen::MatrixXd> Gamma) {
   if (!usable_) return false;
-  set_product(phi_.E_half(), G, d_);
+  set_product(phi_.level(1).E, G, d_);
   d_.view() = 4 * d_.view() + G;
   add_product(phi_.E(), G, d_);
   d_.view() /= 6;
-  evaluate_around(end_, x_2_, d_, forces_);
-  set_nonlinear_part(forces_, d_, N_);
+  set_nonlinear_part(end_, x_2_, f_2_, d_, N_);
   set_product(phi_.phi_2(), N_.view(), change_);
   if (!small_change(change_, d_, kHeldForceTolerance)) return false;
   Gamma = d_.view() + change_.view();
@@ -90,23 +87,50 @@ bool ExponentialStep::advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd&
   return true;
 }
 
-void ExponentialStep::set_mean_shift(const Eigen::VectorXd& first, const Eigen::VectorXd& last) {
-  const int parts = phi_.parts();
-  const auto E = phi_.E_part().view();
-  shift_.setZero(first.size());
-  ratio_ = (first.array() * last.array() > 0 && last.array().abs() < first.array().abs())
-               .select(last.array() / first.array(), 1.0);
-  // The straight line lacks nothing at both ends of the step.
-  for (int i = 1; i < parts; ++i) {
-    const double s = static_cast<double>(i) / parts;
-    part_.noalias() = E * shift_;
-    shift_ = part_;
-    for (Eigen::Index k = 0; k < shift_.size(); ++k)
-      if (ratio_(k) < 1)
-        shift_(k) += (first(k) * std::pow(ratio_(k), s) - (first(k) + s * (last(k) - first(k)))) / parts;
+void ExponentialStep::set_variances() {
+  const int levels = phi_.doublings(), half = d_.columns() / 2;
+  variance_.resize(d_.rows(), PhiFunctions::kMostDoublings + 2);
+  variance_.col(0) = d_.view().leftCols(half).rowwise().squaredNorm();
+  for (int k = levels; k > 0; --k) {
+    set_product(phi_.level(k).E, d_.view().leftCols(half), change_);
+    variance_.col(levels + 1 - k) = change_.view().rowwise().squaredNorm();
   }
-  part_.noalias() = E * shift_;
-  shift_ = part_;
+  variance_.col(levels + 1) = d_2_.view().leftCols(half).rowwise().squaredNorm();
+}
+
+void ExponentialStep::set_mean_shift() {
+  const int levels = phi_.doublings(), n = d_.rows();
+  set_variances();
+  part_.resize(n);
+  change_of_m_.resize(n);
+  shift_.setZero(n);
+  // From node to node: shift_ is the integral up to the left one.
+  for (int node = 0; node <= levels; ++node) {
+    const int k = node == 0 ? levels : levels + 1 - node;
+    const double share = std::exp2(-k), left = node == 0 ? 0 : share, right = node == 0 ? share : 2 * share;
+    for (int i = 0; i < n; ++i) {
+      const double drop = first_(i) - last_(i), fall = variance_(i, 0) - variance_(i, levels + 1);
+      double at_left = 1 - left, at_right = 1 - right, bump = 0;
+      if (fall > 0) {
+        const double a = variance_(i, node), b = variance_(i, node + 1);
+        at_left = std::clamp((a - variance_(i, levels + 1)) / fall, 0.0, 1.0);
+        at_right = std::clamp((b - variance_(i, levels + 1)) / fall, 0.0, 1.0);
+        bump = std::min(2.0 / 3 * (0.5 * (a + b) - std::sqrt(a * b)) / fall, std::max(at_left, at_right));
+      }
+      part_(i) = last_(i) + drop * (at_left - bump);
+      change_of_m_(i) = drop * (at_right - at_left);
+    }
+    const PhiFunctions::Level& level = phi_.level(k);
+    if (node > 0) {
+      next_shift_.noalias() = level.E.view() * shift_;
+      shift_.swap(next_shift_);
+    }
+    shift_.noalias() += share * (level.phi_1.view() * part_);
+    shift_.noalias() += share * (level.phi_2.view() * change_of_m_);
+  }
+  shift_.noalias() -= phi_.phi_1().view() * first_;
+  part_ = last_ - first_;
+  shift_.noalias() -= phi_.phi_2().view() * part_;
 }
 
 bool ExponentialStep::advance(Eigen::MatrixXd& X) {
@@ -114,16 +138,13 @@ bool ExponentialStep::advance(Eigen::MatrixXd& X) {
   const int n = static_cast<int>(X.rows()), count = static_cast<int>(X.cols()) - 1;
   d_.set_zero(n, count);
   d_.view() = X.rightCols(count).colwise() - X.col(0);
-  deviations_.x_dot.resize(n, count + 1);
-  process_.derivatives(step_, X, deviations_.x_dot);
-  set_nonlinear_part(deviations_, d_, N_);
+  set_nonlinear_part(step_, X.col(0), f_, d_, N_);
   set_product(phi_.E(), d_.view(), d_2_);
   add_product(phi_.phi_1(), N_.view(), d_2_);
-  evaluate_around(end_, x_2_, d_2_, deviations_);
-  set_nonlinear_part(deviations_, d_2_, N_2_);
+  set_nonlinear_part(end_, x_2_, f_2_, d_2_, N_2_);
   first_ = N_.view().rowwise().mean();
   last_ = N_2_.view().rowwise().mean();
-  set_mean_shift(first_, last_);
+  set_mean_shift();
   N_2_.view() -= N_.view();
   set_product(phi_.phi_2(), N_2_.view(), change_);
   if (!small_change(change_, d_2_, kDeviationTolerance)) return false;

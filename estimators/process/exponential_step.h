@@ -18,10 +18,14 @@
 ///   c      error estimate of x_2                         [n_states]
 ///   G      impulses of force noise (noise.h)             [n_states x sources]
 ///
-/// The mean of N over a pair of sigma points is the curvature of f. At rest it decays within the step, twice as fast as
-/// the stiffest deviations, so that a straight line from m(0) to m(h) overstates its part in x⁺ 17 times for h λ = 4.4.
-/// The integral takes m(s) = m(0) (m(h) / m(0))^(s/h) where |m| decreases without changing its sign, else a straight
-/// line; it is computed by the trapezoidal rule over the parts of h of phi_functions.h.
+/// The mean of N over a pair of sigma points is the curvature of f, half the second derivative times the variance of
+/// what is curved. At rest it falls within the step, as the square of the stiffest deviations, to what the slow ones
+/// leave: a straight line from m(0) to m(h) overstates its part in x⁺ 17 times for h λ = 4.4. The integral takes
+///
+///   m_i(s) = m_i(h) + (m_i(0) - m_i(h)) (V_i(s) - V_i(h)) / (V_i(0) - V_i(h)),   V_i(s) = Σ (exp(A s) d)_i²
+///
+/// where V_i falls, else the straight line. It goes over [0, h / 2^s], [h / 2^s, 2 h / 2^s], ..., [h / 2, h] by the
+/// functions of phi_functions.h, with Simpson's mean of V in each, its middle being the geometric mean of the ends.
 ///
 /// Γ_0 is the response of the linearised model to a force that is held over the step; Γ Γᵀ replaces Van Loan's
 /// integral, which is for white noise. Simpson's rule keeps it equal to what the sub-steps give where the model is linear.
@@ -58,28 +62,27 @@ class ExponentialStep {
   bool respond(const Eigen::MatrixXd& G, Eigen::Ref<Eigen::MatrixXd> Gamma);
   /// As ProcessModel::advance_with_jacobian() at the x of start(); false: refused, nothing has changed.
   bool advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F);
-  /// As ProcessModel::advance_many(); the first of the points X is the x of start(). False: refused, X is as before.
+  /// As ProcessModel::advance_many(). The points X: the x of start(), all x + d_i, all x - d_i. False: refused, X is as
+  /// before.
   bool advance(Eigen::MatrixXd& X);
 
  private:
-  /// x and x + d for every column of deviations d, and x' there.
-  struct Rates {
-    Eigen::MatrixXd points, x_dot;
-  };
-  void evaluate_around(const Step& at, const Eigen::VectorXd& x, const LaneMatrix& d, Rates& rates);
-  /// h N of every column d.
-  void set_nonlinear_part(const Rates& rates, const LaneMatrix& d, LaneMatrix& N);
-  /// ∫ exp(A (h - s)) (m(s) - its straight line) ds, in shift_; first and last: h m(0), h m(h).
-  void set_mean_shift(const Eigen::VectorXd& first, const Eigen::VectorXd& last);
+  /// h N of every column d, at the state x with the rates f.
+  void set_nonlinear_part(const Step& at, const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::VectorXd& f,
+                          const LaneMatrix& d, LaneMatrix& N);
+  /// V(0) to V(h) at the nodes 0, h / 2^s, ..., h / 2, h, in variance_.
+  void set_variances();
+  /// ∫ exp(A (h - s)) (m(s) - its straight line) ds, in shift_.
+  void set_mean_shift();
 
   const ProcessModel& process_;
   Step step_, end_;
   bool usable_ = false;
-  Eigen::VectorXd f_, f_2_, x_2_, next_, D_, c_, first_, last_, shift_, part_;
-  Eigen::ArrayXd ratio_;  // m(h) / m(0); 1 where the straight line stays
+  Eigen::VectorXd f_, f_2_, x_2_, next_, D_, c_, shift_, next_shift_, part_, change_of_m_;
+  Eigen::VectorXd first_, last_;  // h m(0), h m(h)
+  Eigen::MatrixXd variance_;      // V at the nodes
   Eigen::MatrixXd A_, A_2_, Z_;
-  Rates forces_, deviations_;
-  LaneMatrix minus_Z_, spread_, d_, d_2_, N_, N_2_, change_;
+  LaneMatrix minus_Z_, spread_, points_, d_, d_2_, N_, N_2_, change_;
   PhiFunctions phi_;
 };
 
