@@ -23,8 +23,11 @@ Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, co
   check_measurement(innovation.nu);
   auto array = array_root_.start(m + n, m + n);  // transposed
   array.topLeftCorner(m, m) = R_root.transpose();
-  array.bottomLeftCorner(n, m).noalias() = S_.transpose() * H_.view().transpose();
-  array.bottomRightCorner(n, n) = S_.transpose();
+  const auto H = H_.view();
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < n; ++i) array(m + i, j) = H.row(j).dot(S_.col(i));
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) array(m + i, m + j) = S_(j, i);
   triangle_.set_zero(m + n, m + n);
   const auto triangle = triangle_.view();
   array_root_.finish(triangle);

@@ -55,7 +55,9 @@ class LowerRoot {
   /// L of the matrix that was filled in; destroys it.
   void finish(Eigen::Ref<Eigen::MatrixXd> L);
   void compute(const Eigen::Ref<const Eigen::MatrixXd>& A, Eigen::Ref<Eigen::MatrixXd> L) {
-    start(static_cast<int>(A.rows()), static_cast<int>(A.cols())) = A.transpose();
+    auto columns = start(static_cast<int>(A.rows()), static_cast<int>(A.cols()));
+    for (Eigen::Index r = 0; r < A.rows(); ++r)
+      for (Eigen::Index c = 0; c < A.cols(); ++c) columns(c, r) = A(r, c);
     finish(L);
   }
 

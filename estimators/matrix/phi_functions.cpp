@@ -44,12 +44,10 @@ void PhiFunctions::polynomials(Level& level) {
   const int n = Y_.rows();
   set_product(Y_, Y_.view(), Y2_);
   set_product(Y2_, Y_.view(), Y3_);
-  const auto Y = Y_.view(), Y2 = Y2_.view();
   const auto quadratic = [&](LaneMatrix& sum, double c_0, double c_1, double c_2) {
     sum.set_zero(n, n);
-    auto S = sum.view();
-    S = c_1 * Y + c_2 * Y2;
-    S.diagonal().array() += c_0;
+    sum.set_lanes([&](std::size_t i) { return c_1 * Y_.lanes()[i] + c_2 * Y2_.lanes()[i]; });
+    sum.view().diagonal().array() += c_0;
   };
   // 1 / k! of k = 3 to 11, by Horner's scheme in Y³.
   quadratic(next_, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800);
@@ -68,21 +66,22 @@ void PhiFunctions::polynomials(Level& level) {
 }
 
 void PhiFunctions::double_argument(const Level& half, Level& whole) {
-  next_.set_zero(Y_.rows(), Y_.rows());
-  next_.view() = 0.125 * (0.5 * half.phi_1.view() + half.phi_2.view() + phi_3_.view());
-  Y_.view() = 0.125 * phi_3_.view();
-  add_product(half.E, Y_.view(), next_);
-  std::swap(next_, phi_3_);
-  whole.phi_2.view() = half.phi_1.view() + half.phi_2.view();
-  add_product(half.E, half.phi_2.view(), whole.phi_2);
-  whole.phi_2.view() *= 0.25;
-  whole.phi_1.view() = half.phi_1.view();
-  add_product(half.E, half.phi_1.view(), whole.phi_1);
-  whole.phi_1.view() *= 0.5;
+  const Lanes *phi_1 = half.phi_1.lanes(), *phi_2 = half.phi_2.lanes();
+  next_.set_lanes([&](std::size_t i) { return 0.5 * phi_1[i] + phi_2[i] + phi_3_.lanes()[i]; });
+  add_product(half.E, phi_3_.view(), next_);
+  phi_3_.set_lanes([&](std::size_t i) { return 0.125 * next_.lanes()[i]; });
+  next_.set_lanes([&](std::size_t i) { return phi_1[i] + phi_2[i]; });
+  add_product(half.E, half.phi_2.view(), next_);
+  whole.phi_2.set_lanes([&](std::size_t i) { return 0.25 * next_.lanes()[i]; });
+  next_.set_lanes([&](std::size_t i) { return phi_1[i]; });
+  add_product(half.E, half.phi_1.view(), next_);
+  whole.phi_1.set_lanes([&](std::size_t i) { return 0.5 * next_.lanes()[i]; });
   set_product(half.E, half.E.view(), whole.E);
 }
 
-void PhiFunctions::restore_units(LaneMatrix& A) const { A.view().array() *= unit_.view().array(); }
+void PhiFunctions::restore_units(LaneMatrix& A) const {
+  A.set_lanes([&](std::size_t i) { return A.lanes()[i] * unit_.lanes()[i]; });
+}
 
 bool PhiFunctions::compute(const Eigen::Ref<const Eigen::MatrixXd>& Z) {
   constexpr double kMostNorm = 0.5;

@@ -9,12 +9,18 @@ namespace {
 constexpr double kMeanTolerance = 0.05;       // of a standard deviation
 constexpr double kDeviationTolerance = 0.2;   // of the deviations
 constexpr double kHeldForceTolerance = 0.05;  // of the response
+constexpr int kMostBlocks = (kMaxStates + kLaneWidth - 1) / kLaneWidth;
 
 /// ‖row of change‖ <= tolerance ‖row of whole‖ for all rows; false if one is not finite.
 bool small_change(const LaneMatrix& change, const LaneMatrix& whole, double tolerance) {
-  return (change.view().rowwise().squaredNorm().array() <=
-          tolerance * tolerance * whole.view().rowwise().squaredNorm().array())
-      .all();
+  Lanes of_change[kMostBlocks], of_whole[kMostBlocks];
+  set_row_squares(change, change.columns(), of_change);
+  set_row_squares(whole, whole.columns(), of_whole);
+  for (int r = 0; r < change.rows(); ++r) {
+    const int block = r / kLaneWidth, lane = r % kLaneWidth;
+    if (!(of_change[block][lane] <= tolerance * tolerance * of_whole[block][lane])) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -44,8 +50,10 @@ bool ExponentialStep::start(const Step& step, const Eigen::VectorXd& x, const Ei
   c_.noalias() = (2 * h) * (phi_.phi_3().view() * D_);
   next_ = x_2_ + c_;
   set_product(phi_.E(), S, spread_);
-  usable_ =
-      (c_.array().square() <= kMeanTolerance * kMeanTolerance * spread_.view().rowwise().squaredNorm().array()).all();
+  Lanes squares[kMostBlocks];
+  set_row_squares(spread_, spread_.columns(), squares);
+  for (int i = 0; i < c_.size(); ++i)
+    usable_ &= c_(i) * c_(i) <= kMeanTolerance * kMeanTolerance * squares[i / kLaneWidth][i % kLaneWidth];
   return usable_;
 }
 
@@ -89,18 +97,20 @@ bool ExponentialStep::advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd&
 
 void ExponentialStep::set_variances() {
   const int levels = phi_.doublings(), half = d_.columns() / 2;
-  variance_.resize(d_.rows(), PhiFunctions::kMostDoublings + 2);
-  variance_.col(0) = d_.view().leftCols(half).rowwise().squaredNorm();
+  variance_.set_zero(d_.rows(), levels + 2);
+  const auto at = [&](int node) { return variance_.lanes() + node * variance_.blocks(); };
+  set_row_squares(d_, half, at(0));
   for (int k = levels; k > 0; --k) {
     set_product(phi_.level(k).E, d_.view().leftCols(half), change_);
-    variance_.col(levels + 1 - k) = change_.view().rowwise().squaredNorm();
+    set_row_squares(change_, half, at(levels + 1 - k));
   }
-  variance_.col(levels + 1) = d_2_.view().leftCols(half).rowwise().squaredNorm();
+  set_row_squares(d_2_, half, at(levels + 1));
 }
 
 void ExponentialStep::set_mean_shift() {
   const int levels = phi_.doublings(), n = d_.rows();
   set_variances();
+  const auto variance = variance_.view();
   part_.resize(n);
   change_of_m_.resize(n);
   shift_.setZero(n);
@@ -109,12 +119,12 @@ void ExponentialStep::set_mean_shift() {
     const int k = node == 0 ? levels : levels + 1 - node;
     const double share = std::exp2(-k), left = node == 0 ? 0 : share, right = node == 0 ? share : 2 * share;
     for (int i = 0; i < n; ++i) {
-      const double drop = first_(i) - last_(i), fall = variance_(i, 0) - variance_(i, levels + 1);
+      const double drop = first_(i) - last_(i), fall = variance(i, 0) - variance(i, levels + 1);
       double at_left = 1 - left, at_right = 1 - right, bump = 0;
       if (fall > 0) {
-        const double a = variance_(i, node), b = variance_(i, node + 1);
-        at_left = std::clamp((a - variance_(i, levels + 1)) / fall, 0.0, 1.0);
-        at_right = std::clamp((b - variance_(i, levels + 1)) / fall, 0.0, 1.0);
+        const double a = variance(i, node), b = variance(i, node + 1);
+        at_left = std::clamp((a - variance(i, levels + 1)) / fall, 0.0, 1.0);
+        at_right = std::clamp((b - variance(i, levels + 1)) / fall, 0.0, 1.0);
         bump = std::min(2.0 / 3 * (0.5 * (a + b) - std::sqrt(a * b)) / fall, std::max(at_left, at_right));
       }
       part_(i) = last_(i) + drop * (at_left - bump);
@@ -145,11 +155,11 @@ bool ExponentialStep::advance(Eigen::MatrixXd& X) {
   first_ = N_.view().rowwise().mean();
   last_ = N_2_.view().rowwise().mean();
   set_mean_shift();
-  N_2_.view() -= N_.view();
+  N_2_.set_lanes([&](std::size_t i) { return N_2_.lanes()[i] - N_.lanes()[i]; });
   set_product(phi_.phi_2(), N_2_.view(), change_);
   if (!small_change(change_, d_2_, kDeviationTolerance)) return false;
   X.col(0) = next_;
-  d_2_.view() += change_.view();
+  d_2_.set_lanes([&](std::size_t i) { return d_2_.lanes()[i] + change_.lanes()[i]; });
   d_2_.view().colwise() += shift_;
   X.rightCols(count) = d_2_.view().colwise() + next_;
   return true;

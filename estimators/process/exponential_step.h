@@ -80,9 +80,9 @@ class ExponentialStep {
   bool usable_ = false;
   Eigen::VectorXd f_, f_2_, x_2_, next_, D_, c_, shift_, next_shift_, part_, change_of_m_;
   Eigen::VectorXd first_, last_;  // h m(0), h m(h)
-  Eigen::MatrixXd variance_;      // V at the nodes
   Eigen::MatrixXd A_, A_2_, Z_;
   LaneMatrix minus_Z_, spread_, points_, d_, d_2_, N_, N_2_, change_;
+  LaneMatrix variance_;           // V at the nodes
   PhiFunctions phi_;
 };
 
