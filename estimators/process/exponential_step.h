@@ -82,7 +82,7 @@ class ExponentialStep {
   Eigen::VectorXd first_, last_;  // h m(0), h m(h)
   Eigen::MatrixXd A_, A_2_, Z_;
   LaneMatrix minus_Z_, spread_, points_, d_, d_2_, N_, N_2_, change_;
-  LaneMatrix variance_;           // V at the nodes
+  LaneMatrix variance_;  // V at the nodes
   PhiFunctions phi_;
 };
 
