@@ -28,8 +28,8 @@ void ArmPlant::derivative(double time_s, const double* y, double* y_dot) {
   chain_->derivative(time_s, y, y_dot);
 }
 
-void ArmPlant::jacobian(double time_s, const double* y, Eigen::Ref<Eigen::MatrixXd> J) {
-  chain_->jacobian(time_s, y, J);
+void ArmPlant::jacobian(double time_s, const double* y, const double* y_dot, Eigen::Ref<Eigen::MatrixXd> J) {
+  chain_->jacobian(time_s, y, y_dot, J);
 }
 
 void ArmPlant::derivative_of_terms(DriveTerms terms, double time_s, const double* y, double* y_dot) {

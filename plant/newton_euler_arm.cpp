@@ -60,17 +60,12 @@ class NewtonEulerArm : public RigidArm {
   }
 
   /// From (M + M_rotors) q'' + h = F: M ∂q'' = ∂F - ∂(M q'' + h) at fixed q''. Rotors have a constant M_rotors.
-  void jacobian(double time_s, const double* y, Eigen::Ref<Eigen::MatrixXd> J) override {
+  void jacobian(double time_s, const double* y, const double* y_dot, Eigen::Ref<Eigen::MatrixXd> J) override {
     const int n = arm().n, n_z = drive_.layout().n_z;
-    const double *q = y, *v = y + n, *z = y + 2 * n;
-    drive_.slopes(DriveTerms::all, time_s, q, v, z, slopes_);
-    double a[kMaxJoints], z_dot[kMaxAuxiliaryStates];
-    drive_.rates(DriveTerms::all, time_s, q, v, z, a, z_dot);
+    drive_.slopes(DriveTerms::all, time_s, y, y + n, y + 2 * n, slopes_);
+    slopes_.topLeftCorner(n, 2 * n) -= force_slopes(y, y_dot + n);
     SquareOfJoints M;
-    const ChainPose<double> pose = chain_pose(arm(), q);
-    factor_mass(arm(), pose, M);
-    accelerate(arm(), pose, M, v, a);
-    slopes_.topLeftCorner(n, 2 * n) -= force_slopes(y, a);
+    factor_mass(arm(), chain_pose(arm(), y), M);
 
     J.topLeftCorner(n, n).setZero();
     J.block(0, n, n, n).setIdentity();

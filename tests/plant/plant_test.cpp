@@ -8,55 +8,16 @@
 #include <random>
 
 #include "estimators/process/arm_dynamics.h"
-#include "model/model_file.h"
 #include "plant/equilibrium.h"
-#include "plant/integrators/integrator.h"
-#include "plant/simulate.h"
+#include "tests/support/plant_states.h"
 
 namespace halyard {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-ArmModel raven2() { return read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml"); }
-
-PlacedEffect placed(const std::string& name, const ArmParameters<double>& arm, EffectPlace joint) {
-  return place_effect(*find_effect(name), arm, joint);
-}
-
-/// One link that turns about a horizontal axis, its mass at a distance below it.
-ArmParameters<double> pendulum(double mass, double length) {
-  ArmParameters<double> arm;
-  arm.n = 1;
-  arm.gravity[0] = 9.81;
-  JointParameters<double>& j = arm.joint[0];
-  j.drive = Drive::none;
-  j.coupling[0] = 1;
-  j.mass = mass;
-  j.com[0] = length;
-  for (int i = 0; i < 3; ++i) j.inertia[i] = 1e-12;  // a point, as nearly as Simbody takes one
-  return arm;
-}
-
-Eigen::VectorXd random_state(const ArmPlant& plant, std::mt19937_64& random) {
-  std::uniform_real_distribution<double> unit(-1, 1);
-  const PlantLayout& l = plant.layout();
-  const ArmParameters<double>& arm = plant.drive().arm();
-  Eigen::VectorXd y(l.size()), q(l.n), path(l.n);
-  for (int i = 0; i < l.size(); ++i) y(i) = unit(random);
-  if (l.n > 2) y(2) = 0.4 + 0.1 * y(2);
-  cable_path(arm, y.data(), path.data());
-  for (int k = 0; k < l.n; ++k) {  // a millimetre of stretch, motors at speed
-    if (!l.motor_angle[k]) continue;
-    y(2 * l.n + *l.motor_angle[k]) = (path(k) + 1e-3 * unit(random)) / arm.joint[k].motor_travel();
-    y(2 * l.n + *l.motor_rate[k]) = 30 * unit(random);
-  }
-  for (int i = 0; i < l.n_effect_states; ++i) y(2 * l.n + l.effect_states + i) *= 1e-4;
-  return y;
-}
-
 TEST(ArmPlant, GivesTheCheckValuesOfTheIndependentDerivationToThePrintedDigits) {
-  ArmPlant plant(raven2().nominal);
+  ArmPlant plant(nominal_raven2().nominal);
   const Eigen::Vector3d q(30 * kDegree, 90 * kDegree, 0.40), v(0.5, -0.4, 0.1);
   const Eigen::MatrixXd M = plant.mass_matrix(q);
   // Half a unit of the last digit printed.
@@ -76,7 +37,7 @@ TEST(ArmPlant, GivesTheCheckValuesOfTheIndependentDerivationToThePrintedDigits) 
 }
 
 TEST(ArmPlant, HasTheRigidChainOfTheProcessModel) {
-  const ArmParameters<double> arm = raven2().nominal;
+  const ArmParameters<double> arm = nominal_raven2().nominal;
   ArmPlant plant(arm);
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(-3, 3);
@@ -135,17 +96,17 @@ void expect_process_model(const ArmParameters<double>& arm, const std::vector<Pl
   }
 }
 
-TEST(ArmPlant, MovesAsTheProcessModelOfTheNominalArm) { expect_process_model(raven2().nominal, {}); }
+TEST(ArmPlant, MovesAsTheProcessModelOfTheNominalArm) { expect_process_model(nominal_raven2().nominal, {}); }
 
 TEST(ArmPlant, MovesAsTheProcessModelWithEffects) {
-  const ArmParameters<double> arm = raven2().nominal;
+  const ArmParameters<double> arm = nominal_raven2().nominal;
   expect_process_model(arm,
                        {placed("payload", arm, kWholeArm), placed("hysteresis", arm, 2), placed("backlash", arm, 1),
                         placed("pulley_friction", arm, 0), placed("hysteresis", arm, 0)});
 }
 
 TEST(ArmPlant, MovesAsTheProcessModelWithRigidAndMissingDrives) {
-  ArmParameters<double> arm = raven2().nominal;
+  ArmParameters<double> arm = nominal_raven2().nominal;
   arm.joint[1].drive = Drive::rigid;  // coupled: its rotor couples joints 1 and 2
   expect_process_model(arm, {});
   arm.joint[0].drive = Drive::rigid;
@@ -162,7 +123,7 @@ ArmParameters<double> random_arm(int n, std::mt19937_64& random) {
   arm.n = n;
   for (int k = 0; k < n; ++k) {
     JointParameters<double>& j = arm.joint[k];
-    j = raven2().nominal.joint[k % 3];
+    j = nominal_raven2().nominal.joint[k % 3];
     std::fill(std::begin(j.coupling), std::end(j.coupling), 0.0);
     for (int i = 0; i < k; ++i) j.coupling[i] = unit(random) - 0.5;
     j.coupling[k] = 1;
@@ -216,7 +177,9 @@ TEST(ArmPlant, HasTheExactJacobianOnItsOwnChain) {
     const Eigen::VectorXd y = random_state(plant, random);
     const auto size = y.size();
     Eigen::MatrixXd J(size, size);
-    plant.jacobian(0, y.data(), J);
+    Eigen::VectorXd rate(size);
+    plant.derivative(0, y.data(), rate.data());
+    plant.jacobian(0, y.data(), rate.data(), J);
     for (Eigen::Index c = 0; c < size; ++c) {
       const double d = 1e-6;
       Eigen::VectorXd above = y, below = y, rate_above(size), rate_below(size);
@@ -231,110 +194,8 @@ TEST(ArmPlant, HasTheExactJacobianOnItsOwnChain) {
   }
 }
 
-TEST(ArmPlant, SplitsOffTheCablesAndTheFrictionOfAllAxes) {
-  ArmParameters<double> arm = raven2().nominal, free = arm;
-  for (int k = 0; k < 3; ++k) {
-    JointParameters<double>& j = free.joint[k];
-    j.stiffness = j.damping = j.joint_coulomb = j.joint_viscous = j.motor_coulomb = j.motor_viscous = 0;
-  }
-  ArmPlant plant(arm), without(free);
-  std::mt19937_64 random(3);
-  for (int trial = 0; trial < 20; ++trial) {
-    const Eigen::VectorXd y = random_state(plant, random);
-    Eigen::VectorXd all(y.size()), rest(y.size()), part(y.size());
-    plant.derivative(0, y.data(), all.data());
-    without.derivative(0, y.data(), rest.data());
-    plant.derivative_of_terms(DriveTerms::cables_and_friction, 0, y.data(), part.data());
-    for (int i = 3; i < 6; ++i) EXPECT_NEAR(part(i), all(i) - rest(i), 1e-9 * (1 + std::abs(all(i))));
-    for (int k = 0; k < 3; ++k) {
-      const int i = 6 + *plant.layout().motor_rate[k];
-      EXPECT_NEAR(part(i), all(i) - rest(i), 1e-9 * (1 + std::abs(all(i))));
-    }
-  }
-}
-
-TEST(ArmPlant, SplitsOffTheFirstCable) {
-  ArmParameters<double> arm = raven2().nominal, free = arm;
-  free.joint[0].stiffness = free.joint[0].damping = 0;
-  ArmPlant plant(arm), without(free);
-  std::mt19937_64 random(4);
-  const Eigen::VectorXd y = random_state(plant, random);
-  Eigen::VectorXd all(y.size()), rest(y.size()), part(y.size());
-  plant.derivative(0, y.data(), all.data());
-  without.derivative(0, y.data(), rest.data());
-  plant.derivative_of_terms(DriveTerms::first_cable, 0, y.data(), part.data());
-  for (int i = 3; i < y.size() - 2; ++i) {
-    const bool angle_of_other_motor = i >= 6 && (i - 6) % 2 == 0;
-    if (angle_of_other_motor) continue;
-    EXPECT_NEAR(part(i), all(i) - rest(i), 1e-9 * (1 + std::abs(all(i)))) << i;
-  }
-}
-
-TEST(DriveTrain, SlopesAreTheDerivativesOfItsRates) {
-  const ArmParameters<double> arm = raven2().nominal;
-  ArmPlant plant(arm, {placed("hysteresis", arm, 1), placed("pulley_friction", arm, 2)});
-  const DriveTrain& drive = plant.drive();
-  const int n = 3, rows = n + drive.layout().n_z;
-  std::mt19937_64 random(5);
-  Eigen::VectorXd y = random_state(plant, random);
-  y.segment(n, n) *= 1e-2;  // into the reach of the friction's slope
-  for (const DriveTerms terms : {DriveTerms::all, DriveTerms::cables_and_friction, DriveTerms::first_cable}) {
-    Eigen::MatrixXd slopes;
-    drive.slopes(terms, 0, y.data(), y.data() + n, y.data() + 2 * n, slopes);
-    for (int c = 0; c < y.size(); ++c) {
-      const double step = 1e-7;
-      Eigen::VectorXd rates[2];
-      for (int side = 0; side < 2; ++side) {
-        Eigen::VectorXd at = y;
-        at(c) += (side ? step : -step);
-        rates[side].resize(rows);
-        drive.rates(terms, 0, at.data(), at.data() + n, at.data() + 2 * n, rates[side].data(), rates[side].data() + n);
-      }
-      const Eigen::VectorXd difference = (rates[1] - rates[0]) / (2 * step);
-      // Central differences: rounding eps·|rate| / step ~ 1e-4, curvature of tanh step²·slope / v_s² ~ 1e-9 relative.
-      for (int r = 0; r < rows; ++r)
-        EXPECT_NEAR(slopes(r, c), difference(r), 1e-3 + 1e-5 * std::abs(slopes(r, c))) << r << ", " << c;
-    }
-  }
-}
-
-TEST(DriveTrain, LosesEnergyInFrictionAndInCableDampingAlone) {
-  const ArmParameters<double> arm = raven2().nominal;
-  ArmPlant plant(arm);
-  std::mt19937_64 random(6);
-  for (int trial = 0; trial < 20; ++trial) {
-    const Eigen::VectorXd y = random_state(plant, random);
-    Eigen::VectorXd y_dot(y.size());
-    plant.derivative(0, y.data(), y_dot.data());
-    JointSignals<double> s[kMaxJoints];
-    plant.drive().signals(0, y.data(), y.data() + 3, y.data() + 6, s);
-    double lost = 0, scale = 0;
-    for (int k = 0; k < 3; ++k) {
-      const JointParameters<double>& j = arm.joint[k];
-      lost += friction(j.motor_coulomb, j.motor_viscous, j.motor_smoothing, s[k].motor_rate) * s[k].motor_rate;
-      lost += friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, s[k].joint_rate) * s[k].joint_rate;
-      lost += 2 * j.damping * s[k].stretch_rate * s[k].stretch_rate;
-      scale += std::abs(s[k].cable_force_joint * j.motor_travel() * s[k].motor_rate) +
-               std::abs(s[k].cable_force_joint * j.pulley_radius * s[k].joint_rate);
-    }
-    // Both sides are sums of powers of this size, with some ten roundings.
-    EXPECT_NEAR(y_dot(6 + plant.layout().lost_energy), lost, 1e-14 * scale);
-  }
-}
-
-TEST(DriveTrain, RefusesACableOnAMotorWithoutInertia) {
-  ArmParameters<double> arm = raven2().nominal;
-  arm.joint[1].rotor_inertia = 0;
-  try {
-    ArmPlant plant(arm);
-    FAIL() << "took it";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "joint 2: a motor that drives a cable needs a rotor inertia above 0");
-  }
-}
-
 TEST(ArmPlant, RefusesAnInertiaThatNoBodyHas) {
-  ArmParameters<double> arm = raven2().nominal;
+  ArmParameters<double> arm = nominal_raven2().nominal;
   arm.joint[2].inertia[0] = 1;
   try {
     ArmPlant plant(arm);
@@ -346,7 +207,7 @@ TEST(ArmPlant, RefusesAnInertiaThatNoBodyHas) {
 }
 
 TEST(RestingState, LeavesTheJointsWithoutAcceleration) {
-  const ArmModel model = raven2();
+  const ArmModel model = nominal_raven2();
   for (const char* effect : {"", "backlash", "hysteresis", "pulley_friction", "stiffness"}) {
     std::vector<PlacedEffect> effects;
     if (*effect) effects = {placed(effect, model.nominal, 1)};
@@ -358,63 +219,6 @@ TEST(RestingState, LeavesTheJointsWithoutAcceleration) {
     EXPECT_LT(y_dot.segment(3, 3).cwiseAbs().maxCoeff(), 1e-8) << effect;
     EXPECT_EQ(y.segment(3, 3).norm(), 0) << effect;
   }
-}
-
-TEST(Integration, OfAPendulumReturnsAfterThePeriodOfTheEllipticIntegral) {
-  const double length = 0.3, amplitude = 2.0;
-  ArmPlant plant(pendulum(0.5, length));
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(plant.layout().size());
-  y(0) = amplitude;
-  const double period = 4 * std::sqrt(length / 9.81) * std::comp_ellint_1(std::sin(amplitude / 2));
-  IntegratorOptions options;
-  options.relative_tolerance = 1e-8;
-  const auto integrator = make_integrator(plant, options, 0, y);
-  const double energy = plant.stored_energy(0, y.data());
-  integrator->advance(period / 2);
-  EXPECT_NEAR(integrator->state()(0), -amplitude, 1e-5);
-  integrator->advance(period);
-  // Local errors of 1e-8 over some hundred steps; the point's own inertia changes the period by 1e-11.
-  EXPECT_NEAR(integrator->state()(0), amplitude, 1e-5);
-  EXPECT_NEAR(plant.stored_energy(period, integrator->state().data()), energy, 1e-5);
-}
-
-TEST(Integration, OfARigidDriveCarriesTheRotorThroughTheSquareOfTheRatio) {
-  ArmParameters<double> arm = pendulum(0.5, 0.3);
-  arm.gravity[0] = 0;
-  JointParameters<double>& j = arm.joint[0];
-  j.drive = Drive::rigid;
-  j.rotor_inertia = 2e-5;
-  j.gear_ratio = 12;
-  j.capstan_radius = 0.006;
-  j.pulley_radius = 0.06;
-  ArmPlant plant(arm);
-  const double torque = 0.01, no_load = 0, ratio = 12 * 0.06 / 0.006, t = 0.5;
-  plant.set_inputs(0, &torque, &no_load);
-  const Eigen::VectorXd start = Eigen::VectorXd::Zero(plant.layout().size());
-  const auto integrator = make_integrator(plant, {}, 0, start);
-  integrator->advance(t);
-  const double inertia = 0.5 * 0.3 * 0.3 + 1e-12 + 2e-5 * ratio * ratio;
-  const Eigen::VectorXd& y = integrator->state();
-  // A parabola: a third-order method is exact up to rounding and the Newton tolerance.
-  EXPECT_NEAR(y(0), 0.5 * ratio * torque / inertia * t * t, 1e-6);
-  EXPECT_NEAR(y(2 + plant.layout().input_energy), torque * ratio * y(0), 1e-6);
-  EXPECT_NEAR(plant.stored_energy(t, y.data()), torque * ratio * y(0), 1e-6);
-}
-
-Scenario sines(double duration) {
-  Scenario s = read_scenario(HALYARD_SOURCE_DIR "/examples/raven2/experiment_a.xml");
-  s.duration_s = duration;
-  return s;
-}
-
-TEST(Simulation, ClosesTheEnergyBalance) {
-  Scenario scenario = sines(10);
-  scenario.integrator.relative_tolerance = 1e-8;
-  scenario.integrator.absolute_tolerance = 1e-11;
-  const EnergyBalance e = simulate(scenario).energy;
-  EXPECT_GT(e.input, 10);  // J; there is something to balance
-  EXPECT_GT(e.dissipated, 10);
-  EXPECT_NEAR(e.input - e.stored, e.dissipated, 1e-6 * e.input);
 }
 
 }  // namespace
