@@ -2,12 +2,14 @@
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
+#include <glog/logging.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for_each.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <mutex>
 
@@ -153,6 +155,13 @@ void add_situation_options(CLI::App& app, Options& options) {
   app.add_option("--arms", options.arms, fmt::format("{}", fmt::join(arm_words(), ", ")))->capture_default_str();
 }
 
+/// CLI::Range lets it pass.
+std::string not_nan(const std::string& text) {
+  double number = 0;
+  const bool is_nan = CLI::detail::lexical_cast(text, number) && std::isnan(number);
+  return is_nan ? text + ": expected a number" : "";
+}
+
 int run_command_line(int argc, char** argv) {
   CLI::App app("Blind trials of the diagnosis: the truth is hidden, diagnose() is asked.");
   Options options;
@@ -162,7 +171,7 @@ int run_command_line(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--seed", options.trial.seed, "seed of all")->capture_default_str();
   app.add_option("--outliers", options.trial.outliers, "share of the joint readings that are wrong")
-      ->check(CLI::Range(0.0, 0.5))
+      ->check(CLI::Range(0.0, 0.5) & CLI::Validator(not_nan, "", "a number"))
       ->capture_default_str();
   app.add_option("--out", options.out, "folder of the results");
   app.add_option("--logs", options.trial.logs,
@@ -188,4 +197,8 @@ int run_command_line(int argc, char** argv) {
 }  // namespace
 }  // namespace halyard::blind
 
-int main(int argc, char** argv) { return halyard::blind::run_command_line(argc, argv); }
+int main(int argc, char** argv) {
+  // Ceres writes to the log of why a fit gives up; what it came to is in the results.
+  FLAGS_minloglevel = google::GLOG_FATAL;
+  return halyard::blind::run_command_line(argc, argv);
+}

@@ -6,8 +6,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "estimators/process/arm_dynamics.h"
-#include "tests/support/arm_runs.h"
+#include "model/model_file.h"
 #include "tests/support/limits.h"
 
 namespace halyard {
@@ -15,7 +14,7 @@ namespace {
 
 class Raven2Chain : public ::testing::Test {
  protected:
-  const ArmParameters<double> arm = raven2().nominal;
+  const ArmParameters<double> arm = read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml").nominal;
   const double q[3] = {30 * M_PI / 180, 90 * M_PI / 180, 0.40};
   const double rest[3] = {0, 0, 0};
 };
