@@ -9,6 +9,7 @@
 ///   θ_b    baseline parameters, each kept within its tolerance; effects' parameters have bounds and no prior
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 
 #include "diagnosis/fit/evidence.h"
@@ -36,6 +37,12 @@ struct FitParameter {
 
 /// True for an effect's state at the start of a record (its past), which belongs to the data and not to the arm.
 inline bool is_past(const FitParameter& p) { return p.effect >= 0 && p.index >= kMaxEffectParameters; }
+/// Index of the parameter with the same effect and index, if there is one.
+inline std::optional<std::size_t> find_parameter(const std::vector<FitParameter>& parameters, const FitParameter& p) {
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (parameters[i].effect == p.effect && parameters[i].index == p.index) return i;
+  return {};
+}
 double parameter_value(const Hypothesis& h, const FitParameter& p);
 void set_parameter(Hypothesis& h, const FitParameter& p, double value);
 

@@ -123,21 +123,17 @@ Fit keep_certain_sizes(const Evidence& whole, const Fit& f, std::size_t given) {
 /// Standard deviations of effects that keep some of their sizes, as if they had kept all of them: what was reset may be
 /// wrong. `all` is the fit before the first reset. A mean square: the variance there and the shift by the resets.
 void count_resets(const Fit& all, std::size_t given, Fit& f) {
-  const auto find = [](const Fit& in, const FitParameter& p) {
-    return std::ranges::find_if(in.parameters,
-                                [&](const FitParameter& q) { return q.effect == p.effect && q.index == p.index; });
-  };
   const auto has_lost_a_size = [&](int effect) {
     return std::ranges::any_of(all.parameters, [&](const FitParameter& p) {
-      return p.effect == effect && !p.shape && find(f, p) == f.parameters.end();
+      return p.effect == effect && !p.shape && !find_parameter(f.parameters, p);
     });
   };
   for (std::size_t i = 0; i < f.parameters.size(); ++i) {
     const FitParameter& p = f.parameters[i];
     if (p.effect < static_cast<int>(given) || !has_lost_a_size(p.effect)) continue;
-    const auto before = static_cast<std::size_t>(find(all, p) - all.parameters.begin());
-    if (before == all.parameters.size()) continue;
-    const double with_all = std::hypot(all.std_deviation[before], f.value[i] - all.value[before]);
+    const std::optional<std::size_t> before = find_parameter(all.parameters, p);
+    if (!before) continue;
+    const double with_all = std::hypot(all.std_deviation[*before], f.value[i] - all.value[*before]);
     f.std_deviation[i] = std::max(f.std_deviation[i], with_all);
   }
 }

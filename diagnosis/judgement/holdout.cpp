@@ -76,26 +76,30 @@ bool grows(const HoldOut& view, int k, double floor, ErrorOfSample error) {
   return p_value(paired(differences)) < kSignificance;
 }
 
-/// Root mean square of the change of a channel that the tolerances of the model cause together; NaN without samples.
-double tolerance_spread(const std::vector<Record>& records, const ArmModel& model, int channel) {
+/// [2n] Root mean square of the change of each channel that the tolerances of the model cause together; NaN without
+/// samples.
+std::vector<double> tolerance_spreads(const std::vector<Record>& records, const ArmModel& model) {
   constexpr int kStride = 10;  // residuals change slowly with the model's numbers
   std::vector<Hypothesis> all = {{model.nominal, model.effects}};
   for (const FitParameter& p : baseline_parameters(model)) {
     all.push_back(all[0]);
     set_parameter(all.back(), p, p.upper);
   }
-  double sum = 0, count = 0;
+  std::vector<ErrorSums> spread(2 * static_cast<std::size_t>(model.n()));
   for (const Record& record : records) {
     const std::vector<Residuals> e = predict(record, all, kStride);
-    const std::vector<double>& given = e[0].channel[channel];
-    for (std::size_t i = 0; i < given.size(); ++i) {
-      if (std::isnan(given[i])) continue;
-      count += 1;
-      for (std::size_t p = 1; p < e.size(); ++p)
-        sum += e[p].finite ? std::pow(e[p].channel[channel][i] - given[i], 2) : 0;
-    }
+    for (std::size_t c = 0; c < spread.size(); ++c)
+      for (std::size_t i = 0; i < e[0].channel[c].size(); ++i) {
+        const double given = e[0].channel[c][i];
+        if (std::isnan(given)) continue;
+        double square = 0;
+        for (std::size_t p = 1; p < e.size(); ++p) square += e[p].finite ? std::pow(e[p].channel[c][i] - given, 2) : 0;
+        spread[c].add(std::sqrt(square));
+      }
   }
-  return std::sqrt(sum / count);
+  std::vector<double> all_rms;
+  for (const ErrorSums& sums : spread) all_rms.push_back(sums.rms());
+  return all_rms;
 }
 
 }  // namespace
@@ -184,12 +188,17 @@ std::vector<FullPrediction> predict_all(const std::vector<Record>& records, cons
 std::vector<double> holdout_floors(const Evidence& evidence, const ArmModel& model, const HoldOut& joints,
                                    const HoldOut& torques) {
   std::vector<double> floor = evidence.floor();
-  for (int c = 0; c < evidence.channels(); ++c) {
-    const std::vector<Record>& records = (c < evidence.n() ? torques : joints).records;
-    const int k = c % evidence.n();
-    const bool is_shown = std::ranges::any_of(
-        records, [&](const Record& r) { return c < evidence.n() ? r.has_torque(k) : r.has_joint(k); });
-    if (is_shown && !evidence.has_channel(c)) floor[c] = std::max(floor[c], tolerance_spread(records, model, c));
+  const int n = evidence.n();
+  for (const auto& [first, view] : {std::pair(0, &torques), std::pair(n, &joints)}) {
+    const std::vector<Record>& records = view->records;
+    std::vector<int> unseen;
+    for (int k = 0; k < n; ++k)
+      if (!evidence.has_channel(first + k) &&
+          std::ranges::any_of(records, [&](const Record& r) { return first == 0 ? r.has_torque(k) : r.has_joint(k); }))
+        unseen.push_back(first + k);
+    if (unseen.empty()) continue;
+    const std::vector<double> spread = tolerance_spreads(records, model);
+    for (const int c : unseen) floor[c] = std::max(floor[c], spread[c]);
   }
   return floor;
 }

@@ -46,10 +46,15 @@ Slope slope_of(const std::vector<double>& reading, const std::vector<double>& ex
   return result;
 }
 
-Correlation correlation_of(const std::vector<double>& x, const std::vector<double>& y) {
-  std::vector<double> a, b;
+FinitePairs finite_pairs(const std::vector<double>& x, const std::vector<double>& y) {
+  FinitePairs pairs;
   for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
-    if (std::isfinite(x[i]) && std::isfinite(y[i])) a.push_back(x[i]), b.push_back(y[i]);
+    if (std::isfinite(x[i]) && std::isfinite(y[i])) pairs.x.push_back(x[i]), pairs.y.push_back(y[i]);
+  return pairs;
+}
+
+Correlation correlation_of(const std::vector<double>& x, const std::vector<double>& y) {
+  auto [a, b] = finite_pairs(x, y);
   Correlation result{.n = a.size()};
   if (a.size() < 3) return result;
   double mean_a = 0, mean_b = 0, aa = 0, ab = 0, bb = 0;

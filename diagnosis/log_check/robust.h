@@ -11,6 +11,12 @@ inline double median(std::vector<double> x) { return quantile(std::move(x), 0.5)
 /// Width of the central 98 % of the samples; 0 without samples.
 double spread(const std::vector<double>& x);
 
+/// The samples at which both of two signals are finite.
+struct FinitePairs {
+  std::vector<double> x, y;
+};
+FinitePairs finite_pairs(const std::vector<double>& x, const std::vector<double>& y);
+
 /// Relation of a reading to what is expected of it, from their changes over a fixed number of samples.
 struct Slope {
   double slope = 0;      ///< minimises Σ|Δq - s Δp|

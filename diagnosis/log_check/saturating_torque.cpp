@@ -9,19 +9,8 @@
 namespace halyard {
 namespace {
 
-struct Torques {
-  std::vector<double> x, y;
-};
-
-Torques finite_pairs(const std::vector<double>& x, const std::vector<double>& y) {
-  Torques t;
-  for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
-    if (std::isfinite(x[i]) && std::isfinite(y[i])) t.x.push_back(x[i]), t.y.push_back(y[i]);
-  return t;
-}
-
 /// Least Σ (y - f x - c sgn x)² over f in its range and all c.
-double left_by_unit(const Torques& t, double least, double largest) {
+double left_by_unit(const FinitePairs& t, double least, double largest) {
   const double n = static_cast<double>(t.x.size());
   double sx = 0, sy = 0, xx = 0, xy = 0;  // of |x| and y sgn x
   for (std::size_t i = 0; i < t.x.size(); ++i) {
@@ -37,7 +26,7 @@ double left_by_unit(const Torques& t, double least, double largest) {
 }
 
 /// Least Σ (y - x + ρ (x - clamp(x, -L, L)))² over ρ.
-double left_by_limit(const Torques& t, double limit) {
+double left_by_limit(const FinitePairs& t, double limit) {
   const auto beyond = [&](double x) { return x - std::clamp(x, -limit, limit); };
   double gg = 0, gd = 0;
   for (std::size_t i = 0; i < t.x.size(); ++i) {
@@ -55,7 +44,7 @@ double left_by_limit(const Torques& t, double limit) {
 double evidence_of_saturation(const std::vector<double>& x, const std::vector<double>& y, double least_factor,
                               double largest_factor, double independent) {
   constexpr int kLimits = 50;  // quantiles of |x| that are tried: the best one is then within 2 % of the samples
-  const Torques t = finite_pairs(x, y);
+  const FinitePairs t = finite_pairs(x, y);
   if (t.x.empty()) return 0;
   std::vector<double> size;
   for (const double v : t.x) size.push_back(std::abs(v));
