@@ -48,8 +48,6 @@ INSTANTIATE_TEST_SUITE_P(
                     BuiltIn{"kinematics", halyard::make_kinematics, {}}),
     [](const auto& info) { return info.param.name; });
 
-}  // namespace
-
 TEST_P(BuiltInPlugins, KeepWhatEveryEstimatorPromises) {
   EXPECT_EQ(halyard::conformance_faults(GetParam().name, raven2()), std::vector<std::string>());
 }
@@ -111,3 +109,5 @@ TEST_P(BuiltInPlugins, RefuseAnUnknownOptionByName) {
   const std::string message = refusal(GetParam().name, model);
   EXPECT_TRUE(message.starts_with(start)) << message;
 }
+
+}  // namespace
