@@ -67,7 +67,8 @@ compile_together(halyard_diagnosis fit
   noise/channel_noise.cpp noise/ripple_free.cpp planning/change_detector.cpp planning/plan.cpp planning/planner.cpp)
 compile_together(halyard_diagnosis judgement
   diagnose.cpp judgement/false_discovery.cpp judgement/final_fit.cpp judgement/holdout.cpp judgement/judge.cpp
-  judgement/likelihood.cpp judgement/name_probability.cpp judgement/paired_t.cpp judgement/prediction_interval.cpp
+  judgement/likelihood.cpp judgement/name_probability.cpp judgement/nested_gain.cpp judgement/paired_t.cpp
+  judgement/prediction_interval.cpp
   search/attribution.cpp search/candidate_round.cpp search/joint_proposal.cpp search/leaps.cpp search/naming.cpp
   search/refit.cpp search/screen.cpp search/sparse_selection.cpp search/starts.cpp)
 

@@ -81,4 +81,7 @@ class RefinesSearch {
 /// bounds, or parameters that the effect does not have.
 SearchSpace search_space(const Effect& effect, const ArmParameters<double>& arm, EffectPlace joint);
 
+/// True for an effect that happens at instants of a log, such as a push or a slip.
+bool has_instants(const PlacedEffect& effect, const ArmParameters<double>& arm);
+
 }  // namespace halyard

@@ -185,11 +185,22 @@ double Evidence::over_floor(const std::vector<double>& change) const {
   return most;
 }
 
+std::vector<std::vector<double>> Evidence::block_products(const std::vector<double>& a,
+                                                          const std::vector<double>& b) const {
+  std::vector<std::vector<double>> sums(block_count_.size(), std::vector<double>(channels(), 0));
+  std::size_t row = 0;
+  for (const Place& p : places_) {
+    if (p.fit) continue;
+    sums[p.block][p.channel] += a[row] * b[row];
+    ++row;
+  }
+  return sums;
+}
+
 Score Evidence::score(const Hypothesis& hypothesis) const {
   Score s;
   s.mean_square.assign(channels(), 0);
   s.fit_mean_square.assign(channels(), 0);
-  s.block_sum.assign(block_count_.size(), std::vector<double>(channels(), 0));
   std::vector<double> fit_count(channels(), 0), count(channels(), 0);
   const std::vector<std::vector<Residuals>> of_record = predict_all({hypothesis});
   for (const auto& residuals : of_record) s.finite = s.finite && residuals[0].finite;
@@ -200,9 +211,10 @@ Score Evidence::score(const Hypothesis& hypothesis) const {
       s.fit_mean_square[p.channel] += e * e, fit_count[p.channel] += 1;
     } else {
       s.mean_square[p.channel] += e * e, count[p.channel] += 1;
-      s.block_sum[p.block][p.channel] += e * e;
+      s.deciding.push_back(e);
     }
   }
+  s.block_sum = block_products(s.deciding, s.deciding);
   for (int c = 0; c < channels(); ++c) {
     if (count[c] > 0) s.mean_square[c] /= count[c];
     if (fit_count[c] > 0) s.fit_mean_square[c] /= fit_count[c];

@@ -18,6 +18,7 @@ struct Score {
   std::vector<double> mean_square;             ///< [2n] over the deciding blocks; 0 without data
   std::vector<double> fit_mean_square;         ///< [2n] over the fitting blocks
   std::vector<std::vector<double>> block_sum;  ///< [deciding block][2n] sums of squares
+  std::vector<double> deciding;                ///< residuals of the deciding rows
   bool finite = true;
 };
 
@@ -47,6 +48,8 @@ class Evidence {
   const std::vector<double>& row_time() const { return row_time_; }
   /// Mean squares on both kinds of blocks.
   Score score(const Hypothesis& hypothesis) const;
+  /// Σ a b over the rows of each deciding block and channel; a, b: one number for each deciding row. [block][2n]
+  std::vector<std::vector<double>> block_products(const std::vector<double>& a, const std::vector<double>& b) const;
   /// True if Split::alternate leaves sample i of record r to a deciding block.
   bool decides(int r, std::size_t i) const { return block_of(r, i) % 2 != 0; }
   /// Samples in each deciding block and channel: [block][2n].

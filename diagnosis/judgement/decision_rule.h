@@ -12,7 +12,7 @@ struct DecisionRule {
   /// from an error of a parameter of the model. Reason: 5 % of the mean square is 2.5 % of the root mean square.
   double share = 0.05;
   /// Even the right effect may miss the truth, because the form of its equation differs. This is the root mean square
-  /// of what it may miss, relative to what it explains in the same block of time. An effect that explains less than
+  /// of what it may miss, relative to what it does in the same block of time. An effect that explains less than
   /// this beside a larger effect may be the larger effect's error of form. Reason: in the logs with other equations
   /// (rounded backlash, Bouc-Wen, LuGre) the right effect leaves 2 to 15 %.
   double form_misfit = 0.1;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/judgement/nested_gain.h"
+
 namespace halyard {
 namespace {
 
@@ -36,13 +38,21 @@ bool is_beyond_noise(const Evidence& evidence, const Score& score, int channel) 
          std::max(score.mean_square[channel], score.fit_mean_square[channel]) > explained;
 }
 
+int most_explained_channel(const Evidence& evidence, const Score& with, const Score& without) {
+  int most = -1;
+  const auto left = [&](int c) { return with.mean_square[c] / without.mean_square[c]; };
+  for (int c = 0; c < evidence.channels(); ++c)
+    if (evidence.has_channel(c) && (most < 0 || left(c) < left(most))) most = c;
+  return most;
+}
+
 std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
   for (std::size_t r = 0; r < a.size(); ++r) a[r] -= b[r];
   return a;
 }
 
-Judge::Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers, Score first)
-    : evidence_(evidence), model_(model), numbers_(std::move(numbers)), first_(std::move(first)) {}
+Judge::Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers)
+    : evidence_(evidence), model_(model), numbers_(std::move(numbers)) {}
 
 Trial Judge::trial(const Hypothesis& with, const Scored& without, std::size_t index) const {
   Trial t = unusable(with.effects[index]);
@@ -60,24 +70,24 @@ Trial Judge::trial(const Hypothesis& with, const Scored& without, std::size_t in
   if (!t.is_judged()) return t;
   t.at_bound = at_bound(scored, place);
   t.is_refit = within_tolerance(with, place);
-  t.matters = matters(without.score, scored.score, with, place);
+  t.matters = matters(without, scored, place);
   return t;
 }
 
 bool Judge::is_needed(const Scored& with, const Scored& without, int place, double significance) const {
-  return !within_tolerance(with.hypothesis, place) && matters(without.score, with.score, with.hypothesis, place) &&
+  return !within_tolerance(with.hypothesis, place) && matters(without, with, place) &&
          p_of_gain(with.score, without.score) <= significance;
 }
 
 /// By the scatter of the blocks, or, of an effect that explains a rest
 /// whole, by the likelihood ratio as well, so that a few moments are enough.
 double Judge::p_of_gain(const Score& with, const Score& without) const {
-  const auto compared = [&](const std::vector<double>& least) {
-    return paired(evidence_, log_likelihood(evidence_, with, least), log_likelihood(evidence_, without, least));
-  };
-  const double by_blocks = p_value(compared(floors_beside(evidence_, without)));
+  const double by_blocks = p_value(paired(nested_gains(evidence_, with, without, floors_beside(evidence_, without))));
   if (!explains_a_rest(without, with)) return by_blocks;
-  return std::min(1.0, 2 * std::min(by_blocks, std::exp(-compared(squared_floors(evidence_)).sum)));
+  const std::vector<double> least = squared_floors(evidence_);
+  const double ratio =
+      paired(evidence_, log_likelihood(evidence_, with, least), log_likelihood(evidence_, without, least)).sum;
+  return std::min(1.0, 2 * std::min(by_blocks, std::exp(-ratio)));
 }
 
 /// True if, in the channel with a rest that the effect takes most of, nothing that matters is left or next to
@@ -162,16 +172,32 @@ bool Judge::within_tolerance(const Hypothesis& h, int place) const {
   return true;
 }
 
+/// What the effects that were found do to the residuals, all together: sums of squares, [deciding block][2n]. It is more
+/// than the residual that they have removed, if the model's refitted numbers had hidden a part of it.
+std::vector<std::vector<double>> Judge::done_by_effects(const Scored& found) const {
+  const std::size_t given = model_.effects.size();
+  std::vector<double> change(found.score.deciding.size(), 0);
+  if (found.hypothesis.effects.size() > given) {
+    Hypothesis bare = found.hypothesis;
+    while (bare.effects.size() > given) bare = without_effect(bare, given);
+    const Score without = evidence_.score(bare);
+    if (without.finite) change = difference(without.deciding, found.score.deciding);
+  }
+  return evidence_.block_products(change, change);
+}
+
 /// True if the effect takes a share of the residual that is more than the misfit of what was named before it. Where the
-/// earlier effects explain little, their misfit is little as well: blocks whose whole residual may be misfit do not
-/// count, and a small effect shows where a large one does not act.
-bool Judge::takes_a_share(const Score& before, const Score& after, int c) const {
+/// earlier effects do little, their misfit is little as well: blocks in which their misfit may be larger than the channel's
+/// residual do not count, and a small effect shows where a large one does not act. The channel's residual decides and not
+/// the block's own: the blocks in which a misfit is by chance large would be left otherwise. done: done_by_effects()
+/// before.
+bool Judge::takes_a_share(const Score& before, const Score& after, const std::vector<std::vector<double>>& done,
+                          int c) const {
   double all = 0, gain = 0, misfit = 0;  // sums of squares
   for (std::size_t b = 0; b < before.block_sum.size(); ++b) {
-    const double had = before.block_sum[b][c], explained = std::max(0.0, first_.block_sum[b][c] - had);
-    const double may_miss = kRule.form_misfit * kRule.form_misfit * explained;
+    const double had = before.block_sum[b][c], may_miss = kRule.form_misfit * kRule.form_misfit * done[b][c];
     all += had;
-    if (had <= may_miss) continue;
+    if (may_miss > before.mean_square[c] * evidence_.block_count()[b][c]) continue;
     gain += had - after.block_sum[b][c];
     misfit += may_miss;
   }
@@ -180,13 +206,16 @@ bool Judge::takes_a_share(const Score& before, const Score& after, int c) const 
 
 /// The effect takes a share of a residual that noise does not explain, and changes some signal by much more than the
 /// sensor resolves.
-bool Judge::matters(const Score& before, const Score& after, const Hypothesis& with, int place) const {
+bool Judge::matters(const Scored& without, const Scored& with, int place) const {
+  const auto done = done_by_effects(without);
   bool share = false;
   for (int c = 0; c < evidence_.channels(); ++c)
-    share = share || (is_beyond_noise(evidence_, before, c) && takes_a_share(before, after, c));
+    share =
+        share || (is_beyond_noise(evidence_, without.score, c) && takes_a_share(without.score, with.score, done, c));
   if (!share) return false;
-  const auto rows = evidence_.fit_rows({with})[0], bare = evidence_.fit_rows({without_effect(with, place)})[0];
-  return !rows.empty() && (bare.empty() || evidence_.exceeds_floor(difference(rows, bare), kRule.above_floor));
+  const auto rows = evidence_.fit_rows({with.hypothesis, without_effect(with.hypothesis, place)});
+  return !rows[0].empty() &&
+         (rows[1].empty() || evidence_.exceeds_floor(difference(rows[0], rows[1]), kRule.above_floor));
 }
 
 double Judge::stretch(const Hypothesis& h) const {

@@ -7,8 +7,8 @@
 ///
 /// An effect is named if
 ///
-/// - its gain is significant, corrected for the number of candidates (false_discovery.h). The test is a paired t test
-///   over blocks. An effect that explains nearly all of a remaining residual is also tested by the likelihood ratio on
+/// - its gain is positive, and what it explains is significant, corrected for the number of candidates
+///   (false_discovery.h). The test is a t test over blocks (nested_gain.h). An effect that explains nearly all of a remaining residual is also tested by the likelihood ratio on
 ///   data that the fit did not use, p = 2 min(p of t, exp(-Σ_b Δ ln L_b)), so that a force during two of sixty blocks
 ///   is found. This approximates the split likelihood ratio of Wasserman, Ramdas and Balakrishnan, PNAS 117 (2020).
 ///   Their bound compares with the largest likelihood that a hypothesis without the effect can have on the deciding
@@ -57,13 +57,16 @@ std::vector<bool> significant_rest(const Evidence& evidence, const Score& score)
 /// explained_ratio times the floor.
 bool is_beyond_noise(const Evidence& evidence, const Score& score, int channel);
 
+/// The channel of which an effect explains the largest share.
+int most_explained_channel(const Evidence& evidence, const Score& with, const Score& without);
+
 /// a - b, row by row; both have the same length.
 std::vector<double> difference(std::vector<double> a, const std::vector<double>& b);
 
 class Judge {
  public:
-  /// numbers: baseline parameters that the data are sensitive to. first: score before any effect.
-  Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers, Score first);
+  /// numbers: baseline parameters that the data are sensitive to.
+  Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers);
 
   /// Tests the effect with index `place` in `with` against the hypothesis without it.
   Trial trial(const Hypothesis& with, const Scored& without, std::size_t place) const;
@@ -84,13 +87,14 @@ class Judge {
                               const ParameterGroup& group) const;
   bool is_as_good_at_bound(const Scored& with, const FitParameter& p) const;
   bool within_tolerance(const Hypothesis& h, int place) const;
-  bool takes_a_share(const Score& before, const Score& after, int channel) const;
-  bool matters(const Score& before, const Score& after, const Hypothesis& with, int place) const;
+  bool takes_a_share(const Score& before, const Score& after, const std::vector<std::vector<double>>& done,
+                     int channel) const;
+  bool matters(const Scored& without, const Scored& with, int place) const;
+  std::vector<std::vector<double>> done_by_effects(const Scored& found) const;
 
   const Evidence& evidence_;
   const ArmModel& model_;
   std::vector<FitParameter> numbers_;
-  Score first_;
 };
 
 }  // namespace halyard

@@ -13,10 +13,7 @@ bool same_name(const PlacedEffect& a, const PlacedEffect& b) { return a.effect =
 
 /// True for effects of which a joint may have several: pushes, slips, ripples of several orders.
 bool may_repeat(const PlacedEffect& e, const ArmParameters<double>& arm) {
-  const SearchSpace space = search_space(*e.effect, arm, e.joint);
-  return space.order_of_motor_torque || std::ranges::any_of(space.parameters, [](const ParameterSearch& p) {
-           return p.range == SearchRange::record_time;
-         });
+  return has_instants(e, arm) || search_space(*e.effect, arm, e.joint).order_of_motor_torque;
 }
 
 [[noreturn]] void refuse(const ArmModel& model) {
@@ -56,7 +53,7 @@ class Search {
         given_(model.effects.size()),
         refitter_(evidence, model, given_),
         baseline_(baseline(evidence, model, refitter_)),
-        judge_(evidence, model, refitter_.numbers(), baseline_.score) {}
+        judge_(evidence, model, refitter_.numbers()) {}
 
   Attribution run() {
     Found current{baseline_.fit, baseline_.score};

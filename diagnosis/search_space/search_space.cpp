@@ -69,4 +69,10 @@ SearchSpace search_space(const Effect& effect, const ArmParameters<double>& arm,
   return space;
 }
 
+bool has_instants(const PlacedEffect& effect, const ArmParameters<double>& arm) {
+  const SearchSpace space = search_space(*effect.effect, arm, effect.joint);
+  return std::ranges::any_of(space.parameters,
+                             [](const ParameterSearch& p) { return p.range == SearchRange::record_time; });
+}
+
 }  // namespace halyard

@@ -19,8 +19,7 @@ struct Tug {
   Judge judge;
 
   Tug(double force, double stiffness)
-      : evidence(make_records(record(force, stiffness), model, {}), model),
-        judge(evidence, model, {}, nominal_score()) {
+      : evidence(make_records(record(force, stiffness), model, {}), model), judge(evidence, model, {}) {
     // The something is where the motion ends: the end of what a search may ask for.
     push.p[4] = evidence.joint_span(1).first;
   }
@@ -31,7 +30,6 @@ struct Tug {
     robot.effects = {push};
     return simulate(motion(robot, 6)).measured;
   }
-  Score nominal_score() const { return evidence.score({model.nominal, {}}); }
   /// The verdict on a push and a contact of these sizes.
   Trial trial(double force, double stiffness) const {
     Hypothesis with{model.nominal, {push}}, without{model.nominal, {}};
@@ -65,7 +63,7 @@ TEST(Judge, AnEffectThatOnlyTakesWhatNoiseExplainsDoesNotMatter) {
   with.effects[0].p[0] = change;
   Hypothesis given{model.nominal, {}}, refitted = given;
   const Score first = evidence.score(given);
-  const Judge judge(evidence, model, {}, first);
+  const Judge judge(evidence, model, {});
   EXPECT_TRUE(judge.trial(with, {given, first}, 0).matters);
 
   // Nearly refitted: noise explains the rest, although the effect takes a share of it.
@@ -87,7 +85,7 @@ TEST(Judge, ASmallEffectMattersBesideALargeOneIfItActsAtOtherTimes) {
   robot.effects = {push, friction};
   const Evidence evidence(make_records(simulate(motion(robot, 12)).measured, model, {}), model);
   const Score first = evidence.score({model.nominal, {}});
-  const Judge judge(evidence, model, {}, first);
+  const Judge judge(evidence, model, {});
   const auto trial = [&](const Hypothesis& without, const PlacedEffect& small) {
     Hypothesis with = without;
     with.effects.push_back(small);
@@ -105,6 +103,34 @@ TEST(Judge, ASmallEffectMattersBesideALargeOneIfItActsAtOtherTimes) {
   const Trial of_error = trial({model.nominal, {friction, weak}}, rest);
   EXPECT_TRUE(of_error.is_judged());
   EXPECT_FALSE(of_error.matters);
+}
+
+/// Motor 1 has more Coulomb friction than its model. A part was found as an effect: is the rest its error of form?
+TEST(Judge, TheMisfitOfAnEffectCountsWhatTheModelsNumbersHadHidden) {
+  const ArmModel model = first_joints(2);
+  const double change = 0.6 * model.nominal.joint[0].motor_coulomb;
+  ArmModel robot = model;
+  robot.nominal.joint[0].motor_coulomb += change;
+  const Evidence evidence(make_records(simulate(motion(robot, 6)).measured, model, {}), model);
+  const Judge judge(evidence, model, {});
+  const auto friction = [&](double share) {
+    PlacedEffect e = place_neutral_effect(*find_effect("motor_friction"), model.nominal, 0);
+    e.p[0] = share * change;
+    return e;
+  };
+  const auto rest_matters = [&](double found) {
+    const Hypothesis without{model.nominal, {friction(found)}},
+        with{model.nominal, {friction(found), friction(1 - found)}};
+    return judge.trial(with, {without, evidence.score(without)}, 1).matters;
+  };
+  EXPECT_TRUE(rest_matters(0.8));
+  EXPECT_FALSE(rest_matters(0.93)) << "less than a tenth of what the effect does";
+  // Refitted, the model alone leaves so little that the rest would be more than a tenth of what the effect removes.
+  Hypothesis refitted{model.nominal, {}};
+  refitted.nominal.joint[0].motor_coulomb += 0.8 * change;
+  const double left = evidence.score(refitted).mean_square[0],
+               rest = evidence.score({model.nominal, {friction(0.93)}}).mean_square[0];
+  EXPECT_GT(rest, std::pow(kRule.form_misfit, 2) * (left - rest));
 }
 
 }  // namespace

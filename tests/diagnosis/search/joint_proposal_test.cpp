@@ -52,7 +52,7 @@ TEST(JointProposal, OfAnArmWithoutEffectsProposesNothing) {
   const Hypothesis nominal{model.nominal, {}};
   const Fit baseline = refitter.refit(nominal, evidence.score(nominal));
   const Scored without{baseline.hypothesis, evidence.score(baseline.hypothesis)};
-  const Judge judge(evidence, model, refitter.numbers(), without.score);
+  const Judge judge(evidence, model, refitter.numbers());
   const SearchProgress quiet = [](const std::string&, double) {};
   CandidateRound round(evidence, model, refitter, judge, without, nominal, "a round", quiet);
   round.look(all_candidates(model.nominal));
