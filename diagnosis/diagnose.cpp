@@ -62,6 +62,7 @@ class Diagnoser {
     else tell_names(evidence);
     tell_rests(evidence);
     predict_holdout(evidence, whole, data.training_joints);
+    tell_doubtful(evidence);
     tell_probabilities(evidence);
     tell_stuck_sensors();
     result_.verdict = !result_.effects.empty()      ? Diagnosis::Verdict::effects
@@ -79,13 +80,13 @@ class Diagnoser {
   Attribution& attribution() { return details_->attribution; }
   const Hypothesis& final_hypothesis() const { return details_->attribution.final_fit.hypothesis; }
 
-  /// The search, and the final fit on all training data. Effects that these do not determine, and names that are
-  /// probably wrong, are dropped.
+  /// The search, and the final fit on all training data. Effects that these do not determine are dropped. Names that are
+  /// probably wrong are not told.
   void search(const Evidence& evidence, const Evidence& whole) {
     attribution() = attribute(evidence, result_.given, {options_.most_effects, options_.significance}, progress_);
     say("final fit", 0);
     fit_finally(evidence, whole, attribution().final_fit);
-    while (const std::optional<std::size_t> gone = idle_or_doubtful(evidence)) {
+    while (const std::optional<std::size_t> gone = effect_to_drop(evidence)) {
       attribution().namings.erase(attribution().namings.begin() + static_cast<std::ptrdiff_t>(*gone - given_));
       fit_finally(evidence, whole, fit_without(attribution().final_fit, *gone));
     }
@@ -103,28 +104,37 @@ class Diagnoser {
     attribution().final_score = evidence.score(final_hypothesis());
   }
 
-  static Fit fit_without(Fit f, std::size_t effect) {
+  /// The numbers of the model that the effect had replaced are fitted again.
+  Fit fit_without(Fit f, std::size_t effect) {
+    const PlacedEffect gone = f.hypothesis.effects[effect];
     f.hypothesis = without_effect(f.hypothesis, effect);
     std::erase_if(f.parameters, [&](const FitParameter& p) { return p.effect == static_cast<int>(effect); });
     for (FitParameter& p : f.parameters)
       if (p.effect > static_cast<int>(effect)) --p.effect;
+    const auto covers = [&](const PlacedEffect& e, const FitParameter& p) {
+      return effect_covers(e, result_.given.nominal, p);
+    };
+    const auto added = f.hypothesis.effects.begin() + static_cast<std::ptrdiff_t>(given_);
+    for (const FitParameter& p : attribution().baseline.parameters)
+      if (p.effect < 0 && covers(gone, p) &&
+          std::none_of(added, f.hypothesis.effects.end(), [&](const PlacedEffect& e) { return covers(e, p); }))
+        f.parameters.push_back(p);
     return f;
   }
 
-  /// An effect that the data do not determine; if there is none, the effect whose names are the least probable, if it is
-  /// more probable that all of them are wrong.
-  std::optional<std::size_t> idle_or_doubtful(const Evidence& evidence) {
+  /// An effect that the data do not determine, or a doubtful one that belongs to the log and not to the arm, as a push at
+  /// some instant does: it predicts nothing elsewhere.
+  std::optional<std::size_t> effect_to_drop(const Evidence& evidence) {
     if (const auto idle = idle_effects(attribution().final_fit, given_); !idle.empty()) return idle.back();
-    std::optional<std::size_t> doubtful;
-    double least = kRule.worth_a_name;
-    for (std::size_t e = given_; e < final_hypothesis().effects.size(); ++e) {
-      const double any =
-          probability_of_any_name(attribution().namings[e - given_], probability_of_none_for(evidence, e));
-      if (any >= least) continue;
-      least = any;
-      doubtful = e;
-    }
-    return doubtful;
+    for (std::size_t e = given_; e < final_hypothesis().effects.size(); ++e)
+      if (has_instants(final_hypothesis().effects[e], result_.given.nominal) && is_doubtful(evidence, e)) return e;
+    return {};
+  }
+
+  /// True if it is more probable that the name and all its alternatives are wrong than that one of them is right.
+  bool is_doubtful(const Evidence& evidence, std::size_t effect) {
+    const Naming& naming = attribution().namings[effect - given_];
+    return probability_of_any_name(naming, probability_of_none_for(evidence, effect)) < kRule.worth_a_name;
   }
 
   /// One sine fits many effects alike: a name taken from it would be a guess.
@@ -145,6 +155,7 @@ class Diagnoser {
   void give_up_revision(const Evidence& evidence) {
     result_.effects.clear();
     result_.refitted.clear();
+    doubtful_.clear();
     attribution().final_fit = attribution().baseline;
     attribution().final_fit.hypothesis = {result_.given.nominal, result_.given.effects,
                                           attribution().baseline.hypothesis.past};
@@ -155,6 +166,10 @@ class Diagnoser {
     const Fit& f = attribution().final_fit;
     const std::vector<Naming>& namings = attribution().namings;
     for (std::size_t e = given_; e < f.hypothesis.effects.size(); ++e) {
+      if (is_doubtful(evidence, e)) {
+        doubtful_.push_back(e);
+        continue;
+      }
       NamedEffect named{f.hypothesis.effects[e], namings[e - given_].weight, {}, namings[e - given_].alternatives};
       named.parameters = estimated_parameters(evidence, e);
       const double none = probability_of_none_for(evidence, e);
@@ -166,6 +181,20 @@ class Diagnoser {
       result_.effects.push_back(std::move(named));
     }
     tell_refits();
+  }
+
+  /// Effects without a name that stay in the revised model, because it predicts better with them.
+  void tell_doubtful(const Evidence& evidence) {
+    for (const std::size_t e : doubtful_) {
+      const Score without = evidence.score(without_effect(final_hypothesis(), e));
+      const int c = without.finite ? most_explained_channel(evidence, attribution().final_score, without) : 0;
+      const int k = c % model_.n();
+      result_.unexplained.push_back(
+          {k,
+           fmt::format("{} explains a part of it and is in the revised model, but so much is left that another cause "
+                       "is more probable",
+                       effect_label(final_hypothesis().effects[e]))});
+    }
   }
 
   void tell_refits() {
@@ -185,11 +214,9 @@ class Diagnoser {
     for (const FitParameter& p :
          effect_parameters(evidence, f.hypothesis, result_.given.nominal, static_cast<int>(effect))) {
       if (is_past(p)) continue;
-      const auto fitted = std::ranges::find_if(
-          f.parameters, [&](const FitParameter& other) { return other.effect == p.effect && other.index == p.index; });
       const double value = parameter_value(f.hypothesis, p);
-      if (fitted != f.parameters.end())
-        all.push_back(estimated(f, static_cast<std::size_t>(fitted - f.parameters.begin())));
+      if (const std::optional<std::size_t> fitted = find_parameter(f.parameters, p))
+        all.push_back(estimated(f, *fitted));
       else if (p.is_whole) all.push_back({p.name, p.unit, value, value, value, p.nominal});
     }
     return all;
@@ -206,16 +233,11 @@ class Diagnoser {
     return {p.name, p.unit, f.value[i], lower, upper, p.nominal};
   }
 
-  /// Of the channel in which the effect explains the largest share.
   double probability_of_none_for(const Evidence& evidence, std::size_t effect) {
     const Score without = evidence.score(without_effect(final_hypothesis(), effect));
     if (!without.finite) return 0;
-    const Score& with = attribution().final_score;
-    int best = -1;
-    const auto left = [&](int c) { return with.mean_square[c] / without.mean_square[c]; };
-    for (int c = 0; c < evidence.channels(); ++c)
-      if (evidence.has_channel(c) && (best < 0 || left(c) < left(best))) best = c;
-    return probability_of_none(with.mean_square[best], without.mean_square[best], evidence.floor()[best]);
+    const int c = most_explained_channel(evidence, attribution().final_score, without);
+    return probability_of_none(attribution().final_score.mean_square[c], without.mean_square[c], evidence.floor()[c]);
   }
 
   void tell_rests(const Evidence& evidence) {
@@ -303,7 +325,7 @@ class Diagnoser {
     result_.joint_interval = prediction_interval(joints, model_.n());
   }
 
-  bool is_revised() const { return !result_.effects.empty() || !result_.refitted.empty(); }
+  bool is_revised() const { return final_hypothesis().effects.size() > given_ || !result_.refitted.empty(); }
 
   void give_motion_back(const Evidence& whole) {
     attribution().final_fit = with_given_motion(whole, result_.given, attribution().final_fit);
@@ -347,8 +369,9 @@ class Diagnoser {
   const std::vector<Log>& training_;
   const DiagnosisOptions& options_;
   const Progress& progress_;
-  std::size_t given_;                 ///< effects that the model came with
-  std::vector<std::size_t> changed_;  ///< see changed_numbers()
+  std::size_t given_;                  ///< effects that the model came with
+  std::vector<std::size_t> changed_;   ///< see changed_numbers()
+  std::vector<std::size_t> doubtful_;  ///< added effects whose names are not told, as indices in the final hypothesis
   std::shared_ptr<DiagnosisDetails> details_ = std::make_shared<DiagnosisDetails>();
   Diagnosis result_;
 };
