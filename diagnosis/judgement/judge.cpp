@@ -90,6 +90,11 @@ double Judge::p_of_gain(const Score& with, const Score& without) const {
   return std::min(1.0, 2 * std::min(by_blocks, std::exp(-ratio)));
 }
 
+double Judge::p_of_better_fit(const Score& a, const Score& b) const {
+  const std::vector<double> least = squared_floors(evidence_);
+  return p_value(paired(evidence_, log_likelihood(evidence_, a, least), log_likelihood(evidence_, b, least)));
+}
+
 /// True if, in the channel with a rest that the effect takes most of, nothing that matters is left or next to
 /// nothing.
 bool Judge::explains_a_rest(const Score& before, const Score& after) const {

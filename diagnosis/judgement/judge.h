@@ -75,6 +75,9 @@ class Judge {
 
   /// Probability of such a gain by chance.
   double p_of_gain(const Score& with, const Score& without) const;
+  /// Probability that `a` fits the deciding blocks better than `b` only by chance. Neither has to contain the other's
+  /// effects. Source: Vuong, Econometrica 57 (1989) 307-333, with the t distribution.
+  double p_of_better_fit(const Score& a, const Score& b) const;
   /// Cost of a fit: -ln L on the fitting blocks plus the stretch of the baseline parameters.
   double cost(const Scored& scored) const;
   /// Prior cost of the refitted baseline parameters.

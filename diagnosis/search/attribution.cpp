@@ -240,7 +240,7 @@ class Search {
   /// what the earlier fit had found.
   bool is_beaten(const Found& revised, const Found& before, bool is_same) const {
     if (is_same) return judge_.cost(before.scored()) < judge_.cost(revised.scored());
-    return judge_.p_of_gain(before.score, revised.score) <= options_.significance;
+    return judge_.p_of_better_fit(before.score, revised.score) <= options_.significance;
   }
 
   /// True if the last name came from a round beside all the others. Names that were added at once have not competed yet.
