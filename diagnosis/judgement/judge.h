@@ -8,12 +8,12 @@
 /// An effect is named if
 ///
 /// - its gain is positive, and what it explains is significant, corrected for the number of candidates
-///   (false_discovery.h). The test is a t test over blocks (nested_gain.h). An effect that explains nearly all of a remaining residual is also tested by the likelihood ratio on
-///   data that the fit did not use, p = 2 min(p of t, exp(-Σ_b Δ ln L_b)), so that a force during two of sixty blocks
-///   is found. This approximates the split likelihood ratio of Wasserman, Ramdas and Balakrishnan, PNAS 117 (2020).
-///   Their bound compares with the largest likelihood that a hypothesis without the effect can have on the deciding
-///   data. Here both hypotheses are fitted on the other blocks. Blind trials of clean arms measure its false-positive
-///   rate;
+///   (false_discovery.h). The test is a t test over blocks (nested_gain.h). An effect that explains nearly all of a
+///   remaining residual is also tested by the likelihood ratio on data that the fit did not use,
+///   p = 2 min(p of t, exp(-Σ_b Δ ln L_b)), so that a force during two of sixty blocks is found. This approximates the
+///   split likelihood ratio of Wasserman, Ramdas and Balakrishnan, PNAS 117 (2020). Their bound compares with the
+///   largest likelihood that a hypothesis without the effect can have on the deciding data. Here both hypotheses are
+///   fitted on the other blocks. Blind trials of clean arms measure its false-positive rate;
 /// - it matters: a residual shrinks by more than the model's tolerances and the sensors' errors can explain;
 /// - no parameter that matters lies at its plausible bound. No shape lies within a factor of two of such a bound if the
 ///   bound itself has an equal likelihood.
