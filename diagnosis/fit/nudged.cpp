@@ -1,8 +1,6 @@
 #include "diagnosis/fit/nudged.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace halyard {
 namespace {
@@ -12,12 +10,7 @@ constexpr int kInstants = 10, kPositions = 6;  ///< parts of a record and of a m
 }  // namespace
 
 Hypothesis nudged(const Evidence& evidence, Hypothesis h, std::size_t first, const ArmParameters<double>& nominal,
-                  const std::vector<double>& scale) {
-  const auto cost = [&](const std::vector<double>& row) {
-    double sum = row.empty() ? std::numeric_limits<double>::infinity() : 0;
-    for (std::size_t r = 0; r < row.size(); ++r) sum += std::pow(row[r] / scale[evidence.row_channel()[r]], 2);
-    return sum;
-  };
+                  const BeyondNumbers& beyond) {
   for (std::size_t e = first; e < h.effects.size(); ++e)
     for (const FitParameter& p : effect_parameters(evidence, h, nominal, static_cast<int>(e))) {
       const double value = parameter_value(h, p);
@@ -39,10 +32,9 @@ Hypothesis nudged(const Evidence& evidence, Hypothesis h, std::size_t first, con
         set_parameter(tried.back(), p, std::clamp(v, p.lower, p.upper));
       }
       const auto rows = evidence.fit_rows(tried);
-      std::size_t least = 0;
-      for (std::size_t i = 1; i < rows.size(); ++i)
-        if (cost(rows[i]) < cost(rows[least])) least = i;
-      h = tried[least];
+      std::vector<double> left;
+      for (const auto& row : rows) left.push_back(beyond.left(row));
+      h = tried[static_cast<std::size_t>(std::ranges::min_element(left) - left.begin())];
     }
   return h;
 }

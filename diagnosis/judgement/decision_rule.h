@@ -65,6 +65,9 @@ struct DecisionRule {
   double promise = 0.02;
   /// Number of candidates that are fitted in a round: those with the smallest residual at the start of their search.
   std::size_t most_fitted = 16;
+  /// Number of starts of a candidate with shapes from which its quick fit begins, each at other shapes. Reason: the fit
+  /// of a hysteresis ends in one of several minima, and the start that leaves least is often not in the lowest.
+  std::size_t starts_fitted = 3;
   /// The first `leaders` of those are fitted fully, if their gain is at least the share `leads` of the largest gain.
   std::size_t leaders = 4;
   double leads = 0.25;

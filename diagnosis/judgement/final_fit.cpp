@@ -142,7 +142,10 @@ void count_resets(const Fit& all, std::size_t given, Fit& f) {
 
 Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given) {
   const std::vector<double> scale = channel_scale(whole, whole.score(chosen.hypothesis).fit_mean_square);
-  const Hypothesis start = nudged(whole, chosen.hypothesis, given, model.nominal, scale);
+  std::vector<FitParameter> numbers = chosen.parameters;
+  std::erase_if(numbers, [](const FitParameter& p) { return p.effect >= 0; });
+  const auto columns = sensitivities(whole, chosen.hypothesis, numbers);
+  const Hypothesis start = nudged(whole, chosen.hypothesis, given, model.nominal, BeyondNumbers(whole, columns, scale));
   const Fit tried = weighed_fit(whole, start, chosen.parameters);
   const Fit& all = tried.usable ? tried : chosen;
   Fit certain = keep_certain_sizes(whole, all, given);

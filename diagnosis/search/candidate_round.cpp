@@ -1,6 +1,7 @@
 #include "diagnosis/search/candidate_round.h"
 
 #include <algorithm>
+#include <limits>
 #include <mutex>
 
 #include "diagnosis/prediction/side_by_side.h"
@@ -52,21 +53,48 @@ std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candida
   std::ranges::stable_sort(fitted, {}, [&](std::size_t i) { return linear_.starts[i].left; });
   if (fitted.size() > kRule.most_fitted) fitted.resize(kRule.most_fitted);
 
-  std::vector<Trial> trials;
+  std::vector<Look> looks;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    trials.push_back(unusable(candidates[i]));
-    trials.back().promising = linear_.starts[i].promise >= kRule.promise;
-    trials.back().is_fitted = false;
+    Trial& t = looks.emplace_back(Look{unusable(candidates[i]), {}}).trial;
+    t.promising = linear_.starts[i].promise >= kRule.promise;
+    t.is_fitted = false;
   }
-  each("fits", fitted.size(), [&](std::size_t f) {
-    const std::size_t i = fitted[f];
-    trials[i] = quick_look(linear_.starts[i].hypothesis, candidates[i]);
-  });
-  std::ranges::stable_sort(trials, std::ranges::greater{}, &Trial::gain);
+  quick_fits(fitted, looks);
+  std::ranges::stable_sort(looks, std::ranges::greater{}, [](const Look& l) { return l.trial.gain; });
+  std::vector<Trial> trials;
+  ends_.clear();
+  for (Look& l : looks) trials.push_back(std::move(l.trial)), ends_.push_back(std::move(l.ends));
   return trials;
 }
 
-Trial CandidateRound::quick_look(const Hypothesis& start, const PlacedEffect& effect) const {
+void CandidateRound::quick_fits(const std::vector<std::size_t>& candidates, std::vector<Look>& looks) const {
+  struct FromStart {
+    std::size_t candidate;
+    const Hypothesis* start;
+    Scored end = {};
+    double cost = std::numeric_limits<double>::infinity();
+  };
+  std::vector<FromStart> all;
+  for (const std::size_t i : candidates)
+    for (const Hypothesis& start : linear_.starts[i].hypotheses) all.push_back({i, &start});
+  each("fits", all.size(), [&](std::size_t a) {
+    const Fit fit = quick_fit(*all[a].start);
+    if (!fit.usable) return;
+    all[a].end = {fit.hypothesis, evidence_.score(fit.hypothesis)};
+    if (all[a].end.score.finite) all[a].cost = judge_.cost(all[a].end);
+  });
+  std::ranges::stable_sort(all, {}, &FromStart::cost);
+  for (const FromStart& a : all)
+    if (std::isfinite(a.cost)) looks[a.candidate].ends.push_back(a.end.hypothesis);
+  run_side_by_side(candidates.size(), [&](std::size_t c) {
+    Look& look = looks[candidates[c]];
+    if (!look.ends.empty()) look.trial = judge_.trial(look.ends[0], without_, look.ends[0].effects.size() - 1);
+    look.trial.is_fitted = true;
+  });
+}
+
+Fit CandidateRound::quick_fit(const Hypothesis& start) const {
+  const PlacedEffect& effect = start.effects.back();
   std::vector<FitParameter> parameters;
   std::vector<std::vector<double>> linear;
   for (std::size_t i = 0; i < linear_.numbers.size(); ++i) {
@@ -82,26 +110,46 @@ Trial CandidateRound::quick_look(const Hypothesis& start, const PlacedEffect& ef
   FitOptions options;
   options.iterations = 6;
   options.cost_tolerance = 3e-4;
-  const Fit f = fit(evidence_, start, parameters, scale_, options, linear);
-  return f.usable ? judge_.trial(f.hypothesis, without_, f.hypothesis.effects.size() - 1) : unusable(effect);
+  return fit(evidence_, start, parameters, scale_, options, linear);
+}
+
+Refit CandidateRound::refit_from(const Hypothesis& end) const {
+  const std::size_t last = end.effects.size() - 1;
+  const std::vector<double> past = last < end.past.size() ? end.past[last] : std::vector<double>();
+  Refit r{refitter_.with_effect(linear_.from, end.effects[last], past), without_.score};
+  r.nudged_from = linear_.from.effects.size();
+  return r;
 }
 
 std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
-  std::vector<Refit> refits;
-  for (std::size_t i = 0; i < std::min(kRule.leaders, trials.size()); ++i)
-    refits.push_back({refitter_.with_effect(linear_.from, trials[i].effect, trials[i].past), without_.score});
-  const auto go_on_with = [&](const std::string& what, double share, int passes) {
+  const std::size_t n = std::min(kRule.leaders, trials.size());
+  std::vector<Refit> refits(n);
+  const auto leads = [&](std::size_t i, double share) {
     double best = 0;
-    for (std::size_t i = 0; i < refits.size(); ++i) best = std::max(best, trials[i].gain);
-    each(what, refits.size(), [&](std::size_t i) {
-      Trial& t = trials[i];
-      if (!t.is_judged() || !(t.gain > share * best) || refits[i].settled) return;
-      refitter_.go_on(refits[i], passes);
-      const Hypothesis& h = refits[i].best.hypothesis;
-      t = refits[i].best.usable ? judge_.trial(h, without_, h.effects.size() - 1) : unusable(t.effect);
+    for (std::size_t l = 0; l < n; ++l) best = std::max(best, trials[l].gain);
+    return trials[i].is_judged() && trials[i].gain > share * best;
+  };
+  std::vector<std::pair<std::size_t, Refit>> first;
+  for (std::size_t i = 0; i < n; ++i)
+    if (leads(i, kRule.leads))
+      for (const Hypothesis& end : ends_[i]) first.emplace_back(i, refit_from(end));
+  each("starts of the best candidates", first.size(), [&](std::size_t f) { refitter_.go_on(first[f].second, 1); });
+  for (auto& [i, refit] : first)
+    if (!refits[i].best.usable || refit.last < refits[i].last) refits[i] = std::move(refit);
+  const auto go_on_with = [&](const std::string& what, double share, int passes) {
+    std::vector<std::size_t> leaders;
+    for (std::size_t i = 0; i < n; ++i)
+      if (leads(i, share)) leaders.push_back(i);
+    each(what, leaders.size(), [&](std::size_t l) {
+      Trial& t = trials[leaders[l]];
+      Refit& r = refits[leaders[l]];
+      if (r.settled && r.best.usable) return;
+      refitter_.go_on(r, passes);
+      const Hypothesis& h = r.best.hypothesis;
+      t = r.best.usable ? judge_.trial(h, without_, h.effects.size() - 1) : unusable(t.effect);
     });
   };
-  go_on_with("best candidates", kRule.leads, kRule.first_passes);
+  go_on_with("best candidates", kRule.leads, kRule.first_passes - 1);
   go_on_with("finalists", kRule.still_leads, kRule.most_passes - kRule.first_passes);
   std::vector<Fit> fits;
   for (const Refit& r : refits) fits.push_back(r.best);

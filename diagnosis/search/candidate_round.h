@@ -21,7 +21,8 @@ class CandidateRound {
   /// A trial of each candidate, the largest gain first. Empty if the sensitivities cannot be computed.
   std::vector<Trial> look(const std::vector<PlacedEffect>& candidates);
   /// Fits the first trials fully and judges them anew. The quick look computes the sensitivities of the model's
-  /// parameters once; here they are renewed until nothing changes. Returns the fits, in the order of the trials.
+  /// parameters once; here they are renewed until nothing changes. Which end of its quick fits a candidate goes on from
+  /// is decided after one such pass from each. Returns the fits, in the order of the trials of the last look().
   std::vector<Fit> fit_leaders(std::vector<Trial>& trials) const;
   /// What the look has found to first order.
   const LinearRound& linear() const { return linear_; }
@@ -29,7 +30,16 @@ class CandidateRound {
  private:
   /// Calls one(i) for all i < n, side by side.
   void each(const std::string& what, std::size_t n, const std::function<void(std::size_t)>& one) const;
-  Trial quick_look(const Hypothesis& start, const PlacedEffect& effect) const;
+  /// A candidate after its quick fits, one from each start.
+  struct Look {
+    Trial trial;                   ///< of the best
+    std::vector<Hypothesis> ends;  ///< the best first; empty if none is usable
+  };
+  void quick_fits(const std::vector<std::size_t>& candidates, std::vector<Look>& looks) const;
+  /// The effects so far and the model's numbers stay linear.
+  Fit quick_fit(const Hypothesis& start) const;
+  /// A full fit of the same candidate.
+  Refit refit_from(const Hypothesis& end) const;
 
   const Evidence& evidence_;
   const ArmModel& model_;
@@ -37,6 +47,7 @@ class CandidateRound {
   const Judge& judge_;
   Scored without_;
   LinearRound linear_;
+  std::vector<std::vector<Hypothesis>> ends_;       ///< of the quick fits of each trial
   std::vector<FitParameter> found_;                 ///< of the effects so far
   std::vector<std::vector<double>> found_columns_;  ///< sensitivities to them
   std::vector<double> scale_;                       ///< [2n] of the residual

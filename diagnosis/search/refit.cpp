@@ -22,7 +22,7 @@ Refitter::Refitter(const Evidence& evidence, const ArmModel& model, std::size_t 
   usable_ = true;
 }
 
-std::vector<FitParameter> Refitter::parameters(const Hypothesis& h) const {
+std::vector<FitParameter> Refitter::numbers_beside(const Hypothesis& h) const {
   std::vector<FitParameter> all;
   for (const FitParameter& b : numbers_) {
     bool covered = false;
@@ -30,6 +30,11 @@ std::vector<FitParameter> Refitter::parameters(const Hypothesis& h) const {
       covered = covered || effect_covers(h.effects[e], model_.nominal, b);
     if (!covered) all.push_back(b);
   }
+  return all;
+}
+
+std::vector<FitParameter> Refitter::parameters(const Hypothesis& h) const {
+  std::vector<FitParameter> all = numbers_beside(h);
   for (std::size_t e = 0; e < h.effects.size(); ++e)
     for (const FitParameter& p : effect_parameters(evidence_, h, model_.nominal, static_cast<int>(e)))
       if (e >= given_ || is_past(p)) all.push_back(p);
@@ -49,23 +54,21 @@ void Refitter::go_on(Refit& r, int passes) const {
   for (; passes > 0 && !r.settled; --passes) {
     r.settled = true;
     const std::vector<double> scale = channel_scale(evidence_, r.score.fit_mean_square);
+    const std::vector<FitParameter> numbers = numbers_beside(r.at);
+    const auto columns = sensitivities(evidence_, r.at, numbers);
+    if (columns.empty() && !numbers.empty()) return;
     // A nudge that finds nothing better will not find it near the next minimum.
     if (r.is_nudged) {
       const Hypothesis before = r.at;
-      r.at = nudged(evidence_, r.at, given_, model_.nominal, scale);
+      const std::size_t first = std::max(given_, r.nudged_from);
+      r.at = nudged(evidence_, r.at, first, model_.nominal, BeyondNumbers(evidence_, columns, scale));
       r.is_nudged = !std::ranges::equal(before.effects, r.at.effects, [](const PlacedEffect& a, const PlacedEffect& b) {
         return std::ranges::equal(a.p, b.p);
       });
     }
-    const std::vector<FitParameter> parameters = this->parameters(r.at);
-    std::vector<FitParameter> numbers;
-    for (const FitParameter& p : parameters)
-      if (p.effect < 0) numbers.push_back(p);
-    const auto columns = sensitivities(evidence_, r.at, numbers);
-    if (columns.empty() && !numbers.empty()) return;
     FitOptions options;
     options.cost_tolerance = 1e-3;
-    const Fit f = fit(evidence_, r.at, parameters, scale, options, columns);
+    const Fit f = fit(evidence_, r.at, parameters(r.at), scale, options, columns);
     if (!f.usable) return;
     r.score = evidence_.score(f.hypothesis);
     if (!r.score.finite) return;

@@ -16,7 +16,8 @@ struct Refit {
   Fit best = {};
   double last = std::numeric_limits<double>::infinity();  ///< Σ ln of the mean squares after the last pass
   bool settled = false;
-  bool is_nudged = true;  ///< before each pass
+  bool is_nudged = true;        ///< before each pass
+  std::size_t nudged_from = 0;  ///< effects before this one are not nudged
 };
 
 class Refitter {
@@ -30,8 +31,9 @@ class Refitter {
   /// The parameters of the model that the data are sensitive to.
   const std::vector<FitParameter>& numbers() const { return numbers_; }
 
-  /// Parameters of the model that no effect of the hypothesis changes, the past of its effects, and the parameters of
-  /// the added effects.
+  /// Parameters of the model that no effect of the hypothesis changes.
+  std::vector<FitParameter> numbers_beside(const Hypothesis& h) const;
+  /// These, then the past of its effects and the parameters of the added effects.
   std::vector<FitParameter> parameters(const Hypothesis& h) const;
   /// The hypothesis with one more effect. Parameters of the model that this effect changes are reset.
   Hypothesis with_effect(Hypothesis h, const PlacedEffect& effect, const std::vector<double>& past = {}) const;

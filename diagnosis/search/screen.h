@@ -1,16 +1,13 @@
 #pragma once
-/// A linear screening of candidates. r⊥ is the part of the residual that the baseline's parameters cannot explain.
-/// Which share of it could a candidate explain?
+/// A linear screening of candidates. r⊥ is the part of the residual that the baseline's parameters cannot explain
+/// (beyond_numbers.h). Which share of it could a candidate explain?
 ///
-///   r⊥ = r - J (Jᵀ J + P)⁻¹ Jᵀ r,  d⊥ likewise,  promise = (r⊥ · d⊥)² / (|r⊥|² |d⊥|²)
+///   promise = (r⊥ · d⊥)² / (|r⊥|² |d⊥|²)
 ///
-///   r   residual of the fitting rows, each channel over its scale            [rows]
-///   J   its sensitivities to the baseline's parameters, P their prior         [rows x numbers]
-///   d   change of r by the candidate at some size                             [rows]
+///   r   residual of the fitting rows                     [rows]
+///   d   change of r by the candidate at some size        [rows]
 
-#include <Eigen/QR>
-
-#include "diagnosis/fit/fit.h"
+#include "diagnosis/fit/beyond_numbers.h"
 
 namespace halyard {
 
@@ -28,19 +25,12 @@ class Screen {
   /// rows: residual with the candidate at some size; for empty rows the promise is 0.
   Direction direction(const std::vector<double>& rows) const;
   /// |r⊥ + d⊥|², infinite for empty rows.
-  double left(const std::vector<double>& rows) const;
+  double left(const std::vector<double>& rows) const { return beyond_.left(rows); }
   /// Instants at which r jumps (leaps.h).
   const std::vector<double>& instants() const { return instants_; }
 
  private:
-  Eigen::VectorXd weighted(const std::vector<double>& rows) const;
-  /// The part of x that the baseline's parameters cannot explain.
-  Eigen::VectorXd beyond_baseline(Eigen::VectorXd x) const;
-
-  const Evidence& evidence_;
-  std::vector<double> scale_;
-  int numbers_;
-  Eigen::HouseholderQR<Eigen::MatrixXd> qr_;
+  BeyondNumbers beyond_;
   Eigen::VectorXd r_, r_beyond_;
   std::vector<double> instants_;
 };

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "diagnosis/judgement/decision_rule.h"
+
 namespace halyard {
 namespace {
 
@@ -72,7 +74,6 @@ class StartSearch {
 
   Start run() {
     Start start;
-    start.hypothesis = with_;
     std::vector<Hypothesis> first;
     for (const Tried& t : tried_) first.push_back(t.hypothesis);
     first.push_back(neutral_);
@@ -85,14 +86,20 @@ class StartSearch {
     start.directions = directions(rows);
     if (start.promise == 0) return start;
 
-    const std::vector<Hypothesis> second = most_promising();
-    const auto second_rows = evidence_.fit_rows(second);
-    const auto consider = [&](const Hypothesis& h, const std::vector<double>& row) {
-      const double left = screen_.left(row);
-      if (left < start.left) start.left = left, start.hypothesis = h;
-    };
-    for (std::size_t i = 0; i < tried_.size(); ++i) consider(first[i], rows[i]);
-    for (std::size_t i = 0; i < second.size(); ++i) consider(second[i], second_rows[i]);
+    const std::vector<Asked> second = most_promising();
+    std::vector<Hypothesis> asked;
+    for (const Asked& a : second) asked.push_back(a.hypothesis);
+    const auto second_rows = evidence_.fit_rows(asked);
+    std::vector<Least> least(combinations_.size());
+    for (std::size_t i = 0; i < tried_.size(); ++i)
+      least[tried_[i].combination].consider(first[i], screen_.left(rows[i]));
+    for (std::size_t i = 0; i < second.size(); ++i)
+      least[second[i].combination].consider(asked[i], screen_.left(second_rows[i]));
+    std::erase_if(least, [](const Least& l) { return !std::isfinite(l.left); });
+    std::ranges::stable_sort(least, {}, &Least::left);
+    if (least.size() > kRule.starts_fitted) least.resize(kRule.starts_fitted);
+    for (const Least& l : least) start.hypotheses.push_back(l.hypothesis);
+    if (!least.empty()) start.left = least[0].left;
     return start;
   }
 
@@ -111,8 +118,18 @@ class StartSearch {
   /// What the linear fits ask for at one combination of shapes.
   struct Asked {
     Hypothesis hypothesis;
+    std::size_t combination;
     double promise = 0;
     bool any = false;
+  };
+
+  /// What leaves least at one combination of shapes.
+  struct Least {
+    Hypothesis hypothesis;
+    double left = std::numeric_limits<double>::infinity();
+    void consider(const Hypothesis& h, double its_left) {
+      if (its_left < left) left = its_left, hypothesis = h;
+    }
   };
 
   void add_group(const ParameterGroup& group) {
@@ -124,7 +141,7 @@ class StartSearch {
       const Hypothesis at = shaped(group, values);
       for (const std::size_t size : group.sizes) add_sizes(at, size, one_sided, shapes.size() > 1);
       combinations_.push_back({group, at});
-      asked_.push_back({neutral_});
+      asked_.push_back({neutral_, asked_.size()});
     }
   }
 
@@ -166,7 +183,7 @@ class StartSearch {
     Asked& asked = asked_[t.combination];
     // Shapes come with the first hypothesis of their combination; of several sizes each asks for its own.
     if (!asked.any) {
-      asked = {t.hypothesis, 0, true};
+      asked = {t.hypothesis, t.combination, 0, true};
       for (const FitParameter& other : parameters_)
         if (!other.shape) set_parameter(asked.hypothesis, other, other.nominal);
     }
@@ -176,14 +193,13 @@ class StartSearch {
   }
 
   /// The most promising of what the linear fits ask for.
-  std::vector<Hypothesis> most_promising() const {
+  std::vector<Asked> most_promising() const {
     constexpr std::size_t kMost = 8;
     std::vector<Asked> order = asked_;
+    std::erase_if(order, [](const Asked& a) { return a.promise == 0; });
     std::ranges::stable_sort(order, std::ranges::greater{}, &Asked::promise);
-    std::vector<Hypothesis> all;
-    for (std::size_t i = 0; i < std::min(kMost, order.size()); ++i)
-      if (order[i].promise > 0) all.push_back(order[i].hypothesis);
-    return all;
+    if (order.size() > kMost) order.resize(kMost);
+    return order;
   }
 
   /// At the most promising combinations of shapes. rows: of what was tried, then of neutral_.

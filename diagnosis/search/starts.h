@@ -18,15 +18,17 @@ struct Directions {
 };
 
 struct Start {
-  Hypothesis hypothesis;                                  ///< with the candidate, its last effect, at the best start
+  /// With the candidate, their last effect: the start that leaves least, then the best starts at other shapes. The one
+  /// from which a fit ends best need not be the one that leaves least.
+  std::vector<Hypothesis> hypotheses;
   double promise = 0;                                     ///< at the best start, see screen.h; 0: it explains nothing
-  double left = std::numeric_limits<double>::infinity();  ///< |r⊥ + d⊥|² there
+  double left = std::numeric_limits<double>::infinity();  ///< |r⊥ + d⊥|² at the first
   std::vector<Directions> directions;                     ///< at the most promising shapes, the best first
 };
 
 /// `with`: the candidate is its last effect. Each size is tried with each start of the shapes that follow it, at its
 /// typical value and at the value that the linear fit gives. A size without shapes is also tried over decades. A single
-/// instant is tried over the record and at the jumps of the residual.
+/// instant is tried over the record and at the jumps of the residual. At most kRule.starts_fitted hypotheses.
 Start best_start(const Evidence& evidence, const Screen& screen, const Hypothesis& with,
                  const ArmParameters<double>& nominal);
 

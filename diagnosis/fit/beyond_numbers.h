@@ -1,0 +1,40 @@
+#pragma once
+/// The part of a residual that the model's numbers cannot explain, to first order: what a fit with their linear columns
+/// would leave. Effects that resemble a change of a number are compared by it.
+///
+///   r⊥ = r - J (Jᵀ J + P)⁻¹ Jᵀ r        left = |r⊥|² plus the prior cost of the numbers
+///
+///   r   rows of the fitting blocks, each channel over its scale and the root of its correlated rows    [rows]
+///   J   sensitivities to the numbers, P their prior, centred where the columns were computed          [rows x numbers]
+///
+/// Source: variable projection, Golub and Pereyra, SIAM J. Numer. Anal. 10 (1973) 413-432.
+
+#include <Eigen/QR>
+
+#include "diagnosis/fit/fit.h"
+
+namespace halyard {
+
+class BeyondNumbers {
+ public:
+  /// columns: sensitivities(), one for each number.
+  BeyondNumbers(const Evidence& evidence, const std::vector<std::vector<double>>& columns,
+                const std::vector<double>& scale);
+
+  /// r of such rows.
+  Eigen::VectorXd weighted(const std::vector<double>& rows) const;
+  /// [rows + numbers]: r⊥, then the numbers' share of the prior cost.
+  Eigen::VectorXd of(const Eigen::VectorXd& r) const;
+  /// Infinite for empty rows.
+  double left(const std::vector<double>& rows) const;
+
+ private:
+  Eigen::VectorXd rotated(const Eigen::VectorXd& r) const;
+
+  const Evidence& evidence_;
+  std::vector<double> scale_;
+  Eigen::Index numbers_;
+  Eigen::HouseholderQR<Eigen::MatrixXd> qr_;
+};
+
+}  // namespace halyard
