@@ -1,17 +1,10 @@
 #include "app/command_line.h"
 
-// The one file that includes CLI11: it takes seconds to compile.
-#include <fmt/core.h>
-
-#include <CLI/CLI.hpp>
-#include <functional>
-#include <limits>
 #include <memory>
-#include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
+#include "app/command_options.h"
 #include "app/commands/check_command.h"
 #include "app/commands/compare_command.h"
 #include "app/commands/diagnose_command.h"
@@ -20,23 +13,15 @@
 #include "app/commands/plan_command.h"
 #include "app/commands/plugins_command.h"
 #include "app/commands/simulate_command.h"
-#include "app/commands/sweep_command.h"
+#include "app/sweep_options.h"
 #include "app/tour/experiments_command.h"
 #include "app/tour/tour_command.h"
 #include "evaluation/estimator_list.h"
 #include "halyard/version.h"
-#include "model/column_map.h"
 #include "model/input_error.h"
-#include "plugins/host/effect_module.h"
 
 namespace halyard {
 namespace {
-
-/// A command is an add_..._command function: it declares options that write into a struct and says what runs. The
-/// struct lives in the callback.
-using Run = std::function<void()>;
-
-void finish(CLI::App& command, Run run) { command.callback(std::move(run)); }
 
 void add_columns_option(CLI::App& command, std::vector<std::string>& columns) {
   command
@@ -45,43 +30,6 @@ void add_columns_option(CLI::App& command, std::vector<std::string>& columns) {
       ->type_name("NAME=COLUMN[,unit=U][,sign=-1][,scale=S][,offset=O]")
       ->take_all()
       ->allow_extra_args(false);
-}
-
-/// For commands that read models: their effects may be a user's own.
-void add_effects_option(CLI::App& command) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--effects",
-          [](const std::vector<std::string>& modules) {
-            for (const std::string& module : modules) load_effects(module);
-          },
-          "module with your own effects; may be repeated")
-      ->type_name("MODULE.so")
-      ->take_all()
-      ->allow_extra_args(false);
-}
-
-/// What an option that is a number may be.
-struct NumberRange {
-  double least = 0, most = std::numeric_limits<double>::max();
-  bool above_least = false;  ///< without `least` itself
-};
-
-/// For every option that is a number. CLI11's own checks let NaN pass.
-template <class Number>
-CLI::Option* add_number(CLI::App& command, const std::string& name, Number& value, const NumberRange& range,
-                        const std::string& description) {
-  const bool whole = std::is_integral_v<Number>;
-  const auto fault = [range, whole](const std::string& text) -> std::string {
-    const std::optional<double> number = parse_number(text);
-    if (number && (*number > range.least || (*number == range.least && !range.above_least)) && *number <= range.most &&
-        (!whole || text.find_first_not_of("0123456789") == text.npos))
-      return "";
-    return in_quotes(text) + ": expected a " + (whole ? "whole " : "finite ") + "number, " +
-           (range.above_least ? "above " : "at least ") + fmt::format("{:g}", range.least) +
-           (range.most < std::numeric_limits<double>::max() ? fmt::format(", at most {:g}", range.most) : "");
-  };
-  return command.add_option(name, value, description)->check(fault)->type_name("N");
 }
 
 void add_skip_option(CLI::App& command, double& skip_s) {
@@ -258,33 +206,6 @@ void add_experiments_command(CLI::App& app) {
       "--no-effect-study", [options] { options->effect_study = false; },
       "leave out the study of single effects, which takes most of the time");
   finish(command, [options] { run_experiments(*options); });
-}
-
-void add_sweep_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("sweep", "a parameter study over a grid");
-  const auto options = std::make_shared<SweepCommandOptions>();
-  const auto shard = std::make_shared<std::string>();
-  command.add_option("SWEEP.xml", options->sweep, "sweep file")->type_name("")->required();
-  command.add_option("--out", options->out, "folder of the results")->type_name("DIR")->required();
-  add_number(command, "--jobs", options->run.jobs, {.least = 1, .most = 1024}, "threads; default: one per core");
-  command.add_option("--shard", *shard, "compute part i of n, for halyard merge")->type_name("i/n");
-  command.add_flag("--resume", options->run.resume, "keep what is finished, compute the rest");
-  add_effects_option(command);
-  finish(command, [options, shard] {
-    if (!shard->empty()) options->run.shard = parse_shard(*shard);
-    run_sweep_command(*options);
-  });
-}
-
-void add_merge_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("merge", "put the parts of a sweep together");
-  const auto options = std::make_shared<MergeCommandOptions>();
-  command.add_option("DIR", options->parts, "folders that halyard sweep --shard wrote")->type_name("")->required();
-  command.add_option("--out", options->out, "folder of the whole; default: the first part")->type_name("DIR");
-  finish(command, [options] {
-    if (options->out.empty()) options->out = options->parts.front();
-    run_merge_command(*options);
-  });
 }
 
 void add_plugins_command(CLI::App& app) {

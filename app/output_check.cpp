@@ -35,9 +35,9 @@ void check_output_folder(const fs::path& path) {
 
 }  // namespace
 
-std::unique_ptr<FolderLock> lock_output_folder(const fs::path& path) {
+std::unique_ptr<FolderLock> lock_output_folder(const fs::path& path, const std::string& part) {
   check_output_folder(path);
-  auto lock = std::make_unique<FolderLock>(path);
+  auto lock = std::make_unique<FolderLock>(path, part);
   remove_leftovers(path);
   return lock;
 }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "model/output/folder_lock.h"
 
@@ -15,7 +16,8 @@ void check_output_file(const std::filesystem::path& path);
 void check_not_input(const std::filesystem::path& out, const std::filesystem::path& input);
 
 /// Locks a folder for the outputs of a command, and makes it if it is missing. Throws InputError if another run writes
-/// into it, or unless files can be written into it.
-[[nodiscard]] std::unique_ptr<FolderLock> lock_output_folder(const std::filesystem::path& path);
+/// into it, or unless files can be written into it. part: see FolderLock.
+[[nodiscard]] std::unique_ptr<FolderLock> lock_output_folder(const std::filesystem::path& path,
+                                                             const std::string& part = "");
 
 }  // namespace halyard

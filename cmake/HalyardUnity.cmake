@@ -78,16 +78,17 @@ compile_together(halyard_evaluation studies
   studies/holdout_errors.cpp studies/motion_proposal.cpp)
 compile_together(halyard_evaluation runs
   comparison/monte_carlo.cpp experiments/raven_experiments.cpp json.cpp run/contained_run.cpp
-  studies/identification_study.cpp sweep/sweep_file.cpp sweep/sweep_grid.cpp sweep/sweep_merge.cpp
-  sweep/sweep_parameter.cpp sweep/sweep_run.cpp sweep/sweep_store.cpp sweep/sweep_table.cpp)
+  studies/identification_study.cpp sweep/sweep_cells.cpp sweep/sweep_file.cpp sweep/sweep_grid.cpp
+  sweep/sweep_merge.cpp sweep/sweep_parameter.cpp sweep/sweep_run.cpp sweep/sweep_store.cpp sweep/sweep_summary.cpp
+  sweep/sweep_table.cpp)
 compile_together(halyard_running run csv.cpp run/estimate.cpp worker/worker_task.cpp)
 
 compile_together(halyard_report report chart.cpp chart_json.cpp page.cpp)
 compile_together(halyard_app commands
   command_line.cpp commands/check_command.cpp commands/compare_command.cpp commands/diagnose_command.cpp
   commands/estimate_command.cpp commands/identify_command.cpp commands/plan_command.cpp commands/plugins_command.cpp
-  commands/simulate_command.cpp commands/sweep_command.cpp interruption.cpp log_input.cpp main.cpp output_check.cpp
-  progress.cpp run_estimate.cpp tour/experiments_command.cpp tour/tour_command.cpp)
+  commands/simulate_command.cpp commands/sweep_command.cpp commands/sweep_slurm_command.cpp interruption.cpp log_input.cpp main.cpp output_check.cpp
+  progress.cpp run_estimate.cpp slurm/slurm_array.cpp sweep_options.cpp tour/experiments_command.cpp tour/tour_command.cpp)
 compile_together(halyard_app pages
   pages/comparison_figures.cpp pages/comparison_output.cpp pages/diagnosis_report.cpp pages/estimator_table.cpp
   pages/identify_output.cpp pages/identify_report.cpp pages/judgement_tables.cpp pages/sweep_report.cpp

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "model/output/output_files.h"
 
@@ -50,6 +51,11 @@ void CsvTable::end_cell() {
 const std::string& CsvTable::text() const {
   if (column_ != 0) throw std::logic_error("CsvTable: the last row is not complete");
   return text_;
+}
+
+std::string CsvTable::take() {
+  text();
+  return std::exchange(text_, {});
 }
 
 void CsvTable::write(const std::filesystem::path& path) const { write_file_whole(path, text()); }

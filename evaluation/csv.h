@@ -22,6 +22,8 @@ class CsvTable {
   void add(std::string_view text);
   void add(const char* text) { add(std::string_view(text)); }
 
+  /// The text since the last call, for a table that is written in parts. Throws as text() does.
+  std::string take();
   /// The text so far. Throws std::logic_error if the last row is incomplete.
   const std::string& text() const;
   /// Throws as text() and write_file_whole() do.

@@ -4,14 +4,15 @@
 
 #include <charconv>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "app/output_check.h"
+#include "app/pages/comparison_figures.h"
 #include "app/pages/sweep_report.h"
 #include "app/progress.h"
 #include "evaluation/sweep/sweep_file.h"
 #include "evaluation/sweep/sweep_merge.h"
-#include "evaluation/sweep/sweep_table.h"
 #include "model/input_error.h"
 
 namespace halyard {
@@ -26,11 +27,11 @@ std::optional<std::size_t> whole_number(std::string_view text) {
   return value;
 }
 
-void print_result(const fs::path& folder, const SweepGrid& grid, const std::vector<SweepCell>& cells) {
+void print_result(const fs::path& folder, const SweepGrid& grid, const SweepSummary& summary) {
   fmt::print("sweep \"{}\": {} points, {} estimators\n", grid.name, grid.size(), grid.estimators.size());
-  if (const std::size_t failures = count_failures(cells); failures > 0) {
-    fmt::print("{} of {} runs of estimators failed; the column failure of sweep.csv says why\n", failures,
-               cells.size() * grid.estimators.size());
+  if (summary.failures > 0) {
+    fmt::print("{} of {} runs of estimators failed; the column failure of sweep.csv says why\n", summary.failures,
+               grid.size() * grid.estimators.size());
   }
   fmt::print("table: {}\nreport: {}\n", (folder / "sweep.csv").string(), (folder / "report.html").string());
 }
@@ -47,7 +48,10 @@ Shard parse_shard(std::string_view text) {
 }
 
 void run_sweep_command(const SweepCommandOptions& options) {
-  const auto lock = lock_output_folder(options.out);
+  const Shard& shard = options.run.shard;
+  // Other shards may compute into the same folder at the same time.
+  const auto lock =
+      lock_output_folder(options.out, shard.is_whole() ? "" : fmt::format("{}_of_{}", shard.index, shard.count));
   const Sweep sweep = read_sweep(options.sweep);
   {
     std::optional<Progress> line;
@@ -58,25 +62,46 @@ void run_sweep_command(const SweepCommandOptions& options) {
     };
     run_sweep(sweep, options.out, run);
   }
-  if (options.run.shard.count > 1) {
+  if (!shard.is_whole()) {
     fmt::print("sweep \"{}\": part {} of {} is done; put the parts together with: halyard merge DIR... --out DIR\n",
-               sweep.grid.name, options.run.shard.index, options.run.shard.count);
+               sweep.grid.name, shard.index, shard.count);
     return;
   }
-  const std::vector<SweepCell> cells = collect_cells({options.out}, sweep.grid);
+  const StoredCells cells = collect_cells({options.out}, sweep.grid);
   OutputFiles files;
-  write_sweep_report(files, options.out, sweep.grid, cells);
+  write_cells(files, options.out, sweep.grid, cells);
+  const SweepSummary summary = write_sweep_report(files, options.out, sweep.grid, cells);
   files.commit();
-  print_result(options.out, sweep.grid, cells);
+  print_result(options.out, sweep.grid, summary);
+}
+
+void run_sweep_point(const SweepCommandOptions& options, std::size_t point) {
+  const Sweep sweep = read_sweep_definition(options.sweep);
+  const SweepGrid& grid = sweep.grid;
+  if (point >= grid.size())
+    throw InputError(
+        fmt::format("halyard sweep: --point {}: expected a point of the sweep, 0 to {}", point, grid.size() - 1));
+  fmt::print("point {}: {}\n", point, grid.description(point));
+  const SweepCell cell = run_point(sweep, point, options.run.containment);
+  for (std::size_t i = 0; i < cell.results.size(); ++i) {
+    const SweepCell::Result& result = cell.results[i];
+    if (!result.failure.empty()) fmt::print("{}: failed: {}\n", grid.estimators[i], result.failure);
+    for (std::size_t k = 0; k < grid.units.size() && result.failure.empty(); ++k)
+      fmt::print("{}: joint {}: mean absolute error {} {}\n", grid.estimators[i], k + 1,
+                 shown_number(result.errors[k].mean_absolute, grid.units[k]), grid.units[k].shown);
+  }
+  if (cell.failures() > 0)
+    throw std::runtime_error(fmt::format("halyard sweep: {} of {} estimators failed at point {}", cell.failures(),
+                                         cell.results.size(), point));
 }
 
 void run_merge_command(const MergeCommandOptions& options) {
   const auto lock = lock_output_folder(options.out);
   OutputFiles files;
-  const auto [grid, cells] = merge_sweep(files, options.parts, options.out);
-  write_sweep_report(files, options.out, grid, cells);
+  const SweepResult whole = merge_sweep(files, options.parts, options.out);
+  const SweepSummary summary = write_sweep_report(files, options.out, whole.grid, whole.cells);
   files.commit();
-  print_result(options.out, grid, cells);
+  print_result(options.out, whole.grid, summary);
 }
 
 }  // namespace halyard

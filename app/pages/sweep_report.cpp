@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "app/pages/comparison_figures.h"
 #include "app/report/page.h"
@@ -17,8 +19,9 @@ using report::Cell;
 using report::Chart;
 using report::Series;
 
-/// A page with more curves or rows than this would not be read; sweep.csv has all.
+/// A page with more curves, longer ones, or more rows than this would not be read; sweep.csv has all.
 constexpr std::size_t kMaxSlices = 12;
+constexpr std::size_t kMaxPlaces = 200;
 constexpr std::size_t kMaxRows = 300;
 
 /// Whether values of these ends need a logarithmic axis to be read.
@@ -26,62 +29,97 @@ bool spans_decades(double least, double greatest, double decades) {
   return least > 0 && greatest >= least * std::pow(10, decades);
 }
 
-/// Whether the joint's errors span so much that only a logarithmic axis shows them all; the same for all its charts.
-bool needs_log_y(const std::vector<SweepCell>& cells, std::size_t k) {
-  double least = std::numeric_limits<double>::infinity(), greatest = 0;
-  for (const SweepCell& cell : cells) {
-    for (const SweepCell::Result& result : cell.results) {
-      const double error = result.errors[k].mean_absolute;
-      if (std::isnan(error)) continue;
-      least = std::min(least, error);
-      greatest = std::max(greatest, error);
-    }
+std::string axis_label(const SweepAxis& axis) {
+  return axis.unit.empty() ? axis.label() : fmt::format("{} [{}]", axis.label(), axis.unit);
+}
+
+/// The chart of a joint's errors over an axis, still without curves.
+Chart empty_chart(const SweepGrid& grid, const SweepSummary& summary, const SweepAxis& axis, std::size_t k) {
+  const auto [lowest, highest] = std::ranges::minmax(axis.values);
+  return {.title = fmt::format("Joint {}", k + 1),
+          .x_label = axis_label(axis),
+          .y_label = fmt::format("mean absolute error [{}]", grid.units[k].shown),
+          .log_x = lowest > 0 && (axis.is_logarithmic || spans_decades(lowest, highest, 1)),
+          // The same for all charts of a joint.
+          .log_y = spans_decades(summary.spans[k].least, summary.spans[k].greatest, 2)};
+}
+
+/// A curve with the intervals of its places, if each has one.
+Series series_of(const std::string& name, const SweepSummary::Curve& curve, double shown_per_si) {
+  Series series{.name = name, .x = curve.x};
+  report::Band band;
+  for (const MeanWithInterval& error : curve.errors) {
+    series.y.push_back(shown_per_si * error.mean());
+    band.lower.push_back(shown_per_si * (error.mean() - error.half_width()));
+    band.upper.push_back(shown_per_si * (error.mean() + error.half_width()));
   }
-  return spans_decades(least, greatest, 2);
+  if (std::ranges::any_of(curve.errors, [](const auto& error) { return error.count() > 1; })) series.band = band;
+  return series;
 }
 
 /// Mean absolute error of a joint over the first axis; slice counts the points of the other axes.
-Chart curve(const SweepGrid& grid, const std::vector<SweepCell>& cells, std::size_t slice, std::size_t k) {
+Chart slice_chart(const SweepGrid& grid, const StoredCells& cells, const SweepSummary& summary, std::size_t slice,
+                  std::size_t k) {
   const SweepAxis& axis = grid.axes.front();
-  const JointUnit& unit = grid.units[k];
-  const std::size_t stride = grid.size() / axis.values.size();
-  Chart chart{.title = fmt::format("Joint {}", k + 1),
-              .x_label = axis.unit.empty() ? axis.label() : fmt::format("{} [{}]", axis.label(), axis.unit),
-              .y_label = fmt::format("mean absolute error [{}]", unit.shown)};
+  const std::size_t stride = grid.combinations() / axis.values.size();
+  Chart chart = empty_chart(grid, summary, axis, k);
   for (std::size_t i = 0; i < grid.estimators.size(); ++i) {
-    std::vector<std::pair<double, double>> points;
-    for (std::size_t place = 0; place < axis.values.size(); ++place) {
-      const double error = unit.shown_per_si * cells[place * stride + slice].results[i].errors[k].mean_absolute;
-      points.emplace_back(axis.values[place], error);
+    std::map<double, MeanWithInterval> places;
+    for (std::size_t place = 0; place < axis.values.size(); ++place)
+      for (std::size_t seed = 0; seed < grid.n_seeds(); ++seed) {
+        const SweepCell cell = cells.read((place * stride + slice) * grid.n_seeds() + seed);
+        places[axis.values[place]].add(cell.results[i].errors[k].mean_absolute);
+      }
+    SweepSummary::Curve curve;
+    for (const auto& [x, error] : places) {
+      curve.x.push_back(x);
+      curve.errors.push_back(error);
     }
-    std::ranges::sort(points, {}, &std::pair<double, double>::first);
-    Series series{.name = grid.estimators[i]};
-    for (const auto& [x, y] : points) {
-      series.x.push_back(x);
-      series.y.push_back(y);
-    }
-    chart.series.push_back(std::move(series));
+    chart.series.push_back(series_of(grid.estimators[i], curve, grid.units[k].shown_per_si));
   }
-  const auto [lowest, highest] = std::ranges::minmax(axis.values);
-  chart.log_x = lowest > 0 && (axis.is_logarithmic || spans_decades(lowest, highest, 1));
-  chart.log_y = needs_log_y(cells, k);
   return chart;
 }
 
-report::Table error_rows(const SweepGrid& grid, const std::vector<SweepCell>& cells) {
+void add_slices(report::Page& page, const SweepGrid& grid, const StoredCells& cells, const SweepSummary& summary) {
+  const std::size_t slices = grid.combinations() / grid.axes.front().values.size();
+  for (std::size_t slice = 0; slice < slices; ++slice) {
+    if (slices > 1) page.heading(grid.description(slice * grid.n_seeds(), 1));
+    std::vector<Chart> charts;
+    for (std::size_t k = 0; k < grid.units.size(); ++k) charts.push_back(slice_chart(grid, cells, summary, slice, k));
+    page.figure_row(charts);
+  }
+}
+
+/// For each axis the mean over everything else that varies.
+void add_means(report::Page& page, const SweepGrid& grid, const SweepSummary& summary) {
+  for (std::size_t a = 0; a < grid.axes.size(); ++a) {
+    page.heading(fmt::format("Over {}, averaged over everything else that varies", grid.axes[a].label()));
+    std::vector<Chart> charts;
+    for (std::size_t k = 0; k < grid.units.size(); ++k) {
+      charts.push_back(empty_chart(grid, summary, grid.axes[a], k));
+      for (std::size_t i = 0; i < grid.estimators.size(); ++i)
+        charts.back().series.push_back(
+            series_of(grid.estimators[i], summary.curve(a, i, k), grid.units[k].shown_per_si));
+    }
+    page.figure_row(charts);
+  }
+}
+
+report::Table error_rows(const SweepGrid& grid, const StoredCells& cells) {
   report::Table table;
   table.caption = fmt::format("Mean absolute error after the first {:g} s", grid.skip_s);
-  for (const SweepAxis& axis : grid.axes) {
-    table.header.push_back(axis.unit.empty() ? axis.label() : fmt::format("{} [{}]", axis.label(), axis.unit));
-  }
+  for (const SweepAxis& axis : grid.axes) table.header.push_back(axis_label(axis));
+  if (!grid.seeds.empty()) table.header.push_back("seed");
   table.header.push_back("estimator");
   for (std::size_t k = 0; k < grid.units.size(); ++k) {
     table.header.push_back(fmt::format("joint {} [{}]", k + 1, grid.units[k].shown));
   }
-  for (const SweepCell& cell : cells) {
+  for (std::size_t point = 0; point < cells.size() && table.rows.size() < kMaxRows; ++point) {
+    const SweepCell cell = cells.read(point);
     for (std::size_t i = 0; i < cell.results.size() && table.rows.size() < kMaxRows; ++i) {
       std::vector<Cell> row;
       for (const double value : grid.values(cell.point)) row.emplace_back(fmt::format("{:.6g}", value));
+      if (const auto seed = grid.seed(point)) row.emplace_back(std::to_string(*seed));
       row.emplace_back(grid.estimators[i]);
       for (std::size_t k = 0; k < grid.units.size(); ++k) {
         row.emplace_back(shown_number(cell.results[i].errors[k].mean_absolute, grid.units[k]));
@@ -100,33 +138,29 @@ std::string axis_sentence(const SweepAxis& axis) {
                      axis.is_factor ? ", each a factor of the number in the file" : "", where);
 }
 
-report::Page sweep_page(const SweepGrid& grid, const std::vector<SweepCell>& cells) {
+report::Page sweep_page(const SweepGrid& grid, const StoredCells& cells, const SweepSummary& summary) {
   report::Page page("Sweep: " + grid.name, fmt::format("scenario {}, model {}, {} points, estimators {}", grid.scenario,
                                                        grid.model, grid.size(), fmt::join(grid.estimators, ", ")));
   page.paragraph(
-      "At each point of the grid the plant is simulated anew, and each estimator gets its motor signals. The curves "
+      "At each point the plant is simulated anew, and each estimator gets its motor signals. The curves "
       "show the mean absolute error of the joint positions (the paper's Eq. 18) against the truth of the simulation.");
   for (const SweepAxis& axis : grid.axes) page.paragraph("Varied: " + axis_sentence(axis));
-  const std::size_t failures = count_failures(cells);
-  if (failures > 0) {
+  if (!grid.seeds.empty())
+    page.paragraph(fmt::format("Each combination of values is simulated with {} seeds.", grid.seeds.size()));
+  const bool is_aggregated = grid.is_sampled || grid.axes.front().values.size() > kMaxPlaces ||
+                             grid.combinations() / grid.axes.front().values.size() > kMaxSlices;
+  if (is_aggregated || grid.n_seeds() > 1) page.paragraph("The bands are 95 % intervals of the means (Student's t).");
+  if (summary.failures > 0) {
     page.verdict(report::VerdictKind::warning,
-                 fmt::format("{} of {} runs of estimators failed and are gaps; sweep.csv says why.", failures,
-                             cells.size() * grid.estimators.size()));
+                 fmt::format("{} of {} runs of estimators failed and are gaps; sweep.csv says why, and how to repeat "
+                             "them.",
+                             summary.failures, grid.size() * grid.estimators.size()));
   }
-  const std::size_t slices = grid.size() / grid.axes.front().values.size();
-  for (std::size_t slice = 0; slice < std::min(slices, kMaxSlices); ++slice) {
-    if (slices > 1) page.heading(grid.description(slice, 1));
-    std::vector<Chart> charts;
-    for (std::size_t k = 0; k < grid.units.size(); ++k) charts.push_back(curve(grid, cells, slice, k));
-    page.figure_row(charts);
-  }
-  if (slices > kMaxSlices) {
-    page.paragraph(
-        fmt::format("Curves of {} of {} combinations of the other axes; sweep.csv has all.", kMaxSlices, slices));
-  }
+  if (is_aggregated) add_means(page, grid, summary);
+  else add_slices(page, grid, cells, summary);
   page.heading("Numbers");
   page.table(error_rows(grid, cells));
-  if (cells.size() * grid.estimators.size() > kMaxRows) {
+  if (grid.size() * grid.estimators.size() > kMaxRows) {
     page.paragraph(fmt::format("The first {} rows; sweep.csv has all, with RMS, peak and bias.", kMaxRows));
   }
   return page;
@@ -134,10 +168,11 @@ report::Page sweep_page(const SweepGrid& grid, const std::vector<SweepCell>& cel
 
 }  // namespace
 
-void write_sweep_report(OutputFiles& files, const std::filesystem::path& folder, const SweepGrid& grid,
-                        const std::vector<SweepCell>& cells) {
-  files.add(folder / "sweep.csv", sweep_csv(grid, cells));
-  files.add(folder / "report.html", sweep_page(grid, cells).html());
+SweepSummary write_sweep_report(OutputFiles& files, const std::filesystem::path& folder, const SweepGrid& grid,
+                                const StoredCells& cells) {
+  SweepSummary summary = write_sweep_table(files, folder / "sweep.csv", grid, cells);
+  files.add(folder / "report.html", sweep_page(grid, cells, summary).html());
+  return summary;
 }
 
 }  // namespace halyard

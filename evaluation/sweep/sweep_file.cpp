@@ -25,6 +25,7 @@ using Target = SweepAxis::Target;
 
 constexpr std::int64_t kMaxSteps = 100'000;
 constexpr double kMaxPoints = 1e6;
+constexpr std::size_t kCheckedPoints = 10'000;
 
 std::vector<double> read_values(const XmlElement& axis, bool is_logarithmic) {
   const bool has_range = axis.has("from") || axis.has("to") || axis.has("steps");
@@ -105,15 +106,6 @@ ArmModel with_values(const ArmModel& model, const SweepGrid& grid, std::size_t p
   return changed;
 }
 
-/// A model file's own checks, for every point.
-void check_points(const Sweep& sweep, const std::string& source) {
-  for (std::size_t point = 0; point < sweep.grid.size(); ++point) {
-    const std::string where = source + ", at " + sweep.grid.description(point);
-    parse_model(model_to_xml(sweep.scenario_at(point).robot), where + ", robot");
-    parse_model(model_to_xml(sweep.model_at(point)), where + ", model");
-  }
-}
-
 std::string file_text(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -152,12 +144,27 @@ std::vector<std::string> read_estimators(const XmlElement& element, const fs::pa
 Scenario Sweep::scenario_at(std::size_t point) const {
   Scenario changed = scenario;
   changed.robot = with_values(scenario.robot, grid, point, Target::robot);
+  changed.seed = grid.seed(point).value_or(scenario.seed);
   return changed;
 }
 
 ArmModel Sweep::model_at(std::size_t point) const { return with_values(model, grid, point, Target::model); }
 
+/// A model file's own checks.
+void check_point(const Sweep& sweep, std::size_t point, const std::string& source) {
+  const std::string where = source + ", at " + sweep.grid.description(point);
+  parse_model(model_to_xml(sweep.scenario_at(point).robot), where + ", robot");
+  parse_model(model_to_xml(sweep.model_at(point)), where + ", model");
+}
+
 Sweep read_sweep(const fs::path& path) {
+  Sweep sweep = read_sweep_definition(path);
+  const std::size_t points = sweep.grid.size(), stride = (points + kCheckedPoints - 1) / kCheckedPoints;
+  for (std::size_t point = 0; point < points; point += stride) check_point(sweep, point, path.string());
+  return sweep;
+}
+
+Sweep read_sweep_definition(const fs::path& path) {
   const XmlElement element = XmlElement::read_file(path, "sweep");
   element.only({"name", "scenario", "model", "estimators", "seed", "duration", "skip"}, {"axis"});
   const fs::path folder = path.parent_path();
@@ -176,6 +183,7 @@ Sweep read_sweep(const fs::path& path) {
 
   SweepGrid& grid = sweep.grid;
   grid.name = element.text("name");
+  grid.file = path.filename().string();
   grid.scenario = scenario_file.filename().string();
   grid.model = model_file.filename().string();
   grid.skip_s = element.number_or("skip", 0.5, "s", Sign::non_negative);
@@ -189,7 +197,6 @@ Sweep read_sweep(const fs::path& path) {
   if (grid.axes.empty()) element.fail("element <axis> is missing; give one or more");
   if (points > kMaxPoints)
     element.fail(fmt::format("{:g} points; expected at most {:g}; take fewer values", points, kMaxPoints));
-  check_points(sweep, path.string());
   grid.id = definition_id(sweep, path, scenario_file);
   return sweep;
 }

@@ -36,7 +36,13 @@ struct Sweep {
 };
 
 /// Reads a sweep file. Throws InputError if the file, the scenario or the model is invalid, and if the robot or the
-/// model would be invalid at a point of the grid.
+/// model would be invalid at a point of the grid: at any of 10 000 points, or at 10 000 of more, evenly spaced.
 Sweep read_sweep(const std::filesystem::path& path);
+
+/// The same without a look at the points.
+Sweep read_sweep_definition(const std::filesystem::path& path);
+
+/// Throws InputError if the robot or the model is invalid at this point. source: what the message starts with.
+void check_point(const Sweep& sweep, std::size_t point, const std::string& source);
 
 }  // namespace halyard

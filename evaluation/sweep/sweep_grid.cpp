@@ -10,19 +10,26 @@ std::string SweepAxis::label() const {
   return is_factor ? text + " (factor)" : text;
 }
 
-std::size_t SweepGrid::size() const {
+std::size_t SweepGrid::combinations() const {
+  if (is_sampled) return axes.at(0).values.size();
   std::size_t product = 1;
   for (const SweepAxis& axis : axes) product *= axis.values.size();
   return product;
 }
 
 std::vector<std::size_t> SweepGrid::places(std::size_t point) const {
-  std::vector<std::size_t> result(axes.size());
+  std::size_t combination = point / n_seeds();
+  std::vector<std::size_t> result(axes.size(), combination);
+  if (is_sampled) return result;
   for (std::size_t i = axes.size(); i-- > 0;) {
-    result[i] = point % axes[i].values.size();
-    point /= axes[i].values.size();
+    result[i] = combination % axes[i].values.size();
+    combination /= axes[i].values.size();
   }
   return result;
+}
+
+std::optional<std::uint64_t> SweepGrid::seed(std::size_t point) const {
+  return seeds.empty() ? std::nullopt : std::optional(seeds[point % seeds.size()]);
 }
 
 std::vector<double> SweepGrid::values(std::size_t point) const {
@@ -39,6 +46,7 @@ std::string SweepGrid::description(std::size_t point, std::size_t first_axis) co
     text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", axes[i].label(), value[i]);
     if (!axes[i].unit.empty()) text += " " + axes[i].unit;
   }
+  if (const auto number = seed(point); number && first_axis == 0) text += fmt::format(", seed {}", *number);
   return text;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,24 +26,41 @@ struct SweepAxis {
   std::string label() const;
 };
 
+/// Part i of n of a grid: the points p with p mod n = i - 1.
+struct Shard {
+  std::size_t index = 1, count = 1;
+
+  bool holds(std::size_t point) const { return point % count == index - 1; }
+  bool is_whole() const { return count == 1; }
+};
+
 /// Definition of a sweep, which computes the error of every estimator at every joint for every point of the grid. It
 /// contains everything that merging and reporting need, and is stored with the results.
 struct SweepGrid {
   std::string name;
   std::string id;               ///< equal for equal definitions: only results with equal ids can be merged
+  std::string file;             ///< name of the sweep file, without its folder; empty: there is none
   std::string scenario, model;  ///< names of the files, without folders
   double skip_s = 0.5;
   std::vector<SweepAxis> axes;
+  bool is_sampled = false;           ///< not all combinations: point p has the p-th value of every axis
+  std::vector<std::uint64_t> seeds;  ///< each combination of values is simulated with each; empty: the scenario's
   std::vector<std::string> estimators;
   std::vector<JointUnit> units;  ///< [n_joints]
 
-  /// Product of the axes' lengths.
-  std::size_t size() const;
-  /// Index of a point's value on every axis; the last axis varies fastest.
+  /// Number of combinations of the axes' values.
+  std::size_t combinations() const;
+  std::size_t n_seeds() const { return seeds.empty() ? 1 : seeds.size(); }
+  /// Number of points: each combination with each seed.
+  std::size_t size() const { return combinations() * n_seeds(); }
+
+  /// Index of a point's value on every axis; the last axis varies fastest, the seed faster still.
   std::vector<std::size_t> places(std::size_t point) const;
   /// The point's value on every axis.
   std::vector<double> values(std::size_t point) const;
-  /// "joint1.cable.stiffness = 720000 N/m, ..." for the axes from first_axis on.
+  /// Nothing without seeds.
+  std::optional<std::uint64_t> seed(std::size_t point) const;
+  /// "joint1.cable.stiffness = 720000 N/m, ..., seed 3" for the axes from first_axis on; the seed with the first axis.
   std::string description(std::size_t point, std::size_t first_axis = 0) const;
 };
 

@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "evaluation/sweep/sweep_store.h"
 #include "model/input_error.h"
 
 namespace halyard {
@@ -13,49 +13,42 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The cell from the first folder that has it.
-std::optional<SweepCell> find_cell(const std::vector<fs::path>& folders, const SweepGrid& grid, std::size_t point) {
-  for (const fs::path& folder : folders) {
-    if (std::optional<SweepCell> cell = read_cell(folder, grid, point)) return cell;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
-std::vector<SweepCell> collect_cells(const std::vector<fs::path>& folders, const SweepGrid& grid) {
-  std::vector<SweepCell> cells;
-  std::size_t missing = 0, first_missing = 0;
-  for (std::size_t point = 0; point < grid.size(); ++point) {
-    if (std::optional<SweepCell> cell = find_cell(folders, grid, point)) {
-      cells.push_back(std::move(*cell));
-    } else if (missing++ == 0) {
-      first_missing = point;
-    }
-  }
-  if (missing > 0) {
-    throw InputError(
-        fmt::format("halyard merge: {} of {} points are in none of the folders, the first is point {} ({}); run the "
-                    "missing parts, or name their folders too",
-                    missing, grid.size(), first_missing, grid.description(first_missing)));
-  }
-  return cells;
+StoredCells collect_cells(const std::vector<fs::path>& folders, const SweepGrid& grid) {
+  StoredCells cells(folders, grid);
+  const std::size_t missing = grid.size() - cells.count();
+  if (missing == 0) return cells;
+  std::size_t first = 0;
+  while (cells.has(first)) ++first;
+  throw InputError(
+      fmt::format("halyard merge: {} of {} points are in none of the folders, the first is point {} ({}); run the "
+                  "missing parts, or name their folders too",
+                  missing, grid.size(), first, grid.description(first)));
+}
+
+void write_cells(OutputFiles& files, const fs::path& out, const SweepGrid& grid, const StoredCells& cells) {
+  discard_other_sweep(files, out, grid);
+  for (const fs::path& journal : journals_in(out)) files.remove(journal);
+  files.add_in_parts(journal_path(out, {}), [&](const OutputFiles::Append& append) {
+    append(journal_header(grid));
+    for (std::size_t point = 0; point < cells.size(); ++point) append(cells.line(point));
+  });
 }
 
 SweepResult merge_sweep(OutputFiles& files, const std::vector<fs::path>& parts, const fs::path& out) {
   if (parts.empty()) throw std::invalid_argument("merge_sweep: no part");
-  SweepResult whole{read_grid(parts.front()), {}};
+  SweepGrid grid = read_grid(parts.front());
   for (const fs::path& part : parts) {
-    if (read_grid(part).id != whole.grid.id) {
+    if (read_grid(part).id != grid.id) {
       throw InputError(part.string() + ": holds another sweep than " + parts.front().string() +
                        "; merge parts of the same sweep, computed from the same files");
     }
   }
-  whole.cells = collect_cells(parts, whole.grid);
-  discard_other_sweep(files, out, whole.grid);
-  write_grid(files, out, whole.grid);
-  for (const SweepCell& cell : whole.cells) write_cell(files, out, whole.grid, cell);
-  return whole;
+  StoredCells cells = collect_cells(parts, grid);
+  write_grid(files, out, grid);
+  write_cells(files, out, grid, cells);
+  return {std::move(grid), std::move(cells)};
 }
 
 }  // namespace halyard

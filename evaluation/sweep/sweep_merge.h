@@ -4,23 +4,28 @@
 #include <filesystem>
 #include <vector>
 
+#include "evaluation/sweep/sweep_cells.h"
 #include "evaluation/sweep/sweep_grid.h"
-#include "evaluation/sweep/sweep_store.h"
+#include "model/output/output_files.h"
 
 namespace halyard {
 
-/// All cells of the grid [grid.size()], in the order of the points, each from the first folder that has it.
-/// Throws InputError if a cell is in none of the folders, and as read_cell() does.
-std::vector<SweepCell> collect_cells(const std::vector<std::filesystem::path>& folders, const SweepGrid& grid);
+/// All cells of the grid, each from the first folder that has it.
+/// Throws InputError if a cell is in none of the folders, and as StoredCells does.
+StoredCells collect_cells(const std::vector<std::filesystem::path>& folders, const SweepGrid& grid);
+
+/// Adds one journal with all cells in the order of the points to the folder `out`. files.commit() removes its other
+/// journals, and cells and tables of another sweep.
+void write_cells(OutputFiles& files, const std::filesystem::path& out, const SweepGrid& grid, const StoredCells& cells);
 
 /// A whole sweep: its grid, and all its cells.
 struct SweepResult {
   SweepGrid grid;
-  std::vector<SweepCell> cells;  ///< [grid.size()], in the order of the points
+  StoredCells cells;
 };
 
-/// Collects the cells of all parts and adds them to the files of the folder `out`, which may be one of the parts. Cells
-/// and tables of another sweep are removed from `out` by files.commit().
+/// Collects the cells of all parts and adds grid and cells to the files of the folder `out`, which may be one of the
+/// parts.
 /// Throws std::invalid_argument without parts, InputError if the parts are of different sweeps, and as collect_cells()
 /// does.
 SweepResult merge_sweep(OutputFiles& files, const std::vector<std::filesystem::path>& parts,

@@ -9,6 +9,7 @@
 
 #include "evaluation/comparison/compare.h"
 #include "evaluation/run/contained_run.h"
+#include "evaluation/sweep/sweep_store.h"
 #include "model/input_error.h"
 #include "plant/simulate.h"
 
@@ -17,15 +18,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Points of the shard that are still to be computed; cells that do not count are removed.
+/// Points of the shard that are still to be computed; a journal that does not count is removed.
 std::vector<std::size_t> points_to_do(const SweepGrid& grid, const fs::path& folder, const SweepRunOptions& options) {
-  std::vector<std::size_t> todo;
-  for (std::size_t point = 0; point < grid.size(); ++point) {
-    if (!options.shard.holds(point)) continue;
-    if (options.resume && read_cell(folder, grid, point)) continue;
-    remove_cell(folder, point);
-    todo.push_back(point);
+  if (!options.resume) {
+    if (options.shard.is_whole())
+      for (const fs::path& journal : journals_in(folder)) fs::remove(journal);
+    fs::remove(journal_path(folder, options.shard));
   }
+  const StoredCells stored({folder}, grid);
+  std::vector<std::size_t> todo;
+  for (std::size_t point = 0; point < grid.size(); ++point)
+    if (options.shard.holds(point) && !(options.resume && stored.has(point))) todo.push_back(point);
   return todo;
 }
 
@@ -40,6 +43,7 @@ SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOpti
   SweepCell cell{point, {}};
   SimulationResult data;
   try {
+    check_point(sweep, point, "the sweep");
     data = simulate(faster(sweep.scenario_at(point)));
   } catch (const std::exception& error) {
     cell.results.assign(sweep.grid.estimators.size(), failure(std::string("simulation: ") + error.what(), n));
@@ -64,19 +68,11 @@ void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions
   for (const std::string& estimator : sweep.grid.estimators)
     check_estimator(estimator, sweep.model_at(0), options.containment);
 
-  if (options.resume && holds_other_sweep(folder, sweep.grid)) {
-    throw InputError(
-        folder.string() +
-        ": holds results of another sweep, or of this one before its files were changed; leave out --resume "
-        "to compute it anew, or give another folder");
-  }
-  OutputFiles grid;
-  discard_other_sweep(grid, folder, sweep.grid);
-  write_grid(grid, folder, sweep.grid);
-  grid.commit();
-  remove_leftovers(folder / "cells");
+  if (options.resume) check_same_sweep(folder, sweep.grid);
+  store_grid(folder, sweep.grid);
   const std::vector<std::size_t> todo = points_to_do(sweep.grid, folder, options);
 
+  CellJournal journal(folder, sweep.grid, options.shard);
   namespace tbb = oneapi::tbb;
   const int jobs = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(jobs));
@@ -85,9 +81,7 @@ void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions
   tbb::task_arena arena(jobs);
   arena.execute([&] {
     tbb::parallel_for_each(todo, [&](std::size_t point) {
-      OutputFiles cell;
-      write_cell(cell, folder, sweep.grid, run_point(sweep, point, options.containment));
-      cell.commit();
+      journal.add(run_point(sweep, point, options.containment));
       if (const std::size_t now = ++done; options.progress) options.progress(now, todo.size());
     });
   });

@@ -1,20 +1,22 @@
 #pragma once
 /// The results of a sweep as one table.
 
-#include <cstddef>
-#include <string>
-#include <vector>
+#include <filesystem>
 
+#include "evaluation/sweep/sweep_cells.h"
 #include "evaluation/sweep/sweep_grid.h"
-#include "evaluation/sweep/sweep_store.h"
+#include "evaluation/sweep/sweep_summary.h"
+#include "model/output/output_files.h"
 
 namespace halyard {
 
-/// The text of a CSV file with one row per point, estimator and joint: the values of the axes, the errors in SI units,
-/// and the reason of a failure. cells: [grid.size()], in the order of the points.
-std::string sweep_csv(const SweepGrid& grid, const std::vector<SweepCell>& cells);
+/// Adds a CSV file with one row per point, estimator and joint: the values of the axes, the seed where there are
+/// several, the errors in SI units, and the reason of a failure with the command that repeats it. Reads each cell once,
+/// in the order of the points, and returns their summary.
+SweepSummary write_sweep_table(OutputFiles& files, const std::filesystem::path& path, const SweepGrid& grid,
+                               const StoredCells& cells);
 
-/// Number of estimator runs that failed.
-std::size_t count_failures(const std::vector<SweepCell>& cells);
+/// "halyard sweep stiffness.xml --point 12"
+std::string command_of_point(const SweepGrid& grid, std::size_t point);
 
 }  // namespace halyard

@@ -78,6 +78,10 @@ bool sync(int file) { return ::fsync(file) == 0 || errno == EINVAL || errno == E
 }  // namespace
 
 void OutputFiles::add(const fs::path& path, std::string_view content) {
+  add_in_parts(path, [content](const Append& append) { append(content); });
+}
+
+void OutputFiles::add_in_parts(const fs::path& path, const std::function<void(const Append&)>& write) {
   const fs::path target = replaceable(path);
   try {
     unfinished_.create_folders(target.parent_path());
@@ -88,7 +92,11 @@ void OutputFiles::add(const fs::path& path, std::string_view content) {
   unfinished_.add(temporary);
   Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL);
   if (!file) fail(path, "cannot be written: " + reason(errno));
-  if (!write_all(*file, content) || !sync(*file) || !file.close()) fail(path, "not written: " + reason(errno));
+  const auto check = [&path](bool written) {
+    if (!written) fail(path, "not written: " + reason(errno));
+  };
+  write([&](std::string_view part) { check(write_all(*file, part)); });
+  check(sync(*file) && file.close());
   files_.push_back({target, temporary});
 }
 
@@ -117,7 +125,8 @@ void OutputFiles::give_names() {
   for (const File& f : files_)
     if (f.exchanged) fs::remove(f.temporary, ignored);
   for (const fs::path& path : obsolete_)
-    if (std::ranges::find(files_, path, &File::path) == files_.end()) fs::remove(path, ignored);
+    if (std::ranges::none_of(files_, [&](const File& f) { return fs::equivalent(f.path, path, ignored); }))
+      fs::remove(path, ignored);
 }
 
 void OutputFiles::commit() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,10 @@ class OutputFiles {
   /// Makes missing parent folders. A link to a file is followed.
   /// Throws std::runtime_error with path and reason: the path is a folder or a device, no permission, a full disk.
   void add(const std::filesystem::path& path, std::string_view content);
+
+  /// The same for a file that is too large for the memory: `write` calls `append` with the parts of its content.
+  using Append = std::function<void(std::string_view)>;
+  void add_in_parts(const std::filesystem::path& path, const std::function<void(const Append& append)>& write);
 
   /// Has commit() remove an older file that has no place beside the new ones, unless a new one has its name.
   void remove(const std::filesystem::path& path) { obsolete_.push_back(path); }

@@ -227,8 +227,15 @@ TEST_F(BadInput, PartsOfASweepThatDoNotBelongTogether) {
   done({"sweep", "sweep.xml", "--out", "part2", "--shard", "2/2"});
   expect_refused({"merge", "part1", "part2", "--out", "all"}, {"part2: holds another sweep than part1"});
   expect_refused({"sweep", "sweep.xml", "--out", "part1", "--resume"}, {"part1: holds results of another sweep"});
-  write_text(path("part2/cells/000001.json"), "{\"id\":");
-  expect_refused({"merge", "part2", "--out", "all"}, {"part2/cells/000001.json", "damaged"});
+  const fs::path journal = path("part2/cells/2_of_2.jsonl");
+  write_text(journal, text_of(journal) + "{\"id\":\n");
+  expect_refused({"merge", "part2", "--out", "all"}, {"part2/cells/2_of_2.jsonl", "damaged"});
+  expect_refused({"sweep", "sweep.xml", "--out", "none", "--status"}, {"none: holds no sweep.json"});
+  expect_refused({"sweep", "sweep.xml", "--out", "part1", "--status"}, {"part1: holds results of another sweep"});
+  expect_refused({"sweep", "sweep.xml", "--point", "2"}, {"--point 2", "0 to 1"});
+  expect_refused({"sweep", "sweep.xml"}, {"--out"});
+  expect_refused({"sweep", "sweep.xml", "--out", "out", "--nodes", "2"}, {"--nodes", "--slurm"});
+  expect_refused({"sweep", "sweep.xml", "--out", "out", "--status", "--slurm"}, {"--status"});
   write_text(path("part2/sweep.json"), replaced(text_of(path("part2/sweep.json")), "300000", "300000.0, 4"));
   expect_refused({"merge", "part2", "--out", "all"}, {"part2/sweep.json", "damaged"});
   for (const char* shard : {"0/2", "3/2", "1", "a/b", "1/2x", "-1/2"}) {

@@ -29,7 +29,7 @@ TEST_F(Sweep, GivesTheSameBytesForAnyNumberOfJobsAndAnyShards) {
   done({"sweep", "sweep.xml", "--out", "part2", "--shard", "2/2"});
   done({"merge", "part1", "part2", "--out", "merged"});
   const auto one = files_in(path("one"));
-  EXPECT_EQ(one.size(), 9u);  // sweep.json, six cells, table, report
+  EXPECT_EQ(one.size(), 4u);  // sweep.json, cells, table, report
   EXPECT_TRUE(files_in(path("two")) == one);
   EXPECT_TRUE(files_in(path("merged")) == one);
 }
@@ -59,15 +59,21 @@ TEST_F(Sweep, KnowsTheSameErrorsAsAComparisonOfTheSamePoint) {
 TEST_F(Sweep, ResumesWithoutComputingFinishedCellsAgain) {
   done({"sweep", "sweep.xml", "--out", "out"});
   const auto whole = files_in(path("out"));
-  // A mark that only a cell which is kept still has.
-  const fs::path kept = path("out/cells/000001.json"), lost = path("out/cells/000004.json");
-  write_text(kept, text_of(kept) + "\n\n");
-  fs::remove(lost);
+  // Point 1 with a failure that only a cell which is kept still has; without point 4.
+  std::string cells;
+  for (const std::string& line : lines_of(whole.at("cells/all.jsonl"))) {
+    if (line.starts_with("{\"point\":4,")) continue;
+    const bool marked = line.starts_with("{\"point\":1,");
+    cells += (marked ? replaced(line, "\"failure\":\"\"", "\"failure\":\"mark\"") : line) + "\n";
+  }
+  write_text(path("out/cells/all.jsonl"), cells);
+  EXPECT_TRUE(contains(done({"sweep", "sweep.xml", "--out", "out", "--status"}), "5 of 6 points are done (83.3 %)"));
   fs::remove(path("out/sweep.csv"));
   done({"sweep", "sweep.xml", "--out", "out", "--resume"});
-  EXPECT_TRUE(text_of(kept).ends_with("\n\n\n"));
-  EXPECT_EQ(text_of(lost), whole.at("cells/000004.json"));
-  EXPECT_EQ(text_of(path("out/sweep.csv")), whole.at("sweep.csv"));
+  EXPECT_TRUE(contains(text_of(path("out/sweep.csv")), ",mark,halyard sweep sweep.xml --point 1\n"));
+  EXPECT_EQ(text_of(path("out/cells/all.jsonl")),
+            replaced(whole.at("cells/all.jsonl"), "{\"point\":1,\"failed\":0,\"results\":[{\"failure\":\"\"",
+                     "{\"point\":1,\"failed\":0,\"results\":[{\"failure\":\"mark\""));
   // Without --resume all is computed anew.
   done({"sweep", "sweep.xml", "--out", "out"});
   EXPECT_TRUE(files_in(path("out")) == whole);
@@ -100,6 +106,36 @@ TEST_F(Sweep, RecordsAnEstimatorThatFailsAndGoesOn) {
   EXPECT_NE(table.rows[failed].at(table.index("failure")), "");
   EXPECT_GT(table.number(table.row_with({{"estimator", "kinematics"}}), "mean_absolute_error"), 0);
   EXPECT_TRUE(contains(text_of(path("out/report.html")), "6 of 12 runs of estimators failed"));
+  EXPECT_TRUE(contains(done({"sweep", "plugin.xml", "--out", "out", "--status"}), "6 of them with a failure"));
+  // The command beside the reason repeats it.
+  EXPECT_EQ(table.rows[failed].at(table.index("repeat_with")), "halyard sweep plugin.xml --point 0");
+  const RunResult repeated = run({"sweep", "plugin.xml", "--point", "0"});
+  EXPECT_EQ(repeated.exit_code, 1);
+  EXPECT_TRUE(contains(repeated.out, broken + ": failed: ")) << repeated.out;
+  EXPECT_EQ(repeated.err, "halyard sweep: 1 of 2 estimators failed at point 0\n");
+}
+
+TEST_F(Sweep, OfShardsInOneFolderIsMergedThere) {
+  done({"sweep", "sweep.xml", "--out", "local"});
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "2/2", "--resume"});
+  EXPECT_TRUE(contains(done({"sweep", "sweep.xml", "--out", "out", "--status"}),
+                       "3 of 6 points are done (50.0 %)\nto continue: halyard sweep sweep.xml --out out --resume\n"));
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "1/2", "--resume"});
+  EXPECT_TRUE(contains(done({"sweep", "sweep.xml", "--out", "out", "--status"}), "next: halyard merge out\n"));
+  done({"merge", "out"});
+  EXPECT_TRUE(files_in(path("out")) == files_in(path("local")));
+  EXPECT_TRUE(contains(done({"sweep", "sweep.xml", "--out", "out", "--status"}), "table: out/sweep.csv\n"));
+}
+
+TEST_F(Sweep, PrintsTheScriptOfItsJobArray) {
+  const std::string script = done({"sweep", "sweep.xml", "--out", "it's 5 %", "--slurm", "--nodes", "3", "--sbatch",
+                                   "--time=1:00:00", "--print-script"});
+  EXPECT_TRUE(script.starts_with("#!/bin/bash\n")) << script;
+  for (const char* part :
+       {"#SBATCH --array=1,2,3\n", "#SBATCH --requeue\n", "#SBATCH --time=1:00:00\n",
+        "it'\\''s 5 %%/slurm/part_%a.log'\n", "--out 'it'\\''s 5 %' ", "--shard \"$SLURM_ARRAY_TASK_ID/3\" --resume"})
+    EXPECT_TRUE(contains(script, part)) << part << " in\n" << script;
+  EXPECT_FALSE(fs::exists(path("it's 5 %")));
 }
 
 }  // namespace

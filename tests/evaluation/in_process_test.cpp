@@ -64,10 +64,9 @@ TEST_F(InProcess, ASweepNeedsNoWorker) {
   sweep.grid.units = joint_units(sweep.model);
   const fs::path folder = fs::temp_directory_path() / ("halyard_in_process_" + std::to_string(::getpid()));
   run_sweep(sweep, folder, {.containment = {.in_process = true}});
-  const std::optional<SweepCell> cell = read_cell(folder, sweep.grid, 0);
+  const SweepCell cell = StoredCells({folder}, sweep.grid).read(0);
   fs::remove_all(folder);
-  ASSERT_TRUE(cell.has_value());
-  EXPECT_EQ(cell->results.at(0).failure, "");
+  EXPECT_EQ(cell.results.at(0).failure, "");
   EXPECT_EQ(message_of([&] { run_sweep(sweep, folder, {}); }), kNoWorker);
 }
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "evaluation/sweep/sweep_store.h"
 #include "evaluation/sweep/sweep_table.h"
 #include "tests/support/message_of.h"
 
@@ -22,6 +23,7 @@ class SweepMerge : public testing::Test {
     fs::remove_all(folder_);
     grid_.name = "test";
     grid_.id = "1";
+    grid_.file = "study.xml";
     grid_.axes = {{.parameters = {"joint1.cable.stiffness"}, .unit = "N/m", .values = {1, 2, 3}}};
     grid_.estimators = {"kinematics"};
     grid_.units = {{"rad", "deg", 57}};
@@ -31,14 +33,14 @@ class SweepMerge : public testing::Test {
   fs::path part(const std::string& name, const std::vector<std::size_t>& points, const std::string& id = "1") {
     SweepGrid grid = grid_;
     grid.id = id;
-    OutputFiles files;
-    write_grid(files, folder_ / name, grid);
+    store_grid(folder_ / name, grid);
+    CellJournal journal(folder_ / name, grid, {});
     for (const std::size_t p : points) {
       SweepCell cell{p, {{"", {{}}}}};
+      if (p == failed_) cell.results[0].failure = "crashed";
       cell.results[0].errors[0].rms = static_cast<double>(p);
-      write_cell(files, folder_ / name, grid, cell);
+      journal.add(cell);
     }
-    files.commit();
     return folder_ / name;
   }
 
@@ -50,17 +52,27 @@ class SweepMerge : public testing::Test {
   }
 
   SweepGrid grid_;
+  std::size_t failed_ = 99;  ///< the point where the estimator fails
   const fs::path folder_ = fs::temp_directory_path() / ("halyard_sweep_merge_" + std::to_string(::getpid()));
 };
 
 TEST_F(SweepMerge, PutsTheCellsOfItsPartsInOrder) {
   const SweepResult whole = merge({part("a", {2}), part("b", {0, 1})});
-  ASSERT_EQ(whole.cells.size(), 3u);
+  ASSERT_EQ(whole.cells.count(), 3u);
   for (std::size_t p = 0; p < 3; ++p) {
-    EXPECT_EQ(whole.cells[p].point, p);
-    EXPECT_EQ(whole.cells[p].results[0].errors[0].rms, static_cast<double>(p));
+    EXPECT_EQ(whole.cells.read(p).point, p);
+    EXPECT_EQ(whole.cells.read(p).results[0].errors[0].rms, static_cast<double>(p));
   }
-  EXPECT_EQ(collect_cells({folder_ / "whole"}, read_grid(folder_ / "whole")).size(), 3u) << "and stores them";
+  EXPECT_EQ(collect_cells({folder_ / "whole"}, read_grid(folder_ / "whole")).count(), 3u) << "and stores them";
+}
+
+TEST_F(SweepMerge, IntoOneOfItsPartsLeavesOneJournal) {
+  OutputFiles files;
+  merge_sweep(files, {part("a", {2}), part("b", {0, 1})}, folder_ / "a");
+  files.commit();
+  const auto journals = journals_in(folder_ / "a");
+  ASSERT_EQ(journals.size(), 1u);
+  EXPECT_EQ(StoredCells({folder_ / "a"}, grid_).count(), 3u);
 }
 
 TEST_F(SweepMerge, NamesThePointThatNoPartHas) {
@@ -76,19 +88,19 @@ TEST_F(SweepMerge, RefusesPartsOfDifferentSweeps) {
 }
 
 TEST_F(SweepMerge, WritesATableWithARowForEachPointEstimatorAndJoint) {
-  SweepResult whole = merge({part("a", {0, 1, 2})});
-  EXPECT_EQ(count_failures(whole.cells), 0u);
-  whole.cells[1].results[0].failure = "crashed";
-  EXPECT_EQ(count_failures(whole.cells), 1u);
-  write_file_whole(folder_ / "sweep.csv", sweep_csv(whole.grid, whole.cells));
+  failed_ = 1;
+  const SweepResult whole = merge({part("a", {0, 1, 2})});
+  OutputFiles files;
+  EXPECT_EQ(write_sweep_table(files, folder_ / "sweep.csv", whole.grid, whole.cells).failures, 1u);
+  files.commit();
   std::ifstream file(folder_ / "sweep.csv");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(text,
             "point,joint1.cable.stiffness,estimator,joint,unit,samples,mean_absolute_error,rms_error,peak_error,bias,"
-            "within_two_std,failure\n"
-            "0,1,kinematics,1,rad,0,,0,,,,\n"
-            "1,2,kinematics,1,rad,0,,1,,,,crashed\n"
-            "2,3,kinematics,1,rad,0,,2,,,,\n");
+            "within_two_std,failure,repeat_with\n"
+            "0,1,kinematics,1,rad,0,,0,,,,,\n"
+            "1,2,kinematics,1,rad,0,,1,,,,crashed,halyard sweep study.xml --point 1\n"
+            "2,3,kinematics,1,rad,0,,2,,,,,\n");
 }
 
 }  // namespace

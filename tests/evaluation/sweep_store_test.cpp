@@ -4,12 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
 
-#include "tests/support/limits.h"
+#include "evaluation/sweep/sweep_cells.h"
 #include "tests/support/message_of.h"
 
 namespace halyard {
@@ -44,37 +43,17 @@ SweepGrid grid_of_six() {
   return grid;
 }
 
-ErrorStatistics some_errors(double size) {
-  ErrorStatistics e;
-  e.samples = 1001;
-  e.mean_absolute = size, e.rms = 1.25 * size, e.peak = 3 * size, e.bias = -size / 3;
-  return e;  // without standard deviations: within_two_std is NaN
-}
-
-SweepCell some_cell(std::size_t point) {
-  SweepCell cell;
-  cell.point = point;
-  cell.results.resize(2);
-  cell.results[0].errors = {some_errors(1e-3 / 3), some_errors(2e-5)};
-  cell.results[1].failure = "took more than 10 s";
-  cell.results[1].errors.resize(2);
-  return cell;
-}
-
 /// An empty folder that goes with the test.
 class SweepStore : public testing::Test {
  protected:
-  SweepStore() { fs::remove_all(folder), fs::create_directories(folder); }
+  SweepStore() { fs::remove_all(folder), fs::create_directories(folder / "cells"); }
   ~SweepStore() override { fs::remove_all(folder); }
-  fs::path cell(const char* name) const { return folder / "cells" / name; }
   void write(const fs::path& path, const std::string& text) const { std::ofstream(path) << text; }
 
   const fs::path folder = fs::path(testing::TempDir()) /
                           ("store_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
   const SweepGrid grid = grid_of_six();
 };
-
-void expect_equal(double a, double b) { EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << a << ", " << b; }
 
 TEST(SweepGrid, HasEachCombinationOnceAndVariesTheLastAxisFastest) {
   const SweepGrid grid = grid_of_six();
@@ -87,6 +66,25 @@ TEST(SweepGrid, HasEachCombinationOnceAndVariesTheLastAxisFastest) {
     met.insert(grid.values(p));
   }
   EXPECT_EQ(met.size(), 6u);
+}
+
+TEST(SweepGrid, HasEachCombinationOnceForEachSeed) {
+  SweepGrid grid = grid_of_six();
+  grid.seeds = {7, 9};
+  EXPECT_EQ(grid.size(), 12u);
+  EXPECT_EQ(grid.values(4), grid.values(5));
+  EXPECT_EQ(grid.values(4), grid_of_six().values(2));
+  EXPECT_EQ(grid.seed(4), 7u);
+  EXPECT_EQ(grid.seed(5), 9u);
+  EXPECT_EQ(grid_of_six().seed(4), std::nullopt);
+}
+
+TEST(SweepGrid, OfSamplesHasTheValuesOfEachAxisTogether) {
+  SweepGrid grid = grid_of_six();
+  grid.is_sampled = true;
+  grid.axes[0].values = {1, 2, 3};
+  EXPECT_EQ(grid.size(), 3u);
+  EXPECT_EQ(grid.values(1), (std::vector<double>{2, 1.0 / 3}));
 }
 
 TEST(SweepGrid, DescribesAPoint) {
@@ -119,29 +117,6 @@ TEST_F(SweepStore, GivesTheGridBack) {
   EXPECT_EQ(read.units[0].shown_per_si, grid.units[0].shown_per_si);
 }
 
-TEST_F(SweepStore, GivesACellBackToTheLastBit) {
-  store([&](auto& files) { write_cell(files, folder, grid, some_cell(4)); });
-  EXPECT_FALSE(read_cell(folder, grid, 3).has_value());
-  const std::optional<SweepCell> read = read_cell(folder, grid, 4);
-  ASSERT_TRUE(read.has_value());
-  EXPECT_EQ(read->point, 4u);
-  ASSERT_EQ(read->results.size(), 2u);
-  EXPECT_EQ(read->results[1].failure, "took more than 10 s");
-  const SweepCell written = some_cell(4);
-  for (std::size_t i = 0; i < 2; ++i)
-    for (std::size_t k = 0; k < 2; ++k) {
-      const ErrorStatistics &a = read->results[i].errors[k], &b = written.results[i].errors[k];
-      EXPECT_EQ(a.samples, b.samples);
-      expect_equal(a.mean_absolute, b.mean_absolute);
-      expect_equal(a.rms, b.rms);
-      expect_equal(a.peak, b.peak);
-      expect_equal(a.bias, b.bias);
-      expect_equal(a.within_two_std, b.within_two_std);
-    }
-  remove_cell(folder, 4);
-  EXPECT_FALSE(read_cell(folder, grid, 4).has_value());
-}
-
 TEST_F(SweepStore, RefusesWhatIsDamaged) {
   EXPECT_EQ(message_of([&] { read_grid(folder); }),
             folder.string() + ": holds no sweep.json; give a folder that halyard sweep wrote");
@@ -150,38 +125,15 @@ TEST_F(SweepStore, RefusesWhatIsDamaged) {
   };
   write(folder / "sweep.json", "{\"sweep\": ");
   EXPECT_EQ(message_of([&] { read_grid(folder); }), damaged(folder / "sweep.json"));
-  store([&](auto& files) { write_cell(files, folder, grid, some_cell(0)); });
-  for (const char* text :
-       {"", "[]", R"({"id": "12ab", "estimators": []})", R"({"id": "12ab", "point": 0, "estimators": []})",
-        R"({"id": "12ab", "point": 0, "estimators": [{"failure": "", "joints": []}]})"}) {
-    write(cell("000000.json"), text);
-    EXPECT_EQ(message_of([&] { read_cell(folder, grid, 0); }), damaged(cell("000000.json"))) << text;
-  }
-}
-
-TEST_F(SweepStore, RefusesACellOfAnotherSweep) {
-  SweepGrid other = grid;
-  other.id = "34cd";
-  store([&](auto& files) { write_cell(files, folder, other, some_cell(0)); });
-  EXPECT_EQ(message_of([&] { read_cell(folder, grid, 0); }),
-            cell("000000.json").string() + ": belongs to another sweep; give a folder of its own to each sweep");
-}
-
-TEST_F(SweepStore, RefusesACellThatWasRenamedToAnotherPoint) {
-  store([&](auto& files) { write_cell(files, folder, grid, some_cell(3)); });
-  fs::rename(cell("000003.json"), cell("000005.json"));
-  EXPECT_EQ(
-      message_of([&] { read_cell(folder, grid, 5); }),
-      cell("000005.json").string() + ": holds point 3, but its name says point 5; remove it and run the sweep again");
 }
 
 TEST_F(SweepStore, DiscardsCellsAndTablesOfAnotherSweepAndKeepsItsOwn) {
   store([&](auto& files) { write_grid(files, folder, grid); });
-  store([&](auto& files) { write_cell(files, folder, grid, some_cell(0)); });
+  write(journal_path(folder, {2, 3}), journal_header(grid));
   for (const char* name : {"sweep.csv", "report.html", "notes.txt"}) write(folder / name, "text");
   EXPECT_FALSE(holds_other_sweep(folder, grid));
   store([&](auto& files) { discard_other_sweep(files, folder, grid); });
-  EXPECT_TRUE(fs::exists(cell("000000.json")));
+  EXPECT_EQ(journals_in(folder).size(), 1u);
   SweepGrid other = grid;
   other.id = "34cd";
   EXPECT_TRUE(holds_other_sweep(folder, other));

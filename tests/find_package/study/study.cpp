@@ -77,10 +77,10 @@ void sweep_stiffness(const fs::path& raven2, const fs::path& out) {
   for (std::size_t part : {1, 2}) run_sweep(sweep, out / std::to_string(part), {.jobs = 1, .shard = {part, 2}});
   OutputFiles files;
   const SweepResult whole = merge_sweep(files, {out / "1", out / "2"}, out / "whole");
-  files.add(out / "whole/sweep.csv", sweep_csv(whole.grid, whole.cells));
+  const SweepSummary summary = write_sweep_table(files, out / "whole/sweep.csv", whole.grid, whole.cells);
   files.commit();
-  expect(count_failures(whole.cells) == 0, "no failure in the sweep");
-  const auto error = [&](std::size_t point) { return whole.cells.at(point).results.at(0).errors.at(1).rms; };
+  expect(summary.failures == 0, "no failure in the sweep");
+  const auto error = [&](std::size_t point) { return whole.cells.read(point).results.at(0).errors.at(1).rms; };
   std::printf("joint 2 RMS error of sr_ukf, cable 2 at half the stiffness: %.2e rad, as believed: %.2e rad\n", error(0),
               error(1));
   // At 1 the robot is as the filter believes.

@@ -1,0 +1,65 @@
+#pragma once
+/// What the declarations of several commands share. Only for the files that declare commands: CLI11 takes seconds to
+/// compile.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "model/column_map.h"
+#include "model/input_error.h"
+#include "plugins/host/effect_module.h"
+
+namespace halyard {
+
+/// A command is an add_..._command function: it declares options that write into a struct and says what runs. The
+/// struct lives in the callback.
+using Run = std::function<void()>;
+
+inline void finish(CLI::App& command, Run run) { command.callback(std::move(run)); }
+
+/// For commands that read models: their effects may be a user's own.
+inline void add_effects_option(CLI::App& command) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--effects",
+          [](const std::vector<std::string>& modules) {
+            for (const std::string& module : modules) load_effects(module);
+          },
+          "module with your own effects; may be repeated")
+      ->type_name("MODULE.so")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+/// What an option that is a number may be.
+struct NumberRange {
+  double least = 0, most = std::numeric_limits<double>::max();
+  bool above_least = false;  ///< without `least` itself
+};
+
+/// For every option that is a number. CLI11's own checks let NaN pass.
+template <class Number>
+CLI::Option* add_number(CLI::App& command, const std::string& name, Number& value, const NumberRange& range,
+                        const std::string& description) {
+  const bool whole = std::is_integral_v<Number>;
+  const auto fault = [range, whole](const std::string& text) -> std::string {
+    const std::optional<double> number = parse_number(text);
+    if (number && (*number > range.least || (*number == range.least && !range.above_least)) && *number <= range.most &&
+        (!whole || text.find_first_not_of("0123456789") == text.npos))
+      return "";
+    return in_quotes(text) + ": expected a " + (whole ? "whole " : "finite ") + "number, " +
+           (range.above_least ? "above " : "at least ") + fmt::format("{:g}", range.least) +
+           (range.most < std::numeric_limits<double>::max() ? fmt::format(", at most {:g}", range.most) : "");
+  };
+  return command.add_option(name, value, description)->check(fault)->type_name("N");
+}
+
+}  // namespace halyard

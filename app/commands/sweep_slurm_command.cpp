@@ -1,0 +1,109 @@
+/// halyard sweep on a cluster: --slurm and --status.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "app/commands/sweep_command.h"
+#include "app/output_check.h"
+#include "app/slurm/slurm_array.h"
+#include "evaluation/sweep/sweep_file.h"
+#include "evaluation/sweep/sweep_store.h"
+#include "model/input_error.h"
+
+namespace halyard {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Points of a shard, and how many of them are there.
+struct PartState {
+  std::size_t points = 0, done = 0;
+
+  bool is_done() const { return done == points; }
+};
+
+std::vector<PartState> part_states(const StoredCells& cells, std::size_t parts) {
+  std::vector<PartState> states(parts);
+  for (std::size_t point = 0; point < cells.size(); ++point) {
+    PartState& part = states[point % parts];
+    ++part.points;
+    part.done += cells.has(point);
+  }
+  return states;
+}
+
+/// The shards, 1-based, that have points to do.
+std::vector<std::size_t> open_parts(const std::vector<PartState>& states) {
+  std::vector<std::size_t> parts;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (!states[i].is_done()) parts.push_back(i + 1);
+  return parts;
+}
+
+/// Prints a line for each part that Slurm got; returns whether any of them is still active.
+bool print_parts(const StoredCells& cells, const SubmittedArray& array) {
+  const std::vector<ActiveTask> active = active_tasks(array.job);
+  const std::vector<PartState> states = part_states(cells, array.parts);
+  fmt::print("Slurm job {}:\n", array.job);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const auto task = std::ranges::find(active, i + 1, &ActiveTask::task);
+    const std::string state = task != active.end() ? ", " + task->state : states[i].is_done() ? "" : ", not running";
+    fmt::print("  part {} of {}: {} of {} done{}\n", i + 1, states.size(), states[i].done, states[i].points, state);
+  }
+  return !active.empty();
+}
+
+}  // namespace
+
+void run_sweep_slurm(const SweepSlurmOptions& options) {
+  const Sweep sweep = read_sweep(options.sweep);
+  SlurmArray array{options.sweep, options.out, std::min(options.nodes, sweep.grid.size()), {}, options.sbatch_options};
+  if (options.print_script) {
+    array.tasks.resize(array.parts);
+    std::iota(array.tasks.begin(), array.tasks.end(), 1);
+    fmt::print("{}", slurm_script(array));
+    return;
+  }
+  const auto lock = lock_output_folder(options.out);
+  check_same_sweep(options.out, sweep.grid);
+  if (const auto before = submitted_array(options.out); before && !active_tasks(before->job).empty())
+    throw InputError(
+        fmt::format("--out {}: Slurm job {} still computes this sweep; wait for its end, or end it with: "
+                    "scancel {}",
+                    in_quotes(options.out.string()), before->job, before->job));
+  store_grid(options.out, sweep.grid);
+  array.tasks = open_parts(part_states(StoredCells({options.out}, sweep.grid), array.parts));
+  if (array.tasks.empty()) {
+    fmt::print("sweep \"{}\": all {} points are done\nnext: halyard merge {}\n", sweep.grid.name, sweep.grid.size(),
+               options.out.string());
+    return;
+  }
+  const std::string job = submit(array);
+  fmt::print("sweep \"{}\": {} points, {} of {} parts submitted as Slurm job {}\n", sweep.grid.name, sweep.grid.size(),
+             array.tasks.size(), array.parts, job);
+  fmt::print("progress: halyard sweep {} --out {} --status\nnext: halyard merge {}\n", options.sweep.string(),
+             options.out.string(), options.out.string());
+}
+
+void run_sweep_status(const fs::path& sweep, const fs::path& out) {
+  const SweepGrid grid = read_sweep_definition(sweep).grid;
+  read_grid(out);
+  check_same_sweep(out, grid);
+  const StoredCells cells({out}, grid);
+  const std::size_t done = cells.count(), failed = cells.count_failed();
+  fmt::print("sweep \"{}\": {} of {} points are done ({:.1f} %)", grid.name, done, grid.size(),
+             100.0 * double(done) / double(grid.size()));
+  fmt::print("{}\n", failed > 0 ? fmt::format(", {} of them with a failure", failed) : "");
+  const auto array = submitted_array(out);
+  const bool is_active = array && print_parts(cells, *array);
+  if (done == grid.size()) {
+    if (fs::exists(out / "sweep.csv")) fmt::print("table: {}\n", (out / "sweep.csv").string());
+    else fmt::print("next: halyard merge {}\n", out.string());
+  } else if (!is_active) {
+    fmt::print("to continue: halyard sweep {} --out {} {}\n", sweep.string(), out.string(),
+               array ? fmt::format("--slurm --nodes {}", array->parts) : "--resume");
+  }
+}
+
+}  // namespace halyard

@@ -1,0 +1,124 @@
+#include "app/slurm/slurm_array.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "evaluation/json.h"
+#include "model/input_error.h"
+#include "model/output/output_files.h"
+#include "plugins/host/effect_module.h"
+
+namespace halyard {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path job_file(const fs::path& out) { return out / "slurm" / "job.json"; }
+fs::path script_file(const fs::path& out) { return out / "slurm" / "job.sh"; }
+
+std::string in_shell_quotes(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+struct ShellResult {
+  int exit_code = 0;
+  std::string printed;  ///< on stdout and stderr
+};
+
+ShellResult run_in_shell(const std::string& command) {
+  const auto close = [](FILE* pipe) { ::pclose(pipe); };
+  std::unique_ptr<FILE, decltype(close)> pipe(::popen((command + " 2>&1").c_str(), "r"), close);
+  if (!pipe) throw std::runtime_error("halyard sweep: no process can be started for: " + command);
+  ShellResult result;
+  char block[4096];
+  while (const std::size_t n = std::fread(block, 1, sizeof block, pipe.get())) result.printed.append(block, n);
+  const int status = ::pclose(pipe.release());
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+  while (!result.printed.empty() && std::isspace(static_cast<unsigned char>(result.printed.back())))
+    result.printed.pop_back();
+  return result;
+}
+
+/// The path with what sbatch replaces in names of files written out.
+std::string log_pattern(const fs::path& out) {
+  std::string pattern;
+  for (const char c : (fs::absolute(out) / "slurm").string())
+    pattern += c == '%' ? std::string("%%") : std::string(1, c);
+  return pattern + "/part_%a.log";
+}
+
+}  // namespace
+
+std::string slurm_script(const SlurmArray& array) {
+  std::string text = fmt::format(
+      "#!/bin/bash\n#SBATCH --job-name=halyard\n#SBATCH --array={}\n#SBATCH --nodes=1\n#SBATCH --exclusive\n"
+      "#SBATCH --requeue\n#SBATCH --open-mode=append\n#SBATCH --output={}\n",
+      fmt::join(array.tasks, ","), in_shell_quotes(log_pattern(array.out)));
+  for (const std::string& option : array.options) text += "#SBATCH " + option + "\n";
+  text += fmt::format("cd {} || exit 1\nexec {} sweep {} --out {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --resume \\\n",
+                      in_shell_quotes(fs::current_path().string()),
+                      in_shell_quotes(fs::read_symlink("/proc/self/exe").string()),
+                      in_shell_quotes(array.sweep.string()), in_shell_quotes(array.out.string()), array.parts);
+  for (const fs::path& module : loaded_effect_modules())
+    text += "  --effects " + in_shell_quotes(module.string()) + " \\\n";
+  return text + "  --jobs \"${SLURM_CPUS_ON_NODE:-1}\"\n";
+}
+
+std::string submit(const SlurmArray& array) {
+  if (run_in_shell("command -v sbatch").exit_code != 0)
+    throw InputError(
+        "halyard sweep: --slurm: sbatch is not installed; run on a machine of the cluster, or take the script of "
+        "--print-script there");
+  const fs::path script = script_file(array.out);
+  write_file_whole(script, slurm_script(array));
+  const ShellResult result = run_in_shell("sbatch --parsable " + in_shell_quotes(script.string()));
+  if (result.exit_code != 0) throw std::runtime_error("halyard sweep: sbatch refused the job: " + result.printed);
+  // "17", or "17;cluster"
+  const std::string job = result.printed.substr(result.printed.rfind('\n') + 1);
+  const nlohmann::ordered_json json = {{"job", job.substr(0, job.find(';'))}, {"parts", array.parts}};
+  write_file_whole(job_file(array.out), json_text(json));
+  return json.at("job");
+}
+
+std::optional<SubmittedArray> submitted_array(const fs::path& out) {
+  std::ifstream file(job_file(out), std::ios::binary);
+  if (!file) return std::nullopt;
+  try {
+    const auto json = nlohmann::json::parse(file);
+    const SubmittedArray array{json.at("job").get<std::string>(), json.at("parts").get<std::size_t>()};
+    const bool is_number =
+        !array.job.empty() && std::ranges::all_of(array.job, [](unsigned char c) { return std::isdigit(c); });
+    if (is_number && array.parts > 0) return array;
+  } catch (const nlohmann::json::exception&) {}
+  throw InputError(job_file(out).string() + ": is damaged; remove it");
+}
+
+std::vector<ActiveTask> active_tasks(const std::string& job) {
+  const ShellResult result = run_in_shell("squeue --noheader --array --job=" + job + " --format='%K %T %N'");
+  std::vector<ActiveTask> tasks;
+  if (result.exit_code != 0) return tasks;
+  std::istringstream lines(result.printed);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    ActiveTask task;
+    std::string node;
+    if (!(words >> task.task >> task.state)) continue;
+    std::ranges::transform(task.state, task.state.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (words >> node) task.state += " on " + node;
+    tasks.push_back(task);
+  }
+  return tasks;
+}
+
+}  // namespace halyard

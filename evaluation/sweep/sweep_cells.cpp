@@ -1,0 +1,252 @@
+#include "evaluation/sweep/sweep_cells.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "evaluation/json.h"
+#include "model/input_error.h"
+
+namespace halyard {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+std::string one_line(const ordered_json& json) {
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+ordered_json cell_errors(const ErrorStatistics& e) {
+  return {e.samples,
+          number_or_null(e.mean_absolute),
+          number_or_null(e.rms),
+          number_or_null(e.peak),
+          number_or_null(e.bias),
+          number_or_null(e.within_two_std)};
+}
+
+ErrorStatistics errors_from(const ordered_json& json) {
+  const auto number = [&json](std::size_t i) {
+    return json.at(i).is_null() ? std::numeric_limits<double>::quiet_NaN() : json.at(i).get<double>();
+  };
+  ErrorStatistics e;
+  e.samples = json.at(0).get<std::size_t>();
+  e.mean_absolute = number(1), e.rms = number(2), e.peak = number(3), e.bias = number(4), e.within_two_std = number(5);
+  return e;
+}
+
+/// The numbers at the start of a line: {"point":3,"failed":0,
+struct LineStart {
+  std::size_t point = 0, failed = 0;
+};
+std::optional<LineStart> parse_start(std::string_view line) {
+  LineStart start;
+  for (const auto& [prefix, value] :
+       {std::pair<std::string_view, std::size_t*>{"{\"point\":", &start.point}, {",\"failed\":", &start.failed}}) {
+    if (!line.starts_with(prefix)) return std::nullopt;
+    line.remove_prefix(prefix.size());
+    const auto [rest, error] = std::from_chars(line.data(), line.data() + line.size(), *value);
+    if (error != std::errc()) return std::nullopt;
+    line.remove_prefix(static_cast<std::size_t>(rest - line.data()));
+  }
+  return line.starts_with(",") && line.ends_with("}") ? std::optional(start) : std::nullopt;
+}
+
+/// Calls `line(text, offset)` for each complete line of a file; a last line without line break does not count. Returns
+/// the length of the complete lines.
+template <class Line>
+std::uint64_t for_each_line(int file, const Line& line) {
+  std::string rest;
+  std::uint64_t offset = 0;  // of rest in the file
+  std::vector<char> block(1 << 20);
+  for (std::uint64_t at = 0;;) {
+    const ssize_t n = ::pread(file, block.data(), block.size(), static_cast<off_t>(at));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return offset;
+    at += static_cast<std::uint64_t>(n);
+    rest.append(block.data(), static_cast<std::size_t>(n));
+    std::size_t begin = 0;
+    for (std::size_t end; (end = rest.find('\n', begin)) != rest.npos; begin = end + 1)
+      line(std::string_view(rest).substr(begin, end - begin), offset + begin);
+    rest.erase(0, begin);
+    offset += begin;
+  }
+}
+
+}  // namespace
+
+std::size_t SweepCell::failures() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(results, [](const Result& result) { return !result.failure.empty(); }));
+}
+
+fs::path journal_path(const fs::path& folder, const Shard& shard) {
+  return folder / "cells" / (shard.is_whole() ? "all.jsonl" : fmt::format("{}_of_{}.jsonl", shard.index, shard.count));
+}
+
+std::vector<fs::path> journals_in(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder / "cells", none))
+    if (entry.path().extension() == ".jsonl") paths.push_back(entry.path());
+  std::ranges::sort(paths);
+  return paths;
+}
+
+std::string journal_header(const SweepGrid& grid) { return one_line({{"sweep", grid.id}, {"points", grid.size()}}); }
+
+std::string journal_line(const SweepCell& cell) {
+  ordered_json results = ordered_json::array();
+  for (const SweepCell::Result& result : cell.results) {
+    ordered_json joints = ordered_json::array();
+    for (const ErrorStatistics& errors : result.errors) joints.push_back(cell_errors(errors));
+    results.push_back({{"failure", result.failure}, {"joints", joints}});
+  }
+  return one_line({{"point", cell.point}, {"failed", cell.failures()}, {"results", results}});
+}
+
+CellJournal::CellJournal(const fs::path& folder, const SweepGrid& grid, const Shard& shard)
+    : path_(journal_path(folder, shard)), header_(journal_header(grid)) {}
+
+void CellJournal::add(const SweepCell& cell) {
+  const std::string line = journal_line(cell);
+  std::uint64_t written = 0;
+  {
+    const std::lock_guard lock(writing_);
+    if (!failure_.empty()) throw std::runtime_error(failure_);
+    if (!file_) open();
+    append(line);
+    written = written_;
+  }
+  bring_to_disk(written);
+}
+
+void CellJournal::open() {
+  fs::create_directories(path_.parent_path());
+  file_ = Descriptor(path_, O_RDWR | O_CREAT);
+  if (!file_) fail();
+  written_ = for_each_line(*file_, [](std::string_view, std::uint64_t) {});
+  if (::ftruncate(*file_, static_cast<off_t>(written_)) != 0) fail();
+  if (written_ == 0) append(header_);
+  // The names of the file and of its folder have to be on the disk too.
+  for (const fs::path& folder : {path_.parent_path(), path_.parent_path().parent_path()})
+    if (const Descriptor names(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY); names) ::fsync(*names);
+}
+
+void CellJournal::append(const std::string& text) {
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t n = ::pwrite(*file_, text.data() + done, text.size() - done, static_cast<off_t>(written_ + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail();
+    done += static_cast<std::size_t>(n);
+  }
+  written_ += text.size();
+}
+
+/// One thread's sync serves all lines that were written before it.
+void CellJournal::bring_to_disk(std::uint64_t written) {
+  const std::lock_guard lock(syncing_);
+  if (synced_ >= written) return;
+  std::uint64_t covered = 0;
+  {
+    const std::lock_guard reading(writing_);
+    covered = written_;
+  }
+  if (::fdatasync(*file_) != 0 && errno != EINVAL && errno != EROFS) {
+    const std::lock_guard reading(writing_);
+    fail();
+  }
+  synced_ = covered;
+}
+
+void CellJournal::fail() {
+  failure_ = path_.string() + ": not written: " + std::generic_category().message(errno) +
+             "; the points before are kept: make room and run again with --resume";
+  if (file_) [[maybe_unused]]
+    const int ignored = ::ftruncate(*file_, static_cast<off_t>(written_));
+  throw std::runtime_error(failure_);
+}
+
+StoredCells::StoredCells(const std::vector<fs::path>& folders, const SweepGrid& grid)
+    : n_estimators_(grid.estimators.size()), n_joints_(grid.units.size()), places_(grid.size()), failed_(grid.size()) {
+  const std::string header = journal_header(grid);
+  for (const fs::path& folder : folders) {
+    for (const fs::path& path : journals_in(folder)) {
+      Descriptor file(path, O_RDONLY);
+      if (!file) throw InputError(path.string() + ": cannot be read: " + std::generic_category().message(errno));
+      journals_.push_back({path, std::move(file)});
+      scan(journals_.size() - 1, header);
+    }
+  }
+}
+
+void StoredCells::scan(std::size_t journal, const std::string& header) {
+  const auto& [path, file] = journals_[journal];
+  for_each_line(*file, [&](std::string_view line, std::uint64_t offset) {
+    if (offset == 0) {
+      if (line == std::string_view(header).substr(0, header.size() - 1)) return;
+      if (!line.starts_with("{\"sweep\":")) damaged(path, 0);
+      throw InputError(path.string() + ": belongs to another sweep; give a folder of its own to each sweep");
+    }
+    const std::optional<LineStart> start = parse_start(line);
+    if (!start || start->point >= places_.size()) damaged(path, offset);
+    Place& place = places_[start->point];
+    if (place.length > 0) return;
+    place = {offset, static_cast<std::uint32_t>(line.size() + 1), static_cast<std::uint32_t>(journal)};
+    failed_[start->point] = start->failed > 0;
+  });
+}
+
+void StoredCells::damaged(const fs::path& path, std::uint64_t offset) const {
+  throw InputError(
+      fmt::format("{}: is no result of halyard sweep or is damaged at byte {}; remove it and run the "
+                  "sweep again with --resume",
+                  path.string(), offset));
+}
+
+std::size_t StoredCells::count() const {
+  return static_cast<std::size_t>(std::ranges::count_if(places_, [](const Place& p) { return p.length > 0; }));
+}
+
+std::size_t StoredCells::count_failed() const { return static_cast<std::size_t>(std::ranges::count(failed_, true)); }
+
+std::string StoredCells::line(std::size_t point) const {
+  const Place& place = places_.at(point);
+  const Journal& journal = journals_.at(place.journal);
+  std::string text(place.length, '\0');
+  const ssize_t n = ::pread(*journal.file, text.data(), text.size(), static_cast<off_t>(place.offset));
+  if (n != static_cast<ssize_t>(text.size())) throw std::runtime_error(journal.path.string() + ": cannot be read");
+  return text;
+}
+
+SweepCell StoredCells::read(std::size_t point) const {
+  const Place& place = places_.at(point);
+  try {
+    const ordered_json json = ordered_json::parse(line(point));
+    SweepCell cell{json.at("point").get<std::size_t>(), {}};
+    for (const ordered_json& result : json.at("results")) {
+      cell.results.push_back({result.at("failure").get<std::string>(), {}});
+      for (const ordered_json& joint : result.at("joints")) cell.results.back().errors.push_back(errors_from(joint));
+      if (cell.results.back().errors.size() != n_joints_) damaged(journals_.at(place.journal).path, place.offset);
+    }
+    if (cell.results.size() != n_estimators_) damaged(journals_.at(place.journal).path, place.offset);
+    return cell;
+  } catch (const ordered_json::exception&) {
+    damaged(journals_.at(place.journal).path, place.offset);
+  }
+}
+
+}  // namespace halyard

@@ -1,0 +1,109 @@
+#pragma once
+/// The results of a sweep's points, in journals: DIR/cells/all.jsonl, or DIR/cells/2_of_5.jsonl of a shard.
+///
+/// A journal is a text file. Its first line names the sweep, each further line is the result of one point:
+///
+///   {"sweep":"5f0c...","points":9}
+///   {"point":3,"failed":0,"results":[{"failure":"","joints":[[samples,mean_absolute,rms,peak,bias,within_two_std]]}]}
+///
+/// results: one for each estimator; joints: one list for each joint; null for NaN. A line counts once its line break is
+/// on the disk, so a run that is killed loses no point that it has finished.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "evaluation/judgement/error_statistics.h"
+#include "evaluation/sweep/sweep_grid.h"
+#include "model/output/descriptor.h"
+
+namespace halyard {
+
+/// The results at one point of the grid.
+struct SweepCell {
+  /// The result of one estimator.
+  struct Result {
+    std::string failure;                  ///< why there are no errors; empty: no failure
+    std::vector<ErrorStatistics> errors;  ///< [n_joints], NaN after a failure
+  };
+
+  std::size_t point = 0;
+  std::vector<Result> results;  ///< [n_estimators]
+
+  /// Number of estimators that failed.
+  std::size_t failures() const;
+};
+
+std::filesystem::path journal_path(const std::filesystem::path& folder, const Shard& shard);
+/// All journals of a folder, in the order of their names.
+std::vector<std::filesystem::path> journals_in(const std::filesystem::path& folder);
+
+/// First line of a journal, and the line of a cell; both with their line break.
+std::string journal_header(const SweepGrid& grid);
+std::string journal_line(const SweepCell& cell);
+
+/// Appends cells to the journal of a shard.
+class CellJournal {
+ public:
+  /// Writes nothing yet.
+  CellJournal(const std::filesystem::path& folder, const SweepGrid& grid, const Shard& shard);
+
+  /// The cell is on the disk when this returns; from any thread. What a killed run left of a line is cut off first.
+  /// Throws std::runtime_error, such as for a full disk; from then on, every call throws.
+  void add(const SweepCell& cell);
+
+ private:
+  void open();
+  void append(const std::string& text);
+  void bring_to_disk(std::uint64_t written);
+  [[noreturn]] void fail();
+
+  const std::filesystem::path path_;
+  const std::string header_;
+  std::mutex writing_, syncing_;
+  Descriptor file_;
+  std::uint64_t written_ = 0;  ///< bytes; guarded by writing_
+  std::uint64_t synced_ = 0;   ///< of them on the disk; guarded by syncing_
+  std::string failure_;        ///< guarded by writing_
+};
+
+/// The cells in the journals of some folders. Memory: 16 bytes for each point of the grid, for any size of the cells.
+class StoredCells {
+ public:
+  /// A point that is in several journals is taken from the first. Journals may grow meanwhile; what comes later does not
+  /// count. Throws InputError for a journal that is damaged or of another sweep.
+  StoredCells(const std::vector<std::filesystem::path>& folders, const SweepGrid& grid);
+
+  std::size_t size() const { return places_.size(); }  ///< points of the grid
+  bool has(std::size_t point) const { return places_.at(point).length > 0; }
+  std::size_t count() const;         ///< points that are there
+  std::size_t count_failed() const;  ///< of them with a failure
+
+  /// The line of a point that is there, with its line break. Throws std::runtime_error if it cannot be read.
+  std::string line(std::size_t point) const;
+  /// The cell of that point. Throws InputError if the line is damaged.
+  SweepCell read(std::size_t point) const;
+
+ private:
+  struct Place {
+    std::uint64_t offset = 0;
+    std::uint32_t length = 0;  ///< 0: the point is not there
+    std::uint32_t journal = 0;
+  };
+  struct Journal {
+    std::filesystem::path path;
+    Descriptor file;
+  };
+  void scan(std::size_t journal, const std::string& header);
+  [[noreturn]] void damaged(const std::filesystem::path& path, std::uint64_t offset) const;
+
+  std::size_t n_estimators_, n_joints_;
+  std::vector<Journal> journals_;
+  std::vector<Place> places_;
+  std::vector<bool> failed_;
+};
+
+}  // namespace halyard

@@ -1,0 +1,83 @@
+#include "evaluation/sweep/sweep_summary.h"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <set>
+
+namespace halyard {
+namespace {
+
+constexpr std::size_t kMaxPlaces = 40, kBins = 20;
+
+}  // namespace
+
+void MeanWithInterval::add(double x) {
+  if (std::isnan(x)) return;
+  ++n_;
+  const double before = x - mean_;
+  mean_ += before / double(n_);
+  squares_ += before * (x - mean_);
+}
+
+double MeanWithInterval::mean() const { return n_ > 0 ? mean_ : std::numeric_limits<double>::quiet_NaN(); }
+
+double MeanWithInterval::half_width() const {
+  if (n_ < 2) return std::numeric_limits<double>::quiet_NaN();
+  const double freedom = double(n_ - 1);
+  return boost::math::quantile(boost::math::students_t(freedom), 0.975) * std::sqrt(squares_ / freedom / double(n_));
+}
+
+SweepSummary::SweepSummary(const SweepGrid& grid) : spans(grid.units.size()), grid_(grid) {
+  for (const SweepAxis& axis : grid.axes) {
+    places_.push_back(places_of(axis));
+    const std::vector<double>& x = places_.back().centres;
+    const Curve curve{x, std::vector<MeanWithInterval>(x.size())};
+    curves_.insert(curves_.end(), grid.estimators.size() * grid.units.size(), curve);
+  }
+}
+
+SweepSummary::Places SweepSummary::places_of(const SweepAxis& axis) {
+  Places places;
+  const std::set<double> distinct(axis.values.begin(), axis.values.end());
+  if (distinct.size() <= kMaxPlaces) {
+    places.centres.assign(distinct.begin(), distinct.end());
+    places.edges = places.centres;
+    return places;
+  }
+  const bool in_decades = axis.is_logarithmic && *distinct.begin() > 0;
+  const auto at = [&](double share) {
+    const double from = *distinct.begin(), to = *distinct.rbegin();
+    return in_decades ? from * std::pow(to / from, share) : from + share * (to - from);
+  };
+  for (std::size_t i = 0; i < kBins; ++i) {
+    places.centres.push_back(at((double(i) + 0.5) / kBins));
+    places.edges.push_back(at(double(i + 1) / kBins));
+  }
+  places.edges.back() = *distinct.rbegin();
+  return places;
+}
+
+void SweepSummary::add(const SweepCell& cell) {
+  failures += cell.failures();
+  const std::vector<double> values = grid_.values(cell.point);
+  const std::size_t n_estimators = grid_.estimators.size(), n_joints = grid_.units.size();
+  for (std::size_t i = 0; i < n_estimators; ++i)
+    for (std::size_t k = 0; k < n_joints; ++k) {
+      const double error = cell.results[i].errors[k].mean_absolute;
+      if (std::isnan(error)) continue;
+      spans[k].least = std::min(spans[k].least, error);
+      spans[k].greatest = std::max(spans[k].greatest, error);
+      for (std::size_t a = 0; a < values.size(); ++a) {
+        const std::vector<double>& edges = places_[a].edges;
+        const auto place = std::size_t(std::ranges::lower_bound(edges, values[a]) - edges.begin());
+        curves_[(a * n_estimators + i) * n_joints + k].errors[std::min(place, edges.size() - 1)].add(error);
+      }
+    }
+}
+
+const SweepSummary::Curve& SweepSummary::curve(std::size_t axis, std::size_t estimator, std::size_t joint) const {
+  return curves_.at((axis * grid_.estimators.size() + estimator) * grid_.units.size() + joint);
+}
+
+}  // namespace halyard

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "evaluation/sweep/sweep_cells.h"
+#include "evaluation/sweep/sweep_grid.h"
+
+namespace halyard {
+
+/// Mean of independent numbers with its 95 % interval: mean ± t s / sqrt(n), t the 97.5th percentile of Student's
+/// distribution with n - 1 degrees of freedom, s² = Σ(x - mean)² / (n - 1). Welford's recursion (Technometrics 4, 1962).
+class MeanWithInterval {
+ public:
+  /// NaN does not count.
+  void add(double x);
+  std::size_t count() const { return n_; }
+  double mean() const;        ///< NaN without numbers
+  double half_width() const;  ///< NaN with fewer than two numbers
+
+ private:
+  std::size_t n_ = 0;
+  double mean_ = 0, squares_ = 0;
+};
+
+/// What a report says of all points of a sweep, collected from one cell after the other; its size does not grow with the
+/// number of points.
+class SweepSummary {
+ public:
+  explicit SweepSummary(const SweepGrid& grid);
+
+  void add(const SweepCell& cell);
+
+  std::size_t failures = 0;  ///< runs of estimators that failed
+
+  /// Smallest and largest mean absolute error of a joint.
+  struct Span {
+    double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  };
+  std::vector<Span> spans;  ///< [n_joints]
+
+  /// Mean absolute error over one axis, averaged over everything else. An axis with at most 40 values has one place for
+  /// each, in increasing order; the range of other axes is divided into 20 equal bins.
+  struct Curve {
+    std::vector<double> x;                 ///< values, or centres of the bins
+    std::vector<MeanWithInterval> errors;  ///< [x.size()], in the unit of the joint
+  };
+  const Curve& curve(std::size_t axis, std::size_t estimator, std::size_t joint) const;
+
+ private:
+  /// The places of an axis.
+  struct Places {
+    std::vector<double> centres, edges;  ///< edges: upper ends
+  };
+  static Places places_of(const SweepAxis& axis);
+
+  SweepGrid grid_;
+  std::vector<Places> places_;  ///< [n_axes]
+  std::vector<Curve> curves_;   ///< [n_axes * n_estimators * n_joints]
+};
+
+}  // namespace halyard

@@ -1,0 +1,175 @@
+/// The journals that keep the results of a sweep.
+
+#include "evaluation/sweep/sweep_cells.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include "tests/support/message_of.h"
+
+namespace halyard {
+namespace {
+
+namespace fs = std::filesystem;
+
+ErrorStatistics errors_of_size(double size) {
+  ErrorStatistics e;
+  e.samples = 1001;
+  e.mean_absolute = size, e.rms = 1.25 * size, e.peak = 3 * size, e.bias = -size / 3;
+  return e;  // without standard deviations: within_two_std is NaN
+}
+
+/// The second estimator fails at even points.
+SweepCell cell_at(std::size_t point) {
+  SweepCell cell;
+  cell.point = point;
+  cell.results.resize(2);
+  cell.results[0].errors = {errors_of_size(1e-3 / 3), errors_of_size(double(point))};
+  if (point % 2 == 0) cell.results[1].failure = "took more than 10 s";
+  cell.results[1].errors.resize(2);
+  return cell;
+}
+
+class SweepCells : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(folder_);
+    grid_.id = "12ab";
+    grid_.axes = {{.parameters = {"joint1.cable.stiffness"}, .unit = "N/m", .values = {1, 2, 3, 4, 5, 6}}};
+    grid_.estimators = {"kinematics", "./mine.so"};
+    grid_.units = {{"rad", "deg", 57}, {"m", "mm", 1000}};
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path store(const Shard& shard, const std::vector<std::size_t>& points) const {
+    CellJournal journal(folder_, grid_, shard);
+    for (const std::size_t point : points) journal.add(cell_at(point));
+    return journal_path(folder_, shard);
+  }
+  StoredCells stored() const { return StoredCells({folder_}, grid_); }
+  static std::string text_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  static void append(const fs::path& path, const std::string& text) { std::ofstream(path, std::ios::app) << text; }
+
+  SweepGrid grid_;
+  const fs::path folder_ = fs::temp_directory_path() / ("halyard_sweep_cells_" + std::to_string(::getpid()));
+};
+
+TEST_F(SweepCells, AreGivenBackToTheLastBit) {
+  store({}, {4});
+  EXPECT_FALSE(stored().has(3));
+  ASSERT_TRUE(stored().has(4));
+  const SweepCell read = stored().read(4), written = cell_at(4);
+  EXPECT_EQ(read.point, 4u);
+  ASSERT_EQ(read.results.size(), 2u);
+  EXPECT_EQ(read.results[1].failure, "took more than 10 s");
+  const auto expect_equal = [](double a, double b) {
+    EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << a << ", " << b;
+  };
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const ErrorStatistics &a = read.results[i].errors[k], &b = written.results[i].errors[k];
+      EXPECT_EQ(a.samples, b.samples);
+      expect_equal(a.mean_absolute, b.mean_absolute);
+      expect_equal(a.rms, b.rms);
+      expect_equal(a.peak, b.peak);
+      expect_equal(a.bias, b.bias);
+      expect_equal(a.within_two_std, b.within_two_std);
+    }
+}
+
+TEST_F(SweepCells, OfAllShardsCountTogether) {
+  EXPECT_EQ(store({1, 2}, {0, 2}).filename(), "1_of_2.jsonl");
+  EXPECT_EQ(store({}, {5}).filename(), "all.jsonl");
+  EXPECT_EQ(stored().count(), 3u);
+  EXPECT_EQ(stored().count_failed(), 2u);
+}
+
+TEST_F(SweepCells, FromSeveralThreadsAreAllStored) {
+  CellJournal journal(folder_, grid_, {});
+  std::vector<std::jthread> threads;
+  for (std::size_t i = 0; i < 6; ++i) threads.emplace_back([&journal, i] { journal.add(cell_at(i)); });
+  threads.clear();
+  EXPECT_EQ(stored().count(), 6u);
+}
+
+// What a run leaves that is killed while it writes a line.
+TEST_F(SweepCells, ALineThatWasCutOffDoesNotCountAndIsReplaced) {
+  const std::string whole = text_of(store({}, {0, 1, 2}));
+  const fs::path path = journal_path(folder_, {});
+  const std::size_t last = whole.rfind('\n', whole.size() - 2) + 1;  // start of the last line
+  for (const std::size_t length : {last, last + 1, last + 20, whole.size() - 1}) {
+    fs::resize_file(path, length);
+    EXPECT_EQ(stored().count(), 2u);
+    store({}, {2});
+    EXPECT_EQ(text_of(path), whole);
+  }
+  fs::resize_file(path, 5);  // of the first line
+  EXPECT_EQ(stored().count(), 0u);
+  store({}, {0, 1, 2});
+  EXPECT_EQ(text_of(path), whole);
+}
+
+// A limit of the file size stands for a full disk.
+TEST_F(SweepCells, AFullDiskKeepsTheCellsBefore) {
+  const fs::path path = store({}, {0, 1});
+  const auto size = fs::file_size(path);
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit;
+  ::getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit small{size + 10, limit.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  CellJournal journal(folder_, grid_, {});
+  for (int i = 0; i < 2; ++i) {
+    try {
+      journal.add(cell_at(2));
+      ADD_FAILURE() << "no error";
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(error.what(), path.string() +
+                                  ": not written: File too large; the points before are kept: make room and "
+                                  "run again with --resume");
+    }
+  }
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, before);
+  EXPECT_EQ(fs::file_size(path), size);
+  EXPECT_EQ(stored().count(), 2u);
+}
+
+TEST_F(SweepCells, ThatAreDamagedAreRefused) {
+  const fs::path path = store({}, {0});
+  const std::string good = text_of(path);
+  for (const char* line : {"x", "{\"point\":7,\"failed\":0,\"results\":[]}", "{\"point\":1,\"failed\":}"}) {
+    append(path, std::string(line) + "\n");
+    EXPECT_NE(message_of([&] { stored(); }).find("all.jsonl: is no result of halyard sweep or is damaged at byte"),
+              std::string::npos)
+        << line;
+    fs::resize_file(path, good.size());
+  }
+  for (const char* line : {"{\"point\":1,\"failed\":0,\"results\":[]}", "{\"point\":1,\"failed\":0,\"results\":[}",
+                           "{\"point\":1,\"failed\":0,\"results\":[{\"failure\":\"\",\"joints\":[[1,2]]}]}"}) {
+    append(path, std::string(line) + "\n");
+    EXPECT_NE(message_of([&] { stored().read(1); }).find("damaged at byte"), std::string::npos) << line;
+    fs::resize_file(path, good.size());
+  }
+}
+
+TEST_F(SweepCells, OfAnotherSweepAreRefused) {
+  const fs::path path = store({}, {0});
+  grid_.id = "34cd";
+  EXPECT_EQ(message_of([&] { stored(); }),
+            path.string() + ": belongs to another sweep; give a folder of its own to each sweep");
+}
+
+}  // namespace
+}  // namespace halyard
