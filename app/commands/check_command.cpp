@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/bundled_files.h"
 #include "diagnosis/log_check/log_check.h"
 #include "evaluation/run/contained_run.h"
@@ -54,8 +56,8 @@ void check_sweep(const std::filesystem::path& file) {
   fmt::print("{}: valid sweep \"{}\", {} points, estimators {}\n", file.string(), sweep.grid.name, sweep.grid.size(),
              fmt::join(sweep.grid.estimators, ", "));
   for (const SweepAxis& axis : sweep.grid.axes) {
-    fmt::print("  {}: {} values from {:g} to {:g}\n", axis.label(), axis.values.size(), axis.values.front(),
-               axis.values.back());
+    const auto [least, greatest] = std::ranges::minmax(axis.values);
+    fmt::print("  {}: {} values from {:g} to {:g}\n", axis.label(), axis.values.size(), least, greatest);
   }
 }
 

@@ -9,9 +9,11 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 #include "evaluation/estimator_list.h"
+#include "evaluation/sweep/sweep_design.h"
 #include "evaluation/sweep/sweep_parameter.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
@@ -27,26 +29,60 @@ constexpr std::int64_t kMaxSteps = 100'000;
 constexpr double kMaxPoints = 1e6;
 constexpr std::size_t kCheckedPoints = 10'000;
 
+/// Values at these places between the axis' ends, 0 to 1. Both ends are exactly as written.
+std::vector<double> values_at(const XmlElement& axis, bool is_logarithmic, const std::vector<double>& places) {
+  const double from = axis.number("from", "", is_logarithmic ? Sign::positive : Sign::any);
+  const double to = axis.number("to", "", is_logarithmic ? Sign::positive : Sign::any);
+  std::vector<double> values;
+  for (const double place : places) {
+    if (place == 0 || place == 1) values.push_back(place == 0 ? from : to);
+    else values.push_back(is_logarithmic ? from * std::pow(to / from, place) : from + place * (to - from));
+  }
+  return values;
+}
+
+/// Values of an axis of a grid.
 std::vector<double> read_values(const XmlElement& axis, bool is_logarithmic) {
   const bool has_range = axis.has("from") || axis.has("to") || axis.has("steps");
   if (axis.has("values") == has_range) {
     axis.fail("expected either values=\"1 2 3\", or from, to and steps; give one of them");
   }
   if (axis.has("values")) return axis.numbers("values", "");
-  const double from = axis.number("from", "", is_logarithmic ? Sign::positive : Sign::any);
-  const double to = axis.number("to", "", is_logarithmic ? Sign::positive : Sign::any);
   const std::int64_t steps = axis.integer("steps", 2, kMaxSteps);
-  std::vector<double> values;
-  for (std::int64_t i = 0; i < steps; ++i) {
-    const double share = double(i) / double(steps - 1);
-    // Both ends exactly as written.
-    if (i == 0 || i == steps - 1) {
-      values.push_back(i == 0 ? from : to);
-    } else {
-      values.push_back(is_logarithmic ? from * std::pow(to / from, share) : from + share * (to - from));
-    }
+  std::vector<double> places;
+  for (std::int64_t i = 0; i < steps; ++i) places.push_back(double(i) / double(steps - 1));
+  return values_at(axis, is_logarithmic, places);
+}
+
+/// Values of an axis of samples.
+std::vector<double> read_sampled_values(const XmlElement& axis, bool is_logarithmic,
+                                        const std::vector<double>& places) {
+  for (const char* name : {"values", "steps"})
+    if (axis.has(name)) axis.fail(name, "belongs to a grid; give from and to, or leave out design");
+  return values_at(axis, is_logarithmic, places);
+}
+
+/// The samples that the element asks for; nothing for a grid.
+UnitSamples read_design(const XmlElement& element, std::uint64_t seed) {
+  enum class Design { grid, latin_hypercube, sobol };
+  const auto design = element.choice_or<Design>(
+      "design", Design::grid,
+      {{"grid", Design::grid}, {"latin_hypercube", Design::latin_hypercube}, {"sobol", Design::sobol}});
+  if (design == Design::grid) {
+    if (element.has("samples")) element.fail("samples", "a grid has none; add design=\"sobol\" or \"latin_hypercube\"");
+    return {};
   }
-  return values;
+  const auto samples = std::size_t(element.integer("samples", 2, std::int64_t(kMaxPoints)));
+  const std::size_t axes = element.children("axis").size();
+  return design == Design::sobol ? sobol_sequence(axes, samples) : latin_hypercube(axes, samples, seed);
+}
+
+/// Seeds of the repeats, from the scenario's on; nothing without repeats.
+std::vector<std::uint64_t> read_seeds(const XmlElement& element, std::uint64_t first) {
+  std::vector<std::uint64_t> seeds(std::size_t(element.integer_or("repeats", 1, 1, kMaxSteps)));
+  if (seeds.size() == 1) return {};
+  std::iota(seeds.begin(), seeds.end(), first);
+  return seeds;
 }
 
 /// Whether an earlier axis varies the number at the same place.
@@ -58,7 +94,8 @@ bool is_taken(const SweepGrid& grid, const SweepAxis& axis, const std::string& k
   });
 }
 
-SweepAxis read_axis(const XmlElement& element, const Sweep& sweep) {
+/// samples: of all axes; empty for a grid.
+SweepAxis read_axis(const XmlElement& element, const Sweep& sweep, const UnitSamples& samples) {
   element.only({"parameter", "values", "from", "to", "steps", "scale", "factor", "applies_to"});
   SweepAxis axis;
   std::istringstream keys(element.text("parameter"));
@@ -67,7 +104,8 @@ SweepAxis read_axis(const XmlElement& element, const Sweep& sweep) {
       "applies_to", Target::both, {{"robot", Target::robot}, {"model", Target::model}, {"both", Target::both}});
   axis.is_factor = element.flag_or("factor", false);
   axis.is_logarithmic = element.choice_or<bool>("scale", false, {{"linear", false}, {"log", true}});
-  axis.values = read_values(element, axis.is_logarithmic);
+  axis.values = samples.empty() ? read_values(element, axis.is_logarithmic)
+                                : read_sampled_values(element, axis.is_logarithmic, samples[sweep.grid.axes.size()]);
   for (const std::string& key : axis.parameters) {
     if (std::ranges::count(axis.parameters, key) > 1 || is_taken(sweep.grid, axis, key)) {
       element.fail("parameter", in_quotes(key) + " is varied twice; vary each number once");
@@ -166,7 +204,8 @@ Sweep read_sweep(const fs::path& path) {
 
 Sweep read_sweep_definition(const fs::path& path) {
   const XmlElement element = XmlElement::read_file(path, "sweep");
-  element.only({"name", "scenario", "model", "estimators", "seed", "duration", "skip"}, {"axis"});
+  element.only({"name", "scenario", "model", "estimators", "seed", "duration", "skip", "design", "samples", "repeats"},
+               {"axis"});
   const fs::path folder = path.parent_path();
   const fs::path scenario_file = element.path("scenario");
   Sweep sweep;
@@ -189,12 +228,15 @@ Sweep read_sweep_definition(const fs::path& path) {
   grid.skip_s = element.number_or("skip", 0.5, "s", Sign::non_negative);
   grid.units = joint_units(sweep.model);
   grid.estimators = read_estimators(element, folder);
-  double points = 1;
+  grid.seeds = read_seeds(element, sweep.scenario.seed);
+  if (element.children("axis").empty()) element.fail("element <axis> is missing; give one or more");
+  const UnitSamples samples = read_design(element, sweep.scenario.seed);
+  grid.is_sampled = !samples.empty();
+  double points = double(grid.n_seeds());
   for (const XmlElement& axis : element.children("axis")) {
-    grid.axes.push_back(read_axis(axis, sweep));
-    points *= double(grid.axes.back().values.size());
+    grid.axes.push_back(read_axis(axis, sweep, samples));
+    if (!grid.is_sampled || grid.axes.size() == 1) points *= double(grid.axes.back().values.size());
   }
-  if (grid.axes.empty()) element.fail("element <axis> is missing; give one or more");
   if (points > kMaxPoints)
     element.fail(fmt::format("{:g} points; expected at most {:g}; take fewer values", points, kMaxPoints));
   grid.id = definition_id(sweep, path, scenario_file);

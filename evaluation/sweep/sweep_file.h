@@ -20,9 +20,12 @@ namespace halyard {
 ///   model        the estimators' model                         default: the scenario's own model file
 ///   estimators   names or plug-ins, separated by commas        a path is relative to the sweep file
 ///   seed, duration   replace the scenario's                    -, s
+///   design       grid, latin_hypercube or sobol, see sweep_design.h   default: grid
+///   samples      number of points, unless the design is a grid
+///   repeats      each point is simulated with so many seeds, from `seed` on   default: 1
 ///   skip         time at the start that errors exclude         s, default 0.5
 ///   parameter    one or more keys, see sweep_parameter.h
-///   values       or from, to, steps and scale (linear or log)  SI
+///   values       or from, to, steps and scale (linear or log)  SI; of samples from, to and scale
 ///   factor       true: values multiply those of the model file default false
 ///   applies_to   robot, model or both                          default both
 struct Sweep {

@@ -205,6 +205,11 @@ TEST_F(BadInput, ASweepThatCannotBeComputed) {
   expect_sweep_refused(good + good, {"varied twice"});
   expect_sweep_refused(good, {"kinematics,,ekf", "empty name"}, "estimators=\"kinematics,,ekf\"");
   expect_sweep_refused(good, {"listed twice"}, "estimators=\"ekf,ekf\"");
+  expect_sweep_refused(good, {"samples=\"8\"", "a grid has none"}, "estimators=\"ekf\" samples=\"8\"");
+  expect_sweep_refused(good, {"design=\"sobel\"", "latin_hypercube"}, "estimators=\"ekf\" design=\"sobel\"");
+  expect_sweep_refused(good, {"samples", "missing"}, "estimators=\"ekf\" design=\"sobol\"");
+  expect_sweep_refused(good, {"belongs to a grid"}, "estimators=\"ekf\" design=\"sobol\" samples=\"8\"");
+  expect_sweep_refused(good, {"repeats=\"0\""}, "estimators=\"ekf\" repeats=\"0\"");
   expect_sweep_refused(good, {"raven.xml"}, "estimators=\"ekf\" model=\"raven.xml\"");
 
   write_text(path("unknown.xml"),

@@ -1,6 +1,8 @@
 // halyard sweep and merge, end to end on short runs of the RAVEN-II.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "tests/support/app_runs.h"
 
 namespace halyard::testing_program {
@@ -125,6 +127,37 @@ TEST_F(Sweep, OfShardsInOneFolderIsMergedThere) {
   done({"merge", "out"});
   EXPECT_TRUE(files_in(path("out")) == files_in(path("local")));
   EXPECT_TRUE(contains(done({"sweep", "sweep.xml", "--out", "out", "--status"}), "table: out/sweep.csv\n"));
+}
+
+TEST_F(Sweep, OfSamplesAndRepeatsHasARowForEachSeed) {
+  for (const char* design : {"sobol", "latin_hypercube"}) {
+    write_text(
+        path("samples.xml"),
+        "<sweep name=\"samples\" scenario=\"experiment_a.xml\" estimators=\"kinematics\" duration=\"0.55\" design=\"" +
+            std::string(design) +
+            "\" samples=\"3\" repeats=\"2\" seed=\"5\">"
+            "<axis parameter=\"joint2.cable.stiffness\" factor=\"true\" from=\"0.5\" to=\"2\" scale=\"log\" "
+            "applies_to=\"robot\"/>"
+            "<axis parameter=\"joint2.effect.backlash.half_gap\" from=\"0\" to=\"2e-4\" "
+            "applies_to=\"robot\"/></sweep>");
+    const std::string out = std::string("out_") + design;
+    EXPECT_TRUE(contains(done({"sweep", "samples.xml", "--out", out}), "6 points, 1 estimators"));
+    const CsvFile table(path(out + "/sweep.csv"));
+    ASSERT_EQ(table.rows.size(), 6u * 3);
+    std::set<double> factors, gaps;
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      EXPECT_EQ(table.number(row, "seed"), 5 + (row / 3) % 2);
+      factors.insert(table.number(row, "joint2.cable.stiffness (factor)"));
+      gaps.insert(table.number(row, "joint2.effect.backlash.half_gap"));
+    }
+    EXPECT_EQ(factors.size(), 3u);
+    EXPECT_EQ(gaps.size(), 3u);
+    EXPECT_TRUE(*factors.begin() >= 0.5 && *factors.rbegin() <= 2);
+    EXPECT_TRUE(*gaps.begin() >= 0 && *gaps.rbegin() <= 2e-4);
+    const std::string report = text_of(path(out + "/report.html"));
+    EXPECT_TRUE(contains(report, "averaged over everything else that varies"));
+    EXPECT_TRUE(contains(report, "95 % intervals of the means"));
+  }
 }
 
 TEST_F(Sweep, PrintsTheScriptOfItsJobArray) {
