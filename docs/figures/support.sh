@@ -32,6 +32,7 @@ prepare_work_folder() {
   mkdir -p "$work/out" "$work/made" "$work/printed"
   work=$(realpath "$work")
   ln -sfn "$root/examples" "$work/examples"
+  ln -sfn "$root/docs" "$work/docs"
   [ ! -d "$recordings" ] || ln -sfn "$(realpath "$recordings")" "$work/recordings"
   printf '#!/bin/sh\nexec "%s" "$@"\n' "$program" >"$work/run"
   chmod +x "$work/run"
