@@ -92,6 +92,29 @@ TEST_F(OutputFolder, CommitRemovesWhatHasNoPlaceBesideTheNewFiles) {
   EXPECT_EQ(content(folder_ / "replaced.csv"), "new");
 }
 
+// add() resolves the path of an older file, remove() does not.
+TEST_F(OutputFolder, CommitKeepsANewFileThatIsAlsoRemovedByAnotherPath) {
+  fs::create_directories(folder_ / "real");
+  fs::create_directory_symlink("real", folder_ / "link");
+  write_file_whole(folder_ / "real" / "table.csv", "old");
+  OutputFiles out;
+  out.remove(folder_ / "link" / "table.csv");
+  out.add(folder_ / "link" / "table.csv", "new");
+  out.commit();
+  EXPECT_EQ(content(folder_ / "real" / "table.csv"), "new");
+}
+
+TEST_F(OutputFolder, AFileIsWrittenInParts) {
+  OutputFiles out;
+  out.add_in_parts(folder_ / "log.csv", [](const OutputFiles::Append& append) {
+    append("one\n");
+    append("two\n");
+  });
+  EXPECT_FALSE(fs::exists(folder_ / "log.csv"));
+  out.commit();
+  EXPECT_EQ(content(folder_ / "log.csv"), "one\ntwo\n");
+}
+
 TEST_F(OutputFolder, ParentFoldersAreCreated) {
   write_file_whole(folder_ / "a" / "b" / "report.html", "page");
   EXPECT_EQ(content(folder_ / "a" / "b" / "report.html"), "page");
