@@ -58,7 +58,8 @@ class Search {
   Attribution run() {
     Found current{baseline_.fit, baseline_.score};
     while (n_added(current) < options_.most_effects && add(current)) {}
-    if (!result_.namings.empty()) revise_names(current);
+    without_ = without_each(current);
+    revise_names(current);
     remove_idle(current);
     result_.baseline = baseline_.fit;
     result_.nominal_score = baseline_.nominal_score;
@@ -83,14 +84,13 @@ class Search {
     Naming naming;
   };
 
-  /// Fits again from the model's own numbers, which on the way were bent by what was missing; keeps the better fit.
-  void fit_afresh(Found& current) const {
+  /// A fit from the model's own numbers, which on the way were bent by what was missing.
+  Found afresh(const Found& current) const {
     const Hypothesis& h = current.fit.hypothesis;
-    Found afresh{refitter_.refit({model_.nominal, h.effects, h.past}, current.score), {}};
-    if (!afresh.fit.usable) return;
-    afresh.score = evidence_.score(afresh.fit.hypothesis);
-    if (afresh.score.finite && judge_.cost(afresh.scored()) < judge_.cost(current.scored()))
-      current = std::move(afresh);
+    return refitted({model_.nominal, h.effects, h.past}, current.score);
+  }
+  bool is_better(const Found& f, const Found& than) const {
+    return f.fit.usable && f.score.finite && judge_.cost(f.scored()) < judge_.cost(than.scored());
   }
 
   std::vector<PlacedEffect> candidates(const Hypothesis& h) const {
@@ -154,11 +154,12 @@ class Search {
       won = compete(second, current.scored(), candidates(so_far));
     }
     if (!won) return add_together(current, round);
-    Found with{won->fit, evidence_.score(won->fit.hypothesis)};
-    if (!convinces_against_its_own_fit(current, with)) return ++better_fits_ <= kMostBetterFits;
-    current = std::move(with);
+    Found with{won->fit, evidence_.score(won->fit.hypothesis)}, without, again;
+    run_side_by_side(is_first ? 1 : 2,
+                     [&](std::size_t i) { i == 0 ? without = without_last(with) : again = afresh(with); });
+    if (!convinces_against_its_own_fit(current, with, std::move(without))) return ++better_fits_ <= kMostBetterFits;
+    current = std::move(is_better(again, with) ? again : with);
     result_.namings.push_back(won->naming);
-    if (!is_first) fit_afresh(current);
     return true;
   }
 
@@ -167,19 +168,30 @@ class Search {
     if (f.fit.usable) f.score = evidence_.score(f.fit.hypothesis);
     return f;
   }
+  Found without_last(const Found& with) const {
+    return refitted(without_effect(with.fit.hypothesis, with.fit.hypothesis.effects.size() - 1), with.score);
+  }
+  /// Fits without each of the added effects, side by side.
+  std::vector<Found> without_each(const Found& current) const {
+    if (n_added(current) == 1) return {{baseline_.fit, baseline_.score}};
+    std::vector<Found> without(n_added(current));
+    run_side_by_side(without.size(), [&](std::size_t i) {
+      without[i] = refitted(without_effect(current.fit.hypothesis, given_ + i), current.score);
+    });
+    return without;
+  }
 
   /// Fits with several effects have several minima. A candidate may win because its fit found a better one for everything
   /// else. Therefore the hypothesis without it is fitted again from where the winner ended. If this fits better, it
   /// replaces `current`, and the winner has to convince against it. If it does not, the next round starts from there.
-  bool convinces_against_its_own_fit(Found& current, const Found& with) {
-    const std::size_t last = with.fit.hypothesis.effects.size() - 1;
-    Found without = refitted(without_effect(with.fit.hypothesis, last), with.score);
+  /// without: without_last(with).
+  bool convinces_against_its_own_fit(Found& current, const Found& with, Found without) {
     if (!without.fit.usable || !without.score.finite ||
         judge_.cost(without.scored()) + kRule.by_chance > judge_.cost(current.scored()))
       return true;
     current = std::move(without);
     Round& told = result_.rounds.back();
-    told.trials[0] = judge_.trial(with.fit.hypothesis, current.scored(), last);
+    told.trials[0] = judge_.trial(with.fit.hypothesis, current.scored(), with.fit.hypothesis.effects.size() - 1);
     told.accepted = convincing(told.trials, options_.significance)[0];
     return told.accepted;
   }
@@ -198,7 +210,8 @@ class Search {
     for (const Trial& t : proposal.trials)
       result_.namings.push_back(Competition(evidence_, model_, judge_, current.scored(), {t}).naming({0, {0}}));
     current = {proposal.fit, proposal.score};
-    fit_afresh(current);
+    Found again = afresh(current);
+    if (is_better(again, current)) current = std::move(again);
     return true;
   }
 
@@ -212,7 +225,7 @@ class Search {
       const std::size_t place = given_ + kept;
       const PlacedEffect old = current.fit.hypothesis.effects[place];
       const Hypothesis others = without_effect(current.fit.hypothesis, place);
-      const Found without = refitted(others, current.score);
+      const Found without = without_[kept];
       if (!without.fit.usable) return;
       std::vector<PlacedEffect> rivals = candidates(others);
       std::erase_if(rivals, [&](const PlacedEffect& r) {
@@ -232,7 +245,7 @@ class Search {
       const Naming its = won ? won->naming : Naming{};
       result_.namings.erase(naming);
       if (won) result_.namings.push_back(its);
-      current = std::move(revised);
+      change(current, std::move(revised));
     }
   }
 
@@ -262,26 +275,23 @@ class Search {
 
   /// Each effect is tried for removal: one that a later one made idle goes.
   void remove_idle(Found& current) {
-    while (current.fit.hypothesis.effects.size() > given_) {
-      const std::size_t n = current.fit.hypothesis.effects.size() - given_;
-      std::vector<Fit> without(n, baseline_.fit);
-      if (n > 1)
-        run_side_by_side(n, [&](std::size_t i) {
-          without[i] = refitter_.refit(without_effect(current.fit.hypothesis, given_ + i), current.score);
-        });
-      std::size_t gone = n;
-      Found left;
-      for (std::size_t i = 0; i < n && gone == n; ++i) {
-        if (!without[i].usable) continue;
-        left = {without[i], evidence_.score(without[i].hypothesis)};
-        const int place = static_cast<int>(given_ + i);
-        if (left.score.finite && !judge_.is_needed(current.scored(), left.scored(), place, options_.significance))
-          gone = i;
-      }
-      if (gone == n) break;
-      current = std::move(left);
+    const auto is_idle = [&](std::size_t i) {
+      const Found& left = without_[i];
+      return left.fit.usable && left.score.finite &&
+             !judge_.is_needed(current.scored(), left.scored(), static_cast<int>(given_ + i), options_.significance);
+    };
+    for (;;) {
+      std::size_t gone = 0;
+      while (gone < without_.size() && !is_idle(gone)) ++gone;
+      if (gone == without_.size()) return;
+      change(current, Found(without_[gone]));
       result_.namings.erase(result_.namings.begin() + static_cast<std::ptrdiff_t>(gone));
     }
+  }
+
+  void change(Found& current, Found to) {
+    current = std::move(to);
+    without_ = without_each(current);
   }
 
   const Evidence& evidence_;
@@ -293,7 +303,8 @@ class Search {
   Baseline baseline_;
   Judge judge_;
   Attribution result_;
-  int better_fits_ = 0;  ///< rounds without a name that ended with a better fit of the effects so far
+  std::vector<Found> without_;  ///< after the rounds: fits without each added effect
+  int better_fits_ = 0;         ///< rounds without a name that ended with a better fit of the effects so far
 };
 
 }  // namespace
