@@ -9,8 +9,9 @@ constexpr int kInstants = 10, kPositions = 6;  ///< parts of a record and of a m
 
 }  // namespace
 
-Hypothesis nudged(const Evidence& evidence, Hypothesis h, std::size_t first, const ArmParameters<double>& nominal,
-                  const BeyondNumbers& beyond) {
+Nudge nudged(const Evidence& evidence, Hypothesis h, std::size_t first, const ArmParameters<double>& nominal,
+             const BeyondNumbers& beyond) {
+  Nudge nudge;
   for (std::size_t e = first; e < h.effects.size(); ++e)
     for (const FitParameter& p : effect_parameters(evidence, h, nominal, static_cast<int>(e))) {
       const double value = parameter_value(h, p);
@@ -34,9 +35,13 @@ Hypothesis nudged(const Evidence& evidence, Hypothesis h, std::size_t first, con
       const auto rows = evidence.fit_rows(tried);
       std::vector<double> left;
       for (const auto& row : rows) left.push_back(beyond.left(row));
-      h = tried[static_cast<std::size_t>(std::ranges::min_element(left) - left.begin())];
+      const auto least = std::ranges::min_element(left);
+      if (least == left.begin()) continue;
+      nudge.gain += (left[0] - *least) / 2;
+      h = tried[static_cast<std::size_t>(least - left.begin())];
     }
-  return h;
+  nudge.at = std::move(h);
+  return nudge;
 }
 
 }  // namespace halyard

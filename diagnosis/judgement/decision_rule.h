@@ -68,9 +68,14 @@ struct DecisionRule {
   /// Number of starts of a candidate with shapes from which its quick fit begins, each at other shapes. Reason: the fit
   /// of a hysteresis ends in one of several minima, and the start that leaves least is often not in the lowest.
   std::size_t starts_fitted = 3;
-  /// The first `leaders` of those are fitted fully, if their gain is at least the share `leads` of the largest gain.
-  std::size_t leaders = 4;
+  /// The first `leaders` of those are fitted fully, if their gain is at least the share `leads` of the largest gain. So
+  /// are the `leaders_by_rest` whose fits leave least. Reason: a quick fit keeps the model's numbers linear, and its gain
+  /// can be negative although the effect is the right one.
+  std::size_t leaders = 4, leaders_by_rest = 2;
   double leads = 0.25;
+  /// A fit is nudged again if the last nudges gained more than this in log-likelihood. Reason: a quarter of what one more
+  /// parameter gains by chance decides nothing.
+  double worth_a_nudge = 0.5;
   /// After `first_passes` passes, those whose gain is then at least the share `still_leads` of the largest gain go on,
   /// up to `most_passes` in all.
   int first_passes = 3, most_passes = 12;

@@ -145,7 +145,8 @@ Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, s
   std::vector<FitParameter> numbers = chosen.parameters;
   std::erase_if(numbers, [](const FitParameter& p) { return p.effect >= 0; });
   const auto columns = sensitivities(whole, chosen.hypothesis, numbers);
-  const Hypothesis start = nudged(whole, chosen.hypothesis, given, model.nominal, BeyondNumbers(whole, columns, scale));
+  const Hypothesis start =
+      nudged(whole, chosen.hypothesis, given, model.nominal, BeyondNumbers(whole, columns, scale)).at;
   const Fit tried = weighed_fit(whole, start, chosen.parameters);
   const Fit& all = tried.usable ? tried : chosen;
   Fit certain = keep_certain_sizes(whole, all, given);

@@ -32,10 +32,9 @@ std::vector<bool> significant_rest(const Evidence& evidence, const Score& score)
   return rest;
 }
 
-bool is_beyond_noise(const Evidence& evidence, const Score& score, int channel) {
-  const double explained = std::pow(kRule.explained_ratio * evidence.floor()[channel], 2);
+bool is_beyond_noise(const Evidence& evidence, const std::vector<double>& mean_square, int channel) {
   return evidence.has_channel(channel) &&
-         std::max(score.mean_square[channel], score.fit_mean_square[channel]) > explained;
+         mean_square[channel] > std::pow(kRule.explained_ratio * evidence.floor()[channel], 2);
 }
 
 int most_explained_channel(const Evidence& evidence, const Score& with, const Score& without) {
@@ -61,10 +60,8 @@ Trial Judge::trial(const Hypothesis& with, const Scored& without, std::size_t in
   const int place = static_cast<int>(index);
   t.usable = true;
   if (index < with.past.size()) t.past = with.past[index];
-  const std::vector<double> least = squared_floors(evidence_);
-  t.log_likelihood = log_likelihood(evidence_, scored.score, least);
-  t.gain = paired(evidence_, t.log_likelihood, log_likelihood(evidence_, without.score, least)).sum +
-           stretch(without.hypothesis) - stretch(with);
+  t.log_likelihood = log_likelihood(evidence_, scored.score, squared_floors(evidence_));
+  t.gain = gain_over(scored, without);
   t.stretch = stretch(with);
   t.p_value = p_of_gain(scored.score, without.score);
   if (!t.is_judged()) return t;
@@ -90,9 +87,10 @@ double Judge::p_of_gain(const Score& with, const Score& without) const {
   return std::min(1.0, 2 * std::min(by_blocks, std::exp(-ratio)));
 }
 
-double Judge::p_of_better_fit(const Score& a, const Score& b) const {
+double Judge::gain_over(const Scored& a, const Scored& b) const {
   const std::vector<double> least = squared_floors(evidence_);
-  return p_value(paired(evidence_, log_likelihood(evidence_, a, least), log_likelihood(evidence_, b, least)));
+  return paired(evidence_, log_likelihood(evidence_, a.score, least), log_likelihood(evidence_, b.score, least)).sum +
+         stretch(b.hypothesis) - stretch(a.hypothesis);
 }
 
 /// True if, in the channel with a rest that the effect takes most of, nothing that matters is left or next to
@@ -210,13 +208,14 @@ bool Judge::takes_a_share(const Score& before, const Score& after, const std::ve
 }
 
 /// The effect takes a share of a residual that noise does not explain, and changes some signal by much more than the
-/// sensor resolves.
+/// sensor resolves. The blocks that tell the share have to show such a residual: one burst in the fitting blocks would
+/// let an effect count for what it does elsewhere below the noise.
 bool Judge::matters(const Scored& without, const Scored& with, int place) const {
   const auto done = done_by_effects(without);
   bool share = false;
   for (int c = 0; c < evidence_.channels(); ++c)
-    share =
-        share || (is_beyond_noise(evidence_, without.score, c) && takes_a_share(without.score, with.score, done, c));
+    share = share || (is_beyond_noise(evidence_, without.score.mean_square, c) &&
+                      takes_a_share(without.score, with.score, done, c));
   if (!share) return false;
   const auto rows = evidence_.fit_rows({with.hypothesis, without_effect(with.hypothesis, place)});
   return !rows[0].empty() &&

@@ -53,9 +53,9 @@ struct Scored {
 /// [2n] True for channels whose residual on the deciding blocks is well above the channel's floor.
 std::vector<bool> significant_rest(const Evidence& evidence, const Score& score);
 
-/// True if noise alone does not explain the residual of a channel: on fitting or on deciding blocks it is above
-/// explained_ratio times the floor.
-bool is_beyond_noise(const Evidence& evidence, const Score& score, int channel);
+/// True if noise alone does not explain these residuals of a channel: they are above explained_ratio times the floor.
+/// mean_square: [2n].
+bool is_beyond_noise(const Evidence& evidence, const std::vector<double>& mean_square, int channel);
 
 /// The channel of which an effect explains the largest share.
 int most_explained_channel(const Evidence& evidence, const Score& with, const Score& without);
@@ -75,9 +75,9 @@ class Judge {
 
   /// Probability of such a gain by chance.
   double p_of_gain(const Score& with, const Score& without) const;
-  /// Probability that `a` fits the deciding blocks better than `b` only by chance. Neither has to contain the other's
-  /// effects. Source: Vuong, Econometrica 57 (1989) 307-333, with the t distribution.
-  double p_of_better_fit(const Score& a, const Score& b) const;
+  /// The gain of `a` above `b`: what it explains more of the deciding blocks, less its further stretch. Neither has to
+  /// contain the other's effects.
+  double gain_over(const Scored& a, const Scored& b) const;
   /// Cost of a fit: -ln L on the fitting blocks plus the stretch of the baseline parameters.
   double cost(const Scored& scored) const;
   /// Prior cost of the refitted baseline parameters.

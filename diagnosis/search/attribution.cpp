@@ -105,7 +105,8 @@ class Search {
   /// True if no channel has a residual left above its floor.
   bool explained(const Score& score) const {
     for (int c = 0; c < evidence_.channels(); ++c)
-      if (is_beyond_noise(evidence_, score, c)) return false;
+      if (is_beyond_noise(evidence_, score.mean_square, c) || is_beyond_noise(evidence_, score.fit_mean_square, c))
+        return false;
     return true;
   }
 
@@ -249,11 +250,11 @@ class Search {
     }
   }
 
-  /// True if the name that won a revision stays behind what was there before it: from another start its fit may miss
-  /// what the earlier fit had found.
+  /// True if the name that won a revision stays behind what was there before it: from another start its fit, or the fit of
+  /// the earlier name in this round, may miss what the earlier fit had found.
   bool is_beaten(const Found& revised, const Found& before, bool is_same) const {
     if (is_same) return judge_.cost(before.scored()) < judge_.cost(revised.scored());
-    return judge_.p_of_better_fit(before.score, revised.score) <= options_.significance;
+    return judge_.gain_over(before.scored(), revised.scored()) > kRule.by_chance;
   }
 
   /// True if the last name came from a round beside all the others. Names that were added at once have not competed yet.

@@ -1,12 +1,29 @@
 #include "diagnosis/search/candidate_round.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <mutex>
+#include <utility>
 
 #include "diagnosis/prediction/side_by_side.h"
 
 namespace halyard {
+
+std::vector<std::size_t> leaders_of(const std::vector<Prospect>& prospects) {
+  std::vector<std::size_t> judged;
+  for (std::size_t i = 0; i < prospects.size(); ++i)
+    if (prospects[i].is_judged) judged.push_back(i);
+  if (judged.empty()) return {};
+  std::vector<std::size_t> leaders = judged;
+  if (leaders.size() > kRule.leaders) leaders.resize(kRule.leaders);
+  const double worth = kRule.leads * prospects[judged[0]].gain;
+  std::erase_if(leaders, [&](std::size_t i) { return prospects[i].gain <= worth; });
+  std::ranges::stable_sort(judged, {}, [&](std::size_t i) { return prospects[i].left; });
+  if (judged.size() > kRule.leaders_by_rest) judged.resize(kRule.leaders_by_rest);
+  for (const std::size_t i : judged)
+    if (std::ranges::find(leaders, i) == leaders.end()) leaders.push_back(i);
+  return leaders;
+}
 
 CandidateRound::CandidateRound(const Evidence& evidence, const ArmModel& model, const Refitter& refitter,
                                const Judge& judge, Scored without, Hypothesis from, const std::string& name,
@@ -59,15 +76,22 @@ std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candida
     t.promising = linear_.starts[i].promise >= kRule.promise;
     t.is_fitted = false;
   }
-  quick_fits(fitted, looks);
+  quick_fits(screen, fitted, looks);
   std::ranges::stable_sort(looks, std::ranges::greater{}, [](const Look& l) { return l.trial.gain; });
   std::vector<Trial> trials;
+  std::vector<Prospect> prospects;
   ends_.clear();
-  for (Look& l : looks) trials.push_back(std::move(l.trial)), ends_.push_back(std::move(l.ends));
+  for (Look& l : looks) {
+    prospects.push_back({l.trial.is_judged(), l.trial.gain, l.left});
+    trials.push_back(std::move(l.trial));
+    ends_.push_back(std::move(l.ends));
+  }
+  leaders_ = leaders_of(prospects);
   return trials;
 }
 
-void CandidateRound::quick_fits(const std::vector<std::size_t>& candidates, std::vector<Look>& looks) const {
+void CandidateRound::quick_fits(const Screen& screen, const std::vector<std::size_t>& candidates,
+                                std::vector<Look>& looks) const {
   struct FromStart {
     std::size_t candidate;
     const Hypothesis* start;
@@ -88,7 +112,10 @@ void CandidateRound::quick_fits(const std::vector<std::size_t>& candidates, std:
     if (std::isfinite(a.cost)) looks[a.candidate].ends.push_back(a.end.hypothesis);
   run_side_by_side(candidates.size(), [&](std::size_t c) {
     Look& look = looks[candidates[c]];
-    if (!look.ends.empty()) look.trial = judge_.trial(look.ends[0], without_, look.ends[0].effects.size() - 1);
+    if (!look.ends.empty()) {
+      look.trial = judge_.trial(look.ends[0], without_, look.ends[0].effects.size() - 1);
+      look.left = screen.left(evidence_.fit_rows({look.ends[0]})[0]);
+    }
     look.trial.is_fitted = true;
   });
 }
@@ -118,35 +145,33 @@ Refit CandidateRound::refit_from(const Hypothesis& end) const {
   const std::vector<double> past = last < end.past.size() ? end.past[last] : std::vector<double>();
   Refit r{refitter_.with_effect(linear_.from, end.effects[last], past), without_.score};
   r.nudged_from = linear_.from.effects.size();
+  r.is_nudged = false;  // not before one of the ends is chosen
   return r;
 }
 
 std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
-  const std::size_t n = std::min(kRule.leaders, trials.size());
-  std::vector<Refit> refits(n);
-  const auto leads = [&](std::size_t i, double share) {
-    double best = 0;
-    for (std::size_t l = 0; l < n; ++l) best = std::max(best, trials[l].gain);
-    return trials[i].is_judged() && trials[i].gain > share * best;
-  };
   std::vector<std::pair<std::size_t, Refit>> first;
-  for (std::size_t i = 0; i < n; ++i)
-    if (leads(i, kRule.leads))
-      for (const Hypothesis& end : ends_[i]) first.emplace_back(i, refit_from(end));
+  for (const std::size_t i : leaders_)
+    for (const Hypothesis& end : ends_[i]) first.emplace_back(i, refit_from(end));
   each("starts of the best candidates", first.size(), [&](std::size_t f) { refitter_.go_on(first[f].second, 1); });
+  std::vector<Refit> refits(trials.size());
   for (auto& [i, refit] : first)
     if (!refits[i].best.usable || refit.last < refits[i].last) refits[i] = std::move(refit);
+  for (Refit& r : refits) r.is_nudged = true;
+  const auto judge = [&](std::size_t i) {
+    const Hypothesis& h = refits[i].best.hypothesis;
+    trials[i] = refits[i].best.usable ? judge_.trial(h, without_, h.effects.size() - 1) : unusable(trials[i].effect);
+  };
+  run_side_by_side(leaders_.size(), [&](std::size_t l) { judge(leaders_[l]); });
   const auto go_on_with = [&](const std::string& what, double share, int passes) {
-    std::vector<std::size_t> leaders;
-    for (std::size_t i = 0; i < n; ++i)
-      if (leads(i, share)) leaders.push_back(i);
-    each(what, leaders.size(), [&](std::size_t l) {
-      Trial& t = trials[leaders[l]];
-      Refit& r = refits[leaders[l]];
-      if (r.settled && r.best.usable) return;
-      refitter_.go_on(r, passes);
-      const Hypothesis& h = r.best.hypothesis;
-      t = r.best.usable ? judge_.trial(h, without_, h.effects.size() - 1) : unusable(t.effect);
+    double best = 0;
+    for (const std::size_t i : leaders_) best = std::max(best, trials[i].gain);
+    std::vector<std::size_t> going;
+    for (const std::size_t i : leaders_)
+      if (trials[i].is_judged() && trials[i].gain > share * best && !refits[i].settled) going.push_back(i);
+    each(what, going.size(), [&](std::size_t g) {
+      refitter_.go_on(refits[going[g]], passes);
+      judge(going[g]);
     });
   };
   go_on_with("best candidates", kRule.leads, kRule.first_passes - 1);

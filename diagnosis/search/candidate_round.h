@@ -2,6 +2,7 @@
 /// One round of the search: a quick look at every candidate, then a full fit of the best.
 
 #include <functional>
+#include <limits>
 #include <string>
 
 #include "diagnosis/judgement/judge.h"
@@ -12,6 +13,17 @@ namespace halyard {
 /// Name of the current stage and its completed fraction; called by several threads.
 using SearchProgress = std::function<void(const std::string&, double)>;
 
+/// What a quick look has found of one candidate.
+struct Prospect {
+  bool is_judged = false;  ///< see Trial
+  double gain = 0;
+  double left = std::numeric_limits<double>::infinity();  ///< see Screen::left()
+};
+/// Indices of those that are worth a full fit: some that gain most, and some that leave least. A quick fit overshoots
+/// where the model's numbers are not linear, so that the right candidate may gain nothing yet. prospects: the largest gain
+/// first.
+std::vector<std::size_t> leaders_of(const std::vector<Prospect>& prospects);
+
 class CandidateRound {
  public:
   /// without: the hypothesis against which candidates are judged; from: where their fits start.
@@ -20,9 +32,10 @@ class CandidateRound {
 
   /// A trial of each candidate, the largest gain first. Empty if the sensitivities cannot be computed.
   std::vector<Trial> look(const std::vector<PlacedEffect>& candidates);
-  /// Fits the first trials fully and judges them anew. The quick look computes the sensitivities of the model's
-  /// parameters once; here they are renewed until nothing changes. Which end of its quick fits a candidate goes on from
-  /// is decided after one such pass from each. Returns the fits, in the order of the trials of the last look().
+  /// Fits the leaders fully and judges them anew: the trials that gain most, and those that would leave least once the
+  /// model's parameters have followed. The quick look computes the sensitivities of these parameters once; here they are
+  /// renewed until nothing changes. Which end of its quick fits a candidate goes on from is decided after one such pass
+  /// from each. Returns a fit for each trial of the last look(), unusable where there was none.
   std::vector<Fit> fit_leaders(std::vector<Trial>& trials) const;
   /// What the look has found to first order.
   const LinearRound& linear() const { return linear_; }
@@ -32,10 +45,11 @@ class CandidateRound {
   void each(const std::string& what, std::size_t n, const std::function<void(std::size_t)>& one) const;
   /// A candidate after its quick fits, one from each start.
   struct Look {
-    Trial trial;                   ///< of the best
-    std::vector<Hypothesis> ends;  ///< the best first; empty if none is usable
+    Trial trial;                                            ///< of the best
+    std::vector<Hypothesis> ends;                           ///< the best first; empty if none is usable
+    double left = std::numeric_limits<double>::infinity();  ///< at the best end, see Screen::left()
   };
-  void quick_fits(const std::vector<std::size_t>& candidates, std::vector<Look>& looks) const;
+  void quick_fits(const Screen& screen, const std::vector<std::size_t>& candidates, std::vector<Look>& looks) const;
   /// The effects so far and the model's numbers stay linear.
   Fit quick_fit(const Hypothesis& start) const;
   /// A full fit of the same candidate.
@@ -48,6 +62,7 @@ class CandidateRound {
   Scored without_;
   LinearRound linear_;
   std::vector<std::vector<Hypothesis>> ends_;       ///< of the quick fits of each trial
+  std::vector<std::size_t> leaders_;                ///< trials that are fitted fully
   std::vector<FitParameter> found_;                 ///< of the effects so far
   std::vector<std::vector<double>> found_columns_;  ///< sensitivities to them
   std::vector<double> scale_;                       ///< [2n] of the residual

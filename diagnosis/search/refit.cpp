@@ -57,14 +57,12 @@ void Refitter::go_on(Refit& r, int passes) const {
     const std::vector<FitParameter> numbers = numbers_beside(r.at);
     const auto columns = sensitivities(evidence_, r.at, numbers);
     if (columns.empty() && !numbers.empty()) return;
-    // A nudge that finds nothing better will not find it near the next minimum.
+    // A nudge that finds little will not find more near the next minimum.
     if (r.is_nudged) {
-      const Hypothesis before = r.at;
       const std::size_t first = std::max(given_, r.nudged_from);
-      r.at = nudged(evidence_, r.at, first, model_.nominal, BeyondNumbers(evidence_, columns, scale));
-      r.is_nudged = !std::ranges::equal(before.effects, r.at.effects, [](const PlacedEffect& a, const PlacedEffect& b) {
-        return std::ranges::equal(a.p, b.p);
-      });
+      Nudge nudge = nudged(evidence_, r.at, first, model_.nominal, BeyondNumbers(evidence_, columns, scale));
+      r.is_nudged = nudge.gain > kRule.worth_a_nudge;
+      r.at = std::move(nudge.at);
     }
     FitOptions options;
     options.cost_tolerance = 1e-3;

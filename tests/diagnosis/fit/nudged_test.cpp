@@ -42,7 +42,7 @@ TEST(Nudged, LeavesASizeThatIsRightWithAnotherNumberOfTheModel) {
   ASSERT_EQ(columns.size(), numbers.size());
   const auto size = [&](const std::vector<std::vector<double>>& of_numbers) {
     return nudged(evidence, start, 0, model.nominal, BeyondNumbers(evidence, of_numbers, evidence.floor()))
-        .effects[0]
+        .at.effects[0]
         .p[0];
   };
   EXPECT_NEAR(size(columns), kSize, 0.11 * kSize);

@@ -52,11 +52,13 @@ TEST(Judge, OfTwoCausesTheTruthFitsBetterAndTheOtherDoesNot) {
   const Tug tug(1, 0.03);
   PlacedEffect friction = place_neutral_effect(*find_effect("motor_friction"), tug.model.nominal, 1);
   friction.p[0] = 0.5 * tug.model.nominal.joint[1].motor_coulomb;
-  const Score truth = tug.evidence.score({tug.model.nominal, {tug.push}});
-  const Score other = tug.evidence.score({tug.model.nominal, {friction}});
-  EXPECT_LT(tug.judge.p_of_better_fit(truth, other), 0.01);
-  EXPECT_GT(tug.judge.p_of_better_fit(other, truth), 0.99);
-  EXPECT_NEAR(tug.judge.p_of_better_fit(truth, truth), 0.5, 1e-12);
+  const auto scored = [&](const PlacedEffect& effect) {
+    const Hypothesis h{tug.model.nominal, {effect}};
+    return Scored{h, tug.evidence.score(h)};
+  };
+  const Scored truth = scored(tug.push), other = scored(friction);
+  EXPECT_GT(tug.judge.gain_over(truth, other), 10);
+  EXPECT_EQ(tug.judge.gain_over(other, truth), -tug.judge.gain_over(truth, other));
 }
 
 /// Motor 1 has more Coulomb friction than its model, and its torque is noisy.
