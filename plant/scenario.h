@@ -54,6 +54,7 @@ struct TickNoise {
   std::vector<double> motor_torque;   ///< N m at the shaft, added to the torque command
   std::vector<double> joint_force;    ///< N m | N
   std::vector<double> motor_reading;  ///< rad, added before rounding
+  std::vector<double> joint_reading;  ///< rad | m, added before rounding
 };
 
 /// A camera that sees a marker at the tool, at the model's payload point. The log has each frame in the row in which it

@@ -129,6 +129,27 @@ void read_integrator(const XmlElement& element, IntegratorOptions& options) {
   options.absolute_tolerance = element.number_or("absolute_tolerance", options.absolute_tolerance, "", Sign::positive);
 }
 
+/// Standard deviations [n] from one number for all joints or from one for each; none if the attribute is absent.
+std::vector<double> read_noise(const XmlElement& sensors, const std::string& name, const std::string& unit, int n) {
+  if (!sensors.has(name)) return {};
+  std::vector<double> noise = sensors.numbers(name, unit);
+  if (noise.size() == 1) noise.assign(static_cast<std::size_t>(n), noise[0]);
+  if (static_cast<int>(noise.size()) != n || std::ranges::any_of(noise, [](double s) { return s < 0; }))
+    sensors.fail(name, "expected one number, or one for each of the " + std::to_string(n) +
+                           " joints with blanks between, none of them negative");
+  return noise;
+}
+
+void read_sensors(const XmlElement& sensors, Scenario& scenario) {
+  sensors.only({"quantise", "homed", "torque_noise", "motor_position_noise", "joint_position_noise"});
+  scenario.quantise = sensors.flag_or("quantise", scenario.quantise);
+  scenario.homed = sensors.flag_or("homed", scenario.homed);
+  const int n = scenario.robot.n();
+  scenario.noise.motor_torque = read_noise(sensors, "torque_noise", "N m", n);
+  scenario.noise.motor_reading = read_noise(sensors, "motor_position_noise", "rad", n);
+  scenario.noise.joint_reading = read_noise(sensors, "joint_position_noise", "", n);  // rad or m, joint by joint
+}
+
 }  // namespace
 
 Scenario read_scenario(const std::filesystem::path& path, const std::filesystem::path& robot) {
@@ -161,13 +182,7 @@ Scenario read_scenario(const std::filesystem::path& path, const std::filesystem:
     scenario.fade_in_s = control->number_or("fade_in", scenario.fade_in_s, "s", Sign::non_negative);
   }
   if (const auto integrator = root.optional_child("integrator")) read_integrator(*integrator, scenario.integrator);
-  if (const auto sensors = root.optional_child("sensors")) {
-    sensors->only({"quantise", "homed", "torque_noise"});
-    scenario.quantise = sensors->flag_or("quantise", scenario.quantise);
-    scenario.homed = sensors->flag_or("homed", scenario.homed);
-    const double torque = sensors->number_or("torque_noise", 0, "N m", Sign::non_negative);
-    if (torque > 0) scenario.noise.motor_torque.assign(scenario.robot.n(), torque);
-  }
+  if (const auto sensors = root.optional_child("sensors")) read_sensors(*sensors, scenario);
   if (const auto camera = root.optional_child("camera")) {
     camera->only({"rate", "latency", "noise", "dropout"});
     Camera c;

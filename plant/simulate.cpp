@@ -132,6 +132,8 @@ class ControlLoop {
     const TickNoise& noise = scenario_.noise;
     for (std::size_t k = 0; k < noise.motor_reading.size(); ++k)
       tick.signals[k].motor_error += noise.motor_reading[k] * normal_(random_);
+    for (std::size_t k = 0; k < noise.joint_reading.size(); ++k)
+      tick.signals[k].joint_error += noise.joint_reading[k] * normal_(random_);
     tick.readings = read_encoders(drive.arm(), tick.signals, scenario_.quantise);
     const Eigen::VectorXd desired = unstretched_motors(assumed_arm(scenario_), desired_joints(scenario_, time_s));
     tick.commanded_torque = controller_.torque(desired, tick.readings.motor);

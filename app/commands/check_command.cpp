@@ -7,7 +7,7 @@
 #include "app/bundled_files.h"
 #include "diagnosis/log_check/log_check.h"
 #include "evaluation/run/contained_run.h"
-#include "evaluation/sweep/sweep_file.h"
+#include "evaluation/sweep/sweep_run.h"
 #include "model/arm_log.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
@@ -53,6 +53,7 @@ void check_scenario(const std::filesystem::path& file) {
 
 void check_sweep(const std::filesystem::path& file) {
   const Sweep sweep = read_sweep(file);
+  check_estimators(sweep);
   fmt::print("{}: valid sweep \"{}\", {} points, estimators {}\n", file.string(), sweep.grid.name, sweep.grid.size(),
              fmt::join(sweep.grid.estimators, ", "));
   for (const SweepAxis& axis : sweep.grid.axes) {

@@ -136,6 +136,11 @@ SeparatingMotion separating_motion(const Scenario& given, const Log& given_log, 
 std::string proposal_xml(const Scenario& scenario, const std::string& model) {
   tinyxml2::XMLPrinter xml;
   const auto number = [&](const char* name, double value) { xml.PushAttribute(name, exact_text(value).c_str()); };
+  const auto numbers = [&](const char* name, const std::vector<double>& values) {
+    std::string text;
+    for (const double value : values) text.append(text.empty() ? "" : " ").append(exact_text(value));
+    if (!text.empty()) xml.PushAttribute(name, text.c_str());
+  };
   xml.PushHeader(false, true);
   xml.OpenElement("scenario");
   xml.PushAttribute("name", scenario.name.c_str());
@@ -158,9 +163,7 @@ std::string proposal_xml(const Scenario& scenario, const std::string& model) {
       }
     } else {
       xml.PushAttribute("kind", "point_to_point");
-      std::string points;
-      for (const double p : t.points) points.append(points.empty() ? "" : " ").append(exact_text(p));
-      xml.PushAttribute("points", points.c_str());
+      numbers("points", t.points);
       number("move", t.move_s);
       number("dwell", t.dwell_s);
     }
@@ -171,7 +174,9 @@ std::string proposal_xml(const Scenario& scenario, const std::string& model) {
   number("fade_in", scenario.fade_in_s);
   xml.CloseElement();
   xml.OpenElement("sensors");
-  number("torque_noise", scenario.noise.motor_torque.empty() ? 0 : scenario.noise.motor_torque[0]);
+  numbers("torque_noise", scenario.noise.motor_torque);
+  numbers("motor_position_noise", scenario.noise.motor_reading);
+  numbers("joint_position_noise", scenario.noise.joint_reading);
   xml.CloseElement();
   xml.CloseElement();
   return xml.CStr();

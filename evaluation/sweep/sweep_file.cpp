@@ -13,8 +13,8 @@
 #include <sstream>
 
 #include "evaluation/estimator_list.h"
+#include "evaluation/sweep/parameters/axis_keys.h"
 #include "evaluation/sweep/sweep_design.h"
-#include "evaluation/sweep/sweep_parameter.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "model/xml/xml_reader.h"
@@ -111,37 +111,20 @@ SweepAxis read_axis(const XmlElement& element, const Sweep& sweep, const UnitSam
       element.fail("parameter", in_quotes(key) + " is varied twice; vary each number once");
     }
     try {
-      for (const ArmModel* model : {&sweep.scenario.robot, &sweep.model}) {
-        const std::string unit = parameter_unit(*model, key);
-        if (axis.is_factor) continue;
-        if (key != axis.parameters.front() && unit != axis.unit) {
-          throw InputError(
-              fmt::format("parameter {}: is in {}, and the first one in {}; give them axes of their own, or "
-                          "factor=\"true\"",
-                          in_quotes(key), unit, axis.unit));
-        }
-        axis.unit = unit;
+      const std::string unit = unit_of_key(key, axis, sweep.scenario, sweep.model, sweep.grid.estimators);
+      if (axis.is_factor) continue;
+      if (key != axis.parameters.front() && unit != axis.unit) {
+        throw InputError(
+            fmt::format("parameter {}: is in {}, and the first one in {}; give them axes of their own, or "
+                        "factor=\"true\"",
+                        in_quotes(key), unit.empty() ? "no unit" : unit, axis.unit.empty() ? "no unit" : axis.unit));
       }
+      axis.unit = unit;
     } catch (const InputError& error) {
       element.fail("parameter", error.what());
     }
   }
   return axis;
-}
-
-/// The model with a point's values in place, for the axes that apply to it.
-ArmModel with_values(const ArmModel& model, const SweepGrid& grid, std::size_t point, Target target) {
-  ArmModel changed = model;
-  const std::vector<double> values = grid.values(point);
-  for (std::size_t i = 0; i < grid.axes.size(); ++i) {
-    const SweepAxis& axis = grid.axes[i];
-    if (axis.applies_to != target && axis.applies_to != Target::both) continue;
-    for (const std::string& key : axis.parameters) {
-      double& number = model_parameter(changed, key);
-      number = axis.is_factor ? number * values[i] : values[i];
-    }
-  }
-  return changed;
 }
 
 std::string file_text(const fs::path& path) {
@@ -181,18 +164,28 @@ std::vector<std::string> read_estimators(const XmlElement& element, const fs::pa
 
 Scenario Sweep::scenario_at(std::size_t point) const {
   Scenario changed = scenario;
-  changed.robot = with_values(scenario.robot, grid, point, Target::robot);
+  put_values(grid, point, changed);
   changed.seed = grid.seed(point).value_or(scenario.seed);
   return changed;
 }
 
-ArmModel Sweep::model_at(std::size_t point) const { return with_values(model, grid, point, Target::model); }
+ArmModel Sweep::model_at(std::size_t point) const {
+  ArmModel changed = model;
+  put_values(grid, point, changed);
+  return changed;
+}
 
-/// A model file's own checks.
+/// The checks of a model file and of a scenario.
 void check_point(const Sweep& sweep, std::size_t point, const std::string& source) {
   const std::string where = source + ", at " + sweep.grid.description(point);
-  parse_model(model_to_xml(sweep.scenario_at(point).robot), where + ", robot");
+  const Scenario scenario = sweep.scenario_at(point);
+  parse_model(model_to_xml(scenario.robot), where + ", robot");
   parse_model(model_to_xml(sweep.model_at(point)), where + ", model");
+  try {
+    check_varied_scenario(sweep.grid, scenario);
+  } catch (const InputError& error) {
+    throw InputError(where + ", " + error.what());
+  }
 }
 
 Sweep read_sweep(const fs::path& path) {

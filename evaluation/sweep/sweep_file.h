@@ -24,7 +24,7 @@ namespace halyard {
 ///   samples      number of points, unless the design is a grid
 ///   repeats      each point is simulated with so many seeds, from `seed` on   default: 1
 ///   skip         time at the start that errors exclude         s, default 0.5
-///   parameter    one or more keys, see sweep_parameter.h
+///   parameter    one or more keys, see parameters/axis_keys.h
 ///   values       or from, to, steps and scale (linear or log)  SI; of samples from, to and scale
 ///   factor       true: values multiply those of the model file default false
 ///   applies_to   robot, model or both                          default both
@@ -45,7 +45,7 @@ Sweep read_sweep(const std::filesystem::path& path);
 /// The same without a look at the points.
 Sweep read_sweep_definition(const std::filesystem::path& path);
 
-/// Throws InputError if the robot or the model is invalid at this point. source: what the message starts with.
+/// Throws InputError if the robot, the scenario or the model is invalid at this point. source: what the message starts with.
 void check_point(const Sweep& sweep, std::size_t point, const std::string& source);
 
 }  // namespace halyard

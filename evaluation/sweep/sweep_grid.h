@@ -10,12 +10,12 @@
 
 namespace halyard {
 
-/// One axis of a grid: parameters of the model that vary together. At a point of the grid they all have one value, or
+/// One axis of a grid: parameters that vary together. At a point of the grid they all have one value, or
 /// one factor.
 struct SweepAxis {
   enum class Target { robot, model, both };
 
-  std::vector<std::string> parameters;  ///< keys, see sweep_parameter.h
+  std::vector<std::string> parameters;  ///< keys, see parameters/axis_keys.h
   Target applies_to = Target::both;     ///< the simulated robot, the estimators' model, or both
   bool is_factor = false;               ///< values multiply the model file's value instead of replacing it
   bool is_logarithmic = false;          ///< reports draw the axis on a logarithmic scale

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <type_traits>
 
 #include "model/input_error.h"
+#include "transmission/arm_fields.h"
 
 namespace halyard {
 namespace {
@@ -84,12 +87,55 @@ std::pair<double*, std::string> effect_parameter(ArmModel& model, const EffectKe
                                fmt::join(names, ", ")));
 }
 
+struct Number {
+  std::string key, unit;
+  double* value;
+};
+
+/// Numbers of a joint that named_parameters() leaves out: the encoders' and the smoothing speeds.
+void add_unnamed_fields(JointParameters<double>& joint, const std::string& prefix, std::vector<Number>& all) {
+  bool zero_known = true;  // of the offset that follows
+  const auto visit = [&](const ArmField& field, auto& value) {
+    using Value = std::remove_reference_t<decltype(value)>;
+    if (!field.noun.empty() || !field.exists_at(joint.drive)) return;
+    if constexpr (std::is_same_v<Value, bool>) zero_known = value;
+    if constexpr (std::is_same_v<Value, double>) {
+      const bool is_unknown_offset = field.name.ends_with("_offset") && !zero_known;
+      if (!is_unknown_offset)
+        all.push_back(
+            {prefix + std::string(field.part) + "." + std::string(field.name), field.unit.of(joint.type), &value});
+    }
+  };
+  for_each_joint_field(visit, joint);
+}
+
+/// All of the model but those of effects.
+std::vector<Number> numbers_of(ArmModel& model) {
+  std::vector<Number> all;
+  for (const ParameterInfo& info : named_parameters(model.nominal)) all.push_back({info.key, info.unit, info.value});
+  for (int k = 0; k < model.n(); ++k) {
+    const std::string prefix = fmt::format("joint{}.", k + 1);
+    JointParameters<double>& joint = model.nominal.joint[k];
+    add_unnamed_fields(joint, prefix, all);
+    if (joint.drive == Drive::none) continue;
+    ControllerParameters& controller = model.joints[k].controller;
+    all.push_back({prefix + "controller.kp", "N m/rad", &controller.kp});
+    all.push_back({prefix + "controller.kd", "N m s/rad", &controller.kd});
+    all.push_back({prefix + "controller.torque_limit", "N m", &controller.torque_limit});
+  }
+  return all;
+}
+
 std::pair<double*, std::string> find_parameter(ArmModel& model, const std::string& key) {
   if (const auto effect_key = parse_effect_key(key)) return effect_parameter(model, *effect_key, key);
+  const std::vector<Number> all = numbers_of(model);
+  const std::string joint = key.substr(0, key.find('.') + 1);  // of a right joint, its numbers will do
+  const auto is_of_joint = [&](const Number& number) { return !joint.empty() && number.key.starts_with(joint); };
+  const bool is_right = std::ranges::any_of(all, is_of_joint);
   std::vector<std::string> keys;
-  for (const ParameterInfo& info : named_parameters(model.nominal)) {
-    if (info.key == key) return {info.value, info.unit};
-    keys.push_back(info.key);
+  for (const Number& number : all) {
+    if (number.key == key) return {number.value, number.unit};
+    if (!is_right || is_of_joint(number)) keys.push_back(number.key);
   }
   throw InputError(
       fmt::format("parameter {}: the model has none of that name; expected one of {}, jointK.effect.NAME.PARAMETER or "

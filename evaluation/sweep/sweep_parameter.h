@@ -10,6 +10,8 @@ namespace halyard {
 /// The parameter of a model with this key:
 ///
 ///   joint2.cable.stiffness             one of named_parameters()
+///   joint2.encoders.joint_resolution   a number that no diagnosis refits: of the encoders, smoothing speeds of friction
+///   joint2.controller.kp               a gain of the controller, or its torque_limit; only simulations use them
 ///   joint2.effect.backlash.half_gap    a parameter of an effect of a joint
 ///   arm.effect.payload.mass            a parameter of an effect of the whole arm
 ///

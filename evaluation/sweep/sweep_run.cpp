@@ -1,14 +1,17 @@
 #include "evaluation/sweep/sweep_run.h"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for_each.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 
 #include "evaluation/comparison/compare.h"
 #include "evaluation/run/contained_run.h"
+#include "evaluation/sweep/parameters/estimator_option.h"
 #include "evaluation/sweep/sweep_store.h"
 #include "model/input_error.h"
 #include "plant/simulate.h"
@@ -63,10 +66,29 @@ SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOpti
   return cell;
 }
 
+void check_estimators(const Sweep& sweep, const ContainmentOptions& containment) {
+  const SweepGrid& grid = sweep.grid;
+  const ArmModel first = sweep.model_at(0);
+  for (const std::string& estimator : grid.estimators) check_estimator(estimator, first, containment);
+  for (const SweepAxis& axis : grid.axes)
+    for (const std::string& key : axis.parameters) {
+      const auto option = parse_option_key(key);
+      if (!option) continue;
+      const auto [least, greatest] = std::ranges::minmax(axis.values);
+      for (const double value : {least, greatest}) {
+        ArmModel model = first;
+        set_option(model, *option, axis.is_factor ? value * option_number(sweep.model, *option).value() : value);
+        try {
+          for (const std::string& estimator : grid.estimators) check_estimator(estimator, model, containment);
+        } catch (const InputError& error) {
+          throw InputError(fmt::format("{}, at {} = {:g}: {}", grid.file, axis.label(), value, error.what()));
+        }
+      }
+    }
+}
+
 void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions& options) {
-  // A wrong estimator is found now, not in every cell.
-  for (const std::string& estimator : sweep.grid.estimators)
-    check_estimator(estimator, sweep.model_at(0), options.containment);
+  check_estimators(sweep, options.containment);  // a wrong one is found now, not in every cell
 
   if (options.resume) check_same_sweep(folder, sweep.grid);
   store_grid(folder, sweep.grid);

@@ -14,6 +14,10 @@ namespace halyard {
 /// Simulates a point and runs the estimators over its log. A failure is stored in the cell, not thrown.
 SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOptions& containment = {});
 
+/// Throws InputError if an estimator of the sweep cannot be made: with the model of the first point, and with the least
+/// and the greatest value of each option that an axis varies.
+void check_estimators(const Sweep& sweep, const ContainmentOptions& containment = {});
+
 struct SweepRunOptions {
   int jobs = 0;  ///< threads; 0: one per core
   Shard shard = {};

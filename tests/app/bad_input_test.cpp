@@ -212,9 +212,23 @@ TEST_F(BadInput, ASweepThatCannotBeComputed) {
   expect_sweep_refused(good, {"repeats=\"0\""}, "estimators=\"ekf\" repeats=\"0\"");
   expect_sweep_refused(good, {"raven.xml"}, "estimators=\"ekf\" model=\"raven.xml\"");
 
-  write_text(path("unknown.xml"),
-             "<sweep name=\"x\" scenario=\"experiment_a.xml\" estimators=\"kalman\">" + good + "</sweep>");
-  expect_refused({"sweep", "unknown.xml", "--out", "out"}, {"'kalman'"});
+  const auto axis = [](const std::string& key, const std::string& rest) {
+    return "<axis parameter=\"" + key + "\" " + rest + "/>";
+  };
+  expect_sweep_refused(axis("control.perid", "values=\"1e-3\""), {"bad.xml:1:", "control.perid", "control.period"});
+  expect_sweep_refused(axis("control.period", "values=\"0 1e-3\""), {"bad.xml, at", "control.period = 0 s", "above 0"});
+  expect_sweep_refused(axis("camera.rate", "values=\"10\""), {"camera.rate", "the scenario has none of that name"});
+  expect_sweep_refused(axis("joint1.trajectory.center", "values=\"2\""), {"bad.xml, at", "the joint's range"});
+  expect_sweep_refused(axis("joint1.sensors.torque_noise", "values=\"1e-3\" applies_to=\"model\""),
+                       {"bad.xml:1:", "not of the model"});
+  expect_sweep_refused(axis("joint1.encoders.joint_resolution", "values=\"-1\""), {"joint_resolution = -1 rad, robot"});
+  expect_sweep_refused(axis("estimator.ekf.torque_noise", "values=\"1e-3\""),
+                       {"bad.xml:1:", "does not run", "kinematics"});
+  expect_sweep_refused(axis("estimator.ekf.torque_nois", "values=\"1e-3\""), {"torque_nois", "joint_force_noise"},
+                       "estimators=\"ekf\"");
+  expect_sweep_refused(axis("estimator.sr_ukf.alpha", "values=\"0.5 20\""),
+                       {"bad.xml, at", "alpha = 20", "from 1e-05 to 10"}, "estimators=\"sr_ukf\"");
+  expect_sweep_refused(good, {"'kalman'"}, "estimators=\"kalman\"");
 }
 
 TEST_F(BadInput, PartsOfASweepThatDoNotBelongTogether) {
