@@ -92,7 +92,8 @@ compile_together(halyard_app commands
   progress.cpp run_estimate.cpp slurm/slurm_array.cpp sweep_options.cpp tour/experiments_command.cpp tour/tour_command.cpp)
 compile_together(halyard_app pages
   pages/comparison_figures.cpp pages/comparison_output.cpp pages/diagnosis_report.cpp pages/estimator_table.cpp
-  pages/identify_output.cpp pages/identify_report.cpp pages/judgement_tables.cpp pages/sweep_report.cpp
+  pages/identify_output.cpp pages/identify_report.cpp pages/judgement_tables.cpp
+  pages/sweep/sweep_charts.cpp pages/sweep/sweep_pictures.cpp pages/sweep/sweep_report.cpp
   pages/plan_output.cpp pages/view_charts.cpp tour/experiments_report.cpp)
 compile_together(halyard_app tour
   pages/diagnosis_output.cpp tour/experiments_output.cpp tour/tour.cpp tour/tour_report.cpp

@@ -9,7 +9,7 @@
 
 #include "app/output_check.h"
 #include "app/pages/comparison_figures.h"
-#include "app/pages/sweep_report.h"
+#include "app/pages/sweep/sweep_report.h"
 #include "app/progress.h"
 #include "evaluation/sweep/sweep_file.h"
 #include "evaluation/sweep/sweep_merge.h"

@@ -1,6 +1,7 @@
 #include "app/report/chart.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -57,6 +58,28 @@ Points pick(std::span<const double> x, std::span<const double> y, Indices indice
 }
 
 }  // namespace
+
+const char* colour_of(const Series& series, std::size_t place) {
+  // Okabe and Ito's palette, colour-blind safe; yellow, pale on white, last.
+  constexpr std::array<const char*, 8> kPalette = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                   "#56B4E9", "#E69F00", "#000000", "#F0E442"};
+  return kPalette[series.colour.value_or(place) % kPalette.size()];
+}
+
+void check_lengths(const Chart& chart, const Series& series) {
+  const bool bar = chart.kind == ChartKind::bar;
+  const std::size_t expected = bar ? chart.categories.size() : series.x.size();
+  const auto check = [&](std::size_t length, const char* what) {
+    if (length == expected) return;
+    throw std::invalid_argument("chart \"" + chart.title + "\", series \"" + series.name +
+                                "\": " + std::to_string(length) + " values of " + what + ", expected " +
+                                std::to_string(expected) + ", one per " + (bar ? "category" : "x"));
+  };
+  check(series.y.size(), "y");
+  if (!series.band) return;
+  check(series.band->lower.size(), "band.lower");
+  check(series.band->upper.size(), "band.upper");
+}
 
 Points decimate(std::span<const double> x, std::span<const double> y, std::size_t max_points) {
   check(x.size(), y.size(), max_points, 4);

@@ -53,6 +53,12 @@ struct Chart {
   int height_px = 320;
 };
 
+/// "#0072B2": the colour of a series at this place of a chart.
+const char* colour_of(const Series& series, std::size_t place);
+
+/// Throws std::invalid_argument, naming chart and series, if the lengths of the series do not match.
+void check_lengths(const Chart& chart, const Series& series);
+
 struct Points {
   std::vector<double> x, y;
 };

@@ -11,10 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Okabe and Ito's palette, colour-blind safe; yellow, pale on white, last.
-constexpr std::array<const char*, 8> kPalette = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                                 "#56B4E9", "#E69F00", "#000000", "#F0E442"};
-
 /// To 12 significant digits: finer than any pixel, also where time counts from 1970.
 double rounded(double value) {
   std::array<char, 32> text;
@@ -45,26 +41,9 @@ const char* name_of(ChartKind kind) {
   throw std::invalid_argument("unknown kind of chart");
 }
 
-void check_lengths(const Chart& chart, const Series& series) {
-  const bool bar = chart.kind == ChartKind::bar;
-  const std::size_t expected = bar ? chart.categories.size() : series.x.size();
-  const auto check = [&](std::size_t length, const char* what) {
-    if (length == expected) return;
-    throw std::invalid_argument("chart \"" + chart.title + "\", series \"" + series.name +
-                                "\": " + std::to_string(length) + " values of " + what + ", expected " +
-                                std::to_string(expected) + ", one per " + (bar ? "category" : "x"));
-  };
-  check(series.y.size(), "y");
-  if (!series.band) return;
-  check(series.band->lower.size(), "band.lower");
-  check(series.band->upper.size(), "band.upper");
-}
-
 Json to_object(const Chart& chart, const Series& series, std::size_t place) {
   check_lengths(chart, series);
-  Json object = {{"name", series.name},
-                 {"colour", kPalette[series.colour.value_or(place) % kPalette.size()]},
-                 {"dashed", series.dashed}};
+  Json object = {{"name", series.name}, {"colour", colour_of(series, place)}, {"dashed", series.dashed}};
   switch (chart.kind) {
     case ChartKind::line:
       object.update(to_object(decimate(series.x, series.y)));

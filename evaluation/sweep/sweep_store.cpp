@@ -73,7 +73,7 @@ bool holds_other_sweep(const fs::path& folder, const SweepGrid& grid) {
 void discard_other_sweep(OutputFiles& files, const fs::path& folder, const SweepGrid& grid) {
   if (!holds_other_sweep(folder, grid)) return;
   for (const fs::path& journal : journals_in(folder)) files.remove(journal);
-  for (const char* table : {"sweep.csv", "report.html"}) files.remove(folder / table);
+  for (const char* name : {"sweep.csv", "report.html", "curves.svg", "heat_map.svg"}) files.remove(folder / name);
 }
 
 void check_same_sweep(const fs::path& folder, const SweepGrid& grid) {

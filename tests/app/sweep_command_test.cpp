@@ -31,7 +31,7 @@ TEST_F(Sweep, GivesTheSameBytesForAnyNumberOfJobsAndAnyShards) {
   done({"sweep", "sweep.xml", "--out", "part2", "--shard", "2/2"});
   done({"merge", "part1", "part2", "--out", "merged"});
   const auto one = files_in(path("one"));
-  EXPECT_EQ(one.size(), 4u);  // sweep.json, cells, table, report
+  EXPECT_EQ(one.size(), 6u);  // sweep.json, cells, table, report, two pictures
   EXPECT_TRUE(files_in(path("two")) == one);
   EXPECT_TRUE(files_in(path("merged")) == one);
 }

@@ -1,4 +1,4 @@
-#include "app/pages/sweep_report.h"
+#include "app/pages/sweep/sweep_report.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "app/pages/comparison_figures.h"
+#include "app/pages/sweep/sweep_charts.h"
+#include "app/pages/sweep/sweep_pictures.h"
 #include "app/report/page.h"
 #include "evaluation/sweep/sweep_table.h"
 
@@ -23,39 +25,6 @@ using report::Series;
 constexpr std::size_t kMaxSlices = 12;
 constexpr std::size_t kMaxPlaces = 200;
 constexpr std::size_t kMaxRows = 300;
-
-/// Whether values of these ends need a logarithmic axis to be read.
-bool spans_decades(double least, double greatest, double decades) {
-  return least > 0 && greatest >= least * std::pow(10, decades);
-}
-
-std::string axis_label(const SweepAxis& axis) {
-  return axis.unit.empty() ? axis.label() : fmt::format("{} [{}]", axis.label(), axis.unit);
-}
-
-/// The chart of a joint's errors over an axis, still without curves.
-Chart empty_chart(const SweepGrid& grid, const SweepSummary& summary, const SweepAxis& axis, std::size_t k) {
-  const auto [lowest, highest] = std::ranges::minmax(axis.values);
-  return {.title = fmt::format("Joint {}", k + 1),
-          .x_label = axis_label(axis),
-          .y_label = fmt::format("mean absolute error [{}]", grid.units[k].shown),
-          .log_x = lowest > 0 && (axis.is_logarithmic || spans_decades(lowest, highest, 1)),
-          // The same for all charts of a joint.
-          .log_y = spans_decades(summary.spans[k].least, summary.spans[k].greatest, 2)};
-}
-
-/// A curve with the intervals of its places, if each has one.
-Series series_of(const std::string& name, const SweepSummary::Curve& curve, double shown_per_si) {
-  Series series{.name = name, .x = curve.x};
-  report::Band band;
-  for (const MeanWithInterval& error : curve.errors) {
-    series.y.push_back(shown_per_si * error.mean());
-    band.lower.push_back(shown_per_si * (error.mean() - error.half_width()));
-    band.upper.push_back(shown_per_si * (error.mean() + error.half_width()));
-  }
-  if (std::ranges::any_of(curve.errors, [](const auto& error) { return error.count() > 1; })) series.band = band;
-  return series;
-}
 
 /// Mean absolute error of a joint over the first axis; slice counts the points of the other axes.
 Chart slice_chart(const SweepGrid& grid, const StoredCells& cells, const SweepSummary& summary, std::size_t slice,
@@ -95,12 +64,7 @@ void add_means(report::Page& page, const SweepGrid& grid, const SweepSummary& su
   for (std::size_t a = 0; a < grid.axes.size(); ++a) {
     page.heading(fmt::format("Over {}, averaged over everything else that varies", grid.axes[a].label()));
     std::vector<Chart> charts;
-    for (std::size_t k = 0; k < grid.units.size(); ++k) {
-      charts.push_back(empty_chart(grid, summary, grid.axes[a], k));
-      for (std::size_t i = 0; i < grid.estimators.size(); ++i)
-        charts.back().series.push_back(
-            series_of(grid.estimators[i], summary.curve(a, i, k), grid.units[k].shown_per_si));
-    }
+    for (std::size_t k = 0; k < grid.units.size(); ++k) charts.push_back(mean_chart(grid, summary, a, k));
     page.figure_row(charts);
   }
 }
@@ -172,6 +136,7 @@ SweepSummary write_sweep_report(OutputFiles& files, const std::filesystem::path&
                                 const StoredCells& cells) {
   SweepSummary summary = write_sweep_table(files, folder / "sweep.csv", grid, cells);
   files.add(folder / "report.html", sweep_page(grid, cells, summary).html());
+  add_sweep_pictures(files, folder, grid, cells, summary);
   return summary;
 }
 
