@@ -64,37 +64,3 @@ figure_coverage_off() {
     echo
   done
 }
-
-# docs/studies: a sweep with a picture and a table each.
-study_stiffness='./run sweep docs/studies/stiffness.xml --out out/stiffness'
-
-figure study_stiffness_svg minutes
-figure_study_stiffness_svg() {
-  ran "$study_stiffness"
-  awk -v axis="stiffness of the three cables, as a multiple of the model's" -f "$here/study_picture.awk" \
-    "$work/out/stiffness/sweep.csv"
-}
-
-figure study_stiffness minutes
-figure_study_stiffness() {
-  ran "$study_stiffness"
-  cat <<TABLE
-From \`$study_stiffness\`: 1 - (error) / (error of kinematics), with the mean absolute
-errors over 8 seeds.
-
-| stiffness | ekf: joint 1 | joint 2 | joint 3 | sr_ukf: joint 1 | joint 2 | joint 3 |
-|---:|---:|---:|---:|---:|---:|---:|
-TABLE
-  awk -F , '
-    FNR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
-    { sum[$2, $at["estimator"], $at["joint"]] += $at["mean_absolute_error"]; if (!seen[$2]++) value[++n] = $2 }
-    function gain(x, e, k) { return sprintf(" | %.1f %%", 100 * (1 - sum[x, e, k] / sum[x, "kinematics", k])) }
-    END {
-      for (i = 1; i <= n; i += 3) {
-        row = sprintf("| %.3g", value[i])
-        for (k = 1; k <= 3; ++k) row = row gain(value[i], "ekf", k)
-        for (k = 1; k <= 3; ++k) row = row gain(value[i], "sr_ukf", k)
-        print row " |"
-      }
-    }' "$work/out/stiffness/sweep.csv"
-}
