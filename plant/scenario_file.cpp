@@ -129,7 +129,7 @@ void read_integrator(const XmlElement& element, IntegratorOptions& options) {
   options.absolute_tolerance = element.number_or("absolute_tolerance", options.absolute_tolerance, "", Sign::positive);
 }
 
-/// Standard deviations [n] from one number for all joints or from one for each; none if the attribute is absent.
+/// Standard deviations [n] from one number for all joints or from one for each; none if the attribute is absent or all are zero.
 std::vector<double> read_noise(const XmlElement& sensors, const std::string& name, const std::string& unit, int n) {
   if (!sensors.has(name)) return {};
   std::vector<double> noise = sensors.numbers(name, unit);
@@ -137,6 +137,7 @@ std::vector<double> read_noise(const XmlElement& sensors, const std::string& nam
   if (static_cast<int>(noise.size()) != n || std::ranges::any_of(noise, [](double s) { return s < 0; }))
     sensors.fail(name, "expected one number, or one for each of the " + std::to_string(n) +
                            " joints with blanks between, none of them negative");
+  if (std::ranges::all_of(noise, [](double s) { return s == 0; })) return {};
   return noise;
 }
 

@@ -24,7 +24,7 @@ BEGIN {
 {
   if (!($1 in row_number)) { row_number[$1] = ++rows; row_name[rows] = $1 }
   if (!($2 in column_number)) { column_number[$2] = ++columns; column_name[columns] = $2 }
-  if (!($3 in curve_number)) { curve_number[$3] = ++curves; curve_name[curves] = $3 }
+  if (!($3 in curve_number)) { curve_number[$3] = ++curves; curve_name[curves] = $3; lines += $3 !~ /^[*|]/ }
   if (!(($3, $4) in known)) { known[$3, $4] = 1; value[$3, ++places[$3]] = $4 }
   key = $1 SUBSEP $2 SUBSEP $3 SUBSEP $4
   ++n[key]; sum[key] += $5; squares[key] += $5 * $5
@@ -129,7 +129,7 @@ function curve(r, k, i,   j, name, key, x, upper, lower, points, marks) {
   if (name ~ /^[*|]/) return
   printf "<polygon fill=\"%s\" fill-opacity=\"0.18\" points=\"%s%s\"/>\n", colour[i], upper, lower
   # Later curves are thinner, so that equal ones all show.
-  width_px = 1.4 + (curves - i < 4 ? curves - i : 4)
+  width_px = lines - i < 0 ? 1.4 : 1.4 + (lines - i < 4 ? lines - i : 4)
   printf "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" points=\"%s\"/>\n", colour[i], width_px, points
 }
 

@@ -75,6 +75,9 @@ TEST(SweepKeys, NameTheNoiseOfASensor) {
   EXPECT_EQ(varied.noise.joint_reading, (std::vector<double>{0, 1e-4, 0}));
   EXPECT_EQ(with("joint1.sensors.motor_position_noise", 2e-3).noise.motor_reading[0], 2e-3);
   EXPECT_EQ(with("joint3.sensors.torque_noise", 3e-3).noise.motor_torque[2], 3e-3);
+  const TickNoise none = with("joint3.sensors.torque_noise", 0).noise;
+  EXPECT_TRUE(none.motor_torque.empty() && none.motor_reading.empty() && none.joint_reading.empty())
+      << "would draw random numbers";
 }
 
 TEST(SweepKeys, NameNumbersOfTheScenario) {

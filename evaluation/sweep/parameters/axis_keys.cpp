@@ -97,6 +97,10 @@ void put_values(const SweepGrid& grid, std::size_t point, Scenario& scenario) {
       double& number = scenario_number(scenario, key);
       number = grid.axes[i].is_factor ? number * values[i] : values[i];
     }
+  // No noise draws no random numbers: the others stay those of the scenario.
+  for (std::vector<double>* noise :
+       {&scenario.noise.motor_torque, &scenario.noise.motor_reading, &scenario.noise.joint_reading})
+    if (std::ranges::all_of(*noise, [](double s) { return s == 0; })) noise->clear();
 }
 
 void put_values(const SweepGrid& grid, std::size_t point, ArmModel& model) {

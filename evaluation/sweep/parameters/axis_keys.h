@@ -19,7 +19,8 @@ namespace halyard {
 std::string unit_of_key(const std::string& key, const SweepAxis& axis, const Scenario& scenario, const ArmModel& model,
                         const std::vector<std::string>& estimators);
 
-/// Puts a point's values into the robot and the scenario, or into the model of the estimators.
+/// Puts a point's values into the robot and the scenario, or into the model of the estimators. A noise that is zero for
+/// all joints becomes none.
 void put_values(const SweepGrid& grid, std::size_t point, Scenario& scenario);
 void put_values(const SweepGrid& grid, std::size_t point, ArmModel& model);
 
