@@ -57,17 +57,17 @@ HALYARD_INLINE void joint_reaction(const ArmParameters<T>& arm, const T* g, T* f
 }
 
 /// Adds R_kᵀ g of a single cable to force [n].
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE void add_cable_reaction(const ArmParameters<T>& arm, int k, const T& g, T* force) {
   const T pull = g * arm.joint[k].pulley_radius;
-  for (int j = 0; j < arm.n; ++j) force[j] += arm.joint[k].coupling[j] * pull;
+  for (int j = 0, n = joint_count<known>(arm); j < n; ++j) force[j] += arm.joint[k].coupling[j] * pull;
 }
 
 /// Motor angle of the rigidly driven joint k at joint positions q [n]; works for rates as well.
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE T rigid_motor(const ArmParameters<T>& arm, int k, const T* q) {
   const JointParameters<T>& j = arm.joint[k];
-  return j.pulley_radius * coupled_motion(j, arm.n, q) / j.motor_travel();
+  return j.pulley_radius * coupled_motion(j, joint_count<known>(arm), q) / j.motor_travel();
 }
 
 /// Position of the rigidly driven joint k at a motor angle. q [k]: positions of the joints inboard of joint k; no other
@@ -81,14 +81,15 @@ HALYARD_INLINE T rigid_joint(const ArmParameters<T>& arm, int k, const T& motor_
 }
 
 /// Adds the inertia of the rigid drives' rotors to the mass matrix: J R_kᵀ R_k (N/r_m)² for each rotor.
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE void add_rotor_mass(const ArmParameters<T>& arm, T M[][kMaxJoints]) {
-  for (int k = 0; k < arm.n; ++k) {
+  const int n = joint_count<known>(arm);
+  for (int k = 0; k < n; ++k) {
     const JointParameters<T>& j = arm.joint[k];
     if (j.drive != Drive::rigid) continue;
     const T turns = j.pulley_radius / j.motor_travel();
-    for (int r = 0; r < arm.n; ++r)
-      for (int c = 0; c < arm.n; ++c) M[r][c] += j.rotor_inertia * turns * turns * j.coupling[r] * j.coupling[c];
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) M[r][c] += j.rotor_inertia * turns * turns * j.coupling[r] * j.coupling[c];
   }
 }
 

@@ -18,14 +18,14 @@ namespace halyard {
 
 /// Sets motor and joint motion of all joints from q and v [n]. Motors of cable drives are not changed: their motion is
 /// a separate state.
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE void set_motion(const ArmParameters<T>& arm, const T* q, const T* v, JointSignals<T>* s) {
-  for (int k = 0; k < arm.n; ++k) {
+  for (int k = 0, n = joint_count<known>(arm); k < n; ++k) {
     s[k].joint_position = q[k];
     s[k].joint_rate = v[k];
     if (arm.joint[k].drive == Drive::rigid) {
-      s[k].motor_angle = rigid_motor(arm, k, q);
-      s[k].motor_rate = rigid_motor(arm, k, v);
+      s[k].motor_angle = rigid_motor<known>(arm, k, q);
+      s[k].motor_rate = rigid_motor<known>(arm, k, v);
     } else if (arm.joint[k].drive == Drive::none) {
       s[k].motor_angle = s[k].motor_rate = T(0.0);
     }
@@ -40,12 +40,13 @@ HALYARD_INLINE T rotor_torque(const JointParameters<T>& joint, const T& torque, 
 
 /// From torques τ and cable pulls g [n]: adds the forces of rigid drives to joint_force [n], and sets the
 /// motor_acceleration of cable drives, rad/s². Other entries are not changed.
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE void drive_forces(const ArmParameters<T>& arm, const T* torque, const T* pull, T* joint_force,
                                  T* motor_acceleration) {
-  for (int k = 0; k < arm.n; ++k) {
+  for (int k = 0, n = joint_count<known>(arm); k < n; ++k) {
     const JointParameters<T>& joint = arm.joint[k];
-    if (joint.drive == Drive::rigid) add_cable_reaction(arm, k, T(torque[k] / joint.motor_travel()), joint_force);
+    if (joint.drive == Drive::rigid)
+      add_cable_reaction<known>(arm, k, T(torque[k] / joint.motor_travel()), joint_force);
     if (joint.drive == Drive::cable)
       motor_acceleration[k] = rotor_torque(joint, torque[k], pull[k]) / joint.rotor_inertia;
   }

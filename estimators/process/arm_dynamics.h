@@ -48,49 +48,49 @@ StateLayout state_layout(const Transmission<T>& transmission) {
 }
 
 /// The signals of a state: motor and joint motion of every joint.
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE void unpack_state(const ArmParameters<T>& arm, const StateLayout& l, const T* x, JointSignals<T>* s) {
   T q[kMaxJoints], v[kMaxJoints];
-  for (int k = 0; k < arm.n; ++k) {
+  for (int k = 0, n = joint_count<known>(arm); k < n; ++k) {
     q[k] = x[l.position[k]];
     v[k] = x[l.rate[k]];
     if (arm.joint[k].drive != Drive::cable) continue;
     s[k].motor_angle = x[*l.motor_angle[k]];
     s[k].motor_rate = x[*l.motor_rate[k]];
   }
-  set_motion(arm, q, v, s);
+  set_motion<known>(arm, q, v, s);
 }
 
 /// x' at state x. command, external: [n], held over the step.
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE void state_derivative(const Transmission<T>& transmission, const StateLayout& l, double time,
                                      const CommandHistory* history, const T* command, const T* external, const T* x,
                                      T* x_dot) {
   const ArmParameters<T>& arm = transmission.arm();
-  const int n = arm.n;
+  const int n = joint_count<known>(arm);
   ArmSignals<T> signals(n);
   JointSignals<T>* s = signals.joint();
-  unpack_state(arm, l, x, s);
+  unpack_state<known>(arm, l, x, s);
   T q[kMaxJoints], v[kMaxJoints], zero[kMaxJoints], bias[kMaxJoints];
   for (int k = 0; k < n; ++k) {
     s[k].command = command[k];
     s[k].external_force = external[k];
     q[k] = s[k].joint_position, v[k] = s[k].joint_rate, zero[k] = T(0.0);
   }
-  transmission.evaluate(time, history, x + l.effect_states, s, x_dot + l.effect_states);
+  transmission.template evaluate<known>(time, history, x + l.effect_states, s, x_dot + l.effect_states);
 
-  const ChainPose<T> pose = chain_pose(arm, q);
-  inverse_dynamics(arm, pose, v, zero, bias);
+  const ChainPose<T> pose = chain_pose<known>(arm, q);
+  inverse_dynamics<known>(arm, pose, v, zero, bias);
   T M[kMaxJoints][kMaxJoints], a[kMaxJoints], torque[kMaxJoints], pull[kMaxJoints], motor_acceleration[kMaxJoints];
-  mass_matrix(arm, pose, M);
-  add_rotor_mass(arm, M);
+  mass_matrix<known>(arm, pose, M);
+  add_rotor_mass<known>(arm, M);
   ldl_factor<T, kMaxJoints>(n, M);
   for (int k = 0; k < n; ++k) {
     a[k] = s[k].joint_force - bias[k];
     torque[k] = s[k].motor_torque;
     pull[k] = s[k].cable_force_motor;
   }
-  drive_forces(arm, torque, pull, a, motor_acceleration);
+  drive_forces<known>(arm, torque, pull, a, motor_acceleration);
   ldl_solve<T, kMaxJoints>(n, M, a);
 
   for (int k = 0; k < n; ++k) {
@@ -103,14 +103,14 @@ HALYARD_INLINE void state_derivative(const Transmission<T>& transmission, const 
 }
 
 /// One step of the classical fourth-order Runge-Kutta method, in place.
-template <class T>
+template <int known = 0, class T>
 HALYARD_INLINE void runge_kutta_4(const Transmission<T>& transmission, const StateLayout& l, double time, double h,
                                   const CommandHistory* history, const T* command, const T* external, T* x) {
   T k1[kMaxStates], k[kMaxStates], sum[kMaxStates], at[kMaxStates];
-  state_derivative(transmission, l, time, history, command, external, x, k1);
+  state_derivative<known>(transmission, l, time, history, command, external, x, k1);
   for (int i = 0; i < l.size; ++i) sum[i] = k1[i], at[i] = x[i] + T(0.5 * h) * k1[i];
   for (int stage = 0; stage < 3; ++stage) {
-    state_derivative(transmission, l, time + (stage < 2 ? 0.5 * h : h), history, command, external, at, k);
+    state_derivative<known>(transmission, l, time + (stage < 2 ? 0.5 * h : h), history, command, external, at, k);
     for (int i = 0; i < l.size; ++i) {
       sum[i] += T(stage < 2 ? 2.0 : 1.0) * k[i];
       at[i] = x[i] + T(stage < 1 ? 0.5 * h : h) * k[i];

@@ -20,11 +20,12 @@ struct JointForces {
 };
 
 /// F, and all rows of x_dot and A but those of the joints' rates.
+template <int known>
 HALYARD_INLINE void linearise_transmission(const Transmission<Dual>& transmission, const StateLayout& l, double time,
                                            const CommandHistory* history, const Dual* command, const Dual* external,
                                            const double* x, double* x_dot, double* A, JointForces& forces) {
   const ArmParameters<Dual>& arm = transmission.arm();
-  const int n = arm.n;
+  const int n = joint_count<known>(arm);
   for (int first = 0; first < l.size; first += kDualWidth) {
     const int count = l.size - first < kDualWidth ? l.size - first : kDualWidth;
     Dual at[kMaxStates], z_dot[kMaxStates];
@@ -32,16 +33,16 @@ HALYARD_INLINE void linearise_transmission(const Transmission<Dual>& transmissio
     for (int i = 0; i < count; ++i) at[first + i].d.set(i, 1);
     ArmSignals<Dual> signals(n);
     JointSignals<Dual>* s = signals.joint();
-    unpack_state(arm, l, at, s);
+    unpack_state<known>(arm, l, at, s);
     for (int k = 0; k < n; ++k) s[k].command = command[k], s[k].external_force = external[k];
-    transmission.evaluate(time, history, at + l.effect_states, s, z_dot);
+    transmission.template evaluate<known>(time, history, at + l.effect_states, s, z_dot);
     Dual force[kMaxJoints], torque[kMaxJoints], pull[kMaxJoints], motor_acceleration[kMaxJoints];
     for (int k = 0; k < n; ++k) {
       force[k] = s[k].joint_force;
       torque[k] = s[k].motor_torque;
       pull[k] = s[k].cable_force_motor;
     }
-    drive_forces(arm, torque, pull, force, motor_acceleration);
+    drive_forces<known>(arm, torque, pull, force, motor_acceleration);
     const auto put = [&](int row, const Dual& rate) __attribute__((always_inline)) {
       x_dot[row] = rate.a;
       for (int i = 0; i < count; ++i) A[row + (first + i) * l.size] = rate.d[i];
@@ -59,9 +60,10 @@ HALYARD_INLINE void linearise_transmission(const Transmission<Dual>& transmissio
 }
 
 /// Subtracts from the slopes those of M(q) a + h(q, q') at constant a.
+template <int known>
 HALYARD_INLINE void subtract_chain_slopes(const ArmParameters<Dual>& arm, const StateLayout& l, const double* x,
                                           const double* a, JointForces& forces) {
-  const int n = arm.n;
+  const int n = joint_count<known>(arm);
   for (int first = 0; first < 2 * n; first += kDualWidth) {  // directions: q, then q'
     Dual q[kMaxJoints], v[kMaxJoints], held[kMaxJoints], force[kMaxJoints];
     for (int k = 0; k < n; ++k) {
@@ -74,7 +76,7 @@ HALYARD_INLINE void subtract_chain_slopes(const ArmParameters<Dual>& arm, const 
       const int direction = first + i;
       (direction < n ? q[direction] : v[direction - n]).d.set(i, 1);
     }
-    inverse_dynamics(arm, chain_pose(arm, q), v, held, force);
+    inverse_dynamics<known>(arm, chain_pose<known>(arm, q), v, held, force);
     for (int i = 0; i < count; ++i) {
       const int direction = first + i;
       const int column = direction < n ? l.position[direction] : l.rate[direction - n];
@@ -84,25 +86,26 @@ HALYARD_INLINE void subtract_chain_slopes(const ArmParameters<Dual>& arm, const 
 }
 
 /// x_dot [size] and A = ∂x'/∂x [size x size], column-major. `arm`: the parameters of the transmission. command,
-/// external: [n].
+/// external: [n]. known: see joint_count().
+template <int known = 0>
 HALYARD_INLINE void linearised_derivative(const Transmission<Dual>& transmission, const ArmParameters<double>& arm,
                                           const StateLayout& l, double time, const CommandHistory* history,
                                           const Dual* command, const Dual* external, const double* x, double* x_dot,
                                           double* A) {
-  const int n = arm.n;
+  const int n = joint_count<known>(arm);
   JointForces forces;
-  linearise_transmission(transmission, l, time, history, command, external, x, x_dot, A, forces);
+  linearise_transmission<known>(transmission, l, time, history, command, external, x, x_dot, A, forces);
   double q[kMaxJoints], v[kMaxJoints], zero[kMaxJoints], bias[kMaxJoints], a[kMaxJoints];
   for (int k = 0; k < n; ++k) q[k] = x[l.position[k]], v[k] = x[l.rate[k]], zero[k] = 0;
-  const ChainPose<double> pose = chain_pose(arm, q);
-  inverse_dynamics(arm, pose, v, zero, bias);
+  const ChainPose<double> pose = chain_pose<known>(arm, q);
+  inverse_dynamics<known>(arm, pose, v, zero, bias);
   double M[kMaxJoints][kMaxJoints];
-  mass_matrix(arm, pose, M);
-  add_rotor_mass(arm, M);
+  mass_matrix<known>(arm, pose, M);
+  add_rotor_mass<known>(arm, M);
   ldl_factor<double, kMaxJoints>(n, M);
   for (int k = 0; k < n; ++k) a[k] = forces.value[k] - bias[k];
   ldl_solve<double, kMaxJoints>(n, M, a);
-  subtract_chain_slopes(transmission.arm(), l, x, a, forces);
+  subtract_chain_slopes<known>(transmission.arm(), l, x, a, forces);
   for (int c = 0; c < l.size; ++c) {
     double column[kMaxJoints];
     for (int k = 0; k < n; ++k) column[k] = forces.slope[k][c];

@@ -7,6 +7,14 @@
 namespace halyard {
 namespace {
 
+/// Calls f<n>() for arms of three joints, those of the RAVEN-II, where the compiler then unrolls the loops over joints,
+/// and f<0>() for others, to save compile time. See joint_count().
+template <class F>
+HALYARD_INLINE void with_known_joints(int n, const F& f) {
+  if (n == 3) f.template operator()<3>();
+  else f.template operator()<0>();
+}
+
 template <class T>
 void advance(const Transmission<T>& transmission, const StateLayout& layout, double time, double dt, int substeps,
              const CommandHistory* history, const T* command, const T* external, T* x) {
@@ -20,13 +28,19 @@ void advance(const Transmission<T>& transmission, const StateLayout& layout, dou
 void derivative(const Transmission<Lanes>& transmission, const StateLayout& layout, double time,
                 const CommandHistory* history, const Lanes* command, const Lanes* external, const Lanes* x,
                 Lanes* x_dot) {
-  state_derivative(transmission, layout, time, history, command, external, x, x_dot);
+  with_known_joints(
+      layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
+        state_derivative<known>(transmission, layout, time, history, command, external, x, x_dot);
+      });
 }
 
 void linearise(const Transmission<Dual>& transmission, const ArmParameters<double>& arm, const StateLayout& layout,
                double time, const CommandHistory* history, const Dual* command, const Dual* external, const double* x,
                double* x_dot, double* A) {
-  linearised_derivative(transmission, arm, layout, time, history, command, external, x, x_dot, A);
+  with_known_joints(
+      layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
+        linearised_derivative<known>(transmission, arm, layout, time, history, command, external, x, x_dot, A);
+      });
 }
 
 constexpr LaneKernels kernels_named(const char* name) {
