@@ -3,12 +3,17 @@
 namespace halyard {
 
 void ExtendedKalmanFilter::predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) {
-  const Eigen::Index n = x_.size();
-  F_.resize(n, n);
-  process.advance_with_jacobian(x_, F_);
-  predicted_columns_.resize(n, n + Q_root.cols());
-  predicted_columns_.leftCols(n).noalias() = F_ * S_;
-  predicted_columns_.rightCols(Q_root.cols()) = Q_root;
+  const Eigen::Index n = x_.size(), sources = Q_root.cols();
+  predicted_columns_.set_zero(static_cast<int>(n + sources), static_cast<int>(n));
+  auto columns = predicted_columns_.view();
+  F_.resize(n, n);  // here, so that a later step needs no memory
+  if (process.advance_root(x_, FS_)) {
+    columns.topRows(n) = FS_.view().transpose();
+  } else {
+    process.advance_with_jacobian(x_, F_);
+    columns.topRows(n) = F_.lazyProduct(S_).transpose();
+  }
+  columns.bottomRows(sources) = Q_root.transpose();
   root_.compute(predicted_columns_, S_);
   x_predicted_ = x_;
   check_finite(process);

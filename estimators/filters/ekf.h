@@ -23,6 +23,7 @@ class ExtendedKalmanFilter final : public GaussianFilter {
   }
 
   Eigen::MatrixXd F_;
+  LaneMatrix FS_;
 };
 
 }  // namespace halyard

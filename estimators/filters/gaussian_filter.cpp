@@ -7,7 +7,6 @@
 namespace halyard {
 
 void LowerRoot::finish(Eigen::Ref<Eigen::MatrixXd> L) {
-  L.setZero();
   matrix_kernels()[0].lower_root(columns_.columns(), columns_.blocks(), columns_.lanes(), L.data(),
                                  static_cast<int>(L.outerStride()));
 }
@@ -25,10 +24,12 @@ Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, co
   array.topLeftCorner(m, m) = R_root.transpose();
   const auto H = H_.view();
   for (int j = 0; j < m; ++j)
-    for (int i = 0; i < n; ++i) array(m + i, j) = H.row(j).dot(S_.col(i));
+    for (int k = 0; k < n; ++k)
+      if (const double h = H(j, k); h != 0)
+        for (int i = 0; i < n; ++i) array(m + i, j) += h * S_(k, i);
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) array(m + i, m + j) = S_(j, i);
-  triangle_.set_zero(m + n, m + n);
+  triangle_.reshape(m + n, m + n);
   const auto triangle = triangle_.view();
   array_root_.finish(triangle);
 
@@ -45,11 +46,11 @@ Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, co
 
 void GaussianFilter::backward_step(const Eigen::VectorXd& x_0, const Eigen::MatrixXd& S_0, BackwardStep& step) {
   const int n = static_cast<int>(x_predicted_.size()), before = count_columns_before(),
-            predicted = static_cast<int>(predicted_columns_.cols());
+            predicted = predicted_columns_.rows();
   auto array = array_root_.start(2 * n, std::max({predicted, before, 2 * n}));  // transposed
-  array.topLeftCorner(predicted, n) = predicted_columns_.transpose();
+  array.topLeftCorner(predicted, n) = predicted_columns_.view();
   set_columns_before(S_0, array.topRightCorner(before, n));
-  triangle_.set_zero(2 * n, 2 * n);
+  triangle_.reshape(2 * n, 2 * n);
   auto triangle = triangle_.view();
   array_root_.finish(triangle);
   step.x_0 = x_0;

@@ -26,6 +26,11 @@ class DiscreteProcess {
   virtual void advance(Eigen::MatrixXd& X) const = 0;
   /// F [n x n] becomes ∂f/∂x at the old x; then x becomes f(x).
   virtual void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const = 0;
+  /// x becomes f(x), and every row of d [2 count x n], d_i and then - d_i, f(x + d_i) - f(x). False: the process has no
+  /// special way to do so, and nothing has changed.
+  virtual bool advance_deviations(Eigen::VectorXd& /*x*/, LaneMatrix& /*d*/) const { return false; }
+  /// x becomes f(x), and FS [n x n] ∂f/∂x S, with the root S of the belief. False: as above.
+  virtual bool advance_root(Eigen::VectorXd& /*x*/, LaneMatrix& /*FS*/) const { return false; }
   /// Name of a state for messages: "joint_rate_2 at 3.1 s".
   virtual std::string name_of(int state) const = 0;
 };
@@ -54,6 +59,11 @@ class LowerRoot {
   }
   /// L of the matrix that was filled in; destroys it.
   void finish(Eigen::Ref<Eigen::MatrixXd> L);
+  /// L of a matrix that is given transposed.
+  void compute(const LaneMatrix& A_transposed, Eigen::Ref<Eigen::MatrixXd> L) {
+    columns_ = A_transposed;
+    finish(L);
+  }
   void compute(const Eigen::Ref<const Eigen::MatrixXd>& A, Eigen::Ref<Eigen::MatrixXd> L) {
     auto columns = start(static_cast<int>(A.rows()), static_cast<int>(A.cols()));
     for (Eigen::Index r = 0; r < A.rows(); ++r)
@@ -121,7 +131,7 @@ class GaussianFilter {
   Eigen::VectorXd x_;
   Eigen::MatrixXd S_;
   Eigen::VectorXd x_predicted_;
-  Eigen::MatrixXd predicted_columns_;  // their triangular root is S⁻; kept from the last predict()
+  LaneMatrix predicted_columns_;  // transposed; their triangular root is S⁻; kept from the last predict()
   long repaired_ = 0;
   LowerRoot root_;
 

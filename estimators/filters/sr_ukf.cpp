@@ -11,13 +11,14 @@ namespace {
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kRoundings = 4;  // of one evaluation of f or h, relative to result and argument
 
-/// `shift` becomes W Σ d_i over the columns of d, less what is rounding of numbers of that `size` or beyond the limit.
-void set_mean_shift(const Eigen::Ref<const Eigen::MatrixXd>& d, const Eigen::Ref<const Eigen::VectorXd>& size, double W,
+/// `shift` becomes W Σ d_i over the first `count` rows of d, less what is rounding of numbers of that `size` or beyond the
+/// limit.
+void set_mean_shift(const LaneMatrix& d, int count, const Eigen::Ref<const Eigen::VectorXd>& size, double W,
                     double curvature_limit, Eigen::Ref<Eigen::VectorXd> shift) {
-  shift = W * d.rowwise().sum();
-  const double rounding = kRoundings * kEps * W * static_cast<double>(d.cols());
-  for (Eigen::Index i = 0; i < shift.size(); ++i) {
-    const double curvature = std::abs(shift(i)), spread = std::sqrt(W * d.row(i).squaredNorm());
+  const double rounding = kRoundings * kEps * W * count;
+  for (int i = 0; i < d.columns(); ++i) {
+    shift(i) = W * d.view().col(i).head(count).sum();
+    const double curvature = std::abs(shift(i)), spread = std::sqrt(W * sum_of_squares(d, i, count));
     if (!(curvature > rounding * size(i) && curvature <= curvature_limit * spread)) shift(i) = 0;
   }
 }
@@ -44,11 +45,11 @@ void SquareRootUkf::place_sigma_points(Eigen::MatrixXd& X) const {
   X.rightCols(n) = (-(X.middleCols(1, n).colwise() - x_)).colwise() + x_;
 }
 
-void SquareRootUkf::root_with_central(Eigen::Ref<Eigen::MatrixXd> columns, const Eigen::Ref<const Eigen::VectorXd>& v,
+void SquareRootUkf::root_with_central(LaneMatrix& rows, const Eigen::Ref<const Eigen::VectorXd>& v,
                                       Eigen::Ref<Eigen::MatrixXd> L) {
   const double c = weights_.beta - weights_.alpha * weights_.alpha;
-  columns.rightCols(1) = std::sqrt(std::max(c, 0.0)) * v;
-  root_.compute(columns, L);
+  rows.view().bottomRows(1) = std::sqrt(std::max(c, 0.0)) * v.transpose();
+  root_.compute(rows, L);
   if (c >= 0) return;
   // A down-date, by the covariance itself; one that has lost its definiteness gets a floor.
   P_ = L.lazyProduct(L.transpose());
@@ -61,25 +62,49 @@ void SquareRootUkf::root_with_central(Eigen::Ref<Eigen::MatrixXd> columns, const
   ++repaired_;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(P_);
   const double floor = kEps * modes.eigenvalues().cwiseAbs().maxCoeff();
-  columns.leftCols(P_.rows()) = modes.eigenvectors() * modes.eigenvalues().cwiseMax(floor).cwiseSqrt().asDiagonal();
-  columns.rightCols(columns.cols() - P_.cols()).setZero();
-  root_.compute(columns, L);
+  rows.view().topRows(P_.rows()) =
+      (modes.eigenvectors() * modes.eigenvalues().cwiseMax(floor).cwiseSqrt().asDiagonal()).transpose();
+  rows.view().bottomRows(rows.rows() - P_.cols()).setZero();
+  root_.compute(rows, L);
+}
+
+void SquareRootUkf::move_sigma_points(const DiscreteProcess& process) {
+  const int n = static_cast<int>(x_.size());
+  const double gamma = std::sqrt(spread_squared());
+  d_.reshape(2 * n, n);
+  auto d = d_.view();
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      // Between numbers: otherwise x + d and x - d would be rounded, and the pair would tell of a curvature.
+      const double deviation = (x_(i) + gamma * S_(i, j)) - x_(i);
+      d(j, i) = deviation;
+      d(n + j, i) = -deviation;
+    }
+  X_.resize(n, 2 * n + 1);  // here, so that a later step needs no memory
+  if (process.advance_deviations(x_, d_)) return;
+  X_.col(0) = x_;
+  X_.rightCols(2 * n) = d.transpose().colwise() + x_;
+  process.advance(X_);
+  x_ = X_.col(0);
+  d = (X_.rightCols(2 * n).colwise() - x_).transpose();
 }
 
 void SquareRootUkf::predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) {
-  const Eigen::Index n = x_.size(), points = 2 * n;
-  place_sigma_points(X_);
-  process.advance(X_);
-  const double W = 0.5 / spread_squared();
-  predicted_columns_.resize(n, points + Q_root.cols() + 1);
-  auto d = predicted_columns_.leftCols(points);
-  d = X_.rightCols(points).colwise() - X_.col(0);
+  const int n = static_cast<int>(x_.size()), points = 2 * n, sources = static_cast<int>(Q_root.cols());
+  const double W = 0.5 / spread_squared(), root_W = std::sqrt(W);
+  size_ = x_.cwiseAbs();
+  move_sigma_points(process);
+  size_ = size_.cwiseMax(x_.cwiseAbs());
   delta_.resize(n);
-  size_ = x_.cwiseAbs().cwiseMax(X_.cwiseAbs().rowwise().maxCoeff());
-  set_mean_shift(d, size_, W, weights_.curvature_limit, delta_);
-  x_ = X_.col(0) + delta_;
-  d *= std::sqrt(W);
-  predicted_columns_.middleCols(points, Q_root.cols()) = Q_root;
+  set_mean_shift(d_, points, size_, W, weights_.curvature_limit, delta_);
+  x_ += delta_;
+  predicted_columns_.set_zero(points + sources + 1, n);
+  for (int i = 0; i < n; ++i) {
+    const Lanes* d = d_.lanes() + i * d_.blocks();
+    Lanes* column = predicted_columns_.lanes() + i * predicted_columns_.blocks();
+    for (int b = 0; b < d_.blocks(); ++b) column[b] = root_W * d[b];
+  }
+  predicted_columns_.view().middleRows(points, sources) = Q_root.transpose();
   root_with_central(predicted_columns_, delta_, S_);
   x_predicted_ = x_;
   check_finite(process);
@@ -100,41 +125,42 @@ Innovation SquareRootUkf::update(const MeasurementModel& measurement, const Read
   ReadingVector z_0(m), epsilon(m);
   measurement.read(X_.col(0), z_0);
   const ReadingVector size = z_0.cwiseAbs();
-  e_.set_zero(m, points + m + 1);
+  e_.set_zero(points + m + 1, m);
   auto e = e_.view();
+  ReadingVector reading(m);
   for (int i = 0; i < points; ++i) {
-    measurement.read(X_.col(i + 1), e.col(i));
-    e.col(i) -= z_0;
+    measurement.read(X_.col(i + 1), reading);
+    e.row(i) = (reading - z_0).transpose();
   }
-  set_mean_shift(e.leftCols(points), size, W, weights_.curvature_limit, epsilon);
+  set_mean_shift(e_, points, size, W, weights_.curvature_limit, epsilon);
 
   Innovation innovation;
   innovation.nu = z - z_0 - epsilon;
   check_measurement(innovation.nu);
-  e.leftCols(points) *= root_W;
-  e.middleCols(points, m) = R_root;
+  e.topRows(points) *= root_W;
+  e.middleRows(points, m) = R_root.transpose();
   innovation.S_root.resize(m, m);
-  root_with_central(e, epsilon, innovation.S_root);
+  root_with_central(e_, epsilon, innovation.S_root);
   const auto S_y = innovation.S_root.triangularView<Eigen::Lower>();
   ReadingVector whitened = innovation.nu;
   S_y.solveInPlace(whitened);
   innovation.accepted = whitened.squaredNorm() <= gate;
   if (!innovation.accepted) return innovation;
 
-  columns_.set_zero(n, points + m + 1);
-  auto columns = columns_.view();
-  auto d = columns.leftCols(points);
-  d = root_W * (X_.rightCols(points).colwise() - x_);
+  rows_.set_zero(points + m + 1, n);
+  auto rows = rows_.view();
+  auto d = rows.topRows(points);
+  d = root_W * (X_.rightCols(points).colwise() - x_).transpose();
   P_yx_.set_zero(m, n);
   auto K_transposed = P_yx_.view();
-  K_transposed.noalias() = e.leftCols(points) * d.transpose();
+  K_transposed.noalias() = e.topRows(points).transpose() * d;
   S_y.solveInPlace(K_transposed);
   innovation.S_root.transpose().triangularView<Eigen::Upper>().solveInPlace(K_transposed);
   x_.noalias() += K_transposed.transpose() * innovation.nu;
-  d.noalias() -= K_transposed.transpose() * e.leftCols(points);
-  columns.middleCols(points, m).noalias() = K_transposed.transpose() * R_root;
+  d.noalias() -= e.topRows(points) * K_transposed;
+  rows.middleRows(points, m).noalias() = R_root.transpose() * K_transposed;
   delta_.noalias() = K_transposed.transpose() * epsilon;
-  root_with_central(columns, delta_, S_);
+  root_with_central(rows_, delta_, S_);
   return innovation;
 }
 

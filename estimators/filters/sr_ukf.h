@@ -54,15 +54,16 @@ class SquareRootUkf : public GaussianFilter {
   void set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A_transposed) const override;
   double spread_squared() const;  // γ²
   void place_sigma_points(Eigen::MatrixXd& X) const;
-  /// L = root of [A, √c v], c = β - α² of any sign; columns: A and a last column that is set here.
-  void root_with_central(Eigen::Ref<Eigen::MatrixXd> columns, const Eigen::Ref<const Eigen::VectorXd>& v,
-                         Eigen::Ref<Eigen::MatrixXd> L);
+  /// Sets d_ to the deviations of the sigma points before, and then after the prediction, and x_ to f(x_).
+  void move_sigma_points(const DiscreteProcess& process);
+  /// L = root of [A, √c v], c = β - α² of any sign; rows: A transposed and a last row that is set here.
+  void root_with_central(LaneMatrix& rows, const Eigen::Ref<const Eigen::VectorXd>& v, Eigen::Ref<Eigen::MatrixXd> L);
 
   UkfWeights weights_;
   Eigen::VectorXd size_, delta_;
   Eigen::MatrixXd X_, P_;
   Eigen::LLT<Eigen::MatrixXd> llt_;
-  LaneMatrix columns_, e_, P_yx_;
+  LaneMatrix d_, rows_, e_, P_yx_;
 };
 
 }  // namespace halyard

@@ -20,10 +20,20 @@ class LaneMatrix {
     lanes_.resize(static_cast<std::size_t>(blocks_) * columns);
     std::memset(static_cast<void*>(lanes_.data()), 0, lanes_.size() * sizeof(Lanes));
   }
+  /// The entries are zero if the shape changes, else what they were. Keeps its memory.
+  void reshape(int rows, int columns) {
+    if (rows != rows_ || columns != columns_) set_zero(rows, columns);
+  }
   /// Each block of lanes becomes entry(i), i its index. entry() has to give zero between the rows and the lanes' end.
   template <class Entry>
   void set_lanes(const Entry& entry) {
     for (std::size_t i = 0; i < lanes_.size(); ++i) lanes_[i] = entry(i);
+  }
+  /// The entries between the rows and the lanes' end become zero.
+  void clear_padding() {
+    for (int c = 0, used = rows_ % kLaneWidth; used > 0 && c < columns_; ++c)
+      for (int lane = used; lane < kLaneWidth; ++lane)
+        lanes_[static_cast<std::size_t>((c + 1) * blocks_ - 1)].set(lane, 0);
   }
   int rows() const { return rows_; }
   int columns() const { return columns_; }
@@ -49,16 +59,47 @@ inline void set_row_squares(const LaneMatrix& A, int columns, Lanes* squares) {
   }
 }
 
-/// C += A B. C and B must not share memory.
-inline void add_product(const LaneMatrix& A, const Eigen::Ref<const Eigen::MatrixXd>& B, LaneMatrix& C) {
-  matrix_kernels()[0].add_product(A.blocks(), A.columns(), static_cast<int>(B.cols()), A.lanes(), B.data(),
-                                  static_cast<int>(B.outerStride()), C.lanes());
+inline double sum_of(const Lanes& a) {
+  double sum = 0;
+  for (int i = 0; i < kLaneWidth; ++i) sum += a[i];
+  return sum;
 }
 
-/// C = A B. C and B must not share memory.
-inline void set_product(const LaneMatrix& A, const Eigen::Ref<const Eigen::MatrixXd>& B, LaneMatrix& C) {
-  C.set_zero(A.rows(), static_cast<int>(B.cols()));
-  add_product(A, B, C);
+/// Sum of column c.
+inline double sum_of_rows(const LaneMatrix& A, int c) {
+  Lanes sum(0.0);
+  for (int b = c * A.blocks(); b < (c + 1) * A.blocks(); ++b) sum += A.lanes()[b];
+  return sum_of(sum);
+}
+
+/// Sum of the squares of the first `rows` entries of column c.
+inline double sum_of_squares(const LaneMatrix& A, int c, int rows) {
+  const Lanes* column = A.lanes() + c * A.blocks();
+  const int whole = rows / kLaneWidth;
+  Lanes sum(0.0);
+  for (int b = 0; b < whole; ++b) sum += column[b] * column[b];
+  double squares = sum_of(sum);
+  for (int i = 0; i < rows % kLaneWidth; ++i) squares += column[whole][i] * column[whole][i];
+  return squares;
+}
+
+/// Factors of products.
+inline RightFactor right(const Eigen::Ref<const Eigen::MatrixXd>& B) {
+  return {B.data(), 1, static_cast<int>(B.outerStride())};
+}
+inline RightFactor right(const LaneMatrix& B) { return {B.view().data(), 1, kLaneWidth * B.blocks()}; }
+inline RightFactor transposed(RightFactor B) { return {B.data, B.column, B.row}; }
+
+/// C += A B, with B [A.columns() x C.columns()]. C must not share memory with the factors.
+inline void add_product(const LaneMatrix& A, const RightFactor& B, LaneMatrix& C) {
+  matrix_kernels()[0].product(A.rows(), A.columns(), C.columns(), A.lanes(), A.blocks(), B, C.lanes(), C.blocks(),
+                              true);
+}
+
+/// C = A B, with B [A.columns() x columns]. C must not share memory with the factors.
+inline void set_product(const LaneMatrix& A, const RightFactor& B, int columns, LaneMatrix& C) {
+  C.reshape(A.rows(), columns);
+  matrix_kernels()[0].product(A.rows(), A.columns(), columns, A.lanes(), A.blocks(), B, C.lanes(), C.blocks(), false);
 }
 
 }  // namespace halyard

@@ -1,35 +1,27 @@
 /// The kernels of matrix_kernels.h, for the instruction set that the including file is compiled for.
 /// No include guard: each kernels_<set>.cpp includes it exactly once.
 
-#include "estimators/matrix/matrix_kernels.h"
+#include "estimators/matrix/phi_kernel_body.h"
 
 namespace halyard {
 namespace {
 
-/// `columns` columns of one block of rows of C += A B.
-template <int columns>
-HALYARD_INLINE void add_tile(int blocks, int k, const Lanes* A, const double* B, int b_stride, Lanes* C) {
-  Lanes sum[columns];
-  _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) sum[c] = C[c * blocks];
-  for (int l = 0; l < k; ++l) {
-    const Lanes a = A[l * blocks];
-    _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) sum[c] += a * Lanes(B[l + c * b_stride]);
+using tiles::Piece, tiles::pieces, tiles::pieces_of, tiles::kPiecesPerBlock, tiles::sum_of;
+
+void product(int rows, int k, int m, const Lanes* A, int a_blocks, const RightFactor& B, Lanes* C, int c_blocks,
+             bool add) {
+  Piece* out = pieces(C);
+  const int c_stride = c_blocks * kPiecesPerBlock, a_stride = a_blocks * kPiecesPerBlock;
+  const tiles::Right right{B.data, B.row, B.column};
+  if (add) {
+    tiles::product(
+        pieces_of(rows), k, m, pieces(A), a_stride,
+        right, [&](int p, int c, const Piece& sum) __attribute__((always_inline)) { out[p + c * c_stride] += sum; });
+  } else {
+    tiles::product(
+        pieces_of(rows), k, m, pieces(A), a_stride,
+        right, [&](int p, int c, const Piece& sum) __attribute__((always_inline)) { out[p + c * c_stride] = sum; });
   }
-  _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) C[c * blocks] = sum[c];
-}
-
-void add_product(int blocks, int k, int m, const Lanes* A, const double* B, int b_stride, Lanes* C) {
-  constexpr int kTile = 4;
-  int c = 0;
-  for (; c + kTile <= m; c += kTile)
-    for (int r = 0; r < blocks; ++r) add_tile<kTile>(blocks, k, A + r, B + c * b_stride, b_stride, C + c * blocks + r);
-  for (; c < m; ++c)
-    for (int r = 0; r < blocks; ++r) add_tile<1>(blocks, k, A + r, B + c * b_stride, b_stride, C + c * blocks + r);
-}
-
-HALYARD_INLINE double sum_of(const Lanes& a) {
-  static_assert(kLaneWidth == 8);
-  return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
 }
 
 /// w -= v (vᵀ w) factor for `columns` vectors w, from block `first` on; v is zero before.
@@ -58,6 +50,7 @@ void lower_root(int n, int blocks, Lanes* A, double* L, int l_stride) {
     for (int b = first; b < blocks; ++b) squares += v[b] * v[b];
     const double norm = __builtin_sqrt(sum_of(squares)), alpha = v[first][lane];
     const double image = alpha > 0 ? -norm : norm;  // what becomes of alpha
+    for (int k = 0; k < i; ++k) L[k + i * l_stride] = 0;
     L[i + i * l_stride] = norm;
     if (norm != 0) {
       v[first].set(lane, alpha - image);
@@ -71,7 +64,7 @@ void lower_root(int n, int blocks, Lanes* A, double* L, int l_stride) {
   }
 }
 
-constexpr MatrixKernels matrix_kernels_named(const char* name) { return {name, add_product, lower_root}; }
+constexpr MatrixKernels matrix_kernels_named(const char* name) { return {name, product, lower_root, phi_functions}; }
 
 }  // namespace
 }  // namespace halyard

@@ -1,6 +1,6 @@
 #pragma once
-/// Products and triangular roots of small dense matrices, compiled once for each instruction set as lane_kernels.h is.
-/// Eigen would be compiled for the generic set only: at 12 states a root took it 7 times as long.
+/// Products, triangular roots and φ functions of small dense matrices, compiled once for each instruction set as
+/// lane_kernels.h is. Eigen would be compiled for the generic set only: at 12 states a root took it 7 times as long.
 ///
 /// Matrices are column-major. The columns of a LaneMatrix (lane_matrix.h) start at multiples of kLaneWidth; what is
 /// between its rows and that is zero.
@@ -11,13 +11,34 @@
 
 namespace halyard {
 
+/// A right factor [k x m]: entry (l, c) is at data[l row + c column], so that a transposed matrix can be one, too.
+struct RightFactor {
+  const double* data;
+  int row, column;
+};
+
+/// Matrices [n x n] in lanes; see phi_functions.h.
+struct PhiLevelMemory {
+  Lanes *E, *phi_1, *phi_2;
+};
+struct PhiMemory {
+  const PhiLevelMemory* level;  ///< [most + 1]
+  Lanes* phi_3;
+  const Lanes* unit;  ///< D_i / D_j
+  Lanes *Y, *Y2, *Y3, *next;
+};
+
 struct MatrixKernels {
   const char* name;
-  /// C += A B, with A [blocks kLaneWidth x k] and C [blocks kLaneWidth x m] in lanes, B [k x m].
-  void (*add_product)(int blocks, int k, int m, const Lanes* A, const double* B, int b_stride, Lanes* C);
+  /// C = A B, or C += A B if `add`, with A [rows x k] and C [rows x m] in lanes, `a_blocks` and `c_blocks` a column.
+  void (*product)(int rows, int k, int m, const Lanes* A, int a_blocks, const RightFactor& B, Lanes* C, int c_blocks,
+                  bool add);
   /// The lower triangular L [n x n] with L Lᵀ = Aᵀ A and diagonal >= 0, by Householder reflections of A [m x n],
-  /// m >= n, whose columns take `blocks` lanes each. A is overwritten; L above the diagonal is not touched.
+  /// m >= n, whose columns take `blocks` lanes each. A is overwritten; L above the diagonal becomes zero.
   void (*lower_root)(int n, int blocks, Lanes* A, double* L, int l_stride);
+  /// The functions of phi_functions.h from Y = D⁻¹ Z D, which is overwritten: all levels, and φ_3 of level 0. Returns the
+  /// number of doublings; if this would exceed `most`, or Y is not finite, -1, and nothing is computed.
+  int (*phi_functions)(int n, int most, const PhiMemory& memory);
 };
 
 /// The widest that this processor has first, the generic one last.

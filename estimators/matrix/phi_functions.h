@@ -3,8 +3,9 @@
 ///
 ///   E = exp(Z),   φ_k(Z) = Σ_{i>=0} Z^i / (i + k)!,   so that φ_0 = E and Z φ_k+1 = φ_k - I / k!
 ///
-/// By scaling and doubling: with Y = Z / 2^s of 1-norm at most 1/2, the Taylor polynomial of degree 8 gives φ_3(Y) with
-/// a relative error of 2e-11; then s times
+/// By scaling and doubling: with Y = Z / 2^s such that ‖Y²‖^(1/2) and ‖Y³‖^(1/3), which bound the growth of all higher
+/// powers, are at most 1/2 in the 1-norm, the Taylor polynomial of degree 8 gives φ_3(Y) with a relative error of 2e-11;
+/// then s times
 ///
 ///   φ_k(2Y) = 2^-k (E φ_k(Y) + Σ_{j=1..k} φ_j(Y) / (k - j)!),   E(2Y) = E(Y)²
 ///
@@ -13,7 +14,7 @@
 ///
 /// Source: Hochbruck and Ostermann, "Exponential integrators", Acta Numerica 2010 (φ_k); Skaflestad and Wright, "The
 /// scaling and modified squaring method for matrix functions related to the exponential", Applied Numerical Mathematics
-/// 59 (2009) (doubling); Parlett and Reinsch, Numerische Mathematik 13 (1969) (balancing).
+/// 59 (2009) (doubling); Al-Mohy and Higham, SIAM Journal on Matrix Analysis and Applications 31 (2009) (norms of powers); Parlett and Reinsch, Numerische Mathematik 13 (1969) (balancing).
 
 #include "estimators/matrix/lane_matrix.h"
 
@@ -23,9 +24,13 @@ class PhiFunctions {
  public:
   static constexpr int kMostDoublings = 16;
 
+  PhiFunctions() = default;
+  PhiFunctions(const PhiFunctions&) = delete;
+  PhiFunctions& operator=(const PhiFunctions&) = delete;
+
   /// Chooses D for matrices like this one. Without this call, and if Z is not finite, D is the unit matrix.
   void balance(Eigen::MatrixXd Z);
-  /// Z [n x n]. False, and the functions are not computed, if Z is not finite or its norm is beyond 2^15.
+  /// Z [n x n]. False, and the functions are not computed, if Z is not finite or s would exceed kMostDoublings.
   bool compute(const Eigen::Ref<const Eigen::MatrixXd>& Z);
 
   /// The functions of Z / 2^k.
@@ -41,14 +46,12 @@ class PhiFunctions {
 
  private:
   void take_memory(int n);
-  void polynomials(Level& level);
-  void double_argument(const Level& half, Level& whole);
-  void restore_units(LaneMatrix& A) const;
   void set_units(const Eigen::ArrayXd& scale);
 
   int doublings_ = 0;
-  LaneMatrix unit_;  // D_i / D_j
+  LaneMatrix unit_, inverse_unit_;  // D_i / D_j, D_j / D_i
   std::vector<Level> levels_;
+  std::vector<PhiLevelMemory> memory_;  // of levels_
   LaneMatrix Y_, Y2_, Y3_, phi_3_, next_;
 };
 

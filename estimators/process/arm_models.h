@@ -17,11 +17,15 @@ class ArmProcess : public DiscreteProcess {
  public:
   ArmProcess(const ProcessModel& model, const Step& step, ExponentialStep* exponential = nullptr)
       : model_(model), step_(step), exponential_(exponential) {}
-  void advance(Eigen::MatrixXd& X) const override {
-    if (!exponential_ || !exponential_->advance(X)) model_.advance_many(step_, X);
-  }
+  void advance(Eigen::MatrixXd& X) const override { model_.advance_many(step_, X); }
   void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const override {
-    if (!exponential_ || !exponential_->advance_with_jacobian(x, F)) model_.advance_with_jacobian(step_, x.data(), F);
+    model_.advance_with_jacobian(step_, x.data(), F);
+  }
+  bool advance_deviations(Eigen::VectorXd& x, LaneMatrix& d) const override {
+    return exponential_ && exponential_->advance(x, d);
+  }
+  bool advance_root(Eigen::VectorXd& x, LaneMatrix& FS) const override {
+    return exponential_ && exponential_->advance_root(x, FS);
   }
   std::string name_of(int state) const override {
     std::ostringstream text;

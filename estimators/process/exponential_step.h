@@ -60,29 +60,38 @@ class ExponentialStep {
 
   /// Γ [n_states x sources] of the held forces G; false: refused, Γ is undefined.
   bool respond(const Eigen::MatrixXd& G, Eigen::Ref<Eigen::MatrixXd> Gamma);
-  /// As ProcessModel::advance_with_jacobian() at the x of start(); false: refused, nothing has changed.
-  bool advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F);
-  /// As ProcessModel::advance_many(). The points X: the x of start(), all x + d_i, all x - d_i. False: refused, X is as
-  /// before.
-  bool advance(Eigen::MatrixXd& X);
+  /// x, that of start(), becomes x⁺, and FS [n_states x n_states] F S with the S of start(). False: refused, nothing has
+  /// changed.
+  bool advance_root(Eigen::VectorXd& x, LaneMatrix& FS);
+  /// x, that of start(), becomes x⁺, and every row of d [count x n_states], a deviation, d⁺. With + d_i for the first
+  /// half of the rows and - d_i for the second. False: refused, nothing has changed.
+  bool advance(Eigen::VectorXd& x, LaneMatrix& d);
 
  private:
-  /// h N of every column d, at the state x with the rates f.
-  void set_nonlinear_part(const Step& at, const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::VectorXd& f,
-                          const LaneMatrix& d, LaneMatrix& N);
+  /// Deviations from the mean as rows, and memory for what follows from them.
+  struct Deviations {
+    LaneMatrix d, points, N, change;
+  };
+  /// moved.N = h N of every row d, at the state x with the rates f.
+  void set_nonlinear_part(const Step& at, const Eigen::VectorXd& x, const Eigen::VectorXd& f, const LaneMatrix& d,
+                          Deviations& moved);
   /// V(0) to V(h) at the nodes 0, h / 2^s, ..., h / 2, h, in variance_.
-  void set_variances();
+  void set_variances(const LaneMatrix& d);
   /// ∫ exp(A (h - s)) (m(s) - its straight line) ds, in shift_.
-  void set_mean_shift();
+  void set_mean_shift(const LaneMatrix& d);
 
   const ProcessModel& process_;
   Step step_, end_;
   bool usable_ = false;
-  Eigen::VectorXd f_, f_2_, x_2_, next_, D_, c_, shift_, next_shift_, part_, change_of_m_;
+  Eigen::VectorXd f_, f_2_, x_2_, next_, D_, c_, part_, change_of_m_;
   Eigen::VectorXd first_, last_;  // h m(0), h m(h)
-  Eigen::MatrixXd A_, A_2_, Z_;
-  LaneMatrix minus_Z_, spread_, points_, d_, d_2_, N_, N_2_, change_;
-  LaneMatrix variance_;  // V at the nodes
+  Eigen::MatrixXd A_, A_2_, Z_, minus_Z_;
+  LaneMatrix spread_;  // E S
+  LaneMatrix forces_;
+  Deviations response_, start_, moved_;  // of held forces; of sigma points at the start, and d_2
+  LaneMatrix half_, variance_;           // E d of half of the points, as columns; V at the nodes
+  LaneMatrix vector_, shift_;            // one column
+  LaneMatrix slopes_, moved_slopes_;
   PhiFunctions phi_;
 };
 

@@ -178,17 +178,14 @@ void ProcessModel::linearise(const Step& step, const Eigen::VectorXd& x, Eigen::
                               x_dot.data(), A.data());
 }
 
-void ProcessModel::derivatives(const Step& step, const Eigen::Ref<const Eigen::MatrixXd>& X,
-                               Eigen::Ref<Eigen::MatrixXd> X_dot) const {
+void ProcessModel::derivatives(const Step& step, const LaneMatrix& X, LaneMatrix& X_dot) const {
   const StepInputs<Lanes> in(step, n_joints());
-  const int n = n_states(), count = static_cast<int>(X.cols());
-  for (int first = 0; first < count; first += kLaneWidth) {
-    const int used = std::min(kLaneWidth, count - first);
+  const int n = n_states(), blocks = X.blocks();
+  for (int b = 0; b < blocks; ++b) {
     Lanes x[kMaxStates], x_dot[kMaxStates];
-    load_lanes(X, first, x);
+    for (int i = 0; i < n; ++i) x[i] = X.lanes()[i * blocks + b];
     lane_kernels()[0].derivative(lanes_, layout_, step.time_s, step.history, in.command, in.external, x, x_dot);
-    for (int lane = 0; lane < used; ++lane)
-      for (int i = 0; i < n; ++i) X_dot(i, first + lane) = x_dot[i][lane];
+    for (int i = 0; i < n; ++i) X_dot.lanes()[i * blocks + b] = x_dot[i];
   }
 }
 

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "estimators/matrix/lane_matrix.h"
 #include "estimators/process/arm_dynamics.h"
 #include "estimators/process/lane_kernels.h"
 #include "model/arm_model.h"
@@ -75,9 +76,8 @@ class ProcessModel {
   /// The same into memory of the caller.
   void derivative(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot) const;
   void linearise(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot, Eigen::MatrixXd& A) const;
-  /// x' at every column of X [n_states x count], eight at a time.
-  void derivatives(const Step& step, const Eigen::Ref<const Eigen::MatrixXd>& X,
-                   Eigen::Ref<Eigen::MatrixXd> X_dot) const;
+  /// x' at every row of X [count x n_states], eight at a time. X_dot: of the shape of X.
+  void derivatives(const Step& step, const LaneMatrix& X, LaneMatrix& X_dot) const;
 
   /// h(x) [n] and H = ∂h/∂x [n x n_states]; the row of a joint without motor is zero.
   Eigen::VectorXd motor_readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd* H = nullptr) const;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <unsupported/Eigen/MatrixFunctions>
 
 #include "estimators/matrix/lane_matrix.h"
 #include "tests/support/limits.h"
@@ -34,16 +35,57 @@ Eigen::MatrixXd lower_root_of(const MatrixKernels& kernels, const Eigen::MatrixX
   return L;
 }
 
-TEST(MatrixKernels, AddAProductOfAnySize) {
+TEST(MatrixKernels, FormAndAddAProductOfAnySize) {
   for (const MatrixKernels& kernels : matrix_kernels())
     for (const int n : {1, 7, 8, 12, 21})
       for (const int m : {1, 4, 11}) {
         const Eigen::MatrixXd A = random_matrix(n, n, 1), B = random_matrix(n, m, 2), C = random_matrix(n, m, 3);
         LaneMatrix sum = in_lanes(C);
-        kernels.add_product(sum.blocks(), n, m, in_lanes(A).lanes(), B.data(), n, sum.lanes());
+        const auto multiply = [&](const RightFactor& factor, bool add) {
+          kernels.product(n, n, m, in_lanes(A).lanes(), sum.blocks(), factor, sum.lanes(), sum.blocks(), add);
+        };
+        multiply(right(B), true);
         // n products below 1.
         EXPECT_LT((sum.view() - (C + A * B)).cwiseAbs().maxCoeff(), n * 2 * kEps) << kernels.name << n << m;
+        const Eigen::MatrixXd B_transposed = B.transpose();
+        multiply(transposed(right(B_transposed)), false);
+        EXPECT_LT((sum.view() - A * B).cwiseAbs().maxCoeff(), n * 2 * kEps) << kernels.name << n << m;
       }
+}
+
+TEST(MatrixKernels, AProductLeavesTheRowsBeyondItsOwn) {
+  const Eigen::MatrixXd A = random_matrix(20, 12, 6), B = random_matrix(12, 5, 7), C = Eigen::MatrixXd::Ones(20, 5);
+  for (const MatrixKernels& kernels : matrix_kernels()) {
+    LaneMatrix sum = in_lanes(C);
+    kernels.product(8, 12, 5, in_lanes(A).lanes(), sum.blocks(), right(B), sum.lanes(), sum.blocks(), false);
+    EXPECT_EQ(sum.view().bottomRows(12), C.bottomRows(12)) << kernels.name;
+    EXPECT_LT((sum.view() - A * B).topRows(8).cwiseAbs().maxCoeff(), 12 * 2 * kEps) << kernels.name;
+  }
+}
+
+TEST(MatrixKernels, TheFunctionsOfAllInstructionSetsAgree) {
+  constexpr int kSize = 13, kMost = 5;
+  const Eigen::MatrixXd Z = random_matrix(kSize, kSize, 8);
+  Eigen::MatrixXd first;
+  for (const MatrixKernels& kernels : matrix_kernels()) {
+    std::vector<LaneMatrix> memory(3 * (kMost + 1) + 4, in_lanes(Eigen::MatrixXd::Zero(kSize, kSize)));
+    std::vector<PhiLevelMemory> levels;
+    for (std::size_t k = 0; k <= kMost; ++k)
+      levels.push_back({memory[3 * k].lanes(), memory[3 * k + 1].lanes(), memory[3 * k + 2].lanes()});
+    const std::size_t rest = 3 * (kMost + 1);
+    LaneMatrix unit = in_lanes(Eigen::MatrixXd::Ones(kSize, kSize)), Y = in_lanes(Z);
+    ASSERT_EQ(kernels.phi_functions(kSize, kMost,
+                                    {levels.data(), memory[rest].lanes(), unit.lanes(), Y.lanes(),
+                                     memory[rest + 1].lanes(), memory[rest + 2].lanes(), memory[rest + 3].lanes()}),
+              4)
+        << kernels.name;
+    Eigen::MatrixXd all(kSize, 4 * kSize);
+    all << memory[0].view(), memory[1].view(), memory[2].view(), memory[rest].view();
+    if (first.size() == 0) first = all;
+    // A few roundings of entries of about 10, in each of the doublings.
+    EXPECT_LT((all - first).cwiseAbs().maxCoeff(), 1e-12) << kernels.name;
+    EXPECT_LT((all.leftCols(kSize) - Z.exp()).cwiseAbs().maxCoeff(), 1e-9) << kernels.name;
+  }
 }
 
 TEST(MatrixKernels, ATriangularRootHasTheSquareOfTheMatrix) {

@@ -1,0 +1,142 @@
+/// The φ functions of phi_functions.h, for the instruction set that the including file is compiled for.
+/// No include guard: matrix_kernel_body.h includes it.
+
+#include "estimators/matrix/matrix_kernels.h"
+#include "estimators/matrix/product_tiles.h"
+
+namespace halyard {
+namespace {
+
+/// Operations on matrices [n x n] in lanes.
+struct SquareMatrices {
+  int n, height, stride;  // height: registers of rows in use; stride: registers of a column
+
+  HALYARD_INLINE explicit SquareMatrices(int size)
+      : n(size),
+        height(tiles::pieces_of(size)),
+        stride((size + kLaneWidth - 1) / kLaneWidth * tiles::kPiecesPerBlock) {}
+
+  /// C = finish(i, A B), i the index of a register.
+  template <class Finish>
+  HALYARD_INLINE void product(const Lanes* A, const Lanes* B, Lanes* C, const Finish& finish) const {
+    tiles::Piece* out = tiles::pieces(C);
+    const int step = stride;
+    tiles::product(
+        height, n, n, tiles::pieces(A), stride, {reinterpret_cast<const double*>(B), 1, stride * tiles::kPieceWidth},
+        [&](int p, int c, const tiles::Piece& sum)
+            __attribute__((always_inline)) { out[p + c * step] = finish(p + c * step, sum); });
+  }
+  HALYARD_INLINE void scale(Lanes* A, double factor) const {
+    tiles::Piece* entries = tiles::pieces(A);
+    for (int i = 0; i < n * stride; ++i) entries[i] *= factor;
+  }
+  /// The 1-norm; NaN if an entry is.
+  HALYARD_INLINE double norm(const Lanes* A) const {
+    const tiles::Piece* column = tiles::pieces(A);
+    double most = 0;
+    for (int c = 0; c < n; ++c, column += stride) {
+      tiles::Piece sum = lane_math::magnitude(column[0]);
+      for (int i = 1; i < height; ++i) sum += lane_math::magnitude(column[i]);
+      const double total = tiles::sum_of(sum);
+      most = total <= most ? most : total;
+      if (total != total) return total;
+    }
+    return most;
+  }
+  HALYARD_INLINE void add_to_diagonal(Lanes* A, double s) const {
+    double* entries = reinterpret_cast<double*>(A);
+    for (int i = 0; i < n; ++i) entries[i * (stride * tiles::kPieceWidth + 1)] += s;
+  }
+};
+
+/// The φ_k and E of Y, given its square and cube.
+HALYARD_INLINE void polynomials(const SquareMatrices& square, const PhiMemory& m, const PhiLevelMemory& level) {
+  using tiles::Piece;
+  const Piece *Y = tiles::pieces(m.Y), *Y2 = tiles::pieces(m.Y2);
+  const auto same = [](int, const Piece& sum) __attribute__((always_inline)) { return sum; };
+  // 1 / k! of k = 3 to 11, by Horner's scheme in Y³.
+  Piece* next = tiles::pieces(m.next);
+  for (int i = 0; i < square.n * square.stride; ++i) next[i] = (1.0 / 3628800) * Y[i] + (1.0 / 39916800) * Y2[i];
+  square.add_to_diagonal(m.next, 1.0 / 362880);
+  square.product(
+      m.Y3, m.next, level.E, [&](int i, const Piece& sum) __attribute__((always_inline)) {
+        return sum + (1.0 / 5040) * Y[i] + (1.0 / 40320) * Y2[i];
+      });
+  square.add_to_diagonal(level.E, 1.0 / 720);
+  square.product(
+      m.Y3, level.E, m.phi_3, [&](int i, const Piece& sum) __attribute__((always_inline)) {
+        return sum + (1.0 / 24) * Y[i] + (1.0 / 120) * Y2[i];
+      });
+  square.add_to_diagonal(m.phi_3, 1.0 / 6);
+  square.product(m.Y, m.phi_3, level.phi_2, same);
+  square.add_to_diagonal(level.phi_2, 0.5);
+  square.product(m.Y, level.phi_2, level.phi_1, same);
+  square.add_to_diagonal(level.phi_1, 1);
+  square.product(m.Y, level.phi_1, level.E, same);
+  square.add_to_diagonal(level.E, 1);
+}
+
+/// φ_3 of the half argument is `phi_3`; that of the whole argument becomes `next`.
+HALYARD_INLINE void double_argument(const SquareMatrices& square, const PhiLevelMemory& half,
+                                    const PhiLevelMemory& whole, const Lanes* phi_3, Lanes* next) {
+  using tiles::Piece;
+  const Piece *one = tiles::pieces(half.phi_1), *two = tiles::pieces(half.phi_2), *three = tiles::pieces(phi_3);
+  square.product(
+      half.E, phi_3, next, [&](int i, const Piece& sum) __attribute__((always_inline)) {
+        return 0.125 * (sum + 0.5 * one[i] + two[i] + three[i]);
+      });
+  square.product(
+      half.E, half.phi_2, whole.phi_2, [&](int i, const Piece& sum) __attribute__((always_inline)) {
+        return 0.25 * (sum + one[i] + two[i]);
+      });
+  square.product(
+      half.E, half.phi_1,
+      whole.phi_1, [&](int i, const Piece& sum) __attribute__((always_inline)) { return 0.5 * (sum + one[i]); });
+  square.product(
+      half.E, half.E, whole.E, [](int, const Piece& sum) __attribute__((always_inline)) { return sum; });
+}
+
+/// The least s with (a / 2^s)^2 and (b / 2^s)^3 below θ, from the norms a² and b³ of Y² and Y³; at least 1, and
+/// most + 1 if `most` is not enough.
+HALYARD_INLINE int count_doublings(double square_norm, double cube_norm, int most) {
+  constexpr double kTheta = 0.5;
+  int doublings = 1;
+  double square = square_norm / 4, cube = cube_norm / 8;
+  while (doublings <= most && !(square < kTheta * kTheta && cube < kTheta * kTheta * kTheta))
+    ++doublings, square /= 4, cube /= 8;
+  return doublings;
+}
+
+int phi_functions(int n, int most, const PhiMemory& m) {
+  const SquareMatrices square(n);
+  const auto same = [](int, const tiles::Piece& sum) __attribute__((always_inline)) { return sum; };
+  square.product(m.Y, m.Y, m.Y2, same);
+  square.product(m.Y2, m.Y, m.Y3, same);
+  const int doublings = count_doublings(square.norm(m.Y2), square.norm(m.Y3), most);
+  if (doublings > most) return -1;
+  const double part = 1.0 / static_cast<double>(1LL << doublings);
+  square.scale(m.Y, part);
+  square.scale(m.Y2, part * part);
+  square.scale(m.Y3, part * part * part);
+  polynomials(square, m, m.level[doublings]);
+  Lanes *phi_3 = m.phi_3, *next = m.next;
+  for (int k = doublings; k-- > 0;) {
+    double_argument(square, m.level[k + 1], m.level[k], phi_3, next);
+    Lanes* before = phi_3;
+    phi_3 = next, next = before;
+  }
+  const int size = square.n * square.stride;
+  const tiles::Piece* unit = tiles::pieces(m.unit);
+  const auto restore = [&](const Lanes* scaled, Lanes* A) __attribute__((always_inline)) {
+    const tiles::Piece* in = tiles::pieces(scaled);
+    tiles::Piece* out = tiles::pieces(A);
+    for (int i = 0; i < size; ++i) out[i] = in[i] * unit[i];
+  };
+  for (int k = 0; k <= doublings; ++k)
+    for (Lanes* A : {m.level[k].E, m.level[k].phi_1, m.level[k].phi_2}) restore(A, A);
+  restore(phi_3, m.phi_3);
+  return doublings;
+}
+
+}  // namespace
+}  // namespace halyard

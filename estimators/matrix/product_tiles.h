@@ -1,0 +1,74 @@
+#pragma once
+/// Products of small matrices in tiles that stay in the registers, for the files that are compiled once for each
+/// instruction set (matrix_kernels.h). All functions are forced inline.
+///
+/// A tile is up to three registers of rows by four columns: twelve sums, three entries of A and one of B fill the sixteen
+/// registers that AVX2 has. Rows are counted in registers (pieces), so that twelve rows cost no more than three of them.
+
+#include "transmission/scalar.h"
+
+namespace halyard::tiles {
+
+using Piece = Lanes::Vector::Piece;
+inline constexpr int kPieceWidth = kRegisterWidth;
+inline constexpr int kPiecesPerBlock = kLaneWidth / kPieceWidth;
+
+HALYARD_INLINE const Piece* pieces(const Lanes* a) { return reinterpret_cast<const Piece*>(a); }
+HALYARD_INLINE Piece* pieces(Lanes* a) { return reinterpret_cast<Piece*>(a); }
+HALYARD_INLINE int pieces_of(int rows) { return (rows + kPieceWidth - 1) / kPieceWidth; }
+HALYARD_INLINE Piece all(double s) { return s - Piece{}; }
+
+/// The right factor: entry (l, c) is at data[l row + c column].
+struct Right {
+  const double* data;
+  int row, column;
+};
+
+/// put(p, c, sum) of the entries of A B in `height` registers of rows from `p` on, `width` columns from `c` on.
+template <int height, int width, class Put>
+HALYARD_INLINE void tile(int p, int c, int k, const Piece* A, int a_stride, const Right& B, const Put& put) {
+  Piece sum[height][width];
+  _Pragma("GCC unroll 4") for (int i = 0; i < height; ++i) _Pragma("GCC unroll 4") for (int j = 0; j < width; ++j)
+      sum[i][j] = Piece{};
+  const Piece* a = A + p;
+  const double* b = B.data + c * B.column;
+  for (int l = 0; l < k; ++l, a += a_stride, b += B.row) _Pragma("GCC unroll 4") for (int j = 0; j < width; ++j) {
+      const Piece factor = all(b[j * B.column]);
+      _Pragma("GCC unroll 4") for (int i = 0; i < height; ++i) sum[i][j] += a[i] * factor;
+    }
+  _Pragma("GCC unroll 4") for (int i = 0; i < height; ++i) _Pragma("GCC unroll 4") for (int j = 0; j < width; ++j)
+      put(p + i, c + j, sum[i][j]);
+}
+
+template <int width, class Put>
+HALYARD_INLINE void columns_of_product(int c, int height, int k, const Piece* A, int a_stride, const Right& B,
+                                       const Put& put) {
+  int p = 0;
+  for (; p + 3 <= height; p += 3) tile<3, width>(p, c, k, A, a_stride, B, put);
+  if (p + 2 == height) tile<2, width>(p, c, k, A, a_stride, B, put);
+  if (p + 1 == height) tile<1, width>(p, c, k, A, a_stride, B, put);
+}
+
+/// put(p, c, entries) of A B, with A in `height` registers of rows [any x k], a_stride registers apart, and B [k x m].
+template <class Put>
+HALYARD_INLINE void product(int height, int k, int m, const Piece* A, int a_stride, const Right& B, const Put& put) {
+  int c = 0;
+  for (; c + 4 <= m; c += 4) columns_of_product<4>(c, height, k, A, a_stride, B, put);
+  for (; c < m; ++c) columns_of_product<1>(c, height, k, A, a_stride, B, put);
+}
+
+/// Sum of the entries.
+HALYARD_INLINE double sum_of(const Piece& a) {
+  double sum[kPieceWidth];
+  for (int i = 0; i < kPieceWidth; ++i) sum[i] = a[i];
+  for (int half = kPieceWidth / 2; half > 0; half /= 2)
+    for (int i = 0; i < half; ++i) sum[i] += sum[i + half];
+  return sum[0];
+}
+HALYARD_INLINE double sum_of(const Lanes& a) {
+  Piece sum = a.v.piece[0];
+  for (int i = 1; i < kPiecesPerBlock; ++i) sum += a.v.piece[i];
+  return sum_of(sum);
+}
+
+}  // namespace halyard::tiles
