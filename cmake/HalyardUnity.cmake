@@ -63,7 +63,8 @@ compile_together(halyard_diagnosis log_check
   log_check/positions.cpp log_check/robust.cpp log_check/saturating_torque.cpp log_check/torques.cpp
   log_check/zeros.cpp)
 compile_together(halyard_diagnosis fit
-  calibration/lateness.cpp fit/baseline_reach.cpp fit/beyond_numbers.cpp fit/block_variance.cpp fit/evidence.cpp fit/fit.cpp fit/nudged.cpp
+  calibration/lateness.cpp fit/baseline_reach.cpp fit/beyond_numbers.cpp fit/block_variance.cpp fit/evidence.cpp
+  fit/fit.cpp fit/fit_parameter.cpp fit/nudged.cpp
   noise/channel_noise.cpp noise/ripple_free.cpp planning/change_detector.cpp planning/plan.cpp planning/planner.cpp)
 compile_together(halyard_diagnosis judgement
   diagnose.cpp judgement/false_discovery.cpp judgement/final_fit.cpp judgement/holdout.cpp judgement/judge.cpp

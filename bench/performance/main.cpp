@@ -9,7 +9,7 @@
 #include "bench/performance/diagram.h"
 #include "bench/performance/filter_steps.h"
 #include "bench/program.h"
-#include "estimators/process/lane_kernels.h"
+#include "estimators/lanes/lane_kernels.h"
 
 namespace halyard {
 namespace {

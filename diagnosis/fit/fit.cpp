@@ -5,48 +5,11 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "diagnosis/fit/block_variance.h"
 
 namespace halyard {
 namespace {
-
-/// Step of a sensitivity, in units of the optimiser. It has to bridge the roughness of residuals with impacts: at 0.02
-/// a half gap stayed where its search began.
-constexpr double kStep = 0.1;
-
-/// Unit of an instant, s: the step of its sensitivity is one sample of a record. A cable that slips makes its joint
-/// vibrate, which is not linear in the instant beyond a fraction of a period.
-constexpr double kInstantScale = RecordOptions{}.step_s / kStep;
-
-/// Raises the lower bound of an order so far that the motion contains kFewestPeriods periods, and drops lower starts.
-void limit_period(FitParameter& f, const SearchSpace& space, std::size_t index, const Evidence& evidence, int joint) {
-  if (space.order_of_motor_torque != index && space.order_of_joint_position != index) return;
-  const Span span = space.order_of_motor_torque == index ? evidence.motor_span(joint) : evidence.joint_span(joint);
-  const double least = kFewestPeriods * 2 * std::numbers::pi / std::max(span.last - span.first, 1e-9);
-  f.lower = std::min(std::max(f.lower, least), f.upper);
-  std::erase_if(f.starts, [&](double start) { return start < f.lower; });
-  if (f.starts.empty()) f.starts = {f.is_whole ? std::min(std::ceil(f.lower), f.upper) : f.lower};
-}
-
-/// Adds starts above the fastest motion, at which a torque that falls with speed reaches these shares of its value at
-/// standstill. The motor's own friction is what it still has to overcome there: some hundredths to half of that torque.
-void add_greatest_speeds(FitParameter& f, const SearchSpace& space, std::size_t index, const Evidence& evidence,
-                         int joint) {
-  if (space.greatest_motor_speed != index) return;
-  for (const double share_left : {0.02, 0.06, 0.2, 0.5})
-    f.starts.push_back(std::clamp(evidence.greatest_speed(joint) / (1 - share_left), f.lower, f.upper));
-  std::ranges::sort(f.starts);
-  f.starts.erase(std::ranges::unique(f.starts).begin(), f.starts.end());
-}
-
-/// How far the starts of a search lie apart around a value: about as far as it finds its way.
-double spacing_around(const std::vector<double>& starts, double value) {
-  std::size_t i = 1;
-  while (i + 1 < starts.size() && value > starts[i]) ++i;
-  return starts[i] - starts[i - 1];
-}
 
 class Residual : public ceres::CostFunction {
  public:
@@ -225,120 +188,6 @@ bool add_deviations(const Evidence& evidence, const Residual& residual, const st
 }
 
 }  // namespace
-
-double parameter_value(const Hypothesis& h, const FitParameter& p) {
-  if (is_past(p)) return h.past_state(p.effect, p.index - kMaxEffectParameters);
-  if (p.effect >= 0) return h.effects[p.effect].p[p.index];
-  ArmParameters<double> arm = h.nominal;
-  return *named_parameters(arm)[p.index].value;
-}
-
-void set_parameter(Hypothesis& h, const FitParameter& p, double value) {
-  if (is_past(p)) h.set_past_state(p.effect, p.index - kMaxEffectParameters, value);
-  else if (p.effect >= 0) h.effects[p.effect].p[p.index] = value;
-  else *named_parameters(h.nominal)[p.index].value = value;
-}
-
-Hypothesis stepped(const Hypothesis& h, const FitParameter& p) {
-  Hypothesis m = h;
-  const double value = parameter_value(h, p) + kStep * p.scale;
-  set_parameter(m, p, value > p.upper ? value - 2 * kStep * p.scale : value);
-  return m;
-}
-
-std::vector<FitParameter> baseline_parameters(const ArmModel& model) {
-  ArmParameters<double> arm = model.nominal;
-  std::vector<FitParameter> all;
-  const auto named = named_parameters(arm);
-  for (std::size_t i = 0; i < named.size(); ++i) {
-    const auto is = [&](const char* word) { return named[i].key.find(word) != std::string::npos; };
-    if (is("gear_ratio") || is("pulley_radius")) continue;  // one ratio, told by the capstan's radius
-    const double value = *named[i].value, reach = model.tolerance(named[i]) * std::abs(value);
-    if (!(reach > 0)) continue;
-    all.push_back(
-        {named[i].name, named[i].unit, -1, static_cast<int>(i), value, value - reach, value + reach, reach / 2, true});
-  }
-  return all;
-}
-
-std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,
-                                            const ArmParameters<double>& nominal, int place) {
-  const PlacedEffect& e = h.effects[place];
-  std::vector<FitParameter> all;
-  const auto parameters = e.effect->parameters(nominal, e.joint);
-  const SearchSpace space = search_space(*e.effect, nominal, e.joint);
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const EffectParameter& p = parameters[i];
-    const ParameterSearch& search = space.parameters[i];
-    FitParameter f{p.name, p.unit, place, static_cast<int>(i), p.neutral, p.lower, p.upper, 1, search.natural_bounds};
-    f.scale = std::max({std::abs(p.typical - p.neutral), 0.1 * std::abs(p.typical), 1e-3 * (p.upper - p.lower)});
-    f.shape = p.is_shape();
-    f.starts = search.starts;
-    add_greatest_speeds(f, space, i, evidence, e.joint.value_or(0));
-    if (f.shape && f.starts.size() > 1) f.scale = 0.1 * spacing_around(f.starts, e.p[i]);
-    f.range = search.range;
-    f.is_whole = search.is_whole;
-    limit_period(f, space, i, evidence, e.joint.value_or(0));
-    if (search.range != SearchRange::own) {
-      const Span span =
-          search.range == SearchRange::record_time ? evidence.time_span() : evidence.joint_span(e.joint.value_or(0));
-      f.lower = span.first;
-      f.upper = span.last;
-      f.scale =
-          search.range == SearchRange::record_time ? kInstantScale : std::max(0.01 * (span.last - span.first), 1e-9);
-    }
-    all.push_back(f);
-  }
-  constexpr std::size_t kMostRecords = 12;
-  constexpr double kFar = 5;  // times a state's size, which may grow while it is fitted
-  if (evidence.records().size() > kMostRecords) return all;
-  for (std::size_t r = 0, i = 0; r < evidence.records().size(); ++r)
-    for (const double scale : e.effect->state_scale(nominal, e.joint, e.p)) {
-      FitParameter f{"past of record " + std::to_string(r + 1),
-                     "",
-                     place,
-                     kMaxEffectParameters + static_cast<int>(i++),
-                     0,
-                     -kFar * scale,
-                     kFar * scale,
-                     scale,
-                     true};
-      f.shape = true;
-      f.starts = {-1, 0, 1};
-      all.push_back(f);
-    }
-  return all;
-}
-
-std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameters) {
-  std::vector<ParameterGroup> groups;
-  int effect = -1;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const FitParameter& p = parameters[i];
-    if (p.effect < 0) continue;
-    if (p.effect != effect || (!p.shape && !groups.back().shapes.empty())) groups.emplace_back();
-    effect = p.effect;
-    (p.shape ? groups.back().shapes : groups.back().sizes).push_back(i);
-  }
-  return groups;
-}
-
-bool ends_at_bound(const FitParameter& p, double value) {
-  const auto close = [&](double bound) {
-    return std::abs(value - bound) <= 1e-3 * std::max(std::abs(bound), 1e-3 * p.scale);
-  };
-  return p.effect >= 0 && !p.natural_bounds && !close(p.nominal) && (close(p.lower) || close(p.upper));
-}
-
-bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline) {
-  PlacedEffect e = effect;
-  const auto parameters = e.effect->parameters(nominal, e.joint);
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    e.p[i] = parameters[i].neutral + 0.1 * (parameters[i].upper - parameters[i].neutral);
-  Hypothesis before{nominal, {}}, after{nominal, {}};
-  e.effect->change_parameters(after.nominal, e.joint, e.p);
-  return parameter_value(before, baseline) != parameter_value(after, baseline);
-}
 
 std::vector<double> channel_scale(const Evidence& evidence, const std::vector<double>& mean_square) {
   std::vector<double> scale(evidence.channels(), 1.0);

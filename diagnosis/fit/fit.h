@@ -9,65 +9,11 @@
 ///   θ_b    baseline parameters, each kept within its tolerance; effects' parameters have bounds and no prior
 
 #include <Eigen/Core>
-#include <optional>
-#include <string>
+#include <vector>
 
-#include "diagnosis/fit/evidence.h"
-#include "diagnosis/search_space.h"
+#include "diagnosis/fit/fit_parameter.h"
 
 namespace halyard {
-
-/// One parameter of a fit.
-struct FitParameter {
-  std::string name;
-  std::string unit;
-  int effect = -1;  ///< index in Hypothesis::effects; -1: a baseline parameter
-  /// Baseline: index in named_parameters(). Effect: index of its parameter; indices from kMaxEffectParameters on are
-  /// the states of its past.
-  int index = 0;
-  double nominal = 0;  ///< baseline: the model's value
-  double lower = 0, upper = 0;
-  double scale = 1;                 ///< one unit of the optimiser
-  bool natural_bounds = false;      ///< see ParameterSearch
-  bool shape = false;               ///< a shape of an effect, see EffectParameter
-  std::vector<double> starts = {};  ///< start values; for a past in units of its scale
-  SearchRange range = SearchRange::own;
-  bool is_whole = false;  ///< a whole number: tried at its starts and not fitted
-};
-
-/// True for an effect's state at the start of a record (its past), which belongs to the data and not to the arm.
-inline bool is_past(const FitParameter& p) { return p.effect >= 0 && p.index >= kMaxEffectParameters; }
-/// Index of the parameter with the same effect and index, if there is one.
-inline std::optional<std::size_t> find_parameter(const std::vector<FitParameter>& parameters, const FitParameter& p) {
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (parameters[i].effect == p.effect && parameters[i].index == p.index) return i;
-  return {};
-}
-double parameter_value(const Hypothesis& h, const FitParameter& p);
-void set_parameter(Hypothesis& h, const FitParameter& p, double value);
-
-/// The hypothesis with the parameter moved by the step of a sensitivity. At a bound the step goes inward.
-Hypothesis stepped(const Hypothesis& h, const FitParameter& p);
-
-/// Baseline parameters for which the model states a tolerance. The ratio of a drive is a single parameter: the
-/// capstan's radius represents it.
-std::vector<FitParameter> baseline_parameters(const ArmModel& model);
-/// The parameters of the effect with index `place`; instants and positions are limited to the range of the records.
-/// The period of a periodic effect is limited, so that the motion contains at least kFewestPeriods periods.
-/// The effect's states at the start of each record follow as shapes, unless there are more than a dozen records.
-std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,
-                                            const ArmParameters<double>& nominal, int place);
-/// Sizes of an effect and the shapes that follow them, as indices in a list of parameters.
-struct ParameterGroup {
-  std::vector<std::size_t> sizes, shapes;
-};
-/// The groups of all effects in the list; baseline parameters are in none.
-std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameters);
-/// True if an effect's parameter is at its plausible bound. False at its neutral value, even if that is a bound.
-bool ends_at_bound(const FitParameter& p, double value);
-/// True if a change of the effect's parameters also changes that baseline parameter, so that the baseline parameter
-/// need not be fitted beside the effect.
-bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline);
 
 struct FitOptions {
   int iterations = 10;

@@ -13,7 +13,7 @@
 #include "diagnosis/prediction/motion_key.h"
 #include "diagnosis/prediction/shared_lanes.h"
 #include "diagnosis/prediction/side_by_side.h"
-#include "estimators/process/instruction_set.h"
+#include "estimators/lanes/instruction_set.h"
 
 namespace halyard {
 namespace {

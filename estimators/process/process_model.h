@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
+#include "estimators/lanes/lane_kernels.h"
 #include "estimators/matrix/lane_matrix.h"
 #include "estimators/process/arm_dynamics.h"
-#include "estimators/process/lane_kernels.h"
 #include "model/arm_model.h"
 
 namespace halyard {

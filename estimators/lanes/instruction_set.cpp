@@ -1,4 +1,4 @@
-#include "estimators/process/instruction_set.h"
+#include "estimators/lanes/instruction_set.h"
 
 namespace halyard {
 

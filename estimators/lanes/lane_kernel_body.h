@@ -1,8 +1,8 @@
 /// The kernels of lane_kernels.h, for the instruction set that the including file is compiled for.
 /// No include guard: each lanes_<set>.cpp includes it exactly once.
 
+#include "estimators/lanes/lane_kernels.h"
 #include "estimators/process/arm_linearisation.h"
-#include "estimators/process/lane_kernels.h"
 
 namespace halyard {
 namespace {

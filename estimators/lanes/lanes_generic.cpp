@@ -1,4 +1,4 @@
-#include "estimators/process/lane_kernel_body.h"
+#include "estimators/lanes/lane_kernel_body.h"
 
 namespace halyard {
 

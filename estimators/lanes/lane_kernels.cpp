@@ -1,6 +1,6 @@
-#include "estimators/process/lane_kernels.h"
+#include "estimators/lanes/lane_kernels.h"
 
-#include "estimators/process/instruction_set.h"
+#include "estimators/lanes/instruction_set.h"
 
 namespace halyard {
 
