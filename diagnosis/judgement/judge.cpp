@@ -76,8 +76,8 @@ bool Judge::is_needed(const Scored& with, const Scored& without, int place, doub
          p_of_gain(with.score, without.score) <= significance;
 }
 
-/// By the scatter of the blocks, or, of an effect that explains a rest
-/// whole, by the likelihood ratio as well, so that a few moments are enough.
+/// By the scatter of the blocks. For an effect that explains a whole rest, also by the likelihood ratio, so that a few
+/// moments are enough.
 double Judge::p_of_gain(const Score& with, const Score& without) const {
   const double by_blocks = p_value(paired(nested_gains(evidence_, with, without, floors_beside(evidence_, without))));
   if (!explains_a_rest(without, with)) return by_blocks;

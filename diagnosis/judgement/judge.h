@@ -16,7 +16,8 @@
 ///   fitted on the other blocks. Blind trials of clean arms measure its false-positive rate;
 /// - it matters: a residual shrinks by more than the model's tolerances and the sensors' errors can explain;
 /// - no parameter that matters lies at its plausible bound. No shape lies within a factor of two of such a bound if the
-///   bound itself has an equal likelihood.
+///   bound itself has an equal likelihood;
+/// - one of its sizes at least exceeds the tolerance of the number that it changes. Otherwise it is a refit.
 
 #include "diagnosis/fit/fit.h"
 #include "diagnosis/judgement/decision_rule.h"
