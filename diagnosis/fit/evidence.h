@@ -1,6 +1,6 @@
 #pragma once
-/// The data of a diagnosis: records divided into blocks of time. Every other block is for fitting and the
-/// rest for deciding, so that gains are measured on data that the fit did not use.
+/// The data of a diagnosis: records divided into blocks of time. Every other block is for fitting and the rest for
+/// deciding, so that gains are measured on data that the fit did not use.
 
 #include <span>
 

@@ -11,9 +11,10 @@ struct Nudge {
 };
 
 /// Changes the parameters of the effects from index `first` on, one after another. A parameter is multiplied by factors
-/// from 0.1 to 10; an instant or a position is moved by up to half of the distance between two starts. Keeps each
-/// change that lowers what the model's numbers cannot explain: at fixed numbers a stiffer hysteresis would have to be
-/// kept as soft as the number of the stiffness is stiff.
+/// from 0.1 to 10; a whole number is moved by one or two; an instant or a position is moved by up to half of the
+/// distance between two starts. A change is kept if it lowers the part of the residual that the model's numbers cannot
+/// explain. If the numbers were fixed, a right change of a hysteresis would be refused until the stiffness of the model
+/// follows.
 Nudge nudged(const Evidence& evidence, Hypothesis h, std::size_t first, const ArmParameters<double>& nominal,
              const BeyondNumbers& beyond);
 

@@ -83,8 +83,8 @@ class UncertainParameters {
   std::vector<ParameterGroup> groups_;
 };
 
-/// Fits with the weights that the residual at the start tells. The data then count against the tolerances as much as
-/// they are worth: noise of a sensor counts by its samples, an error of the model by its correlation time.
+/// Fits with weights that follow from the residual at the start. They balance the data against the tolerances: noise of
+/// a sensor counts by its samples, an error of the model by its correlation time.
 Fit weighed_fit(const Evidence& whole, const Hypothesis& start, const std::vector<FitParameter>& parameters) {
   const std::vector<double> scale = channel_scale(whole, whole.score(start).fit_mean_square);
   FitOptions options;
@@ -116,7 +116,7 @@ Fit keep_certain_sizes(const Evidence& whole, const Fit& f, std::size_t given) {
   }
   if (left.size() == f.parameters.size()) return f;
   const Fit again = weighed_fit(whole, h, left);
-  // What was certain beside what is gone may not be so any more.
+  // A size that was certain beside those that were reset may not be certain any more.
   return again.usable ? keep_certain_sizes(whole, again, given) : f;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Data that no fit and no search uses: a log of its own, or the last third of each training log. A model is adopted only if it
-/// does not predict these data worse than the model as given.
+/// Data that no fit and no search uses: a log of its own, or the last third of each training log. A model is adopted
+/// only if it does not predict these data worse than the model as given.
 
 #include <optional>
 

@@ -9,7 +9,7 @@
 namespace halyard {
 namespace {
 
-/// For the significance of a gain: blocks that had next to no residual, a motor's rest say, neither carry nor spoil it.
+/// For the significance of a gain. Blocks with next to no residual, for example while a motor rests, hardly count then.
 std::vector<double> floors_beside(const Evidence& evidence, const Score& before) {
   std::vector<double> least = squared_floors(evidence);
   for (std::size_t c = 0; c < least.size(); ++c)
@@ -104,9 +104,9 @@ bool Judge::explains_a_rest(const Score& before, const Score& after) const {
   return most >= 0 && (!has[most] || left(most) < kRule.next_to_none * kRule.next_to_none);
 }
 
-/// True if a number ends at its bound and does more there than one number by chance: a size alone, or with the shapes
-/// that follow it. Beside other sizes a group of them is nothing that the effect is named for if it does next to nothing
-/// of what the effect does: a wall at the end of the motion that mends the form of a tug.
+/// True if a size or a shape ends at its bound, and its sizes do more there than one number by chance. A group of sizes
+/// whose shape is at its bound does not count if it does next to nothing of what the whole effect does: for example a
+/// wall at the end of the motion that only improves the form of a tug.
 bool Judge::at_bound(const Scored& with, int place) const {
   constexpr double kNextToNothing = 0.1;
   const Hypothesis& h = with.hypothesis;
@@ -190,10 +190,10 @@ std::vector<std::vector<double>> Judge::done_by_effects(const Scored& found) con
 }
 
 /// True if the effect takes a share of the residual that is more than the misfit of what was named before it. Where the
-/// earlier effects do little, their misfit is little as well: blocks in which their misfit may be larger than the channel's
-/// residual do not count, and a small effect shows where a large one does not act. The channel's residual decides and not
-/// the block's own: the blocks in which a misfit is by chance large would be left otherwise. done: done_by_effects()
-/// before.
+/// earlier effects do little, their misfit is small as well. Therefore blocks in which their misfit may be larger than
+/// the channel's residual do not count, and a small effect is seen where a large one does not act. The residual of the
+/// whole channel decides this and not that of the block: otherwise the blocks in which a misfit is large by chance
+/// would be kept. done: done_by_effects() before.
 bool Judge::takes_a_share(const Score& before, const Score& after, const std::vector<std::vector<double>>& done,
                           int c) const {
   double all = 0, gain = 0, misfit = 0;  // sums of squares
@@ -208,8 +208,8 @@ bool Judge::takes_a_share(const Score& before, const Score& after, const std::ve
 }
 
 /// The effect takes a share of a residual that noise does not explain, and changes some signal by much more than the
-/// sensor resolves. The blocks that tell the share have to show such a residual: one burst in the fitting blocks would
-/// let an effect count for what it does elsewhere below the noise.
+/// sensor resolves. The deciding blocks have to show such a residual. Otherwise, after one burst in the fitting blocks,
+/// an effect would count for what it does elsewhere below the noise.
 bool Judge::matters(const Scored& without, const Scored& with, int place) const {
   const auto done = done_by_effects(without);
   bool share = false;

@@ -1,6 +1,6 @@
 #pragma once
-/// A log prepared for diagnosis, on one uniform time grid. Motions, rates, accelerations and torques are
-/// filtered by the same zero-phase low-pass filter, so that they stay comparable.
+/// A log prepared for diagnosis, on one uniform time grid. Motions, rates, accelerations and torques are filtered by
+/// the same zero-phase low-pass filter, so that they stay comparable.
 ///
 ///   q_m = K_m * reading,  q_m' = K_m' * reading,  q_m'' = K_m'' * reading,  τ = K_m * command
 ///   e   = K_c * (measured - predicted)

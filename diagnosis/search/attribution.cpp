@@ -84,7 +84,7 @@ class Search {
     Naming naming;
   };
 
-  /// A fit from the model's own numbers, which on the way were bent by what was missing.
+  /// A fit from the model's own numbers: while effects were still missing, the fits had distorted the numbers.
   Found afresh(const Found& current) const {
     const Hypothesis& h = current.fit.hypothesis;
     return refitted({model_.nominal, h.effects, h.past}, current.score);
@@ -146,8 +146,9 @@ class Search {
     const auto next_round = [&](const Hypothesis& from) {
       return round_of(current, from, "round " + std::to_string(result_.rounds.size() + 1));
     };
-    // Before any effect is named the refitted baseline is distorted by what is missing: candidates start at the model's
-    // own parameters. But where these are far off, a small effect is lost beside what is not linear in them.
+    // Before any effect is named, the missing effects distort the refitted baseline: candidates start at the model's
+    // own parameters. But if these are far off, the residual is not linear in them, and a small effect is lost beside
+    // this.
     CandidateRound round = next_round(is_first ? Hypothesis{model_.nominal, model_.effects, so_far.past} : so_far);
     auto won = compete(round, current.scored(), candidates(so_far));
     if (!won && is_first) {
@@ -274,7 +275,7 @@ class Search {
     return all;
   }
 
-  /// Each effect is tried for removal: one that a later one made idle goes.
+  /// Removes each effect that a later one has made unnecessary.
   void remove_idle(Found& current) {
     const auto is_idle = [&](std::size_t i) {
       const Found& left = without_[i];

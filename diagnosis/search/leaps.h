@@ -12,7 +12,7 @@
 namespace halyard {
 
 /// Instants around each of the strongest jumps, ascending, s. They are spaced so that one of them is at most half a row
-/// from the jump. A jump has at most two dozen instants; it has so many if rows of deciding blocks lie in between.
+/// from the jump. A jump has at most two dozen instants; it has that many if deciding blocks lie between its rows.
 /// rows: residuals of the fitting rows.
 std::vector<double> leaps(const Evidence& evidence, const std::vector<double>& rows);
 

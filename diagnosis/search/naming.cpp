@@ -44,8 +44,8 @@ Competition::Choice Competition::choose(const std::vector<std::size_t>& able) co
     if (shared_gain(trials_[best].log_likelihood, trials_[i].log_likelihood, ln_without_) < kRule.shared_gain) continue;
     if (p.t < kRule.tell_apart || p.sum < 2 * kRule.tell_apart * kRule.tell_apart) alike.push_back(i);
   }
-  // Of those that cannot be told apart the best is named; of those that are as good one that only changes the
-  // model's own numbers, and then the one with the fewest numbers of its own.
+  // Of the candidates that the data cannot distinguish, the best is named. If several are about as good, one that only
+  // changes the model's own numbers comes first, and then the one with the fewest numbers of its own.
   const auto simplicity = [&](std::size_t i) {
     const PlacedEffect& e = trials_[i].effect;
     return std::pair(e.effect->stages() != 0, e.effect->parameters(model_.nominal, e.joint).size());

@@ -46,7 +46,7 @@ std::vector<std::vector<double>> combinations(const Hypothesis& h, const std::ve
       for (const double value : starts_of(p)) {
         const bool follows = s > 0 && is_instant(shapes[s]) && is_instant(shapes[s - 1]);
         if (follows && value <= head.back()) continue;
-        // Each record has its own past, and shows nothing of the others': all are tried at once.
+        // Each record has its own past and says nothing about the others: all pasts get the same start.
         const bool beside = s > 0 && is_past(p) && is_past(parameters[shapes[s - 1]]);
         if (beside && value != head.back()) continue;
         longer.push_back(head);
@@ -149,7 +149,7 @@ class StartSearch {
     Hypothesis h = neutral_;
     for (std::size_t s = 0; s < values.size(); ++s) {
       const FitParameter& p = parameters_[group.shapes[s]];
-      // How far a past can be off is told by the shapes before it.
+      // The scale of a past depends on the shapes before it.
       const double unit = is_past(p) ? effect_parameters(evidence_, h, nominal_, p.effect)[group.shapes[s]].scale : 1;
       set_parameter(h, p, unit * values[s]);
     }
@@ -178,7 +178,7 @@ class StartSearch {
     const FitParameter& p = parameters_[t.size];
     const double moved = parameter_value(t.hypothesis, p) - p.nominal;
     const double wanted = p.nominal + d.amount * moved;
-    // A size that would have to be where it cannot be takes nothing.
+    // If the bounds leave nothing of the wanted change, this size explains nothing.
     if (std::clamp(wanted, p.lower, p.upper) == p.nominal || moved == 0) return 0;
     Asked& asked = asked_[t.combination];
     // Shapes come with the first hypothesis of their combination; of several sizes each asks for its own.

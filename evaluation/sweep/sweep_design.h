@@ -16,7 +16,8 @@ using UnitSamples = std::vector<std::vector<double>>;
 UnitSamples latin_hypercube(std::size_t dimension, std::size_t samples, std::uint64_t seed);
 
 /// The first n points of Sobol's sequence, which fills the cube more evenly than random numbers do, with Joe and Kuo's
-/// direction numbers (SIAM J. Sci. Comput. 30, 2008; Boost.Random). The first 2^k points are the most even.
+/// direction numbers (SIAM J. Sci. Comput. 30, 2008; Boost.Random). Boost leaves out the origin, so 2^k - 1 points are
+/// the most even.
 UnitSamples sobol_sequence(std::size_t dimension, std::size_t samples);
 
 }  // namespace halyard

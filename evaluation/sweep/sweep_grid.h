@@ -10,8 +10,8 @@
 
 namespace halyard {
 
-/// One axis of a grid: parameters that vary together. At a point of the grid they all have one value, or
-/// one factor.
+/// One axis of a grid: parameters that vary together. At a point of the grid they all have the same value, or are
+/// multiplied by the same factor.
 struct SweepAxis {
   enum class Target { robot, model, both };
 

@@ -1,9 +1,9 @@
 #pragma once
 /// What the keys of a sweep's axes name, and how a point's values get there. A key names a number of
 ///
-///   the arm         sweep_parameter.h     of the robot, of the model, or of both, as the axis says
-///   the scenario    scenario_number.h     of the simulation; the axis applies to robot or both
-///   an estimator    estimator_option.h    of the model; the axis applies to model or both
+///   the arm         ../sweep_parameter.h   of the robot, of the model, or of both, as the axis says
+///   the scenario    scenario_number.h      of the simulation; the axis applies to robot or both
+///   an estimator    estimator_option.h     of the model; the axis applies to model or both
 
 #include <string>
 
