@@ -1,5 +1,6 @@
 #pragma once
-/// The thresholds of a diagnosis in one place: what each means, its value, and why.
+/// The thresholds that decide what a diagnosis names: what each means, its value, and why. Thresholds that only one step
+/// uses stand beside it.
 
 #include <cstddef>
 

@@ -41,6 +41,9 @@ struct Trial {
   bool is_refit = false;  ///< its sizes stay within the model's tolerance
   bool matters = false;
   Likelihood log_likelihood;
+
+  /// True if only the significance of its gain is left to be tested.
+  bool can_be_named() const { return is_judged() && gain > 0 && !at_bound && !is_refit && matters; }
 };
 
 Trial unusable(const PlacedEffect& effect);

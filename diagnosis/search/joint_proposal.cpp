@@ -104,9 +104,7 @@ class LinearProblem {
   std::vector<double> lower_, upper_, prior_;
 };
 
-bool passes(const Trial& t, double significance) {
-  return t.is_judged() && t.gain > 0 && t.p_value <= significance && !t.at_bound && !t.is_refit && t.matters;
-}
+bool passes(const Trial& t, double significance) { return t.can_be_named() && t.p_value <= significance; }
 
 }  // namespace
 

@@ -15,10 +15,8 @@ double probability_of_any_name(const Naming& naming, double none) {
 
 std::vector<bool> convincing(const std::vector<Trial>& trials, double significance) {
   std::vector<double> p;
-  for (const Trial& t : trials) {
-    const bool nameable = t.is_judged() && t.gain > 0 && !t.at_bound && !t.is_refit && t.matters;
-    if (t.is_fitted) p.push_back(nameable ? t.p_value : 1.0);
-  }
+  for (const Trial& t : trials)
+    if (t.is_fitted) p.push_back(t.can_be_named() ? t.p_value : 1.0);
   const std::vector<double> rate = false_discovery_rates(p);
   std::vector<bool> is(trials.size(), false);
   for (std::size_t i = 0, next = 0; i < trials.size(); ++i)

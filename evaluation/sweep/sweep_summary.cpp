@@ -1,9 +1,10 @@
 #include "evaluation/sweep/sweep_summary.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <set>
+
+#include "estimators/distributions.h"
 
 namespace halyard {
 namespace {
@@ -25,7 +26,7 @@ double MeanWithInterval::mean() const { return n_ > 0 ? mean_ : std::numeric_lim
 double MeanWithInterval::half_width() const {
   if (n_ < 2) return std::numeric_limits<double>::quiet_NaN();
   const double freedom = double(n_ - 1);
-  return boost::math::quantile(boost::math::students_t(freedom), 0.975) * std::sqrt(squares_ / freedom / double(n_));
+  return t_quantile(freedom, 0.025) * std::sqrt(squares_ / freedom / double(n_));
 }
 
 SweepSummary::SweepSummary(const SweepGrid& grid) : spans(grid.units.size()), grid_(grid) {

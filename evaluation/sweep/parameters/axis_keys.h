@@ -6,6 +6,7 @@
 ///   an estimator    estimator_option.h     of the model; the axis applies to model or both
 
 #include <string>
+#include <vector>
 
 #include "evaluation/sweep/sweep_grid.h"
 #include "model/arm_model.h"
