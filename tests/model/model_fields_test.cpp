@@ -151,7 +151,7 @@ TEST(ModelFields, ThatStudiesVaryAreTheDocumentedKeys) {
   const auto from = text.find("`link.mass`");
   ASSERT_NE(from, text.npos);
   std::set<std::string> documented;
-  for (const auto& [name, after] : documented_names(text.substr(from, text.find("; in a sweep also", from) - from)))
+  for (const auto& [name, after] : documented_names(text.substr(from, text.find(". A sweep also", from) - from)))
     documented.insert(name);
   EXPECT_EQ(documented, keys);
 }
