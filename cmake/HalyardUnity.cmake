@@ -51,8 +51,8 @@ compile_together(halyard_plugins checks host/conformance.cpp host/effect_module.
 
 compile_together(halyard_diagnosis records
   calibration/calibrate.cpp calibration/torque_comparison.cpp explanation/curve_fit.cpp
-  explanation/residual_signals.cpp explanation/signature.cpp explanation/spectrum.cpp explanation/view_sentence.cpp
-  explanation/views.cpp motion/chebyshev.cpp prediction/driven_start.cpp prediction/filtered_effect.cpp
+  explanation/lines_above_band.cpp explanation/residual_signals.cpp explanation/signature.cpp explanation/spectrum.cpp
+  explanation/view_sentence.cpp explanation/views.cpp motion/chebyshev.cpp prediction/driven_start.cpp prediction/filtered_effect.cpp
   prediction/measured_units.cpp record/record.cpp record/resting.cpp search_space/cable.cpp search_space/joint.cpp
   search_space/motor.cpp search_space/search_space.cpp search_space/sensor.cpp)
 compile_together(halyard_diagnosis prediction
@@ -63,8 +63,8 @@ compile_together(halyard_diagnosis log_check
   log_check/positions.cpp log_check/robust.cpp log_check/saturating_torque.cpp log_check/torques.cpp
   log_check/zeros.cpp)
 compile_together(halyard_diagnosis fit
-  calibration/lateness.cpp fit/baseline_reach.cpp fit/beyond_numbers.cpp fit/block_variance.cpp fit/evidence.cpp
-  fit/fit.cpp fit/fit_parameter.cpp fit/nudged.cpp
+  calibration/lateness.cpp fit/baseline_reach.cpp fit/beyond_numbers.cpp fit/block_variance.cpp
+  fit/complementary.cpp fit/evidence.cpp fit/fit.cpp fit/fit_parameter.cpp fit/nudged.cpp
   noise/channel_noise.cpp noise/ripple_free.cpp planning/change_detector.cpp planning/plan.cpp planning/planner.cpp)
 compile_together(halyard_diagnosis judgement
   diagnose.cpp judgement/false_discovery.cpp judgement/final_fit.cpp judgement/holdout.cpp judgement/judge.cpp

@@ -8,8 +8,9 @@
 
 #include "diagnosis/calibration/calibrate.h"
 #include "diagnosis/diagnosis_details.h"
+#include "diagnosis/explanation/lines_above_band.h"
 #include "diagnosis/explanation/signature.h"
-#include "diagnosis/explanation/view_sentence.h"
+#include "diagnosis/fit/complementary.h"
 #include "diagnosis/judgement/final_fit.h"
 #include "diagnosis/judgement/name_probability.h"
 #include "diagnosis/judgement/prediction_interval.h"
@@ -90,6 +91,7 @@ class Diagnoser {
       attribution().namings.erase(attribution().namings.begin() + static_cast<std::ptrdiff_t>(*gone - given_));
       fit_finally(evidence, whole, fit_without(attribution().final_fit, *gone));
     }
+    while (join_one(evidence, whole)) {}
     changed_ = changed_numbers(whole, result_.given, attribution().final_fit);
     // A model that lacks nothing stays as it is.
     if (!changed_.empty() || final_hypothesis().effects.size() > given_) return;
@@ -102,6 +104,22 @@ class Diagnoser {
   void fit_finally(const Evidence& evidence, const Evidence& whole, const Fit& start) {
     attribution().final_fit = final_fit(whole, result_.given, start, given_);
     attribution().final_score = evidence.score(final_hypothesis());
+  }
+
+  /// Makes two effects one that are one. It keeps the surer of their names. False if there are no such two.
+  bool join_one(const Evidence& evidence, const Evidence& whole) {
+    const auto joined = join_complementary(attribution().final_fit, given_);
+    if (!joined) return false;
+    std::vector<Naming>& namings = attribution().namings;
+    const auto gone = namings.begin() + static_cast<std::ptrdiff_t>(joined->gone - given_);
+    Naming& kept = namings[joined->kept - given_];
+    if (gone->weight > kept.weight) kept = std::move(*gone);
+    namings.erase(gone);
+    Fit start;
+    start.hypothesis = joined->hypothesis;
+    start.parameters = joined->parameters;
+    fit_finally(evidence, whole, start);
+    return true;
   }
 
   /// The numbers of the model that the effect had replaced are fitted again.
@@ -245,37 +263,7 @@ class Diagnoser {
     const int n = model_.n();
     for (int k = 0; k < n; ++k)
       if (rest_of[k] || rest_of[n + k]) result_.unexplained.push_back({k, signature(evidence, final_hypothesis(), k)});
-    tell_lines(evidence);
-  }
-
-  /// Lines above the compared band, each at the joint where it stands highest above the floor.
-  void tell_lines(const Evidence& evidence) {
-    constexpr double kSameLine = 1.5;  // Hz
-    struct Told {
-      NoiseLine line;
-      int channel;
-      double height;
-    };
-    std::vector<Told> told;
-    for (int c = 0; c < evidence.channels(); ++c)
-      for (const NoiseLine& line : evidence.noise()[c].lines) {
-        const Told now{line, c, line.amplitude / evidence.floor()[c]};
-        if (now.height < 1) continue;
-        const auto same = std::ranges::find_if(
-            told, [&](const Told& t) { return std::abs(t.line.frequency - line.frequency) < kSameLine; });
-        if (same == told.end()) told.push_back(now);
-        else if (same->height < now.height) *same = now;
-      }
-    const int n = model_.n();
-    for (const Told& t : told) {
-      const int k = t.channel % n;
-      const ResidualKind kind = t.channel < n ? ResidualKind::motor_torque : ResidualKind::joint_position;
-      result_.unexplained.push_back(
-          {k, fmt::format("the {} contains a sine of {:.0f} Hz with an amplitude of {}: hum, a resonance or chatter, "
-                          "above the frequencies that are compared",
-                          residual_name(model_.nominal, k, kind), t.line.frequency,
-                          shown(t.line.amplitude, residual_unit(model_.nominal, k, kind)))});
-    }
+    for (Unexplained& line : lines_above_band(evidence, model_.nominal)) result_.unexplained.push_back(std::move(line));
   }
 
   void tell_probabilities(const Evidence& evidence) {
