@@ -33,7 +33,7 @@ void add_greatest_speeds(FitParameter& f, const SearchSpace& space, std::size_t 
   for (const double share_left : {0.02, 0.06, 0.2, 0.5})
     f.starts.push_back(std::clamp(evidence.greatest_speed(joint) / (1 - share_left), f.lower, f.upper));
   std::ranges::sort(f.starts);
-  f.starts.erase(std::ranges::unique(f.starts).begin(), f.starts.end());
+  f.starts.erase(std::unique(f.starts.begin(), f.starts.end()), f.starts.end());
 }
 
 /// How far the starts of a search lie apart around a value: about as far as it finds its way.

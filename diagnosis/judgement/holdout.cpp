@@ -193,8 +193,9 @@ std::vector<double> holdout_floors(const Evidence& evidence, const ArmModel& mod
     const std::vector<Record>& records = view->records;
     std::vector<int> unseen;
     for (int k = 0; k < n; ++k)
-      if (!evidence.has_channel(first + k) &&
-          std::ranges::any_of(records, [&](const Record& r) { return first == 0 ? r.has_torque(k) : r.has_joint(k); }))
+      if (!evidence.has_channel(first + k) && std::ranges::any_of(records, [&, first = first](const Record& r) {
+            return first == 0 ? r.has_torque(k) : r.has_joint(k);
+          }))
         unseen.push_back(first + k);
     if (unseen.empty()) continue;
     const std::vector<double> spread = tolerance_spreads(records, model);

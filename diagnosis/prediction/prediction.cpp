@@ -285,8 +285,9 @@ std::vector<std::vector<Residuals>> predict_at_once(const std::vector<Prediction
   std::vector<std::tuple<const Record*, int, Prediction>> predictions;
   for (std::size_t r = 0; r < requests.size(); ++r) {
     const auto& [record, hypotheses, stride] = requests[r];
-    auto of_record = std::ranges::find_if(
-        predictions, [&](const auto& p) { return std::get<0>(p) == record && std::get<1>(p) == stride; });
+    auto of_record = std::ranges::find_if(predictions, [record = record, stride = stride](const auto& p) {
+      return std::get<0>(p) == record && std::get<1>(p) == stride;
+    });
     if (of_record == predictions.end()) {
       predictions.emplace_back(record, stride, Prediction(*record, stride));
       of_record = std::prev(predictions.end());

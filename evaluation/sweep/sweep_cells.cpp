@@ -194,8 +194,8 @@ StoredCells::StoredCells(const std::vector<fs::path>& folders, const SweepGrid& 
 }
 
 void StoredCells::scan(std::size_t journal, const std::string& header) {
-  const auto& [path, file] = journals_[journal];
-  for_each_line(*file, [&](std::string_view line, std::uint64_t offset) {
+  const fs::path& path = journals_[journal].path;
+  for_each_line(*journals_[journal].file, [&](std::string_view line, std::uint64_t offset) {
     if (offset == 0) {
       if (line == std::string_view(header).substr(0, header.size() - 1)) return;
       if (!line.starts_with("{\"sweep\":")) damaged(path, 0);
