@@ -1,6 +1,7 @@
 #include "model/arm_log.h"
 
 #include "model/homing.h"
+#include "model/name_list.h"
 
 namespace halyard {
 
@@ -24,9 +25,9 @@ Log read_log_of(const ArmModel& model, const std::filesystem::path& path,
 }
 
 std::string ignored_columns_note(const Log& log) {
-  std::string names;
-  for (const std::string& name : log.ignored_columns) names.append(names.empty() ? "" : ", ").append(name);
-  return names.empty() ? "" : "note: " + log.source + ": columns that are not used: " + names;
+  std::vector<std::string> names;
+  for (const std::string& name : log.ignored_columns) names.push_back(shortened(name));
+  return names.empty() ? "" : "note: " + log.source + ": columns that are not used: " + listed(names);
 }
 
 }  // namespace halyard

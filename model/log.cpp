@@ -14,6 +14,7 @@
 
 #include "model/input_error.h"
 #include "model/memory_limit.h"
+#include "model/name_list.h"
 #include "model/output/output_files.h"
 
 namespace halyard {
@@ -109,8 +110,7 @@ bool has_no_motor(const std::string& name, const ReadOptions& options) {
 /// Connects the columns of a file to those of a log.
 void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, const ReadOptions& options,
                   const Lines& header) {
-  const auto append = [](std::string& list, const std::string& text) { list += (list.empty() ? "" : ", ") + text; };
-  std::string missing, present;
+  std::vector<std::string> missing, present;
   const auto bind_one = [&](const std::string& name, std::vector<double>& values) {
     if (has_no_motor(name, options)) return;
     const auto mapped = map.sources().find(name);
@@ -123,16 +123,16 @@ void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, 
       const auto found = std::ranges::find(columns, source.column, &Column::name);
       found->targets.push_back({&values, source.scale, source.offset});
     } else if (is_mapped) {
-      append(missing, in_quotes(source.column) + " (mapped to " + name + ")");
+      missing.push_back(in_quotes(source.column) + " (mapped to " + name + ")");
     } else if (name == "time" || is_required(name, options)) {
-      append(missing, in_quotes(name));
+      missing.push_back(in_quotes(name));
     }
   };
   bind_one("time", log.time);
   for_each_column(log, bind_one);
   if (missing.empty()) return;
-  for (const Column& column : columns) append(present, in_quotes(column.name));
-  header.fail("no column " + missing + "; the file has " + present +
+  for (const Column& column : columns) present.push_back(in_quotes(column.name));
+  header.fail("no column " + listed(missing) + "; the file has " + listed(present) +
               "; say which column is which by a column map, such as motor_position_1=NAME,unit=rad, in the model file "
               "or on the command line");
 }

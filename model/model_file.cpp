@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "model/input_error.h"
+#include "model/name_list.h"
 #include "model/xml/arm_words.h"
 #include "model/xml/field_reader.h"
 #include "model/xml/xml_reader.h"
@@ -211,9 +212,10 @@ void read_joints(const XmlElement& arm, const Tolerances& tolerances, ArmModel& 
 PlacedEffect read_effect(const XmlElement& element, const ArmParameters<double>& arm) {
   const Effect* effect = find_effect(element.text("name"));
   if (!effect) {
-    std::string known;
-    for (const Effect* each : effect_library()) known += (known.empty() ? "" : ", ") + each->name();
-    element.fail("name", "unknown effect; expected one of " + known + ", or one of a module given by --effects");
+    std::vector<std::string> known;
+    for (const Effect* each : effect_library()) known.push_back(each->name());
+    element.fail("name",
+                 "unknown effect; expected one of " + listed(known) + ", or one of a module given by --effects");
   }
   if (effect->scope() == EffectScope::arm && element.has("joint")) {
     element.fail("joint", "effect " + effect->name() + " is of the whole arm; remove the joint");

@@ -7,6 +7,7 @@
 #include "model/input_error.h"
 #include "model/log.h"
 #include "model/model_file.h"
+#include "model/name_list.h"
 #include "model/xml/xml_reader.h"
 #include "plant/scenario.h"
 
@@ -23,10 +24,10 @@ void read_change(const XmlElement& set, ArmModel& robot) {
     const std::string joint = key.substr(0, key.find('.') + 1);  // of a right joint, its numbers will do
     const auto is_of_joint = [&](const ParameterInfo& p) { return !joint.empty() && p.key.starts_with(joint); };
     const bool right = std::ranges::any_of(all, is_of_joint);
-    std::string known;
+    std::vector<std::string> known;
     for (const ParameterInfo& p : all)
-      if (!right || is_of_joint(p)) known += (known.empty() ? "" : ", ") + p.key;
-    set.fail("parameter", "the model has no such number; expected one of " + known);
+      if (!right || is_of_joint(p)) known.push_back(p.key);
+    set.fail("parameter", "the model has no such number; expected one of " + listed(known));
   }
   *found->value = set.number("value", found->unit == "1" ? "" : found->unit);
   try {  // what a model file may not say, a scenario may not either
@@ -55,9 +56,10 @@ void check_column(const XmlElement& element, const std::filesystem::path& file, 
   std::vector<std::string_view> names;
   split(header, names);
   if (std::ranges::find(names, column) != names.end()) return;
-  std::string known;
-  for (const std::string_view name : names) known += (known.empty() ? "" : ", ") + in_quotes(name);
-  element.fail("column", file.string() + " has no column " + in_quotes(column) + "; it has " + known);
+  std::vector<std::string> known;
+  for (const std::string_view name : names) known.push_back(in_quotes(name));
+  element.fail("column", file.string() + " has no column " + in_quotes(column) + "; it has " + listed(known) +
+                             "; give one of these as column");
 }
 
 /// Read as a log of one joint, so that numbers, gaps and times are checked as everywhere.

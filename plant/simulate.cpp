@@ -194,6 +194,9 @@ void check_scenario(const Scenario& scenario) {
   if (!(scenario.duration_s > 0) || !(scenario.control_period_s > 0) ||
       !(scenario.duration_s >= scenario.control_period_s))
     throw InputError(where + "the duration must be at least one control period, and both above 0 s");
+  constexpr double kShortestPeriod = 1e-6;
+  if (scenario.control_period_s < kShortestPeriod)
+    throw InputError(where + "the control period must be at least 1e-6 s: logs give times to a microsecond");
   check_memory(scenario.duration_s / scenario.control_period_s * bytes_of_a_tick(scenario), where + "the run",
                "take a shorter duration or a longer control period");
   if (!(scenario.integrator.relative_tolerance > 0) || !(scenario.integrator.absolute_tolerance > 0))
@@ -215,7 +218,10 @@ void check_scenario(const Scenario& scenario) {
     const JointDescription& range = scenario.robot.joints[k];
     if (!(range.lower < range.upper)) continue;
     const std::string unit = scenario.robot.nominal.joint[k].type == JointType::revolute ? " rad" : " m";
-    for (long i = 0; i <= number_of_ticks(scenario); ++i) {
+    // At each tick; of a long run at every few, so that the check stays short.
+    constexpr long kMostInstants = 20'000;
+    const long ticks = number_of_ticks(scenario), stride = ticks / kMostInstants + 1;
+    for (long i = 0; i <= ticks; i += stride) {
       const double t = i * scenario.control_period_s;
       const double q = desired_position(scenario.trajectory[k], scenario.fade_in_s, t);
       if (!(q >= range.lower && q <= range.upper))
@@ -224,6 +230,7 @@ void check_scenario(const Scenario& scenario) {
                          std::to_string(range.upper) + unit + "; make it smaller or move its center");
     }
   }
+  make_plant(scenario);  // which refuses what it cannot compute
 }
 
 SimulationResult simulate(const Scenario& scenario, const std::function<void(double)>& progress) {

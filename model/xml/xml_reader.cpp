@@ -12,6 +12,7 @@
 
 #include "model/column_map.h"
 #include "model/input_error.h"
+#include "model/name_list.h"
 
 namespace halyard {
 
@@ -22,24 +23,12 @@ struct XmlElement::Document {
 
 namespace {
 
-std::string joined(const XmlNames& names) {
-  std::string list;
-  for (const std::string& name : names) list.append(list.empty() ? "" : ", ").append(name);
-  return list;
-}
-
 std::string one_of(const char* what, const XmlNames& names) {
-  const std::string expected = names.empty() ? "none" : names.size() == 1 ? names.front() : "one of " + joined(names);
+  const std::string expected = names.empty() ? "none" : names.size() == 1 ? names.front() : "one of " + listed(names);
   return std::string("unknown ") + what + "; expected " + expected;
 }
 
 bool contains(const XmlNames& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
-
-/// A user's text without quotes around it.
-std::string shown(std::string_view text) {
-  const std::string quoted = in_quotes(text);
-  return quoted.substr(1, quoted.size() - 2);
-}
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r\n";
@@ -142,7 +131,7 @@ XmlElement XmlElement::root_of(const std::string& xml, const std::string& source
   for (const tinyxml2::XMLNode* next = root->NextSibling(); next; next = next->NextSibling()) {
     if (next->ToElement() || next->ToText()) {
       throw InputError(source + ":" + std::to_string(next->GetLineNum()) + ": expected nothing after </" +
-                       element.tag() + ">; an XML file has one root element");
+                       shortened(element.tag()) + ">; an XML file has one root element");
     }
   }
   return element;
@@ -168,14 +157,14 @@ std::string XmlElement::tag() const { return element_->Name(); }
 const std::string& XmlElement::source() const { return document_->source; }
 
 void XmlElement::fail(const std::string& what) const {
-  throw InputError(source() + ":" + std::to_string(element_->GetLineNum()) + ": <" + shown(tag()) + ">: " + what);
+  throw InputError(source() + ":" + std::to_string(element_->GetLineNum()) + ": <" + shortened(tag()) + ">: " + what);
 }
 
 void XmlElement::fail(std::string_view attribute, const std::string& what) const {
   const tinyxml2::XMLAttribute* found = element_->FindAttribute(std::string(attribute).c_str());
   if (!found) fail(what);
-  throw InputError(source() + ":" + std::to_string(found->GetLineNum()) + ": <" + shown(tag()) + " " +
-                   shown(attribute) + "=\"" + shown(found->Value()) + "\">: " + what);
+  throw InputError(source() + ":" + std::to_string(found->GetLineNum()) + ": <" + shortened(tag()) + " " +
+                   shortened(attribute) + "=\"" + shortened(found->Value()) + "\">: " + what);
 }
 
 void XmlElement::fail_missing(std::string_view attribute, const std::string& expected) const {
@@ -183,7 +172,7 @@ void XmlElement::fail_missing(std::string_view attribute, const std::string& exp
 }
 
 void XmlElement::fail_child(const tinyxml2::XMLElement* child, const XmlNames& known) const {
-  XmlElement(document_, child).fail(one_of("element", known) + " inside <" + tag() + ">");
+  XmlElement(document_, child).fail(one_of("element", known) + " inside <" + shortened(tag()) + ">");
 }
 
 void XmlElement::only(const XmlNames& attributes, const XmlNames& children) const {
@@ -219,6 +208,11 @@ std::string XmlElement::text(std::string_view attribute) const {
   const char* found = element_->Attribute(std::string(attribute).c_str());
   if (!found) fail_missing(attribute, "a text");
   if (trimmed(found).empty()) fail(attribute, "expected a text that is not blank");
+  const auto is_control = [](unsigned char c) {
+    return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
+  };
+  if (std::ranges::any_of(std::string_view(found), is_control))
+    fail(attribute, "expected a text without control characters; remove them");
   return found;
 }
 
@@ -227,7 +221,14 @@ std::string XmlElement::text_or(std::string_view attribute, const std::string& f
 }
 
 std::filesystem::path XmlElement::path(std::string_view attribute) const {
-  return std::filesystem::path(source()).parent_path() / text(attribute);
+  const std::filesystem::path path = std::filesystem::path(source()).parent_path() / text(attribute);
+  std::error_code unknown;
+  const bool is_folder = std::filesystem::is_directory(path, unknown);
+  if (is_folder || !std::filesystem::exists(path, unknown)) {
+    fail(attribute, shortened(path.string()) + (is_folder ? ": is a directory" : ": no such file") +
+                        "; correct the path, which is relative to this file's folder");
+  }
+  return path;
 }
 
 double XmlElement::number(std::string_view attribute, std::string_view unit, Sign sign) const {
@@ -293,9 +294,9 @@ bool XmlElement::flag_or(std::string_view attribute, bool fallback) const {
 
 std::size_t XmlElement::index_of(std::string_view attribute, const XmlNames& names) const {
   const char* found = element_->Attribute(std::string(attribute).c_str());
-  if (!found) fail_missing(attribute, "one of " + joined(names));
+  if (!found) fail_missing(attribute, "one of " + listed(names));
   const auto name = std::ranges::find(names, std::string(trimmed(found)));
-  if (name == names.end()) fail(attribute, "expected one of " + joined(names));
+  if (name == names.end()) fail(attribute, "expected one of " + listed(names));
   return name - names.begin();
 }
 
@@ -321,7 +322,7 @@ XmlElement XmlElement::child(std::string_view tag) const {
 
 std::optional<XmlElement> XmlElement::optional_child(std::string_view tag) const {
   const std::vector<XmlElement> found = children(tag);
-  if (found.size() > 1) found[1].fail("stands twice inside <" + this->tag() + ">; give it once");
+  if (found.size() > 1) found[1].fail("stands twice inside <" + shortened(this->tag()) + ">; give it once");
   if (found.empty()) return std::nullopt;
   return found.front();
 }

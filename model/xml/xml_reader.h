@@ -62,7 +62,7 @@ class XmlElement {
   /// Required; not blank.
   std::string text(std::string_view attribute) const;
   std::string text_or(std::string_view attribute, const std::string& fallback) const;
-  /// Required; a relative path is relative to the folder of this file.
+  /// Required; the file has to be there. A relative path is relative to the folder of this file.
   std::filesystem::path path(std::string_view attribute) const;
   double number(std::string_view attribute, std::string_view unit, Sign sign = Sign::any) const;
   double number_or(std::string_view attribute, double fallback, std::string_view unit, Sign sign = Sign::any) const;

@@ -11,11 +11,10 @@ namespace {
 
 TEST(XmlElement, TypedAttributesOfOtherFilesAreReadTheSameWay) {
   const XmlElement root = XmlElement::parse(
-      "<sweep model=\"../arm.xml\" jobs=\"4\" resume=\"true\">"
+      "<sweep jobs=\"4\" resume=\"true\">"
       "<at>1 2.5 3</at><run f=\"0.3 0.4\"/><run f=\"5\"/></sweep>",
       "folder/sweep.xml", "sweep");
-  EXPECT_NO_THROW(root.only({"model", "jobs", "resume"}, {"at", "run"}));
-  EXPECT_EQ(root.path("model"), "folder/../arm.xml");
+  EXPECT_NO_THROW(root.only({"jobs", "resume"}, {"at", "run"}));
   EXPECT_EQ(root.integer("jobs", 1, 8), 4);
   EXPECT_EQ(root.integer_or("shard", 7, 1, 8), 7);
   EXPECT_TRUE(root.flag_or("resume", false));
@@ -30,6 +29,23 @@ TEST(XmlElement, TypedAttributesOfOtherFilesAreReadTheSameWay) {
             "folder/sweep.xml:1: <run>: stands twice inside <sweep>; give it once");
   EXPECT_EQ(message_of([&] { root.flag_or("jobs", true); }),
             "folder/sweep.xml:1: <sweep jobs=\"4\">: expected one of true, false");
+}
+
+TEST(XmlElement, PathIsRelativeToTheFileAndOfAFileThatIsThere) {
+  const std::string source = (kExamples / "sweep.xml").string();
+  const auto path = [&](const std::string& model) {
+    return XmlElement::parse("<sweep model=\"" + model + "\"/>", source, "sweep").path("model");
+  };
+  EXPECT_EQ(path("../raven2/raven2.xml"), kExamples / "../raven2/raven2.xml");
+  const std::string message = message_of([&] { path("absent.xml"); });
+  EXPECT_TRUE(message.starts_with(source + ":1: <sweep model=\"absent.xml\">: ")) << message;
+  EXPECT_TRUE(message.ends_with("no such file; correct the path, which is relative to this file's folder")) << message;
+}
+
+TEST(XmlElement, TextHasNoControlCharacters) {
+  const XmlElement root = XmlElement::parse("<a b=\"x&#27;[31m\"/>", "a.xml", "a");
+  EXPECT_EQ(message_of([&] { root.text("b"); }),
+            "a.xml:1: <a b=\"x?[31m\">: expected a text without control characters; remove them");
 }
 
 TEST(XmlElement, OutlivesTheDocumentItCameFrom) {
