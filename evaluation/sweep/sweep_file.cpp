@@ -26,8 +26,7 @@ namespace fs = std::filesystem;
 using Target = SweepAxis::Target;
 
 constexpr std::int64_t kMaxSteps = 100'000;
-constexpr double kMaxPoints = 1e6;
-constexpr std::size_t kCheckedPoints = 10'000;
+constexpr std::size_t kCheckedPoints = 2'000;
 
 /// Values at these places between the axis' ends, 0 to 1. Both ends are exactly as written.
 std::vector<double> values_at(const XmlElement& axis, bool is_logarithmic, const std::vector<double>& places) {
@@ -72,7 +71,7 @@ UnitSamples read_design(const XmlElement& element, std::uint64_t seed) {
     if (element.has("samples")) element.fail("samples", "a grid has none; add design=\"sobol\" or \"latin_hypercube\"");
     return {};
   }
-  const auto samples = std::size_t(element.integer("samples", 2, std::int64_t(kMaxPoints)));
+  const auto samples = std::size_t(element.integer("samples", 2, std::int64_t(kMostSweepPoints)));
   const std::size_t axes = element.children("axis").size();
   return design == Design::sobol ? sobol_sequence(axes, samples) : latin_hypercube(axes, samples, seed);
 }
@@ -123,6 +122,12 @@ SweepAxis read_axis(const XmlElement& element, const Sweep& sweep, const UnitSam
     } catch (const InputError& error) {
       element.fail("parameter", error.what());
     }
+  }
+  const auto stays_zero = [&](const std::string& key) { return is_zero(key, axis, sweep.scenario, sweep.model); };
+  if (axis.is_factor && std::ranges::all_of(axis.parameters, stays_zero)) {
+    element.fail("parameter", "parameter " + in_quotes(axis.parameters.front()) +
+                                  ": is 0 or absent, and so is every multiple of it; give it a value in its own file, "
+                                  "or leave out factor");
   }
   return axis;
 }
@@ -230,8 +235,8 @@ Sweep read_sweep_definition(const fs::path& path) {
     grid.axes.push_back(read_axis(axis, sweep, samples));
     if (!grid.is_sampled || grid.axes.size() == 1) points *= double(grid.axes.back().values.size());
   }
-  if (points > kMaxPoints)
-    element.fail(fmt::format("{:g} points; expected at most {:g}; take fewer values", points, kMaxPoints));
+  if (points > kMostSweepPoints)
+    element.fail(fmt::format("{:g} points; expected at most {:g}; take fewer values", points, kMostSweepPoints));
   grid.id = definition_id(sweep, path, scenario_file);
   return sweep;
 }

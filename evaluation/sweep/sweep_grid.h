@@ -10,6 +10,8 @@
 
 namespace halyard {
 
+inline constexpr double kMostSweepPoints = 1e6;
+
 /// One axis of a grid: parameters that vary together. At a point of the grid they all have the same value, or are
 /// multiplied by the same factor.
 struct SweepAxis {

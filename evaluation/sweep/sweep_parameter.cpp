@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "model/input_error.h"
+#include "model/name_list.h"
 #include "transmission/arm_fields.h"
 
 namespace halyard {
@@ -59,8 +60,7 @@ std::pair<double*, std::string> effect_parameter(ArmModel& model, const EffectKe
   if (!effect) {
     std::vector<std::string> names;
     for (const Effect* known : effect_library()) names.push_back(known->name());
-    fail(fmt::format("unknown effect; expected one of {}, or one of a module given by --effects",
-                     fmt::join(names, ", ")));
+    fail(fmt::format("unknown effect; expected one of {}, or one of a module given by --effects", listed(names)));
   }
   const EffectScope scope = effect->scope();
   const bool fits =
@@ -83,8 +83,8 @@ std::pair<double*, std::string> effect_parameter(ArmModel& model, const EffectKe
     if (parameters[i].name == key.parameter) return {&placed->p[i], parameters[i].unit};
     names.push_back(parameters[i].name);
   }
-  throw InputError(fmt::format("parameter {}: the effect has no such number; expected one of {}", in_quotes(text),
-                               fmt::join(names, ", ")));
+  throw InputError(
+      fmt::format("parameter {}: the effect has no such number; expected one of {}", in_quotes(text), listed(names)));
 }
 
 struct Number {
@@ -140,7 +140,7 @@ std::pair<double*, std::string> find_parameter(ArmModel& model, const std::strin
   throw InputError(
       fmt::format("parameter {}: the model has none of that name; expected one of {}, jointK.effect.NAME.PARAMETER or "
                   "arm.effect.NAME.PARAMETER",
-                  in_quotes(key), fmt::join(keys, ", ")));
+                  in_quotes(key), listed(keys)));
 }
 
 }  // namespace

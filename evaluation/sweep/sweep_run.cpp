@@ -69,7 +69,11 @@ SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOpti
 void check_estimators(const Sweep& sweep, const ContainmentOptions& containment) {
   const SweepGrid& grid = sweep.grid;
   const ArmModel first = sweep.model_at(0);
-  for (const std::string& estimator : grid.estimators) check_estimator(estimator, first, containment);
+  try {
+    for (const std::string& estimator : grid.estimators) check_estimator(estimator, first, containment);
+  } catch (const InputError& error) {
+    throw InputError(grid.file + ": " + error.what());
+  }
   for (const SweepAxis& axis : grid.axes)
     for (const std::string& key : axis.parameters) {
       const auto option = parse_option_key(key);

@@ -11,6 +11,7 @@
 #include "evaluation/sweep/parameters/scenario_number.h"
 #include "evaluation/sweep/sweep_parameter.h"
 #include "model/input_error.h"
+#include "model/name_list.h"
 
 namespace halyard {
 namespace {
@@ -41,7 +42,7 @@ std::string scenario_unit(const std::string& key, const SweepAxis& axis, Scenari
   if (found == all.end()) {
     std::vector<std::string> keys;
     for (const ScenarioNumber& number : all) keys.push_back(number.key);
-    fail(key, fmt::format("the scenario has none of that name; expected one of {}", fmt::join(keys, ", ")));
+    fail(key, fmt::format("the scenario has none of that name; expected one of {}", listed(keys)));
   }
   if (axis.applies_to == Target::model) fail(key, "is of the scenario and not of the model; leave out applies_to");
   return found->unit;
@@ -54,7 +55,7 @@ void check_option(const std::string& key, const SweepAxis& axis, const ArmModel&
     return name == option.estimator || name.ends_with(".so");  // a module says its name when it is loaded
   };
   if (std::ranges::none_of(estimators, may_have_it))
-    fail(key, fmt::format("the sweep does not run this estimator; expected one of {}", fmt::join(estimators, ", ")));
+    fail(key, fmt::format("the sweep does not run this estimator; expected one of {}", listed(estimators)));
   if (axis.applies_to == Target::robot) fail(key, "is of an estimator and not of the robot; leave out applies_to");
   if (axis.is_factor && !option_number(model, option))
     fail(key,
@@ -86,6 +87,13 @@ std::string unit_of_key(const std::string& key, const SweepAxis& axis, const Sce
   if (is_of_scenario(key)) return scenario_unit(key, axis, scenario);
   parameter_unit(scenario.robot, key);  // the robot may lack what the model has
   return parameter_unit(model, key);
+}
+
+bool is_zero(const std::string& key, const SweepAxis& axis, Scenario scenario, ArmModel model) {
+  if (const auto option = parse_option_key(key)) return option_number(model, *option) == 0;
+  if (is_of_scenario(key)) return scenario_number(scenario, key) == 0;
+  return (axis.applies_to == Target::model || model_parameter(scenario.robot, key) == 0) &&
+         (axis.applies_to == Target::robot || model_parameter(model, key) == 0);
 }
 
 void put_values(const SweepGrid& grid, std::size_t point, Scenario& scenario) {

@@ -20,6 +20,10 @@ namespace halyard {
 std::string unit_of_key(const std::string& key, const SweepAxis& axis, const Scenario& scenario, const ArmModel& model,
                         const std::vector<std::string>& estimators);
 
+/// Whether a factor of the key's number, where the axis applies, is always zero: a noise, for example, that the scenario
+/// does not have. For a key that unit_of_key() accepts.
+bool is_zero(const std::string& key, const SweepAxis& axis, Scenario scenario, ArmModel model);
+
 /// Puts a point's values into the robot and the scenario, or into the model of the estimators. A noise that is zero for
 /// all joints becomes none.
 void put_values(const SweepGrid& grid, std::size_t point, Scenario& scenario);
