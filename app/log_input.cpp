@@ -1,9 +1,16 @@
 #include "app/log_input.h"
 
-#include "diagnosis/log_check/log_check.h"
+#include "diagnosis/log_check/clock_check.h"
 #include "model/arm_log.h"
 
 namespace halyard {
+
+Log read_timed_log(const ArmModel& model, const std::filesystem::path& path,
+                   const std::vector<std::string>& column_entries) {
+  Log log = read_log_of(model, path, column_entries);
+  stop_at_gross_finding(check_times(log, model, columns_of(model, column_entries)));
+  return log;
+}
 
 void check_given_once(const std::vector<std::filesystem::path>& logs) {
   for (std::size_t i = 0; i < logs.size(); ++i)

@@ -11,6 +11,11 @@
 
 namespace halyard {
 
+/// Reads a log that an estimator or an identification runs over. Throws InputError as read_log_of() does, and for times
+/// that are not in seconds.
+Log read_timed_log(const ArmModel& model, const std::filesystem::path& path,
+                   const std::vector<std::string>& column_entries);
+
 /// Throws InputError if a log occurs twice in --data and --holdout, because it would then count as twice the evidence.
 void check_given_once(const std::vector<std::filesystem::path>& logs);
 

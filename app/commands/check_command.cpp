@@ -13,6 +13,7 @@
 #include "model/model_file.h"
 #include "model/xml/xml_reader.h"
 #include "plant/scenario.h"
+#include "plugins/host/loader.h"
 
 namespace halyard {
 namespace {
@@ -38,10 +39,25 @@ void print_arm(const ArmModel& model) {
   fmt::print("\n  effects: {}\n", effect_list(model));
 }
 
+/// Makes each estimator that the model has options for. Returns the names of those that are not installed.
+std::vector<std::string> check_estimator_options(const ArmModel& model) {
+  std::vector<std::string> unknown;
+  if (model.estimators.empty()) return unknown;
+  const std::vector<PluginInfo> installed = find_plugins();
+  for (const auto& [name, options] : model.estimators) {
+    if (std::ranges::find(installed, name, &PluginInfo::name) != installed.end()) check_estimator(name, model);
+    else unknown.push_back(name);
+  }
+  return unknown;
+}
+
 void check_model(const std::filesystem::path& file) {
   const ArmModel model = read_model(file);
+  const std::vector<std::string> unknown = check_estimator_options(model);
   fmt::print("{}: valid model \"{}\"\n", file.string(), model.name);
   print_arm(model);
+  if (!unknown.empty())
+    fmt::print("  not checked: options of estimators that are not installed: {}\n", fmt::join(unknown, ", "));
 }
 
 void check_scenario(const std::filesystem::path& file) {

@@ -74,7 +74,7 @@ Data logged_data(const CompareCommandOptions& options) {
   Data data;
   data.model = read_model(options.model);
   data.model_path = options.model.string();
-  data.measured = read_log_of(data.model, options.data, options.columns);
+  data.measured = read_timed_log(data.model, options.data, options.columns);
   data.truth = data.measured;
   data.truth_is_sensed = true;
   const auto& sensors = data.truth.joint_position;

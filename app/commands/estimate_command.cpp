@@ -33,7 +33,7 @@ void run_estimate(const EstimateCommandOptions& options) {
   check_not_input(options.out, options.data);
   check_not_input(options.out, options.model);
   const ArmModel model = read_model(options.model);
-  const Log log = read_log_of(model, options.data, options.columns);
+  const Log log = read_timed_log(model, options.data, options.columns);
   Comparison comparison;
   {
     Progress progress("estimate", log.duration(), "s");

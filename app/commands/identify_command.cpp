@@ -43,7 +43,7 @@ void run_identify(const IdentifyCommandOptions& options) {
   std::vector<Log> logs;
   std::string notes;
   for (const auto& path : paths) {
-    logs.push_back(read_log_of(model, path, options.columns));
+    logs.push_back(read_timed_log(model, path, options.columns));
     if (const std::string note = ignored_columns_note(logs.back()); !note.empty()) notes += note + "\n";
   }
   std::optional<Log> holdout;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/log_check/checks.h"
+#include "diagnosis/log_check/clock_check.h"
 #include "diagnosis/log_check/robust.h"
 
 namespace halyard {
@@ -81,6 +82,17 @@ void check_clock(LogUnderCheck& c) {
   const double step = median(steps);
   if (!check_unit(c, step)) return;
   check_regularity(c, steps, step);
+}
+
+std::vector<LogFinding> check_times(const Log& log, const ArmModel& model, const ColumnMap& columns) {
+  if (log.size() < 2) return {};
+  Log clock(log.n_joints);
+  clock.source = log.source;
+  clock.time = log.time;
+  const LogCheckRule rule;
+  LogUnderCheck c(clock, model, columns, rule);
+  check_clock(c);
+  return c.findings;
 }
 
 }  // namespace halyard

@@ -39,11 +39,6 @@ class BadInput : public ProgramTest {
     expect_refused({"compare", data, "--model", "raven2.xml", "--estimators", "kinematics", "--out", "cmp"}, parts);
   }
 
-  void expect_log_refused(const std::string& text, const std::vector<std::string>& parts) const {
-    write_text(path("bad.csv"), text);
-    expect_estimate_refused("bad.csv", parts);
-  }
-
   /// Experiment A as moving.csv.
   void write_moving_log(const std::string& duration = "1") const {
     write_short_scenario("experiment_a.xml", duration);
