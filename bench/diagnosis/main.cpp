@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <mutex>
 
+#include "app/interruption.h"
 #include "bench/diagnosis/results/scoring.h"
 #include "bench/diagnosis/summary/summary.h"
 #include "bench/diagnosis/trial/trial.h"
@@ -198,6 +199,7 @@ int run_command_line(int argc, char** argv) {
 }  // namespace halyard::blind
 
 int main(int argc, char** argv) {
+  halyard::end_cleanly_on_signals();
   // Ceres writes to the log of why a fit gives up; what it came to is in the results.
   FLAGS_minloglevel = google::GLOG_FATAL;
   return halyard::blind::run_command_line(argc, argv);
