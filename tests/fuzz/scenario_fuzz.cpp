@@ -1,0 +1,13 @@
+// Scenario files, beside a model (arm.xml) and a log with trajectories (motion.csv).
+#include "plant/scenario.h"
+#include "tests/fuzz/reader.h"
+
+using namespace halyard;
+using namespace halyard::fuzzing;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const WorkFolder folder;
+  folder.write("input.xml", text_of(data, size));
+  reads([] { read_scenario("input.xml"); });
+  return 0;
+}

@@ -1,0 +1,13 @@
+// Sweep files, beside a scenario (scenario.xml) and a model (arm.xml).
+#include "evaluation/sweep/sweep_file.h"
+#include "tests/fuzz/reader.h"
+
+using namespace halyard;
+using namespace halyard::fuzzing;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const WorkFolder folder;
+  folder.write("input.xml", text_of(data, size));
+  reads([] { read_sweep("input.xml"); });
+  return 0;
+}
