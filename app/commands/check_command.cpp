@@ -28,7 +28,8 @@ std::string effect_list(const ArmModel& model) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-void print_arm(const ArmModel& model) {
+/// unchecked: estimators whose options could not be checked.
+void print_arm(const ArmModel& model, const std::vector<std::string>& unchecked) {
   fmt::print("  {} joints:", model.n());
   for (int k = 0; k < model.n(); ++k) {
     const JointParameters<double>& joint = model.nominal.joint[k];
@@ -37,34 +38,35 @@ void print_arm(const ArmModel& model) {
                joint.type == JointType::revolute ? "revolute" : "prismatic", drive);
   }
   fmt::print("\n  effects: {}\n", effect_list(model));
+  if (!unchecked.empty())
+    fmt::print("  not checked: options of estimators that are not installed: {}\n", fmt::join(unchecked, ", "));
 }
 
 /// Makes each estimator that the model has options for. Returns the names of those that are not installed.
 std::vector<std::string> check_estimator_options(const ArmModel& model) {
-  std::vector<std::string> unknown;
-  if (model.estimators.empty()) return unknown;
+  std::vector<std::string> unchecked;
+  if (model.estimators.empty()) return unchecked;
   const std::vector<PluginInfo> installed = find_plugins();
   for (const auto& [name, options] : model.estimators) {
     if (std::ranges::find(installed, name, &PluginInfo::name) != installed.end()) check_estimator(name, model);
-    else unknown.push_back(name);
+    else unchecked.push_back(name);
   }
-  return unknown;
+  return unchecked;
 }
 
 void check_model(const std::filesystem::path& file) {
   const ArmModel model = read_model(file);
-  const std::vector<std::string> unknown = check_estimator_options(model);
+  const std::vector<std::string> unchecked = check_estimator_options(model);
   fmt::print("{}: valid model \"{}\"\n", file.string(), model.name);
-  print_arm(model);
-  if (!unknown.empty())
-    fmt::print("  not checked: options of estimators that are not installed: {}\n", fmt::join(unknown, ", "));
+  print_arm(model, unchecked);
 }
 
 void check_scenario(const std::filesystem::path& file) {
   const Scenario scenario = read_scenario(file);
+  const std::vector<std::string> unchecked = check_estimator_options(scenario.robot);
   fmt::print("{}: valid scenario \"{}\", {:g} s, of the model {}\n", file.string(), scenario.name, scenario.duration_s,
              scenario.model.string());
-  print_arm(scenario.robot);
+  print_arm(scenario.robot, unchecked);
 }
 
 void check_sweep(const std::filesystem::path& file) {

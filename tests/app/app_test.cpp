@@ -47,6 +47,17 @@ TEST_F(App, CheckTellsWhatAFileIs) {
   EXPECT_TRUE(contains(done({"check", example("tension_sweep.xml")}), "14 points"));
 }
 
+TEST_F(App, CheckMakesTheEstimatorsThatAModelHasOptionsFor) {
+  write_short_scenario("experiment_a.xml");
+  const std::string model = text_of(path("raven2.xml"));
+  const auto with = [&](const std::string& estimator) { return replaced(model, "</arm>", estimator + "</arm>"); };
+  write_text(path("raven2.xml"), with("<estimator name=\"ekf\" colour=\"blue\"/>"));
+  EXPECT_TRUE(contains(run({"check", "experiment_a.xml"}).err, "raven2.xml: estimator ekf: unknown option 'colour'"));
+  write_text(path("raven2.xml"), with("<estimator name=\"of_mine\" colour=\"blue\"/>"));
+  EXPECT_TRUE(
+      contains(done({"check", "raven2.xml"}), "not checked: options of estimators that are not installed: of_mine"));
+}
+
 TEST_F(App, CheckAcceptsEveryExample) {
   int examples = 0;
   for (const auto& entry : fs::directory_iterator(fs::path(HALYARD_SOURCE_DIR) / "examples/raven2")) {
