@@ -72,7 +72,7 @@ void check_estimators(const Sweep& sweep, const ContainmentOptions& containment)
   try {
     for (const std::string& estimator : grid.estimators) check_estimator(estimator, first, containment);
   } catch (const InputError& error) {
-    throw InputError(grid.file + ": " + error.what());
+    throw InputError(grid.file.empty() ? error.what() : grid.file + ": " + error.what());
   }
   for (const SweepAxis& axis : grid.axes)
     for (const std::string& key : axis.parameters) {
