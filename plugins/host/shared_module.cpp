@@ -65,15 +65,20 @@ class FloatingPointMode {
 #endif
 };
 
+/// One module at a time is loaded or unloaded: the next one may come to the addresses of the last.
+std::mutex& loading() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 }  // namespace
 
 SharedModule::SharedModule(const std::filesystem::path& path) : path_(path) {
   check_elf_file(path);
   // The mode is changed once, in the thread that comes first: a second load of a module that the C library keeps would
   // pass unseen, so what was refused stays refused.
-  static std::mutex mutex;
   static std::set<std::filesystem::path> mode_changers;
-  const std::lock_guard lock(mutex);
+  const std::lock_guard lock(loading());
   const std::filesystem::path file = std::filesystem::canonical(path);
 
   const unsigned mode = FloatingPointMode::current();
@@ -92,7 +97,10 @@ SharedModule::SharedModule(const std::filesystem::path& path) : path_(path) {
   }
 }
 
-SharedModule::~SharedModule() { dlclose(handle_); }
+SharedModule::~SharedModule() {
+  const std::lock_guard lock(loading());
+  dlclose(handle_);
+}
 
 void* SharedModule::symbol(const char* name) const { return dlsym(handle_, name); }
 
