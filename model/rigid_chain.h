@@ -1,6 +1,6 @@
 #pragma once
 /// Newton-Euler dynamics of a serial chain whose joints move about or along the z axis of their own
-/// frame: the joint forces of a motion, and the mass matrix from unit accelerations (paper, II-B).
+/// frame: the joint forces of a motion, and the mass matrix (paper, II-B).
 ///
 ///   M(q) q'' + h(q, q') = F       h: velocity and gravity forces
 ///
@@ -8,7 +8,8 @@
 ///   F            joint force                            [n]      N m | N
 ///   M            mass matrix                            [n x n]  kg m² | kg m | kg
 ///
-/// All vectors of link i are in its own frame. Source: Luh, Walker, Paul 1980; Craig, chapter 6.
+/// All vectors of link i are in its own frame. The arm's parameters may be over another scalar type P than the motion T.
+/// Source: Luh, Walker, Paul 1980; Craig, chapter 6; M by composite bodies: Walker, Orin 1982.
 
 #include "transmission/arm_parameters.h"
 
@@ -21,8 +22,8 @@ struct ChainPose {
   T p[kMaxJoints][3];
 };
 
-template <class T>
-HALYARD_INLINE void cross_add(const T* a, const T* b, T* sum) {
+template <class A, class B, class T>
+HALYARD_INLINE void cross_add(const A* a, const B* b, T* sum) {
   sum[0] += a[1] * b[2] - a[2] * b[1];
   sum[1] += a[2] * b[0] - a[0] * b[2];
   sum[2] += a[0] * b[1] - a[1] * b[0];
@@ -40,12 +41,12 @@ HALYARD_INLINE void into_parent(const T R[3][3], const T* v, T* out) {
   for (int i = 0; i < 3; ++i) out[i] = R[i][0] * v[0] + R[i][1] * v[1] + R[i][2] * v[2];
 }
 
-template <int known = 0, class T>
-HALYARD_INLINE ChainPose<T> chain_pose(const ArmParameters<T>& arm, const T* q) {
+template <int known = 0, class P, class T>
+HALYARD_INLINE ChainPose<T> chain_pose(const ArmParameters<P>& arm, const T* q) {
   const int n = joint_count<known>(arm);
   ChainPose<T> pose;
   for (int i = 0; i < n; ++i) {
-    const JointParameters<T>& j = arm.joint[i];
+    const JointParameters<P>& j = arm.joint[i];
     if (j.type == JointType::revolute) {
       T s, c;
       sin_cos(q[i], s, c);
@@ -77,8 +78,8 @@ HALYARD_INLINE void position_of(const ArmParameters<T>& arm, const ChainPose<T>&
 }
 
 /// Inertia times vector, about the centre of mass.
-template <class T>
-HALYARD_INLINE void inertia_times(const T* I, const T* w, T* out) {
+template <class P, class T>
+HALYARD_INLINE void inertia_times(const P* I, const T* w, T* out) {
   out[0] = I[0] * w[0] + I[3] * w[1] + I[4] * w[2];
   out[1] = I[3] * w[0] + I[1] * w[1] + I[5] * w[2];
   out[2] = I[4] * w[0] + I[5] * w[1] + I[2] * w[2];
@@ -86,8 +87,8 @@ HALYARD_INLINE void inertia_times(const T* I, const T* w, T* out) {
 
 /// Sums the forces f and the moments m of the links from the last link to the base, and sets the force on each joint.
 /// Each moment is about the origin of its link's frame.
-template <int known = 0, class T>
-HALYARD_INLINE void forces_to_joints(const ArmParameters<T>& arm, const ChainPose<T>& pose, T f[][3], T m[][3],
+template <int known = 0, class P, class T>
+HALYARD_INLINE void forces_to_joints(const ArmParameters<P>& arm, const ChainPose<T>& pose, T f[][3], T m[][3],
                                      T* force) {
   for (int i = joint_count<known>(arm) - 1; i >= 0; --i) {
     force[i] = arm.joint[i].type == JointType::revolute ? m[i][2] : f[i][2];
@@ -101,15 +102,15 @@ HALYARD_INLINE void forces_to_joints(const ArmParameters<T>& arm, const ChainPos
 }
 
 /// F = M(q) a + h(q, v), h with the arm's gravity.
-template <int known = 0, class T>
-HALYARD_INLINE void inverse_dynamics(const ArmParameters<T>& arm, const ChainPose<T>& pose, const T* v, const T* a,
+template <int known = 0, class P, class T>
+HALYARD_INLINE void inverse_dynamics(const ArmParameters<P>& arm, const ChainPose<T>& pose, const T* v, const T* a,
                                      T* force) {
   T w[3] = {T(0.0), T(0.0), T(0.0)}, dw[3] = {T(0.0), T(0.0), T(0.0)};
-  T acc[3] = {-arm.gravity[0], -arm.gravity[1], -arm.gravity[2]};
+  T acc[3] = {T(-arm.gravity[0]), T(-arm.gravity[1]), T(-arm.gravity[2])};
   T f[kMaxJoints][3], m[kMaxJoints][3];
   const int n = joint_count<known>(arm);
   for (int i = 0; i < n; ++i) {
-    const JointParameters<T>& j = arm.joint[i];
+    const JointParameters<P>& j = arm.joint[i];
     T at[3] = {acc[0], acc[1], acc[2]};  // acceleration of this frame's origin, parent's frame
     T wp[3] = {T(0.0), T(0.0), T(0.0)};
     cross_add(w, pose.p[i], wp);
@@ -146,34 +147,87 @@ HALYARD_INLINE void inverse_dynamics(const ArmParameters<T>& arm, const ChainPos
   forces_to_joints<known>(arm, pose, f, m, force);
 }
 
-/// M(q). Column c holds the forces of a unit acceleration of joint c, at rest, without gravity.
+/// The links from one on to the last, frozen together: mass, first moment and inertia about the origin of that link's
+/// frame (entries xx, yy, zz, xy, xz, yz).
+template <class T>
+struct CompositeBody {
+  T mass, moment[3], inertia[6];
+};
+
+/// I += m ((c·c) 1 - c cᵀ) for a first moment m c = `moment` and a vector c; with different vectors, symmetrised.
+template <class T>
+HALYARD_INLINE void add_parallel_axis(const T* moment, const T* c, T* I) {
+  const T xx = moment[0] * c[0], yy = moment[1] * c[1], zz = moment[2] * c[2];
+  I[0] += yy + zz;
+  I[1] += zz + xx;
+  I[2] += xx + yy;
+  I[3] -= T(0.5) * (moment[0] * c[1] + moment[1] * c[0]);
+  I[4] -= T(0.5) * (moment[0] * c[2] + moment[2] * c[0]);
+  I[5] -= T(0.5) * (moment[1] * c[2] + moment[2] * c[1]);
+}
+
+template <class T>
+HALYARD_INLINE CompositeBody<T> body_of(const JointParameters<T>& j) {
+  CompositeBody<T> b;
+  b.mass = j.mass;
+  for (int k = 0; k < 3; ++k) b.moment[k] = j.mass * j.com[k];
+  for (int k = 0; k < 6; ++k) b.inertia[k] = j.inertia[k];
+  add_parallel_axis(b.moment, j.com, b.inertia);
+  return b;
+}
+
+/// Adds the child's bodies, whose frame is at p with the rotation R, to the parent's.
+template <class T>
+HALYARD_INLINE void add_child(const CompositeBody<T>& child, const T R[3][3], const T* p, CompositeBody<T>& parent) {
+  const T* I = child.inertia;
+  T moment[3], RI[3][3];
+  into_parent(R, child.moment, moment);
+  for (int r = 0; r < 3; ++r) {
+    RI[r][0] = R[r][0] * I[0] + R[r][1] * I[3] + R[r][2] * I[4];
+    RI[r][1] = R[r][0] * I[3] + R[r][1] * I[1] + R[r][2] * I[5];
+    RI[r][2] = R[r][0] * I[4] + R[r][1] * I[5] + R[r][2] * I[2];
+  }
+  const auto entry = [&](int r, int c) __attribute__((always_inline)) {
+    return RI[r][0] * R[c][0] + RI[r][1] * R[c][1] + RI[r][2] * R[c][2];
+  };
+  parent.inertia[0] += entry(0, 0);
+  parent.inertia[1] += entry(1, 1);
+  parent.inertia[2] += entry(2, 2);
+  parent.inertia[3] += entry(0, 1);
+  parent.inertia[4] += entry(0, 2);
+  parent.inertia[5] += entry(1, 2);
+  // Steiner's terms of m (c + p) about the parent's origin, less those of m c: m p p + 2 m c p.
+  T twice[3];
+  for (int k = 0; k < 3; ++k) twice[k] = T(2.0) * moment[k] + child.mass * p[k];
+  add_parallel_axis(twice, p, parent.inertia);
+  parent.mass += child.mass;
+  for (int k = 0; k < 3; ++k) parent.moment[k] += moment[k] + child.mass * p[k];
+}
+
+/// M(q). Column c holds the forces of a unit acceleration of joint c, at rest, without gravity: force and moment of the
+/// composite body of link c, carried to the joints before it.
 template <int known = 0, class T>
 HALYARD_INLINE void mass_matrix(const ArmParameters<T>& arm, const ChainPose<T>& pose, T M[][kMaxJoints]) {
   const int n = joint_count<known>(arm);
-  for (int c = 0; c < n; ++c) {
-    T f[kMaxJoints][3], m[kMaxJoints][3], dw[3], acc[3];
-    for (int i = 0; i < c; ++i)
-      for (int k = 0; k < 3; ++k) f[i][k] = m[i][k] = T(0.0);
-    for (int k = 0; k < 3; ++k) dw[k] = acc[k] = T(0.0);
-    for (int i = c; i < n; ++i) {
-      const JointParameters<T>& j = arm.joint[i];
-      if (i == c) {
-        (j.type == JointType::revolute ? dw : acc)[2] = T(1.0);
-      } else {
-        T at[3] = {acc[0], acc[1], acc[2]}, before[3] = {dw[0], dw[1], dw[2]};
-        cross_add(dw, pose.p[i], at);
-        into_link(pose.R[i], at, acc);
-        into_link(pose.R[i], before, dw);
-      }
-      T ac[3] = {acc[0], acc[1], acc[2]};
-      cross_add(dw, j.com, ac);
-      inertia_times(j.inertia, dw, m[i]);
-      for (int k = 0; k < 3; ++k) f[i][k] = j.mass * ac[k];
-      cross_add(j.com, f[i], m[i]);
+  CompositeBody<T> body = body_of(arm.joint[n - 1]);
+  for (int c = n - 1; c >= 0; --c) {
+    const T zero = T(0.0), *m = body.moment;
+    const bool turns = arm.joint[c].type == JointType::revolute;
+    T f[3] = {turns ? T(-m[1]) : zero, turns ? m[0] : zero, turns ? zero : body.mass};
+    T t[3] = {turns ? body.inertia[4] : m[1], turns ? body.inertia[5] : T(-m[0]), turns ? body.inertia[2] : zero};
+    for (int i = c; i >= 0; --i) {
+      M[i][c] = M[c][i] = arm.joint[i].type == JointType::revolute ? t[2] : f[2];
+      if (i == 0) break;
+      T fp[3], tp[3];
+      into_parent(pose.R[i], f, fp);
+      into_parent(pose.R[i], t, tp);
+      cross_add(pose.p[i], fp, tp);
+      for (int k = 0; k < 3; ++k) f[k] = fp[k], t[k] = tp[k];
     }
-    T column[kMaxJoints];
-    forces_to_joints<known>(arm, pose, f, m, column);
-    for (int r = 0; r <= c; ++r) M[r][c] = M[c][r] = column[r];
+    if (c == 0) break;
+    CompositeBody<T> parent = body_of(arm.joint[c - 1]);
+    add_child(body, pose.R[c], pose.p[c], parent);
+    body = parent;
   }
 }
 

@@ -147,7 +147,9 @@ void ArmFilter::predict(double to_time_s) {
   step.history = &history_;
   for (int i = 0; i < pieces; ++i) {
     step.time_s = time_ + i * step.dt_s;
-    const bool accepted = options_.exponential && exponential_.start(step, filter_->x(), filter_->S());
+    if (options_.exponential) exponential_.linearise(step, filter_->x());
+    const bool accepted =
+        options_.exponential && exponential_.start(filter_->S(), noise_.impulses(step, exponential_.mobility()));
     ExponentialStep* const exponential = accepted ? &exponential_ : nullptr;
     filter_->predict(ArmProcess(*process_, step, exponential), noise_.process_root(step, filter_->x(), exponential));
   }

@@ -8,7 +8,7 @@ void ExtendedKalmanFilter::predict(const DiscreteProcess& process, const Eigen::
   auto columns = predicted_columns_.view();
   F_.resize(n, n);  // here, so that a later step needs no memory
   if (process.advance_root(x_, FS_)) {
-    columns.topRows(n) = FS_.view().transpose();
+    columns.topRows(n) = FS_.view();
   } else {
     process.advance_with_jacobian(x_, F_);
     columns.topRows(n) = F_.lazyProduct(S_).transpose();

@@ -7,8 +7,8 @@
 namespace halyard {
 
 void LowerRoot::finish(Eigen::Ref<Eigen::MatrixXd> L) {
-  matrix_kernels()[0].lower_root(columns_.columns(), columns_.blocks(), columns_.lanes(), L.data(),
-                                 static_cast<int>(L.outerStride()));
+  matrix_kernels()[0].lower_root(columns_.columns(), columns_.rows(), static_cast<int>(L.cols()), columns_.blocks(),
+                                 columns_.lanes(), L.data(), static_cast<int>(L.outerStride()));
 }
 
 Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, const ReadingVector& z,
@@ -29,17 +29,17 @@ Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, co
         for (int i = 0; i < n; ++i) array(m + i, j) += h * S_(k, i);
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) array(m + i, m + j) = S_(j, i);
-  triangle_.reshape(m + n, m + n);
-  const auto triangle = triangle_.view();
-  array_root_.finish(triangle);
+  gain_.reshape(m + n, m);
+  const auto gain = gain_.view();
+  array_root_.finish(gain);
 
-  innovation.S_root = triangle.topLeftCorner(m, m);
+  innovation.S_root = gain.topRows(m);
   ReadingVector whitened = innovation.nu;
   innovation.S_root.triangularView<Eigen::Lower>().solveInPlace(whitened);
   innovation.accepted = whitened.squaredNorm() <= gate;
   if (innovation.accepted) {
-    x_.noalias() += triangle.bottomLeftCorner(n, m) * whitened;
-    S_ = triangle.bottomRightCorner(n, n);
+    x_.noalias() += gain.bottomRows(n) * whitened;
+    S_ = array_root_.rest().bottomRightCorner(n, n).transpose();
   }
   return innovation;
 }

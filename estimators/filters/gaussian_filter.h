@@ -4,7 +4,7 @@
 ///
 ///   x_k = f(x_k-1) + w,  w ~ N(0, Q)       z_k = h(x_k) + v,  v ~ N(0, R)
 ///
-///   x, S    mean, and a square root of its covariance, P = S Sᵀ, lower triangular after a step   [n], [n x n]
+///   x, S    mean, and a square root of its covariance, P = S Sᵀ, lower triangular after predict()   [n], [n x n]
 ///   Q, R    noise covariances, given by roots Q_root [n x any], R_root [m x m]
 ///
 /// The filters do not depend on the robot. All covariances come from orthogonal triangularisation of their roots, which
@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <utility>
 
 #include "estimators/estimator.h"
 #include "estimators/matrix/lane_matrix.h"
@@ -26,11 +27,14 @@ class DiscreteProcess {
   virtual void advance(Eigen::MatrixXd& X) const = 0;
   /// F [n x n] becomes ∂f/∂x at the old x; then x becomes f(x).
   virtual void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const = 0;
-  /// x becomes f(x), and every row of d [2 count x n], d_i and then - d_i, f(x + d_i) - f(x). False: the process has no
+  /// x becomes f(x), and FS [n x n], transposed, ∂f/∂x S with the root S of the belief. False: the process has no
   /// special way to do so, and nothing has changed.
-  virtual bool advance_deviations(Eigen::VectorXd& /*x*/, LaneMatrix& /*d*/) const { return false; }
-  /// x becomes f(x), and FS [n x n] ∂f/∂x S, with the root S of the belief. False: as above.
   virtual bool advance_root(Eigen::VectorXd& /*x*/, LaneMatrix& /*FS*/) const { return false; }
+  /// The same, and `shift` becomes the mean of f(x ± gamma S_i) - f(x), for a gamma so small that f is quadratic there.
+  virtual bool advance_pairs(Eigen::VectorXd& /*x*/, double /*gamma*/, LaneMatrix& /*FS*/,
+                             Eigen::VectorXd& /*shift*/) const {
+    return false;
+  }
   /// Name of a state for messages: "joint_rate_2 at 3.1 s".
   virtual std::string name_of(int state) const = 0;
 };
@@ -57,8 +61,10 @@ class LowerRoot {
     columns_.set_zero(m, n);
     return columns_.view();
   }
-  /// L of the matrix that was filled in; destroys it.
+  /// The first columns of L of the matrix that was filled in, as many as `L` has; destroys it.
   void finish(Eigen::Ref<Eigen::MatrixXd> L);
+  /// After finish() with k columns: B [m x n], whose rows and columns from k on have B Bᵀ = A Aᵀ - L Lᵀ, transposed.
+  LaneMatrix::ConstView rest() const { return std::as_const(columns_).view(); }
   /// L of a matrix that is given transposed.
   void compute(const LaneMatrix& A_transposed, Eigen::Ref<Eigen::MatrixXd> L) {
     columns_ = A_transposed;
@@ -112,7 +118,7 @@ class GaussianFilter {
 
  protected:
   /// The exact update with a measurement that is affine, or linearised at x: with ν = z - h(x) and H = ∂h/∂x, the
-  /// triangular root of the left array is the right array:
+  /// left array is rotated to the right one, whose first columns are triangular:
   ///
   ///   [ R_root  H S ]     →    [ S_y         0  ]
   ///   [   0      S  ]          [ P_xy S_y⁻ᵀ  S' ]
@@ -137,6 +143,7 @@ class GaussianFilter {
 
  private:
   LaneMatrix H_, triangle_;
+  LaneMatrix gain_;  // S_y, and below it P_xy S_y⁻ᵀ
   LowerRoot array_root_;
 };
 

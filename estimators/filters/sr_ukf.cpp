@@ -1,6 +1,7 @@
 #include "estimators/filters/sr_ukf.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -10,18 +11,7 @@ namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kRoundings = 4;  // of one evaluation of f or h, relative to result and argument
-
-/// `shift` becomes W Σ d_i over the first `count` rows of d, less what is rounding of numbers of that `size` or beyond the
-/// limit.
-void set_mean_shift(const LaneMatrix& d, int count, const Eigen::Ref<const Eigen::VectorXd>& size, double W,
-                    double curvature_limit, Eigen::Ref<Eigen::VectorXd> shift) {
-  const double rounding = kRoundings * kEps * W * count;
-  for (int i = 0; i < d.columns(); ++i) {
-    shift(i) = W * d.view().col(i).head(count).sum();
-    const double curvature = std::abs(shift(i)), spread = std::sqrt(W * sum_of_squares(d, i, count));
-    if (!(curvature > rounding * size(i) && curvature <= curvature_limit * spread)) shift(i) = 0;
-  }
-}
+constexpr double kNarrow = 0.1;   // largest γ of narrow sigma points
 
 }  // namespace
 
@@ -33,6 +23,12 @@ double SquareRootUkf::spread_squared() const {
   const double spread = weights_.alpha * weights_.alpha * (static_cast<double>(x_.size()) + weights_.kappa);
   if (!(spread > 0)) throw std::invalid_argument("unscented transform: number of states + kappa must be positive");
   return spread;
+}
+
+double SquareRootUkf::significant_shift(double shift, double size, double spread) const {
+  const double rounding = kRoundings * kEps * static_cast<double>(x_.size()) / spread_squared() * size;
+  const double curvature = std::abs(shift);
+  return curvature > rounding && curvature <= weights_.curvature_limit * spread ? shift : 0;
 }
 
 void SquareRootUkf::place_sigma_points(Eigen::MatrixXd& X) const {
@@ -71,39 +67,36 @@ void SquareRootUkf::root_with_central(LaneMatrix& rows, const Eigen::Ref<const E
 void SquareRootUkf::move_sigma_points(const DiscreteProcess& process) {
   const int n = static_cast<int>(x_.size());
   const double gamma = std::sqrt(spread_squared());
-  d_.reshape(2 * n, n);
-  auto d = d_.view();
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      // Between numbers: otherwise x + d and x - d would be rounded, and the pair would tell of a curvature.
-      const double deviation = (x_(i) + gamma * S_(i, j)) - x_(i);
-      d(j, i) = deviation;
-      d(n + j, i) = -deviation;
-    }
   X_.resize(n, 2 * n + 1);  // here, so that a later step needs no memory
-  if (process.advance_deviations(x_, d_)) return;
-  X_.col(0) = x_;
-  X_.rightCols(2 * n) = d.transpose().colwise() + x_;
+  moved_in_pairs_ = gamma <= kNarrow && process.advance_pairs(x_, gamma, d_, delta_);
+  if (moved_in_pairs_) {
+    delta_ *= n / (gamma * gamma);
+    return;
+  }
+  place_sigma_points(X_);
   process.advance(X_);
   x_ = X_.col(0);
-  d = (X_.rightCols(2 * n).colwise() - x_).transpose();
+  d_.reshape(2 * n, n);
+  const double W = 0.5 / (gamma * gamma);
+  d_.view() = (X_.rightCols(2 * n).colwise() - x_).transpose();
+  for (int i = 0; i < n; ++i) delta_(i) = W * sum_of_rows(d_, i, 2 * n);
+  d_.view() *= std::sqrt(W);
 }
 
 void SquareRootUkf::predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) {
-  const int n = static_cast<int>(x_.size()), points = 2 * n, sources = static_cast<int>(Q_root.cols());
-  const double W = 0.5 / spread_squared(), root_W = std::sqrt(W);
+  const int n = static_cast<int>(x_.size()), sources = static_cast<int>(Q_root.cols());
   size_ = x_.cwiseAbs();
-  move_sigma_points(process);
-  size_ = size_.cwiseMax(x_.cwiseAbs());
   delta_.resize(n);
-  set_mean_shift(d_, points, size_, W, weights_.curvature_limit, delta_);
+  move_sigma_points(process);
+  const int points = d_.rows();
+  for (int i = 0; i < n; ++i)
+    delta_(i) =
+        significant_shift(delta_(i), std::max(size_(i), std::abs(x_(i))), std::sqrt(sum_of_squares(d_, i, points)));
   x_ += delta_;
   predicted_columns_.set_zero(points + sources + 1, n);
-  for (int i = 0; i < n; ++i) {
-    const Lanes* d = d_.lanes() + i * d_.blocks();
-    Lanes* column = predicted_columns_.lanes() + i * predicted_columns_.blocks();
-    for (int b = 0; b < d_.blocks(); ++b) column[b] = root_W * d[b];
-  }
+  for (int i = 0; i < n; ++i)
+    std::copy_n(d_.lanes() + i * d_.blocks(), d_.blocks(),
+                predicted_columns_.lanes() + i * predicted_columns_.blocks());
   predicted_columns_.view().middleRows(points, sources) = Q_root.transpose();
   root_with_central(predicted_columns_, delta_, S_);
   x_predicted_ = x_;
@@ -111,6 +104,10 @@ void SquareRootUkf::predict(const DiscreteProcess& process, const Eigen::MatrixX
 }
 
 void SquareRootUkf::set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A_transposed) const {
+  if (moved_in_pairs_) {
+    A_transposed = S_0.transpose();
+    return;
+  }
   const double factor = std::sqrt(0.5);  // √W γ
   A_transposed.topRows(S_0.cols()) = factor * S_0.transpose();
   A_transposed.bottomRows(S_0.cols()) = -factor * S_0.transpose();
@@ -132,7 +129,9 @@ Innovation SquareRootUkf::update(const MeasurementModel& measurement, const Read
     measurement.read(X_.col(i + 1), reading);
     e.row(i) = (reading - z_0).transpose();
   }
-  set_mean_shift(e_, points, size, W, weights_.curvature_limit, epsilon);
+  for (int i = 0; i < m; ++i)
+    epsilon(i) =
+        significant_shift(W * sum_of_rows(e_, i, points), size(i), std::sqrt(W * sum_of_squares(e_, i, points)));
 
   Innovation innovation;
   innovation.nu = z - z_0 - epsilon;

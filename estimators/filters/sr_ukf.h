@@ -8,6 +8,10 @@
 ///   d_i = f(X_i) - f(X_0),   δ = W Σ d_i
 ///   x = f(X_0) + δ,   P = W Σ d_i d_iᵀ + (β - α²) δ δᵀ + Q
 ///
+/// Where γ is small, as with the paper's α, f is quadratic as far as the points reach: d_±i = ± o_i + e_i. Then
+/// √(2W) o_i is column i of ∂f/∂x S, and Σ e_i e_iᵀ is γ² times smaller than what δ adds to P and left out. Only δ = 2W Σ e_i
+/// needs the points (DiscreteProcess::advance_pairs()).
+///
 /// So S is one triangularisation of [√W d_i, √(β - α²) δ, Q_root]; a down-date is needed only if β < α². A δ no larger
 /// than the rounding errors of 2n points, 2n W · 4 eps |X|, is set to zero.
 ///
@@ -49,17 +53,20 @@ class SquareRootUkf : public GaussianFilter {
                     double gate) override;
 
  private:
-  /// √W (X_±i - x) of the sigma points before the prediction.
-  int count_columns_before() const override { return 2 * static_cast<int>(x_.size()); }
+  /// √W (X_±i - x) of the sigma points before the prediction; of pairs √2W (X_i - x).
+  int count_columns_before() const override { return (moved_in_pairs_ ? 1 : 2) * static_cast<int>(x_.size()); }
   void set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A_transposed) const override;
   double spread_squared() const;  // γ²
+  /// δ or ε of one component; 0 if it is rounding of numbers of that `size`, or beyond the limit. spread: √(W Σ d_i²).
+  double significant_shift(double shift, double size, double spread) const;
   void place_sigma_points(Eigen::MatrixXd& X) const;
-  /// Sets d_ to the deviations of the sigma points before, and then after the prediction, and x_ to f(x_).
+  /// Sets x_ to f(x_), d_ to √W d_i, of pairs to √2W o_i, and delta_ to W Σ d_i.
   void move_sigma_points(const DiscreteProcess& process);
   /// L = root of [A, √c v], c = β - α² of any sign; rows: A transposed and a last row that is set here.
   void root_with_central(LaneMatrix& rows, const Eigen::Ref<const Eigen::VectorXd>& v, Eigen::Ref<Eigen::MatrixXd> L);
 
   UkfWeights weights_;
+  bool moved_in_pairs_ = false;
   Eigen::VectorXd size_, delta_;
   Eigen::MatrixXd X_, P_;
   Eigen::LLT<Eigen::MatrixXd> llt_;

@@ -19,8 +19,11 @@ template <class T>
 void advance(const Transmission<T>& transmission, const StateLayout& layout, double time, double dt, int substeps,
              const CommandHistory* history, const T* command, const T* external, T* x) {
   const double h = dt / substeps;
-  for (int i = 0; i < substeps; ++i)
-    runge_kutta_4(transmission, layout, time + i * h, h, history, command, external, x);
+  with_known_joints(
+      layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
+        for (int i = 0; i < substeps; ++i)
+          runge_kutta_4<known>(transmission, layout, time + i * h, h, history, command, external, x);
+      });
 }
 
 // Local to each set. state_derivative() and linearised_derivative() are inline: the linker keeps one copy for all sets,
@@ -36,10 +39,11 @@ void derivative(const Transmission<Lanes>& transmission, const StateLayout& layo
 
 void linearise(const Transmission<Dual>& transmission, const ArmParameters<double>& arm, const StateLayout& layout,
                double time, const CommandHistory* history, const Dual* command, const Dual* external, const double* x,
-               double* x_dot, double* A) {
+               double* x_dot, double* A, double* mobility) {
   with_known_joints(
       layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
-        linearised_derivative<known>(transmission, arm, layout, time, history, command, external, x, x_dot, A);
+        linearised_derivative<known>(transmission, arm, layout, time, history, command, external, x, x_dot, A,
+                                     mobility);
       });
 }
 

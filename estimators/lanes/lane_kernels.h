@@ -23,10 +23,10 @@ struct LaneKernels {
   void (*derivative)(const Transmission<Lanes>& transmission, const StateLayout& layout, double time,
                      const CommandHistory* history, const Lanes* command, const Lanes* external, const Lanes* x,
                      Lanes* x_dot);
-  /// x' and A = ∂x'/∂x, column-major (arm_linearisation.h).
+  /// x', A = ∂x'/∂x and M(q)⁻¹, column-major (arm_linearisation.h).
   void (*linearise)(const Transmission<Dual>& transmission, const ArmParameters<double>& arm, const StateLayout& layout,
                     double time, const CommandHistory* history, const Dual* command, const Dual* external,
-                    const double* x, double* x_dot, double* A);
+                    const double* x, double* x_dot, double* A, double* mobility);
 };
 
 /// The kernels that this processor can run, the widest first; the last is the generic one.

@@ -50,26 +50,21 @@ class LaneMatrix {
   std::vector<Lanes> lanes_;
 };
 
-/// squares(r) becomes the sum of the squares of row r, of the first `columns` columns of A. squares: [A.blocks()].
-inline void set_row_squares(const LaneMatrix& A, int columns, Lanes* squares) {
-  for (int b = 0; b < A.blocks(); ++b) {
-    Lanes sum(0.0);
-    for (int c = 0; c < columns; ++c) sum += A.lanes()[c * A.blocks() + b] * A.lanes()[c * A.blocks() + b];
-    squares[b] = sum;
-  }
-}
-
 inline double sum_of(const Lanes& a) {
   double sum = 0;
   for (int i = 0; i < kLaneWidth; ++i) sum += a[i];
   return sum;
 }
 
-/// Sum of column c.
-inline double sum_of_rows(const LaneMatrix& A, int c) {
+/// Sum of the first `rows` entries of column c.
+inline double sum_of_rows(const LaneMatrix& A, int c, int rows) {
+  const Lanes* column = A.lanes() + c * A.blocks();
+  const int whole = rows / kLaneWidth;
   Lanes sum(0.0);
-  for (int b = c * A.blocks(); b < (c + 1) * A.blocks(); ++b) sum += A.lanes()[b];
-  return sum_of(sum);
+  for (int b = 0; b < whole; ++b) sum += column[b];
+  double total = sum_of(sum);
+  for (int i = 0; i < rows % kLaneWidth; ++i) total += column[whole][i];
+  return total;
 }
 
 /// Sum of the squares of the first `rows` entries of column c.
@@ -100,6 +95,11 @@ inline void add_product(const LaneMatrix& A, const RightFactor& B, LaneMatrix& C
 inline void set_product(const LaneMatrix& A, const RightFactor& B, int columns, LaneMatrix& C) {
   C.reshape(A.rows(), columns);
   matrix_kernels()[0].product(A.rows(), A.columns(), columns, A.lanes(), A.blocks(), B, C.lanes(), C.blocks(), false);
+}
+
+/// Sums and sums of squares of what the columns of A differ from `centre`; see matrix_kernels.h. All: [A.columns()].
+inline void set_moments(const LaneMatrix& A, const Eigen::VectorXd& centre, double* sums, double* squares) {
+  matrix_kernels()[0].column_moments(A.rows(), A.columns(), A.lanes(), A.blocks(), centre.data(), sums, squares);
 }
 
 }  // namespace halyard

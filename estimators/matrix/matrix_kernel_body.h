@@ -24,47 +24,69 @@ void product(int rows, int k, int m, const Lanes* A, int a_blocks, const RightFa
   }
 }
 
-/// w -= v (vᵀ w) factor for `columns` vectors w, from block `first` on; v is zero before.
+/// w -= v (vᵀ w) factor for `columns` vectors w, from register `first` on; v is zero before.
 template <int columns>
-HALYARD_INLINE void reflect(int first, int blocks, const Lanes* v, double factor, Lanes* w) {
-  Lanes dot[columns];
-  _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) dot[c] = Lanes(0.0);
-  for (int b = first; b < blocks; ++b) {
-    const Lanes a = v[b];
-    _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) dot[c] += a * w[c * blocks + b];
+HALYARD_INLINE void reflect(int first, int height, int stride, const Piece* v, double factor, Piece* w) {
+  Piece dot[columns];
+  _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) dot[c] = Piece{};
+  for (int p = first; p < height; ++p) {
+    const Piece a = v[p];
+    _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) dot[c] += a * w[c * stride + p];
   }
-  _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) dot[c] = Lanes(factor * sum_of(dot[c]));
-  for (int b = first; b < blocks; ++b) {
-    const Lanes a = v[b];
-    _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) w[c * blocks + b] -= a * dot[c];
+  _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) dot[c] = tiles::all(factor * sum_of(dot[c]));
+  for (int p = first; p < height; ++p) {
+    const Piece a = v[p];
+    _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) w[c * stride + p] -= a * dot[c];
   }
 }
 
-void lower_root(int n, int blocks, Lanes* A, double* L, int l_stride) {
+void lower_root(int n, int m, int steps, int blocks, Lanes* A, double* L, int l_stride) {
   constexpr int kTile = 4;
-  for (int i = 0; i < n; ++i) {
-    Lanes* v = A + i * blocks;
-    const int first = i / kLaneWidth, lane = i % kLaneWidth;
-    for (int k = 0; k < lane; ++k) v[first].set(k, 0.0);  // already in L
-    Lanes squares(0.0);
-    for (int b = first; b < blocks; ++b) squares += v[b] * v[b];
-    const double norm = __builtin_sqrt(sum_of(squares)), alpha = v[first][lane];
+  const int height = pieces_of(m), stride = blocks * kPiecesPerBlock, rows = blocks * kLaneWidth;
+  double* entries = reinterpret_cast<double*>(A);
+  for (int i = 0; i < steps; ++i) {
+    const int first = i / tiles::kPieceWidth;
+    double* column = entries + i * rows;
+    for (int r = first * tiles::kPieceWidth; r < i; ++r) column[r] = 0;  // already in L
+    Piece* v = pieces(A) + i * stride;
+    Piece squares = v[first] * v[first];
+    for (int p = first + 1; p < height; ++p) squares += v[p] * v[p];
+    const double norm = __builtin_sqrt(sum_of(squares)), alpha = column[i];
     const double image = alpha > 0 ? -norm : norm;  // what becomes of alpha
-    for (int k = 0; k < i; ++k) L[k + i * l_stride] = 0;
-    L[i + i * l_stride] = norm;
+    double* of_L = L + i * l_stride;
+    for (int k = 0; k < i; ++k) of_L[k] = 0;
+    of_L[i] = norm;
     if (norm != 0) {
-      v[first].set(lane, alpha - image);
+      column[i] = alpha - image;
       const double factor = 1 / (norm * (norm + (alpha > 0 ? alpha : -alpha)));
       int j = i + 1;
-      for (; j + kTile <= n; j += kTile) reflect<kTile>(first, blocks, v, factor, A + j * blocks);
-      for (; j < n; ++j) reflect<1>(first, blocks, v, factor, A + j * blocks);
+      for (; j + kTile <= n; j += kTile) reflect<kTile>(first, height, stride, v, factor, pieces(A) + j * stride);
+      for (; j < n; ++j) reflect<1>(first, height, stride, v, factor, pieces(A) + j * stride);
     }
     const double sign = image < 0 ? -1 : 1;
-    for (int j = i + 1; j < n; ++j) L[j + i * l_stride] = sign * A[j * blocks + first][lane];
+    for (int j = i + 1; j < n; ++j) of_L[j] = sign * entries[j * rows + i];
   }
 }
 
-constexpr MatrixKernels matrix_kernels_named(const char* name) { return {name, product, lower_root, phi_functions}; }
+void column_moments(int rows, int columns, const Lanes* A, int blocks, const double* centre, double* sums,
+                    double* squares) {
+  const int height = pieces_of(rows), stride = blocks * kPiecesPerBlock;
+  const Piece* column = pieces(A);
+  for (int c = 0; c < columns; ++c, column += stride) {
+    Piece sum{}, square{};
+    for (int p = 0; p < height; ++p) {
+      const Piece difference = column[p] - centre[c];
+      sum += difference;
+      square += difference * difference;
+    }
+    sums[c] = sum_of(sum);
+    squares[c] = sum_of(square);
+  }
+}
+
+constexpr MatrixKernels matrix_kernels_named(const char* name) {
+  return {name, product, lower_root, column_moments, phi_functions};
+}
 
 }  // namespace
 }  // namespace halyard

@@ -24,7 +24,7 @@ struct PhiLevelMemory {
 struct PhiMemory {
   const PhiLevelMemory* level;  ///< [most + 1]
   Lanes* phi_3;
-  const Lanes* unit;  ///< D_i / D_j
+  const Lanes* weight;  ///< D_j / D_i
   Lanes *Y, *Y2, *Y3, *next;
 };
 
@@ -33,10 +33,15 @@ struct MatrixKernels {
   /// C = A B, or C += A B if `add`, with A [rows x k] and C [rows x m] in lanes, `a_blocks` and `c_blocks` a column.
   void (*product)(int rows, int k, int m, const Lanes* A, int a_blocks, const RightFactor& B, Lanes* C, int c_blocks,
                   bool add);
-  /// The lower triangular L [n x n] with L Lᵀ = Aᵀ A and diagonal >= 0, by Householder reflections of A [m x n],
-  /// m >= n, whose columns take `blocks` lanes each. A is overwritten; L above the diagonal becomes zero.
-  void (*lower_root)(int n, int blocks, Lanes* A, double* L, int l_stride);
-  /// The functions of phi_functions.h from Y = D⁻¹ Z D, which is overwritten: all levels, and φ_3 of level 0. Returns the
+  /// Of A [m x n], m >= n, whose columns take `blocks` lanes each: the first `steps` columns of the lower triangular L
+  /// [n x n] with L Lᵀ = Aᵀ A and diagonal >= 0, by as many Householder reflections of A. A is overwritten; below its
+  /// first `steps` rows, its other columns hold the rest B, with L Lᵀ + Bᵀ B = Aᵀ A. L above the diagonal becomes zero.
+  void (*lower_root)(int n, int m, int steps, int blocks, Lanes* A, double* L, int l_stride);
+  /// Σ_r (A_rc - centre_c) and Σ_r (A_rc - centre_c)² of each column of A [rows x columns]. What is between the rows and
+  /// the end of their last register has to differ from centre_c by no more than rounding.
+  void (*column_moments)(int rows, int columns, const Lanes* A, int blocks, const double* centre, double* sums,
+                         double* squares);
+  /// The functions of phi_functions.h from Y = Z, which is overwritten: all levels, and φ_3 of level 0. Returns the
   /// number of doublings; if this would exceed `most`, or Y is not finite, -1, and nothing is computed.
   int (*phi_functions)(int n, int most, const PhiMemory& memory);
 };

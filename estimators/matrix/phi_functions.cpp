@@ -6,7 +6,7 @@ namespace halyard {
 
 void PhiFunctions::balance(Eigen::MatrixXd Z) {
   Eigen::ArrayXd scale = Eigen::ArrayXd::Ones(Z.rows());
-  if (!Z.allFinite()) return set_units(scale);
+  if (!Z.allFinite()) return set_weights(scale);
   constexpr int kSweeps = 10;
   bool changed = true;
   for (int sweep = 0; changed && sweep < kSweeps; ++sweep) {
@@ -22,21 +22,17 @@ void PhiFunctions::balance(Eigen::MatrixXd Z) {
       changed = true;
     }
   }
-  set_units(scale);
+  set_weights(scale);
 }
 
-void PhiFunctions::set_units(const Eigen::ArrayXd& scale) {
+void PhiFunctions::set_weights(const Eigen::ArrayXd& scale) {
   const int n = static_cast<int>(scale.size());
-  unit_.set_zero(n, n);
-  inverse_unit_.set_zero(n, n);
-  for (int c = 0; c < n; ++c) {
-    unit_.view().col(c) = scale / scale(c);
-    inverse_unit_.view().col(c) = scale(c) / scale;
-  }
+  weight_.set_zero(n, n);
+  for (int c = 0; c < n; ++c) weight_.view().col(c) = scale(c) / scale;
 }
 
 void PhiFunctions::take_memory(int n) {
-  if (unit_.rows() != n) set_units(Eigen::ArrayXd::Ones(n));
+  if (weight_.rows() != n) set_weights(Eigen::ArrayXd::Ones(n));
   if (!levels_.empty() && levels_[0].E.rows() == n) return;
   levels_.resize(kMostDoublings + 1);
   memory_.clear();
@@ -50,10 +46,10 @@ void PhiFunctions::take_memory(int n) {
 bool PhiFunctions::compute(const Eigen::Ref<const Eigen::MatrixXd>& Z) {
   const int n = static_cast<int>(Z.rows());
   take_memory(n);
-  Y_.view() = Z.cwiseProduct(inverse_unit_.view());
+  Y_.view() = Z;
   doublings_ = matrix_kernels()[0].phi_functions(
       n, kMostDoublings,
-      {memory_.data(), phi_3_.lanes(), unit_.lanes(), Y_.lanes(), Y2_.lanes(), Y3_.lanes(), next_.lanes()});
+      {memory_.data(), phi_3_.lanes(), weight_.lanes(), Y_.lanes(), Y2_.lanes(), Y3_.lanes(), next_.lanes()});
   return doublings_ >= 0;
 }
 

@@ -30,13 +30,13 @@ struct SquareMatrices {
     tiles::Piece* entries = tiles::pieces(A);
     for (int i = 0; i < n * stride; ++i) entries[i] *= factor;
   }
-  /// The 1-norm; NaN if an entry is.
-  HALYARD_INLINE double norm(const Lanes* A) const {
-    const tiles::Piece* column = tiles::pieces(A);
+  /// The 1-norm of the entries times their weights; NaN if an entry is.
+  HALYARD_INLINE double norm(const Lanes* A, const Lanes* weight) const {
+    const tiles::Piece *column = tiles::pieces(A), *w = tiles::pieces(weight);
     double most = 0;
-    for (int c = 0; c < n; ++c, column += stride) {
-      tiles::Piece sum = lane_math::magnitude(column[0]);
-      for (int i = 1; i < height; ++i) sum += lane_math::magnitude(column[i]);
+    for (int c = 0; c < n; ++c, column += stride, w += stride) {
+      tiles::Piece sum = lane_math::magnitude(column[0] * w[0]);
+      for (int i = 1; i < height; ++i) sum += lane_math::magnitude(column[i] * w[i]);
       const double total = tiles::sum_of(sum);
       most = total <= most ? most : total;
       if (total != total) return total;
@@ -54,12 +54,17 @@ HALYARD_INLINE void polynomials(const SquareMatrices& square, const PhiMemory& m
   using tiles::Piece;
   const Piece *Y = tiles::pieces(m.Y), *Y2 = tiles::pieces(m.Y2);
   const auto same = [](int, const Piece& sum) __attribute__((always_inline)) { return sum; };
-  // 1 / k! of k = 3 to 11, by Horner's scheme in Y³.
+  // 1 / k! of k = 3 to 14, by Horner's scheme in Y³.
   Piece* next = tiles::pieces(m.next);
-  for (int i = 0; i < square.n * square.stride; ++i) next[i] = (1.0 / 3628800) * Y[i] + (1.0 / 39916800) * Y2[i];
-  square.add_to_diagonal(m.next, 1.0 / 362880);
+  for (int i = 0; i < square.n * square.stride; ++i) next[i] = (1.0 / 6227020800) * Y[i] + (1.0 / 87178291200) * Y2[i];
+  square.add_to_diagonal(m.next, 1.0 / 479001600);
   square.product(
-      m.Y3, m.next, level.E, [&](int i, const Piece& sum) __attribute__((always_inline)) {
+      m.Y3, m.next, m.phi_3, [&](int i, const Piece& sum) __attribute__((always_inline)) {
+        return sum + (1.0 / 3628800) * Y[i] + (1.0 / 39916800) * Y2[i];
+      });
+  square.add_to_diagonal(m.phi_3, 1.0 / 362880);
+  square.product(
+      m.Y3, m.phi_3, level.E, [&](int i, const Piece& sum) __attribute__((always_inline)) {
         return sum + (1.0 / 5040) * Y[i] + (1.0 / 40320) * Y2[i];
       });
   square.add_to_diagonal(level.E, 1.0 / 720);
@@ -99,7 +104,7 @@ HALYARD_INLINE void double_argument(const SquareMatrices& square, const PhiLevel
 /// The least s with (a / 2^s)^2 and (b / 2^s)^3 below θ, from the norms a² and b³ of Y² and Y³; at least 1, and
 /// most + 1 if `most` is not enough.
 HALYARD_INLINE int count_doublings(double square_norm, double cube_norm, int most) {
-  constexpr double kTheta = 0.5;
+  constexpr double kTheta = 1;
   int doublings = 1;
   double square = square_norm / 4, cube = cube_norm / 8;
   while (doublings <= most && !(square < kTheta * kTheta && cube < kTheta * kTheta * kTheta))
@@ -112,7 +117,7 @@ int phi_functions(int n, int most, const PhiMemory& m) {
   const auto same = [](int, const tiles::Piece& sum) __attribute__((always_inline)) { return sum; };
   square.product(m.Y, m.Y, m.Y2, same);
   square.product(m.Y2, m.Y, m.Y3, same);
-  const int doublings = count_doublings(square.norm(m.Y2), square.norm(m.Y3), most);
+  const int doublings = count_doublings(square.norm(m.Y2, m.weight), square.norm(m.Y3, m.weight), most);
   if (doublings > most) return -1;
   const double part = 1.0 / static_cast<double>(1LL << doublings);
   square.scale(m.Y, part);
@@ -125,16 +130,8 @@ int phi_functions(int n, int most, const PhiMemory& m) {
     Lanes* before = phi_3;
     phi_3 = next, next = before;
   }
-  const int size = square.n * square.stride;
-  const tiles::Piece* unit = tiles::pieces(m.unit);
-  const auto restore = [&](const Lanes* scaled, Lanes* A) __attribute__((always_inline)) {
-    const tiles::Piece* in = tiles::pieces(scaled);
-    tiles::Piece* out = tiles::pieces(A);
-    for (int i = 0; i < size; ++i) out[i] = in[i] * unit[i];
-  };
-  for (int k = 0; k <= doublings; ++k)
-    for (Lanes* A : {m.level[k].E, m.level[k].phi_1, m.level[k].phi_2}) restore(A, A);
-  restore(phi_3, m.phi_3);
+  if (phi_3 != m.phi_3)
+    for (int i = 0; i < square.n * square.stride; ++i) tiles::pieces(m.phi_3)[i] = tiles::pieces(phi_3)[i];
   return doublings;
 }
 

@@ -106,14 +106,15 @@ HALYARD_INLINE void state_derivative(const Transmission<T>& transmission, const 
 template <int known = 0, class T>
 HALYARD_INLINE void runge_kutta_4(const Transmission<T>& transmission, const StateLayout& l, double time, double h,
                                   const CommandHistory* history, const T* command, const T* external, T* x) {
-  T k1[kMaxStates], k[kMaxStates], sum[kMaxStates], at[kMaxStates];
-  state_derivative<known>(transmission, l, time, history, command, external, x, k1);
-  for (int i = 0; i < l.size; ++i) sum[i] = k1[i], at[i] = x[i] + T(0.5 * h) * k1[i];
-  for (int stage = 0; stage < 3; ++stage) {
-    state_derivative<known>(transmission, l, time + (stage < 2 ? 0.5 * h : h), history, command, external, at, k);
+  T k[kMaxStates], sum[kMaxStates], at[kMaxStates];
+  for (int i = 0; i < l.size; ++i) at[i] = x[i], sum[i] = T(0.0);
+  for (int stage = 0; stage < 4; ++stage) {  // a loop, so that there is one copy of the derivative
+    const double into_step = stage == 0 ? 0 : stage < 3 ? 0.5 * h : h;
+    state_derivative<known>(transmission, l, time + into_step, history, command, external, at, k);
+    const double weight = stage == 0 || stage == 3 ? 1 : 2, next = stage < 2 ? 0.5 * h : h;
     for (int i = 0; i < l.size; ++i) {
-      sum[i] += T(stage < 2 ? 2.0 : 1.0) * k[i];
-      at[i] = x[i] + T(stage < 1 ? 0.5 * h : h) * k[i];
+      sum[i] += T(weight) * k[i];
+      at[i] = x[i] + T(next) * k[i];
     }
   }
   for (int i = 0; i < l.size; ++i) x[i] += T(h / 6) * sum[i];

@@ -6,10 +6,13 @@
 ///   a   accelerations of the joints     [n]      rad/s² | m/s²
 ///   F   forces on the joints            [n]      N m | N
 ///
-/// Dual numbers differentiate the transmission in all directions of the state, and the inverse dynamics only in those
-/// of q and q'. They never pass through the mass matrix, its factors or its columns.
+/// Dual numbers differentiate the transmission in all directions of the state. Without effects in the way, they only
+/// differentiate each cable's force in its stretch and stretch rate, and each friction in its speed; the rest is linear.
+/// Slopes differentiate the inverse dynamics in the directions of q and q'. Neither passes through the mass matrix, its
+/// factors or its columns.
 
 #include "estimators/process/arm_dynamics.h"
+#include "estimators/process/slopes.h"
 
 namespace halyard {
 
@@ -59,19 +62,78 @@ HALYARD_INLINE void linearise_transmission(const Transmission<Dual>& transmissio
   }
 }
 
+/// Whether cables drive all joints and no effect acts between the commands and the joints.
+template <int known>
+HALYARD_INLINE bool is_plain(const Transmission<Dual>& transmission) {
+  constexpr unsigned kSensors = static_cast<unsigned>(EffectStage::sensors);
+  for (int k = 0, n = joint_count<known>(transmission.arm()); k < n; ++k)
+    if (transmission.arm().joint[k].drive != Drive::cable) return false;
+  for (const EffectInstance<Dual>& e : transmission.effects())
+    if ((e.effect->stages() & ~kSensors) != 0 || e.effect->n_states() > 0) return false;
+  return true;
+}
+
+/// The same as linearise_transmission(), for a plain transmission.
+template <int known>
+HALYARD_INLINE void linearise_plain_transmission(const ArmParameters<Dual>& dual, const ArmParameters<double>& arm,
+                                                 const StateLayout& l, const Dual* command, const Dual* external,
+                                                 const double* x, double* x_dot, double* A, JointForces& forces) {
+  const int n = joint_count<known>(arm), size = l.size;
+  for (int i = 0; i < size * size; ++i) A[i] = 0;
+  for (int k = 0; k < n; ++k) {
+    const JointParameters<Dual>& j = dual.joint[k];
+    const Dual held = friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, Dual::seed(x[l.rate[k]], 0));
+    forces.value[k] = external[k].a - held.a;
+    for (int i = 0; i < size; ++i) forces.slope[k][i] = 0;
+    forces.slope[k][l.rate[k]] = -held.d[0];
+  }
+  for (int k = 0; k < n; ++k) {
+    const JointParameters<Dual>& j = dual.joint[k];
+    const int angle = *l.motor_angle[k], rate = *l.motor_rate[k];
+    const double travel = arm.joint[k].motor_travel(), per_inertia = 1 / arm.joint[k].rotor_inertia;
+    double path[kMaxJoints], stretch = travel * x[angle], stretch_rate = travel * x[rate];
+    for (int i = 0; i < n; ++i) {
+      path[i] = path_per_joint(arm.joint[k], i);
+      stretch -= path[i] * x[l.position[i]];
+      stretch_rate -= path[i] * x[l.rate[i]];
+    }
+    const Dual g = cable_force(j, Dual::seed(stretch, 0), Dual::seed(stretch_rate, 1));
+    const Dual held = friction(j.motor_coulomb, j.motor_viscous, j.motor_smoothing, Dual::seed(x[rate], 0));
+    const double torque = arm.joint[k].torque_scale * command[k].a + arm.joint[k].torque_bias - held.a;
+    x_dot[angle] = x[rate];
+    x_dot[rate] = per_inertia * (torque - travel * g.a);
+    x_dot[l.position[k]] = x[l.rate[k]];
+    A[angle + rate * size] = A[l.position[k] + l.rate[k] * size] = 1;
+    const double pull = travel * per_inertia, stiff = g.d[0], damped = g.d[1];
+    A[rate + angle * size] = -pull * travel * stiff;
+    A[rate + rate * size] = -pull * travel * damped - per_inertia * held.d[0];
+    for (int i = 0; i < n; ++i) {
+      A[rate + l.position[i] * size] = pull * path[i] * stiff;
+      A[rate + l.rate[i] * size] = pull * path[i] * damped;
+      forces.value[i] += path[i] * g.a;
+      forces.slope[i][angle] = path[i] * travel * stiff;
+      forces.slope[i][rate] = path[i] * travel * damped;
+      for (int c = 0; c < n; ++c) {
+        forces.slope[i][l.position[c]] -= path[i] * path[c] * stiff;
+        forces.slope[i][l.rate[c]] -= path[i] * path[c] * damped;
+      }
+    }
+  }
+}
+
 /// Subtracts from the slopes those of M(q) a + h(q, q') at constant a.
 template <int known>
-HALYARD_INLINE void subtract_chain_slopes(const ArmParameters<Dual>& arm, const StateLayout& l, const double* x,
+HALYARD_INLINE void subtract_chain_slopes(const ArmParameters<double>& arm, const StateLayout& l, const double* x,
                                           const double* a, JointForces& forces) {
   const int n = joint_count<known>(arm);
-  for (int first = 0; first < 2 * n; first += kDualWidth) {  // directions: q, then q'
-    Dual q[kMaxJoints], v[kMaxJoints], held[kMaxJoints], force[kMaxJoints];
+  for (int first = 0; first < 2 * n; first += kLaneWidth) {  // directions: q, then q'
+    Slopes q[kMaxJoints], v[kMaxJoints], held[kMaxJoints], force[kMaxJoints];
     for (int k = 0; k < n; ++k) {
-      q[k] = Dual(x[l.position[k]]);
-      v[k] = Dual(x[l.rate[k]]);
-      held[k] = Dual(a[k]);
+      q[k] = x[l.position[k]];
+      v[k] = x[l.rate[k]];
+      held[k] = a[k];
     }
-    const int count = 2 * n - first < kDualWidth ? 2 * n - first : kDualWidth;
+    const int count = 2 * n - first < kLaneWidth ? 2 * n - first : kLaneWidth;
     for (int i = 0; i < count; ++i) {
       const int direction = first + i;
       (direction < n ? q[direction] : v[direction - n]).d.set(i, 1);
@@ -85,16 +147,18 @@ HALYARD_INLINE void subtract_chain_slopes(const ArmParameters<Dual>& arm, const 
   }
 }
 
-/// x_dot [size] and A = ∂x'/∂x [size x size], column-major. `arm`: the parameters of the transmission. command,
-/// external: [n]. known: see joint_count().
+/// x_dot [size], A = ∂x'/∂x [size x size] and mobility = M(q)⁻¹ [n x n], column-major. `arm`: the parameters of the
+/// transmission. command, external: [n]. known: see joint_count().
 template <int known = 0>
 HALYARD_INLINE void linearised_derivative(const Transmission<Dual>& transmission, const ArmParameters<double>& arm,
                                           const StateLayout& l, double time, const CommandHistory* history,
                                           const Dual* command, const Dual* external, const double* x, double* x_dot,
-                                          double* A) {
+                                          double* A, double* mobility) {
   const int n = joint_count<known>(arm);
   JointForces forces;
-  linearise_transmission<known>(transmission, l, time, history, command, external, x, x_dot, A, forces);
+  if (is_plain<known>(transmission))
+    linearise_plain_transmission<known>(transmission.arm(), arm, l, command, external, x, x_dot, A, forces);
+  else linearise_transmission<known>(transmission, l, time, history, command, external, x, x_dot, A, forces);
   double q[kMaxJoints], v[kMaxJoints], zero[kMaxJoints], bias[kMaxJoints], a[kMaxJoints];
   for (int k = 0; k < n; ++k) q[k] = x[l.position[k]], v[k] = x[l.rate[k]], zero[k] = 0;
   const ChainPose<double> pose = chain_pose<known>(arm, q);
@@ -105,7 +169,7 @@ HALYARD_INLINE void linearised_derivative(const Transmission<Dual>& transmission
   ldl_factor<double, kMaxJoints>(n, M);
   for (int k = 0; k < n; ++k) a[k] = forces.value[k] - bias[k];
   ldl_solve<double, kMaxJoints>(n, M, a);
-  subtract_chain_slopes<known>(transmission.arm(), l, x, a, forces);
+  subtract_chain_slopes<known>(arm, l, x, a, forces);
   for (int c = 0; c < l.size; ++c) {
     double column[kMaxJoints];
     for (int k = 0; k < n; ++k) column[k] = forces.slope[k][c];
@@ -113,6 +177,10 @@ HALYARD_INLINE void linearised_derivative(const Transmission<Dual>& transmission
     for (int k = 0; k < n; ++k) A[l.rate[k] + c * l.size] = column[k];
   }
   for (int k = 0; k < n; ++k) x_dot[l.rate[k]] = a[k];
+  for (int c = 0; c < n; ++c) {
+    for (int k = 0; k < n; ++k) mobility[k + c * n] = k == c;
+    ldl_solve<double, kMaxJoints>(n, M, mobility + c * n);
+  }
 }
 
 }  // namespace halyard

@@ -21,11 +21,11 @@ class ArmProcess : public DiscreteProcess {
   void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const override {
     model_.advance_with_jacobian(step_, x.data(), F);
   }
-  bool advance_deviations(Eigen::VectorXd& x, LaneMatrix& d) const override {
-    return exponential_ && exponential_->advance(x, d);
-  }
   bool advance_root(Eigen::VectorXd& x, LaneMatrix& FS) const override {
     return exponential_ && exponential_->advance_root(x, FS);
+  }
+  bool advance_pairs(Eigen::VectorXd& x, double gamma, LaneMatrix& FS, Eigen::VectorXd& shift) const override {
+    return exponential_ && exponential_->advance_pairs(x, gamma, FS, shift);
   }
   std::string name_of(int state) const override {
     std::ostringstream text;

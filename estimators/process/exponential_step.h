@@ -6,11 +6,11 @@
 ///                 x⁺  = x_2 + c,   c = 2 h φ_3 D,                    third order
 ///                 D   = f(t + h, x_2) - f(t, x) - A (x_2 - x)
 ///   transition    F   = E + h φ_2 (A_2 - A) E,   A_2 = ∂f/∂x at x_2   second order
-///   deviations    d_2 = E d + h φ_1 N(t, x, d)                       exact for linear f, second order for others
-///                 d⁺  = d_2 + h φ_2 (N(t + h, x_2, d_2) - N(t, x, d))
-///                 N(t, x, d) = f(t, x + d) - f(t, x) - A d
-///   their mean    ∫ exp(A (h - s)) m(s) ds replaces the terms of the mean of N, m(0) to m(h), of all deviations
-///   held force    Γ   = Γ_0 + h φ_2 N(t + h, x_2, Γ_0)               response to the accelerations G / h
+///   curvature     ∫ exp(A (h - s)) m(s) ds, where m is the mean of N over sigma points x ± d_i; m(0) from N(t, x, d),
+///                 m(h) from N_2(t + h, x_2, E d)
+///                 N(t, x, d) = f(t, x + d) - f(t, x) - A d,   N_2: with A_2
+///   held force    Γ   = Γ_0 + h φ_2 (f(t + h, x_2 + Γ_0) - f(t + h, x_2) - A Γ_0)
+///                                                                     response to the accelerations G / h
 ///                 Γ_0 = (G + 4 exp(h A / 2) G + E G) / 6             φ_1 G by Simpson's rule, as in noise.h
 ///
 ///   h      length of the step                            s
@@ -18,9 +18,13 @@
 ///   c      error estimate of x_2                         [n_states]
 ///   G      impulses of force noise (noise.h)             [n_states x sources]
 ///
-/// The mean of N over a pair of sigma points is the curvature of f, half the second derivative times the variance of
-/// what is curved. At rest it falls within the step, as the square of the stiffest deviations, to what the slow ones
-/// leave: a straight line from m(0) to m(h) overstates its part in x⁺ 17 times for h λ = 4.4. The integral takes
+/// Sigma points are assumed to be narrow: then N is even in d, points in pairs share it, and one of each pair is enough;
+/// the pairs' differences are those of the linear F. The neglected parts are of third order in d, and N Nᵀ in the
+/// covariance of fourth.
+///
+/// m is the curvature of f, half the second derivative times the variance of what is curved. At rest it falls within
+/// the step, as the square of the stiffest deviations, to what the slow ones leave: a straight line from m(0) to m(h)
+/// overstates its part in x⁺ 17 times for h λ = 4.4. The integral takes
 ///
 ///   m_i(s) = m_i(h) + (m_i(0) - m_i(h)) (V_i(s) - V_i(h)) / (V_i(0) - V_i(h)),   V_i(s) = Σ (exp(A s) d)_i²
 ///
@@ -34,14 +38,14 @@
 ///
 ///   - a component of c exceeds 5 % of the standard deviation that the linearised step predicts for it (friction that
 ///     reverses, a gap that closes, a command that jumps within the step), or
-///   - h φ_2 (...) of the deviations exceeds 20 % of them, or
+///   - the last term of F S exceeds 20 % of it where sigma points ask for it, or
 ///   - a number is not finite.
 ///
 /// Held forces are refused if the last term of Γ exceeds 5 % of it: at rest, where the noise is faster than friction's
 /// smoothing speed and is damped less than the slope of friction says.
 ///
 /// Source: Hochbruck and Ostermann, "Exponential integrators", Acta Numerica 2010: exponential Rosenbrock-Euler method
-/// and exprb32 (mean), ETD2RK (deviations). Van Loan, "Computing integrals involving the matrix exponential", IEEE
+/// and exprb32 (mean). Van Loan, "Computing integrals involving the matrix exponential", IEEE
 /// Trans. Automatic Control 23 (1978).
 
 #include "estimators/matrix/phi_functions.h"
@@ -54,44 +58,52 @@ class ExponentialStep {
  public:
   explicit ExponentialStep(const ProcessModel& process);
 
-  /// Linearises at the start x of a step. S: root of the covariance of x. `step` must stay as it is until the next
-  /// start(). False if the guard refuses the step.
-  bool start(const Step& step, const Eigen::VectorXd& x, const Eigen::MatrixXd& S);
+  /// Linearises at the start x of a step. `step` must stay as it is until the next linearise().
+  void linearise(const Step& step, const Eigen::VectorXd& x);
+  /// M(q)⁻¹ at x.
+  const JointMatrix& mobility() const { return mobility_; }
+  /// Starts the step that has been linearised. S: root of the covariance of x. G [n_states x sources]: held forces, which
+  /// may be none. False if the guard refuses the step.
+  bool start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G);
 
-  /// Γ [n_states x sources] of the held forces G; false: refused, Γ is undefined.
-  bool respond(const Eigen::MatrixXd& G, Eigen::Ref<Eigen::MatrixXd> Gamma);
-  /// x, that of start(), becomes x⁺, and FS [n_states x n_states] F S with the S of start(). False: refused, nothing has
-  /// changed.
+  /// Γ [n_states x sources]; false: refused, Γ is undefined.
+  bool respond(Eigen::Ref<Eigen::MatrixXd> Gamma);
+  /// x, that of linearise(), becomes x⁺, and FS [n_states x n_states], transposed, F S with the S of start(). False:
+  /// refused, nothing has changed.
   bool advance_root(Eigen::VectorXd& x, LaneMatrix& FS);
-  /// x, that of start(), becomes x⁺, and every row of d [count x n_states], a deviation, d⁺. With + d_i for the first
-  /// half of the rows and - d_i for the second. False: refused, nothing has changed.
-  bool advance(Eigen::VectorXd& x, LaneMatrix& d);
+  /// The same, and `shift` becomes the mean of the sigma points x ± gamma S_i after the step, less x⁺.
+  bool advance_pairs(Eigen::VectorXd& x, double gamma, LaneMatrix& FS, Eigen::VectorXd& shift);
 
  private:
-  /// Deviations from the mean as rows, and memory for what follows from them.
-  struct Deviations {
-    LaneMatrix d, points, N, change;
-  };
-  /// moved.N = h N of every row d, at the state x with the rates f.
-  void set_nonlinear_part(const Step& at, const Eigen::VectorXd& x, const Eigen::VectorXd& f, const LaneMatrix& d,
-                          Deviations& moved);
+  /// x_2 and Γ_0, then f at x_2 and at x_2 + Γ_0 in one pass.
+  void set_second_stage(const Eigen::MatrixXd& G);
+  /// f at x + d_i, of every row d_i of d.
+  void set_rates(const Step& at, const Eigen::VectorXd& x, const LaneMatrix& d, LaneMatrix& rates);
+  /// The last term of F S, in growth_; false: A_2 is not finite.
+  bool set_growth();
+  void finish(Eigen::VectorXd& x, LaneMatrix& FS) const;
+  /// h times the mean of f(x + d_i) - f - A d_i, where x + d_i is x plus `gamma` times row i of `root`, rounded.
+  void set_mean_curvature(const Step& at, const Eigen::VectorXd& x, const Eigen::VectorXd& f, const Eigen::MatrixXd& A,
+                          double gamma, const LaneMatrix& root, Eigen::VectorXd& mean);
   /// V(0) to V(h) at the nodes 0, h / 2^s, ..., h / 2, h, in variance_.
-  void set_variances(const LaneMatrix& d);
-  /// ∫ exp(A (h - s)) (m(s) - its straight line) ds, in shift_.
-  void set_mean_shift(const LaneMatrix& d);
+  void set_variances();
+  /// ∫ exp(A (h - s)) m(s) ds, in shift_.
+  void set_mean_shift();
 
   const ProcessModel& process_;
   Step step_, end_;
   bool usable_ = false;
-  Eigen::VectorXd f_, f_2_, x_2_, next_, D_, c_, part_, change_of_m_;
+  Eigen::VectorXd x_, f_, f_2_, f_end_, x_2_, next_, D_, c_, part_, change_of_m_;
   Eigen::VectorXd first_, last_;  // h m(0), h m(h)
-  Eigen::MatrixXd A_, A_2_, Z_, minus_Z_;
-  LaneMatrix spread_;  // E S
-  LaneMatrix forces_;
-  Deviations response_, start_, moved_;  // of held forces; of sigma points at the start, and d_2
-  LaneMatrix half_, variance_;           // E d of half of the points, as columns; V at the nodes
-  LaneMatrix vector_, shift_;            // one column
-  LaneMatrix slopes_, moved_slopes_;
+  Eigen::MatrixXd A_, A_2_, Z_, minus_Z_, slopes_;
+  JointMatrix mobility_;
+  // Transposed, a row for each column of S or G:
+  LaneMatrix S_, spread_, moved_, growth_;                  // S, E S, products with S, the last term of F S
+  LaneMatrix forces_, response_, response_rates_, change_;  // G, Γ_0, h N, the last term of Γ; row 0 is for x_2 itself
+  LaneMatrix points_, rates_;                               // sigma points
+  LaneMatrix vector_, shift_;                               // one column
+  Eigen::VectorXd spread_squares_;                          // of the columns of spread_
+  Eigen::MatrixXd variance_;                                // V at the nodes
   PhiFunctions phi_;
 };
 

@@ -22,10 +22,11 @@ Eigen::VectorXd effect_scales(const ProcessModel& process) {
   return scales;
 }
 
-using JointMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxJoints, kMaxJoints>;
-
-/// Accelerations of the joints per joint force, motors of rigid drives carried along: M(q)⁻¹. q: [n].
-JointMatrix mobility(const ArmParameters<double>& arm, const double* q) {
+/// M(q)⁻¹ of a state x.
+JointMatrix mobility_at(const ProcessModel& process, const Eigen::VectorXd& x) {
+  const ArmParameters<double>& arm = process.arm();
+  double q[kMaxJoints];
+  for (int k = 0; k < arm.n; ++k) q[k] = x(process.layout().position[k]);
   double M[kMaxJoints][kMaxJoints];
   mass_matrix(arm, chain_pose(arm, q), M);
   add_rotor_mass(arm, M);
@@ -80,30 +81,33 @@ ArmNoise::ArmNoise(const ArmModel& model, const ProcessModel& process, const Noi
   }
 }
 
-const Eigen::MatrixXd& ArmNoise::process_root(const Step& step, const Eigen::VectorXd& x,
-                                              ExponentialStep* exponential) {
+const Eigen::MatrixXd& ArmNoise::impulses(const Step& step, const JointMatrix& mobility) {
   const ArmParameters<double>& arm = process_.arm();
   const StateLayout& l = process_.layout();
-  const int n = arm.n, n_z = l.n_effect_states, forces = 2 * n;
+  const int n = arm.n;
   const double impulse = std::sqrt(2 * levels_.correlation_time * step.dt_s);
-  double q[kMaxJoints];
-  for (int k = 0; k < n; ++k) q[k] = x(l.position[k]);
-  const JointMatrix M_inverse = mobility(arm, q);
-  G_.setZero(l.size, forces);
+  G_.setZero(l.size, 2 * n);
   for (int k = 0; k < n; ++k) {
     const JointParameters<double>& j = arm.joint[k];
     const double force = adapted_(k) * levels_.joint_force(k) * impulse,
                  torque = adapted_(k) * levels_.torque(k) * impulse;
-    for (int i = 0; i < n; ++i) G_(l.rate[i], n + k) = M_inverse(i, k) * force;
+    for (int i = 0; i < n; ++i) G_(l.rate[i], n + k) = mobility(i, k) * force;
     if (j.drive == Drive::cable) G_(*l.motor_rate[k], k) = torque / j.rotor_inertia;
     if (j.drive != Drive::rigid) continue;
     for (int i = 0; i < n; ++i)
-      for (int c = 0; c < n; ++c)
-        G_(l.rate[i], k) += M_inverse(i, c) * path_per_joint(j, c) / j.motor_travel() * torque;
+      for (int c = 0; c < n; ++c) G_(l.rate[i], k) += mobility(i, c) * path_per_joint(j, c) / j.motor_travel() * torque;
   }
+  return G_;
+}
+
+const Eigen::MatrixXd& ArmNoise::process_root(const Step& step, const Eigen::VectorXd& x,
+                                              ExponentialStep* exponential) {
+  const StateLayout& l = process_.layout();
+  const int n_z = l.n_effect_states, forces = 2 * l.n_joints;
   Q_root_.setZero(l.size, forces + n_z);
   for (int i = 0; i < n_z; ++i) Q_root_(l.effect_states + i, forces + i) = levels_.wander(i) * std::sqrt(step.dt_s);
-  if (exponential && exponential->respond(G_, Q_root_.leftCols(forces))) return Q_root_;
+  if (exponential && exponential->respond(Q_root_.leftCols(forces))) return Q_root_;
+  if (!exponential) impulses(step, mobility_at(process_, x));
   points_.resize(l.size, forces + 1);
   points_.col(0) = x;
   points_.rightCols(forces) = G_.colwise() + x;

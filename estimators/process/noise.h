@@ -78,7 +78,10 @@ class ArmNoise {
  public:
   ArmNoise(const ArmModel& model, const ProcessModel& process, const NoiseLevels& levels);
 
-  /// Q_root [n_states x sources] of a step that starts at x. exponential: the same step, if it has been started.
+  /// G [n_states x 2 n_joints] of a step that starts where M(q)⁻¹ is `mobility`.
+  const Eigen::MatrixXd& impulses(const Step& step, const JointMatrix& mobility);
+  /// Q_root [n_states x sources] of a step that starts at x. exponential: the same step, if it has been started with its
+  /// impulses().
   const Eigen::MatrixXd& process_root(const Step& step, const Eigen::VectorXd& x,
                                       ExponentialStep* exponential = nullptr);
   /// Adapts c to an innovation of these motors; dt_s: time since the innovation before, s.

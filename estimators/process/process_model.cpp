@@ -171,11 +171,18 @@ void ProcessModel::derivative(const Step& step, const Eigen::VectorXd& x, Eigen:
 
 void ProcessModel::linearise(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot,
                              Eigen::MatrixXd& A) const {
+  JointMatrix mobility;
+  linearise(step, x, x_dot, A, mobility);
+}
+
+void ProcessModel::linearise(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot, Eigen::MatrixXd& A,
+                             JointMatrix& mobility) const {
   const StepInputs<Dual> in(step, n_joints());
   x_dot.resize(n_states());
   A.resize(n_states(), n_states());
+  mobility.resize(n_joints(), n_joints());
   lane_kernels()[0].linearise(dual_, arm(), layout_, step.time_s, step.history, in.command, in.external, x.data(),
-                              x_dot.data(), A.data());
+                              x_dot.data(), A.data(), mobility.data());
 }
 
 void ProcessModel::derivatives(const Step& step, const LaneMatrix& X, LaneMatrix& X_dot) const {

@@ -32,6 +32,9 @@ struct Step {
   const CommandHistory* history = nullptr;  ///< for effects with a delay; null: none
 };
 
+/// [n_joints x n_joints], without memory from the heap.
+using JointMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxJoints, kMaxJoints>;
+
 class ProcessModel {
  public:
   /// Largest number of sub-steps in a step of up to 1 ms; a longer step may have as many in each millisecond. This
@@ -76,6 +79,10 @@ class ProcessModel {
   /// The same into memory of the caller.
   void derivative(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot) const;
   void linearise(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot, Eigen::MatrixXd& A) const;
+  /// The same, and `mobility` becomes the accelerations of the joints per joint force, motors of rigid drives carried
+  /// along: M(q)⁻¹.
+  void linearise(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot, Eigen::MatrixXd& A,
+                 JointMatrix& mobility) const;
   /// x' at every row of X [count x n_states], eight at a time. X_dot: of the shape of X.
   void derivatives(const Step& step, const LaneMatrix& X, LaneMatrix& X_dot) const;
 

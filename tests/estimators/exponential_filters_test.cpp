@@ -139,6 +139,26 @@ TEST(ExponentialFilters, TheUnscentedFilterIsAsGoodAtRestAsTheExtendedOne) {
   for (int k = 0; k < model.n(); ++k) EXPECT_LT(ukf.rms(k), 1.02 * ekf.rms(k)) << "joint " << k + 1;
 }
 
+TEST(ExponentialFilters, WideSigmaPointsTakeTheSubSteps) {
+  const ArmModel model = raven2();
+  const ArmRun run = moves_and_rests(model, 0.3);
+  const Kind wide{"alpha 1", []() -> std::unique_ptr<GaussianFilter> {
+                    return std::make_unique<SquareRootUkf>(UkfWeights{.alpha = 1});
+                  }};
+  const auto process = std::make_shared<const ProcessModel>(model);
+  ArmFilterOptions options = usual_options(model, *process);
+  Eigen::VectorXd position[2];
+  for (const bool exponential : {false, true}) {
+    options.exponential = exponential;
+    ArmFilter filter(model, process, options, wide.make());
+    filter.reset(run.samples[0]);
+    for (std::size_t i = 1; i < run.samples.size(); ++i) filter.update(run.samples[i]);
+    position[exponential] = filter.estimate().joint_position;
+  }
+  // Only the noise comes from the exponential, which moves the estimates by a small part of their deviation, 1e-5.
+  EXPECT_LT((position[1] - position[0]).cwiseAbs().maxCoeff(), 1e-6);
+}
+
 TEST(ExponentialFilters, FallBackToSubStepsWhereFrictionIsSharp) {
   ArmModel model = raven2();
   for (int k = 0; k < model.n(); ++k) {

@@ -30,8 +30,8 @@ LaneMatrix in_lanes(const Eigen::MatrixXd& A) {
 Eigen::MatrixXd lower_root_of(const MatrixKernels& kernels, const Eigen::MatrixXd& A) {
   LaneMatrix columns = in_lanes(A.transpose());
   Eigen::MatrixXd L = Eigen::MatrixXd::Zero(A.rows(), A.rows());
-  kernels.lower_root(static_cast<int>(A.rows()), columns.blocks(), columns.lanes(), L.data(),
-                     static_cast<int>(A.rows()));
+  const int n = static_cast<int>(A.rows());
+  kernels.lower_root(n, columns.rows(), n, columns.blocks(), columns.lanes(), L.data(), n);
   return L;
 }
 
@@ -77,7 +77,7 @@ TEST(MatrixKernels, TheFunctionsOfAllInstructionSetsAgree) {
     ASSERT_EQ(kernels.phi_functions(kSize, kMost,
                                     {levels.data(), memory[rest].lanes(), unit.lanes(), Y.lanes(),
                                      memory[rest + 1].lanes(), memory[rest + 2].lanes(), memory[rest + 3].lanes()}),
-              4)
+              3)
         << kernels.name;
     Eigen::MatrixXd all(kSize, 4 * kSize);
     all << memory[0].view(), memory[1].view(), memory[2].view(), memory[rest].view();
@@ -110,6 +110,43 @@ TEST(MatrixKernels, ARootOfDependentRowsHasZerosOnItsDiagonal) {
     EXPECT_EQ(L.row(0).norm(), 0) << kernels.name;
     EXPECT_LT(L(2, 2), 20 * kEps) << kernels.name;
     EXPECT_LT((L * L.transpose() - A * A.transpose()).norm(), 100 * kEps) << kernels.name;
+  }
+}
+
+TEST(MatrixKernels, AFewReflectionsLeaveARootOfTheRest) {
+  constexpr int kSize = 15, kSteps = 3;
+  const Eigen::MatrixXd A = random_matrix(kSize, kSize + 2, 9);
+  for (const MatrixKernels& kernels : matrix_kernels()) {
+    LaneMatrix columns = in_lanes(A.transpose());
+    Eigen::MatrixXd L(kSize, kSteps);
+    kernels.lower_root(kSize, columns.rows(), kSteps, columns.blocks(), columns.lanes(), L.data(), kSize);
+    EXPECT_LT((L - lower_root_of(kernels, A).leftCols(kSteps)).norm(), 100 * kEps) << kernels.name;
+    const auto B = columns.view().bottomRightCorner(kSize + 2 - kSteps, kSize - kSteps);
+    const Eigen::MatrixXd rest = A * A.transpose() - L * L.transpose();
+    // As of a whole root.
+    EXPECT_LT((B.transpose() * B - rest.bottomRightCorner(kSize - kSteps, kSize - kSteps)).cwiseAbs().maxCoeff(),
+              10 * kSize * (kSize + 2) * kEps)
+        << kernels.name;
+  }
+}
+
+TEST(MatrixKernels, MomentsOfColumnsAreAboutTheirCentres) {
+  const Eigen::VectorXd centre = random_matrix(5, 1, 11);
+  for (const int rows : {1, 8, 12, 19}) {
+    const Eigen::MatrixXd A = random_matrix(rows, 5, 10);
+    const Eigen::MatrixXd difference = A.rowwise() - centre.transpose();
+    for (const MatrixKernels& kernels : matrix_kernels()) {
+      LaneMatrix lanes;
+      lanes.set_zero((rows + kLaneWidth - 1) / kLaneWidth * kLaneWidth, 5);
+      lanes.view() = centre.transpose().replicate(lanes.rows(), 1);
+      lanes.view().topRows(rows) = A;
+      Eigen::VectorXd sums(5), squares(5);
+      kernels.column_moments(rows, 5, lanes.lanes(), lanes.blocks(), centre.data(), sums.data(), squares.data());
+      // Sums of up to 19 numbers below 4.
+      EXPECT_LT((sums - difference.colwise().sum().transpose()).norm(), 19 * 4 * kEps) << kernels.name << rows;
+      EXPECT_LT((squares - difference.colwise().squaredNorm().transpose()).norm(), 19 * 4 * kEps)
+          << kernels.name << rows;
+    }
   }
 }
 

@@ -21,7 +21,7 @@ TEST(PhiFunctions, TheExponentialIsThatOfEigen) {
   PhiFunctions phi;
   const Eigen::MatrixXd Z = stiff_oscillator(1);
   ASSERT_TRUE(phi.compute(Z));
-  // The polynomial's remainder, 2e-11 at most, doubled five times.
+  // The polynomial's remainder, 5e-12 at most, doubled five times.
   EXPECT_LT((phi.E().view() - Z.exp()).cwiseAbs().maxCoeff(), 1e-9);
   for (int k = 1; k <= phi.doublings(); ++k)
     EXPECT_LT((phi.level(k).E.view() - (std::exp2(-k) * Z).exp()).cwiseAbs().maxCoeff(), 1e-9) << k;
