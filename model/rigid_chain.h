@@ -111,26 +111,30 @@ HALYARD_INLINE void inverse_dynamics(const ArmParameters<P>& arm, const ChainPos
   const int n = joint_count<known>(arm);
   for (int i = 0; i < n; ++i) {
     const JointParameters<P>& j = arm.joint[i];
+    const bool turns = j.type == JointType::revolute;
     T at[3] = {acc[0], acc[1], acc[2]};  // acceleration of this frame's origin, parent's frame
-    T wp[3] = {T(0.0), T(0.0), T(0.0)};
-    cross_add(w, pose.p[i], wp);
-    cross_add(dw, pose.p[i], at);
-    cross_add(w, wp, at);
-    T w1[3], dw1[3];
-    into_link(pose.R[i], w, w1);
-    into_link(pose.R[i], dw, dw1);
-    into_link(pose.R[i], at, acc);
-    if (j.type == JointType::revolute) {
-      dw1[0] += w1[1] * v[i];
-      dw1[1] -= w1[0] * v[i];
-      dw1[2] += a[i];
-      w1[2] += v[i];
+    if (i == 0) {                        // the base does not turn
+      into_link(pose.R[0], at, acc);
     } else {
-      acc[0] += T(2.0) * w1[1] * v[i];
-      acc[1] -= T(2.0) * w1[0] * v[i];
-      acc[2] += a[i];
+      T wp[3] = {T(0.0), T(0.0), T(0.0)};
+      cross_add(w, pose.p[i], wp);
+      cross_add(dw, pose.p[i], at);
+      cross_add(w, wp, at);
+      T w1[3], dw1[3];
+      into_link(pose.R[i], w, w1);
+      into_link(pose.R[i], dw, dw1);
+      into_link(pose.R[i], at, acc);
+      if (turns) {
+        dw1[0] += w1[1] * v[i];
+        dw1[1] -= w1[0] * v[i];
+      } else {
+        acc[0] += T(2.0) * w1[1] * v[i];
+        acc[1] -= T(2.0) * w1[0] * v[i];
+      }
+      for (int k = 0; k < 3; ++k) w[k] = w1[k], dw[k] = dw1[k];
     }
-    for (int k = 0; k < 3; ++k) w[k] = w1[k], dw[k] = dw1[k];
+    if (turns) w[2] += v[i], dw[2] += a[i];
+    else acc[2] += a[i];
 
     T ac[3] = {acc[0], acc[1], acc[2]};
     T wc[3] = {T(0.0), T(0.0), T(0.0)};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ctime>
 #include <fstream>
+#include <sstream>
 
 #include "bench/performance/diagram.h"
 #include "bench/performance/filter_steps.h"
@@ -94,8 +95,18 @@ void write(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path) << text;
 }
 
-std::string page(const std::vector<StepTime>& filters, const std::vector<Panel>& moving,
-                 const std::vector<Panel>& resting) {
+/// A section of the page as it is, from its heading to the next one: it is not measured here. Empty if there is none.
+std::string kept_section(const std::filesystem::path& path, const std::string& heading) {
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  const std::string all = text.str();
+  const std::size_t first = all.find(heading + "\n");
+  if (first == std::string::npos) return "";
+  return all.substr(first, all.find("\n## ", first) + 1 - first);
+}
+
+std::string page(const std::string& instructions, const std::vector<StepTime>& filters,
+                 const std::vector<Panel>& moving, const std::vector<Panel>& resting) {
   return fmt::format(R"(# Performance
 
 `build/bench/halyard_performance` wrote this page; it takes about three minutes. Processor: {}; date: {}; vector
@@ -108,7 +119,7 @@ RAVEN-II, 12 states, samples at 1 kHz. The ratio compares the second row of each
 two pairs are whole updates; the third is prediction and correction, the noise of the step given.
 
 {}
-## Integrators of the plant
+{}## Integrators of the plant
 
 The stiffness and damping of link 1's cable, and the smoothing speeds of friction, are multiplied by the factors of each
 panel. Moving: sines of all joints. At rest: the arm is held under a noise of the torques that friction carries. The
@@ -135,8 +146,8 @@ to four times as long as `rosenbrock`; only where neither cable nor friction is 
 the limit that the cable sets, but not that of friction: where friction is sharp (x0.02), it takes about twice as long as
 `imex`. On Simbody's chain, `simbody_rkm` is faster up to x10, and `dirk` at x100.
 )",
-                     processor(), today(), lane_kernels()[0].name, filter_table(filters), kEqualError, kLongestRun,
-                     ratio_table(moving), ratio_table(resting), winners(moving), winners(resting));
+                     processor(), today(), lane_kernels()[0].name, filter_table(filters), instructions, kEqualError,
+                     kLongestRun, ratio_table(moving), ratio_table(resting), winners(moving), winners(resting));
 }
 
 }  // namespace
@@ -158,7 +169,8 @@ int main(int argc, char** argv) {
     const std::size_t columns = std::size(kStiffness);
     write(out / "images/work_precision_moving.svg", diagram_svg("Moving", moving, columns));
     write(out / "images/work_precision_resting.svg", diagram_svg("At rest", resting, columns));
-    write(out / "performance.md", page(filters, moving, resting));
+    const std::string instructions = kept_section(out / "performance.md", "## Instructions of a step");
+    write(out / "performance.md", page(instructions, filters, moving, resting));
     fmt::print("{}\n", (out / "performance.md").string());
     return 0;
   });

@@ -41,8 +41,9 @@ struct MatrixKernels {
   /// the end of their last register has to differ from centre_c by no more than rounding.
   void (*column_moments)(int rows, int columns, const Lanes* A, int blocks, const double* centre, double* sums,
                          double* squares);
-  /// The functions of phi_functions.h from Y = Z, which is overwritten: all levels, and φ_3 of level 0. Returns the
-  /// number of doublings; if this would exceed `most`, or Y is not finite, -1, and nothing is computed.
+  /// The functions of phi_functions.h from Y = Z, which is overwritten: E and φ_2 of all levels, φ_1 of all but level 0,
+  /// and φ_3 of the last. Returns the number of doublings; if this would exceed `most`, or Y is not finite, -1, and nothing
+  /// is computed.
   int (*phi_functions)(int n, int most, const PhiMemory& memory);
 };
 

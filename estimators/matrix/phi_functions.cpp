@@ -53,4 +53,26 @@ bool PhiFunctions::compute(const Eigen::Ref<const Eigen::MatrixXd>& Z) {
   return doublings_ >= 0;
 }
 
+const Eigen::VectorXd& PhiFunctions::phi_1_times(const Eigen::VectorXd& v) {
+  set_product(levels_[1].phi_1, right(v), 1, column_);
+  product_ = column_.view().col(0);
+  set_product(levels_[1].E, right(product_), 1, column_);
+  product_ = 0.5 * (product_ + column_.view().col(0));
+  return product_;
+}
+
+const Eigen::VectorXd& PhiFunctions::phi_3_times(const Eigen::VectorXd& v) {
+  half_ = 0.5 * v;
+  set_product(phi_3_, right(v), 1, column_);
+  product_ = column_.view().col(0);
+  for (int k = doublings_; k > 0; --k) {
+    const Level& level = levels_[static_cast<std::size_t>(k)];
+    set_product(level.E, right(product_), 1, column_);
+    add_product(level.phi_1, right(half_), column_);
+    add_product(level.phi_2, right(v), column_);
+    product_ = 0.125 * (product_ + column_.view().col(0));
+  }
+  return product_;
+}
+
 }  // namespace halyard

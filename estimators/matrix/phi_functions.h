@@ -9,6 +9,8 @@
 ///
 ///   φ_k(2Y) = 2^-k (E φ_k(Y) + Σ_{j=1..k} φ_j(Y) / (k - j)!),   E(2Y) = E(Y)²
 ///
+/// φ_1 and φ_3 of the whole Z only multiply vectors. Then the formula multiplies vectors, too.
+///
 /// The states have units of different size, so that the norm of Z means little. It is that of D⁻¹ Z D, with a diagonal
 /// D of powers of two for which rows and columns have like norms.
 ///
@@ -33,16 +35,17 @@ class PhiFunctions {
   /// Z [n x n]. False, and the functions are not computed, if Z is not finite or s would exceed kMostDoublings.
   bool compute(const Eigen::Ref<const Eigen::MatrixXd>& Z);
 
-  /// The functions of Z / 2^k.
+  /// The functions of Z / 2^k; φ_1 is not computed for k = 0.
   struct Level {
     LaneMatrix E, phi_1, phi_2;
   };
   const Level& level(int k) const { return levels_[static_cast<std::size_t>(k)]; }
   int doublings() const { return doublings_; }  ///< s, at least 1: the last level
   const LaneMatrix& E() const { return levels_[0].E; }
-  const LaneMatrix& phi_1() const { return levels_[0].phi_1; }
   const LaneMatrix& phi_2() const { return levels_[0].phi_2; }
-  const LaneMatrix& phi_3() const { return phi_3_; }
+  /// φ_1 v and φ_3 v, which stay valid until the next product of this kind.
+  const Eigen::VectorXd& phi_1_times(const Eigen::VectorXd& v);
+  const Eigen::VectorXd& phi_3_times(const Eigen::VectorXd& v);
 
  private:
   void take_memory(int n);
@@ -51,8 +54,10 @@ class PhiFunctions {
   int doublings_ = 0;
   LaneMatrix weight_;  // D_j / D_i
   std::vector<Level> levels_;
-  std::vector<PhiLevelMemory> memory_;  // of levels_
-  LaneMatrix Y_, Y2_, Y3_, phi_3_, next_;
+  std::vector<PhiLevelMemory> memory_;     // of levels_
+  LaneMatrix Y_, Y2_, Y3_, phi_3_, next_;  // φ_3 of the last level
+  LaneMatrix column_;
+  Eigen::VectorXd product_, half_;
 };
 
 }  // namespace halyard

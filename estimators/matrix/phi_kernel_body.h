@@ -81,22 +81,19 @@ HALYARD_INLINE void polynomials(const SquareMatrices& square, const PhiMemory& m
   square.add_to_diagonal(level.E, 1);
 }
 
-/// φ_3 of the half argument is `phi_3`; that of the whole argument becomes `next`.
+/// E, φ_2 and, if wanted, φ_1 of the whole argument.
 HALYARD_INLINE void double_argument(const SquareMatrices& square, const PhiLevelMemory& half,
-                                    const PhiLevelMemory& whole, const Lanes* phi_3, Lanes* next) {
+                                    const PhiLevelMemory& whole, bool with_phi_1) {
   using tiles::Piece;
-  const Piece *one = tiles::pieces(half.phi_1), *two = tiles::pieces(half.phi_2), *three = tiles::pieces(phi_3);
-  square.product(
-      half.E, phi_3, next, [&](int i, const Piece& sum) __attribute__((always_inline)) {
-        return 0.125 * (sum + 0.5 * one[i] + two[i] + three[i]);
-      });
+  const Piece *one = tiles::pieces(half.phi_1), *two = tiles::pieces(half.phi_2);
   square.product(
       half.E, half.phi_2, whole.phi_2, [&](int i, const Piece& sum) __attribute__((always_inline)) {
         return 0.25 * (sum + one[i] + two[i]);
       });
-  square.product(
-      half.E, half.phi_1,
-      whole.phi_1, [&](int i, const Piece& sum) __attribute__((always_inline)) { return 0.5 * (sum + one[i]); });
+  if (with_phi_1)
+    square.product(
+        half.E, half.phi_1,
+        whole.phi_1, [&](int i, const Piece& sum) __attribute__((always_inline)) { return 0.5 * (sum + one[i]); });
   square.product(
       half.E, half.E, whole.E, [](int, const Piece& sum) __attribute__((always_inline)) { return sum; });
 }
@@ -124,14 +121,7 @@ int phi_functions(int n, int most, const PhiMemory& m) {
   square.scale(m.Y2, part * part);
   square.scale(m.Y3, part * part * part);
   polynomials(square, m, m.level[doublings]);
-  Lanes *phi_3 = m.phi_3, *next = m.next;
-  for (int k = doublings; k-- > 0;) {
-    double_argument(square, m.level[k + 1], m.level[k], phi_3, next);
-    Lanes* before = phi_3;
-    phi_3 = next, next = before;
-  }
-  if (phi_3 != m.phi_3)
-    for (int i = 0; i < square.n * square.stride; ++i) tiles::pieces(m.phi_3)[i] = tiles::pieces(phi_3)[i];
+  for (int k = doublings; k-- > 0;) double_argument(square, m.level[k + 1], m.level[k], k > 0);
   return doublings;
 }
 

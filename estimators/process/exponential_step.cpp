@@ -17,6 +17,16 @@ void set_squares(const LaneMatrix& A, double* squares) {
   set_moments(A, zero, sums, squares);
 }
 
+/// Sums of the squares of the rows of A.
+void set_row_squares(const LaneMatrix& A, Eigen::Ref<Eigen::VectorXd> squares) {
+  for (int b = 0; b < A.blocks(); ++b) {
+    Lanes sum(0.0);
+    for (int i = b; i < A.columns() * A.blocks(); i += A.blocks()) sum += A.lanes()[i] * A.lanes()[i];
+    const int first = b * kLaneWidth, count = std::min(kLaneWidth, A.rows() - first);
+    for (int lane = 0; lane < count; ++lane) squares(first + lane) = sum[lane];
+  }
+}
+
 /// ‖column of change‖ <= tolerance ‖column of whole‖ for all columns; false if one is not finite.
 bool is_small_change(const LaneMatrix& change, const LaneMatrix& whole, double tolerance) {
   double changed[kMaxStates], all[kMaxStates];
@@ -47,14 +57,14 @@ bool ExponentialStep::start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G) 
   const double h = step_.dt_s;
   const int n = static_cast<int>(x_.size());
   Z_ = h * A_;
+  minus_Z_ = -Z_;
   usable_ = f_.allFinite() && phi_.compute(Z_);
   if (!usable_) return false;
   set_second_stage(G);
   D_ = x_2_ - x_;
   c_ = f_2_ - f_;
   for (int k = 0; k < n; ++k) c_ -= D_(k) * A_.col(k);
-  set_product(phi_.phi_3(), right(c_), 1, vector_);
-  c_ = (2 * h) * vector_.view().col(0);
+  c_ = (2 * h) * phi_.phi_3_times(c_);
   next_ = x_2_ + c_;
   S_.reshape(n, n);
   S_.view() = S.transpose();
@@ -68,8 +78,7 @@ bool ExponentialStep::start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G) 
 void ExponentialStep::set_second_stage(const Eigen::MatrixXd& G) {
   const int n = static_cast<int>(x_.size()), sources = static_cast<int>(G.cols());
   const double h = step_.dt_s;
-  set_product(phi_.phi_1(), right(f_), 1, vector_);
-  x_2_ = x_ + h * vector_.view().col(0);
+  x_2_ = x_ + h * phi_.phi_1_times(f_);
   forces_.reshape(1 + sources, n);
   forces_.view().bottomRows(sources) = G.transpose();
   set_product(forces_, transposed(right(phi_.level(1).E)), n, response_);
@@ -96,7 +105,6 @@ bool ExponentialStep::respond(Eigen::Ref<Eigen::MatrixXd> Gamma) {
   for (int c = 0, i = 0; c < n; ++c)
     for (const int end = (c + 1) * N.blocks(); i < end; ++i) N.lanes()[i] = step_.dt_s * (N.lanes()[i] - f_2_(c));
   N.clear_padding();
-  minus_Z_ = -Z_;
   add_product(response_, transposed(right(minus_Z_)), N);
   set_product(N, transposed(right(phi_.phi_2())), n, change_);
   Gamma = (response_.view() + change_.view()).bottomRows(sources).transpose();
@@ -126,13 +134,63 @@ bool ExponentialStep::advance_root(Eigen::VectorXd& x, LaneMatrix& FS) {
 }
 
 bool ExponentialStep::advance_pairs(Eigen::VectorXd& x, double gamma, LaneMatrix& FS, Eigen::VectorXd& shift) {
-  if (!usable_ || !set_growth() || !is_small_change(growth_, spread_, kRootTolerance)) return false;
-  set_mean_curvature(step_, x_, f_, A_, gamma, S_, first_);
-  set_mean_curvature(end_, x_2_, f_2_, A_2_, gamma, spread_, last_);
+  if (!usable_ || !(process_.is_smooth() ? set_smooth_pairs(gamma) : set_pairs(gamma))) return false;
   set_mean_shift();
   shift = shift_.view().col(0);
   finish(x, FS);
   return true;
+}
+
+bool ExponentialStep::set_smooth_pairs(double gamma) {
+  if (!set_growth() || !is_small_change(growth_, spread_, kRootTolerance)) return false;
+  set_mean_curvature(step_, x_, f_, A_, gamma, S_, first_);
+  set_mean_curvature(end_, x_2_, f_2_, A_2_, gamma, spread_, last_);
+  return true;
+}
+
+bool ExponentialStep::set_pairs(double gamma) {
+  const int n = S_.columns();
+  deviations_.reshape(n, n);
+  for (int c = 0, i = 0; c < n; ++c)
+    for (const int end = (c + 1) * S_.blocks(); i < end; ++i)
+      deviations_.lanes()[i] = (gamma * S_.lanes()[i] + x_(c)) - x_(c);
+  set_both_parts(step_, x_, f_, deviations_, odd_, first_);
+  // E d + φ_1 N, with φ_1 of h A by one doubling.
+  set_product(odd_, transposed(right(phi_.level(1).phi_1)), n, moved_);
+  set_product(deviations_, transposed(right(phi_.E())), n, growth_);
+  growth_.set_lanes([&](std::size_t i) { return growth_.lanes()[i] + 0.5 * moved_.lanes()[i]; });
+  moved_.set_lanes([&](std::size_t i) { return 0.5 * moved_.lanes()[i]; });
+  add_product(moved_, transposed(right(phi_.level(1).E)), growth_);
+  for (int c = 0, i = 0; c < n; ++c)
+    for (const int end = (c + 1) * S_.blocks(); i < end; ++i)
+      growth_.lanes()[i] = (growth_.lanes()[i] + x_2_(c)) - x_2_(c);
+  set_both_parts(end_, x_2_, f_2_, growth_, odd_end_, last_);
+  odd_end_.set_lanes([&](std::size_t i) { return odd_end_.lanes()[i] - odd_.lanes()[i]; });
+  set_product(odd_end_, transposed(right(phi_.phi_2())), n, moved_);
+  if (!is_small_change(moved_, growth_, kRootTolerance)) return false;
+  growth_.set_lanes(
+      [&](std::size_t i) { return (growth_.lanes()[i] + moved_.lanes()[i]) * (1 / gamma) - spread_.lanes()[i]; });
+  return true;
+}
+
+void ExponentialStep::set_both_parts(const Step& at, const Eigen::VectorXd& x, const Eigen::VectorXd& f,
+                                     const LaneMatrix& d, LaneMatrix& odd, Eigen::VectorXd& mean) {
+  const int n = d.columns(), count = d.rows();
+  const double half = 0.5 * step_.dt_s;
+  moved_.reshape(count, n);
+  moved_.set_lanes([&](std::size_t i) { return -d.lanes()[i]; });
+  set_rates(at, x, d, rates_);
+  set_rates(at, x, moved_, odd);
+  mean.resize(n);
+  for (int c = 0, i = 0; c < n; ++c) {
+    for (const int end = (c + 1) * d.blocks(); i < end; ++i) {
+      const Lanes plus = rates_.lanes()[i] - f(c), minus = odd.lanes()[i] - f(c);
+      rates_.lanes()[i] = half * (plus + minus);
+      odd.lanes()[i] = half * (plus - minus);
+    }
+    mean(c) = sum_of_rows(rates_, c, count) / count;
+  }
+  add_product(d, transposed(right(minus_Z_)), odd);
 }
 
 void ExponentialStep::set_mean_curvature(const Step& at, const Eigen::VectorXd& x, const Eigen::VectorXd& f,
@@ -158,8 +216,8 @@ void ExponentialStep::set_variances() {
   set_squares(S_, variance_.col(0).data());
   variance_.col(levels + 1) = spread_squares_;
   for (int k = levels; k > 0; --k) {
-    set_product(S_, transposed(right(phi_.level(k).E)), n, moved_);
-    set_squares(moved_, variance_.col(levels + 1 - k).data());
+    set_product(phi_.level(k).E, transposed(right(S_)), n, moved_);
+    set_row_squares(moved_, variance_.col(levels + 1 - k));
   }
 }
 

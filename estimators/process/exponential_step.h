@@ -18,9 +18,13 @@
 ///   c      error estimate of x_2                         [n_states]
 ///   G      impulses of force noise (noise.h)             [n_states x sources]
 ///
-/// Sigma points are assumed to be narrow: then N is even in d, points in pairs share it, and one of each pair is enough;
-/// the pairs' differences are those of the linear F. The neglected parts are of third order in d, and N Nᵀ in the
-/// covariance of fourth.
+/// Sigma points are assumed to be narrow. Where f is smooth, N then is even in d: points in pairs share it, one of each
+/// pair is enough, and the pairs' differences are those of the linear F. The neglected parts are of third order in d. An
+/// effect or a slack cable may have a kink between the points of a pair: both are evaluated, and
+///
+///   F S   = (d_2 + h φ_2 (N°(t + h, x_2, d_2) - N°(t, x, d))) / γ,   d_2 = E d + h φ_1 N°(t, x, d),   d = γ S
+///
+/// with the odd part N° of N takes the place of the Jacobian's. N Nᵀ is left out of the covariance: it is of fourth order.
 ///
 /// m is the curvature of f, half the second derivative times the variance of what is curved. At rest it falls within
 /// the step, as the square of the stiffest deviations, to what the slow ones leave: a straight line from m(0) to m(h)
@@ -45,7 +49,7 @@
 /// smoothing speed and is damped less than the slope of friction says.
 ///
 /// Source: Hochbruck and Ostermann, "Exponential integrators", Acta Numerica 2010: exponential Rosenbrock-Euler method
-/// and exprb32 (mean). Van Loan, "Computing integrals involving the matrix exponential", IEEE
+/// and exprb32 (mean), ETD2RK (pairs). Van Loan, "Computing integrals involving the matrix exponential", IEEE
 /// Trans. Automatic Control 23 (1978).
 
 #include "estimators/matrix/phi_functions.h"
@@ -82,6 +86,13 @@ class ExponentialStep {
   /// The last term of F S, in growth_; false: A_2 is not finite.
   bool set_growth();
   void finish(Eigen::VectorXd& x, LaneMatrix& FS) const;
+  /// growth_, first_ and last_ from one point of each pair, where f is smooth; false: refused.
+  bool set_smooth_pairs(double gamma);
+  /// The same from both points.
+  bool set_pairs(double gamma);
+  /// h N(t, x, ± d_i): its odd part for every row of d, and the mean of its even part.
+  void set_both_parts(const Step& at, const Eigen::VectorXd& x, const Eigen::VectorXd& f, const LaneMatrix& d,
+                      LaneMatrix& odd, Eigen::VectorXd& mean);
   /// h times the mean of f(x + d_i) - f - A d_i, where x + d_i is x plus `gamma` times row i of `root`, rounded.
   void set_mean_curvature(const Step& at, const Eigen::VectorXd& x, const Eigen::VectorXd& f, const Eigen::MatrixXd& A,
                           double gamma, const LaneMatrix& root, Eigen::VectorXd& mean);
@@ -101,7 +112,8 @@ class ExponentialStep {
   LaneMatrix S_, spread_, moved_, growth_;                  // S, E S, products with S, the last term of F S
   LaneMatrix forces_, response_, response_rates_, change_;  // G, Γ_0, h N, the last term of Γ; row 0 is for x_2 itself
   LaneMatrix points_, rates_;                               // sigma points
-  LaneMatrix vector_, shift_;                               // one column
+  LaneMatrix deviations_, odd_, odd_end_;                   // d, and the odd parts of h N at the start and the end
+  LaneMatrix shift_;                                        // one column
   Eigen::VectorXd spread_squares_;                          // of the columns of spread_
   Eigen::MatrixXd variance_;                                // V at the nodes
   PhiFunctions phi_;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "estimators/eigen_modes.h"
+#include "estimators/process/arm_linearisation.h"
 #include "estimators/process/standstill.h"
 #include "transmission/jacobian.h"
 
@@ -70,6 +71,8 @@ ProcessModel::ProcessModel(const ArmModel& model)
   state_names_ = name_states(transmission_, layout_);
   for (const auto& e : transmission_.effects())
     if (e.effect->stages() & static_cast<unsigned>(EffectStage::sensors)) readings_are_linear_ = false;
+  is_smooth_ = is_plain<0>(dual_);
+  for (int k = 0; k < n_joints(); ++k) is_smooth_ = is_smooth_ && arm().joint[k].law == CableLaw::paper;
   linear_z_.resize(n_joints());
   linear_H_.resize(n_joints(), n_states());
   differentiate_readings(0, Eigen::VectorXd::Zero(n_states()), linear_z_, linear_H_);

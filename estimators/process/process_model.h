@@ -93,6 +93,8 @@ class ProcessModel {
   /// z [n] becomes h(x), H [n x n_states] its slopes.
   void linearise_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
                           Eigen::Ref<Eigen::MatrixXd> H) const;
+  /// True if f surely has no kinks: all cables follow the paper's law, and no effect acts between commands and joints.
+  bool is_smooth() const { return is_smooth_; }
   /// True if h is affine, that is, if no effect acts at the sensors.
   bool readings_are_linear() const { return readings_are_linear_; }
 
@@ -111,6 +113,7 @@ class ProcessModel {
   void differentiate_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
                               Eigen::Ref<Eigen::MatrixXd> H) const;
 
+  bool is_smooth_ = true;
   bool readings_are_linear_ = true;
   Eigen::VectorXd linear_z_;  // h(0), and H, if they are linear
   Eigen::MatrixXd linear_H_;
