@@ -143,8 +143,8 @@ TEST(ExponentialFilters, AreAsAccurateWhereAKinkLiesBetweenThePointsOfAPair) {
   // At rest the element that yields has other slopes forwards than backwards.
   ArmModel model = raven2();
   model.effects.push_back(place_effect(*find_effect("hysteresis"), model.nominal, 2));
-  // Over 20 s the errors of joint 3 differ by 5 %; by 30 % if only one point of each pair is evaluated.
-  expect_alike(model, 4, "hysteresis", 0.08);
+  // If only one point of each pair is evaluated, the error of sr_ukf at joint 3 is 12 % larger over these 20 s.
+  expect_alike(model, 20, "hysteresis");
 }
 
 TEST(ExponentialFilters, WideSigmaPointsTakeTheSubSteps) {
