@@ -126,9 +126,7 @@ class Diagnoser {
   Fit fit_without(Fit f, std::size_t effect) {
     const PlacedEffect gone = f.hypothesis.effects[effect];
     f.hypothesis = without_effect(f.hypothesis, effect);
-    std::erase_if(f.parameters, [&](const FitParameter& p) { return p.effect == static_cast<int>(effect); });
-    for (FitParameter& p : f.parameters)
-      if (p.effect > static_cast<int>(effect)) --p.effect;
+    f.parameters = without_parameters_of(std::move(f.parameters), effect);
     const auto covers = [&](const PlacedEffect& e, const FitParameter& p) {
       return effect_covers(e, result_.given.nominal, p);
     };

@@ -5,39 +5,30 @@
 namespace halyard {
 namespace {
 
-std::vector<FitParameter> parameters_of(const Fit& fit, std::size_t effect) {
-  std::vector<FitParameter> own = fit.parameters;
-  std::erase_if(own, [&](const FitParameter& p) { return p.effect != static_cast<int>(effect); });
-  return own;
-}
-
 bool are_complementary(const Fit& fit, std::size_t one, std::size_t other) {
   const PlacedEffect &a = fit.hypothesis.effects[one], &b = fit.hypothesis.effects[other];
   if (a.effect != b.effect || a.joint != b.joint || a.effect->n_states() > 0) return false;
-  const std::vector<FitParameter> of_a = parameters_of(fit, one), of_b = parameters_of(fit, other);
-  return std::ranges::none_of(of_a, [&](const FitParameter& p) {
-    return std::ranges::any_of(of_b, [&](const FitParameter& q) { return p.index == q.index; });
+  return std::ranges::none_of(fit.parameters, [&](FitParameter p) {
+    if (p.effect != static_cast<int>(one)) return false;
+    p.effect = static_cast<int>(other);
+    return find_parameter(fit.parameters, p).has_value();
   });
 }
 
 Joined join(const Fit& fit, std::size_t kept, std::size_t gone) {
   Hypothesis h = fit.hypothesis;
-  std::vector<FitParameter> parameters;
-  for (FitParameter p : fit.parameters) {
-    if (p.effect == static_cast<int>(gone)) {
-      const double value = parameter_value(fit.hypothesis, p);
-      p.effect = static_cast<int>(kept);
-      set_parameter(h, p, value);
-    } else if (p.effect > static_cast<int>(gone)) {
-      --p.effect;
-    }
-    parameters.push_back(p);
+  std::vector<FitParameter> parameters = fit.parameters;
+  for (FitParameter& p : parameters) {
+    if (p.effect != static_cast<int>(gone)) continue;
+    const double value = parameter_value(fit.hypothesis, p);
+    p.effect = static_cast<int>(kept);
+    set_parameter(h, p, value);
   }
   // Parameters of an effect follow each other in its order; those of the model are before them.
   std::ranges::stable_sort(parameters, [](const FitParameter& a, const FitParameter& b) {
     return a.effect != b.effect ? a.effect < b.effect : a.effect >= 0 && a.index < b.index;
   });
-  return {without_effect(std::move(h), gone), std::move(parameters), kept, gone};
+  return {without_effect(std::move(h), gone), without_parameters_of(std::move(parameters), gone), kept, gone};
 }
 
 }  // namespace

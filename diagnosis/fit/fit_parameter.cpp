@@ -129,6 +129,13 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
   return all;
 }
 
+std::vector<FitParameter> without_parameters_of(std::vector<FitParameter> parameters, std::size_t gone) {
+  std::erase_if(parameters, [&](const FitParameter& p) { return p.effect == static_cast<int>(gone); });
+  for (FitParameter& p : parameters)
+    if (p.effect > static_cast<int>(gone)) --p.effect;
+  return parameters;
+}
+
 std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameters) {
   std::vector<ParameterGroup> groups;
   int effect = -1;

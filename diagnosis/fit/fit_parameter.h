@@ -37,6 +37,8 @@ inline std::optional<std::size_t> find_parameter(const std::vector<FitParameter>
     if (parameters[i].effect == p.effect && parameters[i].index == p.index) return i;
   return {};
 }
+/// The list without the parameters of the effect with index `gone`, as without_effect() leaves the hypothesis.
+std::vector<FitParameter> without_parameters_of(std::vector<FitParameter> parameters, std::size_t gone);
 double parameter_value(const Hypothesis& h, const FitParameter& p);
 void set_parameter(Hypothesis& h, const FitParameter& p, double value);
 

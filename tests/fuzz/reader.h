@@ -81,6 +81,15 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
+/// Gives the input to a reader of files beside those of beside/.
+template <class Read>
+void reads_file(const std::uint8_t* data, std::size_t size, const Read& read) {
+  constexpr const char* kName = "input.xml";
+  static const WorkFolder folder;
+  folder.write(kName, text_of(data, size));
+  reads([&] { read(kName); });
+}
+
 /// Takes the text up to the next '\n' off the front.
 inline std::string_view take_line(std::string_view& text) {
   const std::size_t end = std::min(text.find('\n'), text.size());

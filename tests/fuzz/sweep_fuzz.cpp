@@ -6,8 +6,6 @@ using namespace halyard;
 using namespace halyard::fuzzing;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const WorkFolder folder;
-  folder.write("input.xml", text_of(data, size));
-  reads([] { read_sweep("input.xml"); });
+  reads_file(data, size, [](const char* file) { read_sweep(file); });
   return 0;
 }
