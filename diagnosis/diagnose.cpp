@@ -88,8 +88,8 @@ class Diagnoser {
     say("final fit", 0);
     fit_finally(evidence, whole, attribution().final_fit);
     while (const std::optional<std::size_t> gone = effect_to_drop(evidence)) {
+      if (!fit_finally(evidence, whole, fit_without(attribution().final_fit, *gone))) break;
       attribution().namings.erase(attribution().namings.begin() + static_cast<std::ptrdiff_t>(*gone - given_));
-      fit_finally(evidence, whole, fit_without(attribution().final_fit, *gone));
     }
     while (join_one(evidence, whole)) {}
     changed_ = changed_numbers(whole, result_.given, attribution().final_fit);
@@ -101,32 +101,37 @@ class Diagnoser {
     attribution().final_score = evidence.score(final_hypothesis());
   }
 
-  void fit_finally(const Evidence& evidence, const Evidence& whole, const Fit& start) {
-    attribution().final_fit = final_fit(whole, result_.given, start, given_);
+  /// False if the start cannot be integrated: then all stays as it is.
+  bool fit_finally(const Evidence& evidence, const Evidence& whole, const Fit& start) {
+    const Fit fit = final_fit(whole, result_.given, start, given_);
+    if (!fit.usable) return false;
+    attribution().final_fit = fit;
     attribution().final_score = evidence.score(final_hypothesis());
+    return true;
   }
 
   /// Makes two effects one that are one. It keeps the surer of their names. False if there are no such two.
   bool join_one(const Evidence& evidence, const Evidence& whole) {
     const auto joined = join_complementary(attribution().final_fit, given_);
     if (!joined) return false;
+    Fit start;
+    start.hypothesis = joined->hypothesis;
+    start.parameters = joined->parameters;
+    if (!fit_finally(evidence, whole, start)) return false;
     std::vector<Naming>& namings = attribution().namings;
     const auto gone = namings.begin() + static_cast<std::ptrdiff_t>(joined->gone - given_);
     Naming& kept = namings[joined->kept - given_];
     if (gone->weight > kept.weight) kept = std::move(*gone);
     namings.erase(gone);
-    Fit start;
-    start.hypothesis = joined->hypothesis;
-    start.parameters = joined->parameters;
-    fit_finally(evidence, whole, start);
     return true;
   }
 
-  /// The numbers of the model that the effect had replaced are fitted again.
-  Fit fit_without(Fit f, std::size_t effect) {
-    const PlacedEffect gone = f.hypothesis.effects[effect];
-    f.hypothesis = without_effect(f.hypothesis, effect);
-    f.parameters = without_parameters_of(std::move(f.parameters), effect);
+  /// A start. The numbers of the model that the effect had replaced are fitted again.
+  Fit fit_without(const Fit& with, std::size_t effect) {
+    const PlacedEffect gone = with.hypothesis.effects[effect];
+    Fit f;
+    f.hypothesis = without_effect(with.hypothesis, effect);
+    f.parameters = without_parameters_of(with.parameters, effect);
     const auto covers = [&](const PlacedEffect& e, const FitParameter& p) {
       return effect_covers(e, result_.given.nominal, p);
     };

@@ -86,7 +86,9 @@ class UncertainParameters {
 /// Fits with weights that follow from the residual at the start. They balance the data against the tolerances: noise of
 /// a sensor counts by its samples, an error of the model by its correlation time.
 Fit weighed_fit(const Evidence& whole, const Hypothesis& start, const std::vector<FitParameter>& parameters) {
-  const std::vector<double> scale = channel_scale(whole, whole.score(start).fit_mean_square);
+  const Score score = whole.score(start);
+  if (!score.finite) return {};
+  const std::vector<double> scale = channel_scale(whole, score.fit_mean_square);
   FitOptions options;
   options.correlated_rows = independent_rows(whole, scale);
   return fit(whole, start, parameters, scale, options);
@@ -141,7 +143,9 @@ void count_resets(const Fit& all, std::size_t given, Fit& f) {
 }  // namespace
 
 Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given) {
-  const std::vector<double> scale = channel_scale(whole, whole.score(chosen.hypothesis).fit_mean_square);
+  const Score score = whole.score(chosen.hypothesis);
+  if (!score.finite) return {};
+  const std::vector<double> scale = channel_scale(whole, score.fit_mean_square);
   std::vector<FitParameter> numbers = chosen.parameters;
   std::erase_if(numbers, [](const FitParameter& p) { return p.effect >= 0; });
   const auto columns = sensitivities(whole, chosen.hypothesis, numbers);
@@ -149,6 +153,7 @@ Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, s
       nudged(whole, chosen.hypothesis, given, model.nominal, BeyondNumbers(whole, columns, scale)).at;
   const Fit tried = weighed_fit(whole, start, chosen.parameters);
   const Fit& all = tried.usable ? tried : chosen;
+  if (!all.usable) return {};
   Fit certain = keep_certain_sizes(whole, all, given);
   count_resets(all, given, certain);
   return certain;

@@ -14,6 +14,8 @@ namespace halyard {
 /// An effect all of whose sizes are reset has no parameter in the result. The standard deviations of an effect that keeps
 /// some of its sizes count what the others may be.
 /// given: number of effects that the model came with; they stay.
+/// If the refit cannot be integrated, the result is that of `chosen`. If `chosen` is only a start, or cannot be
+/// integrated either, the result is not usable.
 Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given);
 
 /// Effects, as indices in the hypothesis, of which no size is left in the fit.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "diagnosis/search/refit.h"
 #include "plant/simulate.h"
@@ -133,6 +134,17 @@ TEST(FinalFit, IntervalsCountTheSizesOfTheSameEffectThatAreReset) {
     return rise < std::ssize(fit.parameters) ? fit.std_deviation[rise] : 0;
   };
   EXPECT_GT(deviation(both), 1.05 * deviation(one));
+}
+
+TEST(FinalFit, IsNotUsableIfItsStartCannotBeIntegrated) {
+  const ArmModel model = first_joints(1);
+  const Evidence whole(make_records(simulate(motion(model, 2)).measured, model, {}), model, Split::none);
+  Fit start;
+  start.hypothesis = {model.nominal, {slip(model, kJump, kTime)}};
+  start.parameters = effect_parameters(whole, start.hypothesis, model.nominal, 0);
+  EXPECT_TRUE(final_fit(whole, model, start, 0).usable);
+  start.hypothesis.nominal.joint[0].mass = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(final_fit(whole, model, start, 0).usable);
 }
 
 TEST(FinalFit, GivesTheModelsNumbersBack) {
