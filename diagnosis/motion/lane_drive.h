@@ -1,6 +1,7 @@
 #pragma once
-/// drive_record and replay_record over lanes, compiled once per instruction set. The widest set that the processor
-/// supports is chosen at run time.
+/// drive_record and replay_record over lanes, compiled once per instruction set.
+
+#include <vector>
 
 #include "diagnosis/motion/motion_kernel.h"
 
@@ -13,10 +14,7 @@ struct LaneDrive {
                  const CommandHistory*, const Lanes* states, Lanes* out);
 };
 
-LaneDrive generic_lane_drive();
-#if defined(__x86_64__)
-LaneDrive avx2_lane_drive();
-LaneDrive avx512_lane_drive();
-#endif
+/// The kernels that this processor can run, the widest first; the last is the generic one.
+const std::vector<LaneDrive>& lane_drives();
 
 }  // namespace halyard

@@ -2,6 +2,7 @@
 
 namespace halyard {
 
-LaneDrive avx2_lane_drive() { return {drive_lanes, replay_lanes}; }
+extern const LaneDrive kDrive_avx2;
+const LaneDrive kDrive_avx2 = {drive_lanes, replay_lanes};
 
 }  // namespace halyard

@@ -2,6 +2,7 @@
 
 namespace halyard {
 
-LaneDrive avx512_lane_drive() { return {drive_lanes, replay_lanes}; }
+extern const LaneDrive kDrive_avx512;
+const LaneDrive kDrive_avx512 = {drive_lanes, replay_lanes};
 
 }  // namespace halyard

@@ -2,6 +2,7 @@
 
 namespace halyard {
 
-LaneDrive generic_lane_drive() { return {drive_lanes, replay_lanes}; }
+extern const LaneDrive kDrive_generic;
+const LaneDrive kDrive_generic = {drive_lanes, replay_lanes};
 
 }  // namespace halyard

@@ -13,7 +13,6 @@
 #include "diagnosis/prediction/motion_key.h"
 #include "diagnosis/prediction/shared_lanes.h"
 #include "diagnosis/prediction/side_by_side.h"
-#include "estimators/lanes/instruction_set.h"
 
 namespace halyard {
 namespace {
@@ -23,20 +22,7 @@ namespace {
 constexpr double kLetDown = 0.8;
 
 /// For the widest instruction set of this processor.
-LaneDrive lane_drive() {
-  const InstructionSet set = instruction_sets().front();
-#if defined(__x86_64__)
-  if (set == InstructionSet::avx512) return avx512_lane_drive();
-  if (set == InstructionSet::avx2) return avx2_lane_drive();
-#endif
-  (void)set;
-  return generic_lane_drive();
-}
-
-const LaneDrive& kernel() {
-  static const LaneDrive widest = lane_drive();
-  return widest;
-}
+const LaneDrive& kernel() { return lane_drives().front(); }
 
 std::vector<DrivenInput> driven_inputs(const Record& record) {
   std::vector<DrivenInput> inputs(record.size);

@@ -16,4 +16,24 @@ enum class InstructionSet {
 /// The sets that this processor supports and that halyard was compiled for, the widest first; the last is generic.
 const std::vector<InstructionSet>& instruction_sets();
 
+/// A table of functions that is compiled once for each set. x86-64 has all copies, other processors the generic one.
+template <class Kernels>
+struct KernelCopies {
+  const Kernels* generic;
+  const Kernels* avx2 = nullptr;
+  const Kernels* avx512 = nullptr;
+};
+
+/// The copies of the sets in instruction_sets(), in the same order.
+template <class Kernels>
+std::vector<Kernels> usable_copies(const KernelCopies<Kernels>& copies) {
+  std::vector<Kernels> usable;
+  for (const InstructionSet set : instruction_sets()) {
+    if (set == InstructionSet::avx512) usable.push_back(*copies.avx512);
+    else if (set == InstructionSet::avx2) usable.push_back(*copies.avx2);
+    else usable.push_back(*copies.generic);
+  }
+  return usable;
+}
+
 }  // namespace halyard

@@ -6,28 +6,15 @@ namespace halyard {
 
 extern const LaneKernels kLanes_generic;
 #if defined(__x86_64__)
-extern const LaneKernels kLanes_avx512, kLanes_avx2;
+extern const LaneKernels kLanes_avx2, kLanes_avx512;
 #endif
-
-namespace {
-
-const LaneKernels& kernels_for(InstructionSet set) {
-#if defined(__x86_64__)
-  if (set == InstructionSet::avx512) return kLanes_avx512;
-  if (set == InstructionSet::avx2) return kLanes_avx2;
-#endif
-  (void)set;
-  return kLanes_generic;
-}
-
-}  // namespace
 
 const std::vector<LaneKernels>& lane_kernels() {
-  static const std::vector<LaneKernels> usable = [] {
-    std::vector<LaneKernels> all;
-    for (const InstructionSet set : instruction_sets()) all.push_back(kernels_for(set));
-    return all;
-  }();
+#if defined(__x86_64__)
+  static const std::vector<LaneKernels> usable = usable_copies<LaneKernels>({&kLanes_generic, &kLanes_avx2, &kLanes_avx512});
+#else
+  static const std::vector<LaneKernels> usable = usable_copies<LaneKernels>({&kLanes_generic});
+#endif
   return usable;
 }
 

@@ -6,28 +6,15 @@ namespace halyard {
 
 extern const MatrixKernels kMatrix_generic;
 #if defined(__x86_64__)
-extern const MatrixKernels kMatrix_avx512, kMatrix_avx2;
+extern const MatrixKernels kMatrix_avx2, kMatrix_avx512;
 #endif
-
-namespace {
-
-const MatrixKernels& matrix_kernels_for(InstructionSet set) {
-#if defined(__x86_64__)
-  if (set == InstructionSet::avx512) return kMatrix_avx512;
-  if (set == InstructionSet::avx2) return kMatrix_avx2;
-#endif
-  (void)set;
-  return kMatrix_generic;
-}
-
-}  // namespace
 
 const std::vector<MatrixKernels>& matrix_kernels() {
-  static const std::vector<MatrixKernels> usable = [] {
-    std::vector<MatrixKernels> all;
-    for (const InstructionSet set : instruction_sets()) all.push_back(matrix_kernels_for(set));
-    return all;
-  }();
+#if defined(__x86_64__)
+  static const std::vector<MatrixKernels> usable = usable_copies<MatrixKernels>({&kMatrix_generic, &kMatrix_avx2, &kMatrix_avx512});
+#else
+  static const std::vector<MatrixKernels> usable = usable_copies<MatrixKernels>({&kMatrix_generic});
+#endif
   return usable;
 }
 

@@ -46,7 +46,7 @@ DrivenState<T> at_rest() {
   return x;
 }
 
-TEST(LaneDrive, EveryLaneMovesLikeASingleArmForAnyNumberOfJoints) {
+TEST(LaneDrive, EveryLaneMovesLikeASingleArmForAnyNumberOfJointsAndInstructionSet) {
   const Chebyshev scheme = scheme_for({{{{-100.0, 0.0}}}}, kDt);
   for (int n = 1; n <= kMaxJoints; ++n) {
     const ArmParameters<double> arm = arm_of(n);
@@ -58,19 +58,20 @@ TEST(LaneDrive, EveryLaneMovesLikeASingleArmForAnyNumberOfJoints) {
     drive_record(lift_transmission<double>(arm, {}), motors.data(), kSamples, 0.0, kDt, scheme, nullptr, x,
                  single.data(), static_cast<double*>(nullptr));
 
-    const Transmission<Lanes> lanes = lift_transmission<Lanes>(arm, {});
-    std::vector<Lanes> driven(size), states(size), replayed(size);
-    DrivenState<Lanes> y = at_rest<Lanes>();
-    generic_lane_drive().drive(lanes, motors.data(), kSamples, 0.0, kDt, scheme, nullptr, y, driven.data(),
-                               states.data());
-    generic_lane_drive().replay(lanes, motors.data(), kSamples, 0.0, kDt, nullptr, states.data(), replayed.data());
+    for (const LaneDrive& kernels : lane_drives()) {
+      const Transmission<Lanes> lanes = lift_transmission<Lanes>(arm, {});
+      std::vector<Lanes> driven(size), states(size), replayed(size);
+      DrivenState<Lanes> y = at_rest<Lanes>();
+      kernels.drive(lanes, motors.data(), kSamples, 0.0, kDt, scheme, nullptr, y, driven.data(), states.data());
+      kernels.replay(lanes, motors.data(), kSamples, 0.0, kDt, nullptr, states.data(), replayed.data());
 
-    constexpr double kRounding = 1e-12;  // of some hundred stages with numbers of the order of one
-    for (std::size_t i = 0; i < size; ++i)
-      for (const int lane : {0, kLaneWidth - 1}) {
-        EXPECT_NEAR(driven[i][lane], single[i], kRounding) << n << " joints";
-        EXPECT_NEAR(replayed[i][lane], single[i], kRounding) << n << " joints";
-      }
+      constexpr double kRounding = 1e-12;  // of some hundred stages with numbers of the order of one
+      for (std::size_t i = 0; i < size; ++i)
+        for (const int lane : {0, kLaneWidth - 1}) {
+          EXPECT_NEAR(driven[i][lane], single[i], kRounding) << n << " joints";
+          EXPECT_NEAR(replayed[i][lane], single[i], kRounding) << n << " joints";
+        }
+    }
     EXPECT_GT(std::abs(x.q[n - 1] - 0.01), 1e-4) << "the arm does not move";
   }
 }

@@ -1,0 +1,21 @@
+#include "diagnosis/motion/lane_drive.h"
+
+#include "estimators/lanes/instruction_set.h"
+
+namespace halyard {
+
+extern const LaneDrive kDrive_generic;
+#if defined(__x86_64__)
+extern const LaneDrive kDrive_avx2, kDrive_avx512;
+#endif
+
+const std::vector<LaneDrive>& lane_drives() {
+#if defined(__x86_64__)
+  static const std::vector<LaneDrive> usable = usable_copies<LaneDrive>({&kDrive_generic, &kDrive_avx2, &kDrive_avx512});
+#else
+  static const std::vector<LaneDrive> usable = usable_copies<LaneDrive>({&kDrive_generic});
+#endif
+  return usable;
+}
+
+}  // namespace halyard
