@@ -27,7 +27,7 @@ void add_columns_option(CLI::App& command, std::vector<std::string>& columns) {
   command
       .add_option("--column", columns,
                   "which column of the log is which signal; overrides the model's map; may be repeated")
-      ->type_name("NAME=COLUMN[,unit=U][,sign=-1][,scale=S][,offset=O]")
+      ->type_name("NAME=COLUMN[,unit=U][,sign=-1][,scale=S][,offset=O][,wrap=P]")
       ->take_all()
       ->allow_extra_args(false);
 }

@@ -110,7 +110,7 @@ void add_parsed(ColumnMap& map, std::string_view entry) {
   split(entry, parts);
   const auto [name, column] = key_and_value(parts.front());
   std::string_view unit;
-  std::map<std::string_view, double> numbers = {{"sign", 1}, {"scale", 1}, {"offset", 0}};
+  std::map<std::string_view, double> numbers = {{"sign", 1}, {"scale", 1}, {"offset", 0}, {"wrap", 0}};
   std::set<std::string_view> given;
   for (std::size_t i = 1; i < parts.size(); ++i) {
     const auto [key, value] = key_and_value(parts[i]);
@@ -120,16 +120,16 @@ void add_parsed(ColumnMap& map, std::string_view entry) {
     } else if (numbers.contains(key)) {
       numbers[key] = number_of(key, value);
     } else {
-      throw InputError(in_quotes(key) + " is no setting of a column; expected unit=, sign=, scale= or offset=");
+      throw InputError(in_quotes(key) + " is no setting of a column; expected unit=, sign=, scale=, offset= or wrap=");
     }
   }
-  map.add(name, column, unit, numbers["sign"], numbers["scale"], numbers["offset"]);
+  map.add(name, column, unit, numbers["sign"], numbers["scale"], numbers["offset"], numbers["wrap"]);
 }
 
 }  // namespace
 
 void ColumnMap::add(std::string_view name, std::string_view column, std::string_view unit, double sign, double scale,
-                    double offset) {
+                    double offset, double wrap) {
   const std::optional<Quantity> quantity = quantity_of(name);
   if (!quantity) throw InputError(in_quotes(name) + " is no column of a log; expected one of " + standard_names());
   try {
@@ -138,7 +138,11 @@ void ColumnMap::add(std::string_view name, std::string_view column, std::string_
     const double factor = sign * scale * unit_factor(trim(unit), *quantity);
     if (!std::isfinite(factor) || factor == 0) throw InputError("expected a finite scale other than 0");
     if (!std::isfinite(offset)) throw InputError("expected a finite offset, in SI units");
-    const bool is_new = sources_.emplace(name, ColumnSource{std::string(trim(column)), factor, offset}).second;
+    if (!std::isfinite(wrap) || wrap < 0)
+      throw InputError("expected a wrap above 0: the period of the reading, in the units of the file");
+    if (wrap > 0 && *quantity != Quantity::kPosition)
+      throw InputError("only a position wraps around; leave wrap out here");
+    const bool is_new = sources_.emplace(name, ColumnSource{std::string(trim(column)), factor, offset, wrap}).second;
     if (!is_new) throw InputError("is mapped twice; remove one of the two");
   } catch (const InputError& error) {
     throw InputError("column " + in_quotes(name) + ": " + error.what());

@@ -17,11 +17,15 @@ inline constexpr std::array<std::string_view, 5> kSignalNames = {"motor_torque",
 /// Columns of the whole arm: position of a marker at the tool, measured by a camera, m in the base frame.
 inline constexpr std::array<std::string_view, 3> kMarkerNames = {"marker_x", "marker_y", "marker_z"};
 
-/// Where a standard column comes from: SI value = scale · raw + offset.
+/// Where a standard column comes from: SI value = scale · (raw + wrap · laps) + offset.
+///
+/// A counter or an absolute encoder starts again after a period. From one sample that is not missing to the next, `laps`
+/// changes such that the value moves by at most half a period.
 struct ColumnSource {
   std::string column;  ///< name in the header of the file
   double scale = 1;    ///< SI unit per raw unit: unit, sign and scale in one factor, never zero
   double offset = 0;   ///< SI unit (s, rad or m, rad/s or m/s, N·m or N)
+  double wrap = 0;     ///< period of a position, in raw units; 0: the column is continuous
 };
 
 /// Maps columns of a foreign log, and their units, to the standard columns. Several standard columns may come from one
@@ -37,15 +41,17 @@ struct ColumnSource {
 /// a scale may convert one into the other (a linear motor, a spindle).
 class ColumnMap {
  public:
-  /// SI value = sign · scale · unit · raw + offset, with the offset in SI units.
+  /// SI value = sign · scale · unit · (raw + wrap · laps) + offset, with the offset in SI units and `wrap` in those of the
+  /// file.
   /// Throws InputError, without file and line, for a name that is no standard column or is already mapped, an empty
-  /// column, a unit that is unknown or of another quantity, a sign other than 1 or -1, a scale of zero, or a number
-  /// that is not finite.
+  /// column, a unit that is unknown or of another quantity, a sign other than 1 or -1, a scale of zero, a number that is
+  /// not finite, or a period that is negative or belongs to no position.
   void add(std::string_view name, std::string_view column, std::string_view unit = "", double sign = 1,
-           double scale = 1, double offset = 0);
+           double scale = 1, double offset = 0, double wrap = 0);
 
   /// Adds one command-line entry; all but NAME=COLUMN is optional:
   ///   motor_torque_1=capstan_torque_1_Nm,unit=N.m,sign=-1,scale=0.0816,offset=0.1
+  ///   motor_position_1=angle_deg,unit=deg,wrap=360
   /// Throws InputError where add() does, and if the text does not have this form. The message quotes the entry.
   void add_entry(std::string_view entry);
 
@@ -56,7 +62,8 @@ class ColumnMap {
   /// Throws InputError if the map names a joint beyond n_joints.
   void check_joints(int n_joints) const;
 
-  /// Sources by standard name. Adding each one with its `scale`, its `offset` and an empty unit gives the same map.
+  /// Sources by standard name. Adding each one with its `scale`, `offset` and `wrap` and an empty unit gives the same
+  /// map.
   const std::map<std::string, ColumnSource, std::less<>>& sources() const { return sources_; }
 
  private:

@@ -70,11 +70,29 @@ class Lines {
   std::size_t number_ = 0;
 };
 
+/// A column of a log, and where its values come from.
+class Target {
+ public:
+  Target(std::vector<double>& values, const ColumnSource& source) : values_(&values), source_(source) {}
+
+  /// Appends the value of a raw reading, NaN if it is missing. False if the value is infinite.
+  bool append(double raw) {
+    if (source_.wrap > 0 && !std::isnan(raw)) {
+      if (!std::isnan(last_)) laps_ -= std::round((raw - last_) / source_.wrap);
+      last_ = raw;
+    }
+    values_->push_back(source_.scale * (raw + laps_ * source_.wrap) + source_.offset);
+    return !std::isinf(values_->back());
+  }
+
+ private:
+  std::vector<double>* values_;
+  ColumnSource source_;
+  double last_ = std::numeric_limits<double>::quiet_NaN();  ///< raw reading before, without missing ones
+  double laps_ = 0;                                         ///< since the first reading
+};
+
 struct Column {
-  struct Target {
-    std::vector<double>* values;
-    double scale, offset;
-  };
   std::string name;
   std::vector<Target> targets;  // none: the column is ignored
 };
@@ -121,7 +139,7 @@ void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, 
       header.fail("column " + in_quotes(source.column) + " stands twice in the header; rename one of the two");
     } else if (n_found == 1) {
       const auto found = std::ranges::find(columns, source.column, &Column::name);
-      found->targets.push_back({&values, source.scale, source.offset});
+      found->targets.emplace_back(values, source);
     } else if (is_mapped) {
       missing.push_back(in_quotes(source.column) + " (mapped to " + name + ")");
     } else if (name == "time" || is_required(name, options)) {
@@ -137,7 +155,7 @@ void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, 
               "or on the command line");
 }
 
-void read_cell(std::string_view cell, const Column& column, const Lines& row) {
+void read_cell(std::string_view cell, Column& column, const Lines& row) {
   const auto fail = [&](const char* what) {
     row.fail("column " + in_quotes(column.name) + ": " + in_quotes(cell) + what +
              "; write a finite decimal number, or leave the cell empty for a missing sample");
@@ -145,13 +163,11 @@ void read_cell(std::string_view cell, const Column& column, const Lines& row) {
   const std::optional<double> number = parse_number(cell);
   if (!number && !cell.empty()) fail(" is not a number");
   const double raw = number.value_or(std::numeric_limits<double>::quiet_NaN());
-  for (const auto& [values, scale, offset] : column.targets) {
-    values->push_back(scale * raw + offset);
-    if (std::isinf(values->back())) fail(" is too large once scaled");
-  }
+  for (Target& target : column.targets)
+    if (!target.append(raw)) fail(" is too large once scaled");
 }
 
-void read_row(const std::vector<Column>& columns, const Lines& row, std::vector<std::string_view>& cells) {
+void read_row(std::vector<Column>& columns, const Lines& row, std::vector<std::string_view>& cells) {
   split(row.line(), cells);
   if (cells.size() != columns.size()) {
     row.fail("the row has " + std::to_string(cells.size()) + " cells, the header " + std::to_string(columns.size()) +

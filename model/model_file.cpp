@@ -251,12 +251,12 @@ PlacedEffect read_effect(const XmlElement& element, const ArmParameters<double>&
 void read_columns(const XmlElement& columns, ArmModel& model) {
   columns.only({}, {"column"});
   for (const XmlElement& column : columns.children()) {
-    column.only({"name", "from", "unit", "sign", "scale", "offset"});
+    column.only({"name", "from", "unit", "sign", "scale", "offset", "wrap"});
     const std::string name = column.text("name"), from = column.text("from"), unit = column.text_or("unit", "");
     const double sign = column.number_or("sign", 1, ""), scale = column.number_or("scale", 1, "");
-    const double offset = column.number_or("offset", 0, "");
+    const double offset = column.number_or("offset", 0, ""), wrap = column.number_or("wrap", 0, "");
     try {
-      model.columns.add(name, from, unit, sign, scale, offset);
+      model.columns.add(name, from, unit, sign, scale, offset, wrap);
       model.columns.check_joints(model.n());
     } catch (const InputError& error) {
       column.fail(error.what());

@@ -148,6 +148,7 @@ void write_columns(Writer& xml, const ColumnMap& columns) {
     xml.attribute("from", source.column);
     xml.attribute("scale", source.scale);
     xml.attribute("offset", source.offset);
+    if (source.wrap > 0) xml.attribute("wrap", source.wrap);
     xml.close();
   }
   xml.close();

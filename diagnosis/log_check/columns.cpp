@@ -106,19 +106,57 @@ Jumps jumps_of(const LogUnderCheck& c, const PositionColumn& column) {
   return jumps;
 }
 
-/// "2 turns" or "2^16 counts of its encoder" if a counter that wraps around jumps so.
-std::string wrap_of(const Jumps& jumps, const PositionColumn& column) {
-  const double turn = 2 * std::numbers::pi, step = std::abs(jumps.step);
-  const double tolerance = std::clamp(2 * jumps.usual, 0.02 * turn, 0.1 * turn);
-  const double turns = std::round(step / turn);
-  if (column.turns && jumps.alike && turns >= 1 && std::abs(step - turns * turn) < tolerance)
-    return fmt::format("{:g} turn{}", turns, turns > 1 ? "s" : "");
-  // A single jump may have any size by chance.
-  if (column.resolution <= 0 || jumps.count < 2 || !jumps.alike) return "";
+constexpr double kTurn = 2 * std::numbers::pi;
+
+/// A period after which a reading starts again; 0: none.
+struct Period {
+  double size = 0;
+  std::string what = {};
+};
+
+Period of_turns(double turns) { return {turns * kTurn, fmt::format("{:g} turn{}", turns, turns > 1 ? "s" : "")}; }
+
+/// Of the counters of its encoder.
+std::vector<Period> counters_of(const PositionColumn& column) {
+  std::vector<Period> counters;
+  if (column.resolution <= 0) return counters;
   for (const int bits : {10, 12, 13, 14, 15, 16, 17, 18, 20, 24, 32})
-    if (std::abs(step / column.resolution / std::pow(2, bits) - 1) < 0.02)
-      return fmt::format("2^{} counts of its encoder", bits);
-  return "";
+    counters.push_back({std::pow(2, bits) * column.resolution, fmt::format("2^{} counts of its encoder", bits)});
+  return counters;
+}
+
+/// The period of a counter that jumps so.
+Period period_of(const Jumps& jumps, const PositionColumn& column) {
+  const double step = std::abs(jumps.step);
+  const double tolerance = std::clamp(2 * jumps.usual, 0.02 * kTurn, 0.1 * kTurn);
+  const double turns = std::round(step / kTurn);
+  if (column.turns && jumps.alike && turns >= 1 && std::abs(step - turns * kTurn) < tolerance) return of_turns(turns);
+  // A single jump may have any size by chance.
+  if (jumps.count < 2 || !jumps.alike) return {};
+  for (const Period& counter : counters_of(column))
+    if (std::abs(step / counter.size - 1) < 0.02) return counter;
+  return {};
+}
+
+/// Whether a reading runs through a period again and again: it stays within one period, and a step of nearly a period is
+/// a usual step once the period is taken off.
+bool runs_in_laps(const Samples& s, double period) {
+  if (spread(s.x) > (1 + 1e-6) * period) return false;
+  double largest = 0, largest_at_end = 0;
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    const double step = std::abs(s.x[i] - s.x[i - 1]);
+    if (step > period / 2) largest_at_end = std::max(largest_at_end, period - step);
+    else largest = std::max(largest, step);
+  }
+  return largest_at_end > 0 && largest_at_end < 2 * largest && largest < period / 4;
+}
+
+/// Jumps of a slow column stand out from its motion. A motor that turns fast jumps so often that they do not.
+Period period_of(const Samples& s, const PositionColumn& column) {
+  std::vector<Period> all = counters_of(column);
+  if (column.turns) all.insert(all.begin(), of_turns(1));
+  const auto found = std::ranges::find_if(all, [&](const Period& p) { return runs_in_laps(s, p.size); });
+  return found == all.end() ? Period{} : *found;
 }
 
 std::string describe(const Jumps& jumps) {
@@ -127,12 +165,16 @@ std::string describe(const Jumps& jumps) {
 }
 
 void check_wraps(LogUnderCheck& c, const PositionColumn& column) {
+  const std::string name = column_name(column.signal, column.k);
+  const auto reject = [&](const std::string& what, const Period& period) {
+    c.reject(name, what + "; expected a continuous position", "unwrap it with " + c.wrap_option(name, period.size));
+  };
+  const Samples s(c.log, (c.log.*column.signal)[column.k]);
+  if (const Period period = period_of(s, column); period.size > 0)
+    return reject("starts again after " + period.what, period);
   const Jumps jumps = jumps_of(c, column);
-  const std::string wrap = jumps.count > 0 ? wrap_of(jumps, column) : "";
-  if (!wrap.empty())
-    c.reject(column_name(column.signal, column.k),
-             describe(jumps) + ", which is " + wrap + "; expected a continuous position",
-             "unwrap the counter before the log is written: add the jump to all later samples");
+  if (const Period period = period_of(jumps, column); jumps.count > 0 && period.size > 0)
+    reject(describe(jumps) + ", which is " + period.what, period);
 }
 
 void check_jumps(LogUnderCheck& c, const PositionColumn& column) {

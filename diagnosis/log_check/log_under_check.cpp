@@ -107,7 +107,8 @@ std::string LogUnderCheck::option(const std::string& column, const ColumnSource&
   if (unit != units.end()) text += ",unit=" + unit->name;
   else if (std::abs(size - 1) > 1e-9) text += fmt::format(",scale={:.6g}", size);
   if (source.scale < 0) text += ",sign=-1";
-  if (source.offset != 0) text += fmt::format(",offset={:.6g}", source.offset);
+  if (source.offset != 0) text += fmt::format(",offset={:.{}g}", source.offset, source.wrap > 0 ? 12 : 6);
+  if (source.wrap > 0) text += fmt::format(",wrap={:.12g}", source.wrap);
   return text;
 }
 
@@ -116,6 +117,17 @@ std::string LogUnderCheck::option(const std::string& column, const Correction& c
   source.scale *= c.factor;
   source.offset = c.factor * source.offset + c.offset;
   return option(column, source);
+}
+
+std::string LogUnderCheck::wrap_option(const std::string& column, double period) const {
+  ColumnSource source = source_of(column);
+  source.wrap = period / std::abs(source.scale);
+  return option(column, source);
+}
+
+double LogUnderCheck::wrap_of(const std::string& column) const {
+  const ColumnSource source = source_of(column);
+  return source.wrap * std::abs(source.scale);
 }
 
 std::string LogUnderCheck::swap_options(const std::string& a, const std::string& b) const {

@@ -60,6 +60,10 @@ class LogUnderCheck {
 
   /// "--column joint_position_2=q2,unit=deg": reads the column with the correction on top of its present map.
   std::string option(const std::string& column, const Correction& correction) const;
+  /// Reads the column as one that starts again after a period, in the column's SI unit.
+  std::string wrap_option(const std::string& column, double period) const;
+  /// Period after which the column starts again according to its map, in its SI unit; 0: none.
+  double wrap_of(const std::string& column) const;
   /// Options that exchange the columns of the file behind two standard columns.
   std::string swap_options(const std::string& a, const std::string& b) const;
 

@@ -46,6 +46,27 @@ void check_zero(LogUnderCheck& c, const SampledMotion& m, int k) {
                   c.option(motor, Correction{.offset = 0}) + ",offset=...");
 }
 
+/// A counter that starts again does not say in which lap a log begins; the joint's own reading does.
+void check_lap(LogUnderCheck& c, int k) {
+  const JointParameters<double>& j = c.model.nominal.joint[k];
+  const std::string motor = column_name(&Log::motor_position, k), joint = column_name(&Log::joint_position, k);
+  const double of_motor = c.wrap_of(motor), of_joint = c.wrap_of(joint);
+  if ((of_motor == 0) == (of_joint == 0) || !j.joint_zero_known || !j.motor_zero_known) return;
+  const SampledMotion m = sampled_motion(c.log, c.model);
+  if (m.expected[k].empty() || m.joint[k].empty()) return;
+  const double off = median(m.joint[k]) - median(m.expected[k]);
+  const double period = of_motor + of_joint;
+  const double laps = std::round((of_motor > 0 ? off / c.joint_per_motor(k) : -off) / period);
+  if (laps == 0) return;
+  const std::string& column = of_motor > 0 ? motor : joint;
+  const Correction correction{.offset = laps * period};
+  c.reject(column,
+           fmt::format("begins {:g} lap{} of its counter from where {} says; expected the same lap", std::abs(laps),
+                       std::abs(laps) > 1 ? "s" : "", of_motor > 0 ? joint : motor),
+           "correct it with " + c.option(column, correction));
+  c.correct(of_motor > 0 ? &Log::motor_position : &Log::joint_position, k, correction);
+}
+
 /// Mismatch of a joint's reading with its expectation a time earlier, less a slope and a mean: Σ e² / samples.
 double mismatch(const SampledMotion& m, const SampledColumn& reading, int k, double late) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
@@ -85,6 +106,7 @@ void check_delay(LogUnderCheck& c, const SampledMotion& m, int k) {
 }  // namespace
 
 void check_zeros(LogUnderCheck& c) {
+  for (int k = 0; k < c.n(); ++k) check_lap(c, k);
   const SampledMotion m = sampled_motion(c.log, c.model);
   for (int k = 0; k < c.n(); ++k) check_zero(c, m, k);
 }

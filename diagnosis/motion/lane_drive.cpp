@@ -11,7 +11,8 @@ extern const LaneDrive kDrive_avx2, kDrive_avx512;
 
 const std::vector<LaneDrive>& lane_drives() {
 #if defined(__x86_64__)
-  static const std::vector<LaneDrive> usable = usable_copies<LaneDrive>({&kDrive_generic, &kDrive_avx2, &kDrive_avx512});
+  static const std::vector<LaneDrive> usable =
+      usable_copies<LaneDrive>({&kDrive_generic, &kDrive_avx2, &kDrive_avx512});
 #else
   static const std::vector<LaneDrive> usable = usable_copies<LaneDrive>({&kDrive_generic});
 #endif

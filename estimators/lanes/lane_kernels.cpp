@@ -11,7 +11,8 @@ extern const LaneKernels kLanes_avx2, kLanes_avx512;
 
 const std::vector<LaneKernels>& lane_kernels() {
 #if defined(__x86_64__)
-  static const std::vector<LaneKernels> usable = usable_copies<LaneKernels>({&kLanes_generic, &kLanes_avx2, &kLanes_avx512});
+  static const std::vector<LaneKernels> usable =
+      usable_copies<LaneKernels>({&kLanes_generic, &kLanes_avx2, &kLanes_avx512});
 #else
   static const std::vector<LaneKernels> usable = usable_copies<LaneKernels>({&kLanes_generic});
 #endif

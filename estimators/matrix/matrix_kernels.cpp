@@ -11,7 +11,8 @@ extern const MatrixKernels kMatrix_avx2, kMatrix_avx512;
 
 const std::vector<MatrixKernels>& matrix_kernels() {
 #if defined(__x86_64__)
-  static const std::vector<MatrixKernels> usable = usable_copies<MatrixKernels>({&kMatrix_generic, &kMatrix_avx2, &kMatrix_avx512});
+  static const std::vector<MatrixKernels> usable =
+      usable_copies<MatrixKernels>({&kMatrix_generic, &kMatrix_avx2, &kMatrix_avx512});
 #else
   static const std::vector<MatrixKernels> usable = usable_copies<MatrixKernels>({&kMatrix_generic});
 #endif

@@ -168,6 +168,16 @@ TEST(ColumnMap, ScalesUnitsSignsAndOffsets) {
   EXPECT_TRUE(log.ignored_columns.empty());
 }
 
+TEST(ColumnMap, UnwrapsAPositionInTheUnitsOfTheFile) {
+  const ColumnMap map =
+      map_of({"time=t", "motor_torque_1=tau", "motor_position_1=q,unit=deg,sign=-1,offset=1,wrap=360"});
+  const Log log = read_text("t,tau,q\n0,0,350\n1,0,20\n2,0,\n3,0,100\n4,0,355\n5,0,355\n", map);
+  const std::vector<double> unwrapped = {350, 380, 0, 460, 355, 355};  // the third is missing
+  for (const std::size_t i : {0, 1, 3, 4, 5})
+    EXPECT_NEAR(log.motor_position[0][i], 1 - unwrapped[i] * std::numbers::pi / 180, 1e-12) << i;
+  EXPECT_TRUE(std::isnan(log.motor_position[0][2]));
+}
+
 TEST(ColumnMap, LeavesOtherStandardColumnsTheirNames) {
   const Log log = read_text("t_s,motor_torque_1,motor_position_1\n0,1,2\n", map_of({"time=t_s"}));
   EXPECT_EQ(log.motor_position[0][0], 2);
@@ -197,8 +207,10 @@ TEST(ColumnMap, SaysWhatIsWrongWithAnEntry) {
   EXPECT_HAS(message("motor_position_1"), "'motor_position_1' has no '='; expected NAME=COLUMN");
   EXPECT_HAS(message("time=t,"), "'' has no '='");
   EXPECT_HAS(message("time="), "column 'time': no column is named");
+  EXPECT_HAS(message("motor_torque_1=t,wrap=360"), "only a position wraps around; leave wrap out here");
+  EXPECT_HAS(message("motor_position_1=q,wrap=-360"), "expected a wrap above 0: the period of the reading");
   EXPECT_HAS(message("time=t,factor=2"),
-             "'factor' is no setting of a column; expected unit=, sign=, scale= or offset=");
+             "'factor' is no setting of a column; expected unit=, sign=, scale=, offset= or wrap=");
   EXPECT_HAS(message("time=t,scale=2,scale=3"), "'scale' is given twice");
   EXPECT_HAS(message("time=t,scale=fast"), "scale 'fast': expected a number");
   EXPECT_HAS(message("time=t,scale=0"), "expected a finite scale other than 0");

@@ -48,6 +48,7 @@ TEST(ModelFile, ReadsEveryElement) {
   EXPECT_EQ(source.column, "spindle <deg>");
   EXPECT_DOUBLE_EQ(source.scale, -2 * kDegree);
   EXPECT_EQ(source.offset, 0.5);
+  EXPECT_EQ(source.wrap, 360);
   EXPECT_EQ(model.estimators.at("sr_ukf"), (EstimatorOptions{{"alpha", "1e-3"}, {"notes", "as in the paper"}}));
 }
 
@@ -179,7 +180,7 @@ TEST(ModelFile, WrittenModelReadsBackToTheLastBit) {
     for (const auto& [name, source] : model.columns.sources()) {
       const ColumnSource& other = again.columns.sources().at(name);
       EXPECT_EQ(other.column, source.column);
-      expect_same_bits({other.scale, other.offset}, {source.scale, source.offset});
+      expect_same_bits({other.scale, other.offset, other.wrap}, {source.scale, source.offset, source.wrap});
     }
     EXPECT_EQ(again.estimators, model.estimators);
   }

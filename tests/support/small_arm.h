@@ -51,7 +51,7 @@ inline const std::string kArm = R"(<arm name="small">
 <effect name="payload"/>
 </effects>
 <columns>
-<column name="motor_position_1" from="spindle &lt;deg&gt;" unit="deg" sign="-1" scale="2" offset="0.5"/>
+<column name="motor_position_1" from="spindle &lt;deg&gt;" unit="deg" sign="-1" scale="2" offset="0.5" wrap="360"/>
 </columns>
 <estimator name="sr_ukf" alpha="1e-3" notes="as in the paper"/>
 </arm>

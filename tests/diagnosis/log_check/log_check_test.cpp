@@ -207,10 +207,39 @@ TEST(LogCheck, CountsOutliers) {
 TEST(LogCheck, NamesACounterThatWrapsAround) {
   const double period = 32 * std::numbers::pi;
   expect_one(changed(&Log::motor_position, 0, [=](double q) { return q - period * std::floor(q / period); }),
-             "motor_position_1", Severity::gross, {"16 turns", "unwrap"});
+             "motor_position_1", Severity::gross, {"16 turns", option("motor_position_1", "wrap=100.530964915")});
   const double counts = 16384 * raven().nominal.joint[2].joint_encoder_resolution;
   expect_one(changed(&Log::joint_position, 2, [=](double q) { return q - counts * std::floor(q / counts); }),
              "joint_position_3", Severity::gross, {"2^14 counts"});
+}
+
+TEST(LogCheck, NamesAMotorThatWrapsInEachTurn) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  for (int k = 0; k < 3; ++k)
+    expect_one(changed(&Log::motor_position, k, [=](double q) { return q - kTurn * std::round(q / kTurn); }),
+               numbered("motor_position_", k), Severity::gross,
+               {"starts again after 1 turn", option(numbered("motor_position_", k), "wrap=6.28318530718")});
+}
+
+TEST(LogCheck, NamesTheLapInWhichAnUnwrappedCounterBegins) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  ColumnMap columns;
+  columns.add("motor_position_1", "counter", "", 1, 1, 0, kTurn);
+  const Log log = changed(&Log::motor_position, 0, [](double q) { return q - 17 * kTurn; });
+  const std::vector<LogFinding> findings = check_log(log, raven(), columns);
+  ASSERT_EQ(findings.size(), 1u) << lines_of(findings);
+  EXPECT_EQ(findings[0].severity, Severity::gross);
+  EXPECT_NE(findings[0].what.find("begins 17 laps"), std::string::npos) << findings[0].what;
+  EXPECT_NE(findings[0].remedy.find("--column motor_position_1=counter,offset=106.814150222,wrap=6.28318530718"),
+            std::string::npos)
+      << findings[0].remedy;
+}
+
+TEST(LogCheck, TellsAReadingThatDropsToZeroFromOneThatWraps) {
+  Log log = changed(&Log::joint_position, 0, [](double q) { return q + 5; });
+  log.joint_position[0][1000] = 0;
+  for (const LogFinding& f : check_log(log, raven()))
+    EXPECT_EQ(f.what.find("starts again"), f.what.npos) << finding_line(f);
 }
 
 TEST(LogCheck, SuspectsClippedSignals) {
