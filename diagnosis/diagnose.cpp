@@ -10,11 +10,11 @@
 #include "diagnosis/diagnosis_details.h"
 #include "diagnosis/explanation/lines_above_band.h"
 #include "diagnosis/explanation/signature.h"
-#include "diagnosis/fit/complementary.h"
 #include "diagnosis/judgement/final_fit.h"
 #include "diagnosis/judgement/name_probability.h"
 #include "diagnosis/judgement/prediction_interval.h"
 #include "diagnosis/prediction/side_by_side.h"
+#include "diagnosis/search/revision.h"
 
 namespace halyard {
 namespace {
@@ -81,81 +81,10 @@ class Diagnoser {
   Attribution& attribution() { return details_->attribution; }
   const Hypothesis& final_hypothesis() const { return details_->attribution.final_fit.hypothesis; }
 
-  /// The search, and the final fit on all training data. Effects that these do not determine are dropped. Names that are
-  /// probably wrong are not told.
   void search(const Evidence& evidence, const Evidence& whole) {
     attribution() = attribute(evidence, result_.given, {options_.most_effects, options_.significance}, progress_);
     say("final fit", 0);
-    fit_finally(evidence, whole, attribution().final_fit);
-    while (const std::optional<std::size_t> gone = effect_to_drop(evidence)) {
-      if (!fit_finally(evidence, whole, fit_without(attribution().final_fit, *gone))) break;
-      attribution().namings.erase(attribution().namings.begin() + static_cast<std::ptrdiff_t>(*gone - given_));
-    }
-    while (join_one(evidence, whole)) {}
-    changed_ = changed_numbers(whole, result_.given, attribution().final_fit);
-    // A model that lacks nothing stays as it is.
-    if (!changed_.empty() || final_hypothesis().effects.size() > given_) return;
-    const Fit as_given = with_given_numbers(whole, result_.given, attribution().final_fit);
-    if (!as_given.usable) return;
-    attribution().final_fit = as_given;
-    attribution().final_score = evidence.score(final_hypothesis());
-  }
-
-  /// False if the start cannot be integrated: then all stays as it is.
-  bool fit_finally(const Evidence& evidence, const Evidence& whole, const Fit& start) {
-    const Fit fit = final_fit(whole, result_.given, start, given_);
-    if (!fit.usable) return false;
-    attribution().final_fit = fit;
-    attribution().final_score = evidence.score(final_hypothesis());
-    return true;
-  }
-
-  /// Makes two effects one that are one. It keeps the surer of their names. False if there are no such two.
-  bool join_one(const Evidence& evidence, const Evidence& whole) {
-    const auto joined = join_complementary(attribution().final_fit, given_);
-    if (!joined) return false;
-    Fit start;
-    start.hypothesis = joined->hypothesis;
-    start.parameters = joined->parameters;
-    if (!fit_finally(evidence, whole, start)) return false;
-    std::vector<Naming>& namings = attribution().namings;
-    const auto gone = namings.begin() + static_cast<std::ptrdiff_t>(joined->gone - given_);
-    Naming& kept = namings[joined->kept - given_];
-    if (gone->weight > kept.weight) kept = std::move(*gone);
-    namings.erase(gone);
-    return true;
-  }
-
-  /// A start. The numbers of the model that the effect had replaced are fitted again.
-  Fit fit_without(const Fit& with, std::size_t effect) {
-    const PlacedEffect gone = with.hypothesis.effects[effect];
-    Fit f;
-    f.hypothesis = without_effect(with.hypothesis, effect);
-    f.parameters = without_parameters_of(with.parameters, effect);
-    const auto covers = [&](const PlacedEffect& e, const FitParameter& p) {
-      return effect_covers(e, result_.given.nominal, p);
-    };
-    const auto added = f.hypothesis.effects.begin() + static_cast<std::ptrdiff_t>(given_);
-    for (const FitParameter& p : attribution().baseline.parameters)
-      if (p.effect < 0 && covers(gone, p) &&
-          std::none_of(added, f.hypothesis.effects.end(), [&](const PlacedEffect& e) { return covers(e, p); }))
-        f.parameters.push_back(p);
-    return f;
-  }
-
-  /// An effect that the data do not determine, or a doubtful one that belongs to the log and not to the arm, as a push at
-  /// some instant does: it predicts nothing elsewhere.
-  std::optional<std::size_t> effect_to_drop(const Evidence& evidence) {
-    if (const auto idle = idle_effects(attribution().final_fit, given_); !idle.empty()) return idle.back();
-    for (std::size_t e = given_; e < final_hypothesis().effects.size(); ++e)
-      if (has_instants(final_hypothesis().effects[e], result_.given.nominal) && is_doubtful(evidence, e)) return e;
-    return {};
-  }
-
-  /// True if it is more probable that the name and all its alternatives are wrong than that one of them is right.
-  bool is_doubtful(const Evidence& evidence, std::size_t effect) {
-    const Naming& naming = attribution().namings[effect - given_];
-    return probability_of_any_name(naming, probability_of_none_for(evidence, effect)) < kRule.worth_a_name;
+    changed_ = revise(evidence, whole, result_.given, attribution());
   }
 
   /// One sine fits many effects alike: a name taken from it would be a guess.
@@ -187,13 +116,13 @@ class Diagnoser {
     const Fit& f = attribution().final_fit;
     const std::vector<Naming>& namings = attribution().namings;
     for (std::size_t e = given_; e < f.hypothesis.effects.size(); ++e) {
-      if (is_doubtful(evidence, e)) {
+      if (is_doubtful(evidence, attribution(), given_, e)) {
         doubtful_.push_back(e);
         continue;
       }
       NamedEffect named{f.hypothesis.effects[e], namings[e - given_].weight, {}, namings[e - given_].alternatives};
       named.parameters = estimated_parameters(evidence, e);
-      const double none = probability_of_none_for(evidence, e);
+      const double none = probability_of_none_for(evidence, attribution(), e);
       result_.probability_none = std::max(result_.probability_none, none);
       std::vector<double> all = {named.probability *= 1 - none};
       for (Alternative& a : named.alternatives) all.push_back(a.probability *= 1 - none);
@@ -252,13 +181,6 @@ class Diagnoser {
     if (is_found_size && f.value[i] > p.nominal) lower = std::max(lower, p.nominal);
     if (is_found_size && f.value[i] < p.nominal) upper = std::min(upper, p.nominal);
     return {p.name, p.unit, f.value[i], lower, upper, p.nominal};
-  }
-
-  double probability_of_none_for(const Evidence& evidence, std::size_t effect) {
-    const Score without = evidence.score(without_effect(final_hypothesis(), effect));
-    if (!without.finite) return 0;
-    const int c = most_explained_channel(evidence, attribution().final_score, without);
-    return probability_of_none(attribution().final_score.mean_square[c], without.mean_square[c], evidence.floor()[c]);
   }
 
   void tell_rests(const Evidence& evidence) {

@@ -1,0 +1,121 @@
+#include "diagnosis/search/revision.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "diagnosis/fit/complementary.h"
+#include "diagnosis/judgement/final_fit.h"
+#include "diagnosis/judgement/name_probability.h"
+
+namespace halyard {
+namespace {
+
+class Revision {
+ public:
+  Revision(const Evidence& evidence, const Evidence& whole, const ArmModel& given, Attribution& found)
+      : evidence_(evidence), whole_(whole), model_(given), given_(given.effects.size()), found_(found) {}
+
+  std::vector<std::size_t> run() {
+    fit_finally(found_.final_fit);
+    while (drop_one()) {}
+    while (join_one()) {}
+    const std::vector<std::size_t> changed = changed_numbers(whole_, model_, found_.final_fit);
+    // A model that lacks nothing stays as it is.
+    if (changed.empty() && effects().size() == given_) give_numbers_back();
+    return changed;
+  }
+
+ private:
+  const std::vector<PlacedEffect>& effects() const { return found_.final_fit.hypothesis.effects; }
+
+  /// False if the start cannot be integrated: then all stays as it is.
+  bool fit_finally(const Fit& start) {
+    const Fit fit = final_fit(whole_, model_, start, given_);
+    if (!fit.usable) return false;
+    take(fit);
+    return true;
+  }
+
+  void take(const Fit& fit) {
+    found_.final_fit = fit;
+    found_.final_score = evidence_.score(fit.hypothesis);
+  }
+
+  void give_numbers_back() {
+    if (const Fit as_given = with_given_numbers(whole_, model_, found_.final_fit); as_given.usable) take(as_given);
+  }
+
+  bool drop_one() {
+    const std::optional<std::size_t> gone = effect_to_drop();
+    if (!gone || !fit_finally(start_without(*gone))) return false;
+    found_.namings.erase(found_.namings.begin() + static_cast<std::ptrdiff_t>(*gone - given_));
+    return true;
+  }
+
+  std::optional<std::size_t> effect_to_drop() const {
+    if (const auto idle = idle_effects(found_.final_fit, given_); !idle.empty()) return idle.back();
+    for (std::size_t e = given_; e < effects().size(); ++e)
+      if (has_instants(effects()[e], model_.nominal) && is_doubtful(evidence_, found_, given_, e)) return e;
+    return {};
+  }
+
+  /// The numbers of the model that the effect had replaced are fitted again.
+  Fit start_without(std::size_t effect) const {
+    const Fit& with = found_.final_fit;
+    const PlacedEffect& gone = with.hypothesis.effects[effect];
+    Fit start;
+    start.hypothesis = without_effect(with.hypothesis, effect);
+    start.parameters = without_parameters_of(with.parameters, effect);
+    const auto covers = [&](const PlacedEffect& e, const FitParameter& p) {
+      return effect_covers(e, model_.nominal, p);
+    };
+    const std::vector<PlacedEffect>& left = start.hypothesis.effects;
+    const auto added = left.begin() + static_cast<std::ptrdiff_t>(given_);
+    for (const FitParameter& p : found_.baseline.parameters)
+      if (p.effect < 0 && covers(gone, p) &&
+          std::none_of(added, left.end(), [&](const PlacedEffect& e) { return covers(e, p); }))
+        start.parameters.push_back(p);
+    return start;
+  }
+
+  bool join_one() {
+    const auto joined = join_complementary(found_.final_fit, given_);
+    if (!joined) return false;
+    Fit start;
+    start.hypothesis = joined->hypothesis;
+    start.parameters = joined->parameters;
+    if (!fit_finally(start)) return false;
+    const auto gone = found_.namings.begin() + static_cast<std::ptrdiff_t>(joined->gone - given_);
+    Naming& kept = found_.namings[joined->kept - given_];
+    if (gone->weight > kept.weight) kept = std::move(*gone);
+    found_.namings.erase(gone);
+    return true;
+  }
+
+  const Evidence& evidence_;
+  const Evidence& whole_;
+  const ArmModel& model_;
+  std::size_t given_;  ///< effects that the model came with
+  Attribution& found_;
+};
+
+}  // namespace
+
+std::vector<std::size_t> revise(const Evidence& evidence, const Evidence& whole, const ArmModel& given,
+                                Attribution& found) {
+  return Revision(evidence, whole, given, found).run();
+}
+
+double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t effect) {
+  const Score without = evidence.score(without_effect(found.final_fit.hypothesis, effect));
+  if (!without.finite) return 0;
+  const int c = most_explained_channel(evidence, found.final_score, without);
+  return probability_of_none(found.final_score.mean_square[c], without.mean_square[c], evidence.floor()[c]);
+}
+
+bool is_doubtful(const Evidence& evidence, const Attribution& found, std::size_t given, std::size_t effect) {
+  const double none = probability_of_none_for(evidence, found, effect);
+  return probability_of_any_name(found.namings[effect - given], none) < kRule.worth_a_name;
+}
+
+}  // namespace halyard

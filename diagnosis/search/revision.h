@@ -1,0 +1,30 @@
+#pragma once
+/// The revision of a model that follows a search: its effects and numbers, fitted on all training data, without what
+/// these data do not determine.
+
+#include <cstddef>
+#include <vector>
+
+#include "diagnosis/search/attribution.h"
+
+namespace halyard {
+
+/// Fits what was found on all training data (final_fit.h): final_fit, final_score and namings change.
+///   - An effect that these data do not determine is dropped. So is a doubtful one that belongs to the log and not to the
+///     arm, as a push at some instant does: it predicts nothing elsewhere.
+///   - Two effects that are one become one (complementary.h). It keeps the surer of their names.
+///   - If no effect is left and no number changed, the model's numbers are as given.
+///
+/// whole: an Evidence without deciding blocks. given: the model that is revised.
+/// Returns the numbers of the model that changed, see changed_numbers().
+std::vector<std::size_t> revise(const Evidence& evidence, const Evidence& whole, const ArmModel& given,
+                                Attribution& found);
+
+/// P(none) of what the effect of that index explains in the final fit (name_probability.h).
+double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t effect);
+
+/// True if it is more probable that the name of the effect and all its alternatives are wrong than that one of them is
+/// right. given: number of effects that the model came with.
+bool is_doubtful(const Evidence& evidence, const Attribution& found, std::size_t given, std::size_t effect);
+
+}  // namespace halyard
