@@ -9,6 +9,7 @@
 
 #include "app/output_check.h"
 #include "app/pages/comparison_figures.h"
+#include "app/pages/sweep/sweep_charts.h"
 #include "app/pages/sweep/sweep_report.h"
 #include "app/progress.h"
 #include "evaluation/sweep/sweep_file.h"
@@ -34,6 +35,17 @@ void print_result(const fs::path& folder, const SweepGrid& grid, const SweepSumm
                grid.size() * grid.estimators.size());
   }
   fmt::print("table: {}\nreport: {}\n", (folder / "sweep.csv").string(), (folder / "report.html").string());
+}
+
+/// What was measured of the i-th estimator.
+void print_measured(const SweepGrid& grid, const SweepCell& cell, std::size_t i) {
+  for (std::size_t m = 0; m < grid.measures.size(); ++m)
+    for (std::size_t k = 0; k < n_charts(grid, m); ++k) {
+      const JointUnit unit = grid.measures[m]->shown_unit(grid.units[k]);
+      fmt::print("{}: {}: {} {}{}\n", grid.estimators[i], lower_case(joint_title(grid, m, k)),
+                 grid.measures[m]->shown_as, shown_number(cell.shown(grid, m, i, k), unit),
+                 unit.shown.empty() ? "" : " " + unit.shown);
+    }
 }
 
 }  // namespace
@@ -86,9 +98,7 @@ void run_sweep_point(const SweepCommandOptions& options, std::size_t point) {
   for (std::size_t i = 0; i < cell.results.size(); ++i) {
     const SweepCell::Result& result = cell.results[i];
     if (!result.failure.empty()) fmt::print("{}: failed: {}\n", grid.estimators[i], result.failure);
-    for (std::size_t k = 0; k < grid.units.size() && result.failure.empty(); ++k)
-      fmt::print("{}: joint {}: mean absolute error {} {}\n", grid.estimators[i], k + 1,
-                 shown_number(result.errors[k].mean_absolute, grid.units[k]), grid.units[k].shown);
+    else print_measured(grid, cell, i);
   }
   if (cell.failures() > 0)
     throw std::runtime_error(fmt::format("halyard sweep: {} of {} estimators failed at point {}", cell.failures(),

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -29,23 +30,15 @@ std::string one_line(const ordered_json& json) {
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-ordered_json cell_errors(const ErrorStatistics& e) {
-  return {e.samples,
-          number_or_null(e.mean_absolute),
-          number_or_null(e.rms),
-          number_or_null(e.peak),
-          number_or_null(e.bias),
-          number_or_null(e.within_two_std)};
+/// Whole numbers without a point, NaN as null.
+ordered_json cell_value(double value) {
+  const bool is_negative_zero = value == 0 && std::signbit(value);
+  if (std::abs(value) < 1e15 && value == std::trunc(value) && !is_negative_zero) return std::int64_t(value);
+  return number_or_null(value);
 }
 
-ErrorStatistics errors_from(const ordered_json& json) {
-  const auto number = [&json](std::size_t i) {
-    return json.at(i).is_null() ? std::numeric_limits<double>::quiet_NaN() : json.at(i).get<double>();
-  };
-  ErrorStatistics e;
-  e.samples = json.at(0).get<std::size_t>();
-  e.mean_absolute = number(1), e.rms = number(2), e.peak = number(3), e.bias = number(4), e.within_two_std = number(5);
-  return e;
+double cell_value_from(const ordered_json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
 /// The numbers at the start of a line: {"point":3,"failed":0,
@@ -93,6 +86,10 @@ std::size_t SweepCell::failures() const {
       std::ranges::count_if(results, [](const Result& result) { return !result.failure.empty(); }));
 }
 
+double SweepCell::shown(const SweepGrid& grid, std::size_t m, std::size_t i, std::size_t k) const {
+  return results.at(i).values.at(k).at(grid.n_columns(m) + grid.measures.at(m)->shown);
+}
+
 fs::path journal_path(const fs::path& folder, const Shard& shard) {
   return folder / "cells" / (shard.is_whole() ? "all.jsonl" : fmt::format("{}_of_{}.jsonl", shard.index, shard.count));
 }
@@ -112,7 +109,10 @@ std::string journal_line(const SweepCell& cell) {
   ordered_json results = ordered_json::array();
   for (const SweepCell::Result& result : cell.results) {
     ordered_json joints = ordered_json::array();
-    for (const ErrorStatistics& errors : result.errors) joints.push_back(cell_errors(errors));
+    for (const std::vector<double>& values : result.values) {
+      ordered_json& joint = joints.emplace_back(ordered_json::array());
+      for (const double value : values) joint.push_back(cell_value(value));
+    }
     results.push_back({{"failure", result.failure}, {"joints", joints}});
   }
   return one_line({{"point", cell.point}, {"failed", cell.failures()}, {"results", results}});
@@ -181,7 +181,11 @@ void CellJournal::fail() {
 }
 
 StoredCells::StoredCells(const std::vector<fs::path>& folders, const SweepGrid& grid)
-    : n_estimators_(grid.estimators.size()), n_joints_(grid.units.size()), places_(grid.size()), failed_(grid.size()) {
+    : n_estimators_(grid.estimators.size()),
+      n_joints_(grid.units.size()),
+      n_columns_(grid.n_columns()),
+      places_(grid.size()),
+      failed_(grid.size()) {
   const std::string header = journal_header(grid);
   for (const fs::path& folder : folders) {
     for (const fs::path& path : journals_in(folder)) {
@@ -234,15 +238,22 @@ std::string StoredCells::line(std::size_t point) const {
 
 SweepCell StoredCells::read(std::size_t point) const {
   const Place& place = places_.at(point);
+  const auto check = [&](bool holds) {
+    if (!holds) damaged(journals_.at(place.journal).path, place.offset);
+  };
   try {
     const ordered_json json = ordered_json::parse(line(point));
     SweepCell cell{json.at("point").get<std::size_t>(), {}};
     for (const ordered_json& result : json.at("results")) {
-      cell.results.push_back({result.at("failure").get<std::string>(), {}});
-      for (const ordered_json& joint : result.at("joints")) cell.results.back().errors.push_back(errors_from(joint));
-      if (cell.results.back().errors.size() != n_joints_) damaged(journals_.at(place.journal).path, place.offset);
+      SweepCell::Result& read = cell.results.emplace_back(result.at("failure").get<std::string>());
+      for (const ordered_json& joint : result.at("joints")) {
+        std::vector<double>& values = read.values.emplace_back();
+        for (const ordered_json& value : joint) values.push_back(cell_value_from(value));
+        check(values.size() == n_columns_);
+      }
+      check(read.values.size() == n_joints_);
     }
-    if (cell.results.size() != n_estimators_) damaged(journals_.at(place.journal).path, place.offset);
+    check(cell.results.size() == n_estimators_);
     return cell;
   } catch (const ordered_json::exception&) {
     damaged(journals_.at(place.journal).path, place.offset);

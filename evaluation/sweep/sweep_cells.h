@@ -4,9 +4,10 @@
 /// A journal is a text file. Its first line names the sweep, each further line is the result of one point:
 ///
 ///   {"sweep":"5f0c...","points":9}
-///   {"point":3,"failed":0,"results":[{"failure":"","joints":[[samples,mean_absolute,rms,peak,bias,within_two_std]]}]}
+///   {"point":3,"failed":0,"results":[{"failure":"","joints":[[1001,3.2e-4,4.1e-4]]}]}
 ///
-/// results: one for each estimator; joints: one list for each joint; null for NaN. A line counts once its line break is
+/// results: one for each estimator; joints: one list for each joint, with the columns of the measures
+/// (measures/sweep_measure.h); null for NaN. A line counts once its line break is
 /// on the disk, so a run that is killed loses no point that it has finished.
 
 #include <cstddef>
@@ -16,7 +17,6 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/judgement/error_statistics.h"
 #include "evaluation/sweep/sweep_grid.h"
 #include "model/output/descriptor.h"
 
@@ -26,8 +26,8 @@ namespace halyard {
 struct SweepCell {
   /// The result of one estimator.
   struct Result {
-    std::string failure;                  ///< why there are no errors; empty: no failure
-    std::vector<ErrorStatistics> errors;  ///< [n_joints], NaN after a failure
+    std::string failure;                      ///< why it was not measured; empty: no failure
+    std::vector<std::vector<double>> values;  ///< [n_joints][grid.n_columns()]
   };
 
   std::size_t point = 0;
@@ -35,6 +35,8 @@ struct SweepCell {
 
   /// Number of estimators that failed.
   std::size_t failures() const;
+  /// What the m-th measure shows of the i-th estimator at joint k; NaN after a failure.
+  double shown(const SweepGrid& grid, std::size_t m, std::size_t i, std::size_t k) const;
 };
 
 std::filesystem::path journal_path(const std::filesystem::path& folder, const Shard& shard);
@@ -100,7 +102,7 @@ class StoredCells {
   void scan(std::size_t journal, const std::string& header);
   [[noreturn]] void damaged(const std::filesystem::path& path, std::uint64_t offset) const;
 
-  std::size_t n_estimators_, n_joints_;
+  std::size_t n_estimators_, n_joints_, n_columns_;
   std::vector<Journal> journals_;
   std::vector<Place> places_;
   std::vector<bool> failed_;

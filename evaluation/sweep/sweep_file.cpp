@@ -165,6 +165,14 @@ std::vector<std::string> read_estimators(const XmlElement& element, const fs::pa
   return names;
 }
 
+std::vector<const SweepMeasure*> read_measures(const XmlElement& element) {
+  try {
+    return parse_measures(element.text_or("measures", sweep_measures().front().name));
+  } catch (const InputError& error) {
+    element.fail("measures", error.what());
+  }
+}
+
 }  // namespace
 
 Scenario Sweep::scenario_at(std::size_t point) const {
@@ -202,7 +210,8 @@ Sweep read_sweep(const fs::path& path) {
 
 Sweep read_sweep_definition(const fs::path& path) {
   const XmlElement element = XmlElement::read_file(path, "sweep");
-  element.only({"name", "scenario", "model", "estimators", "seed", "duration", "skip", "design", "samples", "repeats"},
+  element.only({"name", "scenario", "model", "estimators", "seed", "duration", "skip", "design", "samples", "repeats",
+                "measures"},
                {"axis"});
   const fs::path folder = path.parent_path();
   const fs::path scenario_file = element.path("scenario");
@@ -226,6 +235,7 @@ Sweep read_sweep_definition(const fs::path& path) {
   grid.skip_s = element.number_or("skip", 0.5, "s", Sign::non_negative);
   grid.units = joint_units(sweep.model);
   grid.estimators = read_estimators(element, folder);
+  grid.measures = read_measures(element);
   grid.seeds = read_seeds(element, sweep.scenario.seed);
   if (element.children("axis").empty()) element.fail("element <axis> is missing; give one or more");
   const UnitSamples samples = read_design(element, sweep.scenario.seed);

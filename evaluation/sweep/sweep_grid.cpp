@@ -17,6 +17,12 @@ std::size_t SweepGrid::combinations() const {
   return product;
 }
 
+std::size_t SweepGrid::n_columns(std::size_t m) const {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < m; ++i) count += measures.at(i)->columns.size();
+  return count;
+}
+
 std::vector<std::size_t> SweepGrid::places(std::size_t point) const {
   std::size_t combination = point / n_seeds();
   std::vector<std::size_t> result(axes.size(), combination);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "evaluation/joint_unit.h"
+#include "evaluation/sweep/measures/sweep_measure.h"
 
 namespace halyard {
 
@@ -36,8 +37,8 @@ struct Shard {
   bool is_whole() const { return count == 1; }
 };
 
-/// Definition of a sweep, which computes the error of every estimator at every joint for every point of the grid. It
-/// contains everything that merging and reporting need, and is stored with the results.
+/// Definition of a sweep, which measures every estimator at every joint for every point of the grid. It contains
+/// everything that merging and reporting need, and is stored with the results.
 struct SweepGrid {
   std::string name;
   std::string id;               ///< equal for equal definitions: only results with equal ids can be merged
@@ -48,13 +49,18 @@ struct SweepGrid {
   bool is_sampled = false;           ///< not all combinations: point p has the p-th value of every axis
   std::vector<std::uint64_t> seeds;  ///< each combination of values is simulated with each; empty: the scenario's
   std::vector<std::string> estimators;
-  std::vector<JointUnit> units;  ///< [n_joints]
+  std::vector<const SweepMeasure*> measures = {&sweep_measures().front()};  ///< elements of sweep_measures()
+  std::vector<JointUnit> units;                                             ///< [n_joints]
 
   /// Number of combinations of the axes' values.
   std::size_t combinations() const;
   std::size_t n_seeds() const { return seeds.empty() ? 1 : seeds.size(); }
   /// Number of points: each combination with each seed.
   std::size_t size() const { return combinations() * n_seeds(); }
+
+  /// Number of columns of all measures; of the first m of them.
+  std::size_t n_columns() const { return n_columns(measures.size()); }
+  std::size_t n_columns(std::size_t m) const;
 
   /// Index of a point's value on every axis; the last axis varies fastest, the seed faster still.
   std::vector<std::size_t> places(std::size_t point) const;

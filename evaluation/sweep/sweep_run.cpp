@@ -35,32 +35,45 @@ std::vector<std::size_t> points_to_do(const SweepGrid& grid, const fs::path& fol
   return todo;
 }
 
-SweepCell::Result failure(const std::string& reason, std::size_t n_joints) {
-  return {reason, std::vector<ErrorStatistics>(n_joints)};
+/// Calls `number(column, joint)` for each column of the measures and each joint.
+template <class Number>
+SweepCell::Result result_of(const SweepGrid& grid, const std::string& failure, const Number& number) {
+  SweepCell::Result result{failure, std::vector<std::vector<double>>(grid.units.size())};
+  for (std::size_t k = 0; k < result.values.size(); ++k)
+    for (const SweepMeasure* measure : grid.measures)
+      for (const MeasuredColumn& column : measure->columns) result.values[k].push_back(number(column, k));
+  return result;
+}
+
+SweepCell::Result result_of(const SweepGrid& grid, const Comparison& comparison) {
+  return result_of(grid, "", [&](const MeasuredColumn& column, std::size_t k) { return column.value(comparison, k); });
+}
+
+SweepCell::Result failure(const SweepGrid& grid, const std::string& reason) {
+  return result_of(grid, reason, [](const MeasuredColumn& column, std::size_t) { return column.after_failure; });
 }
 
 }  // namespace
 
 SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOptions& containment) {
-  const std::size_t n = sweep.grid.units.size();
   SweepCell cell{point, {}};
   SimulationResult data;
   try {
     check_point(sweep, point, "the sweep");
     data = simulate(faster(sweep.scenario_at(point)));
   } catch (const std::exception& error) {
-    cell.results.assign(sweep.grid.estimators.size(), failure(std::string("simulation: ") + error.what(), n));
+    cell.results.assign(sweep.grid.estimators.size(), failure(sweep.grid, std::string("simulation: ") + error.what()));
     return cell;
   }
   data.measured.source = "the simulated log";
   const ArmModel model = sweep.model_at(point);
   for (const std::string& estimator : sweep.grid.estimators) {
     try {
-      Comparison comparison = compare_estimators(model, {estimator}, data.measured, data.truth,
-                                                 {.skip_s = sweep.grid.skip_s, .containment = containment});
-      cell.results.push_back({"", std::move(comparison.errors[0])});
+      const Comparison comparison = compare_estimators(model, {estimator}, data.measured, data.truth,
+                                                       {.skip_s = sweep.grid.skip_s, .containment = containment});
+      cell.results.push_back(result_of(sweep.grid, comparison));
     } catch (const std::exception& error) {
-      cell.results.push_back(failure(error.what(), n));
+      cell.results.push_back(failure(sweep.grid, error.what()));
     }
   }
   return cell;

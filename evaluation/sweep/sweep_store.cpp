@@ -1,5 +1,7 @@
 #include "evaluation/sweep/sweep_store.h"
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -64,6 +66,14 @@ SweepAxis axis_of(const ordered_json& json) {
   return axis;
 }
 
+std::vector<const SweepMeasure*> measures_of(const ordered_json& json) {
+  try {
+    return parse_measures(fmt::format("{}", fmt::join(json.get<std::vector<std::string>>(), ",")));
+  } catch (const InputError&) {
+    throw std::invalid_argument("unknown measures");
+  }
+}
+
 }  // namespace
 
 bool holds_other_sweep(const fs::path& folder, const SweepGrid& grid) {
@@ -73,7 +83,8 @@ bool holds_other_sweep(const fs::path& folder, const SweepGrid& grid) {
 void discard_other_sweep(OutputFiles& files, const fs::path& folder, const SweepGrid& grid) {
   if (!holds_other_sweep(folder, grid)) return;
   for (const fs::path& journal : journals_in(folder)) files.remove(journal);
-  for (const char* name : {"sweep.csv", "report.html", "curves.svg", "heat_map.svg"}) files.remove(folder / name);
+  for (const char* name : {"sweep.csv", "time.csv", "report.html", "curves.svg", "heat_map.svg"})
+    files.remove(folder / name);
 }
 
 void check_same_sweep(const fs::path& folder, const SweepGrid& grid) {
@@ -89,6 +100,8 @@ void write_grid(OutputFiles& files, const fs::path& folder, const SweepGrid& gri
   for (const JointUnit& unit : grid.units) {
     joints.push_back({{"unit", unit.si}, {"shown", unit.shown}, {"shown_per_si", unit.shown_per_si}});
   }
+  ordered_json measures = ordered_json::array();
+  for (const SweepMeasure* measure : grid.measures) measures.push_back(measure->name);
   const ordered_json json = {{"sweep", grid.name},
                              {"id", grid.id},
                              {"file", grid.file},
@@ -100,6 +113,7 @@ void write_grid(OutputFiles& files, const fs::path& folder, const SweepGrid& gri
                              {"seeds", grid.seeds},
                              {"axes", axes},
                              {"estimators", grid.estimators},
+                             {"measures", measures},
                              {"joints", joints}};
   files.add(grid_path(folder), json_text(json));
 }
@@ -120,6 +134,7 @@ SweepGrid read_grid(const fs::path& folder) {
     grid.is_sampled = json.at("sampled").get<bool>();
     grid.seeds = json.at("seeds").get<std::vector<std::uint64_t>>();
     grid.estimators = json.at("estimators").get<std::vector<std::string>>();
+    grid.measures = measures_of(json.at("measures"));
     for (const ordered_json& joint : json.at("joints")) {
       grid.units.push_back({joint.at("unit").get<std::string>(), joint.at("shown").get<std::string>(),
                             joint.at("shown_per_si").get<double>()});

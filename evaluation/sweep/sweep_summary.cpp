@@ -29,13 +29,15 @@ double MeanWithInterval::half_width() const {
   return t_quantile(freedom, 0.025) * std::sqrt(squares_ / freedom / double(n_));
 }
 
-SweepSummary::SweepSummary(const SweepGrid& grid) : spans(grid.units.size()), grid_(grid) {
-  for (const SweepAxis& axis : grid.axes) {
-    places_.push_back(places_of(axis));
-    const std::vector<double>& x = places_.back().centres;
-    const Curve curve{x, std::vector<MeanWithInterval>(x.size())};
-    curves_.insert(curves_.end(), grid.estimators.size() * grid.units.size(), curve);
-  }
+SweepSummary::SweepSummary(const SweepGrid& grid)
+    : spans(grid.measures.size(), std::vector<Span>(grid.units.size())), grid_(grid) {
+  for (const SweepAxis& axis : grid.axes) places_.push_back(places_of(axis));
+  for (std::size_t m = 0; m < grid.measures.size(); ++m)
+    for (const Places& places : places_) {
+      const std::vector<double>& x = places.centres;
+      const Curve curve{x, std::vector<MeanWithInterval>(x.size())};
+      curves_.insert(curves_.end(), grid.estimators.size() * grid.units.size(), curve);
+    }
 }
 
 SweepSummary::Places SweepSummary::places_of(const SweepAxis& axis) {
@@ -62,23 +64,28 @@ SweepSummary::Places SweepSummary::places_of(const SweepAxis& axis) {
 void SweepSummary::add(const SweepCell& cell) {
   failures += cell.failures();
   const std::vector<double> values = grid_.values(cell.point);
-  const std::size_t n_estimators = grid_.estimators.size(), n_joints = grid_.units.size();
-  for (std::size_t i = 0; i < n_estimators; ++i)
-    for (std::size_t k = 0; k < n_joints; ++k) {
-      const double error = cell.results[i].errors[k].mean_absolute;
-      if (std::isnan(error)) continue;
-      spans[k].least = std::min(spans[k].least, error);
-      spans[k].greatest = std::max(spans[k].greatest, error);
-      for (std::size_t a = 0; a < values.size(); ++a) {
-        const std::vector<double>& edges = places_[a].edges;
-        const auto place = std::size_t(std::ranges::lower_bound(edges, values[a]) - edges.begin());
-        curves_[(a * n_estimators + i) * n_joints + k].errors[std::min(place, edges.size() - 1)].add(error);
+  for (std::size_t m = 0; m < grid_.measures.size(); ++m)
+    for (std::size_t i = 0; i < grid_.estimators.size(); ++i)
+      for (std::size_t k = 0; k < grid_.units.size(); ++k) {
+        const double shown = cell.shown(grid_, m, i, k);
+        if (std::isnan(shown)) continue;
+        spans[m][k].least = std::min(spans[m][k].least, shown);
+        spans[m][k].greatest = std::max(spans[m][k].greatest, shown);
+        for (std::size_t a = 0; a < values.size(); ++a) {
+          const std::vector<double>& edges = places_[a].edges;
+          const auto place = std::size_t(std::ranges::lower_bound(edges, values[a]) - edges.begin());
+          curves_[index(m, a, i, k)].means[std::min(place, edges.size() - 1)].add(shown);
+        }
       }
-    }
 }
 
-const SweepSummary::Curve& SweepSummary::curve(std::size_t axis, std::size_t estimator, std::size_t joint) const {
-  return curves_.at((axis * grid_.estimators.size() + estimator) * grid_.units.size() + joint);
+std::size_t SweepSummary::index(std::size_t measure, std::size_t axis, std::size_t estimator, std::size_t joint) const {
+  return ((measure * grid_.axes.size() + axis) * grid_.estimators.size() + estimator) * grid_.units.size() + joint;
+}
+
+const SweepSummary::Curve& SweepSummary::curve(std::size_t measure, std::size_t axis, std::size_t estimator,
+                                               std::size_t joint) const {
+  return curves_.at(index(measure, axis, estimator, joint));
 }
 
 }  // namespace halyard

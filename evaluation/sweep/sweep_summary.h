@@ -34,19 +34,19 @@ class SweepSummary {
 
   std::size_t failures = 0;  ///< runs of estimators that failed
 
-  /// Smallest and largest mean absolute error of a joint.
+  /// Smallest and largest value that a measure shows of a joint.
   struct Span {
     double least = std::numeric_limits<double>::infinity(), greatest = 0;
   };
-  std::vector<Span> spans;  ///< [n_joints]
+  std::vector<std::vector<Span>> spans;  ///< [n_measures][n_joints]
 
-  /// Mean absolute error over one axis, averaged over everything else. An axis with at most 40 values has one place for
+  /// What a measure shows over one axis, averaged over everything else. An axis with at most 40 values has one place for
   /// each, in increasing order; the range of other axes is divided into 20 equal bins.
   struct Curve {
-    std::vector<double> x;                 ///< values, or centres of the bins
-    std::vector<MeanWithInterval> errors;  ///< [x.size()], in the unit of the joint
+    std::vector<double> x;                ///< values, or centres of the bins
+    std::vector<MeanWithInterval> means;  ///< [x.size()], in SI units
   };
-  const Curve& curve(std::size_t axis, std::size_t estimator, std::size_t joint) const;
+  const Curve& curve(std::size_t measure, std::size_t axis, std::size_t estimator, std::size_t joint) const;
 
  private:
   /// The places of an axis.
@@ -54,10 +54,11 @@ class SweepSummary {
     std::vector<double> centres, edges;  ///< edges: upper ends
   };
   static Places places_of(const SweepAxis& axis);
+  std::size_t index(std::size_t measure, std::size_t axis, std::size_t estimator, std::size_t joint) const;
 
   SweepGrid grid_;
   std::vector<Places> places_;  ///< [n_axes]
-  std::vector<Curve> curves_;   ///< [n_axes * n_estimators * n_joints]
+  std::vector<Curve> curves_;   ///< [n_measures * n_axes * n_estimators * n_joints]
 };
 
 }  // namespace halyard

@@ -10,16 +10,44 @@
 namespace halyard {
 namespace {
 
-std::vector<std::string> sweep_columns(const SweepGrid& grid) {
+/// Names of the columns that say which point it is.
+std::vector<std::string> point_columns(const SweepGrid& grid) {
   std::vector<std::string> header = {"point"};
   for (const SweepAxis& axis : grid.axes) {
     header.push_back(fmt::format("{}{}", fmt::join(axis.parameters, " "), axis.is_factor ? " (factor)" : ""));
   }
   if (!grid.seeds.empty()) header.push_back("seed");
-  for (const char* name : {"estimator", "joint", "unit", "samples", "mean_absolute_error", "rms_error", "peak_error",
-                           "bias", "within_two_std", "failure", "repeat_with"}) {
-    header.push_back(name);
-  }
+  header.push_back("estimator");
+  return header;
+}
+
+void add_point(CsvTable& table, const SweepGrid& grid, std::size_t point, const std::string& estimator) {
+  table.add(std::to_string(point));
+  for (const double value : grid.values(point)) table.add(value);
+  if (const auto seed = grid.seed(point)) table.add(std::to_string(*seed));
+  table.add(estimator);
+}
+
+std::vector<std::string> names_of_measured(const SweepGrid& grid, bool repeatable) {
+  std::vector<std::string> names;
+  for (const SweepMeasure* measure : grid.measures)
+    for (const MeasuredColumn& column : measure->columns)
+      if (measure->is_repeatable == repeatable) names.push_back(column.name);
+  return names;
+}
+
+void add_measured(CsvTable& table, const SweepGrid& grid, bool repeatable, const std::vector<double>& values) {
+  std::size_t column = 0;
+  for (const SweepMeasure* measure : grid.measures)
+    for (std::size_t i = 0; i < measure->columns.size(); ++i, ++column)
+      if (measure->is_repeatable == repeatable) table.add(values[column]);
+}
+
+std::vector<std::string> sweep_columns(const SweepGrid& grid) {
+  std::vector<std::string> header = point_columns(grid);
+  header.insert(header.end(), {"joint", "unit"});
+  for (const std::string& name : names_of_measured(grid, true)) header.push_back(name);
+  header.insert(header.end(), {"failure", "repeat_with"});
   return header;
 }
 
@@ -27,17 +55,10 @@ void add_rows(CsvTable& table, const SweepGrid& grid, const SweepCell& cell) {
   for (std::size_t i = 0; i < cell.results.size(); ++i) {
     const std::string& failure = cell.results[i].failure;
     for (std::size_t k = 0; k < grid.units.size(); ++k) {
-      const ErrorStatistics& error = cell.results[i].errors[k];
-      table.add(std::to_string(cell.point));
-      for (const double value : grid.values(cell.point)) table.add(value);
-      if (const auto seed = grid.seed(cell.point)) table.add(std::to_string(*seed));
-      table.add(grid.estimators[i]);
+      add_point(table, grid, cell.point, grid.estimators[i]);
       table.add(std::to_string(k + 1));
       table.add(grid.units[k].si);
-      table.add(std::to_string(error.samples));
-      for (const double value : {error.mean_absolute, error.rms, error.peak, error.bias, error.within_two_std}) {
-        table.add(value);
-      }
+      add_measured(table, grid, true, cell.results[i].values[k]);
       table.add(failure);
       table.add(failure.empty() ? "" : command_of_point(grid, cell.point));
     }
@@ -63,6 +84,23 @@ SweepSummary write_sweep_table(OutputFiles& files, const std::filesystem::path& 
     }
   });
   return summary;
+}
+
+void write_unrepeatable_table(OutputFiles& files, const std::filesystem::path& path, const SweepGrid& grid,
+                              const StoredCells& cells) {
+  std::vector<std::string> header = point_columns(grid);
+  for (const std::string& name : names_of_measured(grid, false)) header.push_back(name);
+  files.add_in_parts(path, [&](const OutputFiles::Append& append) {
+    CsvTable table(header);
+    for (std::size_t point = 0; point < cells.size(); ++point) {
+      const SweepCell cell = cells.read(point);
+      for (std::size_t i = 0; i < cell.results.size(); ++i) {
+        add_point(table, grid, point, grid.estimators[i]);
+        add_measured(table, grid, false, cell.results[i].values.at(0));
+      }
+      append(table.take());
+    }
+  });
 }
 
 }  // namespace halyard

@@ -11,10 +11,14 @@
 namespace halyard {
 
 /// Adds a CSV file with one row per point, estimator and joint: the values of the axes, the seed where there are
-/// several, the errors in SI units, and the reason of a failure with the command that repeats it. Reads each cell once,
+/// several, what was measured in SI units, and the reason of a failure with the command that repeats it. Reads each cell once,
 /// in the order of the points, and returns their summary.
 SweepSummary write_sweep_table(OutputFiles& files, const std::filesystem::path& path, const SweepGrid& grid,
                                const StoredCells& cells);
+
+/// Adds a CSV file with the columns that differ from run to run, with one row per point and estimator.
+void write_unrepeatable_table(OutputFiles& files, const std::filesystem::path& path, const SweepGrid& grid,
+                              const StoredCells& cells);
 
 /// "halyard sweep stiffness.xml --point 12"
 std::string command_of_point(const SweepGrid& grid, std::size_t point);

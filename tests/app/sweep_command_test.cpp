@@ -1,6 +1,7 @@
 // halyard sweep and merge, end to end on short runs of the RAVEN-II.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "tests/support/app_runs.h"
@@ -56,6 +57,33 @@ TEST_F(Sweep, KnowsTheSameErrorsAsAComparisonOfTheSamePoint) {
   EXPECT_GT(error("0.5", "0"), 2 * error("1", "0"));
   EXPECT_GT(error("2", "0"), 2 * error("1", "0"));
   EXPECT_GT(error("1", "0.0002"), 2 * error("1", "0"));
+}
+
+TEST_F(Sweep, MeasuresWhatItsFileAsksFor) {
+  write_text(path("nees.xml"),
+             replaced(text_of(path("sweep.xml")), " duration=", " measures=\"nees,counts,time\" duration="));
+  done({"sweep", "nees.xml", "--out", "one", "--jobs", "1"});
+  done({"sweep", "nees.xml", "--out", "two"});
+  const CsvFile table(path("one/sweep.csv")), times(path("one/time.csv"));
+  EXPECT_FALSE(contains(text_of(path("one/sweep.csv")), "error")) << "not asked for";
+  EXPECT_EQ(times.rows.size(), 3u * 2 * 2);
+  EXPECT_GT(times.number(times.row_with({{"estimator", "sr_ukf"}}), "microseconds_per_step"), 0);
+  // All that does not say how long it took is repeatable.
+  auto one = files_in(path("one")), two = files_in(path("two"));
+  for (auto* files : {&one, &two})
+    for (const char* name : {"time.csv", "cells/all.jsonl"}) EXPECT_EQ(files->erase(name), 1u);
+  EXPECT_TRUE(one == two);
+  EXPECT_TRUE(contains(one.at("report.html"), "mean NEES"));
+  EXPECT_FALSE(contains(one.at("report.html"), "mean absolute error"));
+  EXPECT_TRUE(contains(one.at("heat_map.svg"), "gated measurements"));
+  // As a comparison of the same point has it: a factor of 1 and no gap.
+  write_text(path("experiment_a.xml"),
+             replaced(text_of(path("experiment_a.xml")), "duration=\"1\"", "duration=\"0.6\" engine=\"halyard\""));
+  done({"compare", "experiment_a.xml", "--model", "raven2.xml", "--estimators", "sr_ukf", "--out", "cmp"});
+  const auto sr_ukf = nlohmann::json::parse(text_of(path("cmp/comparison.json"))).at("estimators").at(0);
+  const std::size_t row = table.row_with({{"point", "2"}, {"estimator", "sr_ukf"}, {"joint", "2"}});
+  EXPECT_FLOAT_EQ(table.number(row, "mean_nees"), sr_ukf.at("joints").at(1).at("nees").at("mean"));
+  EXPECT_EQ(table.number(row, "steps"), sr_ukf.at("steps"));
 }
 
 TEST_F(Sweep, ResumesWithoutComputingFinishedCellsAgain) {

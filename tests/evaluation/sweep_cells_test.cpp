@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <thread>
 
 #include "tests/support/message_of.h"
@@ -20,21 +21,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-ErrorStatistics errors_of_size(double size) {
-  ErrorStatistics e;
-  e.samples = 1001;
-  e.mean_absolute = size, e.rms = 1.25 * size, e.peak = 3 * size, e.bias = -size / 3;
-  return e;  // without standard deviations: within_two_std is NaN
-}
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Errors without standard deviations: within_two_std is NaN.
+std::vector<double> errors_of_size(double size) { return {1001, size, 1.25 * size, 3 * size, -size / 3, kNan}; }
 
 /// The second estimator fails at even points.
 SweepCell cell_at(std::size_t point) {
   SweepCell cell;
   cell.point = point;
   cell.results.resize(2);
-  cell.results[0].errors = {errors_of_size(1e-3 / 3), errors_of_size(double(point))};
+  cell.results[0].values = {errors_of_size(1e-3 / 3), errors_of_size(double(point))};
   if (point % 2 == 0) cell.results[1].failure = "took more than 10 s";
-  cell.results[1].errors.resize(2);
+  cell.results[1].values.assign(2, std::vector<double>(6, kNan));
   return cell;
 }
 
@@ -73,19 +72,26 @@ TEST_F(SweepCells, AreGivenBackToTheLastBit) {
   EXPECT_EQ(read.point, 4u);
   ASSERT_EQ(read.results.size(), 2u);
   EXPECT_EQ(read.results[1].failure, "took more than 10 s");
-  const auto expect_equal = [](double a, double b) {
-    EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << a << ", " << b;
-  };
   for (std::size_t i = 0; i < 2; ++i)
-    for (std::size_t k = 0; k < 2; ++k) {
-      const ErrorStatistics &a = read.results[i].errors[k], &b = written.results[i].errors[k];
-      EXPECT_EQ(a.samples, b.samples);
-      expect_equal(a.mean_absolute, b.mean_absolute);
-      expect_equal(a.rms, b.rms);
-      expect_equal(a.peak, b.peak);
-      expect_equal(a.bias, b.bias);
-      expect_equal(a.within_two_std, b.within_two_std);
-    }
+    for (std::size_t k = 0; k < 2; ++k)
+      for (std::size_t c = 0; c < 6; ++c) {
+        const double a = read.results[i].values[k].at(c), b = written.results[i].values[k][c];
+        EXPECT_TRUE((a == b && std::signbit(a) == std::signbit(b)) || (std::isnan(a) && std::isnan(b)))
+            << a << ", " << b;
+      }
+  EXPECT_EQ(read.shown(grid_, 0, 0, 1), 4) << "the mean absolute error";
+}
+
+TEST_F(SweepCells, HaveTheColumnsOfTheirMeasuresInOrder) {
+  grid_.measures = parse_measures("counts,nees");
+  SweepCell cell{0, {{"", {}}, {"", {}}}};
+  for (SweepCell::Result& result : cell.results) result.values.assign(2, {1001, 2, 3, 0.9, 0.8, 1.2, 400});
+  EXPECT_EQ(cell.shown(grid_, 0, 1, 1), 2) << "measurements not accepted";
+  EXPECT_EQ(cell.shown(grid_, 1, 1, 1), 0.9) << "mean NEES";
+  CellJournal(folder_, grid_, {}).add(cell);
+  EXPECT_EQ(stored().read(0).results[1].values, cell.results[1].values);
+  grid_.measures = parse_measures("errors");
+  EXPECT_NE(message_of([&] { stored().read(0); }).find("damaged at byte"), std::string::npos);
 }
 
 TEST_F(SweepCells, OfAllShardsCountTogether) {

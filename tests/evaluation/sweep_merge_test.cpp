@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include "evaluation/sweep/sweep_store.h"
 #include "evaluation/sweep/sweep_table.h"
@@ -36,9 +37,9 @@ class SweepMerge : public testing::Test {
     store_grid(folder_ / name, grid);
     CellJournal journal(folder_ / name, grid, {});
     for (const std::size_t p : points) {
-      SweepCell cell{p, {{"", {{}}}}};
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      SweepCell cell{p, {{"", {{0, nan, double(p), nan, nan, nan}}}}};
       if (p == failed_) cell.results[0].failure = "crashed";
-      cell.results[0].errors[0].rms = static_cast<double>(p);
       journal.add(cell);
     }
     return folder_ / name;
@@ -61,7 +62,7 @@ TEST_F(SweepMerge, PutsTheCellsOfItsPartsInOrder) {
   ASSERT_EQ(whole.cells.count(), 3u);
   for (std::size_t p = 0; p < 3; ++p) {
     EXPECT_EQ(whole.cells.read(p).point, p);
-    EXPECT_EQ(whole.cells.read(p).results[0].errors[0].rms, static_cast<double>(p));
+    EXPECT_EQ(whole.cells.read(p).results[0].values[0][2], static_cast<double>(p));
   }
   EXPECT_EQ(collect_cells({folder_ / "whole"}, read_grid(folder_ / "whole")).count(), 3u) << "and stores them";
 }

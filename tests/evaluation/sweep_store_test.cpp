@@ -31,6 +31,7 @@ SweepGrid grid_of_six() {
   grid.model = "arm.xml";
   grid.skip_s = 0.25;
   grid.estimators = {"kinematics", "./mine.so"};
+  grid.measures = parse_measures("nees,time,errors");
   grid.units = {{"rad", "deg", 57.29577951308232}, {"m", "mm", 1000}};
   grid.axes.resize(2);
   grid.axes[0].parameters = {"joint1.cable.stiffness"};
@@ -103,6 +104,7 @@ TEST_F(SweepStore, GivesTheGridBack) {
   EXPECT_EQ(read.model, grid.model);
   EXPECT_EQ(read.skip_s, grid.skip_s);
   EXPECT_EQ(read.estimators, grid.estimators);
+  EXPECT_EQ(read.measures, grid.measures);
   ASSERT_EQ(read.axes.size(), grid.axes.size());
   for (std::size_t i = 0; i < grid.axes.size(); ++i) {
     EXPECT_EQ(read.axes[i].parameters, grid.axes[i].parameters);

@@ -1,7 +1,5 @@
 #include "app/pages/sweep/sweep_pictures.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
 
@@ -26,35 +24,48 @@ std::vector<std::size_t> increasing(const std::vector<double>& values) {
   return order;
 }
 
-/// [estimator][joint], the first axis to the right.
-std::vector<std::vector<report::HeatMap>> error_maps(const SweepGrid& grid, const StoredCells& cells,
-                                                     const SweepSummary& summary) {
-  const std::vector<double>&first = grid.axes[0].values, &second = grid.axes[1].values;
-  const std::vector<std::size_t> columns = increasing(first), rows = increasing(second);
-  std::vector<std::vector<report::HeatMap>> maps(grid.estimators.size());
-  for (std::size_t i = 0; i < maps.size(); ++i)
-    for (std::size_t k = 0; k < grid.units.size(); ++k) {
-      report::HeatMap map{.title = fmt::format("{}, joint {}", grid.estimators[i], k + 1),
-                          .x_label = axis_label(grid.axes[0]),
-                          .y_label = axis_label(grid.axes[1]),
-                          .value_label = fmt::format("mean absolute error [{}]", grid.units[k].shown),
-                          .log_value = spans_decades(summary.spans[k].least, summary.spans[k].greatest, 2)};
-      for (const std::size_t column : columns) map.x.push_back(first[column]);
-      for (const std::size_t row : rows) map.y.push_back(second[row]);
-      maps[i].push_back(std::move(map));
-    }
-  for (const std::size_t row : rows)
-    for (const std::size_t column : columns) {
-      std::vector<MeanWithInterval> means(maps.size() * grid.units.size());
-      for (std::size_t seed = 0; seed < grid.n_seeds(); ++seed) {
-        const SweepCell cell = cells.read((column * second.size() + row) * grid.n_seeds() + seed);
-        for (std::size_t m = 0; m < means.size(); ++m)
-          means[m].add(cell.results[m / grid.units.size()].errors[m % grid.units.size()].mean_absolute);
-      }
-      for (std::size_t m = 0; m < means.size(); ++m) {
-        const std::size_t k = m % grid.units.size();
-        maps[m / grid.units.size()][k].value.push_back(grid.units[k].shown_per_si * means[m].mean());
-      }
+std::vector<double> sorted(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values;
+}
+
+/// The maps of an estimator by the m-th measure, still without values; the first axis to the right.
+std::vector<report::HeatMap> empty_maps(const SweepGrid& grid, const SweepSummary& summary, std::size_t m,
+                                        std::size_t i) {
+  std::vector<report::HeatMap> maps;
+  for (std::size_t k = 0; k < n_charts(grid, m); ++k) {
+    const SweepSummary::Span& span = summary.spans[m][k];
+    maps.push_back({.title = grid.estimators[i] + ", " + lower_case(joint_title(grid, m, k)),
+                    .x_label = axis_label(grid.axes[0]),
+                    .y_label = axis_label(grid.axes[1]),
+                    .value_label = grid.measures[m]->label(grid.units[k]),
+                    .x = sorted(grid.axes[0].values),
+                    .y = sorted(grid.axes[1].values),
+                    .log_value = spans_decades(span.least, span.greatest, 2)});
+  }
+  return maps;
+}
+
+/// A row for each measure and estimator.
+std::vector<std::vector<report::HeatMap>> heat_maps(const SweepGrid& grid, const StoredCells& cells,
+                                                    const SweepSummary& summary) {
+  const std::size_t n_rows = grid.axes[1].values.size();
+  std::vector<std::vector<report::HeatMap>> maps;
+  for (const std::size_t m : shown_measures(grid))
+    for (std::size_t i = 0; i < grid.estimators.size(); ++i) maps.push_back(empty_maps(grid, summary, m, i));
+  for (const std::size_t row : increasing(grid.axes[1].values))
+    for (const std::size_t column : increasing(grid.axes[0].values)) {
+      std::vector<SweepCell> repeats;
+      for (std::size_t seed = 0; seed < grid.n_seeds(); ++seed)
+        repeats.push_back(cells.read((column * n_rows + row) * grid.n_seeds() + seed));
+      auto maps_of_run = maps.begin();
+      for (const std::size_t m : shown_measures(grid))
+        for (std::size_t i = 0; i < grid.estimators.size(); ++i, ++maps_of_run)
+          for (std::size_t k = 0; k < maps_of_run->size(); ++k) {
+            MeanWithInterval mean;
+            for (const SweepCell& cell : repeats) mean.add(cell.shown(grid, m, i, k));
+            (*maps_of_run)[k].value.push_back(grid.measures[m]->shown_unit(grid.units[k]).shown_per_si * mean.mean());
+          }
     }
   return maps;
 }
@@ -63,11 +74,11 @@ std::vector<std::vector<report::HeatMap>> error_maps(const SweepGrid& grid, cons
 
 void add_sweep_pictures(OutputFiles& files, const std::filesystem::path& folder, const SweepGrid& grid,
                         const StoredCells& cells, const SweepSummary& summary) {
-  std::vector<std::vector<report::Chart>> rows(grid.axes.size());
-  for (std::size_t a = 0; a < grid.axes.size(); ++a)
-    for (std::size_t k = 0; k < grid.units.size(); ++k) rows[a].push_back(mean_chart(grid, summary, a, k));
+  std::vector<std::vector<report::Chart>> rows;
+  for (const std::size_t m : shown_measures(grid))
+    for (std::size_t a = 0; a < grid.axes.size(); ++a) rows.push_back(mean_charts(grid, summary, m, a));
   files.add(folder / "curves.svg", report::figure_svg(rows));
-  if (has_map(grid)) files.add(folder / "heat_map.svg", report::heat_map_svg(error_maps(grid, cells, summary)));
+  if (has_map(grid)) files.add(folder / "heat_map.svg", report::heat_map_svg(heat_maps(grid, cells, summary)));
 }
 
 }  // namespace halyard

@@ -162,6 +162,9 @@ TEST_F(BadInput, ASweepThatCannotBeComputed) {
   expect_sweep_refused("<axis parameter=\"joint1.cable.stiffness joint1.link.mass\" values=\"1\"/>", {"kg", "N/m"});
   expect_sweep_refused(good + good, {"varied twice"});
   expect_sweep_refused(good, {"kinematics,,ekf", "empty name"}, "estimators=\"kinematics,,ekf\"");
+  expect_sweep_refused(good, {"measures=\"ness\"", "expected one or more of errors, nees"},
+                       "estimators=\"ekf\" measures=\"ness\"");
+  expect_sweep_refused(good, {"measures=\"time\"", "add errors"}, "estimators=\"ekf\" measures=\"time\"");
   expect_sweep_refused(good, {"samples=\"8\"", "a grid has none"}, "estimators=\"ekf\" samples=\"8\"");
   expect_sweep_refused(good, {"design=\"sobel\"", "latin_hypercube"}, "estimators=\"ekf\" design=\"sobel\"");
   expect_sweep_refused(good, {"samples", "missing"}, "estimators=\"ekf\" design=\"sobol\"");
