@@ -136,6 +136,31 @@ figure_study_model_error() {
   done
 }
 
+study_refinement='docs/studies/refinement.sh out/refinement ./run'
+
+figure study_refinement minutes
+figure_study_refinement() {
+  ran "$study_refinement"
+  echo "From \`$study_refinement\`, which runs \`./run sweep\` with both files: points of a refined"
+  echo 'grid, their saving, and the largest error of the even grid. The refined grid interpolates at least as well.'
+  echo
+  echo '| even grid | stiffness, gain | stiffness, ln(error) | unknown pretension, gain | unknown pretension, ln(error) |'
+  echo '|---:|---:|---:|---:|---:|'
+  awk -F , '
+    FNR == 1 { next }
+    !($3 in met) { met[$3] = 1; even[++rows] = $3 }
+    { cell[$3, $1, $2] = sprintf("%d, %.0f %% (error %.2g)", $5, 100 * (1 - $5 / $3), $4) }
+    END {
+      for (i = 1; i <= rows; ++i) {
+        printf "| %d", even[i]
+        for (s = 1; s <= 2; ++s)
+          for (w = 1; w <= 2; ++w)
+            printf " | %s", cell[even[i], s == 1 ? "stiffness" : "pretension_unknown", w == 1 ? "gain" : "log_error"]
+        print " |"
+      }
+    }' "$work/out/refinement/refinement.csv"
+}
+
 study_limits='docs/studies/detection_limits.sh out/limits'
 
 figure study_limits_svg minutes
