@@ -49,7 +49,7 @@ std::vector<double> SvgAxis::ticks() const {
   if (!is_logarithmic_) {
     const double step = even_step(to_ - from_);
     for (double i = std::ceil(from_ / step - kRounding); i * step <= to_ + kRounding * step; ++i)
-      ticks.push_back(i * step);
+      ticks.push_back(i * step + 0.0);  // 0 without a sign
     return ticks;
   }
   const double range = to_ - from_;

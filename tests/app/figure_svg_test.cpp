@@ -30,6 +30,7 @@ Chart line_of(std::vector<double> x, std::vector<double> y) {
 TEST(SvgAxis, GivesRoundTicks) {
   const std::vector<double> even = {0.03, 0.97};
   EXPECT_EQ(SvgAxis(even, false, true).ticks(), (std::vector<double>{0, 0.2, 0.4, 0.6000000000000001, 0.8, 1}));
+  EXPECT_FALSE(std::signbit(SvgAxis(even, false, true).ticks().front())) << "written as -0";
   const std::vector<double> decade = {1, 10}, decades = {1e-3, 1e2};
   EXPECT_EQ(SvgAxis(decade, true, false).ticks(), (std::vector<double>{1, 2, 5, 10}));
   const std::vector<double> powers = SvgAxis(decades, true, false).ticks();
