@@ -72,8 +72,8 @@ void check_scenario(const std::filesystem::path& file) {
 void check_sweep(const std::filesystem::path& file) {
   const Sweep sweep = read_sweep(file);
   check_estimators(sweep);
-  fmt::print("{}: valid sweep \"{}\", {} points, estimators {}\n", file.string(), sweep.grid.name, sweep.grid.size(),
-             fmt::join(sweep.grid.estimators, ", "));
+  fmt::print("{}: valid sweep \"{}\", {} points, {} {}\n", file.string(), sweep.grid.name, sweep.grid.size(),
+             sweep.grid.measures_limits() ? "limits of" : "estimators", fmt::join(sweep.grid.subjects(), ", "));
   for (const SweepAxis& axis : sweep.grid.axes) {
     const auto [least, greatest] = std::ranges::minmax(axis.values);
     fmt::print("  {}: {} values from {:g} to {:g}\n", axis.label(), axis.values.size(), least, greatest);

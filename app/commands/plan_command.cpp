@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <stdexcept>
+#include <utility>
 
 #include "app/output_check.h"
 #include "app/pages/diagnosis_output.h"
@@ -82,10 +83,8 @@ void run_plan(const PlanCommandOptions& options) {
   std::optional<std::pair<PlacedEffect, PlacedEffect>> pair;
   if (!options.separate.empty()) pair = parse_pair(options.separate, plan.model);
   if (const std::string note = left_out(scenario, plan.model); !note.empty()) fmt::print("note: {}\n", note);
-  scenario.robot = plan.model;
-  scenario.assumed = plan.model.nominal;
+  scenario = planned_scenario(std::move(scenario), plan.model);
   scenario.model = options.model;
-  scenario.quantise = true;
   {
     StageProgress progress("plan");
     const auto tell = [&](const std::string& what, double fraction) { progress.set(what, fraction); };

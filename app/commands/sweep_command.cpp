@@ -9,7 +9,6 @@
 
 #include "app/output_check.h"
 #include "app/pages/comparison_figures.h"
-#include "app/pages/sweep/sweep_charts.h"
 #include "app/pages/sweep/sweep_report.h"
 #include "app/progress.h"
 #include "evaluation/sweep/sweep_file.h"
@@ -29,20 +28,22 @@ std::optional<std::size_t> whole_number(std::string_view text) {
 }
 
 void print_result(const fs::path& folder, const SweepGrid& grid, const SweepSummary& summary) {
-  fmt::print("sweep \"{}\": {} points, {} estimators\n", grid.name, grid.size(), grid.estimators.size());
-  if (summary.failures > 0) {
-    fmt::print("{} of {} runs of estimators failed; the column failure of sweep.csv says why\n", summary.failures,
-               grid.size() * grid.estimators.size());
-  }
+  fmt::print("sweep \"{}\": {} points, {} {}\n", grid.name, grid.size(), grid.n_subjects(),
+             grid.measures_limits() ? "effects" : "estimators");
+  if (summary.failures > 0)
+    fmt::print("{} of {} {} failed; the column failure of sweep.csv says why\n", summary.failures,
+               grid.size() * grid.n_subjects(), grid.measures_limits() ? "limits" : "runs of estimators");
   fmt::print("table: {}\nreport: {}\n", (folder / "sweep.csv").string(), (folder / "report.html").string());
 }
 
-/// What was measured of the i-th estimator.
+/// What was measured of the i-th estimator or effect.
 void print_measured(const SweepGrid& grid, const SweepCell& cell, std::size_t i) {
+  const std::string name = grid.subjects()[i];
   for (std::size_t m = 0; m < grid.measures.size(); ++m)
-    for (std::size_t k = 0; k < n_charts(grid, m); ++k) {
-      const JointUnit unit = grid.measures[m]->shown_unit(grid.units[k]);
-      fmt::print("{}: {}: {} {}{}\n", grid.estimators[i], lower_case(joint_title(grid, m, k)),
+    for (std::size_t k = 0; k < (grid.measures[m]->is_of_joint ? grid.units.size() : 1); ++k) {
+      const JointUnit unit = grid.shown_unit(m, i, k);
+      fmt::print("{}: {}: {} {}{}\n", name,
+                 grid.measures[m]->is_of_joint ? fmt::format("joint {}", k + 1) : "all joints",
                  grid.measures[m]->shown_as, shown_number(cell.shown(grid, m, i, k), unit),
                  unit.shown.empty() ? "" : " " + unit.shown);
     }
@@ -97,12 +98,12 @@ void run_sweep_point(const SweepCommandOptions& options, std::size_t point) {
   const SweepCell cell = run_point(sweep, point, options.run.containment);
   for (std::size_t i = 0; i < cell.results.size(); ++i) {
     const SweepCell::Result& result = cell.results[i];
-    if (!result.failure.empty()) fmt::print("{}: failed: {}\n", grid.estimators[i], result.failure);
+    if (!result.failure.empty()) fmt::print("{}: failed: {}\n", grid.subjects()[i], result.failure);
     else print_measured(grid, cell, i);
   }
   if (cell.failures() > 0)
-    throw std::runtime_error(fmt::format("halyard sweep: {} of {} estimators failed at point {}", cell.failures(),
-                                         cell.results.size(), point));
+    throw std::runtime_error(fmt::format("halyard sweep: {} of {} {} failed at point {}", cell.failures(),
+                                         cell.results.size(), grid.measures_limits() ? "limits" : "estimators", point));
 }
 
 void run_merge_command(const MergeCommandOptions& options) {

@@ -161,50 +161,47 @@ figure_study_refinement() {
     }' "$work/out/refinement/refinement.csv"
 }
 
-study_limits='docs/studies/detection_limits.sh out/limits'
+# limit_lines: effect, joint, resolution, noise, limit and naming limit in um or %, of what the study of limits found.
+limit_lines() {
+  ran "$(sweep_of detection_limits)"
+  awk -F , '
+    function shown(x) { return x == "" ? "" : sprintf("%.6g", x * ($4 == "backlash" ? 1e6 : 100)) }
+    FNR == 1 { next }
+    {
+      noise = $3 == 0 ? "0" : sprintf("1e%.0f rad", log($3) / log(10) - 3)
+      printf "%s,%d,%s,%s,%s,%s\n", $4, $6, $2, noise, shown($8), shown($9)
+    }' "$work/out/detection_limits/sweep.csv"
+}
 
 figure study_limits_svg minutes
 figure_study_limits_svg() {
-  local effect
-  ran "$study_limits"
-  for effect in backlash hysteresis; do
-    awk -F , -v effect=$effect '
-      $1 != effect || $6 == "" { next }
-      {
-        shown = $1 == "backlash" ? 1e6 : 100
-        printf "%s\tJoint %d\tnoise %s\t%s\t%.6g\n", $1, $2, $4 == 0 ? "0" : $4 " rad", $3, shown * $6
-      }
-    ' "$work/out/limits/limits.csv"
-  done |
+  limit_lines | sort -s -t , -k 1,1 |
+    awk -F , '$5 != "" { printf "%s\tJoint %d\tnoise %s\t%s\t%s\n", $1, $2, $4, $3, $5 }' |
     awk -v x_label='resolution of the joint encoders, as a multiple of the model&#39;s (80000 counts a turn; joint 3: 5 um)' \
       -v y_labels='half gap [um of cable]|share of the cable force [%]' -f "$here/panels.awk"
 }
 
 figure study_limits minutes
 figure_study_limits() {
-  ran "$study_limits"
-  echo "From \`$study_limits\`, which runs \`./run diagnose --plan MODEL.xml SCENARIO.xml\` for each"
-  echo 'resolution and noise: detection limits, and naming limits in brackets.'
+  local lines
+  lines=$(limit_lines)
+  echo "From \`$(sweep_of detection_limits)\`: detection limits, and naming limits in brackets."
   echo
   echo '| resolution | noise | backlash, half gap [um]: joint 1 | joint 2 | joint 3 | hysteresis, share [%]: joint 1 | joint 2 | joint 3 |'
   echo '|---:|---:|---:|---:|---:|---:|---:|---:|'
   awk -F , '
     function digits(x) { return sprintf(x < 999.5 ? "%.3g" : "%.0f", x) }
-    FNR == 1 { next }
     !(($3, $4) in met) { met[$3, $4] = 1; row[++rows] = $3 SUBSEP $4 }
-    {
-      shown = $1 == "backlash" ? 1e6 : 100
-      cell[$3, $4, $1, $2] = ($6 == "" ? "not seen" : digits(shown * $6)) ($8 == "" ? "" : " (" digits(shown * $8) ")")
-    }
+    { cell[$3, $4, $1, $2] = ($5 == "" ? "not seen" : digits($5)) ($6 == "" ? "" : " (" digits($6) ")") }
     END {
       for (i = 1; i <= rows; ++i) {
         split(row[i], part, SUBSEP)
-        printf "| x%s | %s", part[1], part[2] == 0 ? "0" : part[2] " rad"
+        printf "| x%s | %s", part[1], part[2]
         for (k = 1; k <= 3; ++k) printf " | %s", cell[row[i], "backlash", k]
         for (k = 1; k <= 3; ++k) printf " | %s", cell[row[i], "hysteresis", k]
         print " |"
       }
-    }' "$work/out/limits/limits.csv"
+    }' <<<"$lines"
 }
 
 # Of the tables of docs/performance.md, which halyard_performance writes: cost beside that of rosenbrock.

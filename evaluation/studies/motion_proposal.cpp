@@ -84,6 +84,13 @@ bool shows_as_well(const DetectionLimit& now, const DetectionLimit& given) {
 
 }  // namespace
 
+Scenario planned_scenario(Scenario scenario, const ArmModel& model) {
+  scenario.robot = model;
+  scenario.assumed = model.nominal;
+  scenario.quantise = true;
+  return scenario;
+}
+
 Log planned_log(const Scenario& scenario, bool joint_sensor, const std::function<void(double)>& progress) {
   Log log = simulate(faster(scenario), progress).measured;
   log.source = scenario.name;

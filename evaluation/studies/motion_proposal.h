@@ -27,6 +27,9 @@ struct SeparatingMotion {
   int tried = 0;  ///< number of motions
 };
 
+/// The scenario as a plan simulates it: with a robot as the model says, and with encoders.
+Scenario planned_scenario(Scenario scenario, const ArmModel& model);
+
 /// Simulates the scenario and returns its log, without joint positions if joint_sensor is false.
 Log planned_log(const Scenario& scenario, bool joint_sensor, const std::function<void(double)>& progress = {});
 

@@ -181,7 +181,7 @@ void CellJournal::fail() {
 }
 
 StoredCells::StoredCells(const std::vector<fs::path>& folders, const SweepGrid& grid)
-    : n_estimators_(grid.estimators.size()),
+    : n_subjects_(grid.n_subjects()),
       n_joints_(grid.units.size()),
       n_columns_(grid.n_columns()),
       places_(grid.size()),
@@ -253,7 +253,7 @@ SweepCell StoredCells::read(std::size_t point) const {
       }
       check(read.values.size() == n_joints_);
     }
-    check(cell.results.size() == n_estimators_);
+    check(cell.results.size() == n_subjects_);
     return cell;
   } catch (const ordered_json::exception&) {
     damaged(journals_.at(place.journal).path, place.offset);

@@ -6,7 +6,7 @@
 ///   {"sweep":"5f0c...","points":9}
 ///   {"point":3,"failed":0,"results":[{"failure":"","joints":[[1001,3.2e-4,4.1e-4]]}]}
 ///
-/// results: one for each estimator; joints: one list for each joint, with the columns of the measures
+/// results: one for each estimator or effect; joints: one list for each joint, with the columns of the measures
 /// (measures/sweep_measure.h); null for NaN. A line counts once its line break is
 /// on the disk, so a run that is killed loses no point that it has finished.
 
@@ -24,18 +24,18 @@ namespace halyard {
 
 /// The results at one point of the grid.
 struct SweepCell {
-  /// The result of one estimator.
+  /// The result of one estimator, or of one effect.
   struct Result {
     std::string failure;                      ///< why it was not measured; empty: no failure
     std::vector<std::vector<double>> values;  ///< [n_joints][grid.n_columns()]
   };
 
   std::size_t point = 0;
-  std::vector<Result> results;  ///< [n_estimators]
+  std::vector<Result> results;  ///< [grid.n_subjects()]
 
-  /// Number of estimators that failed.
+  /// Number of results with a failure.
   std::size_t failures() const;
-  /// What the m-th measure shows of the i-th estimator at joint k; NaN after a failure.
+  /// What the m-th measure shows of the i-th result at joint k; NaN after a failure.
   double shown(const SweepGrid& grid, std::size_t m, std::size_t i, std::size_t k) const;
 };
 
@@ -102,7 +102,7 @@ class StoredCells {
   void scan(std::size_t journal, const std::string& header);
   [[noreturn]] void damaged(const std::filesystem::path& path, std::uint64_t offset) const;
 
-  std::size_t n_estimators_, n_joints_, n_columns_;
+  std::size_t n_subjects_, n_joints_, n_columns_;
   std::vector<Journal> journals_;
   std::vector<Place> places_;
   std::vector<bool> failed_;

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "evaluation/estimator_list.h"
+#include "evaluation/sweep/measures/sweep_limits.h"
 #include "evaluation/sweep/parameters/axis_keys.h"
 #include "evaluation/sweep/sweep_design.h"
 #include "model/input_error.h"
@@ -173,6 +174,26 @@ std::vector<const SweepMeasure*> read_measures(const XmlElement& element) {
   }
 }
 
+/// The estimators with their measures, or the effects whose limits are measured.
+void read_subjects(const XmlElement& element, const fs::path& folder, const ArmModel& model, SweepGrid& grid) {
+  if (!element.has("limits")) {
+    grid.estimators = read_estimators(element, folder);
+    grid.measures = read_measures(element);
+    return;
+  }
+  for (const char* name : {"estimators", "measures", "skip"})
+    if (element.has(name)) element.fail(name, "has no meaning beside limits; leave one of them out");
+  for (const XmlElement& axis : element.children("axis"))
+    if (axis.text_or("applies_to", "") == "robot")
+      axis.fail("applies_to", "detection limits are those of an arm as the model says; leave it out");
+  grid.measures = {&limits_measure()};
+  try {
+    grid.effects = parse_limited_effects(element.text("limits"), model);
+  } catch (const InputError& error) {
+    element.fail("limits", error.what());
+  }
+}
+
 }  // namespace
 
 Scenario Sweep::scenario_at(std::size_t point) const {
@@ -211,7 +232,7 @@ Sweep read_sweep(const fs::path& path) {
 Sweep read_sweep_definition(const fs::path& path) {
   const XmlElement element = XmlElement::read_file(path, "sweep");
   element.only({"name", "scenario", "model", "estimators", "seed", "duration", "skip", "design", "samples", "repeats",
-                "measures"},
+                "measures", "limits"},
                {"axis"});
   const fs::path folder = path.parent_path();
   const fs::path scenario_file = element.path("scenario");
@@ -234,8 +255,7 @@ Sweep read_sweep_definition(const fs::path& path) {
   grid.model = model_file.filename().string();
   grid.skip_s = element.number_or("skip", 0.5, "s", Sign::non_negative);
   grid.units = joint_units(sweep.model);
-  grid.estimators = read_estimators(element, folder);
-  grid.measures = read_measures(element);
+  read_subjects(element, folder, sweep.model, grid);
   grid.seeds = read_seeds(element, sweep.scenario.seed);
   if (element.children("axis").empty()) element.fail("element <axis> is missing; give one or more");
   const UnitSamples samples = read_design(element, sweep.scenario.seed);

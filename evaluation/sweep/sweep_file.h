@@ -19,7 +19,8 @@ namespace halyard {
 ///   scenario     file of the scenario                          relative to the sweep file
 ///   model        the estimators' model                         default: the scenario's own model file
 ///   estimators   names or plug-ins, separated by commas        a path is relative to the sweep file
-///   measures     what is measured, see measures/sweep_measure.h    default: errors
+///   limits       instead of estimators: effects whose detection limits are measured, see measures/sweep_limits.h
+///   measures     what is measured of estimators, see measures/sweep_measure.h    default: errors
 ///   seed, duration   replace the scenario's                    -, s
 ///   design       grid, latin_hypercube or sobol, see sweep_design.h   default: grid
 ///   samples      number of points, unless the design is a grid

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <optional>
+
 namespace halyard {
 
 std::string SweepAxis::label() const {
@@ -15,6 +17,22 @@ std::size_t SweepGrid::combinations() const {
   std::size_t product = 1;
   for (const SweepAxis& axis : axes) product *= axis.values.size();
   return product;
+}
+
+std::vector<std::string> SweepGrid::subjects() const {
+  if (!measures_limits()) return estimators;
+  std::vector<std::string> names;
+  for (const SweepEffect& effect : effects) names.push_back(effect.name);
+  return names;
+}
+
+JointUnit SweepGrid::shown_unit(std::size_t m, std::size_t i, std::size_t k) const {
+  const std::optional<std::string>& unit = measures.at(m)->unit;
+  if (measures_limits()) {
+    const std::string& si = effects.at(i).units.at(k);
+    return {si, si == "1" ? "" : si, 1};
+  }
+  return unit ? JointUnit{*unit, *unit, 1} : units.at(k);
 }
 
 std::size_t SweepGrid::n_columns(std::size_t m) const {

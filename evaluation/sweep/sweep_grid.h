@@ -29,6 +29,13 @@ struct SweepAxis {
   std::string label() const;
 };
 
+/// An effect whose detection limits are measured.
+struct SweepEffect {
+  std::string name;                ///< Effect::name()
+  std::string parameter;           ///< says how large it is
+  std::vector<std::string> units;  ///< [n_joints] of that parameter; empty where a joint cannot have the effect
+};
+
 /// Part i of n of a grid: the points p with p mod n = i - 1.
 struct Shard {
   std::size_t index = 1, count = 1;
@@ -37,8 +44,8 @@ struct Shard {
   bool is_whole() const { return count == 1; }
 };
 
-/// Definition of a sweep, which measures every estimator at every joint for every point of the grid. It contains
-/// everything that merging and reporting need, and is stored with the results.
+/// Definition of a sweep, which measures every estimator, or every effect's detection limit, at every joint for every
+/// point of the grid. It contains everything that merging and reporting need, and is stored with the results.
 struct SweepGrid {
   std::string name;
   std::string id;               ///< equal for equal definitions: only results with equal ids can be merged
@@ -46,9 +53,10 @@ struct SweepGrid {
   std::string scenario, model;  ///< names of the files, without folders
   double skip_s = 0.5;
   std::vector<SweepAxis> axes;
-  bool is_sampled = false;           ///< not all combinations: point p has the p-th value of every axis
-  std::vector<std::uint64_t> seeds;  ///< each combination of values is simulated with each; empty: the scenario's
-  std::vector<std::string> estimators;
+  bool is_sampled = false;              ///< not all combinations: point p has the p-th value of every axis
+  std::vector<std::uint64_t> seeds;     ///< each combination of values is simulated with each; empty: the scenario's
+  std::vector<std::string> estimators;  ///< none in a sweep of detection limits
+  std::vector<SweepEffect> effects;     ///< only in a sweep of detection limits
   std::vector<const SweepMeasure*> measures = {&sweep_measures().front()};  ///< elements of sweep_measures()
   std::vector<JointUnit> units;                                             ///< [n_joints]
 
@@ -57,6 +65,13 @@ struct SweepGrid {
   std::size_t n_seeds() const { return seeds.empty() ? 1 : seeds.size(); }
   /// Number of points: each combination with each seed.
   std::size_t size() const { return combinations() * n_seeds(); }
+
+  bool measures_limits() const { return !effects.empty(); }
+  /// What a cell has results of: names of the estimators, or of the effects.
+  std::vector<std::string> subjects() const;
+  std::size_t n_subjects() const { return measures_limits() ? effects.size() : estimators.size(); }
+  /// Unit of what the m-th measure shows of the i-th subject at joint k.
+  JointUnit shown_unit(std::size_t m, std::size_t i, std::size_t k) const;
 
   /// Number of columns of all measures; of the first m of them.
   std::size_t n_columns() const { return n_columns(measures.size()); }

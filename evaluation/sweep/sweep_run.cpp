@@ -11,6 +11,7 @@
 
 #include "evaluation/comparison/compare.h"
 #include "evaluation/run/contained_run.h"
+#include "evaluation/sweep/measures/sweep_limits.h"
 #include "evaluation/sweep/parameters/estimator_option.h"
 #include "evaluation/sweep/sweep_store.h"
 #include "model/input_error.h"
@@ -53,9 +54,22 @@ SweepCell::Result failure(const SweepGrid& grid, const std::string& reason) {
   return result_of(grid, reason, [](const MeasuredColumn& column, std::size_t) { return column.after_failure; });
 }
 
+SweepCell limits_at(const Sweep& sweep, std::size_t point) {
+  SweepCell cell{point, {}};
+  try {
+    check_point(sweep, point, "the sweep");
+    for (auto& limits : limits_of(sweep.grid.effects, sweep.scenario_at(point), sweep.model_at(point)))
+      cell.results.push_back({"", std::move(limits)});
+  } catch (const std::exception& error) {
+    cell.results.assign(sweep.grid.n_subjects(), failure(sweep.grid, error.what()));
+  }
+  return cell;
+}
+
 }  // namespace
 
 SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOptions& containment) {
+  if (sweep.grid.measures_limits()) return limits_at(sweep, point);
   SweepCell cell{point, {}};
   SimulationResult data;
   try {

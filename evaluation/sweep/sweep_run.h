@@ -11,7 +11,7 @@
 
 namespace halyard {
 
-/// Simulates a point and runs the estimators over its log. A failure is stored in the cell, not thrown.
+/// Simulates a point and runs the estimators over its log, or computes the detection limits. A failure is stored in the cell, not thrown.
 SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOptions& containment = {});
 
 /// Throws InputError if an estimator of the sweep cannot be made: with the model of the first point, and with the least

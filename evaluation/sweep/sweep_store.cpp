@@ -66,6 +66,11 @@ SweepAxis axis_of(const ordered_json& json) {
   return axis;
 }
 
+SweepEffect effect_of(const ordered_json& json) {
+  return {json.at("effect").get<std::string>(), json.at("parameter").get<std::string>(),
+          json.at("units").get<std::vector<std::string>>()};
+}
+
 std::vector<const SweepMeasure*> measures_of(const ordered_json& json) {
   try {
     return parse_measures(fmt::format("{}", fmt::join(json.get<std::vector<std::string>>(), ",")));
@@ -102,6 +107,9 @@ void write_grid(OutputFiles& files, const fs::path& folder, const SweepGrid& gri
   }
   ordered_json measures = ordered_json::array();
   for (const SweepMeasure* measure : grid.measures) measures.push_back(measure->name);
+  ordered_json effects = ordered_json::array();
+  for (const SweepEffect& effect : grid.effects)
+    effects.push_back({{"effect", effect.name}, {"parameter", effect.parameter}, {"units", effect.units}});
   const ordered_json json = {{"sweep", grid.name},
                              {"id", grid.id},
                              {"file", grid.file},
@@ -113,6 +121,7 @@ void write_grid(OutputFiles& files, const fs::path& folder, const SweepGrid& gri
                              {"seeds", grid.seeds},
                              {"axes", axes},
                              {"estimators", grid.estimators},
+                             {"effects", effects},
                              {"measures", measures},
                              {"joints", joints}};
   files.add(grid_path(folder), json_text(json));
@@ -134,11 +143,17 @@ SweepGrid read_grid(const fs::path& folder) {
     grid.is_sampled = json.at("sampled").get<bool>();
     grid.seeds = json.at("seeds").get<std::vector<std::uint64_t>>();
     grid.estimators = json.at("estimators").get<std::vector<std::string>>();
-    grid.measures = measures_of(json.at("measures"));
+    // Earlier programs wrote neither, and measured errors.
+    for (const ordered_json& effect : json.value("effects", ordered_json::array()))
+      grid.effects.push_back(effect_of(effect));
+    if (grid.measures_limits()) grid.measures = {&limits_measure()};
+    else if (json.contains("measures")) grid.measures = measures_of(json.at("measures"));
     for (const ordered_json& joint : json.at("joints")) {
       grid.units.push_back({joint.at("unit").get<std::string>(), joint.at("shown").get<std::string>(),
                             joint.at("shown_per_si").get<double>()});
     }
+    for (const SweepEffect& effect : grid.effects)
+      if (effect.units.size() != grid.units.size()) throw std::invalid_argument("a unit of a limit is missing");
     for (const SweepAxis& axis : grid.axes)
       if (grid.is_sampled && axis.values.size() != grid.axes.front().values.size())
         throw std::invalid_argument("samples are missing");

@@ -30,13 +30,13 @@ double MeanWithInterval::half_width() const {
 }
 
 SweepSummary::SweepSummary(const SweepGrid& grid)
-    : spans(grid.measures.size(), std::vector<Span>(grid.units.size())), grid_(grid) {
+    : spans(grid.measures.size(), std::vector(grid.n_subjects(), std::vector<Span>(grid.units.size()))), grid_(grid) {
   for (const SweepAxis& axis : grid.axes) places_.push_back(places_of(axis));
   for (std::size_t m = 0; m < grid.measures.size(); ++m)
     for (const Places& places : places_) {
       const std::vector<double>& x = places.centres;
       const Curve curve{x, std::vector<MeanWithInterval>(x.size())};
-      curves_.insert(curves_.end(), grid.estimators.size() * grid.units.size(), curve);
+      curves_.insert(curves_.end(), grid.n_subjects() * grid.units.size(), curve);
     }
 }
 
@@ -65,12 +65,12 @@ void SweepSummary::add(const SweepCell& cell) {
   failures += cell.failures();
   const std::vector<double> values = grid_.values(cell.point);
   for (std::size_t m = 0; m < grid_.measures.size(); ++m)
-    for (std::size_t i = 0; i < grid_.estimators.size(); ++i)
+    for (std::size_t i = 0; i < grid_.n_subjects(); ++i)
       for (std::size_t k = 0; k < grid_.units.size(); ++k) {
         const double shown = cell.shown(grid_, m, i, k);
         if (std::isnan(shown)) continue;
-        spans[m][k].least = std::min(spans[m][k].least, shown);
-        spans[m][k].greatest = std::max(spans[m][k].greatest, shown);
+        spans[m][i][k].least = std::min(spans[m][i][k].least, shown);
+        spans[m][i][k].greatest = std::max(spans[m][i][k].greatest, shown);
         for (std::size_t a = 0; a < values.size(); ++a) {
           const std::vector<double>& edges = places_[a].edges;
           const auto place = std::size_t(std::ranges::lower_bound(edges, values[a]) - edges.begin());
@@ -79,13 +79,13 @@ void SweepSummary::add(const SweepCell& cell) {
       }
 }
 
-std::size_t SweepSummary::index(std::size_t measure, std::size_t axis, std::size_t estimator, std::size_t joint) const {
-  return ((measure * grid_.axes.size() + axis) * grid_.estimators.size() + estimator) * grid_.units.size() + joint;
+std::size_t SweepSummary::index(std::size_t measure, std::size_t axis, std::size_t subject, std::size_t joint) const {
+  return ((measure * grid_.axes.size() + axis) * grid_.n_subjects() + subject) * grid_.units.size() + joint;
 }
 
-const SweepSummary::Curve& SweepSummary::curve(std::size_t measure, std::size_t axis, std::size_t estimator,
+const SweepSummary::Curve& SweepSummary::curve(std::size_t measure, std::size_t axis, std::size_t subject,
                                                std::size_t joint) const {
-  return curves_.at(index(measure, axis, estimator, joint));
+  return curves_.at(index(measure, axis, subject, joint));
 }
 
 }  // namespace halyard

@@ -32,13 +32,13 @@ class SweepSummary {
 
   void add(const SweepCell& cell);
 
-  std::size_t failures = 0;  ///< runs of estimators that failed
+  std::size_t failures = 0;  ///< results with a failure
 
-  /// Smallest and largest value that a measure shows of a joint.
+  /// Smallest and largest value that a measure shows of a subject at a joint.
   struct Span {
     double least = std::numeric_limits<double>::infinity(), greatest = 0;
   };
-  std::vector<std::vector<Span>> spans;  ///< [n_measures][n_joints]
+  std::vector<std::vector<std::vector<Span>>> spans;  ///< [n_measures][n_subjects][n_joints]
 
   /// What a measure shows over one axis, averaged over everything else. An axis with at most 40 values has one place for
   /// each, in increasing order; the range of other axes is divided into 20 equal bins.
@@ -46,7 +46,7 @@ class SweepSummary {
     std::vector<double> x;                ///< values, or centres of the bins
     std::vector<MeanWithInterval> means;  ///< [x.size()], in SI units
   };
-  const Curve& curve(std::size_t measure, std::size_t axis, std::size_t estimator, std::size_t joint) const;
+  const Curve& curve(std::size_t measure, std::size_t axis, std::size_t subject, std::size_t joint) const;
 
  private:
   /// The places of an axis.
@@ -54,11 +54,11 @@ class SweepSummary {
     std::vector<double> centres, edges;  ///< edges: upper ends
   };
   static Places places_of(const SweepAxis& axis);
-  std::size_t index(std::size_t measure, std::size_t axis, std::size_t estimator, std::size_t joint) const;
+  std::size_t index(std::size_t measure, std::size_t axis, std::size_t subject, std::size_t joint) const;
 
   SweepGrid grid_;
   std::vector<Places> places_;  ///< [n_axes]
-  std::vector<Curve> curves_;   ///< [n_measures * n_axes * n_estimators * n_joints]
+  std::vector<Curve> curves_;   ///< [n_measures * n_axes * n_subjects * n_joints]
 };
 
 }  // namespace halyard

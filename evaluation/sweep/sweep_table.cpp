@@ -17,15 +17,15 @@ std::vector<std::string> point_columns(const SweepGrid& grid) {
     header.push_back(fmt::format("{}{}", fmt::join(axis.parameters, " "), axis.is_factor ? " (factor)" : ""));
   }
   if (!grid.seeds.empty()) header.push_back("seed");
-  header.push_back("estimator");
+  header.push_back(grid.measures_limits() ? "effect" : "estimator");
   return header;
 }
 
-void add_point(CsvTable& table, const SweepGrid& grid, std::size_t point, const std::string& estimator) {
+void add_point(CsvTable& table, const SweepGrid& grid, std::size_t point, const std::string& subject) {
   table.add(std::to_string(point));
   for (const double value : grid.values(point)) table.add(value);
   if (const auto seed = grid.seed(point)) table.add(std::to_string(*seed));
-  table.add(estimator);
+  table.add(subject);
 }
 
 std::vector<std::string> names_of_measured(const SweepGrid& grid, bool repeatable) {
@@ -45,6 +45,7 @@ void add_measured(CsvTable& table, const SweepGrid& grid, bool repeatable, const
 
 std::vector<std::string> sweep_columns(const SweepGrid& grid) {
   std::vector<std::string> header = point_columns(grid);
+  if (grid.measures_limits()) header.push_back("parameter");
   header.insert(header.end(), {"joint", "unit"});
   for (const std::string& name : names_of_measured(grid, true)) header.push_back(name);
   header.insert(header.end(), {"failure", "repeat_with"});
@@ -52,12 +53,14 @@ std::vector<std::string> sweep_columns(const SweepGrid& grid) {
 }
 
 void add_rows(CsvTable& table, const SweepGrid& grid, const SweepCell& cell) {
+  const std::vector<std::string> subjects = grid.subjects();
   for (std::size_t i = 0; i < cell.results.size(); ++i) {
     const std::string& failure = cell.results[i].failure;
     for (std::size_t k = 0; k < grid.units.size(); ++k) {
-      add_point(table, grid, cell.point, grid.estimators[i]);
+      add_point(table, grid, cell.point, subjects[i]);
+      if (grid.measures_limits()) table.add(grid.effects[i].parameter);
       table.add(std::to_string(k + 1));
-      table.add(grid.units[k].si);
+      table.add(grid.measures_limits() ? grid.effects[i].units[k] : grid.units[k].si);
       add_measured(table, grid, true, cell.results[i].values[k]);
       table.add(failure);
       table.add(failure.empty() ? "" : command_of_point(grid, cell.point));

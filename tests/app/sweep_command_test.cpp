@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tests/support/app_runs.h"
+#include "tests/support/short_arm.h"
 
 namespace halyard::testing_program {
 namespace {
@@ -84,6 +85,29 @@ TEST_F(Sweep, MeasuresWhatItsFileAsksFor) {
   const std::size_t row = table.row_with({{"point", "2"}, {"estimator", "sr_ukf"}, {"joint", "2"}});
   EXPECT_FLOAT_EQ(table.number(row, "mean_nees"), sr_ukf.at("joints").at(1).at("nees").at("mean"));
   EXPECT_EQ(table.number(row, "steps"), sr_ukf.at("steps"));
+}
+
+TEST_F(Sweep, MeasuresDetectionLimits) {
+  write_text(path("arm.xml"), model_to_xml(first_joints(1)));
+  write_text(path("motion.xml"),
+             "<scenario name=\"motion\" model=\"arm.xml\" duration=\"2\"><trajectory joint=\"1\" kind=\"sines\" "
+             "center=\"45 deg\"><sine amplitude=\"20 deg\" frequency=\"0.5\"/><sine amplitude=\"6 deg\" "
+             "frequency=\"1.3\"/></trajectory></scenario>");
+  write_text(path("limits.xml"),
+             "<sweep name=\"limits\" scenario=\"motion.xml\" limits=\"backlash,hysteresis\"><axis "
+             "parameter=\"joint1.encoders.joint_resolution\" factor=\"true\" values=\"1 100\"/></sweep>");
+  EXPECT_TRUE(contains(done({"check", "limits.xml"}), "2 points, limits of backlash, hysteresis"));
+  EXPECT_TRUE(contains(done({"sweep", "limits.xml", "--out", "out"}), "2 points, 2 effects"));
+  done({"sweep", "limits.xml", "--out", "one", "--jobs", "1"});
+  EXPECT_TRUE(files_in(path("out")) == files_in(path("one")));
+  const CsvFile table(path("out/sweep.csv"));
+  EXPECT_EQ(table.rows.size(), 2u * 2);
+  const auto limit = [&](const char* point) {
+    return table.number(table.row_with({{"point", point}, {"effect", "backlash"}, {"unit", "m"}}), "detection_limit");
+  };
+  EXPECT_GT(limit("1"), 3 * limit("0")) << "a coarse encoder hides a small gap";
+  EXPECT_TRUE(contains(text_of(path("out/report.html")), "detection limit of backlash, half_gap [m]"));
+  EXPECT_TRUE(contains(text_of(path("out/curves.svg")), "detection limit of hysteresis, share"));
 }
 
 TEST_F(Sweep, ResumesWithoutComputingFinishedCellsAgain) {

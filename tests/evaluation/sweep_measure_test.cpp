@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "evaluation/comparison/compare.h"
+#include "evaluation/sweep/sweep_grid.h"
 #include "tests/support/message_of.h"
 
 namespace halyard {
@@ -39,11 +40,17 @@ TEST(SweepMeasure, TakesEachColumnFromTheComparison) {
 }
 
 TEST(SweepMeasure, IsShownInItsUnit) {
-  const JointUnit joint{"rad", "deg", 57};
-  std::vector<std::string> labels;
-  for (const SweepMeasure& measure : sweep_measures()) labels.push_back(measure.label(joint));
-  EXPECT_EQ(labels, (std::vector<std::string>{"mean absolute error [deg]", "mean NEES", "gated measurements",
-                                              "time per step [us]"}));
+  SweepGrid grid;
+  grid.units = {{"rad", "deg", 57}};
+  grid.estimators = {"kinematics"};
+  grid.measures = parse_measures("errors,nees,counts,time");
+  std::vector<std::string> units;
+  for (std::size_t m = 0; m < 4; ++m) units.push_back(grid.shown_unit(m, 0, 0).shown);
+  EXPECT_EQ(units, (std::vector<std::string>{"deg", "", "", "us"}));
+  grid.effects = {{"backlash", "half_gap", {"m"}}, {"hysteresis", "share", {"1"}}};
+  grid.measures = {&limits_measure()};
+  EXPECT_EQ(grid.shown_unit(0, 0, 0).shown, "m");
+  EXPECT_EQ(grid.shown_unit(0, 1, 0).shown, "") << "a pure number";
 }
 
 TEST(SweepMeasure, IsFoundByItsName) {

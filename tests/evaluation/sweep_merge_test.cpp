@@ -104,5 +104,28 @@ TEST_F(SweepMerge, WritesATableWithARowForEachPointEstimatorAndJoint) {
             "2,3,kinematics,1,rad,0,,2,,,,,\n");
 }
 
+TEST_F(SweepMerge, WritesATableOfLimits) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  grid_.estimators = {};
+  grid_.measures = {&limits_measure()};
+  grid_.effects = {{"backlash", "half_gap", {"m"}}};
+  store_grid(folder_, grid_);
+  CellJournal journal(folder_, grid_, {});
+  journal.add({0, {{"", {{1e-5, 2e-5}}}}});
+  journal.add({1, {{"", {{1e-4, nan}}}}});
+  journal.add({2, {{"crashed", {{nan, nan}}}}});
+  OutputFiles files;
+  write_sweep_table(files, folder_ / "sweep.csv", grid_, StoredCells({folder_}, grid_));
+  files.commit();
+  std::ifstream file(folder_ / "sweep.csv");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(
+      text,
+      "point,joint1.cable.stiffness,effect,parameter,joint,unit,detection_limit,naming_limit,failure,repeat_with\n"
+      "0,1,backlash,half_gap,1,m,1e-05,2e-05,,\n"
+      "1,2,backlash,half_gap,1,m,0.0001,,,\n"
+      "2,3,backlash,half_gap,1,m,,,crashed,halyard sweep study.xml --point 2\n");
+}
+
 }  // namespace
 }  // namespace halyard

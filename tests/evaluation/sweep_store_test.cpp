@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "evaluation/sweep/sweep_cells.h"
@@ -117,6 +118,30 @@ TEST_F(SweepStore, GivesTheGridBack) {
   ASSERT_EQ(read.units.size(), 2u);
   EXPECT_EQ(read.units[1].shown, "mm");
   EXPECT_EQ(read.units[0].shown_per_si, grid.units[0].shown_per_si);
+}
+
+TEST_F(SweepStore, GivesTheGridOfLimitsBack) {
+  SweepGrid limits = grid;
+  limits.estimators = {};
+  limits.measures = {&limits_measure()};
+  limits.effects = {{"backlash", "half_gap", {"m", ""}}};
+  store([&](auto& files) { write_grid(files, folder, limits); });
+  const SweepGrid read = read_grid(folder);
+  EXPECT_EQ(read.subjects(), std::vector<std::string>{"backlash"});
+  EXPECT_EQ(read.effects[0].parameter, "half_gap");
+  EXPECT_EQ(read.effects[0].units, limits.effects[0].units);
+  EXPECT_EQ(read.measures, limits.measures);
+}
+
+TEST_F(SweepStore, ReadsAGridThatSaysNotWhatItMeasures) {
+  store([&](auto& files) { write_grid(files, folder, grid); });
+  std::ifstream file(folder / "sweep.json");
+  nlohmann::json json = nlohmann::json::parse(file);
+  json.erase("measures"), json.erase("effects");
+  write(folder / "sweep.json", json.dump());
+  const SweepGrid read = read_grid(folder);
+  EXPECT_EQ(read.measures, parse_measures("errors"));
+  EXPECT_FALSE(read.measures_limits());
 }
 
 TEST_F(SweepStore, RefusesWhatIsDamaged) {

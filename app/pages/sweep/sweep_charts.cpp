@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <numeric>
 
 namespace halyard {
 
@@ -16,19 +17,21 @@ std::string axis_label(const SweepAxis& axis) {
   return axis.unit.empty() ? axis.label() : fmt::format("{} [{}]", axis.label(), axis.unit);
 }
 
-std::vector<std::size_t> shown_measures(const SweepGrid& grid) {
-  std::vector<std::size_t> shown;
-  for (std::size_t m = 0; m < grid.measures.size(); ++m)
-    if (grid.measures[m]->is_repeatable) shown.push_back(m);
-  return shown;
+std::vector<ChartRow> chart_rows(const SweepGrid& grid) {
+  std::vector<std::size_t> all(grid.n_subjects());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<ChartRow> rows;
+  for (std::size_t m = 0; m < grid.measures.size(); ++m) {
+    const std::size_t charts = grid.measures[m]->is_of_joint ? grid.units.size() : 1;
+    if (grid.measures_limits())
+      for (const std::size_t i : all) rows.push_back({m, {i}, charts});  // each has its own unit
+    else if (grid.measures[m]->is_repeatable) rows.push_back({m, all, charts});
+  }
+  return rows;
 }
 
-std::size_t n_charts(const SweepGrid& grid, std::size_t m) {
-  return grid.measures[m]->is_of_joint ? grid.units.size() : 1;
-}
-
-std::string joint_title(const SweepGrid& grid, std::size_t m, std::size_t k) {
-  return grid.measures[m]->is_of_joint ? fmt::format("Joint {}", k + 1) : "All joints";
+std::string joint_title(const SweepGrid& grid, const ChartRow& row, std::size_t k) {
+  return grid.measures[row.measure]->is_of_joint ? fmt::format("Joint {}", k + 1) : "All joints";
 }
 
 std::string lower_case(std::string title) {
@@ -36,16 +39,32 @@ std::string lower_case(std::string title) {
   return title;
 }
 
-report::Chart empty_chart(const SweepGrid& grid, const SweepSummary& summary, const SweepAxis& axis, std::size_t m,
-                          std::size_t k) {
+std::string value_label(const SweepGrid& grid, const ChartRow& row, std::size_t k) {
+  const std::size_t i = row.subjects.front();
+  std::string text = grid.measures[row.measure]->shown_as;
+  if (grid.measures_limits()) text += " of " + grid.effects[i].name + ", " + grid.effects[i].parameter;
+  const std::string unit = grid.shown_unit(row.measure, i, k).shown;
+  return unit.empty() ? text : fmt::format("{} [{}]", text, unit);
+}
+
+bool has_log_values(const SweepSummary& summary, const ChartRow& row, std::size_t k) {
+  SweepSummary::Span all;
+  for (const std::size_t i : row.subjects) {
+    const SweepSummary::Span& span = summary.spans[row.measure][i][k];
+    all = {std::min(all.least, span.least), std::max(all.greatest, span.greatest)};
+  }
+  return spans_decades(all.least, all.greatest, 2);
+}
+
+report::Chart empty_chart(const SweepGrid& grid, const SweepSummary& summary, const SweepAxis& axis,
+                          const ChartRow& row, std::size_t k) {
   const auto [lowest, highest] = std::ranges::minmax(axis.values);
-  const SweepSummary::Span& span = summary.spans[m][k];
-  return {.title = joint_title(grid, m, k),
+  return {.title = joint_title(grid, row, k),
           .x_label = axis_label(axis),
-          .y_label = grid.measures[m]->label(grid.units[k]),
+          .y_label = value_label(grid, row, k),
           .log_x = lowest > 0 && (axis.is_logarithmic || spans_decades(lowest, highest, 1)),
           // The same for all charts of a joint.
-          .log_y = spans_decades(span.least, span.greatest, 2)};
+          .log_y = has_log_values(summary, row, k)};
 }
 
 report::Series series_of(const std::string& name, const SweepSummary::Curve& curve, double shown_per_si) {
@@ -60,14 +79,15 @@ report::Series series_of(const std::string& name, const SweepSummary::Curve& cur
   return series;
 }
 
-std::vector<report::Chart> mean_charts(const SweepGrid& grid, const SweepSummary& summary, std::size_t m,
+std::vector<report::Chart> mean_charts(const SweepGrid& grid, const SweepSummary& summary, const ChartRow& row,
                                        std::size_t a) {
+  const std::vector<std::string> names = grid.subjects();
   std::vector<report::Chart> charts;
-  for (std::size_t k = 0; k < n_charts(grid, m); ++k) {
-    report::Chart& chart = charts.emplace_back(empty_chart(grid, summary, grid.axes[a], m, k));
-    const double shown_per_si = grid.measures[m]->shown_unit(grid.units[k]).shown_per_si;
-    for (std::size_t i = 0; i < grid.estimators.size(); ++i)
-      chart.series.push_back(series_of(grid.estimators[i], summary.curve(m, a, i, k), shown_per_si));
+  for (std::size_t k = 0; k < row.charts; ++k) {
+    report::Chart& chart = charts.emplace_back(empty_chart(grid, summary, grid.axes[a], row, k));
+    for (const std::size_t i : row.subjects)
+      chart.series.push_back(
+          series_of(names[i], summary.curve(row.measure, a, i, k), grid.shown_unit(row.measure, i, k).shown_per_si));
   }
   return charts;
 }

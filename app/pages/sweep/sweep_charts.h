@@ -17,25 +17,33 @@ bool spans_decades(double least, double greatest, double decades);
 /// "joint1.cable.stiffness [N/m]"
 std::string axis_label(const SweepAxis& axis);
 
-/// Indices of the measures that pictures show.
-std::vector<std::size_t> shown_measures(const SweepGrid& grid);
-/// Number of charts of a measure side by side: one for each joint, or one for all.
-std::size_t n_charts(const SweepGrid& grid, std::size_t m);
-/// "Joint 2", or "All joints"
-std::string joint_title(const SweepGrid& grid, std::size_t m, std::size_t k);
+/// A row of charts, one for each joint or one for all: a measure of all estimators, or of one effect.
+struct ChartRow {
+  std::size_t measure = 0;
+  std::vector<std::size_t> subjects = {};  ///< of the grid
+  std::size_t charts = 0;
+};
+/// The rows that show what the sweep measured.
+std::vector<ChartRow> chart_rows(const SweepGrid& grid);
 
+/// "Joint 2", or "All joints"
+std::string joint_title(const SweepGrid& grid, const ChartRow& row, std::size_t k);
 /// "joint 2" of "Joint 2"
 std::string lower_case(std::string title);
+/// "mean absolute error [deg]"
+std::string value_label(const SweepGrid& grid, const ChartRow& row, std::size_t k);
+/// Whether the values of a row at this joint need a logarithmic axis.
+bool has_log_values(const SweepSummary& summary, const ChartRow& row, std::size_t k);
 
-/// The chart of the m-th measure of a joint over an axis, still without curves.
-report::Chart empty_chart(const SweepGrid& grid, const SweepSummary& summary, const SweepAxis& axis, std::size_t m,
-                          std::size_t k);
+/// The chart of a joint over an axis, still without curves.
+report::Chart empty_chart(const SweepGrid& grid, const SweepSummary& summary, const SweepAxis& axis,
+                          const ChartRow& row, std::size_t k);
 
 /// A curve with the intervals of its places, if one of them has several points.
 report::Series series_of(const std::string& name, const SweepSummary::Curve& curve, double shown_per_si);
 
-/// The charts of the m-th measure over the a-th axis, averaged over everything else that varies.
-std::vector<report::Chart> mean_charts(const SweepGrid& grid, const SweepSummary& summary, std::size_t m,
+/// The charts of a row over the a-th axis, averaged over everything else that varies.
+std::vector<report::Chart> mean_charts(const SweepGrid& grid, const SweepSummary& summary, const ChartRow& row,
                                        std::size_t a);
 
 }  // namespace halyard

@@ -29,43 +29,46 @@ std::vector<double> sorted(std::vector<double> values) {
   return values;
 }
 
-/// The maps of an estimator by the m-th measure, still without values; the first axis to the right.
-std::vector<report::HeatMap> empty_maps(const SweepGrid& grid, const SweepSummary& summary, std::size_t m,
-                                        std::size_t i) {
+/// The maps of a subject in a row of charts, still without values; the first axis to the right.
+std::vector<report::HeatMap> empty_maps(const SweepGrid& grid, const SweepSummary& summary, const ChartRow& row,
+                                        const std::string& subject) {
   std::vector<report::HeatMap> maps;
-  for (std::size_t k = 0; k < n_charts(grid, m); ++k) {
-    const SweepSummary::Span& span = summary.spans[m][k];
-    maps.push_back({.title = grid.estimators[i] + ", " + lower_case(joint_title(grid, m, k)),
+  for (std::size_t k = 0; k < row.charts; ++k)
+    maps.push_back({.title = subject + ", " + lower_case(joint_title(grid, row, k)),
                     .x_label = axis_label(grid.axes[0]),
                     .y_label = axis_label(grid.axes[1]),
-                    .value_label = grid.measures[m]->label(grid.units[k]),
+                    .value_label = value_label(grid, row, k),
                     .x = sorted(grid.axes[0].values),
                     .y = sorted(grid.axes[1].values),
-                    .log_value = spans_decades(span.least, span.greatest, 2)});
-  }
+                    .log_value = has_log_values(summary, row, k)});
   return maps;
 }
 
-/// A row for each measure and estimator.
+/// A row for each measure and subject.
 std::vector<std::vector<report::HeatMap>> heat_maps(const SweepGrid& grid, const StoredCells& cells,
                                                     const SweepSummary& summary) {
-  const std::size_t n_rows = grid.axes[1].values.size();
+  const std::vector<std::string> names = grid.subjects();
+  const std::vector<ChartRow> rows = chart_rows(grid);
+  const std::size_t n_seconds = grid.axes[1].values.size();
   std::vector<std::vector<report::HeatMap>> maps;
-  for (const std::size_t m : shown_measures(grid))
-    for (std::size_t i = 0; i < grid.estimators.size(); ++i) maps.push_back(empty_maps(grid, summary, m, i));
-  for (const std::size_t row : increasing(grid.axes[1].values))
-    for (const std::size_t column : increasing(grid.axes[0].values)) {
+  for (const ChartRow& row : rows)
+    for (const std::size_t i : row.subjects) maps.push_back(empty_maps(grid, summary, row, names[i]));
+  for (const std::size_t second : increasing(grid.axes[1].values))
+    for (const std::size_t first : increasing(grid.axes[0].values)) {
       std::vector<SweepCell> repeats;
       for (std::size_t seed = 0; seed < grid.n_seeds(); ++seed)
-        repeats.push_back(cells.read((column * n_rows + row) * grid.n_seeds() + seed));
-      auto maps_of_run = maps.begin();
-      for (const std::size_t m : shown_measures(grid))
-        for (std::size_t i = 0; i < grid.estimators.size(); ++i, ++maps_of_run)
-          for (std::size_t k = 0; k < maps_of_run->size(); ++k) {
+        repeats.push_back(cells.read((first * n_seconds + second) * grid.n_seeds() + seed));
+      auto maps_of_subject = maps.begin();
+      for (const ChartRow& row : rows)
+        for (const std::size_t i : row.subjects) {
+          for (std::size_t k = 0; k < row.charts; ++k) {
             MeanWithInterval mean;
-            for (const SweepCell& cell : repeats) mean.add(cell.shown(grid, m, i, k));
-            (*maps_of_run)[k].value.push_back(grid.measures[m]->shown_unit(grid.units[k]).shown_per_si * mean.mean());
+            for (const SweepCell& cell : repeats) mean.add(cell.shown(grid, row.measure, i, k));
+            const double shown_per_si = grid.shown_unit(row.measure, i, k).shown_per_si;
+            (*maps_of_subject)[k].value.push_back(shown_per_si * mean.mean());
           }
+          ++maps_of_subject;
+        }
     }
   return maps;
 }
@@ -75,8 +78,8 @@ std::vector<std::vector<report::HeatMap>> heat_maps(const SweepGrid& grid, const
 void add_sweep_pictures(OutputFiles& files, const std::filesystem::path& folder, const SweepGrid& grid,
                         const StoredCells& cells, const SweepSummary& summary) {
   std::vector<std::vector<report::Chart>> rows;
-  for (const std::size_t m : shown_measures(grid))
-    for (std::size_t a = 0; a < grid.axes.size(); ++a) rows.push_back(mean_charts(grid, summary, m, a));
+  for (const ChartRow& row : chart_rows(grid))
+    for (std::size_t a = 0; a < grid.axes.size(); ++a) rows.push_back(mean_charts(grid, summary, row, a));
   files.add(folder / "curves.svg", report::figure_svg(rows));
   if (has_map(grid)) files.add(folder / "heat_map.svg", report::heat_map_svg(heat_maps(grid, cells, summary)));
 }

@@ -91,17 +91,18 @@ const SweepMeasure& measure_named(std::string_view name) {
 
 }  // namespace
 
-JointUnit SweepMeasure::shown_unit(const JointUnit& joint) const { return unit ? JointUnit{*unit, *unit, 1} : joint; }
-
-std::string SweepMeasure::label(const JointUnit& joint) const {
-  const std::string shown = shown_unit(joint).shown;
-  return shown.empty() ? shown_as : fmt::format("{} [{}]", shown_as, shown);
-}
-
 const std::vector<SweepMeasure>& sweep_measures() {
   static const std::vector<SweepMeasure> measures = {errors_measure(), nees_measure(), counts_measure(),
                                                      time_measure()};
   return measures;
+}
+
+const SweepMeasure& limits_measure() {
+  static const SweepMeasure limits = {.name = "limits",
+                                      .columns = {{"detection_limit"}, {"naming_limit"}},
+                                      .shown_as = "detection limit",
+                                      .meaning = "the smallest size of an effect that a diagnosis would see"};
+  return limits;
 }
 
 std::vector<const SweepMeasure*> parse_measures(std::string_view text) {

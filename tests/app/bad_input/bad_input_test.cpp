@@ -164,6 +164,9 @@ TEST_F(BadInput, ASweepThatCannotBeComputed) {
   expect_sweep_refused(good, {"kinematics,,ekf", "empty name"}, "estimators=\"kinematics,,ekf\"");
   expect_sweep_refused(good, {"measures=\"ness\"", "expected one or more of errors, nees"},
                        "estimators=\"ekf\" measures=\"ness\"");
+  expect_sweep_refused(good, {"limits=\"backlsh\"", "no effect", "backlash"}, "limits=\"backlsh\"");
+  expect_sweep_refused(good, {"estimators=\"ekf\"", "beside limits"}, "limits=\"backlash\" estimators=\"ekf\"");
+  expect_sweep_refused(replaced(good, "/>", " applies_to=\"robot\"/>"), {"as the model says"}, "limits=\"backlash\"");
   expect_sweep_refused(good, {"measures=\"time\"", "add errors"}, "estimators=\"ekf\" measures=\"time\"");
   expect_sweep_refused(good, {"samples=\"8\"", "a grid has none"}, "estimators=\"ekf\" samples=\"8\"");
   expect_sweep_refused(good, {"design=\"sobel\"", "latin_hypercube"}, "estimators=\"ekf\" design=\"sobel\"");
