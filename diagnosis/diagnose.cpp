@@ -220,12 +220,7 @@ class Diagnoser {
       view->before = predict_all(view->records, before);
       view->after = predict_all(view->records, final_hypothesis());
     }
-    if (is_revised() && !worse_joints(joints, torques, evidence.floor()).empty()) {
-      give_motion_back(whole);
-      for (HoldOut* view : {&joints, &torques}) view->after = predict_all(view->records, final_hypothesis());
-      const auto floors = holdout_floors(evidence, result_.given, joints, torques);
-      if (const std::vector<int> worse = worse_joints(joints, torques, floors); !worse.empty()) refuse(evidence, worse);
-    }
+    veto(evidence, whole);
     result_.revised = result_.given;
     result_.revised.nominal = final_hypothesis().nominal;
     result_.revised.effects = final_hypothesis().effects;
@@ -240,10 +235,26 @@ class Diagnoser {
 
   bool is_revised() const { return final_hypothesis().effects.size() > given_ || !result_.refitted.empty(); }
 
-  void give_motion_back(const Evidence& whole) {
-    attribution().final_fit = with_given_motion(whole, result_.given, attribution().final_fit);
+  void veto(const Evidence& evidence, const Evidence& whole) {
+    HoldOut &joints = details_->joint_view, &torques = details_->torque_view;
+    if (!is_revised()) return;
+    std::vector<int> worse = worse_joints(joints, torques, evidence.floor());
+    if (worse.empty()) return;
+    if (give_motion_back(whole)) {
+      for (HoldOut* view : {&joints, &torques}) view->after = predict_all(view->records, final_hypothesis());
+      worse = worse_joints(joints, torques, holdout_floors(evidence, result_.given, joints, torques));
+    }
+    if (!worse.empty()) refuse(evidence, worse);
+  }
+
+  /// False if the model's motion cannot be integrated with the effects: then all stays as it is.
+  bool give_motion_back(const Evidence& whole) {
+    const Fit fit = with_given_motion(whole, result_.given, attribution().final_fit);
+    if (!fit.usable) return false;
+    attribution().final_fit = fit;
     changed_ = changed_numbers(whole, result_.given, attribution().final_fit);
     tell_refits();
+    return true;
   }
 
   void refuse(const Evidence& evidence, const std::vector<int>& worse) {

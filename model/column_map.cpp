@@ -140,8 +140,8 @@ void ColumnMap::add(std::string_view name, std::string_view column, std::string_
     if (!std::isfinite(offset)) throw InputError("expected a finite offset, in SI units");
     if (!std::isfinite(wrap) || wrap < 0)
       throw InputError("expected a wrap above 0: the period of the reading, in the units of the file");
-    if (wrap > 0 && *quantity != Quantity::kPosition)
-      throw InputError("only a position wraps around; leave wrap out here");
+    if (wrap > 0 && (*quantity != Quantity::kPosition || is_marker(name)))
+      throw InputError("only a motor's or a joint's position wraps around; leave wrap out here");
     const bool is_new = sources_.emplace(name, ColumnSource{std::string(trim(column)), factor, offset, wrap}).second;
     if (!is_new) throw InputError("is mapped twice; remove one of the two");
   } catch (const InputError& error) {

@@ -33,7 +33,7 @@ std::vector<std::size_t> changed_numbers(const Evidence& whole, const ArmModel& 
 Fit with_given_numbers(const Evidence& whole, const ArmModel& model, const Fit& fit);
 
 /// The fit with its effects as they are, and with the model's motion: the numbers on which the motion of the joints depends
-/// are as given, and the others (of the motors, of the torque) are fitted again.
+/// are as given, and the others (of the motors, of the torque) are fitted again. Not usable if it cannot be integrated.
 Fit with_given_motion(const Evidence& whole, const ArmModel& model, const Fit& fit);
 
 }  // namespace halyard

@@ -30,6 +30,12 @@ std::vector<double> at_instants(const Log& log, const std::vector<double>& colum
 
 constexpr double kDegree = std::numbers::pi / 180;
 
+/// The columns of the file behind two standard columns; a period belongs to the file's column.
+void exchange(ColumnSource& a, ColumnSource& b) {
+  std::swap(a.column, b.column);
+  std::swap(a.wrap, b.wrap);
+}
+
 }  // namespace
 
 SampledMotion sampled_motion(const Log& log, const ArmModel& model) {
@@ -88,8 +94,8 @@ double LogUnderCheck::beyond_range(int k, const std::vector<double>& position, b
 }
 
 ColumnSource LogUnderCheck::source_of(const std::string& column) const {
-  const auto found = columns_.sources().find(column);
-  return found == columns_.sources().end() ? ColumnSource{column} : found->second;
+  const auto found = sources_.find(column);
+  return found == sources_.end() ? ColumnSource{column} : found->second;
 }
 
 std::string LogUnderCheck::option(const std::string& column, const ColumnSource& source) const {
@@ -112,11 +118,15 @@ std::string LogUnderCheck::option(const std::string& column, const ColumnSource&
   return text;
 }
 
-std::string LogUnderCheck::option(const std::string& column, const Correction& c) const {
+ColumnSource LogUnderCheck::corrected(const std::string& column, const Correction& c) const {
   ColumnSource source = source_of(column);
   source.scale *= c.factor;
   source.offset = c.factor * source.offset + c.offset;
-  return option(column, source);
+  return source;
+}
+
+std::string LogUnderCheck::option(const std::string& column, const Correction& c) const {
+  return option(column, corrected(column, c));
 }
 
 std::string LogUnderCheck::wrap_option(const std::string& column, double period) const {
@@ -132,21 +142,25 @@ double LogUnderCheck::wrap_of(const std::string& column) const {
 
 std::string LogUnderCheck::swap_options(const std::string& a, const std::string& b) const {
   ColumnSource of_a = source_of(a), of_b = source_of(b);
-  std::swap(of_a.column, of_b.column);
+  exchange(of_a, of_b);
   return option(a, of_a) + " " + option(b, of_b);
 }
 
 void LogUnderCheck::correct(Signals Log::*signal, int k, const Correction& c) {
   for (double& x : (log.*signal)[k]) x = c.factor * x + c.offset;
+  const std::string column = column_name(signal, k);
+  sources_[column] = corrected(column, c);
 }
 
 void LogUnderCheck::swap(Signals Log::*signal, int i, int j) {
-  const ColumnSource of_i = source_of(column_name(signal, i)), of_j = source_of(column_name(signal, j));
+  ColumnSource of_i = source_of(column_name(signal, i)), of_j = source_of(column_name(signal, j));
   std::swap((log.*signal)[i], (log.*signal)[j]);
   const auto rescale = [&](int k, const ColumnSource& from, const ColumnSource& to) {
     for (double& x : (log.*signal)[k]) x = (x - from.offset) / from.scale * to.scale + to.offset;
   };
   rescale(i, of_j, of_i), rescale(j, of_i, of_j);
+  exchange(of_i, of_j);
+  sources_[column_name(signal, i)] = of_i, sources_[column_name(signal, j)] = of_j;
 }
 
 std::string column_name(Signals Log::*signal, int k) {

@@ -1,6 +1,7 @@
 #pragma once
 /// The check's own copy of a log, its findings so far, and the remedies that it proposes.
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,7 @@ struct UnitGuess {
 class LogUnderCheck {
  public:
   LogUnderCheck(const Log& log, const ArmModel& model, const ColumnMap& columns, const LogCheckRule& rule)
-      : log(log), model(model), rule(rule), columns_(columns) {}
+      : log(log), model(model), rule(rule), sources_(columns.sources()) {}
 
   Log log;  ///< corrected as errors are found
   const ArmModel& model;
@@ -58,7 +59,8 @@ class LogUnderCheck {
   /// motion is wider. If its zero is known, adds 1 for each range by which its median lies outside.
   double beyond_range(int k, const std::vector<double>& position, bool zero_known) const;
 
-  /// "--column joint_position_2=q2,unit=deg": reads the column with the correction on top of its present map.
+  /// "--column joint_position_2=q2,unit=deg": reads the column with the correction on top of its map and of the
+  /// corrections so far.
   std::string option(const std::string& column, const Correction& correction) const;
   /// Reads the column as one that starts again after a period, in the column's SI unit.
   std::string wrap_option(const std::string& column, double period) const;
@@ -68,14 +70,16 @@ class LogUnderCheck {
   std::string swap_options(const std::string& a, const std::string& b) const;
 
   void correct(Signals Log::*signal, int k, const Correction& correction);
-  /// Exchanges the raw values behind two columns of a signal; each keeps its own scale and offset.
+  /// Exchanges the raw values behind two columns of a signal. Each keeps its own scale and offset; a period belongs to
+  /// the values.
   void swap(Signals Log::*signal, int i, int j);
 
  private:
   ColumnSource source_of(const std::string& column) const;
+  ColumnSource corrected(const std::string& column, const Correction& correction) const;
   std::string option(const std::string& column, const ColumnSource& source) const;
 
-  const ColumnMap& columns_;
+  std::map<std::string, ColumnSource, std::less<>> sources_;  ///< with the corrections so far
 };
 
 /// "motor_position_2" of Log::motor_position and k = 1.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/robust.h"
@@ -46,25 +47,37 @@ void check_zero(LogUnderCheck& c, const SampledMotion& m, int k) {
                   c.option(motor, Correction{.offset = 0}) + ",offset=...");
 }
 
-/// A counter that starts again does not say in which lap a log begins; the joint's own reading does.
+/// Median of the joint's reading less its expectation, over the instants that have both; NaN if there are none.
+double median_mismatch(const SampledMotion& m, int k) {
+  std::vector<double> off;
+  for (std::size_t i = 0; i < std::min(m.joint[k].size(), m.expected[k].size()); ++i)
+    if (const double o = m.joint[k][i] - m.expected[k][i]; std::isfinite(o)) off.push_back(o);
+  return off.empty() ? std::numeric_limits<double>::quiet_NaN() : median(off);
+}
+
+/// A counter that starts again does not say in which lap a log begins; the joint's own reading does. A mismatch within
+/// the rule for zeros may be an effect, too: of a wrong ratio or zero.
 void check_lap(LogUnderCheck& c, int k) {
   const JointParameters<double>& j = c.model.nominal.joint[k];
   const std::string motor = column_name(&Log::motor_position, k), joint = column_name(&Log::joint_position, k);
   const double of_motor = c.wrap_of(motor), of_joint = c.wrap_of(joint);
   if ((of_motor == 0) == (of_joint == 0) || !j.joint_zero_known || !j.motor_zero_known) return;
-  const SampledMotion m = sampled_motion(c.log, c.model);
-  if (m.expected[k].empty() || m.joint[k].empty()) return;
-  const double off = median(m.joint[k]) - median(m.expected[k]);
-  const double period = of_motor + of_joint;
+  const double off = median_mismatch(sampled_motion(c.log, c.model), k), period = of_motor + of_joint;
   const double laps = std::round((of_motor > 0 ? off / c.joint_per_motor(k) : -off) / period);
-  if (laps == 0) return;
-  const std::string& column = of_motor > 0 ? motor : joint;
+  if (!(std::abs(laps) >= 1)) return;
   const Correction correction{.offset = laps * period};
-  c.reject(column,
-           fmt::format("begins {:g} lap{} of its counter from where {} says; expected the same lap", std::abs(laps),
-                       std::abs(laps) > 1 ? "s" : "", of_motor > 0 ? joint : motor),
-           "correct it with " + c.option(column, correction));
-  c.correct(of_motor > 0 ? &Log::motor_position : &Log::joint_position, k, correction);
+  const bool is_motor = of_motor > 0, is_gross = std::abs(off) > c.rule.zero * c.range(k);
+  const std::string what =
+      fmt::format("begins {:g} lap{} of its counter from where {} says{}", std::abs(laps),
+                  std::abs(laps) > 1 ? "s" : "", is_motor ? joint : motor,
+                  is_gross ? "; expected the same lap" : "; a wrong ratio or zero of the arm would look the same");
+  const std::string remedy = fmt::format(
+      "correct it with {}, or, if each log begins in another lap, state {}_offset=\"unknown\" in <encoders> "
+      "of joint {}",
+      c.option(is_motor ? motor : joint, correction), is_motor ? "motor" : "joint", k + 1);
+  if (!is_gross) return c.suspect(is_motor ? motor : joint, what, remedy);
+  c.reject(is_motor ? motor : joint, what, remedy);
+  c.correct(is_motor ? &Log::motor_position : &Log::joint_position, k, correction);
 }
 
 /// Mismatch of a joint's reading with its expectation a time earlier, less a slope and a mean: Σ e² / samples.

@@ -207,7 +207,8 @@ TEST(ColumnMap, SaysWhatIsWrongWithAnEntry) {
   EXPECT_HAS(message("motor_position_1"), "'motor_position_1' has no '='; expected NAME=COLUMN");
   EXPECT_HAS(message("time=t,"), "'' has no '='");
   EXPECT_HAS(message("time="), "column 'time': no column is named");
-  EXPECT_HAS(message("motor_torque_1=t,wrap=360"), "only a position wraps around; leave wrap out here");
+  for (const std::string name : {"motor_torque_1", "marker_x", "time"})
+    EXPECT_HAS(message(name + "=a,wrap=360"), "only a motor's or a joint's position wraps around; leave wrap out here");
   EXPECT_HAS(message("motor_position_1=q,wrap=-360"), "expected a wrap above 0: the period of the reading");
   EXPECT_HAS(message("time=t,factor=2"),
              "'factor' is no setting of a column; expected unit=, sign=, scale=, offset= or wrap=");

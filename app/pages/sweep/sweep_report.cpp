@@ -77,7 +77,8 @@ report::Table rows_of(const SweepGrid& grid, const StoredCells& cells, const Cha
   report::Table table;
   table.caption = static_cast<char>(std::toupper(what[0])) + what.substr(1);
   if (grid.measures_limits()) table.caption += " of " + grid.effects[shown.subjects.front()].name;
-  else table.caption += fmt::format(" after the first {:g} s", grid.skip_s);
+  else if (grid.measures[shown.measure]->is_of_joint)
+    table.caption += fmt::format(" after the first {:g} s", grid.skip_s);
   for (const SweepAxis& axis : grid.axes) table.header.push_back(axis_label(axis));
   if (!grid.seeds.empty()) table.header.push_back("seed");
   table.header.push_back(grid.measures_limits() ? "effect" : "estimator");
@@ -116,7 +117,8 @@ std::string what_is_shown(const SweepGrid& grid) {
   if (grid.measures_limits())
     return fmt::format(
         "At each point the motion of the scenario is simulated with an arm as the model says, and the curves show {}. "
-        "Gaps: the diagnosis would not see the effect at any size. sweep.csv also has the size from which no other "
+        "A mean counts only the points at which the effect can be seen. Gaps: at none of them. sweep.csv also has the "
+        "size from which no other "
         "effect explains the same data about as well.",
         limits_measure().meaning);
   std::vector<std::string> meanings;

@@ -54,6 +54,7 @@ void check_option(const std::string& key, const SweepAxis& axis, const ArmModel&
   const auto may_have_it = [&](const std::string& name) {
     return name == option.estimator || name.ends_with(".so");  // a module says its name when it is loaded
   };
+  if (estimators.empty()) fail(key, "a sweep of limits runs no estimator; remove this axis");
   if (std::ranges::none_of(estimators, may_have_it))
     fail(key, fmt::format("the sweep does not run this estimator; expected one of {}", listed(estimators)));
   if (axis.applies_to == Target::robot) fail(key, "is of an estimator and not of the robot; leave out applies_to");

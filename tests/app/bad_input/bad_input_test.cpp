@@ -165,6 +165,8 @@ TEST_F(BadInput, ASweepThatCannotBeComputed) {
   expect_sweep_refused(good, {"measures=\"ness\"", "expected one or more of errors, nees"},
                        "estimators=\"ekf\" measures=\"ness\"");
   expect_sweep_refused(good, {"limits=\"backlsh\"", "no effect", "backlash"}, "limits=\"backlsh\"");
+  expect_sweep_refused("<axis parameter=\"estimator.ekf.torque_noise\" values=\"1\"/>",
+                       {"a sweep of limits runs no estimator"}, "limits=\"backlash\"");
   expect_sweep_refused(good, {"estimators=\"ekf\"", "beside limits"}, "limits=\"backlash\" estimators=\"ekf\"");
   expect_sweep_refused(replaced(good, "/>", " applies_to=\"robot\"/>"), {"as the model says"}, "limits=\"backlash\"");
   expect_sweep_refused(good, {"measures=\"time\"", "add errors"}, "estimators=\"ekf\" measures=\"time\"");

@@ -221,18 +221,72 @@ TEST(LogCheck, NamesAMotorThatWrapsInEachTurn) {
                {"starts again after 1 turn", option(numbered("motor_position_", k), "wrap=6.28318530718")});
 }
 
-TEST(LogCheck, NamesTheLapInWhichAnUnwrappedCounterBegins) {
+/// The only finding about a log whose column has that period.
+LogFinding finding_with_wrap(const Log& log, const std::string& column, double period, double sign = 1) {
+  ColumnMap columns;
+  columns.add(column, "counter", "", sign, 1, 0, period);
+  const std::vector<LogFinding> findings = check_log(log, raven(), columns);
+  EXPECT_EQ(findings.size(), 1u) << lines_of(findings);
+  return findings.empty() ? LogFinding{} : findings[0];
+}
+
+TEST(LogCheck, NamesTheLapInWhichACounterOfAMotorBegins) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const Log log = changed(&Log::motor_position, 0, [](double q) { return q - 20 * kTurn; });
+  const LogFinding f = finding_with_wrap(log, "motor_position_1", kTurn, -1);
+  EXPECT_EQ(f.severity, Severity::gross);
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, "begins 20 laps", f.what);
+  EXPECT_PRED_FORMAT2(testing::IsSubstring,
+                      "--column motor_position_1=counter,sign=-1,offset=125.663706144,wrap=6.28318530718", f.remedy);
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, "motor_offset=\"unknown\"", f.remedy);
+}
+
+TEST(LogCheck, NamesTheLapInWhichACounterOfAJointBegins) {
+  const Log log = changed(&Log::joint_position, 1, [](double q) { return q + 2.5; });
+  const LogFinding f = finding_with_wrap(log, "joint_position_2", 2.5);
+  EXPECT_EQ(f.severity, Severity::gross);
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, "--column joint_position_2=counter,offset=-2.5,wrap=2.5", f.remedy);
+}
+
+TEST(LogCheck, OnlySuspectsALapThatMayBeAWrongRatio) {
+  // One turn of motor 1 moves the joint by 0.046 rad.
+  const Log log = changed(&Log::motor_position, 0, [](double q) { return q / 1.056; });
+  const LogFinding f = finding_with_wrap(log, "motor_position_1", 2 * std::numbers::pi);
+  EXPECT_EQ(f.severity, Severity::suspicious);
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, "begins 1 lap of its counter", f.what);
+}
+
+TEST(LogCheck, FindsTheLapWhereBothSensorsRead) {
+  Log log = right_log();
+  for (std::size_t i = 0; i < log.size(); ++i)
+    if (log.time[i] < 3 || log.time[i] > 4.5) log.joint_position[0][i] = std::numeric_limits<double>::quiet_NaN();
+  ColumnMap columns;
+  columns.add("motor_position_1", "counter", "", 1, 1, 0, 2 * std::numbers::pi);
+  for (const LogFinding& f : check_log(log, raven(), columns))
+    EXPECT_EQ(f.what.find("lap"), f.what.npos) << finding_line(f);
+}
+
+TEST(LogCheck, TellsTheLapOnTopOfAReversedSign) {
   constexpr double kTurn = 2 * std::numbers::pi;
   ColumnMap columns;
   columns.add("motor_position_1", "counter", "", 1, 1, 0, kTurn);
-  const Log log = changed(&Log::motor_position, 0, [](double q) { return q - 17 * kTurn; });
+  const Log log = changed(&Log::motor_position, 0, [](double q) { return -(q - 20 * kTurn); });
   const std::vector<LogFinding> findings = check_log(log, raven(), columns);
-  ASSERT_EQ(findings.size(), 1u) << lines_of(findings);
-  EXPECT_EQ(findings[0].severity, Severity::gross);
-  EXPECT_NE(findings[0].what.find("begins 17 laps"), std::string::npos) << findings[0].what;
-  EXPECT_NE(findings[0].remedy.find("--column motor_position_1=counter,offset=106.814150222,wrap=6.28318530718"),
-            std::string::npos)
-      << findings[0].remedy;
+  ASSERT_EQ(findings.size(), 2u) << lines_of(findings);
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, "sign=-1,wrap=6.28", findings[0].remedy);
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, "sign=-1,offset=125.66", findings[1].remedy);
+}
+
+TEST(LogCheck, ThePeriodGoesWithTheFilesColumnInAnExchange) {
+  Log log = right_log();
+  std::swap(log.motor_position[0], log.motor_position[1]);
+  ColumnMap columns;
+  columns.add("motor_position_1", "one", "", 1, 1, 0, 1e4);
+  columns.add("motor_position_2", "two");
+  const std::vector<LogFinding> findings = check_log(log, raven(), columns);
+  ASSERT_FALSE(findings.empty());
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, "--column motor_position_1=two --column motor_position_2=one,wrap=10000",
+                      findings[0].remedy);
 }
 
 TEST(LogCheck, TellsAReadingThatDropsToZeroFromOneThatWraps) {
