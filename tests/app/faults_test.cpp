@@ -262,6 +262,15 @@ TEST_F(Faults, AKilledSweepIsResumedToTheSameBytes) {
   fs::remove(err_path());
 }
 
+TEST_F(Faults, ASweepThatWasKilledWhileItJoinedItsPointsLeavesNothing) {
+  done({"sweep", "sweep.xml", "--out", "whole"});
+  const auto whole = files_in(path("whole"));
+  fs::create_directories(path("out/cells"));
+  write_text(path("out/cells/all.jsonl.part-4194305-1"), "half a line");  // no process has such a number
+  done({"sweep", "sweep.xml", "--out", "out", "--resume"});
+  EXPECT_TRUE(files_in(path("out")) == whole);
+}
+
 TEST_F(Faults, ASecondRunIntoAFolderIsRefused) {
   BackgroundRun first(program_, folder_, long_runs()[1], err_path());
   ASSERT_TRUE(comes_true([&] { return fs::exists(path("out/.halyard.lock")); }));
