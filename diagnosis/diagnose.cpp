@@ -21,7 +21,7 @@ namespace {
 
 using Progress = std::function<void(const std::string&, double)>;
 
-/// Suspicious findings about the logs. Throws InputError if there is a gross one.
+/// Findings about the logs. Throws InputError if there is a gross one.
 std::vector<LogFinding> findings_of(const ArmModel& model, const std::vector<Log>& training,
                                     const std::optional<Log>& holdout, const ColumnMap& columns) {
   std::vector<const Log*> logs;
@@ -44,13 +44,14 @@ LogFinding finding_of(const DiagnosisData::Late& late) {
 /// What the stages of one diagnosis share.
 class Diagnoser {
  public:
-  Diagnoser(const ArmModel& model, const std::vector<Log>& training, const DiagnosisOptions& options,
-            const Progress& progress)
-      : model_(model), training_(training), options_(options), progress_(progress), given_(model.effects.size()) {}
+  Diagnoser(const ArmModel& model, const DiagnosisOptions& options, const Progress& progress)
+      : model_(model), options_(options), progress_(progress), given_(model.effects.size()) {}
 
-  Diagnosis run(const std::optional<Log>& holdout) {
-    result_.log_findings = findings_of(model_, training_, holdout, options_.columns.value_or(model_.columns));
-    DiagnosisData data = diagnosis_data(model_, training_, holdout);
+  Diagnosis run(std::vector<Log> training, std::optional<Log> holdout) {
+    result_.log_findings = findings_of(model_, training, holdout, options_.columns.value_or(model_.columns));
+    for (Log& log : training) log = without_outliers(std::move(log));
+    if (holdout) holdout = without_outliers(std::move(*holdout));
+    DiagnosisData data = diagnosis_data(model_, training, holdout);
     for (const DiagnosisData::Late& late : data.late) result_.log_findings.push_back(finding_of(late));
     result_.holdout = holdout ? holdout->source : "last third of the training data";
     result_.given = calibrated(model_, data.training);
@@ -65,7 +66,7 @@ class Diagnoser {
     predict_holdout(evidence, whole, data.training_joints);
     tell_doubtful(evidence);
     tell_probabilities(evidence);
-    tell_stuck_sensors();
+    tell_stuck_sensors(training);
     result_.verdict = !result_.effects.empty()      ? Diagnosis::Verdict::effects
                       : result_.unexplained.empty() ? Diagnosis::Verdict::clean
                                                     : Diagnosis::Verdict::unknown;
@@ -202,8 +203,8 @@ class Diagnoser {
     result_.probability_clean = (1 - result_.probability_none) * absent;
   }
 
-  void tell_stuck_sensors() {
-    for (const Log& log : training_)
+  void tell_stuck_sensors(const std::vector<Log>& training) {
+    for (const Log& log : training)
       for (const int k : stuck_joint_sensors(log, model_))
         result_.unexplained.push_back({k, "its sensor stands still in " + log.source +
                                               " while its motor moves, and was left out: "
@@ -290,7 +291,6 @@ class Diagnoser {
   }
 
   const ArmModel& model_;
-  const std::vector<Log>& training_;
   const DiagnosisOptions& options_;
   const Progress& progress_;
   std::size_t given_;                  ///< effects that the model came with
@@ -318,7 +318,7 @@ Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, cons
     const std::lock_guard<std::mutex> lock(one_at_a_time);
     if (progress) progress(what, fraction);
   };
-  return Diagnoser(model, training, options, say).run(holdout);
+  return Diagnoser(model, options, say).run(training, holdout);
 }
 
 }  // namespace halyard

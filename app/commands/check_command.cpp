@@ -93,7 +93,15 @@ void check_estimator_module(const CheckOptions& options) {
              options.kalman ? ", and is the Kalman filter on a linear arm" : "", model.source);
 }
 
-/// Prints suspicious findings; the first gross one is the error.
+/// "nothing suspicious", "2 suspicious, 1 corrected by a diagnosis".
+std::string summary_of(const std::vector<LogFinding>& findings) {
+  const auto corrected = std::ranges::count(findings, LogFinding::Severity::corrected, &LogFinding::severity);
+  const auto suspicious = static_cast<std::ptrdiff_t>(findings.size()) - corrected;
+  return (suspicious == 0 ? "nothing suspicious" : fmt::format("{} suspicious", suspicious)) +
+         (corrected == 0 ? "" : fmt::format(", {} corrected by a diagnosis", corrected));
+}
+
+/// Prints what was found; the first gross finding is the error.
 void check_log_file(const CheckOptions& options) {
   if (options.model.empty())
     throw InputError("halyard check: the log " + in_quotes(options.file.string()) +
@@ -105,7 +113,7 @@ void check_log_file(const CheckOptions& options) {
   for (const LogFinding& f : findings) fmt::print("{}: {}\n", severity_word(f.severity), finding_line(f));
   stop_at_gross_finding(findings);
   fmt::print("{}: {} samples over {:.4g} s of \"{}\", {}\n", options.file.string(), log.size(), log.duration(),
-             model.name, findings.empty() ? "nothing suspicious" : fmt::format("{} suspicious", findings.size()));
+             model.name, summary_of(findings));
 }
 
 }  // namespace

@@ -186,43 +186,14 @@ void check_jumps(LogUnderCheck& c, const PositionColumn& column) {
               std::string("if the sensor froze or lost counts: ") + kLeaveEmpty);
 }
 
-/// The step of a rounded reading.
-double smallest_step(const std::vector<double>& x) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < x.size(); ++i)
-    if (x[i] != x[i - 1]) smallest = std::min(smallest, std::abs(x[i] - x[i - 1]));
-  return std::isfinite(smallest) ? smallest : 0;
-}
-
-void check_outliers(LogUnderCheck& c, const PositionColumn& column) {
-  Samples s(c.log, (c.log.*column.signal)[column.k]);
-  s.drop_repeated();
-  // From the neighbours' median, which a steady motion does not change, and from their mean, which shows the noise.
-  std::vector<double> off(s.size(), 0), from_median, from_mean;
-  for (std::size_t i = 2; i + 2 < s.size(); ++i) {
-    off[i] = s.x[i] - median({s.x[i - 2], s.x[i - 1], s.x[i], s.x[i + 1], s.x[i + 2]});
-    from_median.push_back(std::abs(off[i]));
-    from_mean.push_back(std::abs(s.x[i] - 0.5 * (s.x[i - 1] + s.x[i + 1])));
-  }
-  // Of a rounded reading most differences are 0: the 95th percentile is two standard deviations of the others.
-  double usual = std::max(smallest_step(s.x), 1e-6 * spread(s.x));
-  for (const auto* size : {&from_median, &from_mean})
-    usual = std::max({usual, 1.48 * median(*size), 0.5 * quantile(*size, 0.95)});
-  if (s.size() < 5 || usual == 0) return;
-  std::size_t count = 0;
-  double largest = 0, when = 0;
-  for (std::size_t i = 2; i + 2 < s.size(); ++i) {
-    const double neighbours = std::max(std::abs(off[i - 1]), std::abs(off[i + 1]));
-    if (std::abs(off[i]) < c.rule.outlier * usual || neighbours > 0.5 * std::abs(off[i])) continue;
-    ++count;
-    if (std::abs(off[i]) > std::abs(largest)) largest = off[i], when = s.time[i];
-  }
-  if (count > 0)
-    c.suspect(
-        column_name(column.signal, column.k),
-        fmt::format("{} single sample{} differ{} from the neighbours, at most by {:.4g} at {:.4g} s; usual is {:.2g}",
-                    count, count == 1 ? "" : "s", count == 1 ? "s" : "", largest, when, usual),
-        "leave the cells of these samples empty");
+void tell_outliers(LogUnderCheck& c, Signals Log::*signal, int k, const Outliers& found) {
+  if (found.readings == 0) return;
+  c.findings.push_back(
+      {c.log.source, column_name(signal, k),
+       fmt::format("{} reading{} far from the neighbours, at most by {:.4g} at {:.4g} s; usual is {:.2g}",
+                   found.readings, found.readings == 1 ? " lies" : "s lie", found.largest, found.when, found.usual),
+       "nothing to do: a diagnosis leaves these readings out; for other commands leave their cells empty",
+       LogFinding::Severity::corrected});
 }
 
 /// The longest time during which a sensor does not change although it should.
@@ -350,8 +321,12 @@ void check_columns(LogUnderCheck& c) {
     check_end_of_counter(c, column);
     check_jumps(c, column);
     // Where a sensor jumps or wakes up, a sample may lie between.
-    if (c.findings.size() == before) check_outliers(c, column);
+    if (c.findings.size() == before)
+      tell_outliers(c, column.signal, column.k,
+                    find_outliers(c.log.time, (c.log.*column.signal)[column.k], c.rule.outlier.factor));
   }
+  for (int k = 0; k < c.n(); ++k)
+    if (c.is_driven(k)) tell_outliers(c, &Log::motor_torque, k, find_torque_outliers(c.log, k, c.rule.outlier));
 }
 
 void check_clipped_torques(LogUnderCheck& c) {

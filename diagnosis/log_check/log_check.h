@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/log_check/outliers.h"
 #include "model/arm_model.h"
 #include "model/log.h"
 
@@ -89,9 +90,7 @@ struct LogCheckRule {
   double late_explains = 0.9;
   /// A step from one sample to the next is a jump if its rate exceeds this many times the 99th percentile.
   double jump = 20;
-  /// A sample is an outlier if it differs from the median of five by this many times the usual difference. Gaussian
-  /// noise reaches 6 once in 10^9 samples.
-  double outlier = 10;
+  OutlierRule outlier;
   /// A torque beyond this many times the 95th percentile of its column is a wrong number: no motor has such a peak.
   double torque_spike = 1000;
   /// A torque that stays at exactly its largest value for this share of the samples is clipped.

@@ -129,6 +129,18 @@ TEST(LogWithATorqueOfZeros, HasNoTorque) {
   expect_clean_of(first_joints(1), [](Log& log) { log.motor_torque[0].assign(log.size(), 0.0); });
 }
 
+/// A lost bit in one of the columns now and then.
+void add_outliers(Log& log) {
+  for (std::size_t i = 300; i + 300 < log.size(); i += 700) {
+    log.joint_position[0][i] += 0.05;
+    log.motor_position[0][i + 100] -= 8;
+    log.motor_torque[0][i + 200] += 0.2;
+  }
+}
+
+TEST(LogWithOutliers, IsClean) { expect_clean_of(first_joints(1), add_outliers); }
+TEST(LogWithOutliers, ShowsTheSameEffect) { expect_larger_of(first_joints(1), add_outliers); }
+
 TEST(LogOfAScrewWithItsMotorAlone, IsCleanAndShowsFrictionOfTheScrew) {
   const ArmModel model = screw();
   ArmModel truth = model;

@@ -201,7 +201,10 @@ TEST(LogCheck, FindsAMotorThatFreezesWithoutJointSensorsByItsJump) {
 TEST(LogCheck, CountsOutliers) {
   Log log = right_log();
   for (const std::size_t i : {700, 2100, 4400}) log.joint_position[1][i] += 0.02;
-  expect_one(log, "joint_position_2", Severity::suspicious, {"3 single samples"});
+  expect_one(log, "joint_position_2", Severity::corrected, {"3 readings lie far", "0.02"});
+  log = right_log();
+  log.motor_torque[2][3000] += 0.5;
+  expect_one(log, "motor_torque_3", Severity::corrected, {"1 reading lies far"});
 }
 
 TEST(LogCheck, NamesACounterThatWrapsAround) {

@@ -1,0 +1,157 @@
+#include "diagnosis/log_check/outliers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "diagnosis/log_check/robust.h"
+#include "diagnosis/record/record.h"
+
+namespace halyard {
+namespace {
+
+constexpr std::size_t kMostInARow = 3;
+constexpr double kLongest = 5e-3;  ///< s, of several in a row
+constexpr double kGoesOn = 0.25;   ///< r over d
+
+/// Finite rows of a column that follow each other and are equal.
+struct Repeated {
+  double x;
+  std::vector<std::size_t> rows;
+};
+
+std::vector<Repeated> repeated_rows(const std::vector<double>& column) {
+  std::vector<Repeated> all;
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    if (!std::isfinite(column[i])) continue;
+    if (all.empty() || column[i] != all.back().x) all.push_back({column[i], {}});
+    all.back().rows.push_back(i);
+  }
+  return all;
+}
+
+/// Readings of a sensor. One that is slower than the log repeats a reading in several rows; one at rest gives the same
+/// reading again.
+struct Readings {
+  std::vector<double> x;
+  std::vector<std::vector<std::size_t>> rows;
+
+  explicit Readings(const std::vector<Repeated>& all) {
+    std::vector<double> lengths;
+    for (const Repeated& r : all) lengths.push_back(static_cast<double>(r.rows.size()));
+    const double rows_a_reading = median(std::move(lengths));
+    for (const Repeated& r : all) {
+      const std::size_t length = r.rows.size();
+      const auto times = std::max<std::size_t>(1, std::lround(static_cast<double>(length) / rows_a_reading));
+      for (std::size_t i = 0; i < times; ++i) {
+        x.push_back(r.x);
+        rows.emplace_back(r.rows.begin() + static_cast<std::ptrdiff_t>(length * i / times),
+                          r.rows.begin() + static_cast<std::ptrdiff_t>(length * (i + 1) / times));
+      }
+    }
+  }
+};
+
+/// The step of a rounded reading.
+double smallest_step(const std::vector<double>& x) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < x.size(); ++i) smallest = std::min(smallest, std::abs(x[i] - x[i - 1]));
+  return std::isfinite(smallest) ? smallest : 0;
+}
+
+/// From the neighbours' median, which a steady motion does not change, and from their mean, which shows the noise.
+double usual_distance(const std::vector<double>& x) {
+  std::vector<double> from_median, from_mean;
+  for (std::size_t i = 2; i + 2 < x.size(); ++i) {
+    from_median.push_back(std::abs(x[i] - median({x[i - 2], x[i - 1], x[i], x[i + 1], x[i + 2]})));
+    from_mean.push_back(std::abs(x[i] - 0.5 * (x[i - 1] + x[i + 1])));
+  }
+  // Of a rounded reading most differences are 0: the 95th percentile is two standard deviations of the others.
+  double usual = std::max(smallest_step(x), 1e-6 * spread(x));
+  for (const auto* size : {&from_median, &from_mean})
+    usual = std::max({usual, 1.48 * median(*size), 0.5 * quantile(*size, 0.95)});
+  return usual;
+}
+
+/// Distances of the readings i..i+m-1 from the line through the two before and the two after them.
+struct Excursion {
+  double least = std::numeric_limits<double>::infinity();
+  double largest = 0;    ///< with its sign
+  double neighbour = 0;  ///< largest distance of the four
+};
+
+Excursion excursion_of(const std::vector<double>& x, std::size_t i, std::size_t m) {
+  const std::array<std::size_t, 4> around = {i - 2, i - 1, i + m, i + m + 1};
+  const double middle = static_cast<double>(i) + 0.5 * (static_cast<double>(m) - 1);
+  double mean = 0, slope = 0, square = 0;
+  for (const std::size_t j : around) {
+    const double from_middle = static_cast<double>(j) - middle;
+    mean += 0.25 * x[j];
+    slope += from_middle * x[j];
+    square += from_middle * from_middle;
+  }
+  slope /= square;
+  const auto distance = [&](std::size_t j) { return x[j] - mean - slope * (static_cast<double>(j) - middle); };
+  Excursion e;
+  for (const std::size_t j : around) e.neighbour = std::max(e.neighbour, std::abs(distance(j)));
+  for (std::size_t j = i; j < i + m; ++j) {
+    e.least = std::min(e.least, std::abs(distance(j)));
+    if (std::abs(distance(j)) > std::abs(e.largest)) e.largest = distance(j);
+  }
+  return e;
+}
+
+}  // namespace
+
+Outliers find_outliers(const std::vector<double>& time, const std::vector<double>& column, double factor,
+                       double least) {
+  Outliers found;
+  const std::vector<Repeated> repeated = repeated_rows(column);
+  if (repeated.size() < 5) return found;
+  std::vector<double> changing;  // a long rest does not show what is usual
+  for (const Repeated& r : repeated) changing.push_back(r.x);
+  found.usual = usual_distance(changing);
+  if (found.usual == 0) return found;
+  least = std::max(least, factor * found.usual);
+  const Readings s(repeated);
+  for (std::size_t i = 2; i + 2 < s.x.size(); ++i)
+    for (std::size_t m = 1; m <= kMostInARow && i + m + 1 < s.x.size(); ++m) {
+      if (m > 1 && time[s.rows[i + m].front()] - time[s.rows[i].front()] > kLongest) break;
+      const Excursion e = excursion_of(s.x, i, m);
+      if (e.least < least || e.neighbour > kGoesOn * e.least) continue;
+      found.readings += m;
+      if (std::abs(e.largest) > std::abs(found.largest))
+        found.largest = e.largest, found.when = time[s.rows[i].front()];
+      for (std::size_t j = i; j < i + m; ++j) found.rows.insert(found.rows.end(), s.rows[j].begin(), s.rows[j].end());
+      i += m;
+      break;
+    }
+  return found;
+}
+
+Outliers find_torque_outliers(const Log& log, int k, const OutlierRule& rule) {
+  const std::vector<double>& torque = log.motor_torque[k];
+  return find_outliers(log.time, torque, rule.factor, rule.torque_share * spread(torque));
+}
+
+Log without_outliers(Log log, const OutlierRule& rule) {
+  constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+  const double reach = 4 / (2 * std::numbers::pi * RecordOptions{}.motion_hz);
+  for (int k = 0; k < log.n_joints; ++k) {
+    for (Signals* signal : {&log.motor_position, &log.joint_position})
+      for (const std::size_t row : find_outliers(log.time, (*signal)[k], rule.factor).rows)
+        (*signal)[k][row] = kMissing;
+    std::vector<double>& torque = log.motor_torque[k];
+    for (const std::size_t row : find_torque_outliers(log, k, rule).rows) {
+      const auto begin = std::ranges::lower_bound(log.time, log.time[row] - reach);
+      for (auto i = static_cast<std::size_t>(begin - log.time.begin());
+           i < log.size() && log.time[i] <= log.time[row] + reach; ++i)
+        torque[i] = kMissing;
+    }
+  }
+  return log;
+}
+
+}  // namespace halyard
