@@ -1,6 +1,7 @@
 #include "model/arm_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include "transmission/arm_fields.h"
@@ -12,18 +13,30 @@ double Tolerances::*tolerance_of(FieldKind kind) {
   switch (kind) {
     case FieldKind::length: return &Tolerances::length;
     case FieldKind::mass: return &Tolerances::mass;
+    case FieldKind::com: return &Tolerances::com;
+    case FieldKind::inertia: return &Tolerances::inertia;
     case FieldKind::stiffness: return &Tolerances::stiffness;
     case FieldKind::friction: return &Tolerances::friction;
     case FieldKind::coupling: return &Tolerances::coupling;
     case FieldKind::torque_scale: return &Tolerances::torque_scale;
+    case FieldKind::smoothing: return &Tolerances::smoothing;
     case FieldKind::structure:
-    case FieldKind::smoothing:
     case FieldKind::torque_bias:
     case FieldKind::gravity:
     case FieldKind::sensor: break;
   }
   return nullptr;
 }
+
+constexpr const char* kAxes[] = {"x", "y", "z"};
+
+/// An entry of JointParameters::inertia, and where it stands in the matrix.
+struct Moment {
+  const char* name;
+  int place, row, column;
+};
+constexpr Moment kMoments[] = {{"xx", 0, 0, 0}, {"yy", 1, 1, 1}, {"zz", 2, 2, 2},
+                               {"xy", 3, 0, 1}, {"xz", 4, 0, 2}, {"yz", 5, 1, 2}};
 
 void add_named_parameters(ArmParameters<double>& arm, int k, std::vector<ParameterInfo>& all) {
   JointParameters<double>& joint = arm.joint[k];
@@ -34,14 +47,22 @@ void add_named_parameters(ArmParameters<double>& arm, int k, std::vector<Paramet
     const std::string part(field.part_at(joint.drive)), name(field.name), noun(field.noun);
     double Tolerances::*const tolerance = tolerance_of(field.kind);
     using Value = std::remove_reference_t<decltype(value)>;
+    const std::string of_part = part == "friction" ? "" : part + " ";  // "joint 1 viscous friction"
+    const std::string in_words = words(k) + " " + of_part + noun, key = number(k) + "." + part + "." + name;
+    const char* unit = field.unit.of(joint.type);
     if constexpr (std::is_same_v<Value, double>) {
-      const std::string of_part = part == "friction" ? "" : part + " ";  // "joint 1 viscous friction"
-      all.push_back({words(k) + " " + of_part + noun, number(k) + "." + part + "." + name, field.unit.of(joint.type), k,
-                     tolerance, &value});
+      all.push_back({in_words, key, unit, k, tolerance, &value, std::abs(value)});
+    } else if constexpr (std::is_same_v<Value, double[3]>) {
+      for (int i = 0; i < 3; ++i)
+        all.push_back({in_words + " " + kAxes[i], key + "." + kAxes[i], unit, k, tolerance, &value[i], 1});
+    } else if constexpr (std::is_same_v<Value, double[6]>) {
+      for (const Moment& m : kMoments)
+        all.push_back({in_words + " " + m.name, key + "." + m.name, unit, k, tolerance, &value[m.place],
+                       std::sqrt(std::abs(value[m.row] * value[m.column]))});
     } else if constexpr (std::is_same_v<Value, double[kMaxJoints]>) {
       for (int j = 0; j < k; ++j)
         all.push_back({words(k) + " " + noun + " with " + words(j), number(k) + "." + part + "." + number(j),
-                       coupling_unit(joint.type, arm.joint[j].type), k, tolerance, &value[j]});
+                       coupling_unit(joint.type, arm.joint[j].type), k, tolerance, &value[j], std::abs(value[j])});
     }
   };
   for_each_joint_field(visit, joint);
@@ -55,8 +76,8 @@ Eigen::VectorXd ArmModel::home() const {
   return q;
 }
 
-double ArmModel::tolerance(const ParameterInfo& number) const {
-  return number.tolerance ? joints[number.joint].tolerances.*number.tolerance : 0;
+double ArmModel::reach(const ParameterInfo& number) const {
+  return number.tolerance ? joints[number.joint].tolerances.*number.tolerance * number.unit_of_tolerance : 0;
 }
 
 bool joints_alike(const ArmParameters<double>& a, const ArmParameters<double>& b) {

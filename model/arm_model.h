@@ -45,8 +45,8 @@ struct ArmModel {
 
   int n() const { return nominal.n; }
   Eigen::VectorXd home() const;
-  /// Relative tolerance of a parameter; 0: the model states none.
-  double tolerance(const ParameterInfo& number) const;
+  /// Largest expected deviation of a parameter from this model's value, in its unit; 0: the model states none.
+  double reach(const ParameterInfo& number) const;
 };
 
 /// Whether two arms have the same number of joints, with the same types, and motors at the same joints.
@@ -60,10 +60,12 @@ struct ParameterInfo {
   int joint;                      ///< 0-based
   double Tolerances::*tolerance;  ///< the tolerance that applies to it; null: none
   double* value;                  ///< points into the arm given to named_parameters()
+  double unit_of_tolerance;       ///< deviation that a tolerance of 1 stands for
 };
 
-/// The parameters for which arm_fields.h gives a noun (a name in words), joint by joint. Coupling coefficients are
-/// listed only for inboard joints. Parameters that do not exist at a joint are left out, such as cable stiffness at a
+/// The parameters for which arm_fields.h gives a noun (a name in words), joint by joint. Centres of mass have an entry
+/// for each axis ("joint2.link.com.x"), inertias for each moment and product ("joint2.link.inertia.xy"). Coupling
+/// coefficients are listed only for inboard joints. Parameters that do not exist at a joint are left out, such as cable stiffness at a
 /// rigid drive.
 std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm);
 

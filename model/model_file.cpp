@@ -114,14 +114,17 @@ void read_range(const XmlElement& range, const char* unit, JointDescription& des
 }
 
 Tolerances read_tolerances(const XmlElement& element, Tolerances tolerances) {
-  element.only({"length", "mass", "stiffness", "friction", "coupling", "torque_scale"});
-  const auto read = [&](const char* name, double& value) {
-    value = element.number_or(name, value, "", Sign::non_negative);
+  element.only({"length", "mass", "com", "inertia", "stiffness", "friction", "smoothing", "coupling", "torque_scale"});
+  const auto read = [&](const char* name, double& value, const char* unit = "") {
+    value = element.number_or(name, value, unit, Sign::non_negative);
   };
   read("length", tolerances.length);
   read("mass", tolerances.mass);
+  read("com", tolerances.com, "m");
+  read("inertia", tolerances.inertia);
   read("stiffness", tolerances.stiffness);
   read("friction", tolerances.friction);
+  read("smoothing", tolerances.smoothing);
   read("coupling", tolerances.coupling);
   read("torque_scale", tolerances.torque_scale);
   return tolerances;

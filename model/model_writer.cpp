@@ -105,8 +105,11 @@ void write_joint(Writer& xml, const Joint& j, int k, const JointDescription& des
   const Tolerances& t = description.tolerances;
   xml.element("tolerances", {{"length", t.length},
                              {"mass", t.mass},
+                             {"com", t.com},
+                             {"inertia", t.inertia},
                              {"stiffness", t.stiffness},
                              {"friction", t.friction},
+                             {"smoothing", t.smoothing},
                              {"coupling", t.coupling},
                              {"torque_scale", t.torque_scale}});
   xml.close();

@@ -3,12 +3,16 @@
 
 namespace halyard {
 
-/// Expected relative deviations from the model's values; 1: nothing is known.
+/// Expected deviations from the model's values: of `com` in m, of all others relative to the value. Relative, 1 means that
+/// nothing is known; 0 means that the number is exact.
 struct Tolerances {
   double length = 0.005;    ///< radii, ratios, lengths
-  double mass = 0.05;       ///< masses and inertias, including those of rotors
+  double mass = 0.05;       ///< masses of links, inertias of rotors
+  double com = 0;           ///< coordinates of centres of mass, m
+  double inertia = 0;       ///< inertias of links; of a product I_ij relative to sqrt(I_ii I_jj)
   double stiffness = 0.10;  ///< stiffness and damping of cables
   double friction = 0.20;   ///< Coulomb and viscous
+  double smoothing = 0;     ///< smoothing speeds of friction
   double coupling = 0.02;
   /// scale of a motor's torque; use 1 if the log's torque is a current or a voltage of unknown scale
   double torque_scale = 0.005;

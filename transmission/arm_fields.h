@@ -21,7 +21,9 @@ namespace halyard {
 enum class FieldKind {
   structure,  ///< not a measured number: a type, a frame
   length,     ///< radii, ratios, lengths
-  mass,       ///< masses, centres of mass, inertias, including those of rotors
+  mass,       ///< masses, and inertias of rotors
+  com,        ///< centres of mass
+  inertia,    ///< moments and products of inertia of links
   stiffness,  ///< stiffness, damping and tension of cables
   friction,   ///< Coulomb and viscous
   smoothing,  ///< speed scale over which the sign of friction is smoothed: v_s of friction.h
@@ -98,8 +100,8 @@ void for_each_joint_field(Visit&& visit, Joint&... j) {
   visit(F{"frame", "matrix", "", "1", structure}, j.frame_R...);
 
   visit(F{"link", "mass", "mass", "kg", mass, not_negative}, j.mass...);
-  visit(F{"link", "com", "", "m", mass}, j.com...);
-  visit(F{"link", "inertia", "", "kg m^2", mass}, j.inertia...);
+  visit(F{"link", "com", "centre of mass", "m", com}, j.com...);
+  visit(F{"link", "inertia", "inertia", "kg m^2", inertia}, j.inertia...);
 
   const auto motor = [&](std::string_view name, std::string_view noun, FieldUnit unit, FieldKind kind, Bound bound,
                          bool has_default, Influence influence, auto&... value) {
@@ -109,7 +111,7 @@ void for_each_joint_field(Visit&& visit, Joint&... j) {
   motor("coulomb", "Coulomb friction", "N m", friction, not_negative, false, motor_torque, j.motor_coulomb...);
   motor("viscous", "viscous friction", "N m s/rad", friction, not_negative, false, motor_torque, j.motor_viscous...);
   // The smoothing speed also regularises the friction of cables, on which the motion depends.
-  motor("smoothing", "", "rad/s", smoothing, positive, true, motion, j.motor_smoothing...);
+  motor("smoothing", "smoothing speed", "rad/s", smoothing, positive, true, motion, j.motor_smoothing...);
   motor("gear_ratio", "gear ratio", "1", length, positive, false, motion, j.gear_ratio...);
   motor("capstan_radius", "capstan radius", "m", length, positive, false, motion, j.capstan_radius...);
   motor("torque_scale", "torque scale", "1", torque_scale, positive, true, motor_torque, j.torque_scale...);
@@ -128,7 +130,8 @@ void for_each_joint_field(Visit&& visit, Joint&... j) {
   visit(F{"friction", "coulomb", "Coulomb friction", {"N m", "N"}, friction, not_negative}, j.joint_coulomb...);
   visit(F{"friction", "viscous", "viscous friction", {"N m s/rad", "N s/m"}, friction, not_negative},
         j.joint_viscous...);
-  visit(F{"friction", "smoothing", "", {"rad/s", "m/s"}, smoothing, positive, true}, j.joint_smoothing...);
+  visit(F{"friction", "smoothing", "smoothing speed", {"rad/s", "m/s"}, smoothing, positive, true},
+        j.joint_smoothing...);
 
   const auto encoder = [&](std::string_view name, FieldUnit unit, Bound bound, FieldOf of, Influence influence,
                            auto&... value) {

@@ -72,7 +72,7 @@ std::vector<FitParameter> baseline_parameters(const ArmModel& model) {
   for (std::size_t i = 0; i < named.size(); ++i) {
     const auto is = [&](const char* word) { return named[i].key.find(word) != std::string::npos; };
     if (is("gear_ratio") || is("pulley_radius")) continue;  // one ratio, told by the capstan's radius
-    const double value = *named[i].value, reach = model.tolerance(named[i]) * std::abs(value);
+    const double value = *named[i].value, reach = model.reach(named[i]);
     if (!(reach > 0)) continue;
     all.push_back(
         {named[i].name, named[i].unit, -1, static_cast<int>(i), value, value - reach, value + reach, reach / 2, true});

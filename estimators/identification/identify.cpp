@@ -61,7 +61,7 @@ std::vector<Weight> other_numbers(const ArmModel& model, const std::vector<std::
   for (const ParameterInfo& info : named_parameters(arm)) {
     if (info.key.ends_with(".gear_ratio") || info.key.ends_with(".pulley_radius")) continue;
     if (std::ranges::find(keys, info.key) != keys.end() || !is_in_equations(model, info)) continue;
-    const double reach = model.tolerance(info) * std::abs(*info.value);
+    const double reach = model.reach(info);
     if (reach > 0) others.push_back({.key = info.key, .nominal = *info.value, .scale = reach / 2});
   }
   return others;
@@ -160,11 +160,11 @@ std::size_t last_third(const std::vector<double>& time) {
 }
 
 /// deviation: of the estimate, in prior deviations; own: the filter's own at the last third's start, in SI.
-Convergence convergence_of(const IdentifiedNumber& number, double deviation, double tolerance, double own,
+Convergence convergence_of(const IdentifiedNumber& number, double deviation, double reach, double own,
                            std::size_t from) {
   if (deviation > kExcited) return Convergence::not_excited;
   const double moved = std::abs(number.trace.back() - number.trace[from]);
-  const bool matters = moved > kMatters * tolerance * std::abs(number.nominal);
+  const bool matters = moved > kMatters * reach;
   return matters && moved > kChance * own ? Convergence::drifting : Convergence::converged;
 }
 
@@ -172,7 +172,7 @@ Convergence convergence_of(const IdentifiedNumber& number, double deviation, dou
 /// The dual filter learns the first two kinds.
 struct Unknowns {
   std::vector<Weight> weights;
-  std::vector<double> tolerance;  ///< of those asked for
+  std::vector<double> reach;  ///< tolerances of those asked for, in their units
   Eigen::Index asked = 0, learnt = 0;
 
   std::vector<Weight> learnt_weights() const { return {weights.begin(), weights.begin() + learnt}; }
@@ -184,7 +184,7 @@ Unknowns list_unknowns(const ArmModel& model, const std::vector<std::string>& ke
   for (const ParameterInfo& info : named_parameters(arm)) {
     if (std::ranges::find(keys, info.key) == keys.end()) continue;
     all.weights.push_back(weight_of(model, info));
-    all.tolerance.push_back(model.tolerance(info));
+    all.reach.push_back(model.reach(info));
   }
   all.asked = static_cast<Eigen::Index>(all.weights.size());
   for (Weight& zero : unknown_zeros(model)) all.weights.push_back(std::move(zero));
@@ -260,7 +260,7 @@ void tell_number(const Unknowns& unknowns, Eigen::Index i, const JackknifeEstima
   }
   const std::size_t from = last_third(trace.time);
   const double own = std::abs(weight.slope(trace.u[from](i))) * trace.deviation[from](i);
-  number.convergence = convergence_of(number, estimate.deviation(i), unknowns.tolerance[i], own, from);
+  number.convergence = convergence_of(number, estimate.deviation(i), unknowns.reach[i], own, from);
 }
 
 std::vector<DeviatingNumber> deviating_numbers(const ArmModel& model, const Unknowns& unknowns,

@@ -92,7 +92,7 @@ struct Number {
   double* value;
 };
 
-/// Numbers of a joint that named_parameters() leaves out: the encoders' and the smoothing speeds.
+/// Numbers of a joint that named_parameters() leaves out: the encoders'.
 void add_unnamed_fields(JointParameters<double>& joint, const std::string& prefix, std::vector<Number>& all) {
   bool zero_known = true;  // of the offset that follows
   const auto visit = [&](const ArmField& field, auto& value) {

@@ -281,6 +281,19 @@ TEST(Diagnose, RefitsAStiffnessWithinItsTolerance) {
   EXPECT_LT(d.after.joint_rms[1], d.before.joint_rms[1]);
 }
 
+TEST(Diagnose, RefitsACentreOfMassIfTheModelStatesItsTolerance) {
+  ArmModel model = two_joints();
+  ArmModel truth = model;
+  for (double& x : truth.nominal.joint[1].com) x += 0.012;
+  EXPECT_NE(diagnose_arm(model, truth).verdict, Diagnosis::Verdict::clean);
+  model.joints[1].tolerances.com = 0.02;
+  const Diagnosis d = diagnose_arm(model, truth);
+  EXPECT_EQ(d.verdict, Diagnosis::Verdict::clean);
+  const auto is_centre = [](const Estimated& e) { return e.name.starts_with("joint 2 link centre of mass"); };
+  EXPECT_TRUE(std::ranges::any_of(d.refitted, is_centre));
+  EXPECT_LT(d.after.torque_rms[1], 0.2 * d.before.torque_rms[1]);
+}
+
 /// A log in which stiff motors move the joints along their trajectories, without a simulation.
 Log kinematic_log(const ArmModel& model, const std::vector<std::vector<Sine>>& sines, double duration) {
   Log log(model.n());

@@ -29,6 +29,8 @@ TEST(ModelFile, ReadsEveryElement) {
   EXPECT_EQ(model.joints[0].tolerances.stiffness, 0.3);
   EXPECT_EQ(model.joints[1].tolerances.stiffness, Tolerances().stiffness);
   EXPECT_EQ(model.joints[1].tolerances.coupling, 0.03);
+  EXPECT_EQ(model.joints[0].tolerances.com, 2e-3);
+  EXPECT_EQ(model.joints[1].tolerances.com, 0);
   EXPECT_EQ(slide.drive, Drive::rigid);
   EXPECT_EQ(slide.torque_scale, 1.1);
   EXPECT_EQ(slide.torque_bias, -3);
@@ -193,24 +195,33 @@ TEST(ParameterInfo, NamesKeysUnitsAndTolerancesFollowTheModel) {
     for (const ParameterInfo& info : all) {
       if (info.key == key) return info;
     }
-    return {"absent", key, "", -2, nullptr, nullptr};
+    return {"absent", key, "", -2, nullptr, nullptr, 0};
   };
   const ParameterInfo stiffness = find("joint1.cable.stiffness");
   EXPECT_EQ(stiffness.name, "joint 1 cable stiffness");
   EXPECT_EQ(stiffness.unit, "N/m");
   EXPECT_EQ(stiffness.joint, 0);
-  EXPECT_EQ(model.tolerance(stiffness), 0.3);
+  EXPECT_EQ(model.reach(stiffness), 0.3 * 720e3);
   *stiffness.value *= 2;
   EXPECT_EQ(model.nominal.joint[0].stiffness, 1440e3);
 
   const ParameterInfo coupling = find("joint2.coupling.joint1");
   EXPECT_EQ(coupling.name, "joint 2 coupling with joint 1");
   EXPECT_EQ(coupling.unit, "m/rad");
-  EXPECT_EQ(model.tolerance(coupling), 0.03);
+  EXPECT_DOUBLE_EQ(model.reach(coupling), 0.03 * 0.0078);
   EXPECT_EQ(find("joint2.friction.viscous").unit, "N s/m");
-  EXPECT_EQ(model.tolerance(find("joint2.motor.torque_scale")), 0.01);
-  EXPECT_EQ(model.tolerance(find("joint2.motor.torque_bias")), 0);
+  EXPECT_DOUBLE_EQ(model.reach(find("joint2.motor.torque_scale")), 0.01 * 1.1);
+  EXPECT_EQ(model.reach(find("joint2.motor.torque_bias")), 0);
   EXPECT_EQ(find("joint2.rigid.pulley_radius").unit, "1");
+  const ParameterInfo x = find("joint1.link.com.x"), xy = find("joint1.link.inertia.xy");
+  EXPECT_EQ(x.name, "joint 1 link centre of mass x");
+  EXPECT_EQ(*x.value, 0.1);
+  EXPECT_EQ(model.reach(x), 2e-3) << "in m";
+  EXPECT_EQ(model.reach(find("joint3.link.com.x")), 0) << "exact unless the model says otherwise";
+  EXPECT_EQ(model.reach(find("joint1.motor.smoothing")), 0.2);
+  EXPECT_EQ(xy.name, "joint 1 link inertia xy");
+  EXPECT_EQ(*xy.value, 1e-4);
+  EXPECT_DOUBLE_EQ(model.reach(xy), 0.1 * std::sqrt(1e-3 * 2e-3)) << "the product itself may be 0";
   // A rigid drive has no cable, a joint without drive no motor.
   EXPECT_EQ(find("joint2.cable.stiffness").name, "absent");
   EXPECT_EQ(find("joint3.motor.inertia").name, "absent");
