@@ -1,0 +1,84 @@
+#include "diagnosis/search/revision.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "diagnosis/search/refit.h"
+#include "plant/simulate.h"
+#include "tests/support/short_arm.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kRatio = 1.02;
+
+PlacedEffect on_the_only_joint(const std::string& name, double size) {
+  PlacedEffect e = place_neutral_effect(*find_effect(name), first_joints(1).nominal, 0);
+  e.p[0] = size;
+  return e;
+}
+
+/// A search on the log of an arm with these effects that found those.
+struct Searched {
+  ArmModel model = first_joints(1);
+  std::vector<Record> records;
+  Evidence evidence, whole;
+  Attribution found;
+
+  Searched(const std::vector<PlacedEffect>& true_effects, const std::vector<PlacedEffect>& found_effects)
+      : records(records_of(true_effects)), evidence(records, model), whole(records, model, Split::none) {
+    const Refitter refitter(evidence, model, 0);
+    const auto refitted = [&](const std::vector<PlacedEffect>& effects) {
+      const Hypothesis h{model.nominal, effects};
+      return refitter.refit(h, evidence.score(h));
+    };
+    found.baseline = refitted({});
+    found.final_fit = refitted(found_effects);
+    found.final_score = evidence.score(found.final_fit.hypothesis);
+    for (const PlacedEffect& e : found_effects) found.namings.push_back({1, {{e, 0.25}}});
+  }
+  std::vector<std::size_t> revise() { return halyard::revise(evidence, whole, model, found); }
+  const std::vector<PlacedEffect>& effects() const { return found.final_fit.hypothesis.effects; }
+
+ private:
+  std::vector<Record> records_of(const std::vector<PlacedEffect>& true_effects) const {
+    ArmModel robot = model;
+    robot.effects = true_effects;
+    return make_records(simulate(motion(robot, 5)).measured, model, {});
+  }
+};
+
+TEST(Revision, DropsAnEffectThatTheDataDoNotDetermine) {
+  const PlacedEffect larger = on_the_only_joint("capstan_ratio", kRatio);
+  Searched s({larger}, {on_the_only_joint("motor_friction", 1e-7), larger});
+  s.revise();
+  ASSERT_EQ(s.effects().size(), 1u);
+  EXPECT_EQ(s.effects()[0].effect->name(), "capstan_ratio");
+  EXPECT_NEAR(s.effects()[0].p[0], kRatio, 1e-3);
+  ASSERT_EQ(s.found.namings.size(), 1u);
+  EXPECT_EQ(s.found.namings[0].alternatives[0].effect.effect->name(), "capstan_ratio") << "the naming of the other one";
+}
+
+TEST(Revision, TellsANumberOfTheModelThatChanged) {
+  Searched s({on_the_only_joint("motor_friction", 1e-3)}, {});  // within the tolerance of the motor's own friction
+  const auto is_friction = [&](std::size_t i) {
+    return s.found.final_fit.parameters[i].name == "joint 1 motor Coulomb friction";
+  };
+  EXPECT_TRUE(std::ranges::any_of(s.revise(), is_friction));
+}
+
+TEST(Revision, KeepsADoubtfulEffectButNotOneThatBelongsToTheLog) {
+  const PlacedEffect larger = on_the_only_joint("capstan_ratio", kRatio);
+  PlacedEffect push = on_the_only_joint("external_force", 0.5);
+  push.p[1] = 2, push.p[2] = 3;
+  Searched s({larger, push}, {larger, push});
+  for (Naming& naming : s.found.namings) naming = {0, {}};  // the names lost against others
+  EXPECT_TRUE(is_doubtful(s.evidence, s.found, 0, 0));
+  s.revise();
+  ASSERT_EQ(s.effects().size(), 1u);
+  EXPECT_EQ(s.effects()[0].effect->name(), "capstan_ratio");
+}
+
+}  // namespace
+}  // namespace halyard
