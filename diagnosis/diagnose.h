@@ -101,7 +101,8 @@ struct Diagnosis {
 const char* verdict_word(Diagnosis::Verdict verdict);
 
 /// Diagnoses a model from training logs. The hold-out can only veto: if the revised model predicts a joint worse there
-/// than the given model, no effect is named. Without a hold-out, the last third of each training log is held out.
+/// than the given model, the numbers that move the joints return to their given values; if a joint is still worse, no
+/// effect is named. Without a hold-out, the last third of each training log is held out.
 /// Outliers of all logs are left out, and told in log_findings.
 /// progress(what, fraction of it) is never called by two threads at once.
 /// Throws InputError for logs that cannot be compared with the model, and for gross findings of check_log().

@@ -1,5 +1,8 @@
 #include "model/arm_log.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "model/homing.h"
 #include "model/name_list.h"
 
@@ -28,6 +31,17 @@ std::string ignored_columns_note(const Log& log) {
   std::vector<std::string> names;
   for (const std::string& name : log.ignored_columns) names.push_back(shortened(name));
   return names.empty() ? "" : "note: " + log.source + ": columns that are not used: " + listed(names);
+}
+
+std::string missing_torques_note(const Log& log, const ArmModel& model) {
+  std::vector<std::string> names;
+  for (int k = 0; k < model.n(); ++k)
+    if (model.nominal.joint[k].drive != Drive::none &&
+        std::ranges::none_of(log.motor_torque[k], [](double x) { return std::isfinite(x); }))
+      names.push_back("motor_torque_" + std::to_string(k + 1));
+  return names.empty() ? ""
+                       : "note: " + log.source + ": has no " + listed(names) +
+                             ": nothing is compared with the torques of these motors";
 }
 
 }  // namespace halyard

@@ -24,4 +24,7 @@ Log read_log_of(const ArmModel& model, const std::filesystem::path& path,
 /// "note: log.csv: columns that are not used: a, b"; empty if all are used.
 std::string ignored_columns_note(const Log& log);
 
+/// "note: log.csv: has no motor_torque_2: nothing is compared with the torques of these motors"; empty if it has all.
+std::string missing_torques_note(const Log& log, const ArmModel& model);
+
 }  // namespace halyard

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "transmission/arm_fields.h"
@@ -28,6 +29,13 @@ double Tolerances::*tolerance_of(FieldKind kind) {
   return nullptr;
 }
 
+constexpr double kNoLeast = -std::numeric_limits<double>::infinity();
+
+double least_of(Bound bound, double value) {
+  constexpr double kNearlyZero = 1e-3;  // of its own value
+  return bound == Bound::none ? kNoLeast : kNearlyZero * value;
+}
+
 constexpr const char* kAxes[] = {"x", "y", "z"};
 
 /// An entry of JointParameters::inertia, and where it stands in the matrix.
@@ -51,18 +59,19 @@ void add_named_parameters(ArmParameters<double>& arm, int k, std::vector<Paramet
     const std::string in_words = words(k) + " " + of_part + noun, key = number(k) + "." + part + "." + name;
     const char* unit = field.unit.of(joint.type);
     if constexpr (std::is_same_v<Value, double>) {
-      all.push_back({in_words, key, unit, k, tolerance, &value, std::abs(value)});
+      all.push_back({in_words, key, unit, k, tolerance, &value, std::abs(value), least_of(field.bound, value)});
     } else if constexpr (std::is_same_v<Value, double[3]>) {
       for (int i = 0; i < 3; ++i)
-        all.push_back({in_words + " " + kAxes[i], key + "." + kAxes[i], unit, k, tolerance, &value[i], 1});
+        all.push_back({in_words + " " + kAxes[i], key + "." + kAxes[i], unit, k, tolerance, &value[i], 1, kNoLeast});
     } else if constexpr (std::is_same_v<Value, double[6]>) {
       for (const Moment& m : kMoments)
         all.push_back({in_words + " " + m.name, key + "." + m.name, unit, k, tolerance, &value[m.place],
-                       std::sqrt(std::abs(value[m.row] * value[m.column]))});
+                       std::sqrt(std::abs(value[m.row] * value[m.column])), kNoLeast});
     } else if constexpr (std::is_same_v<Value, double[kMaxJoints]>) {
       for (int j = 0; j < k; ++j)
         all.push_back({words(k) + " " + noun + " with " + words(j), number(k) + "." + part + "." + number(j),
-                       coupling_unit(joint.type, arm.joint[j].type), k, tolerance, &value[j], std::abs(value[j])});
+                       coupling_unit(joint.type, arm.joint[j].type), k, tolerance, &value[j], std::abs(value[j]),
+                       kNoLeast});
     }
   };
   for_each_joint_field(visit, joint);

@@ -61,6 +61,7 @@ struct ParameterInfo {
   double Tolerances::*tolerance;  ///< the tolerance that applies to it; null: none
   double* value;                  ///< points into the arm given to named_parameters()
   double unit_of_tolerance;       ///< deviation that a tolerance of 1 stands for
+  double least;                   ///< nearly 0 if no arm has less than 0 of it; else -infinity
 };
 
 /// The parameters for which arm_fields.h gives a noun (a name in words), joint by joint. Centres of mass have an entry

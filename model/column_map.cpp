@@ -139,7 +139,8 @@ void ColumnMap::add(std::string_view name, std::string_view column, std::string_
     if (!std::isfinite(factor) || factor == 0) throw InputError("expected a finite scale other than 0");
     if (!std::isfinite(offset)) throw InputError("expected a finite offset, in SI units");
     if (!std::isfinite(wrap) || wrap < 0)
-      throw InputError("expected a wrap above 0: the period of the reading, in the units of the file");
+      throw InputError(
+          "expected a wrap of at least 0: the period of the reading, in the units of the file; 0 means none");
     if (wrap > 0 && (*quantity != Quantity::kPosition || is_marker(name)))
       throw InputError("only a motor's or a joint's position wraps around; leave wrap out here");
     const bool is_new = sources_.emplace(name, ColumnSource{std::string(trim(column)), factor, offset, wrap}).second;

@@ -1,12 +1,12 @@
 #include "model/model_file.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
 #include <set>
 #include <stdexcept>
 
+#include "model/body_inertia.h"
 #include "model/input_error.h"
 #include "model/name_list.h"
 #include "model/xml/arm_words.h"
@@ -59,21 +59,17 @@ void read_frame(const XmlElement& frame, Joint& joint) {
   set_frame(joint, R, {xyz[0], xyz[1], xyz[2]});
 }
 
-/// A body's principal moments are not negative and none exceeds the sum of the other two.
 void check_inertia(const XmlElement& link, const Joint& joint, const std::string& name) {
-  const double* I = joint.inertia;
-  Matrix3 tensor;
-  tensor << I[0], I[3], I[4], I[3], I[1], I[5], I[4], I[5], I[2];
-  const Eigen::Vector3d moments =
-      Eigen::SelfAdjointEigenSolver<Matrix3>(tensor, Eigen::EigenvaluesOnly).eigenvalues();  // ascending
-  const double rounding = 1e-9 * moments.cwiseAbs().maxCoeff();
+  const Eigen::Vector3d moments = principal_moments(joint);
   const std::string principal = "joint " + in_quotes(name) + " has principal moments " + exact_text(moments(0)) + ", " +
                                 exact_text(moments(1)) + ", " + exact_text(moments(2)) + " kg m^2; expected ";
-  if (moments(0) < -rounding) link.fail("inertia", principal + "none below 0; check the signs of xy, xz, yz");
-  if (moments(2) > moments(0) + moments(1) + rounding) {
-    link.fail("inertia", principal +
-                             "none above the sum of the other two (no body has that); check the entries, which "
-                             "are xx yy zz xy xz yz about the centre of mass");
+  switch (judge_inertia(moments)) {
+    case Inertia::of_a_body: return;
+    case Inertia::negative: link.fail("inertia", principal + "none below 0; check the signs of xy, xz, yz");
+    case Inertia::too_long:
+      link.fail("inertia", principal +
+                               "none above the sum of the other two (no body has that); check the entries, which "
+                               "are xx yy zz xy xz yz about the centre of mass");
   }
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <string>
 
 #include "model/input_error.h"
@@ -15,9 +16,10 @@ namespace halyard {
 namespace {
 
 /// <set parameter="joint1.cable.tension" value="27.5"/>
-void read_change(const XmlElement& set, ArmModel& robot) {
+void read_change(const XmlElement& set, ArmModel& robot, std::set<std::string>& changed) {
   set.only({"parameter", "value"});
   const std::string key = set.text("parameter");
+  if (!changed.insert(key).second) set.fail("parameter", "is set twice; remove one of the two");
   const std::vector<ParameterInfo> all = named_parameters(robot.nominal);
   const auto found = std::ranges::find(all, key, &ParameterInfo::key);
   if (found == all.end()) {
@@ -169,7 +171,8 @@ Scenario read_scenario(const std::filesystem::path& path, const std::filesystem:
   scenario.seed = static_cast<std::uint64_t>(root.integer_or("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
   if (root.has("engine"))
     scenario.engine = root.choice<Engine>("engine", {{"simbody", Engine::simbody}, {"halyard", Engine::halyard}});
-  for (const XmlElement& set : root.children("set")) read_change(set, scenario.robot);
+  std::set<std::string> changed;
+  for (const XmlElement& set : root.children("set")) read_change(set, scenario.robot, changed);
   if (const auto effects = root.optional_child("effects"))
     for (const PlacedEffect& e : read_effects(*effects, scenario.robot.nominal)) scenario.robot.effects.push_back(e);
 

@@ -108,7 +108,8 @@ void check_log_file(const CheckOptions& options) {
                      " is checked against the model of its arm; give it with --model M.xml");
   const ArmModel model = read_model(options.model);
   const Log log = read_log_of(model, options.file, options.columns, /*torque_required=*/false);
-  if (const std::string note = ignored_columns_note(log); !note.empty()) fmt::print("{}\n", note);
+  for (const std::string& note : {ignored_columns_note(log), missing_torques_note(log, model)})
+    if (!note.empty()) fmt::print("{}\n", note);
   const std::vector<LogFinding> findings = check_log(log, model, columns_of(model, options.columns));
   for (const LogFinding& f : findings) fmt::print("{}: {}\n", severity_word(f.severity), finding_line(f));
   stop_at_gross_finding(findings);
@@ -121,11 +122,14 @@ void check_log_file(const CheckOptions& options) {
 void run_check(const CheckOptions& options) {
   const std::filesystem::path& file = options.file;
   if (file.extension() == ".so") return check_estimator_module(options);
-  if (file.extension() == ".csv" && !options.kalman) return check_log_file(options);
-  if (options.kalman || !options.model.empty() || !options.columns.empty())
+  if (options.kalman)
+    throw InputError("halyard check: --kalman is for an estimator's module (.so), and " + in_quotes(file.string()) +
+                     " is none; leave it out");
+  if (file.extension() == ".csv" || (file.extension() != ".xml" && !options.model.empty()))
+    return check_log_file(options);
+  if (!options.model.empty() || !options.columns.empty())
     throw InputError(
-        "halyard check: --model is for a log (.csv) and an estimator's module (.so), --column for a log and "
-        "--kalman for a module, and " +
+        "halyard check: --model is for a log (.csv) and an estimator's module (.so), --column for a log, and " +
         in_quotes(file.string()) + " is none of these; leave them out");
   const XmlElement root = XmlElement::read_file(file);
   if (root.tag() == "arm") return check_model(file);

@@ -38,6 +38,7 @@ Data simulated_data(const CompareCommandOptions& options) {
                      " is a scenario; leave it out");
   }
   Scenario scenario = read_scenario(options.data, options.robot);
+  check_skip(options.skip_s, scenario.duration_s, options.data.string());
   Data data;
   const std::filesystem::path model = options.model.empty() ? scenario.model : options.model;
   data.model = read_model(model);
@@ -75,6 +76,7 @@ Data logged_data(const CompareCommandOptions& options) {
   data.model = read_model(options.model);
   data.model_path = options.model.string();
   data.measured = read_timed_log(data.model, options.data, options.columns);
+  check_skip(options.skip_s, data.measured.duration(), options.data.string());
   data.truth = data.measured;
   data.truth_is_sensed = true;
   const auto& sensors = data.truth.joint_position;

@@ -19,7 +19,8 @@ namespace {
 
 Log read(const ArmModel& model, const std::filesystem::path& path, const std::vector<std::string>& columns) {
   Log log = read_log_of(model, path, columns, /*torque_required=*/false);
-  if (const std::string note = ignored_columns_note(log); !note.empty()) fmt::print("{}\n", note);
+  for (const std::string& note : {ignored_columns_note(log), missing_torques_note(log, model)})
+    if (!note.empty()) fmt::print("{}\n", note);
   return log;
 }
 

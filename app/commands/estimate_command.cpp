@@ -34,6 +34,7 @@ void run_estimate(const EstimateCommandOptions& options) {
   check_not_input(options.out, options.model);
   const ArmModel model = read_model(options.model);
   const Log log = read_timed_log(model, options.data, options.columns);
+  check_skip(options.skip_s, log.duration(), options.data.string());
   Comparison comparison;
   {
     Progress progress("estimate", log.duration(), "s");

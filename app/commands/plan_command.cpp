@@ -80,6 +80,9 @@ void run_plan(const PlanCommandOptions& options) {
     throw InputError(fmt::format("{}: moves {} joints, {} has {}; give a scenario of this arm",
                                  options.scenario.string(), scenario.robot.n(), options.model.string(),
                                  plan.model.n()));
+  if (constexpr double kShortest = 1.5; scenario.duration_s <= kShortest)
+    throw InputError(fmt::format("{}: duration {:g} s: expected more than {:g} s, of which a plan can tell something",
+                                 options.scenario.string(), scenario.duration_s, kShortest));
   std::optional<std::pair<PlacedEffect, PlacedEffect>> pair;
   if (!options.separate.empty()) pair = parse_pair(options.separate, plan.model);
   if (const std::string note = left_out(scenario, plan.model); !note.empty()) fmt::print("note: {}\n", note);

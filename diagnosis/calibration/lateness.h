@@ -8,6 +8,7 @@
 ///
 ///   e_k   measured minus predicted reading      p_k   reading that the model predicts from the motors
 ///   d_k   lateness of joint k                   σ_k   its standard deviation, from blocks of time (jackknife)
+///   a_k   error of the sensor's zero            s_k   error of the transmission's ratio
 ///
 /// Friction and stretch that are a little off look late, too, by several milliseconds. Therefore the regression only gives
 /// a first estimate: the most precise d_k, of the joints in which it explains most of what a and s leave, or 0. The

@@ -85,7 +85,7 @@ int Evidence::add_rows(int r, const ArmModel& model, Split split) {
     const bool joint = c >= n_;
     if (joint ? !record.has_joint(k) : !record.has_torque(k)) continue;
     const std::vector<double>& valid = joint ? record.joint_valid[k] : record.torque_valid[k];
-    const double v_s = model.nominal.joint[k].motor_smoothing;
+    const double v_s = slowest_smoothing(model, k);
     for (std::size_t i = 0; i < record.size; i += stride_) {
       if (valid[i] == 0 || (!joint && rests(record, k, i, v_s))) continue;
       const int block = block_of(r, i);

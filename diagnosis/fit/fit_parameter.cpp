@@ -74,8 +74,8 @@ std::vector<FitParameter> baseline_parameters(const ArmModel& model) {
     if (is("gear_ratio") || is("pulley_radius")) continue;  // one ratio, told by the capstan's radius
     const double value = *named[i].value, reach = model.reach(named[i]);
     if (!(reach > 0)) continue;
-    all.push_back(
-        {named[i].name, named[i].unit, -1, static_cast<int>(i), value, value - reach, value + reach, reach / 2, true});
+    all.push_back({named[i].name, named[i].unit, -1, static_cast<int>(i), value,
+                   std::max(value - reach, named[i].least), value + reach, reach / 2, true});
   }
   return all;
 }

@@ -15,6 +15,8 @@
 ///
 ///   ρ = max over channels of  MSE_after / (floor² + η² MSE_before)
 ///   P(none) = 1 / (1 + (ρ0 / ρ)^s)
+///
+///   η, ρ0, s   form_misfit, rest_ratio² and none_sharpness of decision_rule.h
 
 #include "diagnosis/judgement/likelihood.h"
 

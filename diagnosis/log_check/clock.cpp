@@ -33,7 +33,10 @@ bool check_order(LogUnderCheck& c, const std::vector<double>& steps) {
 bool check_unit(LogUnderCheck& c, double step) {
   const double slowest = 1 / c.rule.slowest_hz, fastest = 1 / c.rule.fastest_hz;
   if (step > fastest && step <= slowest * (1 + 1e-6)) return true;
-  const auto is_plausible = [&](double factor) { return step * factor > fastest && step * factor <= slowest; };
+  constexpr double kShortestLog = 1;  // s
+  const auto is_plausible = [&](double factor) {
+    return step * factor > fastest && step * factor <= slowest && c.log.duration() * factor > kShortestLog;
+  };
   std::string units, remedy = "give the times in s, or a record with at least 10 samples a second";
   for (const auto& [factor, name] : {std::pair(1e-3, "milliseconds"), std::pair(1e-6, "microseconds")}) {
     if (!is_plausible(factor)) continue;

@@ -43,6 +43,8 @@ struct LogCheckRule {
   /// Least w for a conclusion from a slope. Two unrelated motions have w below 0.3; backlash of a fifth of the motion
   /// leaves 0.6.
   double explained = 0.5;
+  /// w below which a joint does not follow its motor. Every effect leaves more.
+  double unrelated = 0.15;
   /// Least w of a swapped column after it is put in its right place. The swap removes the whole mismatch; 0.8 leaves a
   /// margin for effects.
   double explained_by_swap = 0.8;

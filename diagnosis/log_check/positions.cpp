@@ -184,6 +184,15 @@ void check_range_of_motion(LogUnderCheck& c, const SampledMotion& m, int k) {
   c.correct(&Log::motor_position, k, correction);
 }
 
+/// A joint that moves, and a motor that moves, without any relation.
+void check_relation(LogUnderCheck& c, const SampledMotion& m, int k) {
+  const std::string motor = column_name(&Log::motor_position, k), joint = column_name(&Log::joint_position, k);
+  if (!moves(c, k, m.joint[k]) || !moves(c, k, m.expected[k])) return;
+  if (c.has_finding(motor) || c.has_finding(joint) || slope_at(m, k).explained >= c.rule.unrelated) return;
+  c.suspect(joint, fmt::format("does not follow {}: both move, and without any relation", motor),
+            "check whether each is the column of this joint, and not of another one");
+}
+
 }  // namespace
 
 void check_positions(LogUnderCheck& c) {
@@ -203,6 +212,7 @@ void check_positions(LogUnderCheck& c) {
       if (s.slope < 0) reversed_joints.emplace_back(k, s);
     } else {
       check_range_of_motion(c, m, k);
+      if (has_sensor) check_relation(c, m, k);
     }
     m = sampled_motion(c.log, c.model);
   }

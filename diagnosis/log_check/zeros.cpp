@@ -14,15 +14,23 @@ namespace {
 
 double beyond(const LogUnderCheck& c, int k, double level) { return c.beyond_range(k, {level}, true); }
 
+/// Median of the joint's reading less its expectation, over the instants that have both; NaN if there are none.
+double median_mismatch(const SampledMotion& m, int k) {
+  std::vector<double> off;
+  for (std::size_t i = 0; i < std::min(m.joint[k].size(), m.expected[k].size()); ++i)
+    if (const double o = m.joint[k][i] - m.expected[k][i]; std::isfinite(o)) off.push_back(o);
+  return off.empty() ? std::numeric_limits<double>::quiet_NaN() : median(off);
+}
+
 void check_zero(LogUnderCheck& c, const SampledMotion& m, int k) {
   const JointParameters<double>& j = c.model.nominal.joint[k];
   if (!(c.range(k) > 0) || m.expected[k].empty()) return;
   const std::string motor = column_name(&Log::motor_position, k), joint = column_name(&Log::joint_position, k);
   const std::string range = fmt::format("{:.4g} to {:.4g}", c.model.joints[k].lower, c.model.joints[k].upper);
   const double expected = median(m.expected[k]), per_motor = c.joint_per_motor(k);
-  const bool has_sensor = !m.joint[k].empty() && j.joint_zero_known && j.motor_zero_known;
-  if (has_sensor) {
-    const double read = median(m.joint[k]), off = read - expected;
+  const double off = median_mismatch(m, k);
+  if (std::isfinite(off) && j.joint_zero_known && j.motor_zero_known) {
+    const double read = median(m.joint[k]);
     const bool reading_out = beyond(c, k, read) > c.rule.outside && beyond(c, k, expected) <= c.rule.outside;
     const bool motor_out = beyond(c, k, expected) > c.rule.outside && beyond(c, k, read) <= c.rule.outside;
     if (!motor_out && (reading_out || std::abs(off) > c.rule.zero * c.range(k)))
@@ -45,14 +53,6 @@ void check_zero(LogUnderCheck& c, const SampledMotion& m, int k) {
               fmt::format("puts joint {} at {:.4g} in the median, outside its range, {}", k + 1, expected, range),
               "check the sign and the zero of this column, or the range in the model; an offset goes into " +
                   c.option(motor, Correction{.offset = 0}) + ",offset=...");
-}
-
-/// Median of the joint's reading less its expectation, over the instants that have both; NaN if there are none.
-double median_mismatch(const SampledMotion& m, int k) {
-  std::vector<double> off;
-  for (std::size_t i = 0; i < std::min(m.joint[k].size(), m.expected[k].size()); ++i)
-    if (const double o = m.joint[k][i] - m.expected[k][i]; std::isfinite(o)) off.push_back(o);
-  return off.empty() ? std::numeric_limits<double>::quiet_NaN() : median(off);
 }
 
 /// A counter that starts again does not say in which lap a log begins; the joint's own reading does. A mismatch within

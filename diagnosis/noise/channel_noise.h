@@ -9,13 +9,15 @@
 ///   in_band² = S_white / (4 √π σ_t),   at most white²
 ///
 ///   e        residual of the model as given, before the comparing filter
+///   Δ        sample interval of the sensor, s
 ///   w        Hann window over a segment of one second; segments overlap by half
 ///   ln 2     median over mean of an exponential distribution, which the spectral density of noise has
 ///   σ_t      standard deviation of both filters of a record together (record.h), s
 ///
 /// The part of a torque's residual that repeats with the motor's angle does not count (ripple_free.h).
 /// The median ignores segments with a jump or an impact. The least of the bands ignores resonances and hum, which
-/// lie in one of them. A record's filter attenuates the torque by exp(-(2π f σ_m)²); S is corrected for it.
+/// lie in one of them. A record's filter, of standard deviation σ_m in time, attenuates the torque by exp(-(2π f σ_m)²); S is
+/// corrected for it.
 /// Source: Welch, IEEE Trans. Audio Electroacoust. 15 (1967), with the median in place of the mean.
 
 #include <vector>

@@ -13,4 +13,8 @@ bool rests(const Record& record, int k, std::size_t at, double v_s) {
   return still > 0.5;
 }
 
+double slowest_smoothing(const ArmModel& model, int k) {
+  return model.nominal.joint[k].motor_smoothing * std::max(0.1, 1 - model.joints[k].tolerances.smoothing);
+}
+
 }  // namespace halyard

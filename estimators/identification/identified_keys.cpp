@@ -52,11 +52,15 @@ std::vector<std::string> split(const std::string& text) {
 [[noreturn]] void fail_unknown(const ArmModel& model, const std::string& word, const std::vector<ParameterInfo>& all) {
   std::string words, keys;
   for (const Kind& k : kinds()) words += (words.empty() ? "" : ", ") + std::string(k.word);
-  for (const ParameterInfo& info : all) keys += (keys.empty() ? "" : ", ") + info.key;
+  const std::string joint = word.substr(0, word.find('.') + 1);  // of a right joint, its numbers will do
+  const bool is_right =
+      !joint.empty() && std::ranges::any_of(all, [&](const ParameterInfo& p) { return p.key.starts_with(joint); });
+  for (const ParameterInfo& info : all)
+    if (info.key.starts_with(is_right ? joint : "joint1.")) keys += (keys.empty() ? "" : ", ") + info.key;
   throw InputError(
-      fmt::format("parameter {}: {} has none of that name; expected some of {}, or of the keys {}, with "
+      fmt::format("parameter {}: {} has none of that name; expected some of {}, or of the keys {}{}, with "
                   "commas between",
-                  in_quotes(word), model.source, words, keys));
+                  in_quotes(word), model.source, words, keys, is_right ? "" : " (the other joints have the like)"));
 }
 
 }  // namespace

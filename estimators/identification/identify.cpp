@@ -9,6 +9,7 @@
 
 #include "estimators/distributions.h"
 #include "estimators/identification/block_jackknife.h"
+#include "model/body_inertia.h"
 #include "model/input_error.h"
 
 namespace halyard {
@@ -31,7 +32,9 @@ constexpr double kMatters = 0.1;         // of a tolerance: a drift by less is n
 
 Weight weight_of(const ArmModel& model, const ParameterInfo& info) {
   const bool coupling = info.key.find(".coupling.") != info.key.npos;
-  if (!coupling) return {.key = info.key, .nominal = *info.value, .scale = kSpread, .logarithmic = true};
+  if (!coupling && info.least >= 0)
+    return {.key = info.key, .nominal = *info.value, .scale = kSpread, .logarithmic = true};
+  if (!coupling) return {.key = info.key, .nominal = *info.value, .scale = kSpread * std::abs(*info.value)};
   const JointParameters<double>& j = model.nominal.joint[info.joint];
   const int inboard = std::stoi(info.key.substr(info.key.rfind("joint") + 5)) - 1;
   const double routing = model.nominal.joint[inboard].type == JointType::revolute ? kRoutingRadius : 1;
@@ -81,8 +84,8 @@ void check_logs(const ArmModel& model, const std::vector<Log>& logs, const std::
   for (const Log& log : logs)
     if (log.duration() < kShortest)
       throw InputError(
-          fmt::format("{}: lasts {:.3g} s; an identification takes {:g} s at least, and more is better: "
-                      "give a longer log",
+          fmt::format("{}: {:.4g} s of it are for the estimation, without what is held out; expected at least {:g} s, "
+                      "and more is better: give a longer log, or one of its own to hold out",
                       log.source, log.duration(), kShortest));
   if (logs.size() > 1 && !unknown_zeros(model).empty())
     throw InputError(
@@ -311,6 +314,10 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
     tell_number(unknowns, i, refined.estimate, trace, number);
     *info.value = number.value;
   }
+  if (!has_bodies(result.model.nominal))
+    throw InputError(model.source +
+                     ": with the identified numbers the inertia of a link is that of no body; identify its other "
+                     "moments as well, or correct them in the model");
   result.deviating = deviating_numbers(model, unknowns, refined.estimate);
   return result;
 }

@@ -1,5 +1,7 @@
 #include "evaluation/comparison/compare.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -120,6 +122,14 @@ double Comparison::improvement_of(std::size_t run, int k) const {
   const std::optional<std::size_t> base = baseline();
   if (!base) return std::numeric_limits<double>::quiet_NaN();
   return improvement(errors[run][k], errors[*base][k]);
+}
+
+void check_skip(double skip_s, double duration_s, const std::string& of) {
+  if (skip_s < duration_s || skip_s == CompareOptions{}.skip_s) return;
+  throw InputError(
+      fmt::format("{}: lasts {:g} s, and the first {:g} s are skipped; nothing is left to count errors in: "
+                  "skip less",
+                  of, duration_s, skip_s));
 }
 
 Comparison compare_estimators(const ArmModel& model, const std::vector<std::string>& estimators, const Log& measured,

@@ -66,6 +66,10 @@ struct Contestant {
   std::string name;
 };
 
+/// Throws InputError if a time that was asked for, other than the default, leaves nothing of a record of that duration.
+/// of: where the duration is told.
+void check_skip(double skip_s, double duration_s, const std::string& of);
+
 /// Runs each estimator over `measured`, in a process of its own, and computes its errors against the joint positions of
 /// `truth`. Both logs must have the same times. The caller fills data, model and truth_from of the result.
 /// Throws as make_estimator and run_estimator do, and std::invalid_argument if the times differ.

@@ -254,6 +254,9 @@ Sweep read_sweep_definition(const fs::path& path) {
   grid.scenario = scenario_file.filename().string();
   grid.model = model_file.filename().string();
   grid.skip_s = element.number_or("skip", 0.5, "s", Sign::non_negative);
+  if (element.has("skip") && grid.skip_s >= sweep.scenario.duration_s)
+    element.fail("skip", fmt::format("expected a duration above the {:g} s that are skipped, not {:g} s", grid.skip_s,
+                                     sweep.scenario.duration_s));
   grid.units = joint_units(sweep.model);
   read_subjects(element, folder, sweep.model, grid);
   grid.seeds = read_seeds(element, sweep.scenario.seed);

@@ -16,85 +16,13 @@
 #include "plant/simulate.h"
 #include "tests/support/limits.h"
 #include "tests/support/message_of.h"
-#include "tests/support/short_arm.h"
+#include "tests/support/odd_logs.h"
 
 namespace halyard {
 namespace {
 
 /// EMPS-like: one mass on a screw, rigid, no sensor but the motor's.
 ArmModel screw() { return read_model(HALYARD_SOURCE_DIR "/examples/measured/emps/emps.xml"); }
-
-PlacedEffect placed(const std::string& name, const ArmModel& model, int joint, const std::vector<double>& p) {
-  PlacedEffect e = place_neutral_effect(*find_effect(name), model.nominal, joint);
-  for (std::size_t i = 0; i < p.size(); ++i) e.p[i] = p[i];
-  return e;
-}
-
-struct Logs {
-  Log train, holdout;
-};
-
-constexpr double kLogDuration = 5;  // s
-
-Logs logs_of(const ArmModel& truth, double duration = kLogDuration) {
-  return {simulate(motion(truth, duration)).measured, simulate(motion(truth, 2.5, 1)).measured};
-}
-
-DiagnosisOptions quick() {
-  DiagnosisOptions options;
-  options.most_effects = 1;
-  options.tell_not_excited = false;
-  return options;
-}
-
-Diagnosis diagnosis_of(const ArmModel& model, const Logs& logs) {
-  return diagnose(model, {logs.train}, logs.holdout, quick());
-}
-
-/// The one-joint arm's logs are simulated once: as the model says, and with a capstan that is 2 % larger.
-constexpr double kRatio = 1.02;
-const Logs& clean_logs() {
-  static const Logs logs = logs_of(first_joints(1));
-  return logs;
-}
-const Logs& larger_logs() {
-  static const Logs logs = [] {
-    ArmModel truth = first_joints(1);
-    truth.effects.push_back(placed("capstan_ratio", truth, 0, {kRatio}));
-    return logs_of(truth);
-  }();
-  return logs;
-}
-
-void expect_clean(const Diagnosis& d) {
-  EXPECT_EQ(d.verdict, Diagnosis::Verdict::clean);
-  for (const NamedEffect& e : d.effects) ADD_FAILURE() << e.effect.effect->name() << " " << e.effect.p[0];
-  for (const Unexplained& u : d.unexplained) ADD_FAILURE() << u.signature;
-}
-
-void expect_named(const Diagnosis& d, const std::string& name, int joint, double value, double within) {
-  ASSERT_EQ(d.effects.size(), 1u) << (d.unexplained.empty() ? "clean" : d.unexplained[0].signature) << ", joint error "
-                                  << d.before.joint_rms[0];
-  EXPECT_EQ(d.effects[0].effect.effect->name(), name);
-  EXPECT_EQ(d.effects[0].effect.joint, joint);
-  EXPECT_NEAR(d.effects[0].effect.p[0], value, within * std::abs(value));
-}
-
-/// The spoilt logs of the right model leave it clean.
-template <class Spoil>
-void expect_clean_of(const ArmModel& model, const Spoil& spoil) {
-  Logs logs = clean_logs();
-  spoil(logs.train), spoil(logs.holdout);
-  expect_clean(diagnosis_of(model, logs));
-}
-
-/// And the larger capstan is still found.
-template <class Spoil>
-void expect_larger_of(const ArmModel& model, const Spoil& spoil) {
-  Logs logs = larger_logs();
-  spoil(logs.train), spoil(logs.holdout);
-  expect_named(diagnosis_of(model, logs), "capstan_ratio", 0, kRatio, 1e-3);
-}
 
 /// Keeps every n-th sample of a column and drops the rest.
 void thin(std::vector<double>& column, std::size_t every, std::size_t first = 0) {
@@ -241,7 +169,7 @@ TEST(SeveralLogs, OfOtherRatesAndSensorsCountTogether) {
   slow_without_torque.motor_torque[0].clear();
   blind.joint_position[0].clear();
   const Diagnosis d = diagnose(first_joints(1), {slow_without_torque, blind}, logs.holdout, quick());
-  expect_named(d, "capstan_ratio", 0, kRatio, 1e-3);
+  expect_named(d, "capstan_ratio", 0, kLargerRatio, 1e-3);
 }
 
 // --------------------------------------------------------------------------------------------- clocks
@@ -333,79 +261,6 @@ TEST(UnknownEncoderZero, CannotBeToldWithoutTheJointsSensor) {
       message_of([&] { home_encoders(log, model); }),
       "rig.csv: the model does not know the zero of motor encoder 1 (motor_offset=\"unknown\"), and the log has no "
       "joint_position_1 to tell it; give the joint's sensor, or the offset in the model");
-}
-
-// --------------------------------------------------------------------------------------- torque scales
-
-TEST(TorqueOfUnknownScale, IsRefitted) {
-  ArmModel model = first_joints(1);
-  model.joints[0].tolerances.torque_scale = 1;
-  for (const double amperes : {1000.0, 1e-3}) {  // per N m
-    Logs logs = clean_logs();
-    for (Log* log : {&logs.train, &logs.holdout})
-      for (double& torque : log->motor_torque[0]) torque *= amperes;
-    const Diagnosis d = diagnosis_of(model, logs);
-    expect_clean(d);
-    ASSERT_GE(d.refitted.size(), 1u);
-    const Estimated& scale = d.refitted.front();
-    EXPECT_EQ(scale.name, "joint 1 motor torque scale");
-    EXPECT_EQ(scale.nominal, 1);
-    // What moves the arm is told by masses that are known to 5 %.
-    EXPECT_NEAR(scale.value * amperes, 1, 0.05);
-    EXPECT_EQ(d.revised.nominal.joint[0].torque_scale, scale.value);
-  }
-}
-
-TEST(TorqueOfUnknownScale, AgainstTheMotionOrOfAnotherMotorIsAnError) {
-  ArmModel model = first_joints(1);
-  model.joints[0].tolerances.torque_scale = 1;
-  Logs logs = clean_logs();
-  logs.train.source = "rig.csv";
-  for (double& torque : logs.train.motor_torque[0]) torque = -torque;
-  const std::string opposed = message_of([&] { diagnosis_of(model, logs); });
-  EXPECT_TRUE(
-      opposed.starts_with("rig.csv: motor_torque_1: the recorded torque opposes the torque that the motor's "
-                          "motion requires"))
-      << opposed;
-  EXPECT_NE(opposed.find("--column motor_torque_1=motor_torque_1,sign=-1"), std::string::npos) << opposed;
-  for (std::size_t i = 0; i < logs.train.size(); ++i)
-    logs.train.motor_torque[0][i] = std::sin(37.0 * logs.train.time[i]);
-  EXPECT_NE(message_of([&] { diagnosis_of(model, logs); }).find("does not go with the motor's motion (correlation "),
-            std::string::npos);
-}
-
-// ---------------------------------------------------------------------------- joints without their motor
-
-/// The two-joint arm with an elbow in need of a diagnosis and a shoulder whose drive is nobody's business.
-ArmModel elbow_alone() {
-  ArmModel model = first_joints(2);
-  model.nominal.joint[0].drive = Drive::none;
-  return model;
-}
-
-TEST(JointDrivenBySomebodyElse, FollowsItsSensor) {
-  constexpr double kHalfGap = 3e-4;
-  ArmModel truth = first_joints(2);
-  truth.effects.push_back(placed("backlash", truth, 1, {kHalfGap}));
-  Logs logs = logs_of(truth);
-  for (Log* log : {&logs.train, &logs.holdout}) log->motor_position[0].clear(), log->motor_torque[0].clear();
-  const Diagnosis d = diagnosis_of(elbow_alone(), logs);
-  expect_named(d, "backlash", 1, kHalfGap, 0.1);
-  EXPECT_TRUE(std::isnan(d.after.joint_rms[0])) << "given, not predicted";
-  EXPECT_LT(d.after.joint_rms[1], 0.2 * d.before.joint_rms[1]);
-}
-
-TEST(JointHeldFixed, StandsAtHome) {
-  ArmModel truth = first_joints(2);
-  truth.nominal.joint[0].joint_coulomb = 500;  // clamped: creeps by less than its sensor's step
-  const auto logs = [&](int variant) {
-    Scenario s = motion(truth, kLogDuration, variant);
-    s.trajectory[0].sines.clear();
-    Log log = simulate(s).measured;
-    log.motor_position[0].clear(), log.motor_torque[0].clear(), log.joint_position[0].clear();
-    return log;
-  };
-  expect_clean(diagnosis_of(elbow_alone(), {logs(0), logs(1)}));
 }
 
 }  // namespace

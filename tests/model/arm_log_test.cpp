@@ -49,7 +49,12 @@ TEST_F(ArmLog, NamesColumnsThatAreNotUsed) {
 TEST_F(ArmLog, NeedsAMotorTorqueOnlyIfAsked) {
   std::ofstream(path_) << "time,motor_position_1,motor_position_2,motor_position_3,turns\n0,1,2,3,0\n0.001,1,2,3,0\n";
   EXPECT_NE(message_of([&] { read_log_of(model_, path_); }).find("motor_torque_1"), std::string::npos);
-  EXPECT_EQ(read_log_of(model_, path_, {}, /*torque_required=*/false).size(), 2u);
+  const Log log = read_log_of(model_, path_, {}, /*torque_required=*/false);
+  EXPECT_EQ(log.size(), 2u);
+  EXPECT_EQ(missing_torques_note(log, model_),
+            "note: " + path_.string() +
+                ": has no motor_torque_1, motor_torque_2, motor_torque_3: nothing is "
+                "compared with the torques of these motors");
 }
 
 }  // namespace

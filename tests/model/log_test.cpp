@@ -209,7 +209,7 @@ TEST(ColumnMap, SaysWhatIsWrongWithAnEntry) {
   EXPECT_HAS(message("time="), "column 'time': no column is named");
   for (const std::string name : {"motor_torque_1", "marker_x", "time"})
     EXPECT_HAS(message(name + "=a,wrap=360"), "only a motor's or a joint's position wraps around; leave wrap out here");
-  EXPECT_HAS(message("motor_position_1=q,wrap=-360"), "expected a wrap above 0: the period of the reading");
+  EXPECT_HAS(message("motor_position_1=q,wrap=-360"), "expected a wrap of at least 0: the period of the reading");
   EXPECT_HAS(message("time=t,factor=2"),
              "'factor' is no setting of a column; expected unit=, sign=, scale=, offset= or wrap=");
   EXPECT_HAS(message("time=t,scale=2,scale=3"), "'scale' is given twice");

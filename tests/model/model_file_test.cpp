@@ -195,7 +195,7 @@ TEST(ParameterInfo, NamesKeysUnitsAndTolerancesFollowTheModel) {
     for (const ParameterInfo& info : all) {
       if (info.key == key) return info;
     }
-    return {"absent", key, "", -2, nullptr, nullptr, 0};
+    return {"absent", key, "", -2, nullptr, nullptr, 0, 0};
   };
   const ParameterInfo stiffness = find("joint1.cable.stiffness");
   EXPECT_EQ(stiffness.name, "joint 1 cable stiffness");

@@ -162,12 +162,18 @@ TEST_F(ScenarioFile, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(message(R"(<set parameter="joint1.cable.stiffness" value="-3"/>)"),
             "s.xml:2: <set value=\"-3\">: the model so changed:8: <cable stiffness=\"-3\">: expected a number greater "
             "than 0");
+  EXPECT_EQ(
+      message("<set parameter=\"joint1.link.mass\" value=\"3\"/>\n<set parameter=\"joint1.link.mass\" value=\"4\"/>"),
+      "s.xml:3: <set parameter=\"joint1.link.mass\">: is set twice; remove one of the two");
   EXPECT_EQ(message(R"(<set parameter="joint1.cable.stifness" value="3"/>)"),
             "s.xml:2: <set parameter=\"joint1.cable.stifness\">: the model has no such number; expected one of "
-            "joint1.link.mass, joint1.motor.inertia, joint1.motor.coulomb, joint1.motor.viscous, "
-            "joint1.motor.gear_ratio, joint1.motor.capstan_radius, joint1.motor.torque_scale, "
-            "joint1.motor.torque_bias, joint1.cable.stiffness, joint1.cable.damping, joint1.cable.tension, "
-            "joint1.cable.pulley_radius, joint1.friction.coulomb, joint1.friction.viscous");
+            "joint1.link.mass, joint1.link.com.x, joint1.link.com.y, joint1.link.com.z, joint1.link.inertia.xx, "
+            "joint1.link.inertia.yy, joint1.link.inertia.zz, joint1.link.inertia.xy, joint1.link.inertia.xz, "
+            "joint1.link.inertia.yz, joint1.motor.inertia, joint1.motor.coulomb, joint1.motor.viscous, "
+            "joint1.motor.smoothing, joint1.motor.gear_ratio, joint1.motor.capstan_radius, "
+            "joint1.motor.torque_scale, joint1.motor.torque_bias, joint1.cable.stiffness, joint1.cable.damping, "
+            "joint1.cable.tension, joint1.cable.pulley_radius, joint1.friction.coulomb, joint1.friction.viscous, "
+            "joint1.friction.smoothing");
   EXPECT_EQ(message(R"(<integrator treatment="euler"/>)"),
             "s.xml:2: <integrator treatment=\"euler\">: expected one of rosenbrock, dirk, imex, imex_link1, bdf, "
             "explicit_rk, simbody_rkm, simbody_cpodes");

@@ -52,6 +52,14 @@ TEST_F(BadInput, ARobotThatIsNotOfTheScenario) {
                  {"--robot, --runs and --noise are for scenarios"});
 }
 
+TEST_F(BadInput, ASkipBeyondTheRecord) {
+  expect_refused({"estimate", "--model", "raven2.xml", "--estimator", "kinematics", "--data", "log.csv", "--out",
+                  "e.csv", "--skip", "300"},
+                 {"log.csv: lasts", "the first 300 s are skipped", "skip less"});
+  expect_refused({"compare", "experiment_a.xml", "--estimators", "kinematics", "--out", "cmp", "--skip", "1e3"},
+                 {"experiment_a.xml: lasts", "skip less"});
+}
+
 TEST_F(BadInput, AFileThatIsAnotherOrIsNotThere) {
   write_text(path("bad.xml"), "<robot/>");
   expect_refused({"check", "bad.xml"}, {"bad.xml:1: <robot>", "<arm>", "<scenario>", "<sweep>"});
@@ -90,7 +98,7 @@ TEST_F(BadInput, AnIdentificationThatCannotBe) {
                                     "0,0,0,0,107,204,904,0.8,1.6,0.4\n0.001,0,0,0,107,204,904,0.8,1.6,0.4\n");
   expect_refused(
       {"identify", "--data", "short.csv", "--out", "out", "--model", "raven2.xml", "--parameters", "coupling"},
-      {"short.csv: lasts", "3 s"});
+      {"short.csv: ", "3 s"});
 }
 
 TEST_F(BadInput, AnEstimatorThatCannotBeLoaded) {

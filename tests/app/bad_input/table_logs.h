@@ -53,6 +53,9 @@ inline std::vector<BadInputRow> bad_logs() {
       {"TimeInMilliseconds", Wrong::clock, scaled({"time"}, 1e3),
        "bad.csv: time: a sample follows another after 1 s; expected at least 10 and at most 50000 samples a "
        "second; it looks like a time in milliseconds; read it with --column time=time,unit=ms"},
+      {"NineRowsASecond", Wrong::clock, scaled({"time"}, 110),
+       "bad.csv: time: a sample follows another after 0.11 s; expected at least 10 and at most 50000 samples a "
+       "second; give the times in s, or a record with at least 10 samples a second"},
       {"MotorInDegrees", Wrong::motion, scaled({"motor_position_1"}, 180 / std::numbers::pi),
        "bad.csv: motor_position_1: joint 1 moves 0.01747 times as far as motor 1 says (slope; expected 1 within "
        "a factor of 1.5), as if it were degrees; read it with --column motor_position_1=motor_position_1,unit=deg"},

@@ -30,6 +30,8 @@ inline std::vector<BadInputRow> bad_sweeps() {
        "bad.xml:1: <sweep>: 4e+06 points; expected at most 1e+06; take fewer values"},
       {"LogarithmOfZero", Wrong::sweep, put(R"(values="1e5 2e5")", R"(from="0" to="2e5" steps="2" scale="log")"),
        "bad.xml:2: <axis from=\"0\">: expected a number greater than 0"},
+      {"NothingIsCounted", Wrong::sweep, put(R"(name="s")", R"(name="s" duration="1" skip="1")"),
+       "bad.xml:1: <sweep skip=\"1\">: expected a duration above the 1 s that are skipped, not 1 s"},
       {"NoRepeats", Wrong::sweep, put(R"(name="s")", R"(name="s" repeats="0")"),
        "bad.xml:1: <sweep repeats=\"0\">: expected a whole number from 1 to 100000"},
       {"FactorOfAnAbsentNoise", Wrong::sweep,

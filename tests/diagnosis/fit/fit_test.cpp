@@ -11,6 +11,7 @@
 #include <random>
 
 #include "diagnosis/diagnose.h"
+#include "model/model_file.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
 
@@ -71,6 +72,18 @@ TEST(Fit, FindsTheInstantOfASlipThatIsAPeriodOfTheCableOff) {
   ASSERT_TRUE(found.usable);
   EXPECT_NEAR(found.hypothesis.effects[0].p[1], kTime, 0.0015);
   EXPECT_NEAR(found.hypothesis.effects[0].p[0], kJump, 0.02 * kJump);
+}
+
+TEST(BaselineParameters, LeaveNoValueThatAModelFileMayNotHave) {
+  ArmModel model = first_joints(2);
+  model.joints[0].tolerances = {.length = 3, .mass = 3, .stiffness = 3, .friction = 3};
+  for (const FitParameter& p : baseline_parameters(model)) {
+    Hypothesis h{model.nominal, {}};
+    set_parameter(h, p, p.lower);
+    ArmModel at_bound = model;
+    at_bound.nominal = h.nominal;
+    EXPECT_NO_THROW(parse_model(model_to_xml(at_bound), "at bound")) << p.name;
+  }
 }
 
 }  // namespace

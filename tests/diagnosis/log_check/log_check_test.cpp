@@ -198,6 +198,14 @@ TEST(LogCheck, FindsAMotorThatFreezesWithoutJointSensorsByItsJump) {
   expect_one(log, "motor_position_1", Severity::suspicious, {"jumps by"});
 }
 
+TEST(LogCheck, FindsAJointThatDoesNotFollowItsMotor) {
+  Log log = right_log();
+  log.motor_position[0] = log.motor_position[1];
+  const std::vector<LogFinding> findings = check_log(log, raven());
+  ASSERT_FALSE(findings.empty());
+  EXPECT_NE(lines_of(findings).find("does not follow motor_position_1"), std::string::npos) << lines_of(findings);
+}
+
 TEST(LogCheck, CountsOutliers) {
   Log log = right_log();
   for (const std::size_t i : {700, 2100, 4400}) log.joint_position[1][i] += 0.02;

@@ -48,6 +48,13 @@ TEST(Outliers, AreFoundSinglyAndUpToThreeInARow) {
   EXPECT_NEAR(found.usual, 1e-4, 5e-5);
 }
 
+TEST(Outliers, AreFoundIfOneReadingInThirtyIsWrong) {
+  Column c;
+  Rows wrong;
+  for (std::size_t i = 20; i < 980; i += 30) c.add(i, i + 1, i % 60 == 20 ? 0.3 : -0.3), wrong.push_back(i);
+  EXPECT_EQ(c.outliers().rows, wrong);
+}
+
 TEST(Outliers, AreFoundInAFastMotion) {
   Column c(100);  // 0.2 from a row to the next
   c.add(100, 101, 2.5);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "diagnosis/search/refit.h"
+#include "model/body_inertia.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
 
@@ -21,13 +22,19 @@ PlacedEffect on_the_only_joint(const std::string& name, double size) {
 
 /// A search on the log of an arm with these effects that found those.
 struct Searched {
-  ArmModel model = first_joints(1);
+  ArmModel model;
   std::vector<Record> records;
   Evidence evidence, whole;
   Attribution found;
 
   Searched(const std::vector<PlacedEffect>& true_effects, const std::vector<PlacedEffect>& found_effects)
-      : records(records_of(true_effects)), evidence(records, model), whole(records, model, Split::none) {
+      : Searched(with(true_effects), first_joints(1), found_effects) {}
+
+  Searched(const ArmModel& robot, const ArmModel& given, const std::vector<PlacedEffect>& found_effects)
+      : model(given),
+        records(make_records(simulate(motion(robot, 5)).measured, model, {})),
+        evidence(records, model),
+        whole(records, model, Split::none) {
     const Refitter refitter(evidence, model, 0);
     const auto refitted = [&](const std::vector<PlacedEffect>& effects) {
       const Hypothesis h{model.nominal, effects};
@@ -42,10 +49,10 @@ struct Searched {
   const std::vector<PlacedEffect>& effects() const { return found.final_fit.hypothesis.effects; }
 
  private:
-  std::vector<Record> records_of(const std::vector<PlacedEffect>& true_effects) const {
-    ArmModel robot = model;
-    robot.effects = true_effects;
-    return make_records(simulate(motion(robot, 5)).measured, model, {});
+  static ArmModel with(const std::vector<PlacedEffect>& effects) {
+    ArmModel robot = first_joints(1);
+    robot.effects = effects;
+    return robot;
   }
 };
 
@@ -66,6 +73,16 @@ TEST(Revision, TellsANumberOfTheModelThatChanged) {
     return s.found.final_fit.parameters[i].name == "joint 1 motor Coulomb friction";
   };
   EXPECT_TRUE(std::ranges::any_of(s.revise(), is_friction));
+}
+
+TEST(Revision, GivesBackInertiasOfNoBody) {
+  ArmModel model = first_joints(1), robot = model;
+  model.joints[0].tolerances.inertia = 40;
+  for (double& moment : robot.nominal.joint[0].inertia) moment *= 20;  // the motion about one axis shows one of them
+  Searched s(robot, model, {});
+  ASSERT_FALSE(has_bodies(s.found.final_fit.hypothesis.nominal));
+  s.revise();
+  EXPECT_TRUE(has_bodies(s.found.final_fit.hypothesis.nominal));
 }
 
 TEST(Revision, KeepsADoubtfulEffectButNotOneThatBelongsToTheLog) {

@@ -1,0 +1,26 @@
+#include "model/body_inertia.h"
+
+#include <Eigen/Eigenvalues>
+
+namespace halyard {
+
+Eigen::Vector3d principal_moments(const JointParameters<double>& joint) {
+  const double* I = joint.inertia;
+  Eigen::Matrix3d tensor;
+  tensor << I[0], I[3], I[4], I[3], I[1], I[5], I[4], I[5], I[2];
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+Inertia judge_inertia(const Eigen::Vector3d& moments) {
+  const double rounding = 1e-9 * moments.cwiseAbs().maxCoeff();
+  if (moments(0) < -rounding) return Inertia::negative;
+  return moments(2) > moments(0) + moments(1) + rounding ? Inertia::too_long : Inertia::of_a_body;
+}
+
+bool has_bodies(const ArmParameters<double>& arm) {
+  for (int k = 0; k < arm.n; ++k)
+    if (judge_inertia(principal_moments(arm.joint[k])) != Inertia::of_a_body) return false;
+  return true;
+}
+
+}  // namespace halyard
