@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostInARow = 3;
 constexpr double kLongest = 5e-3;  ///< s, of several in a row
-constexpr double kGoesOn = 0.25;   ///< r over d
+constexpr double kGoesOn = 0.2;    ///< r over d; a motion that turns round at once has 1/3
 
 /// Finite rows of a column that follow each other and are equal.
 struct Repeated {

@@ -4,7 +4,7 @@
 ///
 /// A line is fitted to the two readings before and the two after one to three readings. Those between are outliers if
 ///
-///   min |d| >= factor · u      and      max |r| <= min |d| / 4
+///   min |d| >= factor · u      and      max |r| <= min |d| / 5
 ///
 ///   d   distances of the readings between from the line       r   distances of the four readings from it
 ///   u   usual distance of a reading from its neighbours: a robust standard deviation of the column

@@ -35,12 +35,12 @@ TABLE
 
 figure blind_trials hours bench
 figure_blind_trials() {
-  local trials="$bench/halyard_blind_trials --seed 20261124"
-  ran "$trials --row 1 --trials 100 --out out/trials"
+  local trials="$bench/halyard_blind_trials --seed 20261128"
+  ran "$trials --row 1 --trials 40 --out out/trials"
   ran "$trials --row 2 --trials 34 --resume --out out/trials"
   ran "$bench/halyard_blind_trials --summary out/trials"
   cat <<'TABLE'
-From `halyard_blind_trials --seed 20261124` with `--row 1 --trials 100` and `--row 2 --trials 34`:
+From `halyard_blind_trials --seed 20261128` with `--row 1 --trials 40` and `--row 2 --trials 34`:
 
 TABLE
   awk '/^## /{ inside = $2 == "Acceptance" } inside && /^[|]/' "$work/out/trials/summary.md"
