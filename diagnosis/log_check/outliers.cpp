@@ -16,61 +16,56 @@ constexpr std::size_t kMostInARow = 3;
 constexpr double kLongest = 5e-3;  ///< s, of several in a row
 constexpr double kGoesOn = 0.2;    ///< r over d; a motion that turns round at once has 1/3
 
-/// Finite rows of a column that follow each other and are equal.
-struct Repeated {
+/// A reading, and the rows from first to last that have it.
+struct Reading {
   double x;
-  std::vector<std::size_t> rows;
+  std::size_t first, last;
+  std::size_t rows() const { return last - first + 1; }
 };
 
-std::vector<Repeated> repeated_rows(const std::vector<double>& column) {
-  std::vector<Repeated> all;
+/// Rows that follow each other and are equal count as one reading.
+std::vector<Reading> changing_readings(const std::vector<double>& column) {
+  std::vector<Reading> all;
   for (std::size_t i = 0; i < column.size(); ++i) {
     if (!std::isfinite(column[i])) continue;
-    if (all.empty() || column[i] != all.back().x) all.push_back({column[i], {}});
-    all.back().rows.push_back(i);
+    if (all.empty() || column[i] != all.back().x) all.push_back({column[i], i, i});
+    all.back().last = i;
   }
   return all;
 }
 
-/// Readings of a sensor. One that is slower than the log repeats a reading in several rows; one at rest gives the same
-/// reading again.
-struct Readings {
-  std::vector<double> x;
-  std::vector<std::vector<std::size_t>> rows;
-
-  explicit Readings(const std::vector<Repeated>& all) {
-    std::vector<double> lengths;
-    for (const Repeated& r : all) lengths.push_back(static_cast<double>(r.rows.size()));
-    const double rows_a_reading = median(std::move(lengths));
-    for (const Repeated& r : all) {
-      const std::size_t length = r.rows.size();
-      const auto times = std::max<std::size_t>(1, std::lround(static_cast<double>(length) / rows_a_reading));
-      for (std::size_t i = 0; i < times; ++i) {
-        x.push_back(r.x);
-        rows.emplace_back(r.rows.begin() + static_cast<std::ptrdiff_t>(length * i / times),
-                          r.rows.begin() + static_cast<std::ptrdiff_t>(length * (i + 1) / times));
-      }
-    }
+/// A sensor that is slower than the log repeats a reading in several rows; one at rest gives the same reading again.
+std::vector<Reading> repeated_at_rest(const std::vector<Reading>& changing) {
+  std::vector<double> lengths;
+  for (const Reading& r : changing) lengths.push_back(static_cast<double>(r.rows()));
+  const double rows_a_reading = median(std::move(lengths));
+  std::vector<Reading> all;
+  for (const Reading& r : changing) {
+    const auto times = std::max<std::size_t>(1, std::lround(static_cast<double>(r.rows()) / rows_a_reading));
+    for (std::size_t i = 0; i < times; ++i)
+      all.push_back({r.x, r.first + r.rows() * i / times, r.first + r.rows() * (i + 1) / times - 1});
   }
-};
+  return all;
+}
 
 /// The step of a rounded reading.
-double smallest_step(const std::vector<double>& x) {
+double smallest_step(const std::vector<Reading>& s) {
   double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < x.size(); ++i) smallest = std::min(smallest, std::abs(x[i] - x[i - 1]));
+  for (std::size_t i = 1; i < s.size(); ++i) smallest = std::min(smallest, std::abs(s[i].x - s[i - 1].x));
   return std::isfinite(smallest) ? smallest : 0;
 }
 
 /// From the neighbours' median, which a steady motion does not change, and from their mean, which shows the noise.
-double usual_distance(const std::vector<double>& x) {
-  std::vector<double> from_median, from_mean;
+double usual_distance(const std::vector<Reading>& s) {
+  std::vector<double> x, from_median, from_mean;
+  for (const Reading& r : s) x.push_back(r.x);
   for (std::size_t i = 2; i + 2 < x.size(); ++i) {
     from_median.push_back(std::abs(x[i] - median({x[i - 2], x[i - 1], x[i], x[i + 1], x[i + 2]})));
     from_mean.push_back(std::abs(x[i] - 0.5 * (x[i - 1] + x[i + 1])));
   }
   // Quantiles that are one and two standard deviations of Gaussian noise. The higher ones count where most differences of
   // a rounded reading are 0. An outlier is in three of from_mean, but in one of from_median: 4 % of outliers do no harm.
-  return std::max({smallest_step(x), 1e-6 * spread(x), 1.48 * median(from_median), 1.48 * median(from_mean),
+  return std::max({smallest_step(s), 1e-6 * spread(x), 1.48 * median(from_median), 1.48 * median(from_mean),
                    quantile(from_mean, 0.68), 0.5 * quantile(from_mean, 0.85), 0.5 * quantile(from_median, 0.95)});
 }
 
@@ -81,18 +76,18 @@ struct Excursion {
   double neighbour = 0;  ///< largest distance of the four
 };
 
-Excursion excursion_of(const std::vector<double>& x, std::size_t i, std::size_t m) {
+Excursion excursion_of(const std::vector<Reading>& s, std::size_t i, std::size_t m) {
   const std::array<std::size_t, 4> around = {i - 2, i - 1, i + m, i + m + 1};
   const double middle = static_cast<double>(i) + 0.5 * (static_cast<double>(m) - 1);
   double mean = 0, slope = 0, square = 0;
   for (const std::size_t j : around) {
     const double from_middle = static_cast<double>(j) - middle;
-    mean += 0.25 * x[j];
-    slope += from_middle * x[j];
+    mean += 0.25 * s[j].x;
+    slope += from_middle * s[j].x;
     square += from_middle * from_middle;
   }
   slope /= square;
-  const auto distance = [&](std::size_t j) { return x[j] - mean - slope * (static_cast<double>(j) - middle); };
+  const auto distance = [&](std::size_t j) { return s[j].x - mean - slope * (static_cast<double>(j) - middle); };
   Excursion e;
   for (const std::size_t j : around) e.neighbour = std::max(e.neighbour, std::abs(distance(j)));
   for (std::size_t j = i; j < i + m; ++j) {
@@ -107,23 +102,21 @@ Excursion excursion_of(const std::vector<double>& x, std::size_t i, std::size_t 
 Outliers find_outliers(const std::vector<double>& time, const std::vector<double>& column, double factor,
                        double least) {
   Outliers found;
-  const std::vector<Repeated> repeated = repeated_rows(column);
-  if (repeated.size() < 5) return found;
-  std::vector<double> changing;  // a long rest does not show what is usual
-  for (const Repeated& r : repeated) changing.push_back(r.x);
-  found.usual = usual_distance(changing);
+  const std::vector<Reading> changing = changing_readings(column);
+  if (changing.size() < 5) return found;
+  found.usual = usual_distance(changing);  // a long rest does not show what is usual
   if (found.usual == 0) return found;
   least = std::max(least, factor * found.usual);
-  const Readings s(repeated);
-  for (std::size_t i = 2; i + 2 < s.x.size(); ++i)
-    for (std::size_t m = 1; m <= kMostInARow && i + m + 1 < s.x.size(); ++m) {
-      if (m > 1 && time[s.rows[i + m].front()] - time[s.rows[i].front()] > kLongest) break;
-      const Excursion e = excursion_of(s.x, i, m);
+  const std::vector<Reading> s = repeated_at_rest(changing);
+  for (std::size_t i = 2; i + 2 < s.size(); ++i)
+    for (std::size_t m = 1; m <= kMostInARow && i + m + 1 < s.size(); ++m) {
+      if (m > 1 && time[s[i + m].first] - time[s[i].first] > kLongest) break;
+      const Excursion e = excursion_of(s, i, m);
       if (e.least < least || e.neighbour > kGoesOn * e.least) continue;
       found.readings += m;
-      if (std::abs(e.largest) > std::abs(found.largest))
-        found.largest = e.largest, found.when = time[s.rows[i].front()];
-      for (std::size_t j = i; j < i + m; ++j) found.rows.insert(found.rows.end(), s.rows[j].begin(), s.rows[j].end());
+      if (std::abs(e.largest) > std::abs(found.largest)) found.largest = e.largest, found.when = time[s[i].first];
+      for (std::size_t row = s[i].first; row <= s[i + m - 1].last; ++row)
+        if (std::isfinite(column[row])) found.rows.push_back(row);
       i += m;
       break;
     }
