@@ -116,6 +116,19 @@ TEST(Identify, FindsACouplingWithinItsInterval) {
   EXPECT_GE(held, 2);
 }
 
+TEST(Identify, FindsANumberWhoseSignTheModelHasWrong) {
+  const std::string key = "joint1.link.com.y";
+  ArmModel model = first_joints(1);
+  const ArmModel robot = with(model, key, 0.5);
+  *find_number(model.nominal, key) *= -0.2;
+  const Identification found = identify(model, {log_of(robot, robot, 3)}, {key});
+  ASSERT_EQ(found.numbers.size(), 1u);
+  const IdentifiedNumber& n = found.numbers[0];
+  EXPECT_LT(n.nominal, 0);
+  EXPECT_GT(n.lower, 0);
+  EXPECT_LT(n.lower, n.upper);
+}
+
 TEST(Identify, AStiffnessThatIsOffSpoilsNoCouplingAndIsTold) {
   const ArmModel model = first_joints(2);
   const ArmModel robot = with(with(model, kCoupling, 1.06), "joint2.cable.stiffness", 0.7);

@@ -129,5 +129,15 @@ TEST(Resting, IsSlowerThanTwiceTheSmoothingOfFriction) {
   EXPECT_FALSE(rests(record, 0, 50, kSmoothing));
 }
 
+TEST(SlowestSmoothing, IsTheLeastThatItsToleranceAdmits) {
+  ArmModel model = first_joints(2);
+  model.nominal.joint[1].motor_smoothing = 2;
+  EXPECT_EQ(slowest_smoothing(model, 1), 2);
+  model.joints[1].tolerances.smoothing = 0.75;
+  EXPECT_EQ(slowest_smoothing(model, 1), 0.5);
+  model.joints[1].tolerances.smoothing = 3;
+  EXPECT_DOUBLE_EQ(slowest_smoothing(model, 1), 0.2);
+}
+
 }  // namespace
 }  // namespace halyard
