@@ -66,8 +66,8 @@ struct ParameterInfo {
 
 /// The parameters for which arm_fields.h gives a noun (a name in words), joint by joint. Centres of mass have an entry
 /// for each axis ("joint2.link.com.x"), inertias for each moment and product ("joint2.link.inertia.xy"). Coupling
-/// coefficients are listed only for inboard joints. Parameters that do not exist at a joint are left out, such as cable stiffness at a
-/// rigid drive.
+/// coefficients are listed only for inboard joints. Parameters that do not exist at a joint are left out, such as cable
+/// stiffness at a rigid drive.
 std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm);
 
 }  // namespace halyard
