@@ -6,12 +6,12 @@
 #include <set>
 #include <stdexcept>
 
-#include "model/body_inertia.h"
 #include "model/input_error.h"
 #include "model/name_list.h"
 #include "model/xml/arm_words.h"
 #include "model/xml/field_reader.h"
 #include "model/xml/xml_reader.h"
+#include "transmission/body_inertia.h"
 #include "transmission/coupling.h"
 
 namespace halyard {

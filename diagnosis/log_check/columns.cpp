@@ -23,13 +23,6 @@ struct Samples {
       if (std::isfinite(column[i])) time.push_back(log.time[i]), x.push_back(column[i]);
   }
   std::size_t size() const { return x.size(); }
-  /// Leaves the samples at which the value changes: those of a sensor whose reading is held in between.
-  void drop_repeated() {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < x.size(); ++i)
-      if (i == 0 || x[i] != x[kept - 1]) time[kept] = time[i], x[kept] = x[i], ++kept;
-    time.resize(kept), x.resize(kept);
-  }
 };
 
 /// Samples begin..end-1 that are equal.

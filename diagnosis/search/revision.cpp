@@ -6,7 +6,7 @@
 #include "diagnosis/fit/complementary.h"
 #include "diagnosis/judgement/final_fit.h"
 #include "diagnosis/judgement/name_probability.h"
-#include "model/body_inertia.h"
+#include "transmission/body_inertia.h"
 
 namespace halyard {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "estimators/distributions.h"
 #include "estimators/identification/block_jackknife.h"
-#include "model/body_inertia.h"
 #include "model/input_error.h"
+#include "transmission/body_inertia.h"
 
 namespace halyard {
 namespace {

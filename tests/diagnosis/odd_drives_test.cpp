@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "tests/diagnosis/odd_logs.h"
 #include "tests/support/message_of.h"
-#include "tests/support/odd_logs.h"
 
 namespace halyard {
 namespace {

@@ -14,9 +14,9 @@
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
+#include "tests/diagnosis/odd_logs.h"
 #include "tests/support/limits.h"
 #include "tests/support/message_of.h"
-#include "tests/support/odd_logs.h"
 
 namespace halyard {
 namespace {

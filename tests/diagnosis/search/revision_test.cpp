@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "diagnosis/search/refit.h"
-#include "model/body_inertia.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
+#include "transmission/body_inertia.h"
 
 namespace halyard {
 namespace {

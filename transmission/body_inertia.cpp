@@ -1,4 +1,4 @@
-#include "model/body_inertia.h"
+#include "transmission/body_inertia.h"
 
 #include <Eigen/Eigenvalues>
 
