@@ -38,13 +38,20 @@ double least_of(Bound bound, double value) {
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
 
-/// An entry of JointParameters::inertia, and where it stands in the matrix.
-struct Moment {
-  const char* name;
-  int place, row, column;
-};
-constexpr Moment kMoments[] = {{"xx", 0, 0, 0}, {"yy", 1, 1, 1}, {"zz", 2, 2, 2},
-                               {"xy", 3, 0, 1}, {"xz", 4, 0, 2}, {"yz", 5, 1, 2}};
+/// A link's radius of gyration about the origin of its joint, as if it were equal about all axes, m.
+double radius_of_gyration(const JointParameters<double>& joint) {
+  const double trace = joint.inertia[0] + joint.inertia[1] + joint.inertia[2];
+  const Eigen::Map<const Eigen::Vector3d> com(joint.com);
+  return std::sqrt(com.squaredNorm() + (joint.mass > 0 ? trace / (2 * joint.mass) : 0));
+}
+
+ArmNumber largest_moment(double (&inertia)[6]) {
+  double* const largest = std::max_element(inertia, inertia + 3);
+  std::vector<double*> others;
+  for (double& moment : inertia)
+    if (&moment != largest) others.push_back(&moment);
+  return ArmNumber(*largest, others);
+}
 
 void add_named_parameters(ArmParameters<double>& arm, int k, std::vector<ParameterInfo>& all) {
   JointParameters<double>& joint = arm.joint[k];
@@ -59,19 +66,21 @@ void add_named_parameters(ArmParameters<double>& arm, int k, std::vector<Paramet
     const std::string in_words = words(k) + " " + of_part + noun, key = number(k) + "." + part + "." + name;
     const char* unit = field.unit.of(joint.type);
     if constexpr (std::is_same_v<Value, double>) {
-      all.push_back({in_words, key, unit, k, tolerance, &value, std::abs(value), least_of(field.bound, value)});
+      all.push_back(
+          {in_words, key, unit, k, tolerance, ArmNumber(value), std::abs(value), least_of(field.bound, value)});
     } else if constexpr (std::is_same_v<Value, double[3]>) {
       for (int i = 0; i < 3; ++i)
-        all.push_back({in_words + " " + kAxes[i], key + "." + kAxes[i], unit, k, tolerance, &value[i], 1, kNoLeast});
+        all.push_back({in_words + " " + kAxes[i], key + "." + kAxes[i], unit, k, tolerance, ArmNumber(value[i]),
+                       radius_of_gyration(joint), kNoLeast});
     } else if constexpr (std::is_same_v<Value, double[6]>) {
-      for (const Moment& m : kMoments)
-        all.push_back({in_words + " " + m.name, key + "." + m.name, unit, k, tolerance, &value[m.place],
-                       std::sqrt(std::abs(value[m.row] * value[m.column])), kNoLeast});
+      const ArmNumber largest = largest_moment(value);
+      all.push_back(
+          {in_words, key, unit, k, tolerance, largest, largest.get(), least_of(Bound::positive, largest.get())});
     } else if constexpr (std::is_same_v<Value, double[kMaxJoints]>) {
       for (int j = 0; j < k; ++j)
         all.push_back({words(k) + " " + noun + " with " + words(j), number(k) + "." + part + "." + number(j),
-                       coupling_unit(joint.type, arm.joint[j].type), k, tolerance, &value[j], std::abs(value[j]),
-                       kNoLeast});
+                       coupling_unit(joint.type, arm.joint[j].type), k, tolerance, ArmNumber(value[j]),
+                       std::abs(value[j]), kNoLeast});
     }
   };
   for_each_joint_field(visit, joint);

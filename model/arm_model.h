@@ -52,22 +52,42 @@ struct ArmModel {
 /// Whether two arms have the same number of joints, with the same types, and motors at the same joints.
 bool joints_alike(const ArmParameters<double>& a, const ArmParameters<double>& b);
 
-/// One parameter of the arm that a study may vary and a diagnosis may refit.
+/// A number of a model that may be changed.
+class ArmNumber {
+ public:
+  /// in_proportion: other numbers, which keep their ratio to this one.
+  explicit ArmNumber(double& number, std::vector<double*> in_proportion = {})
+      : number_(&number), in_proportion_(std::move(in_proportion)) {}
+
+  double get() const { return *number_; }
+  void set(double x) const {
+    if (*number_ != 0)
+      for (double* other : in_proportion_) *other *= x / *number_;
+    *number_ = x;
+  }
+
+ private:
+  double* number_;
+  std::vector<double*> in_proportion_;
+};
+
+/// One parameter of the arm that a study may vary and a fit may change.
 struct ParameterInfo {
   std::string name;  ///< "joint 2 cable stiffness"
   std::string key;   ///< "joint2.cable.stiffness", as sweeps name it
   std::string unit;
   int joint;                      ///< 0-based
   double Tolerances::*tolerance;  ///< the tolerance that applies to it; null: none
-  double* value;                  ///< points into the arm given to named_parameters()
+  ArmNumber number;               ///< of the arm given to named_parameters()
   double unit_of_tolerance;       ///< deviation that a tolerance of 1 stands for
   double least;                   ///< nearly 0 if no arm has less than 0 of it; else -infinity
 };
 
 /// The parameters for which arm_fields.h gives a noun (a name in words), joint by joint. Centres of mass have an entry
-/// for each axis ("joint2.link.com.x"), inertias for each moment and product ("joint2.link.inertia.xy"). Coupling
-/// coefficients are listed only for inboard joints. Parameters that do not exist at a joint are left out, such as cable
-/// stiffness at a rigid drive.
+/// for each axis ("joint2.link.com.x"). A link's inertia has one entry ("joint2.link.inertia"), which is its largest
+/// moment: the other moments and products stay in proportion to it, because six numbers that are changed one by one may
+/// be those of no body. Coupling coefficients are listed only for inboard joints. Parameters that do not exist at a joint
+/// are left out, such as cable stiffness at a rigid drive.
 std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm);
 
 }  // namespace halyard

@@ -116,7 +116,7 @@ Tolerances read_tolerances(const XmlElement& element, Tolerances tolerances) {
   };
   read("length", tolerances.length);
   read("mass", tolerances.mass);
-  read("com", tolerances.com, "m");
+  read("com", tolerances.com);
   read("inertia", tolerances.inertia);
   read("stiffness", tolerances.stiffness);
   read("friction", tolerances.friction);

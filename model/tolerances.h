@@ -3,13 +3,12 @@
 
 namespace halyard {
 
-/// Expected deviations from the model's values: of `com` in m, of all others relative to the value. Relative, 1 means that
-/// nothing is known; 0 means that the number is exact.
+/// Expected deviations relative to the model's values. 1 means that nothing is known; 0 means that the number is exact.
 struct Tolerances {
-  double length = 0.005;    ///< radii, ratios, lengths
-  double mass = 0.05;       ///< masses of links, inertias of rotors
-  double com = 0;           ///< coordinates of centres of mass, m
-  double inertia = 0;       ///< inertias of links; of a product I_ij relative to sqrt(I_ii I_jj)
+  double length = 0.005;  ///< radii, ratios, lengths
+  double mass = 0.05;     ///< masses of links, inertias of rotors
+  double com = 0.005;     ///< coordinates of centres of mass, relative to the link's radius of gyration about its joint
+  double inertia = 0.05;  ///< inertias of links: one factor for all moments of a link
   double stiffness = 0.10;  ///< stiffness and damping of cables
   double friction = 0.20;   ///< Coulomb and viscous
   double smoothing = 0;     ///< smoothing speeds of friction

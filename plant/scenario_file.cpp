@@ -31,7 +31,7 @@ void read_change(const XmlElement& set, ArmModel& robot, std::set<std::string>& 
       if (!right || is_of_joint(p)) known.push_back(p.key);
     set.fail("parameter", "the model has no such number; expected one of " + listed(known));
   }
-  *found->value = set.number("value", found->unit == "1" ? "" : found->unit);
+  found->number.set(set.number("value", found->unit == "1" ? "" : found->unit));
   try {  // what a model file may not say, a scenario may not either
     parse_model(model_to_xml(robot), "the model so changed");
   } catch (const InputError& error) {

@@ -17,10 +17,4 @@ Inertia judge_inertia(const Eigen::Vector3d& moments) {
   return moments(2) > moments(0) + moments(1) + rounding ? Inertia::too_long : Inertia::of_a_body;
 }
 
-bool has_bodies(const ArmParameters<double>& arm) {
-  for (int k = 0; k < arm.n; ++k)
-    if (judge_inertia(principal_moments(arm.joint[k])) != Inertia::of_a_body) return false;
-  return true;
-}
-
 }  // namespace halyard

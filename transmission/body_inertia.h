@@ -17,7 +17,4 @@ enum class Inertia {
 };
 Inertia judge_inertia(const Eigen::Vector3d& principal_moments);
 
-/// Whether every link of the arm has the inertia of a body.
-bool has_bodies(const ArmParameters<double>& arm);
-
 }  // namespace halyard

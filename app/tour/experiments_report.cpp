@@ -86,9 +86,10 @@ std::string calibration_sentence(const std::vector<Experiment>& experiments) {
   const std::vector<ParameterInfo> before = named_parameters(given), after = named_parameters(calibrated);
   std::string changes;
   for (std::size_t i = 0; i < before.size(); ++i) {
-    if (*before[i].value == *after[i].value) continue;
-    changes += fmt::format("{}{} {:.4g} to {:.4g}{}", changes.empty() ? "" : ", ", before[i].name, *before[i].value,
-                           *after[i].value, before[i].unit == "1" ? "" : " " + before[i].unit);
+    if (before[i].number.get() == after[i].number.get()) continue;
+    changes +=
+        fmt::format("{}{} {:.4g} to {:.4g}{}", changes.empty() ? "" : ", ", before[i].name, before[i].number.get(),
+                    after[i].number.get(), before[i].unit == "1" ? "" : " " + before[i].unit);
   }
   const auto gains = [&](const char* name) {
     const std::size_t run = run_named(experiments, name);

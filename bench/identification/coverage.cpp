@@ -41,16 +41,12 @@ struct Outcome {
 /// Numbers of the truth: those that are asked for up to 15 % from the model's.
 void draw_truth(ArmModel& robot, const std::vector<std::string>& keys, Off off, Random& random) {
   for (const ParameterInfo& info : named_parameters(robot.nominal)) {
-    // Of these no model in these runs states a tolerance.
-    if (info.tolerance == &Tolerances::com || info.tolerance == &Tolerances::inertia ||
-        info.tolerance == &Tolerances::smoothing)
-      continue;
     const double u = random.uniform(-1, 1);
     if (info.key.ends_with(".gear_ratio") || info.key.ends_with(".pulley_radius")) continue;  // the capstan tells it
     const bool stiffness = info.key.ends_with("cable.stiffness") || info.key.ends_with("cable.damping");
-    if (std::ranges::find(keys, info.key) != keys.end()) *info.value *= 1 + 0.15 * u;
+    if (std::ranges::find(keys, info.key) != keys.end()) info.number.set(info.number.get() * (1 + 0.15 * u));
     else if (off == Off::everything || (off == Off::stiffness && stiffness))
-      *info.value += std::copysign(robot.reach(info), *info.value) * u;
+      info.number.set(info.number.get() + std::copysign(robot.reach(info), info.number.get()) * u);
   }
 }
 
@@ -86,7 +82,7 @@ std::vector<Outcome> run_one(const ArmModel& model, const Options& options, int 
   const Identification found = identify(model, {simulate(s).measured}, keys);
   std::vector<Outcome> outcomes;
   for (const IdentifiedNumber& number : found.numbers)
-    outcomes.push_back({number.name, number.unit, number.nominal, *find_number(s.robot.nominal, number.key),
+    outcomes.push_back({number.name, number.unit, number.nominal, find_number(s.robot.nominal, number.key).get(),
                         number.value, number.lower, number.upper});
   return outcomes;
 }

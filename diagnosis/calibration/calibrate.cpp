@@ -57,7 +57,7 @@ ArmModel calibrated(const ArmModel& model, const std::vector<Record>& records) {
 bool is_unknown_scale(const ArmModel& model, int named_parameter) {
   ArmParameters<double> arm = model.nominal;
   const ParameterInfo info = named_parameters(arm)[named_parameter];
-  return info.value == &arm.joint[info.joint].torque_scale && is_unknown(model, info.joint);
+  return info.tolerance == &Tolerances::torque_scale && is_unknown(model, info.joint);
 }
 
 }  // namespace halyard

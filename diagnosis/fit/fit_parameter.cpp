@@ -49,13 +49,13 @@ double parameter_value(const Hypothesis& h, const FitParameter& p) {
   if (is_past(p)) return h.past_state(p.effect, p.index - kMaxEffectParameters);
   if (p.effect >= 0) return h.effects[p.effect].p[p.index];
   ArmParameters<double> arm = h.nominal;
-  return *named_parameters(arm)[p.index].value;
+  return named_parameters(arm)[p.index].number.get();
 }
 
 void set_parameter(Hypothesis& h, const FitParameter& p, double value) {
   if (is_past(p)) h.set_past_state(p.effect, p.index - kMaxEffectParameters, value);
   else if (p.effect >= 0) h.effects[p.effect].p[p.index] = value;
-  else *named_parameters(h.nominal)[p.index].value = value;
+  else named_parameters(h.nominal)[p.index].number.set(value);
 }
 
 Hypothesis stepped(const Hypothesis& h, const FitParameter& p) {
@@ -72,7 +72,7 @@ std::vector<FitParameter> baseline_parameters(const ArmModel& model) {
   for (std::size_t i = 0; i < named.size(); ++i) {
     const auto is = [&](const char* word) { return named[i].key.find(word) != std::string::npos; };
     if (is("gear_ratio") || is("pulley_radius")) continue;  // one ratio, told by the capstan's radius
-    const double value = *named[i].value, reach = model.reach(named[i]);
+    const double value = named[i].number.get(), reach = model.reach(named[i]);
     if (!(reach > 0)) continue;
     all.push_back({named[i].name, named[i].unit, -1, static_cast<int>(i), value,
                    std::max(value - reach, named[i].least), value + reach, reach / 2, true});

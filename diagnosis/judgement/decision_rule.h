@@ -17,6 +17,10 @@ struct DecisionRule {
   /// this beside a larger effect may be the larger effect's error of form. Reason: in the logs with other equations
   /// (rounded backlash, Bouc-Wen, LuGre) the right effect leaves 2 to 15 %.
   double form_misfit = 0.1;
+  /// An effect that explains less still matters if the model's numbers lie so much closer to the model's values with it:
+  /// fall of their prior cost ½ Σ u². Reason: a number at the end of its tolerance costs 2, so without the effect five
+  /// numbers would have to be there. A residual that numbers hide is no error of form of an effect found before.
+  double relief = 10;
   /// The change by an effect has to be this many times the floor of its channel, in at least one signal.
   double above_floor = 1.5;
   /// Gain in log-likelihood that one more parameter gives by chance. Reason: two standard deviations of χ²(1) / 2.

@@ -207,16 +207,16 @@ bool Judge::takes_a_share(const Score& before, const Score& after, const std::ve
   return gain > std::max(kRule.share * all, misfit);
 }
 
-/// The effect takes a share of a residual that noise does not explain, and changes some signal by much more than the
-/// sensor resolves. The deciding blocks have to show such a residual. Otherwise, after one burst in the fitting blocks,
-/// an effect would count for what it does elsewhere below the noise.
+/// The effect takes a share of a residual that noise does not explain, or relieves the model's numbers. It also changes
+/// some signal by much more than the sensor resolves. The deciding blocks have to show such a residual. Otherwise, after
+/// one burst in the fitting blocks, an effect would count for what it does elsewhere below the noise.
 bool Judge::matters(const Scored& without, const Scored& with, int place) const {
+  bool counts = stretch(without.hypothesis) - stretch(with.hypothesis) > kRule.relief;
   const auto done = done_by_effects(without);
-  bool share = false;
-  for (int c = 0; c < evidence_.channels(); ++c)
-    share = share || (is_beyond_noise(evidence_, without.score.mean_square, c) &&
-                      takes_a_share(without.score, with.score, done, c));
-  if (!share) return false;
+  for (int c = 0; c < evidence_.channels() && !counts; ++c)
+    counts =
+        is_beyond_noise(evidence_, without.score.mean_square, c) && takes_a_share(without.score, with.score, done, c);
+  if (!counts) return false;
   const auto rows = evidence_.fit_rows({with.hypothesis, without_effect(with.hypothesis, place)});
   return !rows[0].empty() &&
          (rows[1].empty() || evidence_.exceeds_floor(difference(rows[0], rows[1]), kRule.above_floor));

@@ -14,7 +14,8 @@
 ///   split likelihood ratio of Wasserman, Ramdas and Balakrishnan, PNAS 117 (2020). Their bound compares with the
 ///   largest likelihood that a hypothesis without the effect can have on the deciding data. Here both hypotheses are
 ///   fitted on the other blocks. Blind trials of clean arms measure its false-positive rate;
-/// - it matters: a residual shrinks by more than the model's tolerances and the sensors' errors can explain;
+/// - it matters: a residual shrinks by more than the model's tolerances and the sensors' errors can explain, or the
+///   stretch falls by much;
 /// - no parameter that matters lies at its plausible bound. No shape lies within a factor of two of such a bound if the
 ///   bound itself has an equal likelihood;
 /// - one of its sizes at least exceeds the tolerance of the number that it changes. Otherwise it is a refit.

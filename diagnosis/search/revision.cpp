@@ -6,7 +6,6 @@
 #include "diagnosis/fit/complementary.h"
 #include "diagnosis/judgement/final_fit.h"
 #include "diagnosis/judgement/name_probability.h"
-#include "transmission/body_inertia.h"
 
 namespace halyard {
 namespace {
@@ -20,7 +19,6 @@ class Revision {
     fit_finally(found_.final_fit);
     while (drop_one()) {}
     while (join_one()) {}
-    if (!has_bodies(found_.final_fit.hypothesis.nominal)) give_inertias_back();
     const std::vector<std::size_t> changed = changed_numbers(whole_, model_, found_.final_fit);
     // A model that lacks nothing stays as it is.
     if (changed.empty() && effects().size() == given_) give_numbers_back();
@@ -45,19 +43,6 @@ class Revision {
 
   void give_numbers_back() {
     if (const Fit as_given = with_given_numbers(whole_, model_, found_.final_fit); as_given.usable) take(as_given);
-  }
-
-  /// Moments that are fitted one by one may be those of no body.
-  void give_inertias_back() {
-    ArmParameters<double> arm = model_.nominal;
-    const std::vector<ParameterInfo> named = named_parameters(arm);
-    Fit start = found_.final_fit;
-    std::erase_if(start.parameters, [&](const FitParameter& p) {
-      if (p.effect >= 0 || named[p.index].tolerance != &Tolerances::inertia) return false;
-      set_parameter(start.hypothesis, p, p.nominal);
-      return true;
-    });
-    if (!fit_finally(start)) give_numbers_back();
   }
 
   bool drop_one() {

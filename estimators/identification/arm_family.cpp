@@ -33,11 +33,11 @@ void load(const Eigen::Ref<const Eigen::MatrixXd>& X, int first, Lanes* x) {
 
 }  // namespace
 
-double* find_number(ArmParameters<double>& arm, const std::string& key) {
+ArmNumber find_number(ArmParameters<double>& arm, const std::string& key) {
   for (const ParameterInfo& info : named_parameters(arm))
-    if (info.key == key) return info.value;
+    if (info.key == key) return info.number;
   for (int k = 0; k < arm.n; ++k)
-    if (key == "joint" + std::to_string(k + 1) + ".motor.zero") return &arm.joint[k].motor_encoder_offset;
+    if (key == "joint" + std::to_string(k + 1) + ".motor.zero") return ArmNumber(arm.joint[k].motor_encoder_offset);
   throw std::invalid_argument("the arm has no number " + key);
 }
 
@@ -53,7 +53,7 @@ ArmFamily::ArmFamily(const ArmModel& model, const ProcessModel& structure, const
 
 void ArmFamily::set(const Eigen::MatrixXd& theta) {
   for (int i = 0; i < members(); ++i)
-    for (std::size_t p = 0; p < value_[i].size(); ++p) *value_[i][p] = theta(static_cast<Eigen::Index>(p), i);
+    for (std::size_t p = 0; p < value_[i].size(); ++p) value_[i][p].set(theta(static_cast<Eigen::Index>(p), i));
   lanes_.clear();
   for (int first = 0; first < members(); first += kLaneWidth) {
     ArmParameters<double> eight[kLaneWidth];

@@ -36,12 +36,12 @@ class ArmFamily {
 
  private:
   const ProcessModel& structure_;
-  std::deque<ArmParameters<double>> arms_;   // a deque: value_ points into them
-  std::vector<std::vector<double*>> value_;  // [member][key]
-  std::vector<Transmission<Lanes>> lanes_;   // eight members each
+  std::deque<ArmParameters<double>> arms_;     // a deque: value_ points into them
+  std::vector<std::vector<ArmNumber>> value_;  // [member][key]
+  std::vector<Transmission<Lanes>> lanes_;     // eight members each
 };
 
 /// The parameter of the arm with this key, as above. Throws std::invalid_argument for an unknown key.
-double* find_number(ArmParameters<double>& arm, const std::string& key);
+ArmNumber find_number(ArmParameters<double>& arm, const std::string& key);
 
 }  // namespace halyard

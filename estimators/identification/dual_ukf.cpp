@@ -185,7 +185,7 @@ void DualUkf::choose_substeps(double time_s) {
     return;
   ArmModel believed = model_;
   const Eigen::VectorXd theta = numbers(w());
-  for (Eigen::Index i = 0; i < theta.size(); ++i) *find_number(believed.nominal, weights_[i].key) = theta(i);
+  for (Eigen::Index i = 0; i < theta.size(); ++i) find_number(believed.nominal, weights_[i].key).set(theta(i));
   stepping_ = std::make_unique<ProcessModel>(believed);
   stepping_time_ = time_s;
   stepping_w_ = w();

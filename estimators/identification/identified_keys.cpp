@@ -77,11 +77,12 @@ std::vector<std::string> identified_keys(const ArmModel& model, const std::strin
     const auto kind = std::ranges::find_if(kinds(), [&](const Kind& k) { return word == k.word; });
     bool any = false;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const bool named = kind != kinds().end() ? is_of(*kind, all[i].key) && *all[i].value != 0 : all[i].key == word;
+      const bool named =
+          kind != kinds().end() ? is_of(*kind, all[i].key) && all[i].number.get() != 0 : all[i].key == word;
       if (!named || (kind != kinds().end() && !is_in_equations(model, all[i]))) continue;
       any = chosen[i] = true;
       if (!is_in_equations(model, all[i])) fail_kind(model, kinds()[3]);
-      if (*all[i].value == 0 && word.find(".coupling.") == word.npos)
+      if (all[i].number.get() == 0 && word.find(".coupling.") == word.npos)
         throw InputError(
             fmt::format("parameter {}: is 0 in {}, which gives no scale to look for it; write a guess into "
                         "the model",

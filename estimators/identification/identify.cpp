@@ -10,7 +10,6 @@
 #include "estimators/distributions.h"
 #include "estimators/identification/block_jackknife.h"
 #include "model/input_error.h"
-#include "transmission/body_inertia.h"
 
 namespace halyard {
 namespace {
@@ -33,13 +32,13 @@ constexpr double kMatters = 0.1;         // of a tolerance: a drift by less is n
 Weight weight_of(const ArmModel& model, const ParameterInfo& info) {
   const bool coupling = info.key.find(".coupling.") != info.key.npos;
   if (!coupling && info.least >= 0)
-    return {.key = info.key, .nominal = *info.value, .scale = kSpread, .logarithmic = true};
-  if (!coupling) return {.key = info.key, .nominal = *info.value, .scale = kSpread * std::abs(*info.value)};
+    return {.key = info.key, .nominal = info.number.get(), .scale = kSpread, .logarithmic = true};
+  if (!coupling) return {.key = info.key, .nominal = info.number.get(), .scale = kSpread * std::abs(info.number.get())};
   const JointParameters<double>& j = model.nominal.joint[info.joint];
   const int inboard = std::stoi(info.key.substr(info.key.rfind("joint") + 5)) - 1;
   const double routing = model.nominal.joint[inboard].type == JointType::revolute ? kRoutingRadius : 1;
-  const double size = *info.value != 0 ? std::abs(*info.value) : routing / std::abs(j.pulley_radius);
-  return {.key = info.key, .nominal = *info.value, .scale = kCouplingSpread * size};
+  const double size = info.number.get() != 0 ? std::abs(info.number.get()) : routing / std::abs(j.pulley_radius);
+  return {.key = info.key, .nominal = info.number.get(), .scale = kCouplingSpread * size};
 }
 
 /// What the first second of a log tells of a zero hangs on the couplings.
@@ -65,7 +64,7 @@ std::vector<Weight> other_numbers(const ArmModel& model, const std::vector<std::
     if (info.key.ends_with(".gear_ratio") || info.key.ends_with(".pulley_radius")) continue;
     if (std::ranges::find(keys, info.key) != keys.end() || !is_in_equations(model, info)) continue;
     const double reach = model.reach(info);
-    if (reach > 0) others.push_back({.key = info.key, .nominal = *info.value, .scale = reach / 2});
+    if (reach > 0) others.push_back({.key = info.key, .nominal = info.number.get(), .scale = reach / 2});
   }
   return others;
 }
@@ -310,14 +309,10 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
     const auto i = static_cast<Eigen::Index>(result.numbers.size());
     IdentifiedNumber& number = result.numbers.emplace_back();
     number.key = info.key, number.name = info.name, number.unit = info.unit;
-    number.joint = info.joint, number.nominal = *info.value;
+    number.joint = info.joint, number.nominal = info.number.get();
     tell_number(unknowns, i, refined.estimate, trace, number);
-    *info.value = number.value;
+    info.number.set(number.value);
   }
-  if (!has_bodies(result.model.nominal))
-    throw InputError(model.source +
-                     ": with the identified numbers the inertia of a link is that of no body; identify its other "
-                     "moments as well, or correct them in the model");
   result.deviating = deviating_numbers(model, unknowns, refined.estimate);
   return result;
 }

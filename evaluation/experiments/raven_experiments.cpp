@@ -65,7 +65,7 @@ ArmModel calibrate(const ExperimentsSetup& setup) {
   const Identification found = identify(model, {log}, identified_keys(model, "coupling"));
   for (const ParameterInfo& p : named_parameters(model.nominal)) {
     const auto number = std::ranges::find(found.numbers, p.key, &IdentifiedNumber::key);
-    if (number != found.numbers.end()) *p.value = number->trace.back();
+    if (number != found.numbers.end()) p.number.set(number->trace.back());
   }
   return model;
 }

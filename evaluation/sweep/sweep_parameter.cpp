@@ -54,7 +54,7 @@ PlacedEffect& placed_effect(ArmModel& model, const Effect& effect, EffectPlace j
 }
 
 /// Number and unit of an effect's parameter.
-std::pair<double*, std::string> effect_parameter(ArmModel& model, const EffectKey& key, const std::string& text) {
+std::pair<ArmNumber, std::string> effect_parameter(ArmModel& model, const EffectKey& key, const std::string& text) {
   const auto fail = [&](const std::string& what) { throw InputError("parameter " + in_quotes(text) + ": " + what); };
   const Effect* effect = find_effect(key.effect);
   if (!effect) {
@@ -80,7 +80,7 @@ std::pair<double*, std::string> effect_parameter(ArmModel& model, const EffectKe
   const std::vector<EffectParameter> parameters = effect->parameters(model.nominal, key.joint);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (parameters[i].name == key.parameter) return {&placed->p[i], parameters[i].unit};
+    if (parameters[i].name == key.parameter) return {ArmNumber(placed->p[i]), parameters[i].unit};
     names.push_back(parameters[i].name);
   }
   throw InputError(
@@ -89,7 +89,7 @@ std::pair<double*, std::string> effect_parameter(ArmModel& model, const EffectKe
 
 struct Number {
   std::string key, unit;
-  double* value;
+  ArmNumber number;
 };
 
 /// Numbers of a joint that named_parameters() leaves out: the encoders'.
@@ -102,8 +102,8 @@ void add_unnamed_fields(JointParameters<double>& joint, const std::string& prefi
     if constexpr (std::is_same_v<Value, double>) {
       const bool is_unknown_offset = field.name.ends_with("_offset") && !zero_known;
       if (!is_unknown_offset)
-        all.push_back(
-            {prefix + std::string(field.part) + "." + std::string(field.name), field.unit.of(joint.type), &value});
+        all.push_back({prefix + std::string(field.part) + "." + std::string(field.name), field.unit.of(joint.type),
+                       ArmNumber(value)});
     }
   };
   for_each_joint_field(visit, joint);
@@ -112,21 +112,21 @@ void add_unnamed_fields(JointParameters<double>& joint, const std::string& prefi
 /// All of the model but those of effects.
 std::vector<Number> numbers_of(ArmModel& model) {
   std::vector<Number> all;
-  for (const ParameterInfo& info : named_parameters(model.nominal)) all.push_back({info.key, info.unit, info.value});
+  for (const ParameterInfo& info : named_parameters(model.nominal)) all.push_back({info.key, info.unit, info.number});
   for (int k = 0; k < model.n(); ++k) {
     const std::string prefix = fmt::format("joint{}.", k + 1);
     JointParameters<double>& joint = model.nominal.joint[k];
     add_unnamed_fields(joint, prefix, all);
     if (joint.drive == Drive::none) continue;
     ControllerParameters& controller = model.joints[k].controller;
-    all.push_back({prefix + "controller.kp", "N m/rad", &controller.kp});
-    all.push_back({prefix + "controller.kd", "N m s/rad", &controller.kd});
-    all.push_back({prefix + "controller.torque_limit", "N m", &controller.torque_limit});
+    all.push_back({prefix + "controller.kp", "N m/rad", ArmNumber(controller.kp)});
+    all.push_back({prefix + "controller.kd", "N m s/rad", ArmNumber(controller.kd)});
+    all.push_back({prefix + "controller.torque_limit", "N m", ArmNumber(controller.torque_limit)});
   }
   return all;
 }
 
-std::pair<double*, std::string> find_parameter(ArmModel& model, const std::string& key) {
+std::pair<ArmNumber, std::string> find_parameter(ArmModel& model, const std::string& key) {
   if (const auto effect_key = parse_effect_key(key)) return effect_parameter(model, *effect_key, key);
   const std::vector<Number> all = numbers_of(model);
   const std::string joint = key.substr(0, key.find('.') + 1);  // of a right joint, its numbers will do
@@ -134,7 +134,7 @@ std::pair<double*, std::string> find_parameter(ArmModel& model, const std::strin
   const bool is_right = std::ranges::any_of(all, is_of_joint);
   std::vector<std::string> keys;
   for (const Number& number : all) {
-    if (number.key == key) return {number.value, number.unit};
+    if (number.key == key) return {number.number, number.unit};
     if (!is_right || is_of_joint(number)) keys.push_back(number.key);
   }
   throw InputError(
@@ -145,7 +145,7 @@ std::pair<double*, std::string> find_parameter(ArmModel& model, const std::strin
 
 }  // namespace
 
-double& model_parameter(ArmModel& model, const std::string& key) { return *find_parameter(model, key).first; }
+ArmNumber model_parameter(ArmModel& model, const std::string& key) { return find_parameter(model, key).first; }
 
 std::string parameter_unit(ArmModel model, const std::string& key) {
   std::string unit = find_parameter(model, key).second;

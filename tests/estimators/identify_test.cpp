@@ -15,7 +15,8 @@ namespace {
 const std::string kCoupling = "joint2.coupling.joint1";
 
 ArmModel with(ArmModel model, const std::string& key, double factor) {
-  *find_number(model.nominal, key) *= factor;
+  const ArmNumber number = find_number(model.nominal, key);
+  number.set(factor * number.get());
   return model;
 }
 
@@ -74,7 +75,7 @@ TEST(DualUkf, DerivativesAreThoseOfItsInnovations) {
   const std::vector<std::string> keys = {kCoupling, "joint2.cable.stiffness", "joint1.friction.coulomb"};
   for (const std::string& key : keys) {
     ArmParameters<double> arm = model.nominal;
-    const Weight weight = {key, *find_number(arm, key), key == kCoupling ? 0.01 : 0.1, key != kCoupling};
+    const Weight weight = {key, find_number(arm, key).get(), key == kCoupling ? 0.01 : 0.1, key != kCoupling};
     // What is left out is the gain's derivative.
     EXPECT_LT(derivative_error(model, weight, log, 0.02), 0.1) << key;
   }
@@ -118,9 +119,7 @@ TEST(Identify, FindsACouplingWithinItsInterval) {
 
 TEST(Identify, FindsANumberWhoseSignTheModelHasWrong) {
   const std::string key = "joint1.link.com.y";
-  ArmModel model = first_joints(1);
-  const ArmModel robot = with(model, key, 0.5);
-  *find_number(model.nominal, key) *= -0.2;
+  const ArmModel arm = first_joints(1), robot = with(arm, key, 0.5), model = with(arm, key, -0.2);
   const Identification found = identify(model, {log_of(robot, robot, 3)}, {key});
   ASSERT_EQ(found.numbers.size(), 1u);
   const IdentifiedNumber& n = found.numbers[0];

@@ -50,9 +50,9 @@ std::string refusal(const std::string& key, SweepAxis::Target target = SweepAxis
 
 TEST(SweepKeys, NameTheResolutionOfAnEncoder) {
   ArmModel model = read_model(kRaven + "raven2.xml");
-  model_parameter(model, "joint3.encoders.joint_resolution") = 2e-5;
+  model_parameter(model, "joint3.encoders.joint_resolution").set(2e-5);
   EXPECT_EQ(model.nominal.joint[2].joint_encoder_resolution, 2e-5);
-  model_parameter(model, "joint1.encoders.motor_resolution") = 1e-2;
+  model_parameter(model, "joint1.encoders.motor_resolution").set(1e-2);
   EXPECT_EQ(model.nominal.joint[0].motor_encoder_resolution, 1e-2);
   EXPECT_EQ(parameter_unit(model, "joint1.encoders.joint_resolution"), "rad");
   EXPECT_EQ(parameter_unit(model, "joint3.encoders.joint_resolution"), "m");
@@ -64,9 +64,9 @@ TEST(SweepKeys, NameTheResolutionOfAnEncoder) {
 
 TEST(SweepKeys, NameASmoothingSpeedAndAGainOfTheController) {
   ArmModel model = read_model(kRaven + "raven2.xml");
-  model_parameter(model, "joint2.friction.smoothing") = 1e-3;
+  model_parameter(model, "joint2.friction.smoothing").set(1e-3);
   EXPECT_EQ(model.nominal.joint[1].joint_smoothing, 1e-3);
-  model_parameter(model, "joint2.controller.kd") = 7e-4;
+  model_parameter(model, "joint2.controller.kd").set(7e-4);
   EXPECT_EQ(model.joints[1].controller.kd, 7e-4);
 }
 

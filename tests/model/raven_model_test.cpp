@@ -16,7 +16,7 @@ namespace {
 
 double parameter(ArmModel& model, const std::string& key) {
   for (const ParameterInfo& info : named_parameters(model.nominal)) {
-    if (info.key == key) return *info.value;
+    if (info.key == key) return info.number.get();
   }
   ADD_FAILURE() << "no parameter " << key;
   return std::nan("");

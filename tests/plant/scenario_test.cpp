@@ -167,9 +167,8 @@ TEST_F(ScenarioFile, SaysWhatIsWrongAndWhere) {
       "s.xml:3: <set parameter=\"joint1.link.mass\">: is set twice; remove one of the two");
   EXPECT_EQ(message(R"(<set parameter="joint1.cable.stifness" value="3"/>)"),
             "s.xml:2: <set parameter=\"joint1.cable.stifness\">: the model has no such number; expected one of "
-            "joint1.link.mass, joint1.link.com.x, joint1.link.com.y, joint1.link.com.z, joint1.link.inertia.xx, "
-            "joint1.link.inertia.yy, joint1.link.inertia.zz, joint1.link.inertia.xy, joint1.link.inertia.xz, "
-            "joint1.link.inertia.yz, joint1.motor.inertia, joint1.motor.coulomb, joint1.motor.viscous, "
+            "joint1.link.mass, joint1.link.com.x, joint1.link.com.y, joint1.link.com.z, joint1.link.inertia, "
+            "joint1.motor.inertia, joint1.motor.coulomb, joint1.motor.viscous, "
             "joint1.motor.smoothing, joint1.motor.gear_ratio, joint1.motor.capstan_radius, "
             "joint1.motor.torque_scale, joint1.motor.torque_bias, joint1.cable.stiffness, joint1.cable.damping, "
             "joint1.cable.tension, joint1.cable.pulley_radius, joint1.friction.coulomb, joint1.friction.viscous, "

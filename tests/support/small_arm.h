@@ -29,7 +29,7 @@ inline const std::string kArm = R"(<arm name="small">
 <encoders motor_counts="4000" joint_resolution="0.01 deg" motor_offset="0.1" joint_offset="-1 deg"/>
 <controller kp="0.02" kd="6e-4" torque_limit="0.11"/>
 <range lower="-90 deg" upper="90 deg" home="10 deg"/>
-<tolerances stiffness="0.3" com="2 mm" inertia="0.1" smoothing="0.5"/>
+<tolerances stiffness="0.3" com="2e-3" inertia="0.1" smoothing="0.5"/>
 </joint>
 <joint name="slide" type="prismatic" drive="rigid">
 <frame xyz="0 0 0.1" rpy="10 20 30 deg"/>

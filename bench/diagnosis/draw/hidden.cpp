@@ -178,14 +178,6 @@ void mistune(ArmModel& robot, int off, const std::vector<Hidden>& hidden, Random
     if (!is_effects) set_parameter(h, p, p.nominal + by);
   }
   robot.nominal = h.nominal;
-  for (int k = 0; k < robot.n(); ++k) {
-    JointParameters<double>& j = robot.nominal.joint[k];
-    const Tolerances& tolerances = robot.joints[k].tolerances;
-    for (double& x : j.com) x *= 1 + off * tolerances.length * random.uniform(-1, 1);
-    // One factor for all moments: six of their own need not belong to any body.
-    const double factor = 1 + off * tolerances.mass * random.uniform(-1, 1);
-    for (double& moment : j.inertia) moment *= factor;
-  }
 }
 
 std::vector<Place> names_beyond_tolerance(const ArmModel& model, const ArmModel& robot) {

@@ -35,8 +35,7 @@ double relative_size(const PlacedEffect& effect, const ArmModel& model);
 std::vector<TrueParameter> true_parameters(const PlacedEffect& effect, const ArmModel& model);
 
 /// Moves the robot's parameters that have a tolerance by up to `off` tolerances, uniformly. The ratio of a drive is one
-/// parameter, as in the diagnosis; masses' centres and inertias move as well. Parameters that a hidden effect changes stay:
-/// their whole change is the effect's.
+/// parameter, as in the diagnosis. Parameters that a hidden effect changes stay: their whole change is the effect's.
 void mistune(ArmModel& robot, int off, const std::vector<Hidden>& hidden, Random& random);
 /// Names of the library for parameters of the robot that are off the model's by more than their tolerance.
 std::vector<Place> names_beyond_tolerance(const ArmModel& model, const ArmModel& robot);

@@ -71,8 +71,8 @@ void put_arm_values(const SweepGrid& grid, std::size_t point, Target target, Arm
     if (axis.applies_to != target && axis.applies_to != Target::both) continue;
     for (const std::string& key : axis.parameters) {
       if (is_of_scenario(key) || is_option(key)) continue;
-      double& number = model_parameter(model, key);
-      number = axis.is_factor ? number * values[i] : values[i];
+      const ArmNumber number = model_parameter(model, key);
+      number.set(axis.is_factor ? number.get() * values[i] : values[i]);
     }
   }
 }
@@ -93,8 +93,8 @@ std::string unit_of_key(const std::string& key, const SweepAxis& axis, const Sce
 bool is_zero(const std::string& key, const SweepAxis& axis, Scenario scenario, ArmModel model) {
   if (const auto option = parse_option_key(key)) return option_number(model, *option) == 0;
   if (is_of_scenario(key)) return scenario_number(scenario, key) == 0;
-  return (axis.applies_to == Target::model || model_parameter(scenario.robot, key) == 0) &&
-         (axis.applies_to == Target::robot || model_parameter(model, key) == 0);
+  return (axis.applies_to == Target::model || model_parameter(scenario.robot, key).get() == 0) &&
+         (axis.applies_to == Target::robot || model_parameter(model, key).get() == 0);
 }
 
 void put_values(const SweepGrid& grid, std::size_t point, Scenario& scenario) {

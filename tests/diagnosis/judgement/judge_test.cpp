@@ -62,29 +62,42 @@ TEST(Judge, OfTwoCausesTheTruthFitsBetterAndTheOtherDoesNot) {
 }
 
 /// Motor 1 has more Coulomb friction than its model, and its torque is noisy.
-TEST(Judge, AnEffectThatOnlyTakesWhatNoiseExplainsDoesNotMatter) {
-  const ArmModel model = first_joints(2);
-  const double change = 0.6 * model.nominal.joint[0].motor_coulomb;
-  ArmModel robot = model;
-  robot.nominal.joint[0].motor_coulomb += change;
-  Log log = simulate(motion(robot, 6)).measured;
-  std::mt19937 random(1);
-  std::normal_distribution<double> noise(0, 6e-3);  // N m; 1e-3 in the compared band
-  for (double& torque : log.motor_torque[0]) torque += noise(random);
-  const Evidence evidence(make_records(log, model, {}), model);
+struct NoisyFriction {
+  ArmModel model = first_joints(2);
+  double change = 0.6 * model.nominal.joint[0].motor_coulomb;
+  Evidence evidence{make_records(record(), model, {}), model};
   Hypothesis with{model.nominal, {place_neutral_effect(*find_effect("motor_friction"), model.nominal, 0)}};
-  with.effects[0].p[0] = change;
-  Hypothesis given{model.nominal, {}}, refitted = given;
-  const Score first = evidence.score(given);
-  const Judge judge(evidence, model, {});
-  EXPECT_TRUE(judge.trial(with, {given, first}, 0).matters);
 
-  // Nearly refitted: noise explains the rest, although the effect takes a share of it.
-  refitted.nominal.joint[0].motor_coulomb += 0.91 * change;
-  const Score rest = evidence.score(refitted), none = evidence.score(with);
-  ASSERT_LT(std::sqrt(rest.mean_square[0]), kRule.explained_ratio * evidence.floor()[0]);
-  ASSERT_LT(none.mean_square[0], (1 - kRule.share) * rest.mean_square[0]);
-  EXPECT_FALSE(judge.trial(with, {refitted, rest}, 0).matters);
+  NoisyFriction() { with.effects[0].p[0] = change; }
+  Log record() const {
+    ArmModel robot = model;
+    robot.nominal.joint[0].motor_coulomb += change;
+    Log log = simulate(motion(robot, 6)).measured;
+    std::mt19937 random(1);
+    std::normal_distribution<double> noise(0, 6e-3);  // N m; 1e-3 in the compared band
+    for (double& torque : log.motor_torque[0]) torque += noise(random);
+    return log;
+  }
+  /// The friction as an effect, if a number of the model hides this share of it. numbers: those that may be refitted.
+  Trial beside(double hidden, std::vector<FitParameter> numbers) const {
+    Hypothesis without{model.nominal, {}};
+    without.nominal.joint[0].motor_coulomb += hidden * change;
+    return Judge(evidence, model, std::move(numbers)).trial(with, {without, evidence.score(without)}, 0);
+  }
+};
+constexpr double kNearlyAll = 0.91;
+
+TEST(Judge, AnEffectThatOnlyTakesWhatNoiseExplainsDoesNotMatter) {
+  const NoisyFriction friction;
+  EXPECT_TRUE(friction.beside(0, {}).matters);
+  EXPECT_FALSE(friction.beside(kNearlyAll, {}).matters);
+}
+
+TEST(Judge, AnEffectMattersIfWithoutItANumberIsFarBeyondItsTolerance) {
+  const NoisyFriction friction;
+  const Trial t = friction.beside(kNearlyAll, baseline_parameters(friction.model));
+  EXPECT_EQ(t.stretch, 0);
+  EXPECT_TRUE(t.matters);
 }
 
 /// A large push has been found, and little is left beside it: friction that acts at all times, or an error of the push.

@@ -7,7 +7,6 @@
 #include "diagnosis/search/refit.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
-#include "transmission/body_inertia.h"
 
 namespace halyard {
 namespace {
@@ -73,16 +72,6 @@ TEST(Revision, TellsANumberOfTheModelThatChanged) {
     return s.found.final_fit.parameters[i].name == "joint 1 motor Coulomb friction";
   };
   EXPECT_TRUE(std::ranges::any_of(s.revise(), is_friction));
-}
-
-TEST(Revision, GivesBackInertiasOfNoBody) {
-  ArmModel model = first_joints(1), robot = model;
-  model.joints[0].tolerances.inertia = 40;
-  for (double& moment : robot.nominal.joint[0].inertia) moment *= 20;  // the motion about one axis shows one of them
-  Searched s(robot, model, {});
-  ASSERT_FALSE(has_bodies(s.found.final_fit.hypothesis.nominal));
-  s.revise();
-  EXPECT_TRUE(has_bodies(s.found.final_fit.hypothesis.nominal));
 }
 
 TEST(Revision, KeepsADoubtfulEffectButNotOneThatBelongsToTheLog) {
