@@ -41,6 +41,10 @@ struct Outcome {
 /// Numbers of the truth: those that are asked for up to 15 % from the model's.
 void draw_truth(ArmModel& robot, const std::vector<std::string>& keys, Off off, Random& random) {
   for (const ParameterInfo& info : named_parameters(robot.nominal)) {
+    // identify() takes these as exact.
+    if (info.tolerance == &Tolerances::com || info.tolerance == &Tolerances::inertia ||
+        info.tolerance == &Tolerances::smoothing)
+      continue;
     const double u = random.uniform(-1, 1);
     if (info.key.ends_with(".gear_ratio") || info.key.ends_with(".pulley_radius")) continue;  // the capstan tells it
     const bool stiffness = info.key.ends_with("cable.stiffness") || info.key.ends_with("cable.damping");

@@ -55,13 +55,15 @@ std::vector<Weight> unknown_zeros(const ArmModel& model) {
   return zeros;
 }
 
-/// All numbers that the model knows within a tolerance, but those that are asked for. The ratio of a drive is one
-/// number, the capstan's radius.
+/// Numbers that the model knows within a tolerance, but those that are asked for. The ratio of a drive is one number, the
+/// capstan's radius. A link is uncertain by its mass alone: with more numbers the sigma points lie farther apart, and some
+/// arms among them cannot be integrated.
 std::vector<Weight> other_numbers(const ArmModel& model, const std::vector<std::string>& keys) {
   ArmParameters<double> arm = model.nominal;
   std::vector<Weight> others;
   for (const ParameterInfo& info : named_parameters(arm)) {
     if (info.key.ends_with(".gear_ratio") || info.key.ends_with(".pulley_radius")) continue;
+    if (info.tolerance == &Tolerances::com || info.tolerance == &Tolerances::inertia) continue;
     if (std::ranges::find(keys, info.key) != keys.end() || !is_in_equations(model, info)) continue;
     const double reach = model.reach(info);
     if (reach > 0) others.push_back({.key = info.key, .nominal = info.number.get(), .scale = reach / 2});
