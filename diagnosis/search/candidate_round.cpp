@@ -9,14 +9,15 @@
 
 namespace halyard {
 
-std::vector<std::size_t> leaders_of(const std::vector<Prospect>& prospects) {
+std::vector<std::size_t> leaders_of(const std::vector<Prospect>& prospects, double share) {
   std::vector<std::size_t> judged;
   for (std::size_t i = 0; i < prospects.size(); ++i)
     if (prospects[i].is_judged) judged.push_back(i);
   if (judged.empty()) return {};
+  std::ranges::stable_sort(judged, std::ranges::greater{}, [&](std::size_t i) { return prospects[i].gain; });
   std::vector<std::size_t> leaders = judged;
   if (leaders.size() > kRule.leaders) leaders.resize(kRule.leaders);
-  const double worth = kRule.leads * prospects[judged[0]].gain;
+  const double worth = share * prospects[judged[0]].gain;
   std::erase_if(leaders, [&](std::size_t i) { return prospects[i].gain <= worth; });
   std::ranges::stable_sort(judged, {}, [&](std::size_t i) { return prospects[i].left; });
   if (judged.size() > kRule.leaders_by_rest) judged.resize(kRule.leaders_by_rest);
@@ -58,11 +59,11 @@ void CandidateRound::each(const std::string& what, std::size_t n, const std::fun
 
 std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candidates) {
   if (linear_.columns.size() < linear_.numbers.size() || found_columns_.size() < found_.size()) return {};
-  const Screen screen(evidence_, linear_.from, linear_.columns, scale_);
+  screen_.emplace(evidence_, linear_.from, linear_.columns, scale_);
   linear_.starts.assign(candidates.size(), {});
   each("candidates", candidates.size(), [&](std::size_t i) {
     linear_.starts[i] =
-        best_start(evidence_, screen, refitter_.with_effect(linear_.from, candidates[i]), model_.nominal);
+        best_start(evidence_, *screen_, refitter_.with_effect(linear_.from, candidates[i]), model_.nominal);
   });
   std::vector<std::size_t> fitted;
   for (std::size_t i = 0; i < candidates.size(); ++i)
@@ -76,7 +77,7 @@ std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candida
     t.promising = linear_.starts[i].promise >= kRule.promise;
     t.is_fitted = false;
   }
-  quick_fits(screen, fitted, looks);
+  quick_fits(fitted, looks);
   std::ranges::stable_sort(looks, std::ranges::greater{}, [](const Look& l) { return l.trial.gain; });
   std::vector<Trial> trials;
   std::vector<Prospect> prospects;
@@ -86,12 +87,11 @@ std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candida
     trials.push_back(std::move(l.trial));
     ends_.push_back(std::move(l.ends));
   }
-  leaders_ = leaders_of(prospects);
+  leaders_ = leaders_of(prospects, kRule.leads);
   return trials;
 }
 
-void CandidateRound::quick_fits(const Screen& screen, const std::vector<std::size_t>& candidates,
-                                std::vector<Look>& looks) const {
+void CandidateRound::quick_fits(const std::vector<std::size_t>& candidates, std::vector<Look>& looks) const {
   struct FromStart {
     std::size_t candidate;
     const Hypothesis* start;
@@ -114,7 +114,7 @@ void CandidateRound::quick_fits(const Screen& screen, const std::vector<std::siz
     Look& look = looks[candidates[c]];
     if (!look.ends.empty()) {
       look.trial = judge_.trial(look.ends[0], without_, look.ends[0].effects.size() - 1);
-      look.left = screen.left(evidence_.fit_rows({look.ends[0]})[0]);
+      look.left = screen_->left(evidence_.fit_rows({look.ends[0]})[0]);
     }
     look.trial.is_fitted = true;
   });
@@ -158,17 +158,17 @@ std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
   for (auto& [i, refit] : first)
     if (!refits[i].best.usable || refit.last < refits[i].last) refits[i] = std::move(refit);
   for (Refit& r : refits) r.is_nudged = true;
+  std::vector<Prospect> prospects(trials.size());
   const auto judge = [&](std::size_t i) {
     const Hypothesis& h = refits[i].best.hypothesis;
     trials[i] = refits[i].best.usable ? judge_.trial(h, without_, h.effects.size() - 1) : unusable(trials[i].effect);
+    prospects[i] = {trials[i].is_judged(), trials[i].gain};
+    if (trials[i].is_judged()) prospects[i].left = screen_->left(evidence_.fit_rows({h})[0]);
   };
   run_side_by_side(leaders_.size(), [&](std::size_t l) { judge(leaders_[l]); });
   const auto go_on_with = [&](const std::string& what, double share, int passes) {
-    double best = 0;
-    for (const std::size_t i : leaders_) best = std::max(best, trials[i].gain);
-    std::vector<std::size_t> going;
-    for (const std::size_t i : leaders_)
-      if (trials[i].is_judged() && trials[i].gain > share * best && !refits[i].settled) going.push_back(i);
+    std::vector<std::size_t> going = leaders_of(prospects, share);
+    std::erase_if(going, [&](std::size_t i) { return refits[i].settled; });
     each(what, going.size(), [&](std::size_t g) {
       refitter_.go_on(refits[going[g]], passes);
       judge(going[g]);

@@ -3,26 +3,28 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "diagnosis/judgement/judge.h"
 #include "diagnosis/search/joint_proposal.h"
+#include "diagnosis/search/screen.h"
 
 namespace halyard {
 
 /// Name of the current stage and its completed fraction; called by several threads.
 using SearchProgress = std::function<void(const std::string&, double)>;
 
-/// What a quick look has found of one candidate.
+/// What is known of one candidate before its fit has converged.
 struct Prospect {
   bool is_judged = false;  ///< see Trial
   double gain = 0;
   double left = std::numeric_limits<double>::infinity();  ///< see Screen::left()
 };
-/// Indices of those that are worth a full fit: some that gain most, and some that leave least. A quick fit overshoots
-/// where the model's numbers are not linear, so that the right candidate may gain nothing yet. prospects: the largest gain
-/// first.
-std::vector<std::size_t> leaders_of(const std::vector<Prospect>& prospects);
+/// Indices of those whose fit is worth to be continued: some that gain most, at least `share` of the largest gain, and
+/// some that leave least. A fit overshoots where the model's numbers are not linear, so that the right candidate may gain
+/// nothing yet.
+std::vector<std::size_t> leaders_of(const std::vector<Prospect>& prospects, double share);
 
 class CandidateRound {
  public:
@@ -49,7 +51,7 @@ class CandidateRound {
     std::vector<Hypothesis> ends;                           ///< the best first; empty if none is usable
     double left = std::numeric_limits<double>::infinity();  ///< at the best end, see Screen::left()
   };
-  void quick_fits(const Screen& screen, const std::vector<std::size_t>& candidates, std::vector<Look>& looks) const;
+  void quick_fits(const std::vector<std::size_t>& candidates, std::vector<Look>& looks) const;
   /// The effects so far and the model's numbers stay linear.
   Fit quick_fit(const Hypothesis& start) const;
   /// A full fit of the same candidate.
@@ -61,6 +63,7 @@ class CandidateRound {
   const Judge& judge_;
   Scored without_;
   LinearRound linear_;
+  std::optional<Screen> screen_;                    ///< of the last look
   std::vector<std::vector<Hypothesis>> ends_;       ///< of the quick fits of each trial
   std::vector<std::size_t> leaders_;                ///< trials that are fitted fully
   std::vector<FitParameter> found_;                 ///< of the effects so far

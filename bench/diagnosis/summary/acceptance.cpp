@@ -164,7 +164,15 @@ void add_calibration_lines(std::vector<Line>& lines, const Results& ran) {
                      {},
                      {}});
   const Proportion sets = set_coverage(ran), intervals = interval_coverage(ran);
-  if (sets.of > 0) lines.push_back({"5", "sets of 90 % that contain the truth", "87 to 93 %", sets, {}, {}, {}});
+  if (sets.of > 0)
+    lines.push_back({"5",
+                     fmt::format("sets of at least 90 % that contain the truth; they claim {:.1f} % on average",
+                                 100 * probability_of_sets(ran)),
+                     "87 to 93 %",
+                     sets,
+                     {},
+                     {},
+                     {}});
   if (intervals.of > 0)
     lines.push_back({"5", "intervals of 95 % that contain the truth", "92 to 98 %", intervals, {}, {}, {}});
 }

@@ -75,6 +75,17 @@ Proportion set_coverage(const Results& ran) {
   return s;
 }
 
+double probability_of_sets(const Results& ran) {
+  double sum = 0, count = 0;
+  for (const Result* r : ran)
+    for (const Named& n : r->named) {
+      sum += n.probability;
+      for (const Alternative& a : n.alternatives) sum += a.in_set ? a.probability : 0;
+      count += 1;
+    }
+  return sum / count;
+}
+
 Proportion interval_coverage(const Results& ran) {
   Proportion s;
   for (const Result* r : ran)

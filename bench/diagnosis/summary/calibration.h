@@ -27,6 +27,8 @@ std::string calibration_table(const std::vector<Claim>& claims);
 
 /// Names whose set (the name and the alternatives that are in it) contains the truth, of all names.
 Proportion set_coverage(const Results& ran);
+/// Mean of the probabilities that these sets claim. A set ends with the name that brings it to 90 %, so it claims more.
+double probability_of_sets(const Results& ran);
 /// Intervals of the effects that were named rightly, over their true parameters.
 Proportion interval_coverage(const Results& ran);
 
