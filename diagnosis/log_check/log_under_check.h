@@ -1,6 +1,7 @@
 #pragma once
 /// The check's own copy of a log, its findings so far, and the remedies that it proposes.
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -64,6 +65,8 @@ class LogUnderCheck {
   std::string option(const std::string& column, const Correction& correction) const;
   /// Reads the column as one that starts again after a period, in the column's SI unit.
   std::string wrap_option(const std::string& column, double period) const;
+  /// SI unit per raw unit according to the column's map, without the sign.
+  double scale_of(const std::string& column) const { return std::abs(source_of(column).scale); }
   /// Period after which the column starts again according to its map, in its SI unit; 0: none.
   double wrap_of(const std::string& column) const;
   /// Options that exchange the columns of the file behind two standard columns.

@@ -43,18 +43,22 @@ struct Explanation {
   double misfit;  ///< smaller is better
 };
 
-/// Explanations of |slope| by a unit of either column, or by a motor's angle that is not one at its shaft.
+/// Explanations of |slope| by a unit of either column, by a scale of its map that it should not have, or by a motor's
+/// angle that is not one at its shaft.
 std::optional<Explanation> unit_that_explains(const LogUnderCheck& c, const SampledMotion& m, int k, double slope) {
+  constexpr double kCoincidence = 0.5;  // that a scale of the map is exactly what is too much
   const JointParameters<double>& j = c.model.nominal.joint[k];
   std::optional<Explanation> best;
   const double joint_beyond = c.beyond_range(k, m.joint[k], j.joint_zero_known);
   const double motor_beyond = c.beyond_range(k, m.expected[k], j.motor_zero_known);
+  const auto undone = [&](Signals Log::*signal) { return 1 / c.scale_of(column_name(signal, k)); };
   const auto try_one = [&](Signals Log::*signal, const UnitGuess& unit) {
     // The reading has 1 / factor of its size, or its expectation has.
     const double expected = signal == &Log::joint_position ? 1 / unit.factor : unit.factor;
     if (is_near(expected, 1, c.rule.ratio) || !is_near(std::abs(slope), expected, c.rule.unit)) return;
     const double misfit = std::abs(std::log(std::abs(slope) / expected)) / std::log(c.rule.unit) +
-                          (signal == &Log::joint_position ? motor_beyond : joint_beyond);
+                          (signal == &Log::joint_position ? motor_beyond : joint_beyond) +
+                          (unit.factor == undone(signal) ? 0 : kCoincidence);
     if (!best || misfit < best->misfit) best = {signal, unit, misfit};
   };
   for (const UnitGuess& unit : position_units(j.type == JointType::prismatic, j.joint_encoder_resolution))
@@ -63,6 +67,8 @@ std::optional<Explanation> unit_that_explains(const LogUnderCheck& c, const Samp
   of_motor.push_back({"", j.gear_ratio, "the angle behind the gear"});
   of_motor.push_back({"", 1 / c.joint_per_motor(k), "the joint's own position"});
   for (const UnitGuess& unit : of_motor) try_one(&Log::motor_position, unit);
+  for (const auto signal : {&Log::joint_position, &Log::motor_position})
+    try_one(signal, {"", undone(signal), "in SI units before its column map converts it"});
   return best;
 }
 

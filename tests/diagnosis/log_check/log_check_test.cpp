@@ -90,6 +90,19 @@ TEST(LogCheck, NamesTheUnitOfAMotor) {
   }
 }
 
+TEST(LogCheck, NamesTheColumnWhoseMapConvertsWhatNeedsNoConversion) {
+  for (const auto signal : {&Log::motor_position, &Log::joint_position})
+    for (int k = 0; k < 2; ++k) {
+      const std::string column = numbered(signal == &Log::motor_position ? "motor_position_" : "joint_position_", k);
+      ColumnMap columns;
+      columns.add(column, "angle", "deg");
+      const std::vector<LogFinding> findings = check_log(scaled(signal, k, kDegree), raven(), columns);
+      ASSERT_FALSE(findings.empty()) << column;
+      EXPECT_EQ(findings[0].column, column);
+      EXPECT_EQ(findings[0].remedy, "read it with --column " + column + "=angle");
+    }
+}
+
 TEST(LogCheck, NamesTheUnitOfATorque) {
   for (int k = 0; k < 3; ++k) {
     const std::string column = numbered("motor_torque_", k);
