@@ -162,9 +162,8 @@ class Diagnoser {
   std::vector<Estimated> estimated_parameters(const Evidence& evidence, std::size_t effect) {
     const Fit& f = attribution().final_fit;
     std::vector<Estimated> all;
-    for (const FitParameter& p :
-         effect_parameters(evidence, f.hypothesis, result_.given.nominal, static_cast<int>(effect))) {
-      if (is_past(p)) continue;
+    for (const FitParameter& p : effect_parameters(evidence, f.hypothesis, result_.given.nominal, effect)) {
+      if (p.is_past) continue;
       const double value = parameter_value(f.hypothesis, p);
       if (const std::optional<std::size_t> fitted = find_parameter(f.parameters, p))
         all.push_back(estimated(f, *fitted));
@@ -178,7 +177,7 @@ class Diagnoser {
     const double half = interval_factor(f) * f.std_deviation[i];
     // No interval reaches beyond what the number can be. A size of an effect that was found is not neutral.
     double lower = std::max(f.value[i] - half, p.lower), upper = std::min(f.value[i] + half, p.upper);
-    const bool is_found_size = p.effect >= static_cast<int>(given_) && !p.shape;
+    const bool is_found_size = p.effect >= given_ && !p.shape;
     if (is_found_size && f.value[i] > p.nominal) lower = std::max(lower, p.nominal);
     if (is_found_size && f.value[i] < p.nominal) upper = std::min(upper, p.nominal);
     return {p.name, p.unit, f.value[i], lower, upper, p.nominal};

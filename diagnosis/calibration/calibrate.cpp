@@ -54,7 +54,7 @@ ArmModel calibrated(const ArmModel& model, const std::vector<Record>& records) {
   return result;
 }
 
-bool is_unknown_scale(const ArmModel& model, int named_parameter) {
+bool is_unknown_scale(const ArmModel& model, std::size_t named_parameter) {
   ArmParameters<double> arm = model.nominal;
   const ParameterInfo info = named_parameters(arm)[named_parameter];
   return info.tolerance == &Tolerances::torque_scale && is_unknown(model, info.joint);

@@ -16,6 +16,6 @@ namespace halyard {
 ArmModel calibrated(const ArmModel& model, const std::vector<Record>& records);
 
 /// True if an entry of named_parameters() is a torque scale that the model does not know.
-bool is_unknown_scale(const ArmModel& model, int named_parameter);
+bool is_unknown_scale(const ArmModel& model, std::size_t named_parameter);
 
 }  // namespace halyard

@@ -139,8 +139,7 @@ std::optional<double> correction(const Log& log, const ArmModel& model, const st
   const auto add = [&](const char* effect, int joint, const char* parameter) {
     if (!std::ranges::count(effect_places(*find_effect(effect), model.nominal), EffectPlace(joint))) return;
     h.effects.push_back(place_neutral_effect(*find_effect(effect), model.nominal, joint));
-    for (const FitParameter& p :
-         effect_parameters(evidence, h, model.nominal, static_cast<int>(h.effects.size()) - 1)) {
+    for (const FitParameter& p : effect_parameters(evidence, h, model.nominal, h.effects.size() - 1)) {
       if (p.name != parameter) continue;
       if (std::string(effect) == "delay") delays.push_back(parameters.size());
       parameters.push_back(p);

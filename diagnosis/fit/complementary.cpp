@@ -1,6 +1,7 @@
 #include "diagnosis/fit/complementary.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace halyard {
 namespace {
@@ -9,8 +10,8 @@ bool are_complementary(const Fit& fit, std::size_t one, std::size_t other) {
   const PlacedEffect &a = fit.hypothesis.effects[one], &b = fit.hypothesis.effects[other];
   if (a.effect != b.effect || a.joint != b.joint || a.effect->n_states() > 0) return false;
   return std::ranges::none_of(fit.parameters, [&](FitParameter p) {
-    if (p.effect != static_cast<int>(one)) return false;
-    p.effect = static_cast<int>(other);
+    if (p.effect != one) return false;
+    p.effect = other;
     return find_parameter(fit.parameters, p).has_value();
   });
 }
@@ -19,14 +20,15 @@ Joined join(const Fit& fit, std::size_t kept, std::size_t gone) {
   Hypothesis h = fit.hypothesis;
   std::vector<FitParameter> parameters = fit.parameters;
   for (FitParameter& p : parameters) {
-    if (p.effect != static_cast<int>(gone)) continue;
+    if (p.effect != gone) continue;
     const double value = parameter_value(fit.hypothesis, p);
-    p.effect = static_cast<int>(kept);
+    p.effect = kept;
     set_parameter(h, p, value);
   }
   // Parameters of an effect follow each other in its order; those of the model are before them.
   std::ranges::stable_sort(parameters, [](const FitParameter& a, const FitParameter& b) {
-    return a.effect != b.effect ? a.effect < b.effect : a.effect >= 0 && a.index < b.index;
+    if (a.effect != b.effect) return a.effect < b.effect;
+    return a.effect && std::tie(a.is_past, a.index) < std::tie(b.is_past, b.index);
   });
   return {without_effect(std::move(h), gone), without_parameters_of(std::move(parameters), gone), kept, gone};
 }

@@ -62,7 +62,7 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model, Split spl
   fit_count_.assign(channels(), 0);
   int blocks = 0;
   for (std::size_t r = 0; r < records_.size(); ++r) {
-    records_[r].place = static_cast<int>(r);
+    records_[r].place = r;
     first_block_.push_back(blocks);
     blocks = add_rows(static_cast<int>(r), model, split);
   }

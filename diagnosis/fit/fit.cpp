@@ -19,7 +19,7 @@ class Residual : public ceres::CostFunction {
       : evidence_(evidence), start_(start), parameters_(parameters), linear_(linear) {
     for (const int c : evidence.row_channel()) weight_.push_back(1 / (scale[c] * std::sqrt(correlated_rows[c])));
     for (std::size_t i = 0; i < parameters.size(); ++i)
-      if (parameters[i].effect < 0) prior_.push_back(static_cast<int>(i));
+      if (!parameters[i].effect) prior_.push_back(static_cast<int>(i));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
     set_num_residuals(static_cast<int>(weight_.size() + prior_.size()));
   }
@@ -169,7 +169,7 @@ bool add_deviations(const Evidence& evidence, const Residual& residual, const st
   Eigen::VectorXd unit(p), prior(p);
   for (Eigen::Index i = 0; i < p; ++i) {
     unit(i) = result.parameters[i].scale;
-    prior(i) = result.parameters[i].effect < 0 ? 1 : 0;
+    prior(i) = result.parameters[i].effect ? 0 : 1;
   }
   Eigen::MatrixXd information = J.transpose() * J;
   information.diagonal() += prior;

@@ -46,15 +46,15 @@ double spacing_around(const std::vector<double>& starts, double value) {
 }  // namespace
 
 double parameter_value(const Hypothesis& h, const FitParameter& p) {
-  if (is_past(p)) return h.past_state(p.effect, p.index - kMaxEffectParameters);
-  if (p.effect >= 0) return h.effects[p.effect].p[p.index];
+  if (p.is_past) return h.past_state(*p.effect, p.index);
+  if (p.effect) return h.effects[*p.effect].p[p.index];
   ArmParameters<double> arm = h.nominal;
   return named_parameters(arm)[p.index].number.get();
 }
 
 void set_parameter(Hypothesis& h, const FitParameter& p, double value) {
-  if (is_past(p)) h.set_past_state(p.effect, p.index - kMaxEffectParameters, value);
-  else if (p.effect >= 0) h.effects[p.effect].p[p.index] = value;
+  if (p.is_past) h.set_past_state(*p.effect, p.index, value);
+  else if (p.effect) h.effects[*p.effect].p[p.index] = value;
   else named_parameters(h.nominal)[p.index].number.set(value);
 }
 
@@ -74,14 +74,14 @@ std::vector<FitParameter> baseline_parameters(const ArmModel& model) {
     if (is("gear_ratio") || is("pulley_radius")) continue;  // one ratio, told by the capstan's radius
     const double value = named[i].number.get(), reach = model.reach(named[i]);
     if (!(reach > 0)) continue;
-    all.push_back({named[i].name, named[i].unit, -1, static_cast<int>(i), value,
-                   std::max(value - reach, named[i].least), value + reach, reach / 2, true});
+    all.push_back({named[i].name, named[i].unit, std::nullopt, i, value, std::max(value - reach, named[i].least),
+                   value + reach, reach / 2, true});
   }
   return all;
 }
 
 std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,
-                                            const ArmParameters<double>& nominal, int place) {
+                                            const ArmParameters<double>& nominal, std::size_t place) {
   const PlacedEffect& e = h.effects[place];
   std::vector<FitParameter> all;
   const auto parameters = e.effect->parameters(nominal, e.joint);
@@ -89,7 +89,7 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const EffectParameter& p = parameters[i];
     const ParameterSearch& search = space.parameters[i];
-    FitParameter f{p.name, p.unit, place, static_cast<int>(i), p.neutral, p.lower, p.upper, 1, search.natural_bounds};
+    FitParameter f{p.name, p.unit, place, i, p.neutral, p.lower, p.upper, 1, search.natural_bounds};
     f.scale = std::max({std::abs(p.typical - p.neutral), 0.1 * std::abs(p.typical), 1e-3 * (p.upper - p.lower)});
     f.shape = p.is_shape();
     f.starts = search.starts;
@@ -113,16 +113,9 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
   if (evidence.records().size() > kMostRecords) return all;
   for (std::size_t r = 0, i = 0; r < evidence.records().size(); ++r)
     for (const double scale : e.effect->state_scale(nominal, e.joint, e.p)) {
-      FitParameter f{"past of record " + std::to_string(r + 1),
-                     "",
-                     place,
-                     kMaxEffectParameters + static_cast<int>(i++),
-                     0,
-                     -kFar * scale,
-                     kFar * scale,
-                     scale,
-                     true};
-      f.shape = true;
+      FitParameter f{
+          "past of record " + std::to_string(r + 1), "", place, i++, 0, -kFar * scale, kFar * scale, scale, true};
+      f.shape = f.is_past = true;
       f.starts = {-1, 0, 1};
       all.push_back(f);
     }
@@ -130,18 +123,18 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
 }
 
 std::vector<FitParameter> without_parameters_of(std::vector<FitParameter> parameters, std::size_t gone) {
-  std::erase_if(parameters, [&](const FitParameter& p) { return p.effect == static_cast<int>(gone); });
+  std::erase_if(parameters, [&](const FitParameter& p) { return p.effect == gone; });
   for (FitParameter& p : parameters)
-    if (p.effect > static_cast<int>(gone)) --p.effect;
+    if (p.effect > gone) --*p.effect;
   return parameters;
 }
 
 std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameters) {
   std::vector<ParameterGroup> groups;
-  int effect = -1;
+  std::optional<std::size_t> effect;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const FitParameter& p = parameters[i];
-    if (p.effect < 0) continue;
+    if (!p.effect) continue;
     if (p.effect != effect || (!p.shape && !groups.back().shapes.empty())) groups.emplace_back();
     effect = p.effect;
     (p.shape ? groups.back().shapes : groups.back().sizes).push_back(i);
@@ -153,7 +146,7 @@ bool ends_at_bound(const FitParameter& p, double value) {
   const auto close = [&](double bound) {
     return std::abs(value - bound) <= 1e-3 * std::max(std::abs(bound), 1e-3 * p.scale);
   };
-  return p.effect >= 0 && !p.natural_bounds && !close(p.nominal) && (close(p.lower) || close(p.upper));
+  return p.effect && !p.natural_bounds && !close(p.nominal) && (close(p.lower) || close(p.upper));
 }
 
 bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline) {

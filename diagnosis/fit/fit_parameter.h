@@ -15,10 +15,9 @@ namespace halyard {
 struct FitParameter {
   std::string name;
   std::string unit;
-  int effect = -1;  ///< index in Hypothesis::effects; -1: a baseline parameter
-  /// Baseline: index in named_parameters(). Effect: index of its parameter; indices from kMaxEffectParameters on are
-  /// the states of its past.
-  int index = 0;
+  std::optional<std::size_t> effect = {};  ///< index in Hypothesis::effects; nothing: a baseline parameter
+  /// Baseline: index in named_parameters(). Effect: index of its parameter, or of a state of its past.
+  std::size_t index = 0;
   double nominal = 0;  ///< baseline: the model's value
   double lower = 0, upper = 0;
   double scale = 1;                 ///< one unit of the optimiser
@@ -27,14 +26,15 @@ struct FitParameter {
   std::vector<double> starts = {};  ///< start values; for a past in units of its scale
   SearchRange range = SearchRange::own;
   bool is_whole = false;  ///< a whole number: tried at its starts and not fitted
+  /// An effect's state at the start of a record, which belongs to the data and not to the arm.
+  bool is_past = false;
 };
 
-/// True for an effect's state at the start of a record (its past), which belongs to the data and not to the arm.
-inline bool is_past(const FitParameter& p) { return p.effect >= 0 && p.index >= kMaxEffectParameters; }
-/// Index of the parameter with the same effect and index, if there is one.
+/// Index of the parameter that is the same number, if there is one.
 inline std::optional<std::size_t> find_parameter(const std::vector<FitParameter>& parameters, const FitParameter& p) {
   for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (parameters[i].effect == p.effect && parameters[i].index == p.index) return i;
+    if (parameters[i].effect == p.effect && parameters[i].is_past == p.is_past && parameters[i].index == p.index)
+      return i;
   return {};
 }
 /// The list without the parameters of the effect with index `gone`, as without_effect() leaves the hypothesis.
@@ -52,7 +52,7 @@ std::vector<FitParameter> baseline_parameters(const ArmModel& model);
 /// The period of a periodic effect is limited, so that the motion contains at least kFewestPeriods periods.
 /// The effect's states at the start of each record follow as shapes, unless there are more than a dozen records.
 std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,
-                                            const ArmParameters<double>& nominal, int place);
+                                            const ArmParameters<double>& nominal, std::size_t place);
 /// Sizes of an effect and the shapes that follow them, as indices in a list of parameters.
 struct ParameterGroup {
   std::vector<std::size_t> sizes, shapes;

@@ -13,7 +13,7 @@ Nudge nudged(const Evidence& evidence, Hypothesis h, std::size_t first, const Ar
              const BeyondNumbers& beyond) {
   Nudge nudge;
   for (std::size_t e = first; e < h.effects.size(); ++e)
-    for (const FitParameter& p : effect_parameters(evidence, h, nominal, static_cast<int>(e))) {
+    for (const FitParameter& p : effect_parameters(evidence, h, nominal, e)) {
       const double value = parameter_value(h, p);
       std::vector<double> values;
       if (p.range != SearchRange::own) {

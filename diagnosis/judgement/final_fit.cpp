@@ -53,8 +53,8 @@ class UncertainParameters {
     const FitParameter& p = fit_.parameters[i];
     const auto at = static_cast<Eigen::Index>(i);
     // What no sensor resolves is no refit of the model.
-    if (p.effect < 0 && reach_[i] * std::abs(value_(at) - p.nominal) / p.scale < 1) return 0;
-    const double needed = p.effect < 0 ? kRule.refit_deviations : interval_factor(fit_);
+    if (!p.effect && reach_[i] * std::abs(value_(at) - p.nominal) / p.scale < 1) return 0;
+    const double needed = !p.effect ? kRule.refit_deviations : interval_factor(fit_);
     const double shrunk = std::sqrt(covariance_(at, at) / fit_.covariance(at, at));
     return std::abs(value_(at) - p.nominal) / (needed * shrunk * fit_.std_deviation[i]);
   }
@@ -105,7 +105,7 @@ std::vector<double> reach_in_floors(const Evidence& whole, const Fit& f) {
 /// Resets the sizes of added effects until all that are left are certain. The numbers of the model stay in the fit.
 Fit keep_certain_sizes(const Evidence& whole, const Fit& f, std::size_t given) {
   std::vector<bool> is_size;
-  for (const FitParameter& p : f.parameters) is_size.push_back(p.effect >= static_cast<int>(given) && !p.shape);
+  for (const FitParameter& p : f.parameters) is_size.push_back(p.effect >= given && !p.shape);
   UncertainParameters uncertain(f, is_size, std::vector<double>(f.parameters.size(), 0));
   uncertain.reset_all();
   Hypothesis h = f.hypothesis;
@@ -125,14 +125,14 @@ Fit keep_certain_sizes(const Evidence& whole, const Fit& f, std::size_t given) {
 /// Standard deviations of effects that keep some of their sizes, as if they had kept all of them: what was reset may be
 /// wrong. `all` is the fit before the first reset. A mean square: the variance there and the shift by the resets.
 void count_resets(const Fit& all, std::size_t given, Fit& f) {
-  const auto has_lost_a_size = [&](int effect) {
+  const auto has_lost_a_size = [&](std::size_t effect) {
     return std::ranges::any_of(all.parameters, [&](const FitParameter& p) {
       return p.effect == effect && !p.shape && !find_parameter(f.parameters, p);
     });
   };
   for (std::size_t i = 0; i < f.parameters.size(); ++i) {
     const FitParameter& p = f.parameters[i];
-    if (p.effect < static_cast<int>(given) || !has_lost_a_size(p.effect)) continue;
+    if (p.effect < given || !has_lost_a_size(*p.effect)) continue;
     const std::optional<std::size_t> before = find_parameter(all.parameters, p);
     if (!before) continue;
     const double with_all = std::hypot(all.std_deviation[*before], f.value[i] - all.value[*before]);
@@ -147,7 +147,7 @@ Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, s
   if (!score.finite) return {};
   const std::vector<double> scale = channel_scale(whole, score.fit_mean_square);
   std::vector<FitParameter> numbers = chosen.parameters;
-  std::erase_if(numbers, [](const FitParameter& p) { return p.effect >= 0; });
+  std::erase_if(numbers, [](const FitParameter& p) { return p.effect.has_value(); });
   const auto columns = sensitivities(whole, chosen.hypothesis, numbers);
   const Hypothesis start =
       nudged(whole, chosen.hypothesis, given, model.nominal, BeyondNumbers(whole, columns, scale)).at;
@@ -161,12 +161,12 @@ Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, s
 
 std::vector<std::size_t> changed_numbers(const Evidence& whole, const ArmModel& model, const Fit& fit) {
   std::vector<bool> may_go;
-  for (const FitParameter& p : fit.parameters) may_go.push_back(p.effect < 0 && !is_unknown_scale(model, p.index));
+  for (const FitParameter& p : fit.parameters) may_go.push_back(!p.effect && !is_unknown_scale(model, p.index));
   UncertainParameters uncertain(fit, may_go, reach_in_floors(whole, fit));
   uncertain.reset_all();
   std::vector<std::size_t> changed;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
-    if (fit.parameters[i].effect < 0 && uncertain.kept()[i]) changed.push_back(i);
+    if (!fit.parameters[i].effect && uncertain.kept()[i]) changed.push_back(i);
   return changed;
 }
 
@@ -174,7 +174,7 @@ Fit with_given_numbers(const Evidence& whole, const ArmModel& model, const Fit& 
   Hypothesis h = f.hypothesis;
   h.nominal = model.nominal;
   std::vector<FitParameter> others = f.parameters;
-  std::erase_if(others, [](const FitParameter& p) { return p.effect < 0; });
+  std::erase_if(others, [](const FitParameter& p) { return !p.effect; });
   return weighed_fit(whole, h, others);
 }
 
@@ -185,7 +185,7 @@ Fit with_given_motion(const Evidence& whole, const ArmModel& model, const Fit& f
   const std::vector<double> motion = motion_key(h, record);
   std::vector<FitParameter> others;
   for (const FitParameter& p : f.parameters) {
-    if (p.effect >= 0) continue;
+    if (p.effect) continue;
     Hypothesis changed = h;
     set_parameter(changed, p, p.upper);
     if (motion_key(changed, record) == motion) others.push_back(p);
@@ -197,9 +197,8 @@ Fit with_given_motion(const Evidence& whole, const ArmModel& model, const Fit& f
 std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given) {
   std::vector<std::size_t> idle;
   for (std::size_t e = given; e < fit.hypothesis.effects.size(); ++e)
-    if (std::ranges::none_of(fit.parameters, [&](const FitParameter& p) {
-          return p.effect == static_cast<int>(e) && !is_past(p) && !p.shape;
-        }))
+    if (std::ranges::none_of(fit.parameters,
+                             [&](const FitParameter& p) { return p.effect == e && !p.is_past && !p.shape; }))
       idle.push_back(e);
   return idle;
 }

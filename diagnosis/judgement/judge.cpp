@@ -53,13 +53,12 @@ std::vector<double> difference(std::vector<double> a, const std::vector<double>&
 Judge::Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers)
     : evidence_(evidence), model_(model), numbers_(std::move(numbers)) {}
 
-Trial Judge::trial(const Hypothesis& with, const Scored& without, std::size_t index) const {
-  Trial t = unusable(with.effects[index]);
+Trial Judge::trial(const Hypothesis& with, const Scored& without, std::size_t place) const {
+  Trial t = unusable(with.effects[place]);
   const Scored scored{with, evidence_.score(with)};
   if (!scored.score.finite || !without.score.finite) return t;
-  const int place = static_cast<int>(index);
   t.usable = true;
-  if (index < with.past.size()) t.past = with.past[index];
+  if (place < with.past.size()) t.past = with.past[place];
   t.log_likelihood = log_likelihood(evidence_, scored.score, squared_floors(evidence_));
   t.gain = gain_over(scored, without);
   t.stretch = stretch(with);
@@ -71,7 +70,7 @@ Trial Judge::trial(const Hypothesis& with, const Scored& without, std::size_t in
   return t;
 }
 
-bool Judge::is_needed(const Scored& with, const Scored& without, int place, double significance) const {
+bool Judge::is_needed(const Scored& with, const Scored& without, std::size_t place, double significance) const {
   return !within_tolerance(with.hypothesis, place) && matters(without, with, place) &&
          p_of_gain(with.score, without.score) <= significance;
 }
@@ -107,7 +106,7 @@ bool Judge::explains_a_rest(const Score& before, const Score& after) const {
 /// True if a size or a shape ends at its bound, and its sizes do more there than one number by chance. A group of sizes
 /// whose shape is at its bound does not count if it does next to nothing of what the whole effect does: for example a
 /// wall at the end of the motion that only improves the form of a tug.
-bool Judge::at_bound(const Scored& with, int place) const {
+bool Judge::at_bound(const Scored& with, std::size_t place) const {
   constexpr double kNextToNothing = 0.1;
   const Hypothesis& h = with.hypothesis;
   const auto parameters = effect_parameters(evidence_, h, model_.nominal, place);
@@ -160,7 +159,7 @@ bool Judge::is_as_good_at_bound(const Scored& with, const FitParameter& p) const
 }
 
 /// True if all sizes of the effect stay within the tolerances of the numbers that they change: a refit and no effect.
-bool Judge::within_tolerance(const Hypothesis& h, int place) const {
+bool Judge::within_tolerance(const Hypothesis& h, std::size_t place) const {
   const PlacedEffect& e = h.effects[place];
   const auto parameters = e.effect->parameters(model_.nominal, e.joint);
   const SearchSpace space = search_space(*e.effect, model_.nominal, e.joint);
@@ -210,7 +209,7 @@ bool Judge::takes_a_share(const Score& before, const Score& after, const std::ve
 /// The effect takes a share of a residual that noise does not explain, or relieves the model's numbers. It also changes
 /// some signal by much more than the sensor resolves. The deciding blocks have to show such a residual. Otherwise, after
 /// one burst in the fitting blocks, an effect would count for what it does elsewhere below the noise.
-bool Judge::matters(const Scored& without, const Scored& with, int place) const {
+bool Judge::matters(const Scored& without, const Scored& with, std::size_t place) const {
   bool counts = stretch(without.hypothesis) - stretch(with.hypothesis) > kRule.relief;
   const auto done = done_by_effects(without);
   for (int c = 0; c < evidence_.channels() && !counts; ++c)

@@ -76,7 +76,7 @@ class Judge {
   /// Tests the effect with index `place` in `with` against the hypothesis without it.
   Trial trial(const Hypothesis& with, const Scored& without, std::size_t place) const;
   /// True if the effect with index `place` in `with` is still needed.
-  bool is_needed(const Scored& with, const Scored& without, int place, double significance) const;
+  bool is_needed(const Scored& with, const Scored& without, std::size_t place, double significance) const;
 
   /// Probability of such a gain by chance.
   double p_of_gain(const Score& with, const Score& without) const;
@@ -90,14 +90,14 @@ class Judge {
 
  private:
   bool explains_a_rest(const Score& before, const Score& after) const;
-  bool at_bound(const Scored& with, int place) const;
+  bool at_bound(const Scored& with, std::size_t place) const;
   bool lasts_the_whole_record(const Hypothesis& h, const std::vector<FitParameter>& parameters,
                               const ParameterGroup& group) const;
   bool is_as_good_at_bound(const Scored& with, const FitParameter& p) const;
-  bool within_tolerance(const Hypothesis& h, int place) const;
+  bool within_tolerance(const Hypothesis& h, std::size_t place) const;
   bool takes_a_share(const Score& before, const Score& after, const std::vector<std::vector<double>>& done,
                      int channel) const;
-  bool matters(const Scored& without, const Scored& with, int place) const;
+  bool matters(const Scored& without, const Scored& with, std::size_t place) const;
   std::vector<std::vector<double>> done_by_effects(const Scored& found) const;
 
   const Evidence& evidence_;

@@ -56,11 +56,11 @@ std::vector<double> residual_quantiles(const Evidence& evidence, const std::vect
                                        const Hypothesis& hypothesis) {
   std::vector<std::vector<double>> size(evidence.n());
   for (const Record& record : training) {
-    if (record.place < 0) continue;
-    const double of_evidence = record.dt / evidence.records()[record.place].dt;
+    if (!record.place) continue;
+    const double of_evidence = record.dt / evidence.records()[*record.place].dt;
     const FullPrediction prediction = predict_fully(record, hypothesis);
     for (std::size_t i = 0; i < record.size; ++i) {
-      if (!evidence.decides(record.place, static_cast<std::size_t>(of_evidence * static_cast<double>(i)))) continue;
+      if (!evidence.decides(*record.place, static_cast<std::size_t>(of_evidence * static_cast<double>(i)))) continue;
       for (int k = 0; k < evidence.n(); ++k) size[k].push_back(std::abs(joint_error(record, prediction, k, i)));
     }
   }
@@ -71,8 +71,9 @@ std::vector<double> residual_quantiles(const Evidence& evidence, const std::vect
 
 Fit with_all_numbers(const Evidence& whole, const Fit& fit, const std::vector<FitParameter>& numbers) {
   std::vector<FitParameter> all = numbers;
-  std::erase_if(all, [](const FitParameter& p) { return p.effect >= 0; });
-  std::ranges::copy_if(fit.parameters, std::back_inserter(all), [](const FitParameter& p) { return p.effect >= 0; });
+  std::erase_if(all, [](const FitParameter& p) { return p.effect.has_value(); });
+  std::ranges::copy_if(fit.parameters, std::back_inserter(all),
+                       [](const FitParameter& p) { return p.effect.has_value(); });
   const std::vector<double> scale = channel_scale(whole, whole.score(fit.hypothesis).fit_mean_square);
   return halyard::fit(whole, fit.hypothesis, all, scale, {.iterations = 0});
 }

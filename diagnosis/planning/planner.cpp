@@ -32,7 +32,7 @@ std::vector<Hypothesis> shape_sets(const Hypothesis& h, const std::vector<FitPar
   std::size_t i = main;
   while (i < parameters.size() && !parameters[i].shape) ++i;
   for (; i < parameters.size() && parameters[i].shape; ++i) {
-    if (parameters[i].starts.empty() || is_past(parameters[i])) continue;
+    if (parameters[i].starts.empty() || parameters[i].is_past) continue;
     std::vector<Hypothesis> longer;
     for (const Hypothesis& one : all)
       for (const double value : parameters[i].starts) {
@@ -122,7 +122,7 @@ Planner::Shown Planner::show(const PlacedEffect& candidate) const {
 Planner::Growing Planner::scaled(const PlacedEffect& effect) const {
   Hypothesis with = nominal_;
   with.effects.push_back(effect);
-  const auto parameters = effect_parameters(evidence_, with, model_.nominal, static_cast<int>(nominal_.effects.size()));
+  const auto parameters = effect_parameters(evidence_, with, model_.nominal, nominal_.effects.size());
   const auto at = [with, parameters](double factor) {
     Hypothesis h = with;
     for (const FitParameter& p : parameters)
@@ -189,7 +189,7 @@ BaselineReach Planner::make_reach() {
 Planner::SizedCandidate Planner::sized(const PlacedEffect& candidate) const {
   SizedCandidate c{nominal_, {}, {}, {}};
   c.with.effects.push_back(candidate);
-  c.parameters = effect_parameters(evidence_, c.with, model_.nominal, static_cast<int>(nominal_.effects.size()));
+  c.parameters = effect_parameters(evidence_, c.with, model_.nominal, nominal_.effects.size());
   for (std::size_t i = 0; i < c.parameters.size(); ++i)
     if (!c.parameters[i].shape) {
       c.sizes.push_back(i);

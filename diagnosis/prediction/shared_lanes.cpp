@@ -105,9 +105,9 @@ void SharedLanes::add_past(Lanes* z) const {
 std::vector<double> past_states(const Hypothesis& h, const Record& record) {
   std::vector<double> all;
   for (std::size_t e = 0; e < h.effects.size(); ++e) {
-    const int states = h.effects[e].effect->n_states();
-    for (int s = 0; s < states; ++s)
-      all.push_back(record.place < 0 ? 0.0 : h.past_state(e, static_cast<std::size_t>(record.place * states + s)));
+    const auto states = static_cast<std::size_t>(h.effects[e].effect->n_states());
+    for (std::size_t s = 0; s < states; ++s)
+      all.push_back(record.place ? h.past_state(e, *record.place * states + s) : 0.0);
   }
   return all;
 }

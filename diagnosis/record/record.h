@@ -17,6 +17,7 @@
 ///
 /// A joint without a motor (drive none) follows its own sensor, or stays at home if the log has none.
 
+#include <optional>
 #include <vector>
 
 #include "model/arm_model.h"
@@ -49,7 +50,7 @@ struct Record {
   double compare_sigma = 0;                              ///< σ_t of K_c, s; 0: residuals are not filtered
   std::vector<double> compare;                           ///< K_c on this grid, [2 reach + 1]
   std::string source;
-  int place = -1;  ///< index among the records of an Evidence; -1: in none
+  std::optional<std::size_t> place;  ///< index among the records of an Evidence that it belongs to
 
   double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
   bool has_joint(int k) const { return !joint[k].empty(); }

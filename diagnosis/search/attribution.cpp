@@ -240,7 +240,7 @@ class Search {
       if (is_same) *naming = won->naming;
       Found revised = won ? Found{won->fit, evidence_.score(won->fit.hypothesis)} : without;
       if (won ? is_beaten(revised, current, is_same)
-              : judge_.is_needed(current.scored(), without.scored(), static_cast<int>(place), options_.significance)) {
+              : judge_.is_needed(current.scored(), without.scored(), place, options_.significance)) {
         ++kept;
         continue;
       }
@@ -280,7 +280,7 @@ class Search {
     const auto is_idle = [&](std::size_t i) {
       const Found& left = without_[i];
       return left.fit.usable && left.score.finite &&
-             !judge_.is_needed(current.scored(), left.scored(), static_cast<int>(given_ + i), options_.significance);
+             !judge_.is_needed(current.scored(), left.scored(), given_ + i, options_.significance);
     };
     for (;;) {
       std::size_t gone = 0;

@@ -39,7 +39,7 @@ CandidateRound::CandidateRound(const Evidence& evidence, const ArmModel& model, 
       name_(name),
       progress_(progress) {
   for (const FitParameter& p : refitter_.parameters(linear_.from)) {
-    if (p.effect < 0) linear_.numbers.push_back(p);
+    if (!p.effect) linear_.numbers.push_back(p);
     else if (!p.is_whole) found_.push_back(p);
   }
   linear_.columns = sensitivities(evidence_, linear_.from, linear_.numbers);
@@ -131,7 +131,7 @@ Fit CandidateRound::quick_fit(const Hypothesis& start) const {
   }
   parameters.insert(parameters.end(), found_.begin(), found_.end());
   linear.insert(linear.end(), found_columns_.begin(), found_columns_.end());
-  const int own = static_cast<int>(start.effects.size()) - 1;
+  const std::size_t own = start.effects.size() - 1;
   for (const FitParameter& p : refitter_.parameters(start))
     if (p.effect == own) parameters.push_back(p);
   FitOptions options;

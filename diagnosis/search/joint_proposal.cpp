@@ -17,8 +17,7 @@ class LinearProblem {
       : refitter_(refitter), round_(round) {
     const std::vector<double> residual = evidence.fit_rows({round.from})[0];
     sizes_so_far_ = refitter.parameters(round.from);
-    std::erase_if(sizes_so_far_,
-                  [&](const FitParameter& p) { return p.effect < static_cast<int>(given) || p.shape || p.is_whole; });
+    std::erase_if(sizes_so_far_, [&](const FitParameter& p) { return p.effect < given || p.shape || p.is_whole; });
     const auto columns_so_far = sensitivities(evidence, round.from, sizes_so_far_);
     usable_ = !residual.empty() && columns_so_far.size() == sizes_so_far_.size();
     if (!usable_) return;

@@ -36,8 +36,8 @@ std::vector<FitParameter> Refitter::numbers_beside(const Hypothesis& h) const {
 std::vector<FitParameter> Refitter::parameters(const Hypothesis& h) const {
   std::vector<FitParameter> all = numbers_beside(h);
   for (std::size_t e = 0; e < h.effects.size(); ++e)
-    for (const FitParameter& p : effect_parameters(evidence_, h, model_.nominal, static_cast<int>(e)))
-      if (e >= given_ || is_past(p)) all.push_back(p);
+    for (const FitParameter& p : effect_parameters(evidence_, h, model_.nominal, e))
+      if (e >= given_ || p.is_past) all.push_back(p);
   return all;
 }
 

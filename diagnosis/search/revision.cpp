@@ -72,7 +72,7 @@ class Revision {
     const std::vector<PlacedEffect>& left = start.hypothesis.effects;
     const auto added = left.begin() + static_cast<std::ptrdiff_t>(given_);
     for (const FitParameter& p : found_.baseline.parameters)
-      if (p.effect < 0 && covers(gone, p) &&
+      if (!p.effect && covers(gone, p) &&
           std::none_of(added, left.end(), [&](const PlacedEffect& e) { return covers(e, p); }))
         start.parameters.push_back(p);
     return start;

@@ -47,7 +47,7 @@ std::vector<std::vector<double>> combinations(const Hypothesis& h, const std::ve
         const bool follows = s > 0 && is_instant(shapes[s]) && is_instant(shapes[s - 1]);
         if (follows && value <= head.back()) continue;
         // Each record has its own past and says nothing about the others: all pasts get the same start.
-        const bool beside = s > 0 && is_past(p) && is_past(parameters[shapes[s - 1]]);
+        const bool beside = s > 0 && p.is_past && parameters[shapes[s - 1]].is_past;
         if (beside && value != head.back()) continue;
         longer.push_back(head);
         longer.back().push_back(value);
@@ -65,7 +65,7 @@ class StartSearch {
         screen_(screen),
         nominal_(nominal),
         with_(with),
-        parameters_(effect_parameters(evidence, with, nominal, static_cast<int>(with.effects.size()) - 1)),
+        parameters_(effect_parameters(evidence, with, nominal, with.effects.size() - 1)),
         neutral_(with) {
     for (const FitParameter& p : parameters_)
       if (!p.shape) set_parameter(neutral_, p, p.nominal);
@@ -150,7 +150,7 @@ class StartSearch {
     for (std::size_t s = 0; s < values.size(); ++s) {
       const FitParameter& p = parameters_[group.shapes[s]];
       // The scale of a past depends on the shapes before it.
-      const double unit = is_past(p) ? effect_parameters(evidence_, h, nominal_, p.effect)[group.shapes[s]].scale : 1;
+      const double unit = p.is_past ? effect_parameters(evidence_, h, nominal_, *p.effect)[group.shapes[s]].scale : 1;
       set_parameter(h, p, unit * values[s]);
     }
     return h;

@@ -34,8 +34,8 @@ TEST(UnknownPast, IsFittedBesideTheEffect) {
   const Amid amid;
   const std::vector<FitParameter> all = effect_parameters(amid.evidence, amid.truth, amid.model.nominal, 0);
   ASSERT_EQ(all.size(), 3u);
-  EXPECT_FALSE(is_past(all[1]));
-  ASSERT_TRUE(is_past(all[2]));
+  EXPECT_FALSE(all[1].is_past);
+  ASSERT_TRUE(all[2].is_past);
 
   const std::vector<double> scale = channel_scale(amid.evidence, std::vector<double>(amid.evidence.channels(), 0));
   const Fit with = fit(amid.evidence, amid.truth, all, scale);
