@@ -81,8 +81,8 @@ struct DecisionRule {
   /// A fit is nudged again if the last nudges gained more than this in log-likelihood. Reason: a quarter of what one more
   /// parameter gains by chance decides nothing.
   double worth_a_nudge = 0.5;
-  /// After one pass, the same rule decides which of the full fits go on. After `first_passes` passes it does so once more,
-  /// with the share `still_leads`, for up to `most_passes` in all.
+  /// After `first_passes` passes, the same rule with the share `still_leads` decides which of the full fits go on, up to
+  /// `most_passes` in all.
   int first_passes = 3, most_passes = 12;
   double still_leads = 0.5;
 };

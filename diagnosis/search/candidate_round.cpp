@@ -165,17 +165,15 @@ std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
     prospects[i] = {trials[i].is_judged(), trials[i].gain};
     if (trials[i].is_judged()) prospects[i].left = screen_->left(evidence_.fit_rows({h})[0]);
   };
-  run_side_by_side(leaders_.size(), [&](std::size_t l) { judge(leaders_[l]); });
-  const auto go_on_with = [&](const std::string& what, double share, int passes) {
-    std::vector<std::size_t> going = leaders_of(prospects, share);
-    std::erase_if(going, [&](std::size_t i) { return refits[i].settled; });
+  const auto go_on_with = [&](const std::string& what, const std::vector<std::size_t>& going, int passes) {
     each(what, going.size(), [&](std::size_t g) {
       refitter_.go_on(refits[going[g]], passes);
       judge(going[g]);
     });
   };
-  go_on_with("best candidates", kRule.leads, kRule.first_passes - 1);
-  go_on_with("finalists", kRule.still_leads, kRule.most_passes - kRule.first_passes);
+  // After one pass the right candidate may still be far from its minimum.
+  go_on_with("best candidates", leaders_, kRule.first_passes - 1);
+  go_on_with("finalists", leaders_of(prospects, kRule.still_leads), kRule.most_passes - kRule.first_passes);
   std::vector<Fit> fits;
   for (const Refit& r : refits) fits.push_back(r.best);
   return fits;
