@@ -62,8 +62,8 @@ class Diagnoser {
     search(evidence, whole);
     if (is_one_sine(evidence)) refuse_names(evidence);
     else tell_names(evidence);
-    tell_rests(evidence);
     predict_holdout(evidence, whole, data.training_joints);
+    tell_rests(evidence);
     tell_doubtful(evidence);
     tell_probabilities(evidence);
     tell_stuck_sensors(training);
@@ -138,8 +138,9 @@ class Diagnoser {
   void tell_doubtful(const Evidence& evidence) {
     for (const std::size_t e : doubtful_) {
       const Score without = evidence.score(without_effect(final_hypothesis(), e));
-      const int c = without.finite ? most_explained_channel(evidence, attribution().final_score, without) : 0;
-      const int k = c % model_.n();
+      const auto c =
+          without.finite ? most_explained_channel(evidence, attribution().final_score, without) : std::nullopt;
+      const int k = c.value_or(0) % model_.n();
       result_.unexplained.push_back(
           {k,
            fmt::format("{} explains a part of it and is in the revised model, but so much is left that another cause "
@@ -220,6 +221,7 @@ class Diagnoser {
       view->before = predict_all(view->records, before);
       view->after = predict_all(view->records, final_hypothesis());
     }
+    const std::vector<FitParameter> fitted = attribution().final_fit.parameters;
     veto(evidence, whole);
     result_.revised = result_.given;
     result_.revised.nominal = final_hypothesis().nominal;
@@ -227,8 +229,11 @@ class Diagnoser {
     details_->past = final_hypothesis().past;
     result_.before = prediction_errors(joints, torques, result_.given.nominal, &HoldOut::before);
     result_.after = prediction_errors(joints, torques, result_.given.nominal, &HoldOut::after);
+    // The effects that a veto leaves are as uncertain as before.
+    Fit uncertain = attribution().final_fit;
+    if (final_hypothesis().effects.size() > given_) uncertain.parameters = fitted;
     joints.half_width =
-        half_widths(joints.records, with_all_numbers(whole, attribution().final_fit, attribution().baseline.parameters),
+        half_widths(joints.records, with_all_numbers(whole, uncertain, attribution().baseline.parameters),
                     residual_quantiles(evidence, training_joints, final_hypothesis()));
     result_.joint_interval = prediction_interval(joints, model_.n());
   }
@@ -240,7 +245,7 @@ class Diagnoser {
     if (!is_revised()) return;
     std::vector<int> worse = worse_joints(joints, torques, evidence.floor());
     if (worse.empty()) return;
-    if (give_motion_back(whole)) {
+    if (give_motion_back(evidence, whole)) {
       for (HoldOut* view : {&joints, &torques}) view->after = predict_all(view->records, final_hypothesis());
       worse = worse_joints(joints, torques, holdout_floors(evidence, result_.given, joints, torques));
     }
@@ -248,10 +253,11 @@ class Diagnoser {
   }
 
   /// False if the model's motion cannot be integrated with the effects: then all stays as it is.
-  bool give_motion_back(const Evidence& whole) {
+  bool give_motion_back(const Evidence& evidence, const Evidence& whole) {
     const Fit fit = with_given_motion(whole, result_.given, attribution().final_fit);
     if (!fit.usable) return false;
     attribution().final_fit = fit;
+    attribution().final_score = evidence.score(fit.hypothesis);
     changed_ = changed_numbers(whole, result_.given, attribution().final_fit);
     tell_refits();
     return true;

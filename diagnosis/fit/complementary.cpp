@@ -6,9 +6,18 @@
 namespace halyard {
 namespace {
 
+/// Of two effects of a kind: the orders of two ripples, for example.
+bool have_the_same_whole_numbers(const Hypothesis& h, const PlacedEffect& a, const PlacedEffect& b) {
+  const SearchSpace space = search_space(*a.effect, h.nominal, a.joint);
+  for (std::size_t i = 0; i < space.parameters.size(); ++i)
+    if (space.parameters[i].is_whole && a.p[i] != b.p[i]) return false;
+  return true;
+}
+
 bool are_complementary(const Fit& fit, std::size_t one, std::size_t other) {
   const PlacedEffect &a = fit.hypothesis.effects[one], &b = fit.hypothesis.effects[other];
   if (a.effect != b.effect || a.joint != b.joint || a.effect->n_states() > 0) return false;
+  if (!have_the_same_whole_numbers(fit.hypothesis, a, b)) return false;
   return std::ranges::none_of(fit.parameters, [&](FitParameter p) {
     if (p.effect != one) return false;
     p.effect = other;

@@ -121,7 +121,7 @@ void Evidence::find_floors(const ArmModel& model) {
       square[p.channel] += std::pow(records_[p.record].torque[p.channel][p.index * stride_], 2), count[p.channel] += 1;
   for (int k = 0; k < n_; ++k) {
     const JointParameters<double>& j = model.nominal.joint[k];
-    if (count[k] > 0) floor_[k] = kTorqueFloor * j.torque_scale * std::sqrt(square[k] / count[k]);
+    if (count[k] > 0) floor_[k] = kTorqueFloor * std::sqrt(square[k] / count[k]);
     for (const Record& record : records_) {
       if (!record.has_joint(k)) continue;
       const double told = j.joint_encoder_resolution;

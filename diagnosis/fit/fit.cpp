@@ -31,7 +31,7 @@ class Residual : public ceres::CostFunction {
     return h;
   }
   /// Value of the optimiser's zero: the model's number for a baseline parameter, 0 for an effect's.
-  double origin(std::size_t i) const { return parameters_[i].effect < 0 ? parameters_[i].nominal : 0; }
+  double origin(std::size_t i) const { return parameters_[i].effect ? 0 : parameters_[i].nominal; }
 
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
     const double* u = blocks[0];

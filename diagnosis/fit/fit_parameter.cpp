@@ -98,6 +98,7 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
     f.range = search.range;
     f.is_whole = search.is_whole;
     limit_period(f, space, i, evidence, e.joint.value_or(0));
+    if (f.is_whole) f.lower = std::ceil(f.lower), f.upper = std::floor(f.upper);
     if (search.range != SearchRange::own) {
       const Span span =
           search.range == SearchRange::record_time ? evidence.time_span() : evidence.joint_span(e.joint.value_or(0));

@@ -149,8 +149,9 @@ Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, s
   std::vector<FitParameter> numbers = chosen.parameters;
   std::erase_if(numbers, [](const FitParameter& p) { return p.effect.has_value(); });
   const auto columns = sensitivities(whole, chosen.hypothesis, numbers);
-  const Hypothesis start =
-      nudged(whole, chosen.hypothesis, given, model.nominal, BeyondNumbers(whole, columns, scale)).at;
+  Hypothesis start = chosen.hypothesis;
+  if (columns.size() == numbers.size())
+    start = nudged(whole, start, given, model.nominal, BeyondNumbers(whole, columns, scale)).at;
   const Fit tried = weighed_fit(whole, start, chosen.parameters);
   const Fit& all = tried.usable ? tried : chosen;
   if (!all.usable) return {};

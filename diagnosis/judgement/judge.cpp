@@ -37,11 +37,11 @@ bool is_beyond_noise(const Evidence& evidence, const std::vector<double>& mean_s
          mean_square[channel] > std::pow(kRule.explained_ratio * evidence.floor()[channel], 2);
 }
 
-int most_explained_channel(const Evidence& evidence, const Score& with, const Score& without) {
-  int most = -1;
+std::optional<int> most_explained_channel(const Evidence& evidence, const Score& with, const Score& without) {
+  std::optional<int> most;
   const auto left = [&](int c) { return with.mean_square[c] / without.mean_square[c]; };
   for (int c = 0; c < evidence.channels(); ++c)
-    if (evidence.has_channel(c) && (most < 0 || left(c) < left(most))) most = c;
+    if (evidence.has_channel(c) && without.mean_square[c] > 0 && (!most || left(c) < left(*most))) most = c;
   return most;
 }
 
@@ -58,7 +58,6 @@ Trial Judge::trial(const Hypothesis& with, const Scored& without, std::size_t pl
   const Scored scored{with, evidence_.score(with)};
   if (!scored.score.finite || !without.score.finite) return t;
   t.usable = true;
-  if (place < with.past.size()) t.past = with.past[place];
   t.log_likelihood = log_likelihood(evidence_, scored.score, squared_floors(evidence_));
   t.gain = gain_over(scored, without);
   t.stretch = stretch(with);
@@ -96,11 +95,11 @@ double Judge::gain_over(const Scored& a, const Scored& b) const {
 /// nothing.
 bool Judge::explains_a_rest(const Score& before, const Score& after) const {
   const std::vector<bool> had = significant_rest(evidence_, before), has = significant_rest(evidence_, after);
-  int most = -1;
+  std::optional<int> most;
   const auto left = [&](int c) { return after.mean_square[c] / before.mean_square[c]; };
   for (int c = 0; c < evidence_.channels(); ++c)
-    if (had[c] && (most < 0 || left(c) < left(most))) most = c;
-  return most >= 0 && (!has[most] || left(most) < kRule.next_to_none * kRule.next_to_none);
+    if (had[c] && (!most || left(c) < left(*most))) most = c;
+  return most && (!has[*most] || left(*most) < kRule.next_to_none * kRule.next_to_none);
 }
 
 /// True if a size or a shape ends at its bound, and its sizes do more there than one number by chance. A group of sizes

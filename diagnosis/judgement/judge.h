@@ -20,6 +20,8 @@
 ///   bound itself has an equal likelihood;
 /// - one of its sizes at least exceeds the tolerance of the number that it changes. Otherwise it is a refit.
 
+#include <optional>
+
 #include "diagnosis/fit/fit.h"
 #include "diagnosis/judgement/decision_rule.h"
 #include "diagnosis/judgement/likelihood.h"
@@ -29,13 +31,12 @@ namespace halyard {
 /// A candidate and the results of its tests.
 struct Trial {
   PlacedEffect effect;
-  std::vector<double> past;  ///< Hypothesis::past of this effect
-  bool promising = true;     ///< false: even at its best start it explains too little of the residual to be fitted
-  bool is_fitted = true;     ///< it was among the candidates that leave the smallest residual
-  bool usable = false;       ///< it could be integrated
-  double gain = 0;           ///< on the deciding blocks, above the baseline of its round
-  double stretch = 0;        ///< prior cost of the baseline's numbers with it
-  double p_value = 1;        ///< of no gain, without correction for the number of candidates
+  bool promising = true;  ///< false: even at its best start it explains too little of the residual to be fitted
+  bool is_fitted = true;  ///< it was among the candidates that leave the smallest residual
+  bool usable = false;    ///< it could be integrated
+  double gain = 0;        ///< on the deciding blocks, above the baseline of its round
+  double stretch = 0;     ///< prior cost of the baseline's numbers with it
+  double p_value = 1;     ///< of no gain, without correction for the number of candidates
   bool is_judged() const { return usable && p_value <= kRule.worth_a_fit; }
   // Valid if is_judged():
   bool at_bound = false;
@@ -62,8 +63,8 @@ std::vector<bool> significant_rest(const Evidence& evidence, const Score& score)
 /// mean_square: [2n].
 bool is_beyond_noise(const Evidence& evidence, const std::vector<double>& mean_square, int channel);
 
-/// The channel of which an effect explains the largest share.
-int most_explained_channel(const Evidence& evidence, const Score& with, const Score& without);
+/// The channel of which an effect explains the largest share of the deciding blocks; nothing if they show no residual.
+std::optional<int> most_explained_channel(const Evidence& evidence, const Score& with, const Score& without);
 
 /// a - b, row by row; both have the same length.
 std::vector<double> difference(std::vector<double> a, const std::vector<double>& b);

@@ -20,12 +20,13 @@ struct TorqueMoments {
 }  // namespace
 
 double acting_over_commanded(const Record& record, const Hypothesis& h, int k, const CommandHistory& history) {
-  constexpr double kLeast = 0.05;
+  constexpr double kLeast = 0.05;  // of the model's scale
+  const double scale = std::abs(h.nominal.joint[k].torque_scale), least = kLeast * scale;
   const bool by_effect = std::ranges::any_of(h.effects, [](const PlacedEffect& e) {
     return (e.effect->stages() & static_cast<unsigned>(EffectStage::command)) != 0;
   });
   const Transmission<double> transmission = lift_transmission<double>(h.nominal, h.effects);
-  if (!by_effect) return std::max(kLeast, std::abs(transmission.arm().joint[k].torque_scale));
+  if (!by_effect) return std::max(least, std::abs(transmission.arm().joint[k].torque_scale));
   const std::vector<double> z(kMaxStates, 0.0);
   TorqueMoments commanded, acting;
   for (std::size_t i = 0; i < record.size; i += kCommandStride) {
@@ -40,7 +41,7 @@ double acting_over_commanded(const Record& record, const Hypothesis& h, int k, c
     acting.add(s[k].motor_torque);
   }
   const double ratio = std::sqrt(acting.variance() / commanded.variance());
-  return std::isfinite(ratio) ? std::max(kLeast, ratio) : 1;
+  return std::isfinite(ratio) ? std::max(least, ratio) : scale;
 }
 
 }  // namespace halyard

@@ -132,7 +132,8 @@ class Search {
       const Competition::Choice choice = competition.choose(able);
       won = {fits[choice.named], competition.naming(choice)};
       told.accepted = true;
-      std::swap(told.trials[0], told.trials[choice.named]);
+      const auto named = told.trials.begin() + static_cast<std::ptrdiff_t>(choice.named);
+      std::rotate(told.trials.begin(), named, named + 1);
     }
     result_.rounds.push_back(std::move(told));
     return won;
@@ -228,7 +229,10 @@ class Search {
       const PlacedEffect old = current.fit.hypothesis.effects[place];
       const Hypothesis others = without_effect(current.fit.hypothesis, place);
       const Found without = without_[kept];
-      if (!without.fit.usable) return;
+      if (!without.fit.usable) {
+        ++kept;
+        continue;
+      }
       std::vector<PlacedEffect> rivals = candidates(others);
       std::erase_if(rivals, [&](const PlacedEffect& r) {
         return std::ranges::none_of(pool, [&](const PlacedEffect& p) { return same_name(p, r); });
@@ -241,6 +245,7 @@ class Search {
       Found revised = won ? Found{won->fit, evidence_.score(won->fit.hypothesis)} : without;
       if (won ? is_beaten(revised, current, is_same)
               : judge_.is_needed(current.scored(), without.scored(), place, options_.significance)) {
+        if (won) result_.rounds.back().accepted = false;
         ++kept;
         continue;
       }

@@ -19,7 +19,8 @@ class LinearProblem {
     sizes_so_far_ = refitter.parameters(round.from);
     std::erase_if(sizes_so_far_, [&](const FitParameter& p) { return p.effect < given || p.shape || p.is_whole; });
     const auto columns_so_far = sensitivities(evidence, round.from, sizes_so_far_);
-    usable_ = !residual.empty() && columns_so_far.size() == sizes_so_far_.size();
+    usable_ = !residual.empty() && columns_so_far.size() == sizes_so_far_.size() &&
+              round.columns.size() == round.numbers.size();
     if (!usable_) return;
 
     problem_.x = -Eigen::Map<const Eigen::VectorXd>(residual.data(), std::ssize(residual));

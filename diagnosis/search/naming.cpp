@@ -76,8 +76,7 @@ Naming Competition::naming(const Choice& choice) const {
 double Competition::weight_of_no_effect() const {
   std::vector<std::size_t> rivals;
   for (std::size_t i = 0; i < trials_.size(); ++i)
-    if (trials_[i].is_judged() && !trials_[i].at_bound && !trials_[i].is_refit && trials_[i].matters)
-      rivals.push_back(i);
+    if (trials_[i].can_be_named()) rivals.push_back(i);
   return weights(rivals).back();
 }
 

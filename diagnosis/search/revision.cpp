@@ -109,8 +109,9 @@ std::vector<std::size_t> revise(const Evidence& evidence, const Evidence& whole,
 double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t effect) {
   const Score without = evidence.score(without_effect(found.final_fit.hypothesis, effect));
   if (!without.finite) return 0;
-  const int c = most_explained_channel(evidence, found.final_score, without);
-  return probability_of_none(found.final_score.mean_square[c], without.mean_square[c], evidence.floor()[c]);
+  const std::optional<int> c = most_explained_channel(evidence, found.final_score, without);
+  if (!c) return 0;
+  return probability_of_none(found.final_score.mean_square[*c], without.mean_square[*c], evidence.floor()[*c]);
 }
 
 bool is_doubtful(const Evidence& evidence, const Attribution& found, std::size_t given, std::size_t effect) {

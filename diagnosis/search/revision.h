@@ -13,7 +13,6 @@ namespace halyard {
 ///   - An effect that these data do not determine is dropped. So is a doubtful one that belongs to the log and not to the
 ///     arm, as a push at some instant does: it predicts nothing elsewhere.
 ///   - Two effects that are one become one (complementary.h). It keeps the surer of their names.
-///   - If the inertias that were fitted are those of no body, they are as given.
 ///   - If no effect is left and no number changed, the model's numbers are as given.
 ///
 /// whole: an Evidence without deciding blocks. given: the model that is revised.

@@ -119,8 +119,8 @@ class StartSearch {
   struct Asked {
     Hypothesis hypothesis;
     std::size_t combination;
+    std::vector<double> promise_of = {};  ///< [parameters] of the size's most promising value
     double promise = 0;
-    bool any = false;
   };
 
   /// What leaves least at one combination of shapes.
@@ -182,12 +182,15 @@ class StartSearch {
     if (std::clamp(wanted, p.lower, p.upper) == p.nominal || moved == 0) return 0;
     Asked& asked = asked_[t.combination];
     // Shapes come with the first hypothesis of their combination; of several sizes each asks for its own.
-    if (!asked.any) {
-      asked = {t.hypothesis, t.combination, 0, true};
+    if (asked.promise_of.empty()) {
+      asked = {t.hypothesis, t.combination, std::vector<double>(parameters_.size(), 0)};
       for (const FitParameter& other : parameters_)
         if (!other.shape) set_parameter(asked.hypothesis, other, other.nominal);
     }
-    set_parameter(asked.hypothesis, p, std::clamp(wanted, p.lower, p.upper));
+    if (d.promise > asked.promise_of[t.size]) {
+      set_parameter(asked.hypothesis, p, std::clamp(wanted, p.lower, p.upper));
+      asked.promise_of[t.size] = d.promise;
+    }
     asked.promise = std::max(asked.promise, d.promise);
     return d.promise;
   }

@@ -1,7 +1,6 @@
 #pragma once
 /// Start values for the fit of a candidate. Least squares finds only the nearest minimum, so sizes and shapes are first
-/// tried over their whole ranges. Impacts make the residual a rough function of a size, so values near the best one are
-/// tried again.
+/// tried over their whole ranges, and then the sizes that a linear fit asks for.
 
 #include <limits>
 

@@ -20,6 +20,10 @@ void motor_friction(SearchSpace& space, const Arm& arm, int joint) {
   space["viscous_change"].changes = {&Tolerances::friction, joint, arm.joint[joint].motor_viscous};
 }
 
+void torque_scale(SearchSpace& space, const Arm&, int joint) {
+  space["scale"].changes = {&Tolerances::torque_scale, joint, 1};
+}
+
 void torque_ripple(SearchSpace& space, const Arm&, int) {
   // Pole pairs, slots and commutator bars, and what they have in common.
   std::vector<double>& orders = space["order"].starts;
@@ -34,7 +38,8 @@ void torque_ripple(SearchSpace& space, const Arm&, int) {
 std::span<const BuiltInSpace> motor_spaces() {
   static constexpr BuiltInSpace kSpaces[] = {{"actuator_saturation", actuator_saturation},
                                              {"motor_friction", motor_friction},
-                                             {"torque_ripple", torque_ripple}};
+                                             {"torque_ripple", torque_ripple},
+                                             {"torque_scale", torque_scale}};
   return kSpaces;
 }
 

@@ -33,7 +33,7 @@ TEST(JoinComplementary, MakesOneForceOfAContactAndAPush) {
   EXPECT_EQ(std::vector<double>(joined->hypothesis.effects[0].p, joined->hypothesis.effects[0].p + 5),
             (std::vector<double>{20, 21, 22, 13, 14}));
   ASSERT_EQ(joined->parameters.size(), 6);
-  EXPECT_EQ(joined->parameters[0].effect, -1);
+  EXPECT_FALSE(joined->parameters[0].effect);
   for (int i = 0; i < 5; ++i) {
     EXPECT_EQ(joined->parameters[i + 1].effect, 0);
     EXPECT_EQ(joined->parameters[i + 1].index, i) << "in the order of the effect";
@@ -44,6 +44,15 @@ TEST(JoinComplementary, LeavesTwoPushesTwoEffects) {
   const Evidence evidence = small_evidence();
   EXPECT_FALSE(join_complementary(fit_of(evidence, "external_force", {{0, 1, 2}, {0, 1, 2}}), 0));
   EXPECT_FALSE(join_complementary(fit_of(evidence, "external_force", {{0, 1, 2, 3, 4}, {0, 1, 2}}), 0));
+}
+
+TEST(JoinComplementary, LeavesRipplesOfTwoOrders) {
+  const Evidence evidence = small_evidence();
+  Fit fit = fit_of(evidence, "torque_ripple", {{0}, {1}});
+  for (PlacedEffect& e : fit.hypothesis.effects) e.p[2] = 6;
+  EXPECT_TRUE(join_complementary(fit, 0));
+  fit.hypothesis.effects[1].p[2] = 12;
+  EXPECT_FALSE(join_complementary(fit, 0));
 }
 
 TEST(JoinComplementary, LeavesEffectsThatTheModelCameWith) {

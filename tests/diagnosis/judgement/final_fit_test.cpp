@@ -39,7 +39,7 @@ struct Slipped {
   std::vector<double> certainties() const {
     std::vector<double> all;
     for (std::size_t i = 0; i < fit.parameters.size(); ++i)
-      if (fit.parameters[i].effect >= 0 && !fit.parameters[i].shape)
+      if (fit.parameters[i].effect && !fit.parameters[i].shape)
         all.push_back(std::abs(fit.value[i] - fit.parameters[i].nominal) /
                       (interval_factor(fit) * fit.std_deviation[i]));
     return all;
@@ -97,7 +97,7 @@ TEST(FinalFit, IntervalsCountWhatTheNumbersOfTheModelMayBeOff) {
   std::ptrdiff_t numbers = 0;
   for (std::size_t i = 0; i < arm.fit.parameters.size(); ++i) {
     const FitParameter& p = arm.fit.parameters[i];
-    if (p.effect < 0) {
+    if (!p.effect) {
       ++numbers;
       continue;
     }
@@ -153,10 +153,10 @@ TEST(FinalFit, GivesTheModelsNumbersBack) {
   const Fit as_given = with_given_numbers(whole, arm.model, arm.fit);
   ASSERT_TRUE(as_given.usable);
   for (const FitParameter& p : arm.fit.parameters) {
-    if (p.effect >= 0) continue;
+    if (p.effect) continue;
     EXPECT_EQ(parameter_value(as_given.hypothesis, p), p.nominal) << p.name;
   }
-  for (const FitParameter& p : as_given.parameters) EXPECT_GE(p.effect, 0) << p.name;
+  for (const FitParameter& p : as_given.parameters) EXPECT_TRUE(p.effect) << p.name;
 }
 
 }  // namespace
