@@ -62,8 +62,8 @@ class Diagnoser {
     search(evidence, whole);
     if (is_one_sine(evidence)) refuse_names(evidence);
     else tell_names(evidence);
-    predict_holdout(evidence, whole, data.training_joints);
     tell_rests(evidence);
+    predict_holdout(evidence, whole, data.training_joints);
     tell_doubtful(evidence);
     tell_probabilities(evidence);
     tell_stuck_sensors(training);
@@ -245,19 +245,19 @@ class Diagnoser {
     if (!is_revised()) return;
     std::vector<int> worse = worse_joints(joints, torques, evidence.floor());
     if (worse.empty()) return;
-    if (give_motion_back(evidence, whole)) {
+    if (give_motion_back(whole)) {
       for (HoldOut* view : {&joints, &torques}) view->after = predict_all(view->records, final_hypothesis());
       worse = worse_joints(joints, torques, holdout_floors(evidence, result_.given, joints, torques));
     }
     if (!worse.empty()) refuse(evidence, worse);
   }
 
-  /// False if the model's motion cannot be integrated with the effects: then all stays as it is.
-  bool give_motion_back(const Evidence& evidence, const Evidence& whole) {
+  /// False if the model's motion cannot be integrated with the effects: then all stays as it is. The verdict stays that
+  /// of the fit before: what numbers explain within their tolerances is not unexplained because other data want others.
+  bool give_motion_back(const Evidence& whole) {
     const Fit fit = with_given_motion(whole, result_.given, attribution().final_fit);
     if (!fit.usable) return false;
     attribution().final_fit = fit;
-    attribution().final_score = evidence.score(fit.hypothesis);
     changed_ = changed_numbers(whole, result_.given, attribution().final_fit);
     tell_refits();
     return true;
