@@ -38,8 +38,8 @@ double least_of(Bound bound, double value) {
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
 
-/// A link's radius of gyration about the origin of its joint, as if it were equal about all axes, m.
-double radius_of_gyration(const JointParameters<double>& joint) {
+/// Root mean square distance of a link's mass from the origin of its joint, m.
+double distance_of_mass(const JointParameters<double>& joint) {
   const double trace = joint.inertia[0] + joint.inertia[1] + joint.inertia[2];
   const Eigen::Map<const Eigen::Vector3d> com(joint.com);
   return std::sqrt(com.squaredNorm() + (joint.mass > 0 ? trace / (2 * joint.mass) : 0));
@@ -71,7 +71,7 @@ void add_named_parameters(ArmParameters<double>& arm, int k, std::vector<Paramet
     } else if constexpr (std::is_same_v<Value, double[3]>) {
       for (int i = 0; i < 3; ++i)
         all.push_back({in_words + " " + kAxes[i], key + "." + kAxes[i], unit, k, tolerance, ArmNumber(value[i]),
-                       radius_of_gyration(joint), kNoLeast});
+                       distance_of_mass(joint), kNoLeast});
     } else if constexpr (std::is_same_v<Value, double[6]>) {
       const ArmNumber largest = largest_moment(value);
       all.push_back(

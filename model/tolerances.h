@@ -7,8 +7,9 @@ namespace halyard {
 struct Tolerances {
   double length = 0.005;  ///< radii, ratios, lengths
   double mass = 0.05;     ///< masses of links, inertias of rotors
-  double com = 0.005;     ///< coordinates of centres of mass, relative to the link's radius of gyration about its joint
-  double inertia = 0.05;  ///< inertias of links: one factor for all moments of a link
+  double com =
+      0.005;  ///< coordinates of centres of mass, relative to the rms distance of the link's mass from its joint
+  double inertia = 0.05;    ///< inertias of links: one factor for all moments of a link
   double stiffness = 0.10;  ///< stiffness and damping of cables
   double friction = 0.20;   ///< Coulomb and viscous
   double smoothing = 0;     ///< smoothing speeds of friction

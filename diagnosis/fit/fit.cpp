@@ -142,7 +142,7 @@ bool minimise(const Residual& residual, const std::vector<FitParameter>& paramet
   return summary.termination_type != ceres::FAILURE;
 }
 
-/// Rows between two correlation times, in blocks.
+/// The longest correlation time of any channel, in blocks.
 double correlated_blocks(const Evidence& evidence, const Eigen::VectorXd& r) {
   double rows = 1;
   const std::vector<int>& channel = evidence.row_channel();

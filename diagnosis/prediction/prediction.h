@@ -33,8 +33,7 @@ struct Residuals {
   bool finite = true;  ///< false: the motion of this hypothesis cannot be integrated
 };
 
-/// Hypotheses about a record that are integrated with the same steps, so that their residuals can be compared. They have
-/// the same effects at the same joints; only parameters differ.
+/// Hypotheses about a record that are integrated with the same steps, so that their residuals can be compared.
 struct PredictionRequest {
   const Record* record;
   const std::vector<Hypothesis>* hypotheses;

@@ -11,8 +11,8 @@
 
 namespace halyard {
 
-/// Instants around each of the strongest jumps, ascending, s. They are spaced so that one of them is at most half a row
-/// from the jump. A jump has at most two dozen instants; it has that many if deciding blocks lie between its rows.
+/// Instants around each of the strongest jumps, ascending, s. One of them is at most half a row from the jump. If deciding
+/// blocks lie between its rows, two dozen instants are spread over these blocks, however long they are.
 /// rows: residuals of the fitting rows.
 std::vector<double> leaps(const Evidence& evidence, const std::vector<double>& rows);
 
