@@ -173,15 +173,16 @@ void check_range_of_motion(LogUnderCheck& c, const SampledMotion& m, int k) {
   std::vector<UnitGuess> units = position_units(false, j.motor_encoder_resolution);
   std::string guess = "in another unit";
   Correction correction{.factor = c.range(k) / (2 * spread(m.expected[k]))};
-  constexpr double kLeastUsed = 0.2;  // of the range: a unit that makes the motion smaller than that is not the reason
+  constexpr double kLeastUsed = 0.2;  // of the range: a unit that leaves less of the motion is not the reason
   double best = kInfinity;
   for (const UnitGuess& unit : units) {
     std::vector<double> corrected = m.expected[k];
     for (double& q : corrected) q *= unit.factor;
-    if (spread(corrected) < kLeastUsed * c.range(k)) continue;
+    const double used = spread(corrected) / c.range(k);
+    if (used < kLeastUsed || used > c.rule.gross_ratio) continue;
     // Of several units that fit into the range the one that moves most is the likeliest.
-    const double misfit = c.beyond_range(k, corrected, j.motor_zero_known && j.motor_encoder_offset == 0) -
-                          0.1 * std::min(1.0, spread(corrected) / c.range(k));
+    const double misfit =
+        c.beyond_range(k, corrected, j.motor_zero_known && j.motor_encoder_offset == 0) - 0.1 * std::min(1.0, used);
     if (misfit < best) best = misfit, guess = "in " + unit.what, correction.factor = unit.factor;
   }
   c.reject(name,

@@ -90,6 +90,14 @@ TEST(LogCheck, NamesTheUnitOfAMotor) {
   }
 }
 
+TEST(LogCheck, DoesNotBlameAUnitForWhatNoUnitExplains) {
+  const std::vector<LogFinding> findings =
+      check_log(without_joint_sensors(scaled(&Log::motor_position, 0, 8)), raven(), {});
+  ASSERT_FALSE(findings.empty());
+  EXPECT_NE(findings[0].what.find("in another unit"), std::string::npos) << lines_of(findings);
+  EXPECT_EQ(findings[0].remedy.find("unit="), std::string::npos) << lines_of(findings);
+}
+
 TEST(LogCheck, NamesTheColumnWhoseMapConvertsWhatNeedsNoConversion) {
   for (const auto signal : {&Log::motor_position, &Log::joint_position})
     for (int k = 0; k < 2; ++k) {
