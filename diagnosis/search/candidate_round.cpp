@@ -114,7 +114,7 @@ void CandidateRound::quick_fits(const std::vector<std::size_t>& candidates, std:
     Look& look = looks[candidates[c]];
     if (!look.ends.empty()) {
       look.trial = judge_.trial(look.ends[0], without_, look.ends[0].effects.size() - 1);
-      look.left = screen_->left(evidence_.fit_rows({look.ends[0]})[0]);
+      look.left = left_at(look.ends[0]);
     }
     look.trial.is_fitted = true;
   });
@@ -158,12 +158,9 @@ std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
   for (auto& [i, refit] : first)
     if (!refits[i].best.usable || refit.last < refits[i].last) refits[i] = std::move(refit);
   for (Refit& r : refits) r.is_nudged = true;
-  std::vector<Prospect> prospects(trials.size());
   const auto judge = [&](std::size_t i) {
     const Hypothesis& h = refits[i].best.hypothesis;
     trials[i] = refits[i].best.usable ? judge_.trial(h, without_, h.effects.size() - 1) : unusable(trials[i].effect);
-    prospects[i] = {trials[i].is_judged(), trials[i].gain};
-    if (trials[i].is_judged()) prospects[i].left = screen_->left(evidence_.fit_rows({h})[0]);
   };
   const auto go_on_with = [&](const std::string& what, const std::vector<std::size_t>& going, int passes) {
     each(what, going.size(), [&](std::size_t g) {
@@ -173,7 +170,14 @@ std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
   };
   // After one pass the right candidate may still be far from its minimum.
   go_on_with("best candidates", leaders_, kRule.first_passes - 1);
-  go_on_with("finalists", leaders_of(prospects, kRule.still_leads), kRule.most_passes - kRule.first_passes);
+  std::vector<Prospect> prospects(trials.size());
+  run_side_by_side(leaders_.size(), [&](std::size_t l) {
+    const std::size_t i = leaders_[l];
+    if (trials[i].is_judged()) prospects[i] = {true, trials[i].gain, left_at(refits[i].best.hypothesis)};
+  });
+  std::vector<std::size_t> finalists = leaders_of(prospects, kRule.still_leads);
+  std::erase_if(finalists, [&](std::size_t i) { return refits[i].settled; });
+  go_on_with("finalists", finalists, kRule.most_passes - kRule.first_passes);
   std::vector<Fit> fits;
   for (const Refit& r : refits) fits.push_back(r.best);
   return fits;

@@ -52,6 +52,8 @@ class CandidateRound {
     double left = std::numeric_limits<double>::infinity();  ///< at the best end, see Screen::left()
   };
   void quick_fits(const std::vector<std::size_t>& candidates, std::vector<Look>& looks) const;
+  /// See Screen::left().
+  double left_at(const Hypothesis& h) const { return screen_->left(evidence_.fit_rows({h})[0]); }
   /// The effects so far and the model's numbers stay linear.
   Fit quick_fit(const Hypothesis& start) const;
   /// A full fit of the same candidate.
