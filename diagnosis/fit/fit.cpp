@@ -110,7 +110,41 @@ struct LinearisedResidual {
   bool finite = false;
 };
 
-/// Bounded least squares from u on; false if the start cannot be integrated.
+/// Parameters at a bound beyond which the cost would fall. Ceres clips a step at the bounds, and the step of the others
+/// is then the wrong one: it is rejected again and again, and the fit ends far from its minimum.
+std::vector<int> pressed(const ceres::Problem& problem, const LinearisedResidual& at, const std::vector<double>& u) {
+  const Eigen::VectorXd gradient =
+      at.J.transpose() * Eigen::Map<const Eigen::VectorXd>(at.r.data(), static_cast<Eigen::Index>(at.r.size()));
+  std::vector<int> all;
+  for (int i = 0; i < static_cast<int>(u.size()); ++i)
+    if ((u[i] <= problem.GetParameterLowerBound(u.data(), i) && gradient(i) > 0) ||
+        (u[i] >= problem.GetParameterUpperBound(u.data(), i) && gradient(i) < 0))
+      all.push_back(i);
+  return all;
+}
+
+/// Stops the solver when a step ends at a bound at which nothing is held yet.
+class StopAtBound : public ceres::IterationCallback {
+ public:
+  StopAtBound(const ceres::Problem& problem, const std::vector<double>& u, const std::vector<int>& held)
+      : problem_(problem), u_(u), held_(held) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
+    for (int i = 0; step.iteration > 0 && i < static_cast<int>(u_.size()); ++i)
+      if ((u_[i] <= problem_.GetParameterLowerBound(u_.data(), i) ||
+           u_[i] >= problem_.GetParameterUpperBound(u_.data(), i)) &&
+          std::ranges::find(held_, i) == held_.end())
+        return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    return ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const ceres::Problem& problem_;
+  const std::vector<double>& u_;
+  const std::vector<int>& held_;
+};
+
+/// Bounded least squares from u on; false if the start cannot be integrated. Parameters that are pressed against a bound
+/// are held there, and the others are fitted, until the same ones are pressed.
 bool minimise(const Residual& residual, const std::vector<FitParameter>& parameters, const FitOptions& options,
               std::vector<double>& u) {
   ceres::Problem::Options ownership;
@@ -133,13 +167,26 @@ bool minimise(const Residual& residual, const std::vector<FitParameter>& paramet
   solver.num_threads = 1;
   // With bounds Ceres would add a line search to each step: two of three evaluations, and no better minimum.
   solver.max_num_line_search_step_size_iterations = 0;
-  // Ceres would write to the log of the host program if the start cannot be integrated. The residual keeps what is
-  // computed here for Ceres' first step.
-  const LinearisedResidual first(residual, u);
-  if (!first.finite) return false;
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
-  return summary.termination_type != ceres::FAILURE;
+  std::vector<int> held;
+  StopAtBound stop(problem, u, held);
+  solver.callbacks.push_back(&stop);
+  solver.update_state_every_iteration = true;
+  for (bool has_settled = false; solver.max_num_iterations > 0;) {
+    // Ceres would write to the log of the host program if the start cannot be integrated. The residual keeps what is
+    // computed here for Ceres' first step.
+    const LinearisedResidual at(residual, u);
+    if (!at.finite) return false;
+    std::vector<int> now = pressed(problem, at, u);
+    if (now.size() == u.size() || (has_settled && now == held)) break;
+    held = std::move(now);
+    problem.SetManifold(u.data(), held.empty() ? nullptr : new ceres::SubsetManifold(static_cast<int>(u.size()), held));
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver, &problem, &summary);
+    if (summary.termination_type == ceres::FAILURE) return false;
+    has_settled = summary.termination_type == ceres::CONVERGENCE;
+    solver.max_num_iterations -= static_cast<int>(summary.iterations.size()) - 1;
+  }
+  return true;
 }
 
 /// The longest correlation time of any channel, in blocks.

@@ -74,6 +74,32 @@ TEST(Fit, FindsTheInstantOfASlipThatIsAPeriodOfTheCableOff) {
   EXPECT_NEAR(found.hypothesis.effects[0].p[0], kJump, 0.02 * kJump);
 }
 
+/// A motor that turns a larger capstan than its tolerance allows, at a joint whose zero is off: both move the joint.
+TEST(Fit, FindsTheBestOfOneNumberWhileAnotherIsAtItsBound) {
+  const ArmModel model = first_joints(1);
+  ArmModel robot = model;
+  robot.nominal.joint[0].capstan_radius *= 1.02;
+  robot.effects = {place_effect(*find_effect("encoder_offset"), model.nominal, 0)};
+  robot.effects[0].p[0] = 0.02;
+  const Evidence evidence(make_records(simulate(motion(robot, 5)).measured, model, {}), model);
+  Hypothesis start{model.nominal, {place_neutral_effect(*find_effect("encoder_offset"), model.nominal, 0)}};
+  const std::vector<double> scale = channel_scale(evidence, evidence.score(start).fit_mean_square);
+  const std::vector<FitParameter> offset = effect_parameters(evidence, start, model.nominal, 0);
+  std::vector<FitParameter> both = baseline_parameters(model);
+  std::erase_if(both, [](const FitParameter& p) { return p.name != "joint 1 motor capstan radius"; });
+  ASSERT_EQ(both.size(), 1u);
+  const FitParameter radius = both[0];
+  both.insert(both.end(), offset.begin(), offset.end());
+  FitOptions options;
+  options.correlated_rows.assign(evidence.channels(), 1);  // the data outweigh the tolerance
+  const Fit found = fit(evidence, start, both, scale, options);
+  ASSERT_TRUE(found.usable);
+  EXPECT_DOUBLE_EQ(parameter_value(found.hypothesis, radius), radius.upper);
+  set_parameter(start, radius, radius.upper);
+  const double best = fit(evidence, start, offset, scale, options).hypothesis.effects[0].p[0];
+  EXPECT_NEAR(found.hypothesis.effects[0].p[0], best, 0.01 * std::abs(best));
+}
+
 TEST(BaselineParameters, LeaveNoValueThatAModelFileMayNotHave) {
   ArmModel model = first_joints(2);
   model.joints[0].tolerances = {.length = 3, .mass = 3, .stiffness = 3, .friction = 3};

@@ -112,7 +112,7 @@ TEST(FinalFit, IntervalsCountWhatTheNumbersOfTheModelMayBeOff) {
 
 TEST(FinalFit, IntervalsCountTheSizesOfTheSameEffectThatAreReset) {
   // More Coulomb friction of the motor; more viscous friction is nearly the same (effects/motor/motor_friction.cpp).
-  constexpr int kCoulomb = 0, kViscous = 1;
+  constexpr std::size_t kCoulomb = 0, kViscous = 1;
   const ArmModel model = first_joints(1);
   PlacedEffect truth = place_neutral_effect(*find_effect("motor_friction"), model.nominal, 0);
   truth.p[kCoulomb] = 0.01;
@@ -126,7 +126,7 @@ TEST(FinalFit, IntervalsCountTheSizesOfTheSameEffectThatAreReset) {
   std::erase_if(one.parameters, [](const FitParameter& p) { return p.effect == 0 && p.index == kViscous; });
   const auto deviation = [&](const Fit& chosen) {
     const Fit fit = final_fit(whole, model, chosen, 0);
-    const auto is = [](int index) {
+    const auto is = [](std::size_t index) {
       return [index](const FitParameter& p) { return p.effect == 0 && p.index == index; };
     };
     EXPECT_TRUE(std::ranges::none_of(fit.parameters, is(kViscous))) << "it is not reset";
