@@ -106,7 +106,7 @@ class Diagnoser {
   void give_up_revision(const Evidence& evidence) {
     result_.effects.clear();
     result_.refitted.clear();
-    doubtful_.clear();
+    doubts_.clear();
     attribution().final_fit = attribution().baseline;
     attribution().final_fit.hypothesis = {result_.given.nominal, result_.given.effects,
                                           attribution().baseline.hypothesis.past};
@@ -116,14 +116,12 @@ class Diagnoser {
   void tell_names(const Evidence& evidence) {
     const Fit& f = attribution().final_fit;
     const std::vector<Naming>& namings = attribution().namings;
+    doubts_ = doubts(evidence, result_.given, attribution(), options_.significance);
     for (std::size_t e = given_; e < f.hypothesis.effects.size(); ++e) {
-      if (is_doubtful(evidence, attribution(), given_, e)) {
-        doubtful_.push_back(e);
-        continue;
-      }
+      if (doubts_[e - given_] != Doubt::none) continue;
       NamedEffect named{f.hypothesis.effects[e], namings[e - given_].weight, {}, namings[e - given_].alternatives};
       named.parameters = estimated_parameters(evidence, e);
-      const double none = probability_of_none_for(evidence, attribution(), e);
+      const double none = probability_of_none_for(evidence, attribution(), given_, e);
       result_.probability_none = std::max(result_.probability_none, none);
       std::vector<double> all = {named.probability *= 1 - none};
       for (Alternative& a : named.alternatives) all.push_back(a.probability *= 1 - none);
@@ -136,16 +134,17 @@ class Diagnoser {
 
   /// Effects without a name that stay in the revised model, because it predicts better with them.
   void tell_doubtful(const Evidence& evidence) {
-    for (const std::size_t e : doubtful_) {
+    for (std::size_t e = given_; e - given_ < doubts_.size(); ++e) {
+      const Doubt doubt = doubts_[e - given_];
+      if (doubt == Doubt::none) continue;
       const Score without = evidence.score(without_effect(final_hypothesis(), e));
       const auto c =
           without.finite ? most_explained_channel(evidence, attribution().final_score, without) : std::nullopt;
       const int k = c.value_or(0) % model_.n();
-      result_.unexplained.push_back(
-          {k,
-           fmt::format("{} explains a part of it and is in the revised model, but so much is left that another cause "
-                       "is more probable",
-                       effect_label(final_hypothesis().effects[e]))});
+      const char* why = doubt == Doubt::another_cause ? "so much is left that another cause is more probable"
+                                                      : "it is needed only beside another effect that has no name";
+      result_.unexplained.push_back({k, fmt::format("{} explains a part of it and is in the revised model, but {}",
+                                                    effect_label(final_hypothesis().effects[e]), why)});
     }
   }
 
@@ -298,9 +297,9 @@ class Diagnoser {
   const ArmModel& model_;
   const DiagnosisOptions& options_;
   const Progress& progress_;
-  std::size_t given_;                  ///< effects that the model came with
-  std::vector<std::size_t> changed_;   ///< see changed_numbers()
-  std::vector<std::size_t> doubtful_;  ///< added effects whose names are not told, as indices in the final hypothesis
+  std::size_t given_;                 ///< effects that the model came with
+  std::vector<std::size_t> changed_;  ///< see changed_numbers()
+  std::vector<Doubt> doubts_;         ///< of each added effect
   std::shared_ptr<DiagnosisDetails> details_ = std::make_shared<DiagnosisDetails>();
   Diagnosis result_;
 };

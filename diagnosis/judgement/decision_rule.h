@@ -17,6 +17,9 @@ struct DecisionRule {
   /// this beside a larger effect may be the larger effect's error of form. Reason: in the logs with other equations
   /// (rounded backlash, Bouc-Wen, LuGre) the right effect leaves 2 to 15 %.
   double form_misfit = 0.1;
+  /// The same for an effect that only changes a number of the model, as an offset does: its equation has no other form.
+  /// Reason: what it misses comes from the model's other numbers, which are some percent off.
+  double number_misfit = 0.03;
   /// An effect that explains less still matters if the model's numbers lie so much closer to the model's values with it:
   /// fall of their prior cost ½ Σ u². Reason: a number at the end of its tolerance costs 2, so without the effect five
   /// numbers would have to be there. A residual that numbers hide is no error of form of an effect found before.

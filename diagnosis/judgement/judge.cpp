@@ -39,10 +39,17 @@ bool is_beyond_noise(const Evidence& evidence, const std::vector<double>& mean_s
 
 std::optional<int> most_explained_channel(const Evidence& evidence, const Score& with, const Score& without) {
   std::optional<int> most;
-  const auto left = [&](int c) { return with.mean_square[c] / without.mean_square[c]; };
-  for (int c = 0; c < evidence.channels(); ++c)
-    if (evidence.has_channel(c) && without.mean_square[c] > 0 && (!most || left(c) < left(*most))) most = c;
+  double largest = 0;
+  for (int c = 0; c < evidence.channels(); ++c) {
+    if (!evidence.has_channel(c)) continue;
+    const double explained = (without.mean_square[c] - with.mean_square[c]) / std::pow(evidence.floor()[c], 2);
+    if (explained > largest) largest = explained, most = c;
+  }
   return most;
+}
+
+double misfit_of(const PlacedEffect& effect) {
+  return effect.effect->stages() == 0 ? kRule.number_misfit : kRule.form_misfit;
 }
 
 std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
@@ -173,34 +180,40 @@ bool Judge::within_tolerance(const Hypothesis& h, std::size_t place) const {
   return true;
 }
 
-/// What the effects that were found do to the residuals, all together: sums of squares, [deciding block][2n]. It is more
-/// than the residual that they have removed, if the model's refitted numbers had hidden a part of it.
-std::vector<std::vector<double>> Judge::done_by_effects(const Scored& found) const {
-  const std::size_t given = model_.effects.size();
-  std::vector<double> change(found.score.deciding.size(), 0);
-  if (found.hypothesis.effects.size() > given) {
-    Hypothesis bare = found.hypothesis;
-    while (bare.effects.size() > given) bare = without_effect(bare, given);
-    const Score without = evidence_.score(bare);
-    if (without.finite) change = difference(without.deciding, found.score.deciding);
+/// What the effects that were found may miss, all together: sums of squares, [deciding block][2n]. What they do to the
+/// residuals is more than what they have removed, if the model's refitted numbers had hidden a part of it.
+std::vector<std::vector<double>> Judge::misfits(const Scored& found) const {
+  const std::size_t given = model_.effects.size(), n = found.hypothesis.effects.size();
+  std::vector<std::vector<double>> all(found.score.block_sum.size(), std::vector<double>(evidence_.channels(), 0));
+  for (const double misfit : {kRule.form_misfit, kRule.number_misfit}) {
+    Hypothesis others = found.hypothesis;
+    for (std::size_t e = n; e-- > given;)
+      if (misfit_of(others.effects[e]) == misfit) others = without_effect(others, e);
+    if (others.effects.size() == n) continue;
+    const Score without = evidence_.score(others);
+    if (!without.finite) continue;
+    const std::vector<double> done = difference(without.deciding, found.score.deciding);
+    const auto sums = evidence_.block_products(done, done);
+    for (std::size_t b = 0; b < all.size(); ++b)
+      for (std::size_t c = 0; c < all[b].size(); ++c) all[b][c] += misfit * misfit * sums[b][c];
   }
-  return evidence_.block_products(change, change);
+  return all;
 }
 
 /// True if the effect takes a share of the residual that is more than the misfit of what was named before it. Where the
 /// earlier effects do little, their misfit is small as well. Therefore blocks in which their misfit may be larger than
 /// the channel's residual do not count, and a small effect is seen where a large one does not act. The residual of the
 /// whole channel decides this and not that of the block: otherwise the blocks in which a misfit is large by chance
-/// would be kept. done: done_by_effects() before.
-bool Judge::takes_a_share(const Score& before, const Score& after, const std::vector<std::vector<double>>& done,
+/// would be kept. misfits: misfits() before.
+bool Judge::takes_a_share(const Score& before, const Score& after, const std::vector<std::vector<double>>& misfits,
                           int c) const {
   double all = 0, gain = 0, misfit = 0;  // sums of squares
   for (std::size_t b = 0; b < before.block_sum.size(); ++b) {
-    const double had = before.block_sum[b][c], may_miss = kRule.form_misfit * kRule.form_misfit * done[b][c];
+    const double had = before.block_sum[b][c];
     all += had;
-    if (may_miss > before.mean_square[c] * evidence_.block_count()[b][c]) continue;
+    if (misfits[b][c] > before.mean_square[c] * evidence_.block_count()[b][c]) continue;
     gain += had - after.block_sum[b][c];
-    misfit += may_miss;
+    misfit += misfits[b][c];
   }
   return gain > std::max(kRule.share * all, misfit);
 }
@@ -210,14 +223,20 @@ bool Judge::takes_a_share(const Score& before, const Score& after, const std::ve
 /// one burst in the fitting blocks, an effect would count for what it does elsewhere below the noise.
 bool Judge::matters(const Scored& without, const Scored& with, std::size_t place) const {
   bool counts = stretch(without.hypothesis) - stretch(with.hypothesis) > kRule.relief;
-  const auto done = done_by_effects(without);
+  const auto before = misfits(without);
   for (int c = 0; c < evidence_.channels() && !counts; ++c)
     counts =
-        is_beyond_noise(evidence_, without.score.mean_square, c) && takes_a_share(without.score, with.score, done, c);
+        is_beyond_noise(evidence_, without.score.mean_square, c) && takes_a_share(without.score, with.score, before, c);
   if (!counts) return false;
   const auto rows = evidence_.fit_rows({with.hypothesis, without_effect(with.hypothesis, place)});
   return !rows[0].empty() &&
          (rows[1].empty() || evidence_.exceeds_floor(difference(rows[0], rows[1]), kRule.above_floor));
+}
+
+bool Judge::leans_on_a_bound(const Scored& found) const {
+  for (std::size_t e = model_.effects.size(); e < found.hypothesis.effects.size(); ++e)
+    if (at_bound(found, e)) return true;
+  return false;
 }
 
 double Judge::stretch(const Hypothesis& h) const {

@@ -63,8 +63,13 @@ std::vector<bool> significant_rest(const Evidence& evidence, const Score& score)
 /// mean_square: [2n].
 bool is_beyond_noise(const Evidence& evidence, const std::vector<double>& mean_square, int channel);
 
-/// The channel of which an effect explains the largest share of the deciding blocks; nothing if they show no residual.
+/// The channel whose mean square on the deciding blocks an effect lowers most, in squares of the channel's floor; nothing
+/// if it lowers none.
 std::optional<int> most_explained_channel(const Evidence& evidence, const Score& with, const Score& without);
+
+/// What an effect may miss although it is the right one, relative to what it does: form_misfit of decision_rule.h, or
+/// number_misfit if it has no equation of its own.
+double misfit_of(const PlacedEffect& effect);
 
 /// a - b, row by row; both have the same length.
 std::vector<double> difference(std::vector<double> a, const std::vector<double>& b);
@@ -84,6 +89,8 @@ class Judge {
   /// The gain of `a` above `b`: what it explains more of the deciding blocks, less its further stretch. Neither has to
   /// contain the other's effects.
   double gain_over(const Scored& a, const Scored& b) const;
+  /// True if an added effect ends at its plausible bound, so that the final fit would take back what it explains.
+  bool leans_on_a_bound(const Scored& found) const;
   /// Cost of a fit: -ln L on the fitting blocks plus the stretch of the baseline parameters.
   double cost(const Scored& scored) const;
   /// Prior cost of the refitted baseline parameters.
@@ -96,10 +103,10 @@ class Judge {
                               const ParameterGroup& group) const;
   bool is_as_good_at_bound(const Scored& with, const FitParameter& p) const;
   bool within_tolerance(const Hypothesis& h, std::size_t place) const;
-  bool takes_a_share(const Score& before, const Score& after, const std::vector<std::vector<double>>& done,
+  bool takes_a_share(const Score& before, const Score& after, const std::vector<std::vector<double>>& misfits,
                      int channel) const;
   bool matters(const Scored& without, const Scored& with, std::size_t place) const;
-  std::vector<std::vector<double>> done_by_effects(const Scored& found) const;
+  std::vector<std::vector<double>> misfits(const Scored& found) const;
 
   const Evidence& evidence_;
   const ArmModel& model_;

@@ -43,9 +43,8 @@ std::vector<double> name_weights(const Evidence& evidence, const std::vector<Com
   return mean;
 }
 
-double probability_of_none(double mean_square_after, double mean_square_before, double floor) {
-  const double explained_by_form = kRule.form_misfit * kRule.form_misfit * mean_square_before;
-  const double ratio = mean_square_after / (floor * floor + explained_by_form);
+double probability_of_none(double mean_square_after, double misfit_square, double floor) {
+  const double ratio = mean_square_after / (floor * floor + misfit_square);
   return ratio > 0 ? 1 / (1 + std::pow(kRule.rest_ratio * kRule.rest_ratio / ratio, kRule.none_sharpness)) : 0;
 }
 

@@ -11,12 +11,13 @@
 /// Source: pseudo-BMA+ of Yao, Vehtari, Simpson, Gelman, Bayesian Analysis 13 (2018), section 3.4.
 ///
 /// It is possible that no candidate is right. Then more residual is left in a channel than noise and the error in the
-/// functional form of a right effect can explain together:
+/// equations of the right effects can explain together:
 ///
-///   ρ = max over channels of  MSE_after / (floor² + η² MSE_before)
+///   ρ = MSE_after / (floor² + Σ_e η_e² MSE_e)
 ///   P(none) = 1 / (1 + (ρ0 / ρ)^s)
 ///
-///   η, ρ0, s   form_misfit, rest_ratio² and none_sharpness of decision_rule.h
+///   MSE_e   mean square without effect e, all else equal     η_e   misfit_of(e), judge.h
+///   ρ0, s   rest_ratio² and none_sharpness of decision_rule.h
 
 #include "diagnosis/judgement/likelihood.h"
 
@@ -33,8 +34,8 @@ struct Competitor {
 std::vector<double> name_weights(const Evidence& evidence, const std::vector<Competitor>& competitors,
                                  const Competitor& no_effect);
 
-/// P(none) of one channel.
-double probability_of_none(double mean_square_after, double mean_square_before, double floor);
+/// P(none) of one channel. misfit_square: Σ_e η_e² MSE_e.
+double probability_of_none(double mean_square_after, double misfit_square, double floor);
 
 /// probability: of each name. True for the names of the smallest set that holds the right name with `share` of the sum
 /// of all these probabilities.

@@ -222,7 +222,8 @@ class Search {
   /// its place once more, beside the other effects. A name that no candidate wins stays if it is still needed.
   void revise_names(Found& current) {
     const std::vector<PlacedEffect> pool = gainers();
-    const std::size_t n = result_.namings.size() - (last_name_competed() ? 1 : 0);
+    const std::size_t all = result_.namings.size();
+    std::size_t n = all - (last_name_competed() ? 1 : 0);
     std::size_t kept = 0;  // names that have been revised and stay in front of the others
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t place = given_ + kept;
@@ -243,8 +244,7 @@ class Search {
       const bool is_same = won && same_name(won->fit.hypothesis.effects.back(), old);
       if (is_same) *naming = won->naming;
       Found revised = won ? Found{won->fit, evidence_.score(won->fit.hypothesis)} : without;
-      if (won ? is_beaten(revised, current, is_same)
-              : judge_.is_needed(current.scored(), without.scored(), place, options_.significance)) {
+      if (won ? is_beaten(revised, current, is_same) : is_needed(current, without, place)) {
         if (won) result_.rounds.back().accepted = false;
         ++kept;
         continue;
@@ -253,7 +253,14 @@ class Search {
       result_.namings.erase(naming);
       if (won) result_.namings.push_back(its);
       change(current, std::move(revised));
+      n = all;  // the last name competed beside an effect that has gone
     }
+  }
+
+  /// Without the effect, another one may end at a bound to replace it. That is no explanation.
+  bool is_needed(const Found& with, const Found& without, std::size_t place) const {
+    return judge_.is_needed(with.scored(), without.scored(), place, options_.significance) ||
+           (judge_.leans_on_a_bound(without.scored()) && !judge_.leans_on_a_bound(with.scored()));
   }
 
   /// True if the name that won a revision stays behind what was there before it: from another start its fit, or the fit of
@@ -284,8 +291,7 @@ class Search {
   void remove_idle(Found& current) {
     const auto is_idle = [&](std::size_t i) {
       const Found& left = without_[i];
-      return left.fit.usable && left.score.finite &&
-             !judge_.is_needed(current.scored(), left.scored(), given_ + i, options_.significance);
+      return left.fit.usable && left.score.finite && !is_needed(current, left, given_ + i);
     };
     for (;;) {
       std::size_t gone = 0;

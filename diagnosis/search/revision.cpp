@@ -1,11 +1,13 @@
 #include "diagnosis/search/revision.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "diagnosis/fit/complementary.h"
 #include "diagnosis/judgement/final_fit.h"
 #include "diagnosis/judgement/name_probability.h"
+#include "diagnosis/search/refit.h"
 
 namespace halyard {
 namespace {
@@ -106,16 +108,51 @@ std::vector<std::size_t> revise(const Evidence& evidence, const Evidence& whole,
   return Revision(evidence, whole, given, found).run();
 }
 
-double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t effect) {
-  const Score without = evidence.score(without_effect(found.final_fit.hypothesis, effect));
+double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t given,
+                               std::size_t effect) {
+  const Hypothesis& h = found.final_fit.hypothesis;
+  const Score without = evidence.score(without_effect(h, effect));
   if (!without.finite) return 0;
   const std::optional<int> c = most_explained_channel(evidence, found.final_score, without);
   if (!c) return 0;
-  return probability_of_none(found.final_score.mean_square[*c], without.mean_square[*c], evidence.floor()[*c]);
+  double misfit_square = 0;
+  for (std::size_t e = given; e < h.effects.size(); ++e) {
+    const Score other = e == effect ? without : evidence.score(without_effect(h, e));
+    if (other.finite) misfit_square += std::pow(misfit_of(h.effects[e]), 2) * other.mean_square[*c];
+  }
+  return probability_of_none(found.final_score.mean_square[*c], misfit_square, evidence.floor()[*c]);
+}
+
+std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const Attribution& found,
+                          double significance) {
+  const std::size_t first = given.effects.size();
+  const Hypothesis& all = found.final_fit.hypothesis;
+  std::vector<Doubt> doubt(all.effects.size() - first, Doubt::none);
+  Hypothesis sure = all;
+  for (std::size_t e = all.effects.size(); e-- > first;) {
+    if (!is_doubtful(evidence, found, first, e)) continue;
+    doubt[e - first] = Doubt::another_cause;
+    sure = without_effect(sure, e);
+  }
+  const Refitter refitter(evidence, given, first);
+  if (sure.effects.size() == all.effects.size() || !refitter.is_usable()) return doubt;
+  const Judge judge(evidence, given, refitter.numbers());
+  const auto refitted = [&](const Hypothesis& h) {
+    const Fit fit = refitter.refit(h, found.final_score);
+    return fit.usable ? std::optional(Scored{fit.hypothesis, evidence.score(fit.hypothesis)}) : std::nullopt;
+  };
+  const auto with = refitted(sure);
+  for (std::size_t e = 0, place = first; e < doubt.size(); ++e) {
+    if (doubt[e] != Doubt::none) continue;
+    const auto without = refitted(without_effect(sure, place));
+    if (with && without && !judge.is_needed(*with, *without, place, significance)) doubt[e] = Doubt::only_beside_one;
+    ++place;
+  }
+  return doubt;
 }
 
 bool is_doubtful(const Evidence& evidence, const Attribution& found, std::size_t given, std::size_t effect) {
-  const double none = probability_of_none_for(evidence, found, effect);
+  const double none = probability_of_none_for(evidence, found, given, effect);
   return probability_of_any_name(found.namings[effect - given], none) < kRule.worth_a_name;
 }
 

@@ -131,6 +131,45 @@ TEST(Judge, ASmallEffectMattersBesideALargeOneIfItActsAtOtherTimes) {
   EXPECT_FALSE(of_error.matters);
 }
 
+/// The zero of a joint is off. A part was found: an offset has no other form, so less of it counts as misfit.
+TEST(Judge, AnEffectThatOnlyChangesANumberMissesLess) {
+  const ArmModel model = first_joints(1);
+  const auto offset = [&](double size) {
+    PlacedEffect e = place_neutral_effect(*find_effect("encoder_offset"), model.nominal, 0);
+    e.p[0] = size;
+    return e;
+  };
+  constexpr double kOff = 0.05;
+  ArmModel robot = model;
+  robot.effects = {offset(kOff)};
+  const Evidence evidence(make_records(simulate(motion(robot, 6)).measured, model, {}), model);
+  const Judge judge(evidence, model, {});
+  const auto rest_matters = [&](double left) {
+    const Hypothesis without{model.nominal, {offset((1 - left) * kOff)}},
+        with{model.nominal, {offset((1 - left) * kOff), offset(left * kOff)}};
+    return judge.trial(with, {without, evidence.score(without)}, 1).matters;
+  };
+  EXPECT_TRUE(rest_matters(1.5 * kRule.number_misfit));
+  EXPECT_FALSE(rest_matters(0.5 * kRule.number_misfit));
+  EXPECT_LT(1.5 * kRule.number_misfit, kRule.form_misfit);
+}
+
+TEST(Judge, AnEffectLeansOnABoundIfItEndsThere) {
+  const ArmModel model = first_joints(1);
+  const double most = find_effect("encoder_offset")->parameters(model.nominal, 0)[0].upper;
+  const auto leans = [&](double size) {
+    PlacedEffect offset = place_neutral_effect(*find_effect("encoder_offset"), model.nominal, 0);
+    offset.p[0] = size;
+    ArmModel robot = model;
+    robot.effects = {offset};
+    const Evidence evidence(make_records(simulate(motion(robot, 3)).measured, model, {}), model);
+    const Hypothesis h{model.nominal, robot.effects};
+    return Judge(evidence, model, {}).leans_on_a_bound({h, evidence.score(h)});
+  };
+  EXPECT_FALSE(leans(0.5 * most));
+  EXPECT_TRUE(leans(most));
+}
+
 /// Motor 1 has more Coulomb friction than its model. A part was found as an effect: is the rest its error of form?
 TEST(Judge, TheMisfitOfAnEffectCountsWhatTheModelsNumbersHadHidden) {
   const ArmModel model = first_joints(2);

@@ -86,5 +86,17 @@ TEST(Revision, KeepsADoubtfulEffectButNotOneThatBelongsToTheLog) {
   EXPECT_EQ(s.effects()[0].effect->name(), "capstan_ratio");
 }
 
+TEST(Doubts, AnEffectThatIsNeededOnlyBesideADoubtfulOneGetsNoName) {
+  const PlacedEffect ratio = on_the_only_joint("capstan_ratio", kRatio),
+                     offset = on_the_only_joint("encoder_offset", 0.02);
+  const auto of = [&](const std::vector<PlacedEffect>& truth) {
+    Searched s(truth, {ratio, offset});
+    s.found.namings[0] = {0, {}};  // it lost against others
+    return doubts(s.evidence, s.model, s.found, 0.01);
+  };
+  EXPECT_EQ(of({offset}), (std::vector{Doubt::another_cause, Doubt::none}));
+  EXPECT_EQ(of({}), (std::vector{Doubt::another_cause, Doubt::only_beside_one}));
+}
+
 }  // namespace
 }  // namespace halyard
