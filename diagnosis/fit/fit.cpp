@@ -110,37 +110,42 @@ struct LinearisedResidual {
   bool finite = false;
 };
 
+/// Parameters at a bound.
+std::vector<int> at_bounds(const ceres::Problem& problem, const std::vector<double>& u) {
+  std::vector<int> all;
+  for (int i = 0; i < static_cast<int>(u.size()); ++i)
+    if (u[i] <= problem.GetParameterLowerBound(u.data(), i) || u[i] >= problem.GetParameterUpperBound(u.data(), i))
+      all.push_back(i);
+  return all;
+}
+
 /// Parameters at a bound beyond which the cost would fall. Ceres clips a step at the bounds, and the step of the others
 /// is then the wrong one: it is rejected again and again, and the fit ends far from its minimum.
 std::vector<int> pressed(const ceres::Problem& problem, const LinearisedResidual& at, const std::vector<double>& u) {
   const Eigen::VectorXd gradient =
       at.J.transpose() * Eigen::Map<const Eigen::VectorXd>(at.r.data(), static_cast<Eigen::Index>(at.r.size()));
-  std::vector<int> all;
-  for (int i = 0; i < static_cast<int>(u.size()); ++i)
-    if ((u[i] <= problem.GetParameterLowerBound(u.data(), i) && gradient(i) > 0) ||
-        (u[i] >= problem.GetParameterUpperBound(u.data(), i) && gradient(i) < 0))
-      all.push_back(i);
+  std::vector<int> all = at_bounds(problem, u);
+  std::erase_if(all, [&](int i) {
+    return u[i] <= problem.GetParameterLowerBound(u.data(), i) ? gradient(i) <= 0 : gradient(i) >= 0;
+  });
   return all;
 }
 
-/// Stops the solver when a step ends at a bound at which nothing is held yet.
+/// Stops the solver when a step has led to a bound at which nothing was when it started.
 class StopAtBound : public ceres::IterationCallback {
  public:
-  StopAtBound(const ceres::Problem& problem, const std::vector<double>& u, const std::vector<int>& held)
-      : problem_(problem), u_(u), held_(held) {}
+  StopAtBound(const ceres::Problem& problem, const std::vector<double>& u) : problem_(problem), u_(u) {}
+  void start() { known_ = at_bounds(problem_, u_); }
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
-    for (int i = 0; step.iteration > 0 && i < static_cast<int>(u_.size()); ++i)
-      if ((u_[i] <= problem_.GetParameterLowerBound(u_.data(), i) ||
-           u_[i] >= problem_.GetParameterUpperBound(u_.data(), i)) &&
-          std::ranges::find(held_, i) == held_.end())
-        return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
-    return ceres::SOLVER_CONTINUE;
+    if (!step.step_is_successful) return ceres::SOLVER_CONTINUE;
+    return std::ranges::includes(known_, at_bounds(problem_, u_)) ? ceres::SOLVER_CONTINUE
+                                                                  : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
 
  private:
   const ceres::Problem& problem_;
   const std::vector<double>& u_;
-  const std::vector<int>& held_;
+  std::vector<int> known_;
 };
 
 /// Bounded least squares from u on; false if the start cannot be integrated. Parameters that are pressed against a bound
@@ -168,7 +173,7 @@ bool minimise(const Residual& residual, const std::vector<FitParameter>& paramet
   // With bounds Ceres would add a line search to each step: two of three evaluations, and no better minimum.
   solver.max_num_line_search_step_size_iterations = 0;
   std::vector<int> held;
-  StopAtBound stop(problem, u, held);
+  StopAtBound stop(problem, u);
   solver.callbacks.push_back(&stop);
   solver.update_state_every_iteration = true;
   for (bool has_settled = false; solver.max_num_iterations > 0;) {
@@ -180,6 +185,7 @@ bool minimise(const Residual& residual, const std::vector<FitParameter>& paramet
     if (now.size() == u.size() || (has_settled && now == held)) break;
     held = std::move(now);
     problem.SetManifold(u.data(), held.empty() ? nullptr : new ceres::SubsetManifold(static_cast<int>(u.size()), held));
+    stop.start();
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem, &summary);
     if (summary.termination_type == ceres::FAILURE) return false;

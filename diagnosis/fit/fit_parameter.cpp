@@ -147,7 +147,7 @@ bool ends_at_bound(const FitParameter& p, double value) {
   const auto close = [&](double bound) {
     return std::abs(value - bound) <= 1e-3 * std::max(std::abs(bound), 1e-3 * p.scale);
   };
-  return p.effect && !p.natural_bounds && !close(p.nominal) && (close(p.lower) || close(p.upper));
+  return p.effect && !p.natural_bounds && !p.is_whole && !close(p.nominal) && (close(p.lower) || close(p.upper));
 }
 
 bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline) {

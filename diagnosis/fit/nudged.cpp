@@ -7,13 +7,25 @@ namespace {
 
 constexpr int kInstants = 10, kPositions = 6;  ///< parts of a record and of a motion: about as far apart as starts lie
 
+/// True if all sizes that this shape belongs to are neutral: then it changes nothing.
+bool has_no_size(const Hypothesis& h, const std::vector<FitParameter>& parameters, std::size_t shape) {
+  const auto is_neutral = [&](std::size_t i) { return parameter_value(h, parameters[i]) == parameters[i].nominal; };
+  for (const ParameterGroup& group : groups_of(parameters))
+    if (std::ranges::find(group.shapes, shape) != group.shapes.end())
+      return !group.sizes.empty() && std::ranges::all_of(group.sizes, is_neutral);
+  return false;
+}
+
 }  // namespace
 
 Nudge nudged(const Evidence& evidence, Hypothesis h, std::size_t first, const ArmParameters<double>& nominal,
              const BeyondNumbers& beyond) {
   Nudge nudge;
-  for (std::size_t e = first; e < h.effects.size(); ++e)
-    for (const FitParameter& p : effect_parameters(evidence, h, nominal, e)) {
+  for (std::size_t e = first; e < h.effects.size(); ++e) {
+    const std::vector<FitParameter> parameters = effect_parameters(evidence, h, nominal, e);
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      const FitParameter& p = parameters[i];
+      if (p.shape && has_no_size(h, parameters, i)) continue;
       const double value = parameter_value(h, p);
       std::vector<double> values;
       if (p.range != SearchRange::own) {
@@ -40,6 +52,7 @@ Nudge nudged(const Evidence& evidence, Hypothesis h, std::size_t first, const Ar
       nudge.gain += (left[0] - *least) / 2;
       h = tried[static_cast<std::size_t>(least - left.begin())];
     }
+  }
   nudge.at = std::move(h);
   return nudge;
 }

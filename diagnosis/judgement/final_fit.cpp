@@ -1,5 +1,6 @@
 #include "diagnosis/judgement/final_fit.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -55,8 +56,29 @@ class UncertainParameters {
     // What no sensor resolves is no refit of the model.
     if (!p.effect && reach_[i] * std::abs(value_(at) - p.nominal) / p.scale < 1) return 0;
     const double needed = !p.effect ? kRule.refit_deviations : interval_factor(fit_);
-    const double shrunk = std::sqrt(covariance_(at, at) / fit_.covariance(at, at));
+    const double shrunk = std::sqrt(variance_beside_shapes(i) / fit_.covariance(at, at));
     return std::abs(value_(at) - p.nominal) / (needed * shrunk * fit_.std_deviation[i]);
+  }
+
+  /// Variance of a parameter; of a size: if its shapes were known. At size zero the shapes mean nothing, so what is
+  /// unknown of them does not count against the size. Only the product of a size and a share may be certain.
+  double variance_beside_shapes(std::size_t i) const {
+    const auto at = static_cast<Eigen::Index>(i);
+    for (const ParameterGroup& group : groups_) {
+      if (std::ranges::count(group.sizes, i) == 0 || group.shapes.empty()) continue;
+      const auto n = static_cast<Eigen::Index>(group.shapes.size());
+      Eigen::MatrixXd of_shapes(n, n);
+      Eigen::VectorXd with_size(n);
+      for (Eigen::Index a = 0; a < n; ++a) {
+        const auto shape = static_cast<Eigen::Index>(group.shapes[a]);
+        with_size(a) = covariance_(shape, at);
+        for (Eigen::Index b = 0; b < n; ++b)
+          of_shapes(a, b) = covariance_(shape, static_cast<Eigen::Index>(group.shapes[b]));
+      }
+      const double explained = with_size.dot(of_shapes.completeOrthogonalDecomposition().solve(with_size));
+      return std::clamp(covariance_(at, at) - explained, 0.0, covariance_(at, at));
+    }
+    return covariance_(at, at);
   }
 
   /// True for a parameter at its bound, and for a size with a shape at its bound.

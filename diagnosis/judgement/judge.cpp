@@ -152,7 +152,7 @@ bool Judge::lasts_the_whole_record(const Hypothesis& h, const std::vector<FitPar
 /// True if a shape is near the end of what is plausible, and the data cannot tell it from there.
 bool Judge::is_as_good_at_bound(const Scored& with, const FitParameter& p) const {
   constexpr double kNear = 2;  // times
-  if (p.natural_bounds || p.range != SearchRange::own) return false;
+  if (p.natural_bounds || p.is_whole || p.range != SearchRange::own) return false;
   const double value = parameter_value(with.hypothesis, p);
   for (const double bound : {p.lower, p.upper}) {
     if (bound == p.nominal || !(value * bound > 0) || std::abs(std::log(value / bound)) > std::log(kNear)) continue;

@@ -152,13 +152,14 @@ class Search {
     // this.
     CandidateRound round = next_round(is_first ? Hypothesis{model_.nominal, model_.effects, so_far.past} : so_far);
     auto won = compete(round, current.scored(), candidates(so_far));
+    const bool is_from_the_model = is_first && won;
     if (!won && is_first) {
       CandidateRound second = next_round(so_far);
       won = compete(second, current.scored(), candidates(so_far));
     }
     if (!won) return add_together(current, round);
     Found with{won->fit, evidence_.score(won->fit.hypothesis)}, without, again;
-    run_side_by_side(is_first ? 1 : 2,
+    run_side_by_side(is_from_the_model ? 1 : 2,
                      [&](std::size_t i) { i == 0 ? without = without_last(with) : again = afresh(with); });
     if (!convinces_against_its_own_fit(current, with, std::move(without))) return ++better_fits_ <= kMostBetterFits;
     current = std::move(is_better(again, with) ? again : with);
@@ -266,7 +267,7 @@ class Search {
   /// True if the name that won a revision stays behind what was there before it: from another start its fit, or the fit of
   /// the earlier name in this round, may miss what the earlier fit had found.
   bool is_beaten(const Found& revised, const Found& before, bool is_same) const {
-    if (is_same) return judge_.cost(before.scored()) < judge_.cost(revised.scored());
+    if (is_same) return judge_.cost(before.scored()) < judge_.cost(revised.scored()) + kRule.worth_a_nudge;
     return judge_.gain_over(before.scored(), revised.scored()) > kRule.by_chance;
   }
 

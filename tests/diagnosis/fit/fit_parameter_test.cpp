@@ -22,6 +22,7 @@ TEST(FitParameter, AWholeNumberHasWholeBounds) {
       EXPECT_EQ(p.lower, std::round(p.lower)) << name;
       EXPECT_EQ(p.upper, std::round(p.upper)) << name;
       EXPECT_LE(p.lower, p.starts.front()) << name;
+      EXPECT_FALSE(ends_at_bound(p, p.lower)) << name << ": the lowest order that the motion shows is plausible";
     }
   }
 }

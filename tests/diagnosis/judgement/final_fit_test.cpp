@@ -110,6 +110,22 @@ TEST(FinalFit, IntervalsCountWhatTheNumbersOfTheModelMayBeOff) {
   EXPECT_LT(changed, numbers) << "a number that did not change significantly stays in the fit, too";
 }
 
+/// The motor's side and the joint's side share the friction of a cable. The motor's own friction is uncertain as well, so
+/// that only what acts at the joint is certain: the size times a share.
+TEST(FinalFit, KeepsASizeThatIsUncertainOnlyTogetherWithItsShape) {
+  const ArmModel model = first_joints(1);
+  PlacedEffect truth = place_neutral_effect(*find_effect("pulley_friction"), model.nominal, 0);
+  truth.p[0] = 0.03, truth.p[1] = 0.8;
+  ArmModel robot = model;
+  robot.effects = {truth};
+  const std::vector<Record> records = make_records(simulate(motion(robot, 8)).measured, model, {});
+  const Evidence evidence(records, model), whole(records, model, Split::none);
+  const Hypothesis h{model.nominal, {truth}};
+  const Fit chosen = Refitter(evidence, model, 0).refit(h, evidence.score(h));
+  const Fit fit = final_fit(whole, model, chosen, 0);
+  EXPECT_TRUE(idle_effects(fit, 0).empty());
+}
+
 TEST(FinalFit, IntervalsCountTheSizesOfTheSameEffectThatAreReset) {
   // More Coulomb friction of the motor; more viscous friction is nearly the same (effects/motor/motor_friction.cpp).
   constexpr std::size_t kCoulomb = 0, kViscous = 1;
