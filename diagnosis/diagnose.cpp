@@ -121,7 +121,7 @@ class Diagnoser {
       if (doubts_[e - given_] != Doubt::none) continue;
       NamedEffect named{f.hypothesis.effects[e], namings[e - given_].weight, {}, namings[e - given_].alternatives};
       named.parameters = estimated_parameters(evidence, e);
-      const double none = probability_of_none_for(evidence, attribution(), given_, e);
+      const double none = probability_of_none_for(evidence, attribution(), e);
       result_.probability_none = std::max(result_.probability_none, none);
       std::vector<double> all = {named.probability *= 1 - none};
       for (Alternative& a : named.alternatives) all.push_back(a.probability *= 1 - none);

@@ -11,13 +11,13 @@
 /// Source: pseudo-BMA+ of Yao, Vehtari, Simpson, Gelman, Bayesian Analysis 13 (2018), section 3.4.
 ///
 /// It is possible that no candidate is right. Then more residual is left in a channel than noise and the error in the
-/// equations of the right effects can explain together:
+/// equation of the right effect can explain together:
 ///
-///   ρ = MSE_after / (floor² + Σ_e η_e² MSE_e)
+///   ρ = MSE_after / (floor² + η² MSE_before)
 ///   P(none) = 1 / (1 + (ρ0 / ρ)^s)
 ///
-///   MSE_e   mean square without effect e, all else equal     η_e   misfit_of(e), judge.h
-///   ρ0, s   rest_ratio² and none_sharpness of decision_rule.h
+///   MSE_before   mean square without the effect, all else equal     η   misfit_of() it, judge.h
+///   ρ0, s        rest_ratio² and none_sharpness of decision_rule.h
 
 #include "diagnosis/judgement/likelihood.h"
 
@@ -34,7 +34,7 @@ struct Competitor {
 std::vector<double> name_weights(const Evidence& evidence, const std::vector<Competitor>& competitors,
                                  const Competitor& no_effect);
 
-/// P(none) of one channel. misfit_square: Σ_e η_e² MSE_e.
+/// P(none) of one channel. misfit_square: η² MSE_before.
 double probability_of_none(double mean_square_after, double misfit_square, double floor);
 
 /// probability: of each name. True for the names of the smallest set that holds the right name with `share` of the sum

@@ -108,18 +108,13 @@ std::vector<std::size_t> revise(const Evidence& evidence, const Evidence& whole,
   return Revision(evidence, whole, given, found).run();
 }
 
-double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t given,
-                               std::size_t effect) {
+double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t effect) {
   const Hypothesis& h = found.final_fit.hypothesis;
   const Score without = evidence.score(without_effect(h, effect));
   if (!without.finite) return 0;
   const std::optional<int> c = most_explained_channel(evidence, found.final_score, without);
   if (!c) return 0;
-  double misfit_square = 0;
-  for (std::size_t e = given; e < h.effects.size(); ++e) {
-    const Score other = e == effect ? without : evidence.score(without_effect(h, e));
-    if (other.finite) misfit_square += std::pow(misfit_of(h.effects[e]), 2) * other.mean_square[*c];
-  }
+  const double misfit_square = std::pow(misfit_of(h.effects[effect]), 2) * without.mean_square[*c];
   return probability_of_none(found.final_score.mean_square[*c], misfit_square, evidence.floor()[*c]);
 }
 
@@ -152,7 +147,7 @@ std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const
 }
 
 bool is_doubtful(const Evidence& evidence, const Attribution& found, std::size_t given, std::size_t effect) {
-  const double none = probability_of_none_for(evidence, found, given, effect);
+  const double none = probability_of_none_for(evidence, found, effect);
   return probability_of_any_name(found.namings[effect - given], none) < kRule.worth_a_name;
 }
 
