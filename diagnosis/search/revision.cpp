@@ -129,8 +129,9 @@ std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const
     doubt[e - first] = Doubt::another_cause;
     sure = without_effect(sure, e);
   }
+  if (sure.effects.size() == all.effects.size()) return doubt;
   const Refitter refitter(evidence, given, first);
-  if (sure.effects.size() == all.effects.size() || !refitter.is_usable()) return doubt;
+  if (!refitter.is_usable()) return doubt;
   const Judge judge(evidence, given, refitter.numbers());
   const auto refitted = [&](const Hypothesis& h) {
     const Fit fit = refitter.refit(h, found.final_score);
