@@ -66,15 +66,8 @@ class UncertainParameters {
     const auto at = static_cast<Eigen::Index>(i);
     for (const ParameterGroup& group : groups_) {
       if (std::ranges::count(group.sizes, i) == 0 || group.shapes.empty()) continue;
-      const auto n = static_cast<Eigen::Index>(group.shapes.size());
-      Eigen::MatrixXd of_shapes(n, n);
-      Eigen::VectorXd with_size(n);
-      for (Eigen::Index a = 0; a < n; ++a) {
-        const auto shape = static_cast<Eigen::Index>(group.shapes[a]);
-        with_size(a) = covariance_(shape, at);
-        for (Eigen::Index b = 0; b < n; ++b)
-          of_shapes(a, b) = covariance_(shape, static_cast<Eigen::Index>(group.shapes[b]));
-      }
+      const Eigen::MatrixXd of_shapes = covariance_(group.shapes, group.shapes);
+      const Eigen::VectorXd with_size = covariance_(group.shapes, at);
       const double explained = with_size.dot(of_shapes.completeOrthogonalDecomposition().solve(with_size));
       return std::clamp(covariance_(at, at) - explained, 0.0, covariance_(at, at));
     }

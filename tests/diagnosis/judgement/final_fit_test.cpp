@@ -110,38 +110,48 @@ TEST(FinalFit, IntervalsCountWhatTheNumbersOfTheModelMayBeOff) {
   EXPECT_LT(changed, numbers) << "a number that did not change significantly stays in the fit, too";
 }
 
+/// An arm that is right but for one effect, and the fit of that effect before the final one.
+struct Refitted {
+  ArmModel model = first_joints(1);
+  std::vector<Record> records;
+  Evidence evidence, whole;
+  Fit fit;
+
+  explicit Refitted(const PlacedEffect& truth)
+      : records(make_records(simulate(motion(with(truth), 8)).measured, model, {})),
+        evidence(records, model),
+        whole(records, model, Split::none) {
+    const Hypothesis h{model.nominal, {truth}};
+    fit = Refitter(evidence, model, 0).refit(h, evidence.score(h));
+  }
+
+ private:
+  static ArmModel with(const PlacedEffect& truth) {
+    ArmModel robot = first_joints(1);
+    robot.effects = {truth};
+    return robot;
+  }
+};
+
 /// The motor's side and the joint's side share the friction of a cable. The motor's own friction is uncertain as well, so
 /// that only what acts at the joint is certain: the size times a share.
 TEST(FinalFit, KeepsASizeThatIsUncertainOnlyTogetherWithItsShape) {
-  const ArmModel model = first_joints(1);
-  PlacedEffect truth = place_neutral_effect(*find_effect("pulley_friction"), model.nominal, 0);
+  PlacedEffect truth = place_neutral_effect(*find_effect("pulley_friction"), first_joints(1).nominal, 0);
   truth.p[0] = 0.03, truth.p[1] = 0.8;
-  ArmModel robot = model;
-  robot.effects = {truth};
-  const std::vector<Record> records = make_records(simulate(motion(robot, 8)).measured, model, {});
-  const Evidence evidence(records, model), whole(records, model, Split::none);
-  const Hypothesis h{model.nominal, {truth}};
-  const Fit chosen = Refitter(evidence, model, 0).refit(h, evidence.score(h));
-  const Fit fit = final_fit(whole, model, chosen, 0);
-  EXPECT_TRUE(idle_effects(fit, 0).empty());
+  const Refitted arm(truth);
+  EXPECT_TRUE(idle_effects(final_fit(arm.whole, arm.model, arm.fit, 0), 0).empty());
 }
 
 TEST(FinalFit, IntervalsCountTheSizesOfTheSameEffectThatAreReset) {
   // More Coulomb friction of the motor; more viscous friction is nearly the same (effects/motor/motor_friction.cpp).
   constexpr std::size_t kCoulomb = 0, kViscous = 1;
-  const ArmModel model = first_joints(1);
-  PlacedEffect truth = place_neutral_effect(*find_effect("motor_friction"), model.nominal, 0);
+  PlacedEffect truth = place_neutral_effect(*find_effect("motor_friction"), first_joints(1).nominal, 0);
   truth.p[kCoulomb] = 0.01;
-  ArmModel robot = model;
-  robot.effects = {truth};
-  const std::vector<Record> records = make_records(simulate(motion(robot, 8)).measured, model, {});
-  const Evidence evidence(records, model), whole(records, model, Split::none);
-  const Hypothesis h{model.nominal, {truth}};
-  const Fit both = Refitter(evidence, model, 0).refit(h, evidence.score(h));
-  Fit one = both;  // as if the viscous friction were known to be the model's
+  const Refitted arm(truth);
+  Fit one = arm.fit;  // as if the viscous friction were known to be the model's
   std::erase_if(one.parameters, [](const FitParameter& p) { return p.effect == 0 && p.index == kViscous; });
   const auto deviation = [&](const Fit& chosen) {
-    const Fit fit = final_fit(whole, model, chosen, 0);
+    const Fit fit = final_fit(arm.whole, arm.model, chosen, 0);
     const auto is = [](std::size_t index) {
       return [index](const FitParameter& p) { return p.effect == 0 && p.index == index; };
     };
@@ -149,7 +159,7 @@ TEST(FinalFit, IntervalsCountTheSizesOfTheSameEffectThatAreReset) {
     const auto rise = std::ranges::find_if(fit.parameters, is(kCoulomb)) - fit.parameters.begin();
     return rise < std::ssize(fit.parameters) ? fit.std_deviation[rise] : 0;
   };
-  EXPECT_GT(deviation(both), 1.05 * deviation(one));
+  EXPECT_GT(deviation(arm.fit), 1.05 * deviation(one));
 }
 
 TEST(FinalFit, IsNotUsableIfItsStartCannotBeIntegrated) {
