@@ -15,6 +15,7 @@
 #include "diagnosis/judgement/prediction_interval.h"
 #include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/search/revision.h"
+#include "diagnosis/search_space.h"
 
 namespace halyard {
 namespace {
@@ -53,6 +54,7 @@ class Diagnoser {
     if (holdout) holdout = without_outliers(std::move(*holdout));
     DiagnosisData data = diagnosis_data(model_, training, holdout);
     for (const DiagnosisData::Late& late : data.late) result_.log_findings.push_back(finding_of(late));
+    has_own_holdout_ = holdout.has_value();
     result_.holdout = holdout ? holdout->source : "last third of the training data";
     result_.given = calibrated(model_, data.training);
     details_->joint_view = std::move(data.joint_view);
@@ -216,10 +218,8 @@ class Diagnoser {
     say("hold-out", 0);
     HoldOut &joints = details_->joint_view, &torques = details_->torque_view;
     const Hypothesis before{result_.given.nominal, result_.given.effects, attribution().baseline.hypothesis.past};
-    for (HoldOut* view : {&joints, &torques}) {
-      view->before = predict_all(view->records, before);
-      view->after = predict_all(view->records, final_hypothesis());
-    }
+    for (HoldOut* view : {&joints, &torques}) view->before = predict_all(view->records, before);
+    predict_after(evidence);
     const std::vector<FitParameter> fitted = attribution().final_fit.parameters;
     veto(evidence, whole);
     result_.revised = result_.given;
@@ -237,6 +237,28 @@ class Diagnoser {
     result_.joint_interval = prediction_interval(joints, model_.n());
   }
 
+  /// HoldOut::after, and the events that did not happen in a hold-out log of its own.
+  void predict_after(const Evidence& evidence) {
+    HoldOut &joints = details_->joint_view, &torques = details_->torque_view;
+    const auto predict = [&](const Hypothesis& h) {
+      for (HoldOut* view : {&joints, &torques}) view->after = predict_all(view->records, h);
+      return error_over_floors(joints, torques, &HoldOut::after, evidence.floor());
+    };
+    result_.absent_events.clear();
+    Hypothesis on_holdout = final_hypothesis();
+    double least = predict(on_holdout);
+    for (std::size_t e = on_holdout.effects.size(); has_own_holdout_ && e-- > given_;) {
+      if (!has_instants(on_holdout.effects[e], model_.nominal)) continue;
+      const Hypothesis without = without_effect(on_holdout, e);
+      if (const double error = predict(without); error < least) {
+        result_.absent_events.push_back(e);
+        on_holdout = without;
+        least = error;
+      }
+    }
+    predict(on_holdout);
+  }
+
   bool is_revised() const { return final_hypothesis().effects.size() > given_ || !result_.refitted.empty(); }
 
   void veto(const Evidence& evidence, const Evidence& whole) {
@@ -245,7 +267,7 @@ class Diagnoser {
     std::vector<int> worse = worse_joints(joints, torques, evidence.floor());
     if (worse.empty()) return;
     if (give_motion_back(whole)) {
-      for (HoldOut* view : {&joints, &torques}) view->after = predict_all(view->records, final_hypothesis());
+      predict_after(evidence);
       worse = worse_joints(joints, torques, holdout_floors(evidence, result_.given, joints, torques));
     }
     if (!worse.empty()) refuse(evidence, worse);
@@ -268,6 +290,7 @@ class Diagnoser {
     for (const NamedEffect& e : result_.effects) names += (names.empty() ? "" : ", ") + effect_label(e.effect);
     if (names.empty()) names = "refitted parameters";
     give_up_revision(evidence);
+    result_.absent_events.clear();
     for (const int k : is_told ? worse : std::vector<int>())
       result_.unexplained.push_back(
           {k, fmt::format("{} would explain the training data, but predict this joint worse on the hold-out", names)});
@@ -297,6 +320,7 @@ class Diagnoser {
   const ArmModel& model_;
   const DiagnosisOptions& options_;
   const Progress& progress_;
+  bool has_own_holdout_ = false;      ///< a log, not the last third of the training
   std::size_t given_;                 ///< effects that the model came with
   std::vector<std::size_t> changed_;  ///< see changed_numbers()
   std::vector<Doubt> doubts_;         ///< of each added effect
@@ -313,6 +337,12 @@ const char* verdict_word(Diagnosis::Verdict verdict) {
     case Diagnosis::Verdict::unknown: break;
   }
   return "unknown";
+}
+
+ArmModel Diagnosis::revised_on_holdout() const {
+  ArmModel model = revised;
+  for (const std::size_t e : absent_events) model.effects.erase(model.effects.begin() + static_cast<std::ptrdiff_t>(e));
+  return model;
 }
 
 Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, const std::optional<Log>& holdout,

@@ -92,9 +92,15 @@ struct Diagnosis {
   ArmModel given;  ///< the model as given, with unknown torque scales calibrated
   ArmModel revised;
   std::string holdout;                ///< description of the hold-out data
-  PredictionError before, after;      ///< on the hold-out, with `given` and with `revised`
-  PredictionInterval joint_interval;  ///< of `revised`
+  /// Events of `revised`, such as a push, that did not happen in a hold-out log of its own: indices into its effects,
+  /// the last first.
+  std::vector<std::size_t> absent_events;
+  PredictionError before, after;      ///< on the hold-out, with `given` and with revised_on_holdout()
+  PredictionInterval joint_interval;  ///< of revised_on_holdout()
   std::shared_ptr<const DiagnosisDetails> details;
+
+  /// `revised` without its absent events.
+  ArmModel revised_on_holdout() const;
 };
 
 /// clean | effects | unknown
@@ -103,6 +109,8 @@ const char* verdict_word(Diagnosis::Verdict verdict);
 /// Diagnoses a model from training logs. The hold-out can only veto: if the revised model predicts a joint worse there
 /// than the given model, the numbers that move the joints return to their given values; if a joint is still worse, no
 /// effect is named. Without a hold-out, the last third of each training log is held out.
+/// An event at an instant of the training says nothing about another log: the hold-out log is predicted with it, at the
+/// same time of its own clock, or without it, whichever leaves less error.
 /// Outliers of all logs are left out, and told in log_findings.
 /// progress(what, fraction of it) is never called by two threads at once.
 /// Throws InputError for logs that cannot be compared with the model, and for gross findings of check_log().

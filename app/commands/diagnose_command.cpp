@@ -57,6 +57,7 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
 
 /// Of the given and of the revised model on the hold-out, joint by joint.
 void print_errors(const ArmModel& model, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
+  for (const std::string& line : absent_event_lines(d)) fmt::print("  {}\n", line);
   const std::vector<JointUnit> units = joint_units(model);
   const bool changed = !d.effects.empty() || !d.refitted.empty();
   for (int k = 0; k < model.n(); ++k) {

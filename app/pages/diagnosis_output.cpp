@@ -39,7 +39,10 @@ Json before_after(const std::vector<double>& before, const std::vector<double>& 
 /// Errors on the hold-out and the intervals of the predicted joint positions.
 Json error_json(const Diagnosis& d) {
   const PredictionError &b = d.before, &a = d.after;
+  Json absent = Json::array();
+  for (const std::size_t e : d.absent_events) absent.push_back(effect_label(d.revised.effects[e]));
   Json error = {{"holdout", d.holdout},
+                {"events_absent_from_holdout", absent},
                 {"joint_position_rms", before_after(b.joint_rms, a.joint_rms)},
                 {"joint_position_peak", before_after(b.joint_peak, a.joint_peak)},
                 {"motor_torque_rms", before_after(b.torque_rms, a.torque_rms)}};
@@ -117,6 +120,14 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
   return all.dump(2) + "\n";
 }
 
+std::vector<std::string> absent_event_lines(const Diagnosis& d) {
+  std::vector<std::string> lines;
+  for (const std::size_t e : d.absent_events)
+    lines.push_back(fmt::format("The hold-out shows no {} at that time: its errors are predicted without it.",
+                                effect_label(d.revised.effects[e])));
+  return lines;
+}
+
 std::string verdict_line(const Diagnosis& d) {
   std::string line = verdict_word(d.verdict);
   for (std::size_t i = 0; i < d.effects.size(); ++i) line += (i == 0 ? ": " : ", ") + effect_label(d.effects[i].effect);
@@ -191,6 +202,7 @@ void add_error_table(report::Page& page, const Diagnosis& d) {
     table.rows.push_back(std::move(row));
   }
   page.table(table);
+  for (const std::string& line : absent_event_lines(d)) page.paragraph(line);
 }
 
 void add_error_parts(report::Page& page, const Diagnosis& d) {

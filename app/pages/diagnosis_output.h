@@ -15,6 +15,9 @@ namespace halyard {
 /// The text of diagnosis.json.
 std::string diagnosis_json(const Diagnosis& diagnosis, const DiagnosisEvaluation& evaluation);
 
+/// A sentence about each event that did not happen in the hold-out.
+std::vector<std::string> absent_event_lines(const Diagnosis& diagnosis);
+
 /// "effects: backlash of joint 2", "clean", "unknown".
 std::string verdict_line(const Diagnosis& diagnosis);
 

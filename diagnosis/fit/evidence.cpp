@@ -18,10 +18,10 @@ constexpr double kTorqueFloor = 0.01;      ///< of the torque's root mean square
 constexpr double kResolutionFloor = 0.3;   ///< of the joint encoder's resolution: its rounding's deviation
 
 /// The step of a sensor that the model says nothing of: the smallest change that the record shows.
-double smallest_step(const std::vector<double>& x) {
+double smallest_step(const std::vector<SensorSample>& samples) {
   double step = 0;
-  for (std::size_t i = 1; i < x.size(); ++i) {
-    const double d = std::abs(x[i] - x[i - 1]);
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double d = std::abs(samples[i].value - samples[i - 1].value);
     if (d > 1e-12 && (step == 0 || d < step)) step = d;
   }
   return step;
@@ -126,7 +126,7 @@ void Evidence::find_floors(const ArmModel& model) {
       if (!record.has_joint(k)) continue;
       const double told = j.joint_encoder_resolution;
       floor_[n_ + k] =
-          std::max(floor_[n_ + k], kResolutionFloor * (told > 0 ? told : smallest_step(record.joint_raw[k])));
+          std::max(floor_[n_ + k], kResolutionFloor * (told > 0 ? told : smallest_step(record.joint_samples[k])));
     }
   }
   resolved_ = floor_;

@@ -204,6 +204,21 @@ std::vector<double> holdout_floors(const Evidence& evidence, const ArmModel& mod
   return floor;
 }
 
+double error_over_floors(const HoldOut& joints, const HoldOut& torques, std::vector<FullPrediction> HoldOut::*which,
+                         const std::vector<double>& floor) {
+  const int n = static_cast<int>(floor.size()) / 2;
+  double sum = 0;
+  const auto add = [&](const HoldOut& view, int k, double of_channel, ErrorOfSample error) {
+    if (!(of_channel > 0)) return;
+    for (std::size_t r = 0; r < view.records.size(); ++r)
+      for (std::size_t i = 0; i < view.records[r].size; ++i)
+        if (const double e = error(view.records[r], (view.*which)[r], k, i); !std::isnan(e))
+          sum += std::pow(e / of_channel, 2);
+  };
+  for (int k = 0; k < n; ++k) add(torques, k, floor[k], torque_error), add(joints, k, floor[n + k], joint_error);
+  return sum;
+}
+
 std::vector<int> worse_joints(const HoldOut& joints, const HoldOut& torques, const std::vector<double>& floor) {
   const int n = static_cast<int>(floor.size()) / 2;
   std::vector<int> worse;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <unsupported/Eigen/FFT>
 
 #include "diagnosis/log_check/robust.h"
@@ -56,16 +57,35 @@ std::vector<NoiseLine> lines_of(const std::vector<double>& density, double resol
   return lines;
 }
 
-/// What a channel measured and the model predicted, on the samples that the sensor took.
+/// What a channel measured without what the model predicted, on the samples that its sensor took.
 struct ChannelSamples {
   std::vector<std::vector<double>> runs;         ///< evenly spaced, one for each record
   std::vector<std::vector<double>> motor_angle;  ///< of a torque: the motor's, at the same samples
-  double interval = 0;                           ///< s
+  double interval = 0;                           ///< s, the same in all runs
+
+  double duration() const {
+    double samples = 0;
+    for (const std::vector<double>& run : runs) samples += static_cast<double>(run.size());
+    return samples * interval;
+  }
 };
 
+/// Puts a run to those of its sample rate.
+void add_run(std::vector<ChannelSamples>& by_rate, double interval, std::vector<double> run,
+             std::vector<double> motor_angle = {}) {
+  constexpr double kSame = 0.1;  // of the interval
+  if (run.empty()) return;
+  auto same = std::ranges::find_if(
+      by_rate, [&](const ChannelSamples& s) { return std::abs(s.interval - interval) < kSame * s.interval; });
+  if (same == by_rate.end()) same = by_rate.insert(same, {{}, {}, interval});
+  same->runs.push_back(std::move(run));
+  same->motor_angle.push_back(std::move(motor_angle));
+}
+
 /// The sensor's own samples: between them, the readings of a record are interpolated, which attenuates noise.
-ChannelSamples joint_samples(const std::vector<Record>& records, const std::vector<Residuals>& unfiltered, int k) {
-  ChannelSamples all;
+std::vector<ChannelSamples> joint_samples(const std::vector<Record>& records, const std::vector<Residuals>& unfiltered,
+                                          int k) {
+  std::vector<ChannelSamples> by_rate;
   for (std::size_t r = 0; r < records.size(); ++r) {
     const Record& record = records[r];
     if (!record.has_joint(k)) continue;
@@ -78,21 +98,35 @@ ChannelSamples joint_samples(const std::vector<Record>& records, const std::vect
       const double e = s.value - std::lerp(predicted(i), predicted(i + 1), at - static_cast<double>(i));
       if (std::isfinite(e)) run.push_back(e);
     }
-    all.interval = std::max(all.interval, record.joint_interval[k]);
-    all.runs.push_back(std::move(run));
+    add_run(by_rate, record.joint_interval[k], std::move(run));
   }
-  return all;
+  return by_rate;
 }
 
-ChannelSamples torque_samples(const std::vector<Record>& records, const std::vector<Residuals>& unfiltered, int k) {
-  ChannelSamples all;
+/// The mean step from one place to the next, holes left out.
+double usual_step(const std::vector<std::size_t>& places) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < places.size(); ++i) steps.push_back(static_cast<double>(places[i] - places[i - 1]));
+  if (steps.empty()) return 1;
+  const double longest = 2 * median(steps);
+  std::erase_if(steps, [&](double step) { return step > longest; });
+  return std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(steps.size());
+}
+
+std::vector<ChannelSamples> torque_samples(const std::vector<Record>& records, const std::vector<Residuals>& unfiltered,
+                                           int k) {
+  std::vector<ChannelSamples> by_rate;
   for (std::size_t r = 0; r < records.size(); ++r) {
     if (!records[r].has_torque(k)) continue;
-    all.interval = std::max(all.interval, records[r].dt);
-    all.runs.push_back(unfiltered[r].channel[k]);
-    all.motor_angle.push_back(records[r].motor_angle[k]);
+    const std::vector<double>& residual = unfiltered[r].channel[k];
+    std::vector<std::size_t> places;
+    std::vector<double> run, angle;
+    for (std::size_t i = 0; i < residual.size(); ++i)
+      if (std::isfinite(residual[i]))
+        places.push_back(i), run.push_back(residual[i]), angle.push_back(records[r].motor_angle[k][i]);
+    add_run(by_rate, records[r].dt * usual_step(places), std::move(run), std::move(angle));
   }
-  return all;
+  return by_rate;
 }
 
 /// σ_t of a record's filters, s.
@@ -102,7 +136,6 @@ struct Filters {
 
 /// is_torque: the filter of the motion has attenuated it.
 ChannelNoise noise_of(const ChannelSamples& samples, const Filters& filters, bool is_torque) {
-  if (samples.runs.empty()) return {};
   const int segment = std::max(kFewestSamples, static_cast<int>(std::lround(kSegment / samples.interval)));
   std::vector<double> density = median_density(samples.runs, samples.interval, segment);
   const double resolution = 1 / (samples.interval * segment);
@@ -125,6 +158,21 @@ ChannelNoise torque_noise(ChannelSamples samples, const Filters& filters) {
   const ChannelNoise without = noise_of(samples, filters, true);
   if (without.white < kByChance * noise.white) noise.white = without.white, noise.in_band = without.in_band;
   return noise;
+}
+
+/// Of a channel whose records have different sample rates: the mean variance over their time.
+template <class Estimate>
+ChannelNoise over_rates(const std::vector<ChannelSamples>& by_rate, const Estimate& estimate) {
+  ChannelNoise all;
+  double time = 0, longest = 0, white = 0, in_band = 0;
+  for (const ChannelSamples& samples : by_rate) {
+    ChannelNoise noise = estimate(samples);
+    const double t = samples.duration();
+    time += t, white += t * std::pow(noise.white, 2), in_band += t * std::pow(noise.in_band, 2);
+    if (t > longest) longest = t, all.lines = std::move(noise.lines);
+  }
+  if (time > 0) all.white = std::sqrt(white / time), all.in_band = std::sqrt(in_band / time);
+  return all;
 }
 
 }  // namespace
@@ -183,12 +231,16 @@ std::vector<ChannelNoise> channel_noise(const std::vector<Record>& records, cons
     filters.motion_sigma = std::max(filters.motion_sigma, record.motion_sigma);
     filters.compare_sigma = std::max(filters.compare_sigma, record.compare_sigma);
     record.compare = {1};
+    // A reading between grid points needs the prediction at both, also where nothing was measured.
+    record.joint_measured = record.joint_valid;
     unfiltered.push_back(predict(record, {given}, 1)[0]);
     if (!unfiltered.back().finite) return noise;
   }
   for (int k = 0; k < n; ++k) {
-    noise[k] = torque_noise(torque_samples(records, unfiltered, k), filters);
-    noise[n + k] = noise_of(joint_samples(records, unfiltered, k), filters, false);
+    noise[k] = over_rates(torque_samples(records, unfiltered, k),
+                          [&](const ChannelSamples& samples) { return torque_noise(samples, filters); });
+    noise[n + k] = over_rates(joint_samples(records, unfiltered, k),
+                              [&](const ChannelSamples& samples) { return noise_of(samples, filters, false); });
   }
   return noise;
 }

@@ -106,7 +106,7 @@ std::vector<EstimatorComparison> compare_on(const std::vector<HeldOutLog>& held_
   oneapi::tbb::parallel_for(std::size_t{0}, 2 * kEstimators.size(), [&](std::size_t job) {
     EstimatorComparison& of = all[job / 2];
     const bool after = job % 2 == 1;
-    EstimatorErrors errors = errors_of(kEstimators[job / 2], after ? d.revised : d.given, held_out, containment);
+    EstimatorErrors errors = errors_of(kEstimators[job / 2], after ? d.revised_on_holdout() : d.given, held_out, containment);
     const std::lock_guard lock(mutex);
     of.name = kEstimators[job / 2];
     (after ? of.after : of.before) = std::move(errors);

@@ -102,6 +102,24 @@ TEST(LogWithAMeasuredLoad, IsCleanAndWithoutTheMeasurementNot) {
   expect_clean(diagnosis_of(first_joints(1), logs));
 }
 
+TEST(Push, IsNamedAlsoIfTheHoldOutHasNone) {
+  ArmModel truth = first_joints(1);
+  truth.effects.push_back(placed("external_force", truth, 0, {2.0, 4.0, 6.0}));
+  constexpr double kDuration = 8;
+  Logs logs{simulate(motion(truth, kDuration)).measured, simulate(motion(truth, kDuration, 1)).measured};
+  const Diagnosis repeated = diagnosis_of(first_joints(1), logs);
+  ASSERT_EQ(repeated.effects.size(), 1u);
+  EXPECT_TRUE(repeated.absent_events.empty());
+  EXPECT_LT(repeated.after.joint_rms[0], 0.2 * repeated.before.joint_rms[0]);
+  logs.holdout = simulate(motion(first_joints(1), kDuration, 1)).measured;
+  const Diagnosis once = diagnosis_of(first_joints(1), logs);
+  ASSERT_EQ(once.effects.size(), 1u) << "vetoed";
+  EXPECT_EQ(once.effects[0].effect.effect->name(), "external_force");
+  EXPECT_EQ(once.absent_events, std::vector<std::size_t>{0});
+  EXPECT_TRUE(once.revised_on_holdout().effects.empty());
+  EXPECT_EQ(once.revised.effects.size(), 1u);
+}
+
 TEST(LogOfMotorsOnly, ChangesNoNumberThatPredictsTheJointsWorse) {
   // Without a joint sensor the training data cannot tell friction of the motor from friction of the joint.
   ArmModel truth = first_joints(1);

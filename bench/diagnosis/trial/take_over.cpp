@@ -46,7 +46,7 @@ class SquaredErrors {
 HoldOutErrors hold_out_errors(const std::vector<Record>& records, const Diagnosis& d, const ArmModel& robot) {
   HoldOutErrors errors;
   const auto by = [&](const ArmModel& model) { return predict_all(records, {model.nominal, model.effects}); };
-  const std::vector<FullPrediction> given = by(d.given), revised = by(d.revised), truth = by(robot);
+  const std::vector<FullPrediction> given = by(d.given), revised = by(d.revised_on_holdout()), truth = by(robot);
   for (int k = 0; k < robot.n(); ++k) {
     SquaredErrors before, after, true_model;
     for (std::size_t r = 0; r < records.size(); ++r) {

@@ -83,22 +83,56 @@ TEST(ChannelNoise, OfASlowSensorIsThatOfItsSamples) {
   EXPECT_DOUBLE_EQ(noise.in_band, noise.white) << "the filter averages over less than one sample";
 }
 
-TEST(ChannelNoise, OfASensorBetweenTheRowsOfTheLogIsNotUnderestimated) {
-  constexpr double kDeviation = 1e-3, kRate = 342;  // rad, Hz; the log has rows of 1 ms
-  const halyard::ArmModel model = halyard::first_joints(1);
-  halyard::Log log = simulate(halyard::motion(model, 12)).measured;
+/// A log of 12 s with rows of 1 ms and white noise on one of its columns, which is read only `rate` times a second.
+halyard::Log noisy_log(double deviation, double rate, halyard::Signals halyard::Log::*column) {
+  halyard::Log log = simulate(halyard::motion(halyard::first_joints(1), 12)).measured;
   std::mt19937 random(4);
-  std::normal_distribution<double> normal(0, kDeviation);
+  std::normal_distribution<double> normal(0, deviation);
   for (std::size_t i = 0, reading = 0; i < log.size(); ++i) {
-    const bool is_read = kInterval * static_cast<double>(i) >= static_cast<double>(reading) / kRate;
+    const bool is_read = kInterval * static_cast<double>(i) >= (static_cast<double>(reading) - 1e-6) / rate;
     if (is_read) ++reading;
-    log.joint_position[0][i] += is_read ? normal(random) : std::numeric_limits<double>::quiet_NaN();
+    (log.*column)[0][i] += is_read ? normal(random) : std::numeric_limits<double>::quiet_NaN();
   }
-  const halyard::Hypothesis given{model.nominal, model.effects};
-  const auto noise = channel_noise(halyard::make_records(log, model, {}), given)[1];
-  const double in_band = kDeviation * std::sqrt(1 / kRate / (2 * std::sqrt(std::numbers::pi) * kFilter));
-  // The log is shorter than those above: half as many segments again to scatter by.
-  EXPECT_NEAR(noise.in_band, in_band, 1.5 * kScatter * in_band);
+  return log;
+}
+
+ChannelNoise noise_of_channel(const std::vector<halyard::Log>& logs, int channel) {
+  const halyard::ArmModel model = halyard::first_joints(1);
+  std::vector<halyard::Record> records;
+  for (const halyard::Log& log : logs)
+    for (halyard::Record& record : halyard::make_records(log, model, {})) records.push_back(std::move(record));
+  return channel_noise(records, {model.nominal, model.effects})[channel];
+}
+
+// These logs are shorter than those above: half as many segments again to scatter by.
+constexpr double kScatterOfLog = 1.5 * kScatter;
+
+class NoiseAtRate : public testing::TestWithParam<double> {};
+
+TEST_P(NoiseAtRate, OfAJointSensorIsThatOfItsReadings) {
+  constexpr double kDeviation = 1e-3;  // rad
+  const double in_band = kDeviation * std::sqrt(1 / GetParam() / (2 * std::sqrt(std::numbers::pi) * kFilter));
+  const ChannelNoise noise = noise_of_channel({noisy_log(kDeviation, GetParam(), &halyard::Log::joint_position)}, 1);
+  EXPECT_NEAR(noise.in_band, in_band, kScatterOfLog * in_band);
+}
+
+TEST_P(NoiseAtRate, OfATorqueIsThatOfItsReadings) {
+  constexpr double kDeviation = 1e-2;  // N m
+  const double in_band = kDeviation * std::sqrt(1 / GetParam() / (2 * std::sqrt(std::numbers::pi) * kFilter));
+  const ChannelNoise noise = noise_of_channel({noisy_log(kDeviation, GetParam(), &halyard::Log::motor_torque)}, 0);
+  EXPECT_NEAR(noise.in_band, in_band, kScatterOfLog * in_band);
+}
+
+// 342 Hz: between the rows of the log. 1000 Hz: between the points of the record's grid.
+INSTANTIATE_TEST_SUITE_P(Rates, NoiseAtRate, testing::Values(100, 250, 342, 1000));
+
+TEST(ChannelNoise, OfLogsWithDifferentRatesIsTheMeanOfTheirs) {
+  const halyard::Log slow = noisy_log(1e-3, 100, &halyard::Log::joint_position),
+                     fast = noisy_log(1e-3, 1000, &halyard::Log::joint_position);
+  const double of_slow = noise_of_channel({slow}, 1).in_band, of_fast = noise_of_channel({fast}, 1).in_band;
+  ASSERT_GT(of_slow, 2 * of_fast);
+  const double mean = std::sqrt((of_slow * of_slow + of_fast * of_fast) / 2);
+  EXPECT_NEAR(noise_of_channel({slow, fast}, 1).in_band, mean, 0.01 * mean);
 }
 
 }  // namespace
