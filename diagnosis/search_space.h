@@ -59,6 +59,9 @@ struct SearchSpace {
   /// For an effect that limits the speed of the motor: index of the parameter that is this speed, rad/s. A motor hardly
   /// exceeds it, so the search also starts a little above the fastest motion of the records.
   std::optional<std::size_t> greatest_motor_speed = {};
+  /// True if the model's numbers that the effect changes are fitted beside it: it changes them in one proportion, and so
+  /// cannot take their places.
+  bool numbers_stay = false;
 
   /// Throws std::invalid_argument for an unknown name.
   ParameterSearch& operator[](const std::string& name) {

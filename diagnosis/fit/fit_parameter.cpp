@@ -150,7 +150,7 @@ bool ends_at_bound(const FitParameter& p, double value) {
   return p.effect && !p.natural_bounds && !p.is_whole && !close(p.nominal) && (close(p.lower) || close(p.upper));
 }
 
-bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline) {
+bool effect_changes(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline) {
   PlacedEffect e = effect;
   const auto parameters = e.effect->parameters(nominal, e.joint);
   for (std::size_t i = 0; i < parameters.size(); ++i)
@@ -158,6 +158,10 @@ bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nomi
   Hypothesis before{nominal, {}}, after{nominal, {}};
   e.effect->change_parameters(after.nominal, e.joint, e.p);
   return parameter_value(before, baseline) != parameter_value(after, baseline);
+}
+
+bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline) {
+  return effect_changes(effect, nominal, baseline) && !search_space(*effect.effect, nominal, effect.joint).numbers_stay;
 }
 
 }  // namespace halyard

@@ -62,8 +62,10 @@ std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameter
 /// True if an effect's parameter is at its plausible bound. False at its neutral value, even if that is a bound, and for
 /// whole numbers: the lowest order that the motion shows is as plausible as the next.
 bool ends_at_bound(const FitParameter& p, double value);
-/// True if a change of the effect's parameters also changes that baseline parameter, so that the baseline parameter
-/// need not be fitted beside the effect.
+/// True if a change of the effect's parameters also changes that baseline parameter.
+bool effect_changes(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline);
+/// True if it can take the place of that baseline parameter, which is then not fitted beside it; see
+/// SearchSpace::numbers_stay.
 bool effect_covers(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline);
 
 }  // namespace halyard

@@ -247,6 +247,7 @@ class Search {
       Found revised = won ? Found{won->fit, evidence_.score(won->fit.hypothesis)} : without;
       if (won ? is_beaten(revised, current, is_same) : is_needed(current, without, place)) {
         if (won) result_.rounds.back().accepted = false;
+        if (!is_same) *naming = naming_beside_rivals(current, without, place);
         ++kept;
         continue;
       }
@@ -256,6 +257,14 @@ class Search {
       change(current, std::move(revised));
       n = all;  // the last name competed beside an effect that has gone
     }
+  }
+
+  /// The naming of an effect that stays, among the candidates of the round in which its name was revised.
+  Naming naming_beside_rivals(const Found& current, const Found& without, std::size_t place) const {
+    std::vector<Trial> trials = {judge_.trial(current.fit.hypothesis, without.scored(), place)};
+    for (const Trial& t : result_.rounds.back().trials)
+      if (!same_name(t.effect, trials[0].effect)) trials.push_back(t);
+    return Competition(evidence_, model_, judge_, without.scored(), trials).naming({0, {0}});
   }
 
   /// Without the effect, another one may end at a bound to replace it. That is no explanation.

@@ -28,6 +28,7 @@ void joint_friction(SearchSpace& space, const Arm& arm, int joint) {
 
 void payload(SearchSpace& space, const Arm& arm, int) {
   const int last = arm.n - 1;
+  space.numbers_stay = true;  // mass, centre of mass and inertia
   space["mass"].changes = {&Tolerances::mass, last, std::max(arm.joint[last].mass, 1e-3)};
 }
 

@@ -191,7 +191,7 @@ std::vector<Place> names_beyond_tolerance(const ArmModel& model, const ArmModel&
   for (const Effect* effect : effect_library())
     for (const EffectPlace joint : effect_places(*effect, model.nominal)) {
       const PlacedEffect placed = place_effect(*effect, model.nominal, joint);
-      if (std::ranges::any_of(beyond, [&](const FitParameter& p) { return effect_covers(placed, model.nominal, p); }))
+      if (std::ranges::any_of(beyond, [&](const FitParameter& p) { return effect_changes(placed, model.nominal, p); }))
         names.push_back(place_of(placed, model.n()));
     }
   return names;

@@ -27,6 +27,25 @@ TEST(FitParameter, AWholeNumberHasWholeBounds) {
   }
 }
 
+TEST(FitParameter, OfTheModelStaysBesideAnEffectThatChangesSeveralInOneProportion) {
+  const ArmModel model = first_joints(2);
+  const auto of_model = [&](const char* effect, EffectPlace joint) {
+    const PlacedEffect placed = place_effect(*find_effect(effect), model.nominal, joint);
+    int changed = 0, covered = 0;
+    for (const FitParameter& p : baseline_parameters(model)) {
+      changed += effect_changes(placed, model.nominal, p);
+      covered += effect_covers(placed, model.nominal, p);
+    }
+    return std::pair(changed, covered);
+  };
+  const auto [by_payload, covered_by_payload] = of_model("payload", kWholeArm);
+  EXPECT_GT(by_payload, 1) << "mass, centre of mass and inertia";
+  EXPECT_EQ(covered_by_payload, 0);
+  const auto [by_stiffness, covered_by_stiffness] = of_model("stiffness", 1);
+  EXPECT_EQ(by_stiffness, 2) << "stiffness and damping";
+  EXPECT_EQ(covered_by_stiffness, 2);
+}
+
 /// The log of a motor's torque may be a current.
 TEST(FitParameter, TheFloorOfATorqueIsInTheUnitOfTheLog) {
   constexpr double kScale = 0.02;  // N m per A
