@@ -62,7 +62,7 @@ compile_together(halyard_diagnosis prediction
   prediction/side_by_side.cpp)
 compile_together(halyard_diagnosis log_check
   log_check/clock.cpp log_check/columns.cpp log_check/log_check.cpp log_check/log_under_check.cpp
-  log_check/outliers.cpp log_check/positions.cpp log_check/robust.cpp log_check/saturating_torque.cpp
+  log_check/outliers.cpp log_check/own_readings.cpp log_check/positions.cpp log_check/robust.cpp log_check/saturating_torque.cpp
   log_check/torques.cpp log_check/zeros.cpp)
 compile_together(halyard_diagnosis fit
   calibration/lateness.cpp fit/baseline_reach.cpp fit/beyond_numbers.cpp fit/block_variance.cpp

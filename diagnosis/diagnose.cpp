@@ -13,6 +13,7 @@
 #include "diagnosis/judgement/final_fit.h"
 #include "diagnosis/judgement/name_probability.h"
 #include "diagnosis/judgement/prediction_interval.h"
+#include "diagnosis/log_check/own_readings.h"
 #include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/search/revision.h"
 #include "diagnosis/search_space.h"
@@ -42,6 +43,12 @@ LogFinding finding_of(const DiagnosisData::Late& late) {
           "nothing to do: the diagnosis has moved their readings by this time", LogFinding::Severity::corrected};
 }
 
+LogFinding finding_of(const Log& log, const RepeatedReadings& r) {
+  return {log.source, fmt::format("joint_position_{}", r.joint + 1),
+          fmt::format("repeats each reading until the next one, {:.3g} ms later", 1e3 * r.interval),
+          "nothing to do: the diagnosis has left the repeated ones out", LogFinding::Severity::corrected};
+}
+
 /// What the stages of one diagnosis share.
 class Diagnoser {
  public:
@@ -50,8 +57,8 @@ class Diagnoser {
 
   Diagnosis run(std::vector<Log> training, std::optional<Log> holdout) {
     result_.log_findings = findings_of(model_, training, holdout, options_.columns.value_or(model_.columns));
-    for (Log& log : training) log = without_outliers(std::move(log));
-    if (holdout) holdout = without_outliers(std::move(*holdout));
+    for (Log& log : training) log = usable(std::move(log));
+    if (holdout) holdout = usable(std::move(*holdout));
     DiagnosisData data = diagnosis_data(model_, training, holdout);
     for (const DiagnosisData::Late& late : data.late) result_.log_findings.push_back(finding_of(late));
     has_own_holdout_ = holdout.has_value();
@@ -78,6 +85,11 @@ class Diagnoser {
   }
 
  private:
+  Log usable(Log log) {
+    for (const RepeatedReadings& r : keep_own_readings(log, model_)) result_.log_findings.push_back(finding_of(log, r));
+    return without_outliers(std::move(log));
+  }
+
   void say(const std::string& what, double fraction) const {
     if (progress_) progress_(what, fraction);
   }

@@ -14,6 +14,7 @@
 
 #include "diagnosis/diagnosis_details.h"
 #include "diagnosis/explanation/view_sentence.h"
+#include "diagnosis/log_check/own_readings.h"
 #include "evaluation/studies/diagnosis_evidence.h"
 
 namespace halyard {
@@ -106,7 +107,8 @@ std::vector<EstimatorComparison> compare_on(const std::vector<HeldOutLog>& held_
   oneapi::tbb::parallel_for(std::size_t{0}, 2 * kEstimators.size(), [&](std::size_t job) {
     EstimatorComparison& of = all[job / 2];
     const bool after = job % 2 == 1;
-    EstimatorErrors errors = errors_of(kEstimators[job / 2], after ? d.revised_on_holdout() : d.given, held_out, containment);
+    EstimatorErrors errors =
+        errors_of(kEstimators[job / 2], after ? d.revised_on_holdout() : d.given, held_out, containment);
     const std::lock_guard lock(mutex);
     of.name = kEstimators[job / 2];
     (after ? of.after : of.before) = std::move(errors);
@@ -131,13 +133,16 @@ DiagnosisEvaluation evaluate_diagnosis(const ArmModel& model, const Diagnosis& d
                                        const std::function<void(const std::string&, double)>& progress,
                                        const ContainmentOptions& containment) {
   std::vector<Record> records;
+  std::vector<Log> logs;
+  for (const Log& log : training) logs.push_back(usable_readings(log, model));
+  if (holdout) logs.push_back(usable_readings(*holdout, model));
   std::vector<HeldOutLog> held_out;
-  for (const Log& log : training) {
-    const auto [first, last] = split_log(log, 2.0 / 3);
-    for (Record& r : make_records(holdout ? log : first, model, kFitBand)) records.push_back(std::move(r));
-    if (!holdout) held_out.push_back({&log, last.time.front()});
+  for (std::size_t i = 0; i < training.size(); ++i) {
+    const auto [first, last] = split_log(logs[i], 2.0 / 3);
+    for (Record& r : make_records(holdout ? logs[i] : first, model, kFitBand)) records.push_back(std::move(r));
+    if (!holdout) held_out.push_back({&logs[i], last.time.front()});
   }
-  if (holdout) held_out.push_back({&*holdout, holdout->time.front()});
+  if (holdout) held_out.push_back({&logs.back(), holdout->time.front()});
 
   DiagnosisEvaluation result;
   if (progress) progress("residuals that point", 0);

@@ -1,0 +1,78 @@
+#include "diagnosis/log_check/own_readings.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/diagnosis/odd_logs.h"
+#include "tests/support/checked_logs.h"
+
+namespace halyard {
+namespace {
+
+/// As a logger writes it that reads a sensor whenever `rows(i)` rows have passed, and repeats the reading until then.
+template <class Rows>
+Log with_repeats(Log log, int k, const Rows& rows) {
+  std::vector<double>& x = log.joint_position[k];
+  for (std::size_t begin = 0, reading = 0; begin < x.size(); ++reading) {
+    const std::size_t end = std::min(x.size(), begin + rows(reading));
+    for (std::size_t i = begin; i < end; ++i) x[i] = x[begin];
+    begin = end;
+  }
+  return log;
+}
+
+TEST(OwnReadings, AreThoseBeforeTheRepeats) {
+  const auto thirty_hertz = [](std::size_t reading) { return 33 + (reading % 3 == 0); };
+  Log log = with_repeats(right_log(), 1, thirty_hertz);
+  const std::vector<RepeatedReadings> found = keep_own_readings(log, raven());
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].joint, 1);
+  EXPECT_NEAR(found[0].interval, 0.033, 1e-3);
+  std::size_t kept = 0, wrong = 0;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    if (!std::isfinite(log.joint_position[1][i])) continue;
+    ++kept;
+    wrong += log.joint_position[1][i] != right_log().joint_position[1][i];
+  }
+  EXPECT_NEAR(static_cast<double>(kept), kCheckedDuration * 30, 3);
+  EXPECT_EQ(wrong, 0u) << "a reading of another instant was kept";
+}
+
+TEST(OwnReadings, OfASensorAsFastAsTheLogAreAllItsRows) {
+  for (const auto& log : {right_log(), without_joint_sensors(right_log())}) {
+    Log own = log;
+    EXPECT_TRUE(keep_own_readings(own, raven()).empty());
+  }
+}
+
+TEST(OwnReadings, OfACoarseEncoderAreAllItsRows) {
+  constexpr double kCoarse = 0.01;  // rad
+  ArmModel model = raven();
+  model.nominal.joint[0].joint_encoder_resolution = 0;  // not told
+  Log log = right_log();
+  for (double& q : log.joint_position[0]) q = kCoarse * std::round(q / kCoarse);
+  EXPECT_TRUE(keep_own_readings(log, model).empty());
+}
+
+TEST(OwnReadings, OfAJointBehindBacklashAreAllItsRows) {
+  ArmModel robot = raven();
+  robot.effects = {placed("backlash", robot, 1, {3e-3})};
+  Log log = simulate(small_motion(robot)).measured;
+  EXPECT_TRUE(keep_own_readings(log, raven()).empty());
+}
+
+TEST(LogWithRepeatedReadings, IsCleanAndToldOf) {
+  const auto every_tenth = [](std::size_t) { return 10; };
+  Logs logs = clean_logs();
+  logs.train = with_repeats(logs.train, 0, every_tenth);
+  const Diagnosis d = diagnosis_of(first_joints(1), logs);
+  expect_clean(d);
+  ASSERT_EQ(d.log_findings.size(), 1u);
+  EXPECT_EQ(d.log_findings[0].severity, Severity::corrected);
+  EXPECT_NE(d.log_findings[0].what.find("repeats each reading until the next one, 10 ms later"), std::string::npos)
+      << d.log_findings[0].what;
+}
+
+}  // namespace
+}  // namespace halyard
