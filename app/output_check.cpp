@@ -7,6 +7,7 @@
 
 #include "model/input_error.h"
 #include "model/output/output_files.h"
+#include "model/output/read_files.h"
 
 namespace halyard {
 namespace {
@@ -51,9 +52,8 @@ void check_output_file(const fs::path& path) {
   check_output_folder(path.has_parent_path() ? path.parent_path() : fs::path("."));
 }
 
-void check_not_input(const fs::path& out, const fs::path& input) {
-  std::error_code error;
-  if (fs::equivalent(out, input, error) && !error) fail(out, "would replace the input; give another file name");
+void check_not_input(const fs::path& out) {
+  if (was_read(out)) fail(out, "would replace an input of this command; give another path");
 }
 
 }  // namespace halyard

@@ -12,8 +12,8 @@ namespace halyard {
 /// Throws InputError for an empty path, a folder, a parent that is a file, or one without permission to write.
 void check_output_file(const std::filesystem::path& path);
 
-/// Throws InputError if `out` is the same file as `input`, because writing would replace the input.
-void check_not_input(const std::filesystem::path& out, const std::filesystem::path& input);
+/// Throws InputError if `out` is a file that the command has read, because writing would replace it.
+void check_not_input(const std::filesystem::path& out);
 
 /// Locks a folder for the outputs of a command, and makes it if it is missing. Throws InputError if another run writes
 /// into it, or unless files can be written into it. part: see FolderLock.

@@ -25,7 +25,7 @@ endforeach()
 compile_together(halyard_model model
   arm_log.cpp arm_model.cpp column_map.cpp homing.cpp log.cpp memory_limit.cpp model_file.cpp
   model_writer.cpp
-  output/folder_lock.cpp output/output_files.cpp output/unfinished.cpp
+  output/folder_lock.cpp output/output_files.cpp output/read_files.cpp output/unfinished.cpp
   xml/field_reader.cpp)
 
 compile_together(halyard_simbody simbody integrators/simbody_integrator.cpp simbody_arm.cpp)

@@ -16,6 +16,7 @@
 #include "model/memory_limit.h"
 #include "model/name_list.h"
 #include "model/output/output_files.h"
+#include "model/output/read_files.h"
 
 namespace halyard {
 namespace {
@@ -33,6 +34,7 @@ std::string read_text(const std::filesystem::path& path) {
   std::ostringstream text;
   if (file) text << file.rdbuf();
   if (!file || text.bad()) fail("cannot be read; check its permissions and its disk");
+  note_read(path);
   return std::move(text).str();
 }
 

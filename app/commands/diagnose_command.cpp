@@ -88,6 +88,7 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
   for (const auto& path : options.data) training.push_back(read(model, path, options.columns));
   std::optional<Log> holdout;
   if (!options.holdout.empty()) holdout = read(model, options.holdout, options.columns);
+  check_not_input(options.out / "model.xml");
 
   Diagnosis d;
   DiagnosisEvaluation evaluation;

@@ -30,10 +30,9 @@ void print_run_errors(const Comparison& comparison) {
 
 void run_estimate(const EstimateCommandOptions& options) {
   check_output_file(options.out);
-  check_not_input(options.out, options.data);
-  check_not_input(options.out, options.model);
   const ArmModel model = read_model(options.model);
   const Log log = read_timed_log(model, options.data, options.columns);
+  check_not_input(options.out);
   check_skip(options.skip_s, log.duration(), options.data.string());
   Comparison comparison;
   {

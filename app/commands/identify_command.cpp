@@ -51,6 +51,7 @@ void run_identify(const IdentifyCommandOptions& options) {
     holdout = std::move(logs.back());
     logs.pop_back();
   }
+  check_not_input(options.out / "model.xml");
   IdentificationStudy result;
   {
     StageProgress progress("identify");

@@ -42,11 +42,9 @@ std::filesystem::path truth_path(const std::filesystem::path& log) {
 
 void run_simulate(const SimulateOptions& options) {
   const std::filesystem::path truth = truth_path(options.out);
-  for (const auto& path : {options.out, truth}) {
-    check_output_file(path);
-    check_not_input(path, options.scenario);
-  }
+  for (const auto& path : {options.out, truth}) check_output_file(path);
   const Scenario scenario = read_scenario(options.scenario, options.robot);
+  for (const auto& path : {options.out, truth}) check_not_input(path);
   SimulationResult result;
   {
     Progress progress("simulate", scenario.duration_s, "s");

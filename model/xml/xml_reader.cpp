@@ -13,6 +13,7 @@
 #include "model/column_map.h"
 #include "model/input_error.h"
 #include "model/name_list.h"
+#include "model/output/read_files.h"
 
 namespace halyard {
 
@@ -101,6 +102,7 @@ std::string read_text(const std::filesystem::path& path) {
   std::ostringstream text;
   if (file) text << file.rdbuf();
   if (!file || text.bad()) fail("cannot be read; check its permissions and its disk");
+  note_read(path);
   return std::move(text).str();
 }
 

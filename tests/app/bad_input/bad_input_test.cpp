@@ -264,8 +264,14 @@ TEST_F(BadInput, AnOutputThatCannotBeWritten) {
   for (const char* input : {"log.csv", "raven2.xml"}) {
     std::vector<std::string> arguments = estimate;
     arguments.push_back(input);
-    expect_refused(arguments, {"would replace the input"});
+    expect_refused(arguments, {"would replace an input"});
   }
+  for (const char* input : {"experiment_a.xml", "raven2.xml"})
+    expect_refused({"simulate", "experiment_a.xml", "--out", input}, {"would replace an input"});
+  fs::create_directories(path("old"));
+  fs::copy_file(path("raven2.xml"), path("old/model.xml"));
+  expect_refused({"diagnose", "--model", "old/model.xml", "--data", "log.csv", "--out", "old"},
+                 {"model.xml", "would replace an input"});
 }
 
 TEST_F(BadInput, AFailureThatIsNotTheUsersIsExitCode1AndLeavesNothing) {
