@@ -96,8 +96,12 @@ class Target {
 
 struct Column {
   std::string name;
-  std::vector<Target> targets;  // none: the column is ignored
+  std::vector<Target> targets;            // none: the column is ignored
+  std::vector<std::string> read_as = {};  // the standard names of the targets
 };
+
+/// "motor_position" of "motor_position_2".
+std::string_view signal_of(std::string_view name) { return name.substr(0, name.find_last_not_of("0123456789") + 1); }
 
 std::vector<Column> read_header(const Lines& header) {
   std::vector<std::string_view> names;
@@ -131,6 +135,7 @@ bool has_no_motor(const std::string& name, const ReadOptions& options) {
 void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, const ReadOptions& options,
                   const Lines& header) {
   std::vector<std::string> missing, present;
+  std::string example;
   const auto bind_one = [&](const std::string& name, std::vector<double>& values) {
     if (has_no_motor(name, options)) return;
     const auto mapped = map.sources().find(name);
@@ -141,11 +146,18 @@ void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, 
       header.fail("column " + in_quotes(source.column) + " stands twice in the header; rename one of the two");
     } else if (n_found == 1) {
       const auto found = std::ranges::find(columns, source.column, &Column::name);
+      for (const std::string& other : found->read_as)
+        if (signal_of(other) == signal_of(name))
+          header.fail("column " + in_quotes(source.column) + " is read as " + other + " and as " + name +
+                      "; map each of them to a column of its own");
       found->targets.emplace_back(values, source);
+      found->read_as.push_back(name);
     } else if (is_mapped) {
       missing.push_back(in_quotes(source.column) + " (mapped to " + name + ")");
+      if (example.empty()) example = name;
     } else if (name == "time" || is_required(name, options)) {
       missing.push_back(in_quotes(name));
+      if (example.empty()) example = name;
     }
   };
   bind_one("time", log.time);
@@ -153,8 +165,7 @@ void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, 
   if (missing.empty()) return;
   for (const Column& column : columns) present.push_back(in_quotes(column.name));
   header.fail("no column " + listed(missing) + "; the file has " + listed(present) +
-              "; say which column is which by a column map, such as motor_position_1=NAME,unit=rad, in the model file "
-              "or on the command line");
+              "; say which column of the file it is, in the model file or by --column " + example + "=NAME");
 }
 
 void read_cell(std::string_view cell, Column& column, const Lines& row) {

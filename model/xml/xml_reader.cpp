@@ -66,20 +66,16 @@ std::optional<std::vector<double>> parse_numbers(std::string_view text, std::str
   return values;
 }
 
-/// "a number in N/m, such as 720e3"; the example is what the text begins with, if that is a number.
-std::string expected_number(std::string_view text, std::string_view unit) {
-  std::string example = "0.5";
-  text = trimmed(text);
-  for (std::size_t length = std::min<std::size_t>(text.size(), 30); length > 0; --length) {
-    if (!parse_number(text.substr(0, length))) continue;
-    example = text.substr(0, length);
-    break;
-  }
-  std::string expected = "a number" + std::string(unit.empty() ? "" : " in ").append(unit) + ", such as " + example;
-  for (const Suffix& suffix : kSuffixes) {
-    if (suffix.unit == unit) expected.append(", or ").append(example).append(" ").append(suffix.name);
-  }
-  return expected;
+/// "a number in N/m, with nothing behind it, such as 1.5e3"
+std::string expected_number(std::string_view unit) {
+  std::string expected = "a number" + std::string(unit.empty() ? "" : " in ").append(unit);
+  for (const Suffix& suffix : kSuffixes)
+    if (suffix.unit == unit)
+      return expected.append(", or one with ")
+          .append(suffix.name)
+          .append(" behind it, such as 1.5 ")
+          .append(suffix.name);
+  return expected + ", with nothing behind it, such as 1.5e3";
 }
 
 std::string expected_numbers(std::string_view unit, std::size_t count) {
@@ -235,9 +231,9 @@ std::filesystem::path XmlElement::path(std::string_view attribute) const {
 
 double XmlElement::number(std::string_view attribute, std::string_view unit, Sign sign) const {
   const char* found = element_->Attribute(std::string(attribute).c_str());
-  if (!found) fail_missing(attribute, expected_number("", unit));
+  if (!found) fail_missing(attribute, expected_number(unit));
   const auto values = parse_numbers(found, unit);
-  if (!values || values->size() != 1) fail(attribute, "expected " + expected_number(found, unit));
+  if (!values || values->size() != 1) fail(attribute, "expected " + expected_number(unit));
   const double value = values->front();
   if (sign == Sign::positive && !(value > 0)) fail(attribute, "expected a number greater than 0");
   if (sign == Sign::non_negative && !(value >= 0)) fail(attribute, "expected a number of at least 0");

@@ -137,7 +137,7 @@ TEST(ReadLog, SaysWhichColumnIsWrong) {
   EXPECT_EQ(
       refusal_of("\nt_s,motor_torque_1,spindle\n0,1,2\n"),
       ":2: no column 'time', 'motor_position_1'; the file has 't_s', 'motor_torque_1', 'spindle'; say which column "
-      "is which by a column map, such as motor_position_1=NAME,unit=rad, in the model file or on the command line");
+      "of the file it is, in the model file or by --column time=NAME");
   EXPECT_HAS(refusal_of("time,motor_torque_1,motor_position_1,time\n0,1,2,3\n"), ":1: column 'time' stands twice");
   EXPECT_HAS(refusal_of(kHeader + "0,1,\n1,2,\n"), ": motor_position_1 is empty in every row; ");
 }
@@ -181,6 +181,19 @@ TEST(ColumnMap, UnwrapsAPositionInTheUnitsOfTheFile) {
 TEST(ColumnMap, LeavesOtherStandardColumnsTheirNames) {
   const Log log = read_text("t_s,motor_torque_1,motor_position_1\n0,1,2\n", map_of({"time=t_s"}));
   EXPECT_EQ(log.motor_position[0][0], 2);
+}
+
+TEST(ColumnMap, GivesNoColumnToTwoJoints) {
+  const std::string text =
+      "time,motor_torque_1,motor_position_1,motor_torque_2,motor_position_2,joint_position_2\n0,1,2,3,4,5\n";
+  const auto read = [&](const std::string& entry) {
+    std::ofstream(temporary_path(), std::ios::binary) << text;
+    return read_log(temporary_path(), 2, map_of({entry}));
+  };
+  EXPECT_HAS(message_of([&] { read("motor_position_1=motor_position_2"); }),
+             ":1: column 'motor_position_2' is read as motor_position_1 and as motor_position_2; map each of them to");
+  // A drive without a sensor behind it has one position.
+  EXPECT_EQ(read("joint_position_2=motor_position_2").joint_position[1][0], 4);
 }
 
 TEST(ColumnMap, OverridesByName) {

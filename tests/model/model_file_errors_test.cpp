@@ -16,25 +16,27 @@ TEST(ModelFile, BadInputSaysWhereWhatAndWhatWasExpected) {
   };
   const std::vector<Case> cases = {
       {"stiffness=\"720e3\"", "stiffness=\"720e3N/m\"",
-       "arm.xml:9: <cable stiffness=\"720e3N/m\">: expected a number in N/m, such as 720e3"},
+       "arm.xml:9: <cable stiffness=\"720e3N/m\">: expected a number in N/m, with nothing behind it, such as 1.5e3"},
       {"stiffness=\"720e3\"", "stifness=\"720e3\"",
        "arm.xml:9: <cable stifness=\"720e3\">: unknown attribute; expected one of law, stiffness, damping, tension, "
        "pulley_radius"},
       {" stiffness=\"720e3\"", "",
-       "arm.xml:9: <cable>: attribute stiffness is missing; expected a number in N/m, such as 0.5"},
+       "arm.xml:9: <cable>: attribute stiffness is missing; expected a number in N/m, with nothing behind it, such as "
+       "1.5e3"},
       {"stiffness=\"720e3\"", "stiffness=\"0\"",
        "arm.xml:9: <cable stiffness=\"0\">: expected a number greater than 0"},
       {"tension=\"51\"", "tension=\"0\"", "arm.xml:9: <cable tension=\"0\">: expected a number greater than 0"},
       {"law=\"exponential\"", "law=\"rubber\"",
        "arm.xml:9: <cable law=\"rubber\">: expected one of paper, exponential, linear"},
       {"damping=\"4000\"", "damping=\"inf\"",
-       "arm.xml:9: <cable damping=\"inf\">: expected a number in N s/m, such as 0.5"},
+       "arm.xml:9: <cable damping=\"inf\">: expected a number in N s/m, with nothing behind it, such as 1.5e3"},
       {"damping=\"4000\"", "damping=\"4000\" damping=\"5\"",
        "arm.xml:9: is not well-formed XML (parsing attribute); correct the tags and attributes near this line: "
        "each tag closed, each attribute once, in quotes"},
-      {"a=\"0.2\"", "a=\"0.2 deg\"", "arm.xml:6: <dh a=\"0.2 deg\">: expected a number in m, such as 0.2, or 0.2 mm"},
+      {"a=\"0.2\"", "a=\"0.2 deg\"",
+       "arm.xml:6: <dh a=\"0.2 deg\">: expected a number in m, or one with mm behind it, such as 1.5 mm"},
       {"alpha=\"90 deg\"", "alpha=\"90deg\"",
-       "arm.xml:6: <dh alpha=\"90deg\">: expected a number in rad, such as 90, or 90 deg"},
+       "arm.xml:6: <dh alpha=\"90deg\">: expected a number in rad, or one with deg behind it, such as 1.5 deg"},
       {"0 0 -9.81", "0 -9.81",
        "arm.xml:2: <gravity>: text '0 -9.81': expected 3 numbers in m/s^2 with blanks between them"},
       {"mass=\"0.5\"", "mass=\"-0.5\"", "arm.xml:7: <link mass=\"-0.5\">: expected a number of at least 0"},

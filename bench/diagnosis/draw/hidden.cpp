@@ -51,6 +51,11 @@ double draw_shape(const Drawn& drawn, Random& random) {
   return std::clamp(is_order ? start : start * random.log_uniform(0.5, 2), p.lower, p.upper);
 }
 
+/// True for a size without which the effect is another one: friction that does not change in time is motor_friction.
+bool is_essential(const PlacedEffect& effect, const Drawn& size) {
+  return effect.effect->name() == "friction_drift" && size.p.name == "rate";
+}
+
 /// What trials of this kind may hide in this arm, without places.
 std::vector<Hidden> choices(const ArmModel& model, Kind kind) {
   std::vector<Hidden> all;
@@ -143,7 +148,8 @@ void draw_parameters(PlacedEffect& effect, const ArmModel& model, const Ranges& 
     effect.p[instants[i]] = ranges.record.from + (times[i] + 0.1 * static_cast<double>(i)) * length;
   const int for_certain = random.below(static_cast<int>(sizes.size()));
   for (std::size_t s = 0; s < sizes.size(); ++s) {
-    const bool present = random.chance(0.5) || static_cast<int>(s) == for_certain;
+    const bool present =
+        random.chance(0.5) || static_cast<int>(s) == for_certain || is_essential(effect, all[sizes[s]]);
     if (present) effect.p[sizes[s]] = draw_size(all[sizes[s]], random);
   }
 }

@@ -15,12 +15,12 @@ inline std::vector<BadInputRow> bad_logs() {
        "bad.csv:1: the columns are separated by semicolons or tabs; separate them by commas"},
       {"NoTime", Wrong::log, put(R"(time)", R"(t)"),
        "bad.csv:1: no column 'time'; the file has 't', 'motor_torque_1', 'motor_torque_2', 'motor_torque_3', "
-       "'motor_position_1', 'motor_position_2', 'motor_position_3'; say which column is which by a column map, "
-       "such as motor_position_1=NAME,unit=rad, in the model file or on the command line"},
+       "'motor_position_1', 'motor_position_2', 'motor_position_3'; say which column of the file it is, in the model "
+       "file or by --column time=NAME"},
       {"ColumnAbsent", Wrong::log, put(R"(motor_position_2)", R"(elbow_rad)"),
        "bad.csv:1: no column 'motor_position_2'; the file has 'time', 'motor_torque_1', 'motor_torque_2', "
-       "'motor_torque_3', 'motor_position_1', 'elbow_rad', 'motor_position_3'; say which column is which by a "
-       "column map, such as motor_position_1=NAME,unit=rad, in the model file or on the command line"},
+       "'motor_torque_3', 'motor_position_1', 'elbow_rad', 'motor_position_3'; say which column of the file it is, in "
+       "the model file or by --column motor_position_2=NAME"},
       {"ColumnTwice", Wrong::log, put(R"(motor_torque_2)", R"(motor_torque_1)"),
        "bad.csv:1: column 'motor_torque_1' stands twice in the header; rename one of the two"},
       {"Words", Wrong::log, put(R"(107)", R"(zero)"),

@@ -25,7 +25,7 @@ inline std::vector<BadInputRow> bad_scenarios() {
        "bad.xml: scenario 'A: high tension': the run: needs about 5.52e+05 GB of memory, and {any} GB are there; "
        "take a shorter duration or a longer control period"},
       {"DurationNaN", Wrong::scenario, put(R"(duration="0.1")", R"(duration="nan")"),
-       "bad.xml:4: <scenario duration=\"nan\">: expected a number in s, such as 0.5"},
+       "bad.xml:4: <scenario duration=\"nan\">: expected a number in s, with nothing behind it, such as 1.5e3"},
       {"ZeroPeriod", Wrong::scenario, put(R"(period="0.001")", R"(period="0")"),
        "bad.xml:14: <control period=\"0\">: expected a number greater than 0"},
       {"PeriodBelowAMicrosecond", Wrong::scenario, put(R"(period="0.001")", R"(period="5e-7")"),
