@@ -202,7 +202,8 @@ class Diagnoser {
     const int n = model_.n();
     for (int k = 0; k < n; ++k)
       if (rest_of[k] || rest_of[n + k]) result_.unexplained.push_back({k, signature(evidence, final_hypothesis(), k)});
-    for (Unexplained& line : lines_above_band(evidence, model_.nominal)) result_.unexplained.push_back(std::move(line));
+    for (Unexplained& line : lines_above_band(evidence, final_hypothesis()))
+      result_.unexplained.push_back(std::move(line));
   }
 
   void tell_probabilities(const Evidence& evidence) {
@@ -254,21 +255,23 @@ class Diagnoser {
     HoldOut &joints = details_->joint_view, &torques = details_->torque_view;
     const auto predict = [&](const Hypothesis& h) {
       for (HoldOut* view : {&joints, &torques}) view->after = predict_all(view->records, h);
-      return error_over_floors(joints, torques, &HoldOut::after, evidence.floor());
+      return error_over_floors(model_, joints, torques, &HoldOut::after, evidence.floor());
     };
     result_.absent_events.clear();
     Hypothesis on_holdout = final_hypothesis();
     double least = predict(on_holdout);
+    bool is_predicted = true;
     for (std::size_t e = on_holdout.effects.size(); has_own_holdout_ && e-- > given_;) {
       if (!has_instants(on_holdout.effects[e], model_.nominal)) continue;
       const Hypothesis without = without_effect(on_holdout, e);
-      if (const double error = predict(without); error < least) {
-        result_.absent_events.push_back(e);
-        on_holdout = without;
-        least = error;
-      }
+      const double error = predict(without);
+      is_predicted = error < least;
+      if (!is_predicted) continue;
+      result_.absent_events.push_back(e);
+      on_holdout = without;
+      least = error;
     }
-    predict(on_holdout);
+    if (!is_predicted) predict(on_holdout);
   }
 
   bool is_revised() const { return final_hypothesis().effects.size() > given_ || !result_.refitted.empty(); }
@@ -276,11 +279,11 @@ class Diagnoser {
   void veto(const Evidence& evidence, const Evidence& whole) {
     HoldOut &joints = details_->joint_view, &torques = details_->torque_view;
     if (!is_revised()) return;
-    std::vector<int> worse = worse_joints(joints, torques, evidence.floor());
+    std::vector<int> worse = worse_joints(model_, joints, torques, evidence.floor());
     if (worse.empty()) return;
     if (give_motion_back(whole)) {
       predict_after(evidence);
-      worse = worse_joints(joints, torques, holdout_floors(evidence, result_.given, joints, torques));
+      worse = worse_joints(model_, joints, torques, holdout_floors(evidence, result_.given, joints, torques));
     }
     if (!worse.empty()) refuse(evidence, worse);
   }

@@ -27,19 +27,22 @@ double smallest_step(const std::vector<SensorSample>& samples) {
   return step;
 }
 
-Span joint_span_of(const std::vector<Record>& records, const ArmParameters<double>& arm, int k) {
+/// Of the positions of joint k.
+Span joint_span_of(const std::vector<Record>& records, const ArmModel& model, int k) {
+  const ArmParameters<double>& arm = model.nominal;
   Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   const auto see = [&span](double q) { span = {std::min(span.first, q), std::max(span.last, q)}; };
-  const Eigen::VectorXd undriven = Eigen::VectorXd::Zero(arm.n);
+  const UnstretchedJoints unstretched(arm);
+  Eigen::VectorXd q_m(arm.n), q, undriven = model.home();
   for (const Record& record : records) {
     if (record.has_joint(k)) {
-      for (const double q : record.joint[k]) see(q);
+      for (const double reading : record.joint[k]) see(reading - arm.joint[k].joint_encoder_offset);
       continue;
     }
-    Eigen::VectorXd q_m(arm.n);
     for (std::size_t i = 0; i < record.size; ++i) {
-      for (int j = 0; j < arm.n; ++j) q_m(j) = record.motor_angle[j][i];
-      see(unstretched_joints(arm, q_m, undriven)(k));
+      for (int j = 0; j < arm.n; ++j) q_m(j) = record.motor_angle[j][i] - arm.joint[j].motor_encoder_offset;
+      unstretched.solve(q_m, undriven, q);
+      see(q(k));
     }
   }
   return span;
@@ -138,7 +141,7 @@ void Evidence::find_spans(const ArmModel& model) {
   for (const Record& r : records_)
     time_span_ = {std::min(time_span_.first, r.start), std::max(time_span_.last, r.time(r.size - 1))};
   for (int k = 0; k < n_; ++k) {
-    joint_span_.push_back(joint_span_of(records_, model.nominal, k));
+    joint_span_.push_back(joint_span_of(records_, model, k));
     Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     double fastest = 0;
     for (const Record& r : records_) {

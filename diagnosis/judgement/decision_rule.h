@@ -71,6 +71,8 @@ struct DecisionRule {
 
   /// A candidate that promises less than this share of the residual, to first order, is not fitted.
   double promise = 0.02;
+  /// Nor is one that promises less than this share of a single channel. Reason: that of six channels which is 0.02 of all.
+  double promise_of_channel = 0.12;
   /// Number of candidates that are fitted in a round: those with the smallest residual at the start of their search.
   std::size_t most_fitted = 16;
   /// Number of starts of a candidate with shapes from which its quick fit begins, each at other shapes. Reason: the fit

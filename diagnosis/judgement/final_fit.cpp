@@ -74,11 +74,17 @@ class UncertainParameters {
     return covariance_(at, at);
   }
 
-  /// True for a parameter at its bound, and for a size with a shape at its bound.
+  /// True for a parameter at its bound, and for a size with a shape at its bound. A shape of which the data do not show
+  /// where in its range it lies does not count: it does nothing.
   bool is_exhausted(std::size_t i) const {
     const auto ends = [&](std::size_t j) { return ends_at_bound(fit_.parameters[j], value(j)); };
+    const auto shape_ends = [&](std::size_t j) {
+      const FitParameter& p = fit_.parameters[j];
+      return ends(j) && covariance_(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j)) <
+                            (p.upper - p.lower) * (p.upper - p.lower);
+    };
     return ends(i) || std::ranges::any_of(groups_, [&](const ParameterGroup& group) {
-             return std::ranges::count(group.sizes, i) > 0 && std::ranges::any_of(group.shapes, ends);
+             return std::ranges::count(group.sizes, i) > 0 && std::ranges::any_of(group.shapes, shape_ends);
            });
   }
 
@@ -109,11 +115,15 @@ Fit weighed_fit(const Evidence& whole, const Hypothesis& start, const std::vecto
   return fit(whole, start, parameters, scale, options);
 }
 
-/// Of each parameter of the fit, see UncertainParameters; infinite if it cannot be computed.
+/// Of each number of the model in the fit, see UncertainParameters; infinite for others and if it cannot be computed.
 std::vector<double> reach_in_floors(const Evidence& whole, const Fit& f) {
-  const auto columns = sensitivities(whole, f.hypothesis, f.parameters);
+  std::vector<FitParameter> numbers;
+  std::vector<std::size_t> place;
+  for (std::size_t i = 0; i < f.parameters.size(); ++i)
+    if (!f.parameters[i].effect) numbers.push_back(f.parameters[i]), place.push_back(i);
+  const auto columns = sensitivities(whole, f.hypothesis, numbers);
   std::vector<double> reach(f.parameters.size(), std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < columns.size(); ++i) reach[i] = whole.over_floor(columns[i]);
+  for (std::size_t i = 0; i < columns.size(); ++i) reach[place[i]] = whole.over_floor(columns[i]);
   return reach;
 }
 
@@ -155,19 +165,24 @@ void count_resets(const Fit& all, std::size_t given, Fit& f) {
   }
 }
 
+/// The shapes of added effects in a place that is better on the whole data, if there is one.
+Hypothesis nudged_start(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given,
+                        const Score& score) {
+  if (chosen.hypothesis.effects.size() == given) return chosen.hypothesis;
+  std::vector<FitParameter> numbers = chosen.parameters;
+  std::erase_if(numbers, [](const FitParameter& p) { return p.effect.has_value(); });
+  const auto columns = sensitivities(whole, chosen.hypothesis, numbers);
+  if (columns.size() != numbers.size()) return chosen.hypothesis;
+  const std::vector<double> scale = channel_scale(whole, score.fit_mean_square);
+  return nudged(whole, chosen.hypothesis, given, model.nominal, BeyondNumbers(whole, columns, scale)).at;
+}
+
 }  // namespace
 
 Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given) {
   const Score score = whole.score(chosen.hypothesis);
   if (!score.finite) return {};
-  const std::vector<double> scale = channel_scale(whole, score.fit_mean_square);
-  std::vector<FitParameter> numbers = chosen.parameters;
-  std::erase_if(numbers, [](const FitParameter& p) { return p.effect.has_value(); });
-  const auto columns = sensitivities(whole, chosen.hypothesis, numbers);
-  Hypothesis start = chosen.hypothesis;
-  if (columns.size() == numbers.size())
-    start = nudged(whole, start, given, model.nominal, BeyondNumbers(whole, columns, scale)).at;
-  const Fit tried = weighed_fit(whole, start, chosen.parameters);
+  const Fit tried = weighed_fit(whole, nudged_start(whole, model, chosen, given, score), chosen.parameters);
   const Fit& all = tried.usable ? tried : chosen;
   if (!all.usable) return {};
   Fit certain = keep_certain_sizes(whole, all, given);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -25,11 +26,11 @@ struct ErrorSums {
   double spread() const { return count > 0 ? std::sqrt(std::max(0.0, square / count - mean() * mean())) : kNone; }
 };
 
-using ErrorOfSample = double (*)(const Record&, const FullPrediction&, int, std::size_t);
+using ErrorOfSample = std::function<double(const Record&, const FullPrediction&, int, std::size_t)>;
 
 struct ErrorsOfJoint {
   ErrorsOfJoint(const std::vector<Record>& records, const std::vector<FullPrediction>& predictions, int k, double v_s,
-                ErrorOfSample error) {
+                const ErrorOfSample& error) {
     for (std::size_t r = 0; r < records.size(); ++r)
       for (std::size_t i = 0; i < records[r].size; ++i) {
         const double e = error(records[r], predictions[r], k, i);
@@ -57,7 +58,7 @@ void compare_from(Record& r, double from) {
 }
 
 /// True if the squares of `error` grow from `before` to `after`, beyond chance and beyond what matters.
-bool grows(const HoldOut& view, int k, double floor, ErrorOfSample error) {
+bool grows(const HoldOut& view, int k, double floor, const ErrorOfSample& error) {
   constexpr double kShare = 0.025, kSignificance = 0.01;
   std::map<std::pair<std::size_t, int>, std::pair<double, double>> second;
   double before = 0, after = 0, count = 0;
@@ -102,6 +103,19 @@ std::vector<double> tolerance_spreads(const std::vector<Record>& records, const 
   return all_rms;
 }
 
+/// Of each log. One that is too short to tell has the sensors of the log before it, or of the next that can tell.
+std::vector<double> lateness_of(const std::vector<Log>& logs, const ArmModel& model) {
+  std::vector<std::optional<double>> told;
+  for (const Log& log : logs) told.push_back(slow_sensor_lateness(log, model));
+  for (std::size_t i = 1; i < told.size(); ++i)
+    if (!told[i]) told[i] = told[i - 1];
+  for (std::size_t i = told.size(); i-- > 1;)
+    if (!told[i - 1]) told[i - 1] = told[i];
+  std::vector<double> late;
+  for (const std::optional<double>& t : told) late.push_back(t.value_or(0));
+  return late;
+}
+
 }  // namespace
 
 DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& training,
@@ -110,13 +124,6 @@ DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& trai
   const auto place_among_training = [&](Record& r, std::size_t first) {
     for (std::size_t place = first; place < data.training.size(); ++place)
       if (data.training[place].start == r.start) r.place = static_cast<int>(place);
-  };
-  // A log that is too short to tell has the sensors of the others.
-  double known = 0;
-  const auto lateness_of = [&](const Log& log) {
-    known = slow_sensor_lateness(log, model).value_or(known);
-    if (known != 0) data.late.push_back({log.source, known});
-    return known;
   };
   const auto in_band = [](RecordOptions band, double late) {
     band.slow_sensors_late_s = late;
@@ -140,18 +147,22 @@ DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& trai
         view->records.push_back(std::move(r));
       }
   };
+  std::vector<Log> parts, untouched;
   for (const Log& log : training) {
-    if (holdout) {
-      learn_from(log, lateness_of(log));
-    } else {
-      const auto [first, last] = split_log(log, 2.0 / 3);
-      const std::size_t place = data.training.size();
-      const double late = lateness_of(first);
-      learn_from(first, late);
-      hold_out(log, late, last.time.front(), place);
-    }
+    auto [first, last] = split_log(log, 2.0 / 3);
+    parts.push_back(holdout ? log : std::move(first));
+    untouched.push_back(std::move(last));
   }
-  if (holdout) hold_out(*holdout, lateness_of(*holdout), holdout->time.front(), data.training.size());
+  if (holdout) parts.push_back(*holdout);
+  const std::vector<double> late = lateness_of(parts, model);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (late[i] != 0) data.late.push_back({parts[i].source, late[i]});
+  for (std::size_t i = 0; i < training.size(); ++i) {
+    const std::size_t place = data.training.size();
+    learn_from(parts[i], late[i]);
+    if (!holdout) hold_out(training[i], late[i], untouched[i].time.front(), place);
+  }
+  if (holdout) hold_out(*holdout, late.back(), holdout->time.front(), data.training.size());
   return data;
 }
 
@@ -204,26 +215,43 @@ std::vector<double> holdout_floors(const Evidence& evidence, const ArmModel& mod
   return floor;
 }
 
-double error_over_floors(const HoldOut& joints, const HoldOut& torques, std::vector<FullPrediction> HoldOut::*which,
-                         const std::vector<double>& floor) {
+namespace {
+
+/// NaN where the motor of joint k rests as well: its friction has any value that balance asks for, in the fits, too.
+ErrorOfSample moving_torque_error(const ArmModel& model, int k) {
+  return [v_s = slowest_smoothing(model, k)](const Record& r, const FullPrediction& p, int joint, std::size_t i) {
+    const double e = torque_error(r, p, joint, i);
+    return std::isnan(e) || rests(r, joint, i, v_s) ? kNone : e;
+  };
+}
+
+}  // namespace
+
+double error_over_floors(const ArmModel& model, const HoldOut& joints, const HoldOut& torques,
+                         std::vector<FullPrediction> HoldOut::*which, const std::vector<double>& floor) {
   const int n = static_cast<int>(floor.size()) / 2;
   double sum = 0;
-  const auto add = [&](const HoldOut& view, int k, double of_channel, ErrorOfSample error) {
+  const auto add = [&](const HoldOut& view, int k, double of_channel, const ErrorOfSample& error) {
     if (!(of_channel > 0)) return;
     for (std::size_t r = 0; r < view.records.size(); ++r)
       for (std::size_t i = 0; i < view.records[r].size; ++i)
         if (const double e = error(view.records[r], (view.*which)[r], k, i); !std::isnan(e))
           sum += std::pow(e / of_channel, 2);
   };
-  for (int k = 0; k < n; ++k) add(torques, k, floor[k], torque_error), add(joints, k, floor[n + k], joint_error);
+  for (int k = 0; k < n; ++k) {
+    add(torques, k, floor[k], moving_torque_error(model, k));
+    add(joints, k, floor[n + k], joint_error);
+  }
   return sum;
 }
 
-std::vector<int> worse_joints(const HoldOut& joints, const HoldOut& torques, const std::vector<double>& floor) {
+std::vector<int> worse_joints(const ArmModel& model, const HoldOut& joints, const HoldOut& torques,
+                              const std::vector<double>& floor) {
   const int n = static_cast<int>(floor.size()) / 2;
   std::vector<int> worse;
   for (int k = 0; k < n; ++k) {
-    if (grows(joints, k, floor[n + k], joint_error) || grows(torques, k, floor[k], torque_error)) worse.push_back(k);
+    if (grows(joints, k, floor[n + k], joint_error) || grows(torques, k, floor[k], moving_torque_error(model, k)))
+      worse.push_back(k);
   }
   return worse;
 }

@@ -62,13 +62,15 @@ std::vector<FullPrediction> predict_all(const std::vector<Record>& records, cons
 std::vector<double> holdout_floors(const Evidence& evidence, const ArmModel& model, const HoldOut& joints,
                                    const HoldOut& torques);
 
-/// Squares of the errors of one prediction of both views, in squared floors [2n]; channels without a floor do not count.
-double error_over_floors(const HoldOut& joints, const HoldOut& torques, std::vector<FullPrediction> HoldOut::*which,
-                         const std::vector<double>& floor);
+/// Squares of the errors of one prediction of both views, in squared floors [2n]. Channels without a floor and torques of
+/// motors at rest do not count.
+double error_over_floors(const ArmModel& model, const HoldOut& joints, const HoldOut& torques,
+                         std::vector<FullPrediction> HoldOut::*which, const std::vector<double>& floor);
 
 /// 0-based joints of which `after` predicts the position or the torque worse than `before`. Worse means that the mean
 /// square grows significantly, by a paired t test over seconds, and by at least a fortieth and one squared floor [2n],
-/// see holdout_floors().
-std::vector<int> worse_joints(const HoldOut& joints, const HoldOut& torques, const std::vector<double>& floor);
+/// see holdout_floors(). Torques of motors at rest do not count.
+std::vector<int> worse_joints(const ArmModel& model, const HoldOut& joints, const HoldOut& torques,
+                              const std::vector<double>& floor);
 
 }  // namespace halyard

@@ -109,15 +109,17 @@ bool Judge::explains_a_rest(const Score& before, const Score& after) const {
   return most && (!has[*most] || left(*most) < kRule.next_to_none * kRule.next_to_none);
 }
 
-/// True if a size or a shape ends at its bound, and its sizes do more there than one number by chance. A group of sizes
-/// whose shape is at its bound does not count if it does next to nothing of what the whole effect does: for example a
-/// wall at the end of the motion that only improves the form of a tug.
-bool Judge::at_bound(const Scored& with, std::size_t place) const {
+/// Indices of the sizes that end at a bound or whose shape does, and that do more there than one number by chance. A group
+/// of sizes whose shape is at its bound does not count if it does next to nothing of what the whole effect does: for
+/// example a wall at the end of the motion that only improves the form of a tug.
+std::vector<std::size_t> Judge::sizes_at_bound(const Scored& with, std::size_t place) const {
   constexpr double kNextToNothing = 0.1;
   const Hypothesis& h = with.hypothesis;
   const auto parameters = effect_parameters(evidence_, h, model_.nominal, place);
   const auto ends = [&](std::size_t i) { return ends_at_bound(parameters[i], parameter_value(h, parameters[i])); };
-  const auto shape_ends = [&](std::size_t i) { return ends(i) || is_as_good_at_bound(with, parameters[i]); };
+  const auto shape_ends = [&](std::size_t i) {
+    return (ends(i) || is_as_good_at_bound(with, parameters[i])) && acts(with, parameters[i]);
+  };
   const auto does = [&](const std::vector<std::size_t>& sizes) {
     Scored without{h, {}};
     for (const std::size_t i : sizes) set_parameter(without.hypothesis, parameters[i], parameters[i].nominal);
@@ -125,28 +127,67 @@ bool Judge::at_bound(const Scored& with, std::size_t place) const {
     return without.score.finite ? cost(without) - cost(with) : std::numeric_limits<double>::infinity();
   };
   const std::vector<ParameterGroup> groups = groups_of(parameters);
+  std::vector<std::size_t> at_bound, all;
+  for (const ParameterGroup& group : groups) all.insert(all.end(), group.sizes.begin(), group.sizes.end());
   for (const ParameterGroup& group : groups) {
-    if (lasts_the_whole_record(h, parameters, group)) return true;
+    bool is_whole_group = lasts_the_whole_record(with, parameters, group);
+    if (!is_whole_group && std::ranges::any_of(group.shapes, shape_ends)) {
+      const double own = does(group.sizes);
+      is_whole_group = own > kRule.by_chance && own > kNextToNothing * does(all);
+    }
     for (const std::size_t i : group.sizes)
-      if (ends(i) && does({i}) > kRule.by_chance) return true;
-    if (std::ranges::none_of(group.shapes, shape_ends)) continue;
-    std::vector<std::size_t> all;
-    for (const ParameterGroup& other : groups) all.insert(all.end(), other.sizes.begin(), other.sizes.end());
-    const double own = does(group.sizes);
-    if (own > kRule.by_chance && own > kNextToNothing * does(all)) return true;
+      if (is_whole_group || (ends(i) && does({i}) > kRule.by_chance)) at_bound.push_back(i);
   }
-  return false;
+  return at_bound;
 }
 
-/// True for an effect between two instants that acts nearly all the time: it is an offset, which other effects explain.
-bool Judge::lasts_the_whole_record(const Hypothesis& h, const std::vector<FitParameter>& parameters,
+std::optional<Hypothesis> Judge::without_sizes_at_bound(const Hypothesis& h, std::size_t place,
+                                                        std::vector<FitParameter>& given_up) const {
+  const std::vector<std::size_t> gone = sizes_at_bound({h, evidence_.score(h)}, place);
+  const auto parameters = effect_parameters(evidence_, h, model_.nominal, place);
+  const auto is_gone = [&](std::size_t i) { return std::ranges::count(gone, i) > 0; };
+  Hypothesis reduced = h;
+  bool is_left = false;
+  for (const ParameterGroup& group : groups_of(parameters)) {
+    for (const std::size_t i : group.sizes) {
+      if (is_gone(i)) set_parameter(reduced, parameters[i], parameters[i].nominal), given_up.push_back(parameters[i]);
+      else is_left = is_left || parameter_value(h, parameters[i]) != parameters[i].nominal;
+    }
+    if (std::ranges::all_of(group.sizes, is_gone))
+      for (const std::size_t i : group.shapes) given_up.push_back(parameters[i]);
+  }
+  return !gone.empty() && is_left ? std::optional(reduced) : std::nullopt;
+}
+
+/// False for a shape that may as well have any of the values at which it is looked for: the size that it belongs to is not
+/// there.
+bool Judge::acts(const Scored& with, const FitParameter& shape) const {
+  const std::vector<double> ends = {shape.lower, shape.upper};
+  return std::ranges::any_of(shape.starts.empty() ? ends : shape.starts, [&](double value) {
+    Scored there{with.hypothesis, {}};
+    set_parameter(there.hypothesis, shape, value);
+    there.score = evidence_.score(there.hypothesis);
+    return !there.score.finite || std::abs(cost(there) - cost(with)) > kRule.by_chance;
+  });
+}
+
+/// True for an effect between two instants that acts nearly all the time, or as well might: it is an offset, which other
+/// effects explain.
+bool Judge::lasts_the_whole_record(const Scored& with, const std::vector<FitParameter>& parameters,
                                    const ParameterGroup& group) const {
   constexpr double kNearlyAll = 0.95;
   std::vector<double> instants;
-  for (const std::size_t i : group.shapes)
-    if (parameters[i].range == SearchRange::record_time) instants.push_back(parameter_value(h, parameters[i]));
+  Scored whole = with;
   const Span span = evidence_.time_span();
-  return instants.size() == 2 && instants[1] - instants[0] > kNearlyAll * (span.last - span.first);
+  for (const std::size_t i : group.shapes) {
+    if (parameters[i].range != SearchRange::record_time) continue;
+    set_parameter(whole.hypothesis, parameters[i], instants.empty() ? span.first : span.last);
+    instants.push_back(parameter_value(with.hypothesis, parameters[i]));
+  }
+  if (instants.size() != 2) return false;
+  if (instants[1] - instants[0] > kNearlyAll * (span.last - span.first)) return true;
+  whole.score = evidence_.score(whole.hypothesis);
+  return whole.score.finite && cost(whole) < cost(with) + kRule.by_chance;
 }
 
 /// True if a shape is near the end of what is plausible, and the data cannot tell it from there.

@@ -89,6 +89,10 @@ class Judge {
   /// The gain of `a` above `b`: what it explains more of the deciding blocks, less its further stretch. Neither has to
   /// contain the other's effects.
   double gain_over(const Scored& a, const Scored& b) const;
+  /// The effect at `place` without those of its sizes that lie at a plausible bound, or whose shape does; nothing if none
+  /// does or no size would be left. These sizes and their shapes are `given_up`.
+  std::optional<Hypothesis> without_sizes_at_bound(const Hypothesis& h, std::size_t place,
+                                                   std::vector<FitParameter>& given_up) const;
   /// True if an added effect ends at its plausible bound, so that the final fit would take back what it explains.
   bool leans_on_a_bound(const Scored& found) const;
   /// Cost of a fit: -ln L on the fitting blocks plus the stretch of the baseline parameters.
@@ -98,8 +102,10 @@ class Judge {
 
  private:
   bool explains_a_rest(const Score& before, const Score& after) const;
-  bool at_bound(const Scored& with, std::size_t place) const;
-  bool lasts_the_whole_record(const Hypothesis& h, const std::vector<FitParameter>& parameters,
+  bool at_bound(const Scored& with, std::size_t place) const { return !sizes_at_bound(with, place).empty(); }
+  std::vector<std::size_t> sizes_at_bound(const Scored& with, std::size_t place) const;
+  bool acts(const Scored& with, const FitParameter& shape) const;
+  bool lasts_the_whole_record(const Scored& with, const std::vector<FitParameter>& parameters,
                               const ParameterGroup& group) const;
   bool is_as_good_at_bound(const Scored& with, const FitParameter& p) const;
   bool within_tolerance(const Hypothesis& h, std::size_t place) const;

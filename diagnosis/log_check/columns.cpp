@@ -131,6 +131,24 @@ Period period_of(const Jumps& jumps, const PositionColumn& column) {
   return {};
 }
 
+/// The steps of more than half a period, of either sign, that the next few readings do not take back.
+bool has_lasting_laps(const Samples& s, double period) {
+  constexpr std::size_t kReturns = 3;   // readings within which a lost bit is right again
+  constexpr std::size_t kFewLost = 10;  // a reading that rests at the end of its period goes to and fro more often
+  std::size_t lasting = 0, lost = 0;
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    const double step = s.x[i] - s.x[i - 1];
+    if (std::abs(step) <= period / 2) continue;
+    std::size_t back = i + 1;
+    const std::size_t end = std::min(s.size(), i + 1 + kReturns);
+    while (back < end && !((s.x[back] - s.x[back - 1]) * step < 0 && std::abs(s.x[back] - s.x[back - 1]) > period / 2))
+      ++back;
+    if (back < end) ++lost, i = back;
+    else ++lasting;
+  }
+  return lasting > 0 || lost > kFewLost;
+}
+
 /// Whether a reading runs through a period again and again: it stays within one period, and a step of nearly a period is
 /// a usual step once the period is taken off.
 bool runs_in_laps(const Samples& s, double period) {
@@ -141,7 +159,7 @@ bool runs_in_laps(const Samples& s, double period) {
     if (step > period / 2) largest_at_end = std::max(largest_at_end, period - step);
     else largest = std::max(largest, step);
   }
-  return largest_at_end > 0 && largest_at_end < 2 * largest && largest < period / 4;
+  return largest_at_end > 0 && largest_at_end < 2 * largest && largest < period / 4 && has_lasting_laps(s, period);
 }
 
 /// Jumps of a slow column stand out from its motion. A motor that turns fast jumps so often that they do not.

@@ -51,14 +51,15 @@ SampledMotion sampled_motion(const Log& log, const ArmModel& model) {
   m.expected.resize(n), m.own.resize(n);
   for (int k = 0; k < n; ++k)
     if (!motor[k].empty()) m.expected[k].resize(m.time.size()), m.own[k].resize(m.time.size());
-  Eigen::VectorXd q_m = Eigen::VectorXd::Zero(n), undriven = model.home();
+  const UnstretchedJoints unstretched(model.nominal);
+  Eigen::VectorXd q_m = Eigen::VectorXd::Zero(n), undriven = model.home(), q;
   for (std::size_t i = 0; i < m.time.size(); ++i) {
     for (int k = 0; k < n; ++k) {
       const JointParameters<double>& j = model.nominal.joint[k];
       if (!motor[k].empty()) q_m(k) = motor[k][i] - j.motor_encoder_offset;
       else if (!m.joint[k].empty()) undriven(k) = m.joint[k][i] - j.joint_encoder_offset;
     }
-    const Eigen::VectorXd q = unstretched_joints(model.nominal, q_m, undriven);
+    unstretched.solve(q_m, undriven, q);
     for (int k = 0; k < n; ++k) {
       const JointParameters<double>& j = model.nominal.joint[k];
       if (motor[k].empty()) continue;

@@ -27,10 +27,11 @@ Signals positions_by_motors(const Log& log, const ArmModel& model) {
   const int n = log.n_joints;
   const Eigen::VectorXd undriven = model.home();
   Signals by_motors(n, std::vector<double>(log.size()));
-  Eigen::VectorXd q_m(n);
+  const UnstretchedJoints unstretched(model.nominal);
+  Eigen::VectorXd q_m(n), q;
   for (std::size_t i = 0; i < log.size(); ++i) {
     for (int k = 0; k < n; ++k) q_m(k) = log.motor_position[k].empty() ? 0 : log.motor_position[k][i];
-    const Eigen::VectorXd q = unstretched_joints(model.nominal, q_m, undriven);
+    unstretched.solve(q_m, undriven, q);
     for (int k = 0; k < n; ++k) by_motors[k][i] = q(k);
   }
   return by_motors;

@@ -241,11 +241,12 @@ HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const Driv
   }
 }
 
-/// Computes the output of drive_record from known `states`: for hypotheses that differ only in parameters on which the
+/// Computes the output of drive_record with the same scheme from its `states`: for hypotheses that differ only in parameters on which the
 /// motion does not depend.
 template <int known = 0, class T>
 HALYARD_INLINE void replay_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
-                                  double start, double dt, const CommandHistory* history, const T* states, T* out) {
+                                  double start, double dt, const Chebyshev& scheme, const CommandHistory* history,
+                                  const T* states, T* out) {
   const ArmParameters<T>& arm = transmission.arm();
   const int n = joint_count<known>(arm), m = transmission.n_states();
   bool prescribed = false;
@@ -256,7 +257,7 @@ HALYARD_INLINE void replay_record(const Transmission<T>& transmission, const Dri
     for (int k = 0; k < n; ++k) x.q[k] = from[k], x.v[k] = from[n + k];
     for (int k = 0; k < m; ++k) x.z[k] = from[2 * n + k];
     ChainOverStep<T> chain;
-    if (prescribed) chain_over_step<known>(arm, x, 0.5 * dt, chain);
+    if (prescribed) chain_over_step<known>(arm, x, 0.5 * dt / scheme.steps, chain);
     T* row = out + i * 2 * n;
     driven_derivative<T, known>(transmission, prescribed ? &chain : nullptr, start + dt * static_cast<double>(i),
                                 history, samples[i], x, rate, row, row + n);

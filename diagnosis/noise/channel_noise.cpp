@@ -82,6 +82,17 @@ void add_run(std::vector<ChannelSamples>& by_rate, double interval, std::vector<
   same->motor_angle.push_back(std::move(motor_angle));
 }
 
+/// The mean time from a sample to the next, holes left out: of uneven samples, filters average so many.
+double mean_interval(const std::vector<double>& times) {
+  constexpr double kHole = 5;  // usual intervals
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
+  if (steps.empty()) return 1;
+  const double longest = kHole * median(steps);
+  std::erase_if(steps, [&](double step) { return step > longest; });
+  return std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(steps.size());
+}
+
 /// The sensor's own samples: between them, the readings of a record are interpolated, which attenuates noise.
 std::vector<ChannelSamples> joint_samples(const std::vector<Record>& records, const std::vector<Residuals>& unfiltered,
                                           int k) {
@@ -90,27 +101,17 @@ std::vector<ChannelSamples> joint_samples(const std::vector<Record>& records, co
     const Record& record = records[r];
     if (!record.has_joint(k)) continue;
     const auto predicted = [&](std::size_t i) { return record.joint[k][i] - unfiltered[r].channel[record.n + k][i]; };
-    std::vector<double> run;
+    std::vector<double> run, times;
     for (const SensorSample& s : record.joint_samples[k]) {
       const double at = (s.time - record.start) / record.dt;
       if (!(at >= 0 && at < static_cast<double>(record.size - 1))) continue;
       const auto i = static_cast<std::size_t>(at);
       const double e = s.value - std::lerp(predicted(i), predicted(i + 1), at - static_cast<double>(i));
-      if (std::isfinite(e)) run.push_back(e);
+      if (std::isfinite(e)) run.push_back(e), times.push_back(s.time);
     }
-    add_run(by_rate, record.joint_interval[k], std::move(run));
+    add_run(by_rate, mean_interval(times), std::move(run));
   }
   return by_rate;
-}
-
-/// The mean step from one place to the next, holes left out.
-double usual_step(const std::vector<std::size_t>& places) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < places.size(); ++i) steps.push_back(static_cast<double>(places[i] - places[i - 1]));
-  if (steps.empty()) return 1;
-  const double longest = 2 * median(steps);
-  std::erase_if(steps, [&](double step) { return step > longest; });
-  return std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(steps.size());
 }
 
 std::vector<ChannelSamples> torque_samples(const std::vector<Record>& records, const std::vector<Residuals>& unfiltered,
@@ -119,12 +120,11 @@ std::vector<ChannelSamples> torque_samples(const std::vector<Record>& records, c
   for (std::size_t r = 0; r < records.size(); ++r) {
     if (!records[r].has_torque(k)) continue;
     const std::vector<double>& residual = unfiltered[r].channel[k];
-    std::vector<std::size_t> places;
-    std::vector<double> run, angle;
+    std::vector<double> times, run, angle;
     for (std::size_t i = 0; i < residual.size(); ++i)
       if (std::isfinite(residual[i]))
-        places.push_back(i), run.push_back(residual[i]), angle.push_back(records[r].motor_angle[k][i]);
-    add_run(by_rate, records[r].dt * usual_step(places), std::move(run), std::move(angle));
+        times.push_back(records[r].time(i)), run.push_back(residual[i]), angle.push_back(records[r].motor_angle[k][i]);
+    add_run(by_rate, mean_interval(times), std::move(run), std::move(angle));
   }
   return by_rate;
 }

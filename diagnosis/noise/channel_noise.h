@@ -9,7 +9,7 @@
 ///   in_band² = S_white / (4 √π σ_t),   at most white²
 ///
 ///   e        residual of the model as given, before the comparing filter
-///   Δ        sample interval of the sensor, s
+///   Δ        mean sample interval of the sensor, s
 ///   w        Hann window over a segment of one second; segments overlap by half
 ///   ln 2     median over mean of an exponential distribution, which the spectral density of noise has
 ///   σ_t      standard deviation of both filters of a record together (record.h), s

@@ -57,6 +57,13 @@ void CandidateRound::each(const std::string& what, std::size_t n, const std::fun
   });
 }
 
+/// All channels weigh alike in a promise: what one of many channels shows is a small share of all.
+double CandidateRound::least_promise() const {
+  double channels = 0;
+  for (int c = 0; c < evidence_.channels(); ++c) channels += evidence_.has_channel(c);
+  return std::min(kRule.promise, kRule.promise_of_channel / channels);
+}
+
 std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candidates) {
   if (linear_.columns.size() < linear_.numbers.size() || found_columns_.size() < found_.size()) return {};
   screen_.emplace(evidence_, linear_.from, linear_.columns, scale_);
@@ -67,14 +74,14 @@ std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candida
   });
   std::vector<std::size_t> fitted;
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (linear_.starts[i].promise >= kRule.promise) fitted.push_back(i);
+    if (linear_.starts[i].promise >= least_promise()) fitted.push_back(i);
   std::ranges::stable_sort(fitted, {}, [&](std::size_t i) { return linear_.starts[i].left; });
   if (fitted.size() > kRule.most_fitted) fitted.resize(kRule.most_fitted);
 
   std::vector<Look> looks;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     Trial& t = looks.emplace_back(Look{unusable(candidates[i]), {}}).trial;
-    t.promising = linear_.starts[i].promise >= kRule.promise;
+    t.promising = linear_.starts[i].promise >= least_promise();
     t.is_fitted = false;
   }
   quick_fits(fitted, looks);
@@ -149,6 +156,25 @@ Refit CandidateRound::refit_from(const Hypothesis& end) const {
   return r;
 }
 
+/// Beside another effect that is still missing, a part of a right effect may end at its bound to explain that one. If the
+/// rest of it can be named, this is what the candidate is.
+void CandidateRound::give_up_bounds(Refit& refit, Trial& trial) const {
+  const std::size_t place = refit.best.hypothesis.effects.size() - 1;
+  Refit reduced = refit;
+  const auto start = judge_.without_sizes_at_bound(refit.best.hypothesis, place, reduced.held);
+  if (!start) return;
+  reduced.at = *start;
+  reduced.best = {};
+  reduced.last = std::numeric_limits<double>::infinity();
+  reduced.settled = reduced.is_nudged = false;
+  refitter_.go_on(reduced, 1);
+  if (!reduced.best.usable) return;
+  const Trial rest = judge_.trial(reduced.best.hypothesis, without_, place);
+  if (!rest.can_be_named()) return;
+  refit = std::move(reduced);
+  trial = rest;
+}
+
 std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
   std::vector<std::pair<std::size_t, Refit>> first;
   for (const std::size_t i : leaders_)
@@ -161,6 +187,7 @@ std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
   const auto judge = [&](std::size_t i) {
     const Hypothesis& h = refits[i].best.hypothesis;
     trials[i] = refits[i].best.usable ? judge_.trial(h, without_, h.effects.size() - 1) : unusable(trials[i].effect);
+    if (trials[i].at_bound) give_up_bounds(refits[i], trials[i]);
   };
   const auto go_on_with = [&](const std::string& what, const std::vector<std::size_t>& going, int passes) {
     each(what, going.size(), [&](std::size_t g) {

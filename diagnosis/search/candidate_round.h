@@ -58,6 +58,8 @@ class CandidateRound {
   Fit quick_fit(const Hypothesis& start) const;
   /// A full fit of the same candidate.
   Refit refit_from(const Hypothesis& end) const;
+  void give_up_bounds(Refit& refit, Trial& trial) const;
+  double least_promise() const;
 
   const Evidence& evidence_;
   const ArmModel& model_;

@@ -59,7 +59,7 @@ Naming Competition::naming(const Choice& choice) const {
   std::vector<std::size_t> rivals = {choice.named};
   for (std::size_t i = 0; i < trials_.size(); ++i) {
     const Trial& t = trials_[i];
-    if (i == choice.named || !t.is_judged() || t.at_bound || t.is_refit || t.gain <= 0) continue;
+    if (i == choice.named || !t.is_judged() || t.is_refit || t.gain <= 0) continue;
     if (shared_gain(trials_[choice.named].log_likelihood, t.log_likelihood, ln_without_) >= kRule.shared_gain)
       rivals.push_back(i);
   }
@@ -85,8 +85,10 @@ std::vector<double> Competition::weights(const std::vector<std::size_t>& rivals)
   std::vector<Competitor> all;
   for (const std::size_t i : rivals) {
     const PlacedEffect& e = trials_[i].effect;
+    // At its bound an effect is less plausible, but may still be the right one.
+    const double implausible = trials_[i].at_bound ? kRule.by_chance : 0;
     all.push_back({&trials_[i].log_likelihood, static_cast<int>(e.effect->parameters(model_.nominal, e.joint).size()),
-                   trials_[i].stretch});
+                   trials_[i].stretch + implausible});
   }
   return name_weights(evidence_, all, {&ln_without_, 0, judge_.stretch(without_.hypothesis)});
 }

@@ -58,6 +58,7 @@ void Refitter::go_on(Refit& r, int passes) const {
     const auto columns = sensitivities(evidence_, r.at, numbers);
     if (columns.empty() && !numbers.empty()) return;
     // A nudge that finds little will not find more near the next minimum.
+    const bool was_nudged = r.is_nudged;
     if (r.is_nudged) {
       const std::size_t first = std::max(given_, r.nudged_from);
       Nudge nudge = nudged(evidence_, r.at, first, model_.nominal, BeyondNumbers(evidence_, columns, scale));
@@ -66,16 +67,25 @@ void Refitter::go_on(Refit& r, int passes) const {
     }
     FitOptions options;
     options.cost_tolerance = 1e-3;
-    const Fit f = fit(evidence_, r.at, parameters(r.at), scale, options, columns);
+    std::vector<FitParameter> fitted = parameters(r.at);
+    std::erase_if(fitted, [&](const FitParameter& p) { return find_parameter(r.held, p).has_value(); });
+    const Fit f = fit(evidence_, r.at, fitted, scale, options, columns);
     if (!f.usable) return;
-    r.score = evidence_.score(f.hypothesis);
-    if (!r.score.finite) return;
+    const Score score = evidence_.score(f.hypothesis);
+    if (!score.finite) return;
     double now = 0;
     for (int c = 0; c < evidence_.channels(); ++c)
       if (evidence_.has_channel(c))
-        now += std::log(r.score.fit_mean_square[c] + evidence_.floor()[c] * evidence_.floor()[c]);
+        now += std::log(score.fit_mean_square[c] + evidence_.floor()[c] * evidence_.floor()[c]);
+    if (was_nudged && now > r.last) {
+      // The nudge led away from what the numbers of the model can follow within their tolerances.
+      r.at = r.best.hypothesis;
+      r.is_nudged = r.settled = false;
+      continue;
+    }
     if (now < r.last) r.best = f;
     r.at = f.hypothesis;
+    r.score = score;
     r.settled = now > r.last - kWorthAPass;
     r.last = now;
   }

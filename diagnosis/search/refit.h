@@ -16,8 +16,9 @@ struct Refit {
   Fit best = {};
   double last = std::numeric_limits<double>::infinity();  ///< Σ ln of the mean squares after the last pass
   bool settled = false;
-  bool is_nudged = true;        ///< before each pass
-  std::size_t nudged_from = 0;  ///< effects before this one are not nudged
+  bool is_nudged = true;                ///< before each pass
+  std::vector<FitParameter> held = {};  ///< parameters of effects that are not fitted
+  std::size_t nudged_from = 0;          ///< effects before this one are not nudged
 };
 
 class Refitter {

@@ -104,7 +104,7 @@ TEST(HoldOutFloors, AllowTheTolerancesWhereNoTrainingDataAre) {
     Hypothesis revised = given;
     revised.nominal.joint[0].capstan_radius *= 1 + tolerances * model.joints[0].tolerances.length;
     joints.after = predict_all(joints.records, revised), torques.after = torques.before;
-    return worse_joints(joints, torques, floor);
+    return worse_joints(model, joints, torques, floor);
   };
   EXPECT_TRUE(worse_with(0.5).empty());
   EXPECT_EQ(worse_with(5), std::vector<int>{0});

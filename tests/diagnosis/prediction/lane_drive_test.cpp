@@ -47,7 +47,8 @@ DrivenState<T> at_rest() {
 }
 
 TEST(LaneDrive, EveryLaneMovesLikeASingleArmForAnyNumberOfJointsAndInstructionSet) {
-  const Chebyshev scheme = scheme_for({{{{-100.0, 0.0}}}}, kDt);
+  Chebyshev scheme = scheme_for({{{{-100.0, 0.0}}}}, kDt);
+  scheme.steps = 2;  // a replay has no steps of its own
   for (int n = 1; n <= kMaxJoints; ++n) {
     const ArmParameters<double> arm = arm_of(n);
     const std::vector<DrivenInput> motors = swinging_motors(n);
@@ -63,7 +64,7 @@ TEST(LaneDrive, EveryLaneMovesLikeASingleArmForAnyNumberOfJointsAndInstructionSe
       std::vector<Lanes> driven(size), states(size), replayed(size);
       DrivenState<Lanes> y = at_rest<Lanes>();
       kernels.drive(lanes, motors.data(), kSamples, 0.0, kDt, scheme, nullptr, y, driven.data(), states.data());
-      kernels.replay(lanes, motors.data(), kSamples, 0.0, kDt, nullptr, states.data(), replayed.data());
+      kernels.replay(lanes, motors.data(), kSamples, 0.0, kDt, scheme, nullptr, states.data(), replayed.data());
 
       constexpr double kRounding = 1e-12;  // of some hundred stages with numbers of the order of one
       for (std::size_t i = 0; i < size; ++i)
