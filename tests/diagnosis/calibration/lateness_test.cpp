@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/judgement/holdout.h"
 #include "model/log.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
@@ -49,6 +50,24 @@ TEST(SlowSensors, OfAnArmWithOtherFrictionAndStiffnessAreFoundAsLate) {
     model.nominal.joint[k].joint_coulomb *= 0.85;
   }
   EXPECT_NEAR(*slow_sensor_lateness(late_by(12, 12), model), 0.012, 3e-4);
+}
+
+TEST(SlowSensors, OfALogThatIsTooShortToTellAreAsLateAsThoseOfTheOthers) {
+  const ArmModel model = first_joints(2);
+  const Log whole = late_by(12, 12);
+  const auto cut = static_cast<std::ptrdiff_t>(3 / kRow);
+  Log shorter(2);
+  shorter.source = "short";
+  shorter.time.assign(whole.time.begin(), whole.time.begin() + cut);
+  for (int k = 0; k < 2; ++k)
+    for (Signals Log::*signal : {&Log::motor_torque, &Log::motor_position, &Log::joint_position})
+      (shorter.*signal)[k].assign((whole.*signal)[k].begin(), (whole.*signal)[k].begin() + cut);
+  ASSERT_FALSE(slow_sensor_lateness(shorter, model));
+  for (const std::vector<Log>& logs : {std::vector{shorter, whole}, std::vector{whole, shorter}}) {
+    const DiagnosisData data = diagnosis_data(model, logs, whole);
+    ASSERT_EQ(data.late.size(), 3u);
+    EXPECT_EQ(data.late[0].seconds, data.late[1].seconds);
+  }
 }
 
 TEST(SlowSensors, InTimeAreNotLate) { EXPECT_EQ(*slow_sensor_lateness(late_by(0, 0), first_joints(2)), 0); }

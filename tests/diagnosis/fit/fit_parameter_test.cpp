@@ -46,6 +46,19 @@ TEST(FitParameter, OfTheModelStaysBesideAnEffectThatChangesSeveralInOneProportio
   EXPECT_EQ(covered_by_stiffness, 2);
 }
 
+TEST(FitParameter, OfAPositionLiesWhereTheJointIsAndNotWhereItsEncoderReads) {
+  constexpr double kOffset = 0.3;  // rad
+  const ArmModel given = first_joints(1);
+  ArmModel model = given;
+  Log log = simulate(motion(given, 3)).measured;
+  const Span span = Evidence(make_records(log, given, {}), given).joint_span(0);
+  for (double& q : log.joint_position[0]) q += kOffset;
+  model.nominal.joint[0].joint_encoder_offset = kOffset;
+  const Span of_readings = Evidence(make_records(log, model, {}), model).joint_span(0);
+  EXPECT_NEAR(of_readings.first, span.first, 1e-12);
+  EXPECT_NEAR(of_readings.last, span.last, 1e-12);
+}
+
 /// The log of a motor's torque may be a current.
 TEST(FitParameter, TheFloorOfATorqueIsInTheUnitOfTheLog) {
   constexpr double kScale = 0.02;  // N m per A

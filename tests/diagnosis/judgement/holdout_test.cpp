@@ -110,6 +110,23 @@ TEST(HoldOutFloors, AllowTheTolerancesWhereNoTrainingDataAre) {
   EXPECT_EQ(worse_with(5), std::vector<int>{0});
 }
 
+TEST(WorseJoints, DoNotCountTorquesOfMotorsAtRest) {
+  ArmModel model = first_joints(1);
+  model.nominal.joint[0].motor_smoothing = kSmoothing;
+  Record record = small_record();
+  record.dt = 0.05;
+  for (std::size_t i = 0; i < kSamples / 2; ++i) record.motor_rate[0][i] = 10;  // ten seconds, and ten at rest
+  const auto worse = [&](double moving, double resting) {
+    const auto size = [&](std::size_t i) { return (i < kSamples / 2 ? moving : resting) * (1 + 1e-3 * (i % 7)); };
+    const HoldOut none = holdout_with(record, [](std::size_t) { return 0.0; });
+    HoldOut torques = none;
+    torques.after = holdout_with(record, size).after;
+    return worse_joints(model, none, torques, {0.1, 0.1});
+  };
+  EXPECT_TRUE(worse(0, 1).empty());
+  EXPECT_EQ(worse(1, 0), std::vector<int>{0});
+}
+
 TEST(Resting, IsMostOfWhatTheComparingKernelSees) {
   Record record = small_record();
   record.compare = {0.2, 0.2, 0.2, 0.2, 0.2};

@@ -245,6 +245,14 @@ TEST(LogCheck, NamesACounterThatWrapsAround) {
              "joint_position_3", Severity::gross, {"2^14 counts"});
 }
 
+TEST(LogCheck, TakesALostBitForAnOutlierAndNotForTheLapOfACounter) {
+  for (const int bit : {10, 12, 14, 16, 18}) {
+    Log log = right_log();
+    log.joint_position[0][3000] += std::exp2(bit) * raven().nominal.joint[0].joint_encoder_resolution;
+    for (const LogFinding& f : check_log(log, raven())) EXPECT_NE(f.severity, Severity::gross) << bit << ": " << f.what;
+  }
+}
+
 TEST(LogCheck, NamesAMotorThatWrapsInEachTurn) {
   constexpr double kTurn = 2 * std::numbers::pi;
   for (int k = 0; k < 3; ++k)

@@ -123,8 +123,8 @@ TEST_P(NoiseAtRate, OfATorqueIsThatOfItsReadings) {
   EXPECT_NEAR(noise.in_band, in_band, kScatterOfLog * in_band);
 }
 
-// 342 Hz: between the rows of the log. 1000 Hz: between the points of the record's grid.
-INSTANTIATE_TEST_SUITE_P(Rates, NoiseAtRate, testing::Values(100, 250, 342, 1000));
+// 342 and 700 Hz: between the rows of the log. 1000 Hz: between the points of the record's grid.
+INSTANTIATE_TEST_SUITE_P(Rates, NoiseAtRate, testing::Values(100, 250, 342, 700, 1000));
 
 TEST(ChannelNoise, OfLogsWithDifferentRatesIsTheMeanOfTheirs) {
   const halyard::Log slow = noisy_log(1e-3, 100, &halyard::Log::joint_position),

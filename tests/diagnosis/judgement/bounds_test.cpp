@@ -1,0 +1,94 @@
+/// Effects whose sizes or shapes end where what is plausible ends.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diagnosis/judgement/judge.h"
+#include "diagnosis/search/naming.h"
+#include "plant/simulate.h"
+#include "tests/support/short_arm.h"
+
+namespace halyard {
+namespace {
+
+PlacedEffect placed_at_first(const char* name, const ArmModel& model, const std::vector<double>& p) {
+  PlacedEffect e = place_neutral_effect(*find_effect(name), model.nominal, 0);
+  for (std::size_t i = 0; i < p.size(); ++i) e.p[i] = p[i];
+  return e;
+}
+
+/// An arm of one joint that has this effect, and the verdict on it.
+struct Found {
+  ArmModel model = first_joints(1);
+  PlacedEffect effect;
+  Evidence evidence;
+  Judge judge{evidence, model, {}};
+
+  Found(const char* name, const std::vector<double>& p)
+      : effect(placed_at_first(name, model, p)), evidence(make_records(record(), model, {}), model) {}
+  Log record() const {
+    ArmModel robot = model;
+    robot.effects = {effect};
+    return simulate(motion(robot, 6)).measured;
+  }
+  Trial trial(const PlacedEffect& of) const {
+    const Hypothesis with{model.nominal, {of}}, without{model.nominal, {}};
+    return judge.trial(with, {without, evidence.score(without)}, 0);
+  }
+};
+
+TEST(Bounds, CountForAShapeOnlyIfItActs) {
+  // Friction that settles at this rate, rad/s per s, from a start that never changes without a rate.
+  constexpr double kFastest = 1;
+  const Found constant("friction_drift", {0, 0.6, kFastest, 0}), settling("friction_drift", {-0.5, 0.8, kFastest, 0});
+  const Trial of_constant = constant.trial(constant.effect), of_settling = settling.trial(settling.effect);
+  ASSERT_TRUE(of_constant.is_judged() && of_settling.is_judged());
+  EXPECT_FALSE(of_constant.at_bound);
+  EXPECT_TRUE(of_settling.at_bound);
+}
+
+TEST(Bounds, OfAPushAreThoseOfTheRecordIfTheDataCannotTellThem) {
+  // What acts before the first compared sample, half a second after the first, changes nothing.
+  const Found always("external_force", {2, -1, 7}), later("external_force", {2, 2, 7});
+  PlacedEffect shorter = always.effect;
+  shorter.p[1] = 0.4, shorter.p[2] = 6;
+  const Trial of_always = always.trial(shorter), of_later = later.trial(later.effect);
+  ASSERT_TRUE(of_always.is_judged() && of_later.is_judged());
+  EXPECT_TRUE(of_always.at_bound);
+  EXPECT_FALSE(of_later.at_bound);
+}
+
+TEST(Bounds, OfOnePartLeaveTheOtherPartOfAnEffect) {
+  const ArmModel model = first_joints(1);
+  const double fastest = find_effect("stribeck")->parameters(model.nominal, 0)[3].upper;
+  const Found both("stribeck", {0.4, 0.05, 5e-3, fastest});
+  std::vector<FitParameter> given_up;
+  const auto left = both.judge.without_sizes_at_bound({both.model.nominal, {both.effect}}, 0, given_up);
+  ASSERT_TRUE(left);
+  EXPECT_EQ(left->effects[0].p[0], 0.4);
+  EXPECT_EQ(left->effects[0].p[2], 0) << "the motor's friction rises only above all speeds";
+  std::vector<std::string> names;
+  for (const FitParameter& p : given_up) names.push_back(p.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"motor_rise", "motor_speed"}));
+  const Found one("stribeck", {0, 0.05, 5e-3, fastest});
+  EXPECT_FALSE(one.judge.without_sizes_at_bound({one.model.nominal, {one.effect}}, 0, given_up)) << "nothing is left";
+}
+
+TEST(Bounds, LeaveACandidateAmongTheRivalsOfAName) {
+  const Found friction("motor_friction", {4e-3});
+  std::vector<Trial> trials = {friction.trial(friction.effect), friction.trial(friction.effect)};
+  const Hypothesis without{friction.model.nominal, {}};
+  const Scored scored{without, friction.evidence.score(without)};
+  const auto naming = [&] {
+    return Competition(friction.evidence, friction.model, friction.judge, scored, trials).naming({0, {0}});
+  };
+  EXPECT_NEAR(naming().weight, 0.5, 1e-6);
+  trials[1].at_bound = true;
+  ASSERT_EQ(naming().alternatives.size(), 1u);
+  const double odds = std::exp(-kRule.by_chance);
+  EXPECT_NEAR(naming().alternatives[0].probability, odds / (1 + odds), 1e-6);
+}
+
+}  // namespace
+}  // namespace halyard
