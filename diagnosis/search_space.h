@@ -54,7 +54,8 @@ struct SearchSpace {
   /// For an effect whose torque is periodic in the motor's angle: index of the parameter that gives the number of
   /// periods per motor turn. The faster the motor turns, the less of that torque a record shows (filtered_effect.h).
   std::optional<std::size_t> order_of_motor_torque = {};
-  /// For an effect that is periodic in the joint's position: index of the parameter k of its phase k q.
+  /// For an effect that is periodic in the joint's position: index of the parameter k of its phase k q. Unless k is a whole
+  /// number, its starts become those that the motion can tell apart.
   std::optional<std::size_t> order_of_joint_position = {};
   /// For an effect that limits the speed of the motor: index of the parameter that is this speed, rad/s. A motor hardly
   /// exceeds it, so the search also starts a little above the fastest motion of the records.

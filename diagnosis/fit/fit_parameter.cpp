@@ -15,6 +15,16 @@ constexpr double kStep = 0.1;
 /// vibrate, which is not linear in the instant beyond a fraction of a period.
 constexpr double kInstantScale = RecordOptions{}.step_s / kStep;
 
+/// Starts of a wave number so close that one of them is within a quarter of a period of the truth over the whole motion:
+/// a fit finds its way no farther.
+void start_at_every_half_period(FitParameter& f, double span) {
+  constexpr int kMost = 200;
+  const double spacing = std::max(std::numbers::pi / span, (f.upper - f.lower) / kMost);
+  f.starts.clear();
+  for (double start = f.lower; start <= f.upper; start += spacing) f.starts.push_back(start);
+  f.scale = 0.1 * spacing;
+}
+
 /// Raises the lower bound of an order so far that the motion contains kFewestPeriods periods, and drops lower starts.
 void limit_period(FitParameter& f, const SearchSpace& space, std::size_t index, const Evidence& evidence, int joint) {
   if (space.order_of_motor_torque != index && space.order_of_joint_position != index) return;
@@ -23,6 +33,8 @@ void limit_period(FitParameter& f, const SearchSpace& space, std::size_t index, 
   f.lower = std::min(std::max(f.lower, least), f.upper);
   std::erase_if(f.starts, [&](double start) { return start < f.lower; });
   if (f.starts.empty()) f.starts = {f.is_whole ? std::min(std::ceil(f.lower), f.upper) : f.lower};
+  if (space.order_of_joint_position == index && !f.is_whole)
+    start_at_every_half_period(f, std::max(span.last - span.first, 1e-9));
 }
 
 /// Adds starts above the fastest motion, at which a torque that falls with speed reaches these shares of its value at

@@ -8,6 +8,7 @@ void encoder_eccentricity(SearchSpace& space, const ArmParameters<double>& arm, 
     space["order"].starts = {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32};
     space["order"].is_whole = true;
   } else {
+    // Decades of scales. Where a motion is known, they are as close as it can tell them apart (fit_parameter.h).
     space["wave_number"].starts = {20, 43, 93, 200, 430, 930, 2000};
   }
   space.order_of_joint_position = 2;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
@@ -57,6 +58,21 @@ TEST(FitParameter, OfAPositionLiesWhereTheJointIsAndNotWhereItsEncoderReads) {
   const Span of_readings = Evidence(make_records(log, model, {}), model).joint_span(0);
   EXPECT_NEAR(of_readings.first, span.first, 1e-12);
   EXPECT_NEAR(of_readings.last, span.last, 1e-12);
+}
+
+TEST(FitParameter, OfAWaveNumberStartsAtEveryHalfPeriodOfTheMotion) {
+  const ArmModel model = first_joints(3);
+  Scenario slow = motion(model, 3);
+  for (Sine& sine : slow.trajectory[2].sines) sine.amplitude *= 0.1;  // m
+  const Evidence evidence(make_records(simulate(slow).measured, model, {}), model);
+  const Hypothesis h{model.nominal, {place_effect(*find_effect("encoder_eccentricity"), model.nominal, 2)}};
+  const FitParameter p = effect_parameters(evidence, h, model.nominal, 0)[2];
+  ASSERT_EQ(p.name, "wave_number");
+  const Span span = evidence.joint_span(2);
+  for (std::size_t i = 1; i < p.starts.size(); ++i)
+    EXPECT_LE((p.starts[i] - p.starts[i - 1]) * (span.last - span.first), 1.001 * std::numbers::pi);
+  EXPECT_EQ(p.starts.front(), p.lower);
+  EXPECT_GT(p.starts.back(), 0.99 * p.upper);
 }
 
 /// The log of a motor's torque may be a current.
