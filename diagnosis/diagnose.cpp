@@ -44,7 +44,7 @@ LogFinding finding_of(const DiagnosisData::Late& late) {
 }
 
 LogFinding finding_of(const Log& log, const RepeatedReadings& r) {
-  return {log.source, fmt::format("joint_position_{}", r.joint + 1),
+  return {log.source, fmt::format("{}_position_{}", r.signal == &Log::motor_position ? "motor" : "joint", r.joint + 1),
           fmt::format("repeats each reading until the next one, {:.3g} ms later", 1e3 * r.interval),
           "nothing to do: the diagnosis has left the repeated ones out", LogFinding::Severity::corrected};
 }

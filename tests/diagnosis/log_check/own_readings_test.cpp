@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/diagnosis/odd_logs.h"
@@ -12,8 +13,8 @@ namespace {
 
 /// As a logger writes it that reads a sensor whenever `rows(i)` rows have passed, and repeats the reading until then.
 template <class Rows>
-Log with_repeats(Log log, int k, const Rows& rows) {
-  std::vector<double>& x = log.joint_position[k];
+Log with_repeats(Log log, int k, const Rows& rows, Signals Log::*signal = &Log::joint_position) {
+  std::vector<double>& x = (log.*signal)[k];
   for (std::size_t begin = 0, reading = 0; begin < x.size(); ++reading) {
     const std::size_t end = std::min(x.size(), begin + rows(reading));
     for (std::size_t i = begin; i < end; ++i) x[i] = x[begin];
@@ -37,6 +38,25 @@ TEST(OwnReadings, AreThoseBeforeTheRepeats) {
   }
   EXPECT_NEAR(static_cast<double>(kept), kCheckedDuration * 30, 3);
   EXPECT_EQ(wrong, 0u) << "a reading of another instant was kept";
+}
+
+TEST(OwnReadings, OfAMotorAreThoseWithItsTorques) {
+  const auto every_fourth = [](std::size_t) { return 4; };
+  Log log = with_repeats(right_log(), 0, every_fourth, &Log::motor_position);
+  Log slow_torque = with_repeats(log, 0, every_fourth, &Log::motor_torque);
+  for (Log* of : {&log, &slow_torque}) {
+    const std::vector<RepeatedReadings> found = keep_own_readings(*of, raven());
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].signal, &Log::motor_position);
+    EXPECT_NEAR(found[0].interval, 4e-3, 1e-6);
+  }
+  const auto kept = [](const std::vector<double>& x) {
+    return std::ranges::count_if(x, [](double v) { return std::isfinite(v); });
+  };
+  EXPECT_NEAR(static_cast<double>(kept(log.motor_position[0])), static_cast<double>(log.size()) / 4, 0.05 * log.size());
+  EXPECT_GT(kept(log.motor_torque[0]), 0.99 * static_cast<double>(log.size())) << "a command has its own rate";
+  EXPECT_NEAR(static_cast<double>(kept(slow_torque.motor_torque[0])), static_cast<double>(log.size()) / 4,
+              0.05 * log.size());
 }
 
 TEST(OwnReadings, OfASensorAsFastAsTheLogAreAllItsRows) {
