@@ -82,7 +82,6 @@ Data logged_data(const CompareCommandOptions& options) {
   const auto& sensors = data.truth.joint_position;
   if (std::ranges::any_of(sensors, [](const auto& column) { return !column.empty(); }))
     data.truth_from = "joint sensors";
-  if (const std::string note = ignored_columns_note(data.measured); !note.empty()) fmt::print("{}\n", note);
   return data;
 }
 
@@ -95,6 +94,13 @@ void blame_wrong_log(Comparison& comparison, const Data& data, const std::vector
     run.failure = *why;
     run.refused = true;
   }
+}
+
+void print_notes(const Data& data, const std::vector<std::string>& columns) {
+  if (const std::string note = ignored_columns_note(data.measured); !note.empty()) fmt::print("{}\n", note);
+  if (data.truth_from.empty())
+    fmt::print("note: {}: has no joint sensors, so no error can be computed\n", data.measured.source);
+  fmt::print("{}", gross_error_warnings(data.measured, data.model, columns));
 }
 
 void print_errors(const Comparison& comparison) {
@@ -170,6 +176,7 @@ void run_compare(const CompareCommandOptions& options) {
   OutputFiles files;
   write_comparison(files, options.out, comparison, runs);
   files.commit();
+  if (!data.scenario) print_notes(data, options.columns);
   print_errors(comparison);
   if (runs) print_runs(*runs, comparison.units);
   fmt::print("report: {}\n", (options.out / "report.html").string());

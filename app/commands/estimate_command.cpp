@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "app/log_input.h"
 #include "app/output_check.h"
 #include "app/progress.h"
@@ -50,6 +52,9 @@ void run_estimate(const EstimateCommandOptions& options) {
                   fmt::format("halyard estimate, estimator {}, model {}", options.estimator, options.model.string()));
 
   if (const std::string note = ignored_columns_note(log); !note.empty()) fmt::print("{}\n", note);
+  if (std::ranges::all_of(log.joint_position, [](const auto& column) { return column.empty(); }))
+    fmt::print("note: {}: has no joint sensors, so no error can be computed\n", options.data.string());
+  fmt::print("{}", gross_error_warnings(log, model, options.columns));
   fmt::print("{}: {} samples, {:g} s, {:.3g} us a step\n", options.estimator, log.size(), log.duration(),
              run.microseconds_per_step);
   if (run.report.gated > 0 || run.report.repaired_factors > 0) {

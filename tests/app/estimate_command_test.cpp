@@ -65,6 +65,21 @@ TEST_F(App, EstimatePrintsTheRmsThatItsFileHasAfterHalfASecond) {
   }
 }
 
+TEST_F(App, EstimateAndCompareWarnOfALogWhoseErrorsWouldBeThoseOfItsColumns) {
+  simulate_log();
+  const std::vector<std::string> in_degrees = {"--column", "joint_position_2=joint_position_2,scale=57.3"};
+  const std::string warning = "warning: log.csv: joint_position_2: ";
+  const std::string printed = estimate("kinematics", "log.csv", "est.csv", in_degrees);
+  EXPECT_TRUE(contains(printed, warning)) << printed;
+  std::vector<std::string> compare = {"compare",      "log.csv",    "--model", "raven2.xml",
+                                      "--estimators", "kinematics", "--out",   "warned"};
+  compare.insert(compare.end(), in_degrees.begin(), in_degrees.end());
+  const RunResult compared = run(compare);
+  EXPECT_EQ(compared.exit_code, 0) << compared.err;
+  EXPECT_TRUE(contains(compared.out, warning)) << compared.out;
+  EXPECT_FALSE(contains(estimate("kinematics", "log.csv", "est.csv"), "warning"));
+}
+
 TEST_F(App, EstimatesComeFromMotorSignalsAlone) {
   simulate_log();
   rewrite("log.csv", "motors.csv", {kLogColumns.begin(), kLogColumns.begin() + 7},
