@@ -91,7 +91,7 @@ struct Diagnosis {
   double probability_none = 0;
   ArmModel given;  ///< the model as given, with unknown torque scales calibrated
   ArmModel revised;
-  std::string holdout;                ///< description of the hold-out data
+  std::string holdout;  ///< description of the hold-out data
   /// Events of `revised`, such as a push, that did not happen in a hold-out log of its own: indices into its effects,
   /// the last first.
   std::vector<std::size_t> absent_events;

@@ -35,15 +35,15 @@ TABLE
 
 figure blind_trials hours bench
 figure_blind_trials() {
-  local trials="$bench/halyard_blind_trials --seed 20261210 --resume --out out/trials"
-  ran "$trials --row 1 --trials 12"
-  ran "$trials --row 2 --trials 8"
-  ran "$trials --row 3 --trials 3"
-  ran "$trials --row 4 --trials 5"
+  local trials="$bench/halyard_blind_trials --seed 20261218 --resume --out out/trials"
+  ran "$trials --row 1 --trials 8"
+  ran "$trials --row 2 --trials 3"
+  ran "$trials --row 3 --trials 2"
+  ran "$trials --row 4 --trials 3"
   ran "$bench/halyard_blind_trials --summary out/trials"
   cat <<'TABLE'
-From `halyard_blind_trials --seed 20261210` with `--row 1 --trials 12`, `--row 2 --trials 8`, `--row 3 --trials 3` and
-`--row 4 --trials 5`:
+From `halyard_blind_trials --seed 20261218` with `--row 1 --trials 8`, `--row 2 --trials 3`, `--row 3 --trials 2` and
+`--row 4 --trials 3`:
 
 TABLE
   awk '/^## /{ inside = $2 == "Acceptance" } inside && /^[|]/' "$work/out/trials/summary.md"
