@@ -244,9 +244,11 @@ class Diagnoser {
     // The effects that a veto leaves are as uncertain as before.
     Fit uncertain = attribution().final_fit;
     if (final_hypothesis().effects.size() > given_) uncertain.parameters = fitted;
+    uncertain = with_all_numbers(whole, uncertain, attribution().baseline.parameters);
+    for (const std::size_t e : result_.absent_events)
+      if (uncertain.usable) uncertain = without_event(std::move(uncertain), e);
     joints.half_width =
-        half_widths(joints.records, with_all_numbers(whole, uncertain, attribution().baseline.parameters),
-                    residual_quantiles(evidence, training_joints, final_hypothesis()));
+        half_widths(joints.records, uncertain, residual_quantiles(evidence, training_joints, final_hypothesis()));
     result_.joint_interval = prediction_interval(joints, model_.n());
   }
 

@@ -78,6 +78,22 @@ Fit with_all_numbers(const Evidence& whole, const Fit& fit, const std::vector<Fi
   return halyard::fit(whole, fit.hypothesis, all, scale, {.iterations = 0});
 }
 
+Fit without_event(Fit fit, std::size_t effect) {
+  std::vector<Eigen::Index> kept;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+    if (fit.parameters[i].effect != effect) kept.push_back(static_cast<Eigen::Index>(i));
+  for (std::vector<double>* of_parameter : {&fit.value, &fit.std_deviation}) {
+    std::vector<double> left;
+    for (const Eigen::Index i : kept) left.push_back((*of_parameter)[static_cast<std::size_t>(i)]);
+    *of_parameter = std::move(left);
+  }
+  for (Eigen::MatrixXd* covariance : {&fit.covariance, &fit.block_covariance})
+    *covariance = Eigen::MatrixXd((*covariance)(kept, kept));
+  fit.parameters = without_parameters_of(fit.parameters, effect);
+  fit.hypothesis = without_effect(fit.hypothesis, effect);
+  return fit;
+}
+
 std::vector<Signals> half_widths(const std::vector<Record>& records, const Fit& fit,
                                  const std::vector<double>& quantile) {
   const Steps steps(fit);

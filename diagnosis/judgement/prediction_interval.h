@@ -30,6 +30,9 @@ std::vector<double> residual_quantiles(const Evidence& evidence, const std::vect
 ///   numbers  the baseline parameters that the data are sensitive to; other entries are ignored
 Fit with_all_numbers(const Evidence& whole, const Fit& fit, const std::vector<FitParameter>& numbers);
 
+/// The fit of a log in which this effect did not happen: without its parameters, the others as uncertain as they are.
+Fit without_event(Fit fit, std::size_t effect);
+
 /// h_i of the fit's hypothesis: [record], each [n][size]. Empty for a joint without sensor; NaN if a
 /// sensitivity cannot be integrated or the fit is not usable.
 ///   quantile  q_k, [n]

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "diagnosis/diagnose.h"
+#include "diagnosis/diagnosis_details.h"
 #include "diagnosis/record/record.h"
 #include "model/homing.h"
 #include "model/input_error.h"
@@ -118,6 +119,9 @@ TEST(Push, IsNamedAlsoIfTheHoldOutHasNone) {
   EXPECT_EQ(once.absent_events, std::vector<std::size_t>{0});
   EXPECT_TRUE(once.revised_on_holdout().effects.empty());
   EXPECT_EQ(once.revised.effects.size(), 1u);
+  double widest = 0;
+  for (const double half : once.details->joint_view.half_width[0][0]) widest = std::fmax(widest, half);
+  EXPECT_LT(widest, 2 * once.joint_interval.half_width[0]) << "no push at that time widens it";
 }
 
 TEST(LogOfMotorsOnly, ChangesNoNumberThatPredictsTheJointsWorse) {
