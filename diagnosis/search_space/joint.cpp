@@ -26,6 +26,12 @@ void joint_friction(SearchSpace& space, const Arm& arm, int joint) {
   space["viscous_change"].changes = {&Tolerances::friction, joint, arm.joint[joint].joint_viscous};
 }
 
+void joint_presliding(SearchSpace& space, const Arm& arm, int joint) {
+  const double typical = arm.joint[joint].type == JointType::revolute ? 5e-3 : 5e-4;
+  space["share"].natural_bounds = true;
+  space["deflection"].starts = {0.1 * typical, 0.4 * typical, 2 * typical, 10 * typical};
+}
+
 void payload(SearchSpace& space, const Arm& arm, int) {
   const int last = arm.n - 1;
   space.numbers_stay = true;  // mass, centre of mass and inertia
@@ -45,6 +51,7 @@ std::span<const BuiltInSpace> joint_spaces() {
   static constexpr BuiltInSpace kSpaces[] = {{"external_force", external_force},
                                              {"friction_drift", friction_drift},
                                              {"joint_friction", joint_friction},
+                                             {"joint_presliding", joint_presliding},
                                              {"payload", payload},
                                              {"stribeck", stribeck}};
   return kSpaces;

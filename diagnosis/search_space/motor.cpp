@@ -20,6 +20,11 @@ void motor_friction(SearchSpace& space, const Arm& arm, int joint) {
   space["viscous_change"].changes = {&Tolerances::friction, joint, arm.joint[joint].motor_viscous};
 }
 
+void motor_presliding(SearchSpace& space, const Arm&, int) {
+  space["share"].natural_bounds = true;
+  space["deflection"].starts = {0.05, 0.2, 0.8, 3};
+}
+
 void torque_scale(SearchSpace& space, const Arm&, int joint) {
   space["scale"].changes = {&Tolerances::torque_scale, joint, 1};
 }
@@ -38,6 +43,7 @@ void torque_ripple(SearchSpace& space, const Arm&, int) {
 std::span<const BuiltInSpace> motor_spaces() {
   static constexpr BuiltInSpace kSpaces[] = {{"actuator_saturation", actuator_saturation},
                                              {"motor_friction", motor_friction},
+                                             {"motor_presliding", motor_presliding},
                                              {"torque_ripple", torque_ripple},
                                              {"torque_scale", torque_scale}};
   return kSpaces;

@@ -266,6 +266,17 @@ TEST(Diagnose, NamesBacklashAndItsRevisedModelPredictsBetter) {
   }
 }
 
+TEST(Diagnose, NamesFrictionThatIsElasticBeforeItSlides) {
+  const ArmModel model = two_joints();
+  ArmModel truth = model;
+  truth.effects.push_back(placed("motor_presliding", model, 0, {0.8, 0.5}));
+  const Diagnosis d = diagnose_arm(model, truth);
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(effect_label(d.effects[0].effect), "motor_presliding of joint 1");
+  EXPECT_NEAR(d.effects[0].effect.p[0], 0.8, 0.08);
+  EXPECT_NEAR(d.effects[0].effect.p[1], 0.5, 0.05);
+}
+
 TEST(Diagnose, RefitsAStiffnessWithinItsTolerance) {
   const ArmModel model = two_joints();
   ArmModel truth = model;

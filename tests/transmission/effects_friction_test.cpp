@@ -56,6 +56,64 @@ TEST(Friction, AsymmetryPartsTheLevelsOfBothWaysByItsShare) {
   }
 }
 
+TEST(Presliding, TurnsRoundOverItsDeflectionHoweverSlowTheMotion) {
+  ArmParameters<double> arm = random_arm(5, CableLaw::linear);
+  const double deflection = 0.2, share = 0.7;
+  const Transmission<double> motor(arm, {placed("motor_presliding", arm, 1, {share, deflection})});
+  const Transmission<double> joint(arm, {placed("joint_presliding", arm, 1, {share, deflection})});
+  for (const double speed : {1e-3, 1.0}) {
+    double of_motor = 0, of_joint = 0;
+    Motion m;
+    const auto slide = [&](double way, double path) {
+      constexpr int kSteps = 20000;
+      m.motor_rate[1] = m.joint_rate[1] = way * speed;
+      for (int i = 0; i < kSteps; ++i) {
+        of_motor += path / speed / kSteps * evaluate(motor, m, &of_motor).z_dot[0];
+        of_joint += path / speed / kSteps * evaluate(joint, m, &of_joint).z_dot[0];
+      }
+    };
+    slide(1, 20 * deflection);
+    slide(-1, deflection);
+    // From z_y: z = -z_y + 2 z_y exp(-x / z_y). Euler's steps of 5e-5 z_y are off by half of that.
+    const double z = deflection * (-1 + 2 * std::exp(-1));
+    EXPECT_NEAR(of_motor, z, 5e-5 * deflection);
+    EXPECT_NEAR(of_joint, z, 5e-5 * deflection);
+    const JointParameters<double>& j = arm.joint[1];
+    const auto held = [&](double z_y, double v_s) { return share * (z / z_y - std::tanh(-speed / v_s)); };
+    const Transmission<double> none(arm, {});
+    const Evaluated bare = evaluate(none, m);
+    EXPECT_NEAR(bare.s[1].motor_torque - evaluate(motor, m, &z).s[1].motor_torque,
+                j.motor_coulomb * held(deflection, j.motor_smoothing), 1e-12);
+    EXPECT_NEAR(bare.s[1].joint_force - evaluate(joint, m, &z).s[1].joint_force,
+                j.joint_coulomb * held(deflection, j.joint_smoothing), 1e-12);
+  }
+}
+
+TEST(Presliding, GivesBackNoMoreThanItStored) {
+  ArmParameters<double> arm = random_arm(5, CableLaw::linear);
+  ArmParameters<double> frictionless = arm;
+  frictionless.joint[1].joint_coulomb = frictionless.joint[1].joint_viscous = 0;
+  arm.joint[1].torque_bias = frictionless.joint[1].torque_bias = 0;
+  const Transmission<double> none(frictionless, {});
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int trial = 0; trial < 500; ++trial) {
+    const Motion m = random_motion(random);
+    const auto p = within_bounds(find_effect("motor_presliding")->parameters(arm, 1), random);
+    const auto q = within_bounds(find_effect("joint_presliding")->parameters(arm, 1), random);
+    const double y = p[1] * unit(random), z = q[1] * unit(random);
+    const Evaluated motor = evaluate(Transmission<double>(arm, {placed("motor_presliding", arm, 1, p)}), m, &y);
+    const Evaluated joint = evaluate(Transmission<double>(arm, {placed("joint_presliding", arm, 1, q)}), m, &z);
+    // The energy stored is ρ F_c z² / (2 z_y).
+    const double stored_at_motor = p[0] * arm.joint[1].motor_coulomb * y / p[1] * motor.z_dot[0];
+    const double stored_at_joint = q[0] * arm.joint[1].joint_coulomb * z / q[1] * joint.z_dot[0];
+    const double force = joint.s[1].joint_force - evaluate(none, m).s[1].joint_force;
+    // Terms of 10 N m, and of 50 N m for the reaction of cables, round when they are subtracted.
+    EXPECT_LE(motor.s[1].motor_torque * m.motor_rate[1] + stored_at_motor, 10 * 4 * kEps);
+    EXPECT_LE(force * m.joint_rate[1] + stored_at_joint, 50 * 4 * kEps);
+  }
+}
+
 TEST(PulleyFriction, GrowsWithTensionAndLoadAndNotWithSpeed) {
   ArmParameters<double> arm = random_arm(6, CableLaw::linear);
   arm.joint[0].damping = 0;

@@ -129,6 +129,8 @@ TEST(EffectLibrary, HasTheEffectsInTheOrderOfTheirNamesTable) {
                          "gravity_tilt",
                          "motor_friction",
                          "joint_friction",
+                         "motor_presliding",
+                         "joint_presliding",
                          "stribeck",
                          "pulley_friction",
                          "hysteresis",
@@ -184,8 +186,8 @@ TEST(EffectLibrary, EffectsAreFoundByNameAndRefusedWhereTheyCannotBe) {
   for (const char* of_cable : {"backlash", "hysteresis", "stiffness", "pulley_friction", "slack", "creep",
                                "capstan_eccentricity", "cable_slip"})
     EXPECT_FALSE(find_effect(of_cable)->applies(arm, 1)) << of_cable;
-  for (const char* of_motor : {"motor_friction", "capstan_ratio", "encoder_offset", "coupling", "torque_ripple",
-                               "torque_scale", "actuator_saturation"}) {
+  for (const char* of_motor : {"motor_friction", "motor_presliding", "capstan_ratio", "encoder_offset", "coupling",
+                               "torque_ripple", "torque_scale", "actuator_saturation"}) {
     EXPECT_TRUE(find_effect(of_motor)->applies(arm, 1)) << of_motor;
     EXPECT_FALSE(find_effect(of_motor)->applies(arm, 2)) << of_motor;
   }

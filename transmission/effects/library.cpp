@@ -13,6 +13,8 @@ constexpr std::unique_ptr<const Effect> (*kMakers[])() = {
     make_effect<class GravityTilt>,
     make_effect<class MotorFriction>,
     make_effect<class JointFriction>,
+    make_effect<class MotorPresliding>,
+    make_effect<class JointPresliding>,
     make_effect<class Stribeck>,
     make_effect<class PulleyFriction>,
     make_effect<class Hysteresis>,

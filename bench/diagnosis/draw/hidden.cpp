@@ -60,7 +60,7 @@ bool is_essential(const PlacedEffect& effect, const Drawn& size) {
 std::vector<Hidden> choices(const ArmModel& model, Kind kind) {
   std::vector<Hidden> all;
   if (kind == Kind::form) {
-    for (const OtherForm& form : other_forms()) all.push_back({{form.effect}, form.like});
+    for (const OtherForm& form : other_forms()) all.push_back({{form.effect}, form.like, form.beside});
   } else if (kind == Kind::outside) {
     for (const Effect* effect : outside_effects()) all.push_back({{effect}, effect->name()});
   } else {

@@ -11,6 +11,7 @@ namespace halyard::blind {
 struct Hidden {
   PlacedEffect acts;
   std::string right_name;
+  std::string right_beside = {};  ///< a name that is right beside it, of a part of it; empty if there is none
 };
 
 /// Where parameters that lie within the record or the motion can lie.

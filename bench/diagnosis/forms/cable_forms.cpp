@@ -184,12 +184,12 @@ class GradualSlip : public EffectOf<GradualSlip>, public RefinesSearch {
 }  // namespace
 
 void add_cable_forms(OwnedEffects& to) {
-  to.emplace_back(std::make_unique<MaxwellSlip>(), "hysteresis");
-  to.emplace_back(std::make_unique<BoucWen>(), "hysteresis");
-  to.emplace_back(std::make_unique<RoundBacklash>(), "backlash");
-  to.emplace_back(std::make_unique<QuadraticStiffening>(), "stiffness");
-  to.emplace_back(std::make_unique<TwoRateCreep>(), "creep");
-  to.emplace_back(std::make_unique<GradualSlip>(), "cable_slip");
+  to.push_back({std::make_unique<MaxwellSlip>(), "hysteresis"});
+  to.push_back({std::make_unique<BoucWen>(), "hysteresis"});
+  to.push_back({std::make_unique<RoundBacklash>(), "backlash"});
+  to.push_back({std::make_unique<QuadraticStiffening>(), "stiffness"});
+  to.push_back({std::make_unique<TwoRateCreep>(), "creep"});
+  to.push_back({std::make_unique<GradualSlip>(), "cable_slip"});
 }
 
 }  // namespace halyard::blind

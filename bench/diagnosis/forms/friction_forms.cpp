@@ -7,29 +7,41 @@
 namespace halyard::blind {
 namespace {
 
-/// More Coulomb friction at the motor, with the elastic presliding of Dahl:
-///   F = F_c z / z_y,  z' = v - |v| z / z_y
-/// Source: Dahl, "A solid friction model", Aerospace Corporation TOR-0158 (1968).
-class DahlMotorFriction : public EffectOf<DahlMotorFriction> {
+/// More Coulomb friction at the motor, by four elastic contacts that slide one after another:
+///   F = F_c/4 Σ z_i / z_y,i,   z_i' = v (1 - |z_i / z_y,i|⁴) where v z_i > 0,   z_i' = v elsewhere
+/// Source: the generalized Maxwell-slip model, Al-Bender, Lampaert, Swevers, IEEE Trans. Automatic Control 50 (2005). The
+/// fourth power rounds the point of sliding, so that the equations stay smooth.
+class MaxwellSlipFriction : public EffectOf<MaxwellSlipFriction> {
  public:
-  std::string name() const override { return "dahl_motor_friction"; }
-  std::string summary() const override { return "more friction at the motor, elastic before it slides"; }
+  std::string name() const override { return "maxwell_slip_friction"; }
+  std::string summary() const override {
+    return "more friction at the motor, of contacts that slide one after another";
+  }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::motor); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
     const double level = typical_motor_friction(arm.joint[*joint]);
     return {{"coulomb", "N m", 0, 0.5 * level, 0, 30 * level}, {"presliding", "rad", 0.3, 0.3, 0.01, 3}};
   }
-  int n_states() const override { return 1; }
+  int n_states() const override { return kContacts; }
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
-    s[*c.joint].motor_torque -= c.p[0] * c.z[0] / c.p[1];
+    T held = 0.0;
+    for (int i = 0; i < kContacts; ++i) held += c.z[i] / (T(kSlides[i]) * c.p[1]);
+    s[*c.joint].motor_torque -= T(1.0 / kContacts) * c.p[0] * held;
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
     const T v = s[*c.joint].motor_rate;
-    z_dot[0] = v - abs(v) * c.z[0] / c.p[1];
+    for (int i = 0; i < kContacts; ++i) {
+      const T u = c.z[i] / (T(kSlides[i]) * c.p[1]);
+      z_dot[i] = v * (T(1.0) - select(v * u > T(0.0), T(u * u * u * u), T(0.0)));
+    }
   }
+
+ private:
+  static constexpr int kContacts = 4;
+  static constexpr double kSlides[kContacts] = {0.3, 0.7, 1.2, 1.8};  ///< deflections, relative to `presliding`
 };
 
 /// More friction at the joint, by LuGre's bristles with a constant level:
@@ -125,10 +137,10 @@ class LinearFrictionDrift : public EffectOf<LinearFrictionDrift> {
 }  // namespace
 
 void add_friction_forms(OwnedEffects& to) {
-  to.emplace_back(std::make_unique<DahlMotorFriction>(), "motor_friction");
-  to.emplace_back(std::make_unique<LuGreJointFriction>(), "joint_friction");
-  to.emplace_back(std::make_unique<ExponentialStribeck>(), "stribeck");
-  to.emplace_back(std::make_unique<LinearFrictionDrift>(), "friction_drift");
+  to.push_back({std::make_unique<MaxwellSlipFriction>(), "motor_friction", "motor_presliding"});
+  to.push_back({std::make_unique<LuGreJointFriction>(), "joint_friction", "joint_presliding"});
+  to.push_back({std::make_unique<ExponentialStribeck>(), "stribeck"});
+  to.push_back({std::make_unique<LinearFrictionDrift>(), "friction_drift"});
 }
 
 }  // namespace halyard::blind

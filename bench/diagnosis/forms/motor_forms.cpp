@@ -111,10 +111,10 @@ class RippleWithHarmonic : public EffectOf<RippleWithHarmonic>, public RefinesSe
 }  // namespace
 
 void add_motor_forms(OwnedEffects& to) {
-  to.emplace_back(std::make_unique<GradualSaturation>(), "actuator_saturation");
-  to.emplace_back(std::make_unique<CurrentLoop>(), "delay");
-  to.emplace_back(std::make_unique<HalfSineLoad>(), "external_force");
-  to.emplace_back(std::make_unique<RippleWithHarmonic>(), "torque_ripple");
+  to.push_back({std::make_unique<GradualSaturation>(), "actuator_saturation"});
+  to.push_back({std::make_unique<CurrentLoop>(), "delay"});
+  to.push_back({std::make_unique<HalfSineLoad>(), "external_force"});
+  to.push_back({std::make_unique<RippleWithHarmonic>(), "torque_ripple"});
 }
 
 }  // namespace halyard::blind

@@ -13,8 +13,8 @@ std::vector<OtherForm> other_forms() {
     return all;
   }();
   std::vector<OtherForm> forms;
-  for (const auto& [effect, like] : owned)
-    if (find_effect(like)) forms.push_back({effect.get(), like});
+  for (const auto& [effect, like, beside] : owned)
+    if (find_effect(like)) forms.push_back({effect.get(), like, beside});
   return forms;
 }
 

@@ -12,7 +12,8 @@ namespace halyard::blind {
 /// The same physics as an effect of the library in another functional form of the literature.
 struct OtherForm {
   const Effect* effect;
-  std::string like;  ///< the library's name for it, which is the right answer
+  std::string like;    ///< the library's name for it, which is the right answer
+  std::string beside;  ///< the library's name for a part of it, which is right beside `like`; empty if there is none
 };
 
 /// Those whose name the library has.
@@ -29,7 +30,11 @@ class AboveBand {
   virtual double encoder_counts(const ArmParameters<double>& arm, int joint, const double* p) const = 0;
 };
 
-using OwnedEffects = std::vector<std::pair<std::unique_ptr<const Effect>, std::string>>;
+struct OwnedForm {
+  std::unique_ptr<const Effect> effect;
+  std::string like, beside = {};
+};
+using OwnedEffects = std::vector<OwnedForm>;
 void add_friction_forms(OwnedEffects& to);
 void add_cable_forms(OwnedEffects& to);
 void add_motor_forms(OwnedEffects& to);

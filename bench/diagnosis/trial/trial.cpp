@@ -50,6 +50,9 @@ void describe(const Recording& recording, Result& r) {
                        .parameters = true_parameters(h.acts, recording.model)});
   }
   r.also_true = names_beyond_tolerance(recording.model, recording.robot);
+  for (std::size_t i = 0; i < recording.hidden.size(); ++i)
+    if (const std::string& part = recording.hidden[i].right_beside; !part.empty())
+      r.also_true.push_back({part, r.truth[i].place.joint});
   if (r.latency_s > 0)
     for (int joint = 0; joint <= r.joints; ++joint) r.also_true.push_back({"delay", joint});
 }
