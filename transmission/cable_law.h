@@ -26,23 +26,29 @@ struct RunTensions {
   T forward, backward;
 };
 
+/// With another tension T_0 at rest than the joint's.
 template <class T>
-HALYARD_INLINE RunTensions<T> run_tensions(const JointParameters<T>& j, const T& x, const T& x_dot) {
+HALYARD_INLINE RunTensions<T> run_tensions(const JointParameters<T>& j, const T& tension, const T& x, const T& x_dot) {
   const T damping = j.damping * x_dot;
   switch (j.law) {
     case CableLaw::exponential: {
       // The bound keeps an extreme sigma point finite; a real cable breaks long before exp(30).
-      const T u = max(T(-30.0), min(T(30.0), T(j.stiffness / j.tension * x)));
-      return {max(T(0.0), T(j.tension * exp(u) + damping)), max(T(0.0), T(j.tension * exp(T(-u)) - damping))};
+      const T u = max(T(-30.0), min(T(30.0), T(j.stiffness / tension * x)));
+      return {max(T(0.0), T(tension * exp(u) + damping)), max(T(0.0), T(tension * exp(T(-u)) - damping))};
     }
     case CableLaw::linear: {
       const T pull = j.stiffness * x + damping;
-      return {max(T(0.0), T(j.tension + pull)), max(T(0.0), T(j.tension - pull))};
+      return {max(T(0.0), T(tension + pull)), max(T(0.0), T(tension - pull))};
     }
     case CableLaw::paper: break;
   }
   const T half = j.stiffness * sinh(x) + damping;
-  return {j.tension + half, j.tension - half};
+  return {tension + half, tension - half};
+}
+
+template <class T>
+HALYARD_INLINE RunTensions<T> run_tensions(const JointParameters<T>& j, const T& x, const T& x_dot) {
+  return run_tensions(j, j.tension, x, x_dot);
 }
 
 /// The force difference g, N.

@@ -18,7 +18,7 @@ struct SmoothStep {
 
 template <class T>
 HALYARD_INLINE SmoothStep<T> smooth_step(double time, const T& at) {
-  const T u = max(T(0.0), min(T(1.0), T((T(time) - at) / T(kStepWidth) + T(0.5))));
+  const T u = max(T(0.0), min(T(1.0), T((T(time) - at) * T(1 / kStepWidth) + T(0.5))));
   return {u * u * (T(3.0) - T(2.0) * u), T(6.0 / kStepWidth) * u * (T(1.0) - u)};
 }
 

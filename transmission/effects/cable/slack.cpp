@@ -35,9 +35,7 @@ class Slack : public EffectOf<Slack> {
   void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
     const JointParameters<T>& j = c.arm.joint[*c.joint];
     JointSignals<T>& own = s[*c.joint];
-    JointParameters<T> loose = j;
-    loose.tension = c.p[1];
-    const RunTensions<T> run = run_tensions(loose, own.stretch, own.stretch_rate);
+    const RunTensions<T> run = run_tensions(j, c.p[1], own.stretch, own.stretch_rate);
     const T law = j.law == CableLaw::paper ? run.forward - run.backward : cable_force(j, own.stretch, own.stretch_rate);
     const T change = c.p[0] * (max(T(0.0), run.forward) - max(T(0.0), run.backward) - law);
     own.cable_force_motor += change;
