@@ -61,10 +61,10 @@ inline std::vector<BadInputRow> bad_models() {
       {"EffectUnknown", Wrong::model,
        put(R"(</arm>)", R"(<effects><effect name="backlsh" joint="1"/></effects></arm>)"),
        "bad.xml:67: <effect name=\"backlsh\">: unknown effect; expected one of payload, gravity_tilt, "
-       "motor_friction, joint_friction, stribeck, pulley_friction, hysteresis, backlash, slack, stiffness, "
-       "coupling, creep, capstan_ratio, capstan_eccentricity, encoder_offset, encoder_eccentricity, "
-       "torque_ripple, torque_scale, delay, cable_slip, external_force, friction_drift, actuator_saturation, or "
-       "one of a module given by --effects"},
+       "motor_friction, joint_friction, motor_presliding, joint_presliding, stribeck, pulley_friction, hysteresis, "
+       "backlash, slack, stiffness, coupling, creep, capstan_ratio, capstan_eccentricity, encoder_offset, "
+       "encoder_eccentricity, torque_ripple, torque_scale, delay, cable_slip, external_force, friction_drift, "
+       "actuator_saturation, or one of a module given by --effects"},
       {"EffectOutOfBounds", Wrong::model,
        put(R"(</arm>)", R"(<effects><effect name="backlash" joint="1" half_gap="-1"/></effects></arm>)"),
        "bad.xml:67: <effect half_gap=\"-1\">: expected a number from 0 to 0.01135 m"},
