@@ -8,6 +8,11 @@ namespace {
 
 using Arm = ArmParameters<double>;
 
+void backlash(SearchSpace& space, const Arm& arm, int joint) {
+  space["rounding"].starts = {0, 0.1 * typical_half_gap(arm.joint[joint])};
+  space["rounding"].natural_bounds = true;
+}
+
 void cable_slip(SearchSpace& space, const Arm&, int) { space["time"].range = SearchRange::record_time; }
 
 void capstan_ratio(SearchSpace& space, const Arm&, int joint) {
@@ -42,10 +47,10 @@ void stiffness(SearchSpace& space, const Arm&, int joint) {
 }  // namespace
 
 std::span<const BuiltInSpace> cable_spaces() {
-  static constexpr BuiltInSpace kSpaces[] = {{"cable_slip", cable_slip}, {"capstan_ratio", capstan_ratio},
-                                             {"coupling", coupling},     {"creep", creep},
-                                             {"hysteresis", hysteresis}, {"pulley_friction", pulley_friction},
-                                             {"slack", slack},           {"stiffness", stiffness}};
+  static constexpr BuiltInSpace kSpaces[] = {
+      {"backlash", backlash},  {"cable_slip", cable_slip}, {"capstan_ratio", capstan_ratio},     {"coupling", coupling},
+      {"creep", creep},        {"hysteresis", hysteresis}, {"pulley_friction", pulley_friction}, {"slack", slack},
+      {"stiffness", stiffness}};
   return kSpaces;
 }
 

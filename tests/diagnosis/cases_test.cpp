@@ -72,6 +72,17 @@ TEST(Cases, FrictionThatFadesAtTheMotorAloneIsADrift) {
   EXPECT_LT(joint_share, 0.1);
 }
 
+TEST(Cases, BacklashWithRoundEdgesLeavesNothing) {
+  SKIP_WITHOUT_CASES();
+  const Diagnosis d = diagnose_case("rounded_backlash-j2");
+  ASSERT_EQ(d.effects.size(), 1U);
+  EXPECT_EQ(d.effects[0].effect.effect->name(), "backlash");
+  EXPECT_EQ(d.effects[0].effect.joint, 1);
+  EXPECT_TRUE(d.unexplained.empty());
+  EXPECT_NEAR(d.effects[0].parameters[0].value, 548e-6, 0.02 * 548e-6) << "the truth, m; another form of the edges";
+  EXPECT_LT(d.after.joint_rms[1], 0.02 * d.before.joint_rms[1]);
+}
+
 TEST(Cases, BacklashOfAGearedJointIsNoStiffness) {
   SKIP_WITHOUT_CASES();
   const fs::path folder = kCases / "geared_arm";

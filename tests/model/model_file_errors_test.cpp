@@ -97,7 +97,7 @@ TEST(ModelFile, BadInputSaysWhereWhatAndWhatWasExpected) {
       {"name=\"backlash\"", "name=\"backlsh\"",
        "arm.xml:32: <effect name=\"backlsh\">: unknown effect; expected one of "},
       {"half_gap=\"0.35 mm\"", "gap=\"0.35 mm\"",
-       "arm.xml:32: <effect gap=\"0.35 mm\">: unknown attribute; expected one of name, joint, half_gap"},
+       "arm.xml:32: <effect gap=\"0.35 mm\">: unknown attribute; expected one of name, joint, half_gap, rounding"},
       {"half_gap=\"0.35 mm\"", "half_gap=\"-0.35 mm\"",
        "arm.xml:32: <effect half_gap=\"-0.35 mm\">: expected a number from 0 to 0.011 m"},
       {"joint=\"1\" half_gap=\"0.35 mm\"", "joint=\"2\"",

@@ -97,6 +97,26 @@ TEST(Backlash, HasADeadZoneTwiceTheHalfGapWide) {
   }
 }
 
+TEST(Backlash, WithRoundEdgesYieldsBeforeItCarriesTheWholeLoad) {
+  constexpr double half_gap = 0.02, rounding = 4e-3, step = 1e-6;
+  const ArmParameters<double> arm = random_arm(8, CableLaw::linear);
+  const Transmission<double> bare(arm, {}), with(arm, {placed("backlash", arm, 2, {half_gap, rounding})});
+  const auto force = [&](const Transmission<double>& t, double x, double x_dot) {
+    return evaluate(t, stretched(arm, 2, x, x_dot)).s[2].cable_force_joint;
+  };
+  // At an edge the other edge, 2 h away, takes off ρ² / 8 h, which is a twentieth of ρ / 2.
+  EXPECT_NEAR(force(with, half_gap, 0) / force(bare, 0.5 * rounding, 0), 1, 0.06);
+  EXPECT_NEAR(force(with, 0, 0), 0, 1e-12);
+  // Far beyond the edge it is the sharp gap, up to ρ² / 4 u.
+  EXPECT_NEAR(force(with, 0.2, 0), force(bare, 0.18, 0), force(bare, rounding * rounding / 4 / 0.18, 0));
+  // The rate follows the stretch. Differences: an error of step² f''' and the rounding of the force over the step.
+  const double k = force(bare, 1e-3, 0) / 1e-3, b = force(bare, 0, 1);
+  for (const double x : {-0.025, -0.019, 0.0, 0.01, 0.021}) {
+    const double slope = (force(with, x + step, 0) - force(with, x - step, 0)) / (2 * step) / k;
+    EXPECT_NEAR(force(with, x, 1) - force(with, x, 0), slope * b, 1e-6 * b) << x;
+  }
+}
+
 TEST(Stiffness, ScalesTheForceOfStretchAndOfItsRate) {
   for (const CableLaw law : {CableLaw::paper, CableLaw::linear}) {  // both are proportional to stiffness
     const ArmParameters<double> arm = random_arm(9, law);

@@ -3,12 +3,15 @@
 
 /// A dead zone in the path from motor to joint: the cable is stretched only beyond the gap,
 ///
-///   x_eff = x - min(max(x, -h), h),   x'_eff = x' outside the gap, 0 inside
+///   x_eff = e(x - h) - e(-x - h),   e(u) = (u + √(u² + ρ²)) / 2,   x'_eff = x' ∂x_eff/∂x
 ///
-///   h   half of the gap     m
+///   h   half of the gap                                             m
+///   ρ   rounding of its edges: at an edge, x_eff is ρ / 2. With ρ = 0 the cable is slack up to the edge, and
+///       x_eff = x - min(max(x, -h), h)                              m
 ///
+/// Where the sides meet, they yield before they carry the whole load.
 /// Source: Nordin and Gutman, "Controlling mechanical systems with backlash", Automatica 38 (2002),
-/// dead-zone model with a damped shaft.
+/// dead-zone model with a damped shaft; the hyperbola is the usual smooth form of |x|.
 
 namespace halyard::effects {
 
@@ -21,19 +24,27 @@ class Backlash : public EffectOf<Backlash> {
     return arm.joint[joint].drive == Drive::cable;
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
-    // A gap of a cable is some hundredths of its capstan. A gear's, with a radius of 1, is about what its teeth yield.
-    constexpr double kOfRadius = 0.03, kOfStretch = 10;
     const JointParameters<double>& j = arm.joint[*joint];
-    const double typical = std::min(kOfRadius * j.capstan_radius, kOfStretch * typical_stretch(j));
-    return {{"half_gap", "m", 0, typical, 0, 2 * j.capstan_radius}};
+    const double typical = typical_half_gap(j);
+    return {{"half_gap", "m", 0, typical, 0, 2 * j.capstan_radius}, {"rounding", "m", 0, 0, 0, typical}};
   }
 
   template <class T>
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
     JointSignals<T>& own = s[*c.joint];
-    const T inside = min(max(own.stretch, T(-c.p[0])), c.p[0]);
-    own.stretch_rate = select(abs(own.stretch) >= c.p[0], own.stretch_rate, T(0.0));
-    own.stretch -= inside;
+    // Of each edge: positive where the cable is stretched beyond it. In sums, so that both vanish within a sharp gap.
+    const T forward = own.stretch - c.p[0], backward = -own.stretch - c.p[0];
+    const T f = hyperbola(forward, c.p[1]), b = hyperbola(backward, c.p[1]);
+    own.stretch = T(0.5) * ((forward + f) - (backward + b));
+    own.stretch_rate *= T(0.5) * ((T(1.0) + forward / f) + (T(1.0) + backward / b));
+  }
+
+ private:
+  /// √(x² + ρ²), with a derivative also at 0.
+  template <class T>
+  static T hyperbola(const T& x, const T& rounding) {
+    constexpr double kSharpest = 1e-18;  // m
+    return sqrt(T(x * x + rounding * rounding + T(kSharpest * kSharpest)));
   }
 };
 
