@@ -15,6 +15,7 @@
 #include "diagnosis/judgement/prediction_interval.h"
 #include "diagnosis/log_check/own_readings.h"
 #include "diagnosis/prediction/side_by_side.h"
+#include "diagnosis/record/common_clock.h"
 #include "diagnosis/search/revision.h"
 #include "diagnosis/search_space.h"
 
@@ -62,6 +63,7 @@ class Diagnoser {
     DiagnosisData data = diagnosis_data(model_, training, holdout);
     for (const DiagnosisData::Late& late : data.late) result_.log_findings.push_back(finding_of(late));
     has_own_holdout_ = holdout.has_value();
+    n_logs_ = training.size();
     result_.holdout = holdout ? holdout->source : "last third of the training data";
     result_.given = calibrated(model_, data.training);
     details_->joint_view = std::move(data.joint_view);
@@ -95,6 +97,16 @@ class Diagnoser {
   }
   Attribution& attribution() { return details_->attribution; }
   const Hypothesis& final_hypothesis() const { return details_->attribution.final_fit.hypothesis; }
+  /// With each event on the clock of the log in which it happens.
+  Hypothesis on_own_clocks(const Evidence& evidence, Hypothesis h) const {
+    for (std::size_t e = given_; e < h.effects.size(); ++e)
+      h.effects[e] = on_clock_of_its_log(h.effects[e], model_.nominal, evidence.records());
+    return h;
+  }
+  /// As the hold-out sees it: a log of its own has its own clock, the last thirds have those of their logs.
+  Hypothesis on_holdout_clock(const Evidence& evidence, const Hypothesis& h) const {
+    return has_own_holdout_ ? on_own_clocks(evidence, h) : h;
+  }
 
   void search(const Evidence& evidence, const Evidence& whole) {
     attribution() = attribute(evidence, result_.given, {options_.most_effects, options_.significance}, progress_);
@@ -133,8 +145,10 @@ class Diagnoser {
     doubts_ = doubts(evidence, result_.given, attribution(), options_.significance);
     for (std::size_t e = given_; e < f.hypothesis.effects.size(); ++e) {
       if (doubts_[e - given_] != Doubt::none) continue;
-      NamedEffect named{f.hypothesis.effects[e], namings[e - given_].weight, {}, namings[e - given_].alternatives};
-      named.parameters = estimated_parameters(evidence, e);
+      NamedEffect named{on_own_clocks(evidence, f.hypothesis).effects[e], namings[e - given_].weight,
+                        estimated_parameters(evidence, e), namings[e - given_].alternatives};
+      const Record* const happens_in = record_of(f.hypothesis.effects[e], model_.nominal, evidence.records());
+      if (happens_in && n_logs_ > 1) named.log = happens_in->source;
       const double none = probability_of_none_for(evidence, attribution(), e);
       result_.probability_none = std::max(result_.probability_none, none);
       std::vector<double> all = {named.probability *= 1 - none};
@@ -179,9 +193,12 @@ class Diagnoser {
     for (const FitParameter& p : effect_parameters(evidence, f.hypothesis, result_.given.nominal, effect)) {
       if (p.is_past) continue;
       const double value = parameter_value(f.hypothesis, p);
-      if (const std::optional<std::size_t> fitted = find_parameter(f.parameters, p))
+      if (const std::optional<std::size_t> fitted = find_parameter(f.parameters, p)) {
         all.push_back(estimated(f, *fitted));
-      else if (p.is_whole) all.push_back({p.name, p.unit, value, value, value, p.nominal});
+        // An instant is told on its log's clock.
+        const double shift = on_own_clocks(evidence, f.hypothesis).effects[effect].p[p.index] - value;
+        for (double* t : {&all.back().value, &all.back().lower, &all.back().upper}) *t += shift;
+      } else if (p.is_whole) all.push_back({p.name, p.unit, value, value, value, p.nominal});
     }
     return all;
   }
@@ -237,7 +254,7 @@ class Diagnoser {
     veto(evidence, whole);
     result_.revised = result_.given;
     result_.revised.nominal = final_hypothesis().nominal;
-    result_.revised.effects = final_hypothesis().effects;
+    result_.revised.effects = on_own_clocks(evidence, final_hypothesis()).effects;
     details_->past = final_hypothesis().past;
     result_.before = prediction_errors(joints, torques, result_.given.nominal, &HoldOut::before);
     result_.after = prediction_errors(joints, torques, result_.given.nominal, &HoldOut::after);
@@ -247,6 +264,7 @@ class Diagnoser {
     uncertain = with_all_numbers(whole, uncertain, attribution().baseline.parameters);
     for (const std::size_t e : result_.absent_events)
       if (uncertain.usable) uncertain = without_event(std::move(uncertain), e);
+    uncertain.hypothesis = on_holdout_clock(evidence, uncertain.hypothesis);
     joints.half_width =
         half_widths(joints.records, uncertain, residual_quantiles(evidence, training_joints, final_hypothesis()));
     result_.joint_interval = prediction_interval(joints, model_.n());
@@ -255,7 +273,8 @@ class Diagnoser {
   /// HoldOut::after, and the events that did not happen in a hold-out log of its own.
   void predict_after(const Evidence& evidence) {
     HoldOut &joints = details_->joint_view, &torques = details_->torque_view;
-    const auto predict = [&](const Hypothesis& h) {
+    const auto predict = [&](const Hypothesis& on_common_clock) {
+      const Hypothesis h = on_holdout_clock(evidence, on_common_clock);
       for (HoldOut* view : {&joints, &torques}) view->after = predict_all(view->records, h);
       return error_over_floors(model_, joints, torques, &HoldOut::after, evidence.floor());
     };
@@ -338,6 +357,7 @@ class Diagnoser {
   const DiagnosisOptions& options_;
   const Progress& progress_;
   bool has_own_holdout_ = false;      ///< a log, not the last third of the training
+  std::size_t n_logs_ = 0;            ///< of the training
   std::size_t given_;                 ///< effects that the model came with
   std::vector<std::size_t> changed_;  ///< see changed_numbers()
   std::vector<Doubt> doubts_;         ///< of each added effect

@@ -85,7 +85,10 @@ class RefinesSearch {
 /// bounds, or parameters that the effect does not have.
 SearchSpace search_space(const Effect& effect, const ArmParameters<double>& arm, EffectPlace joint);
 
-/// True for an effect that happens at instants of a log, such as a push or a slip.
+/// Indices of the parameters of an effect that are instants of a log, as of a push or a slip.
+std::vector<std::size_t> instants_of(const PlacedEffect& effect, const ArmParameters<double>& arm);
+
+/// True for an effect that has such parameters.
 bool has_instants(const PlacedEffect& effect, const ArmParameters<double>& arm);
 
 }  // namespace halyard

@@ -42,8 +42,8 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   fmt::print("{}\n", verdict_line(d));
   for (const NamedEffect& e : d.effects)
     for (const Estimated& p : e.parameters)
-      fmt::print("  {} {}: {:.4g} {} (95 %: {:.4g} to {:.4g})\n", effect_label(e.effect), p.name, p.value, p.unit,
-                 p.lower, p.upper);
+      fmt::print("  {} {}: {:.4g} {} (95 %: {:.4g} to {:.4g})\n", label_of(e), p.name, p.value, p.unit, p.lower,
+                 p.upper);
   for (const NamedEffect& e : d.effects)
     for (const Alternative& a : e.alternatives)
       fmt::print("  {}: or {} ({:.0f} %)\n", effect_label(e.effect), effect_label(a.effect), 100 * a.probability);

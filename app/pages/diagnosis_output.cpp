@@ -88,6 +88,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
                        {"probability", probability(e.probability)},
                        {"alternatives", alternatives},
                        {"parameters", parameters}});
+    if (!e.log.empty()) effects.back()["log"] = e.log;
     if (i < evaluation.why.size()) effects.back()["why"] = evaluation.why[i];
   }
   for (const Estimated& p : d.refitted)
@@ -120,6 +121,8 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
   return all.dump(2) + "\n";
 }
 
+std::string label_of(const NamedEffect& e) { return effect_label(e.effect) + (e.log.empty() ? "" : " in " + e.log); }
+
 std::vector<std::string> absent_event_lines(const Diagnosis& d) {
   std::vector<std::string> lines;
   for (const std::size_t e : d.absent_events)
@@ -130,7 +133,7 @@ std::vector<std::string> absent_event_lines(const Diagnosis& d) {
 
 std::string verdict_line(const Diagnosis& d) {
   std::string line = verdict_word(d.verdict);
-  for (std::size_t i = 0; i < d.effects.size(); ++i) line += (i == 0 ? ": " : ", ") + effect_label(d.effects[i].effect);
+  for (std::size_t i = 0; i < d.effects.size(); ++i) line += (i == 0 ? ": " : ", ") + label_of(d.effects[i]);
   if (d.verdict == Diagnosis::Verdict::effects && !d.unexplained.empty()) line += "; an unexplained residual remains";
   return line;
 }
@@ -150,7 +153,7 @@ void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluati
       std::string text = "The model lacks:";
       for (std::size_t i = 0; i < d.effects.size(); ++i) {
         const NamedEffect& e = d.effects[i];
-        text += fmt::format("\n{}: {} (probability {:.0f} %).", effect_label(e.effect), e.effect.effect->summary(),
+        text += fmt::format("\n{}: {} (probability {:.0f} %).", label_of(e), e.effect.effect->summary(),
                             100 * e.probability);
         if (i < evaluation.why.size()) text += " " + evaluation.why[i];
         else text += alternatives_sentence(e);

@@ -15,6 +15,9 @@ namespace halyard {
 /// The text of diagnosis.json.
 std::string diagnosis_json(const Diagnosis& diagnosis, const DiagnosisEvaluation& evaluation);
 
+/// "backlash of joint 2"; an event of one of several logs with that log: "cable_slip of joint 1 in LOG".
+std::string label_of(const NamedEffect& effect);
+
 /// A sentence about each event that did not happen in the hold-out.
 std::vector<std::string> absent_event_lines(const Diagnosis& diagnosis);
 

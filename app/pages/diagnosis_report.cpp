@@ -25,7 +25,7 @@ void add_numbers(report::Page& page, const Diagnosis& d) {
                    report::Align::left};
     for (const NamedEffect& e : d.effects)
       for (const Estimated& p : e.parameters)
-        table.rows.push_back({effect_label(e.effect), p.name, fmt::format("{:.4g}", p.value), interval(p), p.unit});
+        table.rows.push_back({label_of(e), p.name, fmt::format("{:.4g}", p.value), interval(p), p.unit});
     page.table(table);
   }
   if (!d.refitted.empty()) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/record/common_clock.h"
 #include "model/rigid_chain.h"
 #include "transmission/coupling.h"
 #include "transmission/transmission.h"
@@ -25,7 +26,7 @@ class JointObserver {
   JointObserver(const Record& record, const FullPrediction& prediction, const Hypothesis& h, int joint)
       : record_(record),
         prediction_(prediction),
-        transmission_(h.nominal, h.effects),
+        transmission_(h.nominal, on_own_clock(record, h).effects),
         arm_(transmission_.arm()),
         n_(arm_.n),
         k_(joint),

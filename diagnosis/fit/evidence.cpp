@@ -93,8 +93,9 @@ int Evidence::add_rows(int r, const ArmModel& model, Split split) {
       if (valid[i] == 0 || (!joint && rests(record, k, i, v_s))) continue;
       const int block = block_of(r, i);
       const int index = static_cast<int>(i) / stride_;
-      if (split == Split::none) add_row({r, c, index, block, true}, record.time(i));
-      else add_row({r, c, index, block / 2, !decides(r, i)}, record.time(i));
+      const double time = record.time(i) + record.clock_shift;
+      if (split == Split::none) add_row({r, c, index, block, true}, time);
+      else add_row({r, c, index, block / 2, !decides(r, i)}, time);
       end = std::max(end, block + 1);
     }
   }
@@ -139,7 +140,8 @@ void Evidence::find_floors(const ArmModel& model) {
 void Evidence::find_spans(const ArmModel& model) {
   time_span_ = {records_.front().start, records_.front().start};
   for (const Record& r : records_)
-    time_span_ = {std::min(time_span_.first, r.start), std::max(time_span_.last, r.time(r.size - 1))};
+    time_span_ = {std::min(time_span_.first, r.start + r.clock_shift),
+                  std::max(time_span_.last, r.time(r.size - 1) + r.clock_shift)};
   for (int k = 0; k < n_; ++k) {
     joint_span_.push_back(joint_span_of(records_, model, k));
     Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};

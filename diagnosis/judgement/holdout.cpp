@@ -9,6 +9,7 @@
 #include "diagnosis/calibration/lateness.h"
 #include "diagnosis/fit/fit.h"
 #include "diagnosis/judgement/paired_t.h"
+#include "diagnosis/record/common_clock.h"
 #include "diagnosis/record/resting.h"
 
 namespace halyard {
@@ -129,19 +130,24 @@ DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& trai
     band.slow_sensors_late_s = late;
     return band;
   };
-  const auto learn_from = [&](const Log& log, double late) {
+  const auto learn_from = [&](const Log& log, double late, double clock_shift) {
     const std::size_t first = data.training.size();
-    for (Record& r : make_records(log, model, in_band(kFitBand, late))) data.training.push_back(std::move(r));
+    for (Record& r : make_records(log, model, in_band(kFitBand, late))) {
+      r.clock_shift = clock_shift;
+      data.training.push_back(std::move(r));
+    }
     for (Record& r : make_records(log, model, in_band(kJointErrorBand, late))) {
+      r.clock_shift = clock_shift;
       place_among_training(r, first);
       data.training_joints.push_back(std::move(r));
     }
   };
-  const auto hold_out = [&](const Log& log, double late, double from, std::size_t first) {
+  const auto hold_out = [&](const Log& log, double late, double clock_shift, double from, std::size_t first) {
     for (const auto& [view, how] :
          {std::pair(&data.joint_view, kJointErrorBand), std::pair(&data.torque_view, kFitBand)})
       for (Record& r : make_records(log, model, in_band(how, late))) {
         if (r.time(r.size - 1) < from) continue;
+        r.clock_shift = clock_shift;
         compare_from(r, from);
         place_among_training(r, first);
         view->records.push_back(std::move(r));
@@ -154,15 +160,15 @@ DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& trai
     untouched.push_back(std::move(last));
   }
   if (holdout) parts.push_back(*holdout);
-  const std::vector<double> late = lateness_of(parts, model);
+  const std::vector<double> late = lateness_of(parts, model), shifts = clock_shifts(training);
   for (std::size_t i = 0; i < parts.size(); ++i)
     if (late[i] != 0) data.late.push_back({parts[i].source, late[i]});
   for (std::size_t i = 0; i < training.size(); ++i) {
     const std::size_t place = data.training.size();
-    learn_from(parts[i], late[i]);
-    if (!holdout) hold_out(training[i], late[i], untouched[i].time.front(), place);
+    learn_from(parts[i], late[i], shifts[i]);
+    if (!holdout) hold_out(training[i], late[i], shifts[i], untouched[i].time.front(), place);
   }
-  if (holdout) hold_out(*holdout, late.back(), holdout->time.front(), data.training.size());
+  if (holdout) hold_out(*holdout, late.back(), 0, holdout->time.front(), data.training.size());
   return data;
 }
 

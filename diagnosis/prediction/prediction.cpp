@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <deque>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -13,6 +14,7 @@
 #include "diagnosis/prediction/motion_key.h"
 #include "diagnosis/prediction/shared_lanes.h"
 #include "diagnosis/prediction/side_by_side.h"
+#include "diagnosis/record/common_clock.h"
 
 namespace halyard {
 namespace {
@@ -72,7 +74,12 @@ class Prediction {
 
   void add(const std::vector<Hypothesis>& hypotheses, std::vector<Residuals>& residuals) {
     residuals.resize(hypotheses.size());
-    for (std::size_t h = 0; h < hypotheses.size(); ++h) jobs_.push_back({&hypotheses[h], n_requests_, &residuals[h]});
+    for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+      const Hypothesis* const own = record_.clock_shift == 0
+                                        ? &hypotheses[h]
+                                        : &on_own_clocks_.emplace_back(on_own_clock(record_, hypotheses[h]));
+      jobs_.push_back({own, n_requests_, &residuals[h]});
+    }
     ++n_requests_;
   }
 
@@ -243,6 +250,7 @@ class Prediction {
   int stride_;
   std::vector<DrivenInput> inputs_;
   CommandHistory history_;
+  std::deque<Hypothesis> on_own_clocks_;  ///< of the jobs, if the record's clock is not the common one
   std::vector<Job> jobs_;
   std::size_t n_requests_ = 0;
   std::vector<Chebyshev> schemes_;  ///< [request]

@@ -33,8 +33,9 @@ struct SensorSample {
 /// [n_joints][n_samples] everywhere; weights are 0 or 1.
 struct Record {
   int n = 0;
-  double dt = 0;     ///< s
-  double start = 0;  ///< time of the first sample, s
+  double dt = 0;           ///< s
+  double start = 0;        ///< time of the first sample, s
+  double clock_shift = 0;  ///< s, from the log's clock to the common one (common_clock.h)
   std::size_t size = 0;
   /// Readings, including encoder offsets. For a joint without a motor: the joint's own motion, rad | m.
   Signals motor_angle, motor_rate, motor_acceleration;

@@ -69,10 +69,16 @@ SearchSpace search_space(const Effect& effect, const ArmParameters<double>& arm,
   return space;
 }
 
-bool has_instants(const PlacedEffect& effect, const ArmParameters<double>& arm) {
+std::vector<std::size_t> instants_of(const PlacedEffect& effect, const ArmParameters<double>& arm) {
   const SearchSpace space = search_space(*effect.effect, arm, effect.joint);
-  return std::ranges::any_of(space.parameters,
-                             [](const ParameterSearch& p) { return p.range == SearchRange::record_time; });
+  std::vector<std::size_t> instants;
+  for (std::size_t i = 0; i < space.parameters.size(); ++i)
+    if (space.parameters[i].range == SearchRange::record_time) instants.push_back(i);
+  return instants;
+}
+
+bool has_instants(const PlacedEffect& effect, const ArmParameters<double>& arm) {
+  return !instants_of(effect, arm).empty();
 }
 
 }  // namespace halyard

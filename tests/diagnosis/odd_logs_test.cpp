@@ -124,6 +124,27 @@ TEST(Push, IsNamedAlsoIfTheHoldOutHasNone) {
   EXPECT_LT(widest, 2 * once.joint_interval.half_width[0]) << "no push at that time widens it";
 }
 
+TEST(Push, OfOneOfTwoLogsIsToldOnThatLogsClock) {
+  ArmModel pushed = first_joints(1);
+  pushed.effects.push_back(placed("external_force", pushed, 0, {2.0, 2.0, 3.5}));
+  std::vector<Log> training = {clean_logs().train, simulate(motion(pushed, kLogDuration, 2)).measured};
+  training[0].source = "first.csv", training[1].source = "second.csv";
+  const Diagnosis d = diagnose(first_joints(1), training, clean_logs().holdout, quick());
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects[0].effect.effect->name(), "external_force");
+  EXPECT_EQ(d.effects[0].log, "second.csv");
+  EXPECT_NEAR(d.effects[0].effect.p[0], 2.0, 0.1);
+  // Empirical: an instant is found to 20 ms.
+  EXPECT_NEAR(d.effects[0].effect.p[1], 2.0, 0.03);
+  EXPECT_NEAR(d.effects[0].effect.p[2], 3.5, 0.03);
+  for (const Estimated& p : d.effects[0].parameters)
+    if (p.name == "start") {
+      EXPECT_TRUE(p.lower < 2.03 && p.upper > 1.97) << p.lower << " to " << p.upper;
+    }
+  EXPECT_EQ(d.revised.effects[0].p[1], d.effects[0].effect.p[1]);
+  EXPECT_TRUE(d.unexplained.empty()) << "nothing happened in the first log";
+}
+
 TEST(LogOfMotorsOnly, ChangesNoNumberThatPredictsTheJointsWorse) {
   // Without a joint sensor the training data cannot tell friction of the motor from friction of the joint.
   ArmModel truth = first_joints(1);
