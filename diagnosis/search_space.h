@@ -45,6 +45,9 @@ struct ParameterSearch {
   /// True if only whole numbers are plausible, such as the order of a ripple. The fit keeps the value of a start.
   bool is_whole = false;
   TolerancedNumber changes = {};  ///< the model parameter that it changes, if any
+  /// True for a size without which the effect is another one: friction that drifts at no rate is only more friction. The
+  /// effect is named only if its other sizes do not explain as much alone.
+  bool is_essential = false;
 };
 
 /// The motion of a record has to contain at least kFewestPeriods periods of an effect that is periodic in a position:

@@ -149,6 +149,7 @@ void add_candidates(report::Page& page, const Diagnosis& d) {
                             : t.gain <= 0    ? "does not help on data that the fit did not see"
                             : !t.is_judged() ? "not significant"
                             : t.at_bound     ? "ends at the end of what is plausible"
+                            : t.is_another   ? "is needed only for what another effect explains, too"
                             : t.is_refit     ? "within the tolerance of the model's numbers"
                             : !t.matters     ? "too small to matter"
                             : round.accepted ? "helps less than the first"

@@ -227,10 +227,18 @@ Fit with_given_motion(const Evidence& whole, const ArmModel& model, const Fit& f
 
 std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given) {
   std::vector<std::size_t> idle;
-  for (std::size_t e = given; e < fit.hypothesis.effects.size(); ++e)
-    if (std::ranges::none_of(fit.parameters,
-                             [&](const FitParameter& p) { return p.effect == e && !p.is_past && !p.shape; }))
-      idle.push_back(e);
+  for (std::size_t e = given; e < fit.hypothesis.effects.size(); ++e) {
+    const PlacedEffect& effect = fit.hypothesis.effects[e];
+    const SearchSpace space = search_space(*effect.effect, fit.hypothesis.nominal, effect.joint);
+    std::vector<bool> is_kept(space.parameters.size(), false);
+    bool has_size = false;
+    for (const FitParameter& p : fit.parameters)
+      if (p.effect == e && !p.is_past) is_kept[p.index] = true, has_size = has_size || !p.shape;
+    bool is_whole = true;
+    for (std::size_t i = 0; i < is_kept.size(); ++i)
+      is_whole = is_whole && (is_kept[i] || !space.parameters[i].is_essential);
+    if (!has_size || !is_whole) idle.push_back(e);
+  }
   return idle;
 }
 

@@ -18,7 +18,8 @@
 ///   stretch falls by much;
 /// - no parameter that matters lies at its plausible bound. No shape lies within a factor of two of such a bound if the
 ///   bound itself has an equal likelihood;
-/// - one of its sizes at least exceeds the tolerance of the number that it changes. Otherwise it is a refit.
+/// - one of its sizes at least exceeds the tolerance of the number that it changes. Otherwise it is a refit;
+/// - it needs the sizes that make it this effect: without them it explains significantly less.
 
 #include <optional>
 
@@ -42,10 +43,11 @@ struct Trial {
   bool at_bound = false;
   bool is_refit = false;  ///< its sizes stay within the model's tolerance
   bool matters = false;
+  bool is_another = false;  ///< its sizes that are not essential explain as much alone, see ParameterSearch
   Likelihood log_likelihood;
 
   /// True if only the significance of its gain is left to be tested.
-  bool can_be_named() const { return is_judged() && gain > 0 && !at_bound && !is_refit && matters; }
+  bool can_be_named() const { return is_judged() && gain > 0 && !at_bound && !is_refit && matters && !is_another; }
 };
 
 Trial unusable(const PlacedEffect& effect);

@@ -175,6 +175,24 @@ void CandidateRound::give_up_bounds(Refit& refit, Trial& trial) const {
   trial = rest;
 }
 
+void CandidateRound::find_essence(const Refit& refit, Trial& trial) const {
+  const Hypothesis& h = refit.best.hypothesis;
+  const std::size_t place = h.effects.size() - 1;
+  Refit reduced = refit;
+  reduced.at = h;
+  reduced.best = {};
+  for (const FitParameter& p : refitter_.parameters(h))
+    if (p.effect == place && p.is_essential) set_parameter(reduced.at, p, p.nominal), reduced.held.push_back(p);
+  if (reduced.held.size() == refit.held.size()) return;
+  reduced.last = std::numeric_limits<double>::infinity();
+  reduced.settled = reduced.is_nudged = false;
+  refitter_.go_on(reduced, kRule.first_passes);
+  if (!reduced.best.usable) return;
+  const Scored with{h, evidence_.score(h)};
+  const Scored without{reduced.best.hypothesis, evidence_.score(reduced.best.hypothesis)};
+  trial.is_another = !judge_.is_needed(with, without, place, kRule.worth_a_fit);
+}
+
 std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
   std::vector<std::pair<std::size_t, Refit>> first;
   for (const std::size_t i : leaders_)
@@ -188,6 +206,7 @@ std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
     const Hypothesis& h = refits[i].best.hypothesis;
     trials[i] = refits[i].best.usable ? judge_.trial(h, without_, h.effects.size() - 1) : unusable(trials[i].effect);
     if (trials[i].at_bound) give_up_bounds(refits[i], trials[i]);
+    if (trials[i].can_be_named()) find_essence(refits[i], trials[i]);
   };
   const auto go_on_with = [&](const std::string& what, const std::vector<std::size_t>& going, int passes) {
     each(what, going.size(), [&](std::size_t g) {

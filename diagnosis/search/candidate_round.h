@@ -59,6 +59,8 @@ class CandidateRound {
   /// A full fit of the same candidate.
   Refit refit_from(const Hypothesis& end) const;
   void give_up_bounds(Refit& refit, Trial& trial) const;
+  /// Tests whether the candidate needs its essential sizes, if it has any.
+  void find_essence(const Refit& refit, Trial& trial) const;
   double least_promise() const;
 
   const Evidence& evidence_;

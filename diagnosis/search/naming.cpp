@@ -59,7 +59,7 @@ Naming Competition::naming(const Choice& choice) const {
   std::vector<std::size_t> rivals = {choice.named};
   for (std::size_t i = 0; i < trials_.size(); ++i) {
     const Trial& t = trials_[i];
-    if (i == choice.named || !t.is_judged() || t.is_refit || t.gain <= 0) continue;
+    if (i == choice.named || !t.is_judged() || t.is_refit || t.is_another || t.gain <= 0) continue;
     if (shared_gain(trials_[choice.named].log_likelihood, t.log_likelihood, ln_without_) >= kRule.shared_gain)
       rivals.push_back(i);
   }

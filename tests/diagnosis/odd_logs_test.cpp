@@ -145,6 +145,17 @@ TEST(Push, OfOneOfTwoLogsIsToldOnThatLogsClock) {
   EXPECT_TRUE(d.unexplained.empty()) << "nothing happened in the first log";
 }
 
+TEST(MoreFriction, OfMotorAndJointThatStaysIsNoDrift) {
+  // `friction_drift` changes both at once, and fits this well without any rate.
+  ArmModel truth = first_joints(1);
+  truth.nominal.joint[0].motor_coulomb *= 1.6;
+  truth.nominal.joint[0].joint_coulomb *= 1.6;
+  const Diagnosis d = diagnosis_of(first_joints(1), logs_of(truth));
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_NE(d.effects[0].effect.effect->name(), "friction_drift");
+  for (const Alternative& a : d.effects[0].alternatives) EXPECT_NE(a.effect.effect->name(), "friction_drift");
+}
+
 TEST(LogOfMotorsOnly, ChangesNoNumberThatPredictsTheJointsWorse) {
   // Without a joint sensor the training data cannot tell friction of the motor from friction of the joint.
   ArmModel truth = first_joints(1);
