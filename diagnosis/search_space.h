@@ -16,6 +16,7 @@
 namespace halyard {
 
 inline constexpr double kFewestPeriods = 1.5;
+inline constexpr double kNearStandstill = 0.25;
 
 /// The range in which a parameter is fitted.
 enum class SearchRange {
@@ -44,6 +45,9 @@ struct ParameterSearch {
   bool natural_bounds = false;
   /// True if only whole numbers are plausible, such as the order of a ripple. The fit keeps the value of a start.
   bool is_whole = false;
+  /// For a speed near standstill: its unit per rad/s of the motor, else 0. It is at most kNearStandstill of the fastest
+  /// motion of the records; what changes over the whole range of speeds is another law.
+  double per_motor_speed = 0;
   TolerancedNumber changes = {};  ///< the model parameter that it changes, if any
   /// True for a size without which the effect is another one: friction that drifts at no rate is only more friction. The
   /// effect is named only if its other sizes do not explain as much alone.

@@ -48,6 +48,15 @@ void add_greatest_speeds(FitParameter& f, const SearchSpace& space, std::size_t 
   f.starts.erase(std::unique(f.starts.begin(), f.starts.end()), f.starts.end());
 }
 
+/// Lowers the upper bound of a speed near standstill, and drops higher starts.
+void limit_to_standstill(FitParameter& f, const ParameterSearch& search, const Evidence& evidence, int joint) {
+  const double fastest = search.per_motor_speed * evidence.greatest_speed(joint);
+  if (!(fastest > 0)) return;
+  f.upper = std::clamp(kNearStandstill * fastest, f.lower, f.upper);
+  std::erase_if(f.starts, [&](double start) { return start > f.upper; });
+  if (f.starts.empty()) f.starts = {0.5 * (f.lower + f.upper)};
+}
+
 /// How far the starts of a search lie apart around a value: about as far as it finds its way.
 double spacing_around(const std::vector<double>& starts, double value) {
   std::size_t i = 1;
@@ -106,6 +115,7 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
     f.shape = p.is_shape();
     f.starts = search.starts;
     add_greatest_speeds(f, space, i, evidence, e.joint.value_or(0));
+    limit_to_standstill(f, search, evidence, e.joint.value_or(0));
     if (f.shape && f.starts.size() > 1) f.scale = 0.1 * spacing_around(f.starts, e.p[i]);
     f.range = search.range;
     f.is_whole = search.is_whole;

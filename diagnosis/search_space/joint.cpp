@@ -23,6 +23,7 @@ void friction_drift(SearchSpace& space, const Arm&, int) {
 
 void joint_friction(SearchSpace& space, const Arm& arm, int joint) {
   for (ParameterSearch& p : space.parameters) p.natural_bounds = true;
+  space["coulomb_change"].natural_bounds = false;  // no joint is without dry friction
   space["coulomb_change"].changes = {&Tolerances::friction, joint, arm.joint[joint].joint_coulomb};
   space["viscous_change"].changes = {&Tolerances::friction, joint, arm.joint[joint].joint_viscous};
 }
@@ -41,9 +42,12 @@ void payload(SearchSpace& space, const Arm& arm, int) {
 
 void stribeck(SearchSpace& space, const Arm& arm, int joint) {
   const auto from_smoothing = [](double v_s) { return std::vector<double>{3 * v_s, 10 * v_s, 30 * v_s}; };
-  space["joint_speed"].starts = from_smoothing(arm.joint[joint].joint_smoothing);
-  if (arm.joint[joint].drive != Drive::none)
-    space["motor_speed"].starts = from_smoothing(arm.joint[joint].motor_smoothing);
+  const JointParameters<double>& j = arm.joint[joint];
+  space["joint_speed"].starts = from_smoothing(j.joint_smoothing);
+  if (j.drive == Drive::none) return;
+  space["joint_speed"].per_motor_speed = std::abs(j.motor_travel()) / j.pulley_radius;
+  space["motor_speed"].starts = from_smoothing(j.motor_smoothing);
+  space["motor_speed"].per_motor_speed = 1;
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ void actuator_saturation(SearchSpace& space, const Arm& arm, int joint) {
 
 void motor_friction(SearchSpace& space, const Arm& arm, int joint) {
   for (ParameterSearch& p : space.parameters) p.natural_bounds = true;
+  space["coulomb_change"].natural_bounds = false;  // no drive is without dry friction
   space["coulomb_change"].changes = {&Tolerances::friction, joint, arm.joint[joint].motor_coulomb};
   space["viscous_change"].changes = {&Tolerances::friction, joint, arm.joint[joint].motor_viscous};
 }

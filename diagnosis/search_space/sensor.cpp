@@ -3,6 +3,12 @@
 namespace halyard {
 namespace {
 
+void encoder_offset(SearchSpace& space, const ArmParameters<double>&, int) {
+  if (space.parameters.size() == 1) return;
+  space["at_joint"].starts = {0, 1};
+  space["at_joint"].is_whole = true;
+}
+
 void encoder_eccentricity(SearchSpace& space, const ArmParameters<double>& arm, int joint) {
   if (arm.joint[joint].type == JointType::revolute) {
     space["order"].starts = {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32};
@@ -17,7 +23,8 @@ void encoder_eccentricity(SearchSpace& space, const ArmParameters<double>& arm, 
 }  // namespace
 
 std::span<const BuiltInSpace> sensor_spaces() {
-  static constexpr BuiltInSpace kSpaces[] = {{"encoder_eccentricity", encoder_eccentricity}};
+  static constexpr BuiltInSpace kSpaces[] = {{"encoder_eccentricity", encoder_eccentricity},
+                                             {"encoder_offset", encoder_offset}};
   return kSpaces;
 }
 

@@ -229,7 +229,7 @@ void expect_half_gap(const Diagnosis& d, double truth) {
   ASSERT_EQ(d.effects.size(), 1u);
   EXPECT_EQ(d.effects[0].effect.effect->name(), "backlash");
   EXPECT_EQ(d.effects[0].effect.joint, 1);
-  ASSERT_EQ(d.effects[0].parameters.size(), 1u);
+  ASSERT_FALSE(d.effects[0].parameters.empty());
   const Estimated& gap = d.effects[0].parameters[0];
   EXPECT_EQ(gap.name, "half_gap");
   EXPECT_TRUE((gap.lower <= truth && truth <= gap.upper) || std::abs(gap.value - truth) < 0.1 * truth)
@@ -263,6 +263,20 @@ TEST(Diagnose, NamesBacklashAndItsRevisedModelPredictsBetter) {
   for (std::size_t i = 0; i < again.joint_reading[1].size(); ++i) {
     const double now = again.joint_reading[1][i], then = d.details->joint_view.after[0].joint_reading[1][i];
     ASSERT_TRUE(now == then || (std::isnan(now) && std::isnan(then))) << "the file is the model to the last bit";
+  }
+}
+
+TEST(Diagnose, TellsAZeroErrorOfAJointsSensorFromThatOfItsMotorByAnotherCable) {
+  const ArmModel model = two_joints();
+  for (const bool at_joint : {false, true}) {
+    ArmModel truth = model;
+    truth.effects.push_back(placed("encoder_offset", model, 0, {0.01, at_joint ? 1.0 : 0.0}));
+    const Diagnosis d = diagnose_arm(model, truth);
+    ASSERT_EQ(d.effects.size(), 1u);
+    EXPECT_EQ(effect_label(d.effects[0].effect), "encoder_offset of joint 1");
+    EXPECT_NEAR(d.effects[0].effect.p[0], 0.01, 2e-4);
+    EXPECT_EQ(d.effects[0].effect.p[1], at_joint ? 1 : 0);
+    EXPECT_TRUE(d.unexplained.empty());
   }
 }
 

@@ -25,6 +25,19 @@ TEST(EncoderOffset, ShiftsWhereKinematicsPutsTheJointByTheOffset) {
   }
 }
 
+TEST(EncoderOffset, OfTheJointsSensorLooksFromThisJointLikeThatOfItsMotor) {
+  const double offset = -0.07;
+  ArmParameters<double> arm = random_arm(12, CableLaw::linear);
+  for (int j = 0; j < 3; ++j) arm.joint[j].motor_encoder_offset = arm.joint[j].joint_encoder_offset = 0;
+  const Transmission<double> with(arm, {placed("encoder_offset", arm, 0, {offset, 1})});
+  JointSignals<double> s[kMaxJoints];
+  with.sensor_errors(0, nullptr, s);
+  EXPECT_EQ(s[0].motor_error, 0);
+  EXPECT_EQ(s[0].joint_error, -offset) << "the motor's encoder tells more than the joint's sensor by the offset";
+  EXPECT_EQ(find_effect("encoder_offset")->parameters(arm, 0).size(), 2u);
+  EXPECT_EQ(find_effect("encoder_offset")->parameters(arm, arm.n - 1).size(), 1u) << "the last joint moves no other cable";
+}
+
 TEST(EncoderEccentricity, IsPeriodicInTheJointAndOfZeroMean) {
   ArmParameters<double> arm = random_arm(22, CableLaw::linear);
   const double cosine = 0.02, sine = -0.01;

@@ -48,6 +48,16 @@ TEST(Bounds, CountForAShapeOnlyIfItActs) {
   EXPECT_TRUE(of_settling.at_bound);
 }
 
+TEST(Bounds, CountForDryFrictionThatVanishes) {
+  // Quadratic drag looks like viscous friction without any dry friction.
+  const double all = first_joints(1).nominal.joint[0].joint_coulomb;
+  const Found none("joint_friction", {-all, 1}), little("joint_friction", {-0.9 * all, 1});
+  const Trial of_none = none.trial(none.effect), of_little = little.trial(little.effect);
+  ASSERT_TRUE(of_none.is_judged() && of_little.is_judged());
+  EXPECT_TRUE(of_none.at_bound);
+  EXPECT_FALSE(of_little.at_bound);
+}
+
 TEST(Bounds, OfAPushAreThoseOfTheRecordIfTheDataCannotTellThem) {
   // What acts before the first compared sample, half a second after the first, changes nothing.
   const Found always("external_force", {2, -1, 7}), later("external_force", {2, 2, 7});
