@@ -15,7 +15,7 @@ function(compile_together target group)
   set_source_files_properties(${files} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group})
 endfunction()
 
-compile_together(halyard_transmission core arm_parameters.cpp command_history.cpp effect.cpp effects/library.cpp)
+compile_together(halyard_transmission core arm_parameters.cpp command_history.cpp effect.cpp effects/library.cpp instruction_set.cpp)
 foreach(place cable joint motor sensor)
   file(GLOB effects RELATIVE ${PROJECT_SOURCE_DIR}/transmission CONFIGURE_DEPENDS
     ${PROJECT_SOURCE_DIR}/transmission/effects/${place}/*.cpp)
@@ -31,7 +31,7 @@ compile_together(halyard_model model
 compile_together(halyard_simbody simbody integrators/simbody_integrator.cpp simbody_arm.cpp)
 compile_together(halyard_plant simulation
   arm_plant.cpp controller.cpp drive_train.cpp equilibrium.cpp integrators/integrator.cpp
-  integrators/sundials_integrator.cpp scenario_file.cpp sensors/camera.cpp sensors/encoder.cpp simulate.cpp
+  integrators/sundials_integrator.cpp lanes/plant_kernels.cpp scenario_file.cpp sensors/camera.cpp sensors/encoder.cpp simulate.cpp
   trajectory.cpp)
 compile_together(halyard_plant own_chain integrators/rosenbrock_integrator.cpp newton_euler_arm.cpp)
 
