@@ -28,7 +28,8 @@ void ArmPlant::derivative(double time_s, const double* y, double* y_dot) {
   chain_->derivative(time_s, y, y_dot);
 }
 
-void ArmPlant::jacobian(double time_s, const double* y, const double* y_dot, Eigen::Ref<Eigen::MatrixXd> J) {
+void ArmPlant::jacobian(double time_s, const double* y, double* y_dot, Eigen::Ref<Eigen::MatrixXd> J) {
+  ++evaluations_;
   chain_->jacobian(time_s, y, y_dot, J);
 }
 

@@ -34,8 +34,8 @@ class ArmPlant {
   void set_inputs(double time_s, const double* command, const double* external);
 
   void derivative(double time_s, const double* y, double* y_dot);
-  /// ∂y'/∂y, exact; J: [size x size]. Engine::halyard only: std::logic_error with Simbody.
-  void jacobian(double time_s, const double* y, const double* y_dot, Eigen::Ref<Eigen::MatrixXd> J);
+  /// y' and J = ∂y'/∂y, exact; J: [size x size]. Engine::halyard only: std::logic_error with Simbody.
+  void jacobian(double time_s, const double* y, double* y_dot, Eigen::Ref<Eigen::MatrixXd> J);
   /// The part of y' that comes from these terms of the drive. It contains q' = v for the joints that the terms move,
   /// and q' = 0 for the others.
   void derivative_of_terms(DriveTerms terms, double time_s, const double* y, double* y_dot);

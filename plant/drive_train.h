@@ -14,43 +14,22 @@
 /// It is positive if the effect takes energy from the arm, and negative if it adds energy.
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
-#include "transmission/transmission.h"
+#include "plant/lanes/plant_kernels.h"
+#include "plant/plant_layout.h"
 
 namespace halyard {
-
-/// Maximum number of states z of one plant.
-inline constexpr int kMaxAuxiliaryStates = 80;
-
-/// Layout of the plant's state y = [q, q', z]; indices count from the start of z.
-struct PlantLayout {
-  int n = 0;                                                           ///< joints
-  std::optional<int> motor_angle[kMaxJoints], motor_rate[kMaxJoints];  ///< only of motors that drive cables
-  int effect_states = 0;                                               ///< index of the first effect state
-  int n_effect_states = 0;
-  int input_energy = 0, lost_energy = 0;
-  int n_z = 0;
-  int size() const { return 2 * n + n_z; }
-};
-
-/// Selects terms of the drive's forces and rates.
-enum class DriveTerms {
-  all,
-  cables_and_friction,  ///< of all axes: the stiff terms
-  first_cable,          ///< the pull of the first joint's cable alone
-};
 
 class DriveTrain {
  public:
   /// Throws std::invalid_argument if a cable drive's rotor has no inertia, or the effects have too many states.
   DriveTrain(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects);
 
-  const PlantLayout& layout() const { return layout_; }
+  const PlantLayout& layout() const { return model_.layout; }
   /// The parameters with the changes that the effects make to them.
-  const ArmParameters<double>& arm() const { return transmission_.arm(); }
-  const Transmission<double>& transmission() const { return transmission_; }
+  const ArmParameters<double>& arm() const { return model_.transmission.arm(); }
+  const Transmission<double>& transmission() const { return model_.transmission; }
 
   /// Sets the commanded motor torques and external loads on the joints, [n] each, that hold from time_s on.
   void set_inputs(double time_s, const double* command, const double* external);
@@ -63,6 +42,9 @@ class DriveTrain {
   /// Nothing depends on the meters: their columns are 0.
   void slopes(DriveTerms terms, double time_s, const double* q, const double* v, const double* z,
               Eigen::MatrixXd& slopes) const;
+  /// rates() and slopes() at the state y [size]: joint_force and z_dot into entries n.. of y_dot [size], and their slopes
+  /// into rows n.. of J [size x size]. Leaves the first n entries and rows.
+  void linearise(DriveTerms terms, double time_s, const double* y, double* y_dot, Eigen::Ref<Eigen::MatrixXd> J) const;
 
   /// The signals of all joints, sensor errors included; s: [n].
   void signals(double time_s, const double* q, const double* v, const double* z, JointSignals<double>* s) const;
@@ -74,12 +56,9 @@ class DriveTrain {
   double stored_energy(double time_s, const double* q, const double* v, const double* z) const;
 
  private:
-  Transmission<double> transmission_;
-  Transmission<Dual> slope_transmission_;
-  PlantLayout layout_;
+  DriveModel model_;
+  const PlantKernels& kernels_;
   Eigen::MatrixXd rotor_mass_;
-  CommandHistory history_;
-  double command_[kMaxJoints] = {}, external_[kMaxJoints] = {};
 };
 
 }  // namespace halyard

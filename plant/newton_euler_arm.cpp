@@ -3,30 +3,11 @@
 #include <string>
 
 #include "model/rigid_chain.h"
+#include "plant/lanes/plant_kernels.h"
 #include "plant/rigid_arm.h"
-#include "transmission/jacobian.h"
 
 namespace halyard {
 namespace {
-
-using SquareOfJoints = double[kMaxJoints][kMaxJoints];
-
-/// M + M_rotors as ldl_factor() leaves it.
-void factor_mass(const ArmParameters<double>& arm, const ChainPose<double>& pose, SquareOfJoints& M) {
-  mass_matrix(arm, pose, M);
-  add_rotor_mass(arm, M);
-  ldl_factor<double, kMaxJoints>(arm.n, M);
-}
-
-/// Replaces the forces on the joints, F [n], by their accelerations: (M + M_rotors) q'' = F - h.
-void accelerate(const ArmParameters<double>& arm, const ChainPose<double>& pose, const SquareOfJoints& M,
-                const double* v, double* force) {
-  const double zero[kMaxJoints] = {};
-  double h[kMaxJoints];
-  inverse_dynamics(arm, pose, v, zero, h);
-  for (int k = 0; k < arm.n; ++k) force[k] -= h[k];
-  ldl_solve<double, kMaxJoints>(arm.n, M, force);
-}
 
 /// As Simbody does.
 void check_inertias(const ArmParameters<double>& arm) {
@@ -43,40 +24,24 @@ void check_inertias(const ArmParameters<double>& arm) {
 
 class NewtonEulerArm : public RigidArm {
  public:
-  explicit NewtonEulerArm(const DriveTrain& drive) : drive_(drive), slope_arm_(lift<Dual>(drive.arm())) {
+  explicit NewtonEulerArm(const DriveTrain& drive) : drive_(drive), kernels_(plant_kernels()) {
     check_inertias(drive.arm());
   }
 
   void derivative(double time_s, const double* y, double* y_dot) override {
     const int n = arm().n;
     drive_.rates(DriveTerms::all, time_s, y, y + n, y + 2 * n, y_dot + n, y_dot + 2 * n);
-    for (int k = 0; k < n; ++k) y_dot[k] = y[n + k];
-    SquareOfJoints M;
-    const ChainPose<double> pose = chain_pose(arm(), y);
-    factor_mass(arm(), pose, M);
-    accelerate(arm(), pose, M, y + n, y_dot + n);
-    if (!Eigen::Map<const Eigen::VectorXd>(y_dot, drive_.layout().size()).allFinite())
-      throw std::runtime_error("a rate of the arm's state is not finite");
+    kernels_.accelerate(arm(), y, y + n, y_dot + n);
+    set_motion(y, y_dot);
   }
 
-  /// From (M + M_rotors) q'' + h = F: M ∂q'' = ∂F - ∂(M q'' + h) at fixed q''. Rotors have a constant M_rotors.
-  void jacobian(double time_s, const double* y, const double* y_dot, Eigen::Ref<Eigen::MatrixXd> J) override {
-    const int n = arm().n, n_z = drive_.layout().n_z;
-    drive_.slopes(DriveTerms::all, time_s, y, y + n, y + 2 * n, slopes_);
-    slopes_.topLeftCorner(n, 2 * n) -= force_slopes(y, y_dot + n);
-    SquareOfJoints M;
-    factor_mass(arm(), chain_pose(arm(), y), M);
-
-    J.topLeftCorner(n, n).setZero();
+  void jacobian(double time_s, const double* y, double* y_dot, Eigen::Ref<Eigen::MatrixXd> J) override {
+    const int n = arm().n, stride = static_cast<int>(J.outerStride());
+    drive_.linearise(DriveTerms::all, time_s, y, y_dot, J);
+    kernels_.accelerate_with_slopes(arm(), y, y + n, y_dot + n, J.data() + n, stride, static_cast<int>(J.cols()));
+    J.topRows(n).setZero();
     J.block(0, n, n, n).setIdentity();
-    J.topRightCorner(n, n_z).setZero();
-    for (Eigen::Index c = 0; c < J.cols(); ++c) {
-      double column[kMaxJoints];
-      for (int k = 0; k < n; ++k) column[k] = slopes_(k, c);
-      ldl_solve<double, kMaxJoints>(n, M, column);
-      for (int k = 0; k < n; ++k) J(n + k, c) = column[k];
-    }
-    J.bottomRows(n_z) = slopes_.bottomRows(n_z);
+    set_motion(y, y_dot);
   }
 
   const Eigen::MatrixXd& total_mass(double, const double* y) override {
@@ -120,18 +85,12 @@ class NewtonEulerArm : public RigidArm {
     return force;
   }
 
-  /// ∂(M(q) a + h(q, v)) / ∂[q, v] at fixed a, [n x 2 n].
-  const Eigen::MatrixXd& force_slopes(const double* q_and_v, const double* a) {
-    const int n = arm().n;
-    Dual fixed[kMaxJoints];
-    for (int k = 0; k < n; ++k) fixed[k] = a[k];
-    const auto force = [&](const Dual* at, Dual* out) {
-      inverse_dynamics(slope_arm_, chain_pose(slope_arm_, at), at + n, fixed, out);
-    };
-    force_.resize(n);
-    force_slopes_.resize(n, 2 * n);
-    halyard::jacobian(force, Eigen::Map<const Eigen::VectorXd>(q_and_v, 2 * n), force_, force_slopes_);
-    return force_slopes_;
+  /// Sets q' in y_dot, the other entries of which are known.
+  void set_motion(const double* y, double* y_dot) const {
+    for (int k = 0; k < arm().n; ++k) y_dot[k] = y[arm().n + k];
+    double sum = 0;  // 0 · x is 0 for numbers only
+    for (int i = 0; i < drive_.layout().size(); ++i) sum += 0 * y_dot[i];
+    if (sum != 0) throw std::runtime_error("a rate of the arm's state is not finite");
   }
 
   double gravity_energy(const double* q) const {
@@ -151,9 +110,8 @@ class NewtonEulerArm : public RigidArm {
   }
 
   const DriveTrain& drive_;
-  ArmParameters<Dual> slope_arm_;
-  Eigen::MatrixXd total_, slopes_, force_slopes_;
-  Eigen::VectorXd force_;
+  const PlantKernels& kernels_;
+  Eigen::MatrixXd total_;
 };
 
 }  // namespace

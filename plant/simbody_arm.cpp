@@ -129,7 +129,7 @@ void SimbodyArm::derivative(double time_s, const double* y, double* y_dot) {
   std::memcpy(y_dot, &rate[0], rate.size() * sizeof(double));
 }
 
-void SimbodyArm::jacobian(double, const double*, const double*, Eigen::Ref<Eigen::MatrixXd>) {
+void SimbodyArm::jacobian(double, const double*, double*, Eigen::Ref<Eigen::MatrixXd>) {
   throw std::logic_error("Simbody has no derivatives of the chain's equations");
 }
 

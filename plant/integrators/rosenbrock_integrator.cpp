@@ -134,7 +134,6 @@ class Rosenbrock : public Integrator {
 
   /// f, ∂f/∂t and J at the start of a step.
   void linearise(double h) {
-    plant_.derivative(time_, y_.data(), f_.data());
     plant_.jacobian(time_, y_.data(), f_.data(), J_);
     if (!depends_on_time_) return;
     const double dt = kTimeDifference * h;

@@ -77,6 +77,34 @@ TEST(DriveTrain, SlopesAreTheDerivativesOfItsRates) {
   }
 }
 
+TEST(DriveTrain, OfPlainArmsIsThatOfArmsWithAnEffectThatDoesNothing) {
+  ArmParameters<double> arm = nominal_raven2().nominal;
+  std::mt19937_64 random(7);
+  for (const CableLaw law : {CableLaw::paper, CableLaw::exponential, CableLaw::linear}) {
+    for (int k = 0; k < 3; ++k) arm.joint[k].law = law;
+    ArmPlant plain(arm), other(arm, {place_neutral_effect(*find_effect("joint_friction"), arm, 1)});
+    const double command[] = {0.02, -0.03, 0.01}, load[] = {0.1, 0, -0.2};
+    plain.set_inputs(0, command, load);
+    other.set_inputs(0, command, load);
+    for (int trial = 0; trial < 5; ++trial) {
+      const Eigen::VectorXd y = random_state(plain, random);
+      Eigen::VectorXd rates[2];
+      Eigen::MatrixXd slopes[2];
+      for (int i = 0; i < 2; ++i) {
+        const DriveTrain& drive = (i == 0 ? plain : other).drive();
+        rates[i].resize(3 + drive.layout().n_z);
+        drive.rates(DriveTerms::all, 0, y.data(), y.data() + 3, y.data() + 6, rates[i].data(), rates[i].data() + 3);
+        drive.slopes(DriveTerms::all, 0, y.data(), y.data() + 3, y.data() + 6, slopes[i]);
+      }
+      // Some ten roundings of powers and forces up to 1e4 and of slopes up to 1e10. Exponential cables multiply those of
+      // the stretch, eps · 0.1 m, by k_e / T_0 = 1.4e4 / m.
+      const double rounding = law == CableLaw::exponential ? 1e-12 : 1e-14;
+      EXPECT_LT((rates[0] - rates[1]).cwiseAbs().maxCoeff(), rounding * (1e4 + rates[1].cwiseAbs().maxCoeff()));
+      EXPECT_LT((slopes[0] - slopes[1]).cwiseAbs().maxCoeff(), rounding * slopes[1].cwiseAbs().maxCoeff());
+    }
+  }
+}
+
 TEST(DriveTrain, LosesEnergyInFrictionAndInCableDampingAlone) {
   const ArmParameters<double> arm = nominal_raven2().nominal;
   ArmPlant plant(arm);

@@ -1,0 +1,22 @@
+#include "plant/lanes/plant_kernels.h"
+
+#include "transmission/instruction_set.h"
+
+namespace halyard {
+
+extern const PlantKernels kPlant_generic;
+#if defined(__x86_64__)
+extern const PlantKernels kPlant_avx2, kPlant_avx512;
+#endif
+
+const PlantKernels& plant_kernels() {
+#if defined(__x86_64__)
+  static const PlantKernels widest =
+      usable_copies<PlantKernels>({&kPlant_generic, &kPlant_avx2, &kPlant_avx512}).front();
+#else
+  static const PlantKernels widest = usable_copies<PlantKernels>({&kPlant_generic}).front();
+#endif
+  return widest;
+}
+
+}  // namespace halyard
