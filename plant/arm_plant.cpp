@@ -20,7 +20,6 @@ ArmPlant::~ArmPlant() = default;
 
 void ArmPlant::set_inputs(double time_s, const double* command, const double* external) {
   drive_.set_inputs(time_s, command, external);
-  chain_->inputs_changed();
 }
 
 void ArmPlant::derivative(double time_s, const double* y, double* y_dot) {

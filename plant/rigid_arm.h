@@ -13,8 +13,6 @@ class RigidArm {
  public:
   virtual ~RigidArm() = default;
 
-  /// The inputs of the drive train have changed.
-  virtual void inputs_changed() {}
   /// y' at the state y, both [size of the layout].
   virtual void derivative(double time_s, const double* y, double* y_dot) = 0;
   /// y' and J = ∂y'/∂y, exact. J: [size x size]. Throws std::logic_error if the engine has no such derivatives.

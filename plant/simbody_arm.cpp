@@ -18,6 +18,10 @@ using SimTK::Vec3;
 using SimTK::Vector;
 using SimTK::Vector_;
 
+Eigen::VectorXd to_eigen(const Vector& v) { return Eigen::Map<const Eigen::VectorXd>(&v[0], v.size()); }
+
+Vector to_simbody(const Eigen::VectorXd& v) { return Vector(static_cast<int>(v.size()), v.data()); }
+
 /// Puts the drive train into the System: forces on the joints, and z with its derivatives.
 class DriveForce : public SimTK::Force::Custom::Implementation {
  public:
@@ -37,7 +41,11 @@ class DriveForce : public SimTK::Force::Custom::Implementation {
     if (!Eigen::Map<const Eigen::VectorXd>(&rates[0], rates.size()).allFinite())
       throw std::runtime_error("a force or rate of the drive train is not finite");
     Vector force = rates(0, l.n);
-    if (!arm_.drive.rotor_mass().isZero(0)) add_rotors(state, force);
+    if (!arm_.drive.rotor_mass().isZero(0)) {
+      Eigen::VectorXd a = to_eigen(force);
+      arm_.accelerate(state, a.data());
+      force -= to_simbody(arm_.drive.rotor_mass() * a);
+    }
     mobility_forces += force;
   }
 
@@ -50,16 +58,6 @@ class DriveForce : public SimTK::Force::Custom::Implementation {
   double calcPotentialEnergy(const State&) const override { return 0; }  // energy() takes the cables' from the drive
 
  private:
-  /// F becomes F - M_rotors q'', where q'' solves (M + M_rotors) q'' = F - h.
-  void add_rotors(const State& state, Vector& force) const {
-    Vector residual;  // h - F
-    arm_.matter.calcResidualForceIgnoringConstraints(state, force, arm_.gravity.getBodyForces(state), Vector(),
-                                                     residual);
-    const Eigen::Map<const Eigen::VectorXd> h(&residual[0], residual.size());
-    const Eigen::VectorXd rotors = arm_.drive.rotor_mass() * arm_.total_mass(state).llt().solve(-h);
-    for (int k = 0; k < force.size(); ++k) force[k] -= rotors(k);
-  }
-
   const SimbodyArm& arm_;
   mutable SimTK::CacheEntryIndex rates_;
 };
@@ -96,10 +94,6 @@ void build_chain(const ArmParameters<double>& arm, SimTK::SimbodyMatterSubsystem
   }
 }
 
-Eigen::VectorXd to_eigen(const Vector& v) { return Eigen::Map<const Eigen::VectorXd>(&v[0], v.size()); }
-
-Vector to_simbody(const Eigen::VectorXd& v) { return Vector(static_cast<int>(v.size()), v.data()); }
-
 }  // namespace
 
 SimbodyArm::SimbodyArm(const DriveTrain& drive_train)
@@ -111,31 +105,40 @@ SimbodyArm::SimbodyArm(const DriveTrain& drive_train)
   SimTK::Force::Custom(forces, new DriveForce(*this));
   state = system.realizeTopology();
   system.realizeModel(state);
+  force_.resize(drive.layout().n);
 }
 
-void SimbodyArm::inputs_changed() { state.invalidateAllCacheAtOrAbove(Stage::Dynamics); }
+void SimbodyArm::realize(const double* y, Stage stage) {
+  const int n = drive.layout().n;
+  if (std::memcmp(&state.getQ()[0], y, n * sizeof(double)) != 0) std::memcpy(&state.updQ()[0], y, n * sizeof(double));
+  std::memcpy(&state.updU()[0], y + n, n * sizeof(double));
+  system.realize(state, stage);
+}
 
-void SimbodyArm::set_state(double time_s, const double* y) {
-  const Vector& now = state.getY();
-  if (state.getTime() == time_s && std::memcmp(&now[0], y, now.size() * sizeof(double)) == 0) return;
-  state.setTime(time_s);
-  std::memcpy(&state.updY()[0], y, drive.layout().size() * sizeof(double));
+void SimbodyArm::accelerate(const State& s, double* force) const {
+  const int n = drive.layout().n;
+  std::memcpy(&force_[0], force, n * sizeof(double));
+  matter.calcResidualForceIgnoringConstraints(s, force_, gravity.getBodyForces(s), no_acceleration_, residual_);
+  const Eigen::Map<const Eigen::VectorXd> residual(&residual_[0], n);
+  Eigen::Map<Eigen::VectorXd>(force, n) = total_mass(s).llt().solve(-residual);
 }
 
 void SimbodyArm::derivative(double time_s, const double* y, double* y_dot) {
-  set_state(time_s, y);
-  system.realize(state, Stage::Acceleration);
-  const Vector& rate = state.getYDot();
-  std::memcpy(y_dot, &rate[0], rate.size() * sizeof(double));
+  const PlantLayout& l = drive.layout();
+  realize(y, Stage::Velocity);
+  drive.rates(DriveTerms::all, time_s, y, y + l.n, y + 2 * l.n, y_dot + l.n, y_dot + 2 * l.n);
+  accelerate(state, y_dot + l.n);
+  std::memcpy(y_dot, y + l.n, l.n * sizeof(double));
+  if (!Eigen::Map<const Eigen::VectorXd>(y_dot, l.size()).allFinite())
+    throw std::runtime_error("a rate of the arm's state is not finite");
 }
 
 void SimbodyArm::jacobian(double, const double*, double*, Eigen::Ref<Eigen::MatrixXd>) {
   throw std::logic_error("Simbody has no derivatives of the chain's equations");
 }
 
-const Eigen::MatrixXd& SimbodyArm::total_mass(double time_s, const double* y) {
-  set_state(time_s, y);
-  system.realize(state, Stage::Position);
+const Eigen::MatrixXd& SimbodyArm::total_mass(double, const double* y) {
+  realize(y, Stage::Position);
   return total_mass(state);
 }
 
@@ -174,7 +177,8 @@ Eigen::Vector3d SimbodyArm::position_of(const double* point, const Eigen::Vector
 }
 
 double SimbodyArm::energy(double time_s, const double* y) {
-  set_state(time_s, y);
+  state.setTime(time_s);
+  state.updY() = Vector(drive.layout().size(), y);
   system.realize(state, Stage::Dynamics);
   return system.calcEnergy(state);
 }

@@ -8,12 +8,13 @@
 
 namespace halyard {
 
-/// The chain as a Simbody System whose State holds all of y: q, u, and z as auxiliary variables.
+/// The chain as a Simbody System whose State holds all of y: q, u, and z as auxiliary variables. Simbody's own integrators
+/// take the whole System. derivative() takes Simbody's kinematics, forces of gravity and velocity, and mass matrix, and
+/// solves for the accelerations: realizing the System up to them costs twice as much.
 class SimbodyArm : public RigidArm {
  public:
   explicit SimbodyArm(const DriveTrain& drive);
 
-  void inputs_changed() override;
   void derivative(double time_s, const double* y, double* y_dot) override;
   void jacobian(double time_s, const double* y, double* y_dot, Eigen::Ref<Eigen::MatrixXd> J) override;
   const Eigen::MatrixXd& total_mass(double time_s, const double* y) override;
@@ -24,6 +25,9 @@ class SimbodyArm : public RigidArm {
 
   /// M + M_rotors at the state's q.
   const Eigen::MatrixXd& total_mass(const SimTK::State& s) const;
+  /// Replaces the forces on the joints, F [n], by their accelerations: (M + M_rotors) q'' = F - h, h with gravity. The
+  /// state must be realized up to Stage::Velocity.
+  void accelerate(const SimTK::State& s, double* force) const;
 
   const DriveTrain& drive;
   SimTK::MultibodySystem system;
@@ -33,9 +37,11 @@ class SimbodyArm : public RigidArm {
   SimTK::State state;
 
  private:
-  /// Copies y into the state. Realized results stay valid if nothing changed.
-  void set_state(double time_s, const double* y);
+  /// Copies q and u of y into the state and realizes it.
+  void realize(const double* y, SimTK::Stage stage);
 
+  const SimTK::Vector no_acceleration_;  ///< empty: zero
+  mutable SimTK::Vector force_, residual_;
   mutable SimTK::Matrix M_;
   mutable Eigen::MatrixXd total_;
 };
