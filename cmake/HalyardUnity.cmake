@@ -33,7 +33,7 @@ compile_together(halyard_plant simulation
   arm_plant.cpp controller.cpp drive_train.cpp equilibrium.cpp integrators/integrator.cpp
   integrators/sundials_integrator.cpp lanes/plant_kernels.cpp scenario_file.cpp sensors/camera.cpp sensors/encoder.cpp simulate.cpp
   trajectory.cpp)
-compile_together(halyard_plant own_chain integrators/rosenbrock_integrator.cpp newton_euler_arm.cpp)
+compile_together(halyard_plant own_chain integrators/rosenbrock_integrator.cpp integrators/step_matrix.cpp newton_euler_arm.cpp)
 
 compile_together(halyard_estimators filters
   built_in.cpp distributions.cpp eigen_modes.cpp estimator.cpp estimator_options.cpp

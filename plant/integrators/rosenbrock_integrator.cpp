@@ -1,11 +1,11 @@
-#include <Eigen/LU>
 #include <algorithm>
 #include <boost/numeric/odeint/stepper/rosenbrock4.hpp>
 #include <cmath>
 #include <stdexcept>
-#include <vector>
+#include <utility>
 
 #include "plant/integrators/integrator.h"
+#include "plant/integrators/step_matrix.h"
 
 namespace halyard {
 namespace {
@@ -19,65 +19,6 @@ constexpr int kMaxSteps = 100000;
 constexpr double kMostShrink = 0.2, kMostGrowth = 6, kSafety = 0.9;
 /// Distance in time of the difference that gives ∂f/∂t, as a share of a step.
 constexpr double kTimeDifference = 1e-3;
-
-/// Solves (1 / (γ h) - J) g = r. Positions follow from rates, because x' = v, and meters from all others, because nothing
-/// depends on them: so only the rates and the states of effects, [core], need a decomposition.
-class StepMatrix {
- public:
-  explicit StepMatrix(const PlantLayout& l) : meters_{2 * l.n + l.input_energy, 2 * l.n + l.lost_energy} {
-    for (int k = 0; k < l.n; ++k) moving_.push_back({k, l.n + k});
-    for (int k = 0; k < l.n; ++k)
-      if (l.motor_angle[k]) moving_.push_back({2 * l.n + *l.motor_angle[k], 2 * l.n + *l.motor_rate[k]});
-    for (const Moving& m : moving_) core_.push_back(m.rate);
-    for (int i = 0; i < l.n_effect_states; ++i) core_.push_back(2 * l.n + l.effect_states + i);
-    const auto size = static_cast<Eigen::Index>(core_.size());
-    matrix_.resize(size, size);
-    right_.resize(size);
-    solution_.resize(size);
-  }
-
-  void factor(const Eigen::MatrixXd& J, double gamma_h) {
-    J_ = &J;
-    gamma_h_ = gamma_h;
-    for (std::size_t c = 0; c < core_.size(); ++c) {
-      for (std::size_t r = 0; r < core_.size(); ++r) matrix_(r, c) = -J(core_[r], core_[c]);
-      if (c < moving_.size())
-        for (std::size_t r = 0; r < core_.size(); ++r) matrix_(r, c) -= gamma_h * J(core_[r], moving_[c].position);
-      matrix_(c, c) += 1 / gamma_h;
-    }
-    lu_.compute(matrix_);
-  }
-
-  /// r becomes g.
-  void solve(Eigen::VectorXd& r) const {
-    for (std::size_t i = 0; i < core_.size(); ++i) {
-      right_(i) = r(core_[i]);
-      for (const Moving& m : moving_) right_(i) += gamma_h_ * (*J_)(core_[i], m.position) * r(m.position);
-    }
-    solution_ = lu_.solve(right_);
-    for (std::size_t i = 0; i < core_.size(); ++i) r(core_[i]) = solution_(i);
-    for (const Moving& m : moving_) r(m.position) = gamma_h_ * (r(m.position) + r(m.rate));
-    const Eigen::Index others = r.size() - 2;
-    for (const int meter : meters_) r(meter) = gamma_h_ * (r(meter) + J_->row(meter).head(others).dot(r.head(others)));
-  }
-
- private:
-  struct Moving {
-    int position, rate;
-  };
-  static constexpr int kMost = kMaxJoints + kMaxAuxiliaryStates;
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
-
-  int meters_[2];
-  std::vector<Moving> moving_;
-  std::vector<int> core_;
-  const Eigen::MatrixXd* J_ = nullptr;
-  double gamma_h_ = 0;
-  Matrix matrix_;
-  Eigen::PartialPivLU<Matrix> lu_;
-  mutable Vector right_, solution_;
-};
 
 /// Rosenbrock's method of fourth order with an error estimate of third order, stiffly accurate (RODAS; Hairer and
 /// Wanner, IV.7). With the exact Jacobian J, a step h from y solves a linear system for each of its six stages:
@@ -179,20 +120,22 @@ class Rosenbrock : public Integrator {
   /// f at the state that the stages before lead to, which at_ keeps.
   template <class... Share>
   void rate_at(double time_s, Share... a) {
-    at_ = y_;
-    int j = 0;
-    ((at_ += a * g_[j++]), ...);
+    at_ = plus_stages(y_, std::index_sequence_for<Share...>(), a...);
     plant_.derivative(time_s, at_.data(), rate_.data());
   }
 
   template <class... Share>
   void solve(int stage, const Eigen::VectorXd& rate, double h, double d, Share... c) {
     Eigen::VectorXd& g = g_[stage];
-    g = rate;
+    g = plus_stages(rate, std::index_sequence_for<Share...>(), c / h...);
     if (depends_on_time_ && d != 0) g += h * d * f_time_;
-    int j = 0;
-    ((g += c / h * g_[j++]), ...);
-    matrix_.solve(g);
+    matrix_.solve(g.data());
+  }
+
+  /// x + Σ_j a_j g_j in one pass.
+  template <std::size_t... j, class... Share>
+  auto plus_stages(const Eigen::VectorXd& x, std::index_sequence<j...>, Share... a) const {
+    return (x + ... + (a * g_[j]));
   }
 
   const default_rosenbrock_coefficients<double> coefficients_;
