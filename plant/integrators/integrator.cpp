@@ -14,12 +14,17 @@ constexpr double kRateTolerance = 1e3;
 
 }  // namespace
 
-Eigen::VectorXd absolute_tolerances(const PlantLayout& l, double tolerance) {
+Eigen::VectorXd absolute_tolerances(const DriveTrain& drive, double tolerance) {
+  const PlantLayout& l = drive.layout();
   Eigen::VectorXd all = Eigen::VectorXd::Constant(l.size(), tolerance);
   all.segment(l.n, l.n) *= kRateTolerance;
   Eigen::Ref<Eigen::VectorXd> z = all.tail(l.n_z);
-  for (int k = 0; k < l.n; ++k)
-    if (l.motor_rate[k]) z(*l.motor_rate[k]) *= kRateTolerance;
+  for (int k = 0; k < l.n; ++k) {
+    if (!l.motor_angle[k]) continue;
+    const double turns = drive.arm().joint[k].gear_ratio;
+    z(*l.motor_angle[k]) *= turns;
+    z(*l.motor_rate[k]) *= turns * kRateTolerance;
+  }
   z(l.input_energy) = z(l.lost_energy) = kUncontrolled;
   return all;
 }

@@ -25,7 +25,7 @@ class Integrator {
 std::unique_ptr<Integrator> make_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,
                                             const Eigen::VectorXd& y);
 
-/// For the kind rosenbrock, which needs Engine::halyard.
+/// For the kind rosenbrock.
 std::unique_ptr<Integrator> make_rosenbrock_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,
                                                        const Eigen::VectorXd& y);
 /// For the kinds simbody_rkm and simbody_cpodes, which need Engine::simbody.
@@ -37,8 +37,9 @@ std::unique_ptr<Integrator> make_sundials_integrator(ArmPlant& plant, const Inte
 
 /// From here on a tolerance is none.
 inline constexpr double kUncontrolled = 1e30;
-/// The absolute tolerance of each state, [size], for that of positions; kUncontrolled for the energy meters.
-Eigen::VectorXd absolute_tolerances(const PlantLayout& layout, double tolerance);
+/// The absolute tolerance of each state, [size], for that of positions, which a motor has behind its gear: at its shaft it
+/// is gear_ratio times as large. kUncontrolled for the energy meters.
+Eigen::VectorXd absolute_tolerances(const DriveTrain& drive, double tolerance);
 
 /// Throws the std::runtime_error of an integration that failed.
 [[noreturn]] void fail_between(double from_s, double until_s, const std::string& why);

@@ -32,7 +32,7 @@ class Sundials : public Integrator {
         options_(options),
         time_(time_s),
         y_(y),
-        tolerance_(absolute_tolerances(plant.layout(), options.absolute_tolerance)) {
+        tolerance_(absolute_tolerances(plant.drive(), options.absolute_tolerance)) {
     if (SUNContext_Create(nullptr, &context_)) throw std::runtime_error("SUNDIALS gives no context");
     const sunindextype size = y.size();
     vector_ = N_VMake_Serial(size, y_.data(), context_);
