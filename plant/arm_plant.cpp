@@ -1,11 +1,19 @@
 #include "plant/arm_plant.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <stdexcept>
 
 #include "plant/rigid_arm.h"
 
 namespace halyard {
 namespace {
+
+void check_finite(const double* x, int size) {
+  double sum = 0;
+  for (int i = 0; i < size; ++i) sum += 0 * x[i];  // NaN unless the number is finite
+  if (sum != 0) throw std::runtime_error("a rate of the arm's state is not finite");
+}
 
 /// Whether the terms contain q' = v of joint k.
 bool moves(DriveTerms terms, int k) { return terms != DriveTerms::first_cable || k == 0; }
@@ -14,6 +22,7 @@ bool moves(DriveTerms terms, int k) { return terms != DriveTerms::first_cable ||
 
 ArmPlant::ArmPlant(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects, Engine engine)
     : drive_(nominal, effects),
+      engine_(engine),
       chain_(engine == Engine::simbody ? make_simbody_arm(drive_) : make_newton_euler_arm(drive_)) {}
 
 ArmPlant::~ArmPlant() = default;
@@ -25,11 +34,19 @@ void ArmPlant::set_inputs(double time_s, const double* command, const double* ex
 void ArmPlant::derivative(double time_s, const double* y, double* y_dot) {
   ++evaluations_;
   chain_->derivative(time_s, y, y_dot);
+  check_finite(y_dot, layout().size());
 }
 
 void ArmPlant::jacobian(double time_s, const double* y, double* y_dot, Eigen::Ref<Eigen::MatrixXd> J) {
   ++evaluations_;
-  chain_->jacobian(time_s, y, y_dot, J);
+  const int n = layout().n, stride = static_cast<int>(J.outerStride());
+  drive_.linearise(DriveTerms::all, time_s, y, y_dot, J);
+  plant_kernels().accelerate_with_slopes(drive_.arm(), y, y + n, y_dot + n, J.data() + n, stride, layout().size());
+  J.topRows(n).setZero();
+  J.block(0, n, n, n).setIdentity();
+  if (engine_ == Engine::simbody) chain_->derivative(time_s, y, y_dot);
+  else std::copy_n(y + n, n, y_dot);
+  check_finite(y_dot, layout().size());
 }
 
 void ArmPlant::derivative_of_terms(DriveTerms terms, double time_s, const double* y, double* y_dot) {

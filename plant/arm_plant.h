@@ -33,8 +33,10 @@ class ArmPlant {
   /// Sets the commanded motor torques and external loads on the joints, [n] each, that hold from time_s on.
   void set_inputs(double time_s, const double* command, const double* external);
 
+  /// Throws std::runtime_error if a rate is not finite, as jacobian() does.
   void derivative(double time_s, const double* y, double* y_dot);
-  /// y' and J = ∂y'/∂y, exact; J: [size x size]. Engine::halyard only: std::logic_error with Simbody.
+  /// y' and J = ∂y'/∂y, exact; J: [size x size]. The derivatives of the chain are halyard's own with either engine, because
+  /// Simbody has none.
   void jacobian(double time_s, const double* y, double* y_dot, Eigen::Ref<Eigen::MatrixXd> J);
   /// The part of y' that comes from these terms of the drive. It contains q' = v for the joints that the terms move,
   /// and q' = 0 for the others.
@@ -64,6 +66,7 @@ class ArmPlant {
 
  private:
   DriveTrain drive_;
+  Engine engine_;
   std::unique_ptr<RigidArm> chain_;
   long evaluations_ = 0;
 };

@@ -1,4 +1,4 @@
-#include <cmath>
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -32,16 +32,7 @@ class NewtonEulerArm : public RigidArm {
     const int n = arm().n;
     drive_.rates(DriveTerms::all, time_s, y, y + n, y + 2 * n, y_dot + n, y_dot + 2 * n);
     kernels_.accelerate(arm(), y, y + n, y_dot + n);
-    set_motion(y, y_dot);
-  }
-
-  void jacobian(double time_s, const double* y, double* y_dot, Eigen::Ref<Eigen::MatrixXd> J) override {
-    const int n = arm().n, stride = static_cast<int>(J.outerStride());
-    drive_.linearise(DriveTerms::all, time_s, y, y_dot, J);
-    kernels_.accelerate_with_slopes(arm(), y, y + n, y_dot + n, J.data() + n, stride, static_cast<int>(J.cols()));
-    J.topRows(n).setZero();
-    J.block(0, n, n, n).setIdentity();
-    set_motion(y, y_dot);
+    std::copy_n(y + n, n, y_dot);
   }
 
   const Eigen::MatrixXd& total_mass(double, const double* y) override {
@@ -83,14 +74,6 @@ class NewtonEulerArm : public RigidArm {
     Eigen::VectorXd force(q.size());
     inverse_dynamics(arm(), chain_pose(arm(), q.data()), v.data(), zero.data(), force.data());
     return force;
-  }
-
-  /// Sets q' in y_dot, the other entries of which are known.
-  void set_motion(const double* y, double* y_dot) const {
-    for (int k = 0; k < arm().n; ++k) y_dot[k] = y[arm().n + k];
-    double sum = 0;  // 0 · x is 0 for numbers only
-    for (int i = 0; i < drive_.layout().size(); ++i) sum += 0 * y_dot[i];
-    if (sum != 0) throw std::runtime_error("a rate of the arm's state is not finite");
   }
 
   double gravity_energy(const double* q) const {

@@ -15,8 +15,6 @@ class RigidArm {
 
   /// y' at the state y, both [size of the layout].
   virtual void derivative(double time_s, const double* y, double* y_dot) = 0;
-  /// y' and J = ∂y'/∂y, exact. J: [size x size]. Throws std::logic_error if the engine has no such derivatives.
-  virtual void jacobian(double time_s, const double* y, double* y_dot, Eigen::Ref<Eigen::MatrixXd> J) = 0;
 
   /// M + M_rotors at the state y, [n x n]; valid until the next call.
   virtual const Eigen::MatrixXd& total_mass(double time_s, const double* y) = 0;

@@ -16,9 +16,8 @@ namespace halyard {
 
 /// How the plant is integrated; docs/architecture.md explains the purpose of each kind.
 enum class IntegratorKind {
-  /// rosenbrock with Engine::halyard, unless an effect acts at the command stage; else dirk (default)
-  automatic,
-  rosenbrock,      ///< Rosenbrock's, fourth order, with the exact Jacobian of Engine::halyard
+  automatic,       ///< rosenbrock, unless an effect acts at the command stage: then dirk (default)
+  rosenbrock,      ///< Rosenbrock's, fourth order, with the exact Jacobian
   dirk,            ///< ARKODE, diagonally implicit third order: all implicit
   imex,            ///< ARKODE, fourth order: cables and friction implicit, the rest explicit
   imex_link1,      ///< ARKODE, fourth order: only the first link's cable implicit

@@ -129,12 +129,6 @@ void SimbodyArm::derivative(double time_s, const double* y, double* y_dot) {
   drive.rates(DriveTerms::all, time_s, y, y + l.n, y + 2 * l.n, y_dot + l.n, y_dot + 2 * l.n);
   accelerate(state, y_dot + l.n);
   std::memcpy(y_dot, y + l.n, l.n * sizeof(double));
-  if (!Eigen::Map<const Eigen::VectorXd>(y_dot, l.size()).allFinite())
-    throw std::runtime_error("a rate of the arm's state is not finite");
-}
-
-void SimbodyArm::jacobian(double, const double*, double*, Eigen::Ref<Eigen::MatrixXd>) {
-  throw std::logic_error("Simbody has no derivatives of the chain's equations");
 }
 
 const Eigen::MatrixXd& SimbodyArm::total_mass(double, const double* y) {

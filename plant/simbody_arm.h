@@ -16,7 +16,6 @@ class SimbodyArm : public RigidArm {
   explicit SimbodyArm(const DriveTrain& drive);
 
   void derivative(double time_s, const double* y, double* y_dot) override;
-  void jacobian(double time_s, const double* y, double* y_dot, Eigen::Ref<Eigen::MatrixXd> J) override;
   const Eigen::MatrixXd& total_mass(double time_s, const double* y) override;
   Eigen::VectorXd holding_force(const Eigen::VectorXd& q) override;
   Eigen::VectorXd velocity_force(const Eigen::VectorXd& q, const Eigen::VectorXd& v) override;

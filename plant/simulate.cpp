@@ -86,9 +86,8 @@ bool may_look_back(const PlacedEffect& e) { return e.effect->stages() & static_c
 IntegratorOptions integrator_of(const Scenario& scenario) {
   IntegratorOptions options = scenario.integrator;
   if (options.kind != IntegratorKind::automatic) return options;
-  const bool dirk =
-      engine_of(scenario) == Engine::simbody || std::ranges::any_of(scenario.robot.effects, may_look_back);
-  options.kind = dirk ? IntegratorKind::dirk : IntegratorKind::rosenbrock;
+  options.kind =
+      std::ranges::any_of(scenario.robot.effects, may_look_back) ? IntegratorKind::dirk : IntegratorKind::rosenbrock;
   return options;
 }
 
