@@ -21,6 +21,42 @@ std::vector<double> without_nan(std::span<const double> x) {
   return kept;
 }
 
+/// Samples less their mean, and the sum of their squares.
+struct Centered {
+  std::vector<double> x;
+  double squares = 0;
+};
+
+Centered centered(std::span<const double> samples) {
+  Centered c{.x = without_nan(samples)};
+  double mean = 0;
+  for (const double v : c.x) mean += v;
+  mean /= static_cast<double>(std::max<std::size_t>(c.x.size(), 1));
+  for (double& v : c.x) {
+    v -= mean;
+    c.squares += v * v;
+  }
+  return c;
+}
+
+/// Appends ρ of the lags from rho.size() up to at least `lags`. Lags are summed side by side, because each sum alone
+/// waits for its last addition.
+void append_correlations(const Centered& c, std::size_t lags, std::vector<double>& rho) {
+  constexpr std::size_t kTogether = 8;
+  const std::size_t n = c.x.size();
+  while (rho.size() <= lags) {
+    const std::size_t first = rho.size();
+    double sum[kTogether] = {};
+    std::size_t i = 0;
+    for (; i + first + kTogether <= n; ++i)
+      for (std::size_t k = 0; k < kTogether; ++k) sum[k] += c.x[i] * c.x[i + first + k];
+    for (; i + first < n; ++i)
+      for (std::size_t k = 0; i + first + k < n; ++k) sum[k] += c.x[i] * c.x[i + first + k];
+    for (std::size_t k = 0; k < kTogether; ++k)
+      rho.push_back(c.squares > 0 ? sum[k] / c.squares : static_cast<double>(first + k == 0));
+  }
+}
+
 /// Percentiles of the ratios that draw(random) gives.
 template <class Draw>
 PairedRatio interval(double ratio, std::size_t block, std::uint64_t seed, const Draw& draw) {
@@ -35,30 +71,19 @@ PairedRatio interval(double ratio, std::size_t block, std::uint64_t seed, const 
 }  // namespace
 
 std::vector<double> autocorrelation(std::span<const double> x, std::size_t lags) {
-  const std::vector<double> kept = without_nan(x);
-  const std::size_t n = kept.size();
-  double mean = 0, variance = 0;
-  for (const double v : kept) mean += v;
-  mean /= static_cast<double>(std::max<std::size_t>(n, 1));
-  for (const double v : kept) variance += (v - mean) * (v - mean);
   std::vector<double> rho;
-  for (std::size_t l = 0; l <= lags; ++l) {
-    double sum = 0;
-    for (std::size_t i = 0; i + l < n; ++i) sum += (kept[i] - mean) * (kept[i + l] - mean);
-    rho.push_back(variance > 0 ? sum / variance : l == 0);
-  }
+  append_correlations(centered(x), lags, rho);
+  rho.resize(lags + 1);
   return rho;
 }
 
 double effective_samples(std::span<const double> x) {
-  const std::vector<double> kept = without_nan(x);
-  const std::size_t n = kept.size();
+  const Centered c = centered(x);
+  const std::size_t n = c.x.size();
   double sum = 0;
-  // Lags are asked for in growing portions: most records are forgotten early.
-  std::size_t known = 0;
   std::vector<double> rho;
   for (std::size_t l = 1; l + 1 < n; l += 2) {
-    if (l + 1 > known) rho = autocorrelation(kept, known = std::min(n, 2 * l + 30));
+    append_correlations(c, l + 1, rho);
     const double pair = rho[l] + rho[l + 1];
     if (pair <= 0) break;
     sum += pair;
