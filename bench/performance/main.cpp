@@ -105,8 +105,8 @@ std::string kept_section(const std::filesystem::path& path, const std::string& h
   return all.substr(first, all.find("\n## ", first) + 1 - first);
 }
 
-std::string page(const std::string& instructions, const std::vector<StepTime>& filters,
-                 const std::vector<Panel>& moving, const std::vector<Panel>& resting) {
+std::string page(const std::string& kept, const std::vector<StepTime>& filters, const std::vector<Panel>& moving,
+                 const std::vector<Panel>& resting) {
   return fmt::format(R"(# Performance
 
 `build/bench/halyard_performance` wrote this page; it takes about three minutes. Processor: {}; date: {}; vector
@@ -140,14 +140,13 @@ At rest:
 Least time while moving: {}. At rest: {}.
 
 **Which integrator for the stiff cable of link 1?** `rosenbrock`. It has the exact Jacobian of all forces and solves
-linear systems only, so that the accuracy limits its steps and not the stiffness of cable or friction. It needs halyard's
-own chain. The explicit methods take shorter steps as the cable becomes stiffer: at x100, `explicit_rk` needs about
+linear systems only, so that the accuracy limits its steps and not the stiffness of cable or friction. The explicit methods take shorter steps as the cable becomes stiffer: at x100, `explicit_rk` needs about
 twice as long as `rosenbrock` while the arm moves, and up to four times as long at rest. It is the faster one only with
 the model's own friction and a cable that is not that stiff. `imex_link1` removes the limit that the cable sets, but not that of friction: where friction is sharp (x0.02), it takes about twice as long as
 `imex`. On Simbody's chain, `simbody_rkm` is faster up to x10 while the arm moves; `dirk` is faster at x100, and at rest
 from x10 on.
 )",
-                     processor(), today(), lane_kernels()[0].name, filter_table(filters), instructions, kEqualError,
+                     processor(), today(), lane_kernels()[0].name, filter_table(filters), kept, kEqualError,
                      kLongestRun, ratio_table(moving), ratio_table(resting), winners(moving), winners(resting));
 }
 
@@ -170,8 +169,10 @@ int main(int argc, char** argv) {
     const std::size_t columns = std::size(kStiffness);
     write(out / "images/work_precision_moving.svg", diagram_svg("Moving", moving, columns));
     write(out / "images/work_precision_resting.svg", diagram_svg("At rest", resting, columns));
-    const std::string instructions = kept_section(out / "performance.md", "## Instructions of a step");
-    write(out / "performance.md", page(instructions, filters, moving, resting));
+    std::string kept;
+    for (const char* heading : {"## Instructions of a step", "## Speed of a simulation"})
+      kept += kept_section(out / "performance.md", heading);
+    write(out / "performance.md", page(kept, filters, moving, resting));
     fmt::print("{}\n", (out / "performance.md").string());
     return 0;
   });
