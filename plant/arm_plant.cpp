@@ -41,7 +41,8 @@ void ArmPlant::jacobian(double time_s, const double* y, double* y_dot, Eigen::Re
   ++evaluations_;
   const int n = layout().n, stride = static_cast<int>(J.outerStride());
   drive_.linearise(DriveTerms::all, time_s, y, y_dot, J);
-  plant_kernels().accelerate_with_slopes(drive_.arm(), y, y + n, y_dot + n, J.data() + n, stride, layout().size());
+  plant_kernels().front().accelerate_with_slopes(drive_.arm(), y, y + n, y_dot + n, J.data() + n, stride,
+                                                 layout().size());
   J.topRows(n).setZero();
   J.block(0, n, n, n).setIdentity();
   if (engine_ == Engine::simbody) chain_->derivative(time_s, y, y_dot);

@@ -69,7 +69,7 @@ DriveModel make_model(const ArmParameters<double>& nominal, const std::vector<Pl
 }  // namespace
 
 DriveTrain::DriveTrain(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects)
-    : model_(make_model(nominal, effects)), kernels_(plant_kernels()), rotor_mass_(make_rotor_mass(arm())) {}
+    : model_(make_model(nominal, effects)), kernels_(plant_kernels().front()), rotor_mass_(make_rotor_mass(arm())) {}
 
 void DriveTrain::set_inputs(double time_s, const double* command, const double* external) {
   for (int k = 0; k < layout().n; ++k) model_.command[k] = command[k], model_.external[k] = external[k];

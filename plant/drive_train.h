@@ -27,6 +27,8 @@ class DriveTrain {
   DriveTrain(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects);
 
   const PlantLayout& layout() const { return model_.layout; }
+  /// For plant_kernels().
+  const DriveModel& model() const { return model_; }
   /// The parameters with the changes that the effects make to them.
   const ArmParameters<double>& arm() const { return model_.transmission.arm(); }
   const Transmission<double>& transmission() const { return model_.transmission; }

@@ -24,7 +24,7 @@ void check_inertias(const ArmParameters<double>& arm) {
 
 class NewtonEulerArm : public RigidArm {
  public:
-  explicit NewtonEulerArm(const DriveTrain& drive) : drive_(drive), kernels_(plant_kernels()) {
+  explicit NewtonEulerArm(const DriveTrain& drive) : drive_(drive), kernels_(plant_kernels().front()) {
     check_inertias(drive.arm());
   }
 

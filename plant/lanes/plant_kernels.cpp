@@ -9,14 +9,14 @@ extern const PlantKernels kPlant_generic;
 extern const PlantKernels kPlant_avx2, kPlant_avx512;
 #endif
 
-const PlantKernels& plant_kernels() {
+const std::vector<PlantKernels>& plant_kernels() {
 #if defined(__x86_64__)
-  static const PlantKernels widest =
-      usable_copies<PlantKernels>({&kPlant_generic, &kPlant_avx2, &kPlant_avx512}).front();
+  static const std::vector<PlantKernels> usable =
+      usable_copies<PlantKernels>({&kPlant_generic, &kPlant_avx2, &kPlant_avx512});
 #else
-  static const PlantKernels widest = usable_copies<PlantKernels>({&kPlant_generic}).front();
+  static const std::vector<PlantKernels> usable = usable_copies<PlantKernels>({&kPlant_generic});
 #endif
-  return widest;
+  return usable;
 }
 
 }  // namespace halyard

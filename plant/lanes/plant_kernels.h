@@ -8,6 +8,8 @@
 /// The files plant_<set>.cpp instantiate the templates of this folder in an unnamed namespace, and all functions that these
 /// call are forced inline: otherwise the linker could use a function compiled for a wider set where it cannot run.
 
+#include <vector>
+
 #include "plant/lanes/drive_model.h"
 
 namespace halyard {
@@ -29,7 +31,7 @@ struct PlantKernels {
                                  double* slopes, int stride, int columns);
 };
 
-/// The kernels of the widest instruction set of this processor.
-const PlantKernels& plant_kernels();
+/// The kernels that this processor can run, the widest first; the last is the generic one.
+const std::vector<PlantKernels>& plant_kernels();
 
 }  // namespace halyard

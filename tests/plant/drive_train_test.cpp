@@ -140,5 +140,41 @@ TEST(DriveTrain, RefusesACableOnAMotorWithoutInertia) {
   }
 }
 
+/// Forces, rates and accelerations at y, and their slopes.
+struct Linearised {
+  Eigen::VectorXd rates;
+  Eigen::MatrixXd slopes;
+};
+
+Linearised linearised(const PlantKernels& kernels, const DriveTrain& drive, const Eigen::VectorXd& y) {
+  const int n = drive.layout().n, rows = n + drive.layout().n_z, columns = drive.layout().size() - 2;
+  Linearised at{Eigen::VectorXd::Zero(rows), Eigen::MatrixXd::Zero(rows, columns)};
+  const double *q = y.data(), *v = q + n, *z = v + n;
+  kernels.slopes(drive.model(), DriveTerms::all, {0, q, v, z}, at.rates.data(), at.rates.data() + n, at.slopes.data(),
+                 rows);
+  Eigen::VectorXd alone(rows);
+  kernels.rates(drive.model(), DriveTerms::all, {0, q, v, z}, alone.data(), alone.data() + n);
+  kernels.accelerate(drive.arm(), q, v, alone.data());
+  kernels.accelerate_with_slopes(drive.arm(), q, v, at.rates.data(), at.slopes.data(), rows, columns);
+  EXPECT_LT((alone - at.rates).cwiseAbs().maxCoeff(), 1e-12 * at.rates.cwiseAbs().maxCoeff());
+  return at;
+}
+
+TEST(PlantKernels, OfAllInstructionSetsAgree) {
+  const ArmParameters<double> arm = nominal_raven2().nominal;
+  const ArmPlant plain(arm), general(arm, {placed("hysteresis", arm, 1)});
+  std::mt19937_64 random(9);
+  for (const ArmPlant* plant : {&plain, &general}) {
+    const Eigen::VectorXd y = random_state(*plant, random);
+    const Linearised generic = linearised(plant_kernels().back(), plant->drive(), y);
+    for (const PlantKernels& kernels : plant_kernels()) {
+      const Linearised other = linearised(kernels, plant->drive(), y);
+      // Some hundred roundings of the largest entries; M has a condition of about 100.
+      EXPECT_LT((other.rates - generic.rates).cwiseAbs().maxCoeff(), 1e-12 * generic.rates.cwiseAbs().maxCoeff());
+      EXPECT_LT((other.slopes - generic.slopes).cwiseAbs().maxCoeff(), 1e-12 * generic.slopes.cwiseAbs().maxCoeff());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace halyard
