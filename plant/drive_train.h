@@ -48,7 +48,7 @@ class DriveTrain {
   /// into rows n.. of J [size x size]. Leaves the first n entries and rows.
   void linearise(DriveTerms terms, double time_s, const double* y, double* y_dot, Eigen::Ref<Eigen::MatrixXd> J) const;
 
-  /// The signals of all joints, sensor errors included; s: [n].
+  /// The signals of all joints, sensor errors included; s: [n]. The joints' accelerations in s are an input.
   void signals(double time_s, const double* q, const double* v, const double* z, JointSignals<double>* s) const;
 
   /// M_rotors, the contribution of rigid drives' rotors to the mass matrix, [n x n]; zero if there are none.

@@ -127,6 +127,11 @@ class ControlLoop {
   Tick tick(double time_s, const DriveTrain& drive, const Eigen::VectorXd& y) {
     const int n = scenario_.robot.n();
     Tick tick;
+    for (int k = 0; k < n; ++k) {
+      const double rate = y(n + k);
+      tick.signals[k].joint_acceleration = (rate - last_rate_[k]) / scenario_.control_period_s;
+      last_rate_[k] = rate;
+    }
     drive.signals(time_s, y.data(), y.data() + n, y.data() + 2 * n, tick.signals);
     const TickNoise& noise = scenario_.noise;
     for (std::size_t k = 0; k < noise.motor_reading.size(); ++k)
@@ -152,6 +157,7 @@ class ControlLoop {
   PdController controller_;
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_{0, 1};
+  double last_rate_[kMaxJoints] = {};  ///< of the joints, which start at rest
 };
 
 /// Writes a tick into row i of both logs.

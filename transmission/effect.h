@@ -63,20 +63,21 @@ inline constexpr std::nullopt_t kWholeArm = std::nullopt;
 /// Signals of one joint at one instant. Torques and positions are positive in the joint's positive direction.
 template <class T>
 struct JointSignals {
-  T command = 0.0;            ///< commanded motor torque, N m
-  T motor_angle = 0.0;        ///< q_m, rad
-  T motor_rate = 0.0;         ///< q_m', rad/s
-  T joint_position = 0.0;     ///< q, rad | m
-  T joint_rate = 0.0;         ///< q', rad/s | m/s
-  T external_force = 0.0;     ///< measured external load on the joint, N m | N
-  T motor_torque = 0.0;       ///< on the rotor, without the cable's pull, N m
-  T stretch = 0.0;            ///< x, m
-  T stretch_rate = 0.0;       ///< x', m/s
-  T cable_force_motor = 0.0;  ///< g at the capstan, N
-  T cable_force_joint = 0.0;  ///< g at the joint's pulley, N
-  T joint_force = 0.0;        ///< Γ + friction + external, N m | N
-  T motor_error = 0.0;        ///< motor encoder's reading minus truth, rad
-  T joint_error = 0.0;        ///< joint encoder's reading minus truth, rad | m
+  T command = 0.0;             ///< commanded motor torque, N m
+  T motor_angle = 0.0;         ///< q_m, rad
+  T motor_rate = 0.0;          ///< q_m', rad/s
+  T joint_position = 0.0;      ///< q, rad | m
+  T joint_rate = 0.0;          ///< q', rad/s | m/s
+  T external_force = 0.0;      ///< measured external load on the joint, N m | N
+  T motor_torque = 0.0;        ///< on the rotor, without the cable's pull, N m
+  T stretch = 0.0;             ///< x, m
+  T stretch_rate = 0.0;        ///< x', m/s
+  T cable_force_motor = 0.0;   ///< g at the capstan, N
+  T cable_force_joint = 0.0;   ///< g at the joint's pulley, N
+  T joint_force = 0.0;         ///< Γ + friction + external, N m | N
+  T motor_error = 0.0;         ///< motor encoder's reading minus truth, rad
+  T joint_error = 0.0;         ///< joint encoder's reading minus truth, rad | m
+  T joint_acceleration = 0.0;  ///< q'' for the sensors' errors; 0 where nobody tells it, rad/s² | m/s²
 };
 
 /// Inputs that an effect may read.

@@ -22,7 +22,9 @@ template <class T>
 class ArmSignals {
  public:
   HALYARD_INLINE explicit ArmSignals(int n) {
-    for (int k = 0; k < n; ++k) joint()[k].motor_torque = joint()[k].motor_error = joint()[k].joint_error = T(0.0);
+    for (int k = 0; k < n; ++k)
+      joint()[k].motor_torque = joint()[k].motor_error = joint()[k].joint_error = joint()[k].joint_acceleration =
+          T(0.0);
   }
   HALYARD_INLINE JointSignals<T>* joint() { return reinterpret_cast<JointSignals<T>*>(storage_); }
 

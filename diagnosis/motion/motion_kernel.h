@@ -87,6 +87,16 @@ HALYARD_INLINE void chain_over_step(const ArmParameters<T>& arm, const DrivenSta
   ldl_factor<T, kMaxJoints>(chain.n_prescribed, chain.A);
 }
 
+/// Accelerations of the joints as the motors' motion gives them, without stretch: for sensors that lag.
+template <int known = 0, class T>
+HALYARD_INLINE void set_accelerations(const ArmParameters<T>& arm, const DrivenInput& u, JointSignals<T>* s) {
+  T a[kMaxJoints];
+  for (int k = 0, n = joint_count<known>(arm); k < n; ++k) {
+    const T own = u.motor_acceleration[k];
+    s[k].joint_acceleration = a[k] = arm.joint[k].drive == Drive::none ? own : rigid_joint(arm, k, own, a);
+  }
+}
+
 /// Rates of x; torque_residual [n] and joint_reading [n] if not null. Without a chain there are no accelerations; only
 /// arms with cables at all joints allow this.
 template <class T, int known = 0>
@@ -105,6 +115,7 @@ HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const
     s[k].joint_rate = x.v[k];
     s[k].external_force = u.external[k];
   }
+  if (joint_reading) set_accelerations<known>(arm, u, s);
   // The angle from the encoder's reading: errors are small, so one correction is enough.
   transmission.template sensor_errors<known>(time, x.z, s);
   for (int k = 0; k < n; ++k) {

@@ -3,12 +3,12 @@
 /// A time shift, at one joint or at all joints alike:
 ///
 ///   τ(t) = scale · command(t - d_c) + bias           the torque acts late
-///   joint reading(t) = q(t) - d_s q'(t)               the joint's sensor lags the motor's
+///   joint reading(t) = q(t) - d_s q'(t) + d_s² q''(t) / 2      the joint's sensor lags the motor's
 ///
 ///   d_c   `command_delay`, at least 0                       s
 ///   d_s   `sensor_delay`; negative: the motor's lags        s
 ///
-/// The sensor's delay is a first-order approximation, good while d_s is short against the motion. Without a history of
+/// The sensor's delay is a second-order approximation, good while d_s is short against the motion. Without a history of
 /// commands the torque acts at once. Place a delay before all other effects that change the commanded torque.
 
 namespace halyard::effects {
@@ -34,7 +34,8 @@ class Delay : public EffectOf<Delay> {
   }
   template <class T>
   void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
-    for (int k = first(c); k < end(c); ++k) s[k].joint_error -= c.p[1] * s[k].joint_rate;
+    for (int k = first(c); k < end(c); ++k)
+      s[k].joint_error -= c.p[1] * (s[k].joint_rate - T(0.5) * c.p[1] * s[k].joint_acceleration);
   }
 
  private:
