@@ -7,14 +7,17 @@
 namespace halyard {
 namespace {
 
-/// Operations on matrices [n x n] in lanes.
+/// Operations on matrices [n x n] in lanes, of which only the first rows are computed: where the last rows of Z are zero, as
+/// those of constant states, the others are multiples of rows of the unit matrix. known, known_rows: n and the number of
+/// rows, or 0 if the compiler is not to know them.
+template <int known, int known_rows>
 struct SquareMatrices {
-  int n, height, stride;  // height: registers of rows in use; stride: registers of a column
+  int n, height, stride;  // height: registers of the rows that are computed; stride: registers of a column
 
-  HALYARD_INLINE explicit SquareMatrices(int size)
-      : n(size),
-        height(tiles::pieces_of(size)),
-        stride((size + kLaneWidth - 1) / kLaneWidth * tiles::kPiecesPerBlock) {}
+  HALYARD_INLINE SquareMatrices(int size, int rows)
+      : n(known > 0 ? known : size),
+        height(tiles::pieces_of(known_rows > 0 ? known_rows : rows)),
+        stride((n + kLaneWidth - 1) / kLaneWidth * tiles::kPiecesPerBlock) {}
 
   /// C = finish(i, A B), i the index of a register.
   template <class Finish>
@@ -43,14 +46,26 @@ struct SquareMatrices {
     }
     return most;
   }
+  /// A, of which all but the diagonal has been computed, becomes A + s I.
   HALYARD_INLINE void add_to_diagonal(Lanes* A, double s) const {
     double* entries = reinterpret_cast<double*>(A);
-    for (int i = 0; i < n; ++i) entries[i * (stride * tiles::kPieceWidth + 1)] += s;
+    const int computed = height * tiles::kPieceWidth, step = stride * tiles::kPieceWidth + 1;
+    for (int i = 0; i < n && i < computed; ++i) entries[i * step] += s;
+    set_rest(A, s);
+  }
+  /// The rows that are not computed become those of s I.
+  HALYARD_INLINE void set_rest(Lanes* A, double s) const {
+    double* entries = reinterpret_cast<double*>(A);
+    const int used = tiles::pieces_of(n);
+    for (int c = 0; c < n; ++c)
+      for (int p = height; p < used; ++p) tiles::pieces(A)[c * stride + p] = tiles::Piece{};
+    for (int i = height * tiles::kPieceWidth; i < n; ++i) entries[i * (stride * tiles::kPieceWidth + 1)] = s;
   }
 };
 
 /// The φ_k and E of Y, given its square and cube.
-HALYARD_INLINE void polynomials(const SquareMatrices& square, const PhiMemory& m, const PhiLevelMemory& level) {
+template <class Square>
+HALYARD_INLINE void polynomials(const Square& square, const PhiMemory& m, const PhiLevelMemory& level) {
   using tiles::Piece;
   const Piece *Y = tiles::pieces(m.Y), *Y2 = tiles::pieces(m.Y2);
   const auto same = [](int, const Piece& sum) __attribute__((always_inline)) { return sum; };
@@ -82,8 +97,9 @@ HALYARD_INLINE void polynomials(const SquareMatrices& square, const PhiMemory& m
 }
 
 /// E, φ_2 and, if wanted, φ_1 of the whole argument.
-HALYARD_INLINE void double_argument(const SquareMatrices& square, const PhiLevelMemory& half,
-                                    const PhiLevelMemory& whole, bool with_phi_1) {
+template <class Square>
+HALYARD_INLINE void double_argument(const Square& square, const PhiLevelMemory& half, const PhiLevelMemory& whole,
+                                    bool with_phi_1) {
   using tiles::Piece;
   const Piece *one = tiles::pieces(half.phi_1), *two = tiles::pieces(half.phi_2);
   square.product(
@@ -96,6 +112,9 @@ HALYARD_INLINE void double_argument(const SquareMatrices& square, const PhiLevel
         whole.phi_1, [&](int i, const Piece& sum) __attribute__((always_inline)) { return 0.5 * (sum + one[i]); });
   square.product(
       half.E, half.E, whole.E, [](int, const Piece& sum) __attribute__((always_inline)) { return sum; });
+  square.set_rest(whole.phi_2, 0.5);
+  square.set_rest(whole.phi_1, 1);
+  square.set_rest(whole.E, 1);
 }
 
 /// The least s with (a / 2^s)^2 and (b / 2^s)^3 below θ, from the norms a² and b³ of Y² and Y³; at least 1, and
@@ -109,11 +128,14 @@ HALYARD_INLINE int count_doublings(double square_norm, double cube_norm, int mos
   return doublings;
 }
 
-int phi_functions(int n, int most, const PhiMemory& m) {
-  const SquareMatrices square(n);
+template <int known, int known_rows>
+int phi_functions_of(int n, int rows, int most, const PhiMemory& m) {
+  const SquareMatrices<known, known_rows> square(n, rows);
   const auto same = [](int, const tiles::Piece& sum) __attribute__((always_inline)) { return sum; };
   square.product(m.Y, m.Y, m.Y2, same);
+  square.set_rest(m.Y2, 0);
   square.product(m.Y2, m.Y, m.Y3, same);
+  square.set_rest(m.Y3, 0);
   const int doublings = count_doublings(square.norm(m.Y2, m.weight), square.norm(m.Y3, m.weight), most);
   if (doublings > most) return -1;
   const double part = 1.0 / static_cast<double>(1LL << doublings);
@@ -123,6 +145,26 @@ int phi_functions(int n, int most, const PhiMemory& m) {
   polynomials(square, m, m.level[doublings]);
   for (int k = doublings; k-- > 0;) double_argument(square, m.level[k + 1], m.level[k], k > 0);
   return doublings;
+}
+
+/// Without the last rows that are zero.
+HALYARD_INLINE int rows_in_use(int n, const Lanes* A) {
+  const double* entries = reinterpret_cast<const double*>(A);
+  const int stride = (n + kLaneWidth - 1) / kLaneWidth * kLaneWidth;
+  for (int rows = n; rows > 1; --rows)
+    for (int c = 0; c < n; ++c)
+      if (entries[rows - 1 + c * stride] != 0) return rows;
+  return 1;
+}
+
+/// Arms of three joints, without unknown constants or with one or two of each joint, have copies of their own, in which the
+/// compiler knows the loops.
+int phi_functions(int n, int most, const PhiMemory& m) {
+  const int rows = rows_in_use(n, m.Y);
+  if (n == 12) return phi_functions_of<12, 12>(n, rows, most, m);
+  if (n == 15 && rows == 12) return phi_functions_of<15, 12>(n, rows, most, m);
+  if (n == 18 && rows == 12) return phi_functions_of<18, 12>(n, rows, most, m);
+  return phi_functions_of<0, 0>(n, rows, most, m);
 }
 
 }  // namespace

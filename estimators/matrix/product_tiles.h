@@ -32,10 +32,11 @@ HALYARD_INLINE void tile(int p, int c, int k, const Piece* A, int a_stride, cons
       sum[i][j] = Piece{};
   const Piece* a = A + p;
   const double* b = B.data + c * B.column;
-  for (int l = 0; l < k; ++l, a += a_stride, b += B.row) _Pragma("GCC unroll 4") for (int j = 0; j < width; ++j) {
-      const Piece factor = all(b[j * B.column]);
-      _Pragma("GCC unroll 4") for (int i = 0; i < height; ++i) sum[i][j] += a[i] * factor;
-    }
+  _Pragma("GCC unroll 4") for (int l = 0; l < k; ++l, a += a_stride, b += B.row)
+      _Pragma("GCC unroll 4") for (int j = 0; j < width; ++j) {
+    const Piece factor = all(b[j * B.column]);
+    _Pragma("GCC unroll 4") for (int i = 0; i < height; ++i) sum[i][j] += a[i] * factor;
+  }
   _Pragma("GCC unroll 4") for (int i = 0; i < height; ++i) _Pragma("GCC unroll 4") for (int j = 0; j < width; ++j)
       put(p + i, c + j, sum[i][j]);
 }
@@ -52,19 +53,24 @@ HALYARD_INLINE void columns_of_product(int c, int height, int k, const Piece* A,
 /// put(p, c, entries) of A B, with A in `height` registers of rows [any x k], a_stride registers apart, and B [k x m].
 template <class Put>
 HALYARD_INLINE void product(int height, int k, int m, const Piece* A, int a_stride, const Right& B, const Put& put) {
-  int c = 0;
-  for (; c + 4 <= m; c += 4) columns_of_product<4>(c, height, k, A, a_stride, B, put);
-  for (; c < m; ++c) columns_of_product<1>(c, height, k, A, a_stride, B, put);
+  const int whole = m / 4 * 4;
+  for (int c = 0; c < whole; c += 4) columns_of_product<4>(c, height, k, A, a_stride, B, put);
+  for (int c = whole; c < m; ++c) columns_of_product<1>(c, height, k, A, a_stride, B, put);
 }
 
-/// Sum of the entries.
-HALYARD_INLINE double sum_of(const Piece& a) {
-  double sum[kPieceWidth];
-  for (int i = 0; i < kPieceWidth; ++i) sum[i] = a[i];
-  for (int half = kPieceWidth / 2; half > 0; half /= 2)
-    for (int i = 0; i < half; ++i) sum[i] += sum[i + half];
-  return sum[0];
+/// Sum of the entries, by halves.
+template <int width>
+HALYARD_INLINE double sum_of_entries(const double __attribute__((vector_size(8 * width))) & a) {
+  if constexpr (width == 2) {
+    return a[0] + a[1];
+  } else {
+    typedef double Half __attribute__((vector_size(4 * width)));
+    Half half[2];
+    __builtin_memcpy(half, &a, sizeof(a));
+    return sum_of_entries<width / 2>(half[0] + half[1]);
+  }
 }
+HALYARD_INLINE double sum_of(const Piece& a) { return sum_of_entries<kPieceWidth>(a); }
 HALYARD_INLINE double sum_of(const Lanes& a) {
   Piece sum = a.v.piece[0];
   for (int i = 1; i < kPiecesPerBlock; ++i) sum += a.v.piece[i];
