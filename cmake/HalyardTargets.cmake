@@ -67,12 +67,13 @@ endfunction()
 # which one is chosen at run time. They are optimised in every configuration: a function that is not inlined there would
 # be left, compiled for its set, where the linker may give it to all. For the same reason GCC must not guess the targets
 # of virtual calls. The sign of a zero and floating-point exceptions mean nothing in these files; the compiler may then
-# choose between two results without a branch. The same templates are instantiated elsewhere over double, where the
+# choose between two results without a branch. Loops over a few numbers must not become calls of memset and memcpy. The
+# same templates are instantiated elsewhere over double, where the
 # sanitizers check them.
 option(HALYARD_SANITIZE_LANES "In a build with sanitizers, check the lane files too: GCC takes minutes for each" OFF)
 function(halyard_lane_files room stem)
   set(options -O3 -fno-signed-zeros -fno-trapping-math -fno-math-errno
-    $<$<CXX_COMPILER_ID:GNU>:-fno-devirtualize-speculatively>)
+    $<$<CXX_COMPILER_ID:GNU>:-fno-devirtualize-speculatively> $<$<CXX_COMPILER_ID:GNU>:-fno-tree-loop-distribute-patterns>)
   if(NOT HALYARD_SANITIZE_LANES)
     list(APPEND options -fno-sanitize=all)
   endif()

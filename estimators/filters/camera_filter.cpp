@@ -17,7 +17,8 @@ class UnknownOffset : public UnknownConstant<UnknownOffset> {
  public:
   std::string name() const override { return "cable_offset"; }
   std::string summary() const override { return "an offset of the cable's stretch that only a filter knows"; }
-  unsigned stages() const override { return static_cast<unsigned>(EffectStage::stretch); }
+  EffectStage added_at() const override { return EffectStage::stretch; }
+  double factor() const override { return -1; }
 
   template <class T>
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {

@@ -15,7 +15,8 @@ class UnknownForce : public UnknownConstant<UnknownForce> {
  public:
   std::string name() const override { return "joint_force"; }
   std::string summary() const override { return "a force on the joint that only a filter knows"; }
-  unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
+  EffectStage added_at() const override { return EffectStage::joint; }
+  double factor() const override { return 1; }
 
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {

@@ -22,13 +22,19 @@ Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, co
   check_measurement(innovation.nu);
   auto array = array_root_.start(m + n, m + n);  // transposed
   array.topLeftCorner(m, m) = R_root.transpose();
+  array.topRightCorner(m, n).setZero();
+  for (int k = 0; k < n; ++k) {
+    double* column = array.col(m + k).data() + m;  // of Sᵀ
+    const double* from = S_.data() + k;
+    for (int i = 0; i < n; ++i, from += n) column[i] = *from;
+  }
   const auto H = H_.view();
-  for (int j = 0; j < m; ++j)
+  for (int j = 0; j < m; ++j) {
+    auto column = array.col(j).tail(n);
+    column.setZero();
     for (int k = 0; k < n; ++k)
-      if (const double h = H(j, k); h != 0)
-        for (int i = 0; i < n; ++i) array(m + i, j) += h * S_(k, i);
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) array(m + i, m + j) = S_(j, i);
+      if (const double h = H(j, k); h != 0) column += h * array.col(m + k).tail(n);
+  }
   gain_.reshape(m + n, m);
   const auto gain = gain_.view();
   array_root_.finish(gain);
@@ -38,8 +44,13 @@ Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, co
   innovation.S_root.triangularView<Eigen::Lower>().solveInPlace(whitened);
   innovation.accepted = whitened.squaredNorm() <= gate;
   if (innovation.accepted) {
-    x_.noalias() += gain.bottomRows(n) * whitened;
-    S_ = array_root_.rest().bottomRightCorner(n, n).transpose();
+    for (int j = 0; j < m; ++j) x_ += whitened(j) * gain.col(j).tail(n);
+    const auto rest = array_root_.rest();
+    for (int k = 0; k < n; ++k) {
+      const double* column = rest.col(m + k).data() + m;
+      double* to = S_.data() + k;
+      for (int i = 0; i < n; ++i, to += n) *to = column[i];
+    }
   }
   return innovation;
 }
@@ -48,6 +59,7 @@ void GaussianFilter::backward_step(const Eigen::VectorXd& x_0, const Eigen::Matr
   const int n = static_cast<int>(x_predicted_.size()), before = count_columns_before(),
             predicted = predicted_columns_.rows();
   auto array = array_root_.start(2 * n, std::max({predicted, before, 2 * n}));  // transposed
+  array.setZero();
   array.topLeftCorner(predicted, n) = predicted_columns_.view();
   set_columns_before(S_0, array.topRightCorner(before, n));
   triangle_.reshape(2 * n, 2 * n);
@@ -64,6 +76,7 @@ void GaussianFilter::backward_step(const Eigen::VectorXd& x_0, const Eigen::Matr
 }
 
 void GaussianFilter::check_finite(const DiscreteProcess& process) const {
+  if (std::isfinite(x_.sum() + S_.sum())) return;
   for (Eigen::Index i = 0; i < x_.size(); ++i)
     if (!std::isfinite(x_(i)) || !S_.row(i).allFinite())
       throw std::runtime_error("filter: the belief of " + process.name_of(static_cast<int>(i)) +

@@ -56,9 +56,10 @@ class MeasurementModel {
 /// m >= n. Keeps its memory.
 class LowerRoot {
  public:
-  /// Aᵀ [m x n], zero, for the caller to fill.
+  /// Aᵀ [m x n], for the caller to fill: it holds anything.
   LaneMatrix::View start(int n, int m) {
-    columns_.set_zero(m, n);
+    columns_.reshape(m, n);
+    columns_.clear_padding();
     return columns_.view();
   }
   /// The first columns of L of the matrix that was filled in, as many as `L` has; destroys it.

@@ -89,15 +89,16 @@ void SquareRootUkf::predict(const DiscreteProcess& process, const Eigen::MatrixX
   delta_.resize(n);
   move_sigma_points(process);
   const int points = d_.rows();
+  squares_.resize(n);
+  set_squares(d_, squares_.data());
   for (int i = 0; i < n; ++i)
-    delta_(i) =
-        significant_shift(delta_(i), std::max(size_(i), std::abs(x_(i))), std::sqrt(sum_of_squares(d_, i, points)));
+    delta_(i) = significant_shift(delta_(i), std::max(size_(i), std::abs(x_(i))), std::sqrt(squares_(i)));
   x_ += delta_;
-  predicted_columns_.set_zero(points + sources + 1, n);
+  predicted_columns_.reshape(points + sources + 1, n);
   for (int i = 0; i < n; ++i)
     std::copy_n(d_.lanes() + i * d_.blocks(), d_.blocks(),
                 predicted_columns_.lanes() + i * predicted_columns_.blocks());
-  predicted_columns_.view().middleRows(points, sources) = Q_root.transpose();
+  set_rows_transposed(Q_root, predicted_columns_, points);
   root_with_central(predicted_columns_, delta_, S_);
   x_predicted_ = x_;
   check_finite(process);

@@ -67,7 +67,7 @@ class SquareRootUkf : public GaussianFilter {
 
   UkfWeights weights_;
   bool moved_in_pairs_ = false;
-  Eigen::VectorXd size_, delta_;
+  Eigen::VectorXd size_, delta_, squares_;
   Eigen::MatrixXd X_, P_;
   Eigen::LLT<Eigen::MatrixXd> llt_;
   LaneMatrix d_, rows_, e_, P_yx_;

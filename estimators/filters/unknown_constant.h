@@ -19,12 +19,13 @@
 
 namespace halyard {
 
-/// An effect with one constant; Derived defines what the constant is and where it acts.
+/// An effect with one constant; Derived defines what the constant is, and as a ConstantTerm where it acts.
 template <class Derived>
-class UnknownConstant : public EffectOf<Derived> {
+class UnknownConstant : public EffectOf<Derived>, public ConstantTerm {
  public:
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const final { return {}; }
   int n_states() const final { return 1; }
+  unsigned stages() const final { return static_cast<unsigned>(added_at()); }
   std::vector<double> state_scale(const ArmParameters<double>&, EffectPlace, const double* p) const final {
     return {p[0]};
   }

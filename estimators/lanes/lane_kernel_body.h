@@ -2,7 +2,7 @@
 /// No include guard: each lanes_<set>.cpp includes it exactly once.
 
 #include "estimators/lanes/lane_kernels.h"
-#include "estimators/process/arm_linearisation.h"
+#include "estimators/process/arm_curvature.h"
 
 namespace halyard {
 namespace {
@@ -37,18 +37,33 @@ void derivative(const Transmission<Lanes>& transmission, const StateLayout& layo
       });
 }
 
-void linearise(const Transmission<Dual>& transmission, const ArmParameters<double>& arm, const StateLayout& layout,
-               double time, const CommandHistory* history, const Dual* command, const Dual* external, const double* x,
-               double* x_dot, double* A, double* mobility) {
+void linearise(const LinearisedArm& model, double time, const HeldInputs& in, const double* x,
+               const LinearisedPoint* near, double* x_dot, double* A, LinearisedPoint& point) {
   with_known_joints(
-      layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
-        linearised_derivative<known>(transmission, arm, layout, time, history, command, external, x, x_dot, A,
-                                     mobility);
+      model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
+        linearised_derivative<known>(model, time, in, x, near, x_dot, A, point);
+      });
+}
+
+void mean_curvature(const LinearisedArm& model, LinearisedPoint& point, const LinearisedPoint* near, const double* x,
+                    const double* x_dot, const double* A, double gamma, int count, int blocks, const Lanes* root,
+                    double* mean) {
+  with_known_joints(
+      model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
+        halyard::mean_curvature<known>(model, point, near, x, x_dot, A, gamma, count, blocks, root, mean);
+      });
+}
+
+void rates_nearby(const LinearisedArm& model, const LinearisedPoint& point, const double* x, const double* x_dot,
+                  const double* A, int blocks, const Lanes* d, Lanes* rates) {
+  with_known_joints(
+      model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
+        halyard::rates_nearby<known>(model, point, x, x_dot, A, blocks, d, rates);
       });
 }
 
 constexpr LaneKernels kernels_named(const char* name) {
-  return {name, advance<Lanes>, advance<Dual>, derivative, linearise};
+  return {name, advance<Lanes>, advance<Dual>, derivative, linearise, mean_curvature, rates_nearby};
 }
 
 }  // namespace

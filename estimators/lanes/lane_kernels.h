@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "estimators/process/arm_dynamics.h"
+#include "estimators/process/arm_linearisation.h"
 
 namespace halyard {
 
@@ -23,10 +23,15 @@ struct LaneKernels {
   void (*derivative)(const Transmission<Lanes>& transmission, const StateLayout& layout, double time,
                      const CommandHistory* history, const Lanes* command, const Lanes* external, const Lanes* x,
                      Lanes* x_dot);
-  /// x', A = ∂x'/∂x and M(q)⁻¹, column-major (arm_linearisation.h).
-  void (*linearise)(const Transmission<Dual>& transmission, const ArmParameters<double>& arm, const StateLayout& layout,
-                    double time, const CommandHistory* history, const Dual* command, const Dual* external,
-                    const double* x, double* x_dot, double* A, double* mobility);
+  /// linearised_derivative() of arm_linearisation.h.
+  void (*linearise)(const LinearisedArm& model, double time, const HeldInputs& in, const double* x,
+                    const LinearisedPoint* near, double* x_dot, double* A, LinearisedPoint& point);
+  /// mean_curvature() and rates_nearby() of arm_curvature.h.
+  void (*mean_curvature)(const LinearisedArm& model, LinearisedPoint& point, const LinearisedPoint* near,
+                         const double* x, const double* x_dot, const double* A, double gamma, int count, int blocks,
+                         const Lanes* root, double* mean);
+  void (*rates_nearby)(const LinearisedArm& model, const LinearisedPoint& point, const double* x, const double* x_dot,
+                       const double* A, int blocks, const Lanes* d, Lanes* rates);
 };
 
 /// The kernels that this processor can run, the widest first; the last is the generic one.

@@ -85,21 +85,30 @@ inline RightFactor right(const Eigen::Ref<const Eigen::MatrixXd>& B) {
 inline RightFactor right(const LaneMatrix& B) { return {B.view().data(), 1, kLaneWidth * B.blocks()}; }
 inline RightFactor transposed(RightFactor B) { return {B.data, B.column, B.row}; }
 
-/// C += A B, with B [A.columns() x C.columns()]. C must not share memory with the factors.
-inline void add_product(const LaneMatrix& A, const RightFactor& B, LaneMatrix& C) {
-  matrix_kernels()[0].product(A.rows(), A.columns(), C.columns(), A.lanes(), A.blocks(), B, C.lanes(), C.blocks(),
-                              true);
+/// C = A B, or C += A B if `add`, with B [A.columns() x C.columns()]. C must not share memory with the factors.
+inline void multiply(const LaneMatrix& A, const RightFactor& B, LaneMatrix& C, bool add) {
+  matrix_kernels()[0].product(A.rows(), A.columns(), C.columns(), A.lanes(), A.blocks(), B, C.lanes(), C.blocks(), add);
 }
-
-/// C = A B, with B [A.columns() x columns]. C must not share memory with the factors.
+inline void add_product(const LaneMatrix& A, const RightFactor& B, LaneMatrix& C) { multiply(A, B, C, true); }
+/// C takes the shape of the product, with B [A.columns() x columns].
 inline void set_product(const LaneMatrix& A, const RightFactor& B, int columns, LaneMatrix& C) {
   C.reshape(A.rows(), columns);
-  matrix_kernels()[0].product(A.rows(), A.columns(), columns, A.lanes(), A.blocks(), B, C.lanes(), C.blocks(), false);
+  multiply(A, B, C, false);
 }
 
-/// Sums and sums of squares of what the columns of A differ from `centre`; see matrix_kernels.h. All: [A.columns()].
-inline void set_moments(const LaneMatrix& A, const Eigen::VectorXd& centre, double* sums, double* squares) {
-  matrix_kernels()[0].column_moments(A.rows(), A.columns(), A.lanes(), A.blocks(), centre.data(), sums, squares);
+/// Sums of the squares of the columns of A: squares [A.columns()].
+inline void set_squares(const LaneMatrix& A, double* squares) {
+  matrix_kernels()[0].column_squares(A.rows(), A.columns(), A.lanes(), A.blocks(), squares);
+}
+
+/// The rows of B from `first` on become Aᵀ. Eigen takes twice as long for small matrices.
+inline void set_rows_transposed(const Eigen::Ref<const Eigen::MatrixXd>& A, LaneMatrix& B, int first) {
+  const Eigen::Index step = A.outerStride();
+  for (int c = 0; c < B.columns(); ++c) {
+    const double* from = A.data() + c;
+    double* to = reinterpret_cast<double*>(B.lanes() + c * B.blocks()) + first;
+    for (Eigen::Index i = 0; i < A.cols(); ++i, from += step) to[i] = *from;
+  }
 }
 
 }  // namespace halyard

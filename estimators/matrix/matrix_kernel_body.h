@@ -24,68 +24,87 @@ void product(int rows, int k, int m, const Lanes* A, int a_blocks, const RightFa
   }
 }
 
-/// w -= v (vᵀ w) factor for `columns` vectors w, from register `first` on; v is zero before.
+/// The reflection of a column a, whose entry i becomes `image`: with v = a - image e_i, w -= v (vᵀ w) factor.
+struct Reflection {
+  int i, first, height, stride;  ///< first, height: the registers that are not zero; stride: registers of a column
+  double image, factor;
+};
+
+/// Dot products of a with `columns` vectors w.
 template <int columns>
-HALYARD_INLINE void reflect(int first, int height, int stride, const Piece* v, double factor, Piece* w) {
+HALYARD_INLINE void dot_products(const Reflection& r, const Piece* a, const Piece* w, double* dots) {
   Piece dot[columns];
-  _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) dot[c] = Piece{};
-  for (int p = first; p < height; ++p) {
-    const Piece a = v[p];
-    _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) dot[c] += a * w[c * stride + p];
+  _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) dot[c] = a[r.first] * w[c * r.stride + r.first];
+  for (int p = r.first + 1; p < r.height; ++p) {
+    const Piece entries = a[p];
+    _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) dot[c] += entries * w[c * r.stride + p];
   }
-  _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) dot[c] = tiles::all(factor * sum_of(dot[c]));
-  for (int p = first; p < height; ++p) {
-    const Piece a = v[p];
-    _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) w[c * stride + p] -= a * dot[c];
+  _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) dots[c] = sum_of(dot[c]);
+}
+
+template <int columns>
+HALYARD_INLINE void reflect(const Reflection& r, const Piece* v, const double* dots, Piece* w) {
+  Piece part[columns];
+  _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) {
+    const double entry = reinterpret_cast<const double*>(w + c * r.stride)[r.i];
+    part[c] = tiles::all(r.factor * (dots[c] - r.image * entry));
+  }
+  for (int p = r.first; p < r.height; ++p) {
+    const Piece entries = v[p];
+    _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) w[c * r.stride + p] -= entries * part[c];
   }
 }
 
+/// f<columns>(j) for the columns from `from` to n, as many at a time as possible.
+template <class F>
+HALYARD_INLINE void in_tiles(int from, int n, const F& f) {
+  int j = from;
+  for (; j + 4 <= n; j += 4) f.template operator()<4>(j);
+  if (j + 2 <= n) f.template operator()<2>(j), j += 2;
+  if (j < n) f.template operator()<1>(j);
+}
+
 void lower_root(int n, int m, int steps, int blocks, Lanes* A, double* L, int l_stride) {
-  constexpr int kTile = 4;
   const int height = pieces_of(m), stride = blocks * kPiecesPerBlock, rows = blocks * kLaneWidth;
   double* entries = reinterpret_cast<double*>(A);
   for (int i = 0; i < steps; ++i) {
-    const int first = i / tiles::kPieceWidth;
-    double* column = entries + i * rows;
-    for (int r = first * tiles::kPieceWidth; r < i; ++r) column[r] = 0;  // already in L
-    Piece* v = pieces(A) + i * stride;
-    Piece squares = v[first] * v[first];
-    for (int p = first + 1; p < height; ++p) squares += v[p] * v[p];
-    const double norm = __builtin_sqrt(sum_of(squares)), alpha = column[i];
-    const double image = alpha > 0 ? -norm : norm;  // what becomes of alpha
-    double* of_L = L + i * l_stride;
+    Reflection r{i, i / tiles::kPieceWidth, height, stride, 0, 0};
+    double *column = entries + i * rows, *of_L = L + i * l_stride, *dots = of_L;
+    for (int k = r.first * tiles::kPieceWidth; k < i; ++k) column[k] = 0;  // already in L
+    Piece* a = pieces(A) + i * stride;
+    in_tiles(
+        i, n, [&]<int columns>(int j) __attribute__((always_inline)) {
+          dot_products<columns>(r, a, pieces(A) + j * stride, dots + j);
+        });
+    const double norm = __builtin_sqrt(dots[i]), alpha = column[i];
+    r.image = alpha > 0 ? -norm : norm;
     for (int k = 0; k < i; ++k) of_L[k] = 0;
     of_L[i] = norm;
     if (norm != 0) {
-      column[i] = alpha - image;
-      const double factor = 1 / (norm * (norm + (alpha > 0 ? alpha : -alpha)));
-      int j = i + 1;
-      for (; j + kTile <= n; j += kTile) reflect<kTile>(first, height, stride, v, factor, pieces(A) + j * stride);
-      for (; j < n; ++j) reflect<1>(first, height, stride, v, factor, pieces(A) + j * stride);
+      column[i] = alpha - r.image;
+      r.factor = 1 / (norm * (norm + (alpha > 0 ? alpha : -alpha)));
+      in_tiles(
+          i + 1, n, [&]<int columns>(int j) __attribute__((always_inline)) {
+            reflect<columns>(r, a, dots + j, pieces(A) + j * stride);
+          });
     }
-    const double sign = image < 0 ? -1 : 1;
+    const double sign = r.image < 0 ? -1 : 1;
     for (int j = i + 1; j < n; ++j) of_L[j] = sign * entries[j * rows + i];
   }
 }
 
-void column_moments(int rows, int columns, const Lanes* A, int blocks, const double* centre, double* sums,
-                    double* squares) {
+void column_squares(int rows, int columns, const Lanes* A, int blocks, double* squares) {
   const int height = pieces_of(rows), stride = blocks * kPiecesPerBlock;
   const Piece* column = pieces(A);
   for (int c = 0; c < columns; ++c, column += stride) {
-    Piece sum{}, square{};
-    for (int p = 0; p < height; ++p) {
-      const Piece difference = column[p] - centre[c];
-      sum += difference;
-      square += difference * difference;
-    }
-    sums[c] = sum_of(sum);
+    Piece square = column[0] * column[0];
+    for (int p = 1; p < height; ++p) square += column[p] * column[p];
     squares[c] = sum_of(square);
   }
 }
 
 constexpr MatrixKernels matrix_kernels_named(const char* name) {
-  return {name, product, lower_root, column_moments, phi_functions};
+  return {name, product, lower_root, column_squares, phi_functions};
 }
 
 }  // namespace

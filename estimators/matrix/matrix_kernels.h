@@ -37,10 +37,8 @@ struct MatrixKernels {
   /// [n x n] with L Lᵀ = Aᵀ A and diagonal >= 0, by as many Householder reflections of A. A is overwritten; below its
   /// first `steps` rows, its other columns hold the rest B, with L Lᵀ + Bᵀ B = Aᵀ A. L above the diagonal becomes zero.
   void (*lower_root)(int n, int m, int steps, int blocks, Lanes* A, double* L, int l_stride);
-  /// Σ_r (A_rc - centre_c) and Σ_r (A_rc - centre_c)² of each column of A [rows x columns]. What is between the rows and
-  /// the end of their last register has to differ from centre_c by no more than rounding.
-  void (*column_moments)(int rows, int columns, const Lanes* A, int blocks, const double* centre, double* sums,
-                         double* squares);
+  /// Σ_r A_rc² of each column of A [rows x columns].
+  void (*column_squares)(int rows, int columns, const Lanes* A, int blocks, double* squares);
   /// The functions of phi_functions.h from Y = Z, which is overwritten: E and φ_2 of all levels, φ_1 of all but level 0,
   /// and φ_3 of the last. Returns the number of doublings; if this would exceed `most`, or Y is not finite, -1, and nothing
   /// is computed.

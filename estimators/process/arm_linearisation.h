@@ -6,12 +6,10 @@
 ///   a   accelerations of the joints     [n]      rad/s² | m/s²
 ///   F   forces on the joints            [n]      N m | N
 ///
-/// Dual numbers differentiate the transmission in all directions of the state. Without effects in the way, they only
-/// differentiate each cable's force in its stretch and stretch rate, and each friction in its speed; the rest is linear.
-/// Slopes differentiate the inverse dynamics in the directions of q and q'. Neither passes through the mass matrix, its
-/// factors or its columns.
+/// Dual numbers differentiate the transmission in all directions of the state, if it is not plain. Slopes differentiate the
+/// inverse dynamics in the directions of q and q'. Neither passes through the mass matrix, its factors or its columns.
 
-#include "estimators/process/arm_dynamics.h"
+#include "estimators/process/plain_transmission.h"
 #include "estimators/process/slopes.h"
 
 namespace halyard {
@@ -20,6 +18,17 @@ namespace halyard {
 struct JointForces {
   double value[kMaxJoints];
   double slope[kMaxJoints][kMaxStates];
+};
+
+/// What a linearisation finds besides x' and A.
+struct LinearisedPoint {
+  double force[kMaxJoints];                  ///< F
+  double mass[kMaxJoints][kMaxJoints];       ///< M
+  double mobility[kMaxJoints * kMaxJoints];  ///< M⁻¹ [n x n], column-major
+  double slope[kMaxJoints][2 * kMaxJoints];  ///< of M a + h at constant a, in q and then in q'
+  Frictions friction;                        ///< of a plain transmission, as the next
+  double cable_curvature[kMaxJoints];        ///< of each cable's force in its stretch
+  double chain_curvature[kMaxJoints];        ///< of M a + h: its mean, set by mean_curvature() of arm_curvature.h
 };
 
 /// F, and all rows of x_dot and A but those of the joints' rates.
@@ -62,69 +71,61 @@ HALYARD_INLINE void linearise_transmission(const Transmission<Dual>& transmissio
   }
 }
 
-/// Whether cables drive all joints and no effect acts between the commands and the joints.
+/// The same as linearise_transmission(), for a plain transmission. `dual`: the parameters of `arm`.
 template <int known>
-HALYARD_INLINE bool is_plain(const Transmission<Dual>& transmission) {
-  constexpr unsigned kSensors = static_cast<unsigned>(EffectStage::sensors);
-  for (int k = 0, n = joint_count<known>(transmission.arm()); k < n; ++k)
-    if (transmission.arm().joint[k].drive != Drive::cable) return false;
-  for (const EffectInstance<Dual>& e : transmission.effects())
-    if ((e.effect->stages() & ~kSensors) != 0 || e.effect->n_states() > 0) return false;
-  return true;
-}
-
-/// The same as linearise_transmission(), for a plain transmission.
-template <int known>
-HALYARD_INLINE void linearise_plain_transmission(const ArmParameters<Dual>& dual, const ArmParameters<double>& arm,
-                                                 const StateLayout& l, const Dual* command, const Dual* external,
-                                                 const double* x, double* x_dot, double* A, JointForces& forces) {
+HALYARD_INLINE void linearise_plain_transmission(const PlainTransmission& t, const ArmParameters<double>& arm,
+                                                 const ArmParameters<Dual>& dual, const StateLayout& l,
+                                                 const Dual* command, const Dual* external, const double* x,
+                                                 double* x_dot, double* A, JointForces& forces,
+                                                 LinearisedPoint& point) {
   const int n = joint_count<known>(arm), size = l.size;
   for (int i = 0; i < size * size; ++i) A[i] = 0;
+  for (int i = l.effect_states; i < size; ++i) x_dot[i] = 0;
+  CableForces g;
+  set_frictions(t, n, x, point.friction);
+  const Frictions& friction = point.friction;
+  set_cable_forces<known>(t, arm, dual, l, x, g);
   for (int k = 0; k < n; ++k) {
-    const JointParameters<Dual>& j = dual.joint[k];
-    const Dual held = friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, Dual::seed(x[l.rate[k]], 0));
-    forces.value[k] = external[k].a - held.a;
+    point.cable_curvature[k] = g.curvature[k];
+    forces.value[k] = external[k].a - friction.value[n + k];
     for (int i = 0; i < size; ++i) forces.slope[k][i] = 0;
-    forces.slope[k][l.rate[k]] = -held.d[0];
+    forces.slope[k][l.rate[k]] = -friction.slope[n + k];
+    if (const PlainTransmission::Constant& added = t.force[k]; added.state >= 0) {
+      forces.value[k] += added.factor * x[added.state];
+      forces.slope[k][added.state] = added.factor;
+    }
   }
   for (int k = 0; k < n; ++k) {
-    const JointParameters<Dual>& j = dual.joint[k];
     const int angle = *l.motor_angle[k], rate = *l.motor_rate[k];
-    const double travel = arm.joint[k].motor_travel(), per_inertia = 1 / arm.joint[k].rotor_inertia;
-    double path[kMaxJoints], stretch = travel * x[angle], stretch_rate = travel * x[rate];
-    for (int i = 0; i < n; ++i) {
-      path[i] = path_per_joint(arm.joint[k], i);
-      stretch -= path[i] * x[l.position[i]];
-      stretch_rate -= path[i] * x[l.rate[i]];
-    }
-    const Dual g = cable_force(j, Dual::seed(stretch, 0), Dual::seed(stretch_rate, 1));
-    const Dual held = friction(j.motor_coulomb, j.motor_viscous, j.motor_smoothing, Dual::seed(x[rate], 0));
-    const double torque = arm.joint[k].torque_scale * command[k].a + arm.joint[k].torque_bias - held.a;
+    const double travel = t.travel[k], per_inertia = t.per_rotor_inertia[k];
+    const double torque = arm.joint[k].torque_scale * command[k].a + arm.joint[k].torque_bias - friction.value[k];
     x_dot[angle] = x[rate];
-    x_dot[rate] = per_inertia * (torque - travel * g.a);
+    x_dot[rate] = per_inertia * (torque - travel * g.value[k]);
     x_dot[l.position[k]] = x[l.rate[k]];
     A[angle + rate * size] = A[l.position[k] + l.rate[k] * size] = 1;
-    const double pull = travel * per_inertia, stiff = g.d[0], damped = g.d[1];
-    A[rate + angle * size] = -pull * travel * stiff;
-    A[rate + rate * size] = -pull * travel * damped - per_inertia * held.d[0];
+    A[rate + rate * size] = -per_inertia * friction.slope[k];
+    for (int i = 0; i < n; ++i) forces.value[i] += t.path[k][i] * g.value[k];
+    const double pull = travel * per_inertia, stiff = g.stiff[k], damped = g.damped[k];
+    // The slope of the cable's force in a state.
+    const auto add = [&](int state, double slope) __attribute__((always_inline)) {
+      A[rate + state * size] -= pull * slope;
+      for (int i = 0; i < n; ++i) forces.slope[i][state] += t.path[k][i] * slope;
+    };
+    add(angle, travel * stiff);
+    add(rate, travel * damped);
     for (int i = 0; i < n; ++i) {
-      A[rate + l.position[i] * size] = pull * path[i] * stiff;
-      A[rate + l.rate[i] * size] = pull * path[i] * damped;
-      forces.value[i] += path[i] * g.a;
-      forces.slope[i][angle] = path[i] * travel * stiff;
-      forces.slope[i][rate] = path[i] * travel * damped;
-      for (int c = 0; c < n; ++c) {
-        forces.slope[i][l.position[c]] -= path[i] * path[c] * stiff;
-        forces.slope[i][l.rate[c]] -= path[i] * path[c] * damped;
-      }
+      add(l.position[i], -t.path[k][i] * stiff);
+      add(l.rate[i], -t.path[k][i] * damped);
     }
+    if (const PlainTransmission::Constant& added = t.stretch[k]; added.state >= 0)
+      add(added.state, added.factor * stiff);
   }
 }
 
-/// Subtracts from the slopes those of M(q) a + h(q, q') at constant a.
+/// The slopes of M(q) a + h(q, q') at constant a.
 template <int known>
-HALYARD_INLINE void subtract_chain_slopes(const ArmParameters<double>& arm, const StateLayout& l, const double* x,
-                                          const double* a, JointForces& forces) {
+HALYARD_INLINE void set_chain_slopes(const ArmParameters<double>& arm, const StateLayout& l, const double* x,
+                                     const double* a, LinearisedPoint& point) {
   const int n = joint_count<known>(arm);
   for (int first = 0; first < 2 * n; first += kLaneWidth) {  // directions: q, then q'
     Slopes q[kMaxJoints], v[kMaxJoints], held[kMaxJoints], force[kMaxJoints];
@@ -139,47 +140,87 @@ HALYARD_INLINE void subtract_chain_slopes(const ArmParameters<double>& arm, cons
       (direction < n ? q[direction] : v[direction - n]).d.set(i, 1);
     }
     inverse_dynamics<known>(arm, chain_pose<known>(arm, q), v, held, force);
-    for (int i = 0; i < count; ++i) {
-      const int direction = first + i;
-      const int column = direction < n ? l.position[direction] : l.rate[direction - n];
-      for (int k = 0; k < n; ++k) forces.slope[k][column] -= force[k].d[i];
-    }
+    for (int k = 0; k < n; ++k)
+      for (int i = 0; i < count; ++i) point.slope[k][first + i] = force[k].d[i];
   }
 }
 
-/// x_dot [size], A = ∂x'/∂x [size x size] and mobility = M(q)⁻¹ [n x n], column-major. `arm`: the parameters of the
-/// transmission. command, external: [n]. known: see joint_count().
+/// M and its inverse.
+template <int known>
+HALYARD_INLINE void set_mobility(const ArmParameters<double>& arm, const ChainPose<double>& pose,
+                                 LinearisedPoint& point) {
+  const int n = joint_count<known>(arm);
+  mass_matrix<known>(arm, pose, point.mass);
+  add_rotor_mass<known>(arm, point.mass);
+  double factor[kMaxJoints][kMaxJoints];
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) factor[r][c] = point.mass[r][c];
+  ldl_factor<double, kMaxJoints>(n, factor);
+  for (int c = 0; c < n; ++c) {
+    for (int k = 0; k < n; ++k) point.mobility[k + c * n] = k == c;
+    ldl_solve<double, kMaxJoints>(n, factor, point.mobility + c * n);
+  }
+}
+
+/// out = M⁻¹ v.
+HALYARD_INLINE void mobility_times(const LinearisedPoint& point, int n, const double* v, double* out) {
+  for (int k = 0; k < n; ++k) {
+    out[k] = 0;
+    for (int i = 0; i < n; ++i) out[k] += point.mobility[k + i * n] * v[i];
+  }
+}
+
+/// The arm's equations, and what is held over a step.
+struct LinearisedArm {
+  const Transmission<Dual>& transmission;
+  const PlainTransmission* plain;  ///< of the same transmission; null if it is not plain
+  const ArmParameters<double>& arm;
+  const StateLayout& layout;
+};
+struct HeldInputs {
+  const CommandHistory* history;
+  const Dual *command, *external;  ///< [n]
+};
+
+/// x_dot [size], A = ∂x'/∂x [size x size], column-major, and what is found besides. near: null, or the same of a state in the
+/// same step; M a + h has nearly the same slopes there, which are taken from it. known: see joint_count().
 template <int known = 0>
-HALYARD_INLINE void linearised_derivative(const Transmission<Dual>& transmission, const ArmParameters<double>& arm,
-                                          const StateLayout& l, double time, const CommandHistory* history,
-                                          const Dual* command, const Dual* external, const double* x, double* x_dot,
-                                          double* A, double* mobility) {
+HALYARD_INLINE void linearised_derivative(const LinearisedArm& model, double time, const HeldInputs& in,
+                                          const double* x, const LinearisedPoint* near, double* x_dot, double* A,
+                                          LinearisedPoint& point) {
+  const ArmParameters<double>& arm = model.arm;
+  const StateLayout& l = model.layout;
   const int n = joint_count<known>(arm);
   JointForces forces;
-  if (is_plain<known>(transmission))
-    linearise_plain_transmission<known>(transmission.arm(), arm, l, command, external, x, x_dot, A, forces);
-  else linearise_transmission<known>(transmission, l, time, history, command, external, x, x_dot, A, forces);
-  double q[kMaxJoints], v[kMaxJoints], zero[kMaxJoints], bias[kMaxJoints], a[kMaxJoints];
+  if (model.plain)
+    linearise_plain_transmission<known>(*model.plain, arm, model.transmission.arm(), l, in.command, in.external, x,
+                                        x_dot, A, forces, point);
+  else
+    linearise_transmission<known>(model.transmission, l, time, in.history, in.command, in.external, x, x_dot, A,
+                                  forces);
+  double q[kMaxJoints], v[kMaxJoints], zero[kMaxJoints], rest[kMaxJoints], a[kMaxJoints];
   for (int k = 0; k < n; ++k) q[k] = x[l.position[k]], v[k] = x[l.rate[k]], zero[k] = 0;
   const ChainPose<double> pose = chain_pose<known>(arm, q);
-  inverse_dynamics<known>(arm, pose, v, zero, bias);
-  double M[kMaxJoints][kMaxJoints];
-  mass_matrix<known>(arm, pose, M);
-  add_rotor_mass<known>(arm, M);
-  ldl_factor<double, kMaxJoints>(n, M);
-  for (int k = 0; k < n; ++k) a[k] = forces.value[k] - bias[k];
-  ldl_solve<double, kMaxJoints>(n, M, a);
-  subtract_chain_slopes<known>(arm, l, x, a, forces);
+  set_mobility<known>(arm, pose, point);
+  for (int k = 0; k < n; ++k) point.force[k] = forces.value[k];
+  inverse_dynamics<known>(arm, pose, v, zero, rest);
+  for (int k = 0; k < n; ++k) rest[k] = forces.value[k] - rest[k];
+  mobility_times(point, n, rest, a);
+  for (int k = 0; k < n; ++k) x_dot[l.rate[k]] = a[k];
+  if (!near) set_chain_slopes<known>(arm, l, x, a, point);
+  for (int k = 0; near && k < n; ++k)
+    for (int i = 0; i < 2 * n; ++i) point.slope[k][i] = near->slope[k][i];
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < n; ++i) {
+      forces.slope[k][l.position[i]] -= point.slope[k][i];
+      forces.slope[k][l.rate[i]] -= point.slope[k][n + i];
+    }
   for (int c = 0; c < l.size; ++c) {
     double column[kMaxJoints];
     for (int k = 0; k < n; ++k) column[k] = forces.slope[k][c];
-    ldl_solve<double, kMaxJoints>(n, M, column);
-    for (int k = 0; k < n; ++k) A[l.rate[k] + c * l.size] = column[k];
-  }
-  for (int k = 0; k < n; ++k) x_dot[l.rate[k]] = a[k];
-  for (int c = 0; c < n; ++c) {
-    for (int k = 0; k < n; ++k) mobility[k + c * n] = k == c;
-    ldl_solve<double, kMaxJoints>(n, M, mobility + c * n);
+    double accelerations[kMaxJoints];
+    mobility_times(point, n, column, accelerations);
+    for (int k = 0; k < n; ++k) A[l.rate[k] + c * l.size] = accelerations[k];
   }
 }
 

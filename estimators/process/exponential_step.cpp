@@ -10,23 +10,6 @@ constexpr double kMeanTolerance = 0.05;       // of a standard deviation
 constexpr double kRootTolerance = 0.2;        // of the root
 constexpr double kHeldForceTolerance = 0.05;  // of the response
 
-/// Sums of the squares of the columns of A.
-void set_squares(const LaneMatrix& A, double* squares) {
-  static const Eigen::VectorXd zero = Eigen::VectorXd::Zero(kMaxStates);
-  double sums[kMaxStates];
-  set_moments(A, zero, sums, squares);
-}
-
-/// Sums of the squares of the rows of A.
-void set_row_squares(const LaneMatrix& A, Eigen::Ref<Eigen::VectorXd> squares) {
-  for (int b = 0; b < A.blocks(); ++b) {
-    Lanes sum(0.0);
-    for (int i = b; i < A.columns() * A.blocks(); i += A.blocks()) sum += A.lanes()[i] * A.lanes()[i];
-    const int first = b * kLaneWidth, count = std::min(kLaneWidth, A.rows() - first);
-    for (int lane = 0; lane < count; ++lane) squares(first + lane) = sum[lane];
-  }
-}
-
 /// ‖column of change‖ <= tolerance ‖column of whole‖ for all columns; false if one is not finite.
 bool is_small_change(const LaneMatrix& change, const LaneMatrix& whole, double tolerance) {
   double changed[kMaxStates], all[kMaxStates];
@@ -43,31 +26,29 @@ ExponentialStep::ExponentialStep(const ProcessModel& process) : process_(process
   const Step usual{.dt_s = 1e-3};
   process.linearise(usual, Eigen::VectorXd::Zero(process.n_states()), f_, A_);
   phi_.balance(usual.dt_s * A_);
-  variance_.resize(process.n_states(), PhiFunctions::kMostDoublings + 2);  // for any step
+  const StateLayout& l = process.layout();
+  variance_.resize(l.size, PhiFunctions::kMostDoublings + 2);  // for any step
+  rates_of_joints_ = {1, 2, l.effect_states / 2};
+  effect_states_ = {l.effect_states, 1, l.n_effect_states};
 }
 
 void ExponentialStep::linearise(const Step& step, const Eigen::VectorXd& x) {
   step_ = end_ = step;
   end_.time_s += step.dt_s;
   x_ = x;
-  process_.linearise(step, x, f_, A_, mobility_);
+  process_.linearise(step, x, nullptr, f_, A_, point_);
 }
 
 bool ExponentialStep::start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G) {
-  const double h = step_.dt_s;
   const int n = static_cast<int>(x_.size());
-  Z_ = h * A_;
-  minus_Z_ = -Z_;
-  usable_ = f_.allFinite() && phi_.compute(Z_);
+  Z_ = step_.dt_s * A_;
+  usable_ = std::isfinite(f_.sum()) && phi_.compute(Z_);
   if (!usable_) return false;
   set_second_stage(G);
-  D_ = x_2_ - x_;
-  c_ = f_2_ - f_;
-  for (int k = 0; k < n; ++k) c_ -= D_(k) * A_.col(k);
-  c_ = (2 * h) * phi_.phi_3_times(c_);
+  set_corrections();
   next_ = x_2_ + c_;
   S_.reshape(n, n);
-  S_.view() = S.transpose();
+  set_rows_transposed(S, S_, 0);
   set_product(S_, transposed(right(phi_.E())), n, spread_);
   spread_squares_.resize(n);
   set_squares(spread_, spread_squares_.data());
@@ -77,17 +58,40 @@ bool ExponentialStep::start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G) 
 
 void ExponentialStep::set_second_stage(const Eigen::MatrixXd& G) {
   const int n = static_cast<int>(x_.size()), sources = static_cast<int>(G.cols());
-  const double h = step_.dt_s;
-  x_2_ = x_ + h * phi_.phi_1_times(f_);
+  x_2_ = x_ + step_.dt_s * phi_.phi_1_times(f_);
   forces_.reshape(1 + sources, n);
-  forces_.view().bottomRows(sources) = G.transpose();
+  set_rows_transposed(G, forces_, 1);
   set_product(forces_, transposed(right(phi_.level(1).E)), n, response_);
   response_.set_lanes([&](std::size_t i) { return 4.0 * response_.lanes()[i] + forces_.lanes()[i]; });
   add_product(forces_, transposed(right(phi_.E())), response_);
   response_.set_lanes([&](std::size_t i) { return (1.0 / 6) * response_.lanes()[i]; });
+  if (process_.is_smooth()) {
+    process_.linearise(end_, x_2_, &point_, f_2_, A_2_, point_2_);
+    return process_.rates_nearby(point_2_, x_2_, f_2_, A_2_, response_, response_rates_);
+  }
   set_rates(end_, x_2_, response_, response_rates_);
   f_2_.resize(n);
   for (int i = 0; i < n; ++i) f_2_(i) = response_rates_.lanes()[i * response_.blocks()][0];
+}
+
+void ExponentialStep::set_corrections() {
+  const int n = response_.columns(), blocks = response_.blocks();
+  const double h = step_.dt_s;
+  LaneMatrix& minus_N = response_rates_;
+  D_ = x_2_ - x_;
+  for (int c = 0, i = 0; c < n; ++c) {
+    for (const int end = (c + 1) * blocks; i < end; ++i) minus_N.lanes()[i] = h * (f_2_(c) - minus_N.lanes()[i]);
+    minus_N.lanes()[c * blocks].set(0, h * (f_(c) - f_2_(c)));
+    response_.lanes()[c * blocks].set(0, D_(c));
+  }
+  minus_N.clear_padding();
+  add_product(response_, transposed(right(Z_)), minus_N);
+  for (int c = 0; c < n; ++c) {
+    D_(c) = -minus_N.lanes()[c * blocks][0];
+    minus_N.lanes()[c * blocks].set(0, 0);
+    response_.lanes()[c * blocks].set(0, 0);
+  }
+  c_ = 2 * phi_.phi_3_times(D_);
 }
 
 void ExponentialStep::set_rates(const Step& at, const Eigen::VectorXd& x, const LaneMatrix& d, LaneMatrix& rates) {
@@ -101,23 +105,28 @@ void ExponentialStep::set_rates(const Step& at, const Eigen::VectorXd& x, const 
 bool ExponentialStep::respond(Eigen::Ref<Eigen::MatrixXd> Gamma) {
   if (!usable_) return false;
   const int n = response_.columns(), sources = response_.rows() - 1;
-  LaneMatrix& N = response_rates_;
-  for (int c = 0, i = 0; c < n; ++c)
-    for (const int end = (c + 1) * N.blocks(); i < end; ++i) N.lanes()[i] = step_.dt_s * (N.lanes()[i] - f_2_(c));
-  N.clear_padding();
-  add_product(response_, transposed(right(minus_Z_)), N);
-  set_product(N, transposed(right(phi_.phi_2())), n, change_);
-  Gamma = (response_.view() + change_.view()).bottomRows(sources).transpose();
+  set_product(response_rates_, transposed(right(phi_.phi_2())), n, change_);
+  for (int c = 0; c < n; ++c) {
+    const double *whole = reinterpret_cast<const double*>(response_.lanes() + c * response_.blocks()) + 1,
+                 *less = reinterpret_cast<const double*>(change_.lanes() + c * change_.blocks()) + 1;
+    for (int i = 0; i < sources; ++i) Gamma(c, i) = whole[i] - less[i];
+  }
   return is_small_change(change_, response_, kHeldForceTolerance);
 }
 
 bool ExponentialStep::set_growth() {
   const int n = static_cast<int>(next_.size());
-  process_.linearise(end_, x_2_, f_end_, A_2_);
-  if (!A_2_.allFinite()) return false;
+  if (!process_.is_smooth()) process_.linearise(end_, x_2_, &point_, f_2_, A_2_, point_2_);
   slopes_ = step_.dt_s * (A_2_ - A_);
-  set_product(spread_, transposed(right(slopes_)), n, moved_);
-  set_product(moved_, transposed(right(phi_.phi_2())), n, growth_);
+  if (!std::isfinite(slopes_.sum())) return false;
+  bool add = false;
+  for (const Rows& rows : {rates_of_joints_, effect_states_}) {
+    if (rows.count == 0) continue;
+    set_product(spread_, transposed(rows.of(right(slopes_))), rows.count, moved_);
+    growth_.reshape(n, n);
+    multiply(moved_, transposed(rows.of_columns(right(phi_.phi_2()))), growth_, add);
+    add = true;
+  }
   return true;
 }
 
@@ -143,8 +152,10 @@ bool ExponentialStep::advance_pairs(Eigen::VectorXd& x, double gamma, LaneMatrix
 
 bool ExponentialStep::set_smooth_pairs(double gamma) {
   if (!set_growth() || !is_small_change(growth_, spread_, kRootTolerance)) return false;
-  set_mean_curvature(step_, x_, f_, A_, gamma, S_, first_);
-  set_mean_curvature(end_, x_2_, f_2_, A_2_, gamma, spread_, last_);
+  process_.mean_curvature(point_, nullptr, x_, f_, A_, gamma, S_, first_);
+  process_.mean_curvature(point_2_, &point_, x_2_, f_2_, A_2_, gamma, spread_, last_);
+  first_ *= step_.dt_s;
+  last_ *= step_.dt_s;
   return true;
 }
 
@@ -190,59 +201,48 @@ void ExponentialStep::set_both_parts(const Step& at, const Eigen::VectorXd& x, c
     }
     mean(c) = sum_of_rows(rates_, c, count) / count;
   }
-  add_product(d, transposed(right(minus_Z_)), odd);
-}
-
-void ExponentialStep::set_mean_curvature(const Step& at, const Eigen::VectorXd& x, const Eigen::VectorXd& f,
-                                         const Eigen::MatrixXd& A, double gamma, const LaneMatrix& root,
-                                         Eigen::VectorXd& mean) {
-  const int n = root.columns(), count = root.rows();
-  points_.reshape(count, n);
-  rates_.reshape(count, n);
-  for (int c = 0, i = 0; c < n; ++c)
-    for (const int end = (c + 1) * root.blocks(); i < end; ++i) points_.lanes()[i] = gamma * root.lanes()[i] + x(c);
-  process_.derivatives(at, points_, rates_);
-  mean.resize(n);
-  part_.resize(n);
-  double squares[kMaxStates];
-  set_moments(rates_, f, mean.data(), squares);
-  set_moments(points_, x, part_.data(), squares);
-  for (int k = 0; k < n; ++k) mean -= part_(k) * A.col(k);
-  mean *= step_.dt_s / count;
+  moved_.set_lanes([&](std::size_t i) { return -d.lanes()[i]; });
+  add_product(moved_, transposed(right(Z_)), odd);
 }
 
 void ExponentialStep::set_variances() {
-  const int levels = phi_.doublings(), n = S_.columns();
+  const int levels = phi_.doublings();
   set_squares(S_, variance_.col(0).data());
   variance_.col(levels + 1) = spread_squares_;
-  for (int k = levels; k > 0; --k) {
-    set_product(phi_.level(k).E, transposed(right(S_)), n, moved_);
-    set_row_squares(moved_, variance_.col(levels + 1 - k));
-  }
+  for (int k = levels; k > 0; --k)
+    for (const Rows& rows : {rates_of_joints_, effect_states_}) {
+      if (rows.count == 0) continue;
+      double squares[kMaxStates];
+      set_product(S_, transposed(rows.of(right(phi_.level(k).E))), rows.count, moved_);
+      set_squares(moved_, squares);
+      for (int i = 0; i < rows.count; ++i) variance_(rows.first + i * rows.step, levels + 1 - k) = squares[i];
+    }
 }
 
 void ExponentialStep::set_mean_shift() {
   const int levels = phi_.doublings(), n = S_.columns();
   set_variances();
-  part_.resize(n);
-  change_of_m_.resize(n);
+  part_.setZero(n);
+  change_of_m_.setZero(n);
   shift_.set_zero(n, 1);
   // From node to node: shift_ is the integral up to the left one.
   for (int node = 0; node <= levels; ++node) {
     const int k = node == 0 ? levels : levels + 1 - node;
     const double share = std::exp2(-k), left = node == 0 ? 0 : share, right_end = node == 0 ? share : 2 * share;
-    for (int i = 0; i < n; ++i) {
-      const double drop = share * (first_(i) - last_(i)), fall = variance_(i, 0) - variance_(i, levels + 1);
-      double at_left = 1 - left, at_right = 1 - right_end, bump = 0;
-      if (fall > 0) {
-        const double a = variance_(i, node), b = variance_(i, node + 1);
-        at_left = std::clamp((a - variance_(i, levels + 1)) / fall, 0.0, 1.0);
-        at_right = std::clamp((b - variance_(i, levels + 1)) / fall, 0.0, 1.0);
-        bump = std::min(2.0 / 3 * (0.5 * (a + b) - std::sqrt(a * b)) / fall, std::max(at_left, at_right));
+    for (const Rows& rows : {rates_of_joints_, effect_states_})
+      for (int r = 0; r < rows.count; ++r) {
+        const int i = rows.first + r * rows.step;
+        const double drop = share * (first_(i) - last_(i)), fall = variance_(i, 0) - variance_(i, levels + 1);
+        double at_left = 1 - left, at_right = 1 - right_end, bump = 0;
+        if (fall > 0) {
+          const double a = variance_(i, node), b = variance_(i, node + 1);
+          at_left = std::clamp((a - variance_(i, levels + 1)) / fall, 0.0, 1.0);
+          at_right = std::clamp((b - variance_(i, levels + 1)) / fall, 0.0, 1.0);
+          bump = std::min(2.0 / 3 * (0.5 * (a + b) - std::sqrt(a * b)) / fall, std::max(at_left, at_right));
+        }
+        part_(i) = share * last_(i) + drop * (at_left - bump);
+        change_of_m_(i) = drop * (at_right - at_left);
       }
-      part_(i) = share * last_(i) + drop * (at_left - bump);
-      change_of_m_(i) = drop * (at_right - at_left);
-    }
     const PhiFunctions::Level& level = phi_.level(k);
     if (node > 0) {
       c_ = shift_.view().col(0);

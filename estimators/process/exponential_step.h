@@ -18,9 +18,10 @@
 ///   c      error estimate of x_2                         [n_states]
 ///   G      impulses of force noise (noise.h)             [n_states x sources]
 ///
-/// Sigma points are assumed to be narrow. Where f is smooth, N then is even in d: points in pairs share it, one of each
-/// pair is enough, and the pairs' differences are those of the linear F. The neglected parts are of third order in d. An
-/// effect or a slack cable may have a kink between the points of a pair: both are evaluated, and
+/// Sigma points are assumed to be narrow. Where f is smooth (ProcessModel::is_smooth()), N then is half the second
+/// derivative of f in the direction d, whose mean arm_curvature.h gives without rates at the points, and the pairs'
+/// differences are those of the linear F. There, f(t + h, x_2 + Γ_0) takes the chain as linear in Γ_0. An effect or a slack
+/// cable may have a kink between the points of a pair: both are evaluated, and
 ///
 ///   F S   = (d_2 + h φ_2 (N°(t + h, x_2, d_2) - N°(t, x, d))) / γ,   d_2 = E d + h φ_1 N°(t, x, d),   d = γ S
 ///
@@ -34,6 +35,8 @@
 ///
 /// where V_i falls, else the straight line. It goes over [0, h / 2^s], [h / 2^s, 2 h / 2^s], ..., [h / 2, h] by the
 /// functions of phi_functions.h, with Simpson's mean of V in each, its middle being the geometric mean of the ends.
+///
+/// A_2 has the slopes of the rigid chain's forces from A: within a step they hardly change.
 ///
 /// Γ_0 is the response of the linearised model to a force that is held over the step; Γ Γᵀ replaces Van Loan's
 /// integral, which is for white noise. Simpson's rule keeps it equal to what the sub-steps give where the model is linear.
@@ -65,7 +68,9 @@ class ExponentialStep {
   /// Linearises at the start x of a step. `step` must stay as it is until the next linearise().
   void linearise(const Step& step, const Eigen::VectorXd& x);
   /// M(q)⁻¹ at x.
-  const JointMatrix& mobility() const { return mobility_; }
+  Eigen::Map<const Eigen::MatrixXd> mobility() const {
+    return {point_.mobility, process_.n_joints(), process_.n_joints()};
+  }
   /// Starts the step that has been linearised. S: root of the covariance of x. G [n_states x sources]: held forces, which
   /// may be none. False if the guard refuses the step.
   bool start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G);
@@ -79,8 +84,19 @@ class ExponentialStep {
   bool advance_pairs(Eigen::VectorXd& x, double gamma, LaneMatrix& FS, Eigen::VectorXd& shift);
 
  private:
+  /// States whose rates are not those of a row of the unit matrix: the position of a motor or joint comes before its rate,
+  /// and changes by it alone.
+  struct Rows {
+    int first, step, count;
+    /// These rows of a factor, and these columns.
+    RightFactor of(const RightFactor& B) const { return {B.data + first * B.row, step * B.row, B.column}; }
+    RightFactor of_columns(const RightFactor& B) const { return {B.data + first * B.column, B.row, step * B.column}; }
+  };
+
   /// x_2 and Γ_0, then f at x_2 and at x_2 + Γ_0 in one pass.
   void set_second_stage(const Eigen::MatrixXd& G);
+  /// c, and -h N of the held forces.
+  void set_corrections();
   /// f at x + d_i, of every row d_i of d.
   void set_rates(const Step& at, const Eigen::VectorXd& x, const LaneMatrix& d, LaneMatrix& rates);
   /// The last term of F S, in growth_; false: A_2 is not finite.
@@ -93,29 +109,28 @@ class ExponentialStep {
   /// h N(t, x, ± d_i): its odd part for every row of d, and the mean of its even part.
   void set_both_parts(const Step& at, const Eigen::VectorXd& x, const Eigen::VectorXd& f, const LaneMatrix& d,
                       LaneMatrix& odd, Eigen::VectorXd& mean);
-  /// h times the mean of f(x + d_i) - f - A d_i, where x + d_i is x plus `gamma` times row i of `root`, rounded.
-  void set_mean_curvature(const Step& at, const Eigen::VectorXd& x, const Eigen::VectorXd& f, const Eigen::MatrixXd& A,
-                          double gamma, const LaneMatrix& root, Eigen::VectorXd& mean);
   /// V(0) to V(h) at the nodes 0, h / 2^s, ..., h / 2, h, in variance_.
   void set_variances();
   /// ∫ exp(A (h - s)) m(s) ds, in shift_.
   void set_mean_shift();
 
   const ProcessModel& process_;
+  Rows rates_of_joints_, effect_states_;
   Step step_, end_;
   bool usable_ = false;
-  Eigen::VectorXd x_, f_, f_2_, f_end_, x_2_, next_, D_, c_, part_, change_of_m_;
+  Eigen::VectorXd x_, f_, f_2_, x_2_, next_, D_, c_, part_, change_of_m_;
   Eigen::VectorXd first_, last_;  // h m(0), h m(h)
-  Eigen::MatrixXd A_, A_2_, Z_, minus_Z_, slopes_;
-  JointMatrix mobility_;
+  Eigen::MatrixXd A_, A_2_, Z_, slopes_;
+  LinearisedPoint point_, point_2_;  // of linearise() at x and x_2
   // Transposed, a row for each column of S or G:
-  LaneMatrix S_, spread_, moved_, growth_;                  // S, E S, products with S, the last term of F S
-  LaneMatrix forces_, response_, response_rates_, change_;  // G, Γ_0, h N, the last term of Γ; row 0 is for x_2 itself
-  LaneMatrix points_, rates_;                               // sigma points
-  LaneMatrix deviations_, odd_, odd_end_;                   // d, and the odd parts of h N at the start and the end
-  LaneMatrix shift_;                                        // one column
-  Eigen::VectorXd spread_squares_;                          // of the columns of spread_
-  Eigen::MatrixXd variance_;                                // V at the nodes
+  LaneMatrix S_, spread_, moved_, growth_;  // S, E S, products with S, the last term of F S
+  LaneMatrix forces_, response_;            // G, Γ_0; row 0 is for x_2 itself
+  LaneMatrix response_rates_, change_;      // -h N, and what the last term of Γ subtracts
+  LaneMatrix points_, rates_;               // sigma points
+  LaneMatrix deviations_, odd_, odd_end_;   // d, and the odd parts of h N at the start and the end
+  LaneMatrix shift_;                        // one column
+  Eigen::VectorXd spread_squares_;          // of the columns of spread_
+  Eigen::MatrixXd variance_;                // V at the nodes
   PhiFunctions phi_;
 };
 

@@ -22,6 +22,9 @@ Eigen::VectorXd effect_scales(const ProcessModel& process) {
   return scales;
 }
 
+/// [n_joints x n_joints], without memory from the heap.
+using JointMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxJoints, kMaxJoints>;
+
 /// M(q)⁻¹ of a state x.
 JointMatrix mobility_at(const ProcessModel& process, const Eigen::VectorXd& x) {
   const ArmParameters<double>& arm = process.arm();
@@ -81,7 +84,7 @@ ArmNoise::ArmNoise(const ArmModel& model, const ProcessModel& process, const Noi
   }
 }
 
-const Eigen::MatrixXd& ArmNoise::impulses(const Step& step, const JointMatrix& mobility) {
+const Eigen::MatrixXd& ArmNoise::impulses(const Step& step, const Eigen::Ref<const Eigen::MatrixXd>& mobility) {
   const ArmParameters<double>& arm = process_.arm();
   const StateLayout& l = process_.layout();
   const int n = arm.n;

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "estimators/eigen_modes.h"
-#include "estimators/process/arm_linearisation.h"
 #include "estimators/process/standstill.h"
 #include "transmission/jacobian.h"
 
@@ -64,14 +63,15 @@ ProcessModel::ProcessModel(const ArmModel& model)
     : transmission_(lift_transmission<double>(model.nominal, model.effects)),
       dual_(lift_transmission<Dual>(model.nominal, model.effects)),
       lanes_(lift_transmission<Lanes>(model.nominal, model.effects)),
-      layout_(state_layout(transmission_)) {
+      layout_(state_layout(transmission_)),
+      plain_(plain_transmission(transmission_, layout_)) {
   if (layout_.size > kMaxStates)
     throw std::invalid_argument("arm with effects has " + std::to_string(layout_.size) + " states, more than " +
                                 std::to_string(kMaxStates) + ": place fewer effects with internal states");
   state_names_ = name_states(transmission_, layout_);
   for (const auto& e : transmission_.effects())
     if (e.effect->stages() & static_cast<unsigned>(EffectStage::sensors)) readings_are_linear_ = false;
-  is_smooth_ = is_plain<0>(dual_);
+  is_smooth_ = plain_.has_value();
   for (int k = 0; k < n_joints(); ++k) is_smooth_ = is_smooth_ && arm().joint[k].law == CableLaw::paper;
   linear_z_.resize(n_joints());
   linear_H_.resize(n_joints(), n_states());
@@ -174,18 +174,32 @@ void ProcessModel::derivative(const Step& step, const Eigen::VectorXd& x, Eigen:
 
 void ProcessModel::linearise(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot,
                              Eigen::MatrixXd& A) const {
-  JointMatrix mobility;
-  linearise(step, x, x_dot, A, mobility);
+  LinearisedPoint point;
+  linearise(step, x, nullptr, x_dot, A, point);
 }
 
-void ProcessModel::linearise(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot, Eigen::MatrixXd& A,
-                             JointMatrix& mobility) const {
+void ProcessModel::linearise(const Step& step, const Eigen::VectorXd& x, const LinearisedPoint* near,
+                             Eigen::VectorXd& x_dot, Eigen::MatrixXd& A, LinearisedPoint& point) const {
   const StepInputs<Dual> in(step, n_joints());
   x_dot.resize(n_states());
   A.resize(n_states(), n_states());
-  mobility.resize(n_joints(), n_joints());
-  lane_kernels()[0].linearise(dual_, arm(), layout_, step.time_s, step.history, in.command, in.external, x.data(),
-                              x_dot.data(), A.data(), mobility.data());
+  lane_kernels()[0].linearise(linearised_arm(), step.time_s, {step.history, in.command, in.external}, x.data(), near,
+                              x_dot.data(), A.data(), point);
+}
+
+void ProcessModel::mean_curvature(LinearisedPoint& point, const LinearisedPoint* near, const Eigen::VectorXd& x,
+                                  const Eigen::VectorXd& x_dot, const Eigen::MatrixXd& A, double gamma,
+                                  const LaneMatrix& root, Eigen::VectorXd& mean) const {
+  mean.resize(n_states());
+  lane_kernels()[0].mean_curvature(linearised_arm(), point, near, x.data(), x_dot.data(), A.data(), gamma, root.rows(),
+                                   root.blocks(), root.lanes(), mean.data());
+}
+
+void ProcessModel::rates_nearby(const LinearisedPoint& point, const Eigen::VectorXd& x, const Eigen::VectorXd& x_dot,
+                                const Eigen::MatrixXd& A, const LaneMatrix& D, LaneMatrix& rates) const {
+  rates.reshape(D.rows(), D.columns());
+  lane_kernels()[0].rates_nearby(linearised_arm(), point, x.data(), x_dot.data(), A.data(), D.blocks(), D.lanes(),
+                                 rates.lanes());
 }
 
 void ProcessModel::derivatives(const Step& step, const LaneMatrix& X, LaneMatrix& X_dot) const {

@@ -32,9 +32,6 @@ struct Step {
   const CommandHistory* history = nullptr;  ///< for effects with a delay; null: none
 };
 
-/// [n_joints x n_joints], without memory from the heap.
-using JointMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxJoints, kMaxJoints>;
-
 class ProcessModel {
  public:
   /// Largest number of sub-steps in a step of up to 1 ms; a longer step may have as many in each millisecond. This
@@ -79,10 +76,19 @@ class ProcessModel {
   /// The same into memory of the caller.
   void derivative(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot) const;
   void linearise(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot, Eigen::MatrixXd& A) const;
-  /// The same, and `mobility` becomes the accelerations of the joints per joint force, motors of rigid drives carried
-  /// along: M(q)⁻¹.
-  void linearise(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot, Eigen::MatrixXd& A,
-                 JointMatrix& mobility) const;
+  /// The same, and `point`, what is found besides (arm_linearisation.h). near: null, or that of a state in the same
+  /// step, from which the chain's slopes are taken.
+  void linearise(const Step& step, const Eigen::VectorXd& x, const LinearisedPoint* near, Eigen::VectorXd& x_dot,
+                 Eigen::MatrixXd& A, LinearisedPoint& point) const;
+  /// Of a model that is_smooth(), with x_dot, A and point of linearise() at x (arm_curvature.h):
+  /// mean [n_states] of f(x + d_i) - f(x) - A d_i over d_i = gamma S_i. root: S transposed. near: null, or the point of
+  /// an earlier call for a state in the same step, from which the chain's part is taken.
+  void mean_curvature(LinearisedPoint& point, const LinearisedPoint* near, const Eigen::VectorXd& x,
+                      const Eigen::VectorXd& x_dot, const Eigen::MatrixXd& A, double gamma, const LaneMatrix& root,
+                      Eigen::VectorXd& mean) const;
+  /// x' at x + d for every row d of D [count x n_states]. rates: of the shape of D.
+  void rates_nearby(const LinearisedPoint& point, const Eigen::VectorXd& x, const Eigen::VectorXd& x_dot,
+                    const Eigen::MatrixXd& A, const LaneMatrix& D, LaneMatrix& rates) const;
   /// x' at every row of X [count x n_states], eight at a time. X_dot: of the shape of X.
   void derivatives(const Step& step, const LaneMatrix& X, LaneMatrix& X_dot) const;
 
@@ -93,7 +99,8 @@ class ProcessModel {
   /// z [n] becomes h(x), H [n x n_states] its slopes.
   void linearise_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
                           Eigen::Ref<Eigen::MatrixXd> H) const;
-  /// True if f surely has no kinks: all cables follow the paper's law, and no effect acts between commands and joints.
+  /// True if f surely has no kinks: all cables follow the paper's law, and the transmission is plain
+  /// (plain_transmission.h).
   bool is_smooth() const { return is_smooth_; }
   /// True if h is affine, that is, if no effect acts at the sensors.
   bool readings_are_linear() const { return readings_are_linear_; }
@@ -103,17 +110,19 @@ class ProcessModel {
 
  private:
   void find_stiffest_rate(const ArmModel& model);
+  LinearisedArm linearised_arm() const { return {dual_, plain_ ? &*plain_ : nullptr, arm(), layout_}; }
   [[noreturn]] void throw_not_finite(double time_s, int state) const;
 
   Transmission<double> transmission_;
   Transmission<Dual> dual_;
   Transmission<Lanes> lanes_;
   StateLayout layout_;
+  std::optional<PlainTransmission> plain_;
   std::vector<std::string> state_names_;
   void differentiate_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
                               Eigen::Ref<Eigen::MatrixXd> H) const;
 
-  bool is_smooth_ = true;
+  bool is_smooth_ = false;
   bool readings_are_linear_ = true;
   Eigen::VectorXd linear_z_;  // h(0), and H, if they are linear
   Eigen::MatrixXd linear_H_;

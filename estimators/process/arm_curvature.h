@@ -1,0 +1,147 @@
+#pragma once
+/// Mean of N_i = f(x + d_i) - f(x) - A d_i over narrow deviations d_i, for a plain transmission under the paper's cable
+/// law. Frictions and cables have a curvature in one direction each, so that the variance of its speed or stretch says
+/// all. Of the chain, the inverse dynamics D(q, q', a) = M(q) a + h(q, q') is evaluated at each deviation, eight at a time:
+///
+///   M n_i = ½ F''(d_i, d_i) - (D(q + δq, q' + δq', a + δa) - F - D' (δq, δq') - M δa)        n: the joints' part of N
+///
+///   d    gamma times a column of the root S                 δq, δq'   its parts of the joints
+///   δa   what A makes of d                                  D'        slopes at constant a (LinearisedPoint)
+///   F    forces on the joints at x
+
+#include "estimators/process/arm_linearisation.h"
+
+namespace halyard {
+
+/// Sums over the deviations.
+struct CurvatureSums {
+  Lanes chain[kMaxJoints];      ///< D less its linear part
+  Lanes speed[2 * kMaxJoints];  ///< squares of the root's rows: of motors, then joints
+  Lanes stretch[kMaxJoints];    ///< squares of what they make of the stretches
+};
+
+HALYARD_INLINE double sum_of_lanes(const Lanes& a) {
+  double sum = 0;
+  for (int i = 0; i < kLaneWidth; ++i) sum += a[i];
+  return sum;
+}
+
+/// What a deviation, lanes of each row of d, makes of the stretch of cable k.
+HALYARD_INLINE Lanes stretch_of(const PlainTransmission& t, const StateLayout& l, int n, int k, const Lanes* d,
+                                int blocks) {
+  Lanes stretch = t.travel[k] * d[*l.motor_angle[k] * blocks];
+  for (int i = 0; i < n; ++i) stretch -= t.path[k][i] * d[l.position[i] * blocks];
+  if (t.stretch[k].state >= 0) stretch += t.stretch[k].factor * d[t.stretch[k].state * blocks];
+  return stretch;
+}
+
+/// Adds the squares of eight deviations: lanes of each row of the root.
+HALYARD_INLINE void add_squares(const PlainTransmission& t, const StateLayout& l, int n, const Lanes* root, int blocks,
+                                CurvatureSums& sums) {
+  for (int k = 0; k < n; ++k) {
+    const Lanes stretch = stretch_of(t, l, n, k, root, blocks);
+    sums.stretch[k] += stretch * stretch;
+    const Lanes motor = root[*l.motor_rate[k] * blocks], joint = root[l.rate[k] * blocks];
+    sums.speed[k] += motor * motor;
+    sums.speed[n + k] += joint * joint;
+  }
+}
+
+/// Adds what D of eight deviations is more than its linear part.
+template <int known>
+HALYARD_INLINE void add_chain(const ArmParameters<double>& arm, const StateLayout& l, const LinearisedPoint& point,
+                              const double* x, const double* x_dot, const double* A, double gamma, const Lanes* root,
+                              int blocks, CurvatureSums& sums) {
+  const int n = joint_count<known>(arm);
+  Lanes q[kMaxJoints], v[kMaxJoints], a[kMaxJoints], dq[kMaxJoints], dv[kMaxJoints], da[kMaxJoints], force[kMaxJoints];
+  for (int k = 0; k < n; ++k) {
+    const int position = l.position[k], rate = l.rate[k];
+    q[k] = gamma * root[position * blocks] + x[position], dq[k] = q[k] - x[position];
+    v[k] = gamma * root[rate * blocks] + x[rate], dv[k] = v[k] - x[rate];
+    da[k] = Lanes(0.0);
+  }
+  for (int c = 0; c < l.size; ++c) {
+    const Lanes d = root[c * blocks];
+    for (int k = 0; k < n; ++k) da[k] += A[l.rate[k] + c * l.size] * d;
+  }
+  for (int k = 0; k < n; ++k) a[k] = gamma * da[k] + x_dot[l.rate[k]], da[k] = a[k] - x_dot[l.rate[k]];
+  inverse_dynamics<known>(arm, chain_pose<known>(arm, q), v, a, force);
+  for (int k = 0; k < n; ++k) {
+    Lanes rest = force[k] - point.force[k];
+    for (int i = 0; i < n; ++i)
+      rest -= point.slope[k][i] * dq[i] + point.slope[k][n + i] * dv[i] + point.mass[k][i] * da[i];
+    sums.chain[k] += rest;
+  }
+}
+
+/// mean [size] of N over `count` deviations. root: rows of S [size x count], in `blocks` lanes each, with zeros beyond
+/// `count`. x_dot, A and point: at x. near: null, or what this function has left in the point of another state in the same
+/// step; the chain, whose curvature is small, then takes its part from there.
+template <int known>
+HALYARD_INLINE void mean_curvature(const LinearisedArm& model, LinearisedPoint& point, const LinearisedPoint* near,
+                                   const double* x, const double* x_dot, const double* A, double gamma, int count,
+                                   int blocks, const Lanes* root, double* mean) {
+  const PlainTransmission& t = *model.plain;
+  const StateLayout& l = model.layout;
+  const int n = joint_count<known>(model.arm);
+  CurvatureSums sums;
+  for (int k = 0; k < n; ++k) sums.chain[k] = sums.speed[k] = sums.speed[n + k] = sums.stretch[k] = Lanes(0.0);
+  for (int b = 0; b < blocks; ++b) {
+    add_squares(t, l, n, root + b, blocks, sums);
+    if (!near) add_chain<known>(model.arm, l, point, x, x_dot, A, gamma, root + b, blocks, sums);
+  }
+  const double half = 0.5 * gamma * gamma / count;
+  double force[kMaxJoints], pull[kMaxJoints], accelerations[kMaxJoints];
+  for (int k = 0; k < n; ++k) {
+    point.chain_curvature[k] = near ? near->chain_curvature[k] : sum_of_lanes(sums.chain[k]) / count;
+    pull[k] = half * point.cable_curvature[k] * sum_of_lanes(sums.stretch[k]);
+    force[k] = -half * point.friction.curvature[n + k] * sum_of_lanes(sums.speed[n + k]) - point.chain_curvature[k];
+  }
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < n; ++i) force[i] += t.path[k][i] * pull[k];
+  mobility_times(point, n, force, accelerations);
+  for (int i = 0; i < l.size; ++i) mean[i] = 0;
+  for (int k = 0; k < n; ++k) {
+    const double held = half * point.friction.curvature[k] * sum_of_lanes(sums.speed[k]);
+    mean[*l.motor_rate[k]] = -t.per_rotor_inertia[k] * (held + t.travel[k] * pull[k]);
+    mean[l.rate[k]] = accelerations[k];
+  }
+}
+
+/// f(x + d) of eight deviations d at a time, which need not be narrow for friction: the chain is taken as linear, and the
+/// cables as quadratic. d, rates: rows of [size], in `blocks` lanes each. x_dot, A and point: at x.
+template <int known>
+HALYARD_INLINE void rates_nearby(const LinearisedArm& model, const LinearisedPoint& point, const double* x,
+                                 const double* x_dot, const double* A, int blocks, const Lanes* d, Lanes* rates) {
+  const PlainTransmission& t = *model.plain;
+  const StateLayout& l = model.layout;
+  const int n = joint_count<known>(model.arm), size = l.size;
+  for (int b = 0; b < blocks; ++b, ++d, ++rates) {
+    for (int row = l.effect_states; row < size; ++row) rates[row * blocks] = Lanes(0.0);
+    for (int row = 1; row < l.effect_states; row += 2) {
+      Lanes sum(x_dot[row]);
+      for (int c = 0; c < size; ++c) sum += A[row + c * size] * d[c * blocks];
+      rates[row * blocks] = sum;
+      rates[(row - 1) * blocks] = x_dot[row - 1] + d[row * blocks];
+    }
+    Lanes force[kMaxJoints], pull[kMaxJoints];
+    const auto excess = [&](int i) __attribute__((always_inline)) {  // of friction i over its tangent
+      const Lanes change = d[t.speed[i] * blocks];
+      const Lanes held =
+          friction(Lanes(t.coulomb[i]), Lanes(t.viscous[i]), Lanes(t.smoothing[i]), x[t.speed[i]] + change);
+      return held - point.friction.value[i] - point.friction.slope[i] * change;
+    };
+    for (int k = 0; k < n; ++k) {
+      const Lanes stretch = stretch_of(t, l, n, k, d, blocks);
+      pull[k] = (0.5 * point.cable_curvature[k]) * stretch * stretch;
+      force[k] = -excess(n + k);
+      rates[*l.motor_rate[k] * blocks] -= t.per_rotor_inertia[k] * (excess(k) + t.travel[k] * pull[k]);
+    }
+    for (int k = 0; k < n; ++k)
+      for (int i = 0; i < n; ++i) force[i] += t.path[k][i] * pull[k];
+    for (int k = 0; k < n; ++k)
+      for (int i = 0; i < n; ++i) rates[l.rate[k] * blocks] += point.mobility[k + i * n] * force[i];
+  }
+}
+
+}  // namespace halyard
