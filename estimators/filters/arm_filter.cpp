@@ -16,6 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFastest = 0.05;   // s, for a joint to cross its range
 constexpr double kHistorySpan = 2;  // s, longer than any delay
 constexpr double kUsualRate = 1e3;  // Hz; at this rate and below, the history never asks for more memory
+constexpr int kMostHalvings = 2;    // of a step that the exponential step's guard refuses
 
 }  // namespace
 
@@ -147,12 +148,22 @@ void ArmFilter::predict(double to_time_s) {
   step.history = &history_;
   for (int i = 0; i < pieces; ++i) {
     step.time_s = time_ + i * step.dt_s;
-    if (options_.exponential) exponential_.linearise(step, filter_->x());
-    const bool accepted =
-        options_.exponential && exponential_.start(filter_->S(), noise_.impulses(step, exponential_.mobility()));
-    ExponentialStep* const exponential = accepted ? &exponential_ : nullptr;
-    filter_->predict(ArmProcess(*process_, step, exponential), noise_.process_root(step, filter_->x(), exponential));
+    predict_over(step, kMostHalvings);
   }
+}
+
+void ArmFilter::predict_over(Step step, int halvings) {
+  if (options_.exponential) exponential_.linearise(step, filter_->x());
+  const bool accepted =
+      options_.exponential && exponential_.start(filter_->S(), noise_.impulses(step, exponential_.mobility()));
+  if (options_.exponential && !accepted && exponential_.is_finite() && halvings > 0) {
+    step.dt_s /= 2;
+    predict_over(step, halvings - 1);
+    step.time_s += step.dt_s;
+    return predict_over(step, halvings - 1);
+  }
+  ExponentialStep* const exponential = accepted ? &exponential_ : nullptr;
+  filter_->predict(ArmProcess(*process_, step, exponential), noise_.process_root(step, filter_->x(), exponential));
 }
 
 double ArmFilter::gate_threshold(int m) const {

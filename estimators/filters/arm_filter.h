@@ -6,7 +6,8 @@
 ///              first value, from which the static equilibrium at the motors' readings is computed. Speed: zero at the
 ///              start of a record. At a restart it is computed from two successive readings. After a gap, both must
 ///              come from after the gap, so the speed is set only at the second sample
-///   a step     the time between two samples, cut into equal pieces of at most `max_step`
+///   a step     the time between two samples, cut into equal pieces of at most `max_step`, and into halves and quarters
+///              where the exponential step's guard refuses it
 ///   restart    after a gap longer than `restart_gap`, or if the gate has rejected all readings for that long
 ///   NaN        torque: the last one is held; position of a motor: no correction from it
 ///   gate       an innovation that is less probable than 1 - `gate` is not accepted; 1 accepts all
@@ -69,6 +70,8 @@ class ArmFilter final : public Estimator {
   Eigen::MatrixXd start_root(const Eigen::VectorXd& x, const Eigen::VectorXd& angle, const Eigen::VectorXd& q,
                              double dt_s) const;
   void predict(double to_time_s);
+  /// One step; in halves if the exponential step refuses it, `halvings` times at most, then by the sub-steps.
+  void predict_over(Step step, int halvings);
   Innovation correct(const Sample& sample);
   void remember(const Sample& sample);
   double gate_threshold(int m) const;

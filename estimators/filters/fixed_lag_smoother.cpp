@@ -2,18 +2,15 @@
 
 namespace halyard {
 
-void BackwardPass::go_back_before(const FilteredBelief& belief) {
+void BackwardPass::go_back_before(const BackwardStep& prediction) {
   const Eigen::Index n = x_.size();
   columns_.resize(n, 2 * n);
-  for (std::size_t i = belief.steps.size(); i-- > 0;) {
-    const BackwardStep& step = belief.steps[i];
-    deviation_ = x_ - step.x_predicted;
-    x_ = step.x_0;
-    x_.noalias() += step.G * deviation_;
-    columns_.leftCols(n).noalias() = step.G * S_;
-    columns_.rightCols(n) = step.V_root;
-    root_.compute(columns_, S_);
-  }
+  deviation_ = x_ - prediction.x_predicted;
+  x_ = prediction.x_0;
+  x_.noalias() += prediction.G * deviation_;
+  columns_.leftCols(n).noalias() = prediction.G * S_;
+  columns_.rightCols(n) = prediction.V_root;
+  root_.compute(columns_, S_);
 }
 
 void FixedLagSmoother::RecordingUkf::predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) {
@@ -36,6 +33,7 @@ FixedLagSmoother::FixedLagSmoother(const ArmModel& model, std::shared_ptr<const 
 
 void FixedLagSmoother::reset(const Sample& first) {
   recorded_->steps.clear();
+  known_steps_ = 0;
   window_.clear();
   due_.clear();
   filter_.reset(first);
@@ -44,9 +42,11 @@ void FixedLagSmoother::reset(const Sample& first) {
 
 Innovation FixedLagSmoother::update(const Sample& sample) {
   const Innovation innovation = filter_.update(sample);
-  if (recorded_->steps.empty()) {  // the filter has started anew
+  if (recorded_->steps.size() == known_steps_) {  // the filter has started anew
     smooth(0);
     window_.clear();
+    recorded_->steps.clear();
+    known_steps_ = 0;
   }
   append(sample.time_s);
   if (sample.time_s - window_.front().time_s >= 2 * lag_s_) smooth(lag_s_);
@@ -58,8 +58,8 @@ void FixedLagSmoother::append(double time_s) {
   belief.time_s = time_s;
   belief.x = recorded_->x();
   belief.S = recorded_->S();
-  std::swap(belief.steps, recorded_->steps);
-  recorded_->steps.clear();
+  belief.predictions = recorded_->steps.size() - known_steps_;
+  known_steps_ = recorded_->steps.size();
 }
 
 void FixedLagSmoother::smooth(double lag_s) {
@@ -70,15 +70,19 @@ void FixedLagSmoother::smooth(double lag_s) {
   const std::size_t told = due_.size();
   for (std::size_t i = 0; i < ready; ++i) due_.append();
   pass_.start(window_.back());
+  std::size_t step = known_steps_, removed = 0;
   for (std::size_t i = window_.size(); i-- > 0;) {
     if (i < ready) {
       Revision& revision = due_[told + i];
       revision.time_s = window_[i].time_s;
       set_joint_estimate(process_->layout(), pass_.x(), pass_.S(), revision.estimate);
     }
-    if (i > 0) pass_.go_back_before(window_[i]);
+    if (i < ready) removed += window_[i].predictions;
+    for (std::size_t k = 0; i > 0 && k < window_[i].predictions; ++k) pass_.go_back_before(recorded_->steps[--step]);
   }
   window_.remove_front(ready);
+  recorded_->steps.remove_front(removed);
+  known_steps_ -= removed;
 }
 
 std::optional<Revision> FixedLagSmoother::revise(bool at_end) {

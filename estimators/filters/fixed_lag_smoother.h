@@ -19,20 +19,20 @@
 
 namespace halyard {
 
-/// The belief after a sample's correction, and the predictions that led to it from the belief before.
+/// The belief after a sample's correction, and the number of predictions that led to it from the belief before.
 struct FilteredBelief {
   double time_s = 0;
   Eigen::VectorXd x;
   Eigen::MatrixXd S;
-  RecyclingQueue<BackwardStep> steps;
+  std::size_t predictions = 0;
 };
 
 /// The backward pass, x_s and S_s.
 class BackwardPass {
  public:
   void start(const FilteredBelief& last) { x_ = last.x, S_ = last.S; }
-  /// From the end of the belief's predictions to their start.
-  void go_back_before(const FilteredBelief& belief);
+  /// From the end of a prediction to its start.
+  void go_back_before(const BackwardStep& prediction);
   const Eigen::VectorXd& x() const { return x_; }
   const Eigen::MatrixXd& S() const { return S_; }
 
@@ -60,7 +60,7 @@ class FixedLagSmoother final : public Estimator {
    public:
     using SquareRootUkf::SquareRootUkf;
     void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) override;
-    RecyclingQueue<BackwardStep> steps;
+    RecyclingQueue<BackwardStep> steps;  ///< of all beliefs of the window and since
 
    private:
     Eigen::VectorXd x_0_;
@@ -79,6 +79,7 @@ class FixedLagSmoother final : public Estimator {
   ArmFilter filter_;
   double lag_s_;
   RecyclingQueue<FilteredBelief> window_;
+  std::size_t known_steps_ = 0;  // of recorded_->steps: those of the beliefs in window_
   BackwardPass pass_;
   RecyclingQueue<Revision> due_;
 };

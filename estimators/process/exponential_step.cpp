@@ -43,6 +43,7 @@ bool ExponentialStep::start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G) 
   const int n = static_cast<int>(x_.size());
   Z_ = step_.dt_s * A_;
   usable_ = std::isfinite(f_.sum()) && phi_.compute(Z_);
+  is_finite_ = false;
   if (!usable_) return false;
   set_second_stage(G);
   set_corrections();
@@ -52,6 +53,7 @@ bool ExponentialStep::start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G) 
   set_product(S_, transposed(right(phi_.E())), n, spread_);
   spread_squares_.resize(n);
   set_squares(spread_, spread_squares_.data());
+  is_finite_ = std::isfinite(c_.squaredNorm() + spread_squares_.sum());
   for (int i = 0; i < n; ++i) usable_ &= c_(i) * c_(i) <= kMeanTolerance * kMeanTolerance * spread_squares_(i);
   return usable_;
 }

@@ -41,7 +41,7 @@
 /// Γ_0 is the response of the linearised model to a force that is held over the step; Γ Γᵀ replaces Van Loan's
 /// integral, which is for white noise. Simpson's rule keeps it equal to what the sub-steps give where the model is linear.
 ///
-/// The guard: the step is refused, and the caller takes the sub-steps of process_model.h, if
+/// The guard: the step is refused, and the caller takes shorter ones or the sub-steps of process_model.h, if
 ///
 ///   - a component of c exceeds 5 % of the standard deviation that the linearised step predicts for it (friction that
 ///     reverses, a gap that closes, a command that jumps within the step), or
@@ -74,6 +74,8 @@ class ExponentialStep {
   /// Starts the step that has been linearised. S: root of the covariance of x. G [n_states x sources]: held forces, which
   /// may be none. False if the guard refuses the step.
   bool start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G);
+  /// False if start() has refused the step because a number is not finite: a shorter one would be refused, too.
+  bool is_finite() const { return is_finite_; }
 
   /// Γ [n_states x sources]; false: refused, Γ is undefined.
   bool respond(Eigen::Ref<Eigen::MatrixXd> Gamma);
@@ -117,7 +119,7 @@ class ExponentialStep {
   const ProcessModel& process_;
   Rows rates_of_joints_, effect_states_;
   Step step_, end_;
-  bool usable_ = false;
+  bool usable_ = false, is_finite_ = false;
   Eigen::VectorXd x_, f_, f_2_, x_2_, next_, D_, c_, part_, change_of_m_;
   Eigen::VectorXd first_, last_;  // h m(0), h m(h)
   Eigen::MatrixXd A_, A_2_, Z_, slopes_;

@@ -19,6 +19,7 @@ namespace {
 /// Largest differences of smoothed means and covariances from those of the covariances' own recursion.
 double largest_difference_smoothed(GaussianFilter& filter, const LinearGaussian& p) {
   RecyclingQueue<FilteredBelief> window;
+  RecyclingQueue<BackwardStep> steps;
   std::vector<KalmanFilter> textbook;
   KalmanFilter kalman{p.x_0, initial_root() * initial_root().transpose()};
   filter.reset(p.x_0, initial_root());
@@ -27,7 +28,7 @@ double largest_difference_smoothed(GaussianFilter& filter, const LinearGaussian&
     const Eigen::MatrixXd S_0 = filter.S();
     filter.predict(LinearProcess(p.F), p.Q_root);
     FilteredBelief& belief = window.append();
-    filter.backward_step(x_0, S_0, belief.steps.append());
+    filter.backward_step(x_0, S_0, steps.append());
     filter.update(LinearReadings(p.H, true), z, p.R_root, kNoGate);
     belief.x = filter.x();
     belief.S = filter.S();
@@ -48,7 +49,7 @@ double largest_difference_smoothed(GaussianFilter& filter, const LinearGaussian&
   for (std::size_t i = window.size(); i-- > 0;) {
     largest = std::max({largest, (pass.x() - textbook[i].x).cwiseAbs().maxCoeff(),
                         (pass.S() * pass.S().transpose() - textbook[i].P).cwiseAbs().maxCoeff()});
-    pass.go_back_before(window[i]);
+    pass.go_back_before(steps[i]);
   }
   return largest;
 }
