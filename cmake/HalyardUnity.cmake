@@ -15,7 +15,7 @@ function(compile_together target group)
   set_source_files_properties(${files} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group})
 endfunction()
 
-compile_together(halyard_transmission core arm_parameters.cpp command_history.cpp effect.cpp effects/library.cpp instruction_set.cpp)
+compile_together(halyard_transmission core arm_parameters.cpp command_history.cpp effect.cpp effects/library.cpp lanes/instruction_set.cpp)
 foreach(place cable joint motor sensor)
   file(GLOB effects RELATIVE ${PROJECT_SOURCE_DIR}/transmission CONFIGURE_DEPENDS
     ${PROJECT_SOURCE_DIR}/transmission/effects/${place}/*.cpp)
@@ -67,7 +67,7 @@ compile_together(halyard_diagnosis log_check
 compile_together(halyard_diagnosis fit
   calibration/lateness.cpp fit/baseline_reach.cpp fit/beyond_numbers.cpp fit/block_variance.cpp
   fit/complementary.cpp fit/evidence.cpp fit/fit.cpp fit/fit_parameter.cpp fit/nudged.cpp
-  noise/channel_noise.cpp noise/ripple_free.cpp planning/change_detector.cpp planning/plan.cpp planning/planner.cpp)
+  noise/channel_noise.cpp noise/delay_free.cpp noise/ripple_free.cpp planning/change_detector.cpp planning/plan.cpp planning/planner.cpp)
 compile_together(halyard_diagnosis judgement
   diagnose.cpp judgement/false_discovery.cpp judgement/final_fit.cpp judgement/holdout.cpp judgement/judge.cpp
   judgement/likelihood.cpp judgement/name_probability.cpp judgement/nested_gain.cpp judgement/paired_t.cpp

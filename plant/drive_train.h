@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "plant/lanes/plant_kernels.h"
-#include "plant/plant_layout.h"
+#include "plant/lanes/plant_layout.h"
 
 namespace halyard {
 

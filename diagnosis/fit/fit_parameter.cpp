@@ -167,10 +167,9 @@ std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameter
 }
 
 bool ends_at_bound(const FitParameter& p, double value) {
-  const auto close = [&](double bound) {
-    return std::abs(value - bound) <= 1e-3 * std::max(std::abs(bound), 1e-3 * p.scale);
-  };
-  return p.effect && !p.natural_bounds && !p.is_whole && !close(p.nominal) && (close(p.lower) || close(p.upper));
+  const auto near = [&](double bound) { return 1e-3 * std::max(std::abs(bound), 1e-3 * p.scale); };
+  return p.effect && !p.natural_bounds && !p.is_whole && std::abs(value - p.nominal) > near(p.nominal) &&
+         (value <= p.lower + near(p.lower) || value >= p.upper - near(p.upper));
 }
 
 bool effect_changes(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline) {

@@ -127,11 +127,17 @@ std::vector<double> reach_in_floors(const Evidence& whole, const Fit& f) {
   return reach;
 }
 
-/// Resets the sizes of added effects until all that are left are certain. The numbers of the model stay in the fit.
+/// True for a shape whose usual value is a physical limit, such as edges that are sharp.
+bool has_usual_value(const FitParameter& p) {
+  return p.shape && !p.is_past && p.natural_bounds && (p.nominal == p.lower || p.nominal == p.upper);
+}
+
+/// Resets the sizes of added effects, and shapes to their usual values, until all that are left are certain. The numbers of
+/// the model stay in the fit.
 Fit keep_certain_sizes(const Evidence& whole, const Fit& f, std::size_t given) {
-  std::vector<bool> is_size;
-  for (const FitParameter& p : f.parameters) is_size.push_back(p.effect >= given && !p.shape);
-  UncertainParameters uncertain(f, is_size, std::vector<double>(f.parameters.size(), 0));
+  std::vector<bool> may_go;
+  for (const FitParameter& p : f.parameters) may_go.push_back(p.effect >= given && (!p.shape || has_usual_value(p)));
+  UncertainParameters uncertain(f, may_go, std::vector<double>(f.parameters.size(), 0));
   uncertain.reset_all();
   Hypothesis h = f.hypothesis;
   std::vector<FitParameter> left;
@@ -147,17 +153,17 @@ Fit keep_certain_sizes(const Evidence& whole, const Fit& f, std::size_t given) {
   return again.usable ? keep_certain_sizes(whole, again, given) : f;
 }
 
-/// Standard deviations of effects that keep some of their sizes, as if they had kept all of them: what was reset may be
+/// Standard deviations of effects that keep some of their parameters, as if they had kept all of them: what was reset may be
 /// wrong. `all` is the fit before the first reset. A mean square: the variance there and the shift by the resets.
 void count_resets(const Fit& all, std::size_t given, Fit& f) {
-  const auto has_lost_a_size = [&](std::size_t effect) {
+  const auto has_lost_one = [&](std::size_t effect) {
     return std::ranges::any_of(all.parameters, [&](const FitParameter& p) {
-      return p.effect == effect && !p.shape && !find_parameter(f.parameters, p);
+      return p.effect == effect && (!p.shape || has_usual_value(p)) && !find_parameter(f.parameters, p);
     });
   };
   for (std::size_t i = 0; i < f.parameters.size(); ++i) {
     const FitParameter& p = f.parameters[i];
-    if (p.effect < given || !has_lost_a_size(*p.effect)) continue;
+    if (p.effect < given || !has_lost_one(*p.effect)) continue;
     const std::optional<std::size_t> before = find_parameter(all.parameters, p);
     if (!before) continue;
     const double with_all = std::hypot(all.std_deviation[*before], f.value[i] - all.value[*before]);

@@ -1,6 +1,6 @@
 #include "diagnosis/motion/lane_drive.h"
 
-#include "transmission/instruction_set.h"
+#include "transmission/lanes/instruction_set.h"
 
 namespace halyard {
 

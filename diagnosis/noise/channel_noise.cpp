@@ -8,6 +8,7 @@
 #include <unsupported/Eigen/FFT>
 
 #include "diagnosis/log_check/robust.h"
+#include "diagnosis/noise/delay_free.h"
 #include "diagnosis/noise/ripple_free.h"
 
 namespace halyard {
@@ -59,9 +60,10 @@ std::vector<NoiseLine> lines_of(const std::vector<double>& density, double resol
 
 /// What a channel measured without what the model predicted, on the samples that its sensor took.
 struct ChannelSamples {
-  std::vector<std::vector<double>> runs;         ///< evenly spaced, one for each record
-  std::vector<std::vector<double>> motor_angle;  ///< of a torque: the motor's, at the same samples
-  double interval = 0;                           ///< s, the same in all runs
+  std::vector<std::vector<double>> runs;          ///< evenly spaced, one for each record
+  std::vector<std::vector<double>> motor_angle;   ///< of a torque: the motor's, at the same samples
+  std::vector<std::vector<double>> command_rate;  ///< of a torque: the command's, N m/s
+  double interval = 0;                            ///< s, the same in all runs
 
   double duration() const {
     double samples = 0;
@@ -72,14 +74,15 @@ struct ChannelSamples {
 
 /// Puts a run to those of its sample rate.
 void add_run(std::vector<ChannelSamples>& by_rate, double interval, std::vector<double> run,
-             std::vector<double> motor_angle = {}) {
+             std::vector<double> motor_angle = {}, std::vector<double> command_rate = {}) {
   constexpr double kSame = 0.1;  // of the interval
   if (run.empty()) return;
   auto same = std::ranges::find_if(
       by_rate, [&](const ChannelSamples& s) { return std::abs(s.interval - interval) < kSame * s.interval; });
-  if (same == by_rate.end()) same = by_rate.insert(same, {{}, {}, interval});
+  if (same == by_rate.end()) same = by_rate.insert(same, {{}, {}, {}, interval});
   same->runs.push_back(std::move(run));
   same->motor_angle.push_back(std::move(motor_angle));
+  same->command_rate.push_back(std::move(command_rate));
 }
 
 /// The mean time from a sample to the next, holes left out: of uneven samples, filters average so many.
@@ -119,12 +122,17 @@ std::vector<ChannelSamples> torque_samples(const std::vector<Record>& records, c
   std::vector<ChannelSamples> by_rate;
   for (std::size_t r = 0; r < records.size(); ++r) {
     if (!records[r].has_torque(k)) continue;
-    const std::vector<double>& residual = unfiltered[r].channel[k];
-    std::vector<double> times, run, angle;
-    for (std::size_t i = 0; i < residual.size(); ++i)
-      if (std::isfinite(residual[i]))
-        times.push_back(records[r].time(i)), run.push_back(residual[i]), angle.push_back(records[r].motor_angle[k][i]);
-    add_run(by_rate, mean_interval(times), std::move(run), std::move(angle));
+    const std::vector<double>&residual = unfiltered[r].channel[k], &command = records[r].torque[k];
+    std::vector<double> times, run, angle, rate;
+    for (std::size_t i = 0; i < residual.size(); ++i) {
+      if (!std::isfinite(residual[i])) continue;
+      const std::size_t before = i - std::min<std::size_t>(i, 1), after = std::min(i + 1, command.size() - 1);
+      times.push_back(records[r].time(i));
+      run.push_back(residual[i]);
+      angle.push_back(records[r].motor_angle[k][i]);
+      rate.push_back((command[after] - command[before]) / (records[r].dt * static_cast<double>(after - before)));
+    }
+    add_run(by_rate, mean_interval(times), std::move(run), std::move(angle), std::move(rate));
   }
   return by_rate;
 }
@@ -154,9 +162,13 @@ ChannelNoise torque_noise(ChannelSamples samples, const Filters& filters) {
   // So many sines fit a part of any noise: in the narrowest band of 30 s of noise less than a tenth of its size.
   constexpr double kByChance = 0.8;
   ChannelNoise noise = noise_of(samples, filters, true);
+  const auto take_if_less = [&](const std::vector<std::vector<double>>& runs) {
+    const ChannelNoise without = noise_of({runs, {}, {}, samples.interval}, filters, true);
+    if (without.white < kByChance * noise.white) noise.white = without.white, noise.in_band = without.in_band;
+  };
   samples.runs = ripple_free(std::move(samples.runs), samples.motor_angle);
-  const ChannelNoise without = noise_of(samples, filters, true);
-  if (without.white < kByChance * noise.white) noise.white = without.white, noise.in_band = without.in_band;
+  take_if_less(samples.runs);
+  take_if_less(delay_free(std::move(samples.runs), samples.command_rate, samples.interval));
   return noise;
 }
 

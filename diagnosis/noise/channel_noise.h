@@ -15,7 +15,8 @@
 ///   σ_t      standard deviation of both filters of a record together (record.h), s
 ///
 /// Logs of different sample rates are estimated each with its own Δ; the variance is their mean over time.
-/// The part of a torque's residual that repeats with the motor's angle does not count (ripple_free.h).
+/// The parts of a torque's residual that repeat with the motor's angle (ripple_free.h), or go with the rate of its
+/// command (delay_free.h), do not count.
 /// The median ignores segments with a jump or an impact. The least of the bands ignores resonances and hum, which
 /// lie in one of them. A record's filter, of standard deviation σ_m in time, attenuates the torque by exp(-(2π f σ_m)²); S is
 /// corrected for it.

@@ -1,6 +1,6 @@
 #include "estimators/matrix/matrix_kernels.h"
 
-#include "transmission/instruction_set.h"
+#include "transmission/lanes/instruction_set.h"
 
 namespace halyard {
 

@@ -17,7 +17,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "plant/plant_layout.h"
+#include "plant/lanes/plant_layout.h"
 
 namespace halyard {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "plant/plant_layout.h"
+#include "plant/lanes/plant_layout.h"
 #include "transmission/transmission.h"
 
 namespace halyard {

@@ -1,6 +1,6 @@
 #include "plant/lanes/plant_kernels.h"
 
-#include "transmission/instruction_set.h"
+#include "transmission/lanes/instruction_set.h"
 
 namespace halyard {
 

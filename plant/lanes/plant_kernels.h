@@ -1,5 +1,5 @@
 #pragma once
-/// The equations of the plant, with their derivatives. There is one copy per instruction set (transmission/instruction_set.h);
+/// The equations of the plant, with their derivatives. There is one copy per instruction set (transmission/lanes/instruction_set.h);
 /// results of two sets differ by rounding.
 ///
 ///   F = joint_force(y), z' = z_dot(y)       drive train

@@ -266,20 +266,6 @@ TEST(Diagnose, NamesBacklashAndItsRevisedModelPredictsBetter) {
   }
 }
 
-TEST(Diagnose, TellsAZeroErrorOfAJointsSensorFromThatOfItsMotorByAnotherCable) {
-  const ArmModel model = two_joints();
-  for (const bool at_joint : {false, true}) {
-    ArmModel truth = model;
-    truth.effects.push_back(placed("encoder_offset", model, 0, {0.01, at_joint ? 1.0 : 0.0}));
-    const Diagnosis d = diagnose_arm(model, truth);
-    ASSERT_EQ(d.effects.size(), 1u);
-    EXPECT_EQ(effect_label(d.effects[0].effect), "encoder_offset of joint 1");
-    EXPECT_NEAR(d.effects[0].effect.p[0], 0.01, 2e-4);
-    EXPECT_EQ(d.effects[0].effect.p[1], at_joint ? 1 : 0);
-    EXPECT_TRUE(d.unexplained.empty());
-  }
-}
-
 TEST(Diagnose, NamesFrictionThatIsElasticBeforeItSlides) {
   const ArmModel model = two_joints();
   ArmModel truth = model;

@@ -21,14 +21,15 @@ PlacedEffect slip(const ArmModel& model, double jump, double time) {
   return e;
 }
 
-/// A cable that slipped once, and the final fit of so many slips whose jumps add up to that one.
-struct Slipped {
+/// An arm with one effect, by default a cable that slipped once, and the final fit of other effects.
+struct Fitted {
   ArmModel model = first_joints(1);
   Fit fit;
 
-  explicit Slipped(const std::vector<PlacedEffect>& named) {
+  explicit Fitted(const std::vector<PlacedEffect>& named,
+                  const PlacedEffect& truth = slip(first_joints(1), kJump, kTime)) {
     ArmModel robot = model;
-    robot.effects = {slip(model, kJump, kTime)};
+    robot.effects = {truth};
     const std::vector<Record> records = make_records(simulate(motion(robot, 5)).measured, model, {});
     const Evidence evidence(records, model), whole(records, model, Split::none);
     const Refitter refitter(evidence, model, 0);
@@ -47,21 +48,24 @@ struct Slipped {
 };
 
 TEST(FinalFit, KeepsASlipThatTheDataDetermine) {
-  const Slipped one({slip(first_joints(1), 0.9 * kJump, kTime)});
+  const Fitted one({slip(first_joints(1), 0.9 * kJump, kTime)});
   ASSERT_EQ(one.certainties().size(), 1u);
   EXPECT_TRUE(idle_effects(one.fit, 0).empty());
   EXPECT_NEAR(one.fit.hypothesis.effects[0].p[0], kJump, 0.01 * kJump);
 }
 
 TEST(FinalFit, KeepsNoSizeWhoseIntervalContainsItsNeutralValue) {
-  const ArmModel model = first_joints(1);
-  const Slipped two({slip(model, 3 * kJump, kTime), slip(model, -2 * kJump, kTime + 1e-3)});
+  constexpr double kOffset = 0.02;  // rad
+  PlacedEffect truth = place_effect(*find_effect("encoder_offset"), first_joints(1).nominal, 0), more = truth,
+               less = truth;
+  truth.p[0] = kOffset, more.p[0] = 3 * kOffset, less.p[0] = -2 * kOffset;
+  const Fitted two({more, less}, truth);
   ASSERT_TRUE(two.fit.usable);
   for (const double certainty : two.certainties()) EXPECT_GT(certainty, 1);
-  ASSERT_EQ(idle_effects(two.fit, 0).size(), 1u) << "of two slips at one instant the data determine the sum";
+  ASSERT_EQ(idle_effects(two.fit, 0).size(), 1u) << "of two offsets the data determine the sum";
   double sum = 0;
   for (const PlacedEffect& e : two.fit.hypothesis.effects) sum += e.p[0];
-  EXPECT_NEAR(sum, kJump, 0.02 * kJump);
+  EXPECT_NEAR(sum, kOffset, 0.02 * kOffset);
 }
 
 /// A pulley that rubs, on an arm whose mass, frictions and stiffness are off within their tolerances; and its final fit.

@@ -1,4 +1,4 @@
-#include "transmission/instruction_set.h"
+#include "transmission/lanes/instruction_set.h"
 
 namespace halyard {
 
