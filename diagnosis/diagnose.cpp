@@ -97,10 +97,12 @@ class Diagnoser {
   }
   Attribution& attribution() { return details_->attribution; }
   const Hypothesis& final_hypothesis() const { return details_->attribution.final_fit.hypothesis; }
-  /// With each event on the clock of the log in which it happens.
+  /// The effect; an event on the clock of the log in which it happens.
+  PlacedEffect on_its_clock(const Evidence& evidence, const PlacedEffect& effect) const {
+    return on_clock_of_its_log(effect, model_.nominal, evidence.records());
+  }
   Hypothesis on_own_clocks(const Evidence& evidence, Hypothesis h) const {
-    for (std::size_t e = given_; e < h.effects.size(); ++e)
-      h.effects[e] = on_clock_of_its_log(h.effects[e], model_.nominal, evidence.records());
+    for (std::size_t e = given_; e < h.effects.size(); ++e) h.effects[e] = on_its_clock(evidence, h.effects[e]);
     return h;
   }
   /// As the hold-out sees it: a log of its own has its own clock, the last thirds have those of their logs.
@@ -145,7 +147,7 @@ class Diagnoser {
     doubts_ = doubts(evidence, result_.given, attribution(), options_.significance);
     for (std::size_t e = given_; e < f.hypothesis.effects.size(); ++e) {
       if (doubts_[e - given_] != Doubt::none) continue;
-      NamedEffect named{on_own_clocks(evidence, f.hypothesis).effects[e], namings[e - given_].weight,
+      NamedEffect named{on_its_clock(evidence, f.hypothesis.effects[e]), namings[e - given_].weight,
                         estimated_parameters(evidence, e), namings[e - given_].alternatives};
       const Record* const happens_in = record_of(f.hypothesis.effects[e], model_.nominal, evidence.records());
       if (happens_in && n_logs_ > 1) named.log = happens_in->source;
@@ -196,7 +198,7 @@ class Diagnoser {
       if (const std::optional<std::size_t> fitted = find_parameter(f.parameters, p)) {
         all.push_back(estimated(f, *fitted));
         // An instant is told on its log's clock.
-        const double shift = on_own_clocks(evidence, f.hypothesis).effects[effect].p[p.index] - value;
+        const double shift = on_its_clock(evidence, f.hypothesis.effects[effect]).p[p.index] - value;
         for (double* t : {&all.back().value, &all.back().lower, &all.back().upper}) *t += shift;
       } else if (p.is_whole) all.push_back({p.name, p.unit, value, value, value, p.nominal});
     }
