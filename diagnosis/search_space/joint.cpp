@@ -11,6 +11,8 @@ void external_force(SearchSpace& space, const Arm&, int) {
   space["start"].range = space["stop"].range = SearchRange::record_time;
   // A force may end after the record. One that lasts from its first sample to its last is an offset and no push.
   space["stop"].natural_bounds = true;
+  space["rise"].starts = {0, 0.5};
+  space["rise"].natural_bounds = true;
   space["contact_position"].range = SearchRange::joint_position;
 }
 

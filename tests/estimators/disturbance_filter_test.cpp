@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(All, UnknownForceOnAJoint, testing::Combine(testing::Va
 TEST_P(UnknownForceOnAJoint, IsFollowedWithinATenthAndItsCableForceToo) {
   const auto [joint, moving] = GetParam();
   Scenario s = scenario(moving);
-  add_effect(s.robot, "external_force", joint - 1, {kForce, kOnset, 10, 0, 0});
+  add_effect(s.robot, "external_force", joint - 1, {kForce, kOnset, 10, 0, 0, 0});
   const SimulationResult log = simulate(s);
   const auto filter = make_disturbance_sr_ukf(raven2(), {}), unaware = make_sr_ukf(raven2(), {});
 

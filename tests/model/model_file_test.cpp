@@ -67,9 +67,9 @@ TEST(ModelFile, EffectWithOneOfItsSizesGivenHasNoOther) {
   EXPECT_EQ(forced.p[0], 7);
   EXPECT_EQ(forced.p[1], 1);
   EXPECT_EQ(forced.p[2], p[2].typical) << "a shape";
-  ASSERT_EQ(p[3].name, "contact_stiffness");
-  EXPECT_NE(typical.p[3], 0);
-  EXPECT_EQ(forced.p[3], 0);
+  ASSERT_EQ(p[4].name, "contact_stiffness");
+  EXPECT_NE(typical.p[4], 0);
+  EXPECT_EQ(forced.p[4], 0);
   // A shape alone shapes typical sizes.
   EXPECT_EQ(effect("start=\"1\"").first.p[0], p[0].typical);
 }

@@ -66,20 +66,30 @@ double added_force(const std::vector<double>& p, double position, double time) {
 }
 
 TEST(ExternalForce, ActsFromItsStartToItsStop) {
-  const std::vector<double> p = {0.7, 2, 5, 0, 0};
+  const std::vector<double> p = {0.7, 2, 5, 0, 0, 0};
   for (const double time : {0.0, 1.99, 5.01, 100.0}) EXPECT_EQ(added_force(p, 0.1, time), 0) << time;
   for (const double time : {2.01, 3.0, 4.99}) EXPECT_NEAR(added_force(p, 0.1, time), 0.7, 50 * 4 * kEps) << time;
   EXPECT_NEAR(added_force(p, 0.1, 2), 0.35, 50 * 4 * kEps) << "half of the step";
+}
+
+TEST(ExternalForce, RisesAndFallsInAShareOfItsDuration) {
+  const std::vector<double> p = {0.7, 2, 5, 0.5, 0, 0};  // in 1.51 s
+  const auto step = [](double u) { return u * u * (3 - 2 * u); };
+  for (const double time : {1.244, 5.756}) EXPECT_EQ(added_force(p, 0.1, time), 0) << time;
+  for (const double time : {1.5, 2.5})
+    EXPECT_NEAR(added_force(p, 0.1, time), 0.7 * step((time - 2) / 1.51 + 0.5), 50 * 4 * kEps) << time;
+  EXPECT_NEAR(added_force(p, 0.1, 3.5), 0.7, 50 * 4 * kEps);
+  EXPECT_NEAR(added_force(p, 0.1, 4.5), added_force(p, 0.1, 2.5), 50 * 4 * kEps) << "it falls as it rose";
 }
 
 TEST(ExternalForce, AContactPushesBackFromItsSideAlone) {
   const double stiffness = 30, wall = 0.2;
   for (const double depth : {0.0, 0.01, 0.1}) {
     // Cables pull with up to 50 N m.
-    EXPECT_NEAR(added_force({0, 1, 2, stiffness, wall}, wall + depth, 0), -stiffness * depth, 50 * 8 * kEps);
-    EXPECT_NEAR(added_force({0, 1, 2, -stiffness, wall}, wall - depth, 0), stiffness * depth, 50 * 8 * kEps);
-    EXPECT_EQ(added_force({0, 1, 2, stiffness, wall}, wall - 1e-9 - depth, 0), 0) << "no wall pulls";
-    EXPECT_EQ(added_force({0, 1, 2, -stiffness, wall}, wall + 1e-9 + depth, 0), 0) << "no wall pulls";
+    EXPECT_NEAR(added_force({0, 1, 2, 0, stiffness, wall}, wall + depth, 0), -stiffness * depth, 50 * 8 * kEps);
+    EXPECT_NEAR(added_force({0, 1, 2, 0, -stiffness, wall}, wall - depth, 0), stiffness * depth, 50 * 8 * kEps);
+    EXPECT_EQ(added_force({0, 1, 2, 0, stiffness, wall}, wall - 1e-9 - depth, 0), 0) << "no wall pulls";
+    EXPECT_EQ(added_force({0, 1, 2, 0, -stiffness, wall}, wall + 1e-9 + depth, 0), 0) << "no wall pulls";
   }
 }
 

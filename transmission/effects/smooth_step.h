@@ -1,7 +1,10 @@
 #pragma once
-/// A step in time that an integrator can follow: from 0 to 1 within kStepWidth around an instant:
+/// A step in time that an integrator can follow: from 0 to 1 within a width around an instant:
 ///
 ///   s(t) = u² (3 - 2u),  u = (t - t_0) / w + 1/2  within [0, 1]
+///
+///   t_0   instant at which the step is 1/2      s
+///   w     width; kStepWidth if it is sharp       s
 ///
 /// Its rate is continuous. The step is exactly 0 before and exactly 1 after.
 
@@ -9,7 +12,7 @@
 
 namespace halyard {
 
-inline constexpr double kStepWidth = 0.01;  ///< w, s
+inline constexpr double kStepWidth = 0.01;  ///< s
 
 template <class T>
 struct SmoothStep {
@@ -17,9 +20,9 @@ struct SmoothStep {
 };
 
 template <class T>
-HALYARD_INLINE SmoothStep<T> smooth_step(double time, const T& at) {
-  const T u = max(T(0.0), min(T(1.0), T((T(time) - at) * T(1 / kStepWidth) + T(0.5))));
-  return {u * u * (T(3.0) - T(2.0) * u), T(6.0 / kStepWidth) * u * (T(1.0) - u)};
+HALYARD_INLINE SmoothStep<T> smooth_step(double time, const T& at, const T& width = T(kStepWidth)) {
+  const T u = max(T(0.0), min(T(1.0), T((T(time) - at) / width + T(0.5))));
+  return {u * u * (T(3.0) - T(2.0) * u), T(6.0) / width * u * (T(1.0) - u)};
 }
 
 }  // namespace halyard

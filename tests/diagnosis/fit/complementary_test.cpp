@@ -25,16 +25,16 @@ Fit fit_of(const Evidence& evidence, const std::string& effect, const std::vecto
 
 TEST(JoinComplementary, MakesOneForceOfAContactAndAPush) {
   const Evidence evidence = small_evidence();
-  const auto joined = join_complementary(fit_of(evidence, "external_force", {{3, 4}, {0, 1, 2}}), 0);
+  const auto joined = join_complementary(fit_of(evidence, "external_force", {{4, 5}, {0, 1, 2, 3}}), 0);
   ASSERT_TRUE(joined.has_value());
   EXPECT_EQ(joined->kept, 0);
   EXPECT_EQ(joined->gone, 1);
   ASSERT_EQ(joined->hypothesis.effects.size(), 1);
-  EXPECT_EQ(std::vector<double>(joined->hypothesis.effects[0].p, joined->hypothesis.effects[0].p + 5),
-            (std::vector<double>{20, 21, 22, 13, 14}));
-  ASSERT_EQ(joined->parameters.size(), 6);
+  EXPECT_EQ(std::vector<double>(joined->hypothesis.effects[0].p, joined->hypothesis.effects[0].p + 6),
+            (std::vector<double>{20, 21, 22, 23, 14, 15}));
+  ASSERT_EQ(joined->parameters.size(), 7);
   EXPECT_FALSE(joined->parameters[0].effect);
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < 6; ++i) {
     EXPECT_EQ(joined->parameters[i + 1].effect, 0);
     EXPECT_EQ(joined->parameters[i + 1].index, i) << "in the order of the effect";
   }
@@ -42,8 +42,8 @@ TEST(JoinComplementary, MakesOneForceOfAContactAndAPush) {
 
 TEST(JoinComplementary, LeavesTwoPushesTwoEffects) {
   const Evidence evidence = small_evidence();
-  EXPECT_FALSE(join_complementary(fit_of(evidence, "external_force", {{0, 1, 2}, {0, 1, 2}}), 0));
-  EXPECT_FALSE(join_complementary(fit_of(evidence, "external_force", {{0, 1, 2, 3, 4}, {0, 1, 2}}), 0));
+  EXPECT_FALSE(join_complementary(fit_of(evidence, "external_force", {{0, 1, 2, 3}, {0, 1, 2, 3}}), 0));
+  EXPECT_FALSE(join_complementary(fit_of(evidence, "external_force", {{0, 1, 2, 3, 4, 5}, {0, 1, 2, 3}}), 0));
 }
 
 TEST(JoinComplementary, LeavesRipplesOfTwoOrders) {
@@ -57,7 +57,7 @@ TEST(JoinComplementary, LeavesRipplesOfTwoOrders) {
 
 TEST(JoinComplementary, LeavesEffectsThatTheModelCameWith) {
   const Evidence evidence = small_evidence();
-  EXPECT_FALSE(join_complementary(fit_of(evidence, "external_force", {{3, 4}, {0, 1, 2}}), 1));
+  EXPECT_FALSE(join_complementary(fit_of(evidence, "external_force", {{4, 5}, {0, 1, 2, 3}}), 1));
 }
 
 }  // namespace

@@ -21,11 +21,11 @@ struct Tug {
   Tug(double force, double stiffness)
       : evidence(make_records(record(force, stiffness), model, {}), model), judge(evidence, model, {}) {
     // The something is where the motion ends: the end of what a search may ask for.
-    push.p[4] = evidence.joint_span(1).first;
+    push.p[5] = evidence.joint_span(1).first;
   }
   Log record(double force, double stiffness) {
     push.p[0] = force, push.p[1] = 2, push.p[2] = 4;                // N m, s
-    push.p[3] = stiffness, push.p[4] = model.joints[1].home - 0.4;  // N m/rad, rad
+    push.p[4] = stiffness, push.p[5] = model.joints[1].home - 0.4;  // N m/rad, rad
     ArmModel robot = model;
     robot.effects = {push};
     return simulate(motion(robot, 6)).measured;
@@ -33,7 +33,7 @@ struct Tug {
   /// The verdict on a push and a contact of these sizes.
   Trial trial(double force, double stiffness) const {
     Hypothesis with{model.nominal, {push}}, without{model.nominal, {}};
-    with.effects[0].p[0] = force, with.effects[0].p[3] = stiffness;
+    with.effects[0].p[0] = force, with.effects[0].p[4] = stiffness;
     return judge.trial(with, {without, evidence.score(without)}, 0);
   }
 };
@@ -104,7 +104,7 @@ TEST(Judge, AnEffectMattersIfWithoutItANumberIsFarBeyondItsTolerance) {
 TEST(Judge, ASmallEffectMattersBesideALargeOneIfItActsAtOtherTimes) {
   const ArmModel model = first_joints(2);
   PlacedEffect push = place_neutral_effect(*find_effect("external_force"), model.nominal, 1);
-  push.p[0] = 10, push.p[1] = 2, push.p[2] = 4, push.p[3] = 0;
+  push.p[0] = 10, push.p[1] = 2, push.p[2] = 4, push.p[4] = 0;
   PlacedEffect friction = place_neutral_effect(*find_effect("motor_friction"), model.nominal, 1);
   friction.p[0] = 0.4 * model.nominal.joint[1].motor_coulomb;
   ArmModel robot = model;

@@ -7,7 +7,10 @@
 ///   F' = F + F_e (s(t - t_1) - s(t - t_2)) - k max(0, ±(q - q_c)),   + where k > 0, - where k < 0
 ///
 ///   F_e        `force`, positive if it pushes the joint forward                      N m | N
-///   t_1, t_2   `start`, `stop` on the log's clock; s: smooth step of 10 ms               s
+///   t_1, t_2   `start`, `stop` on the log's clock, where the force is F_e / 2              s
+///   s          smooth step of the width 10 ms + r (t_2 - t_1), see smooth_step.h
+///   r          `rise`: share of its duration in which the force rises, and in which it falls. 0: at once; 1: it
+///              falls as soon as it has reached F_e, as a push by hand does                -
 ///   k          `contact_stiffness`. Positive: a wall above q_c that pushes back down;
 ///              negative: a wall below q_c, of stiffness |k|, that pushes up              N m/rad | N/m
 ///   q_c        `contact_position`                                                        rad | m
@@ -29,16 +32,18 @@ class ExternalForce : public EffectOf<ExternalForce> {
     return {{"force", turns ? "N m" : "N", 0, level, -100 * level, 100 * level},
             {"start", "s", 1, 1, -1e10, 1e10},
             {"stop", "s", 2, 2, -1e10, 1e10},
+            {"rise", "1", 0, 0, 0, 1},
             {"contact_stiffness", turns ? "N m/rad" : "N/m", 0, 5 * level / reach, -stiffest, stiffest},
             {"contact_position", turns ? "rad" : "m", 0, 0, -far, far}};
   }
 
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T *p = c.p, beyond = s[*c.joint].joint_position - p[4];
-    const T depth = max(T(0.0), select(p[3] >= T(0.0), beyond, T(-beyond)));
-    s[*c.joint].joint_force +=
-        p[0] * (smooth_step(c.time, p[1]).value - smooth_step(c.time, p[2]).value) - p[3] * depth;
+    const T *p = c.p, beyond = s[*c.joint].joint_position - p[5];
+    const T depth = max(T(0.0), select(p[4] >= T(0.0), beyond, T(-beyond)));
+    const T width = T(kStepWidth) + p[3] * max(T(0.0), T(p[2] - p[1]));
+    const T push = smooth_step(c.time, p[1], width).value - smooth_step(c.time, p[2], width).value;
+    s[*c.joint].joint_force += p[0] * push - p[4] * depth;
   }
 };
 
