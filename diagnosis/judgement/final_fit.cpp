@@ -248,6 +248,10 @@ std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given) {
   return idle;
 }
 
+bool may_be_neutral(const Fit& fit, std::size_t i) {
+  return std::abs(fit.value[i] - fit.parameters[i].nominal) <= interval_factor(fit) * fit.std_deviation[i];
+}
+
 double interval_factor(const Fit& fit) {
   constexpr double kTwoSided95 = 0.025;
   return t_quantile(std::max(1, fit.blocks - 1), kTwoSided95);

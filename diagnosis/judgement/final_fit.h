@@ -24,6 +24,9 @@ std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given);
 /// Half of the 95 % interval over the standard deviation: Student's quantile for the fit's blocks.
 double interval_factor(const Fit& fit);
 
+/// True if the 95 % interval of a parameter of the fit contains its neutral value.
+bool may_be_neutral(const Fit& fit, std::size_t i);
+
 /// The numbers of the model that the data changed significantly, as indices of the fit's parameters, and torque scales
 /// that the model does not know. A change that moves no channel by its floor does not count. If the data determine only
 /// a combination of two numbers, one of them counts.

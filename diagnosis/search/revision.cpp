@@ -118,6 +118,22 @@ double probability_of_none_for(const Evidence& evidence, const Attribution& foun
   return probability_of_none(found.final_score.mean_square[*c], misfit_square, evidence.floor()[*c]);
 }
 
+namespace {
+
+/// The final fit asks whether a size is certain if its shapes were known, and not whether it is certain beside them.
+bool has_certain_size(const Fit& fit, std::size_t effect) {
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+    if (fit.parameters[i].effect == effect && !fit.parameters[i].shape && !may_be_neutral(fit, i)) return true;
+  return false;
+}
+
+Doubt own_doubt(const Evidence& evidence, const Attribution& found, std::size_t given, std::size_t effect) {
+  if (is_doubtful(evidence, found, given, effect)) return Doubt::another_cause;
+  return has_certain_size(found.final_fit, effect) ? Doubt::none : Doubt::no_certain_size;
+}
+
+}  // namespace
+
 std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const Attribution& found,
                           double significance) {
   const std::size_t first = given.effects.size();
@@ -125,9 +141,8 @@ std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const
   std::vector<Doubt> doubt(all.effects.size() - first, Doubt::none);
   Hypothesis sure = all;
   for (std::size_t e = all.effects.size(); e-- > first;) {
-    if (!is_doubtful(evidence, found, first, e)) continue;
-    doubt[e - first] = Doubt::another_cause;
-    sure = without_effect(sure, e);
+    doubt[e - first] = own_doubt(evidence, found, first, e);
+    if (doubt[e - first] != Doubt::none) sure = without_effect(sure, e);
   }
   if (sure.effects.size() == all.effects.size()) return doubt;
   const Refitter refitter(evidence, given, first);

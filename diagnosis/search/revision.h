@@ -30,8 +30,9 @@ bool is_doubtful(const Evidence& evidence, const Attribution& found, std::size_t
 /// Why an effect gets no name.
 enum class Doubt {
   none,
-  another_cause,   ///< is_doubtful()
-  only_beside_one  ///< not needed without the effects of another cause: it may only make up for their error
+  another_cause,    ///< is_doubtful()
+  no_certain_size,  ///< the intervals of all its sizes contain their neutral values
+  only_beside_one   ///< not needed without the doubtful effects: it may only make up for their error
 };
 
 /// For each added effect of the final fit. significance: as of the search.

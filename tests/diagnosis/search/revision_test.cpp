@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "diagnosis/judgement/final_fit.h"
 #include "diagnosis/search/refit.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
@@ -92,10 +93,22 @@ TEST(Doubts, AnEffectThatIsNeededOnlyBesideADoubtfulOneGetsNoName) {
   const auto of = [&](const std::vector<PlacedEffect>& truth) {
     Searched s(truth, {ratio, offset});
     s.found.namings[0] = {0, {}};  // it lost against others
+    std::ranges::fill(s.found.final_fit.std_deviation, 0);
     return doubts(s.evidence, s.model, s.found, 0.01);
   };
   EXPECT_EQ(of({offset}), (std::vector{Doubt::another_cause, Doubt::none}));
   EXPECT_EQ(of({}), (std::vector{Doubt::another_cause, Doubt::only_beside_one}));
+}
+
+TEST(Doubts, AnEffectWhoseSizeMayBeNeutralGetsNoName) {
+  const PlacedEffect ratio = on_the_only_joint("capstan_ratio", kRatio);
+  Searched s({ratio}, {ratio});
+  Fit& fit = s.found.final_fit;
+  const auto named = [&] { return doubts(s.evidence, s.model, s.found, 0.01); };
+  EXPECT_EQ(named(), (std::vector{Doubt::none}));
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+    if (fit.parameters[i].effect) fit.std_deviation[i] = 1.01 * (kRatio - 1) / interval_factor(fit);
+  EXPECT_EQ(named(), (std::vector{Doubt::no_certain_size}));
 }
 
 }  // namespace
