@@ -206,10 +206,7 @@ void check_scenario(const Scenario& scenario) {
                "take a shorter duration or a longer control period");
   if (!(scenario.integrator.relative_tolerance > 0) || !(scenario.integrator.absolute_tolerance > 0))
     throw InputError(where + "the integrator's tolerances must be above 0");
-  const IntegratorKind kind = scenario.integrator.kind;
-  if (kind == IntegratorKind::rosenbrock && engine_of(scenario) != Engine::halyard)
-    throw InputError(where + "treatment \"rosenbrock\" needs engine=\"halyard\" of the scenario");
-  if (needs_simbody(kind) && engine_of(scenario) != Engine::simbody)
+  if (needs_simbody(scenario.integrator.kind) && engine_of(scenario) != Engine::simbody)
     throw InputError(where + "an integrator of Simbody's needs engine=\"simbody\" of the scenario");
   if (static_cast<int>(scenario.trajectory.size()) != n || static_cast<int>(scenario.robot.joints.size()) != n)
     throw InputError(where + "there must be one trajectory for each of the " + std::to_string(n) + " joints");

@@ -60,8 +60,11 @@ inline std::vector<BadInputRow> bad_scenarios() {
        "bad.xml: scenario 'A: high tension': link 1: has inertia and no mass, which Simbody cannot compute; give "
        "it a mass, or take engine=\"halyard\""},
       {"IntegratorOfAnotherEngine", Wrong::scenario,
-       put(R"(<control period=)", R"(<integrator treatment="rosenbrock"/><control period=)"),
-       "bad.xml: scenario 'A: high tension': treatment \"rosenbrock\" needs engine=\"halyard\" of the scenario"},
+       [](const std::string& text) {
+         return put(R"(<control period=)", R"(<integrator treatment="simbody_rkm"/><control period=)")(
+             put(R"(model="raven2.xml")", R"(model="raven2.xml" engine="halyard")")(text));
+       },
+       "bad.xml: scenario 'A: high tension': an integrator of Simbody's needs engine=\"simbody\" of the scenario"},
       {"NoiseOfTooFewJoints", Wrong::scenario, put(R"(homed="true")", R"(torque_noise="1e-3 1e-3")"),
        "bad.xml:15: <sensors torque_noise=\"1e-3 1e-3\">: expected one number, or one for each of the 3 joints "
        "with blanks between, none of them negative"},
