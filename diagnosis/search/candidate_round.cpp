@@ -156,17 +156,28 @@ Refit CandidateRound::refit_from(const Hypothesis& end) const {
   return r;
 }
 
+namespace {
+
+/// The refit from another start, of which nothing is known yet.
+Refit restarted(Refit refit, const Hypothesis& at) {
+  refit.at = at;
+  refit.best = {};
+  refit.last = std::numeric_limits<double>::infinity();
+  refit.settled = refit.is_nudged = false;
+  return refit;
+}
+
+}  // namespace
+
 /// Beside another effect that is still missing, a part of a right effect may end at its bound to explain that one. If the
 /// rest of it can be named, this is what the candidate is.
 void CandidateRound::give_up_bounds(Refit& refit, Trial& trial) const {
   const std::size_t place = refit.best.hypothesis.effects.size() - 1;
-  Refit reduced = refit;
-  const auto start = judge_.without_sizes_at_bound(refit.best.hypothesis, place, reduced.held);
+  std::vector<FitParameter> held = refit.held;
+  const auto start = judge_.without_sizes_at_bound(refit.best.hypothesis, place, held);
   if (!start) return;
-  reduced.at = *start;
-  reduced.best = {};
-  reduced.last = std::numeric_limits<double>::infinity();
-  reduced.settled = reduced.is_nudged = false;
+  Refit reduced = restarted(refit, *start);
+  reduced.held = std::move(held);
   refitter_.go_on(reduced, 1);
   if (!reduced.best.usable) return;
   const Trial rest = judge_.trial(reduced.best.hypothesis, without_, place);
@@ -178,14 +189,10 @@ void CandidateRound::give_up_bounds(Refit& refit, Trial& trial) const {
 void CandidateRound::find_essence(const Refit& refit, Trial& trial) const {
   const Hypothesis& h = refit.best.hypothesis;
   const std::size_t place = h.effects.size() - 1;
-  Refit reduced = refit;
-  reduced.at = h;
-  reduced.best = {};
+  Refit reduced = restarted(refit, h);
   for (const FitParameter& p : refitter_.parameters(h))
     if (p.effect == place && p.is_essential) set_parameter(reduced.at, p, p.nominal), reduced.held.push_back(p);
   if (reduced.held.size() == refit.held.size()) return;
-  reduced.last = std::numeric_limits<double>::infinity();
-  reduced.settled = reduced.is_nudged = false;
   refitter_.go_on(reduced, kRule.first_passes);
   if (!reduced.best.usable) return;
   const Scored with{h, evidence_.score(h)};
