@@ -77,7 +77,11 @@ class UncertainParameters {
   /// True for a parameter at its bound, and for a size with a shape at its bound. A shape of which the data do not show
   /// where in its range it lies does not count: it does nothing.
   bool is_exhausted(std::size_t i) const {
-    const auto ends = [&](std::size_t j) { return ends_at_bound(fit_.parameters[j], value(j)); };
+    const auto ends = [&](std::size_t j) {
+      // To first order a reset may move another parameter beyond its range.
+      const FitParameter& p = fit_.parameters[j];
+      return ends_at_bound(p, std::clamp(value(j), p.lower, p.upper));
+    };
     const auto shape_ends = [&](std::size_t j) {
       const FitParameter& p = fit_.parameters[j];
       return ends(j) && covariance_(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j)) <

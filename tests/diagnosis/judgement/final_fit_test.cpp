@@ -54,6 +54,16 @@ TEST(FinalFit, KeepsASlipThatTheDataDetermine) {
   EXPECT_NEAR(one.fit.hypothesis.effects[0].p[0], kJump, 0.01 * kJump);
 }
 
+TEST(FinalFit, KeepsADriftThatIsLinearInTime) {
+  PlacedEffect truth = place_neutral_effect(*find_effect("friction_drift"), first_joints(1).nominal, 0), start = truth;
+  truth.p[0] = -0.12, truth.p[1] = 0.05;  // 1/s, -; its settling rate is 0
+  start.p[0] = -0.14, start.p[1] = 0.03, start.p[2] = 2e-3;
+  const Fitted linear({start}, truth);
+  ASSERT_TRUE(linear.fit.usable);
+  EXPECT_TRUE(idle_effects(linear.fit, 0).empty());
+  EXPECT_NEAR(linear.fit.hypothesis.effects[0].p[0], truth.p[0], 0.1 * std::abs(truth.p[0]));
+}
+
 TEST(FinalFit, KeepsNoSizeWhoseIntervalContainsItsNeutralValue) {
   constexpr double kOffset = 0.02;  // rad
   PlacedEffect truth = place_effect(*find_effect("encoder_offset"), first_joints(1).nominal, 0), more = truth,
