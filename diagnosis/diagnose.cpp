@@ -171,11 +171,9 @@ class Diagnoser {
       const auto c =
           without.finite ? most_explained_channel(evidence, attribution().final_score, without) : std::nullopt;
       const int k = c.value_or(0) % model_.n();
-      const char* why = doubt == Doubt::another_cause     ? "so much is left that another cause is more probable"
-                        : doubt == Doubt::no_certain_size ? "its size may as well be zero"
-                                                          : "it is needed only beside another effect that has no name";
       result_.unexplained.push_back({k, fmt::format("{} explains a part of it and is in the revised model, but {}",
-                                                    effect_label(final_hypothesis().effects[e]), why)});
+                                                    effect_label(final_hypothesis().effects[e]),
+                                                    reason_of(doubt, attribution().namings[e - given_]))});
     }
   }
 

@@ -31,9 +31,13 @@ bool is_doubtful(const Evidence& evidence, const Attribution& found, std::size_t
 enum class Doubt {
   none,
   another_cause,    ///< is_doubtful()
+  surer_rival,      ///< has_surer_rival()
   no_certain_size,  ///< the intervals of all its sizes contain their neutral values
   only_beside_one   ///< not needed without the doubtful effects: it may only make up for their error
 };
+
+/// Completes "EFFECT explains a part of it, but ...".
+std::string reason_of(Doubt doubt, const Naming& naming);
 
 /// For each added effect of the final fit. significance: as of the search.
 std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const Attribution& found,
