@@ -52,8 +52,9 @@ compile_together(halyard_plugins checks host/conformance.cpp host/effect_module.
 
 compile_together(halyard_diagnosis records
   calibration/calibrate.cpp calibration/torque_comparison.cpp explanation/curve_fit.cpp
-  explanation/lines_above_band.cpp explanation/residual_signals.cpp explanation/signature.cpp explanation/spectrum.cpp
-  explanation/view_sentence.cpp explanation/views.cpp motion/chebyshev.cpp motion/lane_drive.cpp
+  explanation/estimates.cpp explanation/lines_above_band.cpp explanation/residual_signals.cpp
+  explanation/signature.cpp explanation/spectrum.cpp explanation/view_sentence.cpp explanation/views.cpp
+  motion/chebyshev.cpp motion/lane_drive.cpp
   prediction/driven_start.cpp prediction/filtered_effect.cpp prediction/measured_units.cpp record/record.cpp
   record/resting.cpp search_space/cable.cpp search_space/joint.cpp search_space/motor.cpp search_space/search_space.cpp
   search_space/sensor.cpp)

@@ -8,6 +8,7 @@
 
 #include "diagnosis/calibration/calibrate.h"
 #include "diagnosis/diagnosis_details.h"
+#include "diagnosis/explanation/estimates.h"
 #include "diagnosis/explanation/lines_above_band.h"
 #include "diagnosis/explanation/signature.h"
 #include "diagnosis/judgement/final_fit.h"
@@ -148,7 +149,7 @@ class Diagnoser {
     for (std::size_t e = given_; e < f.hypothesis.effects.size(); ++e) {
       if (doubts_[e - given_] != Doubt::none) continue;
       NamedEffect named{on_its_clock(evidence, f.hypothesis.effects[e]), namings[e - given_].weight,
-                        estimated_parameters(evidence, e), namings[e - given_].alternatives};
+                        told_parameters(evidence, e), namings[e - given_].alternatives};
       const Record* const happens_in = record_of(f.hypothesis.effects[e], model_.nominal, evidence.records());
       if (happens_in && n_logs_ > 1) named.log = happens_in->source;
       const double none = probability_of_none_for(evidence, attribution(), e);
@@ -177,42 +178,21 @@ class Diagnoser {
     }
   }
 
+  /// Instants are told on their log's clock.
+  std::vector<Estimated> told_parameters(const Evidence& evidence, std::size_t effect) {
+    const PlacedEffect& e = final_hypothesis().effects[effect];
+    return estimated_parameters(evidence, result_.given.nominal, attribution().final_fit, effect, given_,
+                                on_its_clock(evidence, e));
+  }
+
   void tell_refits() {
     const Fit& f = attribution().final_fit;
     result_.refitted.clear();
     for (const std::size_t i : changed_) {
       const FitParameter& p = f.parameters[i];
-      result_.refitted.push_back(estimated(f, i));
+      result_.refitted.push_back(estimate_of(f, i, given_));
       if (is_unknown_scale(model_, p.index)) result_.refitted.back().nominal = parameter_value({model_.nominal, {}}, p);
     }
-  }
-
-  /// The fitted parameters of an effect, and its whole numbers, which have no interval.
-  std::vector<Estimated> estimated_parameters(const Evidence& evidence, std::size_t effect) {
-    const Fit& f = attribution().final_fit;
-    std::vector<Estimated> all;
-    for (const FitParameter& p : effect_parameters(evidence, f.hypothesis, result_.given.nominal, effect)) {
-      if (p.is_past) continue;
-      const double value = parameter_value(f.hypothesis, p);
-      if (const std::optional<std::size_t> fitted = find_parameter(f.parameters, p)) {
-        all.push_back(estimated(f, *fitted));
-        // An instant is told on its log's clock.
-        const double shift = on_its_clock(evidence, f.hypothesis.effects[effect]).p[p.index] - value;
-        for (double* t : {&all.back().value, &all.back().lower, &all.back().upper}) *t += shift;
-      } else if (p.is_whole) all.push_back({p.name, p.unit, value, value, value, p.nominal});
-    }
-    return all;
-  }
-
-  Estimated estimated(const Fit& f, std::size_t i) const {
-    const FitParameter& p = f.parameters[i];
-    const double half = interval_factor(f) * f.std_deviation[i];
-    // No interval reaches beyond what the number can be. A size of an effect that was found is not neutral.
-    double lower = std::max(f.value[i] - half, p.lower), upper = std::min(f.value[i] + half, p.upper);
-    const bool is_found_size = p.effect >= given_ && !p.shape;
-    if (is_found_size && f.value[i] > p.nominal) lower = std::max(lower, p.nominal);
-    if (is_found_size && f.value[i] < p.nominal) upper = std::min(upper, p.nominal);
-    return {p.name, p.unit, f.value[i], lower, upper, p.nominal};
   }
 
   void tell_rests(const Evidence& evidence) {

@@ -13,10 +13,6 @@ double probability_of_any_name(const Naming& naming, double none) {
   return (1 - none) * sum;
 }
 
-bool has_surer_rival(const Naming& naming) {
-  return !naming.alternatives.empty() && naming.alternatives[0].probability > naming.weight;
-}
-
 std::vector<bool> convincing(const std::vector<Trial>& trials, double significance) {
   std::vector<double> p;
   for (const Trial& t : trials)
@@ -46,10 +42,16 @@ Competition::Choice Competition::choose(const std::vector<std::size_t>& able) co
     if (shared_gain(trials_[best].log_likelihood, trials_[i].log_likelihood, ln_without_) < kRule.shared_gain) continue;
     if (p.t < kRule.tell_apart || p.sum < 2 * kRule.tell_apart * kRule.tell_apart) alike.push_back(i);
   }
-  // Of the candidates that the data cannot distinguish, the most probable is named.
-  const std::vector<double> weight = weights(alike);
-  const auto most = std::ranges::max_element(weight.begin(), weight.end() - 1);
-  return {alike[static_cast<std::size_t>(most - weight.begin())], alike};
+  // Of the candidates that the data cannot distinguish, the best is named. If several are about as good, one that only
+  // changes the model's own numbers comes first, and then the one with the fewest numbers of its own.
+  const auto simplicity = [&](std::size_t i) {
+    const PlacedEffect& e = trials_[i].effect;
+    return std::pair(e.effect->stages() != 0, e.effect->parameters(model_.nominal, e.joint).size());
+  };
+  std::vector<std::size_t> as_good = alike;
+  std::erase_if(as_good, [&](std::size_t i) { return trials_[i].gain < trials_[best].gain - kRule.by_chance; });
+  const std::size_t named = *std::ranges::min_element(as_good, {}, simplicity);
+  return {named, alike};
 }
 
 Naming Competition::naming(const Choice& choice) const {
@@ -64,9 +66,13 @@ Naming Competition::naming(const Choice& choice) const {
   const std::vector<double> weight = weights(rivals);
   Naming naming;
   naming.weight = weight[0];
-  for (std::size_t r = 1; r < rivals.size(); ++r)
+  double surest = naming.weight;
+  for (std::size_t r = 1; r < rivals.size(); ++r) {
+    if (!trials_[rivals[r]].can_be_named() && weight[r] > surest)
+      surest = weight[r], naming.surer = trials_[rivals[r]].effect;
     if (weight[r] > kWorthTelling || std::ranges::count(choice.alike, rivals[r]) > 0)
       naming.alternatives.push_back({trials_[rivals[r]].effect, weight[r], false});
+  }
   std::ranges::stable_sort(naming.alternatives, std::ranges::greater{}, &Alternative::probability);
   return naming;
 }

@@ -10,14 +10,12 @@ namespace halyard {
 struct Naming {
   double weight = 0;                      ///< among the candidates of its round, see name_probability.h
   std::vector<Alternative> alternatives;  ///< with their weights as probabilities, the most probable first
+  /// The most probable of those that are more probable than the name, but cannot be named: at a bound, for example.
+  std::optional<PlacedEffect> surer = {};
 };
 
 /// That the name or one of its alternatives is right. none: probability that no name is (name_probability.h).
 double probability_of_any_name(const Naming& naming, double none);
-
-/// True if an alternative is more probable than the name. Of the candidates that can be named, the most probable is: the
-/// alternative ends at a bound, for example.
-bool has_surer_rival(const Naming& naming);
 
 /// For each trial: it can be named, and its gain is significant at this false discovery rate. A candidate that cannot
 /// be named counts among the tests but not among the discoveries.
@@ -33,8 +31,7 @@ class Competition {
     std::size_t named;
     std::vector<std::size_t> alike;  ///< trials that the data cannot tell from the best one, including the named one
   };
-  /// Chooses among the trials `able`; there must be at least one. Of those that the data cannot tell from the best, the most
-  /// probable is named: each number that it adds to the model counts against it (name_probability.h).
+  /// Chooses among the trials `able`; there must be at least one.
   Choice choose(const std::vector<std::size_t>& able) const;
   /// The weights of a name and of the candidates that explain the same part of the residual.
   Naming naming(const Choice& choice) const;

@@ -131,7 +131,7 @@ bool has_certain_size(const Fit& fit, std::size_t effect) {
 
 Doubt own_doubt(const Evidence& evidence, const Attribution& found, std::size_t given, std::size_t effect) {
   if (is_doubtful(evidence, found, given, effect)) return Doubt::another_cause;
-  if (has_surer_rival(found.namings[effect - given])) return Doubt::surer_rival;
+  if (found.namings[effect - given].surer) return Doubt::surer_rival;
   return has_certain_size(found.final_fit, effect) ? Doubt::none : Doubt::no_certain_size;
 }
 
@@ -169,8 +169,7 @@ std::string reason_of(Doubt doubt, const Naming& naming) {
   switch (doubt) {
     case Doubt::another_cause: return "so much is left that another cause is more probable";
     case Doubt::surer_rival:
-      return fmt::format("{} is more probable, at a bound of what is plausible",
-                         effect_label(naming.alternatives[0].effect));
+      return fmt::format("{} is more probable, at a bound of what is plausible", effect_label(*naming.surer));
     case Doubt::no_certain_size: return "its size may as well be zero";
     case Doubt::only_beside_one: return "it is needed only beside another effect that has no name";
     case Doubt::none: break;

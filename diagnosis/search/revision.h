@@ -31,7 +31,7 @@ bool is_doubtful(const Evidence& evidence, const Attribution& found, std::size_t
 enum class Doubt {
   none,
   another_cause,    ///< is_doubtful()
-  surer_rival,      ///< has_surer_rival()
+  surer_rival,      ///< Naming::surer
   no_certain_size,  ///< the intervals of all its sizes contain their neutral values
   only_beside_one   ///< not needed without the doubtful effects: it may only make up for their error
 };

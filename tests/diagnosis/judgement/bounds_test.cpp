@@ -98,6 +98,11 @@ TEST(Bounds, LeaveACandidateAmongTheRivalsOfAName) {
   ASSERT_EQ(naming().alternatives.size(), 1u);
   const double odds = std::exp(-kRule.by_chance);
   EXPECT_NEAR(naming().alternatives[0].probability, odds / (1 + odds), 1e-6);
+  EXPECT_FALSE(naming().surer);
+  trials[1].stretch -= kRule.by_chance + 1;
+  EXPECT_TRUE(naming().surer) << "it cannot be named, and is more probable than the name";
+  trials[1].at_bound = false;
+  EXPECT_FALSE(naming().surer) << "it can be named";
 }
 
 }  // namespace
