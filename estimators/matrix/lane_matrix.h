@@ -9,6 +9,14 @@
 
 namespace halyard {
 
+/// Some neighbouring columns of a matrix in lanes.
+template <class L>
+struct LaneColumns {
+  int rows, count, blocks;
+  L* lanes;
+  operator LaneColumns<const L>() const { return {rows, count, blocks, lanes}; }  // NOLINT: as of pointers
+};
+
 class LaneMatrix {
  public:
   using View = Eigen::Map<Eigen::MatrixXd, Eigen::Aligned16, Eigen::OuterStride<>>;
@@ -40,6 +48,10 @@ class LaneMatrix {
   int blocks() const { return blocks_; }  ///< lanes of a column
   Lanes* lanes() { return lanes_.data(); }
   const Lanes* lanes() const { return lanes_.data(); }
+  LaneColumns<Lanes> columns(int first, int count) { return {rows_, count, blocks_, lanes() + first * blocks_}; }
+  LaneColumns<const Lanes> columns(int first, int count) const {
+    return {rows_, count, blocks_, lanes() + first * blocks_};
+  }
   View view() { return {reinterpret_cast<double*>(lanes_.data()), rows_, columns_, stride()}; }
   ConstView view() const { return {reinterpret_cast<const double*>(lanes_.data()), rows_, columns_, stride()}; }
 
@@ -85,15 +97,23 @@ inline RightFactor right(const Eigen::Ref<const Eigen::MatrixXd>& B) {
 inline RightFactor right(const LaneMatrix& B) { return {B.view().data(), 1, kLaneWidth * B.blocks()}; }
 inline RightFactor transposed(RightFactor B) { return {B.data, B.column, B.row}; }
 
-/// C = A B, or C += A B if `add`, with B [A.columns() x C.columns()]. C must not share memory with the factors.
-inline void multiply(const LaneMatrix& A, const RightFactor& B, LaneMatrix& C, bool add) {
-  matrix_kernels()[0].product(A.rows(), A.columns(), C.columns(), A.lanes(), A.blocks(), B, C.lanes(), C.blocks(), add);
+inline RightFactor right(const LaneColumns<const Lanes>& B) {
+  return {reinterpret_cast<const double*>(B.lanes), 1, kLaneWidth * B.blocks};
 }
-inline void add_product(const LaneMatrix& A, const RightFactor& B, LaneMatrix& C) { multiply(A, B, C, true); }
+/// The rows of B from `first` on.
+inline RightFactor rows_from(int first, RightFactor B) { return {B.data + first * B.row, B.row, B.column}; }
+
+/// C = A B, or C += A B if `add`, with B [A.count x C.count]. C must not share memory with the factors.
+inline void multiply(const LaneColumns<const Lanes>& A, const RightFactor& B, const LaneColumns<Lanes>& C, bool add) {
+  matrix_kernels()[0].product(A.rows, A.count, C.count, A.lanes, A.blocks, B, C.lanes, C.blocks, add);
+}
+inline void add_product(const LaneMatrix& A, const RightFactor& B, LaneMatrix& C) {
+  multiply(A.columns(0, A.columns()), B, C.columns(0, C.columns()), true);
+}
 /// C takes the shape of the product, with B [A.columns() x columns].
 inline void set_product(const LaneMatrix& A, const RightFactor& B, int columns, LaneMatrix& C) {
   C.reshape(A.rows(), columns);
-  multiply(A, B, C, false);
+  multiply(A.columns(0, A.columns()), B, C.columns(0, columns), false);
 }
 
 /// Sums of the squares of the columns of A: squares [A.columns()].

@@ -17,7 +17,11 @@ struct RightFactor {
   int row, column;
 };
 
-/// Matrices [n x n] in lanes; see phi_functions.h.
+/// The shape of Z [n x n] in phi_functions.h: `first` kinematic rows, then rows of any kind up to `end`, then zeros.
+struct PhiShape {
+  int n, first, end;
+};
+/// Matrices in lanes, whose rows from PhiShape::end on are zero but for those of E: [n x n]; the φ_k [n x end - first].
 struct PhiLevelMemory {
   Lanes *E, *phi_1, *phi_2;
 };
@@ -39,10 +43,9 @@ struct MatrixKernels {
   void (*lower_root)(int n, int m, int steps, int blocks, Lanes* A, double* L, int l_stride);
   /// Σ_r A_rc² of each column of A [rows x columns].
   void (*column_squares)(int rows, int columns, const Lanes* A, int blocks, double* squares);
-  /// The functions of phi_functions.h from Y = Z, which is overwritten: E and φ_2 of all levels, φ_1 of all but level 0,
-  /// and φ_3 of the last. Returns the number of doublings; if this would exceed `most`, or Y is not finite, -1, and nothing
-  /// is computed.
-  int (*phi_functions)(int n, int most, const PhiMemory& memory);
+  /// The functions of phi_functions.h from Y = Z, which is overwritten: E, φ_1 and φ_2 of all levels, and φ_3 of the
+  /// last. Returns the number of doublings; if this would exceed `most`, or Y is not finite, -1, and nothing is computed.
+  int (*phi_functions)(const PhiShape& shape, int most, const PhiMemory& memory);
 };
 
 /// The widest that this processor has first, the generic one last.

@@ -31,34 +31,30 @@ void PhiFunctions::set_weights(const Eigen::ArrayXd& scale) {
   for (int c = 0; c < n; ++c) weight_.view().col(c) = scale(c) / scale;
 }
 
-void PhiFunctions::take_memory(int n) {
+void PhiFunctions::take_memory(const PhiShape& shape) {
+  const int n = shape.n, m = shape.end - shape.first;
   if (weight_.rows() != n) set_weights(Eigen::ArrayXd::Ones(n));
-  if (!levels_.empty() && levels_[0].E.rows() == n) return;
+  if (n == shape_.n && shape.first == shape_.first && shape.end == shape_.end) return;
+  shape_ = shape;
   levels_.resize(kMostDoublings + 1);
   memory_.clear();
   for (Level& level : levels_) {
-    for (LaneMatrix* A : {&level.E, &level.phi_1, &level.phi_2}) A->set_zero(n, n);
+    level.E.set_zero(n, n);
+    level.E.view().diagonal().setOnes();
+    for (LaneMatrix* A : {&level.phi_1, &level.phi_2}) A->set_zero(n, m);
     memory_.push_back({level.E.lanes(), level.phi_1.lanes(), level.phi_2.lanes()});
   }
-  for (LaneMatrix* A : {&phi_3_, &Y_, &Y2_, &Y3_, &next_}) A->set_zero(n, n);
+  for (LaneMatrix* A : {&phi_3_, &next_}) A->set_zero(n, m);
+  for (LaneMatrix* A : {&Y_, &Y2_, &Y3_}) A->set_zero(n, n);
 }
 
-bool PhiFunctions::compute(const Eigen::Ref<const Eigen::MatrixXd>& Z) {
-  const int n = static_cast<int>(Z.rows());
-  take_memory(n);
+bool PhiFunctions::compute(const Eigen::Ref<const Eigen::MatrixXd>& Z, const PhiShape& shape) {
+  take_memory(shape);
   Y_.view() = Z;
   doublings_ = matrix_kernels()[0].phi_functions(
-      n, kMostDoublings,
+      shape_, kMostDoublings,
       {memory_.data(), phi_3_.lanes(), weight_.lanes(), Y_.lanes(), Y2_.lanes(), Y3_.lanes(), next_.lanes()});
   return doublings_ >= 0;
-}
-
-const Eigen::VectorXd& PhiFunctions::phi_1_times(const Eigen::VectorXd& v) {
-  set_product(levels_[1].phi_1, right(v), 1, column_);
-  product_ = column_.view().col(0);
-  set_product(levels_[1].E, right(product_), 1, column_);
-  product_ = 0.5 * (product_ + column_.view().col(0));
-  return product_;
 }
 
 const Eigen::VectorXd& PhiFunctions::phi_3_times(const Eigen::VectorXd& v) {

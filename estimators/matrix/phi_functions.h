@@ -9,7 +9,15 @@
 ///
 ///   φ_k(2Y) = 2^-k (E φ_k(Y) + Σ_{j=1..k} φ_j(Y) / (k - j)!),   E(2Y) = E(Y)²
 ///
-/// φ_1 and φ_3 of the whole Z only multiply vectors. Then the formula multiplies vectors, too.
+/// φ_3 of the whole Z only multiplies vectors. Then the formula multiplies vectors, too.
+///
+/// Mechanical systems have kinematic rows, q' = v. With p of them, then m rows of any kind, and no others but zeros,
+///
+///   Z = [ 0 y I  0 ; K D B ; 0 0 0 ]
+///
+/// the φ_k, k > 0, are wanted for vectors only that are zero but for those m rows: φ_k V, with the columns V of the unit
+/// matrix. Their kinematic rows are y times rows of φ_k+1 V, and the rest of E is I + φ_1 V [K D B]. So about half of each
+/// product is needed.
 ///
 /// The states have units of different size, so that the norm of Z means little. It is that of D⁻¹ Z D, with a diagonal
 /// D of powers of two for which rows and columns have like norms.
@@ -32,25 +40,27 @@ class PhiFunctions {
 
   /// Chooses D for matrices like this one. Without this call, and if Z is not finite, D is the unit matrix.
   void balance(Eigen::MatrixXd Z);
-  /// Z [n x n]. False, and the functions are not computed, if Z is not finite or s would exceed kMostDoublings.
-  bool compute(const Eigen::Ref<const Eigen::MatrixXd>& Z);
+  /// Z [n x n] of this shape: p and p + m. False, and the functions are not computed, if Z is not finite or s would exceed
+  /// kMostDoublings.
+  bool compute(const Eigen::Ref<const Eigen::MatrixXd>& Z, const PhiShape& shape);
 
-  /// The functions of Z / 2^k; φ_1 is not computed for k = 0.
+  /// The functions of Z / 2^k: E [n x n], φ_1 V and φ_2 V [n x m].
   struct Level {
     LaneMatrix E, phi_1, phi_2;
   };
   const Level& level(int k) const { return levels_[static_cast<std::size_t>(k)]; }
   int doublings() const { return doublings_; }  ///< s, at least 1: the last level
   const LaneMatrix& E() const { return levels_[0].E; }
+  const LaneMatrix& phi_1() const { return levels_[0].phi_1; }
   const LaneMatrix& phi_2() const { return levels_[0].phi_2; }
-  /// φ_1 v and φ_3 v, which stay valid until the next product of this kind.
-  const Eigen::VectorXd& phi_1_times(const Eigen::VectorXd& v);
+  /// φ_3 V v [n], v [m], which stays valid until the next product of this kind.
   const Eigen::VectorXd& phi_3_times(const Eigen::VectorXd& v);
 
  private:
-  void take_memory(int n);
+  void take_memory(const PhiShape& shape);
   void set_weights(const Eigen::ArrayXd& scale);
 
+  PhiShape shape_{0, 0, 0};
   int doublings_ = 0;
   LaneMatrix weight_;  // D_j / D_i
   std::vector<Level> levels_;

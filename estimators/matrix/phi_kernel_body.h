@@ -7,38 +7,62 @@
 namespace halyard {
 namespace {
 
-/// Operations on matrices [n x n] in lanes, of which only the first rows are computed: where the last rows of Z are zero, as
-/// those of constant states, the others are multiples of rows of the unit matrix. known, known_rows: n and the number of
-/// rows, or 0 if the compiler is not to know them.
-template <int known, int known_rows>
-struct SquareMatrices {
-  int n, height, stride;  // height: registers of the rows that are computed; stride: registers of a column
+/// Operations on the parts of PhiShape. known_n, known_first, known_end: the shape, or 0 if the compiler is not to know it.
+template <int known_n, int known_first, int known_end>
+struct PhiOperations {
+  using Piece = tiles::Piece;
+  static constexpr bool known = known_n > 0;
+  int n, first, end, count;
+  int height, stride;  // registers of the rows below `end`, and of a column
+  int moving;          // the first register that has a row from `first` on
 
-  HALYARD_INLINE SquareMatrices(int size, int rows)
-      : n(known > 0 ? known : size),
-        height(tiles::pieces_of(known_rows > 0 ? known_rows : rows)),
-        stride((n + kLaneWidth - 1) / kLaneWidth * tiles::kPiecesPerBlock) {}
+  HALYARD_INLINE explicit PhiOperations(const PhiShape& shape)
+      : n(known ? known_n : shape.n),
+        first(known ? known_first : shape.first),
+        end(known ? known_end : shape.end),
+        count(end - first),
+        height(tiles::pieces_of(end)),
+        stride((n + kLaneWidth - 1) / kLaneWidth * tiles::kPiecesPerBlock),
+        moving(first / tiles::kPieceWidth) {}
 
-  /// C = finish(i, A B), i the index of a register.
+  HALYARD_INLINE double* entries(Lanes* A) const { return reinterpret_cast<double*>(A); }
+  HALYARD_INLINE const double* entries(const Lanes* A) const { return reinterpret_cast<const double*>(A); }
+  HALYARD_INLINE int column_size() const { return stride * tiles::kPieceWidth; }
+  HALYARD_INLINE Lanes* columns_from(Lanes* A, int c) const { return A + c * (stride / tiles::kPiecesPerBlock); }
+
+  /// C = finish(i, A B) in the registers i of rows from register `from` on; A [end x k], B [k x columns].
   template <class Finish>
-  HALYARD_INLINE void product(const Lanes* A, const Lanes* B, Lanes* C, const Finish& finish) const {
-    tiles::Piece* out = tiles::pieces(C);
+  HALYARD_INLINE void product(int from, const Lanes* A, int k, const double* B, int columns, Lanes* C,
+                              const Finish& finish) const {
+    Piece* out = tiles::pieces(C);
     const int step = stride;
     tiles::product(
-        height, n, n, tiles::pieces(A), stride, {reinterpret_cast<const double*>(B), 1, stride * tiles::kPieceWidth},
-        [&](int p, int c, const tiles::Piece& sum)
-            __attribute__((always_inline)) { out[p + c * step] = finish(p + c * step, sum); });
+        height - from, k, columns, tiles::pieces(A) + from, stride,
+        {B, 1, column_size()}, [&](int p, int c, const Piece& sum) __attribute__((always_inline)) {
+          const int i = from + p + c * step;
+          out[i] = finish(i, sum);
+        });
+  }
+  /// The kinematic rows of C: y times the rows of B from `first` on.
+  HALYARD_INLINE void set_kinematic_rows(double y, const Lanes* B, int columns, Lanes* C) const {
+    const double* from = entries(B) + first;
+    double* to = entries(C);
+    for (int c = 0; c < columns; ++c, from += column_size(), to += column_size())
+      for (int i = 0; i < first; ++i) to[i] = y * from[i];
+  }
+  /// Adds s to the ones of the unit matrix's columns from `first` on.
+  HALYARD_INLINE void add_units(Lanes* C, double s) const {
+    for (int i = 0; i < count; ++i) entries(C)[first + i * (column_size() + 1)] += s;
   }
   HALYARD_INLINE void scale(Lanes* A, double factor) const {
-    tiles::Piece* entries = tiles::pieces(A);
-    for (int i = 0; i < n * stride; ++i) entries[i] *= factor;
+    for (int i = 0; i < n * stride; ++i) tiles::pieces(A)[i] *= factor;
   }
   /// The 1-norm of the entries times their weights; NaN if an entry is.
   HALYARD_INLINE double norm(const Lanes* A, const Lanes* weight) const {
-    const tiles::Piece *column = tiles::pieces(A), *w = tiles::pieces(weight);
+    const Piece *column = tiles::pieces(A), *w = tiles::pieces(weight);
     double most = 0;
-    for (int c = 0; c < n; ++c, column += stride, w += stride) {
-      tiles::Piece sum = lane_math::magnitude(column[0] * w[0]);
+    for (int c = 0; c < end; ++c, column += stride, w += stride) {
+      Piece sum = lane_math::magnitude(column[0] * w[0]);
       for (int i = 1; i < height; ++i) sum += lane_math::magnitude(column[i] * w[i]);
       const double total = tiles::sum_of(sum);
       most = total <= most ? most : total;
@@ -46,75 +70,79 @@ struct SquareMatrices {
     }
     return most;
   }
-  /// A, of which all but the diagonal has been computed, becomes A + s I.
-  HALYARD_INLINE void add_to_diagonal(Lanes* A, double s) const {
-    double* entries = reinterpret_cast<double*>(A);
-    const int computed = height * tiles::kPieceWidth, step = stride * tiles::kPieceWidth + 1;
-    for (int i = 0; i < n && i < computed; ++i) entries[i * step] += s;
-    set_rest(A, s);
-  }
-  /// The rows that are not computed become those of s I.
-  HALYARD_INLINE void set_rest(Lanes* A, double s) const {
-    double* entries = reinterpret_cast<double*>(A);
-    const int used = tiles::pieces_of(n);
-    for (int c = 0; c < n; ++c)
-      for (int p = height; p < used; ++p) tiles::pieces(A)[c * stride + p] = tiles::Piece{};
-    for (int i = height * tiles::kPieceWidth; i < n; ++i) entries[i * (stride * tiles::kPieceWidth + 1)] = s;
+  /// E = I + φ_1 Z in the columns that E V does not have, with Z = factor Y.
+  HALYARD_INLINE void set_other_columns(const Lanes* Y, double factor, const Lanes* phi_1, Lanes* E) const {
+    const auto scaled = [&](int, const Piece& sum) __attribute__((always_inline)) { return factor * sum; };
+    product(0, phi_1, count, entries(Y) + first, first, E, scaled);
+    product(0, phi_1, count, entries(Y) + end * column_size() + first, n - end, columns_from(E, end), scaled);
+    for (int i = 0; i < first; ++i) entries(E)[i * (column_size() + 1)] += 1;
+    for (int i = end; i < n; ++i) entries(E)[i * (column_size() + 1)] = 1;
   }
 };
 
-/// The φ_k and E of Y, given its square and cube.
-template <class Square>
-HALYARD_INLINE void polynomials(const Square& square, const PhiMemory& m, const PhiLevelMemory& level) {
+/// The functions of Y, given its square and cube.
+template <class Operations>
+HALYARD_INLINE void polynomials(const Operations& on, const PhiMemory& m, const PhiLevelMemory& level) {
   using tiles::Piece;
-  const Piece *Y = tiles::pieces(m.Y), *Y2 = tiles::pieces(m.Y2);
+  Lanes *YV = on.columns_from(m.Y, on.first), *EV = on.columns_from(level.E, on.first);
+  const Piece *Y = tiles::pieces(YV), *Y2 = tiles::pieces(on.columns_from(m.Y2, on.first));
   const auto same = [](int, const Piece& sum) __attribute__((always_inline)) { return sum; };
   // 1 / k! of k = 3 to 14, by Horner's scheme in Y³.
   Piece* next = tiles::pieces(m.next);
-  for (int i = 0; i < square.n * square.stride; ++i) next[i] = (1.0 / 6227020800) * Y[i] + (1.0 / 87178291200) * Y2[i];
-  square.add_to_diagonal(m.next, 1.0 / 479001600);
-  square.product(
-      m.Y3, m.next, m.phi_3, [&](int i, const Piece& sum) __attribute__((always_inline)) {
+  for (int i = 0; i < on.count * on.stride; ++i) next[i] = (1.0 / 6227020800) * Y[i] + (1.0 / 87178291200) * Y2[i];
+  on.add_units(m.next, 1.0 / 479001600);
+  on.product(
+      0, m.Y3, on.end, on.entries(m.next), on.count,
+      m.phi_3, [&](int i, const Piece& sum) __attribute__((always_inline)) {
         return sum + (1.0 / 3628800) * Y[i] + (1.0 / 39916800) * Y2[i];
       });
-  square.add_to_diagonal(m.phi_3, 1.0 / 362880);
-  square.product(
-      m.Y3, m.phi_3, level.E, [&](int i, const Piece& sum) __attribute__((always_inline)) {
+  on.add_units(m.phi_3, 1.0 / 362880);
+  on.product(
+      0, m.Y3, on.end, on.entries(m.phi_3), on.count,
+      m.next, [&](int i, const Piece& sum) __attribute__((always_inline)) {
         return sum + (1.0 / 5040) * Y[i] + (1.0 / 40320) * Y2[i];
       });
-  square.add_to_diagonal(level.E, 1.0 / 720);
-  square.product(
-      m.Y3, level.E, m.phi_3, [&](int i, const Piece& sum) __attribute__((always_inline)) {
+  on.add_units(m.next, 1.0 / 720);
+  on.product(
+      0, m.Y3, on.end, on.entries(m.next), on.count,
+      m.phi_3, [&](int i, const Piece& sum) __attribute__((always_inline)) {
         return sum + (1.0 / 24) * Y[i] + (1.0 / 120) * Y2[i];
       });
-  square.add_to_diagonal(m.phi_3, 1.0 / 6);
-  square.product(m.Y, m.phi_3, level.phi_2, same);
-  square.add_to_diagonal(level.phi_2, 0.5);
-  square.product(m.Y, level.phi_2, level.phi_1, same);
-  square.add_to_diagonal(level.phi_1, 1);
-  square.product(m.Y, level.phi_1, level.E, same);
-  square.add_to_diagonal(level.E, 1);
+  on.add_units(m.phi_3, 1.0 / 6);
+  const double y = on.first > 0 ? on.entries(YV)[0] : 0;
+  const Lanes* before = m.phi_3;
+  double unit = 0.5;
+  for (Lanes* const C : {level.phi_2, level.phi_1, EV}) {
+    on.product(on.moving, m.Y, on.end, on.entries(before), on.count, C, same);
+    on.add_units(C, unit);
+    on.set_kinematic_rows(y, before, on.count, C);
+    before = C, unit = 1;
+  }
+  on.set_other_columns(m.Y, 1, level.phi_1, level.E);
 }
 
-/// E, φ_2 and, if wanted, φ_1 of the whole argument.
-template <class Square>
-HALYARD_INLINE void double_argument(const Square& square, const PhiLevelMemory& half, const PhiLevelMemory& whole,
-                                    bool with_phi_1) {
+/// The functions of the whole argument, factor Y, from those of its half.
+template <class Operations>
+HALYARD_INLINE void double_argument(const Operations& on, const PhiMemory& m, double factor, const PhiLevelMemory& half,
+                                    const PhiLevelMemory& whole) {
   using tiles::Piece;
   const Piece *one = tiles::pieces(half.phi_1), *two = tiles::pieces(half.phi_2);
-  square.product(
-      half.E, half.phi_2, whole.phi_2, [&](int i, const Piece& sum) __attribute__((always_inline)) {
+  const double y = on.first > 0 ? factor * on.entries(m.Y)[on.first * on.column_size()] : 0;
+  Lanes *half_EV = on.columns_from(half.E, on.first), *EV = on.columns_from(whole.E, on.first);
+  on.product(
+      0, half.E, on.end, on.entries(half.phi_2), on.count,
+      whole.phi_2, [&](int i, const Piece& sum) __attribute__((always_inline)) {
         return 0.25 * (sum + one[i] + two[i]);
       });
-  if (with_phi_1)
-    square.product(
-        half.E, half.phi_1,
-        whole.phi_1, [&](int i, const Piece& sum) __attribute__((always_inline)) { return 0.5 * (sum + one[i]); });
-  square.product(
-      half.E, half.E, whole.E, [](int, const Piece& sum) __attribute__((always_inline)) { return sum; });
-  square.set_rest(whole.phi_2, 0.5);
-  square.set_rest(whole.phi_1, 1);
-  square.set_rest(whole.E, 1);
+  on.product(
+      on.moving, half.E, on.end, on.entries(half.phi_1), on.count,
+      whole.phi_1, [&](int i, const Piece& sum) __attribute__((always_inline)) { return 0.5 * (sum + one[i]); });
+  on.set_kinematic_rows(y, whole.phi_2, on.count, whole.phi_1);
+  on.product(
+      on.moving, half.E, on.end, on.entries(half_EV), on.count, EV,
+      [](int, const Piece& sum) __attribute__((always_inline)) { return sum; });
+  on.set_kinematic_rows(y, whole.phi_1, on.count, EV);
+  on.set_other_columns(m.Y, factor, whole.phi_1, whole.E);
 }
 
 /// The least s with (a / 2^s)^2 and (b / 2^s)^3 below θ, from the norms a² and b³ of Y² and Y³; at least 1, and
@@ -128,43 +156,39 @@ HALYARD_INLINE int count_doublings(double square_norm, double cube_norm, int mos
   return doublings;
 }
 
-template <int known, int known_rows>
-int phi_functions_of(int n, int rows, int most, const PhiMemory& m) {
-  const SquareMatrices<known, known_rows> square(n, rows);
+template <int known_n, int known_first, int known_end>
+int phi_functions_of(const PhiShape& shape, int most, const PhiMemory& m) {
+  const PhiOperations<known_n, known_first, known_end> on(shape);
   const auto same = [](int, const tiles::Piece& sum) __attribute__((always_inline)) { return sum; };
-  square.product(m.Y, m.Y, m.Y2, same);
-  square.set_rest(m.Y2, 0);
-  square.product(m.Y2, m.Y, m.Y3, same);
-  square.set_rest(m.Y3, 0);
-  const int doublings = count_doublings(square.norm(m.Y2, m.weight), square.norm(m.Y3, m.weight), most);
+  const double y = on.first > 0 ? on.entries(m.Y)[on.first * on.column_size()] : 0;
+  on.product(on.moving, m.Y, on.end, on.entries(m.Y), on.end, m.Y2, same);
+  on.set_kinematic_rows(y, m.Y, on.end, m.Y2);
+  on.product(on.moving, m.Y, on.end, on.entries(m.Y2), on.end, m.Y3, same);
+  on.set_kinematic_rows(y, m.Y2, on.end, m.Y3);
+  const int doublings = count_doublings(on.norm(m.Y2, m.weight), on.norm(m.Y3, m.weight), most);
   if (doublings > most) return -1;
   const double part = 1.0 / static_cast<double>(1LL << doublings);
-  square.scale(m.Y, part);
-  square.scale(m.Y2, part * part);
-  square.scale(m.Y3, part * part * part);
-  polynomials(square, m, m.level[doublings]);
-  for (int k = doublings; k-- > 0;) double_argument(square, m.level[k + 1], m.level[k], k > 0);
+  on.scale(m.Y, part);
+  on.scale(m.Y2, part * part);
+  on.scale(m.Y3, part * part * part);
+  polynomials(on, m, m.level[doublings]);
+  double factor = 1;
+  for (int k = doublings; k-- > 0;) {
+    factor *= 2;
+    double_argument(on, m, factor, m.level[k + 1], m.level[k]);
+  }
   return doublings;
 }
 
-/// Without the last rows that are zero.
-HALYARD_INLINE int rows_in_use(int n, const Lanes* A) {
-  const double* entries = reinterpret_cast<const double*>(A);
-  const int stride = (n + kLaneWidth - 1) / kLaneWidth * kLaneWidth;
-  for (int rows = n; rows > 1; --rows)
-    for (int c = 0; c < n; ++c)
-      if (entries[rows - 1 + c * stride] != 0) return rows;
-  return 1;
-}
-
-/// Arms of three joints, without unknown constants or with one or two of each joint, have copies of their own, in which the
-/// compiler knows the loops.
-int phi_functions(int n, int most, const PhiMemory& m) {
-  const int rows = rows_in_use(n, m.Y);
-  if (n == 12) return phi_functions_of<12, 12>(n, rows, most, m);
-  if (n == 15 && rows == 12) return phi_functions_of<15, 12>(n, rows, most, m);
-  if (n == 18 && rows == 12) return phi_functions_of<18, 12>(n, rows, most, m);
-  return phi_functions_of<0, 0>(n, rows, most, m);
+/// Arms of three joints, without unknown constants or with one or two of each joint, and of seven joints have copies of
+/// their own, in which the compiler knows the loops.
+int phi_functions(const PhiShape& shape, int most, const PhiMemory& m) {
+  const auto is = [&](int n, int first, int end) { return shape.n == n && shape.first == first && shape.end == end; };
+  if (is(12, 6, 12)) return phi_functions_of<12, 6, 12>(shape, most, m);
+  if (is(15, 6, 12)) return phi_functions_of<15, 6, 12>(shape, most, m);
+  if (is(18, 6, 12)) return phi_functions_of<18, 6, 12>(shape, most, m);
+  if (is(28, 14, 28)) return phi_functions_of<28, 14, 28>(shape, most, m);
+  return phi_functions_of<0, 0, 0>(shape, most, m);
 }
 
 }  // namespace

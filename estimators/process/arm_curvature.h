@@ -118,11 +118,12 @@ HALYARD_INLINE void rates_nearby(const LinearisedArm& model, const LinearisedPoi
   const int n = joint_count<known>(model.arm), size = l.size;
   for (int b = 0; b < blocks; ++b, ++d, ++rates) {
     for (int row = l.effect_states; row < size; ++row) rates[row * blocks] = Lanes(0.0);
-    for (int row = 1; row < l.effect_states; row += 2) {
+    for (int i = 0; i < l.positions; ++i) {
+      const int row = l.positions + i;
       Lanes sum(x_dot[row]);
       for (int c = 0; c < size; ++c) sum += A[row + c * size] * d[c * blocks];
       rates[row * blocks] = sum;
-      rates[(row - 1) * blocks] = x_dot[row - 1] + d[row * blocks];
+      rates[i * blocks] = x_dot[i] + d[row * blocks];
     }
     Lanes force[kMaxJoints], pull[kMaxJoints];
     const auto excess = [&](int i) __attribute__((always_inline)) {  // of friction i over its tangent

@@ -5,9 +5,9 @@
 ///   J q_m'' = τ - (r_m / N) g                        (Eq. 5; τ with the motor's friction)
 ///   M(q) q'' + h(q, q') = F                          (Eq. 4; F of transmission.h)
 ///
-/// The state has, joint by joint, [q_m, q_m', q, q'] for a cable-driven joint and [q, q'] for one
-/// that is driven rigidly or not at all. The internal states of the effects follow. The drives are those of
-/// transmission/drive.h: M includes the rotors of rigid drives.
+/// The state has first the positions, joint by joint: [q_m, q] of a cable-driven joint and [q] of one that is driven
+/// rigidly or not at all. Their rates follow in the same order, then the internal states of the effects. The drives are
+/// those of transmission/drive.h: M includes the rotors of rigid drives.
 
 #include <optional>
 
@@ -24,7 +24,8 @@ struct StateLayout {
   int n_effect_states = 0;
   std::optional<int> motor_angle[kMaxJoints], motor_rate[kMaxJoints];  ///< only of motors that drive cables
   int position[kMaxJoints] = {}, rate[kMaxJoints] = {};                ///< of the first n_joints
-  int effect_states = 0;                                               ///< index of the first internal state
+  int positions = 0;      ///< of motors and joints; i has its rate at positions + i
+  int effect_states = 0;  ///< index of the first internal state
   int size = 0;
 };
 
@@ -33,17 +34,16 @@ StateLayout state_layout(const Transmission<T>& transmission) {
   StateLayout l;
   l.n_joints = transmission.arm().n;
   l.n_effect_states = transmission.n_states();
-  int next = 0;
   for (int k = 0; k < l.n_joints; ++k) {
-    if (transmission.arm().joint[k].drive == Drive::cable) {
-      l.motor_angle[k] = next++;
-      l.motor_rate[k] = next++;
-    }
-    l.position[k] = next++;
-    l.rate[k] = next++;
+    if (transmission.arm().joint[k].drive == Drive::cable) l.motor_angle[k] = l.positions++;
+    l.position[k] = l.positions++;
   }
-  l.effect_states = next;
-  l.size = next + l.n_effect_states;
+  for (int k = 0; k < l.n_joints; ++k) {
+    if (l.motor_angle[k]) l.motor_rate[k] = l.positions + *l.motor_angle[k];
+    l.rate[k] = l.positions + l.position[k];
+  }
+  l.effect_states = 2 * l.positions;
+  l.size = l.effect_states + l.n_effect_states;
   return l;
 }
 

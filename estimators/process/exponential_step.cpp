@@ -22,14 +22,14 @@ bool is_small_change(const LaneMatrix& change, const LaneMatrix& whole, double t
 
 }  // namespace
 
-ExponentialStep::ExponentialStep(const ProcessModel& process) : process_(process) {
+ExponentialStep::ExponentialStep(const ProcessModel& process)
+    : process_(process),
+      shape_{process.n_states(), process.layout().positions, process.moving_states()},
+      moving_(shape_.end - shape_.first) {
   const Step usual{.dt_s = 1e-3};
   process.linearise(usual, Eigen::VectorXd::Zero(process.n_states()), f_, A_);
   phi_.balance(usual.dt_s * A_);
-  const StateLayout& l = process.layout();
-  variance_.resize(l.size, PhiFunctions::kMostDoublings + 2);  // for any step
-  rates_of_joints_ = {1, 2, l.effect_states / 2};
-  effect_states_ = {l.effect_states, 1, l.n_effect_states};
+  variance_.resize(shape_.n, PhiFunctions::kMostDoublings + 2);  // for any step
 }
 
 void ExponentialStep::linearise(const Step& step, const Eigen::VectorXd& x) {
@@ -42,7 +42,7 @@ void ExponentialStep::linearise(const Step& step, const Eigen::VectorXd& x) {
 bool ExponentialStep::start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G) {
   const int n = static_cast<int>(x_.size());
   Z_ = step_.dt_s * A_;
-  usable_ = std::isfinite(f_.sum()) && phi_.compute(Z_);
+  usable_ = std::isfinite(f_.sum()) && phi_.compute(Z_, shape_);
   is_finite_ = false;
   if (!usable_) return false;
   set_second_stage(G);
@@ -50,7 +50,9 @@ bool ExponentialStep::start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G) 
   next_ = x_2_ + c_;
   S_.reshape(n, n);
   set_rows_transposed(S, S_, 0);
-  set_product(S_, transposed(right(phi_.E())), n, spread_);
+  spread_.reshape(n, n);
+  multiply(S_.columns(0, n), transposed(right(phi_.E())), spread_.columns(0, shape_.end), false);
+  for (int i = shape_.end * S_.blocks(), end = n * S_.blocks(); i < end; ++i) spread_.lanes()[i] = S_.lanes()[i];
   spread_squares_.resize(n);
   set_squares(spread_, spread_squares_.data());
   is_finite_ = std::isfinite(c_.squaredNorm() + spread_squares_.sum());
@@ -58,14 +60,29 @@ bool ExponentialStep::start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G) 
   return usable_;
 }
 
+void ExponentialStep::set_x_2() {
+  const int p = shape_.first;
+  part_ = f_.segment(p, moving_);
+  part_.noalias() -= A_.block(p, p, moving_, p) * x_.segment(p, p);
+  part_ *= step_.dt_s;
+  shift_.reshape(shape_.n, 1);
+  multiply(phi_.E().columns(p, p), rows_from(p, right(x_)), shift_.columns(0, 1), false);
+  multiply(phi_.phi_1().columns(0, moving_), right(part_), shift_.columns(0, 1), true);
+  x_2_ = x_ + shift_.view().col(0);
+  x_2_.segment(p, p) -= x_.segment(p, p);
+}
+
 void ExponentialStep::set_second_stage(const Eigen::MatrixXd& G) {
-  const int n = static_cast<int>(x_.size()), sources = static_cast<int>(G.cols());
-  x_2_ = x_ + step_.dt_s * phi_.phi_1_times(f_);
+  const int n = shape_.n, sources = static_cast<int>(G.cols());
+  set_x_2();
   forces_.reshape(1 + sources, n);
+  response_.reshape(1 + sources, n);
   set_rows_transposed(G, forces_, 1);
-  set_product(forces_, transposed(right(phi_.level(1).E)), n, response_);
+  const LaneColumns<const Lanes> forces = forces_.columns(shape_.first, moving_);
+  const auto response = response_.columns(0, n);
+  multiply(forces, transposed(right(phi_.level(1).E.columns(shape_.first, moving_))), response, false);
   response_.set_lanes([&](std::size_t i) { return 4.0 * response_.lanes()[i] + forces_.lanes()[i]; });
-  add_product(forces_, transposed(right(phi_.E())), response_);
+  multiply(forces, transposed(right(phi_.E().columns(shape_.first, moving_))), response, true);
   response_.set_lanes([&](std::size_t i) { return (1.0 / 6) * response_.lanes()[i]; });
   if (process_.is_smooth()) {
     process_.linearise(end_, x_2_, &point_, f_2_, A_2_, point_2_);
@@ -77,22 +94,24 @@ void ExponentialStep::set_second_stage(const Eigen::MatrixXd& G) {
 }
 
 void ExponentialStep::set_corrections() {
-  const int n = response_.columns(), blocks = response_.blocks();
+  const int first = shape_.first, blocks = response_.blocks();
   const double h = step_.dt_s;
   LaneMatrix& minus_N = response_rates_;
-  D_ = x_2_ - x_;
-  for (int c = 0, i = 0; c < n; ++c) {
+  D_.resize(moving_);
+  for (int c = 0; c < shape_.n; ++c) response_.lanes()[c * blocks].set(0, x_2_(c) - x_(c));
+  for (int c = first, i = first * blocks; c < shape_.end; ++c) {
     for (const int end = (c + 1) * blocks; i < end; ++i) minus_N.lanes()[i] = h * (f_2_(c) - minus_N.lanes()[i]);
     minus_N.lanes()[c * blocks].set(0, h * (f_(c) - f_2_(c)));
-    response_.lanes()[c * blocks].set(0, D_(c));
   }
   minus_N.clear_padding();
-  add_product(response_, transposed(right(Z_)), minus_N);
-  for (int c = 0; c < n; ++c) {
-    D_(c) = -minus_N.lanes()[c * blocks][0];
-    minus_N.lanes()[c * blocks].set(0, 0);
-    response_.lanes()[c * blocks].set(0, 0);
+  multiply(response_.columns(0, shape_.n), transposed(rows_from(first, right(Z_))), minus_N.columns(first, moving_),
+           true);
+  for (int c = 0; c < moving_; ++c) {
+    Lanes& of_x_2 = minus_N.lanes()[(first + c) * blocks];
+    D_(c) = -of_x_2[0];
+    of_x_2.set(0, 0);
   }
+  for (int c = 0; c < shape_.n; ++c) response_.lanes()[c * blocks].set(0, 0);
   c_ = 2 * phi_.phi_3_times(D_);
 }
 
@@ -107,7 +126,9 @@ void ExponentialStep::set_rates(const Step& at, const Eigen::VectorXd& x, const 
 bool ExponentialStep::respond(Eigen::Ref<Eigen::MatrixXd> Gamma) {
   if (!usable_) return false;
   const int n = response_.columns(), sources = response_.rows() - 1;
-  set_product(response_rates_, transposed(right(phi_.phi_2())), n, change_);
+  change_.reshape(sources + 1, n);
+  multiply(response_rates_.columns(shape_.first, moving_), transposed(right(phi_.phi_2())), change_.columns(0, n),
+           false);
   for (int c = 0; c < n; ++c) {
     const double *whole = reinterpret_cast<const double*>(response_.lanes() + c * response_.blocks()) + 1,
                  *less = reinterpret_cast<const double*>(change_.lanes() + c * change_.blocks()) + 1;
@@ -121,14 +142,10 @@ bool ExponentialStep::set_growth() {
   if (!process_.is_smooth()) process_.linearise(end_, x_2_, &point_, f_2_, A_2_, point_2_);
   slopes_ = step_.dt_s * (A_2_ - A_);
   if (!std::isfinite(slopes_.sum())) return false;
-  bool add = false;
-  for (const Rows& rows : {rates_of_joints_, effect_states_}) {
-    if (rows.count == 0) continue;
-    set_product(spread_, transposed(rows.of(right(slopes_))), rows.count, moved_);
-    growth_.reshape(n, n);
-    multiply(moved_, transposed(rows.of_columns(right(phi_.phi_2()))), growth_, add);
-    add = true;
-  }
+  moved_.reshape(n, moving_);
+  multiply(spread_.columns(0, n), transposed(rows_from(shape_.first, right(slopes_))), moved_.columns(0, moving_),
+           false);
+  set_product(moved_, transposed(right(phi_.phi_2())), n, growth_);
   return true;
 }
 
@@ -168,21 +185,18 @@ bool ExponentialStep::set_pairs(double gamma) {
     for (const int end = (c + 1) * S_.blocks(); i < end; ++i)
       deviations_.lanes()[i] = (gamma * S_.lanes()[i] + x_(c)) - x_(c);
   set_both_parts(step_, x_, f_, deviations_, odd_, first_);
-  // E d + φ_1 N, with φ_1 of h A by one doubling.
-  set_product(odd_, transposed(right(phi_.level(1).phi_1)), n, moved_);
+  const LaneColumns<const Lanes> odd = odd_.columns(shape_.first, moving_);
   set_product(deviations_, transposed(right(phi_.E())), n, growth_);
-  growth_.set_lanes([&](std::size_t i) { return growth_.lanes()[i] + 0.5 * moved_.lanes()[i]; });
-  moved_.set_lanes([&](std::size_t i) { return 0.5 * moved_.lanes()[i]; });
-  add_product(moved_, transposed(right(phi_.level(1).E)), growth_);
+  multiply(odd, transposed(right(phi_.phi_1())), growth_.columns(0, n), true);
   for (int c = 0, i = 0; c < n; ++c)
     for (const int end = (c + 1) * S_.blocks(); i < end; ++i)
       growth_.lanes()[i] = (growth_.lanes()[i] + x_2_(c)) - x_2_(c);
   set_both_parts(end_, x_2_, f_2_, growth_, odd_end_, last_);
   odd_end_.set_lanes([&](std::size_t i) { return odd_end_.lanes()[i] - odd_.lanes()[i]; });
-  set_product(odd_end_, transposed(right(phi_.phi_2())), n, moved_);
-  if (!is_small_change(moved_, growth_, kRootTolerance)) return false;
+  multiply(odd_end_.columns(shape_.first, moving_), transposed(right(phi_.phi_2())), opposite_.columns(0, n), false);
+  if (!is_small_change(opposite_, growth_, kRootTolerance)) return false;
   growth_.set_lanes(
-      [&](std::size_t i) { return (growth_.lanes()[i] + moved_.lanes()[i]) * (1 / gamma) - spread_.lanes()[i]; });
+      [&](std::size_t i) { return (growth_.lanes()[i] + opposite_.lanes()[i]) * (1 / gamma) - spread_.lanes()[i]; });
   return true;
 }
 
@@ -190,10 +204,10 @@ void ExponentialStep::set_both_parts(const Step& at, const Eigen::VectorXd& x, c
                                      const LaneMatrix& d, LaneMatrix& odd, Eigen::VectorXd& mean) {
   const int n = d.columns(), count = d.rows();
   const double half = 0.5 * step_.dt_s;
-  moved_.reshape(count, n);
-  moved_.set_lanes([&](std::size_t i) { return -d.lanes()[i]; });
+  opposite_.reshape(count, n);
+  opposite_.set_lanes([&](std::size_t i) { return -d.lanes()[i]; });
   set_rates(at, x, d, rates_);
-  set_rates(at, x, moved_, odd);
+  set_rates(at, x, opposite_, odd);
   mean.resize(n);
   for (int c = 0, i = 0; c < n; ++c) {
     for (const int end = (c + 1) * d.blocks(); i < end; ++i) {
@@ -203,48 +217,43 @@ void ExponentialStep::set_both_parts(const Step& at, const Eigen::VectorXd& x, c
     }
     mean(c) = sum_of_rows(rates_, c, count) / count;
   }
-  moved_.set_lanes([&](std::size_t i) { return -d.lanes()[i]; });
-  add_product(moved_, transposed(right(Z_)), odd);
+  multiply(opposite_.columns(0, n), transposed(rows_from(shape_.first, right(Z_))), odd.columns(shape_.first, moving_),
+           true);
 }
 
 void ExponentialStep::set_variances() {
   const int levels = phi_.doublings();
   set_squares(S_, variance_.col(0).data());
   variance_.col(levels + 1) = spread_squares_;
-  for (int k = levels; k > 0; --k)
-    for (const Rows& rows : {rates_of_joints_, effect_states_}) {
-      if (rows.count == 0) continue;
-      double squares[kMaxStates];
-      set_product(S_, transposed(rows.of(right(phi_.level(k).E))), rows.count, moved_);
-      set_squares(moved_, squares);
-      for (int i = 0; i < rows.count; ++i) variance_(rows.first + i * rows.step, levels + 1 - k) = squares[i];
-    }
+  for (int k = levels; k > 0; --k) {
+    set_product(S_, transposed(rows_from(shape_.first, right(phi_.level(k).E))), moving_, moved_);
+    set_squares(moved_, variance_.col(levels + 1 - k).segment(shape_.first, moving_).data());
+  }
 }
 
 void ExponentialStep::set_mean_shift() {
-  const int levels = phi_.doublings(), n = S_.columns();
+  const int levels = phi_.doublings();
   set_variances();
-  part_.setZero(n);
-  change_of_m_.setZero(n);
-  shift_.set_zero(n, 1);
+  part_.resize(moving_);
+  change_of_m_.resize(moving_);
+  shift_.set_zero(shape_.n, 1);
   // From node to node: shift_ is the integral up to the left one.
   for (int node = 0; node <= levels; ++node) {
     const int k = node == 0 ? levels : levels + 1 - node;
     const double share = std::exp2(-k), left = node == 0 ? 0 : share, right_end = node == 0 ? share : 2 * share;
-    for (const Rows& rows : {rates_of_joints_, effect_states_})
-      for (int r = 0; r < rows.count; ++r) {
-        const int i = rows.first + r * rows.step;
-        const double drop = share * (first_(i) - last_(i)), fall = variance_(i, 0) - variance_(i, levels + 1);
-        double at_left = 1 - left, at_right = 1 - right_end, bump = 0;
-        if (fall > 0) {
-          const double a = variance_(i, node), b = variance_(i, node + 1);
-          at_left = std::clamp((a - variance_(i, levels + 1)) / fall, 0.0, 1.0);
-          at_right = std::clamp((b - variance_(i, levels + 1)) / fall, 0.0, 1.0);
-          bump = std::min(2.0 / 3 * (0.5 * (a + b) - std::sqrt(a * b)) / fall, std::max(at_left, at_right));
-        }
-        part_(i) = share * last_(i) + drop * (at_left - bump);
-        change_of_m_(i) = drop * (at_right - at_left);
+    for (int r = 0; r < moving_; ++r) {
+      const int i = shape_.first + r;
+      const double drop = share * (first_(i) - last_(i)), fall = variance_(i, 0) - variance_(i, levels + 1);
+      double at_left = 1 - left, at_right = 1 - right_end, bump = 0;
+      if (fall > 0) {
+        const double a = variance_(i, node), b = variance_(i, node + 1);
+        at_left = std::clamp((a - variance_(i, levels + 1)) / fall, 0.0, 1.0);
+        at_right = std::clamp((b - variance_(i, levels + 1)) / fall, 0.0, 1.0);
+        bump = std::min(2.0 / 3 * (0.5 * (a + b) - std::sqrt(a * b)) / fall, std::max(at_left, at_right));
       }
+      part_(r) = share * last_(i) + drop * (at_left - bump);
+      change_of_m_(r) = drop * (at_right - at_left);
+    }
     const PhiFunctions::Level& level = phi_.level(k);
     if (node > 0) {
       c_ = shift_.view().col(0);

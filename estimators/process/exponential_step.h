@@ -86,15 +86,8 @@ class ExponentialStep {
   bool advance_pairs(Eigen::VectorXd& x, double gamma, LaneMatrix& FS, Eigen::VectorXd& shift);
 
  private:
-  /// States whose rates are not those of a row of the unit matrix: the position of a motor or joint comes before its rate,
-  /// and changes by it alone.
-  struct Rows {
-    int first, step, count;
-    /// These rows of a factor, and these columns.
-    RightFactor of(const RightFactor& B) const { return {B.data + first * B.row, step * B.row, B.column}; }
-    RightFactor of_columns(const RightFactor& B) const { return {B.data + first * B.column, B.row, step * B.column}; }
-  };
-
+  /// x + h φ_1 f. With w, the rates of the positions, E w - w is h φ_1 A w, and f - A w has no kinematic rows.
+  void set_x_2();
   /// x_2 and Γ_0, then f at x_2 and at x_2 + Γ_0 in one pass.
   void set_second_stage(const Eigen::MatrixXd& G);
   /// c, and -h N of the held forces.
@@ -117,18 +110,20 @@ class ExponentialStep {
   void set_mean_shift();
 
   const ProcessModel& process_;
-  Rows rates_of_joints_, effect_states_;
+  const PhiShape shape_;  // of A
+  const int moving_;      // number of rows that are neither kinematic nor zero
   Step step_, end_;
   bool usable_ = false, is_finite_ = false;
-  Eigen::VectorXd x_, f_, f_2_, x_2_, next_, D_, c_, part_, change_of_m_;
-  Eigen::VectorXd first_, last_;  // h m(0), h m(h)
+  Eigen::VectorXd x_, f_, f_2_, x_2_, next_, c_;
+  Eigen::VectorXd D_, part_, change_of_m_;  // of the moving rows
+  Eigen::VectorXd first_, last_;            // h m(0), h m(h)
   Eigen::MatrixXd A_, A_2_, Z_, slopes_;
   LinearisedPoint point_, point_2_;  // of linearise() at x and x_2
   // Transposed, a row for each column of S or G:
   LaneMatrix S_, spread_, moved_, growth_;  // S, E S, products with S, the last term of F S
   LaneMatrix forces_, response_;            // G, Γ_0; row 0 is for x_2 itself
   LaneMatrix response_rates_, change_;      // -h N, and what the last term of Γ subtracts
-  LaneMatrix points_, rates_;               // sigma points
+  LaneMatrix points_, rates_, opposite_;    // sigma points
   LaneMatrix deviations_, odd_, odd_end_;   // d, and the odd parts of h N at the start and the end
   LaneMatrix shift_;                        // one column
   Eigen::VectorXd spread_squares_;          // of the columns of spread_

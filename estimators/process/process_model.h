@@ -2,7 +2,7 @@
 /// The arm in discrete time: x_k+1 = f(x_k) integrates the differential equation of arm_dynamics.h over one step under
 /// a held command; z = h(x) is the reading of the motor encoders.
 ///
-///   x       state, ordered as in StateLayout: q_m, q_m', q, q' joint by joint, then effects     [n_states]
+///   x       state, ordered as in StateLayout: q_m and q joint by joint, their rates, effects    [n_states]
 ///   f       classical Runge-Kutta of fourth order in `substeps(dt)` equal parts
 ///   F       ∂f/∂x of the whole step, exact to rounding                                          [n_states x n_states]
 ///   z       reading of motor k: q_m + offset + sensor effects                                   [n]  rad
@@ -102,6 +102,8 @@ class ProcessModel {
   /// True if f surely has no kinks: all cables follow the paper's law, and the transmission is plain
   /// (plain_transmission.h).
   bool is_smooth() const { return is_smooth_; }
+  /// Number of states before those at the end that surely are constant: x' = 0.
+  int moving_states() const { return plain_ ? layout_.effect_states : layout_.size; }
   /// True if h is affine, that is, if no effect acts at the sensors.
   bool readings_are_linear() const { return readings_are_linear_; }
 

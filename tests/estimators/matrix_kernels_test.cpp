@@ -74,7 +74,7 @@ TEST(MatrixKernels, TheFunctionsOfAllInstructionSetsAgree) {
       levels.push_back({memory[3 * k].lanes(), memory[3 * k + 1].lanes(), memory[3 * k + 2].lanes()});
     const std::size_t rest = 3 * (kMost + 1);
     LaneMatrix unit = in_lanes(Eigen::MatrixXd::Ones(kSize, kSize)), Y = in_lanes(Z);
-    ASSERT_EQ(kernels.phi_functions(kSize, kMost,
+    ASSERT_EQ(kernels.phi_functions({kSize, 0, kSize}, kMost,
                                     {levels.data(), memory[rest].lanes(), unit.lanes(), Y.lanes(),
                                      memory[rest + 1].lanes(), memory[rest + 2].lanes(), memory[rest + 3].lanes()}),
               3)

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "tests/support/limits.h"
@@ -17,23 +18,22 @@ Eigen::MatrixXd stiff_oscillator(double unit) {
   return scale.asDiagonal() * Z * scale.cwiseInverse().asDiagonal();
 }
 
-Eigen::MatrixXd phi_1(PhiFunctions& phi) {
-  const Eigen::Index n = phi.E().rows();
-  Eigen::MatrixXd all(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) all.col(i) = phi.phi_1_times(Eigen::VectorXd::Unit(n, i));
-  return all;
+/// Of a matrix without a special form.
+bool compute(PhiFunctions& phi, const Eigen::MatrixXd& Z) {
+  const int n = static_cast<int>(Z.rows());
+  return phi.compute(Z, {n, 0, n});
 }
 Eigen::MatrixXd phi_3(PhiFunctions& phi) {
-  const Eigen::Index n = phi.E().rows();
-  Eigen::MatrixXd all(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) all.col(i) = phi.phi_3_times(Eigen::VectorXd::Unit(n, i));
+  const Eigen::Index n = phi.phi_1().rows(), m = phi.phi_1().columns();
+  Eigen::MatrixXd all(n, m);
+  for (Eigen::Index i = 0; i < m; ++i) all.col(i) = phi.phi_3_times(Eigen::VectorXd::Unit(m, i));
   return all;
 }
 
 TEST(PhiFunctions, TheExponentialIsThatOfEigen) {
   PhiFunctions phi;
   const Eigen::MatrixXd Z = stiff_oscillator(1);
-  ASSERT_TRUE(phi.compute(Z));
+  ASSERT_TRUE(compute(phi, Z));
   // The polynomial's remainder, 5e-12 at most, doubled five times.
   EXPECT_LT((phi.E().view() - Z.exp()).cwiseAbs().maxCoeff(), 1e-9);
   for (int k = 1; k <= phi.doublings(); ++k)
@@ -44,11 +44,43 @@ TEST(PhiFunctions, TheExponentialIsThatOfEigen) {
 TEST(PhiFunctions, SatisfyTheirRecurrence) {
   PhiFunctions phi;
   const Eigen::MatrixXd Z = stiff_oscillator(1), I = Eigen::MatrixXd::Identity(4, 4);
-  ASSERT_TRUE(phi.compute(Z));
+  ASSERT_TRUE(compute(phi, Z));
   // As above, times the norm of Z, 11.
-  EXPECT_LT((Z * phi_1(phi) - (phi.E().view() - I)).norm(), 1e-8);
-  EXPECT_LT((Z * phi.phi_2().view() - (phi_1(phi) - I)).norm(), 1e-8);
+  EXPECT_LT((Z * phi.phi_1().view() - (phi.E().view() - I)).norm(), 1e-8);
+  EXPECT_LT((Z * phi.phi_2().view() - (phi.phi_1().view() - I)).norm(), 1e-8);
   EXPECT_LT((Z * phi_3(phi) - (phi.phi_2().view() - 0.5 * I)).norm(), 1e-8);
+}
+
+/// p kinematic rows, moving rows up to `end`, and constant states.
+Eigen::MatrixXd mechanical(const PhiShape& shape) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Eigen::MatrixXd Z = Eigen::MatrixXd::NullaryExpr(shape.n, shape.n, [&] { return uniform(random); });
+  Z.topRows(shape.first).setZero();
+  Z.bottomRows(shape.n - shape.end).setZero();
+  for (int i = 0; i < shape.first; ++i) Z(i, shape.first + i) = 0.8;
+  return Z;
+}
+
+TEST(PhiFunctions, UseTheFormOfAMechanicalSystem) {
+  for (const PhiShape& shape :
+       {PhiShape{12, 6, 12}, {15, 6, 12}, {18, 6, 12}, {13, 5, 11}, {16, 7, 16}, {28, 14, 28}}) {
+    const Eigen::MatrixXd Z = mechanical(shape);
+    PhiFunctions phi, general;
+    ASSERT_TRUE(phi.compute(Z, shape));
+    ASSERT_TRUE(compute(general, Z));
+    EXPECT_EQ(phi.doublings(), general.doublings());
+    const int m = shape.end - shape.first;
+    // Entries of up to 100, with the roundings of three doublings.
+    constexpr double kTolerance = 1e-11;
+    for (int k = 0; k <= phi.doublings(); ++k) {
+      const auto &part = phi.level(k), &whole = general.level(k);
+      EXPECT_LT((part.E.view() - whole.E.view()).cwiseAbs().maxCoeff(), kTolerance) << shape.n << " " << k;
+      EXPECT_LT((part.phi_1.view() - whole.phi_1.view().middleCols(shape.first, m)).cwiseAbs().maxCoeff(), kTolerance);
+      EXPECT_LT((part.phi_2.view() - whole.phi_2.view().middleCols(shape.first, m)).cwiseAbs().maxCoeff(), kTolerance);
+    }
+    EXPECT_LT((phi_3(phi) - phi_3(general).middleCols(shape.first, m)).cwiseAbs().maxCoeff(), kTolerance) << shape.n;
+  }
 }
 
 TEST(PhiFunctions, DoNotDependOnTheUnitsOfTheStates) {
@@ -56,27 +88,27 @@ TEST(PhiFunctions, DoNotDependOnTheUnitsOfTheStates) {
   const Eigen::MatrixXd Z = stiff_oscillator(unit);
   PhiFunctions phi, plain;
   phi.balance(Z);
-  ASSERT_TRUE(phi.compute(Z));
-  ASSERT_TRUE(plain.compute(stiff_oscillator(1)));
+  ASSERT_TRUE(compute(phi, Z));
+  ASSERT_TRUE(compute(plain, stiff_oscillator(1)));
   const Eigen::Vector4d scale(1, unit, unit * unit, 1 / unit);
-  const Eigen::MatrixXd back = scale.cwiseInverse().asDiagonal() * phi_1(phi) * scale.asDiagonal();
-  EXPECT_LT((back - phi_1(plain)).cwiseAbs().maxCoeff(), 1e-9);
+  const Eigen::MatrixXd back = scale.cwiseInverse().asDiagonal() * phi.phi_1().view() * scale.asDiagonal();
+  EXPECT_LT((back - plain.phi_1().view()).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 TEST(PhiFunctions, OfZeroAreTheReciprocalFactorials) {
   PhiFunctions phi;
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(3, 3);
-  ASSERT_TRUE(phi.compute(Eigen::MatrixXd::Zero(3, 3)));
+  ASSERT_TRUE(compute(phi, Eigen::MatrixXd::Zero(3, 3)));
   EXPECT_LT((phi.E().view() - I).norm(), 10 * kEps);
-  EXPECT_LT((phi_1(phi) - I).norm(), 10 * kEps);
+  EXPECT_LT((phi.phi_1().view() - I).norm(), 10 * kEps);
   EXPECT_LT((phi.phi_2().view() - I / 2).norm(), 10 * kEps);
   EXPECT_LT((phi_3(phi) - I / 6).norm(), 10 * kEps);
 }
 
 TEST(PhiFunctions, RefuseAMatrixThatIsNotFiniteOrTooLarge) {
   PhiFunctions phi;
-  EXPECT_FALSE(phi.compute(Eigen::MatrixXd::Constant(2, 2, kNan)));
-  EXPECT_FALSE(phi.compute(Eigen::MatrixXd::Constant(2, 2, 1e9)));
+  EXPECT_FALSE(compute(phi, Eigen::MatrixXd::Constant(2, 2, kNan)));
+  EXPECT_FALSE(compute(phi, Eigen::MatrixXd::Constant(2, 2, 1e9)));
 }
 
 }  // namespace

@@ -60,7 +60,8 @@ TEST(ProcessModel, NamesItsStates) {
   const ProcessModel process(arm_with_effects());
   EXPECT_EQ(process.n_states(), 13);
   EXPECT_EQ(process.state_name(0), "motor_angle_1");
-  EXPECT_EQ(process.state_name(7), "joint_rate_2");
+  EXPECT_EQ(process.state_name(3), "joint_position_2");
+  EXPECT_EQ(process.state_name(9), "joint_rate_2");
   EXPECT_EQ(process.state_name(12), "hysteresis_3_state_1");
 }
 
@@ -299,8 +300,9 @@ TEST_F(WithTestEffects, SensorEffectsEnterTheReadingsAndTheirJacobian) {
   Eigen::MatrixXd H;
   const Eigen::VectorXd z = process.motor_readings(0, x, &H);
   EXPECT_EQ(z(0), x(0));
-  EXPECT_DOUBLE_EQ(z(1), x(4) + 0.02 * std::sin(x(4)));
-  EXPECT_DOUBLE_EQ(H(1, 4), 1 + 0.02 * std::cos(x(4)));
+  const int angle = *process.layout().motor_angle[1];
+  EXPECT_DOUBLE_EQ(z(1), x(angle) + 0.02 * std::sin(x(angle)));
+  EXPECT_DOUBLE_EQ(H(1, angle), 1 + 0.02 * std::cos(x(angle)));
 }
 
 TEST_F(WithTestEffects, DelayedCommandsComeFromTheHistoryInEveryPath) {
