@@ -23,11 +23,7 @@ Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, co
   auto array = array_root_.start(m + n, m + n);  // transposed
   array.topLeftCorner(m, m) = R_root.transpose();
   array.topRightCorner(m, n).setZero();
-  for (int k = 0; k < n; ++k) {
-    double* column = array.col(m + k).data() + m;  // of Sᵀ
-    const double* from = S_.data() + k;
-    for (int i = 0; i < n; ++i, from += n) column[i] = *from;
-  }
+  set_transposed(S_, array.bottomRightCorner(n, n));
   const auto H = H_.view();
   for (int j = 0; j < m; ++j) {
     auto column = array.col(j).tail(n);
@@ -45,12 +41,7 @@ Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, co
   innovation.accepted = whitened.squaredNorm() <= gate;
   if (innovation.accepted) {
     for (int j = 0; j < m; ++j) x_ += whitened(j) * gain.col(j).tail(n);
-    const auto rest = array_root_.rest();
-    for (int k = 0; k < n; ++k) {
-      const double* column = rest.col(m + k).data() + m;
-      double* to = S_.data() + k;
-      for (int i = 0; i < n; ++i, to += n) *to = column[i];
-    }
+    set_transposed(array_root_.rest().bottomRightCorner(n, n), S_);
   }
   return innovation;
 }

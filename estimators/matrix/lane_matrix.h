@@ -121,14 +121,15 @@ inline void set_squares(const LaneMatrix& A, double* squares) {
   matrix_kernels()[0].column_squares(A.rows(), A.columns(), A.lanes(), A.blocks(), squares);
 }
 
+/// B = Aᵀ, with memory of columns as Eigen and LaneMatrix::view() have it.
+template <class A_t, class B_t>
+void set_transposed(const A_t& A, B_t&& B) {
+  matrix_kernels()[0].transpose(static_cast<int>(A.rows()), static_cast<int>(A.cols()), A.data(),
+                                static_cast<int>(A.outerStride()), B.data(), static_cast<int>(B.outerStride()));
+}
 /// The rows of B from `first` on become Aᵀ. Eigen takes twice as long for small matrices.
 inline void set_rows_transposed(const Eigen::Ref<const Eigen::MatrixXd>& A, LaneMatrix& B, int first) {
-  const Eigen::Index step = A.outerStride();
-  for (int c = 0; c < B.columns(); ++c) {
-    const double* from = A.data() + c;
-    double* to = reinterpret_cast<double*>(B.lanes() + c * B.blocks()) + first;
-    for (Eigen::Index i = 0; i < A.cols(); ++i, from += step) to[i] = *from;
-  }
+  set_transposed(A, B.view().middleRows(first, A.cols()));
 }
 
 }  // namespace halyard

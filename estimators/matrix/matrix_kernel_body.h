@@ -8,20 +8,31 @@ namespace {
 
 using tiles::Piece, tiles::pieces, tiles::pieces_of, tiles::kPiecesPerBlock, tiles::sum_of;
 
+/// product() with a column stride that the compiler may know. known_k: k, or 0 if the compiler is not to know it.
+template <int known_k>
+HALYARD_INLINE void product_of(int rows, int k, int m, const Lanes* A, int a_blocks, const tiles::Right& B, Lanes* C,
+                               int c_blocks, bool add) {
+  Piece* out = pieces(C);
+  const int c_stride = c_blocks * kPiecesPerBlock;
+  tiles::product(
+      pieces_of(rows), known_k > 0 ? known_k : k, m, pieces(A), a_blocks * kPiecesPerBlock,
+      B, [&](int p, int c, const Piece& sum) __attribute__((always_inline)) {
+        Piece& entry = out[p + c * c_stride];
+        entry = add ? entry + sum : sum;
+      });
+}
+
+template <int known_k>
+void product_with(int rows, int k, int m, const Lanes* A, int a_blocks, const RightFactor& B, Lanes* C, int c_blocks,
+                  bool add) {
+  if (B.column == 1) product_of<known_k>(rows, k, m, A, a_blocks, {B.data, B.row, 1}, C, c_blocks, add);
+  else product_of<known_k>(rows, k, m, A, a_blocks, {B.data, B.row, B.column}, C, c_blocks, add);
+}
+
 void product(int rows, int k, int m, const Lanes* A, int a_blocks, const RightFactor& B, Lanes* C, int c_blocks,
              bool add) {
-  Piece* out = pieces(C);
-  const int c_stride = c_blocks * kPiecesPerBlock, a_stride = a_blocks * kPiecesPerBlock;
-  const tiles::Right right{B.data, B.row, B.column};
-  if (add) {
-    tiles::product(
-        pieces_of(rows), k, m, pieces(A), a_stride,
-        right, [&](int p, int c, const Piece& sum) __attribute__((always_inline)) { out[p + c * c_stride] += sum; });
-  } else {
-    tiles::product(
-        pieces_of(rows), k, m, pieces(A), a_stride,
-        right, [&](int p, int c, const Piece& sum) __attribute__((always_inline)) { out[p + c * c_stride] = sum; });
-  }
+  const auto with = k == 12 ? product_with<12> : k == 6 ? product_with<6> : product_with<0>;
+  with(rows, k, m, A, a_blocks, B, C, c_blocks, add);
 }
 
 /// The reflection of a column a, whose entry i becomes `image`: with v = a - image e_i, w -= v (vᵀ w) factor.
@@ -93,18 +104,41 @@ void lower_root(int n, int m, int steps, int blocks, Lanes* A, double* L, int l_
   }
 }
 
-void column_squares(int rows, int columns, const Lanes* A, int blocks, double* squares) {
-  const int height = pieces_of(rows), stride = blocks * kPiecesPerBlock;
-  const Piece* column = pieces(A);
+/// known: the height in registers, or 0 if the compiler is not to know it.
+template <int known>
+HALYARD_INLINE void squares_of(int height, int columns, const Piece* column, int stride, double* squares) {
   for (int c = 0; c < columns; ++c, column += stride) {
     Piece square = column[0] * column[0];
-    for (int p = 1; p < height; ++p) square += column[p] * column[p];
+    for (int p = 1; p < (known > 0 ? known : height); ++p) square += column[p] * column[p];
     squares[c] = sum_of(square);
   }
 }
 
+void column_squares(int rows, int columns, const Lanes* A, int blocks, double* squares) {
+  const int height = pieces_of(rows), stride = blocks * kPiecesPerBlock;
+  if (height == 3) squares_of<3>(height, columns, pieces(A), stride, squares);
+  else squares_of<0>(height, columns, pieces(A), stride, squares);
+}
+
+/// Transposes square tiles; what is left at the edges, entry by entry.
+void transpose(int rows, int columns, const double* A, int a_stride, double* B, int b_stride) {
+  constexpr int kWidth = tiles::kPieceWidth;
+  const int whole_rows = rows / kWidth * kWidth, whole_columns = columns / kWidth * kWidth;
+  for (int c = 0; c < whole_columns; c += kWidth)
+    for (int r = 0; r < whole_rows; r += kWidth) {
+      Piece tile[kWidth];
+      _Pragma("GCC unroll 8") for (int i = 0; i < kWidth; ++i)
+          __builtin_memcpy(tile + i, A + r + (c + i) * a_stride, sizeof(Piece));
+      tiles::transpose_tile(tile);
+      _Pragma("GCC unroll 8") for (int i = 0; i < kWidth; ++i)
+          __builtin_memcpy(B + c + (r + i) * b_stride, tile + i, sizeof(Piece));
+    }
+  for (int c = 0; c < columns; ++c)
+    for (int r = c < whole_columns ? whole_rows : 0; r < rows; ++r) B[c + r * b_stride] = A[r + c * a_stride];
+}
+
 constexpr MatrixKernels matrix_kernels_named(const char* name) {
-  return {name, product, lower_root, column_squares, phi_functions};
+  return {name, product, lower_root, column_squares, transpose, phi_functions};
 }
 
 }  // namespace

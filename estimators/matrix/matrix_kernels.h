@@ -43,6 +43,8 @@ struct MatrixKernels {
   void (*lower_root)(int n, int m, int steps, int blocks, Lanes* A, double* L, int l_stride);
   /// Σ_r A_rc² of each column of A [rows x columns].
   void (*column_squares)(int rows, int columns, const Lanes* A, int blocks, double* squares);
+  /// B [columns x rows] = Aᵀ, A [rows x columns]; strides: of columns.
+  void (*transpose)(int rows, int columns, const double* A, int a_stride, double* B, int b_stride);
   /// The functions of phi_functions.h from Y = Z, which is overwritten: E, φ_1 and φ_2 of all levels, and φ_3 of the
   /// last. Returns the number of doublings; if this would exceed `most`, or Y is not finite, -1, and nothing is computed.
   int (*phi_functions)(const PhiShape& shape, int most, const PhiMemory& memory);

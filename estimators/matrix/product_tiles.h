@@ -5,6 +5,8 @@
 /// A tile is up to three registers of rows by four columns: twelve sums, three entries of A and one of B fill the sixteen
 /// registers that AVX2 has. Rows are counted in registers (pieces), so that twelve rows cost no more than three of them.
 
+#include <utility>
+
 #include "transmission/scalar.h"
 
 namespace halyard::tiles {
@@ -53,9 +55,10 @@ HALYARD_INLINE void columns_of_product(int c, int height, int k, const Piece* A,
 /// put(p, c, entries) of A B, with A in `height` registers of rows [any x k], a_stride registers apart, and B [k x m].
 template <class Put>
 HALYARD_INLINE void product(int height, int k, int m, const Piece* A, int a_stride, const Right& B, const Put& put) {
-  const int whole = m / 4 * 4;
-  for (int c = 0; c < whole; c += 4) columns_of_product<4>(c, height, k, A, a_stride, B, put);
-  for (int c = whole; c < m; ++c) columns_of_product<1>(c, height, k, A, a_stride, B, put);
+  int c = 0;
+  for (; c + 4 <= m; c += 4) columns_of_product<4>(c, height, k, A, a_stride, B, put);
+  if (c + 2 <= m) columns_of_product<2>(c, height, k, A, a_stride, B, put), c += 2;
+  if (c < m) columns_of_product<1>(c, height, k, A, a_stride, B, put);
 }
 
 /// Sum of the entries, by halves.
@@ -75,6 +78,22 @@ HALYARD_INLINE double sum_of(const Lanes& a) {
   Piece sum = a.v.piece[0];
   for (int i = 1; i < kPiecesPerBlock; ++i) sum += a.v.piece[i];
   return sum_of(sum);
+}
+
+/// Rows a and b, `distance` apart, exchange blocks of that size: the right ones of a with the left ones of b.
+template <int distance, int... i>
+HALYARD_INLINE void exchange_blocks(Piece& a, Piece& b, std::integer_sequence<int, i...>) {
+  const Piece low = __builtin_shufflevector(a, b, (i & distance ? i - distance + kPieceWidth : i)...);
+  b = __builtin_shufflevector(a, b, (i & distance ? i + kPieceWidth : i + distance)...);
+  a = low;
+}
+
+/// Transposes kPieceWidth rows of as many entries, by blocks of half the size from stage to stage.
+template <int distance = kPieceWidth / 2>
+HALYARD_INLINE void transpose_tile(Piece* rows) {
+  _Pragma("GCC unroll 8") for (int r = 0; r < kPieceWidth; ++r) if ((r & distance) == 0)
+      exchange_blocks<distance>(rows[r], rows[r + distance], std::make_integer_sequence<int, kPieceWidth>());
+  if constexpr (distance > 1) transpose_tile<distance / 2>(rows);
 }
 
 }  // namespace halyard::tiles

@@ -130,6 +130,18 @@ TEST(MatrixKernels, AFewReflectionsLeaveARootOfTheRest) {
   }
 }
 
+TEST(MatrixKernels, TransposeAnyPartOfAMatrix) {
+  const Eigen::MatrixXd A = random_matrix(19, 13, 11);
+  for (const MatrixKernels& kernels : matrix_kernels())
+    for (const int rows : {1, 3, 8, 12, 17})
+      for (const int columns : {1, 6, 12}) {
+        Eigen::MatrixXd B = Eigen::MatrixXd::Zero(14, 20), expected = B;
+        expected.block(2, 1, columns, rows) = A.block(1, 1, rows, columns).transpose();
+        kernels.transpose(rows, columns, &A(1, 1), 19, &B(2, 1), 14);
+        EXPECT_EQ(B, expected) << kernels.name << rows << columns;
+      }
+}
+
 TEST(MatrixKernels, SquaresOfColumnsAreSummed) {
   for (const int rows : {1, 8, 12, 19}) {
     const Eigen::MatrixXd A = random_matrix(rows, 5, 10);
