@@ -87,9 +87,6 @@ std::vector<Estimate> run(Estimator& estimator, const Record& record) {
     if (innovation.nu.size() > 0 && !(innovation.S_root.rowwise().norm().minCoeff() > 0))
       throw std::runtime_error("gives an innovation without a deviation");
     estimates.push_back(estimator.estimate());
-    const Eigen::VectorXd& deviation = estimates.back().joint_position_std;
-    if (!deviation.allFinite() || deviation.minCoeff() < 0)
-      throw std::runtime_error("gives a deviation that is not finite, or negative");
     take_revisions(estimator, record, i + 1, i + 1 == record.size(), estimates);
   }
   return estimates;

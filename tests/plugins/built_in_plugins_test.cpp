@@ -26,6 +26,16 @@ TEST(Conformance, FindsWhatACarelessEstimatorBreaks) {
             "missing samples: plugin fixture: at 0.01 s: innovation 2 is not finite");
 }
 
+TEST(Conformance, FindsInnovationsAndRevisionsThatBelongToNoSample) {
+  const auto first = [](const std::string& name) {
+    return halyard::conformance_faults(fixture(name), raven2()).front();
+  };
+  EXPECT_EQ(first("invents_innovations"), "missing samples: gives an innovation for a motor whose position is missing");
+  EXPECT_EQ(first("certain"), "plain record: gives an innovation without a deviation");
+  EXPECT_EQ(first("revises_nowhere"), "plain record: revises an estimate of an instant that is no sample's");
+  EXPECT_EQ(first("revises_endlessly"), "plain record: revises more estimates than there are");
+}
+
 namespace {
 
 struct BuiltIn {

@@ -42,9 +42,18 @@ TEST(EffectModule, AModuleThatBreaksTheContractIsRefusedWithOneLineAndLeavesNoth
   EXPECT_EQ(
       refusal("effects_other_layout"),
       "the types that it shares with this program have other sizes there; rebuild it against the installed headers");
+  const std::string size = refusal("effects_small_table");
+  EXPECT_TRUE(size.starts_with("its table has ")) << size;
+  EXPECT_TRUE(size.ends_with("; rebuild it against the installed headers")) << size;
   EXPECT_EQ(refusal("effects_taken_name"), "effect 'backlash' is already in the library; give yours another name");
   EXPECT_EQ(refusal("effects_throwing"), "its effects cannot be made: no table of springs in this folder");
   EXPECT_EQ(refusal("effects_too_many_parameters"), "effect 'fixture_spring' has 9 parameters; give it 1 to 8");
+  EXPECT_EQ(refusal("effects_too_many_states"), "effect 'fixture_spring' has 9 states; the most is 8");
+  EXPECT_EQ(refusal("effects_spaced_parameter"),
+            "effect 'fixture_spring' has a parameter 'spring rate'; use letters, digits and '_'");
+  EXPECT_EQ(refusal("effects_outside_bounds"),
+            "effect 'fixture_spring' has 'stiffness' neutral or typical outside its bounds; correct them");
+  EXPECT_EQ(refusal("effects_twice"), "makes 'fixture_spring' twice; give each a name of its own");
 }
 
 TEST(EffectModule, AWellFormedOneJoinsTheLibraryOnceAndActs) {

@@ -151,8 +151,9 @@ TEST(Plugins, ResultsThatBreakTheContractAreContained) {
   EXPECT_EQ(at_work("forgets_std"), "plugin fixture: at 0.001 s: joint_position_std 1 is not finite");
   EXPECT_EQ(at_work("negative_std"), "plugin fixture: at 0.001 s: joint_position_std is negative");
   EXPECT_EQ(at_work("wrong_sizes"), "plugin wrong_sizes: at 0.001 s: estimate: joint_velocity has size 0 for 3 joints");
-  EXPECT_EQ(at_work("lets_exceptions_out"),
-            "plugin lets_exceptions_out: at 0.001 s: update: lets an exception out: nobody caught this");
+  EXPECT_EQ(at_work("unnamed_extra_output"),
+            "plugin unnamed_extra_output: at 0.001 s: estimate: extra_outputs has 2 columns for 0 names");
+  EXPECT_EQ(at_work("infinite_extra_output"), "plugin fixture: at 0.001 s: gain 2 is infinite");
 
   const std::string message = at_work("endless_message");
   EXPECT_TRUE(message.starts_with("plugin fixture: at 0.001 s: update: x xxxx")) << message;
@@ -160,10 +161,21 @@ TEST(Plugins, ResultsThatBreakTheContractAreContained) {
   EXPECT_LT(message.size(), 600u);
 }
 
+TEST(Plugins, ExceptionsThatAModuleLetsOutAreContained) {
+  const auto estimator = halyard::make_estimator(fixture("lets_exceptions_out"), raven2());
+  estimator->reset(sample_at(0));
+  EXPECT_EQ(failure([&] { estimator->update(sample_at(0.001)); }),
+            "plugin lets_exceptions_out: at 0.001 s: update: lets an exception out: nobody caught this");
+  EXPECT_EQ(failure([&] { estimator->update(sample_at(2)); }),
+            "plugin lets_exceptions_out: at 2 s: update: lets an exception out");
+}
+
 TEST(Plugins, TheCallersMistakesDoNotReachThePlugin) {
   const auto estimator = halyard::make_estimator(fixture("well_formed"), raven2());
   EXPECT_EQ(message_of<std::logic_error>([&] { estimator->update(sample_at(0)); }),
             "estimator fixture: update() before reset()");
+  EXPECT_EQ(message_of<std::logic_error>([&] { estimator->revise(true); }),
+            "estimator fixture: revise() before reset()");
   EXPECT_EQ(message_of<std::logic_error>([&] { estimator->estimate(); }),
             "estimator fixture: estimate() before reset()");
   Sample two_joints = sample_at(0);
@@ -188,8 +200,16 @@ TEST(Plugins, ExtraOutputsAndRevisionsCrossByNameAndTime) {
   EXPECT_EQ(revision->time_s, 0.5);
   EXPECT_EQ(revision->estimate.joint_position, Eigen::Vector3d::Constant(2));  // between both readings
   EXPECT_FALSE(estimator->revise(false).has_value());
-  EXPECT_EQ(failure([&] { halyard::make_estimator(fixture("taken_extra_output_name"), raven2()); }),
-            "estimator fixture: extra output 'joint_position': the name is taken");
+}
+
+TEST(Plugins, NamesOfExtraOutputsThatAreNoColumnsAreRefused) {
+  const auto refused = [](const std::string& name) {
+    return failure([&] { halyard::make_estimator(fixture(name), raven2()); });
+  };
+  EXPECT_EQ(refused("taken_extra_output_name"), "estimator fixture: extra output 'joint_position': the name is taken");
+  EXPECT_EQ(refused("spaced_extra_output_name"),
+            "estimator fixture: extra output 'two words': its name has other than letters, digits, '_', '-'");
+  EXPECT_EQ(refused("endless_extra_outputs"), "estimator fixture: extra output names do not end");
 }
 
 // Without the check the process dies when the module frees a vector that it got from the library.

@@ -1,0 +1,6 @@
+#include "spring_effect.h"
+
+extern "C" const halyard_effect_table* halyard_effects() {
+  static const auto table = halyard::effect_table<Spring, Spring>();
+  return &table;
+}
