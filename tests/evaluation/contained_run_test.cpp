@@ -167,6 +167,8 @@ TEST(ContainedFaults, AreThoseFoundInThisProcess) {
   const std::vector<std::string> faults = conformance_faults(careless, raven2());
   EXPECT_FALSE(faults.empty());
   EXPECT_EQ(contained_faults(careless, raven2(), false), faults);
+  EXPECT_EQ(contained_faults(careless, raven2(), false, {.in_process = true}), faults);
+  EXPECT_EQ(contained_faults("ekf", raven2(), true, {.in_process = true}), std::vector<std::string>());
   EXPECT_EQ(contained_faults("ekf", raven2(), true), std::vector<std::string>());
   const std::vector<std::string> crash = contained_faults(fixture("crashes_in_update"), raven2(), false);
   ASSERT_EQ(crash.size(), 1u);

@@ -70,6 +70,21 @@ TEST_F(InProcess, ASweepNeedsNoWorker) {
   EXPECT_EQ(message_of([&] { run_sweep(sweep, folder, {}); }), kNoWorker);
 }
 
+TEST_F(InProcess, APointOfASweepThatCannotBeSimulatedIsAFailureOfItsEstimators) {
+  Sweep sweep;
+  sweep.scenario = scenario;
+  sweep.scenario.robot.nominal.joint[1].stiffness = 1e-3;
+  sweep.model = scenario.robot;
+  sweep.grid.estimators = {"kinematics", "ekf"};
+  sweep.grid.measures = parse_measures("errors");
+  sweep.grid.units = joint_units(sweep.model);
+  const SweepCell cell = run_point(sweep, 0, {.in_process = true});
+  ASSERT_EQ(cell.results.size(), 2u);
+  for (const SweepCell::Result& result : cell.results)
+    EXPECT_TRUE(result.failure.starts_with("simulation: scenario 'test': joint 2: no stretch of its cable"))
+        << result.failure;
+}
+
 TEST_F(InProcess, TheEvaluationOfADiagnosisNeedsNoWorker) {
   Diagnosis nothing_found;
   nothing_found.given = nothing_found.revised = scenario.robot;

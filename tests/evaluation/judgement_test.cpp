@@ -140,6 +140,21 @@ TEST(Whiteness, SeesNeighboursAndTorques) {
   EXPECT_FALSE(whiteness(follows, torque).is_white());
 }
 
+TEST(Whiteness, SaysWhatItSees) {
+  EXPECT_EQ(in_words(Whiteness{.correlation = kNan}), "-");
+  EXPECT_EQ(in_words(Whiteness{.correlation = 0.01, .with_torque = -0.01, .chance = 0.05}), "white");
+  EXPECT_EQ(in_words(Whiteness{.correlation = -0.3, .with_torque = 0.01, .chance = 0.05}),
+            "neighbours correlate, -0.30");
+  EXPECT_EQ(in_words(Whiteness{.correlation = 0.01, .with_torque = 0.2, .chance = 0.05}), "with the torque, 0.20");
+  EXPECT_EQ(in_words(Whiteness{.correlation = 0.3, .with_torque = 0.2, .chance = 0.05}),
+            "neighbours correlate, 0.30; with the torque, 0.20");
+}
+
+TEST(ErrorStatistics, NeedSamplesThatBelongTogether) {
+  EXPECT_THROW(error_statistics(std::vector{1.0, 2.0}, std::vector{1.0}, {}), std::invalid_argument);
+  EXPECT_THROW(error_statistics(std::vector{1.0}, std::vector{1.0}, std::vector{1.0, 1.0}), std::invalid_argument);
+}
+
 TEST(NormalisedSquares, NeedADeviation) {
   const std::vector<double> z =
       normalised_squares(std::vector{1.0, 2.0, kNan}, std::vector{0.0, 2.0, 1.0}, std::vector{0.5, 0.0, 1.0});

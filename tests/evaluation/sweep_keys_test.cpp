@@ -85,8 +85,38 @@ TEST(SweepKeys, NameNumbersOfTheScenario) {
   EXPECT_EQ(with("integrator.relative_tolerance", 1e-5).integrator.relative_tolerance, 1e-5);
   EXPECT_EQ(with("camera.latency", 0.1).camera->latency_s, 0.1);
   EXPECT_EQ(with("joint1.trajectory.sine1.frequency", 0.7).trajectory[0].sines[0].frequency_hz, 0.7);
+  EXPECT_EQ(with("joint1.trajectory.sine1.amplitude", 0.2).trajectory[0].sines[0].amplitude, 0.2);
+  EXPECT_EQ(with("joint1.trajectory.sine1.phase", 0.4).trajectory[0].sines[0].phase, 0.4);
   const Scenario moves = read_scenario(kRaven + "experiment_a.xml");
   EXPECT_EQ(with("joint2.trajectory.center", 1.5, moves).trajectory[1].center, 1.5);
+}
+
+TEST(SweepKeys, NameTheTimesOfMovesBetweenPoints) {
+  Scenario moves = camera_scenario();
+  moves.trajectory[1].kind = JointTrajectory::Kind::point_to_point;
+  moves.trajectory[1].points = {1, 2};
+  EXPECT_EQ(with("joint2.trajectory.move", 0.75, moves).trajectory[1].move_s, 0.75);
+  EXPECT_EQ(with("joint2.trajectory.dwell", 0.25, moves).trajectory[1].dwell_s, 0.25);
+  const SweepGrid grid = grid_of(axis_of("joint2.trajectory.dwell", -1));
+  put_values(grid, 0, moves);
+  EXPECT_EQ(message_of([&] { check_varied_scenario(grid, moves); }),
+            "joint2.trajectory.dwell = -1 s: expected a number of at least 0");
+}
+
+TEST(SweepKeys, OfAnEffectNameAPlaceThatItCanHave) {
+  ArmModel model = read_model(kRaven + "raven2.xml");
+  const auto refused = [&](const std::string& key) { return message_of([&] { model_parameter(model, key); }); };
+  EXPECT_EQ(refused("arm.effect.backlash.half_gap"),
+            "parameter 'arm.effect.backlash.half_gap': the effect is of a joint; write "
+            "jointK.effect.backlash.half_gap with K from 1 to 3");
+  EXPECT_EQ(refused("joint4.effect.backlash.half_gap"),
+            "parameter 'joint4.effect.backlash.half_gap': the effect is of a joint; write "
+            "jointK.effect.backlash.half_gap with K from 1 to 3");
+  EXPECT_TRUE(refused("joint1.effect.backlsh.half_gap")
+                  .starts_with("parameter 'joint1.effect.backlsh.half_gap': unknown effect; expected one of "));
+  model.nominal.joint[1].drive = Drive::rigid;
+  const std::string without_cable = refused("joint2.effect.backlash.half_gap");
+  EXPECT_TRUE(without_cable.ends_with("; name another joint")) << without_cable;
 }
 
 TEST(SweepKeys, NameAnOptionOfAnEstimator) {

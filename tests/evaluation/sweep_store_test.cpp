@@ -154,6 +154,27 @@ TEST_F(SweepStore, RefusesWhatIsDamaged) {
   EXPECT_EQ(message_of([&] { read_grid(folder); }), damaged(folder / "sweep.json"));
 }
 
+TEST_F(SweepStore, RefusesAGridThatContradictsItself) {
+  store([&](auto& files) { write_grid(files, folder, grid); });
+  std::ifstream file(folder / "sweep.json");
+  const nlohmann::json right = nlohmann::json::parse(file);
+  const auto refuses = [&](const std::string& place, const nlohmann::json& value) {
+    nlohmann::json wrong = right;
+    wrong[nlohmann::json::json_pointer(place)] = value;
+    write(folder / "sweep.json", wrong.dump());
+    return message_of([&] { read_grid(folder); }).ends_with("is damaged; remove it and run the sweep again");
+  };
+  EXPECT_FALSE(refuses("/name", "another"));
+  EXPECT_TRUE(refuses("/axes/0/applies_to", "nothing"));
+  EXPECT_TRUE(refuses("/axes/0/parameters", nlohmann::json::array()));
+  EXPECT_TRUE(refuses("/axes/1/values", nlohmann::json::array()));
+  EXPECT_TRUE(refuses("/measures", nlohmann::json::array({"beauty"})));
+  EXPECT_TRUE(refuses("/sampled", true));  // the axes have two and three values
+  EXPECT_TRUE(refuses("/points", 7));
+  EXPECT_TRUE(refuses("/axes", nlohmann::json::array()));
+  EXPECT_TRUE(refuses("/seeds", std::vector<int>(1000001, 1)));  // more points than a sweep can have
+}
+
 TEST_F(SweepStore, DiscardsCellsAndTablesOfAnotherSweepAndKeepsItsOwn) {
   store([&](auto& files) { write_grid(files, folder, grid); });
   write(journal_path(folder, {2, 3}), journal_header(grid));
