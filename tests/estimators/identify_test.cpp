@@ -7,6 +7,7 @@
 
 #include "model/input_error.h"
 #include "plant/simulate.h"
+#include "tests/support/message_of.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
@@ -192,10 +193,46 @@ TEST(IdentifiedKeys, AreKindsAndSingleNumbers) {
   model.nominal.joint[1].coupling[0] = 0;
   EXPECT_EQ(identified_keys(model, "coupling").size(), 2u);
   EXPECT_EQ(identified_keys(model, "joint2.coupling.joint1").size(), 1u);
-  EXPECT_THROW(identified_keys(model, "coupling,"), InputError);
-  EXPECT_THROW(identified_keys(model, "tension"), InputError);
   model.nominal.joint[0].law = CableLaw::exponential;
   EXPECT_EQ(identified_keys(model, "tension"), Keys{"joint1.cable.tension"});
+}
+
+TEST(IdentifiedKeys, ThatCannotBeIdentifiedAreRefusedWithTheReason) {
+  ArmModel model = read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml");
+  model.source = "arm.xml";
+  const auto refusal = [&](const std::string& text) { return message_of([&] { identified_keys(model, text); }); };
+  EXPECT_EQ(refusal("tension"),
+            "parameter 'tension': arm.xml has no cable law that takes tension; write law=\"exponential\" in its "
+            "<cable>");
+  EXPECT_TRUE(refusal("coupling,").starts_with("parameter '': ")) << refusal("coupling,");
+  model.nominal.joint[0].stiffness = 0;
+  EXPECT_EQ(refusal("joint1.cable.stiffness"),
+            "parameter 'joint1.cable.stiffness': is 0 in arm.xml, which gives no scale to look for it; write a guess "
+            "into the model");
+  for (int k = 0; k < 3; ++k) model.nominal.joint[k].joint_coulomb = model.nominal.joint[k].joint_viscous = 0;
+  EXPECT_EQ(refusal("joint_friction"),
+            "parameter 'joint_friction': arm.xml has no such number, or only numbers of 0; ask for others, or name a "
+            "coupling of 0 by its key, such as joint2.coupling.joint1");
+  model.nominal.n = 1;
+  model.joints.resize(1);
+  EXPECT_EQ(refusal("coupling"),
+            "parameter 'coupling': arm.xml has one joint, and a joint is coupled with inboard ones; ask for another "
+            "number");
+}
+
+TEST(Identify, NeedsTheSensorOfTheJointAndALogThatIsLongEnough) {
+  const ArmModel model = read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml");
+  Log log(3);
+  log.source = "log.csv";
+  log.time = {0, 1, 2};
+  for (auto* signals : {&log.motor_torque, &log.motor_position, &log.joint_position})
+    for (auto& column : *signals) column = {0, 0, 0};
+  const auto refusal = [&] { return message_of([&] { identify(model, {log}, {"joint2.coupling.joint1"}); }); };
+  EXPECT_EQ(refusal(),
+            "log.csv: 2 s of it are for the estimation, without what is held out; expected at least 3 s, and more is "
+            "better: give a longer log, or one of its own to hold out");
+  log.joint_position[1].clear();
+  EXPECT_TRUE(refusal().starts_with("log.csv: column joint_position_2 is missing, or empty; ")) << refusal();
 }
 
 }  // namespace

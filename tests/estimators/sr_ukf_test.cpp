@@ -68,6 +68,19 @@ TEST(SrUkf, GivesMeanAndVarianceOfASquareExactly) {
   }
 }
 
+TEST(SrUkf, ASmallerBetaTakesTheSquaresOwnVarianceAway) {
+  // The fourth moment counts β times: 4 m² σ² + β σ⁴. Below α², β takes it from the covariance by a down-date.
+  const double m = 3, sigma = 0.5;
+  for (const double beta : {0.0, 0.5, 1.0, 2.0}) {
+    SquareRootUkf filter({.alpha = 1, .beta = beta});
+    filter.reset(Eigen::VectorXd::Constant(1, m), Eigen::MatrixXd::Constant(1, 1, sigma));
+    filter.predict(Square(), Eigen::MatrixXd::Zero(1, 1));
+    EXPECT_NEAR(std::pow(filter.S()(0, 0), 2), 4 * m * m * sigma * sigma + beta * std::pow(sigma, 4), 100 * 9 * kEps)
+        << beta;
+    EXPECT_EQ(filter.repaired(), 0) << beta;
+  }
+}
+
 TEST(SrUkf, AMeasurementThroughSigmaPointsSeesItsCurvature) {
   const double m = 3, sigma = 0.5, r = 0.2;
   SquareRootUkf filter;

@@ -156,6 +156,15 @@ void expect_alike(ArmPlant& simbody, ArmPlant& own, std::mt19937_64& random) {
   EXPECT_NEAR(own.stored_energy(0, other.data()) - own.stored_energy(0, y.data()), rise, 1e-9 * (1 + std::abs(rise)));
 }
 
+/// The point moves with the last link.
+void expect_alike_at_rest_and_in_motion(ArmPlant& simbody, ArmPlant& own, std::mt19937_64& random) {
+  const Eigen::VectorXd y = random_state(own, random), q = y.head(own.layout().n), v = y.segment(q.size(), q.size());
+  const double point[] = {0.1, -0.2, 0.3};
+  EXPECT_LT((own.position_of(point, q) - simbody.position_of(point, q)).norm(), 1e-12 * (1 + q.norm()));
+  const Eigen::VectorXd expected = simbody.velocity_force(q, v);
+  EXPECT_LT((own.velocity_force(q, v) - expected).cwiseAbs().maxCoeff(), 1e-9 * (1 + expected.cwiseAbs().maxCoeff()));
+}
+
 TEST(ArmPlant, HasTheSameMotionAndEnergyOnBothEngines) {
   std::mt19937_64 random(11);
   for (int trial = 0; trial < 40; ++trial) {
@@ -165,7 +174,10 @@ TEST(ArmPlant, HasTheSameMotionAndEnergyOnBothEngines) {
       for (const EffectPlace place : effect_places(*effect, arm))
         if (random() % 8 == 0 && effects.size() < 6) effects.push_back(place_effect(*effect, arm, place));
     ArmPlant simbody(arm, effects), own(arm, effects, Engine::halyard);
-    for (int state = 0; state < 5; ++state) expect_alike(simbody, own, random);
+    for (int state = 0; state < 5; ++state) {
+      expect_alike(simbody, own, random);
+      expect_alike_at_rest_and_in_motion(simbody, own, random);
+    }
   }
 }
 
@@ -203,6 +215,20 @@ TEST(ArmPlant, RefusesAnInertiaThatNoBodyHas) {
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
                  "link 3: no body has this inertia: each of xx, yy, zz must be at most the sum of the others");
+  }
+}
+
+TEST(ArmPlant, RefusesALinkWithInertiaAndWithoutMassOnSimbodyAlone) {
+  ArmParameters<double> arm = nominal_raven2().nominal;
+  arm.joint[1].mass = 0;
+  EXPECT_NO_THROW(ArmPlant(arm, {}, Engine::halyard));
+  try {
+    ArmPlant plant(arm);
+    FAIL() << "took it";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "link 2: has inertia and no mass, which Simbody cannot compute; give it a mass, or take "
+                 "engine=\"halyard\"");
   }
 }
 

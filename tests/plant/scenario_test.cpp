@@ -374,6 +374,12 @@ TEST(Simulate, RefusesWhatCannotBeRun) {
   Scenario scenario = experiment("a", 1);
   scenario.trajectory.pop_back();
   EXPECT_THROW(simulate(scenario), InputError);
+  for (double IntegratorOptions::*tolerance :
+       {&IntegratorOptions::relative_tolerance, &IntegratorOptions::absolute_tolerance}) {
+    scenario = experiment("a", 1);
+    scenario.integrator.*tolerance = 0;
+    EXPECT_THROW(simulate(scenario), InputError);
+  }
   scenario = experiment("a", 1);
   scenario.robot.nominal.joint[1].stiffness = 1e-3;
   try {
