@@ -10,8 +10,8 @@
 namespace halyard {
 namespace {
 
-constexpr double kSampleTime = 2e-3;     // s
-constexpr std::size_t kSamples = 15000;  // 30 s
+constexpr double kSampleTime = 2e-3;  // s
+constexpr std::size_t kRows = 15000;  // 30 s
 
 /// A command that follows a slow motion and the noise of its encoder, up to 30 Hz.
 double command(double t) {
@@ -21,8 +21,8 @@ double command(double t) {
 }
 
 std::vector<double> sampled(const std::function<double(double)>& f) {
-  std::vector<double> x(kSamples);
-  for (std::size_t i = 0; i < kSamples; ++i) x[i] = f(kSampleTime * static_cast<double>(i));
+  std::vector<double> x(kRows);
+  for (std::size_t i = 0; i < kRows; ++i) x[i] = f(kSampleTime * static_cast<double>(i));
   return x;
 }
 
@@ -47,9 +47,9 @@ TEST(DelayFree, LeavesTheNoiseOfTheTorqueItself) {
   // A logged torque's noise is in its residual, and in the rate of its command.
   std::mt19937 random(1);
   std::normal_distribution<double> normal(0, 1e-3);
-  std::vector<double> noise(kSamples), rate(kSamples, 0.0);
+  std::vector<double> noise(kRows), rate(kRows, 0.0);
   for (double& x : noise) x = normal(random);
-  for (std::size_t i = 1; i + 1 < kSamples; ++i) rate[i] = (noise[i + 1] - noise[i - 1]) / (2 * kSampleTime);
+  for (std::size_t i = 1; i + 1 < kRows; ++i) rate[i] = (noise[i + 1] - noise[i - 1]) / (2 * kSampleTime);
   // One number of 15000 samples takes 1e-4 of the noise at most.
   EXPECT_NEAR(deviation_of(delay_free({noise}, {rate}, kSampleTime)[0]), deviation_of(noise),
               1e-3 * deviation_of(noise));
