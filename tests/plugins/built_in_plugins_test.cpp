@@ -26,6 +26,14 @@ TEST(Conformance, FindsWhatACarelessEstimatorBreaks) {
             "missing samples: plugin fixture: at 0.01 s: innovation 2 is not finite");
 }
 
+TEST(Conformance, FindsAnEstimatorThatIsNoKalmanFilter) {
+  const std::vector<std::string> faults = halyard::kalman_faults(fixture("careless"));
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_TRUE(faults[0].starts_with("Kalman: the position at sample 1 is off by ")) << faults[0];
+  EXPECT_TRUE(faults[0].ends_with(" nm")) << faults[0];
+  EXPECT_EQ(halyard::kalman_faults("sr_ukf"), std::vector<std::string>());
+}
+
 TEST(Conformance, FindsInnovationsAndRevisionsThatBelongToNoSample) {
   const auto first = [](const std::string& name) {
     return halyard::conformance_faults(fixture(name), raven2()).front();

@@ -42,6 +42,12 @@ TEST(EffectModule, AModuleThatBreaksTheContractIsRefusedWithOneLineAndLeavesNoth
   EXPECT_EQ(
       refusal("effects_other_layout"),
       "the types that it shares with this program have other sizes there; rebuild it against the installed headers");
+  EXPECT_EQ(refusal("effects_no_table"), "halyard_effects() returns no table; return the address of a static one");
+  EXPECT_EQ(refusal("effects_missing_entry"), "its table lacks an entry; fill every entry");
+  EXPECT_EQ(refusal("effects_none"), "makes no effect");
+  EXPECT_EQ(refusal("effects_null"), "makes an effect that is null");
+  EXPECT_EQ(refusal("effects_spaced_name"),
+            "effect 'a spring' cannot be named so; use letters, digits, '_' and '-', at most 64");
   const std::string size = refusal("effects_small_table");
   EXPECT_TRUE(size.starts_with("its table has ")) << size;
   EXPECT_TRUE(size.ends_with("; rebuild it against the installed headers")) << size;

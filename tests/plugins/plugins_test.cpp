@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 
 #include "model/input_error.h"
@@ -161,13 +162,15 @@ TEST(Plugins, ResultsThatBreakTheContractAreContained) {
   EXPECT_LT(message.size(), 600u);
 }
 
-TEST(Plugins, ExceptionsThatAModuleLetsOutAreContained) {
+TEST(Plugins, ExceptionsAndFailuresWithoutAWordAreContained) {
   const auto estimator = halyard::make_estimator(fixture("lets_exceptions_out"), raven2());
   estimator->reset(sample_at(0));
   EXPECT_EQ(failure([&] { estimator->update(sample_at(0.001)); }),
             "plugin lets_exceptions_out: at 0.001 s: update: lets an exception out: nobody caught this");
   EXPECT_EQ(failure([&] { estimator->update(sample_at(2)); }),
             "plugin lets_exceptions_out: at 2 s: update: lets an exception out");
+  EXPECT_EQ(failure([&] { estimator->update(sample_at(3)); }),
+            "plugin lets_exceptions_out: at 3 s: update: fails without a message");
 }
 
 TEST(Plugins, TheCallersMistakesDoNotReachThePlugin) {
@@ -178,10 +181,15 @@ TEST(Plugins, TheCallersMistakesDoNotReachThePlugin) {
             "estimator fixture: revise() before reset()");
   EXPECT_EQ(message_of<std::logic_error>([&] { estimator->estimate(); }),
             "estimator fixture: estimate() before reset()");
-  Sample two_joints = sample_at(0);
-  two_joints.motor_torque.resize(2);
-  EXPECT_EQ(message_of<std::invalid_argument>([&] { estimator->reset(two_joints); }),
-            "estimator fixture: the sample is not of 3 joints");
+  const std::vector<std::function<void(Sample&)>> mistakes = {
+      [](Sample& sample) { sample.motor_torque.setZero(2); }, [](Sample& sample) { sample.motor_position.setZero(2); },
+      [](Sample& sample) { sample.joint_torque.setZero(2); }, [](Sample& sample) { sample.marker.setZero(2); }};
+  for (const auto& mistake : mistakes) {
+    Sample sample = sample_at(0);
+    mistake(sample);
+    EXPECT_EQ(message_of<std::invalid_argument>([&] { estimator->reset(sample); }),
+              "estimator fixture: the sample is not of 3 joints");
+  }
 }
 
 TEST(Plugins, ExtraOutputsAndRevisionsCrossByNameAndTime) {
@@ -207,6 +215,7 @@ TEST(Plugins, NamesOfExtraOutputsThatAreNoColumnsAreRefused) {
     return failure([&] { halyard::make_estimator(fixture(name), raven2()); });
   };
   EXPECT_EQ(refused("taken_extra_output_name"), "estimator fixture: extra output 'joint_position': the name is taken");
+  EXPECT_EQ(refused("repeated_extra_output_name"), "estimator fixture: extra output 'gain': the name is taken");
   EXPECT_EQ(refused("spaced_extra_output_name"),
             "estimator fixture: extra output 'two words': its name has other than letters, digits, '_', '-'");
   EXPECT_EQ(refused("endless_extra_outputs"), "estimator fixture: extra output names do not end");

@@ -4,7 +4,8 @@
 namespace {
 
 int throwing_update(void*, const halyard_sample* sample, halyard_innovation*, char*, size_t) {
-  if (sample->time_s > 1) throw 1;  // no std::exception
+  if (sample->time_s > 2) return HALYARD_FAILED;  // without a message
+  if (sample->time_s > 1) throw 1;                // no std::exception
   throw std::runtime_error("nobody caught this");
 }
 
