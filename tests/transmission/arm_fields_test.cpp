@@ -147,5 +147,25 @@ TEST(ArmFields, AreAllPackedLaneByLane) {
   for (int lane = 0; lane < kLaneWidth; ++lane) expect_equal(packed, arms[lane], lane);
 }
 
+TEST(ArmParameters, OfAJointThatSaysNothingChangeNothing) {
+  const JointParameters<double> joint;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(joint.frame_R[r][c], r == c ? 1 : 0) << r << c;
+    EXPECT_EQ(joint.frame_p[r], 0) << r;
+    EXPECT_EQ(joint.com[r], 0) << r;
+  }
+  EXPECT_EQ(joint.motor_travel(), 1) << "the cable moves as the motor";
+  EXPECT_EQ(joint.pulley_radius, 1) << "the joint moves as the cable";
+  EXPECT_EQ(joint.torque_scale, 1);
+  for (const double added : {joint.torque_bias, joint.motor_encoder_offset, joint.joint_encoder_offset}) {
+    EXPECT_EQ(added, 0);
+  }
+  for (const double lost : {joint.motor_coulomb, joint.motor_viscous, joint.joint_coulomb, joint.joint_viscous}) {
+    EXPECT_EQ(lost, 0);
+  }
+  for (const double coupled : joint.coupling) EXPECT_EQ(coupled, 0);
+  EXPECT_TRUE(joint.motor_zero_known && joint.joint_zero_known);
+}
+
 }  // namespace
 }  // namespace halyard
