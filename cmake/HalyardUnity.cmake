@@ -3,10 +3,12 @@
 # others. The names in the unnamed namespaces of a group have to differ, and those of a test from its room's headers in
 # support/: the compiler takes two functions of one name for overloads. A file that is not listed here is compiled alone.
 option(HALYARD_UNITY_BUILD "Compile groups of files as one: a cold build is shorter" ON)
+set(HALYARD_ROOMS_WITHOUT_GROUPS "" CACHE STRING "Rooms whose files are compiled alone in a unity build, too")
 
 # compile_together(TARGET GROUP file...)
 function(compile_together target group)
-  if(NOT HALYARD_UNITY_BUILD OR NOT TARGET ${target})
+  string(REPLACE halyard_ "" room ${target})
+  if(NOT HALYARD_UNITY_BUILD OR NOT TARGET ${target} OR room IN_LIST HALYARD_ROOMS_WITHOUT_GROUPS)
     return()
   endif()
   get_target_property(folder ${target} SOURCE_DIR)
