@@ -6,7 +6,8 @@
 ///
 ///   l_ib   ln L of candidate i on deciding block b (likelihood.h)
 ///   ω_d    one draw of weights of the B blocks, Dirichlet(1, ..., 1): another log of the same arm
-///   π_i    prior: exp(-(numbers that the candidate adds) - (its stretch of the model's own numbers, judge.h))
+///   π_i    prior: exp(-(numbers that the candidate adds) - (its stretch of the model's own numbers, judge.h)); an equation
+///          of its own counts like one more number
 ///
 /// Source: pseudo-BMA+ of Yao, Vehtari, Simpson, Gelman, Bayesian Analysis 13 (2018), section 3.4.
 ///
@@ -26,7 +27,7 @@ namespace halyard {
 /// A candidate that competes for the name.
 struct Competitor {
   const Likelihood* log_likelihood = nullptr;
-  int numbers = 0;        ///< that it adds to the model
+  int numbers = 0;        ///< that it adds to the model, and one more if it adds an equation
   double prior_cost = 0;  ///< of its changes of the model's own numbers, nats
 };
 

@@ -42,16 +42,10 @@ Competition::Choice Competition::choose(const std::vector<std::size_t>& able) co
     if (shared_gain(trials_[best].log_likelihood, trials_[i].log_likelihood, ln_without_) < kRule.shared_gain) continue;
     if (p.t < kRule.tell_apart || p.sum < 2 * kRule.tell_apart * kRule.tell_apart) alike.push_back(i);
   }
-  // Of the candidates that the data cannot distinguish, the best is named. If several are about as good, one that only
-  // changes the model's own numbers comes first, and then the one with the fewest numbers of its own.
-  const auto simplicity = [&](std::size_t i) {
-    const PlacedEffect& e = trials_[i].effect;
-    return std::pair(e.effect->stages() != 0, e.effect->parameters(model_.nominal, e.joint).size());
-  };
-  std::vector<std::size_t> as_good = alike;
-  std::erase_if(as_good, [&](std::size_t i) { return trials_[i].gain < trials_[best].gain - kRule.by_chance; });
-  const std::size_t named = *std::ranges::min_element(as_good, {}, simplicity);
-  return {named, alike};
+  // Of the candidates that the data cannot distinguish, the most probable is named.
+  const std::vector<double> weight = weights(alike);
+  const auto most = std::ranges::max_element(weight.begin(), weight.end() - 1);
+  return {alike[static_cast<std::size_t>(most - weight.begin())], alike};
 }
 
 Naming Competition::naming(const Choice& choice) const {
@@ -89,9 +83,11 @@ std::vector<double> Competition::weights(const std::vector<std::size_t>& rivals)
   std::vector<Competitor> all;
   for (const std::size_t i : rivals) {
     const PlacedEffect& e = trials_[i].effect;
-    // At its bound an effect is less plausible, but may still be the right one.
+    const std::size_t numbers = e.effect->parameters(model_.nominal, e.joint).size();
+    // An equation of its own counts like one more number. At its bound an effect is less plausible, but may still be the
+    // right one.
     const double implausible = trials_[i].at_bound ? kRule.by_chance : 0;
-    all.push_back({&trials_[i].log_likelihood, static_cast<int>(e.effect->parameters(model_.nominal, e.joint).size()),
+    all.push_back({&trials_[i].log_likelihood, static_cast<int>(numbers) + (e.effect->stages() != 0 ? 1 : 0),
                    trials_[i].stretch + implausible});
   }
   return name_weights(evidence_, all, {&ln_without_, 0, judge_.stretch(without_.hypothesis)});
