@@ -169,7 +169,7 @@ std::string reason_of(Doubt doubt, const Naming& naming) {
   switch (doubt) {
     case Doubt::another_cause: return "so much is left that another cause is more probable";
     case Doubt::surer_rival:
-      return fmt::format("{} is more probable, at a bound of what is plausible", effect_label(*naming.surer));
+      return fmt::format("{} is more probable, and cannot be named itself", effect_label(*naming.surer));
     case Doubt::no_certain_size: return "its size may as well be zero";
     case Doubt::only_beside_one: return "it is needed only beside another effect that has no name";
     case Doubt::none: break;
