@@ -154,6 +154,20 @@ void Evidence::find_spans(const ArmModel& model) {
     motor_span_.push_back(span);
     greatest_speed_.push_back(fastest);
   }
+  find_moving_span();
+}
+
+void Evidence::find_moving_span() {
+  constexpr double kMoves = 0.05;  // of the greatest speed
+  moving_span_ = {time_span_.last, time_span_.first};
+  for (const Record& r : records_)
+    for (int k = 0; k < n_; ++k)
+      for (std::size_t i = 0; i < r.size; ++i)
+        if (std::abs(r.motor_rate[k][i]) > kMoves * greatest_speed_[k]) {
+          const double time = r.time(i) + r.clock_shift;
+          moving_span_ = {std::min(moving_span_.first, time), std::max(moving_span_.last, time)};
+        }
+  if (moving_span_.last < moving_span_.first) moving_span_ = time_span_;
 }
 
 std::vector<std::vector<Residuals>> Evidence::predict_all(const std::vector<Hypothesis>& hypotheses) const {

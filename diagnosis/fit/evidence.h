@@ -73,6 +73,9 @@ class Evidence {
   double noise_rows() const { return noise_rows_; }
   /// From the first to the last sample of all records, s.
   Span time_span() const { return time_span_; }
+  /// From the first to the last instant at which a motor, or a joint without one, moves: faster than a twentieth of its
+  /// greatest speed, s.
+  Span moving_span() const { return moving_span_; }
   /// Range of joint k's motion, from its sensor or from the motors.
   Span joint_span(int k) const { return joint_span_[k]; }
   /// Range of motor k's angle, rad; of a joint without a motor: of the joint's own motion.
@@ -101,6 +104,7 @@ class Evidence {
   void add_row(const Place& place, double time);
   void find_floors(const ArmModel& model);
   void find_spans(const ArmModel& model);
+  void find_moving_span();
 
   int n_;
   int stride_ = 1;
@@ -115,7 +119,7 @@ class Evidence {
   std::vector<std::vector<int>> block_count_;
   std::vector<ChannelNoise> noise_;
   std::vector<double> floor_, resolved_;
-  Span time_span_ = {};
+  Span time_span_ = {}, moving_span_ = {};
   std::vector<Span> joint_span_, motor_span_;
   std::vector<double> greatest_speed_;
 };

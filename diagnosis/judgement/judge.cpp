@@ -130,7 +130,7 @@ std::vector<std::size_t> Judge::sizes_at_bound(const Scored& with, std::size_t p
   std::vector<std::size_t> at_bound, all;
   for (const ParameterGroup& group : groups) all.insert(all.end(), group.sizes.begin(), group.sizes.end());
   for (const ParameterGroup& group : groups) {
-    bool is_whole_group = lasts_the_whole_record(with, parameters, group);
+    bool is_whole_group = lasts_as_long_as_the_motion(with, parameters, group);
     if (!is_whole_group && std::ranges::any_of(group.shapes, shape_ends)) {
       const double own = does(group.sizes);
       is_whole_group = own > kRule.by_chance && own > kNextToNothing * does(all);
@@ -171,23 +171,27 @@ bool Judge::acts(const Scored& with, const FitParameter& shape) const {
   });
 }
 
-/// True for an effect between two instants that acts nearly all the time, or as well might: it is an offset, which other
-/// effects explain.
-bool Judge::lasts_the_whole_record(const Scored& with, const std::vector<FitParameter>& parameters,
-                                   const ParameterGroup& group) const {
-  constexpr double kNearlyAll = 0.95;
-  std::vector<double> instants;
-  Scored whole = with;
-  const Span span = evidence_.time_span();
-  for (const std::size_t i : group.shapes) {
-    if (parameters[i].range != SearchRange::record_time) continue;
-    set_parameter(whole.hypothesis, parameters[i], instants.empty() ? span.first : span.last);
-    instants.push_back(parameter_value(with.hypothesis, parameters[i]));
-  }
+/// True for an effect between two instants that acts all the time or all the time that the arm moves, nearly, or as well
+/// might: it is an offset or belongs to the motion, which other effects explain.
+bool Judge::lasts_as_long_as_the_motion(const Scored& with, const std::vector<FitParameter>& parameters,
+                                        const ParameterGroup& group) const {
+  constexpr double kNearly = 0.05;  // of the time
+  std::vector<FitParameter> instants;
+  for (const std::size_t i : group.shapes)
+    if (parameters[i].range == SearchRange::record_time) instants.push_back(parameters[i]);
   if (instants.size() != 2) return false;
-  if (instants[1] - instants[0] > kNearlyAll * (span.last - span.first)) return true;
-  whole.score = evidence_.score(whole.hypothesis);
-  return whole.score.finite && cost(whole) < cost(with) + kRule.by_chance;
+  const auto begins_and_ends_with = [&](const Span& span) {
+    Scored there = with;
+    double off = 0;
+    for (const auto& [instant, end] : {std::pair(&instants[0], span.first), std::pair(&instants[1], span.last)}) {
+      off += std::abs(parameter_value(with.hypothesis, *instant) - end);
+      set_parameter(there.hypothesis, *instant, end);
+    }
+    if (off < kNearly * (span.last - span.first)) return true;
+    there.score = evidence_.score(there.hypothesis);
+    return there.score.finite && cost(there) < cost(with) + kRule.by_chance;
+  };
+  return begins_and_ends_with(evidence_.time_span()) || begins_and_ends_with(evidence_.moving_span());
 }
 
 /// True if a shape is near the end of what is plausible, and the data cannot tell it from there.

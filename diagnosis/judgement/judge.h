@@ -107,8 +107,8 @@ class Judge {
   bool at_bound(const Scored& with, std::size_t place) const { return !sizes_at_bound(with, place).empty(); }
   std::vector<std::size_t> sizes_at_bound(const Scored& with, std::size_t place) const;
   bool acts(const Scored& with, const FitParameter& shape) const;
-  bool lasts_the_whole_record(const Scored& with, const std::vector<FitParameter>& parameters,
-                              const ParameterGroup& group) const;
+  bool lasts_as_long_as_the_motion(const Scored& with, const std::vector<FitParameter>& parameters,
+                                   const ParameterGroup& group) const;
   bool is_as_good_at_bound(const Scored& with, const FitParameter& p) const;
   bool within_tolerance(const Hypothesis& h, std::size_t place) const;
   bool takes_a_share(const Score& before, const Score& after, const std::vector<std::vector<double>>& misfits,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "diagnosis/judgement/judge.h"
 #include "diagnosis/search/naming.h"
@@ -18,6 +19,21 @@ PlacedEffect placed_at_first(const char* name, const ArmModel& model, const std:
   return e;
 }
 
+Scenario six_seconds(const ArmModel& robot) { return motion(robot, 6); }
+
+/// Moves from 3 s to 7 s of 10 s.
+Scenario with_a_rest(const ArmModel& robot) {
+  constexpr double kFirst = 3, kLast = 7;
+  Scenario s = motion(robot, 10);
+  JointTrajectory& t = s.trajectory[0];
+  t.kind = JointTrajectory::Kind::samples;
+  for (double time = kFirst; time <= kLast + 1e-9; time += 0.02) {
+    t.sample_time.push_back(time);
+    t.sample_position.push_back(t.center + 0.3 * std::pow(std::sin(2 * std::numbers::pi * (time - kFirst) / 4), 3));
+  }
+  return s;
+}
+
 /// An arm of one joint that has this effect, and the verdict on it.
 struct Found {
   ArmModel model = first_joints(1);
@@ -25,12 +41,12 @@ struct Found {
   Evidence evidence;
   Judge judge{evidence, model, {}};
 
-  Found(const char* name, const std::vector<double>& p)
-      : effect(placed_at_first(name, model, p)), evidence(make_records(record(), model, {}), model) {}
-  Log record() const {
+  Found(const char* name, const std::vector<double>& p, Scenario (*moves)(const ArmModel&) = six_seconds)
+      : effect(placed_at_first(name, model, p)), evidence(make_records(record(moves), model, {}), model) {}
+  Log record(Scenario (*moves)(const ArmModel&)) const {
     ArmModel robot = model;
     robot.effects = {effect};
-    return simulate(motion(robot, 6)).measured;
+    return simulate(moves(robot)).measured;
   }
   Trial trial(const PlacedEffect& of) const {
     const Hypothesis with{model.nominal, {of}}, without{model.nominal, {}};
@@ -67,6 +83,15 @@ TEST(Bounds, OfAPushAreThoseOfTheRecordIfTheDataCannotTellThem) {
   ASSERT_TRUE(of_always.is_judged() && of_later.is_judged());
   EXPECT_TRUE(of_always.at_bound);
   EXPECT_FALSE(of_later.at_bound);
+}
+
+TEST(Bounds, OfAPushAreThoseOfTheMotionToo) {
+  // Rest, motion, rest: what begins and ends with the motion belongs to it.
+  const Found moving("external_force", {2, 3, 7}, with_a_rest), resting("external_force", {2, 2, 7}, with_a_rest);
+  const Trial of_moving = moving.trial(moving.effect), of_resting = resting.trial(resting.effect);
+  ASSERT_TRUE(of_moving.is_judged() && of_resting.is_judged());
+  EXPECT_TRUE(of_moving.at_bound);
+  EXPECT_FALSE(of_resting.at_bound);
 }
 
 TEST(Bounds, OfOnePartLeaveTheOtherPartOfAnEffect) {
