@@ -28,6 +28,8 @@ struct DecisionRule {
   double above_floor = 1.5;
   /// Gain in log-likelihood that one more parameter gives by chance. Reason: two standard deviations of χ²(1) / 2.
   double by_chance = 2;
+  /// Prior cost of a candidate with a parameter at its bound, nats. Reason: a number at the end of its tolerance costs 2.
+  double at_bound = 2;
   /// A candidate whose quick fit has a larger p value than this is neither fitted fully nor judged further.
   double worth_a_fit = 0.05;
 

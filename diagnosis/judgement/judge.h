@@ -17,7 +17,7 @@
 /// - it matters: a residual shrinks by more than the model's tolerances and the sensors' errors can explain, or the
 ///   stretch falls by much;
 /// - no parameter that matters lies at its plausible bound. No shape lies within a factor of two of such a bound if the
-///   bound itself has an equal likelihood;
+///   bound itself has an equal likelihood. The ends of the record and of the motion are the bounds of a push;
 /// - one of its sizes at least exceeds the tolerance of the number that it changes. Otherwise it is a refit;
 /// - it needs the sizes that make it this effect: without them it explains significantly less.
 

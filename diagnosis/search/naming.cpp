@@ -86,7 +86,7 @@ std::vector<double> Competition::weights(const std::vector<std::size_t>& rivals)
     const std::size_t numbers = e.effect->parameters(model_.nominal, e.joint).size();
     // An equation of its own counts like one more number. At its bound an effect is less plausible, but may still be the
     // right one.
-    const double implausible = trials_[i].at_bound ? kRule.by_chance : 0;
+    const double implausible = trials_[i].at_bound ? kRule.at_bound : 0;
     all.push_back({&trials_[i].log_likelihood, static_cast<int>(numbers) + (e.effect->stages() != 0 ? 1 : 0),
                    trials_[i].stretch + implausible});
   }

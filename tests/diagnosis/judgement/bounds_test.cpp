@@ -121,7 +121,7 @@ TEST(Bounds, LeaveACandidateAmongTheRivalsOfAName) {
   EXPECT_NEAR(naming().weight, 0.5, 1e-6);
   trials[1].at_bound = true;
   ASSERT_EQ(naming().alternatives.size(), 1u);
-  const double odds = std::exp(-kRule.by_chance);
+  const double odds = std::exp(-kRule.at_bound);
   EXPECT_NEAR(naming().alternatives[0].probability, odds / (1 + odds), 1e-6);
   EXPECT_FALSE(naming().surer);
   trials[1].stretch -= kRule.by_chance + 1;
