@@ -2,7 +2,7 @@
 /// No include guard: each lanes_<set>.cpp includes it exactly once.
 
 #include "estimators/lanes/lane_kernels.h"
-#include "estimators/process/arm_curvature.h"
+#include "estimators/process/arm_second_stage.h"
 
 namespace halyard {
 namespace {
@@ -54,16 +54,33 @@ void mean_curvature(const LinearisedArm& model, LinearisedPoint& point, const Li
       });
 }
 
-void rates_nearby(const LinearisedArm& model, const LinearisedPoint& point, const double* x, const double* x_dot,
-                  const double* A, int blocks, const Lanes* d, Lanes* rates) {
+void second_stage(const LinearisedArm& model, const LinearisedPoint& start, const double* x, const double* x_dot,
+                  const double* A, const double* x_2, LinearisedPoint& end, double* D) {
   with_known_joints(
       model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
-        halyard::rates_nearby<known>(model, point, x, x_dot, A, blocks, d, rates);
+        halyard::second_stage<known>(model, start, x, x_dot, A, x_2, end, D);
+      });
+}
+
+void far_excess(const LinearisedArm& model, const LinearisedPoint& start, const LinearisedPoint& end, const double* x_2,
+                double factor, int blocks, const Lanes* d, Lanes* rates) {
+  with_known_joints(
+      model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
+        set_far_excess<known>(model, start, end, x_2, factor, blocks, d, rates);
+      });
+}
+
+void near_excess(const LinearisedArm& model, const LinearisedPoint& start, const LinearisedPoint& end, double factor,
+                 int blocks, const Lanes* d, Lanes* rates) {
+  with_known_joints(
+      model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
+        set_near_excess<known>(model, start, end, factor, blocks, d, rates);
       });
 }
 
 constexpr LaneKernels kernels_named(const char* name) {
-  return {name, advance<Lanes>, advance<Dual>, derivative, linearise, mean_curvature, rates_nearby};
+  return {name, advance<Lanes>, advance<Dual>, derivative, linearise, mean_curvature,
+          second_stage, far_excess, near_excess};
 }
 
 }  // namespace

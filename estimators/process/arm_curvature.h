@@ -76,7 +76,7 @@ HALYARD_INLINE void add_chain(const ArmParameters<double>& arm, const StateLayou
 
 /// mean [size] of N over `count` deviations. root: rows of S [size x count], in `blocks` lanes each, with zeros beyond
 /// `count`. x_dot, A and point: at x. near: null, or what this function has left in the point of another state in the same
-/// step; the chain, whose curvature is small, then takes its part from there.
+/// step; the chain, whose curvature is small, then takes its part from there, and x, x_dot and A are not read.
 template <int known>
 HALYARD_INLINE void mean_curvature(const LinearisedArm& model, LinearisedPoint& point, const LinearisedPoint* near,
                                    const double* x, const double* x_dot, const double* A, double gamma, int count,
@@ -94,7 +94,7 @@ HALYARD_INLINE void mean_curvature(const LinearisedArm& model, LinearisedPoint& 
   double force[kMaxJoints], pull[kMaxJoints], accelerations[kMaxJoints];
   for (int k = 0; k < n; ++k) {
     point.chain_curvature[k] = near ? near->chain_curvature[k] : sum_of_lanes(sums.chain[k]) / count;
-    pull[k] = half * point.cable_curvature[k] * sum_of_lanes(sums.stretch[k]);
+    pull[k] = half * point.cable.curvature[k] * sum_of_lanes(sums.stretch[k]);
     force[k] = -half * point.friction.curvature[n + k] * sum_of_lanes(sums.speed[n + k]) - point.chain_curvature[k];
   }
   for (int k = 0; k < n; ++k)
@@ -105,43 +105,6 @@ HALYARD_INLINE void mean_curvature(const LinearisedArm& model, LinearisedPoint& 
     const double held = half * point.friction.curvature[k] * sum_of_lanes(sums.speed[k]);
     mean[*l.motor_rate[k]] = -t.per_rotor_inertia[k] * (held + t.travel[k] * pull[k]);
     mean[l.rate[k]] = accelerations[k];
-  }
-}
-
-/// f(x + d) of eight deviations d at a time, which need not be narrow for friction: the chain is taken as linear, and the
-/// cables as quadratic. d, rates: rows of [size], in `blocks` lanes each. x_dot, A and point: at x.
-template <int known>
-HALYARD_INLINE void rates_nearby(const LinearisedArm& model, const LinearisedPoint& point, const double* x,
-                                 const double* x_dot, const double* A, int blocks, const Lanes* d, Lanes* rates) {
-  const PlainTransmission& t = *model.plain;
-  const StateLayout& l = model.layout;
-  const int n = joint_count<known>(model.arm), size = l.size;
-  for (int b = 0; b < blocks; ++b, ++d, ++rates) {
-    for (int row = l.effect_states; row < size; ++row) rates[row * blocks] = Lanes(0.0);
-    for (int i = 0; i < l.positions; ++i) {
-      const int row = l.positions + i;
-      Lanes sum(x_dot[row]);
-      for (int c = 0; c < size; ++c) sum += A[row + c * size] * d[c * blocks];
-      rates[row * blocks] = sum;
-      rates[i * blocks] = x_dot[i] + d[row * blocks];
-    }
-    Lanes force[kMaxJoints], pull[kMaxJoints];
-    const auto excess = [&](int i) __attribute__((always_inline)) {  // of friction i over its tangent
-      const Lanes change = d[t.speed[i] * blocks];
-      const Lanes held =
-          friction(Lanes(t.coulomb[i]), Lanes(t.viscous[i]), Lanes(t.smoothing[i]), x[t.speed[i]] + change);
-      return held - point.friction.value[i] - point.friction.slope[i] * change;
-    };
-    for (int k = 0; k < n; ++k) {
-      const Lanes stretch = stretch_of(t, l, n, k, d, blocks);
-      pull[k] = (0.5 * point.cable_curvature[k]) * stretch * stretch;
-      force[k] = -excess(n + k);
-      rates[*l.motor_rate[k] * blocks] -= t.per_rotor_inertia[k] * (excess(k) + t.travel[k] * pull[k]);
-    }
-    for (int k = 0; k < n; ++k)
-      for (int i = 0; i < n; ++i) force[i] += t.path[k][i] * pull[k];
-    for (int k = 0; k < n; ++k)
-      for (int i = 0; i < n; ++i) rates[l.rate[k] * blocks] += point.mobility[k + i * n] * force[i];
   }
 }
 

@@ -27,7 +27,7 @@ struct LinearisedPoint {
   double mobility[kMaxJoints * kMaxJoints];  ///< M⁻¹ [n x n], column-major
   double slope[kMaxJoints][2 * kMaxJoints];  ///< of M a + h at constant a, in q and then in q'
   Frictions friction;                        ///< of a plain transmission, as the next
-  double cable_curvature[kMaxJoints];        ///< of each cable's force in its stretch
+  CableForces cable;
   double chain_curvature[kMaxJoints];        ///< of M a + h: its mean, set by mean_curvature() of arm_curvature.h
 };
 
@@ -81,12 +81,11 @@ HALYARD_INLINE void linearise_plain_transmission(const PlainTransmission& t, con
   const int n = joint_count<known>(arm), size = l.size;
   for (int i = 0; i < size * size; ++i) A[i] = 0;
   for (int i = l.effect_states; i < size; ++i) x_dot[i] = 0;
-  CableForces g;
+  CableForces& g = point.cable;
   set_frictions(t, n, x, point.friction);
   const Frictions& friction = point.friction;
   set_cable_forces<known>(t, arm, dual, l, x, g);
   for (int k = 0; k < n; ++k) {
-    point.cable_curvature[k] = g.curvature[k];
     forces.value[k] = external[k].a - friction.value[n + k];
     for (int i = 0; i < size; ++i) forces.slope[k][i] = 0;
     forces.slope[k][l.rate[k]] = -friction.slope[n + k];

@@ -45,8 +45,10 @@ bool ExponentialStep::start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G) 
   usable_ = std::isfinite(f_.sum()) && phi_.compute(Z_, shape_);
   is_finite_ = false;
   if (!usable_) return false;
-  set_second_stage(G);
-  set_corrections();
+  set_x_2();
+  set_linear_response(G);
+  set_second_stage();
+  c_ = 2 * phi_.phi_3_times(D_);
   next_ = x_2_ + c_;
   S_.reshape(n, n);
   set_rows_transposed(S, S_, 0);
@@ -72,9 +74,8 @@ void ExponentialStep::set_x_2() {
   x_2_.segment(p, p) -= x_.segment(p, p);
 }
 
-void ExponentialStep::set_second_stage(const Eigen::MatrixXd& G) {
+void ExponentialStep::set_linear_response(const Eigen::MatrixXd& G) {
   const int n = shape_.n, sources = static_cast<int>(G.cols());
-  set_x_2();
   forces_.reshape(1 + sources, n);
   response_.reshape(1 + sources, n);
   set_rows_transposed(G, forces_, 1);
@@ -84,35 +85,35 @@ void ExponentialStep::set_second_stage(const Eigen::MatrixXd& G) {
   response_.set_lanes([&](std::size_t i) { return 4.0 * response_.lanes()[i] + forces_.lanes()[i]; });
   multiply(forces, transposed(right(phi_.E().columns(shape_.first, moving_))), response, true);
   response_.set_lanes([&](std::size_t i) { return (1.0 / 6) * response_.lanes()[i]; });
-  if (process_.is_smooth()) {
-    process_.linearise(end_, x_2_, &point_, f_2_, A_2_, point_2_);
-    return process_.rates_nearby(point_2_, x_2_, f_2_, A_2_, response_, response_rates_);
-  }
-  set_rates(end_, x_2_, response_, response_rates_);
-  f_2_.resize(n);
-  for (int i = 0; i < n; ++i) f_2_(i) = response_rates_.lanes()[i * response_.blocks()][0];
 }
 
-void ExponentialStep::set_corrections() {
-  const int first = shape_.first, blocks = response_.blocks();
+void ExponentialStep::set_second_stage() {
   const double h = step_.dt_s;
-  LaneMatrix& minus_N = response_rates_;
-  D_.resize(moving_);
-  for (int c = 0; c < shape_.n; ++c) response_.lanes()[c * blocks].set(0, x_2_(c) - x_(c));
-  for (int c = first, i = first * blocks; c < shape_.end; ++c) {
-    for (const int end = (c + 1) * blocks; i < end; ++i) minus_N.lanes()[i] = h * (f_2_(c) - minus_N.lanes()[i]);
-    minus_N.lanes()[c * blocks].set(0, h * (f_(c) - f_2_(c)));
+  if (process_.is_smooth()) {
+    process_.second_stage(point_, x_, f_, A_, x_2_, point_2_, D_);
+    D_ *= h;
+    return process_.far_excess(point_, point_2_, x_2_, -h, response_, minus_N_);
   }
-  minus_N.clear_padding();
-  multiply(response_.columns(0, shape_.n), transposed(rows_from(first, right(Z_))), minus_N.columns(first, moving_),
-           true);
+  const int first = shape_.first, blocks = response_.blocks();
+  set_rates(end_, x_2_, response_, rates_);
+  f_2_.resize(shape_.n);
+  for (int c = 0; c < shape_.n; ++c) f_2_(c) = rates_.lanes()[c * blocks][0];
+  for (int c = 0; c < shape_.n; ++c) response_.lanes()[c * blocks].set(0, x_2_(c) - x_(c));
+  minus_N_.reshape(response_.rows(), moving_);
+  for (int c = 0, i = 0; c < moving_; ++c) {
+    for (const int end = (c + 1) * blocks; i < end; ++i)
+      minus_N_.lanes()[i] = h * (f_2_(first + c) - rates_.lanes()[first * blocks + i]);
+    minus_N_.lanes()[c * blocks].set(0, h * (f_(first + c) - f_2_(first + c)));
+  }
+  minus_N_.clear_padding();
+  multiply(response_.columns(0, shape_.n), transposed(rows_from(first, right(Z_))), minus_N_.columns(0, moving_), true);
+  D_.resize(moving_);
   for (int c = 0; c < moving_; ++c) {
-    Lanes& of_x_2 = minus_N.lanes()[(first + c) * blocks];
+    Lanes& of_x_2 = minus_N_.lanes()[c * blocks];
     D_(c) = -of_x_2[0];
     of_x_2.set(0, 0);
   }
   for (int c = 0; c < shape_.n; ++c) response_.lanes()[c * blocks].set(0, 0);
-  c_ = 2 * phi_.phi_3_times(D_);
 }
 
 void ExponentialStep::set_rates(const Step& at, const Eigen::VectorXd& x, const LaneMatrix& d, LaneMatrix& rates) {
@@ -127,7 +128,7 @@ bool ExponentialStep::respond(Eigen::Ref<Eigen::MatrixXd> Gamma) {
   if (!usable_) return false;
   const int n = response_.columns(), sources = response_.rows() - 1;
   change_.reshape(sources + 1, n);
-  multiply(response_rates_.columns(shape_.first, moving_), transposed(right(phi_.phi_2())), change_.columns(0, n),
+  multiply(minus_N_.columns(0, moving_), transposed(right(phi_.phi_2())), change_.columns(0, n),
            false);
   for (int c = 0; c < n; ++c) {
     const double *whole = reinterpret_cast<const double*>(response_.lanes() + c * response_.blocks()) + 1,
@@ -139,12 +140,16 @@ bool ExponentialStep::respond(Eigen::Ref<Eigen::MatrixXd> Gamma) {
 
 bool ExponentialStep::set_growth() {
   const int n = static_cast<int>(next_.size());
-  if (!process_.is_smooth()) process_.linearise(end_, x_2_, &point_, f_2_, A_2_, point_2_);
-  slopes_ = step_.dt_s * (A_2_ - A_);
-  if (!std::isfinite(slopes_.sum())) return false;
-  moved_.reshape(n, moving_);
-  multiply(spread_.columns(0, n), transposed(rows_from(shape_.first, right(slopes_))), moved_.columns(0, moving_),
-           false);
+  if (process_.is_smooth()) {
+    process_.near_excess(point_, point_2_, step_.dt_s, spread_, moved_);
+  } else {
+    process_.linearise(end_, x_2_, &point_, f_2_, A_2_, point_2_);
+    slopes_ = step_.dt_s * (A_2_ - A_);
+    if (!std::isfinite(slopes_.sum())) return false;
+    moved_.reshape(n, moving_);
+    multiply(spread_.columns(0, n), transposed(rows_from(shape_.first, right(slopes_))), moved_.columns(0, moving_),
+             false);
+  }
   set_product(moved_, transposed(right(phi_.phi_2())), n, growth_);
   return true;
 }
@@ -172,7 +177,7 @@ bool ExponentialStep::advance_pairs(Eigen::VectorXd& x, double gamma, LaneMatrix
 bool ExponentialStep::set_smooth_pairs(double gamma) {
   if (!set_growth() || !is_small_change(growth_, spread_, kRootTolerance)) return false;
   process_.mean_curvature(point_, nullptr, x_, f_, A_, gamma, S_, first_);
-  process_.mean_curvature(point_2_, &point_, x_2_, f_2_, A_2_, gamma, spread_, last_);
+  process_.mean_curvature(point_2_, &point_, x_2_, f_, A_, gamma, spread_, last_);
   first_ *= step_.dt_s;
   last_ *= step_.dt_s;
   return true;

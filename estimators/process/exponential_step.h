@@ -20,7 +20,8 @@
 ///
 /// Sigma points are assumed to be narrow. Where f is smooth (ProcessModel::is_smooth()), N then is half the second
 /// derivative of f in the direction d, whose mean arm_curvature.h gives without rates at the points, and the pairs'
-/// differences are those of the linear F. There, f(t + h, x_2 + Γ_0) takes the chain as linear in Γ_0. An effect or a slack
+/// differences are those of the linear F. There, A_2 and f(t + h, x_2 + Γ_0) take the chain as linear (arm_second_stage.h),
+/// so that neither needs a Jacobian at x_2. An effect or a slack
 /// cable may have a kink between the points of a pair: both are evaluated, and
 ///
 ///   F S   = (d_2 + h φ_2 (N°(t + h, x_2, d_2) - N°(t, x, d))) / γ,   d_2 = E d + h φ_1 N°(t, x, d),   d = γ S
@@ -88,10 +89,10 @@ class ExponentialStep {
  private:
   /// x + h φ_1 f. With w, the rates of the positions, E w - w is h φ_1 A w, and f - A w has no kinematic rows.
   void set_x_2();
-  /// x_2 and Γ_0, then f at x_2 and at x_2 + Γ_0 in one pass.
-  void set_second_stage(const Eigen::MatrixXd& G);
-  /// c, and -h N of the held forces.
-  void set_corrections();
+  /// Γ_0.
+  void set_linear_response(const Eigen::MatrixXd& G);
+  /// h D, and -h N of the held forces.
+  void set_second_stage();
   /// f at x + d_i, of every row d_i of d.
   void set_rates(const Step& at, const Eigen::VectorXd& x, const LaneMatrix& d, LaneMatrix& rates);
   /// The last term of F S, in growth_; false: A_2 is not finite.
@@ -115,14 +116,14 @@ class ExponentialStep {
   Step step_, end_;
   bool usable_ = false, is_finite_ = false;
   Eigen::VectorXd x_, f_, f_2_, x_2_, next_, c_;
-  Eigen::VectorXd D_, part_, change_of_m_;  // of the moving rows
+  Eigen::VectorXd D_, part_, change_of_m_;  // of the moving rows; h D
   Eigen::VectorXd first_, last_;            // h m(0), h m(h)
   Eigen::MatrixXd A_, A_2_, Z_, slopes_;
   LinearisedPoint point_, point_2_;  // of linearise() at x and x_2
   // Transposed, a row for each column of S or G:
   LaneMatrix S_, spread_, moved_, growth_;  // S, E S, products with S, the last term of F S
   LaneMatrix forces_, response_;            // G, Γ_0; row 0 is for x_2 itself
-  LaneMatrix response_rates_, change_;      // -h N, and what the last term of Γ subtracts
+  LaneMatrix minus_N_, change_;             // -h N, and what the last term of Γ subtracts
   LaneMatrix points_, rates_, opposite_;    // sigma points
   LaneMatrix deviations_, odd_, odd_end_;   // d, and the odd parts of h N at the start and the end
   LaneMatrix shift_;                        // one column

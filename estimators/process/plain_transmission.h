@@ -47,8 +47,8 @@ std::optional<PlainTransmission> plain_transmission(const Transmission<double>& 
 
 /// Friction of motors and joints at the state x.
 struct Frictions {
-  alignas(Lanes) double value[PlainTransmission::kSpeeds], slope[PlainTransmission::kSpeeds],
-      curvature[PlainTransmission::kSpeeds];
+  alignas(Lanes) double sign[PlainTransmission::kSpeeds], value[PlainTransmission::kSpeeds],
+      slope[PlainTransmission::kSpeeds], curvature[PlainTransmission::kSpeeds];
 };
 
 HALYARD_INLINE Lanes* lanes_of(double* a) { return reinterpret_cast<Lanes*>(a); }
@@ -63,6 +63,7 @@ HALYARD_INLINE void set_frictions(const PlainTransmission& t, int n, const doubl
     const Lanes v = lanes_of(speed)[b], v_s = lanes_of(t.smoothing)[b], F_c = lanes_of(t.coulomb)[b],
                 F_v = lanes_of(t.viscous)[b];
     const Lanes sign = smooth_sign(v, v_s), steep = F_c / v_s * (Lanes(1.0) - sign * sign);
+    lanes_of(f.sign)[b] = sign;
     lanes_of(f.value)[b] = F_c * sign + F_v * v;
     lanes_of(f.slope)[b] = steep + F_v;
     lanes_of(f.curvature)[b] = Lanes(-2.0) * sign * steep / v_s;

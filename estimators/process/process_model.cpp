@@ -195,11 +195,23 @@ void ProcessModel::mean_curvature(LinearisedPoint& point, const LinearisedPoint*
                                    root.blocks(), root.lanes(), mean.data());
 }
 
-void ProcessModel::rates_nearby(const LinearisedPoint& point, const Eigen::VectorXd& x, const Eigen::VectorXd& x_dot,
-                                const Eigen::MatrixXd& A, const LaneMatrix& D, LaneMatrix& rates) const {
-  rates.reshape(D.rows(), D.columns());
-  lane_kernels()[0].rates_nearby(linearised_arm(), point, x.data(), x_dot.data(), A.data(), D.blocks(), D.lanes(),
-                                 rates.lanes());
+void ProcessModel::second_stage(const LinearisedPoint& start, const Eigen::VectorXd& x, const Eigen::VectorXd& x_dot,
+                                const Eigen::MatrixXd& A, const Eigen::VectorXd& x_2, LinearisedPoint& end,
+                                Eigen::VectorXd& D) const {
+  D.resize(moving_states() - layout_.positions);
+  lane_kernels()[0].second_stage(linearised_arm(), start, x.data(), x_dot.data(), A.data(), x_2.data(), end, D.data());
+}
+
+void ProcessModel::far_excess(const LinearisedPoint& start, const LinearisedPoint& end, const Eigen::VectorXd& x_2,
+                              double factor, const LaneMatrix& d, LaneMatrix& rates) const {
+  rates.reshape(d.rows(), moving_states() - layout_.positions);
+  lane_kernels()[0].far_excess(linearised_arm(), start, end, x_2.data(), factor, d.blocks(), d.lanes(), rates.lanes());
+}
+
+void ProcessModel::near_excess(const LinearisedPoint& start, const LinearisedPoint& end, double factor,
+                               const LaneMatrix& d, LaneMatrix& rates) const {
+  rates.reshape(d.rows(), moving_states() - layout_.positions);
+  lane_kernels()[0].near_excess(linearised_arm(), start, end, factor, d.blocks(), d.lanes(), rates.lanes());
 }
 
 void ProcessModel::derivatives(const Step& step, const LaneMatrix& X, LaneMatrix& X_dot) const {

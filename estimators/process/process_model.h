@@ -86,9 +86,17 @@ class ProcessModel {
   void mean_curvature(LinearisedPoint& point, const LinearisedPoint* near, const Eigen::VectorXd& x,
                       const Eigen::VectorXd& x_dot, const Eigen::MatrixXd& A, double gamma, const LaneMatrix& root,
                       Eigen::VectorXd& mean) const;
-  /// x' at x + d for every row d of D [count x n_states]. rates: of the shape of D.
-  void rates_nearby(const LinearisedPoint& point, const Eigen::VectorXd& x, const Eigen::VectorXd& x_dot,
-                    const Eigen::MatrixXd& A, const LaneMatrix& D, LaneMatrix& rates) const;
+  /// Of a model that is_smooth(), with x_dot, A and start of linearise() at x, the second stage x_2 of a step
+  /// (arm_second_stage.h): D [moving_states() - layout().positions], and `end`, the point at x_2.
+  void second_stage(const LinearisedPoint& start, const Eigen::VectorXd& x, const Eigen::VectorXd& x_dot,
+                    const Eigen::MatrixXd& A, const Eigen::VectorXd& x_2, LinearisedPoint& end,
+                    Eigen::VectorXd& D) const;
+  /// factor N(d) there, of every row d of the matrix [count x n_states]; rates [count x D.size()].
+  void far_excess(const LinearisedPoint& start, const LinearisedPoint& end, const Eigen::VectorXd& x_2, double factor,
+                  const LaneMatrix& d, LaneMatrix& rates) const;
+  /// factor N' d.
+  void near_excess(const LinearisedPoint& start, const LinearisedPoint& end, double factor, const LaneMatrix& d,
+                   LaneMatrix& rates) const;
   /// x' at every row of X [count x n_states], eight at a time. X_dot: of the shape of X.
   void derivatives(const Step& step, const LaneMatrix& X, LaneMatrix& X_dot) const;
 

@@ -80,24 +80,71 @@ TEST(ArmCurvature, IsTheMeanOfWhatNarrowDeviationsAdd) {
   }
 }
 
-TEST(ArmCurvature, RatesNearbyFollowFrictionFarAndTheChainLinearly) {
+/// A second stage of a point: where it would be after 1 ms, with D and the point there.
+struct SecondStage {
+  Eigen::VectorXd x_2, D;
+  LinearisedPoint end;
+
+  explicit SecondStage(const Point& p) {
+    x_2 = p.x + p.step.dt_s * p.f;
+    p.process.second_stage(p.found, p.x, p.f, p.A, x_2, end, D);
+  }
+};
+
+TEST(ArmSecondStage, HasTheRatesThere) {
   const Point p(with_constants());
+  const SecondStage s(p);
+  const int first = p.process.layout().positions, moving = static_cast<int>(s.D.size());
+  const Eigen::VectorXd linear = p.f + p.A * (s.x_2 - p.x);
+  const Eigen::VectorXd exact = (p.rates(s.x_2) - linear).segment(first, moving);
+  ASSERT_GT(exact.norm(), 0.01 * (linear - p.f).norm());  // D is not small here
+  // M changes by less than 1e-4 within 1 ms.
+  EXPECT_LT((s.D - exact).norm(), 1e-4 * exact.norm());
+}
+
+TEST(ArmSecondStage, ExcessFollowsFrictionFarAndTheChainLinearly) {
+  const Point p(with_constants());
+  const SecondStage s(p);
   const StateLayout& l = p.process.layout();
-  LaneMatrix D, rates;
+  LaneMatrix D, excess;
   D.set_zero(6, p.process.n_states());
   for (int k = 0; k < 3; ++k) {
     D.view()(k, l.rate[k]) = 5e-3;  // as far as friction's smoothing speed
     D.view()(3 + k, *l.motor_rate[k]) = 0.5;
   }
-  p.process.rates_nearby(p.found, p.x, p.f, p.A, D, rates);
+  p.process.far_excess(p.found, s.end, s.x_2, 1, D, excess);
+  const Eigen::VectorXd f_2 = p.rates(s.x_2);
   double farthest = 0;  // of the tangent from the model, relative
   for (int i = 0; i < D.rows(); ++i) {
-    const Eigen::VectorXd d = D.view().row(i), exact = p.rates(p.x + d);
-    // The chain's forces of second order in 5 mrad/s.
-    EXPECT_LT((rates.view().row(i).transpose() - exact).norm(), 1e-4 * (exact - p.f).norm()) << i;
-    farthest = std::max(farthest, (p.A * d - (exact - p.f)).norm() / (exact - p.f).norm());
+    const Eigen::VectorXd d = D.view().row(i), exact = p.rates(s.x_2 + d) - f_2, linear = p.A * d;
+    Eigen::VectorXd found = linear;
+    found.segment(l.positions, excess.columns()) += excess.view().row(i).transpose();
+    // The chain's forces of second order in 5 mrad/s, and what M and the chain's slopes change within 1 ms.
+    EXPECT_LT((found - exact).norm(), 1e-4 * exact.norm()) << i;
+    farthest = std::max(farthest, (linear - exact).norm() / exact.norm());
   }
   EXPECT_GT(farthest, 0.05);
+}
+
+TEST(ArmSecondStage, NearExcessIsTheChangeOfTheJacobian) {
+  const Point p(with_constants());
+  const SecondStage s(p);
+  const int n = p.process.n_states(), first = p.process.layout().positions;
+  Eigen::VectorXd f_2;
+  Eigen::MatrixXd A_2;
+  p.process.linearise(p.step, s.x_2, f_2, A_2);
+  LaneMatrix units, excess;
+  units.set_zero(n, n);
+  units.view().diagonal().setOnes();
+  p.process.near_excess(p.found, s.end, 1, units, excess);
+  const Eigen::MatrixXd exact = (A_2 - p.A).middleRows(first, excess.columns());
+  double most = 0;  // change of a column, relative
+  for (int c = 0; c < n; ++c) {
+    // M, and with it what all forces do to the joints, changes by less than 1e-3 within 1 ms.
+    EXPECT_LT((excess.view().row(c).transpose() - exact.col(c)).norm(), 1e-3 * p.A.col(c).norm()) << c;
+    most = std::max(most, exact.col(c).norm() / (1e-9 + p.A.col(c).norm()));
+  }
+  EXPECT_GT(most, 0.1);
 }
 
 TEST(ArmCurvature, AnEffectBetweenCommandAndJointIsNotPlain) {
