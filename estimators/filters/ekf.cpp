@@ -4,16 +4,14 @@ namespace halyard {
 
 void ExtendedKalmanFilter::predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) {
   const Eigen::Index n = x_.size(), sources = Q_root.cols();
-  predicted_columns_.reshape(static_cast<int>(n + sources), static_cast<int>(n));
+  predicted_columns_.reshape(static_cast<int>(n), static_cast<int>(n + sources));
   auto columns = predicted_columns_.view();
   F_.resize(n, n);  // here, so that a later step needs no memory
-  if (process.advance_root(x_, FS_)) {
-    columns.topRows(n) = FS_.view();
-  } else {
+  if (!process.advance_root(x_, predicted_columns_)) {
     process.advance_with_jacobian(x_, F_);
-    columns.topRows(n) = F_.lazyProduct(S_).transpose();
+    columns.leftCols(n) = F_.lazyProduct(S_);
   }
-  set_rows_transposed(Q_root, predicted_columns_, static_cast<int>(n));
+  set_block(Q_root, columns.rightCols(sources));
   root_.compute(predicted_columns_, S_);
   x_predicted_ = x_;
   check_finite(process);

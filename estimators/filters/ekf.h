@@ -18,12 +18,9 @@ class ExtendedKalmanFilter final : public GaussianFilter {
 
  private:
   int count_columns_before() const override { return static_cast<int>(x_.size()); }
-  void set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A_transposed) const override {
-    A_transposed = S_0.transpose();
-  }
+  void set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A) const override { A = S_0; }
 
   Eigen::MatrixXd F_;
-  LaneMatrix FS_;
 };
 
 }  // namespace halyard

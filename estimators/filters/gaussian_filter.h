@@ -27,13 +27,18 @@ class DiscreteProcess {
   virtual void advance(Eigen::MatrixXd& X) const = 0;
   /// F [n x n] becomes ∂f/∂x at the old x; then x becomes f(x).
   virtual void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const = 0;
-  /// x becomes f(x), and FS [n x n], transposed, ∂f/∂x S with the root S of the belief. False: the process has no
-  /// special way to do so, and nothing has changed.
+  /// x becomes f(x), and the first n columns of FS [n x any] ∂f/∂x S with the root S of the belief. False: the process has
+  /// no special way to do so, and x has not changed.
   virtual bool advance_root(Eigen::VectorXd& /*x*/, LaneMatrix& /*FS*/) const { return false; }
   /// The same, and `shift` becomes the mean of f(x ± gamma S_i) - f(x), for a gamma so small that f is quadratic there.
   virtual bool advance_pairs(Eigen::VectorXd& /*x*/, double /*gamma*/, LaneMatrix& /*FS*/,
                              Eigen::VectorXd& /*shift*/) const {
     return false;
+  }
+  /// F [n x n] becomes ∂f/∂x at x_0, where the last of these calls has started.
+  virtual void transition(const Eigen::VectorXd& x_0, Eigen::MatrixXd& F) const {
+    Eigen::VectorXd x = x_0;
+    advance_with_jacobian(x, F);
   }
   /// Name of a state for messages: "joint_rate_2 at 3.1 s".
   virtual std::string name_of(int state) const = 0;
@@ -52,29 +57,25 @@ class MeasurementModel {
                          Eigen::Ref<Eigen::MatrixXd> H) const = 0;
 };
 
-/// Lower triangular L [n x n] with L Lᵀ = A Aᵀ and diagonal >= 0, by Householder reflections of Aᵀ. A: [n x m],
+/// Lower triangular L [n x n] with L Lᵀ = A Aᵀ and diagonal >= 0, by Householder reflections of the rows of A. A: [n x m],
 /// m >= n. Keeps its memory.
 class LowerRoot {
  public:
-  /// Aᵀ [m x n], for the caller to fill: it holds anything.
+  /// A [n x m], for the caller to fill: it holds anything.
   LaneMatrix::View start(int n, int m) {
-    columns_.reshape(m, n);
-    columns_.clear_padding();
+    columns_.reshape(n, m);
     return columns_.view();
   }
   /// The first columns of L of the matrix that was filled in, as many as `L` has; destroys it.
   void finish(Eigen::Ref<Eigen::MatrixXd> L);
-  /// After finish() with k columns: B [m x n], whose rows and columns from k on have B Bᵀ = A Aᵀ - L Lᵀ, transposed.
+  /// After finish() with k columns: B [n x m], whose rows and columns from k on have B Bᵀ = A Aᵀ - L Lᵀ.
   LaneMatrix::ConstView rest() const { return std::as_const(columns_).view(); }
-  /// L of a matrix that is given transposed.
-  void compute(const LaneMatrix& A_transposed, Eigen::Ref<Eigen::MatrixXd> L) {
-    columns_ = A_transposed;
+  void compute(const LaneMatrix& A, Eigen::Ref<Eigen::MatrixXd> L) {
+    columns_ = A;
     finish(L);
   }
   void compute(const Eigen::Ref<const Eigen::MatrixXd>& A, Eigen::Ref<Eigen::MatrixXd> L) {
-    auto columns = start(static_cast<int>(A.rows()), static_cast<int>(A.cols()));
-    for (Eigen::Index r = 0; r < A.rows(); ++r)
-      for (Eigen::Index c = 0; c < A.cols(); ++c) columns(c, r) = A(r, c);
+    start(static_cast<int>(A.rows()), static_cast<int>(A.cols())) = A;
     finish(L);
   }
 
@@ -93,6 +94,16 @@ struct BackwardStep {
   Eigen::MatrixXd G, V_root;
 };
 
+/// A prediction as the linear map that it was: x_1 + F (x - x_0), with the noise N Nᵀ.
+///
+///   x_0, x_1   mean before and after the prediction                  [n]
+///   F          ∂f/∂x at x_0                                          [n x n]
+///   N          Q_root, and what else the filter had beside F S_0     [n x any]
+struct LinearPrediction {
+  Eigen::VectorXd x_0, x_1;
+  Eigen::MatrixXd F, N;
+};
+
 class GaussianFilter {
  public:
   virtual ~GaussianFilter() = default;
@@ -107,6 +118,10 @@ class GaussianFilter {
   ///   [ A    0    ]           [ G S⁻   V_root ]     A: the same columns before the prediction
   ///
   void backward_step(const Eigen::VectorXd& x_0, const Eigen::MatrixXd& S_0, BackwardStep& step);
+  /// The last predict(), which started at x_0, as a linear map.
+  void record(const DiscreteProcess& process, const Eigen::VectorXd& x_0, LinearPrediction& prediction) const;
+  /// Predicts by the linear map, from any belief. A down-date of the recorded prediction is left out.
+  void predict_again(const LinearPrediction& prediction);
   /// A measurement with νᵀ S⁻¹ ν > `gate` is not accepted: the belief does not change. Throws std::runtime_error if z
   /// is not finite. The caller sets the innovation's time.
   virtual Innovation update(const MeasurementModel& measurement, const ReadingVector& z, const ReadingMatrix& R_root,
@@ -130,15 +145,15 @@ class GaussianFilter {
   void check_finite(const DiscreteProcess& process) const;
   static void check_measurement(const ReadingVector& nu);
 
-  /// Block A of backward_step(), transposed [any x n]: the columns that the prediction turned into the first columns of
+  /// Block A of backward_step() [n x any]: the columns that the prediction turned into the first columns of
   /// `predicted_columns_`.
-  virtual void set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A_transposed) const = 0;
+  virtual void set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A) const = 0;
   virtual int count_columns_before() const = 0;
 
   Eigen::VectorXd x_;
   Eigen::MatrixXd S_;
   Eigen::VectorXd x_predicted_;
-  LaneMatrix predicted_columns_;  // transposed; their triangular root is S⁻; kept from the last predict()
+  LaneMatrix predicted_columns_;  // their triangular root is S⁻; kept from the last predict()
   long repaired_ = 0;
   LowerRoot root_;
 
@@ -146,6 +161,8 @@ class GaussianFilter {
   LaneMatrix H_, triangle_;
   LaneMatrix gain_;  // S_y, and below it P_xy S_y⁻ᵀ
   LowerRoot array_root_;
+  LaneMatrix F_, again_;  // of predict_again()
+  Eigen::VectorXd deviation_;
 };
 
 }  // namespace halyard

@@ -41,11 +41,11 @@ void SquareRootUkf::place_sigma_points(Eigen::MatrixXd& X) const {
   X.rightCols(n) = (-(X.middleCols(1, n).colwise() - x_)).colwise() + x_;
 }
 
-void SquareRootUkf::root_with_central(LaneMatrix& rows, const Eigen::Ref<const Eigen::VectorXd>& v,
+void SquareRootUkf::root_with_central(LaneMatrix& columns, const Eigen::Ref<const Eigen::VectorXd>& v,
                                       Eigen::Ref<Eigen::MatrixXd> L) {
   const double c = weights_.beta - weights_.alpha * weights_.alpha;
-  rows.view().bottomRows(1) = std::sqrt(std::max(c, 0.0)) * v.transpose();
-  root_.compute(rows, L);
+  columns.view().rightCols(1) = std::sqrt(std::max(c, 0.0)) * v;
+  root_.compute(columns, L);
   if (c >= 0) return;
   // A down-date, by the covariance itself; one that has lost its definiteness gets a floor.
   P_ = L.lazyProduct(L.transpose());
@@ -58,60 +58,58 @@ void SquareRootUkf::root_with_central(LaneMatrix& rows, const Eigen::Ref<const E
   ++repaired_;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(P_);
   const double floor = kEps * modes.eigenvalues().cwiseAbs().maxCoeff();
-  rows.view().topRows(P_.rows()) =
-      (modes.eigenvectors() * modes.eigenvalues().cwiseMax(floor).cwiseSqrt().asDiagonal()).transpose();
-  rows.view().bottomRows(rows.rows() - P_.cols()).setZero();
-  root_.compute(rows, L);
+  columns.view().leftCols(P_.cols()) =
+      modes.eigenvectors() * modes.eigenvalues().cwiseMax(floor).cwiseSqrt().asDiagonal();
+  columns.view().rightCols(columns.columns() - P_.cols()).setZero();
+  root_.compute(columns, L);
 }
 
-void SquareRootUkf::move_sigma_points(const DiscreteProcess& process) {
+int SquareRootUkf::move_sigma_points(const DiscreteProcess& process, int others) {
   const int n = static_cast<int>(x_.size());
   const double gamma = std::sqrt(spread_squared());
   X_.resize(n, 2 * n + 1);  // here, so that a later step needs no memory
-  moved_in_pairs_ = gamma <= kNarrow && process.advance_pairs(x_, gamma, d_, delta_);
+  predicted_columns_.reshape(n, n + others);
+  moved_in_pairs_ = gamma <= kNarrow && process.advance_pairs(x_, gamma, predicted_columns_, delta_);
   if (moved_in_pairs_) {
     delta_ *= n / (gamma * gamma);
-    return;
+    return n;
   }
   place_sigma_points(X_);
   process.advance(X_);
   x_ = X_.col(0);
-  d_.reshape(2 * n, n);
+  predicted_columns_.reshape(n, 2 * n + others);
+  auto d = predicted_columns_.view().leftCols(2 * n);
   const double W = 0.5 / (gamma * gamma);
-  d_.view() = (X_.rightCols(2 * n).colwise() - x_).transpose();
-  for (int i = 0; i < n; ++i) delta_(i) = W * sum_of_rows(d_, i, 2 * n);
-  d_.view() *= std::sqrt(W);
+  d = X_.rightCols(2 * n).colwise() - x_;
+  delta_ = W * (d.leftCols(n) + d.rightCols(n)).rowwise().sum();  // pair by pair: opposite numbers cancel
+  d *= std::sqrt(W);
+  return 2 * n;
 }
 
 void SquareRootUkf::predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) {
   const int n = static_cast<int>(x_.size()), sources = static_cast<int>(Q_root.cols());
   size_ = x_.cwiseAbs();
   delta_.resize(n);
-  move_sigma_points(process);
-  const int points = d_.rows();
+  const int points = move_sigma_points(process, sources + 1);
   squares_.resize(n);
-  set_squares(d_, squares_.data());
+  set_row_squares(predicted_columns_, points, squares_.data());
   for (int i = 0; i < n; ++i)
     delta_(i) = significant_shift(delta_(i), std::max(size_(i), std::abs(x_(i))), std::sqrt(squares_(i)));
   x_ += delta_;
-  predicted_columns_.reshape(points + sources + 1, n);
-  for (int i = 0; i < n; ++i)
-    std::copy_n(d_.lanes() + i * d_.blocks(), d_.blocks(),
-                predicted_columns_.lanes() + i * predicted_columns_.blocks());
-  set_rows_transposed(Q_root, predicted_columns_, points);
+  set_block(Q_root, predicted_columns_.view().middleCols(points, sources));
   root_with_central(predicted_columns_, delta_, S_);
   x_predicted_ = x_;
   check_finite(process);
 }
 
-void SquareRootUkf::set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A_transposed) const {
+void SquareRootUkf::set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A) const {
   if (moved_in_pairs_) {
-    A_transposed = S_0.transpose();
+    A = S_0;
     return;
   }
   const double factor = std::sqrt(0.5);  // √W γ
-  A_transposed.topRows(S_0.cols()) = factor * S_0.transpose();
-  A_transposed.bottomRows(S_0.cols()) = -factor * S_0.transpose();
+  A.leftCols(S_0.cols()) = factor * S_0;
+  A.rightCols(S_0.cols()) = -factor * S_0;
 }
 
 Innovation SquareRootUkf::update(const MeasurementModel& measurement, const ReadingVector& z,
@@ -123,22 +121,23 @@ Innovation SquareRootUkf::update(const MeasurementModel& measurement, const Read
   ReadingVector z_0(m), epsilon(m);
   measurement.read(X_.col(0), z_0);
   const ReadingVector size = z_0.cwiseAbs();
-  e_.set_zero(points + m + 1, m);
+  e_.set_zero(m, points + m + 1);
   auto e = e_.view();
-  ReadingVector reading(m);
+  ReadingVector reading(m), squares(m);
   for (int i = 0; i < points; ++i) {
     measurement.read(X_.col(i + 1), reading);
-    e.row(i) = (reading - z_0).transpose();
+    e.col(i) = reading - z_0;
   }
+  set_row_squares(e_, points, squares.data());
   for (int i = 0; i < m; ++i)
     epsilon(i) =
-        significant_shift(W * sum_of_rows(e_, i, points), size(i), std::sqrt(W * sum_of_squares(e_, i, points)));
+        significant_shift(W * (e.row(i).head(n) + e.row(i).segment(n, n)).sum(), size(i), std::sqrt(W * squares(i)));
 
   Innovation innovation;
   innovation.nu = z - z_0 - epsilon;
   check_measurement(innovation.nu);
-  e.topRows(points) *= root_W;
-  e.middleRows(points, m) = R_root.transpose();
+  e.leftCols(points) *= root_W;
+  e.middleCols(points, m) = R_root;
   innovation.S_root.resize(m, m);
   root_with_central(e_, epsilon, innovation.S_root);
   const auto S_y = innovation.S_root.triangularView<Eigen::Lower>();
@@ -147,20 +146,20 @@ Innovation SquareRootUkf::update(const MeasurementModel& measurement, const Read
   innovation.accepted = whitened.squaredNorm() <= gate;
   if (!innovation.accepted) return innovation;
 
-  rows_.set_zero(points + m + 1, n);
-  auto rows = rows_.view();
-  auto d = rows.topRows(points);
-  d = root_W * (X_.rightCols(points).colwise() - x_).transpose();
-  P_yx_.set_zero(m, n);
-  auto K_transposed = P_yx_.view();
-  K_transposed.noalias() = e.topRows(points).transpose() * d;
-  S_y.solveInPlace(K_transposed);
-  innovation.S_root.transpose().triangularView<Eigen::Upper>().solveInPlace(K_transposed);
-  x_.noalias() += K_transposed.transpose() * innovation.nu;
-  d.noalias() -= e.topRows(points) * K_transposed;
-  rows.middleRows(points, m).noalias() = R_root.transpose() * K_transposed;
-  delta_.noalias() = K_transposed.transpose() * epsilon;
-  root_with_central(rows_, delta_, S_);
+  columns_.set_zero(n, points + m + 1);
+  auto columns = columns_.view();
+  auto d = columns.leftCols(points);
+  d = root_W * (X_.rightCols(points).colwise() - x_);
+  K_.set_zero(n, m);
+  auto K = K_.view();
+  K.noalias() = d * e.leftCols(points).transpose();
+  innovation.S_root.transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(K);
+  S_y.solveInPlace<Eigen::OnTheRight>(K);
+  x_.noalias() += K * innovation.nu;
+  d.noalias() -= K * e.leftCols(points);
+  columns.middleCols(points, m).noalias() = K * R_root;
+  delta_.noalias() = K * epsilon;
+  root_with_central(columns_, delta_, S_);
   return innovation;
 }
 

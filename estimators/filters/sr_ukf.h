@@ -55,22 +55,24 @@ class SquareRootUkf : public GaussianFilter {
  private:
   /// √W (X_±i - x) of the sigma points before the prediction; of pairs √2W (X_i - x).
   int count_columns_before() const override { return (moved_in_pairs_ ? 1 : 2) * static_cast<int>(x_.size()); }
-  void set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A_transposed) const override;
+  void set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A) const override;
   double spread_squared() const;  // γ²
   /// δ or ε of one component; 0 if it is rounding of numbers of that `size`, or beyond the limit. spread: √(W Σ d_i²).
   double significant_shift(double shift, double size, double spread) const;
   void place_sigma_points(Eigen::MatrixXd& X) const;
-  /// Sets x_ to f(x_), d_ to √W d_i, of pairs to √2W o_i, and delta_ to W Σ d_i.
-  void move_sigma_points(const DiscreteProcess& process);
-  /// L = root of [A, √c v], c = β - α² of any sign; rows: A transposed and a last row that is set here.
-  void root_with_central(LaneMatrix& rows, const Eigen::Ref<const Eigen::VectorXd>& v, Eigen::Ref<Eigen::MatrixXd> L);
+  /// Sets x_ to f(x_), the first of predicted_columns_ to √W d_i, of pairs to √2W o_i, and delta_ to W Σ d_i; returns their
+  /// number. `others`: number of the columns that follow.
+  int move_sigma_points(const DiscreteProcess& process, int others);
+  /// L = root of [A, √c v], c = β - α² of any sign; columns: A and a last column that is set here.
+  void root_with_central(LaneMatrix& columns, const Eigen::Ref<const Eigen::VectorXd>& v,
+                         Eigen::Ref<Eigen::MatrixXd> L);
 
   UkfWeights weights_;
   bool moved_in_pairs_ = false;
   Eigen::VectorXd size_, delta_, squares_;
   Eigen::MatrixXd X_, P_;
   Eigen::LLT<Eigen::MatrixXd> llt_;
-  LaneMatrix d_, rows_, e_, P_yx_;
+  LaneMatrix columns_, e_, K_;
 };
 
 }  // namespace halyard

@@ -35,72 +35,78 @@ void product(int rows, int k, int m, const Lanes* A, int a_blocks, const RightFa
   with(rows, k, m, A, a_blocks, B, C, c_blocks, add);
 }
 
-/// The reflection of a column a, whose entry i becomes `image`: with v = a - image e_i, w -= v (vᵀ w) factor.
+/// A reflection of the rows of A from the right that leaves only entry i of row i, which becomes `image`: with v that row
+/// less image e_i, A -= (A v) vᵀ factor.
 struct Reflection {
-  int i, first, height, stride;  ///< first, height: the registers that are not zero; stride: registers of a column
+  int i, columns, stride;  ///< columns: of A; stride: registers of a column
   double image, factor;
 };
 
-/// Dot products of a with `columns` vectors w.
-template <int columns>
-HALYARD_INLINE void dot_products(const Reflection& r, const Piece* a, const Piece* w, double* dots) {
-  Piece dot[columns];
-  _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) dot[c] = a[r.first] * w[c * r.stride + r.first];
-  for (int p = r.first + 1; p < r.height; ++p) {
-    const Piece entries = a[p];
-    _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) dot[c] += entries * w[c * r.stride + p];
-  }
-  _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) dots[c] = sum_of(dot[c]);
-}
-
-template <int columns>
-HALYARD_INLINE void reflect(const Reflection& r, const Piece* v, const double* dots, Piece* w) {
-  Piece part[columns];
-  _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) {
-    const double entry = reinterpret_cast<const double*>(w + c * r.stride)[r.i];
-    part[c] = tiles::all(r.factor * (dots[c] - r.image * entry));
-  }
-  for (int p = r.first; p < r.height; ++p) {
-    const Piece entries = v[p];
-    _Pragma("GCC unroll 4") for (int c = 0; c < columns; ++c) w[c * r.stride + p] -= entries * part[c];
-  }
-}
-
-/// f<columns>(j) for the columns from `from` to n, as many at a time as possible.
+/// f<height>(p) for the registers from `first` to `end`, p the first of at most three; the lowest come last.
 template <class F>
-HALYARD_INLINE void in_tiles(int from, int n, const F& f) {
-  int j = from;
-  for (; j + 4 <= n; j += 4) f.template operator()<4>(j);
-  if (j + 2 <= n) f.template operator()<2>(j), j += 2;
-  if (j < n) f.template operator()<1>(j);
+HALYARD_INLINE void from_the_end(int first, int end, const F& f) {
+  int p = end;
+  while (p - first >= 3) p -= 3, f.template operator()<3>(p);
+  if (p - first == 2) f.template operator()<2>(first);
+  if (p - first == 1) f.template operator()<1>(first);
+}
+
+/// w = A times row i, of the columns from i on. A, w: at the first of these registers; row: entry i of column 0.
+template <int height>
+HALYARD_INLINE void project(const Reflection& r, const Piece* A, const double* row, Piece* w) {
+  Piece sum[2][height];
+  _Pragma("GCC unroll 3") for (int h = 0; h < height; ++h) sum[0][h] = sum[1][h] = Piece{};
+  const int row_step = r.stride * tiles::kPieceWidth;
+  int c = r.i;
+  for (; c + 2 <= r.columns; c += 2) _Pragma("GCC unroll 2") for (int odd = 0; odd < 2; ++odd) {
+      const Piece factor = tiles::all(row[(c + odd) * row_step]);
+      _Pragma("GCC unroll 3") for (int h = 0; h < height; ++h) sum[odd][h] += factor * A[(c + odd) * r.stride + h];
+    }
+  if (c < r.columns)
+    _Pragma("GCC unroll 3") for (int h = 0; h < height; ++h) sum[0][h] +=
+        tiles::all(row[c * row_step]) * A[c * r.stride + h];
+  _Pragma("GCC unroll 3") for (int h = 0; h < height; ++h) w[h] = sum[0][h] + sum[1][h];
+}
+
+/// Reflects the columns after the i-th, which is not needed any more. w: A v.
+template <int height>
+HALYARD_INLINE void reflect(const Reflection& r, const Piece* w, const double* row, Piece* A) {
+  Piece u[height];
+  _Pragma("GCC unroll 3") for (int h = 0; h < height; ++h) u[h] = r.factor * w[h];
+  for (int c = r.i + 1; c < r.columns; ++c) {
+    const Piece entry = tiles::all(row[c * r.stride * tiles::kPieceWidth]);
+    _Pragma("GCC unroll 3") for (int h = 0; h < height; ++h) A[c * r.stride + h] -= u[h] * entry;
+  }
 }
 
 void lower_root(int n, int m, int steps, int blocks, Lanes* A, double* L, int l_stride) {
-  const int height = pieces_of(m), stride = blocks * kPiecesPerBlock, rows = blocks * kLaneWidth;
-  double* entries = reinterpret_cast<double*>(A);
+  const int height = pieces_of(n), stride = blocks * kPiecesPerBlock;
+  const double* entries = reinterpret_cast<const double*>(A);
+  Piece w[kMostRootRows / tiles::kPieceWidth];
+  const double* of_w = reinterpret_cast<const double*>(w);
   for (int i = 0; i < steps; ++i) {
-    Reflection r{i, i / tiles::kPieceWidth, height, stride, 0, 0};
-    double *column = entries + i * rows, *of_L = L + i * l_stride, *dots = of_L;
-    for (int k = r.first * tiles::kPieceWidth; k < i; ++k) column[k] = 0;  // already in L
-    Piece* a = pieces(A) + i * stride;
-    in_tiles(
-        i, n, [&]<int columns>(int j) __attribute__((always_inline)) {
-          dot_products<columns>(r, a, pieces(A) + j * stride, dots + j);
-        });
-    const double norm = __builtin_sqrt(dots[i]), alpha = column[i];
-    r.image = alpha > 0 ? -norm : norm;
+    Reflection r{i, m, stride, 0, 0};
+    const int first = i / tiles::kPieceWidth;
+    from_the_end(
+        first,
+        height, [&]<int h>(int p) __attribute__((always_inline)) { project<h>(r, pieces(A) + p, entries + i, w + p); });
+    const Piece* pivot = pieces(A) + i * stride;
+    const double* of_pivot = reinterpret_cast<const double*>(pivot);
+    const double norm = __builtin_sqrt(of_w[i]), per_norm = 1 / norm,
+                 size = of_pivot[i] > 0 ? of_pivot[i] : -of_pivot[i];
+    r.factor = 1 / (norm * (norm + size));
+    double* of_L = L + i * l_stride;
     for (int k = 0; k < i; ++k) of_L[k] = 0;
-    of_L[i] = norm;
-    if (norm != 0) {
-      column[i] = alpha - r.image;
-      r.factor = 1 / (norm * (norm + (alpha > 0 ? alpha : -alpha)));
-      in_tiles(
-          i + 1, n, [&]<int columns>(int j) __attribute__((always_inline)) {
-            reflect<columns>(r, a, dots + j, pieces(A) + j * stride);
-          });
+    if (norm == 0) {  // a row of zeros: no reflection
+      for (int k = i; k < n; ++k) of_L[k] = of_pivot[k];
+      continue;
     }
-    const double sign = r.image < 0 ? -1 : 1;
-    for (int j = i + 1; j < n; ++j) of_L[j] = sign * entries[j * rows + i];
+    for (int k = i; k < n; ++k) of_L[k] = per_norm * of_w[k];
+    r.image = of_pivot[i] > 0 ? -norm : norm;
+    for (int p = first; p < height; ++p) w[p] -= r.image * pivot[p];
+    from_the_end(
+        first,
+        height, [&]<int h>(int p) __attribute__((always_inline)) { reflect<h>(r, w + p, entries + i, pieces(A) + p); });
   }
 }
 
@@ -118,6 +124,19 @@ void column_squares(int rows, int columns, const Lanes* A, int blocks, double* s
   const int height = pieces_of(rows), stride = blocks * kPiecesPerBlock;
   if (height == 3) squares_of<3>(height, columns, pieces(A), stride, squares);
   else squares_of<0>(height, columns, pieces(A), stride, squares);
+}
+
+void copy(int rows, int columns, const double* A, int a_stride, double* B, int b_stride) {
+  constexpr int kWidth = tiles::kPieceWidth;
+  for (int c = 0; c < columns; ++c, A += a_stride, B += b_stride) {
+    int r = 0;
+    for (; r + kWidth <= rows; r += kWidth) {
+      Piece entries;
+      __builtin_memcpy(&entries, A + r, sizeof(Piece));
+      __builtin_memcpy(B + r, &entries, sizeof(Piece));
+    }
+    for (; r < rows; ++r) B[r] = A[r];
+  }
 }
 
 /// Transposes square tiles; what is left at the edges, entry by entry.
@@ -138,7 +157,7 @@ void transpose(int rows, int columns, const double* A, int a_stride, double* B, 
 }
 
 constexpr MatrixKernels matrix_kernels_named(const char* name) {
-  return {name, product, lower_root, column_squares, transpose, phi_functions};
+  return {name, product, lower_root, column_squares, copy, transpose, phi_functions};
 }
 
 }  // namespace

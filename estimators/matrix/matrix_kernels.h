@@ -32,17 +32,22 @@ struct PhiMemory {
   Lanes *Y, *Y2, *Y3, *next;
 };
 
+inline constexpr int kMostRootRows = 256;
+
 struct MatrixKernels {
   const char* name;
   /// C = A B, or C += A B if `add`, with A [rows x k] and C [rows x m] in lanes, `a_blocks` and `c_blocks` a column.
   void (*product)(int rows, int k, int m, const Lanes* A, int a_blocks, const RightFactor& B, Lanes* C, int c_blocks,
                   bool add);
-  /// Of A [m x n], m >= n, whose columns take `blocks` lanes each: the first `steps` columns of the lower triangular L
-  /// [n x n] with L Lᵀ = Aᵀ A and diagonal >= 0, by as many Householder reflections of A. A is overwritten; below its
-  /// first `steps` rows, its other columns hold the rest B, with L Lᵀ + Bᵀ B = Aᵀ A. L above the diagonal becomes zero.
+  /// Of A [n x m], m >= n, n <= kMostRootRows, whose columns take `blocks` lanes each: the first `steps` columns of the
+  /// lower triangular L [n x n] with L Lᵀ = A Aᵀ and diagonal >= 0, by as many Householder reflections of A's rows. A is
+  /// overwritten; its rows and columns from `steps` on hold the rest B, with L Lᵀ + B Bᵀ = A Aᵀ. L above the diagonal
+  /// becomes zero.
   void (*lower_root)(int n, int m, int steps, int blocks, Lanes* A, double* L, int l_stride);
   /// Σ_r A_rc² of each column of A [rows x columns].
   void (*column_squares)(int rows, int columns, const Lanes* A, int blocks, double* squares);
+  /// B [rows x columns] = A; strides: of columns.
+  void (*copy)(int rows, int columns, const double* A, int a_stride, double* B, int b_stride);
   /// B [columns x rows] = Aᵀ, A [rows x columns]; strides: of columns.
   void (*transpose)(int rows, int columns, const double* A, int a_stride, double* B, int b_stride);
   /// The functions of phi_functions.h from Y = Z, which is overwritten: E, φ_1 and φ_2 of all levels, and φ_3 of the

@@ -50,7 +50,7 @@ void PhiFunctions::take_memory(const PhiShape& shape) {
 
 bool PhiFunctions::compute(const Eigen::Ref<const Eigen::MatrixXd>& Z, const PhiShape& shape) {
   take_memory(shape);
-  Y_.view() = Z;
+  set_block(Z, Y_.view());
   doublings_ = matrix_kernels()[0].phi_functions(
       shape_, kMostDoublings,
       {memory_.data(), phi_3_.lanes(), weight_.lanes(), Y_.lanes(), Y2_.lanes(), Y3_.lanes(), next_.lanes()});

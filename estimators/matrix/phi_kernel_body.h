@@ -54,8 +54,16 @@ struct PhiOperations {
   HALYARD_INLINE void add_units(Lanes* C, double s) const {
     for (int i = 0; i < count; ++i) entries(C)[first + i * (column_size() + 1)] += s;
   }
-  HALYARD_INLINE void scale(Lanes* A, double factor) const {
-    for (int i = 0; i < n * stride; ++i) tiles::pieces(A)[i] *= factor;
+  /// C = A Y in the moving rows and the columns below `end`. Of Y, its moving rows are needed, and y.
+  HALYARD_INLINE void times_Y(Lanes* A, const Lanes* Y, double y, Lanes* C) const {
+    const auto same = [](int, const Piece& sum) __attribute__((always_inline)) { return sum; };
+    const Piece* of_A = tiles::pieces(A);
+    const auto with_y = [&](int i, const Piece& sum) __attribute__((always_inline)) { return sum + y * of_A[i]; };
+    const Lanes* moved = columns_from(A, first);
+    const double* rows = entries(Y) + first;
+    product(moving, moved, count, rows, first, C, same);
+    product(moving, moved, count, rows + first * column_size(), first, columns_from(C, first), with_y);
+    product(moving, moved, count, rows + 2 * first * column_size(), end - 2 * first, columns_from(C, 2 * first), same);
   }
   /// The 1-norm of the entries times their weights; NaN if an entry is.
   HALYARD_INLINE double norm(const Lanes* A, const Lanes* weight) const {
@@ -80,45 +88,40 @@ struct PhiOperations {
   }
 };
 
-/// The functions of Y, given its square and cube.
+/// The functions of s Y, given the square and cube of Y.
 template <class Operations>
-HALYARD_INLINE void polynomials(const Operations& on, const PhiMemory& m, const PhiLevelMemory& level) {
+HALYARD_INLINE void polynomials(const Operations& on, const PhiMemory& m, double s, const PhiLevelMemory& level) {
   using tiles::Piece;
+  const double s2 = s * s, s3 = s2 * s;
   Lanes *YV = on.columns_from(m.Y, on.first), *EV = on.columns_from(level.E, on.first);
   const Piece *Y = tiles::pieces(YV), *Y2 = tiles::pieces(on.columns_from(m.Y2, on.first));
-  const auto same = [](int, const Piece& sum) __attribute__((always_inline)) { return sum; };
+  const auto scaled = [&](int, const Piece& sum) __attribute__((always_inline)) { return s * sum; };
   // 1 / k! of k = 3 to 14, by Horner's scheme in Y³.
   Piece* next = tiles::pieces(m.next);
-  for (int i = 0; i < on.count * on.stride; ++i) next[i] = (1.0 / 6227020800) * Y[i] + (1.0 / 87178291200) * Y2[i];
+  for (int i = 0; i < on.count * on.stride; ++i) next[i] = (s / 6227020800) * Y[i] + (s2 / 87178291200) * Y2[i];
   on.add_units(m.next, 1.0 / 479001600);
-  on.product(
-      0, m.Y3, on.end, on.entries(m.next), on.count,
-      m.phi_3, [&](int i, const Piece& sum) __attribute__((always_inline)) {
-        return sum + (1.0 / 3628800) * Y[i] + (1.0 / 39916800) * Y2[i];
-      });
+  const auto times_Y3 = [&](const Lanes* from, double of_Y, double of_Y2, Lanes* to) __attribute__((always_inline)) {
+    const double a = s * of_Y, b = s2 * of_Y2;
+    on.product(
+        0, m.Y3, on.end, on.entries(from), on.count,
+        to, [&](int i, const Piece& sum) __attribute__((always_inline)) { return s3 * sum + a * Y[i] + b * Y2[i]; });
+  };
+  times_Y3(m.next, 1.0 / 3628800, 1.0 / 39916800, m.phi_3);
   on.add_units(m.phi_3, 1.0 / 362880);
-  on.product(
-      0, m.Y3, on.end, on.entries(m.phi_3), on.count,
-      m.next, [&](int i, const Piece& sum) __attribute__((always_inline)) {
-        return sum + (1.0 / 5040) * Y[i] + (1.0 / 40320) * Y2[i];
-      });
+  times_Y3(m.phi_3, 1.0 / 5040, 1.0 / 40320, m.next);
   on.add_units(m.next, 1.0 / 720);
-  on.product(
-      0, m.Y3, on.end, on.entries(m.next), on.count,
-      m.phi_3, [&](int i, const Piece& sum) __attribute__((always_inline)) {
-        return sum + (1.0 / 24) * Y[i] + (1.0 / 120) * Y2[i];
-      });
+  times_Y3(m.next, 1.0 / 24, 1.0 / 120, m.phi_3);
   on.add_units(m.phi_3, 1.0 / 6);
-  const double y = on.first > 0 ? on.entries(YV)[0] : 0;
+  const double y = on.first > 0 ? s * on.entries(YV)[0] : 0;
   const Lanes* before = m.phi_3;
   double unit = 0.5;
   for (Lanes* const C : {level.phi_2, level.phi_1, EV}) {
-    on.product(on.moving, m.Y, on.end, on.entries(before), on.count, C, same);
+    on.product(on.moving, m.Y, on.end, on.entries(before), on.count, C, scaled);
     on.add_units(C, unit);
     on.set_kinematic_rows(y, before, on.count, C);
     before = C, unit = 1;
   }
-  on.set_other_columns(m.Y, 1, level.phi_1, level.E);
+  on.set_other_columns(m.Y, s, level.phi_1, level.E);
 }
 
 /// The functions of the whole argument, factor Y, from those of its half.
@@ -159,20 +162,15 @@ HALYARD_INLINE int count_doublings(double square_norm, double cube_norm, int mos
 template <int known_n, int known_first, int known_end>
 int phi_functions_of(const PhiShape& shape, int most, const PhiMemory& m) {
   const PhiOperations<known_n, known_first, known_end> on(shape);
-  const auto same = [](int, const tiles::Piece& sum) __attribute__((always_inline)) { return sum; };
   const double y = on.first > 0 ? on.entries(m.Y)[on.first * on.column_size()] : 0;
-  on.product(on.moving, m.Y, on.end, on.entries(m.Y), on.end, m.Y2, same);
+  on.times_Y(m.Y, m.Y, y, m.Y2);
   on.set_kinematic_rows(y, m.Y, on.end, m.Y2);
-  on.product(on.moving, m.Y, on.end, on.entries(m.Y2), on.end, m.Y3, same);
+  on.times_Y(m.Y2, m.Y, y, m.Y3);
   on.set_kinematic_rows(y, m.Y2, on.end, m.Y3);
   const int doublings = count_doublings(on.norm(m.Y2, m.weight), on.norm(m.Y3, m.weight), most);
   if (doublings > most) return -1;
-  const double part = 1.0 / static_cast<double>(1LL << doublings);
-  on.scale(m.Y, part);
-  on.scale(m.Y2, part * part);
-  on.scale(m.Y3, part * part * part);
-  polynomials(on, m, m.level[doublings]);
-  double factor = 1;
+  double factor = 1.0 / static_cast<double>(1LL << doublings);
+  polynomials(on, m, factor, m.level[doublings]);
   for (int k = doublings; k-- > 0;) {
     factor *= 2;
     double_argument(on, m, factor, m.level[k + 1], m.level[k]);

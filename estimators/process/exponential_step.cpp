@@ -154,9 +154,9 @@ bool ExponentialStep::set_growth() {
   return true;
 }
 
-void ExponentialStep::finish(Eigen::VectorXd& x, LaneMatrix& FS) const {
-  FS.reshape(spread_.rows(), spread_.columns());
-  FS.set_lanes([&](std::size_t i) { return spread_.lanes()[i] + growth_.lanes()[i]; });
+void ExponentialStep::finish(Eigen::VectorXd& x, LaneMatrix& FS) {
+  growth_.set_lanes([&](std::size_t i) { return spread_.lanes()[i] + growth_.lanes()[i]; });
+  set_transposed(growth_.view(), FS.view());
   x = next_;
 }
 
@@ -167,10 +167,22 @@ bool ExponentialStep::advance_root(Eigen::VectorXd& x, LaneMatrix& FS) {
 }
 
 bool ExponentialStep::advance_pairs(Eigen::VectorXd& x, double gamma, LaneMatrix& FS, Eigen::VectorXd& shift) {
-  if (!usable_ || !(process_.is_smooth() ? set_smooth_pairs(gamma) : set_pairs(gamma))) return false;
+  usable_ = usable_ && (process_.is_smooth() ? set_smooth_pairs(gamma) : set_pairs(gamma));
+  if (!usable_) return false;
   set_mean_shift();
   shift = shift_.view().col(0);
   finish(x, FS);
+  return true;
+}
+
+bool ExponentialStep::transition(Eigen::MatrixXd& F) {
+  if (!usable_) return false;
+  const int n = spread_.columns();
+  set_rows_transposed(phi_.E().view(), spread_, 0);  // a root that is the unit matrix
+  if (!set_growth()) return false;
+  growth_.set_lanes([&](std::size_t i) { return spread_.lanes()[i] + growth_.lanes()[i]; });
+  F.resize(n, n);
+  set_transposed(growth_.view(), F);
   return true;
 }
 

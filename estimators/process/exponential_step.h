@@ -80,11 +80,13 @@ class ExponentialStep {
 
   /// Γ [n_states x sources]; false: refused, Γ is undefined.
   bool respond(Eigen::Ref<Eigen::MatrixXd> Gamma);
-  /// x, that of linearise(), becomes x⁺, and FS [n_states x n_states], transposed, F S with the S of start(). False:
+  /// x, that of linearise(), becomes x⁺, and the first columns of FS [n_states x any] F S with the S of start(). False:
   /// refused, nothing has changed.
   bool advance_root(Eigen::VectorXd& x, LaneMatrix& FS);
   /// The same, and `shift` becomes the mean of the sigma points x ± gamma S_i after the step, less x⁺.
   bool advance_pairs(Eigen::VectorXd& x, double gamma, LaneMatrix& FS, Eigen::VectorXd& shift);
+  /// F [n_states x n_states] of the step that one of these has just taken; false: it was refused.
+  bool transition(Eigen::MatrixXd& F);
 
  private:
   /// x + h φ_1 f. With w, the rates of the positions, E w - w is h φ_1 A w, and f - A w has no kinematic rows.
@@ -97,7 +99,7 @@ class ExponentialStep {
   void set_rates(const Step& at, const Eigen::VectorXd& x, const LaneMatrix& d, LaneMatrix& rates);
   /// The last term of F S, in growth_; false: A_2 is not finite.
   bool set_growth();
-  void finish(Eigen::VectorXd& x, LaneMatrix& FS) const;
+  void finish(Eigen::VectorXd& x, LaneMatrix& FS);
   /// growth_, first_ and last_ from one point of each pair, where f is smooth; false: refused.
   bool set_smooth_pairs(double gamma);
   /// The same from both points.

@@ -45,6 +45,7 @@ Moved moved(const ProcessModel& process, const Eigen::VectorXd& x, double dt_s) 
   EXPECT_TRUE(start(exponential, step, x, belief(1e6)));
   Moved m{x, x};
   LaneMatrix FS;
+  FS.reshape(12, 12);
   EXPECT_TRUE(exponential.advance_root(m.exponential, FS));
   constexpr int kParts = 100;
   for (int i = 0; i < kParts; ++i) process.advance({0, dt_s / kParts, torque.data()}, m.exact.data());
@@ -82,12 +83,13 @@ TEST(ExponentialStep, TheTransitionIsThatOfTheSubSteps) {
   const Step step{0, kStep, torque.data()};
   ExponentialStep exponential(process);
   LaneMatrix FS;
+  FS.reshape(12, 12);
   Eigen::MatrixXd G(12, 12);
   ASSERT_TRUE(start(exponential, step, x, belief(1e6)));
   ASSERT_TRUE(exponential.advance_root(x, FS));
   process.advance_with_jacobian(step, y.data(), G);
   // A changes by about 1 % within a step at this speed.
-  for (int c = 0; c < 12; ++c) EXPECT_LT((FS.view().transpose() / 1e6 - G).col(c).norm(), 0.02 * G.col(c).norm()) << c;
+  for (int c = 0; c < 12; ++c) EXPECT_LT((FS.view() / 1e6 - G).col(c).norm(), 0.02 * G.col(c).norm()) << c;
 }
 
 /// The mean of narrow sigma points less their centre, for one standard deviation.
@@ -117,6 +119,7 @@ TEST(ExponentialStep, TheCurvatureNearRestIsThatOfShortSteps) {
   const Step step{0, kStep, torque.data()};
   ASSERT_TRUE(start(exponential, step, x, S));
   LaneMatrix FS;
+  FS.reshape(12, 12);
   Eigen::VectorXd shift;
   ASSERT_TRUE(exponential.advance_pairs(x, kSpread, FS, shift));
   constexpr int kParts = 20;
@@ -157,6 +160,7 @@ TEST(ExponentialStep, TheGuardRefusesAMeanThatIsNotSureEnough) {
   ExponentialStep exponential(process);
   EXPECT_FALSE(start(exponential, {0, kStep, torque.data()}, x, belief(1e-9)));
   LaneMatrix FS;
+  FS.reshape(12, 12);
   Eigen::VectorXd shift;
   EXPECT_FALSE(exponential.advance_root(x, FS));
   EXPECT_FALSE(exponential.advance_pairs(x, 1e-3, FS, shift));

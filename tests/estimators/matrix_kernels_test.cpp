@@ -28,10 +28,10 @@ LaneMatrix in_lanes(const Eigen::MatrixXd& A) {
 
 /// L with L Lᵀ = A Aᵀ.
 Eigen::MatrixXd lower_root_of(const MatrixKernels& kernels, const Eigen::MatrixXd& A) {
-  LaneMatrix columns = in_lanes(A.transpose());
+  LaneMatrix columns = in_lanes(A);
   Eigen::MatrixXd L = Eigen::MatrixXd::Zero(A.rows(), A.rows());
   const int n = static_cast<int>(A.rows());
-  kernels.lower_root(n, columns.rows(), n, columns.blocks(), columns.lanes(), L.data(), n);
+  kernels.lower_root(n, columns.columns(), n, columns.blocks(), columns.lanes(), L.data(), n);
   return L;
 }
 
@@ -117,17 +117,29 @@ TEST(MatrixKernels, AFewReflectionsLeaveARootOfTheRest) {
   constexpr int kSize = 15, kSteps = 3;
   const Eigen::MatrixXd A = random_matrix(kSize, kSize + 2, 9);
   for (const MatrixKernels& kernels : matrix_kernels()) {
-    LaneMatrix columns = in_lanes(A.transpose());
+    LaneMatrix columns = in_lanes(A);
     Eigen::MatrixXd L(kSize, kSteps);
-    kernels.lower_root(kSize, columns.rows(), kSteps, columns.blocks(), columns.lanes(), L.data(), kSize);
+    kernels.lower_root(kSize, columns.columns(), kSteps, columns.blocks(), columns.lanes(), L.data(), kSize);
     EXPECT_LT((L - lower_root_of(kernels, A).leftCols(kSteps)).norm(), 100 * kEps) << kernels.name;
-    const auto B = columns.view().bottomRightCorner(kSize + 2 - kSteps, kSize - kSteps);
+    const auto B = columns.view().bottomRightCorner(kSize - kSteps, kSize + 2 - kSteps);
     const Eigen::MatrixXd rest = A * A.transpose() - L * L.transpose();
     // As of a whole root.
-    EXPECT_LT((B.transpose() * B - rest.bottomRightCorner(kSize - kSteps, kSize - kSteps)).cwiseAbs().maxCoeff(),
+    EXPECT_LT((B * B.transpose() - rest.bottomRightCorner(kSize - kSteps, kSize - kSteps)).cwiseAbs().maxCoeff(),
               10 * kSize * (kSize + 2) * kEps)
         << kernels.name;
   }
+}
+
+TEST(MatrixKernels, CopyAnyPartOfAMatrix) {
+  const Eigen::MatrixXd A = random_matrix(19, 13, 11);
+  for (const MatrixKernels& kernels : matrix_kernels())
+    for (const int rows : {1, 3, 8, 12, 17})
+      for (const int columns : {1, 6, 12}) {
+        Eigen::MatrixXd B = Eigen::MatrixXd::Zero(20, 14), expected = B;
+        expected.block(2, 1, rows, columns) = A.block(1, 1, rows, columns);
+        kernels.copy(rows, columns, &A(1, 1), 19, &B(2, 1), 20);
+        EXPECT_EQ(B, expected) << kernels.name << rows << columns;
+      }
 }
 
 TEST(MatrixKernels, TransposeAnyPartOfAMatrix) {
