@@ -163,7 +163,11 @@ void ArmFilter::predict_over(Step step, int halvings) {
     return predict_over(step, halvings - 1);
   }
   ExponentialStep* const exponential = accepted ? &exponential_ : nullptr;
-  filter_->predict(ArmProcess(*process_, step, exponential), noise_.process_root(step, filter_->x(), exponential));
+  const ArmProcess process(*process_, step, exponential);
+  const Eigen::MatrixXd& Q_root = noise_.process_root(step, filter_->x(), exponential);
+  if (predictions_) x_0_ = filter_->x();
+  filter_->predict(process, Q_root);
+  if (predictions_) filter_->record(process, x_0_, predictions_->append());
 }
 
 double ArmFilter::gate_threshold(int m) const {
@@ -200,13 +204,24 @@ Innovation ArmFilter::update(const Sample& sample) {
     start(sample);
   } else {
     predict(sample.time_s);
-    innovation = correct(sample);
-    if (!innovation.accepted) ++report_.gated;
-    remember(sample);
+    innovation = take(sample);
   }
   innovation.time_s = sample.time_s;
   ++report_.steps;
   return innovation;
+}
+
+Innovation ArmFilter::take(const Sample& sample) {
+  const Innovation innovation = correct(sample);
+  if (!innovation.accepted) ++report_.gated;
+  remember(sample);
+  return innovation;
+}
+
+void ArmFilter::repeat(const Sample& sample, const Predictions& predictions, std::size_t first, std::size_t count) {
+  for (std::size_t i = first; i < first + count; ++i) filter_->predict_again(predictions[i]);
+  take(sample);
+  ++report_.steps;
 }
 
 void ArmFilter::save(Snapshot& snapshot) const {
@@ -220,7 +235,7 @@ void ArmFilter::save(Snapshot& snapshot) const {
   snapshot.external = external_;
   snapshot.adapted = noise_.adapted();
   snapshot.S = filter_->S();
-  snapshot.report = report();
+  snapshot.report = report_;
 }
 
 void ArmFilter::restore(const Snapshot& snapshot) {
@@ -233,16 +248,13 @@ void ArmFilter::restore(const Snapshot& snapshot) {
   external_ = snapshot.external;
   noise_.reset(snapshot.adapted);
   report_ = snapshot.report;
-  repaired_before_ = filter_->repaired();
   filter_->reset(snapshot.x, snapshot.S);
 }
 
-Innovation ArmFilter::correct_at(double time_s, const MeasurementModel& measurement, const ReadingVector& z,
-                                 const ReadingMatrix& R_root) {
-  if (time_s > time_) predict(time_s);
-  time_ = time_s;
+Innovation ArmFilter::correct_with(const MeasurementModel& measurement, const ReadingVector& z,
+                                   const ReadingMatrix& R_root) {
   Innovation innovation = filter_->update(measurement, z, R_root, gate_threshold(static_cast<int>(z.size())));
-  innovation.time_s = time_s;
+  innovation.time_s = time_;
   if (!innovation.accepted) ++report_.gated;
   return innovation;
 }

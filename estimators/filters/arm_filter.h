@@ -16,6 +16,7 @@
 
 #include "estimators/filters/gaussian_filter.h"
 #include "estimators/process/noise.h"
+#include "estimators/recycling_queue.h"
 
 namespace halyard {
 
@@ -58,11 +59,17 @@ class ArmFilter final : public Estimator {
     EstimatorReport report;
   };
   void save(Snapshot& snapshot) const;
-  /// Goes back to a snapshot taken since reset(). Samples after the snapshot may then be processed again.
+  /// Goes back to a snapshot taken since reset(). Samples after the snapshot may then be repeated; what was
+  /// repaired in them stays counted.
   void restore(const Snapshot& snapshot);
-  /// Predicts to a time and corrects with a measurement other than the motors'. The filter must have started.
-  Innovation correct_at(double time_s, const MeasurementModel& measurement, const ReadingVector& z,
-                        const ReadingMatrix& R_root);
+  /// Corrects with a measurement other than the motors'. The filter must have started.
+  Innovation correct_with(const MeasurementModel& measurement, const ReadingVector& z, const ReadingMatrix& R_root);
+
+  using Predictions = RecyclingQueue<LinearPrediction>;
+  /// From now on, update() appends what its predictions were. The queue must outlive the filter.
+  void record_into(Predictions& predictions) { predictions_ = &predictions; }
+  /// Repeats the update() of a sample that recorded `count` predictions, `first` and those after it, by these linear maps.
+  void repeat(const Sample& sample, const Predictions& predictions, std::size_t first, std::size_t count);
 
  private:
   void start(const Sample& sample);
@@ -72,6 +79,8 @@ class ArmFilter final : public Estimator {
   void predict(double to_time_s);
   /// One step; in halves if the exponential step refuses it, `halvings` times at most, then by the sub-steps.
   void predict_over(Step step, int halvings);
+  /// Corrects with the motors' readings, and counts the sample.
+  Innovation take(const Sample& sample);
   Innovation correct(const Sample& sample);
   void remember(const Sample& sample);
   double gate_threshold(int m) const;
@@ -92,8 +101,10 @@ class ArmFilter final : public Estimator {
   double refused_since_ = 0;           // time from which the gate has rejected all readings, s; infinite: accepted
   Eigen::VectorXd reading_;            // last of each motor; NaN: none yet
   Eigen::VectorXd torque_, external_;  // held
-  EstimatorReport report_;             // without the factors repaired since reset() or restore(); report() adds them
-  long repaired_before_ = 0;           // filter_->repaired() at that reset() or restore()
+  EstimatorReport report_;             // without the factors repaired since reset(), which report() adds
+  long repaired_before_ = 0;           // filter_->repaired() at that reset()
+  Predictions* predictions_ = nullptr;
+  Eigen::VectorXd x_0_;  // before a prediction that is recorded
 };
 
 }  // namespace halyard

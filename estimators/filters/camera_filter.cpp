@@ -39,31 +39,36 @@ ArmFilterOptions with_offsets(ArmFilterOptions options, const ProcessModel& proc
   return options;
 }
 
-/// Where the marker is, p(q).
+/// Where the marker will be `ahead_s` later, p(q + ahead_s q').
 class MarkerPosition final : public MeasurementModel {
  public:
-  explicit MarkerPosition(const ProcessModel& model) : model_(model) {}
+  MarkerPosition(const ProcessModel& model, double ahead_s) : model_(model), ahead_s_(ahead_s) {}
   bool is_affine() const override { return false; }
   void read(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> z) const override {
+    const StateLayout& l = model_.layout();
     double q[kMaxJoints];
-    for (int k = 0; k < model_.n_joints(); ++k) q[k] = x(model_.layout().position[k]);
+    for (int k = 0; k < l.n_joints; ++k) q[k] = x(l.position[k]) + ahead_s_ * x(l.rate[k]);
     position_of(model_.arm(), chain_pose(model_.arm(), q), model_.arm().payload_point, z.data());
   }
   void linearise(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
                  Eigen::Ref<Eigen::MatrixXd> H) const override {
     const ArmParameters<Dual>& arm = model_.dual_transmission().arm();
-    const std::vector<int> at(model_.layout().position, model_.layout().position + arm.n);
+    const StateLayout& l = model_.layout();
+    const std::vector<int> at(l.position, l.position + arm.n), rates(l.rate, l.rate + arm.n);
     Eigen::MatrixXd of_joints(3, arm.n);
     const auto position_at = [&](const Dual* q, Dual* out) {
       position_of(arm, chain_pose(arm, q), arm.payload_point, out);
     };
-    jacobian(position_at, x(at), z, of_joints);
+    const Eigen::VectorXd q = x(at) + ahead_s_ * x(rates);
+    jacobian(position_at, q, z, of_joints);
     H.setZero();
     H(Eigen::all, at) = of_joints;
+    H(Eigen::all, rates) = ahead_s_ * of_joints;
   }
 
  private:
   const ProcessModel& model_;
+  double ahead_s_;
 };
 
 }  // namespace
@@ -95,43 +100,53 @@ CameraFilter::CameraFilter(const ArmModel& augmented, std::shared_ptr<const Proc
                            std::unique_ptr<GaussianFilter> filter)
     : process_(std::move(process)),
       camera_(camera),
-      restart_gap_(options.restart_gap),
       filter_(augmented, process_, with_offsets(std::move(options), *process_, camera.offset.wander),
-              std::move(filter)) {}
+              std::move(filter)) {
+  filter_.record_into(predictions_);
+}
 
 void CameraFilter::reset(const Sample& first) {
   filter_.reset(first);
-  past_.clear();
-  remember(first);
+  predictions_.clear();
+  remember(first, 0);
 }
 
 Innovation CameraFilter::update(const Sample& sample) {
+  const std::size_t before = predictions_.size();
   const Innovation innovation = filter_.update(sample);
-  remember(sample);
+  remember(sample, predictions_.size() - before);
   if (sample.marker.size() > 0) take_marker(sample);
   return innovation;
 }
 
-void CameraFilter::remember(const Sample& sample) {
-  if (!past_.empty() && sample.time_s - past_.back().sample.time_s > restart_gap_) past_.clear();
+void CameraFilter::remember(const Sample& sample, std::size_t predictions) {
+  if (predictions == 0) {  // a start: what was before has no part in it
+    past_.clear();
+    predictions_.clear();
+  }
   Past& past = past_.append();
   past.sample = sample;
+  past.predictions = predictions;
   filter_.save(past.after);
-  while (past_.size() > 1 && past_[1].sample.time_s <= sample.time_s - camera_.latency_s + kRounding)
+  while (past_.size() > 1 && past_[1].sample.time_s <= sample.time_s - camera_.latency_s + kRounding) {
+    predictions_.remove_front(past_[1].predictions);
     past_.remove_front();
+  }
 }
 
 void CameraFilter::take_marker(const Sample& sample) {
-  const double exposed = sample.time_s - camera_.latency_s;
+  const double ahead = sample.time_s - camera_.latency_s - past_.front().sample.time_s;
   // Of a time that the filter does not remember, or when it had not yet started.
-  if (past_.front().sample.time_s > exposed + kRounding || !past_.front().after.started) return;
+  if (ahead < -kRounding || !past_.front().after.started) return;
   filter_.restore(past_.front().after);
-  filter_.correct_at(std::max(exposed, past_.front().sample.time_s), MarkerPosition(*process_), sample.marker,
-                     camera_.noise_m * Eigen::Matrix3d::Identity());
+  filter_.correct_with(MarkerPosition(*process_, std::max(ahead, 0.0)), sample.marker,
+                       camera_.noise_m * Eigen::Matrix3d::Identity());
   filter_.save(past_.front().after);
+  std::size_t next = 0;
   for (std::size_t i = 1; i < past_.size(); ++i) {
-    filter_.update(past_[i].sample);
+    filter_.repeat(past_[i].sample, predictions_, next, past_[i].predictions);
     filter_.save(past_[i].after);
+    next += past_[i].predictions;
   }
 }
 

@@ -19,9 +19,10 @@
 /// Both default to 1 % of the cable's travel over the joint's range. The joints also have the unknown forces of
 /// disturbance_filter.h: without them a force that the model lacks would appear as an offset.
 ///
-/// A frame corrects the state at its exposure: the filter goes back to the last sample before the exposure, predicts to
-/// it, corrects, and processes the later samples again. If the filter restarted after a gap, it ignores frames that
-/// were exposed during the gap.
+/// A frame corrects the state at the last sample before its exposure, from which the joints move on at their speeds for the
+/// less than a sample that is left: p(q + (t - L - t_0) q'). Then the later samples are repeated. Their predictions are the
+/// linear maps which they were the first time (LinearPrediction), because a frame changes the mean by little: so a
+/// repetition costs no evaluation of the model. If the filter restarted after the exposure, the frame is ignored.
 ///
 /// Extra outputs are cable_offset and cable_offset_std: b and its standard deviation, m.
 ///
@@ -64,17 +65,18 @@ class CameraFilter final : public Estimator {
   struct Past {
     Sample sample;
     ArmFilter::Snapshot after;
+    std::size_t predictions;  ///< that led to it from the sample before; 0: a start
   };
 
-  void remember(const Sample& sample);
+  void remember(const Sample& sample, std::size_t predictions);
   void take_marker(const Sample& sample);
 
   std::shared_ptr<const ProcessModel> process_;
   CameraOptions camera_;
-  double restart_gap_;
   ArmFilter filter_;
-  RecyclingQueue<Past>
-      past_;  // starts at the last sample before the exposure of the oldest frame that can still arrive
+  // Starts at the last sample before the exposure of the oldest frame that can still arrive.
+  RecyclingQueue<Past> past_;
+  ArmFilter::Predictions predictions_;  // of all samples in past_ but the first
 };
 
 }  // namespace halyard
