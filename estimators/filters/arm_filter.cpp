@@ -121,6 +121,7 @@ void ArmFilter::start(const Sample& sample) {
   // After a gap the arm need not rest; and a speed that no joint has says that one of the two readings is wrong.
   speed_is_due_ = since > options_.restart_gap || seen_moving != read_before;
   filter_->reset(x, start_root(x, angle, q, seen_moving ? since : kInfinity));
+  exponential_.forget();
   started_ = true;
   refused_since_ = kInfinity;
 }
@@ -236,6 +237,7 @@ void ArmFilter::save(Snapshot& snapshot) const {
   snapshot.adapted = noise_.adapted();
   snapshot.S = filter_->S();
   snapshot.report = report_;
+  exponential_.save(snapshot.chain);
 }
 
 void ArmFilter::restore(const Snapshot& snapshot) {
@@ -248,6 +250,7 @@ void ArmFilter::restore(const Snapshot& snapshot) {
   external_ = snapshot.external;
   noise_.reset(snapshot.adapted);
   report_ = snapshot.report;
+  exponential_.restore(snapshot.chain);
   filter_->reset(snapshot.x, snapshot.S);
 }
 

@@ -57,6 +57,7 @@ class ArmFilter final : public Estimator {
     Eigen::VectorXd x, reading, torque, external, adapted;
     Eigen::MatrixXd S;
     EstimatorReport report;
+    ExponentialStep::Chain chain;
   };
   void save(Snapshot& snapshot) const;
   /// Goes back to a snapshot taken since reset(). Samples after the snapshot may then be repeated; what was

@@ -6,6 +6,7 @@
 namespace halyard {
 namespace {
 
+constexpr double kChainAge = 5e-3;            // s; at 1 m/s or rad/s a change of 5 mm or mrad
 constexpr double kMeanTolerance = 0.05;       // of a standard deviation
 constexpr double kRootTolerance = 0.2;        // of the root
 constexpr double kHeldForceTolerance = 0.05;  // of the response
@@ -36,7 +37,30 @@ void ExponentialStep::linearise(const Step& step, const Eigen::VectorXd& x) {
   step_ = end_ = step;
   end_.time_s += step.dt_s;
   x_ = x;
-  process_.linearise(step, x, nullptr, f_, A_, point_);
+  const bool known = step.time_s >= chain_known_since_ && step.time_s < chain_known_since_ + kChainAge;
+  if (!known) chain_known_since_ = step.time_s, has_curvature_ = false;
+  process_.linearise(step, x, known ? &point_ : nullptr, f_, A_, point_);
+}
+
+void ExponentialStep::save(Chain& chain) const {
+  const int n = process_.n_joints();
+  chain.known_since_s = chain_known_since_;
+  chain.has_curvature = has_curvature_;
+  chain.slopes.resize(n, 2 * n);
+  chain.curvature.resize(n);
+  for (int k = 0; k < n; ++k) {
+    for (int i = 0; i < 2 * n; ++i) chain.slopes(k, i) = point_.slope[k][i];
+    chain.curvature(k) = point_.chain_curvature[k];
+  }
+}
+
+void ExponentialStep::restore(const Chain& chain) {
+  chain_known_since_ = chain.known_since_s;
+  has_curvature_ = chain.has_curvature;
+  for (int k = 0; k < process_.n_joints(); ++k) {
+    for (int i = 0; i < 2 * process_.n_joints(); ++i) point_.slope[k][i] = chain.slopes(k, i);
+    point_.chain_curvature[k] = chain.curvature(k);
+  }
 }
 
 bool ExponentialStep::start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G) {
@@ -44,7 +68,7 @@ bool ExponentialStep::start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G) 
   Z_ = step_.dt_s * A_;
   usable_ = std::isfinite(f_.sum()) && phi_.compute(Z_, shape_);
   is_finite_ = false;
-  if (!usable_) return false;
+  if (!usable_) return forget(), false;
   set_x_2();
   set_linear_response(G);
   set_second_stage();
@@ -188,7 +212,8 @@ bool ExponentialStep::transition(Eigen::MatrixXd& F) {
 
 bool ExponentialStep::set_smooth_pairs(double gamma) {
   if (!set_growth() || !is_small_change(growth_, spread_, kRootTolerance)) return false;
-  process_.mean_curvature(point_, nullptr, x_, f_, A_, gamma, S_, first_);
+  process_.mean_curvature(point_, has_curvature_ ? &point_ : nullptr, x_, f_, A_, gamma, S_, first_);
+  has_curvature_ = true;
   process_.mean_curvature(point_2_, &point_, x_2_, f_, A_, gamma, spread_, last_);
   first_ *= step_.dt_s;
   last_ *= step_.dt_s;

@@ -37,7 +37,8 @@
 /// where V_i falls, else the straight line. It goes over [0, h / 2^s], [h / 2^s, 2 h / 2^s], ..., [h / 2, h] by the
 /// functions of phi_functions.h, with Simpson's mean of V in each, its middle being the geometric mean of the ends.
 ///
-/// A_2 has the slopes of the rigid chain's forces from A: within a step they hardly change.
+/// A_2 has the slopes of the rigid chain's forces from A: within a step they hardly change. Beside those of cables and
+/// friction they are small, as is the chain's curvature: a step takes both from an earlier one of the last 5 ms, if it can.
 ///
 /// Γ_0 is the response of the linearised model to a force that is held over the step; Γ Γᵀ replaces Van Loan's
 /// integral, which is for white noise. Simpson's rule keeps it equal to what the sub-steps give where the model is linear.
@@ -56,6 +57,8 @@
 /// and exprb32 (mean), ETD2RK (pairs). Van Loan, "Computing integrals involving the matrix exponential", IEEE
 /// Trans. Automatic Control 23 (1978).
 
+#include <limits>
+
 #include "estimators/matrix/phi_functions.h"
 #include "estimators/process/process_model.h"
 
@@ -66,6 +69,17 @@ class ExponentialStep {
  public:
   explicit ExponentialStep(const ProcessModel& process);
 
+  /// What a step takes from an earlier one, of the rigid chain. A filter that goes back in time restores it.
+  struct Chain {
+    double known_since_s = std::numeric_limits<double>::infinity();
+    bool has_curvature = false;
+    Eigen::MatrixXd slopes;     ///< of M a + h, in q and q'   [n_joints x 2 n_joints]
+    Eigen::VectorXd curvature;  ///< its mean                  [n_joints]
+  };
+  void save(Chain& chain) const;
+  void restore(const Chain& chain);
+  /// The next step does not follow the last one.
+  void forget() { chain_known_since_ = std::numeric_limits<double>::infinity(); }
   /// Linearises at the start x of a step. `step` must stay as it is until the next linearise().
   void linearise(const Step& step, const Eigen::VectorXd& x);
   /// M(q)⁻¹ at x.
@@ -117,11 +131,13 @@ class ExponentialStep {
   const int moving_;      // number of rows that are neither kinematic nor zero
   Step step_, end_;
   bool usable_ = false, is_finite_ = false;
+  double chain_known_since_ = std::numeric_limits<double>::infinity();  // time of the chain's slopes in point_, s
+  bool has_curvature_ = false;                                          // of the chain, in point_
   Eigen::VectorXd x_, f_, f_2_, x_2_, next_, c_;
   Eigen::VectorXd D_, part_, change_of_m_;  // of the moving rows; h D
   Eigen::VectorXd first_, last_;            // h m(0), h m(h)
   Eigen::MatrixXd A_, A_2_, Z_, slopes_;
-  LinearisedPoint point_, point_2_;  // of linearise() at x and x_2
+  LinearisedPoint point_{}, point_2_{};  // of linearise() at x and x_2
   // Transposed, a row for each column of S or G:
   LaneMatrix S_, spread_, moved_, growth_;  // S, E S, products with S, the last term of F S
   LaneMatrix forces_, response_;            // G, Γ_0; row 0 is for x_2 itself
