@@ -79,8 +79,8 @@ void near_excess(const LinearisedArm& model, const LinearisedPoint& start, const
 }
 
 constexpr LaneKernels kernels_named(const char* name) {
-  return {name, advance<Lanes>, advance<Dual>, derivative, linearise, mean_curvature,
-          second_stage, far_excess, near_excess};
+  return {name,           advance<Lanes>, advance<Dual>, derivative, linearise,
+          mean_curvature, second_stage,   far_excess,    near_excess};
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct LinearisedPoint {
   double slope[kMaxJoints][2 * kMaxJoints];  ///< of M a + h at constant a, in q and then in q'
   Frictions friction;                        ///< of a plain transmission, as the next
   CableForces cable;
-  double chain_curvature[kMaxJoints];        ///< of M a + h: its mean, set by mean_curvature() of arm_curvature.h
+  double chain_curvature[kMaxJoints];  ///< of M a + h: its mean, set by mean_curvature() of arm_curvature.h
 };
 
 /// F, and all rows of x_dot and A but those of the joints' rates.

@@ -152,8 +152,7 @@ bool ExponentialStep::respond(Eigen::Ref<Eigen::MatrixXd> Gamma) {
   if (!usable_) return false;
   const int n = response_.columns(), sources = response_.rows() - 1;
   change_.reshape(sources + 1, n);
-  multiply(minus_N_.columns(0, moving_), transposed(right(phi_.phi_2())), change_.columns(0, n),
-           false);
+  multiply(minus_N_.columns(0, moving_), transposed(right(phi_.phi_2())), change_.columns(0, n), false);
   for (int c = 0; c < n; ++c) {
     const double *whole = reinterpret_cast<const double*>(response_.lanes() + c * response_.blocks()) + 1,
                  *less = reinterpret_cast<const double*>(change_.lanes() + c * change_.blocks()) + 1;
