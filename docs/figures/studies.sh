@@ -35,15 +35,32 @@ TABLE
 
 figure blind_trials hours bench
 figure_blind_trials() {
-  local trials="$bench/halyard_blind_trials --seed 20261218 --resume --out out/trials"
-  ran "$trials --row 1 --trials 8"
-  ran "$trials --row 2 --trials 3"
-  ran "$trials --row 3 --trials 2"
-  ran "$trials --row 4 --trials 3"
+  local kind sensors trials shard
+  # Two of twelve parts of each draw, so that it spreads over the library's effects.
+  while read -r kind sensors trials; do
+    for shard in 1/12 2/12; do
+      ran "$bench/halyard_blind_trials --kind $kind --sensors $sensors --off 1 --arms raven2 --trials $trials \
+--shard $shard --seed 20261224 --resume --out out/trials"
+    done
+  done <<'DRAWS'
+clean good 24
+clean poor 24
+effect good 36
+effect poor 36
+effect motors 36
+two_at_joint good 12
+two_at_joint poor 12
+three good 12
+three poor 12
+form good 12
+form poor 12
+outside good 12
+outside poor 12
+DRAWS
   ran "$bench/halyard_blind_trials --summary out/trials"
   cat <<'TABLE'
-From `halyard_blind_trials --seed 20261218` with `--row 1 --trials 8`, `--row 2 --trials 3`, `--row 3 --trials 2` and
-`--row 4 --trials 3`:
+From `halyard_blind_trials --seed 20261224 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N --shard S/12`, S = 1
+and 2. N is 24 for clean arms, 36 for one effect, and 12 for the other kinds:
 
 TABLE
   awk '/^## /{ inside = $2 == "Acceptance" } inside && /^[|]/' "$work/out/trials/summary.md"
