@@ -1,5 +1,5 @@
-# source cmake/set_up.sh CONFIGURE_PRESET BUILD_PRESET, from the project's root: installs what is missing, configures and
-# builds.
+# source cmake/set_up.sh CONFIGURE_PRESET [BUILD_PRESET], from the project's root: installs what is missing, configures
+# and, with a second preset, builds.
 set -euo pipefail
 source cmake/install_packages.sh
 install_packages \
@@ -11,4 +11,4 @@ if [ ! -f "build/$1/build.ninja" ]; then
   cmake --preset "$1" >build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
   rm -f build-configure.log
 fi
-cmake --build --preset "$2"
+[ $# -lt 2 ] || cmake --build --preset "$2"
