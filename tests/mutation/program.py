@@ -109,7 +109,7 @@ class Tests:
         folder = self.root / "tests" / Path(changed).parent
         is_near = [
             lambda test: name in self.files[test].stem or f'#include "{header}"' in self.files[test].read_text(),
-            lambda test: self.files[test].parent == folder,
+            lambda test: self.files[test].parent == folder != self.root / "tests" / Path(changed).parts[0],
             lambda test: self.times[test] < QUICK_S,
             lambda test: True,
         ]
