@@ -152,6 +152,31 @@ TEST(ExponentialStep, AHeldForceMovesTheArmAsTheModelMovesIt) {
   }
 }
 
+TEST(ExponentialStep, AForceAndTheMeanMoveAlikeBesideMoreForcesThanARegisterHolds) {
+  const ArmModel model = raven2();
+  const ProcessModel process(model);
+  const Eigen::VectorXd x = at_speed(model, process, kFast);
+  const Eigen::Vector3d torque(0.02, -0.02, 0.01);
+  const Step step{0, kStep, torque.data()};
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(12, 3);
+  for (int k = 0; k < 3; ++k) G(*process.layout().motor_rate[k], k) = 1e-3 * (k + 1);
+  const auto forced = [&](const Eigen::MatrixXd& forces, Eigen::VectorXd& mean) {
+    ExponentialStep exponential(process);
+    EXPECT_TRUE(start(exponential, step, x, belief(1e6), forces));
+    Eigen::MatrixXd Gamma(12, forces.cols());
+    EXPECT_TRUE(exponential.respond(Gamma));
+    LaneMatrix FS;
+    EXPECT_TRUE(exponential.advance_root(mean, FS));
+    return Gamma;
+  };
+  Eigen::VectorXd mean(12), mean_beside_many(12);
+  const Eigen::MatrixXd alone = forced(G, mean), many = forced(G.replicate(1, 3 * kLaneWidth), mean_beside_many);
+  // Rounding, in products of 12 terms in another order.
+  EXPECT_LT((mean_beside_many - mean).cwiseAbs().maxCoeff(), 100 * kEps * mean.cwiseAbs().maxCoeff());
+  EXPECT_LT((many - alone.replicate(1, 3 * kLaneWidth)).cwiseAbs().maxCoeff(),
+            100 * kEps * alone.cwiseAbs().maxCoeff());
+}
+
 TEST(ExponentialStep, TheGuardRefusesAMeanThatIsNotSureEnough) {
   const ArmModel model = raven2();
   const ProcessModel process(model);
