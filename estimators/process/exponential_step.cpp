@@ -275,7 +275,6 @@ void ExponentialStep::set_variances() {
 void ExponentialStep::set_mean_shift() {
   const int levels = phi_.doublings();
   set_variances();
-  part_.resize(moving_);
   change_of_m_.resize(moving_);
   shift_.set_zero(shape_.n, 1);
   // From node to node: shift_ is the integral up to the left one.
