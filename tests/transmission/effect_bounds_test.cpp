@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/support/effect_runs.h"
+#include "transmission/effects/typical_size.h"
 
 namespace halyard {
 namespace {
@@ -44,6 +45,44 @@ TEST(EffectBounds, OfAContactAreTheStiffnessOfItsCable) {
   EXPECT_DOUBLE_EQ(contact.lower, -at_joint);
   // A typical contact that is pressed by 0.1 rad pushes back with five times the typical force.
   EXPECT_DOUBLE_EQ(0.1 * contact.typical, 5 * bounds_of("external_force", "force", arm).typical);
+}
+
+TEST(EffectBounds, OfARippleAreInProportionToTheMotorsFriction) {
+  ArmParameters<double> arm = random_arm(5, CableLaw::linear), rough = arm;
+  arm.joint[0].motor_coulomb = 10;  // far above what the joint would ask for
+  rough.joint[0].motor_coulomb = 20;
+  for (const char* name : {"cosine", "sine"}) {
+    const EffectParameter ripple = bounds_of("torque_ripple", name, arm),
+                          twice = bounds_of("torque_ripple", name, rough);
+    EXPECT_DOUBLE_EQ(twice.typical, 2 * ripple.typical) << name;
+    EXPECT_DOUBLE_EQ(twice.upper, 2 * ripple.upper) << name;
+    EXPECT_EQ(ripple.lower, -ripple.upper) << name << ": its phase is any";
+  }
+}
+
+TEST(EffectBounds, AJointWithoutFrictionMayHaveTwoPercentOfItsWeight) {
+  JointParameters<double> j;
+  j.type = JointType::revolute;
+  j.drive = Drive::none;
+  j.mass = 3;
+  j.com[0] = 0.3, j.com[1] = 0.4;  // 0.5 m from the axis' origin
+  EXPECT_DOUBLE_EQ(typical_joint_friction(j), 0.02 * 9.81 * 3 * 0.5);
+  j.type = JointType::prismatic;
+  EXPECT_DOUBLE_EQ(typical_joint_friction(j), 0.02 * 9.81 * 3);
+}
+
+TEST(EffectBounds, FrictionOfTheJointIsAsMuchPowerAtTheMotor) {
+  JointParameters<double> j;
+  j.type = JointType::revolute;
+  j.drive = Drive::cable;
+  j.motor_coulomb = 0.2;
+  j.pulley_radius = 0.5;
+  const double rate = 3, joint_rate = rate * j.motor_travel() / j.pulley_radius;
+  const double from_motor = typical_joint_friction(j);
+  EXPECT_DOUBLE_EQ(from_motor * joint_rate, j.motor_coulomb * rate);
+  j.motor_coulomb = 0;
+  j.joint_coulomb = from_motor;
+  EXPECT_DOUBLE_EQ(typical_motor_friction(j) * rate, from_motor * joint_rate);
 }
 
 }  // namespace
