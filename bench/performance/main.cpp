@@ -111,7 +111,8 @@ std::string page(const std::string& kept, const std::vector<StepTime>& filters, 
 
 `build/bench/halyard_performance` wrote this page; it takes about three minutes. Processor: {}; date: {}; vector
 kernels: {}. All times of a table come from one run, and the filters took turns. Times of other machines differ; ratios
-differ less. Other programs that ran on the machine at the same time make the 99 % column larger.
+differ less. Other programs that ran on the machine at the same time make the 99 % column larger. The sections on the
+instructions of a step and on the speed of a simulation are kept by hand.
 
 ## A step of the filters
 
