@@ -166,6 +166,7 @@ TEST(ExponentialStep, AForceAndTheMeanMoveAlikeBesideMoreForcesThanARegisterHold
     Eigen::MatrixXd Gamma(12, forces.cols());
     EXPECT_TRUE(exponential.respond(Gamma));
     LaneMatrix FS;
+    FS.reshape(12, 12);
     EXPECT_TRUE(exponential.advance_root(mean, FS));
     return Gamma;
   };
