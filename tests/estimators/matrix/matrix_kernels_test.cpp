@@ -130,28 +130,32 @@ TEST(MatrixKernels, AFewReflectionsLeaveARootOfTheRest) {
   }
 }
 
-TEST(MatrixKernels, CopyAnyPartOfAMatrix) {
-  const Eigen::MatrixXd A = random_matrix(19, 13, 11);
+/// check(kernels, rows, columns) for parts of several sizes.
+template <class Check>
+void for_parts(const Check& check) {
   for (const MatrixKernels& kernels : matrix_kernels())
     for (const int rows : {1, 3, 8, 12, 17})
-      for (const int columns : {1, 6, 12}) {
-        Eigen::MatrixXd B = Eigen::MatrixXd::Zero(20, 14), expected = B;
-        expected.block(2, 1, rows, columns) = A.block(1, 1, rows, columns);
-        kernels.copy(rows, columns, &A(1, 1), 19, &B(2, 1), 20);
-        EXPECT_EQ(B, expected) << kernels.name << rows << columns;
-      }
+      for (const int columns : {1, 6, 12}) check(kernels, rows, columns);
+}
+
+TEST(MatrixKernels, CopyAnyPartOfAMatrix) {
+  const Eigen::MatrixXd A = random_matrix(19, 13, 11);
+  for_parts([&](const MatrixKernels& kernels, int rows, int columns) {
+    Eigen::MatrixXd B = Eigen::MatrixXd::Zero(20, 14), expected = B;
+    expected.block(2, 1, rows, columns) = A.block(1, 1, rows, columns);
+    kernels.copy(rows, columns, &A(1, 1), 19, &B(2, 1), 20);
+    EXPECT_EQ(B, expected) << kernels.name << rows << columns;
+  });
 }
 
 TEST(MatrixKernels, TransposeAnyPartOfAMatrix) {
   const Eigen::MatrixXd A = random_matrix(19, 13, 11);
-  for (const MatrixKernels& kernels : matrix_kernels())
-    for (const int rows : {1, 3, 8, 12, 17})
-      for (const int columns : {1, 6, 12}) {
-        Eigen::MatrixXd B = Eigen::MatrixXd::Zero(14, 20), expected = B;
-        expected.block(2, 1, columns, rows) = A.block(1, 1, rows, columns).transpose();
-        kernels.transpose(rows, columns, &A(1, 1), 19, &B(2, 1), 14);
-        EXPECT_EQ(B, expected) << kernels.name << rows << columns;
-      }
+  for_parts([&](const MatrixKernels& kernels, int rows, int columns) {
+    Eigen::MatrixXd B = Eigen::MatrixXd::Zero(14, 20), expected = B;
+    expected.block(2, 1, columns, rows) = A.block(1, 1, rows, columns).transpose();
+    kernels.transpose(rows, columns, &A(1, 1), 19, &B(2, 1), 14);
+    EXPECT_EQ(B, expected) << kernels.name << rows << columns;
+  });
 }
 
 TEST(MatrixKernels, SquaresOfColumnsAreSummed) {
