@@ -110,9 +110,9 @@ bool Judge::explains_a_rest(const Score& before, const Score& after) const {
 }
 
 /// Indices of the sizes that end at a bound or whose shape does, and that do more there than one number by chance; the
-/// sizes of a push whose instants are both ends of the record or of the motion are among them. A group
-/// of sizes whose shape is at its bound does not count if it does next to nothing of what the whole effect does: for
-/// example a wall at the end of the motion that only improves the form of a tug.
+/// sizes of a push whose instants are both ends of the record or of the motion are among them. A group of sizes whose shape
+/// is at its bound does not count if it does next to nothing of what the whole effect does: for example a wall at the end
+/// of the motion that only improves the form of a tug.
 std::vector<std::size_t> Judge::sizes_at_bound(const Scored& with, std::size_t place) const {
   constexpr double kNextToNothing = 0.1;
   const Hypothesis& h = with.hypothesis;
