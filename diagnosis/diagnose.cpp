@@ -210,9 +210,12 @@ class Diagnoser {
       if (evidence.has_channel(c))
         result_.probability_none =
             std::max(result_.probability_none, probability_of_none(score.mean_square[c], 0, evidence.floor()[c]));
-    double absent = attribution().no_effect;
-    for (const NamedEffect& e : result_.effects) absent = std::min(absent, 1 - e.probability);
-    result_.probability_clean = (1 - result_.probability_none) * absent;
+    std::vector<double> present;
+    for (const NamedEffect& e : result_.effects) {
+      present.push_back(e.probability);
+      for (const Alternative& a : e.alternatives) present.back() += a.probability;
+    }
+    result_.probability_clean = probability_of_clean(result_.probability_none, attribution().no_effect, present);
   }
 
   void tell_stuck_sensors(const std::vector<Log>& training) {

@@ -34,7 +34,7 @@ Nudge nudged(const Evidence& evidence, Hypothesis h, std::size_t first, const Ar
           for (const double sign : {-1.0, 1.0}) values.push_back(value + sign * by * spacing);
       } else if (p.is_whole) {
         for (const double by : {-2.0, -1.0, 1.0, 2.0}) values.push_back(value + by);
-      } else if (!p.natural_bounds && p.lower >= 0) {
+      } else if (p.lower > 0 || (!p.natural_bounds && p.lower == 0)) {
         for (const double factor : {0.1, 0.3, 0.7, 0.9, 0.97, 0.99, 0.997, 1.003, 1.01, 1.03, 1.1, 1.4, 3.0, 10.0})
           values.push_back(factor * value);
       }

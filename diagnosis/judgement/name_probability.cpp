@@ -48,6 +48,12 @@ double probability_of_none(double mean_square_after, double misfit_square, doubl
   return ratio > 0 ? 1 / (1 + std::pow(kRule.rest_ratio * kRule.rest_ratio / ratio, kRule.none_sharpness)) : 0;
 }
 
+double probability_of_clean(double none, double no_effect, const std::vector<double>& present) {
+  double absent = no_effect;
+  for (const double p : present) absent = std::min(absent, 1 - p);
+  return (1 - none) * std::max(absent, 0.0);
+}
+
 std::vector<bool> credible_set(const std::vector<double>& probability, double share) {
   std::vector<std::size_t> order(probability.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -4,12 +4,11 @@
 
 #include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/search/candidate_round.h"
+#include "diagnosis/search/pair_rivals.h"
 #include "model/input_error.h"
 
 namespace halyard {
 namespace {
-
-bool same_name(const PlacedEffect& a, const PlacedEffect& b) { return a.effect == b.effect && a.joint == b.joint; }
 
 /// True for effects of which a joint may have several: pushes, slips, ripples of several orders.
 bool may_repeat(const PlacedEffect& e, const ArmParameters<double>& arm) {
@@ -64,8 +63,11 @@ class Search {
     result_.baseline = baseline_.fit;
     result_.nominal_score = baseline_.nominal_score;
     result_.baseline_score = baseline_.score;
-    result_.final_fit = current.fit;
-    result_.final_score = current.score;
+    const PairRivals pairs(evidence_, model_, refitter_, judge_, given_, options_.significance);
+    Named named = pairs.weighed({current.fit, current.score, result_.namings}, result_.rounds);
+    result_.final_fit = std::move(named.fit);
+    result_.final_score = std::move(named.score);
+    result_.namings = std::move(named.namings);
     return std::move(result_);
   }
 
@@ -205,7 +207,7 @@ class Search {
     const bool is_done = std::ranges::any_of(result_.rounds, &Round::at_once);
     if (is_done) return false;
     progress_("several effects at once", 0);
-    const JointSearch search(evidence_, model_, refitter_, judge_, given_);
+    const JointSearch search(evidence_, refitter_, judge_, given_);
     const JointProposal proposal = search.propose(round.linear(), current.scored(), options_.significance,
                                                   options_.most_effects - n_added(current));
     if (proposal.trials.empty()) return false;

@@ -8,7 +8,7 @@
 
 #include "diagnosis/judgement/judge.h"
 #include "diagnosis/search/joint_proposal.h"
-#include "diagnosis/search/screen.h"
+#include "diagnosis/starts/screen.h"
 
 namespace halyard {
 

@@ -14,7 +14,7 @@
 
 #include "diagnosis/judgement/judge.h"
 #include "diagnosis/search/refit.h"
-#include "diagnosis/search/starts.h"
+#include "diagnosis/starts/starts.h"
 
 namespace halyard {
 
@@ -36,9 +36,8 @@ struct JointProposal {
 class JointSearch {
  public:
   /// given: number of effects that the model came with.
-  JointSearch(const Evidence& evidence, const ArmModel& model, const Refitter& refitter, const Judge& judge,
-              std::size_t given)
-      : evidence_(evidence), model_(model), refitter_(refitter), judge_(judge), given_(given) {}
+  JointSearch(const Evidence& evidence, const Refitter& refitter, const Judge& judge, std::size_t given)
+      : evidence_(evidence), refitter_(refitter), judge_(judge), given_(given) {}
 
   /// The hypothesis of the round with the selected effects at the sizes that the linear fit gives them. Without any if
   /// nothing is worth its numbers.
@@ -51,7 +50,6 @@ class JointSearch {
   std::vector<Trial> trials(const JointProposal& p, std::size_t first, std::vector<Fit>& without) const;
 
   const Evidence& evidence_;
-  const ArmModel& model_;
   const Refitter& refitter_;
   const Judge& judge_;
   std::size_t given_;

@@ -13,6 +13,10 @@ double probability_of_any_name(const Naming& naming, double none) {
   return (1 - none) * sum;
 }
 
+int numbers_added(const PlacedEffect& effect, const ArmParameters<double>& arm) {
+  return static_cast<int>(effect.effect->parameters(arm, effect.joint).size()) + (effect.effect->stages() != 0 ? 1 : 0);
+}
+
 std::vector<bool> convincing(const std::vector<Trial>& trials, double significance) {
   std::vector<double> p;
   for (const Trial& t : trials)
@@ -82,12 +86,9 @@ double Competition::weight_of_no_effect() const {
 std::vector<double> Competition::weights(const std::vector<std::size_t>& rivals) const {
   std::vector<Competitor> all;
   for (const std::size_t i : rivals) {
-    const PlacedEffect& e = trials_[i].effect;
-    const std::size_t numbers = e.effect->parameters(model_.nominal, e.joint).size();
-    // An equation of its own counts like one more number. At its bound an effect is less plausible, but may still be the
-    // right one.
+    // At its bound an effect is less plausible, but may still be the right one.
     const double implausible = trials_[i].at_bound ? kRule.at_bound : 0;
-    all.push_back({&trials_[i].log_likelihood, static_cast<int>(numbers) + (e.effect->stages() != 0 ? 1 : 0),
+    all.push_back({&trials_[i].log_likelihood, numbers_added(trials_[i].effect, model_.nominal),
                    trials_[i].stretch + implausible});
   }
   return name_weights(evidence_, all, {&ln_without_, 0, judge_.stretch(without_.hypothesis)});

@@ -6,6 +6,14 @@
 
 namespace halyard {
 
+/// True for the same effect at the same joint, whatever its parameters.
+inline bool same_name(const PlacedEffect& a, const PlacedEffect& b) {
+  return a.effect == b.effect && a.joint == b.joint;
+}
+
+/// The numbers that an effect adds to a model. An equation of its own counts like one more.
+int numbers_added(const PlacedEffect& effect, const ArmParameters<double>& arm);
+
 /// How an effect came to its name.
 struct Naming {
   double weight = 0;                      ///< among the candidates of its round, see name_probability.h

@@ -46,9 +46,7 @@ bool Whiteness::is_white() const { return std::abs(correlation) <= chance && std
 
 Whiteness whiteness(std::span<const double> innovation, std::span<const double> torque) {
   Whiteness w;
-  double square = 0, count = 0;
-  for (const double v : innovation)
-    if (!std::isnan(v)) square += v * v, count += 1;
+  const auto count = static_cast<double>(std::ranges::count_if(innovation, [](double v) { return !std::isnan(v); }));
   if (count < 2 * kLags) return {kNan, kNan, kNan};
   const auto correlation = [&](std::span<const double> with, std::size_t lag, bool centred) {
     double mean = 0, n = 0;

@@ -110,7 +110,7 @@ PairedRatio paired_ratio(std::span<const double> a, std::span<const double> b, s
   const std::size_t blocks = (n + block - 1) / block;
   const auto [all_a, all_b] = before.back();
   boost::random::uniform_int_distribution<std::size_t> start(0, n - 1);
-  return interval(std::sqrt(all_a / all_b), block, seed, [&, all_a = all_a, all_b = all_b](auto& random) {
+  return interval(std::sqrt(all_a / all_b), block, seed, [&](auto& random) {
     double sum_a = 0, sum_b = 0;
     for (std::size_t i = 0; i < blocks; ++i) {
       const std::size_t first = start(random), last = first + block;

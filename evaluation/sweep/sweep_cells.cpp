@@ -245,7 +245,8 @@ SweepCell StoredCells::read(std::size_t point) const {
     const ordered_json json = ordered_json::parse(line(point));
     SweepCell cell{json.at("point").get<std::size_t>(), {}};
     for (const ordered_json& result : json.at("results")) {
-      SweepCell::Result& read = cell.results.emplace_back(result.at("failure").get<std::string>());
+      SweepCell::Result& read = cell.results.emplace_back();
+      read.failure = result.at("failure").get<std::string>();
       for (const ordered_json& joint : result.at("joints")) {
         std::vector<double>& values = read.values.emplace_back();
         for (const ordered_json& value : joint) values.push_back(cell_value_from(value));

@@ -58,6 +58,12 @@ TEST(ProbabilityOfNone, IsSmallIfTheRestIsThatOfAnotherForm) {
   EXPECT_LT(halyard::probability_of_none(0.25 * misfit * misfit, misfit * misfit, 1e-6), 0.05);
 }
 
+TEST(ProbabilityOfClean, CountsTheAlternativesOfAName) {
+  EXPECT_NEAR(halyard::probability_of_clean(0, 0.9, {0.6 + 0.4}), 0, 1e-12) << "one of both acts";
+  EXPECT_NEAR(halyard::probability_of_clean(0, 0.9, {0.6 + 0.1, 0.8}), 0.2, 1e-12) << "the surest effect decides";
+  EXPECT_NEAR(halyard::probability_of_clean(0.1, 0.9, {}), 0.81, 1e-12);
+}
+
 TEST(CredibleSet, IsTheSmallestOneWithItsShare) {
   EXPECT_EQ(halyard::credible_set({0.5, 0.1, 0.4}, 0.9), (std::vector<bool>{true, false, true}));
   EXPECT_EQ(halyard::credible_set({0.95, 0.05}, 0.9), (std::vector<bool>{true, false}));

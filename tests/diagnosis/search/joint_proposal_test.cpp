@@ -61,7 +61,7 @@ TEST(JointProposal, OfAnArmWithoutEffectsProposesNothing) {
   CandidateRound round(evidence, model, refitter, judge, without, nominal, "a round", quiet);
   round.look(all_candidates(model.nominal));
   ASSERT_EQ(round.linear().starts.size(), all_candidates(model.nominal).size());
-  const JointSearch search(evidence, model, refitter, judge, 0);
+  const JointSearch search(evidence, refitter, judge, 0);
   EXPECT_FALSE(search.propose(round.linear(), without, 0.01, 6).is_convincing);
 }
 

@@ -1,4 +1,4 @@
-#include "diagnosis/search/starts.h"
+#include "diagnosis/starts/starts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,11 +90,11 @@ class StartSearch {
     std::vector<Hypothesis> asked;
     for (const Asked& a : second) asked.push_back(a.hypothesis);
     const auto second_rows = evidence_.fit_rows(asked);
-    std::vector<Least> least(combinations_.size());
+    std::vector<Least> least(n_laws_);
     for (std::size_t i = 0; i < tried_.size(); ++i)
-      least[tried_[i].combination].consider(first[i], screen_.left(rows[i]));
+      least[combinations_[tried_[i].combination].law].consider(first[i], screen_.left(rows[i]));
     for (std::size_t i = 0; i < second.size(); ++i)
-      least[second[i].combination].consider(asked[i], screen_.left(second_rows[i]));
+      least[combinations_[second[i].combination].law].consider(asked[i], screen_.left(second_rows[i]));
     std::erase_if(least, [](const Least& l) { return !std::isfinite(l.left); });
     std::ranges::stable_sort(least, {}, &Least::left);
     if (least.size() > kRule.starts_fitted) least.resize(kRule.starts_fitted);
@@ -114,6 +114,7 @@ class StartSearch {
   struct Combination {
     ParameterGroup group;
     Hypothesis shaped;  ///< with them and without any size
+    std::size_t law;    ///< the same for combinations that differ only in the past, which says nothing about the arm
   };
   /// What the linear fits ask for at one combination of shapes.
   struct Asked {
@@ -123,7 +124,7 @@ class StartSearch {
     double promise = 0;
   };
 
-  /// What leaves least at one combination of shapes.
+  /// What leaves least of one law.
   struct Least {
     Hypothesis hypothesis;
     double left = std::numeric_limits<double>::infinity();
@@ -137,12 +138,23 @@ class StartSearch {
     const bool one_sided = std::any_of(group.shapes.begin(), group.shapes.end(), [&](std::size_t s) {
       return parameters_[s].range == SearchRange::joint_position;
     });
+    const std::vector<double>* last = nullptr;
     for (const auto& values : shapes) {
       const Hypothesis at = shaped(group, values);
       for (const std::size_t size : group.sizes) add_sizes(at, size, one_sided, shapes.size() > 1);
-      combinations_.push_back({group, at});
+      if (!last || !differ_only_in_the_past(group, *last, values)) ++n_laws_;
+      combinations_.push_back({group, at, n_laws_ - 1});
       asked_.push_back({neutral_, asked_.size()});
+      last = &values;
     }
+  }
+
+  /// Pasts are the last shapes, so such combinations follow each other.
+  bool differ_only_in_the_past(const ParameterGroup& group, const std::vector<double>& a,
+                               const std::vector<double>& b) const {
+    for (std::size_t s = 0; s < a.size(); ++s)
+      if (a[s] != b[s] && !parameters_[group.shapes[s]].is_past) return false;
+    return true;
   }
 
   Hypothesis shaped(const ParameterGroup& group, const std::vector<double>& values) const {
@@ -167,6 +179,10 @@ class StartSearch {
     };
     add(p.nominal + p.scale);
     if (one_sided && p.lower < p.nominal) add(p.nominal - p.scale);
+    // A share that is nearly all makes another signal than the typical one.
+    constexpr double kNearlyAll = 0.9, kMostAddition = 3;
+    if (has_shapes && p.lower == p.nominal && p.upper < p.nominal + kMostAddition * p.scale)
+      add(p.nominal + kNearlyAll * (p.upper - p.nominal));
     if (has_shapes || p.natural_bounds || p.lower < 0) return;
     const bool ratio = p.nominal == 1;
     const double typical = ratio ? 1 : p.nominal + p.scale, span = ratio ? kRatioSpan : kSizeSpan;
@@ -250,6 +266,7 @@ class StartSearch {
   Hypothesis neutral_;  ///< shapes as in with_
   std::vector<Tried> tried_;
   std::vector<Combination> combinations_;
+  std::size_t n_laws_ = 0;
   std::vector<Asked> asked_;  ///< [combination of shapes]
 };
 

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "diagnosis/search/screen.h"
+#include "diagnosis/starts/screen.h"
 
 namespace halyard {
 

@@ -1,6 +1,6 @@
-#include "diagnosis/search/screen.h"
+#include "diagnosis/starts/screen.h"
 
-#include "diagnosis/search/leaps.h"
+#include "diagnosis/starts/leaps.h"
 
 namespace halyard {
 

@@ -1,4 +1,4 @@
-#include "diagnosis/search/leaps.h"
+#include "diagnosis/starts/leaps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,58 @@
+#pragma once
+/// Two effects at one joint that were named one after the other, and two others that explain the log as well. Dry friction
+/// and its presliding on the side of the motor look like both on the side of the joint, but neither can be replaced
+/// alone: beside the other one it is on the wrong side. Therefore both are replaced at once.
+///
+/// The rivals of a name are the candidates at its joint that gained nearly as much in a round that it led. Pairs of rivals
+/// compete with the two names by their log-likelihood on the deciding blocks (name_probability.h), so that the
+/// probability of a name counts these pairs, too. The most probable pair is named.
+
+#include "diagnosis/search/attribution.h"
+#include "diagnosis/search/refit.h"
+
+namespace halyard {
+
+/// What a search has found: added effects, their names in the same order.
+struct Named {
+  Fit fit;
+  Score score;
+  std::vector<Naming> namings;
+};
+
+class PairRivals {
+ public:
+  /// Indices of two effects, the first before the second.
+  struct Places {
+    std::size_t first, second;
+  };
+  /// given: number of effects that the model came with.
+  PairRivals(const Evidence& evidence, const ArmModel& model, const Refitter& refitter, const Judge& judge,
+             std::size_t given, double significance)
+      : evidence_(evidence),
+        model_(model),
+        refitter_(refitter),
+        judge_(judge),
+        given_(given),
+        significance_(significance) {}
+
+  /// With the pairs of rivals of every two names at one joint. rounds: of the search.
+  Named weighed(Named named, const std::vector<Round>& rounds) const;
+
+ private:
+  struct Pair;
+  void fit(Pair& pair, const Hypothesis& without, const Score& before) const;
+  bool can_be_named(const Pair& pair) const;
+  std::vector<Pair> pairs(const Named& named, const Places& places, const std::vector<Round>& rounds) const;
+  std::vector<double> weights(const Named& named, const Places& places, const std::vector<Pair>& pairs) const;
+  void weigh(Named& named, const Places& places, const std::vector<Round>& rounds) const;
+  void rename(Named& named, const Places& places, const Pair& pair) const;
+
+  const Evidence& evidence_;
+  const ArmModel& model_;
+  const Refitter& refitter_;
+  const Judge& judge_;
+  std::size_t given_;
+  double significance_;
+};
+
+}  // namespace halyard
