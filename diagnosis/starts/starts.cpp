@@ -93,8 +93,12 @@ class StartSearch {
     std::vector<Least> least(n_laws_);
     for (std::size_t i = 0; i < tried_.size(); ++i)
       least[combinations_[tried_[i].combination].law].consider(first[i], screen_.left(rows[i]));
-    for (std::size_t i = 0; i < second.size(); ++i)
+    for (std::size_t i = 0; i < second.size(); ++i) {
       least[combinations_[second[i].combination].law].consider(asked[i], screen_.left(second_rows[i]));
+      // A typical size may be far beyond what is linear; the size that the linear fit asks for is not.
+      if (const Screen::Direction d = screen_.direction(second_rows[i]); d.amount > 0)
+        start.promise = std::max(start.promise, d.promise);
+    }
     std::erase_if(least, [](const Least& l) { return !std::isfinite(l.left); });
     std::ranges::stable_sort(least, {}, &Least::left);
     if (least.size() > kRule.starts_fitted) least.resize(kRule.starts_fitted);

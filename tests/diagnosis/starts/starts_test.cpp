@@ -2,27 +2,41 @@
 
 #include <gtest/gtest.h>
 
+#include "diagnosis/search/refit.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
 namespace {
 
-/// Where the fit of a hysteresis begins on the log of an arm that has one.
-Start start_of_a_hysteresis(double share, double yield_stretch) {
-  const ArmModel model = first_joints(1);
-  const PlacedEffect candidate = place_effect(*find_effect("hysteresis"), model.nominal, 0);
-  ArmModel robot = model;
-  robot.effects = {candidate};
-  robot.effects[0].p[0] = share, robot.effects[0].p[1] = yield_stretch;
-  const Evidence evidence(make_records(simulate(motion(robot, 5)).measured, model, {}), model);
-  const Hypothesis nominal{model.nominal, {}};
-  const Screen screen(evidence, nominal, {}, std::vector<double>(evidence.channels(), 1e-6));
-  return best_start(evidence, screen, {model.nominal, {candidate}}, model.nominal);
-}
+/// The log of an arm whose last cable has a hysteresis, and where the fit of one begins.
+struct Looped {
+  ArmModel model;
+  PlacedEffect candidate;
+  Evidence evidence;
+  Hypothesis from;
+  Screen screen;
+  Start start;
+
+  Looped(int joints, double share, double yield_stretch)
+      : model(first_joints(joints)),
+        candidate(place_effect(*find_effect("hysteresis"), model.nominal, joints - 1)),
+        evidence(make_records(simulate(motion(robot(share, yield_stretch), 5)).measured, model, {}), model),
+        from{model.nominal, {}},
+        screen(evidence, from, sensitivities(evidence, from, Refitter(evidence, model, 0).numbers()),
+               channel_scale(evidence, evidence.score(from).fit_mean_square)),
+        start(best_start(evidence, screen, {model.nominal, {candidate}}, model.nominal)) {}
+
+  ArmModel robot(double share, double yield_stretch) const {
+    ArmModel arm = model;
+    arm.effects = {candidate};
+    arm.effects[0].p[0] = share, arm.effects[0].p[1] = yield_stretch;
+    return arm;
+  }
+};
 
 TEST(BestStart, HasOtherShapesInEachHypothesis) {
-  const Start start = start_of_a_hysteresis(0.4, 2e-5);
+  const Start start = Looped(1, 0.4, 2e-5).start;
   ASSERT_GT(start.hypotheses.size(), 1u);
   for (std::size_t i = 0; i < start.hypotheses.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -31,7 +45,15 @@ TEST(BestStart, HasOtherShapesInEachHypothesis) {
 }
 
 TEST(BestStart, OfACableThatNearlyYieldsAsAWholeHasNearlyTheWholeShare) {
-  EXPECT_GT(start_of_a_hysteresis(0.9, 3e-6).hypotheses.at(0).effects[0].p[0], 0.8);
+  EXPECT_GT(Looped(1, 0.9, 3e-6).start.hypotheses.at(0).effects[0].p[0], 0.8);
+}
+
+/// The typical size is far beyond what is linear, and tells less.
+TEST(BestStart, PromisesWhatTheSizeOfTheLinearFitTells) {
+  const Looped l(2, 0.1, 2e-6);
+  const Hypothesis& best = l.start.hypotheses.at(0);
+  ASSERT_LT(best.effects[0].p[0], 0.3) << "it is the typical size: the test shows nothing";
+  EXPECT_GE(l.start.promise, l.screen.direction(l.evidence.fit_rows({best})[0]).promise);
 }
 
 }  // namespace
