@@ -94,7 +94,7 @@ inline RightFactor rows_from(int first, RightFactor B) { return {B.data + first 
 
 /// C = A B, or C += A B if `add`, with B [A.count x C.count]. C must not share memory with the factors.
 inline void multiply(const LaneColumns<const Lanes>& A, const RightFactor& B, const LaneColumns<Lanes>& C, bool add) {
-  matrix_kernels()[0].product(A.rows, A.count, C.count, A.lanes, A.blocks, B, C.lanes, C.blocks, add);
+  widest_matrix_kernels().product(A.rows, A.count, C.count, A.lanes, A.blocks, B, C.lanes, C.blocks, add);
 }
 inline void add_product(const LaneMatrix& A, const RightFactor& B, LaneMatrix& C) {
   multiply(A.columns(0, A.columns()), B, C.columns(0, C.columns()), true);
@@ -107,21 +107,21 @@ inline void set_product(const LaneMatrix& A, const RightFactor& B, int columns, 
 
 /// Sums of the squares of the columns of A: squares [A.columns()].
 inline void set_squares(const LaneMatrix& A, double* squares) {
-  matrix_kernels()[0].column_squares(A.rows(), A.columns(), A.lanes(), A.blocks(), squares);
+  widest_matrix_kernels().column_squares(A.rows(), A.columns(), A.lanes(), A.blocks(), squares);
 }
 
 /// B = A, of like shape, with memory of columns as Eigen and LaneMatrix::view() have it. This and the next take half the
 /// time of Eigen's for small matrices.
 template <class A_t, class B_t>
 void set_block(const A_t& A, B_t&& B) {
-  matrix_kernels()[0].copy(static_cast<int>(A.rows()), static_cast<int>(A.cols()), A.data(),
-                           static_cast<int>(A.outerStride()), B.data(), static_cast<int>(B.outerStride()));
+  widest_matrix_kernels().copy(static_cast<int>(A.rows()), static_cast<int>(A.cols()), A.data(),
+                               static_cast<int>(A.outerStride()), B.data(), static_cast<int>(B.outerStride()));
 }
 /// B = Aᵀ.
 template <class A_t, class B_t>
 void set_transposed(const A_t& A, B_t&& B) {
-  matrix_kernels()[0].transpose(static_cast<int>(A.rows()), static_cast<int>(A.cols()), A.data(),
-                                static_cast<int>(A.outerStride()), B.data(), static_cast<int>(B.outerStride()));
+  widest_matrix_kernels().transpose(static_cast<int>(A.rows()), static_cast<int>(A.cols()), A.data(),
+                                    static_cast<int>(A.outerStride()), B.data(), static_cast<int>(B.outerStride()));
 }
 /// The rows of B from `first` on become Aᵀ.
 inline void set_rows_transposed(const Eigen::Ref<const Eigen::MatrixXd>& A, LaneMatrix& B, int first) {

@@ -59,3 +59,7 @@ struct MatrixKernels {
 const std::vector<MatrixKernels>& matrix_kernels();
 
 }  // namespace halyard
+inline const MatrixKernels& widest_matrix_kernels() {
+  static const MatrixKernels& widest = matrix_kernels()[0];
+  return widest;
+}

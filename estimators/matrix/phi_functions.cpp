@@ -48,10 +48,10 @@ void PhiFunctions::take_memory(const PhiShape& shape) {
   for (LaneMatrix* A : {&Y_, &Y2_, &Y3_}) A->set_zero(n, n);
 }
 
-bool PhiFunctions::compute(const Eigen::Ref<const Eigen::MatrixXd>& Z, const PhiShape& shape) {
+bool PhiFunctions::compute(double h, const Eigen::MatrixXd& A, const PhiShape& shape) {
   take_memory(shape);
-  set_block(Z, Y_.view());
-  doublings_ = matrix_kernels()[0].phi_functions(
+  Y_.view() = h * A;
+  doublings_ = widest_matrix_kernels().phi_functions(
       shape_, kMostDoublings,
       {memory_.data(), phi_3_.lanes(), weight_.lanes(), Y_.lanes(), Y2_.lanes(), Y3_.lanes(), next_.lanes()});
   return doublings_ >= 0;

@@ -4,8 +4,8 @@
 ///   E = exp(Z),   φ_k(Z) = Σ_{i>=0} Z^i / (i + k)!,   so that φ_0 = E and Z φ_k+1 = φ_k - I / k!
 ///
 /// By scaling and doubling: with Y = Z / 2^s such that ‖Y²‖^(1/2) and ‖Y³‖^(1/3), which bound the growth of all higher
-/// powers, are at most 1 in the 1-norm, the Taylor polynomial of degree 11 gives φ_3(Y) with a relative error of 5e-12;
-/// then s times
+/// powers, are at most 2 in the 1-norm, the Taylor polynomial of degree 11 gives φ_3(Y) with a relative error of 2e-8, which
+/// is far below the noise of a filter; then s times
 ///
 ///   φ_k(2Y) = 2^-k (E φ_k(Y) + Σ_{j=1..k} φ_j(Y) / (k - j)!),   E(2Y) = E(Y)²
 ///
@@ -40,9 +40,9 @@ class PhiFunctions {
 
   /// Chooses D for matrices like this one. Without this call, and if Z is not finite, D is the unit matrix.
   void balance(Eigen::MatrixXd Z);
-  /// Z [n x n] of this shape: p and p + m. False, and the functions are not computed, if Z is not finite or s would exceed
-  /// kMostDoublings.
-  bool compute(const Eigen::Ref<const Eigen::MatrixXd>& Z, const PhiShape& shape);
+  /// Of Z = h A [n x n] of this shape: p and p + m. False, and the functions are not computed, if Z is not finite or s would
+  /// exceed kMostDoublings.
+  bool compute(double h, const Eigen::MatrixXd& A, const PhiShape& shape);
 
   /// The functions of Z / 2^k: E [n x n], φ_1 V and φ_2 V [n x m].
   struct Level {

@@ -151,7 +151,7 @@ HALYARD_INLINE void double_argument(const Operations& on, const PhiMemory& m, do
 /// The least s with (a / 2^s)^2 and (b / 2^s)^3 below θ, from the norms a² and b³ of Y² and Y³; at least 1, and
 /// most + 1 if `most` is not enough.
 HALYARD_INLINE int count_doublings(double square_norm, double cube_norm, int most) {
-  constexpr double kTheta = 1;
+  constexpr double kTheta = 2;
   int doublings = 1;
   double square = square_norm / 4, cube = cube_norm / 8;
   while (doublings <= most && !(square < kTheta * kTheta && cube < kTheta * kTheta * kTheta))

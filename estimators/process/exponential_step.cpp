@@ -65,8 +65,7 @@ void ExponentialStep::restore(const Chain& chain) {
 
 bool ExponentialStep::start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G) {
   const int n = static_cast<int>(x_.size());
-  Z_ = step_.dt_s * A_;
-  usable_ = std::isfinite(f_.sum()) && phi_.compute(Z_, shape_);
+  usable_ = std::isfinite(f_.sum()) && phi_.compute(step_.dt_s, A_, shape_);
   is_finite_ = false;
   if (!usable_) return forget(), false;
   set_x_2();
@@ -120,6 +119,7 @@ void ExponentialStep::set_second_stage() {
   }
   const int first = shape_.first, blocks = response_.blocks();
   set_rates(end_, x_2_, response_, rates_);
+  Z_ = h * A_;
   f_2_.resize(shape_.n);
   for (int c = 0; c < shape_.n; ++c) f_2_(c) = rates_.lanes()[c * blocks][0];
   for (int c = 0; c < shape_.n; ++c) response_.lanes()[c * blocks].set(0, x_2_(c) - x_(c));

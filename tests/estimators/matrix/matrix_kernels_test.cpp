@@ -77,14 +77,15 @@ TEST(MatrixKernels, TheFunctionsOfAllInstructionSetsAgree) {
     ASSERT_EQ(kernels.phi_functions({kSize, 0, kSize}, kMost,
                                     {levels.data(), memory[rest].lanes(), unit.lanes(), Y.lanes(),
                                      memory[rest + 1].lanes(), memory[rest + 2].lanes(), memory[rest + 3].lanes()}),
-              3)
+              2)
         << kernels.name;
     Eigen::MatrixXd all(kSize, 4 * kSize);
     all << memory[0].view(), memory[4].view(), memory[2].view(), memory[rest].view();
     if (first.size() == 0) first = all;
     // A few roundings of entries of about 10, in each of the doublings.
     EXPECT_LT((all - first).cwiseAbs().maxCoeff(), 1e-12) << kernels.name;
-    EXPECT_LT((all.leftCols(kSize) - Z.exp()).cwiseAbs().maxCoeff(), 1e-9) << kernels.name;
+    // The polynomial's remainder, 2e-8 at most, doubled twice.
+    EXPECT_LT((all.leftCols(kSize) - Z.exp()).cwiseAbs().maxCoeff(), 1e-6) << kernels.name;
   }
 }
 

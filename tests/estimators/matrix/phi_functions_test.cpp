@@ -21,7 +21,7 @@ Eigen::MatrixXd stiff_oscillator(double unit) {
 /// Of a matrix without a special form.
 bool compute(PhiFunctions& phi, const Eigen::MatrixXd& Z) {
   const int n = static_cast<int>(Z.rows());
-  return phi.compute(Z, {n, 0, n});
+  return phi.compute(1, Z, {n, 0, n});
 }
 Eigen::MatrixXd phi_3(PhiFunctions& phi) {
   const Eigen::Index n = phi.phi_1().rows(), m = phi.phi_1().columns();
@@ -34,11 +34,11 @@ TEST(PhiFunctions, TheExponentialIsThatOfEigen) {
   PhiFunctions phi;
   const Eigen::MatrixXd Z = stiff_oscillator(1);
   ASSERT_TRUE(compute(phi, Z));
-  // The polynomial's remainder, 5e-12 at most, doubled five times.
-  EXPECT_LT((phi.E().view() - Z.exp()).cwiseAbs().maxCoeff(), 1e-9);
+  // The polynomial's remainder, 2e-8 at most, doubled three times.
+  EXPECT_LT((phi.E().view() - Z.exp()).cwiseAbs().maxCoeff(), 1e-7);
   for (int k = 1; k <= phi.doublings(); ++k)
-    EXPECT_LT((phi.level(k).E.view() - (std::exp2(-k) * Z).exp()).cwiseAbs().maxCoeff(), 1e-9) << k;
-  EXPECT_GT(phi.doublings(), 2);
+    EXPECT_LT((phi.level(k).E.view() - (std::exp2(-k) * Z).exp()).cwiseAbs().maxCoeff(), 1e-7) << k;
+  EXPECT_GT(phi.doublings(), 1);
 }
 
 TEST(PhiFunctions, SatisfyTheirRecurrence) {
@@ -46,9 +46,9 @@ TEST(PhiFunctions, SatisfyTheirRecurrence) {
   const Eigen::MatrixXd Z = stiff_oscillator(1), I = Eigen::MatrixXd::Identity(4, 4);
   ASSERT_TRUE(compute(phi, Z));
   // As above, times the norm of Z, 11.
-  EXPECT_LT((Z * phi.phi_1().view() - (phi.E().view() - I)).norm(), 1e-8);
-  EXPECT_LT((Z * phi.phi_2().view() - (phi.phi_1().view() - I)).norm(), 1e-8);
-  EXPECT_LT((Z * phi_3(phi) - (phi.phi_2().view() - 0.5 * I)).norm(), 1e-8);
+  EXPECT_LT((Z * phi.phi_1().view() - (phi.E().view() - I)).norm(), 1e-6);
+  EXPECT_LT((Z * phi.phi_2().view() - (phi.phi_1().view() - I)).norm(), 1e-6);
+  EXPECT_LT((Z * phi_3(phi) - (phi.phi_2().view() - 0.5 * I)).norm(), 1e-6);
 }
 
 /// p kinematic rows, moving rows up to `end`, and constant states.
@@ -67,7 +67,7 @@ TEST(PhiFunctions, UseTheFormOfAMechanicalSystem) {
        {PhiShape{12, 6, 12}, {15, 6, 12}, {18, 6, 12}, {13, 5, 11}, {16, 7, 16}, {28, 14, 28}}) {
     const Eigen::MatrixXd Z = mechanical(shape);
     PhiFunctions phi, general;
-    ASSERT_TRUE(phi.compute(Z, shape));
+    ASSERT_TRUE(phi.compute(1, Z, shape));
     ASSERT_TRUE(compute(general, Z));
     EXPECT_EQ(phi.doublings(), general.doublings());
     const int m = shape.end - shape.first;
@@ -92,7 +92,7 @@ TEST(PhiFunctions, DoNotDependOnTheUnitsOfTheStates) {
   ASSERT_TRUE(compute(plain, stiff_oscillator(1)));
   const Eigen::Vector4d scale(1, unit, unit * unit, 1 / unit);
   const Eigen::MatrixXd back = scale.cwiseInverse().asDiagonal() * phi.phi_1().view() * scale.asDiagonal();
-  EXPECT_LT((back - plain.phi_1().view()).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((back - plain.phi_1().view()).cwiseAbs().maxCoeff(), 1e-7);
 }
 
 TEST(PhiFunctions, OfZeroAreTheReciprocalFactorials) {
