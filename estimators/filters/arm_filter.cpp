@@ -198,15 +198,12 @@ Innovation ArmFilter::correct(const Sample& sample) {
 Innovation ArmFilter::update(const Sample& sample) {
   if (!(sample.time_s > time_))
     throw std::invalid_argument("filter: time does not increase at " + std::to_string(sample.time_s) + " s");
-  Innovation innovation;
   const bool after_gap = sample.time_s - time_ > options_.restart_gap;
   const bool locked_out = sample.time_s - refused_since_ > options_.restart_gap;
-  if (!started_ || after_gap || locked_out || speed_is_due_) {
-    start(sample);
-  } else {
-    predict(sample.time_s);
-    innovation = take(sample);
-  }
+  const bool starts = !started_ || after_gap || locked_out || speed_is_due_;
+  if (starts) start(sample);
+  else predict(sample.time_s);
+  Innovation innovation = starts ? Innovation() : take(sample);
   innovation.time_s = sample.time_s;
   ++report_.steps;
   return innovation;

@@ -3,13 +3,13 @@
 namespace halyard {
 
 void BackwardPass::go_back_before(const BackwardStep& prediction) {
-  const Eigen::Index n = x_.size();
-  columns_.resize(n, 2 * n);
+  const int n = prediction.G.rows(), others = prediction.V_root.columns();
   deviation_ = x_ - prediction.x_predicted;
   x_ = prediction.x_0;
-  x_.noalias() += prediction.G * deviation_;
-  columns_.leftCols(n).noalias() = prediction.G * S_;
-  columns_.rightCols(n) = prediction.V_root;
+  x_.noalias() += prediction.G.view() * deviation_;
+  columns_.reshape(n, n + others);
+  multiply(prediction.G.columns(0, n), right(S_), columns_.columns(0, n), false);
+  set_block(prediction.V_root.view(), columns_.view().rightCols(others));
   root_.compute(columns_, S_);
 }
 

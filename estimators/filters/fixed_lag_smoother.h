@@ -38,7 +38,8 @@ class BackwardPass {
 
  private:
   Eigen::VectorXd x_, deviation_;
-  Eigen::MatrixXd S_, columns_;
+  Eigen::MatrixXd S_;
+  LaneMatrix columns_;
   LowerRoot root_;
 };
 

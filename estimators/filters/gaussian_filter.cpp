@@ -6,9 +6,33 @@
 
 namespace halyard {
 
+namespace {
+
+/// B [m x any] becomes L⁻¹ B, L lower triangular with few entries beside the diagonal.
+template <class B_t>
+void solve_lower(const ReadingMatrix& L, B_t&& B) {
+  for (Eigen::Index i = 0; i < B.rows(); ++i) {
+    for (Eigen::Index k = 0; k < i; ++k)
+      for (Eigen::Index c = 0; L(i, k) != 0 && c < B.cols(); ++c) B(i, c) -= L(i, k) * B(k, c);
+    const double per_diagonal = 1 / L(i, i);
+    for (Eigen::Index c = 0; c < B.cols(); ++c) B(i, c) *= per_diagonal;
+  }
+}
+
+/// C = A B of lower triangular factors [m x m].
+void set_lower_product(const ReadingMatrix& A, const ReadingMatrix& B, ReadingMatrix& C) {
+  const Eigen::Index m = A.rows();
+  C.setZero(m, m);
+  for (Eigen::Index c = 0; c < m; ++c)
+    for (Eigen::Index r = c; r < m; ++r)
+      for (Eigen::Index k = c; k <= r; ++k) C(r, c) += A(r, k) * B(k, c);
+}
+
+}  // namespace
+
 void LowerRoot::finish(Eigen::Ref<Eigen::MatrixXd> L) {
-  matrix_kernels()[0].lower_root(columns_.rows(), columns_.columns(), static_cast<int>(L.cols()), columns_.blocks(),
-                                 columns_.lanes(), L.data(), static_cast<int>(L.outerStride()));
+  widest_matrix_kernels().lower_root(columns_.rows(), columns_.columns(), static_cast<int>(L.cols()), columns_.blocks(),
+                                     columns_.lanes(), L.data(), static_cast<int>(L.outerStride()));
 }
 
 Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, const ReadingVector& z,
@@ -17,29 +41,24 @@ Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, co
   Innovation innovation;
   innovation.nu.resize(m);
   H_.set_zero(m, n);
-  measurement.linearise(x_, innovation.nu, H_.view());
+  auto H = H_.view();
+  measurement.linearise(x_, innovation.nu, H);
   innovation.nu = z - innovation.nu;
   check_measurement(innovation.nu);
-  auto array = array_root_.start(m + n, m + n);
-  array.leftCols(m).setZero();
-  array.topLeftCorner(m, m) = R_root;
-  set_block(S_, array.bottomRightCorner(n, n));
-  array.topRightCorner(m, n).setZero();
-  const auto H = H_.view();
-  for (int j = 0; j < m; ++j)
-    for (int k = 0; k < n; ++k)
-      if (const double h = H(j, k); h != 0) array.row(j).tail(n) += h * S_.row(k);
-  gain_.reshape(m + n, m);
-  const auto gain = gain_.view();
-  array_root_.finish(gain);
-
-  innovation.S_root = gain.topRows(m);
+  solve_lower(R_root, H);
+  corrected_.reshape(n, n);
+  set_block(S_, corrected_.view());
+  gain_.reshape(n, m);
+  ReadingMatrix L(m, m);
+  widest_matrix_kernels().correct(n, m, corrected_.blocks(), H.data(), static_cast<int>(H.outerStride()),
+                                  corrected_.lanes(), gain_.lanes(), L.data(), static_cast<int>(L.outerStride()));
+  set_lower_product(R_root, L, innovation.S_root);
   ReadingVector whitened = innovation.nu;
-  innovation.S_root.triangularView<Eigen::Lower>().solveInPlace(whitened);
+  solve_lower(innovation.S_root, whitened);
   innovation.accepted = whitened.squaredNorm() <= gate;
   if (innovation.accepted) {
-    for (int j = 0; j < m; ++j) x_ += whitened(j) * gain.col(j).tail(n);
-    set_block(array_root_.rest().bottomRightCorner(n, n), S_);
+    for (int j = 0; j < m; ++j) x_ += whitened(j) * gain_.view().col(j);
+    set_block(std::as_const(corrected_).view(), S_);
   }
   return innovation;
 }
@@ -47,21 +66,23 @@ Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, co
 void GaussianFilter::backward_step(const Eigen::VectorXd& x_0, const Eigen::MatrixXd& S_0, BackwardStep& step) {
   const int n = static_cast<int>(x_predicted_.size()), before = count_columns_before(),
             predicted = predicted_columns_.columns();
-  auto array = array_root_.start(2 * n, std::max({predicted, before, 2 * n}));
-  array.setZero();
-  array.topLeftCorner(n, predicted) = predicted_columns_.view();
+  auto array = array_root_.start(2 * n, predicted);
+  set_block(std::as_const(predicted_columns_).view(), array.topRows(n));
   set_columns_before(S_0, array.bottomLeftCorner(n, before));
-  triangle_.reshape(2 * n, 2 * n);
+  array.bottomRightCorner(n, predicted - before).setZero();
+  triangle_.reshape(2 * n, n);
   auto triangle = triangle_.view();
   array_root_.finish(triangle);
   step.x_0 = x_0;
   step.x_predicted = x_predicted_;
-  step.V_root = triangle.bottomRightCorner(n, n);
-  step.G = triangle.bottomLeftCorner(n, n);
-  auto S = triangle.topLeftCorner(n, n);
+  step.V_root.reshape(n, predicted - n);
+  set_block(array_root_.rest().bottomRightCorner(n, predicted - n), step.V_root.view());
+  step.G.reshape(n, n);
+  set_block(triangle.bottomRows(n), step.G.view());
+  auto S = triangle.topRows(n);
   for (int i = 0; i < n; ++i)
     if (!(S(i, i) > 0)) S(i, i) = 1;  // a state without doubt has no gain either
-  S.triangularView<Eigen::Lower>().solveInPlace<Eigen::OnTheRight>(step.G);
+  S.triangularView<Eigen::Lower>().solveInPlace<Eigen::OnTheRight>(step.G.view());
 }
 
 void GaussianFilter::record(const DiscreteProcess& process, const Eigen::VectorXd& x_0,
@@ -69,21 +90,20 @@ void GaussianFilter::record(const DiscreteProcess& process, const Eigen::VectorX
   prediction.x_0 = x_0;
   prediction.x_1 = x_predicted_;
   const int others = predicted_columns_.columns() - count_columns_before();
-  prediction.N.resize(predicted_columns_.rows(), others);
-  set_block(std::as_const(predicted_columns_).view().rightCols(others), prediction.N);
-  process.transition(x_0, prediction.F);
+  prediction.N.reshape(predicted_columns_.rows(), others);
+  set_block(std::as_const(predicted_columns_).view().rightCols(others), prediction.N.view());
+  prediction.F.reshape(predicted_columns_.rows(), predicted_columns_.rows());
+  process.transition(x_0, prediction.F.view());
 }
 
 void GaussianFilter::predict_again(const LinearPrediction& p) {
-  const int n = static_cast<int>(x_.size()), others = static_cast<int>(p.N.cols());
-  F_.reshape(n, n);
-  set_block(p.F, F_.view());
+  const int n = static_cast<int>(x_.size()), others = p.N.columns();
   deviation_ = x_ - p.x_0;
   x_ = p.x_1;
-  x_.noalias() += p.F * deviation_;
+  x_.noalias() += p.F.view() * deviation_;
   again_.reshape(n, n + others);
-  multiply(F_.columns(0, n), right(S_), again_.columns(0, n), false);
-  set_block(p.N, again_.view().rightCols(others));
+  multiply(p.F.columns(0, n), right(S_), again_.columns(0, n), false);
+  set_block(p.N.view(), again_.view().rightCols(others));
   root_.compute(again_, S_);
 }
 

@@ -36,9 +36,11 @@ class DiscreteProcess {
     return false;
   }
   /// F [n x n] becomes ∂f/∂x at x_0, where the last of these calls has started.
-  virtual void transition(const Eigen::VectorXd& x_0, Eigen::MatrixXd& F) const {
+  virtual void transition(const Eigen::VectorXd& x_0, Eigen::Ref<Eigen::MatrixXd> F) const {
     Eigen::VectorXd x = x_0;
-    advance_with_jacobian(x, F);
+    Eigen::MatrixXd jacobian(F.rows(), F.cols());
+    advance_with_jacobian(x, jacobian);
+    F = jacobian;
   }
   /// Name of a state for messages: "joint_rate_2 at 3.1 s".
   virtual std::string name_of(int state) const = 0;
@@ -88,10 +90,10 @@ class LowerRoot {
 ///   x = x_0 + G (x' - x⁻) + v,  v ~ N(0, V Vᵀ)        G = cov(x, x') (P⁻)⁻¹
 ///
 ///   x_0, x⁻   mean before and after the prediction            [n]
-///   G, V      gain, lower root of cov(x | x')                 [n x n]
+///   G, V      gain, root of cov(x | x')                       [n x n], [n x any]
 struct BackwardStep {
   Eigen::VectorXd x_0, x_predicted;
-  Eigen::MatrixXd G, V_root;
+  LaneMatrix G, V_root;
 };
 
 /// A prediction as the linear map that it was: x_1 + F (x - x_0), with the noise N Nᵀ.
@@ -101,7 +103,7 @@ struct BackwardStep {
 ///   N          Q_root, and what else the filter had beside F S_0     [n x any]
 struct LinearPrediction {
   Eigen::VectorXd x_0, x_1;
-  Eigen::MatrixXd F, N;
+  LaneMatrix F, N;
 };
 
 class GaussianFilter {
@@ -111,8 +113,8 @@ class GaussianFilter {
   void reset(const Eigen::VectorXd& x, const Eigen::MatrixXd& S) { x_ = x, S_ = S; }
   /// Throws std::runtime_error naming the state if the belief is no longer finite.
   virtual void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) = 0;
-  /// The backward step of the last predict(), which started at x_0, S_0. The triangular root of the left array is the
-  /// right array:
+  /// The backward step of the last predict(), which started at x_0, S_0. The reflections that make the first rows of the
+  /// left array triangular turn it into the right one:
   ///
   ///   [ D  Q_root ]      →    [ S⁻       0    ]     D: predicted points minus their mean, or F S_0
   ///   [ A    0    ]           [ G S⁻   V_root ]     A: the same columns before the prediction
@@ -133,13 +135,14 @@ class GaussianFilter {
   long repaired() const { return repaired_; }
 
  protected:
-  /// The exact update with a measurement that is affine, or linearised at x: with ν = z - h(x) and H = ∂h/∂x, the
-  /// left array is rotated to the right one, whose first columns are triangular:
+  /// The exact update with a measurement that is affine, or linearised at x: with ν = z - h(x) and H = ∂h/∂x, whitened by
+  /// R_root, one measurement after the other (MatrixKernels::correct()):
   ///
-  ///   [ R_root  H S ]     →    [ S_y         0  ]
-  ///   [   0      S  ]          [ P_xy S_y⁻ᵀ  S' ]
+  ///   L Lᵀ = I + H' P H'ᵀ,  H' = R_root⁻¹ H         S_y = R_root L
+  ///   x' = x + G S_y⁻¹ ν,   G = P H'ᵀ L⁻ᵀ           S' S'ᵀ = P - G Gᵀ
   ///
-  /// Then x' = x + (P_xy S_y⁻ᵀ) S_y⁻¹ ν. Source: Kailath, Sayed, Hassibi, "Linear Estimation", chapter 12.
+  /// R_root: lower triangular, and not singular. Source: Bierman, "Factorization Methods for Discrete Sequential
+  /// Estimation", 1977, chapter V (Potter).
   Innovation update_linear(const MeasurementModel& measurement, const ReadingVector& z, const ReadingMatrix& R_root,
                            double gate);
   void check_finite(const DiscreteProcess& process) const;
@@ -158,10 +161,10 @@ class GaussianFilter {
   LowerRoot root_;
 
  private:
-  LaneMatrix H_, triangle_;
-  LaneMatrix gain_;  // S_y, and below it P_xy S_y⁻ᵀ
+  LaneMatrix H_, gain_, corrected_;  // H', G, S' of update_linear()
+  LaneMatrix triangle_;
   LowerRoot array_root_;
-  LaneMatrix F_, again_;  // of predict_again()
+  LaneMatrix again_;  // of predict_again()
   Eigen::VectorXd deviation_;
 };
 

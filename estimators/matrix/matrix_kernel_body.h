@@ -31,82 +31,129 @@ void product_with(int rows, int k, int m, const Lanes* A, int a_blocks, const Ri
 
 void product(int rows, int k, int m, const Lanes* A, int a_blocks, const RightFactor& B, Lanes* C, int c_blocks,
              bool add) {
-  const auto with = k == 12 ? product_with<12> : k == 6 ? product_with<6> : product_with<0>;
+  const auto with = k == 6    ? product_with<6>
+                    : k == 12 ? product_with<12>
+                    : k == 15 ? product_with<15>
+                    : k == 18 ? product_with<18>
+                              : product_with<0>;
   with(rows, k, m, A, a_blocks, B, C, c_blocks, add);
 }
 
-/// A reflection of the rows of A from the right that leaves only entry i of row i, which becomes `image`: with v that row
-/// less image e_i, A -= (A v) vᵀ factor.
-struct Reflection {
-  int i, columns, stride;  ///< columns: of A; stride: registers of a column
-  double image, factor;
-};
+constexpr int kMostRootPieces = kMostRootRows / tiles::kPieceWidth;
 
-/// f<height>(p) for the registers from `first` to `end`, p the first of at most three; the lowest come last.
-template <class F>
-HALYARD_INLINE void from_the_end(int first, int end, const F& f) {
-  int p = end;
-  while (p - first >= 3) p -= 3, f.template operator()<3>(p);
-  if (p - first == 2) f.template operator()<2>(first);
-  if (p - first == 1) f.template operator()<1>(first);
+/// A -= u times row `from`, and then w = A times row `onto`, of `columns` columns. known: the height in registers, or 0 if
+/// the compiler is not to know it.
+template <int known>
+HALYARD_INLINE void reflect_of(int height, int from, int onto, int columns, int stride, const Piece* u, Piece* A,
+                               Piece* w) {
+  const int h = known > 0 ? known : height;
+  Piece factor[known > 0 ? known : kMostRootPieces], sum[known > 0 ? known : kMostRootPieces];
+  _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) factor[p] = u[p], sum[p] = Piece{};
+  for (int c = 0; c < columns; ++c, A += stride) {
+    const double* entries = reinterpret_cast<const double*>(A);
+    const Piece entry = tiles::all(entries[from]);
+    _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) A[p] -= factor[p] * entry;
+    const Piece next = tiles::all(entries[onto]);
+    _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) sum[p] += next * A[p];
+  }
+  _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) w[p] = sum[p];
 }
 
-/// w = A times row i, of the columns from i on. A, w: at the first of these registers; row: entry i of column 0.
-template <int height>
-HALYARD_INLINE void project(const Reflection& r, const Piece* A, const double* row, Piece* w) {
-  Piece sum[2][height];
-  _Pragma("GCC unroll 3") for (int h = 0; h < height; ++h) sum[0][h] = sum[1][h] = Piece{};
-  const int row_step = r.stride * tiles::kPieceWidth;
-  int c = r.i;
-  for (; c + 2 <= r.columns; c += 2) _Pragma("GCC unroll 2") for (int odd = 0; odd < 2; ++odd) {
-      const Piece factor = tiles::all(row[(c + odd) * row_step]);
-      _Pragma("GCC unroll 3") for (int h = 0; h < height; ++h) sum[odd][h] += factor * A[(c + odd) * r.stride + h];
-    }
-  if (c < r.columns)
-    _Pragma("GCC unroll 3") for (int h = 0; h < height; ++h) sum[0][h] +=
-        tiles::all(row[c * row_step]) * A[c * r.stride + h];
-  _Pragma("GCC unroll 3") for (int h = 0; h < height; ++h) w[h] = sum[0][h] + sum[1][h];
-}
-
-/// Reflects the columns after the i-th, which is not needed any more. w: A v.
-template <int height>
-HALYARD_INLINE void reflect(const Reflection& r, const Piece* w, const double* row, Piece* A) {
-  Piece u[height];
-  _Pragma("GCC unroll 3") for (int h = 0; h < height; ++h) u[h] = r.factor * w[h];
-  for (int c = r.i + 1; c < r.columns; ++c) {
-    const Piece entry = tiles::all(row[c * r.stride * tiles::kPieceWidth]);
-    _Pragma("GCC unroll 3") for (int h = 0; h < height; ++h) A[c * r.stride + h] -= u[h] * entry;
+void reflect(int height, int from, int onto, int columns, int stride, const Piece* u, Piece* A, Piece* w) {
+  switch (height) {
+    case 1: return reflect_of<1>(height, from, onto, columns, stride, u, A, w);
+    case 2: return reflect_of<2>(height, from, onto, columns, stride, u, A, w);
+    case 3: return reflect_of<3>(height, from, onto, columns, stride, u, A, w);
+    case 4: return reflect_of<4>(height, from, onto, columns, stride, u, A, w);
+    case 5: return reflect_of<5>(height, from, onto, columns, stride, u, A, w);
+    case 6: return reflect_of<6>(height, from, onto, columns, stride, u, A, w);
+    default: return reflect_of<0>(height, from, onto, columns, stride, u, A, w);
   }
 }
 
+/// Column i of L [n]: zeros, and from row i on scale times v.
+HALYARD_INLINE void put_column(int n, int i, double scale, const Piece* v, double* L) {
+  for (int p = i / tiles::kPieceWidth, height = tiles::pieces_of(n); p < height; ++p) {
+    const Piece entries = scale * v[p];
+    const int k = p * tiles::kPieceWidth;
+    if (k + tiles::kPieceWidth <= n) __builtin_memcpy(L + k, &entries, sizeof(Piece));
+    else
+      for (int r = k; r < n; ++r) L[r] = entries[r - k];
+  }
+  for (int k = 0; k < i; ++k) L[k] = 0;
+}
+
+/// Reflection i turns row i of A into `image` times a unit vector: with v that row less the image, A -= (A v) vᵀ factor.
+/// w: A times row i.
 void lower_root(int n, int m, int steps, int blocks, Lanes* A, double* L, int l_stride) {
   const int height = pieces_of(n), stride = blocks * kPiecesPerBlock;
-  const double* entries = reinterpret_cast<const double*>(A);
-  Piece w[kMostRootRows / tiles::kPieceWidth];
-  const double* of_w = reinterpret_cast<const double*>(w);
+  Piece w[kMostRootPieces], u[kMostRootPieces];
+  for (int p = 0; p < height; ++p) u[p] = Piece{};
+  reflect(height, 0, 0, m, stride, u, pieces(A), w);
   for (int i = 0; i < steps; ++i) {
-    Reflection r{i, m, stride, 0, 0};
-    const int first = i / tiles::kPieceWidth;
-    from_the_end(
-        first,
-        height, [&]<int h>(int p) __attribute__((always_inline)) { project<h>(r, pieces(A) + p, entries + i, w + p); });
+    const int first = i / tiles::kPieceWidth, row = i % tiles::kPieceWidth;
     const Piece* pivot = pieces(A) + i * stride;
-    const double* of_pivot = reinterpret_cast<const double*>(pivot);
-    const double norm = __builtin_sqrt(of_w[i]), per_norm = 1 / norm,
-                 size = of_pivot[i] > 0 ? of_pivot[i] : -of_pivot[i];
-    r.factor = 1 / (norm * (norm + size));
-    double* of_L = L + i * l_stride;
-    for (int k = 0; k < i; ++k) of_L[k] = 0;
-    if (norm == 0) {  // a row of zeros: no reflection
-      for (int k = i; k < n; ++k) of_L[k] = of_pivot[k];
-      continue;
+    const double entry = pivot[first][row], norm = __builtin_sqrt(w[first][row]), size = entry > 0 ? entry : -entry,
+                 image = entry > 0 ? -norm : norm;
+    const bool is_zero = norm == 0;  // a row of zeros: no reflection
+    const double factor = is_zero ? 0 : 1 / (norm * (norm + size));
+    put_column(n, i, is_zero ? 1 : 1 / norm, is_zero ? pivot : w, L + i * l_stride);
+    if (i + 1 == n) break;
+    for (int p = first; p < height; ++p) u[p] = factor * (w[p] - image * pivot[p]);
+    reflect(height - first, row, row + 1, m - i - 1, stride, u + first, pieces(A) + (i + 1) * stride + first,
+            w + first);
+  }
+}
+
+/// g = S w / l, and then S -= g wᵀ / (l + 1). known: as of reflect_of().
+template <int known>
+HALYARD_INLINE void correct_of(int height, int n, int stride, const double* w, double l, Piece* S, Piece* g) {
+  const int h = known > 0 ? known : height;
+  const double per_l = 1 / l, share = 1 / (l + 1);
+  Piece even[known > 0 ? known : kMostRootPieces], odd[known > 0 ? known : kMostRootPieces];
+  _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) even[p] = odd[p] = Piece{};
+  int c = 0;
+  for (; c + 2 <= n; c += 2) {
+    const Piece first = tiles::all(w[c]), second = tiles::all(w[c + 1]);
+    _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) {
+      even[p] += first * S[c * stride + p];
+      odd[p] += second * S[(c + 1) * stride + p];
     }
-    for (int k = i; k < n; ++k) of_L[k] = per_norm * of_w[k];
-    r.image = of_pivot[i] > 0 ? -norm : norm;
-    for (int p = first; p < height; ++p) w[p] -= r.image * pivot[p];
-    from_the_end(
-        first,
-        height, [&]<int h>(int p) __attribute__((always_inline)) { reflect<h>(r, w + p, entries + i, pieces(A) + p); });
+  }
+  if (c < n) _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) even[p] += tiles::all(w[c]) * S[c * stride + p];
+  _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) {
+    g[p] = per_l * (even[p] + odd[p]);
+    even[p] = share * g[p];
+  }
+  for (c = 0; c < n; ++c) {
+    const Piece factor = tiles::all(w[c]);
+    _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) S[c * stride + p] -= even[p] * factor;
+  }
+}
+
+void correct(int n, int m, int blocks, const double* H, int h_stride, Lanes* S, Lanes* G, double* L, int l_stride) {
+  const int height = pieces_of(n), stride = blocks * kPiecesPerBlock, column = blocks * kLaneWidth;
+  const double *of_S = reinterpret_cast<const double*>(S), *of_G = reinterpret_cast<const double*>(G);
+  double w[kMostRootRows];
+  for (int j = 0; j < m; ++j) {
+    for (int c = 0; c < n; ++c) w[c] = 0;
+    for (int k = 0; k < m; ++k) L[j + k * l_stride] = 0;
+    for (int i = 0; i < n; ++i) {
+      const double h = H[j + i * h_stride];
+      if (h == 0) continue;
+      for (int c = 0; c < n; ++c) w[c] += h * of_S[i + c * column];
+      for (int k = 0; k < j; ++k) L[j + k * l_stride] += h * of_G[i + k * column];
+    }
+    double even = 1, odd = 0;  // of wᵀ w + 1: parts that do not wait for each other
+    for (int c = 0; c + 1 < n; c += 2) even += w[c] * w[c], odd += w[c + 1] * w[c + 1];
+    if (n % 2 == 1) even += w[n - 1] * w[n - 1];
+    const double l = __builtin_sqrt(even + odd);
+    L[j + j * l_stride] = l;
+    Piece* g = pieces(G) + j * stride;
+    if (height == 3) correct_of<3>(height, n, stride, w, l, pieces(S), g);
+    else if (height == 4) correct_of<4>(height, n, stride, w, l, pieces(S), g);
+    else if (height == 5) correct_of<5>(height, n, stride, w, l, pieces(S), g);
+    else correct_of<0>(height, n, stride, w, l, pieces(S), g);
   }
 }
 
@@ -157,7 +204,7 @@ void transpose(int rows, int columns, const double* A, int a_stride, double* B, 
 }
 
 constexpr MatrixKernels matrix_kernels_named(const char* name) {
-  return {name, product, lower_root, column_squares, copy, transpose, phi_functions};
+  return {name, product, lower_root, correct, column_squares, copy, transpose, phi_functions};
 }
 
 }  // namespace

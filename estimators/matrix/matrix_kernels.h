@@ -44,6 +44,11 @@ struct MatrixKernels {
   /// overwritten; its rows and columns from `steps` on hold the rest B, with L Lᵀ + B Bᵀ = A Aᵀ. L above the diagonal
   /// becomes zero.
   void (*lower_root)(int n, int m, int steps, int blocks, Lanes* A, double* L, int l_stride);
+  /// The exact correction of a root S [n x n] with m measurements H x [m x n], whose noises are independent and have a
+  /// variance of one: L [m x m] and G [n x m] with L Lᵀ = I + H S Sᵀ Hᵀ, L lower triangular, G Lᵀ = S Sᵀ Hᵀ; S becomes S'
+  /// with S' S'ᵀ = S Sᵀ - G Gᵀ. S and G: in lanes, `blocks` a column. One measurement after the other (Potter): with
+  /// w = Sᵀ h and l² = 1 + wᵀ w, the column of G is S w / l, and S' = S - S w wᵀ / (l (l + 1)).
+  void (*correct)(int n, int m, int blocks, const double* H, int h_stride, Lanes* S, Lanes* G, double* L, int l_stride);
   /// Σ_r A_rc² of each column of A [rows x columns].
   void (*column_squares)(int rows, int columns, const Lanes* A, int blocks, double* squares);
   /// B [rows x columns] = A; strides: of columns.
@@ -57,9 +62,9 @@ struct MatrixKernels {
 
 /// The widest that this processor has first, the generic one last.
 const std::vector<MatrixKernels>& matrix_kernels();
-
-}  // namespace halyard
 inline const MatrixKernels& widest_matrix_kernels() {
   static const MatrixKernels& widest = matrix_kernels()[0];
   return widest;
 }
+
+}  // namespace halyard

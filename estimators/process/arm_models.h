@@ -27,10 +27,9 @@ class ArmProcess : public DiscreteProcess {
   bool advance_pairs(Eigen::VectorXd& x, double gamma, LaneMatrix& FS, Eigen::VectorXd& shift) const override {
     return exponential_ && exponential_->advance_pairs(x, gamma, FS, shift);
   }
-  void transition(const Eigen::VectorXd& x_0, Eigen::MatrixXd& F) const override {
+  void transition(const Eigen::VectorXd& x_0, Eigen::Ref<Eigen::MatrixXd> F) const override {
     if (exponential_ && exponential_->transition(F)) return;
     Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxStates, 1> x = x_0;
-    F.resize(x.size(), x.size());
     model_.advance_with_jacobian(step_, x.data(), F);
   }
   std::string name_of(int state) const override {

@@ -198,13 +198,11 @@ bool ExponentialStep::advance_pairs(Eigen::VectorXd& x, double gamma, LaneMatrix
   return true;
 }
 
-bool ExponentialStep::transition(Eigen::MatrixXd& F) {
+bool ExponentialStep::transition(Eigen::Ref<Eigen::MatrixXd> F) {
   if (!usable_) return false;
-  const int n = spread_.columns();
   set_rows_transposed(phi_.E().view(), spread_, 0);  // a root that is the unit matrix
   if (!set_growth()) return false;
   growth_.set_lanes([&](std::size_t i) { return spread_.lanes()[i] + growth_.lanes()[i]; });
-  F.resize(n, n);
   set_transposed(growth_.view(), F);
   return true;
 }

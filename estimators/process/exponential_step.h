@@ -100,7 +100,7 @@ class ExponentialStep {
   /// The same, and `shift` becomes the mean of the sigma points x ± gamma S_i after the step, less x⁺.
   bool advance_pairs(Eigen::VectorXd& x, double gamma, LaneMatrix& FS, Eigen::VectorXd& shift);
   /// F [n_states x n_states] of the step that one of these has just taken; false: it was refused.
-  bool transition(Eigen::MatrixXd& F);
+  bool transition(Eigen::Ref<Eigen::MatrixXd> F);
 
  private:
   /// x + h φ_1 f. With w, the rates of the positions, E w - w is h φ_1 A w, and f - A w has no kinematic rows.

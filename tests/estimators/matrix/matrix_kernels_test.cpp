@@ -131,6 +131,24 @@ TEST(MatrixKernels, AFewReflectionsLeaveARootOfTheRest) {
   }
 }
 
+TEST(MatrixKernels, ACorrectionIsThatOfTheCovariances) {
+  for (const MatrixKernels& kernels : matrix_kernels())
+    for (const int n : {1, 4, 12, 15, 18, 27})
+      for (const int m : {1, 3}) {
+        const Eigen::MatrixXd S = random_matrix(n, n, 12), H = random_matrix(m, n, 13), P = S * S.transpose();
+        LaneMatrix root = in_lanes(S), gain = in_lanes(Eigen::MatrixXd::Zero(n, m));
+        Eigen::MatrixXd L(m, m);
+        kernels.correct(n, m, root.blocks(), H.data(), m, root.lanes(), gain.lanes(), L.data(), m);
+        const Eigen::MatrixXd G = gain.view(), after = root.view();
+        // m corrections of sums of n products of n products below 1.
+        const double tolerance = 10 * m * n * n * kEps;
+        EXPECT_TRUE(L.isLowerTriangular(0)) << kernels.name << n << m;
+        EXPECT_LT((L * L.transpose() - H * P * H.transpose() - Eigen::MatrixXd::Identity(m, m)).norm(), tolerance);
+        EXPECT_LT((G * L.transpose() - P * H.transpose()).norm(), tolerance) << kernels.name << n << m;
+        EXPECT_LT((after * after.transpose() - P + G * G.transpose()).norm(), tolerance) << kernels.name << n << m;
+      }
+}
+
 /// check(kernels, rows, columns) for parts of several sizes.
 template <class Check>
 void for_parts(const Check& check) {
