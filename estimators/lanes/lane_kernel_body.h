@@ -2,7 +2,6 @@
 /// No include guard: each lanes_<set>.cpp includes it exactly once.
 
 #include "estimators/lanes/lane_kernels.h"
-#include "estimators/process/arm_second_stage.h"
 
 namespace halyard {
 namespace {
@@ -37,15 +36,15 @@ void derivative(const Transmission<Lanes>& transmission, const StateLayout& layo
       });
 }
 
-void linearise(const LinearisedArm& model, double time, const HeldInputs& in, const double* x,
-               const LinearisedPoint* near, double* x_dot, double* A, LinearisedPoint& point) {
+void linearise(const LinearisedArm& model, double time, const HeldInputs& in, const double* x, const ChainPoint* near,
+               double* x_dot, double* A, LinearisedPoint& point) {
   with_known_joints(
       model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
         linearised_derivative<known>(model, time, in, x, near, x_dot, A, point);
       });
 }
 
-void mean_curvature(const LinearisedArm& model, LinearisedPoint& point, const LinearisedPoint* near, const double* x,
+void mean_curvature(const LinearisedArm& model, LinearisedPoint& point, const ChainPoint* near, const double* x,
                     const double* x_dot, const double* A, double gamma, int count, int blocks, const Lanes* root,
                     double* mean) {
   with_known_joints(
@@ -54,11 +53,11 @@ void mean_curvature(const LinearisedArm& model, LinearisedPoint& point, const Li
       });
 }
 
-void second_stage(const LinearisedArm& model, const LinearisedPoint& start, const double* x, const double* x_dot,
-                  const double* A, const double* x_2, LinearisedPoint& end, double* D) {
+void second_stage(const LinearisedArm& model, const LinearisedPoint& start, const double* x, const double* x_2,
+                  LinearisedPoint& end, double* D) {
   with_known_joints(
       model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
-        halyard::second_stage<known>(model, start, x, x_dot, A, x_2, end, D);
+        halyard::second_stage<known>(model, start, x, x_2, end, D);
       });
 }
 
@@ -78,9 +77,16 @@ void near_excess(const LinearisedArm& model, const LinearisedPoint& start, const
       });
 }
 
+void impulse_response(const LinearisedArm& model, const ImpulseStep& step, int blocks, const Lanes* G, Lanes* Gamma) {
+  with_known_joints(
+      model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
+        halyard::impulse_response<known>(model, step, blocks, G, Gamma);
+      });
+}
+
 constexpr LaneKernels kernels_named(const char* name) {
-  return {name,           advance<Lanes>, advance<Dual>, derivative, linearise,
-          mean_curvature, second_stage,   far_excess,    near_excess};
+  return {name,           advance<Lanes>, advance<Dual>, derivative,  linearise,
+          mean_curvature, second_stage,   far_excess,    near_excess, impulse_response};
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "estimators/process/arm_linearisation.h"
+#include "estimators/process/arm_impulses.h"
 
 namespace halyard {
 
@@ -25,18 +25,21 @@ struct LaneKernels {
                      Lanes* x_dot);
   /// linearised_derivative() of arm_linearisation.h.
   void (*linearise)(const LinearisedArm& model, double time, const HeldInputs& in, const double* x,
-                    const LinearisedPoint* near, double* x_dot, double* A, LinearisedPoint& point);
+                    const ChainPoint* near, double* x_dot, double* A, LinearisedPoint& point);
   /// mean_curvature() of arm_curvature.h.
-  void (*mean_curvature)(const LinearisedArm& model, LinearisedPoint& point, const LinearisedPoint* near,
-                         const double* x, const double* x_dot, const double* A, double gamma, int count, int blocks,
-                         const Lanes* root, double* mean);
+  void (*mean_curvature)(const LinearisedArm& model, LinearisedPoint& point, const ChainPoint* near, const double* x,
+                         const double* x_dot, const double* A, double gamma, int count, int blocks, const Lanes* root,
+                         double* mean);
   /// second_stage(), set_far_excess() and set_near_excess() of arm_second_stage.h.
-  void (*second_stage)(const LinearisedArm& model, const LinearisedPoint& start, const double* x, const double* x_dot,
-                       const double* A, const double* x_2, LinearisedPoint& end, double* D);
+  void (*second_stage)(const LinearisedArm& model, const LinearisedPoint& start, const double* x, const double* x_2,
+                       LinearisedPoint& end, double* D);
   void (*far_excess)(const LinearisedArm& model, const LinearisedPoint& start, const LinearisedPoint& end,
                      const double* x_2, double factor, int blocks, const Lanes* d, Lanes* rates);
   void (*near_excess)(const LinearisedArm& model, const LinearisedPoint& start, const LinearisedPoint& end,
                       double factor, int blocks, const Lanes* d, Lanes* rates);
+  /// impulse_response() of arm_impulses.h.
+  void (*impulse_response)(const LinearisedArm& model, const ImpulseStep& step, int blocks, const Lanes* G,
+                           Lanes* Gamma);
 };
 
 /// The kernels that this processor can run, the widest first; the last is the generic one.

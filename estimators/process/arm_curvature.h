@@ -3,12 +3,12 @@
 /// law. Frictions and cables have a curvature in one direction each, so that the variance of its speed or stretch says
 /// all. Of the chain, the inverse dynamics D(q, q', a) = M(q) a + h(q, q') is evaluated at each deviation, eight at a time:
 ///
-///   M n_i = ½ F''(d_i, d_i) - (D(q + δq, q' + δq', a + δa) - F - D' (δq, δq') - M δa)        n: the joints' part of N
+///   M n_i = ½ F''(d_i, d_i) - (D(q + δq, q' + δq', a + δa) - D - D' (δq, δq') - M δa)        n: the joints' part of N
 ///
 ///   d    gamma times a column of the root S                 δq, δq'   its parts of the joints
-///   δa   what A makes of d                                  D'        slopes at constant a (LinearisedPoint)
-///   F    forces on the joints at x
+///   δa   what A makes of d                                  D'        slopes at constant a (ChainPoint)
 
+#include "estimators/matrix/product_tiles.h"
 #include "estimators/process/arm_linearisation.h"
 
 namespace halyard {
@@ -20,16 +20,10 @@ struct CurvatureSums {
   Lanes stretch[kMaxJoints];    ///< squares of what they make of the stretches
 };
 
-HALYARD_INLINE double sum_of_lanes(const Lanes& a) {
-  double sum = 0;
-  for (int i = 0; i < kLaneWidth; ++i) sum += a[i];
-  return sum;
-}
-
-/// What a deviation, lanes of each row of d, makes of the stretch of cable k.
-HALYARD_INLINE Lanes stretch_of(const PlainTransmission& t, const StateLayout& l, int n, int k, const Lanes* d,
-                                int blocks) {
-  Lanes stretch = t.travel[k] * d[*l.motor_angle[k] * blocks];
+/// What a deviation makes of the stretch of cable k. d: its rows, or lanes of them, `blocks` apart.
+template <class T>
+HALYARD_INLINE T stretch_of(const PlainTransmission& t, const StateLayout& l, int n, int k, const T* d, int blocks) {
+  T stretch = t.travel[k] * d[*l.motor_angle[k] * blocks];
   for (int i = 0; i < n; ++i) stretch -= t.path[k][i] * d[l.position[i] * blocks];
   if (t.stretch[k].state >= 0) stretch += t.stretch[k].factor * d[t.stretch[k].state * blocks];
   return stretch;
@@ -47,11 +41,11 @@ HALYARD_INLINE void add_squares(const PlainTransmission& t, const StateLayout& l
   }
 }
 
-/// Adds what D of eight deviations is more than its linear part.
+/// Adds what D of eight deviations is more than its linear part. D: at x.
 template <int known>
-HALYARD_INLINE void add_chain(const ArmParameters<double>& arm, const StateLayout& l, const LinearisedPoint& point,
-                              const double* x, const double* x_dot, const double* A, double gamma, const Lanes* root,
-                              int blocks, CurvatureSums& sums) {
+HALYARD_INLINE void add_chain(const ArmParameters<double>& arm, const StateLayout& l, const ChainPoint& point,
+                              const double* D, const double* x, const double* x_dot, const double* A, double gamma,
+                              const Lanes* root, int blocks, CurvatureSums& sums) {
   const int n = joint_count<known>(arm);
   Lanes q[kMaxJoints], v[kMaxJoints], a[kMaxJoints], dq[kMaxJoints], dv[kMaxJoints], da[kMaxJoints], force[kMaxJoints];
   for (int k = 0; k < n; ++k) {
@@ -67,42 +61,54 @@ HALYARD_INLINE void add_chain(const ArmParameters<double>& arm, const StateLayou
   for (int k = 0; k < n; ++k) a[k] = gamma * da[k] + x_dot[l.rate[k]], da[k] = a[k] - x_dot[l.rate[k]];
   inverse_dynamics<known>(arm, chain_pose<known>(arm, q), v, a, force);
   for (int k = 0; k < n; ++k) {
-    Lanes rest = force[k] - point.force[k];
+    Lanes rest = force[k] - D[k];
     for (int i = 0; i < n; ++i)
       rest -= point.slope[k][i] * dq[i] + point.slope[k][n + i] * dv[i] + point.mass[k][i] * da[i];
     sums.chain[k] += rest;
   }
 }
 
-/// mean [size] of N over `count` deviations. root: rows of S [size x count], in `blocks` lanes each, with zeros beyond
-/// `count`. x_dot, A and point: at x. near: null, or what this function has left in the point of another state in the same
-/// step; the chain, whose curvature is small, then takes its part from there, and x, x_dot and A are not read.
+/// D = M a + h at x, with a of x_dot.
 template <int known>
-HALYARD_INLINE void mean_curvature(const LinearisedArm& model, LinearisedPoint& point, const LinearisedPoint* near,
+HALYARD_INLINE void set_chain_force(const ArmParameters<double>& arm, const StateLayout& l, const double* x,
+                                    const double* x_dot, double* D) {
+  double q[kMaxJoints], v[kMaxJoints], a[kMaxJoints];
+  for (int k = 0, n = joint_count<known>(arm); k < n; ++k)
+    q[k] = x[l.position[k]], v[k] = x[l.rate[k]], a[k] = x_dot[l.rate[k]];
+  inverse_dynamics<known>(arm, chain_pose<known>(arm, q), v, a, D);
+}
+
+/// mean [size] of N over `count` deviations. root: rows of S [size x count], in `blocks` lanes each, with zeros beyond
+/// `count`. x_dot, A and point: at x. near: null, or what this function has left in the point of a state shortly before;
+/// the chain, whose curvature is small, then takes its part from there, and x, x_dot and A are not read.
+template <int known>
+HALYARD_INLINE void mean_curvature(const LinearisedArm& model, LinearisedPoint& point, const ChainPoint* near,
                                    const double* x, const double* x_dot, const double* A, double gamma, int count,
                                    int blocks, const Lanes* root, double* mean) {
   const PlainTransmission& t = *model.plain;
   const StateLayout& l = model.layout;
   const int n = joint_count<known>(model.arm);
   CurvatureSums sums;
+  double D[kMaxJoints];
+  if (!near) set_chain_force<known>(model.arm, l, x, x_dot, D);
   for (int k = 0; k < n; ++k) sums.chain[k] = sums.speed[k] = sums.speed[n + k] = sums.stretch[k] = Lanes(0.0);
   for (int b = 0; b < blocks; ++b) {
     add_squares(t, l, n, root + b, blocks, sums);
-    if (!near) add_chain<known>(model.arm, l, point, x, x_dot, A, gamma, root + b, blocks, sums);
+    if (!near) add_chain<known>(model.arm, l, point.chain, D, x, x_dot, A, gamma, root + b, blocks, sums);
   }
   const double half = 0.5 * gamma * gamma / count;
   double force[kMaxJoints], pull[kMaxJoints], accelerations[kMaxJoints];
   for (int k = 0; k < n; ++k) {
-    point.chain_curvature[k] = near ? near->chain_curvature[k] : sum_of_lanes(sums.chain[k]) / count;
-    pull[k] = half * point.cable.curvature[k] * sum_of_lanes(sums.stretch[k]);
-    force[k] = -half * point.friction.curvature[n + k] * sum_of_lanes(sums.speed[n + k]) - point.chain_curvature[k];
+    point.chain.curvature[k] = near ? near->curvature[k] : tiles::sum_of(sums.chain[k]) / count;
+    pull[k] = half * point.cable.curvature[k] * tiles::sum_of(sums.stretch[k]);
+    force[k] = -half * point.friction.curvature[n + k] * tiles::sum_of(sums.speed[n + k]) - point.chain.curvature[k];
   }
   for (int k = 0; k < n; ++k)
     for (int i = 0; i < n; ++i) force[i] += t.path[k][i] * pull[k];
-  mobility_times(point, n, force, accelerations);
+  mobility_times(point.chain, n, force, accelerations);
   for (int i = 0; i < l.size; ++i) mean[i] = 0;
   for (int k = 0; k < n; ++k) {
-    const double held = half * point.friction.curvature[k] * sum_of_lanes(sums.speed[k]);
+    const double held = half * point.friction.curvature[k] * tiles::sum_of(sums.speed[k]);
     mean[*l.motor_rate[k]] = -t.per_rotor_inertia[k] * (held + t.travel[k] * pull[k]);
     mean[l.rate[k]] = accelerations[k];
   }

@@ -6,6 +6,9 @@
 ///   a   accelerations of the joints     [n]      rad/s² | m/s²
 ///   F   forces on the joints            [n]      N m | N
 ///
+/// M and the slopes may be those of a state shortly before, M_0 and its a_0. Then a = a_0 + M_0⁻¹ (F - (M a_0 + h)), whose
+/// error is the change of M since then times that of a.
+///
 /// Dual numbers differentiate the transmission in all directions of the state, if it is not plain. Slopes differentiate the
 /// inverse dynamics in the directions of q and q'. Neither passes through the mass matrix, its factors or its columns.
 
@@ -20,15 +23,21 @@ struct JointForces {
   double slope[kMaxJoints][kMaxStates];
 };
 
-/// What a linearisation finds besides x' and A.
-struct LinearisedPoint {
-  double force[kMaxJoints];                  ///< F
+/// What is found of the rigid chain.
+struct ChainPoint {
   double mass[kMaxJoints][kMaxJoints];       ///< M
   double mobility[kMaxJoints * kMaxJoints];  ///< M⁻¹ [n x n], column-major
   double slope[kMaxJoints][2 * kMaxJoints];  ///< of M a + h at constant a, in q and then in q'
-  Frictions friction;                        ///< of a plain transmission, as the next
+  double acceleration[kMaxJoints];           ///< a
+  double curvature[kMaxJoints];              ///< of M a + h: its mean, set by mean_curvature() of arm_curvature.h
+};
+
+/// What a linearisation finds besides x' and A.
+struct LinearisedPoint {
+  ChainPoint chain;
+  Frictions friction;  ///< of a plain transmission, as the next
   CableForces cable;
-  double chain_curvature[kMaxJoints];  ///< of M a + h: its mean, set by mean_curvature() of arm_curvature.h
+  double excess_rate = 0;  ///< of a second stage (arm_second_stage.h), 1/s
 };
 
 /// F, and all rows of x_dot and A but those of the joints' rates.
@@ -124,7 +133,7 @@ HALYARD_INLINE void linearise_plain_transmission(const PlainTransmission& t, con
 /// The slopes of M(q) a + h(q, q') at constant a.
 template <int known>
 HALYARD_INLINE void set_chain_slopes(const ArmParameters<double>& arm, const StateLayout& l, const double* x,
-                                     const double* a, LinearisedPoint& point) {
+                                     const double* a, ChainPoint& point) {
   const int n = joint_count<known>(arm);
   for (int first = 0; first < 2 * n; first += kLaneWidth) {  // directions: q, then q'
     Slopes q[kMaxJoints], v[kMaxJoints], held[kMaxJoints], force[kMaxJoints];
@@ -146,8 +155,7 @@ HALYARD_INLINE void set_chain_slopes(const ArmParameters<double>& arm, const Sta
 
 /// M and its inverse.
 template <int known>
-HALYARD_INLINE void set_mobility(const ArmParameters<double>& arm, const ChainPose<double>& pose,
-                                 LinearisedPoint& point) {
+HALYARD_INLINE void set_mobility(const ArmParameters<double>& arm, const ChainPose<double>& pose, ChainPoint& point) {
   const int n = joint_count<known>(arm);
   mass_matrix<known>(arm, pose, point.mass);
   add_rotor_mass<known>(arm, point.mass);
@@ -162,7 +170,7 @@ HALYARD_INLINE void set_mobility(const ArmParameters<double>& arm, const ChainPo
 }
 
 /// out = M⁻¹ v.
-HALYARD_INLINE void mobility_times(const LinearisedPoint& point, int n, const double* v, double* out) {
+HALYARD_INLINE void mobility_times(const ChainPoint& point, int n, const double* v, double* out) {
   for (int k = 0; k < n; ++k) {
     out[k] = 0;
     for (int i = 0; i < n; ++i) out[k] += point.mobility[k + i * n] * v[i];
@@ -181,11 +189,11 @@ struct HeldInputs {
   const Dual *command, *external;  ///< [n]
 };
 
-/// x_dot [size], A = ∂x'/∂x [size x size], column-major, and what is found besides. near: null, or the same of a state in the
-/// same step; M a + h has nearly the same slopes there, which are taken from it. known: see joint_count().
+/// x_dot [size], A = ∂x'/∂x [size x size], column-major, and what is found besides. near: null, or what was found of the
+/// chain at a state shortly before, from which M and the slopes are taken; it may be that of `point`. known: see joint_count().
 template <int known = 0>
 HALYARD_INLINE void linearised_derivative(const LinearisedArm& model, double time, const HeldInputs& in,
-                                          const double* x, const LinearisedPoint* near, double* x_dot, double* A,
+                                          const double* x, const ChainPoint* near, double* x_dot, double* A,
                                           LinearisedPoint& point) {
   const ArmParameters<double>& arm = model.arm;
   const StateLayout& l = model.layout;
@@ -197,28 +205,27 @@ HALYARD_INLINE void linearised_derivative(const LinearisedArm& model, double tim
   else
     linearise_transmission<known>(model.transmission, l, time, in.history, in.command, in.external, x, x_dot, A,
                                   forces);
-  double q[kMaxJoints], v[kMaxJoints], zero[kMaxJoints], rest[kMaxJoints], a[kMaxJoints];
-  for (int k = 0; k < n; ++k) q[k] = x[l.position[k]], v[k] = x[l.rate[k]], zero[k] = 0;
+  ChainPoint& chain = point.chain;
+  double q[kMaxJoints], v[kMaxJoints], a[kMaxJoints], rest[kMaxJoints], change[kMaxJoints];
+  for (int k = 0; k < n; ++k) q[k] = x[l.position[k]], v[k] = x[l.rate[k]], a[k] = near ? near->acceleration[k] : 0;
   const ChainPose<double> pose = chain_pose<known>(arm, q);
-  set_mobility<known>(arm, pose, point);
-  for (int k = 0; k < n; ++k) point.force[k] = forces.value[k];
-  inverse_dynamics<known>(arm, pose, v, zero, rest);
+  if (!near) set_mobility<known>(arm, pose, chain);
+  else if (near != &chain) chain = *near;
+  inverse_dynamics<known>(arm, pose, v, a, rest);
   for (int k = 0; k < n; ++k) rest[k] = forces.value[k] - rest[k];
-  mobility_times(point, n, rest, a);
-  for (int k = 0; k < n; ++k) x_dot[l.rate[k]] = a[k];
-  if (!near) set_chain_slopes<known>(arm, l, x, a, point);
-  for (int k = 0; near && k < n; ++k)
-    for (int i = 0; i < 2 * n; ++i) point.slope[k][i] = near->slope[k][i];
+  mobility_times(chain, n, rest, change);
+  for (int k = 0; k < n; ++k) x_dot[l.rate[k]] = chain.acceleration[k] = a[k] += change[k];
+  if (!near) set_chain_slopes<known>(arm, l, x, a, chain);
   for (int k = 0; k < n; ++k)
     for (int i = 0; i < n; ++i) {
-      forces.slope[k][l.position[i]] -= point.slope[k][i];
-      forces.slope[k][l.rate[i]] -= point.slope[k][n + i];
+      forces.slope[k][l.position[i]] -= chain.slope[k][i];
+      forces.slope[k][l.rate[i]] -= chain.slope[k][n + i];
     }
   for (int c = 0; c < l.size; ++c) {
     double column[kMaxJoints];
     for (int k = 0; k < n; ++k) column[k] = forces.slope[k][c];
     double accelerations[kMaxJoints];
-    mobility_times(point, n, column, accelerations);
+    mobility_times(chain, n, column, accelerations);
     for (int k = 0; k < n; ++k) A[l.rate[k] + c * l.size] = accelerations[k];
   }
 }

@@ -6,10 +6,11 @@
 namespace halyard {
 namespace {
 
-constexpr double kChainAge = 5e-3;            // s; at 1 m/s or rad/s a change of 5 mm or mrad
+constexpr double kChainAge = 1e-2;            // s; at 1 m/s or rad/s a change of 10 mm or mrad
 constexpr double kMeanTolerance = 0.05;       // of a standard deviation
 constexpr double kRootTolerance = 0.2;        // of the root
 constexpr double kHeldForceTolerance = 0.05;  // of the response
+constexpr double kNoGrowth = 1e-3;            // of the root
 
 /// ‖column of change‖ <= tolerance ‖column of whole‖ for all columns; false if one is not finite.
 bool is_small_change(const LaneMatrix& change, const LaneMatrix& whole, double tolerance) {
@@ -37,30 +38,19 @@ void ExponentialStep::linearise(const Step& step, const Eigen::VectorXd& x) {
   step_ = end_ = step;
   end_.time_s += step.dt_s;
   x_ = x;
-  const bool known = step.time_s >= chain_known_since_ && step.time_s < chain_known_since_ + kChainAge;
+  // Beside rates at sigma points, those of x have to be exact.
+  const bool known =
+      process_.is_smooth() && step.time_s >= chain_known_since_ && step.time_s < chain_known_since_ + kChainAge;
   if (!known) chain_known_since_ = step.time_s, has_curvature_ = false;
-  process_.linearise(step, x, known ? &point_ : nullptr, f_, A_, point_);
+  process_.linearise(step, x, known ? &point_.chain : nullptr, f_, A_, point_);
 }
 
-void ExponentialStep::save(Chain& chain) const {
-  const int n = process_.n_joints();
-  chain.known_since_s = chain_known_since_;
-  chain.has_curvature = has_curvature_;
-  chain.slopes.resize(n, 2 * n);
-  chain.curvature.resize(n);
-  for (int k = 0; k < n; ++k) {
-    for (int i = 0; i < 2 * n; ++i) chain.slopes(k, i) = point_.slope[k][i];
-    chain.curvature(k) = point_.chain_curvature[k];
-  }
-}
+void ExponentialStep::save(Chain& chain) const { chain = {chain_known_since_, has_curvature_, point_.chain}; }
 
 void ExponentialStep::restore(const Chain& chain) {
   chain_known_since_ = chain.known_since_s;
   has_curvature_ = chain.has_curvature;
-  for (int k = 0; k < process_.n_joints(); ++k) {
-    for (int i = 0; i < 2 * process_.n_joints(); ++i) point_.slope[k][i] = chain.slopes(k, i);
-    point_.chain_curvature[k] = chain.curvature(k);
-  }
+  point_.chain = chain.point;
 }
 
 bool ExponentialStep::start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G) {
@@ -113,13 +103,12 @@ void ExponentialStep::set_linear_response(const Eigen::MatrixXd& G) {
 void ExponentialStep::set_second_stage() {
   const double h = step_.dt_s;
   if (process_.is_smooth()) {
-    process_.second_stage(point_, x_, f_, A_, x_2_, point_2_, D_);
+    process_.second_stage(point_, x_, x_2_, point_2_, D_);
     D_ *= h;
     return process_.far_excess(point_, point_2_, x_2_, -h, response_, minus_N_);
   }
   const int first = shape_.first, blocks = response_.blocks();
   set_rates(end_, x_2_, response_, rates_);
-  Z_ = h * A_;
   f_2_.resize(shape_.n);
   for (int c = 0; c < shape_.n; ++c) f_2_(c) = rates_.lanes()[c * blocks][0];
   for (int c = 0; c < shape_.n; ++c) response_.lanes()[c * blocks].set(0, x_2_(c) - x_(c));
@@ -130,6 +119,7 @@ void ExponentialStep::set_second_stage() {
     minus_N_.lanes()[c * blocks].set(0, h * (f_(first + c) - f_2_(first + c)));
   }
   minus_N_.clear_padding();
+  Z_ = h * A_;
   multiply(response_.columns(0, shape_.n), transposed(rows_from(first, right(Z_))), minus_N_.columns(0, moving_), true);
   D_.resize(moving_);
   for (int c = 0; c < moving_; ++c) {
@@ -153,20 +143,24 @@ bool ExponentialStep::respond(Eigen::Ref<Eigen::MatrixXd> Gamma) {
   const int n = response_.columns(), sources = response_.rows() - 1;
   change_.reshape(sources + 1, n);
   multiply(minus_N_.columns(0, moving_), transposed(right(phi_.phi_2())), change_.columns(0, n), false);
+  if (is_small_change(change_, response_, kHeldForceTolerance))
+    response_.set_lanes([&](std::size_t i) { return response_.lanes()[i] - change_.lanes()[i]; });
+  else if (process_.is_smooth()) process_.impulse_response(point_, A_, x_, x_2_, step_.dt_s, forces_, response_);
+  else return false;
   for (int c = 0; c < n; ++c) {
-    const double *whole = reinterpret_cast<const double*>(response_.lanes() + c * response_.blocks()) + 1,
-                 *less = reinterpret_cast<const double*>(change_.lanes() + c * change_.blocks()) + 1;
-    for (int i = 0; i < sources; ++i) Gamma(c, i) = whole[i] - less[i];
+    const double* of_c = reinterpret_cast<const double*>(response_.lanes() + c * response_.blocks()) + 1;
+    for (int i = 0; i < sources; ++i) Gamma(c, i) = of_c[i];
   }
-  return is_small_change(change_, response_, kHeldForceTolerance);
+  return true;
 }
 
 bool ExponentialStep::set_growth() {
   const int n = static_cast<int>(next_.size());
   if (process_.is_smooth()) {
+    if (step_.dt_s * point_2_.excess_rate <= kNoGrowth) return growth_.set_zero(n, n), true;
     process_.near_excess(point_, point_2_, step_.dt_s, spread_, moved_);
   } else {
-    process_.linearise(end_, x_2_, &point_, f_2_, A_2_, point_2_);
+    process_.linearise(end_, x_2_, &point_.chain, f_2_, A_2_, point_2_);
     slopes_ = step_.dt_s * (A_2_ - A_);
     if (!std::isfinite(slopes_.sum())) return false;
     moved_.reshape(n, moving_);
@@ -209,9 +203,9 @@ bool ExponentialStep::transition(Eigen::Ref<Eigen::MatrixXd> F) {
 
 bool ExponentialStep::set_smooth_pairs(double gamma) {
   if (!set_growth() || !is_small_change(growth_, spread_, kRootTolerance)) return false;
-  process_.mean_curvature(point_, has_curvature_ ? &point_ : nullptr, x_, f_, A_, gamma, S_, first_);
+  process_.mean_curvature(point_, has_curvature_ ? &point_.chain : nullptr, x_, f_, A_, gamma, S_, first_);
   has_curvature_ = true;
-  process_.mean_curvature(point_2_, &point_, x_2_, f_, A_, gamma, spread_, last_);
+  process_.mean_curvature(point_2_, &point_.chain, x_2_, f_, A_, gamma, spread_, last_);
   first_ *= step_.dt_s;
   last_ *= step_.dt_s;
   return true;

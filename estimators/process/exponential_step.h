@@ -3,7 +3,7 @@
 /// arm_dynamics.h, A = ∂f/∂x at the start x, and E, φ_k of h A (phi_functions.h),
 ///
 ///   mean          x_2 = x + h φ_1 f(t, x)                            second order: exponential Rosenbrock-Euler
-///                 x⁺  = x_2 + c,   c = 2 h φ_3 D,                    third order
+///                 x⁺  = x_2 + c,   c = 2 h φ_3 D,                    third order; where f is smooth, in cables and friction
 ///                 D   = f(t + h, x_2) - f(t, x) - A (x_2 - x)
 ///   transition    F   = E + h φ_2 (A_2 - A) E,   A_2 = ∂f/∂x at x_2   second order
 ///   curvature     ∫ exp(A (h - s)) m(s) ds, where m is the mean of N over sigma points x ± d_i; m(0) from N(t, x, d),
@@ -37,8 +37,9 @@
 /// where V_i falls, else the straight line. It goes over [0, h / 2^s], [h / 2^s, 2 h / 2^s], ..., [h / 2, h] by the
 /// functions of phi_functions.h, with Simpson's mean of V in each, its middle being the geometric mean of the ends.
 ///
-/// A_2 has the slopes of the rigid chain's forces from A: within a step they hardly change. Beside those of cables and
-/// friction they are small, as is the chain's curvature: a step takes both from an earlier one of the last 5 ms, if it can.
+/// The rigid chain changes slowly: within a step it is taken as linear. Beside the slopes of cables and friction its own
+/// are small, as is its curvature: where f is smooth, a step takes both, and the masses, from an earlier one of the last
+/// 10 ms, if it can.
 ///
 /// Γ_0 is the response of the linearised model to a force that is held over the step; Γ Γᵀ replaces Van Loan's
 /// integral, which is for white noise. Simpson's rule keeps it equal to what the sub-steps give where the model is linear.
@@ -50,8 +51,9 @@
 ///   - the last term of F S exceeds 20 % of it where sigma points ask for it, or
 ///   - a number is not finite.
 ///
-/// Held forces are refused if the last term of Γ exceeds 5 % of it: at rest, where the noise is faster than friction's
-/// smoothing speed and is damped less than the slope of friction says.
+/// Held forces are not taken from this formula if the last term of Γ exceeds 5 % of it: at rest, where the noise is faster
+/// than friction's smoothing speed and is damped less than the slope of friction says. Where f is smooth, sub-steps of
+/// the deviations give it then (arm_impulses.h); else it is refused.
 ///
 /// Source: Hochbruck and Ostermann, "Exponential integrators", Acta Numerica 2010: exponential Rosenbrock-Euler method
 /// and exprb32 (mean), ETD2RK (pairs). Van Loan, "Computing integrals involving the matrix exponential", IEEE
@@ -73,8 +75,7 @@ class ExponentialStep {
   struct Chain {
     double known_since_s = std::numeric_limits<double>::infinity();
     bool has_curvature = false;
-    Eigen::MatrixXd slopes;     ///< of M a + h, in q and q'   [n_joints x 2 n_joints]
-    Eigen::VectorXd curvature;  ///< its mean                  [n_joints]
+    ChainPoint point = {};
   };
   void save(Chain& chain) const;
   void restore(const Chain& chain);
@@ -84,7 +85,7 @@ class ExponentialStep {
   void linearise(const Step& step, const Eigen::VectorXd& x);
   /// M(q)⁻¹ at x.
   Eigen::Map<const Eigen::MatrixXd> mobility() const {
-    return {point_.mobility, process_.n_joints(), process_.n_joints()};
+    return {point_.chain.mobility, process_.n_joints(), process_.n_joints()};
   }
   /// Starts the step that has been linearised. S: root of the covariance of x. G [n_states x sources]: held forces, which
   /// may be none. False if the guard refuses the step.
@@ -131,8 +132,8 @@ class ExponentialStep {
   const int moving_;      // number of rows that are neither kinematic nor zero
   Step step_, end_;
   bool usable_ = false, is_finite_ = false;
-  double chain_known_since_ = std::numeric_limits<double>::infinity();  // time of the chain's slopes in point_, s
-  bool has_curvature_ = false;                                          // of the chain, in point_
+  double chain_known_since_ = std::numeric_limits<double>::infinity();  // time of M and the slopes in point_.chain, s
+  bool has_curvature_ = false;                                          // in point_.chain
   Eigen::VectorXd x_, f_, f_2_, x_2_, next_, c_;
   Eigen::VectorXd D_, part_, change_of_m_;  // of the moving rows; h D
   Eigen::VectorXd first_, last_;            // h m(0), h m(h)

@@ -69,7 +69,8 @@ ArmNoise::ArmNoise(const ArmModel& model, const ProcessModel& process, const Noi
     : process_(process),
       levels_(levels),
       effect_scale_(effect_scales(process)),
-      adapted_(Eigen::VectorXd::Ones(process.n_joints())) {
+      adapted_(Eigen::VectorXd::Ones(process.n_joints())),
+      points_(process.n_states(), 2 * process.n_joints() + 1) {  // now, so that a later step needs no memory
   const ArmParameters<double>& arm = process.arm();
   const int n = arm.n;
   tolerance_.resize(n);
@@ -111,7 +112,6 @@ const Eigen::MatrixXd& ArmNoise::process_root(const Step& step, const Eigen::Vec
   for (int i = 0; i < n_z; ++i) Q_root_(l.effect_states + i, forces + i) = levels_.wander(i) * std::sqrt(step.dt_s);
   if (exponential && exponential->respond(Q_root_.leftCols(forces))) return Q_root_;
   if (!exponential) impulses(step, mobility_at(process_, x));
-  points_.resize(l.size, forces + 1);
   points_.col(0) = x;
   points_.rightCols(forces) = G_.colwise() + x;
   auto Gamma = Q_root_.leftCols(forces);

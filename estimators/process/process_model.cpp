@@ -178,8 +178,8 @@ void ProcessModel::linearise(const Step& step, const Eigen::VectorXd& x, Eigen::
   linearise(step, x, nullptr, x_dot, A, point);
 }
 
-void ProcessModel::linearise(const Step& step, const Eigen::VectorXd& x, const LinearisedPoint* near,
-                             Eigen::VectorXd& x_dot, Eigen::MatrixXd& A, LinearisedPoint& point) const {
+void ProcessModel::linearise(const Step& step, const Eigen::VectorXd& x, const ChainPoint* near, Eigen::VectorXd& x_dot,
+                             Eigen::MatrixXd& A, LinearisedPoint& point) const {
   const StepInputs<Dual> in(step, n_joints());
   x_dot.resize(n_states());
   A.resize(n_states(), n_states());
@@ -187,7 +187,7 @@ void ProcessModel::linearise(const Step& step, const Eigen::VectorXd& x, const L
                               x_dot.data(), A.data(), point);
 }
 
-void ProcessModel::mean_curvature(LinearisedPoint& point, const LinearisedPoint* near, const Eigen::VectorXd& x,
+void ProcessModel::mean_curvature(LinearisedPoint& point, const ChainPoint* near, const Eigen::VectorXd& x,
                                   const Eigen::VectorXd& x_dot, const Eigen::MatrixXd& A, double gamma,
                                   const LaneMatrix& root, Eigen::VectorXd& mean) const {
   mean.resize(n_states());
@@ -195,11 +195,10 @@ void ProcessModel::mean_curvature(LinearisedPoint& point, const LinearisedPoint*
                                    root.blocks(), root.lanes(), mean.data());
 }
 
-void ProcessModel::second_stage(const LinearisedPoint& start, const Eigen::VectorXd& x, const Eigen::VectorXd& x_dot,
-                                const Eigen::MatrixXd& A, const Eigen::VectorXd& x_2, LinearisedPoint& end,
-                                Eigen::VectorXd& D) const {
+void ProcessModel::second_stage(const LinearisedPoint& start, const Eigen::VectorXd& x, const Eigen::VectorXd& x_2,
+                                LinearisedPoint& end, Eigen::VectorXd& D) const {
   D.resize(moving_states() - layout_.positions);
-  lane_kernels()[0].second_stage(linearised_arm(), start, x.data(), x_dot.data(), A.data(), x_2.data(), end, D.data());
+  lane_kernels()[0].second_stage(linearised_arm(), start, x.data(), x_2.data(), end, D.data());
 }
 
 void ProcessModel::far_excess(const LinearisedPoint& start, const LinearisedPoint& end, const Eigen::VectorXd& x_2,
@@ -212,6 +211,13 @@ void ProcessModel::near_excess(const LinearisedPoint& start, const LinearisedPoi
                                const LaneMatrix& d, LaneMatrix& rates) const {
   rates.reshape(d.rows(), moving_states() - layout_.positions);
   lane_kernels()[0].near_excess(linearised_arm(), start, end, factor, d.blocks(), d.lanes(), rates.lanes());
+}
+
+void ProcessModel::impulse_response(const LinearisedPoint& start, const Eigen::MatrixXd& A, const Eigen::VectorXd& x,
+                                    const Eigen::VectorXd& x_2, double dt_s, const LaneMatrix& G,
+                                    LaneMatrix& Gamma) const {
+  const ImpulseStep step{start, A.data(), x.data(), x_2.data(), dt_s, 2 * substeps(dt_s / 2)};
+  lane_kernels()[0].impulse_response(linearised_arm(), step, G.blocks(), G.lanes(), Gamma.lanes());
 }
 
 void ProcessModel::derivatives(const Step& step, const LaneMatrix& X, LaneMatrix& X_dot) const {

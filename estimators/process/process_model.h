@@ -76,27 +76,29 @@ class ProcessModel {
   /// The same into memory of the caller.
   void derivative(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot) const;
   void linearise(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot, Eigen::MatrixXd& A) const;
-  /// The same, and `point`, what is found besides (arm_linearisation.h). near: null, or that of a state in the same
-  /// step, from which the chain's slopes are taken.
-  void linearise(const Step& step, const Eigen::VectorXd& x, const LinearisedPoint* near, Eigen::VectorXd& x_dot,
+  /// The same, and `point`, what is found besides (arm_linearisation.h). near: null, or what was found of the chain at a
+  /// state shortly before, from which its masses and slopes are taken.
+  void linearise(const Step& step, const Eigen::VectorXd& x, const ChainPoint* near, Eigen::VectorXd& x_dot,
                  Eigen::MatrixXd& A, LinearisedPoint& point) const;
   /// Of a model that is_smooth(), with x_dot, A and point of linearise() at x (arm_curvature.h):
-  /// mean [n_states] of f(x + d_i) - f(x) - A d_i over d_i = gamma S_i. root: S transposed. near: null, or the point of
-  /// an earlier call for a state in the same step, from which the chain's part is taken.
-  void mean_curvature(LinearisedPoint& point, const LinearisedPoint* near, const Eigen::VectorXd& x,
+  /// mean [n_states] of f(x + d_i) - f(x) - A d_i over d_i = gamma S_i. root: S transposed. near: null, or what an
+  /// earlier call has left for a state shortly before, from which the chain's part is taken.
+  void mean_curvature(LinearisedPoint& point, const ChainPoint* near, const Eigen::VectorXd& x,
                       const Eigen::VectorXd& x_dot, const Eigen::MatrixXd& A, double gamma, const LaneMatrix& root,
                       Eigen::VectorXd& mean) const;
-  /// Of a model that is_smooth(), with x_dot, A and start of linearise() at x, the second stage x_2 of a step
-  /// (arm_second_stage.h): D [moving_states() - layout().positions], and `end`, the point at x_2.
-  void second_stage(const LinearisedPoint& start, const Eigen::VectorXd& x, const Eigen::VectorXd& x_dot,
-                    const Eigen::MatrixXd& A, const Eigen::VectorXd& x_2, LinearisedPoint& end,
-                    Eigen::VectorXd& D) const;
+  /// Of a model that is_smooth(), with `start` of linearise() at x, the second stage x_2 of a step (arm_second_stage.h):
+  /// D [moving_states() - layout().positions], and `end`, the point at x_2.
+  void second_stage(const LinearisedPoint& start, const Eigen::VectorXd& x, const Eigen::VectorXd& x_2,
+                    LinearisedPoint& end, Eigen::VectorXd& D) const;
   /// factor N(d) there, of every row d of the matrix [count x n_states]; rates [count x D.size()].
   void far_excess(const LinearisedPoint& start, const LinearisedPoint& end, const Eigen::VectorXd& x_2, double factor,
                   const LaneMatrix& d, LaneMatrix& rates) const;
   /// factor N' d.
   void near_excess(const LinearisedPoint& start, const LinearisedPoint& end, double factor, const LaneMatrix& d,
                    LaneMatrix& rates) const;
+  /// Γ of the impulses G (arm_impulses.h): rows of [n_states]; Gamma: of the shape of G. A, start: of linearise() at x.
+  void impulse_response(const LinearisedPoint& start, const Eigen::MatrixXd& A, const Eigen::VectorXd& x,
+                        const Eigen::VectorXd& x_2, double dt_s, const LaneMatrix& G, LaneMatrix& Gamma) const;
   /// x' at every row of X [count x n_states], eight at a time. X_dot: of the shape of X.
   void derivatives(const Step& step, const LaneMatrix& X, LaneMatrix& X_dot) const;
 
