@@ -2,6 +2,7 @@
 /// No include guard: each lanes_<set>.cpp includes it exactly once.
 
 #include "estimators/lanes/lane_kernels.h"
+#include "estimators/process/arm_impulses.h"
 
 namespace halyard {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "estimators/process/arm_impulses.h"
+#include "estimators/process/arm_linearisation.h"
 
 namespace halyard {
 

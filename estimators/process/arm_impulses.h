@@ -15,14 +15,6 @@
 
 namespace halyard {
 
-/// Points of a step of arm_impulses.h.
-struct ImpulseStep {
-  const LinearisedPoint& start;  ///< at x
-  const double *A, *x, *x_2;
-  double dt_s;
-  int substeps;  ///< even
-};
-
 /// d' of eight deviations at the part s of the step. d, rates: positions and their rates.
 template <int known>
 HALYARD_INLINE void deviation_rates(const LinearisedArm& model, const ImpulseStep& step, double s, const Lanes* d,

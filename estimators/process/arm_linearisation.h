@@ -40,6 +40,14 @@ struct LinearisedPoint {
   double excess_rate = 0;  ///< of a second stage (arm_second_stage.h), 1/s
 };
 
+/// A step whose impulses are followed (arm_impulses.h).
+struct ImpulseStep {
+  const LinearisedPoint& start;  ///< at x
+  const double *A, *x, *x_2;     ///< ∂f/∂x at x, the state at the start and at the end
+  double dt_s;
+  int substeps;  ///< even
+};
+
 /// F, and all rows of x_dot and A but those of the joints' rates.
 template <int known>
 HALYARD_INLINE void linearise_transmission(const Transmission<Dual>& transmission, const StateLayout& l, double time,
