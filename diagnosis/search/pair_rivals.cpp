@@ -27,10 +27,10 @@ std::vector<PlacedEffect> rivals_of(const PlacedEffect& effect, const Hypothesis
   }
   std::ranges::stable_sort(all, std::ranges::greater{}, [](const auto& a) { return a.first; });
   std::vector<PlacedEffect> rivals;
-  for (const auto& [share, rival] : all)
+  for (const std::pair<double, PlacedEffect>& a : all)
     if (rivals.size() < kMostRivals &&
-        std::ranges::none_of(rivals, [&](const PlacedEffect& r) { return same_name(r, rival); }))
-      rivals.push_back(rival);
+        std::ranges::none_of(rivals, [&](const PlacedEffect& r) { return same_name(r, a.second); }))
+      rivals.push_back(a.second);
   return rivals;
 }
 
