@@ -48,6 +48,7 @@ struct Trial {
 
   /// True if only the significance of its gain is left to be tested.
   bool can_be_named() const { return is_judged() && gain > 0 && !at_bound && !is_refit && matters && !is_another; }
+  bool passes(double significance) const { return can_be_named() && p_value <= significance; }
 };
 
 Trial unusable(const PlacedEffect& effect);

@@ -63,11 +63,9 @@ class Search {
     result_.baseline = baseline_.fit;
     result_.nominal_score = baseline_.nominal_score;
     result_.baseline_score = baseline_.score;
-    const PairRivals pairs(evidence_, model_, refitter_, judge_, given_, options_.significance);
-    Named named = pairs.weighed({current.fit, current.score, result_.namings}, result_.rounds);
-    result_.final_fit = std::move(named.fit);
-    result_.final_score = std::move(named.score);
-    result_.namings = std::move(named.namings);
+    result_.final_fit = std::move(current.fit);
+    result_.final_score = std::move(current.score);
+    PairRivals(evidence_, model_, refitter_, judge_, given_, options_.significance).weigh(result_);
     return std::move(result_);
   }
 

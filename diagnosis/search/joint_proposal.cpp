@@ -104,8 +104,6 @@ class LinearProblem {
   std::vector<double> lower_, upper_, prior_;
 };
 
-bool passes(const Trial& t, double significance) { return t.can_be_named() && t.p_value <= significance; }
-
 }  // namespace
 
 Hypothesis JointSearch::select(const LinearRound& round, int most) const {
@@ -147,8 +145,7 @@ JointProposal JointSearch::propose(const LinearRound& round, const Scored& witho
     const double each = significance / static_cast<double>(tried);
     std::size_t worst = p.trials.size();
     for (std::size_t i = 0; i < p.trials.size(); ++i)
-      if (!passes(p.trials[i], each) && (worst == p.trials.size() || p.trials[i].gain < p.trials[worst].gain))
-        worst = i;
+      if (!p.trials[i].passes(each) && (worst == p.trials.size() || p.trials[i].gain < p.trials[worst].gain)) worst = i;
     if (worst == p.trials.size()) {
       p.is_convincing = judge_.p_of_gain(p.score, without.score) <= significance;
       return p;

@@ -83,35 +83,33 @@ bool PairRivals::can_be_named(const Pair& pair) const {
   for (const std::size_t place : {h.effects.size() - 2, h.effects.size() - 1}) {
     const Fit left = refitter_.refit(without_effect(h, place), pair.score);
     if (!left.usable) return false;
-    const Trial t = judge_.trial(h, {left.hypothesis, evidence_.score(left.hypothesis)}, place);
-    if (!t.can_be_named() || t.p_value > significance_) return false;
+    if (!judge_.trial(h, {left.hypothesis, evidence_.score(left.hypothesis)}, place).passes(significance_))
+      return false;
   }
   return true;
 }
 
 /// Pairs that can be integrated.
-std::vector<PairRivals::Pair> PairRivals::pairs(const Named& named, const Places& places,
-                                                const std::vector<Round>& rounds) const {
-  const Hypothesis& h = named.fit.hypothesis;
+std::vector<PairRivals::Pair> PairRivals::pairs(const Attribution& found, const Places& places) const {
+  const Hypothesis& h = found.final_fit.hypothesis;
   std::vector<Pair> all;
-  for (const PlacedEffect& first : rivals_of(h.effects[places.first], h, rounds))
-    for (const PlacedEffect& second : rivals_of(h.effects[places.second], h, rounds))
+  for (const PlacedEffect& first : rivals_of(h.effects[places.first], h, found.rounds))
+    for (const PlacedEffect& second : rivals_of(h.effects[places.second], h, found.rounds))
       if (!same_name(first, second)) all.push_back({first, second, {}, {}});
-  run_side_by_side(all.size(), [&](std::size_t i) { fit(all[i], without_both(h, places), named.score); });
+  run_side_by_side(all.size(), [&](std::size_t i) { fit(all[i], without_both(h, places), found.final_score); });
   std::erase_if(all, [](const Pair& p) { return !p.fit.usable || !p.score.finite; });
   return all;
 }
 
 /// Of the two names, then of the pairs, then of no effect.
-std::vector<double> PairRivals::weights(const Named& named, const Places& places,
+std::vector<double> PairRivals::weights(const Attribution& found, const Places& places, const Hypothesis& neither,
                                         const std::vector<Pair>& pairs) const {
   const auto numbers = [&](const PlacedEffect& a, const PlacedEffect& b) {
     return numbers_added(a, model_.nominal) + numbers_added(b, model_.nominal);
   };
   const std::vector<double> least = squared_floors(evidence_);
-  const Hypothesis& h = named.fit.hypothesis;
-  const Hypothesis neither = refitter_.refit(without_both(h, places), named.score).hypothesis;
-  const Likelihood of_names = log_likelihood(evidence_, named.score, least);
+  const Hypothesis& h = found.final_fit.hypothesis;
+  const Likelihood of_names = log_likelihood(evidence_, found.final_score, least);
   const Likelihood of_neither = log_likelihood(evidence_, evidence_.score(neither), least);
   std::vector<Likelihood> of_pairs;
   for (const Pair& p : pairs) of_pairs.push_back(log_likelihood(evidence_, p.score, least));
@@ -122,12 +120,14 @@ std::vector<double> PairRivals::weights(const Named& named, const Places& places
   return name_weights(evidence_, all, {&of_neither, 0, judge_.stretch(neither)});
 }
 
-void PairRivals::weigh(Named& named, const Places& places, const std::vector<Round>& rounds) const {
-  const std::vector<Pair> rivals = pairs(named, places, rounds);
+void PairRivals::weigh(Attribution& found, const Places& places) const {
+  const std::vector<Pair> rivals = pairs(found, places);
   if (rivals.empty()) return;
-  const std::vector<double> weight = weights(named, places, rivals);
-  Naming& first = named.namings[places.first - given_];
-  Naming& second = named.namings[places.second - given_];
+  const Fit neither = refitter_.refit(without_both(found.final_fit.hypothesis, places), found.final_score);
+  if (!neither.usable) return;
+  const std::vector<double> weight = weights(found, places, neither.hypothesis, rivals);
+  Naming& first = found.namings[places.first - given_];
+  Naming& second = found.namings[places.second - given_];
   shrink(first, weight[0]), shrink(second, weight[0]);
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     add_alternative(first, rivals[i].first, weight[i + 1]);
@@ -135,31 +135,30 @@ void PairRivals::weigh(Named& named, const Places& places, const std::vector<Rou
   }
   const auto best = std::max_element(weight.begin(), weight.end() - 1) - weight.begin();
   if (best > 0 && can_be_named(rivals[static_cast<std::size_t>(best - 1)]))
-    rename(named, places, rivals[static_cast<std::size_t>(best - 1)]);
+    rename(found, places, rivals[static_cast<std::size_t>(best - 1)]);
 }
 
 /// The pair takes the place of the two names.
-void PairRivals::rename(Named& named, const Places& places, const Pair& pair) const {
-  const std::vector<PlacedEffect>& old = named.fit.hypothesis.effects;
-  Naming first = named.namings[places.first - given_], second = named.namings[places.second - given_];
+void PairRivals::rename(Attribution& found, const Places& places, const Pair& pair) const {
+  const std::vector<PlacedEffect>& old = found.final_fit.hypothesis.effects;
+  Naming first = found.namings[places.first - given_], second = found.namings[places.second - given_];
   exchange(first, old[places.first], pair.first);
   exchange(second, old[places.second], pair.second);
-  named.namings.erase(named.namings.begin() + static_cast<std::ptrdiff_t>(places.second - given_));
-  named.namings.erase(named.namings.begin() + static_cast<std::ptrdiff_t>(places.first - given_));
-  named.namings.push_back(std::move(first));
-  named.namings.push_back(std::move(second));
-  named.fit = pair.fit;
-  named.score = pair.score;
+  found.namings.erase(found.namings.begin() + static_cast<std::ptrdiff_t>(places.second - given_));
+  found.namings.erase(found.namings.begin() + static_cast<std::ptrdiff_t>(places.first - given_));
+  found.namings.push_back(std::move(first));
+  found.namings.push_back(std::move(second));
+  found.final_fit = pair.fit;
+  found.final_score = pair.score;
 }
 
-Named PairRivals::weighed(Named named, const std::vector<Round>& rounds) const {
-  const auto n = [&] { return named.fit.hypothesis.effects.size(); };
-  for (std::size_t second = given_; second < n(); ++second)
+void PairRivals::weigh(Attribution& found) const {
+  const std::size_t n = found.final_fit.hypothesis.effects.size();
+  for (std::size_t second = given_; second < n; ++second)
     for (std::size_t first = given_; first < second; ++first) {
-      const std::vector<PlacedEffect>& effects = named.fit.hypothesis.effects;
-      if (effects[first].joint && effects[first].joint == effects[second].joint) weigh(named, {first, second}, rounds);
+      const std::vector<PlacedEffect>& effects = found.final_fit.hypothesis.effects;
+      if (effects[first].joint && effects[first].joint == effects[second].joint) weigh(found, {first, second});
     }
-  return named;
 }
 
 }  // namespace halyard

@@ -12,13 +12,6 @@
 
 namespace halyard {
 
-/// What a search has found: added effects, their names in the same order.
-struct Named {
-  Fit fit;
-  Score score;
-  std::vector<Naming> namings;
-};
-
 class PairRivals {
  public:
   /// Indices of two effects, the first before the second.
@@ -35,17 +28,19 @@ class PairRivals {
         given_(given),
         significance_(significance) {}
 
-  /// With the pairs of rivals of every two names at one joint. rounds: of the search.
-  Named weighed(Named named, const std::vector<Round>& rounds) const;
+  /// Weighs every two names at one joint against the pairs of their rivals in the search's rounds: final_fit, final_score
+  /// and namings change.
+  void weigh(Attribution& found) const;
 
  private:
   struct Pair;
   void fit(Pair& pair, const Hypothesis& without, const Score& before) const;
   bool can_be_named(const Pair& pair) const;
-  std::vector<Pair> pairs(const Named& named, const Places& places, const std::vector<Round>& rounds) const;
-  std::vector<double> weights(const Named& named, const Places& places, const std::vector<Pair>& pairs) const;
-  void weigh(Named& named, const Places& places, const std::vector<Round>& rounds) const;
-  void rename(Named& named, const Places& places, const Pair& pair) const;
+  std::vector<Pair> pairs(const Attribution& found, const Places& places) const;
+  std::vector<double> weights(const Attribution& found, const Places& places, const Hypothesis& neither,
+                              const std::vector<Pair>& pairs) const;
+  void weigh(Attribution& found, const Places& places) const;
+  void rename(Attribution& found, const Places& places, const Pair& pair) const;
 
   const Evidence& evidence_;
   const ArmModel& model_;

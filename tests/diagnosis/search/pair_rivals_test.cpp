@@ -35,15 +35,19 @@ class FrictionAndPresliding : public testing::Test {
     refitter_.emplace(*evidence_, model_, 0);
     judge_.emplace(*evidence_, model_, refitter_->numbers());
   }
-  Named named(const std::vector<PlacedEffect>& effects) const {
+  Attribution named(const std::vector<PlacedEffect>& effects) const {
     const Hypothesis h{model_.nominal, effects};
-    const Fit fit = refitter_->refit(h, evidence_->score(h));
-    return {fit, evidence_->score(fit.hypothesis), {{1, {}}, {1, {}}}};
+    Attribution found;
+    found.final_fit = refitter_->refit(h, evidence_->score(h));
+    found.final_score = evidence_->score(found.final_fit.hypothesis);
+    found.namings = {{1, {}}, {1, {}}};
+    return found;
   }
-  Named weighed(const Named& before, const std::vector<PlacedEffect>& rivals, double share = 0.8) const {
-    const auto& names = before.fit.hypothesis.effects;
-    return PairRivals(*evidence_, model_, *refitter_, *judge_, 0, 0.01)
-        .weighed(before, {led_by(names[0], rivals[0], share), led_by(names[1], rivals[1], share)});
+  Attribution weighed(Attribution found, const std::vector<PlacedEffect>& rivals, double share = 0.8) const {
+    const auto& names = found.final_fit.hypothesis.effects;
+    found.rounds = {led_by(names[0], rivals[0], share), led_by(names[1], rivals[1], share)};
+    PairRivals(*evidence_, model_, *refitter_, *judge_, 0, 0.01).weigh(found);
+    return found;
   }
 
   const std::vector<PlacedEffect> at_motor_ = {beside_its_pair("motor_friction", {0.012}),
@@ -57,8 +61,8 @@ class FrictionAndPresliding : public testing::Test {
 };
 
 TEST_F(FrictionAndPresliding, OnTheWrongSideAreReplacedTogether) {
-  const Named right = weighed(named(at_joint_), at_motor_);
-  const std::vector<PlacedEffect>& effects = right.fit.hypothesis.effects;
+  const Attribution right = weighed(named(at_joint_), at_motor_);
+  const std::vector<PlacedEffect>& effects = right.final_fit.hypothesis.effects;
   ASSERT_EQ(effects.size(), 2u);
   EXPECT_EQ(effects[0].effect->name(), "motor_friction");
   EXPECT_EQ(effects[1].effect->name(), "motor_presliding");
@@ -69,15 +73,15 @@ TEST_F(FrictionAndPresliding, OnTheWrongSideAreReplacedTogether) {
 }
 
 TEST_F(FrictionAndPresliding, OnTheRightSideKeepTheirNames) {
-  const Named same = weighed(named(at_motor_), at_joint_);
-  EXPECT_EQ(same.fit.hypothesis.effects[0].effect->name(), "motor_friction");
+  const Attribution same = weighed(named(at_motor_), at_joint_);
+  EXPECT_EQ(same.final_fit.hypothesis.effects[0].effect->name(), "motor_friction");
   ASSERT_EQ(same.namings[0].alternatives.size(), 1u) << "the rivals were not tried: the test shows nothing";
   EXPECT_LT(same.namings[0].alternatives[0].probability, 0.1);
 }
 
 TEST_F(FrictionAndPresliding, HaveNoRivalsThatGainedLittle) {
-  const Named before = named(at_joint_), after = weighed(before, at_motor_, 0.4);
-  EXPECT_EQ(after.fit.hypothesis.effects[0].effect->name(), "joint_friction");
+  const Attribution after = weighed(named(at_joint_), at_motor_, 0.4);
+  EXPECT_EQ(after.final_fit.hypothesis.effects[0].effect->name(), "joint_friction");
   EXPECT_EQ(after.namings[0].weight, 1);
   EXPECT_TRUE(after.namings[0].alternatives.empty());
 }
