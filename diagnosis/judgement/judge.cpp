@@ -131,10 +131,11 @@ std::vector<std::size_t> Judge::sizes_at_bound(const Scored& with, std::size_t p
   std::vector<std::size_t> at_bound, all;
   for (const ParameterGroup& group : groups) all.insert(all.end(), group.sizes.begin(), group.sizes.end());
   for (const ParameterGroup& group : groups) {
-    bool is_whole_group = lasts_as_long_as_the_motion(with, parameters, group);
-    if (!is_whole_group && std::ranges::any_of(group.shapes, shape_ends)) {
+    const bool lasts = lasts_as_long_as_the_motion(with, parameters, group);
+    bool is_whole_group = false;
+    if (lasts || std::ranges::any_of(group.shapes, shape_ends)) {
       const double own = does(group.sizes);
-      is_whole_group = own > kRule.by_chance && own > kNextToNothing * does(all);
+      is_whole_group = own > kRule.by_chance && (lasts || own > kNextToNothing * does(all));
     }
     for (const std::size_t i : group.sizes)
       if (is_whole_group || (ends(i) && does({i}) > kRule.by_chance)) at_bound.push_back(i);

@@ -94,6 +94,15 @@ TEST(Bounds, OfAPushAreThoseOfTheMotionToo) {
   EXPECT_FALSE(of_resting.at_bound);
 }
 
+TEST(Bounds, OfAPushThatIsNotThereDoNotCount) {
+  // A wall in the middle of the motion. The instants of the push beside it mean nothing.
+  const double middle = motion(first_joints(1), 6).trajectory[0].center;
+  const Found wall("external_force", {0, 2, 2, 0, 5, middle});
+  const Trial of_wall = wall.trial(wall.effect);
+  ASSERT_TRUE(of_wall.is_judged());
+  EXPECT_FALSE(of_wall.at_bound);
+}
+
 TEST(Bounds, OfOnePartLeaveTheOtherPartOfAnEffect) {
   const ArmModel model = first_joints(1);
   const double fastest = find_effect("stribeck")->parameters(model.nominal, 0)[3].upper;
