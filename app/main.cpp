@@ -17,6 +17,7 @@
 #include "app/command_line.h"
 #include "app/interruption.h"
 #include "model/input_error.h"
+#include "transmission/lanes/instruction_set.h"
 
 namespace {
 
@@ -35,6 +36,15 @@ void flush_stdout() {
   }
 }
 
+/// The environment is input, too: what is wrong in it is told at once.
+void check_environment() {
+  try {
+    halyard::instruction_sets();
+  } catch (const std::invalid_argument& error) {
+    throw halyard::InputError(error.what());
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -43,6 +53,7 @@ int main(int argc, char** argv) {
   // Ceres writes to the log of why it gives up; what a fit came to is in the output, and stderr is for one line.
   FLAGS_minloglevel = google::GLOG_FATAL;
   try {
+    check_environment();
     const int code = halyard::run_command_line(argc, argv);
     flush_stdout();
     return code;

@@ -29,7 +29,8 @@ ArmFilterOptions read_arm_filter_options(OptionReader& options, const ArmModel& 
   return o;
 }
 
-void set_joint_estimate(const StateLayout& l, const Eigen::VectorXd& x, const Eigen::MatrixXd& S, Estimate& e) {
+void set_joint_estimate(const StateLayout& l, const Eigen::VectorXd& x, const Eigen::Ref<const Eigen::MatrixXd>& S,
+                        Estimate& e) {
   e.joint_position.resize(l.n_joints);
   e.joint_velocity.resize(l.n_joints);
   e.joint_position_std.resize(l.n_joints);
@@ -156,7 +157,7 @@ void ArmFilter::predict(double to_time_s) {
 void ArmFilter::predict_over(Step step, int halvings) {
   if (options_.exponential) exponential_.linearise(step, filter_->x());
   const bool accepted =
-      options_.exponential && exponential_.start(filter_->S(), noise_.impulses(step, exponential_.mobility()));
+      options_.exponential && exponential_.start(filter_->root(), noise_.impulses(step, exponential_.mobility()));
   if (options_.exponential && !accepted && exponential_.is_finite() && halvings > 0) {
     step.dt_s /= 2;
     predict_over(step, halvings - 1);
@@ -234,7 +235,7 @@ void ArmFilter::save(Snapshot& snapshot) const {
   snapshot.adapted = noise_.adapted();
   snapshot.S = filter_->S();
   snapshot.report = report_;
-  exponential_.save(snapshot.chain);
+  exponential_.save(snapshot.kept);
 }
 
 void ArmFilter::restore(const Snapshot& snapshot) {
@@ -247,7 +248,7 @@ void ArmFilter::restore(const Snapshot& snapshot) {
   external_ = snapshot.external;
   noise_.reset(snapshot.adapted);
   report_ = snapshot.report;
-  exponential_.restore(snapshot.chain);
+  exponential_.restore(snapshot.kept);
   filter_->reset(snapshot.x, snapshot.S);
 }
 

@@ -34,7 +34,8 @@ struct ArmFilterOptions {
 ArmFilterOptions read_arm_filter_options(OptionReader& options, const ArmModel& model, const ProcessModel& process);
 
 /// The joints' part of a belief x, S, into memory of the caller.
-void set_joint_estimate(const StateLayout& layout, const Eigen::VectorXd& x, const Eigen::MatrixXd& S, Estimate& e);
+void set_joint_estimate(const StateLayout& layout, const Eigen::VectorXd& x, const Eigen::Ref<const Eigen::MatrixXd>& S,
+                        Estimate& e);
 
 class ArmFilter final : public Estimator {
  public:
@@ -57,7 +58,7 @@ class ArmFilter final : public Estimator {
     Eigen::VectorXd x, reading, torque, external, adapted;
     Eigen::MatrixXd S;
     EstimatorReport report;
-    ExponentialStep::Chain chain;
+    ExponentialStep::Kept kept;
   };
   void save(Snapshot& snapshot) const;
   /// Goes back to a snapshot taken since reset(). Samples after the snapshot may then be repeated; what was

@@ -9,10 +9,10 @@ void ExtendedKalmanFilter::predict(const DiscreteProcess& process, const Eigen::
   F_.resize(n, n);  // here, so that a later step needs no memory
   if (!process.advance_root(x_, predicted_columns_)) {
     process.advance_with_jacobian(x_, F_);
-    columns.leftCols(n) = F_.lazyProduct(S_);
+    columns.leftCols(n) = F_.lazyProduct(S());
   }
   set_block(Q_root, columns.rightCols(sources));
-  root_.compute(predicted_columns_, S_);
+  root_.compute(predicted_columns_, S_.view());
   x_predicted_ = x_;
   check_finite(process);
 }

@@ -18,7 +18,7 @@ class ExtendedKalmanFilter final : public GaussianFilter {
 
  private:
   int count_columns_before() const override { return static_cast<int>(x_.size()); }
-  void set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A) const override { A = S_0; }
+  void set_columns_before(const LaneMatrix::ConstView& S_0, Eigen::Ref<Eigen::MatrixXd> A) const override { A = S_0; }
 
   Eigen::MatrixXd F_;
 };

@@ -10,7 +10,7 @@ void BackwardPass::go_back_before(const BackwardStep& prediction) {
   columns_.reshape(n, n + others);
   multiply(prediction.G.columns(0, n), right(S_), columns_.columns(0, n), false);
   set_block(prediction.V_root.view(), columns_.view().rightCols(others));
-  root_.compute(columns_, S_);
+  root_.compute(columns_, S_.view());
 }
 
 void FixedLagSmoother::RecordingUkf::predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) {
@@ -57,7 +57,7 @@ void FixedLagSmoother::append(double time_s) {
   FilteredBelief& belief = window_.append();
   belief.time_s = time_s;
   belief.x = recorded_->x();
-  belief.S = recorded_->S();
+  belief.S = recorded_->root();
   belief.predictions = recorded_->steps.size() - known_steps_;
   known_steps_ = recorded_->steps.size();
 }

@@ -23,7 +23,7 @@ namespace halyard {
 struct FilteredBelief {
   double time_s = 0;
   Eigen::VectorXd x;
-  Eigen::MatrixXd S;
+  LaneMatrix S;
   std::size_t predictions = 0;
 };
 
@@ -34,12 +34,11 @@ class BackwardPass {
   /// From the end of a prediction to its start.
   void go_back_before(const BackwardStep& prediction);
   const Eigen::VectorXd& x() const { return x_; }
-  const Eigen::MatrixXd& S() const { return S_; }
+  LaneMatrix::ConstView S() const { return S_.view(); }
 
  private:
   Eigen::VectorXd x_, deviation_;
-  Eigen::MatrixXd S_;
-  LaneMatrix columns_;
+  LaneMatrix S_, columns_;
   LowerRoot root_;
 };
 
@@ -65,7 +64,7 @@ class FixedLagSmoother final : public Estimator {
 
    private:
     Eigen::VectorXd x_0_;
-    Eigen::MatrixXd S_0_;
+    LaneMatrix S_0_;
   };
 
   FixedLagSmoother(const ArmModel& model, std::shared_ptr<const ProcessModel> process, const ArmFilterOptions& options,

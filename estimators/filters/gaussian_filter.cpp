@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace halyard {
 
@@ -35,19 +36,24 @@ void LowerRoot::finish(Eigen::Ref<Eigen::MatrixXd> L) {
                                      columns_.lanes(), L.data(), static_cast<int>(L.outerStride()));
 }
 
+void GaussianFilter::reset(const Eigen::VectorXd& x, const Eigen::MatrixXd& S) {
+  x_ = x;
+  S_.reshape(static_cast<int>(S.rows()), static_cast<int>(S.cols()));
+  set_block(S, S_.view());
+}
+
 Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, const ReadingVector& z,
                                          const ReadingMatrix& R_root, double gate) {
   const int m = static_cast<int>(z.size()), n = static_cast<int>(x_.size());
   Innovation innovation;
   innovation.nu.resize(m);
-  H_.set_zero(m, n);
+  H_.reshape(m, n);
   auto H = H_.view();
   measurement.linearise(x_, innovation.nu, H);
   innovation.nu = z - innovation.nu;
   check_measurement(innovation.nu);
   solve_lower(R_root, H);
-  corrected_.reshape(n, n);
-  set_block(S_, corrected_.view());
+  corrected_ = S_;
   gain_.reshape(n, m);
   ReadingMatrix L(m, m);
   widest_matrix_kernels().correct(n, m, corrected_.blocks(), H.data(), static_cast<int>(H.outerStride()),
@@ -58,17 +64,17 @@ Innovation GaussianFilter::update_linear(const MeasurementModel& measurement, co
   innovation.accepted = whitened.squaredNorm() <= gate;
   if (innovation.accepted) {
     for (int j = 0; j < m; ++j) x_ += whitened(j) * gain_.view().col(j);
-    set_block(std::as_const(corrected_).view(), S_);
+    std::swap(S_, corrected_);
   }
   return innovation;
 }
 
-void GaussianFilter::backward_step(const Eigen::VectorXd& x_0, const Eigen::MatrixXd& S_0, BackwardStep& step) {
+void GaussianFilter::backward_step(const Eigen::VectorXd& x_0, const LaneMatrix& S_0, BackwardStep& step) {
   const int n = static_cast<int>(x_predicted_.size()), before = count_columns_before(),
             predicted = predicted_columns_.columns();
   auto array = array_root_.start(2 * n, predicted);
   set_block(std::as_const(predicted_columns_).view(), array.topRows(n));
-  set_columns_before(S_0, array.bottomLeftCorner(n, before));
+  set_columns_before(S_0.view(), array.bottomLeftCorner(n, before));
   array.bottomRightCorner(n, predicted - before).setZero();
   triangle_.reshape(2 * n, n);
   auto triangle = triangle_.view();
@@ -92,8 +98,7 @@ void GaussianFilter::record(const DiscreteProcess& process, const Eigen::VectorX
   const int others = predicted_columns_.columns() - count_columns_before();
   prediction.N.reshape(predicted_columns_.rows(), others);
   set_block(std::as_const(predicted_columns_).view().rightCols(others), prediction.N.view());
-  prediction.F.reshape(predicted_columns_.rows(), predicted_columns_.rows());
-  process.transition(x_0, prediction.F.view());
+  process.transition(x_0, prediction.F);
 }
 
 void GaussianFilter::predict_again(const LinearPrediction& p) {
@@ -104,13 +109,15 @@ void GaussianFilter::predict_again(const LinearPrediction& p) {
   again_.reshape(n, n + others);
   multiply(p.F.columns(0, n), right(S_), again_.columns(0, n), false);
   set_block(p.N.view(), again_.view().rightCols(others));
-  root_.compute(again_, S_);
+  root_.compute(again_, S_.view());
 }
 
 void GaussianFilter::check_finite(const DiscreteProcess& process) const {
-  if (std::isfinite(x_.sum() + S_.sum())) return;
+  double squares[kMostRootRows];
+  set_row_squares(S_, S_.columns(), squares);
+  if (std::isfinite(x_.sum() + Eigen::Map<const Eigen::VectorXd>(squares, x_.size()).sum())) return;
   for (Eigen::Index i = 0; i < x_.size(); ++i)
-    if (!std::isfinite(x_(i)) || !S_.row(i).allFinite())
+    if (!std::isfinite(x_(i)) || !S().row(i).allFinite())
       throw std::runtime_error("filter: the belief of " + process.name_of(static_cast<int>(i)) +
                                " is not finite; check the noise options and the model's parameters");
 }

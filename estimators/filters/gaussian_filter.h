@@ -31,16 +31,18 @@ class DiscreteProcess {
   /// no special way to do so, and x has not changed.
   virtual bool advance_root(Eigen::VectorXd& /*x*/, LaneMatrix& /*FS*/) const { return false; }
   /// The same, and `shift` becomes the mean of f(x ± gamma S_i) - f(x), for a gamma so small that f is quadratic there.
-  virtual bool advance_pairs(Eigen::VectorXd& /*x*/, double /*gamma*/, LaneMatrix& /*FS*/,
+  virtual bool advance_pairs(Eigen::VectorXd& /*x*/, const LaneMatrix& /*S*/, double /*gamma*/, LaneMatrix& /*FS*/,
                              Eigen::VectorXd& /*shift*/) const {
     return false;
   }
   /// F [n x n] becomes ∂f/∂x at x_0, where the last of these calls has started.
-  virtual void transition(const Eigen::VectorXd& x_0, Eigen::Ref<Eigen::MatrixXd> F) const {
+  virtual void transition(const Eigen::VectorXd& x_0, LaneMatrix& F) const {
+    const int n = static_cast<int>(x_0.size());
     Eigen::VectorXd x = x_0;
-    Eigen::MatrixXd jacobian(F.rows(), F.cols());
+    Eigen::MatrixXd jacobian(n, n);
     advance_with_jacobian(x, jacobian);
-    F = jacobian;
+    F.reshape(n, n);
+    F.view() = jacobian;
   }
   /// Name of a state for messages: "joint_rate_2 at 3.1 s".
   virtual std::string name_of(int state) const = 0;
@@ -110,7 +112,7 @@ class GaussianFilter {
  public:
   virtual ~GaussianFilter() = default;
 
-  void reset(const Eigen::VectorXd& x, const Eigen::MatrixXd& S) { x_ = x, S_ = S; }
+  void reset(const Eigen::VectorXd& x, const Eigen::MatrixXd& S);
   /// Throws std::runtime_error naming the state if the belief is no longer finite.
   virtual void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) = 0;
   /// The backward step of the last predict(), which started at x_0, S_0. The reflections that make the first rows of the
@@ -119,7 +121,7 @@ class GaussianFilter {
   ///   [ D  Q_root ]      →    [ S⁻       0    ]     D: predicted points minus their mean, or F S_0
   ///   [ A    0    ]           [ G S⁻   V_root ]     A: the same columns before the prediction
   ///
-  void backward_step(const Eigen::VectorXd& x_0, const Eigen::MatrixXd& S_0, BackwardStep& step);
+  void backward_step(const Eigen::VectorXd& x_0, const LaneMatrix& S_0, BackwardStep& step);
   /// The last predict(), which started at x_0, as a linear map.
   void record(const DiscreteProcess& process, const Eigen::VectorXd& x_0, LinearPrediction& prediction) const;
   /// Predicts by the linear map, from any belief. A down-date of the recorded prediction is left out.
@@ -130,7 +132,8 @@ class GaussianFilter {
                             double gate) = 0;
 
   const Eigen::VectorXd& x() const { return x_; }
-  const Eigen::MatrixXd& S() const { return S_; }
+  const LaneMatrix& root() const { return S_; }
+  LaneMatrix::ConstView S() const { return S_.view(); }
   /// Number of roots that were lost and rebuilt.
   long repaired() const { return repaired_; }
 
@@ -150,11 +153,11 @@ class GaussianFilter {
 
   /// Block A of backward_step() [n x any]: the columns that the prediction turned into the first columns of
   /// `predicted_columns_`.
-  virtual void set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A) const = 0;
+  virtual void set_columns_before(const LaneMatrix::ConstView& S_0, Eigen::Ref<Eigen::MatrixXd> A) const = 0;
   virtual int count_columns_before() const = 0;
 
   Eigen::VectorXd x_;
-  Eigen::MatrixXd S_;
+  LaneMatrix S_;
   Eigen::VectorXd x_predicted_;
   LaneMatrix predicted_columns_;  // their triangular root is S⁻; kept from the last predict()
   long repaired_ = 0;

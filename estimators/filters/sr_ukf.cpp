@@ -36,7 +36,7 @@ void SquareRootUkf::place_sigma_points(Eigen::MatrixXd& X) const {
   const double gamma = std::sqrt(spread_squared());
   X.resize(n, 2 * n + 1);
   X.col(0) = x_;
-  X.middleCols(1, n) = (gamma * S_).colwise() + x_;
+  X.middleCols(1, n) = (gamma * S()).colwise() + x_;
   // Opposite to what the first half was rounded to: a pair that is not symmetric would tell of a curvature.
   X.rightCols(n) = (-(X.middleCols(1, n).colwise() - x_)).colwise() + x_;
 }
@@ -69,7 +69,7 @@ int SquareRootUkf::move_sigma_points(const DiscreteProcess& process, int others)
   const double gamma = std::sqrt(spread_squared());
   X_.resize(n, 2 * n + 1);  // here, so that a later step needs no memory
   predicted_columns_.reshape(n, n + others);
-  moved_in_pairs_ = gamma <= kNarrow && process.advance_pairs(x_, gamma, predicted_columns_, delta_);
+  moved_in_pairs_ = gamma <= kNarrow && process.advance_pairs(x_, S_, gamma, predicted_columns_, delta_);
   if (moved_in_pairs_) {
     delta_ *= n / (gamma * gamma);
     return n;
@@ -97,12 +97,12 @@ void SquareRootUkf::predict(const DiscreteProcess& process, const Eigen::MatrixX
     delta_(i) = significant_shift(delta_(i), std::max(size_(i), std::abs(x_(i))), std::sqrt(squares_(i)));
   x_ += delta_;
   set_block(Q_root, predicted_columns_.view().middleCols(points, sources));
-  root_with_central(predicted_columns_, delta_, S_);
+  root_with_central(predicted_columns_, delta_, S_.view());
   x_predicted_ = x_;
   check_finite(process);
 }
 
-void SquareRootUkf::set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A) const {
+void SquareRootUkf::set_columns_before(const LaneMatrix::ConstView& S_0, Eigen::Ref<Eigen::MatrixXd> A) const {
   if (moved_in_pairs_) {
     A = S_0;
     return;
@@ -159,7 +159,7 @@ Innovation SquareRootUkf::update(const MeasurementModel& measurement, const Read
   d.noalias() -= K * e.leftCols(points);
   columns.middleCols(points, m).noalias() = K * R_root;
   delta_.noalias() = K * epsilon;
-  root_with_central(columns_, delta_, S_);
+  root_with_central(columns_, delta_, S_.view());
   return innovation;
 }
 

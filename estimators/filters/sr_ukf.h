@@ -55,7 +55,7 @@ class SquareRootUkf : public GaussianFilter {
  private:
   /// √W (X_±i - x) of the sigma points before the prediction; of pairs √2W (X_i - x).
   int count_columns_before() const override { return (moved_in_pairs_ ? 1 : 2) * static_cast<int>(x_.size()); }
-  void set_columns_before(const Eigen::MatrixXd& S_0, Eigen::Ref<Eigen::MatrixXd> A) const override;
+  void set_columns_before(const LaneMatrix::ConstView& S_0, Eigen::Ref<Eigen::MatrixXd> A) const override;
   double spread_squared() const;  // γ²
   /// δ or ε of one component; 0 if it is rounding of numbers of that `size`, or beyond the limit. spread: √(W Σ d_i²).
   double significant_shift(double shift, double size, double spread) const;

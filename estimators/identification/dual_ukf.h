@@ -91,7 +91,7 @@ class DualUkf {
   DualStep update(const EncoderSample& sample);
 
   const Eigen::VectorXd& w() const { return weights_filter_.x(); }
-  const Eigen::MatrixXd& S_w() const { return weights_filter_.S(); }
+  LaneMatrix::ConstView S_w() const { return weights_filter_.S(); }
 
  private:
   Eigen::VectorXd numbers(const Eigen::VectorXd& w) const;

@@ -62,6 +62,14 @@ void second_stage(const LinearisedArm& model, const LinearisedPoint& start, cons
       });
 }
 
+void rates_beside(const LinearisedArm& model, const HeldInputs& in, const double* x, double* x_dot,
+                  LinearisedPoint& point) {
+  with_known_joints(
+      model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
+        set_rates_beside<known>(model, in, x, x_dot, point);
+      });
+}
+
 void far_excess(const LinearisedArm& model, const LinearisedPoint& start, const LinearisedPoint& end, const double* x_2,
                 double factor, int blocks, const Lanes* d, Lanes* rates) {
   with_known_joints(
@@ -86,8 +94,8 @@ void impulse_response(const LinearisedArm& model, const ImpulseStep& step, int b
 }
 
 constexpr LaneKernels kernels_named(const char* name) {
-  return {name,           advance<Lanes>, advance<Dual>, derivative,  linearise,
-          mean_curvature, second_stage,   far_excess,    near_excess, impulse_response};
+  return {name,         advance<Lanes>, advance<Dual>, derivative,  linearise,       mean_curvature,
+          second_stage, rates_beside,   far_excess,    near_excess, impulse_response};
 }
 
 }  // namespace

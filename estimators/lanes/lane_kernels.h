@@ -30,9 +30,11 @@ struct LaneKernels {
   void (*mean_curvature)(const LinearisedArm& model, LinearisedPoint& point, const ChainPoint* near, const double* x,
                          const double* x_dot, const double* A, double gamma, int count, int blocks, const Lanes* root,
                          double* mean);
-  /// second_stage(), set_far_excess() and set_near_excess() of arm_second_stage.h.
+  /// second_stage(), set_rates_beside(), set_far_excess() and set_near_excess() of arm_second_stage.h.
   void (*second_stage)(const LinearisedArm& model, const LinearisedPoint& start, const double* x, const double* x_2,
                        LinearisedPoint& end, double* D);
+  void (*rates_beside)(const LinearisedArm& model, const HeldInputs& in, const double* x, double* x_dot,
+                       LinearisedPoint& point);
   void (*far_excess)(const LinearisedArm& model, const LinearisedPoint& start, const LinearisedPoint& end,
                      const double* x_2, double factor, int blocks, const Lanes* d, Lanes* rates);
   void (*near_excess)(const LinearisedArm& model, const LinearisedPoint& start, const LinearisedPoint& end,

@@ -130,15 +130,7 @@ inline void set_rows_transposed(const Eigen::Ref<const Eigen::MatrixXd>& A, Lane
 
 /// Sums of the squares of the rows of the first `count` columns of A: squares [A.rows()].
 inline void set_row_squares(const LaneMatrix& A, int count, double* squares) {
-  for (int b = 0; b < A.blocks(); ++b) {
-    Lanes sum(0.0);
-    for (int c = 0; c < count; ++c) {
-      const Lanes& entries = A.lanes()[c * A.blocks() + b];
-      sum += entries * entries;
-    }
-    const int first = b * kLaneWidth;
-    for (int i = 0; i < kLaneWidth && first + i < A.rows(); ++i) squares[first + i] = sum[i];
-  }
+  widest_matrix_kernels().row_squares(A.rows(), count, A.lanes(), A.blocks(), squares);
 }
 
 }  // namespace halyard

@@ -47,28 +47,50 @@ template <int known>
 HALYARD_INLINE void reflect_of(int height, int from, int onto, int columns, int stride, const Piece* u, Piece* A,
                                Piece* w) {
   const int h = known > 0 ? known : height;
-  Piece factor[known > 0 ? known : kMostRootPieces], sum[known > 0 ? known : kMostRootPieces];
-  _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) factor[p] = u[p], sum[p] = Piece{};
-  for (int c = 0; c < columns; ++c, A += stride) {
-    const double* entries = reinterpret_cast<const double*>(A);
-    const Piece entry = tiles::all(entries[from]);
-    _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) A[p] -= factor[p] * entry;
-    const Piece next = tiles::all(entries[onto]);
-    _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) sum[p] += next * A[p];
+  constexpr int most = known > 0 ? known : kMostRootPieces;
+  Piece factor[most], even[most], odd[most];  // sums of w that do not wait for each other
+  _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) factor[p] = u[p], even[p] = odd[p] = Piece{};
+  const Piece factor_onto = tiles::all(reinterpret_cast<const double*>(u)[onto]);
+  const auto column = [&](Piece * of_A, Piece * sum) __attribute__((always_inline)) {
+    const double* entries = reinterpret_cast<const double*>(of_A);
+    const Piece entry = tiles::all(entries[from]), next = tiles::all(entries[onto]) - factor_onto * entry;
+    _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) {
+      of_A[p] -= factor[p] * entry;
+      sum[p] += next * of_A[p];
+    }
+  };
+  int c = 0;
+  for (; c + 2 <= columns; c += 2, A += 2 * stride) column(A, even), column(A + stride, odd);
+  if (c < columns) column(A, even);
+  _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) w[p] = even[p] + odd[p];
+}
+
+/// Calls f<height>() for heights of up to six registers, else f<0>().
+template <class F>
+HALYARD_INLINE void with_known_height(int height, const F& f) {
+  switch (height) {
+    case 1: return f.template operator()<1>();
+    case 2: return f.template operator()<2>();
+    case 3: return f.template operator()<3>();
+    case 4: return f.template operator()<4>();
+    case 5: return f.template operator()<5>();
+    case 6: return f.template operator()<6>();
+    default: return f.template operator()<0>();
   }
-  _Pragma("GCC unroll 6") for (int p = 0; p < h; ++p) w[p] = sum[p];
 }
 
 void reflect(int height, int from, int onto, int columns, int stride, const Piece* u, Piece* A, Piece* w) {
-  switch (height) {
-    case 1: return reflect_of<1>(height, from, onto, columns, stride, u, A, w);
-    case 2: return reflect_of<2>(height, from, onto, columns, stride, u, A, w);
-    case 3: return reflect_of<3>(height, from, onto, columns, stride, u, A, w);
-    case 4: return reflect_of<4>(height, from, onto, columns, stride, u, A, w);
-    case 5: return reflect_of<5>(height, from, onto, columns, stride, u, A, w);
-    case 6: return reflect_of<6>(height, from, onto, columns, stride, u, A, w);
-    default: return reflect_of<0>(height, from, onto, columns, stride, u, A, w);
-  }
+  with_known_height(
+      height, [&]<int known>()
+                  __attribute__((always_inline)) { reflect_of<known>(height, from, onto, columns, stride, u, A, w); });
+}
+
+/// B = A, of `rows` numbers, in registers of `width` and less.
+template <int width>
+HALYARD_INLINE void copy_column(int rows, const double* A, double* B) {
+  int r = 0;
+  for (; r + width <= rows; r += width) __builtin_memcpy(B + r, A + r, sizeof(double) * width);
+  if constexpr (width > 1) copy_column<width / 2>(rows - r, A + r, B + r);
 }
 
 /// Column i of L [n]: zeros, and from row i on scale times v.
@@ -77,8 +99,7 @@ HALYARD_INLINE void put_column(int n, int i, double scale, const Piece* v, doubl
     const Piece entries = scale * v[p];
     const int k = p * tiles::kPieceWidth;
     if (k + tiles::kPieceWidth <= n) __builtin_memcpy(L + k, &entries, sizeof(Piece));
-    else
-      for (int r = k; r < n; ++r) L[r] = entries[r - k];
+    else copy_column<tiles::kPieceWidth / 2>(n - k, reinterpret_cast<const double*>(&entries), L + k);
   }
   for (int k = 0; k < i; ++k) L[k] = 0;
 }
@@ -150,10 +171,9 @@ void correct(int n, int m, int blocks, const double* H, int h_stride, Lanes* S, 
     const double l = __builtin_sqrt(even + odd);
     L[j + j * l_stride] = l;
     Piece* g = pieces(G) + j * stride;
-    if (height == 3) correct_of<3>(height, n, stride, w, l, pieces(S), g);
-    else if (height == 4) correct_of<4>(height, n, stride, w, l, pieces(S), g);
-    else if (height == 5) correct_of<5>(height, n, stride, w, l, pieces(S), g);
-    else correct_of<0>(height, n, stride, w, l, pieces(S), g);
+    with_known_height(
+        height, [&]<int known>()
+                    __attribute__((always_inline)) { correct_of<known>(height, n, stride, w, l, pieces(S), g); });
   }
 }
 
@@ -169,42 +189,53 @@ HALYARD_INLINE void squares_of(int height, int columns, const Piece* column, int
 
 void column_squares(int rows, int columns, const Lanes* A, int blocks, double* squares) {
   const int height = pieces_of(rows), stride = blocks * kPiecesPerBlock;
-  if (height == 3) squares_of<3>(height, columns, pieces(A), stride, squares);
-  else squares_of<0>(height, columns, pieces(A), stride, squares);
+  with_known_height(
+      height, [&]<int known>()
+                  __attribute__((always_inline)) { squares_of<known>(height, columns, pieces(A), stride, squares); });
 }
 
-void copy(int rows, int columns, const double* A, int a_stride, double* B, int b_stride) {
-  constexpr int kWidth = tiles::kPieceWidth;
-  for (int c = 0; c < columns; ++c, A += a_stride, B += b_stride) {
-    int r = 0;
-    for (; r + kWidth <= rows; r += kWidth) {
-      Piece entries;
-      __builtin_memcpy(&entries, A + r, sizeof(Piece));
-      __builtin_memcpy(B + r, &entries, sizeof(Piece));
+void row_squares(int rows, int columns, const Lanes* A, int blocks, double* squares) {
+  const Piece* column = pieces(A);
+  for (int p = 0, height = pieces_of(rows); p < height; ++p) {
+    Piece even{}, odd{};
+    int c = 0;
+    for (; c + 2 <= columns; c += 2) {
+      const Piece *first = column + p + c * blocks * kPiecesPerBlock, *second = first + blocks * kPiecesPerBlock;
+      even += *first * *first, odd += *second * *second;
     }
-    for (; r < rows; ++r) B[r] = A[r];
+    if (c < columns) even += column[p + c * blocks * kPiecesPerBlock] * column[p + c * blocks * kPiecesPerBlock];
+    even += odd;
+    const int r = p * tiles::kPieceWidth;
+    copy_column<tiles::kPieceWidth>(rows - r < tiles::kPieceWidth ? rows - r : tiles::kPieceWidth,
+                                    reinterpret_cast<const double*>(&even), squares + r);
   }
 }
 
-/// Transposes square tiles; what is left at the edges, entry by entry.
+void copy(int rows, int columns, const double* A, int a_stride, double* B, int b_stride) {
+  for (int c = 0; c < columns; ++c, A += a_stride, B += b_stride) copy_column<tiles::kPieceWidth>(rows, A, B);
+}
+
+/// B = Aᵀ in square tiles of `width`; what is left at the edges, in smaller ones.
+template <int width>
+HALYARD_INLINE void transpose_in_tiles(int rows, int columns, const double* A, int a_stride, double* B, int b_stride) {
+  const int whole_rows = rows / width * width, whole_columns = columns / width * width;
+  for (int c = 0; c < whole_columns; c += width)
+    for (int r = 0; r < whole_rows; r += width)
+      tiles::transpose_tile<width>(A + r + c * a_stride, a_stride, B + c + r * b_stride, b_stride);
+  if constexpr (width > 1) {
+    transpose_in_tiles<width / 2>(rows - whole_rows, whole_columns, A + whole_rows, a_stride, B + whole_rows * b_stride,
+                                  b_stride);
+    transpose_in_tiles<width / 2>(rows, columns - whole_columns, A + whole_columns * a_stride, a_stride,
+                                  B + whole_columns, b_stride);
+  }
+}
+
 void transpose(int rows, int columns, const double* A, int a_stride, double* B, int b_stride) {
-  constexpr int kWidth = tiles::kPieceWidth;
-  const int whole_rows = rows / kWidth * kWidth, whole_columns = columns / kWidth * kWidth;
-  for (int c = 0; c < whole_columns; c += kWidth)
-    for (int r = 0; r < whole_rows; r += kWidth) {
-      Piece tile[kWidth];
-      _Pragma("GCC unroll 8") for (int i = 0; i < kWidth; ++i)
-          __builtin_memcpy(tile + i, A + r + (c + i) * a_stride, sizeof(Piece));
-      tiles::transpose_tile(tile);
-      _Pragma("GCC unroll 8") for (int i = 0; i < kWidth; ++i)
-          __builtin_memcpy(B + c + (r + i) * b_stride, tile + i, sizeof(Piece));
-    }
-  for (int c = 0; c < columns; ++c)
-    for (int r = c < whole_columns ? whole_rows : 0; r < rows; ++r) B[c + r * b_stride] = A[r + c * a_stride];
+  transpose_in_tiles<tiles::kPieceWidth>(rows, columns, A, a_stride, B, b_stride);
 }
 
 constexpr MatrixKernels matrix_kernels_named(const char* name) {
-  return {name, product, lower_root, correct, column_squares, copy, transpose, phi_functions};
+  return {name, product, lower_root, correct, column_squares, row_squares, copy, transpose, phi_functions};
 }
 
 }  // namespace

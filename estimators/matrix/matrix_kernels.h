@@ -23,12 +23,11 @@ struct PhiShape {
 };
 /// Matrices in lanes, whose rows from PhiShape::end on are zero but for those of E: [n x n]; the φ_k [n x end - first].
 struct PhiLevelMemory {
-  Lanes *E, *phi_1, *phi_2;
+  Lanes *E, *phi_1, *phi_2, *phi_3;
 };
 struct PhiMemory {
   const PhiLevelMemory* level;  ///< [most + 1]
-  Lanes* phi_3;
-  const Lanes* weight;  ///< D_j / D_i
+  const Lanes* weight;          ///< D_j / D_i
   Lanes *Y, *Y2, *Y3, *next;
 };
 
@@ -51,12 +50,13 @@ struct MatrixKernels {
   void (*correct)(int n, int m, int blocks, const double* H, int h_stride, Lanes* S, Lanes* G, double* L, int l_stride);
   /// Σ_r A_rc² of each column of A [rows x columns].
   void (*column_squares)(int rows, int columns, const Lanes* A, int blocks, double* squares);
+  /// Σ_c A_rc² of each row.
+  void (*row_squares)(int rows, int columns, const Lanes* A, int blocks, double* squares);
   /// B [rows x columns] = A; strides: of columns.
   void (*copy)(int rows, int columns, const double* A, int a_stride, double* B, int b_stride);
   /// B [columns x rows] = Aᵀ, A [rows x columns]; strides: of columns.
   void (*transpose)(int rows, int columns, const double* A, int a_stride, double* B, int b_stride);
-  /// The functions of phi_functions.h from Y = Z, which is overwritten: E, φ_1 and φ_2 of all levels, and φ_3 of the
-  /// last. Returns the number of doublings; if this would exceed `most`, or Y is not finite, -1, and nothing is computed.
+  /// The functions of phi_functions.h, of all levels, from Y = Z. Returns the number of doublings; if this would exceed `most`, or Y is not finite, -1, and nothing is computed.
   int (*phi_functions)(const PhiShape& shape, int most, const PhiMemory& memory);
 };
 

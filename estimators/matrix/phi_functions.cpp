@@ -41,34 +41,20 @@ void PhiFunctions::take_memory(const PhiShape& shape) {
   for (Level& level : levels_) {
     level.E.set_zero(n, n);
     level.E.view().diagonal().setOnes();
-    for (LaneMatrix* A : {&level.phi_1, &level.phi_2}) A->set_zero(n, m);
-    memory_.push_back({level.E.lanes(), level.phi_1.lanes(), level.phi_2.lanes()});
+    for (LaneMatrix* A : {&level.phi_1, &level.phi_2, &level.phi_3}) A->set_zero(n, m);
+    memory_.push_back({level.E.lanes(), level.phi_1.lanes(), level.phi_2.lanes(), level.phi_3.lanes()});
   }
-  for (LaneMatrix* A : {&phi_3_, &next_}) A->set_zero(n, m);
+  next_.set_zero(n, m);
   for (LaneMatrix* A : {&Y_, &Y2_, &Y3_}) A->set_zero(n, n);
 }
 
 bool PhiFunctions::compute(double h, const Eigen::MatrixXd& A, const PhiShape& shape) {
   take_memory(shape);
-  Y_.view() = h * A;
+  set_block(A, Y_.view());
+  Y_.set_lanes([&](std::size_t i) { return h * Y_.lanes()[i]; });
   doublings_ = widest_matrix_kernels().phi_functions(
-      shape_, kMostDoublings,
-      {memory_.data(), phi_3_.lanes(), weight_.lanes(), Y_.lanes(), Y2_.lanes(), Y3_.lanes(), next_.lanes()});
+      shape_, kMostDoublings, {memory_.data(), weight_.lanes(), Y_.lanes(), Y2_.lanes(), Y3_.lanes(), next_.lanes()});
   return doublings_ >= 0;
-}
-
-const Eigen::VectorXd& PhiFunctions::phi_3_times(const Eigen::VectorXd& v) {
-  half_ = 0.5 * v;
-  set_product(phi_3_, right(v), 1, column_);
-  product_ = column_.view().col(0);
-  for (int k = doublings_; k > 0; --k) {
-    const Level& level = levels_[static_cast<std::size_t>(k)];
-    set_product(level.E, right(product_), 1, column_);
-    add_product(level.phi_1, right(half_), column_);
-    add_product(level.phi_2, right(v), column_);
-    product_ = 0.125 * (product_ + column_.view().col(0));
-  }
-  return product_;
 }
 
 }  // namespace halyard

@@ -9,8 +9,6 @@
 ///
 ///   φ_k(2Y) = 2^-k (E φ_k(Y) + Σ_{j=1..k} φ_j(Y) / (k - j)!),   E(2Y) = E(Y)²
 ///
-/// φ_3 of the whole Z only multiplies vectors. Then the formula multiplies vectors, too.
-///
 /// Mechanical systems have kinematic rows, q' = v. With p of them, then m rows of any kind, and no others but zeros,
 ///
 ///   Z = [ 0 y I  0 ; K D B ; 0 0 0 ]
@@ -44,17 +42,16 @@ class PhiFunctions {
   /// exceed kMostDoublings.
   bool compute(double h, const Eigen::MatrixXd& A, const PhiShape& shape);
 
-  /// The functions of Z / 2^k: E [n x n], φ_1 V and φ_2 V [n x m].
+  /// The functions of Z / 2^k: E [n x n], φ_1 V to φ_3 V [n x m].
   struct Level {
-    LaneMatrix E, phi_1, phi_2;
+    LaneMatrix E, phi_1, phi_2, phi_3;
   };
   const Level& level(int k) const { return levels_[static_cast<std::size_t>(k)]; }
   int doublings() const { return doublings_; }  ///< s, at least 1: the last level
   const LaneMatrix& E() const { return levels_[0].E; }
   const LaneMatrix& phi_1() const { return levels_[0].phi_1; }
   const LaneMatrix& phi_2() const { return levels_[0].phi_2; }
-  /// φ_3 V v [n], v [m], which stays valid until the next product of this kind.
-  const Eigen::VectorXd& phi_3_times(const Eigen::VectorXd& v);
+  const LaneMatrix& phi_3() const { return levels_[0].phi_3; }
 
  private:
   void take_memory(const PhiShape& shape);
@@ -64,10 +61,8 @@ class PhiFunctions {
   int doublings_ = 0;
   LaneMatrix weight_;  // D_j / D_i
   std::vector<Level> levels_;
-  std::vector<PhiLevelMemory> memory_;     // of levels_
-  LaneMatrix Y_, Y2_, Y3_, phi_3_, next_;  // φ_3 of the last level
-  LaneMatrix column_;
-  Eigen::VectorXd product_, half_;
+  std::vector<PhiLevelMemory> memory_;  // of levels_
+  LaneMatrix Y_, Y2_, Y3_, next_;
 };
 
 }  // namespace halyard

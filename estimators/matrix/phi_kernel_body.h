@@ -106,14 +106,14 @@ HALYARD_INLINE void polynomials(const Operations& on, const PhiMemory& m, double
         0, m.Y3, on.end, on.entries(from), on.count,
         to, [&](int i, const Piece& sum) __attribute__((always_inline)) { return s3 * sum + a * Y[i] + b * Y2[i]; });
   };
-  times_Y3(m.next, 1.0 / 3628800, 1.0 / 39916800, m.phi_3);
-  on.add_units(m.phi_3, 1.0 / 362880);
-  times_Y3(m.phi_3, 1.0 / 5040, 1.0 / 40320, m.next);
+  times_Y3(m.next, 1.0 / 3628800, 1.0 / 39916800, level.phi_3);
+  on.add_units(level.phi_3, 1.0 / 362880);
+  times_Y3(level.phi_3, 1.0 / 5040, 1.0 / 40320, m.next);
   on.add_units(m.next, 1.0 / 720);
-  times_Y3(m.next, 1.0 / 24, 1.0 / 120, m.phi_3);
-  on.add_units(m.phi_3, 1.0 / 6);
+  times_Y3(m.next, 1.0 / 24, 1.0 / 120, level.phi_3);
+  on.add_units(level.phi_3, 1.0 / 6);
   const double y = on.first > 0 ? s * on.entries(YV)[0] : 0;
-  const Lanes* before = m.phi_3;
+  const Lanes* before = level.phi_3;
   double unit = 0.5;
   for (Lanes* const C : {level.phi_2, level.phi_1, EV}) {
     on.product(on.moving, m.Y, on.end, on.entries(before), on.count, C, scaled);
@@ -129,9 +129,14 @@ template <class Operations>
 HALYARD_INLINE void double_argument(const Operations& on, const PhiMemory& m, double factor, const PhiLevelMemory& half,
                                     const PhiLevelMemory& whole) {
   using tiles::Piece;
-  const Piece *one = tiles::pieces(half.phi_1), *two = tiles::pieces(half.phi_2);
+  const Piece *one = tiles::pieces(half.phi_1), *two = tiles::pieces(half.phi_2), *three = tiles::pieces(half.phi_3);
   const double y = on.first > 0 ? factor * on.entries(m.Y)[on.first * on.column_size()] : 0;
   Lanes *half_EV = on.columns_from(half.E, on.first), *EV = on.columns_from(whole.E, on.first);
+  on.product(
+      0, half.E, on.end, on.entries(half.phi_3), on.count,
+      whole.phi_3, [&](int i, const Piece& sum) __attribute__((always_inline)) {
+        return 0.125 * (sum + 0.5 * one[i] + two[i] + three[i]);
+      });
   on.product(
       0, half.E, on.end, on.entries(half.phi_2), on.count,
       whole.phi_2, [&](int i, const Piece& sum) __attribute__((always_inline)) {

@@ -81,19 +81,34 @@ HALYARD_INLINE double sum_of(const Lanes& a) {
 }
 
 /// Rows a and b, `distance` apart, exchange blocks of that size: the right ones of a with the left ones of b.
-template <int distance, int... i>
-HALYARD_INLINE void exchange_blocks(Piece& a, Piece& b, std::integer_sequence<int, i...>) {
-  const Piece low = __builtin_shufflevector(a, b, (i & distance ? i - distance + kPieceWidth : i)...);
-  b = __builtin_shufflevector(a, b, (i & distance ? i + kPieceWidth : i + distance)...);
+template <int distance, class Row, int... i>
+HALYARD_INLINE void exchange_blocks(Row& a, Row& b, std::integer_sequence<int, i...>) {
+  constexpr int width = sizeof...(i);
+  const Row low = __builtin_shufflevector(a, b, (i & distance ? i - distance + width : i)...);
+  b = __builtin_shufflevector(a, b, (i & distance ? i + width : i + distance)...);
   a = low;
 }
 
-/// Transposes kPieceWidth rows of as many entries, by blocks of half the size from stage to stage.
-template <int distance = kPieceWidth / 2>
-HALYARD_INLINE void transpose_tile(Piece* rows) {
-  _Pragma("GCC unroll 8") for (int r = 0; r < kPieceWidth; ++r) if ((r & distance) == 0)
-      exchange_blocks<distance>(rows[r], rows[r + distance], std::make_integer_sequence<int, kPieceWidth>());
-  if constexpr (distance > 1) transpose_tile<distance / 2>(rows);
+/// Transposes rows of `width` entries, by blocks of half the size from stage to stage.
+template <int width, int distance, class Row>
+HALYARD_INLINE void transpose_rows(Row* rows) {
+  _Pragma("GCC unroll 8") for (int r = 0; r < width; ++r) if ((r & distance) == 0)
+      exchange_blocks<distance>(rows[r], rows[r + distance], std::make_integer_sequence<int, width>());
+  if constexpr (distance > 1) transpose_rows<width, distance / 2>(rows);
+}
+
+/// B = Aᵀ, [width x width]; strides: of columns.
+template <int width>
+HALYARD_INLINE void transpose_tile(const double* A, int a_stride, double* B, int b_stride) {
+  if constexpr (width == 1) {
+    *B = *A;
+  } else {
+    typedef double Row __attribute__((vector_size(8 * width)));
+    Row rows[width];
+    _Pragma("GCC unroll 8") for (int i = 0; i < width; ++i) __builtin_memcpy(rows + i, A + i * a_stride, sizeof(Row));
+    transpose_rows<width, width / 2>(rows);
+    _Pragma("GCC unroll 8") for (int i = 0; i < width; ++i) __builtin_memcpy(B + i * b_stride, rows + i, sizeof(Row));
+  }
 }
 
 }  // namespace halyard::tiles

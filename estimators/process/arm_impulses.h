@@ -28,7 +28,7 @@ HALYARD_INLINE void deviation_rates(const LinearisedArm& model, const ImpulseSte
   set_frictions(t, n, at, friction);
   Lanes e[2 * kMaxJoints], u[kMaxJoints];
   for (int i = 0; i < 2 * n; ++i) {
-    const Lanes change = d[t.speed[i]], sign = smooth_sign(at[t.speed[i]] + change, Lanes(t.smoothing[i]));
+    const Lanes change = d[t.speed[i]], sign = tanh((at[t.speed[i]] + change) * t.per_smoothing[i]);
     e[i] = t.coulomb[i] * (sign - friction.sign[i]) + (t.viscous[i] - step.start.friction.slope[i]) * change;
   }
   for (int k = 0; k < n; ++k) u[k] = Lanes(0.0);

@@ -88,40 +88,50 @@ HALYARD_INLINE void linearise_transmission(const Transmission<Dual>& transmissio
   }
 }
 
-/// The same as linearise_transmission(), for a plain transmission. `dual`: the parameters of `arm`.
+/// F of a plain transmission, the rows of x_dot but those of the joints' rates, and what friction and cables are at x.
+/// `dual`: the parameters of `arm`.
 template <int known>
-HALYARD_INLINE void linearise_plain_transmission(const PlainTransmission& t, const ArmParameters<double>& arm,
-                                                 const ArmParameters<Dual>& dual, const StateLayout& l,
-                                                 const Dual* command, const Dual* external, const double* x,
-                                                 double* x_dot, double* A, JointForces& forces,
-                                                 LinearisedPoint& point) {
+HALYARD_INLINE void set_plain_forces(const PlainTransmission& t, const ArmParameters<double>& arm,
+                                     const ArmParameters<Dual>& dual, const StateLayout& l, const Dual* command,
+                                     const Dual* external, const double* x, Frictions& friction, CableForces& cable,
+                                     double* x_dot, double* force) {
+  const int n = joint_count<known>(arm);
+  set_frictions(t, n, x, friction);
+  set_cable_forces<known>(t, arm, dual, l, x, cable);
+  for (int i = l.effect_states; i < l.size; ++i) x_dot[i] = 0;
+  for (int k = 0; k < n; ++k) {
+    force[k] = external[k].a - friction.value[n + k];
+    if (const PlainTransmission::Constant& added = t.force[k]; added.state >= 0)
+      force[k] += added.factor * x[added.state];
+  }
+  for (int k = 0; k < n; ++k) {
+    const double torque = arm.joint[k].torque_scale * command[k].a + arm.joint[k].torque_bias - friction.value[k];
+    x_dot[*l.motor_angle[k]] = x[*l.motor_rate[k]];
+    x_dot[*l.motor_rate[k]] = t.per_rotor_inertia[k] * (torque - t.travel[k] * cable.value[k]);
+    x_dot[l.position[k]] = x[l.rate[k]];
+    for (int i = 0; i < n; ++i) force[i] += t.path[k][i] * cable.value[k];
+  }
+}
+
+/// The slopes of F, and the rows of A but those of the joints' rates.
+template <int known>
+HALYARD_INLINE void set_plain_slopes(const PlainTransmission& t, const ArmParameters<double>& arm, const StateLayout& l,
+                                     const Frictions& friction, const CableForces& cable, double* A,
+                                     JointForces& forces) {
   const int n = joint_count<known>(arm), size = l.size;
   for (int i = 0; i < size * size; ++i) A[i] = 0;
-  for (int i = l.effect_states; i < size; ++i) x_dot[i] = 0;
-  CableForces& g = point.cable;
-  set_frictions(t, n, x, point.friction);
-  const Frictions& friction = point.friction;
-  set_cable_forces<known>(t, arm, dual, l, x, g);
   for (int k = 0; k < n; ++k) {
-    forces.value[k] = external[k].a - friction.value[n + k];
     for (int i = 0; i < size; ++i) forces.slope[k][i] = 0;
     forces.slope[k][l.rate[k]] = -friction.slope[n + k];
-    if (const PlainTransmission::Constant& added = t.force[k]; added.state >= 0) {
-      forces.value[k] += added.factor * x[added.state];
+    if (const PlainTransmission::Constant& added = t.force[k]; added.state >= 0)
       forces.slope[k][added.state] = added.factor;
-    }
   }
   for (int k = 0; k < n; ++k) {
     const int angle = *l.motor_angle[k], rate = *l.motor_rate[k];
     const double travel = t.travel[k], per_inertia = t.per_rotor_inertia[k];
-    const double torque = arm.joint[k].torque_scale * command[k].a + arm.joint[k].torque_bias - friction.value[k];
-    x_dot[angle] = x[rate];
-    x_dot[rate] = per_inertia * (torque - travel * g.value[k]);
-    x_dot[l.position[k]] = x[l.rate[k]];
     A[angle + rate * size] = A[l.position[k] + l.rate[k] * size] = 1;
     A[rate + rate * size] = -per_inertia * friction.slope[k];
-    for (int i = 0; i < n; ++i) forces.value[i] += t.path[k][i] * g.value[k];
-    const double pull = travel * per_inertia, stiff = g.stiff[k], damped = g.damped[k];
+    const double pull = travel * per_inertia, stiff = cable.stiff[k], damped = cable.damped[k];
     // The slope of the cable's force in a state.
     const auto add = [&](int state, double slope) __attribute__((always_inline)) {
       A[rate + state * size] -= pull * slope;
@@ -185,6 +195,27 @@ HALYARD_INLINE void mobility_times(const ChainPoint& point, int n, const double*
   }
 }
 
+/// a at x under the forces F, into x_dot and `chain`: from M and a that `chain` has.
+template <int known>
+HALYARD_INLINE void set_accelerations(const ArmParameters<double>& arm, const StateLayout& l,
+                                      const ChainPose<double>& pose, const double* x, const double* force,
+                                      ChainPoint& chain, double* x_dot) {
+  const int n = joint_count<known>(arm);
+  double v[kMaxJoints], rest[kMaxJoints], change[kMaxJoints];
+  for (int k = 0; k < n; ++k) v[k] = x[l.rate[k]];
+  inverse_dynamics<known>(arm, pose, v, chain.acceleration, rest);
+  for (int k = 0; k < n; ++k) rest[k] = force[k] - rest[k];
+  mobility_times(chain, n, rest, change);
+  for (int k = 0; k < n; ++k) x_dot[l.rate[k]] = chain.acceleration[k] += change[k];
+}
+
+template <int known>
+HALYARD_INLINE ChainPose<double> pose_at(const ArmParameters<double>& arm, const StateLayout& l, const double* x) {
+  double q[kMaxJoints];
+  for (int k = 0, n = joint_count<known>(arm); k < n; ++k) q[k] = x[l.position[k]];
+  return chain_pose<known>(arm, q);
+}
+
 /// The arm's equations, and what is held over a step.
 struct LinearisedArm {
   const Transmission<Dual>& transmission;
@@ -207,23 +238,24 @@ HALYARD_INLINE void linearised_derivative(const LinearisedArm& model, double tim
   const StateLayout& l = model.layout;
   const int n = joint_count<known>(arm);
   JointForces forces;
-  if (model.plain)
-    linearise_plain_transmission<known>(*model.plain, arm, model.transmission.arm(), l, in.command, in.external, x,
-                                        x_dot, A, forces, point);
-  else
+  if (model.plain) {
+    set_plain_forces<known>(*model.plain, arm, model.transmission.arm(), l, in.command, in.external, x, point.friction,
+                            point.cable, x_dot, forces.value);
+    set_plain_slopes<known>(*model.plain, arm, l, point.friction, point.cable, A, forces);
+  } else {
     linearise_transmission<known>(model.transmission, l, time, in.history, in.command, in.external, x, x_dot, A,
                                   forces);
+  }
   ChainPoint& chain = point.chain;
-  double q[kMaxJoints], v[kMaxJoints], a[kMaxJoints], rest[kMaxJoints], change[kMaxJoints];
-  for (int k = 0; k < n; ++k) q[k] = x[l.position[k]], v[k] = x[l.rate[k]], a[k] = near ? near->acceleration[k] : 0;
-  const ChainPose<double> pose = chain_pose<known>(arm, q);
-  if (!near) set_mobility<known>(arm, pose, chain);
-  else if (near != &chain) chain = *near;
-  inverse_dynamics<known>(arm, pose, v, a, rest);
-  for (int k = 0; k < n; ++k) rest[k] = forces.value[k] - rest[k];
-  mobility_times(chain, n, rest, change);
-  for (int k = 0; k < n; ++k) x_dot[l.rate[k]] = chain.acceleration[k] = a[k] += change[k];
-  if (!near) set_chain_slopes<known>(arm, l, x, a, chain);
+  const ChainPose<double> pose = pose_at<known>(arm, l, x);
+  if (!near) {
+    set_mobility<known>(arm, pose, chain);
+    for (int k = 0; k < n; ++k) chain.acceleration[k] = 0;
+  } else if (near != &chain) {
+    chain = *near;
+  }
+  set_accelerations<known>(arm, l, pose, x, forces.value, chain, x_dot);
+  if (!near) set_chain_slopes<known>(arm, l, x, chain.acceleration, chain);
   for (int k = 0; k < n; ++k)
     for (int i = 0; i < n; ++i) {
       forces.slope[k][l.position[i]] -= chain.slope[k][i];

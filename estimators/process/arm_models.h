@@ -24,13 +24,15 @@ class ArmProcess : public DiscreteProcess {
   bool advance_root(Eigen::VectorXd& x, LaneMatrix& FS) const override {
     return exponential_ && exponential_->advance_root(x, FS);
   }
-  bool advance_pairs(Eigen::VectorXd& x, double gamma, LaneMatrix& FS, Eigen::VectorXd& shift) const override {
-    return exponential_ && exponential_->advance_pairs(x, gamma, FS, shift);
+  bool advance_pairs(Eigen::VectorXd& x, const LaneMatrix& S, double gamma, LaneMatrix& FS,
+                     Eigen::VectorXd& shift) const override {
+    return exponential_ && exponential_->advance_pairs(x, S, gamma, FS, shift);
   }
-  void transition(const Eigen::VectorXd& x_0, Eigen::Ref<Eigen::MatrixXd> F) const override {
+  void transition(const Eigen::VectorXd& x_0, LaneMatrix& F) const override {
     if (exponential_ && exponential_->transition(F)) return;
     Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxStates, 1> x = x_0;
-    model_.advance_with_jacobian(step_, x.data(), F);
+    F.reshape(model_.n_states(), model_.n_states());
+    model_.advance_with_jacobian(step_, x.data(), F.view());
   }
   std::string name_of(int state) const override {
     std::ostringstream text;
@@ -44,7 +46,7 @@ class ArmProcess : public DiscreteProcess {
   ExponentialStep* exponential_;
 };
 
-/// h for some of the motors, given by the 0-based indices of their joints. The process model and the indices must
+/// h for some of the motors, given by the 0-based indices of their joints, in ascending order. The process model and the indices must
 /// outlive this object.
 class MotorReadings final : public MeasurementModel {
  public:
@@ -58,6 +60,7 @@ class MotorReadings final : public MeasurementModel {
   }
   void linearise(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
                  Eigen::Ref<Eigen::MatrixXd> H) const override {
+    if (z.size() == model_.n_joints()) return model_.linearise_readings(time_, x, z, H);
     AllReadings all(model_.n_joints());
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxJoints, kMaxStates> slopes(
         model_.n_joints(), model_.n_states());

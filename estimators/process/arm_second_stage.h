@@ -12,7 +12,7 @@
 ///   joints   M D = -e + Rᵀ u         u   cable force over its tangent at x     [n]
 ///
 /// The excess rate is the largest change of a damping rate f' / J or of a cable's rate √(s r² / J); J: inertia of the motor, or
-/// 1 / (M⁻¹)_kk. Where it is small beside 1/h, N' is not needed.
+/// 1 / (M⁻¹)_kk. Where it is small beside 1/h, N' is not needed, and a later step can keep A.
 
 #include "estimators/process/arm_curvature.h"
 
@@ -38,6 +38,20 @@ HALYARD_INLINE void answer_of_drives(const LinearisedArm& model, const ChainPoin
   }
 }
 
+/// Of friction and cables, against the slopes of A.
+HALYARD_INLINE double excess_rate(const PlainTransmission& t, int n, const LinearisedPoint& of_A,
+                                  const Frictions& friction, const CableForces& cable) {
+  double most = 0;
+  for (int k = 0; k < n; ++k) {
+    const double rates[3] = {t.per_rotor_inertia[k] * abs(friction.slope[k] - of_A.friction.slope[k]),
+                             of_A.chain.mobility[k * (n + 1)] * abs(friction.slope[n + k] - of_A.friction.slope[n + k]),
+                             abs(t.travel[k] * __builtin_sqrt(t.per_rotor_inertia[k]) *
+                                 (__builtin_sqrt(cable.stiff[k]) - __builtin_sqrt(of_A.cable.stiff[k])))};
+    for (const double rate : rates) most = max(most, rate);
+  }
+  return most;
+}
+
 /// D [moving rows], and of `end`, the point at x_2, what friction, cables and M are. start: of linearise() at x.
 template <int known>
 HALYARD_INLINE void second_stage(const LinearisedArm& model, const LinearisedPoint& start, const double* x,
@@ -59,14 +73,32 @@ HALYARD_INLINE void second_stage(const LinearisedArm& model, const LinearisedPoi
            start.cable.damped[k] * stretch_rate;
   }
   answer_of_drives(model, start.chain, n, e, u, 1, D);
-  end.excess_rate = 0;
+  end.excess_rate = excess_rate(t, n, start, end.friction, end.cable);
+}
+
+/// f at x, not far from where A and `point` were found: A, M and all slopes stay, and what else friction and cables are
+/// becomes that of x, with the excess rate.
+template <int known>
+HALYARD_INLINE void set_rates_beside(const LinearisedArm& model, const HeldInputs& in, const double* x, double* x_dot,
+                                     LinearisedPoint& point) {
+  const PlainTransmission& t = *model.plain;
+  const StateLayout& l = model.layout;
+  const int n = joint_count<known>(model.arm);
+  Frictions friction;
+  CableForces cable;
+  double force[kMaxJoints];
+  set_plain_forces<known>(t, model.arm, model.transmission.arm(), l, in.command, in.external, x, friction, cable, x_dot,
+                          force);
+  set_accelerations<known>(model.arm, l, pose_at<known>(model.arm, l, x), x, force, point.chain, x_dot);
+  point.excess_rate = excess_rate(t, n, point, friction, cable);
+  for (int i = 0; i < 2 * n; ++i) {
+    point.friction.sign[i] = friction.sign[i];
+    point.friction.value[i] = friction.value[i];
+    point.friction.curvature[i] = friction.curvature[i];
+  }
   for (int k = 0; k < n; ++k) {
-    const double spring = t.travel[k] * t.travel[k] * abs(end.cable.stiff[k] - start.cable.stiff[k]);
-    const double rates[3] = {
-        t.per_rotor_inertia[k] * abs(end.friction.slope[k] - start.friction.slope[k]),
-        start.chain.mobility[k * (n + 1)] * abs(end.friction.slope[n + k] - start.friction.slope[n + k]),
-        __builtin_sqrt(t.per_rotor_inertia[k] * spring)};
-    for (const double rate : rates) end.excess_rate = max(end.excess_rate, rate);
+    point.cable.value[k] = cable.value[k];
+    point.cable.curvature[k] = cable.curvature[k];
   }
 }
 
@@ -104,7 +136,7 @@ HALYARD_INLINE void set_far_excess(const LinearisedArm& model, const LinearisedP
     const double v = x_2[t.speed[i]], away = v < 0 ? -v : v;
     const Lanes tangent = (t.viscous[i] - start.friction.slope[i]) * change;
     if (all_below(change, away - kSaturated * t.smoothing[i])) return tangent;
-    const Lanes sign = smooth_sign(v + change, Lanes(t.smoothing[i]));
+    const Lanes sign = tanh((v + change) * t.per_smoothing[i]);
     return t.coulomb[i] * (sign - end.friction.sign[i]) + tangent;
   };
   const auto of_cable = [&](int k, const Lanes& stretch) __attribute__((always_inline)) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace halyard {
 namespace {
@@ -11,6 +12,7 @@ constexpr double kMeanTolerance = 0.05;       // of a standard deviation
 constexpr double kRootTolerance = 0.2;        // of the root
 constexpr double kHeldForceTolerance = 0.05;  // of the response
 constexpr double kNoGrowth = 1e-3;            // of the root
+constexpr double kSameLength = 1e-9;          // of a step
 
 /// ‖column of change‖ <= tolerance ‖column of whole‖ for all columns; false if one is not finite.
 bool is_small_change(const LaneMatrix& change, const LaneMatrix& whole, double tolerance) {
@@ -41,35 +43,48 @@ void ExponentialStep::linearise(const Step& step, const Eigen::VectorXd& x) {
   // Beside rates at sigma points, those of x have to be exact.
   const bool known =
       process_.is_smooth() && step.time_s >= chain_known_since_ && step.time_s < chain_known_since_ + kChainAge;
+  if (known && std::abs(step.dt_s - phi_dt_s_) <= kSameLength * step.dt_s) {
+    process_.rates_beside(step, x, f_, point_);
+    if (step.dt_s * point_.excess_rate <= kNoGrowth) return;
+  }
   if (!known) chain_known_since_ = step.time_s, has_curvature_ = false;
+  phi_dt_s_ = step.dt_s;
+  phi_is_due_ = true;
   process_.linearise(step, x, known ? &point_.chain : nullptr, f_, A_, point_);
 }
 
-void ExponentialStep::save(Chain& chain) const { chain = {chain_known_since_, has_curvature_, point_.chain}; }
-
-void ExponentialStep::restore(const Chain& chain) {
-  chain_known_since_ = chain.known_since_s;
-  has_curvature_ = chain.has_curvature;
-  point_.chain = chain.point;
+void ExponentialStep::save(Kept& kept) const {
+  kept.chain_known_since_s = chain_known_since_;
+  kept.has_curvature = has_curvature_;
+  kept.point = point_;
+  kept.phi_dt_s = phi_dt_s_;
+  kept.A = A_;
 }
 
-bool ExponentialStep::start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G) {
+void ExponentialStep::restore(const Kept& kept) {
+  chain_known_since_ = kept.chain_known_since_s;
+  has_curvature_ = kept.has_curvature;
+  point_ = kept.point;
+  phi_dt_s_ = kept.phi_dt_s;
+  A_ = kept.A;
+  phi_is_due_ = true;
+}
+
+bool ExponentialStep::start(const LaneMatrix& S, const Eigen::MatrixXd& G) {
   const int n = static_cast<int>(x_.size());
-  usable_ = std::isfinite(f_.sum()) && phi_.compute(step_.dt_s, A_, shape_);
+  usable_ = std::isfinite(f_.sum()) && (!phi_is_due_ || phi_.compute(phi_dt_s_, A_, shape_));
   is_finite_ = false;
   if (!usable_) return forget(), false;
   set_x_2();
   set_linear_response(G);
+  phi_is_due_ = false;
   set_second_stage();
-  c_ = 2 * phi_.phi_3_times(D_);
+  set_product(phi_.phi_3(), right(D_), 1, shift_);
+  c_ = 2 * shift_.view().col(0);
   next_ = x_2_ + c_;
-  S_.reshape(n, n);
-  set_rows_transposed(S, S_, 0);
-  spread_.reshape(n, n);
-  multiply(S_.columns(0, n), transposed(right(phi_.E())), spread_.columns(0, shape_.end), false);
-  for (int i = shape_.end * S_.blocks(), end = n * S_.blocks(); i < end; ++i) spread_.lanes()[i] = S_.lanes()[i];
+  set_product(phi_.E(), right(S), n, moved_root_);
   spread_squares_.resize(n);
-  set_squares(spread_, spread_squares_.data());
+  set_row_squares(moved_root_, n, spread_squares_.data());
   is_finite_ = std::isfinite(c_.squaredNorm() + spread_squares_.sum());
   for (int i = 0; i < n; ++i) usable_ &= c_(i) * c_(i) <= kMeanTolerance * kMeanTolerance * spread_squares_(i);
   return usable_;
@@ -89,6 +104,9 @@ void ExponentialStep::set_x_2() {
 
 void ExponentialStep::set_linear_response(const Eigen::MatrixXd& G) {
   const int n = shape_.n, sources = static_cast<int>(G.cols());
+  const auto size = static_cast<std::size_t>(G.size());
+  if (!phi_is_due_ && G_.size() == G.size() && std::memcmp(G.data(), G_.data(), size * sizeof(double)) == 0) return;
+  G_ = G;
   forces_.reshape(1 + sources, n);
   response_.reshape(1 + sources, n);
   set_rows_transposed(G, forces_, 1);
@@ -143,21 +161,28 @@ bool ExponentialStep::respond(Eigen::Ref<Eigen::MatrixXd> Gamma) {
   const int n = response_.columns(), sources = response_.rows() - 1;
   change_.reshape(sources + 1, n);
   multiply(minus_N_.columns(0, moving_), transposed(right(phi_.phi_2())), change_.columns(0, n), false);
-  if (is_small_change(change_, response_, kHeldForceTolerance))
-    response_.set_lanes([&](std::size_t i) { return response_.lanes()[i] - change_.lanes()[i]; });
-  else if (process_.is_smooth()) process_.impulse_response(point_, A_, x_, x_2_, step_.dt_s, forces_, response_);
-  else return false;
-  for (int c = 0; c < n; ++c) {
-    const double* of_c = reinterpret_cast<const double*>(response_.lanes() + c * response_.blocks()) + 1;
-    for (int i = 0; i < sources; ++i) Gamma(c, i) = of_c[i];
+  if (is_small_change(change_, response_, kHeldForceTolerance)) {
+    change_.set_lanes([&](std::size_t i) { return response_.lanes()[i] - change_.lanes()[i]; });
+  } else if (process_.is_smooth()) {
+    change_ = response_;
+    process_.impulse_response(point_, A_, x_, x_2_, step_.dt_s, forces_, change_);
+  } else {
+    return false;
   }
+  set_transposed(std::as_const(change_).view().bottomRows(sources), Gamma);
   return true;
 }
 
-bool ExponentialStep::set_growth() {
-  const int n = static_cast<int>(next_.size());
+void ExponentialStep::set_spread(const LaneMatrix& moved) {
+  spread_.reshape(moved.columns(), moved.rows());
+  set_transposed(moved.view(), spread_.view());
+}
+
+bool ExponentialStep::set_growth(const LaneMatrix& moved) {
+  const int n = moved.columns();
+  if (process_.is_smooth() && step_.dt_s * point_2_.excess_rate <= kNoGrowth) return growth_.set_zero(0, 0), true;
+  set_spread(moved);
   if (process_.is_smooth()) {
-    if (step_.dt_s * point_2_.excess_rate <= kNoGrowth) return growth_.set_zero(n, n), true;
     process_.near_excess(point_, point_2_, step_.dt_s, spread_, moved_);
   } else {
     process_.linearise(end_, x_2_, &point_.chain, f_2_, A_2_, point_2_);
@@ -171,38 +196,48 @@ bool ExponentialStep::set_growth() {
   return true;
 }
 
-void ExponentialStep::finish(Eigen::VectorXd& x, LaneMatrix& FS) {
-  growth_.set_lanes([&](std::size_t i) { return spread_.lanes()[i] + growth_.lanes()[i]; });
-  set_transposed(growth_.view(), FS.view());
-  x = next_;
+void ExponentialStep::add_growth(const LaneMatrix& moved, LaneMatrix& F) {
+  const std::size_t size = static_cast<std::size_t>(moved.blocks()) * static_cast<std::size_t>(moved.columns());
+  if (growth_.columns() > 0) {
+    set_transposed(std::as_const(growth_).view(), F.view());
+    for (std::size_t i = 0; i < size; ++i) F.lanes()[i] += moved.lanes()[i];
+  } else {
+    std::copy_n(moved.lanes(), size, F.lanes());
+  }
 }
 
 bool ExponentialStep::advance_root(Eigen::VectorXd& x, LaneMatrix& FS) {
-  if (!usable_ || !set_growth()) return false;
-  finish(x, FS);
+  if (!usable_ || !set_growth(moved_root_)) return false;
+  add_growth(moved_root_, FS);
+  x = next_;
   return true;
 }
 
-bool ExponentialStep::advance_pairs(Eigen::VectorXd& x, double gamma, LaneMatrix& FS, Eigen::VectorXd& shift) {
-  usable_ = usable_ && (process_.is_smooth() ? set_smooth_pairs(gamma) : set_pairs(gamma));
+bool ExponentialStep::advance_pairs(Eigen::VectorXd& x, const LaneMatrix& S, double gamma, LaneMatrix& FS,
+                                    Eigen::VectorXd& shift) {
+  if (!usable_) return false;
+  S_.reshape(shape_.n, shape_.n);
+  set_transposed(S.view(), S_.view());
+  usable_ = process_.is_smooth() ? set_smooth_pairs(gamma) : set_pairs(gamma);
   if (!usable_) return false;
   set_mean_shift();
   shift = shift_.view().col(0);
-  finish(x, FS);
+  add_growth(moved_root_, FS);
+  x = next_;
   return true;
 }
 
-bool ExponentialStep::transition(Eigen::Ref<Eigen::MatrixXd> F) {
-  if (!usable_) return false;
-  set_rows_transposed(phi_.E().view(), spread_, 0);  // a root that is the unit matrix
-  if (!set_growth()) return false;
-  growth_.set_lanes([&](std::size_t i) { return spread_.lanes()[i] + growth_.lanes()[i]; });
-  set_transposed(growth_.view(), F);
+bool ExponentialStep::transition(LaneMatrix& F) {
+  if (!usable_ || !set_growth(phi_.E())) return false;  // of a root that is the unit matrix
+  F.reshape(shape_.n, shape_.n);
+  add_growth(phi_.E(), F);
   return true;
 }
 
 bool ExponentialStep::set_smooth_pairs(double gamma) {
-  if (!set_growth() || !is_small_change(growth_, spread_, kRootTolerance)) return false;
+  if (!set_growth(moved_root_)) return false;
+  if (growth_.columns() == 0) set_spread(moved_root_);
+  else if (!is_small_change(growth_, spread_, kRootTolerance)) return false;
   process_.mean_curvature(point_, has_curvature_ ? &point_.chain : nullptr, x_, f_, A_, gamma, S_, first_);
   has_curvature_ = true;
   process_.mean_curvature(point_2_, &point_.chain, x_2_, f_, A_, gamma, spread_, last_);
@@ -213,6 +248,7 @@ bool ExponentialStep::set_smooth_pairs(double gamma) {
 
 bool ExponentialStep::set_pairs(double gamma) {
   const int n = S_.columns();
+  set_spread(moved_root_);
   deviations_.reshape(n, n);
   for (int c = 0, i = 0; c < n; ++c)
     for (const int end = (c + 1) * S_.blocks(); i < end; ++i)

@@ -39,7 +39,9 @@
 ///
 /// The rigid chain changes slowly: within a step it is taken as linear. Beside the slopes of cables and friction its own
 /// are small, as is its curvature: where f is smooth, a step takes both, and the masses, from an earlier one of the last
-/// 10 ms, if it can.
+/// 10 ms, if it can. If it is also as long as the step before, and no rate of friction or cable is off by more than
+/// 1e-3 / h (excess rate, arm_second_stage.h), it keeps A and the φ functions. f(t, x) is new in every step, and D and N are
+/// what f is more than this A makes of it, so that the mean stays of second order.
 ///
 /// Γ_0 is the response of the linearised model to a force that is held over the step; Γ Γᵀ replaces Van Loan's
 /// integral, which is for white noise. Simpson's rule keeps it equal to what the sub-steps give where the model is linear.
@@ -71,14 +73,16 @@ class ExponentialStep {
  public:
   explicit ExponentialStep(const ProcessModel& process);
 
-  /// What a step takes from an earlier one, of the rigid chain. A filter that goes back in time restores it.
-  struct Chain {
-    double known_since_s = std::numeric_limits<double>::infinity();
+  /// What a step takes from an earlier one. A filter that goes back in time restores it.
+  struct Kept {
+    double chain_known_since_s = std::numeric_limits<double>::infinity();
     bool has_curvature = false;
-    ChainPoint point = {};
+    LinearisedPoint point = {};
+    double phi_dt_s = std::numeric_limits<double>::quiet_NaN();
+    Eigen::MatrixXd A = {};
   };
-  void save(Chain& chain) const;
-  void restore(const Chain& chain);
+  void save(Kept& kept) const;
+  void restore(const Kept& kept);
   /// The next step does not follow the last one.
   void forget() { chain_known_since_ = std::numeric_limits<double>::infinity(); }
   /// Linearises at the start x of a step. `step` must stay as it is until the next linearise().
@@ -89,7 +93,7 @@ class ExponentialStep {
   }
   /// Starts the step that has been linearised. S: root of the covariance of x. G [n_states x sources]: held forces, which
   /// may be none. False if the guard refuses the step.
-  bool start(const Eigen::MatrixXd& S, const Eigen::MatrixXd& G);
+  bool start(const LaneMatrix& S, const Eigen::MatrixXd& G);
   /// False if start() has refused the step because a number is not finite: a shorter one would be refused, too.
   bool is_finite() const { return is_finite_; }
 
@@ -98,10 +102,10 @@ class ExponentialStep {
   /// x, that of linearise(), becomes x⁺, and the first columns of FS [n_states x any] F S with the S of start(). False:
   /// refused, nothing has changed.
   bool advance_root(Eigen::VectorXd& x, LaneMatrix& FS);
-  /// The same, and `shift` becomes the mean of the sigma points x ± gamma S_i after the step, less x⁺.
-  bool advance_pairs(Eigen::VectorXd& x, double gamma, LaneMatrix& FS, Eigen::VectorXd& shift);
+  /// The same, and `shift` becomes the mean of the sigma points x ± gamma S_i after the step, less x⁺. S: of start().
+  bool advance_pairs(Eigen::VectorXd& x, const LaneMatrix& S, double gamma, LaneMatrix& FS, Eigen::VectorXd& shift);
   /// F [n_states x n_states] of the step that one of these has just taken; false: it was refused.
-  bool transition(Eigen::Ref<Eigen::MatrixXd> F);
+  bool transition(LaneMatrix& F);
 
  private:
   /// x + h φ_1 f. With w, the rates of the positions, E w - w is h φ_1 A w, and f - A w has no kinematic rows.
@@ -112,9 +116,11 @@ class ExponentialStep {
   void set_second_stage();
   /// f at x + d_i, of every row d_i of d.
   void set_rates(const Step& at, const Eigen::VectorXd& x, const LaneMatrix& d, LaneMatrix& rates);
-  /// The last term of F S, in growth_; false: A_2 is not finite.
-  bool set_growth();
-  void finish(Eigen::VectorXd& x, LaneMatrix& FS);
+  void set_spread(const LaneMatrix& moved);
+  /// The last term of F S in growth_, which is empty where it is small. moved: E S. False: A_2 is not finite.
+  bool set_growth(const LaneMatrix& moved);
+  /// The first columns of F become `moved` and growth_.
+  void add_growth(const LaneMatrix& moved, LaneMatrix& F);
   /// growth_, first_ and last_ from one point of each pair, where f is smooth; false: refused.
   bool set_smooth_pairs(double gamma);
   /// The same from both points.
@@ -134,6 +140,8 @@ class ExponentialStep {
   bool usable_ = false, is_finite_ = false;
   double chain_known_since_ = std::numeric_limits<double>::infinity();  // time of M and the slopes in point_.chain, s
   bool has_curvature_ = false;                                          // in point_.chain
+  double phi_dt_s_ = std::numeric_limits<double>::quiet_NaN();          // length of the step of phi_, whose A is A_
+  bool phi_is_due_ = true;                                              // it has to be computed from A_
   Eigen::VectorXd x_, f_, f_2_, x_2_, next_, c_;
   Eigen::VectorXd D_, part_, change_of_m_;  // of the moving rows; h D
   Eigen::VectorXd first_, last_;            // h m(0), h m(h)
@@ -141,12 +149,14 @@ class ExponentialStep {
   LinearisedPoint point_{}, point_2_{};  // of linearise() at x and x_2
   // Transposed, a row for each column of S or G:
   LaneMatrix S_, spread_, moved_, growth_;  // S, E S, products with S, the last term of F S
+  Eigen::MatrixXd G_;                       // of response_
   LaneMatrix forces_, response_;            // G, Γ_0; row 0 is for x_2 itself
-  LaneMatrix minus_N_, change_;             // -h N, and what the last term of Γ subtracts
+  LaneMatrix minus_N_, change_;             // -h N, and what the last term of Γ subtracts; then Γ
   LaneMatrix points_, rates_, opposite_;    // sigma points
   LaneMatrix deviations_, odd_, odd_end_;   // d, and the odd parts of h N at the start and the end
   LaneMatrix shift_;                        // one column
-  Eigen::VectorXd spread_squares_;          // of the columns of spread_
+  LaneMatrix moved_root_;                   // E S
+  Eigen::VectorXd spread_squares_;          // of its rows
   Eigen::MatrixXd variance_;                // V at the nodes
   PhiFunctions phi_;
 };

@@ -42,6 +42,7 @@ std::optional<PlainTransmission> plain_transmission(const Transmission<double>& 
     plain.viscous[k] = j.motor_viscous, plain.viscous[n + k] = j.joint_viscous;
     plain.smoothing[k] = j.motor_smoothing, plain.smoothing[n + k] = j.joint_smoothing;
   }
+  for (int i = 0; i < PlainTransmission::kSpeeds; ++i) plain.per_smoothing[i] = 1 / plain.smoothing[i];
   if (!take_effects(transmission, layout, plain)) return std::nullopt;
   return plain;
 }

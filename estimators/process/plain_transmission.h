@@ -37,7 +37,7 @@ struct PlainTransmission {
   };
   double travel[kMaxJoints], per_rotor_inertia[kMaxJoints], path[kMaxJoints][kMaxJoints];
   Constant stretch[kMaxJoints], force[kMaxJoints];
-  alignas(Lanes) double coulomb[kSpeeds], viscous[kSpeeds], smoothing[kSpeeds];
+  alignas(Lanes) double coulomb[kSpeeds], viscous[kSpeeds], smoothing[kSpeeds], per_smoothing[kSpeeds];
   int speed[kSpeeds];  ///< index in the state
 };
 
@@ -60,13 +60,13 @@ HALYARD_INLINE void set_frictions(const PlainTransmission& t, int n, const doubl
   const int blocks = (2 * n + kLaneWidth - 1) / kLaneWidth;
   for (int i = 0; i < blocks * kLaneWidth; ++i) speed[i] = x[t.speed[i]];
   for (int b = 0; b < blocks; ++b) {
-    const Lanes v = lanes_of(speed)[b], v_s = lanes_of(t.smoothing)[b], F_c = lanes_of(t.coulomb)[b],
+    const Lanes v = lanes_of(speed)[b], per_v_s = lanes_of(t.per_smoothing)[b], F_c = lanes_of(t.coulomb)[b],
                 F_v = lanes_of(t.viscous)[b];
-    const Lanes sign = smooth_sign(v, v_s), steep = F_c / v_s * (Lanes(1.0) - sign * sign);
+    const Lanes sign = tanh(v * per_v_s), steep = F_c * per_v_s * (Lanes(1.0) - sign * sign);
     lanes_of(f.sign)[b] = sign;
     lanes_of(f.value)[b] = F_c * sign + F_v * v;
     lanes_of(f.slope)[b] = steep + F_v;
-    lanes_of(f.curvature)[b] = Lanes(-2.0) * sign * steep / v_s;
+    lanes_of(f.curvature)[b] = Lanes(-2.0) * sign * steep * per_v_s;
   }
 }
 

@@ -74,8 +74,8 @@ ProcessModel::ProcessModel(const ArmModel& model)
   is_smooth_ = plain_.has_value();
   for (int k = 0; k < n_joints(); ++k) is_smooth_ = is_smooth_ && arm().joint[k].law == CableLaw::paper;
   linear_z_.resize(n_joints());
-  linear_H_.resize(n_joints(), n_states());
-  differentiate_readings(0, Eigen::VectorXd::Zero(n_states()), linear_z_, linear_H_);
+  linear_H_.set_zero(n_joints(), n_states());
+  differentiate_readings(0, Eigen::VectorXd::Zero(n_states()), linear_z_, linear_H_.view());
   find_stiffest_rate(model);
 }
 
@@ -201,6 +201,14 @@ void ProcessModel::second_stage(const LinearisedPoint& start, const Eigen::Vecto
   lane_kernels()[0].second_stage(linearised_arm(), start, x.data(), x_2.data(), end, D.data());
 }
 
+void ProcessModel::rates_beside(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot,
+                                LinearisedPoint& point) const {
+  const StepInputs<Dual> in(step, n_joints());
+  x_dot.resize(n_states());
+  lane_kernels()[0].rates_beside(linearised_arm(), {step.history, in.command, in.external}, x.data(), x_dot.data(),
+                                 point);
+}
+
 void ProcessModel::far_excess(const LinearisedPoint& start, const LinearisedPoint& end, const Eigen::VectorXd& x_2,
                               double factor, const LaneMatrix& d, LaneMatrix& rates) const {
   rates.reshape(d.rows(), moving_states() - layout_.positions);
@@ -252,9 +260,10 @@ void ProcessModel::read(double time_s, const Eigen::Ref<const Eigen::VectorXd>& 
 void ProcessModel::linearise_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
                                       Eigen::Ref<Eigen::MatrixXd> H) const {
   if (!readings_are_linear_) return differentiate_readings(time_s, x, z, H);
-  z = linear_z_;
-  z.noalias() += linear_H_ * x;
-  H = linear_H_;
+  Lanes change;
+  multiply(linear_H_.columns(0, n_states()), right(x), {n_joints(), 1, 1, &change}, false);
+  for (int k = 0; k < n_joints(); ++k) z(k) = linear_z_(k) + change[k];
+  set_block(linear_H_.view(), H);
 }
 
 void ProcessModel::differentiate_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,

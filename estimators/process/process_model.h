@@ -90,7 +90,10 @@ class ProcessModel {
   /// D [moving_states() - layout().positions], and `end`, the point at x_2.
   void second_stage(const LinearisedPoint& start, const Eigen::VectorXd& x, const Eigen::VectorXd& x_2,
                     LinearisedPoint& end, Eigen::VectorXd& D) const;
-  /// factor N(d) there, of every row d of the matrix [count x n_states]; rates [count x D.size()].
+  /// Of a model that is_smooth(), x' at x, beside the A and `point` of linearise() at a state shortly before: slopes stay
+  /// those of A. point.excess_rate says how well they fit.
+  void rates_beside(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot, LinearisedPoint& point) const;
+  /// factor N(d) at x_2, of every row d of the matrix [count x n_states]; rates [count x D.size()].
   void far_excess(const LinearisedPoint& start, const LinearisedPoint& end, const Eigen::VectorXd& x_2, double factor,
                   const LaneMatrix& d, LaneMatrix& rates) const;
   /// factor N' d.
@@ -137,7 +140,7 @@ class ProcessModel {
   bool is_smooth_ = false;
   bool readings_are_linear_ = true;
   Eigen::VectorXd linear_z_;  // h(0), and H, if they are linear
-  Eigen::MatrixXd linear_H_;
+  LaneMatrix linear_H_;
   double stiffest_rate_ = 0;
   int stiffest_state_ = 0;
 };

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "tests/support/app_runs.h"
+#include "tests/support/environment.h"
 
 namespace halyard::testing_program {
 namespace {
@@ -43,6 +44,29 @@ TEST_F(App, EstimateWritesWhatElseIsEstimatedAndWhatLaterSamplesSayOfEarlierOnes
                                  "log.csv", "--out", "none.csv"});
   EXPECT_EQ(nowhere.exit_code, 1);
   EXPECT_TRUE(contains(nowhere.err, "revises its estimate of 1000000 s, where no sample is")) << nowhere.err;
+}
+
+TEST_F(App, EstimatesOfInstructionSetsDifferByRounding) {
+  simulate_log();
+  estimate("sr_ukf", "log.csv", "widest.csv");
+  {
+    const Environment generic("HALYARD_INSTRUCTION_SET", "generic");
+    estimate("sr_ukf", "log.csv", "generic.csv");
+  }
+  const CsvFile widest(path("widest.csv")), generic(path("generic.csv"));
+  ASSERT_EQ(widest.rows.size(), generic.rows.size());
+  // A unit of the last digit that the file has.
+  for (std::size_t i = 0; i < widest.rows.size(); ++i)
+    EXPECT_NEAR(widest.number(i, "joint_position_2"), generic.number(i, "joint_position_2"), 1.01e-8);
+}
+
+TEST_F(App, AnUnknownInstructionSetIsTold) {
+  const Environment unknown("HALYARD_INSTRUCTION_SET", "avx1024");
+  const RunResult result = run({"--version"});
+  EXPECT_EQ(result.exit_code, 2) << result.out;
+  EXPECT_EQ(lines_of(result.err).size(), 1u) << result.err;
+  EXPECT_TRUE(contains(result.err, "HALYARD_INSTRUCTION_SET is \"avx1024\", expected generic, avx2 or avx512"))
+      << result.err;
 }
 
 TEST_F(App, EstimatePrintsTheRmsThatItsFileHasAfterHalfASecond) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/arm_runs.h"
+#include "tests/support/lane_matrices.h"
 #include "tests/support/limits.h"
 
 namespace halyard {
@@ -26,9 +27,9 @@ Eigen::VectorXd at_speed(const ArmModel& model, const ProcessModel& process, con
 const Eigen::Vector3d kFast(0.5, -0.5, 0.05), kSlow(0.006, -0.006, 0.006);  // beyond friction's smoothing; within
 
 /// A belief so wide that the guard accepts every mean, or so narrow that it accepts none.
-Eigen::MatrixXd belief(double deviation) { return deviation * Eigen::MatrixXd::Identity(12, 12); }
+LaneMatrix belief(double deviation) { return in_lanes(deviation * Eigen::MatrixXd::Identity(12, 12)); }
 
-bool start(ExponentialStep& exponential, const Step& step, const Eigen::VectorXd& x, const Eigen::MatrixXd& S,
+bool start(ExponentialStep& exponential, const Step& step, const Eigen::VectorXd& x, const LaneMatrix& S,
            const Eigen::MatrixXd& G = Eigen::MatrixXd(12, 0)) {
   exponential.linearise(step, x);
   return exponential.start(S, G);
@@ -113,7 +114,7 @@ TEST(ExponentialStep, TheCurvatureNearRestIsThatOfShortSteps) {
   for (int i = 0; i < 300; ++i) process.advance({0, kStep, torque.data()}, x.data());
   ASSERT_GT(std::abs(x(l.rate[2])), 2e-5);
   ASSERT_LT(std::abs(x(l.rate[2])), 5e-4);
-  Eigen::MatrixXd S = 1e-6 * belief(1);
+  Eigen::MatrixXd S = 1e-6 * Eigen::MatrixXd::Identity(12, 12);
   S(l.rate[2], l.rate[2]) = 3e-4;
   S(*l.motor_rate[2], *l.motor_rate[2]) = 0.06;
   constexpr double kSpread = 1e-2;
@@ -121,11 +122,11 @@ TEST(ExponentialStep, TheCurvatureNearRestIsThatOfShortSteps) {
   Y << x, (kSpread * S).colwise() + x, (-kSpread * S).colwise() + x;
   ExponentialStep exponential(process);
   const Step step{0, kStep, torque.data()};
-  ASSERT_TRUE(start(exponential, step, x, S));
+  ASSERT_TRUE(start(exponential, step, x, in_lanes(S)));
   LaneMatrix FS;
   FS.reshape(12, 12);
   Eigen::VectorXd shift;
-  ASSERT_TRUE(exponential.advance_pairs(x, kSpread, FS, shift));
+  ASSERT_TRUE(exponential.advance_pairs(x, in_lanes(S), kSpread, FS, shift));
   constexpr int kParts = 20;
   for (int i = 0; i < kParts; ++i) process.advance_many({0, kStep / kParts, torque.data()}, Y);
   const double exact = curvature(Y, kSpread)(l.position[2]);
@@ -219,7 +220,7 @@ TEST(ExponentialStep, TheGuardRefusesAMeanThatIsNotSureEnough) {
   FS.reshape(12, 12);
   Eigen::VectorXd shift;
   EXPECT_FALSE(exponential.advance_root(x, FS));
-  EXPECT_FALSE(exponential.advance_pairs(x, 1e-3, FS, shift));
+  EXPECT_FALSE(exponential.advance_pairs(x, belief(1e-9), 1e-3, FS, shift));
 }
 
 TEST(ExponentialStep, TheGuardRefusesWhatIsNotFinite) {

@@ -25,13 +25,13 @@ double largest_difference_smoothed(GaussianFilter& filter, const LinearGaussian&
   filter.reset(p.x_0, initial_root());
   for (const Eigen::VectorXd& z : p.z) {
     const Eigen::VectorXd x_0 = filter.x();
-    const Eigen::MatrixXd S_0 = filter.S();
+    const LaneMatrix S_0 = filter.root();
     filter.predict(LinearProcess(p.F), p.Q_root);
     FilteredBelief& belief = window.append();
     filter.backward_step(x_0, S_0, steps.append());
     filter.update(LinearReadings(p.H, true), z, p.R_root, kNoGate);
     belief.x = filter.x();
-    belief.S = filter.S();
+    belief.S = filter.root();
     kalman.step(p, z);
     textbook.push_back(kalman);
   }

@@ -8,6 +8,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "estimators/matrix/lane_matrix.h"
+#include "tests/support/lane_matrices.h"
 #include "tests/support/limits.h"
 
 namespace halyard {
@@ -17,13 +18,6 @@ Eigen::MatrixXd random_matrix(int rows, int columns, unsigned seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return uniform(random); });
-}
-
-LaneMatrix in_lanes(const Eigen::MatrixXd& A) {
-  LaneMatrix lanes;
-  lanes.set_zero(static_cast<int>(A.rows()), static_cast<int>(A.cols()));
-  lanes.view() = A;
-  return lanes;
 }
 
 /// L with L Lᵀ = A Aᵀ.
@@ -68,19 +62,19 @@ TEST(MatrixKernels, TheFunctionsOfAllInstructionSetsAgree) {
   const Eigen::MatrixXd Z = random_matrix(kSize, kSize, 8);
   Eigen::MatrixXd first;
   for (const MatrixKernels& kernels : matrix_kernels()) {
-    std::vector<LaneMatrix> memory(3 * (kMost + 1) + 4, in_lanes(Eigen::MatrixXd::Zero(kSize, kSize)));
+    std::vector<LaneMatrix> memory(4 * (kMost + 1) + 3, in_lanes(Eigen::MatrixXd::Zero(kSize, kSize)));
     std::vector<PhiLevelMemory> levels;
-    for (std::size_t k = 0; k <= kMost; ++k)
-      levels.push_back({memory[3 * k].lanes(), memory[3 * k + 1].lanes(), memory[3 * k + 2].lanes()});
-    const std::size_t rest = 3 * (kMost + 1);
+    for (std::size_t k = 0; k <= 4 * kMost; k += 4)
+      levels.push_back({memory[k].lanes(), memory[k + 1].lanes(), memory[k + 2].lanes(), memory[k + 3].lanes()});
+    const std::size_t rest = 4 * (kMost + 1);
     LaneMatrix unit = in_lanes(Eigen::MatrixXd::Ones(kSize, kSize)), Y = in_lanes(Z);
     ASSERT_EQ(kernels.phi_functions({kSize, 0, kSize}, kMost,
-                                    {levels.data(), memory[rest].lanes(), unit.lanes(), Y.lanes(),
-                                     memory[rest + 1].lanes(), memory[rest + 2].lanes(), memory[rest + 3].lanes()}),
+                                    {levels.data(), unit.lanes(), Y.lanes(), memory[rest].lanes(),
+                                     memory[rest + 1].lanes(), memory[rest + 2].lanes()}),
               2)
         << kernels.name;
     Eigen::MatrixXd all(kSize, 4 * kSize);
-    all << memory[0].view(), memory[4].view(), memory[2].view(), memory[rest].view();
+    all << memory[0].view(), memory[1].view(), memory[2].view(), memory[3].view();
     if (first.size() == 0) first = all;
     // A few roundings of entries of about 10, in each of the doublings.
     EXPECT_LT((all - first).cwiseAbs().maxCoeff(), 1e-12) << kernels.name;
@@ -186,6 +180,20 @@ TEST(MatrixKernels, SquaresOfColumnsAreSummed) {
       kernels.column_squares(rows, 5, lanes.lanes(), lanes.blocks(), squares.data());
       // Sums of up to 19 numbers below 1.
       EXPECT_LT((squares - A.colwise().squaredNorm().transpose()).norm(), 19 * 5 * kEps) << kernels.name << rows;
+    }
+  }
+}
+
+TEST(MatrixKernels, SquaresOfRowsAreSummed) {
+  for (const int rows : {1, 8, 12, 19}) {
+    const Eigen::MatrixXd A = random_matrix(rows, 7, 11);
+    for (const MatrixKernels& kernels : matrix_kernels()) {
+      const LaneMatrix lanes = in_lanes(A);
+      Eigen::VectorXd squares = Eigen::VectorXd::Constant(rows + 1, -1);
+      kernels.row_squares(rows, 6, lanes.lanes(), lanes.blocks(), squares.data());
+      // Sums of 6 numbers below 1.
+      EXPECT_LT((squares.head(rows) - A.leftCols(6).rowwise().squaredNorm()).norm(), 6 * rows * kEps) << kernels.name;
+      EXPECT_EQ(squares(rows), -1) << kernels.name << rows;
     }
   }
 }

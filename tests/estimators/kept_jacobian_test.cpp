@@ -1,0 +1,136 @@
+/// Steps that keep the Jacobian and the φ functions of an earlier one, against steps with their own.
+
+#include <gtest/gtest.h>
+
+#include "estimators/process/exponential_step.h"
+#include "tests/support/arm_runs.h"
+#include "tests/support/lane_matrices.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kLength = 1e-3;  // s
+
+struct Belief {
+  Eigen::VectorXd x;
+  LaneMatrix FS;
+};
+
+class KeptJacobian : public testing::Test {
+ protected:
+  /// At home with joint speeds of `speed` times what is typical.
+  Eigen::VectorXd moving(double speed) const {
+    const Eigen::Vector3d v = speed * Eigen::Vector3d(0.5, -0.5, 0.05);
+    const Eigen::VectorXd rate = unstretched_motors(process_.arm(), v);
+    Eigen::VectorXd x = process_.state_at_rest(unstretched_motors(process_.arm(), model_.home()), model_.home());
+    for (int k = 0; k < 3; ++k) {
+      x(process_.layout().rate[k]) = v(k);
+      x(*process_.layout().motor_rate[k]) = rate(k);
+    }
+    return x;
+  }
+  Belief step(ExponentialStep& exponential, const Eigen::VectorXd& x, double time_s, double dt_s = kLength) const {
+    Belief after{x, in_lanes(Eigen::MatrixXd::Zero(12, 12))};
+    exponential.linearise({time_s, dt_s, torque_.data()}, x);
+    EXPECT_TRUE(exponential.start(in_lanes(Eigen::MatrixXd::Identity(12, 12)), Eigen::MatrixXd(12, 0)));
+    EXPECT_TRUE(exponential.advance_root(after.x, after.FS));
+    return after;
+  }
+  /// A step that follows one from `before`, less one that follows none.
+  Belief difference(const Eigen::VectorXd& before, const Eigen::VectorXd& x, double dt_s = kLength) const {
+    ExponentialStep after(process_), alone(process_);
+    step(after, before, 0);
+    Belief b = step(after, x, kLength, dt_s);
+    const Belief own = step(alone, x, kLength, dt_s);
+    b.x -= own.x;
+    b.FS.view() -= own.FS.view();
+    return b;
+  }
+  double of_root(const Belief& b) const { return b.FS.view().cwiseAbs().maxCoeff(); }
+
+  const ArmModel model_ = raven2();
+  const ProcessModel process_{model_};
+  const Eigen::Vector3d torque_{0.02, -0.02, 0.01};
+};
+
+TEST_F(KeptJacobian, MovesTheArmAsItsOwnDoes) {
+  const Eigen::VectorXd before = moving(1);
+  ExponentialStep exponential(process_);
+  const Eigen::VectorXd x = step(exponential, before, 0).x;
+  const Belief b = difference(before, x);
+  EXPECT_GT(of_root(b), 0) << "the Jacobian was not kept";
+  // Changes of the cables' and friction's rates below 1e-3 of 1/h, and the chain as it was a millisecond before.
+  const Belief own = step(exponential, x, 1);
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_LT(std::abs(b.x(i)), 3e-4 * std::abs(own.x(i) - x(i))) << i;
+    EXPECT_LT(b.FS.view().row(i).norm(), 3e-3 * own.FS.view().row(i).norm()) << i;
+  }
+}
+
+TEST_F(KeptJacobian, IsNewWhereFrictionHasChanged) {
+  // From speeds beyond friction's smoothing to speeds within it, only the chain is kept. Friction's old slopes would be
+  // wrong by more than a half.
+  const Belief kept_chain = difference(moving(1), moving(0.01));
+  ExponentialStep exponential(process_);
+  const Belief own = step(exponential, moving(0.01), 0);
+  for (int i = 0; i < 12; ++i) EXPECT_LT(kept_chain.FS.view().row(i).norm(), 5e-3 * own.FS.view().row(i).norm()) << i;
+}
+
+TEST_F(KeptJacobian, IsNewForAnotherLengthOfTheStep) {
+  // A kept one would be wrong by half.
+  const Belief b = difference(moving(1), moving(1), 0.5 * kLength);
+  ExponentialStep exponential(process_);
+  const Belief own = step(exponential, moving(1), 0, 0.5 * kLength);
+  for (int i = 0; i < 12; ++i) EXPECT_LT(b.FS.view().row(i).norm(), 1e-9 * own.FS.view().row(i).norm()) << i;
+}
+
+TEST_F(KeptJacobian, IsKeptWhereLengthsDifferByRounding) {
+  const Eigen::VectorXd before = moving(1);
+  ExponentialStep exponential(process_);
+  const Eigen::VectorXd x = step(exponential, before, 0).x;
+  EXPECT_GT(of_root(difference(before, x, kLength * (1 + 1e-12))), 1e-9);
+}
+
+TEST_F(KeptJacobian, IsForgottenWithTheChain) {
+  ExponentialStep after(process_), alone(process_);
+  step(after, moving(1), 0);
+  after.forget();
+  const Eigen::VectorXd x = moving(0.99);
+  const Belief b = step(after, x, kLength), own = step(alone, x, kLength);
+  EXPECT_EQ(b.x, own.x);
+  EXPECT_EQ(Eigen::MatrixXd(b.FS.view()), Eigen::MatrixXd(own.FS.view()));
+}
+
+TEST_F(KeptJacobian, IsRestored) {
+  ExponentialStep exponential(process_);
+  step(exponential, moving(1), 0);
+  ExponentialStep::Kept kept;
+  exponential.save(kept);
+  const Eigen::VectorXd x = moving(1.0001);
+  const Belief before = step(exponential, x, kLength);
+  step(exponential, moving(0.01), 2 * kLength);  // has one of its own
+  exponential.restore(kept);
+  const Belief again = step(exponential, x, kLength);
+  EXPECT_EQ(again.x, before.x);
+  EXPECT_EQ(Eigen::MatrixXd(again.FS.view()), Eigen::MatrixXd(before.FS.view()));
+}
+
+TEST_F(KeptJacobian, ForcesAreAnsweredAnewWhenTheyChange) {
+  const Eigen::VectorXd x = moving(1);
+  const auto answer = [&](ExponentialStep& exponential, double size, double time_s) {
+    Eigen::MatrixXd G = Eigen::MatrixXd::Zero(12, 1), Gamma(12, 1);
+    G(process_.layout().rate[0]) = size;
+    exponential.linearise({time_s, kLength, torque_.data()}, x);
+    EXPECT_TRUE(exponential.start(in_lanes(Eigen::MatrixXd::Identity(12, 12)), G));
+    EXPECT_TRUE(exponential.respond(Gamma));
+    return Gamma;
+  };
+  ExponentialStep exponential(process_);
+  const Eigen::MatrixXd once = answer(exponential, 1e-6, 0), same = answer(exponential, 1e-6, kLength),
+                        twice = answer(exponential, 2e-6, kLength);
+  EXPECT_LT((same - once).norm(), 1e-6 * once.norm());
+  EXPECT_LT((twice - 2 * once).norm(), 1e-3 * twice.norm());
+}
+
+}  // namespace
+}  // namespace halyard
