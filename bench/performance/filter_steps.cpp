@@ -1,9 +1,7 @@
 #include "bench/performance/filter_steps.h"
 
-#include <algorithm>
-#include <chrono>
-#include <functional>
 #include <limits>
+#include <memory>
 
 #include "bench/bench_arm.h"
 #include "estimators/filters/arm_filter.h"
@@ -14,25 +12,6 @@
 namespace halyard {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr std::size_t kBlock = 100;  // steps of a variant before it is the next one's turn
-
-std::vector<Sample> recorded(const ArmModel& model) {
-  const Log log = simulate(faster(sines(model, 2))).measured;
-  std::vector<Sample> samples(log.size());
-  for (std::size_t i = 0; i < log.size(); ++i) {
-    samples[i].time_s = log.time[i];
-    samples[i].motor_torque.resize(log.n_joints);
-    samples[i].motor_position.resize(log.n_joints);
-    for (int k = 0; k < log.n_joints; ++k) {
-      samples[i].motor_torque(k) = log.motor_torque[k][i];
-      samples[i].motor_position(k) = log.motor_position[k][i];
-    }
-  }
-  return samples;
-}
-
 /// The process model's step, sigma points one by one in scalar code.
 class ScalarProcess final : public ArmProcess {
  public:
@@ -41,18 +20,6 @@ class ScalarProcess final : public ArmProcess {
     for (Eigen::Index c = 0; c < X.cols(); ++c) model_.advance(step_, X.col(c).data());
   }
 };
-
-/// A variant: what one sample costs. Sample 0 starts anew.
-struct Variant {
-  std::string name;
-  std::function<void(std::size_t)> step;
-  std::vector<double> us = {};
-};
-
-StepTime summary(Variant& v) {
-  std::sort(v.us.begin(), v.us.end());
-  return {v.name, v.us[v.us.size() / 2], v.us[v.us.size() * 99 / 100]};
-}
 
 }  // namespace
 
@@ -100,17 +67,7 @@ std::vector<StepTime> time_filters(int rounds) {
   add_bare("sr_ukf without noise, sub-steps in lanes", false);
   add_bare("sr_ukf without noise, sub-steps in scalar code", true);
 
-  for (int round = 0; round < rounds; ++round)
-    for (std::size_t first = 0; first < samples.size(); first += kBlock)
-      for (Variant& v : variants)
-        for (std::size_t i = first; i < std::min(first + kBlock, samples.size()); ++i) {
-          const Clock::time_point before = Clock::now();
-          v.step(i);
-          v.us.push_back(std::chrono::duration<double, std::micro>(Clock::now() - before).count());
-        }
-  std::vector<StepTime> all;
-  for (Variant& v : variants) all.push_back(summary(v));
-  return all;
+  return time_in_turns(variants, samples.size(), rounds);
 }
 
 }  // namespace halyard

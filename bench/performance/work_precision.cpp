@@ -33,6 +33,8 @@ constexpr Named kCompared[] = {
     {"simbody_cpodes", IntegratorKind::simbody_cpodes, Engine::simbody},
 };
 
+}  // namespace
+
 Scenario scenario_of(const StiffCase& which, double duration_s) {
   ArmModel arm = raven2();
   arm.nominal.joint[0].stiffness *= which.stiffness;
@@ -66,7 +68,11 @@ double largest_difference(const Log& a, const Log& b) {
   return largest;
 }
 
-}  // namespace
+Log reference(Scenario scenario) {
+  scenario.engine = Engine::halyard;
+  scenario.integrator.kind = IntegratorKind::bdf;
+  return simulate(scenario).truth;
+}
 
 std::vector<std::string> compared_integrators() {
   std::vector<std::string> names;
@@ -76,9 +82,7 @@ std::vector<std::string> compared_integrators() {
 
 std::vector<WorkPrecision> measure(const StiffCase& which, double duration_s) {
   Scenario s = scenario_of(which, duration_s);
-  s.engine = Engine::halyard;
-  s.integrator.kind = IntegratorKind::bdf;
-  const Log reference = simulate(s).truth;
+  const Log exact = reference(s);
   std::vector<WorkPrecision> all;
   for (const Named& each : kCompared) {
     WorkPrecision result{each.name, {}};
@@ -93,7 +97,7 @@ std::vector<WorkPrecision> measure(const StiffCase& which, double duration_s) {
           truth = simulate(s).truth;
           seconds = std::min(seconds, thread_time_s() - before);
         }
-        result.points.push_back({largest_difference(truth, reference), 1e3 * seconds / duration_s});
+        result.points.push_back({largest_difference(truth, exact), 1e3 * seconds / duration_s});
         if (seconds > kLongestRun) break;
       } catch (const std::runtime_error&) {
         break;

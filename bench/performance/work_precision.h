@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "model/log.h"
 #include "plant/scenario.h"
 
 namespace halyard {
@@ -34,6 +35,14 @@ struct WorkPrecision {
 
 /// Names of all integrators but the reference, as scenario files have them.
 std::vector<std::string> compared_integrators();
+
+Scenario scenario_of(const StiffCase& which, double duration_s);
+/// The truth of the scenario on halyard's own chain, by bdf with tight tolerances.
+Log reference(Scenario scenario);
+/// Of a joint's position; never below what rounding leaves.
+double largest_difference(const Log& a, const Log& b);
+/// Processor time of this thread.
+double thread_time_s();
 
 /// duration_s: simulated time of each run.
 std::vector<WorkPrecision> measure(const StiffCase& which, double duration_s);

@@ -1,5 +1,6 @@
 #include "estimators/filters/arm_filter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -16,7 +17,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFastest = 0.05;   // s, for a joint to cross its range
 constexpr double kHistorySpan = 2;  // s, longer than any delay
 constexpr double kUsualRate = 1e3;  // Hz; at this rate and below, the history never asks for more memory
-constexpr int kMostHalvings = 2;    // of a step that the exponential step's guard refuses
+constexpr int kMostHalvings = 5;    // of a step that the exponential step's guard refuses
 
 }  // namespace
 
@@ -148,9 +149,12 @@ void ArmFilter::predict(double to_time_s) {
   step.motor_torque = torque_.data();
   step.external_force = external_.data();
   step.history = &history_;
+  // Parts of a refused step are no shorter than sub-steps, or half of one.
+  const double parts = std::ceil(std::log2(process_->substeps_needed(step.dt_s)));
+  const int halvings = static_cast<int>(std::min<double>(parts, kMostHalvings));
   for (int i = 0; i < pieces; ++i) {
     step.time_s = time_ + i * step.dt_s;
-    predict_over(step, kMostHalvings);
+    predict_over(step, halvings);
   }
 }
 

@@ -98,9 +98,13 @@ void ProcessModel::find_stiffest_rate(const ArmModel& model) {
   }
 }
 
+double ProcessModel::substeps_needed(double dt_s) const {
+  return std::max(1.0, std::ceil(dt_s * stiffest_rate_ / kStableStep));
+}
+
 int ProcessModel::substeps(double dt_s) const {
   constexpr double kLongStep = 1e-3;  // s
-  const double needed = std::max(1.0, std::ceil(dt_s * stiffest_rate_ / kStableStep));
+  const double needed = substeps_needed(dt_s);
   const double allowed = std::floor(kMaxSubsteps * std::max(1.0, dt_s / kLongStep));
   if (needed <= allowed) return static_cast<int>(needed);
   std::ostringstream text;

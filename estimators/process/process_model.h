@@ -55,6 +55,8 @@ class ProcessModel {
   double stiffest_rate() const { return stiffest_rate_; }
   /// The state with the largest part in that eigenvalue's mode.
   const std::string& stiffest_state() const { return state_names_[stiffest_state_]; }
+  /// Number of sub-steps that keep h |λ| within the bound.
+  double substeps_needed(double dt_s) const;
   /// Number of sub-steps of a step. Throws std::runtime_error naming state and rate if kMaxSubsteps is too few.
   int substeps(double dt_s) const;
 
