@@ -36,11 +36,11 @@ TABLE
 figure blind_trials hours bench
 figure_blind_trials() {
   local kind sensors trials shard
-  # Two of twelve parts of each draw, so that it spreads over the library's effects.
+  # Some of twelve parts of each draw, so that it spreads over the library's effects.
   while read -r kind sensors trials; do
-    for shard in 1/12 2/12; do
+    for shard in 1 2 3 4 5 6 7; do
       ran "$bench/halyard_blind_trials --kind $kind --sensors $sensors --off 1 --arms raven2 --trials $trials \
---shard $shard --seed 20261224 --resume --out out/trials"
+--shard $shard/12 --seed 20261227 --resume --out out/trials"
     done
   done <<'DRAWS'
 clean good 24
@@ -59,8 +59,8 @@ outside poor 12
 DRAWS
   ran "$bench/halyard_blind_trials --summary out/trials"
   cat <<'TABLE'
-From `halyard_blind_trials --seed 20261224 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N --shard S/12`, S = 1
-and 2. N is 24 for clean arms, 36 for one effect, and 12 for the other kinds:
+From `halyard_blind_trials --seed 20261227 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N --shard S/12`, S = 1
+to 7. N is 24 for clean arms, 36 for one effect, and 12 for the other kinds:
 
 TABLE
   awk '/^## /{ inside = $2 == "Acceptance" } inside && /^[|]/' "$work/out/trials/summary.md"

@@ -26,7 +26,7 @@ class LaneMatrix {
   void set_zero(int rows, int columns) {
     rows_ = rows, columns_ = columns, blocks_ = (rows + kLaneWidth - 1) / kLaneWidth;
     lanes_.resize(static_cast<std::size_t>(blocks_) * columns);
-    std::memset(static_cast<void*>(lanes_.data()), 0, lanes_.size() * sizeof(Lanes));
+    if (!lanes_.empty()) std::memset(static_cast<void*>(lanes_.data()), 0, lanes_.size() * sizeof(Lanes));
   }
   /// The entries are zero if the shape changes, else what they were. Keeps its memory.
   void reshape(int rows, int columns) {
