@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace halyard {
 namespace {
@@ -104,8 +103,7 @@ void ExponentialStep::set_x_2() {
 
 void ExponentialStep::set_linear_response(const Eigen::MatrixXd& G) {
   const int n = shape_.n, sources = static_cast<int>(G.cols());
-  const auto size = static_cast<std::size_t>(G.size());
-  if (!phi_is_due_ && G_.size() == G.size() && std::memcmp(G.data(), G_.data(), size * sizeof(double)) == 0) return;
+  if (!phi_is_due_ && G_.size() == G.size() && std::equal(G.data(), G.data() + G.size(), G_.data())) return;
   G_ = G;
   forces_.reshape(1 + sources, n);
   response_.reshape(1 + sources, n);
