@@ -9,23 +9,6 @@
 namespace halyard {
 namespace {
 
-std::vector<Sample> samples_of(const Log& log) {
-  std::vector<Sample> samples(log.size());
-  for (std::size_t i = 0; i < log.size(); ++i) {
-    samples[i].time_s = log.time[i];
-    samples[i].motor_torque.resize(log.n_joints);
-    samples[i].motor_position.resize(log.n_joints);
-    for (int k = 0; k < log.n_joints; ++k) {
-      samples[i].motor_torque(k) = log.motor_torque[k][i];
-      samples[i].motor_position(k) = log.motor_position[k][i];
-    }
-    if (!log.has_marker()) continue;
-    const Eigen::Vector3d marker(log.marker[0][i], log.marker[1][i], log.marker[2][i]);
-    if (marker.allFinite()) samples[i].marker = marker;
-  }
-  return samples;
-}
-
 using Make = std::unique_ptr<Estimator> (*)(const ArmModel&, const EstimatorOptions&);
 
 /// Under a camera at 30 Hz.

@@ -10,10 +10,15 @@ namespace {
 
 using Make = std::unique_ptr<Estimator> (*)(const ArmModel&, const EstimatorOptions&);
 
-Variant variant(const std::string& name, Make make, const ArmModel& model) {
-  const auto samples = std::make_shared<const std::vector<Sample>>(recorded(model));
-  const std::shared_ptr<Estimator> estimator = make(model, {});
-  return {name, [samples, estimator](std::size_t i) {
+/// An arm with its record.
+struct Recorded {
+  ArmModel model;
+  std::shared_ptr<const std::vector<Sample>> samples = std::make_shared<std::vector<Sample>>(recorded(model));
+};
+
+Variant variant(const std::string& name, Make make, const Recorded& arm) {
+  const std::shared_ptr<Estimator> estimator = make(arm.model, {});
+  return {name, [samples = arm.samples, estimator](std::size_t i) {
             if (i == 0) return estimator->reset((*samples)[0]);
             estimator->update((*samples)[i]);
             while (estimator->revise(false)) {}
@@ -30,26 +35,28 @@ ArmModel with_three_effects() {
   return model;
 }
 
-std::size_t samples_of(const ArmModel& model) { return recorded(model).size(); }
-
 }  // namespace
 
 std::vector<StepTime> time_estimators(int rounds) {
-  const ArmModel plain = raven2(), effects = with_three_effects();
+  const Recorded plain{raven2()}, effects{with_three_effects()};
   return time_in_turns(
       {variant("kinematics", &make_kinematics, plain), variant("ekf", &make_ekf, plain),
        variant("sr_ukf", &make_sr_ukf, plain), variant("disturbance_sr_ukf", &make_disturbance_sr_ukf, plain),
        variant("smoother", &make_smoother, plain), variant("camera_sr_ukf", &make_camera_sr_ukf, plain),
        variant("ekf, three effects", &make_ekf, effects), variant("sr_ukf, three effects", &make_sr_ukf, effects)},
-      samples_of(plain), rounds);
+      plain.samples->size(), rounds);
 }
 
 std::vector<StepTime> time_chains(int rounds) {
   std::vector<Variant> variants;
-  for (int n = 1; n <= kMaxJoints; ++n)
-    for (const auto& [name, make] : {std::pair("ekf", &make_ekf), std::pair("sr_ukf", &make_sr_ukf)})
-      variants.push_back(variant(name, make, chain_of(n, 1)));
-  return time_in_turns(variants, samples_of(chain_of(1, 1)), rounds);
+  std::size_t samples = 0;
+  for (int n = 1; n <= kMaxJoints; ++n) {
+    const Recorded chain{chain_of(n, 1)};
+    samples = chain.samples->size();
+    variants.push_back(variant("ekf", &make_ekf, chain));
+    variants.push_back(variant("sr_ukf", &make_sr_ukf, chain));
+  }
+  return time_in_turns(variants, samples, rounds);
 }
 
 }  // namespace halyard

@@ -92,9 +92,8 @@ std::string estimator_table(const std::vector<StepTime>& times) {
 /// Of `ekf` and `sr_ukf` in turn, for 1 to 7 joints.
 std::string chain_table(const std::vector<StepTime>& times) {
   std::string text =
-      "| joints | states | sigma points | ekf, median µs | mean | sr_ukf, median µs | mean | median, to 3 joints | n³, "
-      "to 3 "
-      "joints |\n|---|---|---|---|---|---|---|---|---|\n";
+      "| joints | states | sigma points | ekf, median µs | mean | sr_ukf, median µs | mean | median, to 3 joints | "
+      "n³, to 3 joints |\n|---|---|---|---|---|---|---|---|---|\n";
   const auto ratio = [&](std::size_t joints) { return times[2 * joints - 1].median_us / times[5].median_us; };
   for (std::size_t n = 1; 2 * n <= times.size(); ++n)
     text += fmt::format("| {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", n, 4 * n, 8 * n + 1,
@@ -150,8 +149,8 @@ some steps need more:
 
 - Where friction changes, and at least every 10 ms, a step has a Jacobian and φ functions of its own. Others keep those of
   an earlier one ([exponential_step.h](../estimators/process/exponential_step.h)).
-- 2 % of the steps are refused by the guard and taken in two to four parts, in long arms in more. In 4 % the answer to the noise needs sub-steps,
-  because friction is not linear over its reach ([arm_impulses.h](../estimators/process/arm_impulses.h)).
+- 2 % of the steps are refused by the guard and taken in two to four parts, in long arms in more. In 4 % the answer to
+  the noise needs sub-steps, because friction is not linear over its reach ([arm_impulses.h](../estimators/process/arm_impulses.h)).
 - An effect in a filter's model may have a kink anywhere. Then no Jacobian is kept, and both points of each pair of sigma
   points are evaluated at both ends of the step.
 

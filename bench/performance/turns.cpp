@@ -48,20 +48,7 @@ std::vector<StepTime> time_in_turns(const std::vector<Variant>& variants, std::s
 std::vector<Sample> recorded(const ArmModel& model) {
   Scenario scenario = faster(sines(model, 2));
   scenario.camera = Camera{};
-  const Log log = simulate(scenario).measured;
-  std::vector<Sample> samples(log.size());
-  for (std::size_t i = 0; i < log.size(); ++i) {
-    samples[i].time_s = log.time[i];
-    samples[i].motor_torque.resize(log.n_joints);
-    samples[i].motor_position.resize(log.n_joints);
-    for (int k = 0; k < log.n_joints; ++k) {
-      samples[i].motor_torque(k) = log.motor_torque[k][i];
-      samples[i].motor_position(k) = log.motor_position[k][i];
-    }
-    const Eigen::Vector3d marker(log.marker[0][i], log.marker[1][i], log.marker[2][i]);
-    if (marker.allFinite()) samples[i].marker = marker;
-  }
-  return samples;
+  return samples_of(simulate(scenario).measured);
 }
 
 }  // namespace halyard

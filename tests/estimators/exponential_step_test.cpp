@@ -4,25 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/estimators/matrix/lane_matrices.h"
 #include "tests/support/arm_runs.h"
-#include "tests/support/lane_matrices.h"
 #include "tests/support/limits.h"
 
 namespace halyard {
 namespace {
 
 constexpr double kStep = 1e-3;  // s
-
-/// At home with these joint speeds, cables unstretched.
-Eigen::VectorXd at_speed(const ArmModel& model, const ProcessModel& process, const Eigen::Vector3d& v) {
-  const Eigen::VectorXd rate = unstretched_motors(process.arm(), v);
-  Eigen::VectorXd x = process.state_at_rest(unstretched_motors(process.arm(), model.home()), model.home());
-  for (int k = 0; k < 3; ++k) {
-    x(process.layout().rate[k]) = v(k);
-    x(*process.layout().motor_rate[k]) = rate(k);
-  }
-  return x;
-}
 
 const Eigen::Vector3d kFast(0.5, -0.5, 0.05), kSlow(0.006, -0.006, 0.006);  // beyond friction's smoothing; within
 

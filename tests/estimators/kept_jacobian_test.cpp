@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "estimators/process/exponential_step.h"
+#include "tests/estimators/matrix/lane_matrices.h"
 #include "tests/support/arm_runs.h"
-#include "tests/support/lane_matrices.h"
 
 namespace halyard {
 namespace {
@@ -20,14 +20,7 @@ class KeptJacobian : public testing::Test {
  protected:
   /// At home with joint speeds of `speed` times what is typical.
   Eigen::VectorXd moving(double speed) const {
-    const Eigen::Vector3d v = speed * Eigen::Vector3d(0.5, -0.5, 0.05);
-    const Eigen::VectorXd rate = unstretched_motors(process_.arm(), v);
-    Eigen::VectorXd x = process_.state_at_rest(unstretched_motors(process_.arm(), model_.home()), model_.home());
-    for (int k = 0; k < 3; ++k) {
-      x(process_.layout().rate[k]) = v(k);
-      x(*process_.layout().motor_rate[k]) = rate(k);
-    }
-    return x;
+    return at_speed(model_, process_, speed * Eigen::Vector3d(0.5, -0.5, 0.05));
   }
   Belief step(ExponentialStep& exponential, const Eigen::VectorXd& x, double time_s, double dt_s = kLength) const {
     Belief after{x, in_lanes(Eigen::MatrixXd::Zero(12, 12))};

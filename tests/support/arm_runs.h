@@ -46,6 +46,17 @@ inline ArmModel chain_of(int n, double stiffer) {
   return model;
 }
 
+/// A state of the RAVEN-II at home with these joint speeds, cables unstretched.
+inline Eigen::VectorXd at_speed(const ArmModel& model, const ProcessModel& process, const Eigen::Vector3d& v) {
+  const Eigen::VectorXd rate = unstretched_motors(process.arm(), v);
+  Eigen::VectorXd x = process.state_at_rest(unstretched_motors(process.arm(), model.home()), model.home());
+  for (int k = 0; k < 3; ++k) {
+    x(process.layout().rate[k]) = v(k);
+    x(*process.layout().motor_rate[k]) = rate(k);
+  }
+  return x;
+}
+
 /// The arm's own process model under PD control on sines around home, 1 kHz, encoders rounded, no noise. Starts in
 /// static equilibrium.
 class DrivenArm {

@@ -8,7 +8,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "estimators/matrix/lane_matrix.h"
-#include "tests/support/lane_matrices.h"
+#include "tests/estimators/matrix/lane_matrices.h"
 #include "tests/support/limits.h"
 
 namespace halyard {
