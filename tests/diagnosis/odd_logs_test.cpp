@@ -156,6 +156,16 @@ TEST(MoreFriction, OfMotorAndJointThatStaysIsNoDrift) {
   for (const Alternative& a : d.effects[0].alternatives) EXPECT_NE(a.effect.effect->name(), "friction_drift");
 }
 
+TEST(MoreFriction, ThatAlsoFadesALittleIsADrift) {
+  // What fades is less than the error of form that is granted to the friction that stays.
+  ArmModel truth = first_joints(1);
+  truth.effects.push_back(placed("friction_drift", truth, 0, {-0.03, 0.9, 0, 1}));
+  const Diagnosis d = diagnosis_of(first_joints(1), logs_of(truth));
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects[0].effect.effect->name(), "friction_drift");
+  EXPECT_NEAR(d.effects[0].effect.p[0], -0.03, 0.003);
+}
+
 TEST(LogOfMotorsOnly, ChangesNoNumberThatPredictsTheJointsWorse) {
   // Without a joint sensor the training data cannot tell friction of the motor from friction of the joint.
   ArmModel truth = first_joints(1);
