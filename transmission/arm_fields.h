@@ -116,6 +116,7 @@ void for_each_joint_field(Visit&& visit, Joint&... j) {
   motor("capstan_radius", "capstan radius", "m", length, positive, false, motion, j.capstan_radius...);
   motor("torque_scale", "torque scale", "1", torque_scale, positive, true, motor_torque, j.torque_scale...);
   motor("torque_bias", "torque bias", "N m", torque_bias, none, true, motor_torque, j.torque_bias...);
+  visit(F{"motor", "torque", "", "", structure, none, true, driven_joint}, j.torque_source...);
 
   visit(F{"cable", "law", "", "", structure, none, false, cable_joint}, j.law...);
   visit(F{"cable", "stiffness", "stiffness", "N/m", stiffness, positive, false, cable_joint}, j.stiffness...);

@@ -21,6 +21,10 @@ enum class Drive { cable, rigid, none };
 /// How a cable's tension depends on its stretch; see cable_law.h.
 enum class CableLaw { paper, exponential, linear };
 
+/// What a log's motor torque is: the controller's command, or a reading of the torque at the shaft, or of the motor's
+/// current. Between a reading and the rotor nothing can be limited.
+enum class TorqueSource { commanded, measured };
+
 template <class T>
 struct JointParameters {
   JointType type = JointType::revolute;
@@ -44,6 +48,7 @@ struct JointParameters {
   T capstan_radius = 1.0;   ///< r_m, m
   T torque_scale = 1.0;     ///< torque at the shaft per commanded torque
   T torque_bias = 0.0;      ///< N m, added after the scale
+  TorqueSource torque_source = TorqueSource::commanded;
 
   // Cable.
   T pulley_radius = 1.0;  ///< r_l, m | 1

@@ -28,6 +28,12 @@ inline const Words<CableLaw>& words_of(CableLaw) {
   return words;
 }
 
+inline const Words<TorqueSource>& words_of(TorqueSource) {
+  static const Words<TorqueSource> words = {{"commanded", TorqueSource::commanded},
+                                            {"measured", TorqueSource::measured}};
+  return words;
+}
+
 template <class Choice>
 std::string word_for(Choice choice) {
   for (const auto& [word, meaning] : words_of(choice))

@@ -54,7 +54,8 @@ class FieldReader {
   template <class Value>
   void read_value(const ArmField& field, Value& value) {
     if constexpr (std::is_enum_v<Value>) {
-      value = element_.choice(field.name, words_of(value));
+      value = field.has_default ? element_.choice_or(field.name, value, words_of(value))
+                                : element_.choice(field.name, words_of(value));
     } else if constexpr (std::is_same_v<Value, double>) {
       read_number(field, value);
     } else if constexpr (std::is_array_v<Value>) {

@@ -51,6 +51,7 @@ TEST(ModelFields, EachIsWrittenAndReadBack) {
         using Entry = std::remove_reference_t<decltype(entry)>;
         if constexpr (std::is_same_v<Entry, double>) entry = entry * (1 + 1e-6) + by;  // a rotation stays one
         else if constexpr (std::is_same_v<Entry, CableLaw>) entry = CableLaw::linear;
+        else if constexpr (std::is_same_v<Entry, TorqueSource>) entry = TorqueSource::measured;
       };
       for_each_entry(change, value);
       const std::string name = std::to_string(k + 1).append(".").append(field.part).append(".").append(field.name);

@@ -83,6 +83,14 @@ TEST(ModelFile, UnknownZeroOfAnEncoderLastsThroughWritingAndReading) {
   EXPECT_FALSE(find_effect("encoder_offset")->applies(model.nominal, 0)) << "means nothing there";
 }
 
+TEST(ModelFile, ATorqueIsCommandedUnlessItIsMeasured) {
+  EXPECT_EQ(parse_model(kArm, "arm.xml").nominal.joint[0].torque_source, TorqueSource::commanded);
+  const ArmModel model = parse_model(replaced("<motor inertia=\"2e-5\"", "<motor torque=\"measured\" inertia=\"2e-5\""), "arm.xml");
+  EXPECT_EQ(model.nominal.joint[0].torque_source, TorqueSource::measured);
+  EXPECT_EQ(parse_model(model_to_xml(model), "again.xml").nominal.joint[0].torque_source, TorqueSource::measured);
+  EXPECT_FALSE(find_effect("actuator_saturation")->applies(model.nominal, 0));
+}
+
 TEST(ModelFile, DhRowIsCraigsConvention) {
   const JointParameters<double> joint = parse_model(kArm, "arm.xml").nominal.joint[0];
   // Rx(90 deg) Tx(0.2) Rz(0.3) Tz(0.1), by hand: x stays in the plane of x and z, z points along -y.
@@ -139,6 +147,7 @@ std::vector<double> numbers_of(const JointParameters<double>& j) {
   all.push_back(static_cast<double>(j.type));
   all.push_back(static_cast<double>(j.drive));
   all.push_back(static_cast<double>(j.law));
+  all.push_back(static_cast<double>(j.torque_source));
   return all;
 }
 

@@ -21,10 +21,10 @@ TEST(ArmFields, ListEveryMemberOfAJointOnce) {
   const JointParameters<double> joint;
   // A member that is added to JointParameters stops this from compiling: name it here, and give it a line in the list.
   const auto& [type, drive, law, frame_R, frame_p, mass, com, inertia, rotor_inertia, motor_coulomb, motor_viscous,
-               motor_smoothing, gear_ratio, capstan_radius, torque_scale, torque_bias, pulley_radius, coupling,
-               stiffness, damping, tension, joint_coulomb, joint_viscous, joint_smoothing, motor_encoder_offset,
-               joint_encoder_offset, motor_encoder_resolution, joint_encoder_resolution, motor_zero_known,
-               joint_zero_known] = joint;
+               motor_smoothing, gear_ratio, capstan_radius, torque_scale, torque_bias, torque_source, pulley_radius,
+               coupling, stiffness, damping, tension, joint_coulomb, joint_viscous, joint_smoothing,
+               motor_encoder_offset, joint_encoder_offset, motor_encoder_resolution, joint_encoder_resolution,
+               motor_zero_known, joint_zero_known] = joint;
   const std::multiset<const void*> members = {&type,
                                               &drive,
                                               &law,
@@ -41,6 +41,7 @@ TEST(ArmFields, ListEveryMemberOfAJointOnce) {
                                               &capstan_radius,
                                               &torque_scale,
                                               &torque_bias,
+                                              &torque_source,
                                               &pulley_radius,
                                               &coupling,
                                               &stiffness,
@@ -98,6 +99,7 @@ ArmParameters<double> numbered_arm(double first) {
     j.type = JointType::prismatic;
     j.drive = Drive::none;
     j.law = CableLaw::linear;
+    j.torque_source = TorqueSource::measured;
     j.motor_zero_known = j.joint_zero_known = false;
   }
   return arm;

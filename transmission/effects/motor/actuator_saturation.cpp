@@ -10,7 +10,7 @@
 ///   ρ       share of the torque beyond the limit that is lost: 1 for a hard limit       -
 ///
 /// ρ is the size of the effect, the limits are its shape: nothing saturates at ρ = 0. With a no-load speed far above
-/// the motion's speeds, the limit does not depend on speed.
+/// the motion's speeds, the limit does not depend on speed. A torque that the log has measured is not limited any more.
 /// Source: the torque-speed line of a motor at constant voltage, and the current limit of its amplifier.
 
 namespace halyard::effects {
@@ -21,7 +21,8 @@ class ActuatorSaturation : public EffectOf<ActuatorSaturation> {
   std::string summary() const override { return "torque or speed that saturates below the command"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::command); }
   bool applies(const ArmParameters<double>& arm, int joint) const override {
-    return arm.joint[joint].drive != Drive::none;
+    const JointParameters<double>& j = arm.joint[joint];
+    return j.drive != Drive::none && j.torque_source == TorqueSource::commanded;
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
     const double level = typical_motor_friction(arm.joint[*joint]), no_limit = 1e4;
