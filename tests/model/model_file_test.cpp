@@ -85,7 +85,8 @@ TEST(ModelFile, UnknownZeroOfAnEncoderLastsThroughWritingAndReading) {
 
 TEST(ModelFile, ATorqueIsCommandedUnlessItIsMeasured) {
   EXPECT_EQ(parse_model(kArm, "arm.xml").nominal.joint[0].torque_source, TorqueSource::commanded);
-  const ArmModel model = parse_model(replaced("<motor inertia=\"2e-5\"", "<motor torque=\"measured\" inertia=\"2e-5\""), "arm.xml");
+  const ArmModel model =
+      parse_model(replaced("<motor inertia=\"2e-5\"", "<motor torque=\"measured\" inertia=\"2e-5\""), "arm.xml");
   EXPECT_EQ(model.nominal.joint[0].torque_source, TorqueSource::measured);
   EXPECT_EQ(parse_model(model_to_xml(model), "again.xml").nominal.joint[0].torque_source, TorqueSource::measured);
   EXPECT_FALSE(find_effect("actuator_saturation")->applies(model.nominal, 0));
