@@ -79,7 +79,8 @@ double named_from(const ArmModel& model, const std::vector<Log>& logs, const Pla
   const Planner planner(model, logs);
   const Planner::Growing growing = planner.scaled(effect);
   const double detected = planner.detected_from(growing);
-  if (!std::isfinite(detected) || names_nothing(model, logs)) return std::numeric_limits<double>::infinity();
+  if (!std::isfinite(detected) || !planner.is_searched(effect) || names_nothing(model, logs))
+    return std::numeric_limits<double>::infinity();
   const std::vector<Shown> shown = show_all(planner, [] {});
   return planner.named_from(growing, detected, others_than(effect, shown));
 }

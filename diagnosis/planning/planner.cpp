@@ -132,6 +132,16 @@ Planner::Growing Planner::scaled(const PlacedEffect& effect) const {
   return {at, 1};
 }
 
+bool Planner::is_searched(const PlacedEffect& effect) const {
+  Hypothesis with = nominal_;
+  with.effects.push_back(effect);
+  const auto parameters = effect_parameters(evidence_, with, model_.nominal, nominal_.effects.size());
+  return std::ranges::all_of(parameters, [&](const FitParameter& p) {
+    const double value = p.is_past ? p.lower : parameter_value(with, p);
+    return !p.shape || p.range != SearchRange::own || (value >= p.lower && value <= p.upper);
+  });
+}
+
 double Planner::detected_from(const Growing& effect) const {
   return smallest(effect, kFirstStrength, [&](const Eigen::VectorXd& change) { return detector_->detects(change); });
 }

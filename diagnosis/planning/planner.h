@@ -46,6 +46,8 @@ class Planner {
   Shown show(const PlacedEffect& candidate) const;
   /// The effect with all its sizes scaled together, from their neutral values; at a factor of 1 they are as given.
   Growing scaled(const PlacedEffect& effect) const;
+  /// False for an effect with a shape that no search tries in this motion, for example an order of too few periods.
+  bool is_searched(const PlacedEffect& effect) const;
 
   /// The smallest factor at which the effect is detected; infinite if there is none.
   double detected_from(const Growing& effect) const;
