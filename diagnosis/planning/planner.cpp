@@ -137,8 +137,9 @@ bool Planner::is_searched(const PlacedEffect& effect) const {
   with.effects.push_back(effect);
   const auto parameters = effect_parameters(evidence_, with, model_.nominal, nominal_.effects.size());
   return std::ranges::all_of(parameters, [&](const FitParameter& p) {
-    const double value = p.is_past ? p.lower : parameter_value(with, p);
-    return !p.shape || p.range != SearchRange::own || (value >= p.lower && value <= p.upper);
+    if (!p.shape || p.is_past || p.range != SearchRange::own) return true;
+    const double value = parameter_value(with, p);
+    return value >= p.lower && value <= p.upper;
   });
 }
 

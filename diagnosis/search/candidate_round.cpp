@@ -197,7 +197,8 @@ void CandidateRound::find_essence(const Refit& refit, Trial& trial) const {
   if (!reduced.best.usable) return;
   const Scored with{h, evidence_.score(h)};
   const Scored without{reduced.best.hypothesis, evidence_.score(reduced.best.hypothesis)};
-  // No share is asked for: errors of form do what the effect does, not what its essential size does.
+  // A name has to explain a share of the residual, an essential size need not: friction that stays cannot err in a way
+  // that drifts.
   trial.is_another = judge_.gain_over(with, without) <= kRule.by_chance ||
                      judge_.p_of_gain(with.score, without.score) > kRule.worth_a_fit;
 }
