@@ -9,12 +9,14 @@
 namespace halyard {
 namespace {
 
-/// Rivals of a name that are tried with those of the other name.
-constexpr std::size_t kMostRivals = 2;
+/// Rivals of a name that are tried with those of the other name, and with each other.
+constexpr std::size_t kMostRivals = 2, kMostRivalsOfOne = 3;
+/// Each effect of a pair that would replace one name is an alternative of it: they share the weight of the pair.
+constexpr double kShareOfOne = 0.5;
 
 /// The candidates at the joint of the effect that gained nearly as much as it, the closest first, as they were fitted.
 std::vector<PlacedEffect> rivals_of(const PlacedEffect& effect, const Hypothesis& found,
-                                    const std::vector<Round>& rounds) {
+                                    const std::vector<Round>& rounds, std::size_t most) {
   std::vector<std::pair<double, PlacedEffect>> all;
   for (const Round& round : rounds) {
     if (round.at_once || round.trials.empty() || !same_name(round.trials[0].effect, effect)) continue;
@@ -28,7 +30,7 @@ std::vector<PlacedEffect> rivals_of(const PlacedEffect& effect, const Hypothesis
   std::ranges::stable_sort(all, std::ranges::greater{}, [](const auto& a) { return a.first; });
   std::vector<PlacedEffect> rivals;
   for (const std::pair<double, PlacedEffect>& a : all)
-    if (rivals.size() < kMostRivals &&
+    if (rivals.size() < most &&
         std::ranges::none_of(rivals, [&](const PlacedEffect& r) { return same_name(r, a.second); }))
       rivals.push_back(a.second);
   return rivals;
@@ -48,18 +50,24 @@ void add_alternative(Naming& naming, const PlacedEffect& effect, double weight) 
   std::ranges::stable_sort(naming.alternatives, std::ranges::greater{}, &Alternative::probability);
 }
 
-/// The alternative becomes the name, and the name an alternative.
-void exchange(Naming& naming, const PlacedEffect& name, const PlacedEffect& by) {
+/// Takes the alternative from the naming and returns its probability.
+double take(Naming& naming, const PlacedEffect& effect) {
   const auto its =
-      std::ranges::find_if(naming.alternatives, [&](const Alternative& a) { return same_name(a.effect, by); });
-  const double weight = its->probability;
+      std::ranges::find_if(naming.alternatives, [&](const Alternative& a) { return same_name(a.effect, effect); });
+  const double probability = its->probability;
   naming.alternatives.erase(its);
+  return probability;
+}
+
+/// A new name with this weight; `name` becomes an alternative.
+void rename_to(Naming& naming, const PlacedEffect& name, double weight) {
   add_alternative(naming, name, std::exchange(naming.weight, weight));
   naming.surer.reset();
 }
 
-Hypothesis without_both(const Hypothesis& h, const PairRivals::Places& places) {
-  return without_effect(without_effect(h, places.second), places.first);
+Hypothesis without_effects(Hypothesis h, const std::vector<std::size_t>& places) {
+  for (std::size_t i = places.size(); i-- > 0;) h = without_effect(std::move(h), places[i]);
+  return h;
 }
 
 }  // namespace
@@ -92,60 +100,77 @@ bool PairRivals::can_be_named(const Pair& pair) const {
 /// Pairs that can be integrated.
 std::vector<PairRivals::Pair> PairRivals::pairs(const Attribution& found, const Places& places) const {
   const Hypothesis& h = found.final_fit.hypothesis;
+  const auto rivals = [&](std::size_t place, std::size_t most) {
+    return rivals_of(h.effects[place], h, found.rounds, most);
+  };
   std::vector<Pair> all;
-  for (const PlacedEffect& first : rivals_of(h.effects[places.first], h, found.rounds))
-    for (const PlacedEffect& second : rivals_of(h.effects[places.second], h, found.rounds))
-      if (!same_name(first, second)) all.push_back({first, second, {}, {}});
-  run_side_by_side(all.size(), [&](std::size_t i) { fit(all[i], without_both(h, places), found.final_score); });
+  if (places.size() == 1) {
+    const std::vector<PlacedEffect> its = rivals(places[0], kMostRivalsOfOne);
+    for (std::size_t second = 1; second < its.size(); ++second)
+      for (std::size_t first = 0; first < second; ++first) all.push_back({its[first], its[second], {}, {}});
+  } else {
+    for (const PlacedEffect& first : rivals(places[0], kMostRivals))
+      for (const PlacedEffect& second : rivals(places[1], kMostRivals))
+        if (!same_name(first, second)) all.push_back({first, second, {}, {}});
+  }
+  run_side_by_side(all.size(), [&](std::size_t i) { fit(all[i], without_effects(h, places), found.final_score); });
   std::erase_if(all, [](const Pair& p) { return !p.fit.usable || !p.score.finite; });
   return all;
 }
 
-/// Of the two names, then of the pairs, then of no effect.
-std::vector<double> PairRivals::weights(const Attribution& found, const Places& places, const Hypothesis& neither,
+/// Of the names, then of the pairs, then of no effect. none: the hypothesis without the names.
+std::vector<double> PairRivals::weights(const Attribution& found, const Places& places, const Hypothesis& none,
                                         const std::vector<Pair>& pairs) const {
-  const auto numbers = [&](const PlacedEffect& a, const PlacedEffect& b) {
-    return numbers_added(a, model_.nominal) + numbers_added(b, model_.nominal);
-  };
+  const auto numbers = [&](const PlacedEffect& e) { return numbers_added(e, model_.nominal); };
   const std::vector<double> least = squared_floors(evidence_);
   const Hypothesis& h = found.final_fit.hypothesis;
   const Likelihood of_names = log_likelihood(evidence_, found.final_score, least);
-  const Likelihood of_neither = log_likelihood(evidence_, evidence_.score(neither), least);
+  const Likelihood of_none = log_likelihood(evidence_, evidence_.score(none), least);
   std::vector<Likelihood> of_pairs;
   for (const Pair& p : pairs) of_pairs.push_back(log_likelihood(evidence_, p.score, least));
-  std::vector<Competitor> all = {
-      {&of_names, numbers(h.effects[places.first], h.effects[places.second]), judge_.stretch(h)}};
+  std::vector<Competitor> all = {{&of_names, 0, judge_.stretch(h)}};
+  for (const std::size_t place : places) all[0].numbers += numbers(h.effects[place]);
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    all.push_back({&of_pairs[i], numbers(pairs[i].first, pairs[i].second), judge_.stretch(pairs[i].fit.hypothesis)});
-  return name_weights(evidence_, all, {&of_neither, 0, judge_.stretch(neither)});
+    all.push_back(
+        {&of_pairs[i], numbers(pairs[i].first) + numbers(pairs[i].second), judge_.stretch(pairs[i].fit.hypothesis)});
+  return name_weights(evidence_, all, {&of_none, 0, judge_.stretch(none)});
 }
 
-void PairRivals::weigh(Attribution& found, const Places& places) const {
+/// True if a pair has taken the place of the names.
+bool PairRivals::weigh(Attribution& found, const Places& places) const {
   const std::vector<Pair> rivals = pairs(found, places);
-  if (rivals.empty()) return;
-  const Fit neither = refitter_.refit(without_both(found.final_fit.hypothesis, places), found.final_score);
-  if (!neither.usable) return;
-  const std::vector<double> weight = weights(found, places, neither.hypothesis, rivals);
-  Naming& first = found.namings[places.first - given_];
-  Naming& second = found.namings[places.second - given_];
-  shrink(first, weight[0]), shrink(second, weight[0]);
+  if (rivals.empty()) return false;
+  const Fit none = refitter_.refit(without_effects(found.final_fit.hypothesis, places), found.final_score);
+  if (!none.usable) return false;
+  const std::vector<double> weight = weights(found, places, none.hypothesis, rivals);
+  for (const std::size_t place : places) shrink(found.namings[place - given_], weight[0]);
+  Naming& first = found.namings[places.front() - given_];
+  Naming& second = found.namings[places.back() - given_];
   for (std::size_t i = 0; i < rivals.size(); ++i) {
-    add_alternative(first, rivals[i].first, weight[i + 1]);
-    add_alternative(second, rivals[i].second, weight[i + 1]);
+    const double share = weight[i + 1] * (places.size() == 1 ? kShareOfOne : 1);
+    add_alternative(first, rivals[i].first, share);
+    add_alternative(second, rivals[i].second, share);
   }
   const auto best = std::max_element(weight.begin(), weight.end() - 1) - weight.begin();
-  if (best > 0 && can_be_named(rivals[static_cast<std::size_t>(best - 1)]))
-    rename(found, places, rivals[static_cast<std::size_t>(best - 1)]);
+  if (best == 0 || !can_be_named(rivals[static_cast<std::size_t>(best - 1)])) return false;
+  rename(found, places, rivals[static_cast<std::size_t>(best - 1)]);
+  return true;
 }
 
-/// The pair takes the place of the two names.
+/// The pair takes the place of the names.
 void PairRivals::rename(Attribution& found, const Places& places, const Pair& pair) const {
   const std::vector<PlacedEffect>& old = found.final_fit.hypothesis.effects;
-  Naming first = found.namings[places.first - given_], second = found.namings[places.second - given_];
-  exchange(first, old[places.first], pair.first);
-  exchange(second, old[places.second], pair.second);
-  found.namings.erase(found.namings.begin() + static_cast<std::ptrdiff_t>(places.second - given_));
-  found.namings.erase(found.namings.begin() + static_cast<std::ptrdiff_t>(places.first - given_));
+  Naming first = found.namings[places.front() - given_], second = found.namings[places.back() - given_];
+  if (places.size() == 1) {
+    const double weight = (take(first, pair.first) + take(first, pair.second)) / (2 * kShareOfOne);
+    rename_to(first, old[places[0]], weight);
+    second = first;
+  } else {
+    rename_to(first, old[places[0]], take(first, pair.first));
+    rename_to(second, old[places[1]], take(second, pair.second));
+  }
+  for (std::size_t i = places.size(); i-- > 0;)
+    found.namings.erase(found.namings.begin() + static_cast<std::ptrdiff_t>(places[i] - given_));
   found.namings.push_back(std::move(first));
   found.namings.push_back(std::move(second));
   found.final_fit = pair.fit;
@@ -153,12 +178,13 @@ void PairRivals::rename(Attribution& found, const Places& places, const Pair& pa
 }
 
 void PairRivals::weigh(Attribution& found) const {
-  const std::size_t n = found.final_fit.hypothesis.effects.size();
-  for (std::size_t second = given_; second < n; ++second)
-    for (std::size_t first = given_; first < second; ++first) {
-      const std::vector<PlacedEffect>& effects = found.final_fit.hypothesis.effects;
-      if (effects[first].joint && effects[first].joint == effects[second].joint) weigh(found, {first, second});
-    }
+  const auto effects = [&]() -> const std::vector<PlacedEffect>& { return found.final_fit.hypothesis.effects; };
+  // Names that replace one go to the end; no round has rivals of them.
+  for (std::size_t left = effects().size() - given_, place = given_; left > 0; --left)
+    if (!weigh(found, {place})) ++place;
+  for (std::size_t second = given_; second < effects().size(); ++second)
+    for (std::size_t first = given_; first < second; ++first)
+      if (effects()[first].joint && effects()[first].joint == effects()[second].joint) weigh(found, {first, second});
 }
 
 }  // namespace halyard

@@ -1,11 +1,15 @@
 #pragma once
-/// Two effects at one joint that were named one after the other, and two others that explain the log as well. Dry friction
-/// and its presliding on the side of the motor look like both on the side of the joint, but neither can be replaced
-/// alone: beside the other one it is on the wrong side. Therefore both are replaced at once.
+/// Names that were given one after the other, and two other effects at the joint that explain the log as well, although
+/// neither could win a round of the search:
+///
+/// - Two names for two others. Dry friction and its presliding on the side of the motor look like both on the side of the
+///   joint, but neither can be replaced alone: beside the other one it is on the wrong side.
+/// - One name for two others. While frictions of a motor and of its pulleys are both missing, the friction of the joint
+///   may gain more than either, and leave too little for a further name.
 ///
 /// The rivals of a name are the candidates at its joint that gained nearly as much in a round that it led. Pairs of rivals
-/// compete with the two names by their log-likelihood on the deciding blocks (name_probability.h), so that the
-/// probability of a name counts these pairs, too. The most probable pair is named.
+/// compete with the names by their log-likelihood on the deciding blocks (name_probability.h), so that the probability of
+/// a name counts these pairs, too. The most probable pair is named.
 
 #include "diagnosis/search/attribution.h"
 #include "diagnosis/search/refit.h"
@@ -14,10 +18,6 @@ namespace halyard {
 
 class PairRivals {
  public:
-  /// Indices of two effects, the first before the second.
-  struct Places {
-    std::size_t first, second;
-  };
   /// given: number of effects that the model came with.
   PairRivals(const Evidence& evidence, const ArmModel& model, const Refitter& refitter, const Judge& judge,
              std::size_t given, double significance)
@@ -28,18 +28,20 @@ class PairRivals {
         given_(given),
         significance_(significance) {}
 
-  /// Weighs every two names at one joint against the pairs of their rivals in the search's rounds: final_fit, final_score
-  /// and namings change.
+  /// Weighs every name, and then every two names at one joint, against the pairs of their rivals in the search's rounds:
+  /// final_fit, final_score and namings change.
   void weigh(Attribution& found) const;
 
  private:
+  /// Indices of one or two effects, in ascending order.
+  using Places = std::vector<std::size_t>;
   struct Pair;
   void fit(Pair& pair, const Hypothesis& without, const Score& before) const;
   bool can_be_named(const Pair& pair) const;
   std::vector<Pair> pairs(const Attribution& found, const Places& places) const;
-  std::vector<double> weights(const Attribution& found, const Places& places, const Hypothesis& neither,
+  std::vector<double> weights(const Attribution& found, const Places& places, const Hypothesis& none,
                               const std::vector<Pair>& pairs) const;
-  void weigh(Attribution& found, const Places& places) const;
+  bool weigh(Attribution& found, const Places& places) const;
   void rename(Attribution& found, const Places& places, const Pair& pair) const;
 
   const Evidence& evidence_;

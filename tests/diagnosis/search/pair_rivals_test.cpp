@@ -8,29 +8,31 @@
 namespace halyard {
 namespace {
 
-PlacedEffect beside_its_pair(const std::string& name, const std::vector<double>& p) {
+PlacedEffect of_a_pair(const std::string& name, const std::vector<double>& p) {
   PlacedEffect e = place_neutral_effect(*find_effect(name), first_joints(1).nominal, 0);
   std::copy(p.begin(), p.end(), e.p);
   return e;
 }
 
-/// A round that the first effect led; the second gained this share of it.
-Round led_by(const PlacedEffect& first, const PlacedEffect& second, double share) {
+/// A round that the first effect led; the others gained this share of it.
+Round led_by(const PlacedEffect& first, const std::vector<PlacedEffect>& others, double share) {
   Round round;
-  for (const auto& [effect, gain] : {std::pair(first, 10.0), std::pair(second, 10.0 * share)}) {
+  const auto add = [&](const PlacedEffect& effect, double gain) {
     Trial t;
     t.effect = effect, t.usable = true, t.p_value = 1e-6, t.gain = gain;
     round.trials.push_back(t);
-  }
+  };
+  add(first, 10);
+  for (const PlacedEffect& other : others) add(other, 10 * share);
   return round;
 }
 
-/// More friction with its presliding, at the motor of the only joint; and the same at the joint.
-class FrictionAndPresliding : public testing::Test {
+/// An arm of one joint, and what a search may have found.
+class PairRivalsTest : public testing::Test {
  protected:
-  FrictionAndPresliding() : model_(first_joints(1)) {
+  explicit PairRivalsTest(const std::vector<PlacedEffect>& truth) : model_(first_joints(1)) {
     ArmModel robot = model_;
-    robot.effects = at_motor_;
+    robot.effects = truth;
     evidence_.emplace(make_records(simulate(motion(robot, 8)).measured, model_, {}), model_);
     refitter_.emplace(*evidence_, model_, 0);
     judge_.emplace(*evidence_, model_, refitter_->numbers());
@@ -40,28 +42,37 @@ class FrictionAndPresliding : public testing::Test {
     Attribution found;
     found.final_fit = refitter_->refit(h, evidence_->score(h));
     found.final_score = evidence_->score(found.final_fit.hypothesis);
-    found.namings = {{1, {}}, {1, {}}};
+    found.namings.assign(effects.size(), {1, {}});
     return found;
   }
-  Attribution weighed(Attribution found, const std::vector<PlacedEffect>& rivals, double share = 0.8) const {
-    const auto& names = found.final_fit.hypothesis.effects;
-    found.rounds = {led_by(names[0], rivals[0], share), led_by(names[1], rivals[1], share)};
-    PairRivals(*evidence_, model_, *refitter_, *judge_, 0, 0.01).weigh(found);
-    return found;
-  }
+  void weigh(Attribution& found) const { PairRivals(*evidence_, model_, *refitter_, *judge_, 0, 0.01).weigh(found); }
 
-  const std::vector<PlacedEffect> at_motor_ = {beside_its_pair("motor_friction", {0.012}),
-                                               beside_its_pair("motor_presliding", {0.8, 0.4})};
-  const std::vector<PlacedEffect> at_joint_ = {beside_its_pair("joint_friction", {1}),
-                                               beside_its_pair("joint_presliding", {0.8, 0.004})};
   ArmModel model_;
   std::optional<Evidence> evidence_;
   std::optional<Refitter> refitter_;
   std::optional<Judge> judge_;
 };
 
+/// More friction with its presliding, at the motor of the only joint; and the same at the joint.
+class FrictionAndPresliding : public PairRivalsTest {
+ protected:
+  FrictionAndPresliding() : PairRivalsTest(at_motor()) {}
+  static std::vector<PlacedEffect> at_motor() {
+    return {of_a_pair("motor_friction", {0.012}), of_a_pair("motor_presliding", {0.8, 0.4})};
+  }
+  static std::vector<PlacedEffect> at_joint() {
+    return {of_a_pair("joint_friction", {1}), of_a_pair("joint_presliding", {0.8, 0.004})};
+  }
+  Attribution weighed(Attribution found, const std::vector<PlacedEffect>& rivals, double share = 0.8) const {
+    const auto& names = found.final_fit.hypothesis.effects;
+    found.rounds = {led_by(names[0], {rivals[0]}, share), led_by(names[1], {rivals[1]}, share)};
+    weigh(found);
+    return found;
+  }
+};
+
 TEST_F(FrictionAndPresliding, OnTheWrongSideAreReplacedTogether) {
-  const Attribution right = weighed(named(at_joint_), at_motor_);
+  const Attribution right = weighed(named(at_joint()), at_motor());
   const std::vector<PlacedEffect>& effects = right.final_fit.hypothesis.effects;
   ASSERT_EQ(effects.size(), 2u);
   EXPECT_EQ(effects[0].effect->name(), "motor_friction");
@@ -73,17 +84,60 @@ TEST_F(FrictionAndPresliding, OnTheWrongSideAreReplacedTogether) {
 }
 
 TEST_F(FrictionAndPresliding, OnTheRightSideKeepTheirNames) {
-  const Attribution same = weighed(named(at_motor_), at_joint_);
+  const Attribution same = weighed(named(at_motor()), at_joint());
   EXPECT_EQ(same.final_fit.hypothesis.effects[0].effect->name(), "motor_friction");
   ASSERT_EQ(same.namings[0].alternatives.size(), 1u) << "the rivals were not tried: the test shows nothing";
   EXPECT_LT(same.namings[0].alternatives[0].probability, 0.1);
 }
 
 TEST_F(FrictionAndPresliding, HaveNoRivalsThatGainedLittle) {
-  const Attribution after = weighed(named(at_joint_), at_motor_, 0.4);
+  const Attribution after = weighed(named(at_joint()), at_motor(), 0.4);
   EXPECT_EQ(after.final_fit.hypothesis.effects[0].effect->name(), "joint_friction");
   EXPECT_EQ(after.namings[0].weight, 1);
   EXPECT_TRUE(after.namings[0].alternatives.empty());
+}
+
+std::vector<PlacedEffect> at_motor_and_pulleys() {
+  return {of_a_pair("motor_friction", {0, -6e-6, -0.3}), of_a_pair("pulley_friction", {0.08, 0.4})};
+}
+PlacedEffect at_the_joint() { return of_a_pair("joint_friction", {0.4, 0, -0.1}); }
+
+/// Frictions of the motor and of its pulleys.
+class FrictionOfMotorAndPulleys : public PairRivalsTest {
+ protected:
+  FrictionOfMotorAndPulleys() : PairRivalsTest(at_motor_and_pulleys()) {}
+};
+
+TEST_F(FrictionOfMotorAndPulleys, TakeThePlaceOfThatOfTheJoint) {
+  Attribution found = named({at_the_joint()});
+  found.rounds = {led_by(found.final_fit.hypothesis.effects[0], at_motor_and_pulleys(), 0.7)};
+  weigh(found);
+  const std::vector<PlacedEffect>& effects = found.final_fit.hypothesis.effects;
+  ASSERT_EQ(effects.size(), 2u);
+  ASSERT_EQ(found.namings.size(), 2u);
+  EXPECT_EQ(effects[0].effect->name(), "motor_friction");
+  EXPECT_EQ(effects[1].effect->name(), "pulley_friction");
+  for (const Naming& naming : found.namings) {
+    EXPECT_GT(naming.weight, 0.9);
+    ASSERT_EQ(naming.alternatives.size(), 1u);
+    EXPECT_EQ(naming.alternatives[0].effect.effect->name(), "joint_friction") << "the name before";
+  }
+}
+
+/// Friction of the joint alone.
+class FrictionOfJoint : public PairRivalsTest {
+ protected:
+  FrictionOfJoint() : PairRivalsTest({at_the_joint()}) {}
+};
+
+TEST_F(FrictionOfJoint, KeepsItsNameBesideTwoThatAreNotNeeded) {
+  Attribution found = named({at_the_joint()});
+  found.rounds = {led_by(found.final_fit.hypothesis.effects[0], at_motor_and_pulleys(), 0.7)};
+  weigh(found);
+  ASSERT_EQ(found.final_fit.hypothesis.effects.size(), 1u);
+  EXPECT_EQ(found.final_fit.hypothesis.effects[0].effect->name(), "joint_friction");
+  EXPECT_GT(found.namings[0].weight, 0.9);
+  EXPECT_EQ(found.namings[0].alternatives.size(), 2u) << "the rivals were not tried: the test shows nothing";
 }
 
 }  // namespace
