@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "bench/diagnosis/forms/unregistered.h"
@@ -42,13 +43,36 @@ double draw_size(const Drawn& drawn, Random& random) {
   return within_bounds(drawn, p.neutral + (both && random.chance(0.5) ? -change : change));
 }
 
+/// Radians of the motor per rad or metre of its joint.
+double motor_per_joint(const JointParameters<double>& joint) {
+  return joint.drive == Drive::cable ? joint.pulley_radius / std::abs(joint.motor_travel()) : 1;
+}
+
+/// Limits shapes to what the motion of joint k can show of this effect.
+void limit_to_motion(std::vector<Drawn>& all, const PlacedEffect& effect, const ArmModel& model, const Ranges& ranges) {
+  const std::size_t k = effect.joint.value_or(0);
+  const double motor = motor_per_joint(model.nominal.joint[k]);
+  const SearchSpace space = search_space(*effect.effect, model.nominal, effect.joint);
+  const double reach = (ranges.joint[k].to - ranges.joint[k].from) / (2 * std::numbers::pi);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Drawn& d = all[i];
+    const double fastest = d.search.per_motor_speed * motor * ranges.fastest[k];
+    if (fastest > 0) d.p.upper = std::min(d.p.upper, kNearStandstill * fastest);
+    const bool of_motor = space.order_of_motor_torque == i;
+    if (!of_motor && space.order_of_joint_position != i) continue;
+    const auto has_too_few = [&](double order) { return order * reach * (of_motor ? motor : 1) < kFewestPeriods; };
+    if (!has_too_few(d.search.starts.back())) std::erase_if(d.search.starts, has_too_few);
+  }
+}
+
 /// Orders are whole numbers; anything else lies beside where a search sets out.
 double draw_shape(const Drawn& drawn, Random& random) {
   const EffectParameter& p = drawn.p;
   const std::vector<double>& starts = drawn.search.starts;
   const double start = starts.empty() ? p.typical : random.one_of(starts);
-  const bool is_order = p.unit == "1" && start == std::round(start);
-  return std::clamp(is_order ? start : start * random.log_uniform(0.5, 2), p.lower, p.upper);
+  if (p.unit == "1" && start == std::round(start)) return start;
+  constexpr double kMost = 2;
+  return std::max(p.lower, std::min(start, p.upper / kMost) * random.log_uniform(1 / kMost, kMost));
 }
 
 /// True for a size without which the effect is another one: friction that does not change in time is motor_friction.
@@ -122,7 +146,8 @@ std::vector<Hidden> draw_effects(const ArmModel& model, Kind kind, int index, Ra
 }
 
 void draw_parameters(PlacedEffect& effect, const ArmModel& model, const Ranges& ranges, Random& random) {
-  const std::vector<Drawn> all = drawn_parameters(effect, model);
+  std::vector<Drawn> all = drawn_parameters(effect, model);
+  limit_to_motion(all, effect, model, ranges);
   const double length = ranges.record.to - ranges.record.from;
   std::vector<std::size_t> sizes, instants;
   for (std::size_t i = 0; i < all.size(); ++i) {

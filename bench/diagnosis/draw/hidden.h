@@ -14,13 +14,15 @@ struct Hidden {
   std::string right_beside = {};  ///< a name that is right beside it, of a part of it; empty if there is none
 };
 
-/// Where parameters that lie within the record or the motion can lie.
+/// What the motion of a trial limits: where instants and positions can lie, how fast is near standstill, and of which
+/// orders the motion has enough periods.
 struct Range {
   double from = 0, to = 0;
 };
 struct Ranges {
-  Range record;              ///< s, of the training log
-  std::vector<Range> joint;  ///< [n]
+  Range record;                 ///< s, of the training log
+  std::vector<Range> joint;     ///< [n]
+  std::vector<double> fastest;  ///< [n] speed of the joint, rad/s | m/s
 };
 
 /// The place of an effect in an arm of so many joints. In an arm of one joint the arm and the joint are the same.
@@ -29,6 +31,8 @@ Place place_of(const PlacedEffect& effect, int joints);
 /// The effects of trial `index` of this kind, with their places but without sizes; none for the clean ones.
 /// Throws std::runtime_error if the arm cannot have as many.
 std::vector<Hidden> draw_effects(const ArmModel& model, Kind kind, int index, Random& random);
+/// An effect is drawn as the library means it, within what the diagnosis takes for it: Stribeck's speed lies near
+/// standstill, and the motion has at least kFewestPeriods periods of an order, if it has them of any.
 void draw_parameters(PlacedEffect& effect, const ArmModel& model, const Ranges& ranges, Random& random);
 
 /// The largest of the effect's sizes over the typical one.

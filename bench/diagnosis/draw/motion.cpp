@@ -1,6 +1,7 @@
 #include "bench/diagnosis/draw/motion.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "plant/trajectory.h"
@@ -56,15 +57,18 @@ std::vector<JointTrajectory> random_motion(const ArmModel& model, Random& random
   return all;
 }
 
-std::pair<double, double> reach_of(const JointTrajectory& trajectory, double fade_in_s, double from_s, double to_s) {
+Travel travel_of(const JointTrajectory& trajectory, double fade_in_s, double from_s, double to_s) {
   constexpr double kStep = 0.01;
-  double least = desired_position(trajectory, fade_in_s, from_s), most = least;
-  for (double t = from_s; t <= to_s; t += kStep) {
+  double last = desired_position(trajectory, fade_in_s, from_s);
+  Travel travel{last, last, 0};
+  for (double t = from_s + kStep; t <= to_s; t += kStep) {
     const double q = desired_position(trajectory, fade_in_s, t);
-    least = std::min(least, q);
-    most = std::max(most, q);
+    travel.least = std::min(travel.least, q);
+    travel.most = std::max(travel.most, q);
+    travel.fastest = std::max(travel.fastest, std::abs(q - last) / kStep);
+    last = q;
   }
-  return {least, most};
+  return travel;
 }
 
 }  // namespace halyard::blind

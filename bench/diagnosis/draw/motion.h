@@ -16,7 +16,10 @@ namespace halyard::blind {
 /// [n] Joints.
 std::vector<JointTrajectory> random_motion(const ArmModel& model, Random& random);
 
-/// The smallest and the largest position that the trajectory asks for from `from_s` to `to_s`.
-std::pair<double, double> reach_of(const JointTrajectory& trajectory, double fade_in_s, double from_s, double to_s);
+/// What the trajectory asks for from `from_s` to `to_s`: positions in rad or m, the largest speed in rad/s or m/s.
+struct Travel {
+  double least, most, fastest;
+};
+Travel travel_of(const JointTrajectory& trajectory, double fade_in_s, double from_s, double to_s);
 
 }  // namespace halyard::blind

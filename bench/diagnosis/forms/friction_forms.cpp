@@ -80,7 +80,7 @@ class LuGreJointFriction : public EffectOf<LuGreJointFriction> {
 /// Stribeck friction of the motor with an exponential of the speed instead of its square:
 ///   F = ΔF_s exp(-|v| / v_s) sign(v)
 /// Source: Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994): exponents from 1/2 to 2 are in use.
-class ExponentialStribeck : public EffectOf<ExponentialStribeck> {
+class ExponentialStribeck : public EffectOf<ExponentialStribeck>, public RefinesSearch {
  public:
   std::string name() const override { return "exponential_stribeck"; }
   std::string summary() const override { return "friction that falls exponentially with speed"; }
@@ -89,6 +89,9 @@ class ExponentialStribeck : public EffectOf<ExponentialStribeck> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
     const double level = typical_motor_friction(arm.joint[*joint]);
     return {{"static_excess", "N m", 0, 0.6 * level, 0, 10 * level}, {"speed", "rad/s", 15, 15, 1, 200}};
+  }
+  void refine_search(SearchSpace& space, const ArmParameters<double>&, EffectPlace) const override {
+    space["speed"].per_motor_speed = 1;
   }
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {

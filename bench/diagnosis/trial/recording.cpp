@@ -73,10 +73,11 @@ std::vector<Log> record(Scenario scenario, const ArmModel& robot, const std::vec
 
 Ranges ranges_of(const Scenario& training) {
   const double from = kFadeIn, to = training.duration_s;
-  Ranges ranges{{from, to}, {}};
+  Ranges ranges{{from, to}, {}, {}};
   for (const JointTrajectory& t : training.trajectory) {
-    const auto [least, most] = reach_of(t, kFadeIn, from, to);
-    ranges.joint.push_back({least, most});
+    const Travel travel = travel_of(t, kFadeIn, from, to);
+    ranges.joint.push_back({travel.least, travel.most});
+    ranges.fastest.push_back(travel.fastest);
   }
   return ranges;
 }
