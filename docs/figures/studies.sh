@@ -36,31 +36,31 @@ TABLE
 figure blind_trials hours bench
 figure_blind_trials() {
   local kind sensors trials shard
-  # Some of twelve parts of each draw, so that it spreads over the library's effects.
+  # In twelve parts, each of which spreads over the library's effects.
   while read -r kind sensors trials; do
-    for shard in 1 2 3 4 5 6 7; do
+    for shard in 1 2 3 4 5 6 7 8 9 10 11 12; do
       ran "$bench/halyard_blind_trials --kind $kind --sensors $sensors --off 1 --arms raven2 --trials $trials \
---shard $shard/12 --seed 20261227 --resume --out out/trials"
+--shard $shard/12 --seed 20261231 --resume --out out/trials"
     done
   done <<'DRAWS'
-clean good 24
-clean poor 24
-effect good 36
-effect poor 36
-effect motors 36
-two_at_joint good 12
-two_at_joint poor 12
-three good 12
-three poor 12
-form good 12
-form poor 12
-outside good 12
-outside poor 12
+clean good 60
+clean poor 60
+effect good 72
+effect poor 72
+effect motors 72
+two_at_joint good 36
+two_at_joint poor 36
+three good 36
+three poor 36
+form good 24
+form poor 24
+outside good 24
+outside poor 24
 DRAWS
   ran "$bench/halyard_blind_trials --summary out/trials"
   cat <<'TABLE'
-From `halyard_blind_trials --seed 20261227 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N --shard S/12`, S = 1
-to 7. N is 24 for clean arms, 36 for one effect, and 12 for the other kinds:
+From `halyard_blind_trials --seed 20261231 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N`. N is 60 for
+clean arms, 72 for one effect, 36 for two or three effects, and 24 for the other kinds:
 
 TABLE
   awk '/^## /{ inside = $2 == "Acceptance" } inside && /^[|]/' "$work/out/trials/summary.md"
