@@ -43,9 +43,9 @@ double draw_size(const Drawn& drawn, Random& random) {
   return within_bounds(drawn, p.neutral + (both && random.chance(0.5) ? -change : change));
 }
 
-/// Radians of the motor per rad or metre of its joint.
+/// Radians of the motor per rad or metre of its own joint; 1 for a joint without a motor.
 double motor_per_joint(const JointParameters<double>& joint) {
-  return joint.drive == Drive::cable ? joint.pulley_radius / std::abs(joint.motor_travel()) : 1;
+  return joint.drive == Drive::none ? 1 : joint.pulley_radius / std::abs(joint.motor_travel());
 }
 
 /// Limits shapes to what the motion of joint k can show of this effect.
