@@ -151,8 +151,8 @@ some steps need more:
   an earlier one ([exponential_step.h](../estimators/process/exponential_step.h)).
 - 2 % of the steps are refused by the guard and taken in two to four parts, in long arms in more. In 4 % the answer to
   the noise needs sub-steps, because friction is not linear over its reach ([arm_impulses.h](../estimators/process/arm_impulses.h)).
-- An effect in a filter's model may have a kink anywhere. Then no Jacobian is kept, and both points of each pair of sigma
-  points are evaluated at both ends of the step.
+- An effect in a filter's model may have a kink anywhere. Then the Jacobian of the transmission is found at both ends of a
+  step by `ekf` and at its start by `sr_ukf`, which evaluates both points of each pair of sigma points at both ends.
 
 Arms of 1 to 7 joints. Each has the first joints of the longest one, whose last links are light: there the guard refuses
 more steps. The order of the algorithm is n³: products and roots of n x n matrices.

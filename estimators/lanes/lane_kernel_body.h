@@ -26,17 +26,8 @@ void advance(const Transmission<T>& transmission, const StateLayout& layout, dou
       });
 }
 
-// Local to each set. state_derivative() and linearised_derivative() are inline: the linker keeps one copy for all sets,
-// and its address would lead to that copy.
-void derivative(const Transmission<Lanes>& transmission, const StateLayout& layout, double time,
-                const CommandHistory* history, const Lanes* command, const Lanes* external, const Lanes* x,
-                Lanes* x_dot) {
-  with_known_joints(
-      layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
-        state_derivative<known>(transmission, layout, time, history, command, external, x, x_dot);
-      });
-}
-
+// Local to each set. linearised_derivative() is inline: the linker keeps one copy for all sets, and its address would lead
+// to that copy. So are the next ones.
 void linearise(const LinearisedArm& model, double time, const HeldInputs& in, const double* x, const ChainPoint* near,
                double* x_dot, double* A, LinearisedPoint& point) {
   with_known_joints(
@@ -45,12 +36,37 @@ void linearise(const LinearisedArm& model, double time, const HeldInputs& in, co
       });
 }
 
-void mean_curvature(const LinearisedArm& model, LinearisedPoint& point, const ChainPoint* near, const double* x,
-                    const double* x_dot, const double* A, double gamma, int count, int blocks, const Lanes* root,
-                    double* mean) {
+void jacobian(const LinearisedArm& model, double time, const HeldInputs& in, const double* x, const ChainPoint& chain,
+              double* A) {
   with_known_joints(
       model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
-        halyard::mean_curvature<known>(model, point, near, x, x_dot, A, gamma, count, blocks, root, mean);
+        jacobian_beside<known>(model, time, in, x, chain, A);
+      });
+}
+
+void changes(const Transmission<Lanes>& transmission, const StateLayout& layout, double time,
+             const CommandHistory* history, const Lanes* command, const Lanes* external, const ChainPoint& chain,
+             const KnownRates& at, int blocks, const Lanes* d, Lanes* changes, double* first_force) {
+  with_known_joints(
+      layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
+        set_changes<known>(transmission, layout, time, history, command, external, chain, at, blocks, d, changes,
+                           first_force);
+      });
+}
+
+void chain_curvature(const LinearisedArm& model, LinearisedPoint& point, const double* x, const double* x_dot,
+                     const double* A, double gamma, int count, int blocks, const Lanes* root) {
+  with_known_joints(
+      model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
+        halyard::chain_curvature<known>(model, point, x, x_dot, A, gamma, count, blocks, root);
+      });
+}
+
+void mean_curvature(const LinearisedArm& model, const ChainPoint& chain, const LinearisedPoint& point, double gamma,
+                    int count, int blocks, const Lanes* root, double* mean) {
+  with_known_joints(
+      model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
+        halyard::mean_curvature<known>(model, chain, point, gamma, count, blocks, root, mean);
       });
 }
 
@@ -94,8 +110,8 @@ void impulse_response(const LinearisedArm& model, const ImpulseStep& step, int b
 }
 
 constexpr LaneKernels kernels_named(const char* name) {
-  return {name,         advance<Lanes>, advance<Dual>, derivative,  linearise,       mean_curvature,
-          second_stage, rates_beside,   far_excess,    near_excess, impulse_response};
+  return {name,           advance<Lanes>, advance<Dual>, linearise,  jacobian,    changes,         chain_curvature,
+          mean_curvature, second_stage,   rates_beside,  far_excess, near_excess, impulse_response};
 }
 
 }  // namespace

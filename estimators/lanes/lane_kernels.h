@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "estimators/process/arm_linearisation.h"
+#include "estimators/process/arm_changes.h"
 
 namespace halyard {
 
@@ -19,17 +19,20 @@ struct LaneKernels {
   /// The same with derivatives.
   void (*advance_dual)(const Transmission<Dual>& transmission, const StateLayout& layout, double time, double dt,
                        int substeps, const CommandHistory* history, const Dual* command, const Dual* external, Dual* x);
-  /// x'.
-  void (*derivative)(const Transmission<Lanes>& transmission, const StateLayout& layout, double time,
-                     const CommandHistory* history, const Lanes* command, const Lanes* external, const Lanes* x,
-                     Lanes* x_dot);
-  /// linearised_derivative() of arm_linearisation.h.
+  /// linearised_derivative() and jacobian_beside() of arm_linearisation.h.
   void (*linearise)(const LinearisedArm& model, double time, const HeldInputs& in, const double* x,
                     const ChainPoint* near, double* x_dot, double* A, LinearisedPoint& point);
-  /// mean_curvature() of arm_curvature.h.
-  void (*mean_curvature)(const LinearisedArm& model, LinearisedPoint& point, const ChainPoint* near, const double* x,
-                         const double* x_dot, const double* A, double gamma, int count, int blocks, const Lanes* root,
-                         double* mean);
+  void (*jacobian)(const LinearisedArm& model, double time, const HeldInputs& in, const double* x,
+                   const ChainPoint& chain, double* A);
+  /// set_changes() of arm_changes.h.
+  void (*changes)(const Transmission<Lanes>& transmission, const StateLayout& layout, double time,
+                  const CommandHistory* history, const Lanes* command, const Lanes* external, const ChainPoint& chain,
+                  const KnownRates& at, int blocks, const Lanes* d, Lanes* changes, double* first_force);
+  /// chain_curvature() and mean_curvature() of arm_curvature.h.
+  void (*chain_curvature)(const LinearisedArm& model, LinearisedPoint& point, const double* x, const double* x_dot,
+                          const double* A, double gamma, int count, int blocks, const Lanes* root);
+  void (*mean_curvature)(const LinearisedArm& model, const ChainPoint& chain, const LinearisedPoint& point,
+                         double gamma, int count, int blocks, const Lanes* root, double* mean);
   /// second_stage(), set_rates_beside(), set_far_excess() and set_near_excess() of arm_second_stage.h.
   void (*second_stage)(const LinearisedArm& model, const LinearisedPoint& start, const double* x, const double* x_2,
                        LinearisedPoint& end, double* D);

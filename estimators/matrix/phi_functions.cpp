@@ -31,6 +31,10 @@ void PhiFunctions::set_weights(const Eigen::ArrayXd& scale) {
   for (int c = 0; c < n; ++c) weight_.view().col(c) = scale(c) / scale;
 }
 
+double PhiFunctions::distance(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) const {
+  return (weight_.view().array() * (A - B).array()).abs().maxCoeff<Eigen::PropagateNaN>();
+}
+
 void PhiFunctions::take_memory(const PhiShape& shape) {
   const int n = shape.n, m = shape.end - shape.first;
   if (weight_.rows() != n) set_weights(Eigen::ArrayXd::Ones(n));

@@ -38,6 +38,8 @@ class PhiFunctions {
 
   /// Chooses D for matrices like this one. Without this call, and if Z is not finite, D is the unit matrix.
   void balance(Eigen::MatrixXd Z);
+  /// The largest entry of D⁻¹ (A - B) D, or NaN; after balance().
+  double distance(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) const;
   /// Of Z = h A [n x n] of this shape: p and p + m. False, and the functions are not computed, if Z is not finite or s would
   /// exceed kMostDoublings.
   bool compute(double h, const Eigen::MatrixXd& A, const PhiShape& shape);

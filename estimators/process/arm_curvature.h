@@ -15,7 +15,6 @@ namespace halyard {
 
 /// Sums over the deviations.
 struct CurvatureSums {
-  Lanes chain[kMaxJoints];      ///< D less its linear part
   Lanes speed[2 * kMaxJoints];  ///< squares of the root's rows: of motors, then joints
   Lanes stretch[kMaxJoints];    ///< squares of what they make of the stretches
 };
@@ -41,11 +40,11 @@ HALYARD_INLINE void add_squares(const PlainTransmission& t, const StateLayout& l
   }
 }
 
-/// Adds what D of eight deviations is more than its linear part. D: at x.
+/// Adds what D of eight deviations is more than its linear part to the sums [n]. D: at x.
 template <int known>
 HALYARD_INLINE void add_chain(const ArmParameters<double>& arm, const StateLayout& l, const ChainPoint& point,
                               const double* D, const double* x, const double* x_dot, const double* A, double gamma,
-                              const Lanes* root, int blocks, CurvatureSums& sums) {
+                              const Lanes* root, int blocks, Lanes* sums) {
   const int n = joint_count<known>(arm);
   Lanes q[kMaxJoints], v[kMaxJoints], a[kMaxJoints], dq[kMaxJoints], dv[kMaxJoints], da[kMaxJoints], force[kMaxJoints];
   for (int k = 0; k < n; ++k) {
@@ -64,7 +63,7 @@ HALYARD_INLINE void add_chain(const ArmParameters<double>& arm, const StateLayou
     Lanes rest = force[k] - D[k];
     for (int i = 0; i < n; ++i)
       rest -= point.slope[k][i] * dq[i] + point.slope[k][n + i] * dv[i] + point.mass[k][i] * da[i];
-    sums.chain[k] += rest;
+    sums[k] += rest;
   }
 }
 
@@ -78,34 +77,41 @@ HALYARD_INLINE void set_chain_force(const ArmParameters<double>& arm, const Stat
   inverse_dynamics<known>(arm, chain_pose<known>(arm, q), v, a, D);
 }
 
-/// mean [size] of N over `count` deviations. root: rows of S [size x count], in `blocks` lanes each, with zeros beyond
-/// `count`. x_dot, A and point: at x. near: null, or what this function has left in the point of a state shortly before;
-/// the chain, whose curvature is small, then takes its part from there, and x, x_dot and A are not read.
+/// The chain's part of the mean of N over `count` deviations, into the point at x. root: rows of S [size x count], in `blocks`
+/// lanes each, with zeros beyond `count`. x_dot, A and point: at x.
 template <int known>
-HALYARD_INLINE void mean_curvature(const LinearisedArm& model, LinearisedPoint& point, const ChainPoint* near,
-                                   const double* x, const double* x_dot, const double* A, double gamma, int count,
-                                   int blocks, const Lanes* root, double* mean) {
+HALYARD_INLINE void chain_curvature(const LinearisedArm& model, LinearisedPoint& point, const double* x,
+                                    const double* x_dot, const double* A, double gamma, int count, int blocks,
+                                    const Lanes* root) {
+  const int n = joint_count<known>(model.arm);
+  double D[kMaxJoints];
+  Lanes sums[kMaxJoints];
+  set_chain_force<known>(model.arm, model.layout, x, x_dot, D);
+  for (int k = 0; k < n; ++k) sums[k] = Lanes(0.0);
+  for (int b = 0; b < blocks; ++b)
+    add_chain<known>(model.arm, model.layout, point.chain, D, x, x_dot, A, gamma, root + b, blocks, sums);
+  for (int k = 0; k < n; ++k) point.chain.curvature[k] = tiles::sum_of(sums[k]) / count;
+}
+
+/// mean [size] of N over such deviations, of a plain transmission. chain: of a state shortly before, with its curvature.
+template <int known>
+HALYARD_INLINE void mean_curvature(const LinearisedArm& model, const ChainPoint& chain, const LinearisedPoint& point,
+                                   double gamma, int count, int blocks, const Lanes* root, double* mean) {
   const PlainTransmission& t = *model.plain;
   const StateLayout& l = model.layout;
   const int n = joint_count<known>(model.arm);
   CurvatureSums sums;
-  double D[kMaxJoints];
-  if (!near) set_chain_force<known>(model.arm, l, x, x_dot, D);
-  for (int k = 0; k < n; ++k) sums.chain[k] = sums.speed[k] = sums.speed[n + k] = sums.stretch[k] = Lanes(0.0);
-  for (int b = 0; b < blocks; ++b) {
-    add_squares(t, l, n, root + b, blocks, sums);
-    if (!near) add_chain<known>(model.arm, l, point.chain, D, x, x_dot, A, gamma, root + b, blocks, sums);
-  }
+  for (int k = 0; k < n; ++k) sums.speed[k] = sums.speed[n + k] = sums.stretch[k] = Lanes(0.0);
+  for (int b = 0; b < blocks; ++b) add_squares(t, l, n, root + b, blocks, sums);
   const double half = 0.5 * gamma * gamma / count;
   double force[kMaxJoints], pull[kMaxJoints], accelerations[kMaxJoints];
   for (int k = 0; k < n; ++k) {
-    point.chain.curvature[k] = near ? near->curvature[k] : tiles::sum_of(sums.chain[k]) / count;
     pull[k] = half * point.cable.curvature[k] * tiles::sum_of(sums.stretch[k]);
-    force[k] = -half * point.friction.curvature[n + k] * tiles::sum_of(sums.speed[n + k]) - point.chain.curvature[k];
+    force[k] = -half * point.friction.curvature[n + k] * tiles::sum_of(sums.speed[n + k]) - chain.curvature[k];
   }
   for (int k = 0; k < n; ++k)
     for (int i = 0; i < n; ++i) force[i] += t.path[k][i] * pull[k];
-  mobility_times(point.chain, n, force, accelerations);
+  mobility_times(chain, n, force, accelerations);
   for (int i = 0; i < l.size; ++i) mean[i] = 0;
   for (int k = 0; k < n; ++k) {
     const double held = half * point.friction.curvature[k] * tiles::sum_of(sums.speed[k]);

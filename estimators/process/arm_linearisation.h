@@ -29,13 +29,14 @@ struct ChainPoint {
   double mobility[kMaxJoints * kMaxJoints];  ///< M⁻¹ [n x n], column-major
   double slope[kMaxJoints][2 * kMaxJoints];  ///< of M a + h at constant a, in q and then in q'
   double acceleration[kMaxJoints];           ///< a
-  double curvature[kMaxJoints];              ///< of M a + h: its mean, set by mean_curvature() of arm_curvature.h
+  double curvature[kMaxJoints];              ///< of M a + h: its mean, set by chain_curvature() of arm_curvature.h
 };
 
 /// What a linearisation finds besides x' and A.
 struct LinearisedPoint {
   ChainPoint chain;
-  Frictions friction;  ///< of a plain transmission, as the next
+  double force[kMaxJoints];  ///< F
+  Frictions friction;        ///< of a plain transmission, as the next
   CableForces cable;
   double excess_rate = 0;  ///< of a second stage (arm_second_stage.h), 1/s
 };
@@ -228,34 +229,26 @@ struct HeldInputs {
   const Dual *command, *external;  ///< [n]
 };
 
-/// x_dot [size], A = ∂x'/∂x [size x size], column-major, and what is found besides. near: null, or what was found of the
-/// chain at a state shortly before, from which M and the slopes are taken; it may be that of `point`. known: see joint_count().
-template <int known = 0>
-HALYARD_INLINE void linearised_derivative(const LinearisedArm& model, double time, const HeldInputs& in,
-                                          const double* x, const ChainPoint* near, double* x_dot, double* A,
-                                          LinearisedPoint& point) {
-  const ArmParameters<double>& arm = model.arm;
+/// F with its slopes, and all rows of x_dot and A but those of the joints' rates. Of a plain transmission also what
+/// friction and cables are.
+template <int known>
+HALYARD_INLINE void linearise_forces(const LinearisedArm& model, double time, const HeldInputs& in, const double* x,
+                                     Frictions& friction, CableForces& cable, double* x_dot, double* A,
+                                     JointForces& forces) {
   const StateLayout& l = model.layout;
+  if (!model.plain)
+    return linearise_transmission<known>(model.transmission, l, time, in.history, in.command, in.external, x, x_dot, A,
+                                         forces);
+  set_plain_forces<known>(*model.plain, model.arm, model.transmission.arm(), l, in.command, in.external, x, friction,
+                          cable, x_dot, forces.value);
+  set_plain_slopes<known>(*model.plain, model.arm, l, friction, cable, A, forces);
+}
+
+/// The rows of A of the joints' rates. The slopes of the forces become those of F - (M a + h).
+template <int known>
+HALYARD_INLINE void set_joint_rows(const ArmParameters<double>& arm, const StateLayout& l, const ChainPoint& chain,
+                                   JointForces& forces, double* A) {
   const int n = joint_count<known>(arm);
-  JointForces forces;
-  if (model.plain) {
-    set_plain_forces<known>(*model.plain, arm, model.transmission.arm(), l, in.command, in.external, x, point.friction,
-                            point.cable, x_dot, forces.value);
-    set_plain_slopes<known>(*model.plain, arm, l, point.friction, point.cable, A, forces);
-  } else {
-    linearise_transmission<known>(model.transmission, l, time, in.history, in.command, in.external, x, x_dot, A,
-                                  forces);
-  }
-  ChainPoint& chain = point.chain;
-  const ChainPose<double> pose = pose_at<known>(arm, l, x);
-  if (!near) {
-    set_mobility<known>(arm, pose, chain);
-    for (int k = 0; k < n; ++k) chain.acceleration[k] = 0;
-  } else if (near != &chain) {
-    chain = *near;
-  }
-  set_accelerations<known>(arm, l, pose, x, forces.value, chain, x_dot);
-  if (!near) set_chain_slopes<known>(arm, l, x, chain.acceleration, chain);
   for (int k = 0; k < n; ++k)
     for (int i = 0; i < n; ++i) {
       forces.slope[k][l.position[i]] -= chain.slope[k][i];
@@ -268,6 +261,43 @@ HALYARD_INLINE void linearised_derivative(const LinearisedArm& model, double tim
     mobility_times(chain, n, column, accelerations);
     for (int k = 0; k < n; ++k) A[l.rate[k] + c * l.size] = accelerations[k];
   }
+}
+
+/// x_dot [size], A = ∂x'/∂x [size x size], column-major, and what is found besides. near: null, or what was found of the
+/// chain at a state shortly before, from which M and the slopes are taken; it may be that of `point`. known: see joint_count().
+template <int known = 0>
+HALYARD_INLINE void linearised_derivative(const LinearisedArm& model, double time, const HeldInputs& in,
+                                          const double* x, const ChainPoint* near, double* x_dot, double* A,
+                                          LinearisedPoint& point) {
+  const ArmParameters<double>& arm = model.arm;
+  const StateLayout& l = model.layout;
+  const int n = joint_count<known>(arm);
+  JointForces forces;
+  linearise_forces<known>(model, time, in, x, point.friction, point.cable, x_dot, A, forces);
+  ChainPoint& chain = point.chain;
+  const ChainPose<double> pose = pose_at<known>(arm, l, x);
+  if (!near) {
+    set_mobility<known>(arm, pose, chain);
+    for (int k = 0; k < n; ++k) chain.acceleration[k] = 0;
+  } else if (near != &chain) {
+    chain = *near;
+  }
+  for (int k = 0; k < n; ++k) point.force[k] = forces.value[k];
+  set_accelerations<known>(arm, l, pose, x, forces.value, chain, x_dot);
+  if (!near) set_chain_slopes<known>(arm, l, x, chain.acceleration, chain);
+  set_joint_rows<known>(arm, l, chain, forces, A);
+}
+
+/// A at x, with the chain as it was found at a state shortly before.
+template <int known>
+HALYARD_INLINE void jacobian_beside(const LinearisedArm& model, double time, const HeldInputs& in, const double* x,
+                                    const ChainPoint& chain, double* A) {
+  JointForces forces;
+  Frictions friction;
+  CableForces cable;
+  double x_dot[kMaxStates];
+  linearise_forces<known>(model, time, in, x, friction, cable, x_dot, A, forces);
+  set_joint_rows<known>(model.arm, model.layout, chain, forces, A);
 }
 
 }  // namespace halyard

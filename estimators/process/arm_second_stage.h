@@ -52,7 +52,7 @@ HALYARD_INLINE double excess_rate(const PlainTransmission& t, int n, const Linea
   return most;
 }
 
-/// D [moving rows], and of `end`, the point at x_2, what friction, cables and M are. start: of linearise() at x.
+/// D [moving rows], and of `end`, the point at x_2, what friction and cables are. start: of linearise() at x.
 template <int known>
 HALYARD_INLINE void second_stage(const LinearisedArm& model, const LinearisedPoint& start, const double* x,
                                  const double* x_2, LinearisedPoint& end, double* D) {
@@ -61,7 +61,6 @@ HALYARD_INLINE void second_stage(const LinearisedArm& model, const LinearisedPoi
   const int n = joint_count<known>(model.arm);
   set_frictions(t, n, x_2, end.friction);
   set_cable_forces<known>(t, model.arm, model.transmission.arm(), l, x_2, end.cable);
-  for (int i = 0; i < n * n; ++i) end.chain.mobility[i] = start.chain.mobility[i];
   double d[kMaxStates], e[2 * kMaxJoints], u[kMaxJoints];
   for (int i = 0; i < l.size; ++i) d[i] = x_2[i] - x[i];
   for (int i = 0; i < 2 * n; ++i)

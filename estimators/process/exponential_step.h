@@ -22,26 +22,25 @@
 /// derivative of f in the direction d, whose mean arm_curvature.h gives without rates at the points, and the pairs'
 /// differences are those of the linear F. There, A_2 and f(t + h, x_2 + Γ_0) take the chain as linear (arm_second_stage.h),
 /// so that neither needs a Jacobian at x_2. An effect or a slack
-/// cable may have a kink between the points of a pair: both are evaluated, and
+/// cable may have a kink between the points of a pair: the transmission is evaluated at both (arm_changes.h), and
 ///
 ///   F S   = (d_2 + h φ_2 (N°(t + h, x_2, d_2) - N°(t, x, d))) / γ,   d_2 = E d + h φ_1 N°(t, x, d),   d = γ S
 ///
 /// with the odd part N° of N takes the place of the Jacobian's. N Nᵀ is left out of the covariance: it is of fourth order.
 ///
-/// m is the curvature of f, half the second derivative times the variance of what is curved. At rest it falls within
-/// the step, as the square of the stiffest deviations, to what the slow ones leave: a straight line from m(0) to m(h)
-/// overstates its part in x⁺ 17 times for h λ = 4.4. The integral takes
-///
-///   m_i(s) = m_i(h) + (m_i(0) - m_i(h)) (V_i(s) - V_i(h)) / (V_i(0) - V_i(h)),   V_i(s) = Σ (exp(A s) d)_i²
-///
-/// where V_i falls, else the straight line. It goes over [0, h / 2^s], [h / 2^s, 2 h / 2^s], ..., [h / 2, h] by the
-/// functions of phi_functions.h, with Simpson's mean of V in each, its middle being the geometric mean of the ends.
+/// m is the curvature of f. At rest it falls within the step; mean_shift.h has the integral.
 ///
 /// The rigid chain changes slowly: within a step it is taken as linear. Beside the slopes of cables and friction its own
-/// are small, as is its curvature: where f is smooth, a step takes both, and the masses, from an earlier one of the last
-/// 10 ms, if it can. If it is also as long as the step before, and no rate of friction or cable is off by more than
-/// 1e-3 / h (excess rate, arm_second_stage.h), it keeps A and the φ functions. f(t, x) is new in every step, and D and N are
-/// what f is more than this A makes of it, so that the mean stays of second order.
+/// are small, as is its curvature: a step takes both, and the masses, from an earlier one of the last 10 ms, if it can.
+/// It also keeps A and the φ functions, if it is as long as theirs or a half, quarter, ... of it, and the slopes have not
+/// changed much. f(t, x) is new in every step, and D and N are what f is more than this A makes of it, so that the mean
+/// stays of second order.
+///
+///   - Where f is smooth, no rate of friction or cable may be off by more than 1e-3 / h (excess rate,
+///     arm_second_stage.h).
+///   - Else A_0 = ∂f/∂x at x is found in every step, and may be off by 1e-2 / h (distance(), phi_functions.h). Beyond
+///     1e-3 / h the step follows B = A_0 - A: the part h B (x_2 - x) of h D grows with s and not with s², so that it has the
+///     weight φ_2 in x⁺, and not 2 φ_3, and F = E + h φ_1 B + h φ_2 ((A_2 - A) E - B). N has it in itself.
 ///
 /// Γ_0 is the response of the linearised model to a force that is held over the step; Γ Γᵀ replaces Van Loan's
 /// integral, which is for white noise. Simpson's rule keeps it equal to what the sub-steps give where the model is linear.
@@ -49,7 +48,8 @@
 /// The guard: the step is refused, and the caller takes shorter ones or the sub-steps of process_model.h, if
 ///
 ///   - a component of c exceeds 5 % of the standard deviation that the linearised step predicts for it (friction that
-///     reverses, a gap that closes, a command that jumps within the step), or
+///     reverses, a gap that closes, a command that jumps within the step). With effects, up to 20 % will do where f is seen to
+///     be curved evenly: its slopes then change by (A_2 - A_0) (x_2 - x) = 2 D, and what D is more than half of it makes c, or
 ///   - the last term of F S exceeds 20 % of it where sigma points ask for it, or
 ///   - a number is not finite.
 ///
@@ -63,7 +63,7 @@
 
 #include <limits>
 
-#include "estimators/matrix/phi_functions.h"
+#include "estimators/matrix/mean_shift.h"
 #include "estimators/process/process_model.h"
 
 namespace halyard {
@@ -108,30 +108,42 @@ class ExponentialStep {
   bool transition(LaneMatrix& F);
 
  private:
+  /// The level of phi_ that has the functions for steps of this length; negative: none has.
+  int level_of(double dt_s) const;
+  /// False if phi_ cannot be computed.
+  bool has_functions();
+  /// Of this step.
+  const PhiFunctions::Level& phi() const { return phi_.level(level_); }
   /// x + h φ_1 f. With w, the rates of the positions, E w - w is h φ_1 A w, and f - A w has no kinematic rows.
   void set_x_2();
   /// Γ_0.
   void set_linear_response(const Eigen::MatrixXd& G);
   /// h D, and -h N of the held forces.
   void set_second_stage();
-  /// f at x + d_i, of every row d_i of d.
-  void set_rates(const Step& at, const Eigen::VectorXd& x, const LaneMatrix& d, LaneMatrix& rates);
+  /// |c| <= tolerance, in standard deviations.
+  bool is_within(double tolerance) const;
+  /// The same with the guard's tolerance, after c has become that of a curvature which is not even.
+  bool is_curved_evenly();
+  /// h (A_2 - A) in slopes_, once a step.
+  void set_end_slopes();
+  /// The same as set_second_stage(), by the transmission at x_2 and at x_2 + Γ_0.
+  void set_rough_stage();
   void set_spread(const LaneMatrix& moved);
   /// The last term of F S in growth_, which is empty where it is small. moved: E S. False: A_2 is not finite.
   bool set_growth(const LaneMatrix& moved);
+  /// The same where f is not smooth. S_: the root, where B is followed.
+  bool set_rough_growth(const LaneMatrix& moved);
   /// The first columns of F become `moved` and growth_.
   void add_growth(const LaneMatrix& moved, LaneMatrix& F);
   /// growth_, first_ and last_ from one point of each pair, where f is smooth; false: refused.
   bool set_smooth_pairs(double gamma);
   /// The same from both points.
   bool set_pairs(double gamma);
-  /// h N(t, x, ± d_i): its odd part for every row of d, and the mean of its even part.
-  void set_both_parts(const Step& at, const Eigen::VectorXd& x, const Eigen::VectorXd& f, const LaneMatrix& d,
-                      LaneMatrix& odd, Eigen::VectorXd& mean);
-  /// V(0) to V(h) at the nodes 0, h / 2^s, ..., h / 2, h, in variance_.
-  void set_variances();
-  /// ∫ exp(A (h - s)) m(s) ds, in shift_.
-  void set_mean_shift();
+  /// The chain's part of the means of N, in point_.
+  void set_chain_curvature(double gamma);
+  /// h N(t, x, ± d_i) where `known` is of x: the moving rows of its odd part for every row of d, and the mean of its even part.
+  void set_both_parts(const Step& at, const KnownRates& known, const LaneMatrix& d, LaneMatrix& odd,
+                      Eigen::VectorXd& mean);
 
   const ProcessModel& process_;
   const PhiShape shape_;  // of A
@@ -142,22 +154,27 @@ class ExponentialStep {
   bool has_curvature_ = false;                                          // in point_.chain
   double phi_dt_s_ = std::numeric_limits<double>::quiet_NaN();          // length of the step of phi_, whose A is A_
   bool phi_is_due_ = true;                                              // it has to be computed from A_
-  Eigen::VectorXd x_, f_, f_2_, x_2_, next_, c_;
-  Eigen::VectorXd D_, part_, change_of_m_;  // of the moving rows; h D
-  Eigen::VectorXd first_, last_;            // h m(0), h m(h)
-  Eigen::MatrixXd A_, A_2_, Z_, slopes_;
-  LinearisedPoint point_{}, point_2_{};  // of linearise() at x and x_2
+  int level_ = 0;                                                       // of phi_, for this step
+  bool answer_is_due_ = true;                                           // so has response_
+  bool is_off_ = false, has_slopes_ = false;                            // B is followed; slopes_ are of this step
+  Eigen::VectorXd x_, f_, f_2_, x_2_, u_, next_, c_;                    // u_: x_2 - x
+  Eigen::VectorXd D_, L_, part_;                                        // of the moving rows; h D, h B (x_2 - x)
+  Eigen::VectorXd first_, last_;                                        // h m(0), h m(h)
+  Eigen::MatrixXd A_, A_2_, Z_, Z_0_, slopes_;                          // Z_: h A; Z_0_: h B
+  LinearisedPoint point_{}, point_2_{};                                 // of linearise() at x and x_2
   // Transposed, a row for each column of S or G:
   LaneMatrix S_, spread_, moved_, growth_;  // S, E S, products with S, the last term of F S
   Eigen::MatrixXd G_;                       // of response_
   LaneMatrix forces_, response_;            // G, Γ_0; row 0 is for x_2 itself
+  LaneMatrix held_, rates_;                 // x_2 - x with Γ_0, and what f changes by there
   LaneMatrix minus_N_, change_;             // -h N, and what the last term of Γ subtracts; then Γ
-  LaneMatrix points_, rates_, opposite_;    // sigma points
+  LaneMatrix pairs_, pair_changes_;         // ± d, and what f changes by there
   LaneMatrix deviations_, odd_, odd_end_;   // d, and the odd parts of h N at the start and the end
+  LaneMatrix last_term_;                    // of γ F S
   LaneMatrix shift_;                        // one column
   LaneMatrix moved_root_;                   // E S
   Eigen::VectorXd spread_squares_;          // of its rows
-  Eigen::MatrixXd variance_;                // V at the nodes
+  MeanShift mean_shift_;
   PhiFunctions phi_;
 };
 

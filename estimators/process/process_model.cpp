@@ -191,12 +191,33 @@ void ProcessModel::linearise(const Step& step, const Eigen::VectorXd& x, const C
                               x_dot.data(), A.data(), point);
 }
 
-void ProcessModel::mean_curvature(LinearisedPoint& point, const ChainPoint* near, const Eigen::VectorXd& x,
-                                  const Eigen::VectorXd& x_dot, const Eigen::MatrixXd& A, double gamma,
+void ProcessModel::jacobian_beside(const Step& step, const Eigen::VectorXd& x, const ChainPoint& chain,
+                                   Eigen::MatrixXd& A) const {
+  const StepInputs<Dual> in(step, n_joints());
+  A.resize(n_states(), n_states());
+  lane_kernels()[0].jacobian(linearised_arm(), step.time_s, {step.history, in.command, in.external}, x.data(), chain,
+                             A.data());
+}
+
+void ProcessModel::changes(const Step& step, const ChainPoint& chain, const KnownRates& at, const LaneMatrix& d,
+                           LaneMatrix& changes, double* first_force) const {
+  const StepInputs<Lanes> in(step, n_joints());
+  changes.reshape(d.rows(), n_states() - layout_.positions);
+  lane_kernels()[0].changes(lanes_, layout_, step.time_s, step.history, in.command, in.external, chain, at, d.blocks(),
+                            d.lanes(), changes.lanes(), first_force);
+}
+
+void ProcessModel::chain_curvature(LinearisedPoint& point, const Eigen::VectorXd& x, const Eigen::VectorXd& x_dot,
+                                   const Eigen::MatrixXd& A, double gamma, const LaneMatrix& root) const {
+  lane_kernels()[0].chain_curvature(linearised_arm(), point, x.data(), x_dot.data(), A.data(), gamma, root.rows(),
+                                    root.blocks(), root.lanes());
+}
+
+void ProcessModel::mean_curvature(const ChainPoint& chain, const LinearisedPoint& point, double gamma,
                                   const LaneMatrix& root, Eigen::VectorXd& mean) const {
   mean.resize(n_states());
-  lane_kernels()[0].mean_curvature(linearised_arm(), point, near, x.data(), x_dot.data(), A.data(), gamma, root.rows(),
-                                   root.blocks(), root.lanes(), mean.data());
+  lane_kernels()[0].mean_curvature(linearised_arm(), chain, point, gamma, root.rows(), root.blocks(), root.lanes(),
+                                   mean.data());
 }
 
 void ProcessModel::second_stage(const LinearisedPoint& start, const Eigen::VectorXd& x, const Eigen::VectorXd& x_2,
@@ -230,17 +251,6 @@ void ProcessModel::impulse_response(const LinearisedPoint& start, const Eigen::M
                                     LaneMatrix& Gamma) const {
   const ImpulseStep step{start, A.data(), x.data(), x_2.data(), dt_s, 2 * substeps(dt_s / 2)};
   lane_kernels()[0].impulse_response(linearised_arm(), step, G.blocks(), G.lanes(), Gamma.lanes());
-}
-
-void ProcessModel::derivatives(const Step& step, const LaneMatrix& X, LaneMatrix& X_dot) const {
-  const StepInputs<Lanes> in(step, n_joints());
-  const int n = n_states(), blocks = X.blocks();
-  for (int b = 0; b < blocks; ++b) {
-    Lanes x[kMaxStates], x_dot[kMaxStates];
-    for (int i = 0; i < n; ++i) x[i] = X.lanes()[i * blocks + b];
-    lane_kernels()[0].derivative(lanes_, layout_, step.time_s, step.history, in.command, in.external, x, x_dot);
-    for (int i = 0; i < n; ++i) X_dot.lanes()[i * blocks + b] = x_dot[i];
-  }
 }
 
 Eigen::VectorXd ProcessModel::motor_readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd* H) const {

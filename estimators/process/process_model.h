@@ -82,11 +82,18 @@ class ProcessModel {
   /// state shortly before, from which its masses and slopes are taken.
   void linearise(const Step& step, const Eigen::VectorXd& x, const ChainPoint* near, Eigen::VectorXd& x_dot,
                  Eigen::MatrixXd& A, LinearisedPoint& point) const;
-  /// Of a model that is_smooth(), with x_dot, A and point of linearise() at x (arm_curvature.h):
-  /// mean [n_states] of f(x + d_i) - f(x) - A d_i over d_i = gamma S_i. root: S transposed. near: null, or what an
-  /// earlier call has left for a state shortly before, from which the chain's part is taken.
-  void mean_curvature(LinearisedPoint& point, const ChainPoint* near, const Eigen::VectorXd& x,
-                      const Eigen::VectorXd& x_dot, const Eigen::MatrixXd& A, double gamma, const LaneMatrix& root,
+  /// A at x, with the chain as linearise() found it at a state shortly before.
+  void jacobian_beside(const Step& step, const Eigen::VectorXd& x, const ChainPoint& chain, Eigen::MatrixXd& A) const;
+  /// f(x + d) - f(x) of every row d of the matrix [count x n_states], eight at a time: changes [count x n_states - positions],
+  /// without the rows of the positions (arm_changes.h). first_force: null, or F [n] at the first x + d.
+  void changes(const Step& step, const ChainPoint& chain, const KnownRates& at, const LaneMatrix& d,
+               LaneMatrix& changes, double* first_force = nullptr) const;
+  /// The chain's part of the mean of f(x + d_i) - f(x) - A d_i over d_i = gamma S_i, into point.chain.curvature
+  /// (arm_curvature.h). x_dot, A, point: of linearise() at x. root: S transposed.
+  void chain_curvature(LinearisedPoint& point, const Eigen::VectorXd& x, const Eigen::VectorXd& x_dot,
+                       const Eigen::MatrixXd& A, double gamma, const LaneMatrix& root) const;
+  /// Of a model that is_smooth(), mean [n_states] of it all at `point`, with the chain's part that of `chain`.
+  void mean_curvature(const ChainPoint& chain, const LinearisedPoint& point, double gamma, const LaneMatrix& root,
                       Eigen::VectorXd& mean) const;
   /// Of a model that is_smooth(), with `start` of linearise() at x, the second stage x_2 of a step (arm_second_stage.h):
   /// D [moving_states() - layout().positions], and `end`, the point at x_2.
@@ -104,8 +111,6 @@ class ProcessModel {
   /// Γ of the impulses G (arm_impulses.h): rows of [n_states]; Gamma: of the shape of G. A, start: of linearise() at x.
   void impulse_response(const LinearisedPoint& start, const Eigen::MatrixXd& A, const Eigen::VectorXd& x,
                         const Eigen::VectorXd& x_2, double dt_s, const LaneMatrix& G, LaneMatrix& Gamma) const;
-  /// x' at every row of X [count x n_states], eight at a time. X_dot: of the shape of X.
-  void derivatives(const Step& step, const LaneMatrix& X, LaneMatrix& X_dot) const;
 
   /// h(x) [n] and H = ∂h/∂x [n x n_states]; the row of a joint without motor is zero.
   Eigen::VectorXd motor_readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd* H = nullptr) const;

@@ -212,6 +212,38 @@ TEST(ExponentialStep, TheGuardRefusesAMeanThatIsNotSureEnough) {
   EXPECT_FALSE(exponential.advance_pairs(x, belief(1e-9), 1e-3, FS, shift));
 }
 
+TEST(ExponentialStep, AMeanThatTheGuardAcceptsIsSureEnoughWithEffects) {
+  ArmModel model = raven2();
+  add_effect(model, "torque_ripple", 1, {});
+  add_effect(model, "backlash", 2, {});
+  const ProcessModel process(model);
+  const Eigen::Vector3d torque(0.02, -0.02, 0.01);
+  int accepted = 0, refused = 0;
+  for (const double angle : {0.0, 0.02, 0.04, 0.06})  // of motor 3, within its gap and beyond
+    for (const Eigen::Vector3d& speed : {kFast, kSlow}) {
+      Eigen::VectorXd x = at_speed(model, process, speed);
+      x(*process.layout().motor_angle[2]) += angle;
+      const Moved m = moved(process, x, kStep);
+      for (double deviation = 1; deviation > 1e-8; deviation /= 2) {
+        ExponentialStep exponential(process);
+        if (!start(exponential, {0, kStep, torque.data()}, x, belief(deviation))) {
+          ++refused;
+          continue;
+        }
+        ++accepted;
+        Eigen::VectorXd after = x;
+        LaneMatrix FS;
+        FS.reshape(12, 12);
+        ASSERT_TRUE(exponential.advance_root(after, FS));
+        for (int i = 0; i < 12; ++i)
+          EXPECT_LT(std::abs(after(i) - m.exact(i)), 0.05 * FS.view().row(i).norm())
+              << i << " at " << angle << ", deviation " << deviation;
+      }
+    }
+  EXPECT_GT(accepted, 20);
+  EXPECT_GT(refused, 20);
+}
+
 TEST(ExponentialStep, TheGuardRefusesWhatIsNotFinite) {
   const ArmModel model = raven2();
   const ProcessModel process(model);

@@ -18,6 +18,7 @@ struct Belief {
 
 class KeptJacobian : public testing::Test {
  protected:
+  explicit KeptJacobian(const ArmModel& model = raven2()) : model_(model), process_(model) {}
   /// At home with joint speeds of `speed` times what is typical.
   Eigen::VectorXd moving(double speed) const {
     return at_speed(model_, process_, speed * Eigen::Vector3d(0.5, -0.5, 0.05));
@@ -41,8 +42,8 @@ class KeptJacobian : public testing::Test {
   }
   double of_root(const Belief& b) const { return b.FS.view().cwiseAbs().maxCoeff(); }
 
-  const ArmModel model_ = raven2();
-  const ProcessModel process_{model_};
+  const ArmModel model_;
+  const ProcessModel process_;
   const Eigen::Vector3d torque_{0.02, -0.02, 0.01};
 };
 
@@ -70,11 +71,25 @@ TEST_F(KeptJacobian, IsNewWhereFrictionHasChanged) {
 }
 
 TEST_F(KeptJacobian, IsNewForAnotherLengthOfTheStep) {
-  // A kept one would be wrong by half.
-  const Belief b = difference(moving(1), moving(1), 0.5 * kLength);
+  // A kept one would be wrong by a third.
+  const Belief b = difference(moving(1), moving(1), 0.7 * kLength);
   ExponentialStep exponential(process_);
-  const Belief own = step(exponential, moving(1), 0, 0.5 * kLength);
+  const Belief own = step(exponential, moving(1), 0, 0.7 * kLength);
   for (int i = 0; i < 12; ++i) EXPECT_LT(b.FS.view().row(i).norm(), 1e-9 * own.FS.view().row(i).norm()) << i;
+}
+
+TEST_F(KeptJacobian, ServesAHalfAndAQuarterOfTheStep) {
+  for (const double part : {0.5, 0.25}) {
+    const Belief b = difference(moving(1), moving(1.0001), part * kLength);
+    EXPECT_GT(of_root(b), 0) << "the Jacobian was not kept";
+    ExponentialStep exponential(process_);
+    const Belief own = step(exponential, moving(1.0001), 0, part * kLength);
+    // Changes of the rates of a ten-thousandth.
+    for (int i = 0; i < 12; ++i) {
+      EXPECT_LT(b.FS.view().row(i).norm(), 1e-4 * own.FS.view().row(i).norm()) << i << ", " << part;
+      EXPECT_LT(std::abs(b.x(i)), 1e-4 * std::abs(own.x(i) - moving(1.0001)(i))) << i << ", " << part;
+    }
+  }
 }
 
 TEST_F(KeptJacobian, IsKeptWhereLengthsDifferByRounding) {
@@ -123,6 +138,43 @@ TEST_F(KeptJacobian, ForcesAreAnsweredAnewWhenTheyChange) {
                         twice = answer(exponential, 2e-6, kLength);
   EXPECT_LT((same - once).norm(), 1e-6 * once.norm());
   EXPECT_LT((twice - 2 * once).norm(), 1e-3 * twice.norm());
+}
+
+ArmModel with_some_effects() {
+  ArmModel model = raven2();
+  add_effect(model, "motor_friction", 0, {});
+  add_effect(model, "torque_ripple", 1, {});
+  add_effect(model, "backlash", 2, {});
+  return model;
+}
+
+class KeptJacobianWithEffects : public KeptJacobian {
+ protected:
+  KeptJacobianWithEffects() : KeptJacobian(with_some_effects()) {}
+  /// The difference of a step from `x` after one from moving(1), relative to what it changes, state by state.
+  void expect_near(const Eigen::VectorXd& x, double tolerance) const {
+    const Belief b = difference(moving(1), x);
+    ExponentialStep exponential(process_);
+    const Belief own = step(exponential, x, 0);
+    EXPECT_GT(of_root(b), 0);
+    for (int i = 0; i < 12; ++i) {
+      EXPECT_LT(std::abs(b.x(i)), tolerance * std::abs(own.x(i) - x(i))) << i;
+      EXPECT_LT(b.FS.view().row(i).norm(), tolerance * own.FS.view().row(i).norm()) << i;
+    }
+  }
+};
+
+TEST_F(KeptJacobianWithEffects, IsFollowedByTheSlopesThatAreNew) {
+  // The ripple's slope changes: by 1e-3 to 1e-2 of 1/h. What is neglected is of second order in this.
+  Eigen::VectorXd x = moving(1);
+  x(*process_.layout().motor_angle[1]) += 0.02;
+  expect_near(x, 3e-4);
+}
+
+TEST_F(KeptJacobianWithEffects, IsNewBeyondAKink) {
+  Eigen::VectorXd x = moving(1);
+  x(*process_.layout().motor_angle[2]) += 0.1;  // out of the gap
+  expect_near(x, 3e-3);                         // the chain is kept
 }
 
 }  // namespace
