@@ -44,6 +44,7 @@ class Transmission {
       : arm_(nominal), owned_(std::move(effects)) {
     for (const EffectInstance<T>& e : owned_) {
       e.effect->change_parameters(arm_, e.joint, e.p);
+      parts_.push_back({e.effect->stages(), n_states_, e.effect->n_states()});
       n_states_ += e.effect->n_states();
       stages_ |= e.effect->stages();
       states_need_motors_ =
@@ -97,14 +98,22 @@ class Transmission {
                             JointSignals<T>* s) const {
     if (!(stages_ & static_cast<unsigned>(stage))) return;
     const EffectInstance<T>* e = owned_.data();
-    for (int i = 0, n = static_cast<int>(owned_.size()); i < n; z += e[i].effect->n_states(), ++i)
-      if (e[i].effect->stages() & static_cast<unsigned>(stage))
-        e[i].effect->act(stage, EffectContext<T>{arm_, e[i].joint, e[i].p, z, time, history}, s);
+    const Part* part = parts_.data();
+    for (int i = 0, n = static_cast<int>(owned_.size()); i < n; ++i)
+      if (part[i].stages & static_cast<unsigned>(stage))
+        e[i].effect->act(stage, EffectContext<T>{arm_, e[i].joint, e[i].p, z + part[i].first_state, time, history}, s);
   }
+
+  /// What an effect says of itself.
+  struct Part {
+    unsigned stages;
+    int first_state, n_states;
+  };
 
   ArmParameters<T> arm_;
   std::vector<EffectInstance<T>> owned_;
-  T travel_[kMaxJoints];  ///< r_m / N
+  std::vector<Part> parts_;  ///< of each
+  T travel_[kMaxJoints];     ///< r_m / N
   int n_states_ = 0;
   unsigned stages_ = 0;
   bool states_need_motors_ = false;  ///< an effect with states acts at the command or motor stage
@@ -171,13 +180,13 @@ HALYARD_INLINE void Transmission<T>::evaluate(double time, const CommandHistory*
   }
   apply(EffectStage::joint, time, history, z, s);
 
+  if (n_states_ == 0) return;
   const EffectInstance<T>* e = owned_.data();
+  const Part* part = parts_.data();
   for (int i = 0, m = static_cast<int>(owned_.size()); i < m; ++i) {
-    const int k = e[i].effect->n_states();
-    if (k == 0) continue;
-    e[i].effect->rates(EffectContext<T>{arm_, e[i].joint, e[i].p, z, time, history}, s, z_dot);
-    z += k;
-    z_dot += k;
+    if (part[i].n_states == 0) continue;
+    const int first = part[i].first_state;
+    e[i].effect->rates(EffectContext<T>{arm_, e[i].joint, e[i].p, z + first, time, history}, s, z_dot + first);
   }
 }
 
