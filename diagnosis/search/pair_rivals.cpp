@@ -144,28 +144,57 @@ bool PairRivals::weigh(Attribution& found, const Places& places) const {
   if (!none.usable) return false;
   const std::vector<double> weight = weights(found, places, none.hypothesis, rivals);
   for (const std::size_t place : places) shrink(found.namings[place - given_], weight[0]);
-  Naming& first = found.namings[places.front() - given_];
-  Naming& second = found.namings[places.back() - given_];
-  for (std::size_t i = 0; i < rivals.size(); ++i) {
-    const double share = weight[i + 1] * (places.size() == 1 ? kShareOfOne : 1);
-    add_alternative(first, rivals[i].first, share);
-    add_alternative(second, rivals[i].second, share);
+  const auto best = static_cast<std::size_t>(std::max_element(weight.begin(), weight.end() - 1) - weight.begin());
+  if (best == 0 || !can_be_named(rivals[best - 1])) {
+    add_alternatives(found, places, rivals, weight);
+    return false;
   }
-  const auto best = std::max_element(weight.begin(), weight.end() - 1) - weight.begin();
-  if (best == 0 || !can_be_named(rivals[static_cast<std::size_t>(best - 1)])) return false;
-  rename(found, places, rivals[static_cast<std::size_t>(best - 1)]);
+  take_the_place(found, places, rivals, weight, best - 1);
   return true;
 }
 
-/// The pair takes the place of the names.
-void PairRivals::rename(Attribution& found, const Places& places, const Pair& pair) const {
+/// The effects of the pairs that replace one name are alternatives of it, and so are those that replace one of two names.
+void PairRivals::add_alternatives(Attribution& found, const Places& places, const std::vector<Pair>& pairs,
+                                  const std::vector<double>& weight) const {
+  Naming& first = found.namings[places.front() - given_];
+  Naming& second = found.namings[places.back() - given_];
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const double share = weight[i + 1] * (places.size() == 1 ? kShareOfOne : 1);
+    add_alternative(first, pairs[i].first, share);
+    add_alternative(second, pairs[i].second, share);
+  }
+}
+
+/// The naming of one effect of the pair that takes the place of a name. Each pair with the effect counts for it. In a pair
+/// with only the other one, what stands beside that is an alternative; of a pair with neither, both are.
+Naming PairRivals::naming_of(const PlacedEffect& effect, const PlacedEffect& other, const std::vector<Pair>& pairs,
+                             const std::vector<double>& weight, Naming naming, const PlacedEffect& before) {
+  rename_to(naming, before, 0);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const PlacedEffect &first = pairs[i].first, &second = pairs[i].second;
+    const auto has = [&](const PlacedEffect& e) { return same_name(first, e) || same_name(second, e); };
+    if (has(effect)) {
+      naming.weight += weight[i + 1];
+      continue;
+    }
+    for (const PlacedEffect& e : {first, second})
+      if (!same_name(e, other)) add_alternative(naming, e, weight[i + 1] * (has(other) ? 1 : kShareOfOne));
+  }
+  return naming;
+}
+
+void PairRivals::take_the_place(Attribution& found, const Places& places, const std::vector<Pair>& pairs,
+                                const std::vector<double>& weight, std::size_t best) const {
+  const Pair& pair = pairs[best];
   const std::vector<PlacedEffect>& old = found.final_fit.hypothesis.effects;
-  Naming first = found.namings[places.front() - given_], second = found.namings[places.back() - given_];
+  Naming first, second;
   if (places.size() == 1) {
-    const double weight = (take(first, pair.first) + take(first, pair.second)) / (2 * kShareOfOne);
-    rename_to(first, old[places[0]], weight);
-    second = first;
+    const Naming& before = found.namings[places[0] - given_];
+    first = naming_of(pair.first, pair.second, pairs, weight, before, old[places[0]]);
+    second = naming_of(pair.second, pair.first, pairs, weight, before, old[places[0]]);
   } else {
+    add_alternatives(found, places, pairs, weight);
+    first = found.namings[places[0] - given_], second = found.namings[places[1] - given_];
     rename_to(first, old[places[0]], take(first, pair.first));
     rename_to(second, old[places[1]], take(second, pair.second));
   }

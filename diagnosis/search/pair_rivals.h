@@ -42,7 +42,12 @@ class PairRivals {
   std::vector<double> weights(const Attribution& found, const Places& places, const Hypothesis& none,
                               const std::vector<Pair>& pairs) const;
   bool weigh(Attribution& found, const Places& places) const;
-  void rename(Attribution& found, const Places& places, const Pair& pair) const;
+  void add_alternatives(Attribution& found, const Places& places, const std::vector<Pair>& pairs,
+                        const std::vector<double>& weight) const;
+  static Naming naming_of(const PlacedEffect& effect, const PlacedEffect& other, const std::vector<Pair>& pairs,
+                          const std::vector<double>& weight, Naming naming, const PlacedEffect& before);
+  void take_the_place(Attribution& found, const Places& places, const std::vector<Pair>& pairs,
+                      const std::vector<double>& weight, std::size_t best) const;
 
   const Evidence& evidence_;
   const ArmModel& model_;

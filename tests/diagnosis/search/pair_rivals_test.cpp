@@ -124,6 +124,26 @@ TEST_F(FrictionOfMotorAndPulleys, TakeThePlaceOfThatOfTheJoint) {
   }
 }
 
+/// Beside the friction of the motor, effects that resemble the friction of the pulleys share what that has.
+TEST_F(FrictionOfMotorAndPulleys, CountsEveryPairForANameThatStandsInSeveral) {
+  Attribution found = named({at_the_joint()});
+  std::vector<PlacedEffect> rivals = at_motor_and_pulleys();
+  rivals.push_back(place_effect(*find_effect("hysteresis"), model_.nominal, 0));
+  found.rounds = {led_by(found.final_fit.hypothesis.effects[0], rivals, 0.7)};
+  weigh(found);
+  ASSERT_EQ(found.namings.size(), 2u);
+  const Naming &motor = found.namings[0], &pulleys = found.namings[1];
+  ASSERT_EQ(pulleys.alternatives.size(), 2u);
+  EXPECT_EQ(pulleys.alternatives[1].effect.effect->name(), "hysteresis");
+  EXPECT_GT(pulleys.alternatives[1].probability, 1e-3) << "the test shows nothing";
+  EXPECT_NEAR(motor.weight, pulleys.weight + pulleys.alternatives[1].probability, 1e-9);
+  for (const Naming& naming : {motor, pulleys}) {
+    double sum = naming.weight;
+    for (const Alternative& a : naming.alternatives) sum += a.probability;
+    EXPECT_NEAR(sum, 1, 1e-6);
+  }
+}
+
 /// Friction of the joint alone.
 class FrictionOfJoint : public PairRivalsTest {
  protected:
