@@ -67,7 +67,7 @@ Trial Judge::trial(const Hypothesis& with, const Scored& without, std::size_t pl
   t.usable = true;
   t.log_likelihood = log_likelihood(evidence_, scored.score, squared_floors(evidence_));
   t.gain = gain_over(scored, without);
-  t.stretch = stretch(with);
+  t.prior_cost = prior_cost(with);
   t.p_value = p_of_gain(scored.score, without.score);
   if (!t.is_judged()) return t;
   t.at_bound = at_bound(scored, place);
@@ -95,7 +95,7 @@ double Judge::p_of_gain(const Score& with, const Score& without) const {
 double Judge::gain_over(const Scored& a, const Scored& b) const {
   const std::vector<double> least = squared_floors(evidence_);
   return paired(evidence_, log_likelihood(evidence_, a.score, least), log_likelihood(evidence_, b.score, least)).sum +
-         stretch(b.hypothesis) - stretch(a.hypothesis);
+         prior_cost(b.hypothesis) - prior_cost(a.hypothesis);
 }
 
 /// True if, in the channel with a rest that the effect takes most of, nothing that matters is left or next to
@@ -269,7 +269,7 @@ bool Judge::takes_a_share(const Score& before, const Score& after, const std::ve
 /// some signal by much more than the sensor resolves. The deciding blocks have to show such a residual. Otherwise, after
 /// one burst in the fitting blocks, an effect would count for what it does elsewhere below the noise.
 bool Judge::matters(const Scored& without, const Scored& with, std::size_t place) const {
-  bool counts = stretch(without.hypothesis) - stretch(with.hypothesis) > kRule.relief;
+  bool counts = prior_cost(without.hypothesis) - prior_cost(with.hypothesis) > kRule.relief;
   const auto before = misfits(without);
   for (int c = 0; c < evidence_.channels() && !counts; ++c)
     counts =
@@ -286,7 +286,7 @@ bool Judge::leans_on_a_bound(const Scored& found) const {
   return false;
 }
 
-double Judge::stretch(const Hypothesis& h) const {
+double Judge::prior_cost(const Hypothesis& h) const {
   double sum = 0;
   for (const FitParameter& b : numbers_) {
     const double u = (parameter_value(h, b) - b.nominal) / b.scale;
@@ -296,7 +296,7 @@ double Judge::stretch(const Hypothesis& h) const {
 }
 
 double Judge::cost(const Scored& scored) const {
-  double sum = stretch(scored.hypothesis);
+  double sum = prior_cost(scored.hypothesis);
   for (int c = 0; c < evidence_.channels(); ++c)
     if (evidence_.has_channel(c))
       sum -= block_log_likelihood(evidence_, evidence_.fit_count(c), scored.score.fit_mean_square[c],

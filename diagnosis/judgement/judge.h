@@ -2,8 +2,8 @@
 /// Decides whether a fitted effect explains something.
 ///
 ///   gain = Σ_b (ln L_b with the effect - ln L_b without)     likelihood.h, on the deciding blocks
-///          + stretch without - stretch with
-///   stretch = ½ Σ ((θ - nominal) / (tolerance / 2))²         prior cost of the refitted baseline parameters θ
+///          + prior cost without - prior cost with
+///   prior cost = ½ Σ ((θ - nominal) / (tolerance / 2))²       of the refitted baseline parameters θ
 ///
 /// An effect is named if
 ///
@@ -15,7 +15,7 @@
 ///   largest likelihood that a hypothesis without the effect can have on the deciding data. Here both hypotheses are
 ///   fitted on the other blocks. Blind trials of clean arms measure its false-positive rate;
 /// - it matters: a residual shrinks by more than the model's tolerances and the sensors' errors can explain, or the
-///   stretch falls by much;
+///   prior cost falls by much;
 /// - no parameter that matters lies at its plausible bound. No shape lies within a factor of two of such a bound if the
 ///   bound itself has an equal likelihood. The ends of the record and of the motion are the bounds of a push;
 /// - one of its sizes at least exceeds the tolerance of the number that it changes. Otherwise it is a refit;
@@ -36,7 +36,7 @@ struct Trial {
   bool is_fitted = true;  ///< it was among the candidates that leave the smallest residual
   bool usable = false;    ///< it could be integrated
   double gain = 0;        ///< on the deciding blocks, above the baseline of its round
-  double stretch = 0;     ///< prior cost of the baseline's numbers with it
+  double prior_cost = 0;  ///< of the baseline's numbers with it
   double p_value = 1;     ///< of no gain, without correction for the number of candidates
   bool is_judged() const { return usable && p_value <= kRule.worth_a_fit; }
   // Valid if is_judged():
@@ -89,7 +89,7 @@ class Judge {
 
   /// Probability of such a gain by chance.
   double p_of_gain(const Score& with, const Score& without) const;
-  /// The gain of `a` above `b`: what it explains more of the deciding blocks, less its further stretch. Neither has to
+  /// The gain of `a` above `b`: what it explains more of the deciding blocks, less its further prior cost. Neither has to
   /// contain the other's effects.
   double gain_over(const Scored& a, const Scored& b) const;
   /// The effect at `place` without those of its sizes that lie at a plausible bound, or whose shape does; nothing if none
@@ -98,10 +98,10 @@ class Judge {
                                                    std::vector<FitParameter>& given_up) const;
   /// True if an added effect ends at its plausible bound, so that the final fit would take back what it explains.
   bool leans_on_a_bound(const Scored& found) const;
-  /// Cost of a fit: -ln L on the fitting blocks plus the stretch of the baseline parameters.
+  /// Cost of a fit: -ln L on the fitting blocks plus the prior cost of the baseline parameters.
   double cost(const Scored& scored) const;
   /// Prior cost of the refitted baseline parameters.
-  double stretch(const Hypothesis& h) const;
+  double prior_cost(const Hypothesis& h) const;
 
  private:
   bool explains_a_rest(const Score& before, const Score& after) const;

@@ -89,9 +89,9 @@ std::vector<double> Competition::weights(const std::vector<std::size_t>& rivals)
     // At its bound an effect is less plausible, but may still be the right one.
     const double implausible = trials_[i].at_bound ? kRule.at_bound : 0;
     all.push_back({&trials_[i].log_likelihood, numbers_added(trials_[i].effect, model_.nominal),
-                   trials_[i].stretch + implausible});
+                   trials_[i].prior_cost + implausible});
   }
-  return name_weights(evidence_, all, {&ln_without_, 0, judge_.stretch(without_.hypothesis)});
+  return name_weights(evidence_, all, {&ln_without_, 0, judge_.prior_cost(without_.hypothesis)});
 }
 
 }  // namespace halyard

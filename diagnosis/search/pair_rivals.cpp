@@ -128,12 +128,12 @@ std::vector<double> PairRivals::weights(const Attribution& found, const Places& 
   const Likelihood of_none = log_likelihood(evidence_, evidence_.score(none), least);
   std::vector<Likelihood> of_pairs;
   for (const Pair& p : pairs) of_pairs.push_back(log_likelihood(evidence_, p.score, least));
-  std::vector<Competitor> all = {{&of_names, 0, judge_.stretch(h)}};
+  std::vector<Competitor> all = {{&of_names, 0, judge_.prior_cost(h)}};
   for (const std::size_t place : places) all[0].numbers += numbers(h.effects[place]);
   for (std::size_t i = 0; i < pairs.size(); ++i)
     all.push_back(
-        {&of_pairs[i], numbers(pairs[i].first) + numbers(pairs[i].second), judge_.stretch(pairs[i].fit.hypothesis)});
-  return name_weights(evidence_, all, {&of_none, 0, judge_.stretch(none)});
+        {&of_pairs[i], numbers(pairs[i].first) + numbers(pairs[i].second), judge_.prior_cost(pairs[i].fit.hypothesis)});
+  return name_weights(evidence_, all, {&of_none, 0, judge_.prior_cost(none)});
 }
 
 /// True if a pair has taken the place of the names.

@@ -133,7 +133,7 @@ TEST(Bounds, LeaveACandidateAmongTheRivalsOfAName) {
   const double odds = std::exp(-kRule.at_bound);
   EXPECT_NEAR(naming().alternatives[0].probability, odds / (1 + odds), 1e-6);
   EXPECT_FALSE(naming().surer);
-  trials[1].stretch -= kRule.by_chance + 1;
+  trials[1].prior_cost -= kRule.by_chance + 1;
   EXPECT_TRUE(naming().surer) << "it cannot be named, and is more probable than the name";
   trials[1].at_bound = false;
   EXPECT_FALSE(naming().surer) << "it can be named";

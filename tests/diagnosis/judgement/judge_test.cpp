@@ -96,7 +96,7 @@ TEST(Judge, AnEffectThatOnlyTakesWhatNoiseExplainsDoesNotMatter) {
 TEST(Judge, AnEffectMattersIfWithoutItANumberIsFarBeyondItsTolerance) {
   const NoisyFriction friction;
   const Trial t = friction.beside(kNearlyAll, baseline_parameters(friction.model));
-  EXPECT_EQ(t.stretch, 0);
+  EXPECT_EQ(t.prior_cost, 0);
   EXPECT_TRUE(t.matters);
 }
 
