@@ -46,7 +46,7 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
                  p.upper);
   for (const NamedEffect& e : d.effects)
     for (const Alternative& a : e.alternatives)
-      fmt::print("  {}: or {} ({:.0f} %)\n", effect_label(e.effect), effect_label(a.effect), 100 * a.probability);
+      fmt::print("  {}: or {} ({})\n", effect_label(e.effect), effect_label(a.effect), percent(a.probability));
   for (std::size_t i = 0; i < d.effects.size(); ++i)
     fmt::print("  {}: {}\n", effect_label(d.effects[i].effect), evaluation.why[i]);
   for (const Estimated& p : d.refitted)

@@ -123,6 +123,11 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
 
 std::string label_of(const NamedEffect& e) { return effect_label(e.effect) + (e.log.empty() ? "" : " in " + e.log); }
 
+std::string percent(double probability) {
+  constexpr double kAlmostCertain = 0.995;
+  return probability < kAlmostCertain ? fmt::format("{:.0f} %", 100 * probability) : "over 99 %";
+}
+
 std::vector<std::string> absent_event_lines(const Diagnosis& d) {
   std::vector<std::string> lines;
   for (const std::size_t e : d.absent_events)
@@ -133,7 +138,8 @@ std::vector<std::string> absent_event_lines(const Diagnosis& d) {
 
 std::string verdict_line(const Diagnosis& d) {
   std::string line = verdict_word(d.verdict);
-  for (std::size_t i = 0; i < d.effects.size(); ++i) line += (i == 0 ? ": " : ", ") + label_of(d.effects[i]);
+  for (std::size_t i = 0; i < d.effects.size(); ++i)
+    line += fmt::format("{}{} ({})", i == 0 ? ": " : ", ", label_of(d.effects[i]), percent(d.effects[i].probability));
   if (d.verdict == Diagnosis::Verdict::effects && !d.unexplained.empty()) line += "; an unexplained residual remains";
   return line;
 }
@@ -153,8 +159,8 @@ void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluati
       std::string text = "The model lacks:";
       for (std::size_t i = 0; i < d.effects.size(); ++i) {
         const NamedEffect& e = d.effects[i];
-        text += fmt::format("\n{}: {} (probability {:.0f} %).", label_of(e), e.effect.effect->summary(),
-                            100 * e.probability);
+        text +=
+            fmt::format("\n{}: {} (probability {}).", label_of(e), e.effect.effect->summary(), percent(e.probability));
         if (i < evaluation.why.size()) text += " " + evaluation.why[i];
         else text += alternatives_sentence(e);
       }

@@ -21,7 +21,10 @@ std::string label_of(const NamedEffect& effect);
 /// A sentence about each event that did not happen in the hold-out.
 std::vector<std::string> absent_event_lines(const Diagnosis& diagnosis);
 
-/// "effects: backlash of joint 2", "clean", "unknown".
+/// "87 %"; "over 99 %" of what is almost certain.
+std::string percent(double probability);
+
+/// The verdict, and the names with their probabilities: "effects: backlash of joint 2 (over 99 %)", "clean", "unknown".
 std::string verdict_line(const Diagnosis& diagnosis);
 
 /// The verdict as a call-out of a page, with the reasons if there is an evaluation.

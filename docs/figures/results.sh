@@ -70,22 +70,9 @@ error_row() {
   echo "| $1 | $(before_after "$2" "$3" | sed "s/ | / | $4 | /") | $(named "$2") |"
 }
 
-# What the verdict names, without "effects: ". Behind each effect are the alternatives that the data cannot distinguish
-# from it.
+# What the verdict names, with the probability of each name, without "effects: ".
 named() {
-  printed "$1" | awk '
-    /^(clean|effects:|unknown)/ && verdict == "" { verdict = $0; sub(/^effects: /, "", verdict) }
-    match($0, /^  [^:]+: or /) {
-      effect = substr($0, 3, RLENGTH - 7)
-      others[effect] = others[effect] (effect in others && others[effect] != "" ? ", " : "") substr($0, RLENGTH + 1)
-    }
-    END {
-      for (effect in others) {
-        end = index(verdict, effect) + length(effect)
-        verdict = substr(verdict, 1, end - 1) " (alternatives: " others[effect] ")" substr(verdict, end)
-      }
-      print verdict
-    }'
+  printed "$1" | sed -nE '/^(clean|effects:|unknown)/ { s/^effects: //; p; q }'
 }
 
 # three_torques FIELD: the errors of the RAVEN-II's motor torques before (1) or after (3) the arrow.
