@@ -18,31 +18,6 @@ struct KnownRates {
   const double *x, *x_dot, *force;
 };
 
-/// The forces on the joints, and x' without its rows of the positions and of the joints' rates.
-struct LaneForces {
-  Lanes force[kMaxJoints], motor_acceleration[kMaxJoints], z_dot[kMaxStates];
-};
-
-template <int known>
-HALYARD_INLINE void set_forces(const Transmission<Lanes>& transmission, const StateLayout& l, double time,
-                               const CommandHistory* history, const Lanes* command, const Lanes* external,
-                               const Lanes* x, LaneForces& forces) {
-  const ArmParameters<Lanes>& arm = transmission.arm();
-  const int n = joint_count<known>(arm);
-  ArmSignals<Lanes> signals(n);
-  JointSignals<Lanes>* s = signals.joint();
-  unpack_state<known>(arm, l, x, s);
-  for (int k = 0; k < n; ++k) s[k].command = command[k], s[k].external_force = external[k];
-  transmission.template evaluate<known>(time, history, x + l.effect_states, s, forces.z_dot);
-  Lanes torque[kMaxJoints], pull[kMaxJoints];
-  for (int k = 0; k < n; ++k) {
-    forces.force[k] = s[k].joint_force;
-    torque[k] = s[k].motor_torque;
-    pull[k] = s[k].cable_force_motor;
-  }
-  drive_forces<known>(arm, torque, pull, forces.force, forces.motor_acceleration);
-}
-
 /// Rows of the rates of motors and joints and of the internal states, from l.positions on. d, changes: in `blocks` lanes a row.
 /// first_force: F at the first deviation; null: not wanted.
 template <int known>
@@ -53,14 +28,13 @@ HALYARD_INLINE void set_changes(const Transmission<Lanes>& transmission, const S
   const ArmParameters<Lanes>& arm = transmission.arm();
   const int n = joint_count<known>(arm);
   for (int b = 0; b < blocks; ++b, ++d, ++changes) {
-    Lanes x[kMaxStates], force[kMaxJoints];
-    LaneForces forces;
+    Lanes x[kMaxStates], force[kMaxJoints], motor_acceleration[kMaxJoints], z_dot[kMaxStates];
     for (int i = 0; i < l.size; ++i) x[i] = d[i * blocks] + at.x[i];
-    set_forces<known>(transmission, l, time, history, command, external, x, forces);
+    set_forces<known>(transmission, l, time, history, command, external, x, force, motor_acceleration, z_dot);
     if (b == 0 && first_force)
-      for (int k = 0; k < n; ++k) first_force[k] = forces.force[k][0];
+      for (int k = 0; k < n; ++k) first_force[k] = force[k][0];
     for (int k = 0; k < n; ++k) {
-      force[k] = forces.force[k] - at.force[k];
+      force[k] -= at.force[k];
       for (int i = 0; i < n; ++i)
         force[k] -= chain.slope[k][i] * d[l.position[i] * blocks] + chain.slope[k][n + i] * d[l.rate[i] * blocks];
     }
@@ -71,10 +45,9 @@ HALYARD_INLINE void set_changes(const Transmission<Lanes>& transmission, const S
       Lanes acceleration = chain.mobility[k] * force[0];
       for (int i = 1; i < n; ++i) acceleration += chain.mobility[k + i * n] * force[i];
       put(l.rate[k], acceleration);
-      if (arm.joint[k].drive == Drive::cable)
-        put(*l.motor_rate[k], forces.motor_acceleration[k] - at.x_dot[*l.motor_rate[k]]);
+      if (arm.joint[k].drive == Drive::cable) put(*l.motor_rate[k], motor_acceleration[k] - at.x_dot[*l.motor_rate[k]]);
     }
-    for (int i = l.effect_states; i < l.size; ++i) put(i, forces.z_dot[i - l.effect_states] - at.x_dot[i]);
+    for (int i = l.effect_states; i < l.size; ++i) put(i, z_dot[i - l.effect_states] - at.x_dot[i]);
   }
 }
 

@@ -61,6 +61,28 @@ HALYARD_INLINE void unpack_state(const ArmParameters<T>& arm, const StateLayout&
   set_motion<known>(arm, q, v, s);
 }
 
+/// What the transmission does at state x: F on the joints, the accelerations of the motors, and the rates of the effects'
+/// states. command, external: [n], held over the step.
+template <int known = 0, class T>
+HALYARD_INLINE void set_forces(const Transmission<T>& transmission, const StateLayout& l, double time,
+                               const CommandHistory* history, const T* command, const T* external, const T* x, T* force,
+                               T* motor_acceleration, T* z_dot) {
+  const ArmParameters<T>& arm = transmission.arm();
+  const int n = joint_count<known>(arm);
+  ArmSignals<T> signals(n);
+  JointSignals<T>* s = signals.joint();
+  unpack_state<known>(arm, l, x, s);
+  for (int k = 0; k < n; ++k) s[k].command = command[k], s[k].external_force = external[k];
+  transmission.template evaluate<known>(time, history, x + l.effect_states, s, z_dot);
+  T torque[kMaxJoints], pull[kMaxJoints];
+  for (int k = 0; k < n; ++k) {
+    force[k] = s[k].joint_force;
+    torque[k] = s[k].motor_torque;
+    pull[k] = s[k].cable_force_motor;
+  }
+  drive_forces<known>(arm, torque, pull, force, motor_acceleration);
+}
+
 /// x' at state x. command, external: [n], held over the step.
 template <int known = 0, class T>
 HALYARD_INLINE void state_derivative(const Transmission<T>& transmission, const StateLayout& l, double time,

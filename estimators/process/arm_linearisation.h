@@ -58,21 +58,10 @@ HALYARD_INLINE void linearise_transmission(const Transmission<Dual>& transmissio
   const int n = joint_count<known>(arm);
   for (int first = 0; first < l.size; first += kDualWidth) {
     const int count = l.size - first < kDualWidth ? l.size - first : kDualWidth;
-    Dual at[kMaxStates], z_dot[kMaxStates];
+    Dual at[kMaxStates], z_dot[kMaxStates], force[kMaxJoints], motor_acceleration[kMaxJoints];
     for (int i = 0; i < l.size; ++i) at[i] = Dual(x[i]);
     for (int i = 0; i < count; ++i) at[first + i].d.set(i, 1);
-    ArmSignals<Dual> signals(n);
-    JointSignals<Dual>* s = signals.joint();
-    unpack_state<known>(arm, l, at, s);
-    for (int k = 0; k < n; ++k) s[k].command = command[k], s[k].external_force = external[k];
-    transmission.template evaluate<known>(time, history, at + l.effect_states, s, z_dot);
-    Dual force[kMaxJoints], torque[kMaxJoints], pull[kMaxJoints], motor_acceleration[kMaxJoints];
-    for (int k = 0; k < n; ++k) {
-      force[k] = s[k].joint_force;
-      torque[k] = s[k].motor_torque;
-      pull[k] = s[k].cable_force_motor;
-    }
-    drive_forces<known>(arm, torque, pull, force, motor_acceleration);
+    set_forces<known>(transmission, l, time, history, command, external, at, force, motor_acceleration, z_dot);
     const auto put = [&](int row, const Dual& rate) __attribute__((always_inline)) {
       x_dot[row] = rate.a;
       for (int i = 0; i < count; ++i) A[row + (first + i) * l.size] = rate.d[i];
