@@ -1,7 +1,7 @@
 /// halyard: joint positions of cable-driven arms from motor signals.
 ///
-/// Exit codes: 0 done; 2 wrong usage or unreadable or invalid input; 128 + signal if a signal ended it; 1 anything else.
-/// A failure is one line on stderr.
+/// Exit codes: 0 done; 2 wrong usage or unreadable or invalid input; 128 + signal if a signal ended it; 1 anything
+/// else. A failure is one line on stderr.
 
 #include <glog/logging.h>
 

@@ -1,5 +1,5 @@
-/// halyard_endurance: filters over torn records (tests/support/torn_record.h) of long runs, on chains of 1 to 7 joints with
-/// soft and stiff cables, with the paper's weights and with wide ones. See bench/README.md.
+/// halyard_endurance: filters over torn records (tests/support/torn_record.h) of long runs, on chains of 1 to 7 joints
+/// with soft and stiff cables, with the paper's weights and with wide ones. See bench/README.md.
 ///
 /// Exit code 1 too if a filter threw, or gave a number that is not finite or a deviation of none.
 

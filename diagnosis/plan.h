@@ -68,8 +68,8 @@ std::vector<double> detected_from(const ArmModel& model, const std::vector<Log>&
                                   const std::vector<PlacedEffect>& effects);
 
 /// The smallest share of an effect's given sizes at which the effect is detected and confused with no other; infinite
-/// if there is none, or if a diagnosis does not try these shapes in this motion, for example an order of too few periods.
-/// Throws as detection_limits() does.
+/// if there is none, or if a diagnosis does not try these shapes in this motion, for example an order of too few
+/// periods. Throws as detection_limits() does.
 double named_from(const ArmModel& model, const std::vector<Log>& logs, const PlacedEffect& effect);
 
 /// True if each joint moves along one sine or stands still. A diagnosis may then detect effects, but names none.

@@ -49,8 +49,8 @@ struct ParameterSearch {
   /// motion of the records; what changes over the whole range of speeds is another law.
   double per_motor_speed = 0;
   TolerancedNumber changes = {};  ///< the model parameter that it changes, if any
-  /// True for a size without which the effect is another one: friction that drifts at no rate is only more friction. The
-  /// effect is named only if its other sizes do not explain as much alone.
+  /// True for a size without which the effect is another one: friction that drifts at no rate is only more friction.
+  /// The effect is named only if its other sizes do not explain as much alone.
   bool is_essential = false;
 };
 
@@ -61,14 +61,14 @@ struct SearchSpace {
   /// For an effect whose torque is periodic in the motor's angle: index of the parameter that gives the number of
   /// periods per motor turn. The faster the motor turns, the less of that torque a record shows (filtered_effect.h).
   std::optional<std::size_t> order_of_motor_torque = {};
-  /// For an effect that is periodic in the joint's position: index of the parameter k of its phase k q. Unless k is a whole
-  /// number, its starts become those that the motion can tell apart.
+  /// For an effect that is periodic in the joint's position: index of the parameter k of its phase k q. Unless k is a
+  /// whole number, its starts become those that the motion can tell apart.
   std::optional<std::size_t> order_of_joint_position = {};
   /// For an effect that limits the speed of the motor: index of the parameter that is this speed, rad/s. A motor hardly
   /// exceeds it, so the search also starts a little above the fastest motion of the records.
   std::optional<std::size_t> greatest_motor_speed = {};
-  /// True if the model's numbers that the effect changes are fitted beside it: it changes them in one proportion, and so
-  /// cannot take their places.
+  /// True if the model's numbers that the effect changes are fitted beside it: it changes them in one proportion, and
+  /// so cannot take their places.
   bool numbers_stay = false;
 
   /// Throws std::invalid_argument for an unknown name.

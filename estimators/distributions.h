@@ -1,6 +1,6 @@
 #pragma once
-/// Quantiles and tails of the distributions that tests and intervals use. Boost's take seconds to compile in each file that
-/// includes them. So only one source file does, and all other code calls these functions.
+/// Quantiles and tails of the distributions that tests and intervals use. Boost's take seconds to compile in each file
+/// that includes them. So only one source file does, and all other code calls these functions.
 
 namespace halyard {
 

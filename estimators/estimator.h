@@ -1,6 +1,6 @@
 #pragma once
-/// A state estimator: it estimates the joints' motion from motor signals, and from a camera or a measured load if there is
-/// one; never from joint sensors.
+/// A state estimator: it estimates the joints' motion from motor signals, and from a camera or a measured load if there
+/// is one; never from joint sensors.
 
 #include <Eigen/Core>
 #include <memory>

@@ -86,8 +86,8 @@ struct ParameterInfo {
 /// The parameters for which arm_fields.h gives a noun (a name in words), joint by joint. Centres of mass have an entry
 /// for each axis ("joint2.link.com.x"). A link's inertia has one entry ("joint2.link.inertia"), which is its largest
 /// moment: the other moments and products stay in proportion to it, because six numbers that are changed one by one may
-/// be those of no body. Coupling coefficients are listed only for inboard joints. Parameters that do not exist at a joint
-/// are left out, such as cable stiffness at a rigid drive.
+/// be those of no body. Coupling coefficients are listed only for inboard joints. Parameters that do not exist at a
+/// joint are left out, such as cable stiffness at a rigid drive.
 std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm);
 
 }  // namespace halyard

@@ -19,8 +19,8 @@ inline constexpr std::array<std::string_view, 3> kMarkerNames = {"marker_x", "ma
 
 /// Where a standard column comes from: SI value = scale · (raw + wrap · laps) + offset.
 ///
-/// A counter or an absolute encoder starts again after a period. From one sample that is not missing to the next, `laps`
-/// changes such that the value moves by at most half a period.
+/// A counter or an absolute encoder starts again after a period. From one sample that is not missing to the next,
+/// `laps` changes such that the value moves by at most half a period.
 struct ColumnSource {
   std::string column;  ///< name in the header of the file
   double scale = 1;    ///< SI unit per raw unit: unit, sign and scale in one factor, never zero
@@ -41,11 +41,11 @@ struct ColumnSource {
 /// a scale may convert one into the other (a linear motor, a spindle).
 class ColumnMap {
  public:
-  /// SI value = sign · scale · unit · (raw + wrap · laps) + offset, with the offset in SI units and `wrap` in those of the
-  /// file.
+  /// SI value = sign · scale · unit · (raw + wrap · laps) + offset, with the offset in SI units and `wrap` in those of
+  /// the file.
   /// Throws InputError, without file and line, for a name that is no standard column or is already mapped, an empty
-  /// column, a unit that is unknown or of another quantity, a sign other than 1 or -1, a scale of zero, a number that is
-  /// not finite, or a period that is negative or belongs to no position.
+  /// column, a unit that is unknown or of another quantity, a sign other than 1 or -1, a scale of zero, a number that
+  /// is not finite, or a period that is negative or belongs to no position.
   void add(std::string_view name, std::string_view column, std::string_view unit = "", double sign = 1,
            double scale = 1, double offset = 0, double wrap = 0);
 

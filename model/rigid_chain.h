@@ -8,8 +8,8 @@
 ///   F            joint force                            [n]      N m | N
 ///   M            mass matrix                            [n x n]  kg m² | kg m | kg
 ///
-/// All vectors of link i are in its own frame. The arm's parameters may be over another scalar type P than the motion T.
-/// Source: Luh, Walker, Paul 1980; Craig, chapter 6; M by composite bodies: Walker, Orin 1982.
+/// All vectors of link i are in its own frame. The arm's parameters may be over another scalar type P than the motion
+/// T. Source: Luh, Walker, Paul 1980; Craig, chapter 6; M by composite bodies: Walker, Orin 1982.
 
 #include "transmission/arm_parameters.h"
 
@@ -235,8 +235,8 @@ HALYARD_INLINE void mass_matrix(const ArmParameters<T>& arm, const ChainPose<T>&
   }
 }
 
-/// Replaces a symmetric positive definite A by its factors, A = L D Lᵀ, with 1/D on the diagonal; ldl_solve() then solves
-/// A x = b in place for any number of right-hand sides.
+/// Replaces a symmetric positive definite A by its factors, A = L D Lᵀ, with 1/D on the diagonal; ldl_solve() then
+/// solves A x = b in place for any number of right-hand sides.
 template <class T, int Stride>
 HALYARD_INLINE void ldl_factor(int n, T A[][Stride]) {
   T D[Stride];

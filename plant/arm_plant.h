@@ -35,8 +35,8 @@ class ArmPlant {
 
   /// Throws std::runtime_error if a rate is not finite, as jacobian() does.
   void derivative(double time_s, const double* y, double* y_dot);
-  /// y' and J = ∂y'/∂y, exact; J: [size x size]. The derivatives of the chain are halyard's own with either engine, because
-  /// Simbody has none.
+  /// y' and J = ∂y'/∂y, exact; J: [size x size]. The derivatives of the chain are halyard's own with either engine,
+  /// because Simbody has none.
   void jacobian(double time_s, const double* y, double* y_dot, Eigen::Ref<Eigen::MatrixXd> J);
   /// The part of y' that comes from these terms of the drive. It contains q' = v for the joints that the terms move,
   /// and q' = 0 for the others.

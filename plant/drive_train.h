@@ -44,8 +44,8 @@ class DriveTrain {
   /// Nothing depends on the meters: their columns are 0.
   void slopes(DriveTerms terms, double time_s, const double* q, const double* v, const double* z,
               Eigen::MatrixXd& slopes) const;
-  /// rates() and slopes() at the state y [size]: joint_force and z_dot into entries n.. of y_dot [size], and their slopes
-  /// into rows n.. of J [size x size]. Leaves the first n entries and rows.
+  /// rates() and slopes() at the state y [size]: joint_force and z_dot into entries n.. of y_dot [size], and their
+  /// slopes into rows n.. of J [size x size]. Leaves the first n entries and rows.
   void linearise(DriveTerms terms, double time_s, const double* y, double* y_dot, Eigen::Ref<Eigen::MatrixXd> J) const;
 
   /// The signals of all joints, sensor errors included; s: [n]. The joints' accelerations in s are an input.

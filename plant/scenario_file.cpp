@@ -133,7 +133,8 @@ void read_integrator(const XmlElement& element, IntegratorOptions& options) {
   options.absolute_tolerance = element.number_or("absolute_tolerance", options.absolute_tolerance, "", Sign::positive);
 }
 
-/// Standard deviations [n] from one number for all joints or from one for each; none if the attribute is absent or all are zero.
+/// Standard deviations [n] from one number for all joints or from one for each; none if the attribute is absent or all
+/// are zero.
 std::vector<double> read_noise(const XmlElement& sensors, const std::string& name, const std::string& unit, int n) {
   if (!sensors.has(name)) return {};
   std::vector<double> noise = sensors.numbers(name, unit);

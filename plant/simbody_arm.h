@@ -8,9 +8,9 @@
 
 namespace halyard {
 
-/// The chain as a Simbody System whose State holds all of y: q, u, and z as auxiliary variables. Simbody's own integrators
-/// take the whole System. derivative() takes Simbody's kinematics, forces of gravity and velocity, and mass matrix, and
-/// solves for the accelerations: realizing the System up to them costs twice as much.
+/// The chain as a Simbody System whose State holds all of y: q, u, and z as auxiliary variables. Simbody's own
+/// integrators take the whole System. derivative() takes Simbody's kinematics, forces of gravity and velocity, and mass
+/// matrix, and solves for the accelerations: realizing the System up to them costs twice as much.
 class SimbodyArm : public RigidArm {
  public:
   explicit SimbodyArm(const DriveTrain& drive);

@@ -85,8 +85,8 @@ struct ArmParameters {
   JointParameters<T> joint[kMaxJoints];
 };
 
-/// The number of joints: arm.n, or `known` if the caller has checked that it is arm.n. A number that is known at compile
-/// time lets the compiler unroll the loops over joints. Functions that have this parameter pass it on.
+/// The number of joints: arm.n, or `known` if the caller has checked that it is arm.n. A number that is known at
+/// compile time lets the compiler unroll the loops over joints. Functions that have this parameter pass it on.
 template <int known = 0, class T>
 HALYARD_INLINE int joint_count(const ArmParameters<T>& arm) {
   static_assert(known <= kMaxJoints);

@@ -12,8 +12,8 @@
 ///   motor         on_motor()           s.motor_torque, after the motor's own friction
 ///   joint         on_joint()           s.joint_force, after the joint's own friction
 ///   sensors       on_sensors()         s.motor_error, s.joint_error: reading minus truth
-///   states        state_rate()         z_dot; it may use s.motor_torque only if the effect acts at the command or motor
-///                                      stage
+///   states        state_rate()         z_dot; it may use s.motor_torque only if the effect acts at the command or
+///                                      motor stage
 ///
 /// To write an effect, derive from EffectOf<Yours> and define the members that you need as templates over the scalar T
 /// (scalar.h). effects/cable/backlash.cpp is an example without states, effects/cable/hysteresis.cpp one with states.

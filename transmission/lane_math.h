@@ -1,7 +1,7 @@
 #pragma once
 /// exp, tanh, sinh, sin and cos of vectors of doubles, from additions, multiplications, one division at most, and bit
-/// operations. They are inlined, so a compiler can overlap the functions of several joints, and give the same kind of code
-/// for every instruction set.
+/// operations. They are inlined, so a compiler can overlap the functions of several joints, and give the same kind of
+/// code for every instruction set.
 ///
 ///   exp(x) - 1 = 2^k p(r) + (2^k - 1)      k = round(x / ln 2),  r = x - k ln 2,  p(r) = Σ_{i=1..13} r^i / i!
 ///   tanh(x)    = -m / (m + 2)              m = exp(-2 |x|) - 1, with the sign of x
@@ -9,11 +9,11 @@
 ///   sin, cos                               k = round(x 2/π),  r = x - k π/2,  Taylor polynomials of degree 15 and 16
 ///
 /// Error bounds, checked by tests: relative 4 ε for exp, tanh and sinh (ε = 2^-52); absolute 2 ε for sin and cos of
-/// |x| < 1e5. Larger angles lose digits in proportion; beyond 1e9 the result means nothing. The argument of exp and sinh
-/// is limited to ±708. NaN stays NaN.
+/// |x| < 1e5. Larger angles lose digits in proportion; beyond 1e9 the result means nothing. The argument of exp and
+/// sinh is limited to ±708. NaN stays NaN.
 ///
-/// The constants of r are split in parts, so that k times the first part is exact. Source: Cody and Waite, Software Manual
-/// for the Elementary Functions, 1980.
+/// The constants of r are split in parts, so that k times the first part is exact. Source: Cody and Waite, Software
+/// Manual for the Elementary Functions, 1980.
 
 #define HALYARD_INLINE inline __attribute__((always_inline))
 

@@ -1,8 +1,8 @@
 #pragma once
-/// n doubles that are calculated with side by side, in pieces of `width`. GCC keeps vectors that are wider than a register
-/// in memory, so code that has to be fast takes pieces as wide as the registers of the instruction set that a file is
-/// compiled for. Size and alignment, 8 n bytes, do not depend on the width, so files compiled for different sets can
-/// exchange them.
+/// n doubles that are calculated with side by side, in pieces of `width`. GCC keeps vectors that are wider than a
+/// register in memory, so code that has to be fast takes pieces as wide as the registers of the instruction set that a
+/// file is compiled for. Size and alignment, 8 n bytes, do not depend on the width, so files compiled for different
+/// sets can exchange them.
 ///
 /// The operations are forced inline. Otherwise a file compiled for a wider instruction set would leave copies of them,
 /// and other files might call these copies.

@@ -6,9 +6,9 @@
 ///   Lanes    kLaneWidth values side by side in vector registers: many sigma points, or many
 ///            parameter sets, in little more time than one
 ///
-/// Code over a scalar T branches with select(condition, a, b) and uses min, max, abs, tanh, exp, sinh, sin, cos, sin_cos, sqrt, log of
-/// this header. A library's automatic differentiation type cannot replace Dual: its expression templates cannot be
-/// arguments of a virtual function, and they have no lanes.
+/// Code over a scalar T branches with select(condition, a, b) and uses min, max, abs, tanh, exp, sinh, sin, cos,
+/// sin_cos, sqrt, log of this header. A library's automatic differentiation type cannot replace Dual: its expression
+/// templates cannot be arguments of a virtual function, and they have no lanes.
 
 #include <cmath>
 #include <cstddef>

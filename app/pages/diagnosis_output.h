@@ -35,7 +35,8 @@ void add_log_findings(report::Page& page, const Diagnosis& diagnosis);
 void add_error_table(report::Page& page, const Diagnosis& diagnosis);
 /// These errors as bias and spread, and of moving and resting samples. Adds nothing if nothing is compared.
 void add_error_parts(report::Page& page, const Diagnosis& diagnosis);
-/// 95 % intervals of the predicted joint positions, and how many samples they contain. Adds nothing without joint sensors.
+/// 95 % intervals of the predicted joint positions, and how many samples they contain. Adds nothing without joint
+/// sensors.
 void add_intervals(report::Page& page, const Diagnosis& diagnosis);
 /// Errors of the estimators with the given and with the revised model, and results from their innovations. Adds nothing
 /// without an evaluation.

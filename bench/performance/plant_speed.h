@@ -14,8 +14,9 @@ struct PlantSpeed {
   double simbody_error = 0;
 };
 
-/// The RAVEN-II moving and at rest, with a cable of link 1 a hundred times as stiff and damped, with friction that is ten
-/// times as sharp, and under a noise of the torques that friction carries. The two engines take turns, and the best of some runs counts.
+/// The RAVEN-II moving and at rest, with a cable of link 1 a hundred times as stiff and damped, with friction that is
+/// ten times as sharp, and under a noise of the torques that friction carries. The two engines take turns, and the best
+/// of some runs counts.
 std::vector<PlantSpeed> time_plant(double duration_s);
 
 }  // namespace halyard

@@ -1,6 +1,6 @@
 #pragma once
-/// Times of the steps of several filters, measured in turns: a block of each variant after the other, so that all of them
-/// meet the same state of the machine.
+/// Times of the steps of several filters, measured in turns: a block of each variant after the other, so that all of
+/// them meet the same state of the machine.
 
 #include <functional>
 #include <string>

@@ -127,8 +127,8 @@ double first_estimate(std::vector<JointLateness> joints) {
   return best == joints.end() ? 0 : best->delay;
 }
 
-/// What a fit of the model's numbers together with a delay of each slow sensor adds to `late`, by the joints that agree;
-/// nothing if too few agree. Zero and ratio of each joint are free, as in the regression.
+/// What a fit of the model's numbers together with a delay of each slow sensor adds to `late`, by the joints that
+/// agree; nothing if too few agree. Zero and ratio of each joint are free, as in the regression.
 std::optional<double> correction(const Log& log, const ArmModel& model, const std::vector<JointLateness>& joints,
                                  double late) {
   const Evidence evidence(records_of(log, model, late), model, Split::none);

@@ -8,8 +8,8 @@
 
 namespace halyard {
 
-/// Parameter i of the fit. Its interval does not reach beyond what the number can be. That of a size of an effect that was
-/// found ends at the neutral value.
+/// Parameter i of the fit. Its interval does not reach beyond what the number can be. That of a size of an effect that
+/// was found ends at the neutral value.
 /// given: number of effects that the model came with.
 Estimated estimate_of(const Fit& fit, std::size_t i, std::size_t given);
 

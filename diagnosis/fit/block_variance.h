@@ -9,7 +9,8 @@
 ///   B      blocks; each is several correlation times of the residual long
 ///
 /// It holds whatever the scale and the correlation of the residuals are, as long as blocks are nearly independent.
-/// Source: Jaeckel, The infinitesimal jackknife, Bell Labs (1972); Cameron, Miller, J. Human Resources 50 (2015), eq. 11.
+/// Source: Jaeckel, The infinitesimal jackknife, Bell Labs (1972); Cameron, Miller, J. Human Resources 50 (2015),
+/// eq. 11.
 
 #include <Eigen/Core>
 #include <span>

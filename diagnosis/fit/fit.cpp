@@ -148,8 +148,8 @@ class StopAtBound : public ceres::IterationCallback {
   std::vector<int> known_;
 };
 
-/// Bounded least squares from u on; false if the start cannot be integrated. Parameters that are pressed against a bound
-/// are held there, and the others are fitted, until the same ones are pressed.
+/// Bounded least squares from u on; false if the start cannot be integrated. Parameters that are pressed against a
+/// bound are held there, and the others are fitted, until the same ones are pressed.
 bool minimise(const Residual& residual, const std::vector<FitParameter>& parameters, const FitOptions& options,
               std::vector<double>& u) {
   ceres::Problem::Options ownership;

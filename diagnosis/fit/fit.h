@@ -52,8 +52,8 @@ std::vector<double> independent_rows(const Evidence& evidence, const std::vector
 std::vector<std::vector<double>> sensitivities(const Evidence& evidence, const Hypothesis& at,
                                                const std::vector<FitParameter>& parameters);
 
-/// Fits `parameters`, except whole numbers, which keep their value. The first of them are linear: they have the constant
-/// sensitivities `linear`. Whole numbers are not among these.
+/// Fits `parameters`, except whole numbers, which keep their value. The first of them are linear: they have the
+/// constant sensitivities `linear`. Whole numbers are not among these.
 Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<FitParameter>& parameters,
         const std::vector<double>& scale, const FitOptions& options = {},
         const std::vector<std::vector<double>>& linear = {});

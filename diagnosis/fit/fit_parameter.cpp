@@ -15,8 +15,8 @@ constexpr double kStep = 0.1;
 /// vibrate, which is not linear in the instant beyond a fraction of a period.
 constexpr double kInstantScale = RecordOptions{}.step_s / kStep;
 
-/// Starts of a wave number so close that one of them is within a quarter of a period of the truth over the whole motion:
-/// a fit finds its way no farther.
+/// Starts of a wave number so close that one of them is within a quarter of a period of the truth over the whole
+/// motion: a fit finds its way no farther.
 void start_at_every_half_period(FitParameter& f, double span) {
   constexpr int kMost = 200;
   const double spacing = std::max(std::numbers::pi / span, (f.upper - f.lower) / kMost);

@@ -60,8 +60,8 @@ struct ParameterGroup {
 };
 /// The groups of all effects in the list; baseline parameters are in none.
 std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameters);
-/// True if an effect's parameter is at its plausible bound. False at its neutral value, even if that is a bound, and for
-/// whole numbers: the lowest order that the motion shows is as plausible as the next.
+/// True if an effect's parameter is at its plausible bound. False at its neutral value, even if that is a bound, and
+/// for whole numbers: the lowest order that the motion shows is as plausible as the next.
 bool ends_at_bound(const FitParameter& p, double value);
 /// True if a change of the effect's parameters also changes that baseline parameter.
 bool effect_changes(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline);

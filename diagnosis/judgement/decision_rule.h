@@ -1,6 +1,6 @@
 #pragma once
-/// The thresholds that decide what a diagnosis names: what each means, its value, and why. Thresholds that only one step
-/// uses stand beside it.
+/// The thresholds that decide what a diagnosis names: what each means, its value, and why. Thresholds that only one
+/// step uses stand beside it.
 
 #include <cstddef>
 
@@ -20,15 +20,16 @@ struct DecisionRule {
   /// The same for an effect that only changes a number of the model, as an offset does: its equation has no other form.
   /// Reason: what it misses comes from the model's other numbers, which are some percent off.
   double number_misfit = 0.03;
-  /// An effect that explains less still matters if the model's numbers lie so much closer to the model's values with it:
-  /// fall of their prior cost ½ Σ u². Reason: a number at the end of its tolerance costs 2, so without the effect five
-  /// numbers would have to be there. A residual that numbers hide is no error of form of an effect found before.
+  /// An effect that explains less still matters if the model's numbers lie so much closer to the model's values with
+  /// it: fall of their prior cost ½ Σ u². Reason: a number at the end of its tolerance costs 2, so without the effect
+  /// five numbers would have to be there. A residual that numbers hide is no error of form of an effect found before.
   double relief = 10;
   /// The change by an effect has to be this many times the floor of its channel, in at least one signal.
   double above_floor = 1.5;
   /// Gain in log-likelihood that one more parameter gives by chance. Reason: two standard deviations of χ²(1) / 2.
   double by_chance = 2;
-  /// Prior cost of a candidate with a parameter at its bound, nats. Reason: a number at the end of its tolerance costs 2.
+  /// Prior cost of a candidate with a parameter at its bound, nats. Reason: a number at the end of its tolerance costs
+  /// 2.
   double at_bound = 2;
   /// A candidate whose quick fit has a larger p value than this is neither fitted fully nor judged further.
   double worth_a_fit = 0.05;
@@ -57,8 +58,8 @@ struct DecisionRule {
   double shared_gain = 0.5;
   /// s of P(none), see name_probability.h.
   double none_sharpness = 1.5;
-  /// An effect is told if this is the least probability that its name or one of its alternatives is right. Reason: below
-  /// one half it is more probable that all of them are wrong.
+  /// An effect is told if this is the least probability that its name or one of its alternatives is right. Reason:
+  /// below one half it is more probable that all of them are wrong.
   double worth_a_name = 0.5;
   /// The set of names that is reported holds the truth with this probability.
   double set_share = 0.9;
@@ -73,7 +74,8 @@ struct DecisionRule {
 
   /// A candidate that promises less than this share of the residual, to first order, is not fitted.
   double promise = 0.02;
-  /// Nor is one that promises less than this share of a single channel. Reason: that of six channels which is 0.02 of all.
+  /// Nor is one that promises less than this share of a single channel. Reason: that of six channels which is 0.02 of
+  /// all.
   double promise_of_channel = 0.12;
   /// Number of candidates that are fitted in a round: those with the smallest residual at the start of their search.
   std::size_t most_fitted = 16;
@@ -81,15 +83,15 @@ struct DecisionRule {
   /// of a hysteresis ends in one of several minima, and the start that leaves least is often not in the lowest.
   std::size_t starts_fitted = 3;
   /// The first `leaders` of those are fitted fully, if their gain is at least the share `leads` of the largest gain. So
-  /// are the `leaders_by_rest` whose fits leave least. Reason: a quick fit keeps the model's numbers linear, and its gain
-  /// can be negative although the effect is the right one.
+  /// are the `leaders_by_rest` whose fits leave least. Reason: a quick fit keeps the model's numbers linear, and its
+  /// gain can be negative although the effect is the right one.
   std::size_t leaders = 4, leaders_by_rest = 2;
   double leads = 0.25;
-  /// A fit is nudged again if the last nudges gained more than this in log-likelihood. Reason: a quarter of what one more
-  /// parameter gains by chance decides nothing.
+  /// A fit is nudged again if the last nudges gained more than this in log-likelihood. Reason: a quarter of what one
+  /// more parameter gains by chance decides nothing.
   double worth_a_nudge = 0.5;
-  /// After `first_passes` passes, the same rule with the share `still_leads` decides which of the full fits go on, up to
-  /// `most_passes` in all.
+  /// After `first_passes` passes, the same rule with the share `still_leads` decides which of the full fits go on, up
+  /// to `most_passes` in all.
   int first_passes = 3, most_passes = 12;
   double still_leads = 0.5;
 };

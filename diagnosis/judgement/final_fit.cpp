@@ -136,8 +136,8 @@ bool has_usual_value(const FitParameter& p) {
   return p.shape && !p.is_past && p.natural_bounds && (p.nominal == p.lower || p.nominal == p.upper);
 }
 
-/// Resets the sizes of added effects, and shapes to their usual values, until all that are left are certain. The numbers of
-/// the model stay in the fit.
+/// Resets the sizes of added effects, and shapes to their usual values, until all that are left are certain. The
+/// numbers of the model stay in the fit.
 Fit keep_certain_sizes(const Evidence& whole, const Fit& f, std::size_t given) {
   std::vector<bool> may_go;
   for (const FitParameter& p : f.parameters) may_go.push_back(p.effect >= given && (!p.shape || has_usual_value(p)));
@@ -157,8 +157,9 @@ Fit keep_certain_sizes(const Evidence& whole, const Fit& f, std::size_t given) {
   return again.usable ? keep_certain_sizes(whole, again, given) : f;
 }
 
-/// Standard deviations of effects that keep some of their parameters, as if they had kept all of them: what was reset may be
-/// wrong. `all` is the fit before the first reset. A mean square: the variance there and the shift by the resets.
+/// Standard deviations of effects that keep some of their parameters, as if they had kept all of them: what was reset
+/// may be wrong. `all` is the fit before the first reset. A mean square: the variance there and the shift by the
+/// resets.
 void count_resets(const Fit& all, std::size_t given, Fit& f) {
   const auto has_lost_one = [&](std::size_t effect) {
     return std::ranges::any_of(all.parameters, [&](const FitParameter& p) {

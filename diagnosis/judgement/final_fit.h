@@ -11,8 +11,8 @@ namespace halyard {
 /// All numbers of the model stay in the fit, held by their tolerances: a number that was set back to the model's value
 /// would be taken for exact, and what it is off would go into the effects' parameters. Sizes of effects that did not
 /// change significantly are reset to neutral, one at a time, the least certain first, and the others are fitted again.
-/// An effect all of whose sizes are reset has no parameter in the result. The standard deviations of an effect that keeps
-/// some of its sizes count what the others may be.
+/// An effect all of whose sizes are reset has no parameter in the result. The standard deviations of an effect that
+/// keeps some of its sizes count what the others may be.
 /// given: number of effects that the model came with; they stay.
 /// If the refit cannot be integrated, the result is that of `chosen`. If `chosen` is only a start, or cannot be
 /// integrated either, the result is not usable.
@@ -35,8 +35,9 @@ std::vector<std::size_t> changed_numbers(const Evidence& whole, const ArmModel& 
 /// The fit with the numbers of the model as given; only its other parameters are fitted.
 Fit with_given_numbers(const Evidence& whole, const ArmModel& model, const Fit& fit);
 
-/// The fit with its effects as they are, and with the model's motion: the numbers on which the motion of the joints depends
-/// are as given, and the others (of the motors, of the torque) are fitted again. Not usable if it cannot be integrated.
+/// The fit with its effects as they are, and with the model's motion: the numbers on which the motion of the joints
+/// depends are as given, and the others (of the motors, of the torque) are fitted again. Not usable if it cannot be
+/// integrated.
 Fit with_given_motion(const Evidence& whole, const ArmModel& model, const Fit& fit);
 
 }  // namespace halyard

@@ -54,16 +54,16 @@ PredictionError prediction_errors(const HoldOut& joints, const HoldOut& torques,
 /// Predictions of all records.
 std::vector<FullPrediction> predict_all(const std::vector<Record>& records, const Hypothesis& hypothesis);
 
-/// [2n] The floor of each channel on the hold-out. It is the evidence's floor, except for a channel that no training data
-/// show: nothing was fitted to it, so the model's numbers are wrong there by as much as their tolerances allow. A change of
-/// the model that is right elsewhere may add to this error by chance, but by less than the error itself.
+/// [2n] The floor of each channel on the hold-out. It is the evidence's floor, except for a channel that no training
+/// data show: nothing was fitted to it, so the model's numbers are wrong there by as much as their tolerances allow. A
+/// change of the model that is right elsewhere may add to this error by chance, but by less than the error itself.
 ///
 ///   floor² = mean over samples of Σ_p (∂r/∂θ_p · tolerance_p)²        r: residual, θ_p: numbers of the model
 std::vector<double> holdout_floors(const Evidence& evidence, const ArmModel& model, const HoldOut& joints,
                                    const HoldOut& torques);
 
-/// Squares of the errors of one prediction of both views, in squared floors [2n]. Channels without a floor and torques of
-/// motors at rest do not count.
+/// Squares of the errors of one prediction of both views, in squared floors [2n]. Channels without a floor and torques
+/// of motors at rest do not count.
 double error_over_floors(const ArmModel& model, const HoldOut& joints, const HoldOut& torques,
                          std::vector<FullPrediction> HoldOut::*which, const std::vector<double>& floor);
 

@@ -110,9 +110,9 @@ bool Judge::explains_a_rest(const Score& before, const Score& after) const {
 }
 
 /// Indices of the sizes that end at a bound or whose shape does, and that do more there than one number by chance; the
-/// sizes of a push whose instants are both ends of the record or of the motion are among them. A group of sizes whose shape
-/// is at its bound does not count if it does next to nothing of what the whole effect does: for example a wall at the end
-/// of the motion that only improves the form of a tug.
+/// sizes of a push whose instants are both ends of the record or of the motion are among them. A group of sizes whose
+/// shape is at its bound does not count if it does next to nothing of what the whole effect does: for example a wall at
+/// the end of the motion that only improves the form of a tug.
 std::vector<std::size_t> Judge::sizes_at_bound(const Scored& with, std::size_t place) const {
   constexpr double kNextToNothing = 0.1;
   const Hypothesis& h = with.hypothesis;
@@ -161,8 +161,8 @@ std::optional<Hypothesis> Judge::without_sizes_at_bound(const Hypothesis& h, std
   return !gone.empty() && is_left ? std::optional(reduced) : std::nullopt;
 }
 
-/// False for a shape that may as well have any of the values at which it is looked for: the size that it belongs to is not
-/// there.
+/// False for a shape that may as well have any of the values at which it is looked for: the size that it belongs to is
+/// not there.
 bool Judge::acts(const Scored& with, const FitParameter& shape) const {
   const std::vector<double> ends = {shape.lower, shape.upper};
   return std::ranges::any_of(shape.starts.empty() ? ends : shape.starts, [&](double value) {
@@ -173,8 +173,8 @@ bool Judge::acts(const Scored& with, const FitParameter& shape) const {
   });
 }
 
-/// True for an effect between two instants that acts all the time or all the time that the arm moves, nearly, or as well
-/// might: it is an offset or belongs to the motion, which other effects explain.
+/// True for an effect between two instants that acts all the time or all the time that the arm moves, nearly, or as
+/// well might: it is an offset or belongs to the motion, which other effects explain.
 bool Judge::lasts_as_long_as_the_motion(const Scored& with, const std::vector<FitParameter>& parameters,
                                         const ParameterGroup& group) const {
   constexpr double kNearly = 0.05;  // of the time
@@ -266,8 +266,8 @@ bool Judge::takes_a_share(const Score& before, const Score& after, const std::ve
 }
 
 /// The effect takes a share of a residual that noise does not explain, or relieves the model's numbers. It also changes
-/// some signal by much more than the sensor resolves. The deciding blocks have to show such a residual. Otherwise, after
-/// one burst in the fitting blocks, an effect would count for what it does elsewhere below the noise.
+/// some signal by much more than the sensor resolves. The deciding blocks have to show such a residual. Otherwise,
+/// after one burst in the fitting blocks, an effect would count for what it does elsewhere below the noise.
 bool Judge::matters(const Scored& without, const Scored& with, std::size_t place) const {
   bool counts = prior_cost(without.hypothesis) - prior_cost(with.hypothesis) > kRule.relief;
   const auto before = misfits(without);

@@ -66,8 +66,8 @@ std::vector<bool> significant_rest(const Evidence& evidence, const Score& score)
 /// mean_square: [2n].
 bool is_beyond_noise(const Evidence& evidence, const std::vector<double>& mean_square, int channel);
 
-/// The channel whose mean square on the deciding blocks an effect lowers most, in squares of the channel's floor; nothing
-/// if it lowers none.
+/// The channel whose mean square on the deciding blocks an effect lowers most, in squares of the channel's floor;
+/// nothing if it lowers none.
 std::optional<int> most_explained_channel(const Evidence& evidence, const Score& with, const Score& without);
 
 /// What an effect may miss although it is the right one, relative to what it does: form_misfit of decision_rule.h, or
@@ -89,11 +89,11 @@ class Judge {
 
   /// Probability of such a gain by chance.
   double p_of_gain(const Score& with, const Score& without) const;
-  /// The gain of `a` above `b`: what it explains more of the deciding blocks, less its further prior cost. Neither has to
-  /// contain the other's effects.
+  /// The gain of `a` above `b`: what it explains more of the deciding blocks, less its further prior cost. Neither has
+  /// to contain the other's effects.
   double gain_over(const Scored& a, const Scored& b) const;
-  /// The effect at `place` without those of its sizes that lie at a plausible bound, or whose shape does; nothing if none
-  /// does or no size would be left. These sizes and their shapes are `given_up`.
+  /// The effect at `place` without those of its sizes that lie at a plausible bound, or whose shape does; nothing if
+  /// none does or no size would be left. These sizes and their shapes are `given_up`.
   std::optional<Hypothesis> without_sizes_at_bound(const Hypothesis& h, std::size_t place,
                                                    std::vector<FitParameter>& given_up) const;
   /// True if an added effect ends at its plausible bound, so that the final fit would take back what it explains.

@@ -6,8 +6,8 @@
 ///
 ///   l_ib   ln L of candidate i on deciding block b (likelihood.h)
 ///   ω_d    one draw of weights of the B blocks, Dirichlet(1, ..., 1): another log of the same arm
-///   π_i    prior: exp(-(numbers that the candidate adds) - (the prior cost of the model's own numbers, judge.h)); an equation
-///          of its own counts like one more number
+///   π_i    prior: exp(-(numbers that the candidate adds) - (the prior cost of the model's own numbers, judge.h)); an
+///          equation of its own counts like one more number
 ///
 /// Source: pseudo-BMA+ of Yao, Vehtari, Simpson, Gelman, Bayesian Analysis 13 (2018), section 3.4.
 ///

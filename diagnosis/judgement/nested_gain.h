@@ -1,8 +1,8 @@
 #pragma once
-/// Does an effect explain anything of a residual? The hypothesis without the effect is the one with it at size zero: the
-/// two are nested. The square of the error with the effect contains, beside what is unexplained, the error of the fitted
-/// size. A difference of the squares is therefore positive on average only if more than half of the fitted size is
-/// right. That no effect is there is tested by what the change and the residual have in common:
+/// Does an effect explain anything of a residual? The hypothesis without the effect is the one with it at size zero:
+/// the two are nested. The square of the error with the effect contains, beside what is unexplained, the error of the
+/// fitted size. A difference of the squares is therefore positive on average only if more than half of the fitted size
+/// is right. That no effect is there is tested by what the change and the residual have in common:
 ///
 ///   g_b = Σ_c (n_bc / m)  2 ⟨e d⟩ / (⟨e²⟩ + ⟨d²⟩ + λ_c²),   d = e - e'
 ///

@@ -149,8 +149,8 @@ bool has_lasting_laps(const Samples& s, double period) {
   return lasting > 0 || lost > kFewLost;
 }
 
-/// Whether a reading runs through a period again and again: it stays within one period, and a step of nearly a period is
-/// a usual step once the period is taken off.
+/// Whether a reading runs through a period again and again: it stays within one period, and a step of nearly a period
+/// is a usual step once the period is taken off.
 bool runs_in_laps(const Samples& s, double period) {
   if (spread(s.x) > (1 + 1e-6) * period) return false;
   double largest = 0, largest_at_end = 0;

@@ -63,8 +63,9 @@ double usual_distance(const std::vector<Reading>& s) {
     from_median.push_back(std::abs(x[i] - median({x[i - 2], x[i - 1], x[i], x[i + 1], x[i + 2]})));
     from_mean.push_back(std::abs(x[i] - 0.5 * (x[i - 1] + x[i + 1])));
   }
-  // Quantiles that are one and two standard deviations of Gaussian noise. The higher ones count where most differences of
-  // a rounded reading are 0. An outlier is in three of from_mean, but in one of from_median: 4 % of outliers do no harm.
+  // Quantiles that are one and two standard deviations of Gaussian noise. The higher ones count where most differences
+  // of a rounded reading are 0. An outlier is in three of from_mean, but in one of from_median: 4 % of outliers do no
+  // harm.
   return std::max({smallest_step(s), 1e-6 * spread(x), 1.48 * median(from_median), 1.48 * median(from_mean),
                    quantile(from_mean, 0.68), 0.5 * quantile(from_mean, 0.85), 0.5 * quantile(from_median, 0.95)});
 }

@@ -31,8 +31,8 @@ struct Outliers {
 struct OutlierRule {
   /// factor. Gaussian noise reaches 6 once in 10^9 samples.
   double factor = 10;
-  /// Least min |d| of a torque, as a share of the width of its central 98 %. The currents of real drives have short peaks
-  /// far above their noise, and below this share they do no harm.
+  /// Least min |d| of a torque, as a share of the width of its central 98 %. The currents of real drives have short
+  /// peaks far above their noise, and below this share they do no harm.
   double torque_share = 0.5;
 };
 

@@ -53,8 +53,8 @@ std::optional<std::size_t> rows_a_reading(const std::vector<EqualReadings>& runs
   return static_cast<std::size_t>(std::lround(median(rows)));
 }
 
-/// The rows that repeat a reading, the last first; none if the column does not repeat its readings. rows: the usual number
-/// of rows of a reading.
+/// The rows that repeat a reading, the last first; none if the column does not repeat its readings. rows: the usual
+/// number of rows of a reading.
 std::vector<std::size_t> repeats_in(const std::vector<double>& x, double resolution, std::size_t& rows) {
   const std::vector<EqualReadings> runs = equal_readings(x);
   const double step = std::max(resolution, smallest_change(runs));

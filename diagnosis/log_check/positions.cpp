@@ -15,8 +15,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kChange_s = 0.5;  ///< between two samples whose change is compared: longer than delays and vibrations
 
-/// Slope of joint k's reading over its expectation, or, if that explains more, of the reading plus coupling over what its
-/// own motor gives. The first suits a wrong reading; the second a wrong motor, whose coupling is right.
+/// Slope of joint k's reading over its expectation, or, if that explains more, of the reading plus coupling over what
+/// its own motor gives. The first suits a wrong reading; the second a wrong motor, whose coupling is right.
 Slope slope_at(const SampledMotion& m, int k) {
   const double longest = 0.25 * m.step * static_cast<double>(m.time.size());
   const auto change = static_cast<std::size_t>(std::max(1.0, std::min(kChange_s, longest) / m.step));

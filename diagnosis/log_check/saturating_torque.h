@@ -1,7 +1,7 @@
 #pragma once
-/// A wrong unit or a motor that saturates? Either makes the torque that a motion requires much smaller than the recorded
-/// one. A wrong unit makes every torque smaller by the same factor. A motor that saturates follows small commands and
-/// loses what is above its limit.
+/// A wrong unit or a motor that saturates? Either makes the torque that a motion requires much smaller than the
+/// recorded one. A wrong unit makes every torque smaller by the same factor. A motor that saturates follows small
+/// commands and loses what is above its limit.
 ///
 ///   wrong unit:  y = f x + c sgn(x),                   f within a range, any c
 ///   saturation:  y = x - ρ (x - clamp(x, -L, L)),      0 <= ρ <= 1, L > 0

@@ -197,8 +197,8 @@ HALYARD_INLINE void copy_state(int n, int m, const DrivenState<T>& from, DrivenS
   for (int k = 0; k < m; ++k) to.z[k] = from.z[k];
 }
 
-/// One step of x from time over h; input(t, at) sets the DrivenInput at time t. row, if not null: torque residual [n] and
-/// joint reading [n] at the start of the step.
+/// One step of x from time over h; input(t, at) sets the DrivenInput at time t. row, if not null: torque residual [n]
+/// and joint reading [n] at the start of the step.
 template <int known = 0, class T, class Input>
 HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time, double h, const Chebyshev& c,
                                 const CommandHistory* history, const Input& input, DrivenState<T>& x, T* row) {
@@ -252,8 +252,8 @@ HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const Driv
   }
 }
 
-/// Computes the output of drive_record with the same scheme from its `states`: for hypotheses that differ only in parameters on which the
-/// motion does not depend.
+/// Computes the output of drive_record with the same scheme from its `states`: for hypotheses that differ only in
+/// parameters on which the motion does not depend.
 template <int known = 0, class T>
 HALYARD_INLINE void replay_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
                                   double start, double dt, const Chebyshev& scheme, const CommandHistory* history,

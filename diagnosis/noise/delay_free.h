@@ -13,8 +13,8 @@
 
 namespace halyard {
 
-/// The residual without what goes with the command's rate; one run for each record, samples `interval` apart. NaN stay and
-/// do not count.
+/// The residual without what goes with the command's rate; one run for each record, samples `interval` apart. NaN stay
+/// and do not count.
 std::vector<std::vector<double>> delay_free(std::vector<std::vector<double>> residual,
                                             const std::vector<std::vector<double>>& command_rate, double interval);
 

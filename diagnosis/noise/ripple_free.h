@@ -1,6 +1,6 @@
 #pragma once
-/// Ripples of a motor's torque repeat with its angle, so they are no noise of the sensors. In a moving motor they spread
-/// over the same frequencies as noise, and are removed before the noise is estimated.
+/// Ripples of a motor's torque repeat with its angle, so they are no noise of the sensors. In a moving motor they
+/// spread over the same frequencies as noise, and are removed before the noise is estimated.
 ///
 ///   minimise over a_m, b_m   Σ (e - Σ_m (a_m cos mθ + b_m sin mθ))²,   m = first, ..., kHighestOrder
 ///

@@ -1,8 +1,8 @@
 #pragma once
 /// Decides whether a diagnosis would detect a change of the residual, by the rules of judge.h on the fitting rows.
 ///
-/// The change is what is left of it when the model's own numbers are refitted. It is detected if, beside the residual of
-/// the model as given,
+/// The change is what is left of it when the model's own numbers are refitted. It is detected if, beside the residual
+/// of the model as given,
 ///
 /// - the change, and what is left of it, are well above the floor of a channel;
 /// - it makes up a sufficient share of a channel's mean square;
@@ -18,8 +18,8 @@ namespace halyard {
 
 class ChangeDetector {
  public:
-  /// residual: the weighted rows of the model as given. level: the significance. Throws InputError if there are fewer than
-  /// three blocks.
+  /// residual: the weighted rows of the model as given. level: the significance. Throws InputError if there are fewer
+  /// than three blocks.
   ChangeDetector(const Evidence& evidence, const BaselineReach& reach, const Eigen::VectorXd& residual, double level);
 
   /// change: weighted rows; an empty one is never detected.

@@ -209,8 +209,8 @@ Planner::SizedCandidate Planner::sized(const PlacedEffect& candidate) const {
   return c;
 }
 
-/// The shapes at which the first size changes most, and what each size changes there. One size at a time is tried at its
-/// typical value, at each set of shapes.
+/// The shapes at which the first size changes most, and what each size changes there. One size at a time is tried at
+/// its typical value, at each set of shapes.
 Hypothesis Planner::best_shapes(const SizedCandidate& c, Shown& shown, std::vector<Eigen::VectorXd>& columns) const {
   Hypothesis neutral = c.with;
   place_shapes(neutral, c.parameters);

@@ -7,8 +7,8 @@
 
 namespace halyard {
 
-/// κ of motor k under a hypothesis, at least 0.05 times the motor's torque_scale. If the command never changes, it is the
-/// torque_scale. history: the record's commands.
+/// κ of motor k under a hypothesis, at least 0.05 times the motor's torque_scale. If the command never changes, it is
+/// the torque_scale. history: the record's commands.
 double acting_over_commanded(const Record& record, const Hypothesis& h, int k, const CommandHistory& history);
 
 }  // namespace halyard

@@ -40,8 +40,8 @@ struct PredictionRequest {
   int stride;
 };
 
-/// Residuals of each hypothesis of each request. They depend neither on the other requests nor on the number of threads.
-/// Inside run_side_by_side() (side_by_side.h) the requests of all jobs share lanes.
+/// Residuals of each hypothesis of each request. They depend neither on the other requests nor on the number of
+/// threads. Inside run_side_by_side() (side_by_side.h) the requests of all jobs share lanes.
 std::vector<std::vector<Residuals>> predict(const std::vector<PredictionRequest>& requests);
 std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesis>& hypotheses, int stride);
 /// Without waiting for other jobs.

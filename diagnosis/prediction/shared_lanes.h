@@ -1,6 +1,6 @@
 #pragma once
-/// Hypotheses with different effects side by side in the lanes of one transmission. An effect that only some of them have
-/// is neutral in the other lanes.
+/// Hypotheses with different effects side by side in the lanes of one transmission. An effect that only some of them
+/// have is neutral in the other lanes.
 
 #include <vector>
 
@@ -24,8 +24,8 @@ class CommonEffects {
   std::vector<PlacedEffect> all_;
 };
 
-/// Up to kLaneWidth hypotheses, packed; lanes that are left over repeat the first. Hypotheses and record have to outlive
-/// this object.
+/// Up to kLaneWidth hypotheses, packed; lanes that are left over repeat the first. Hypotheses and record have to
+/// outlive this object.
 class SharedLanes {
  public:
   SharedLanes(std::vector<const Hypothesis*> hypotheses, const Record& record);

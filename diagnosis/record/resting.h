@@ -12,8 +12,8 @@ namespace halyard {
 ///        joint, so that they do not rely on the model's own value; reported errors take the model's motor_smoothing
 bool rests(const Record& record, int k, std::size_t at, double v_s);
 
-/// motor_smoothing of joint k, or the smallest that its tolerance admits, but at least a tenth: with a model's own value
-/// that is too large, the samples that show a smaller one would not count.
+/// motor_smoothing of joint k, or the smallest that its tolerance admits, but at least a tenth: with a model's own
+/// value that is too large, the samples that show a smaller one would not count.
 double slowest_smoothing(const ArmModel& model, int k);
 
 }  // namespace halyard

@@ -185,10 +185,10 @@ class Search {
     return without;
   }
 
-  /// Fits with several effects have several minima. A candidate may win because its fit found a better one for everything
-  /// else. Therefore the hypothesis without it is fitted again from where the winner ended. If this fits better, it
-  /// replaces `current`, and the winner has to convince against it. If it does not, the next round starts from there.
-  /// without: without_last(with).
+  /// Fits with several effects have several minima. A candidate may win because its fit found a better one for
+  /// everything else. Therefore the hypothesis without it is fitted again from where the winner ended. If this fits
+  /// better, it replaces `current`, and the winner has to convince against it. If it does not, the next round starts
+  /// from there. without: without_last(with).
   bool convinces_against_its_own_fit(Found& current, const Found& with, Found without) {
     if (!without.fit.usable || !without.score.finite ||
         judge_.cost(without.scored()) + kRule.by_chance > judge_.cost(current.scored()))
@@ -273,14 +273,15 @@ class Search {
            (judge_.leans_on_a_bound(without.scored()) && !judge_.leans_on_a_bound(with.scored()));
   }
 
-  /// True if the name that won a revision stays behind what was there before it: from another start its fit, or the fit of
-  /// the earlier name in this round, may miss what the earlier fit had found.
+  /// True if the name that won a revision stays behind what was there before it: from another start its fit, or the fit
+  /// of the earlier name in this round, may miss what the earlier fit had found.
   bool is_beaten(const Found& revised, const Found& before, bool is_same) const {
     if (is_same) return judge_.cost(before.scored()) < judge_.cost(revised.scored()) + kRule.worth_a_nudge;
     return judge_.gain_over(before.scored(), revised.scored()) > kRule.by_chance;
   }
 
-  /// True if the last name came from a round beside all the others. Names that were added at once have not competed yet.
+  /// True if the last name came from a round beside all the others. Names that were added at once have not competed
+  /// yet.
   bool last_name_competed() const {
     bool competed = false;
     for (const Round& round : result_.rounds)

@@ -1,9 +1,9 @@
 #pragma once
 /// Finds the effects that explain the residual. In each round, candidates are fitted together with the baseline's
 /// parameters on the fitting blocks and judged on the deciding blocks (judge.h). The best is added, until none helps
-/// significantly. When none helps alone, a few are tried together (joint_proposal.h). Then all names but the last that won
-/// a round are revised, and the removal of each added effect is tried. At last, each name, and then every two names at one
-/// joint, compete with pairs of other effects (pair_rivals.h).
+/// significantly. When none helps alone, a few are tried together (joint_proposal.h). Then all names but the last that
+/// won a round are revised, and the removal of each added effect is tried. At last, each name, and then every two names
+/// at one joint, compete with pairs of other effects (pair_rivals.h).
 
 #include <functional>
 #include <string>

@@ -169,8 +169,8 @@ Refit restarted(Refit refit, const Hypothesis& at) {
 
 }  // namespace
 
-/// Beside another effect that is still missing, a part of a right effect may end at its bound to explain that one. If the
-/// rest of it can be named, this is what the candidate is.
+/// Beside another effect that is still missing, a part of a right effect may end at its bound to explain that one. If
+/// the rest of it can be named, this is what the candidate is.
 void CandidateRound::give_up_bounds(Refit& refit, Trial& trial) const {
   const std::size_t place = refit.best.hypothesis.effects.size() - 1;
   std::vector<FitParameter> held = refit.held;

@@ -22,8 +22,8 @@ struct Prospect {
   double left = std::numeric_limits<double>::infinity();  ///< see Screen::left()
 };
 /// Indices of those whose fit is worth to be continued: some that gain most, at least `share` of the largest gain, and
-/// some that leave least. A fit overshoots where the model's numbers are not linear, so that the right candidate may gain
-/// nothing yet.
+/// some that leave least. A fit overshoots where the model's numbers are not linear, so that the right candidate may
+/// gain nothing yet.
 std::vector<std::size_t> leaders_of(const std::vector<Prospect>& prospects, double share);
 
 class CandidateRound {
@@ -35,9 +35,9 @@ class CandidateRound {
   /// A trial of each candidate, the largest gain first. Empty if the sensitivities cannot be computed.
   std::vector<Trial> look(const std::vector<PlacedEffect>& candidates);
   /// Fits the leaders fully and judges them anew: the trials that gain most, and those that would leave least once the
-  /// model's parameters have followed. The quick look computes the sensitivities of these parameters once; here they are
-  /// renewed until nothing changes. Which end of its quick fits a candidate goes on from is decided after one such pass
-  /// from each. Returns a fit for each trial of the last look(), unusable where there was none.
+  /// model's parameters have followed. The quick look computes the sensitivities of these parameters once; here they
+  /// are renewed until nothing changes. Which end of its quick fits a candidate goes on from is decided after one such
+  /// pass from each. Returns a fit for each trial of the last look(), unusable where there was none.
   std::vector<Fit> fit_leaders(std::vector<Trial>& trials) const;
   /// What the look has found to first order.
   const LinearRound& linear() const { return linear_; }

@@ -39,8 +39,8 @@ class Competition {
     std::size_t named;
     std::vector<std::size_t> alike;  ///< trials that the data cannot tell from the best one, including the named one
   };
-  /// Chooses among the trials `able`; there must be at least one. Of those that the data cannot tell from the best, the most
-  /// probable is named.
+  /// Chooses among the trials `able`; there must be at least one. Of those that the data cannot tell from the best, the
+  /// most probable is named.
   Choice choose(const std::vector<std::size_t>& able) const;
   /// The weights of a name and of the candidates that explain the same part of the residual.
   Naming naming(const Choice& choice) const;

@@ -153,7 +153,8 @@ bool PairRivals::weigh(Attribution& found, const Places& places) const {
   return true;
 }
 
-/// The effects of the pairs that replace one name are alternatives of it, and so are those that replace one of two names.
+/// The effects of the pairs that replace one name are alternatives of it, and so are those that replace one of two
+/// names.
 void PairRivals::add_alternatives(Attribution& found, const Places& places, const std::vector<Pair>& pairs,
                                   const std::vector<double>& weight) const {
   Naming& first = found.namings[places.front() - given_];
@@ -165,8 +166,8 @@ void PairRivals::add_alternatives(Attribution& found, const Places& places, cons
   }
 }
 
-/// The naming of one effect of the pair that takes the place of a name. Each pair with the effect counts for it. In a pair
-/// with only the other one, what stands beside that is an alternative; of a pair with neither, both are.
+/// The naming of one effect of the pair that takes the place of a name. Each pair with the effect counts for it. In a
+/// pair with only the other one, what stands beside that is an alternative; of a pair with neither, both are.
 Naming PairRivals::naming_of(const PlacedEffect& effect, const PlacedEffect& other, const std::vector<Pair>& pairs,
                              const std::vector<double>& weight, Naming naming, const PlacedEffect& before) {
   rename_to(naming, before, 0);

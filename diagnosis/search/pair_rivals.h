@@ -2,14 +2,14 @@
 /// Names that were given one after the other, and two other effects at the joint that explain the log as well, although
 /// neither could win a round of the search:
 ///
-/// - Two names for two others. Dry friction and its presliding on the side of the motor look like both on the side of the
-///   joint, but neither can be replaced alone: beside the other one it is on the wrong side.
+/// - Two names for two others. Dry friction and its presliding on the side of the motor look like both on the side of
+///   the joint, but neither can be replaced alone: beside the other one it is on the wrong side.
 /// - One name for two others. While frictions of a motor and of its pulleys are both missing, the friction of the joint
 ///   may gain more than either, and leave too little for a further name.
 ///
-/// The rivals of a name are the candidates at its joint that gained nearly as much in a round that it led. Pairs of rivals
-/// compete with the names by their log-likelihood on the deciding blocks (name_probability.h), so that the probability of
-/// a name counts these pairs, too. The most probable pair is named.
+/// The rivals of a name are the candidates at its joint that gained nearly as much in a round that it led. Pairs of
+/// rivals compete with the names by their log-likelihood on the deciding blocks (name_probability.h), so that the
+/// probability of a name counts these pairs, too. The most probable pair is named.
 
 #include "diagnosis/search/attribution.h"
 #include "diagnosis/search/refit.h"
@@ -28,8 +28,8 @@ class PairRivals {
         given_(given),
         significance_(significance) {}
 
-  /// Weighs every name, and then every two names at one joint, against the pairs of their rivals in the search's rounds:
-  /// final_fit, final_score and namings change.
+  /// Weighs every name, and then every two names at one joint, against the pairs of their rivals in the search's
+  /// rounds: final_fit, final_score and namings change.
   void weigh(Attribution& found) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// Fits a hypothesis together with the parameters of the model, in passes: each pass weighs the channels by the residual
-/// that the last one left.
+/// Fits a hypothesis together with the parameters of the model, in passes: each pass weighs the channels by the
+/// residual that the last one left.
 
 #include <limits>
 #include <vector>
@@ -23,8 +23,8 @@ struct Refit {
 
 class Refitter {
  public:
-  /// Keeps the parameters of the model that the data are sensitive to: their whole tolerance moves a channel by at least
-  /// a tenth of its floor. given: number of effects that the model came with. Check is_usable().
+  /// Keeps the parameters of the model that the data are sensitive to: their whole tolerance moves a channel by at
+  /// least a tenth of its floor. given: number of effects that the model came with. Check is_usable().
   Refitter(const Evidence& evidence, const ArmModel& model, std::size_t given);
 
   /// False if the model cannot be integrated along the record.

@@ -10,8 +10,8 @@
 namespace halyard {
 
 /// Fits what was found on all training data (final_fit.h): final_fit, final_score and namings change.
-///   - An effect that these data do not determine is dropped. So is a doubtful one that belongs to the log and not to the
-///     arm, as a push at some instant does: it predicts nothing elsewhere.
+///   - An effect that these data do not determine is dropped. So is a doubtful one that belongs to the log and not to
+///     the arm, as a push at some instant does: it predicts nothing elsewhere.
 ///   - Two effects that are one become one (complementary.h). It keeps the surer of their names.
 ///   - If no effect is left and no number changed, the model's numbers are as given.
 ///

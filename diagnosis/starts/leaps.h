@@ -11,8 +11,8 @@
 
 namespace halyard {
 
-/// Instants around each of the strongest jumps, ascending, s. One of them is at most half a row from the jump. If deciding
-/// blocks lie between its rows, two dozen instants are spread over these blocks, however long they are.
+/// Instants around each of the strongest jumps, ascending, s. One of them is at most half a row from the jump. If
+/// deciding blocks lie between its rows, two dozen instants are spread over these blocks, however long they are.
 /// rows: residuals of the fitting rows.
 std::vector<double> leaps(const Evidence& evidence, const std::vector<double>& rows);
 

@@ -8,7 +8,8 @@
 
 namespace halyard {
 
-/// First-order changes of the fitting rows by the sizes of one group of a candidate's parameters, at some of its shapes.
+/// First-order changes of the fitting rows by the sizes of one group of a candidate's parameters, at some of its
+/// shapes.
 struct Directions {
   Hypothesis neutral;                        ///< with the candidate, its last effect, at these shapes and no size
   std::vector<FitParameter> sizes;           ///< of the group

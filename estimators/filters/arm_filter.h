@@ -70,7 +70,8 @@ class ArmFilter final : public Estimator {
   using Predictions = RecyclingQueue<LinearPrediction>;
   /// From now on, update() appends what its predictions were. The queue must outlive the filter.
   void record_into(Predictions& predictions) { predictions_ = &predictions; }
-  /// Repeats the update() of a sample that recorded `count` predictions, `first` and those after it, by these linear maps.
+  /// Repeats the update() of a sample that recorded `count` predictions, `first` and those after it, by these linear
+  /// maps.
   void repeat(const Sample& sample, const Predictions& predictions, std::size_t first, std::size_t count);
 
  private:

@@ -19,10 +19,10 @@
 /// Both default to 1 % of the cable's travel over the joint's range. The joints also have the unknown forces of
 /// disturbance_filter.h: without them a force that the model lacks would appear as an offset.
 ///
-/// A frame corrects the state at the last sample before its exposure, from which the joints move on at their speeds for the
-/// less than a sample that is left: p(q + (t - L - t_0) q'). Then the later samples are repeated. Their predictions are the
-/// linear maps which they were the first time (LinearPrediction), because a frame changes the mean by little: so a
-/// repetition costs no evaluation of the model. If the filter restarted after the exposure, the frame is ignored.
+/// A frame corrects the state at the last sample before its exposure, from which the joints move on at their speeds for
+/// the less than a sample that is left: p(q + (t - L - t_0) q'). Then the later samples are repeated. Their predictions
+/// are the linear maps which they were the first time (LinearPrediction), because a frame changes the mean by little:
+/// so a repetition costs no evaluation of the model. If the filter restarted after the exposure, the frame is ignored.
 ///
 /// Extra outputs are cable_offset and cable_offset_std: b and its standard deviation, m.
 ///

@@ -27,8 +27,8 @@ class DiscreteProcess {
   virtual void advance(Eigen::MatrixXd& X) const = 0;
   /// F [n x n] becomes ∂f/∂x at the old x; then x becomes f(x).
   virtual void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const = 0;
-  /// x becomes f(x), and the first n columns of FS [n x any] ∂f/∂x S with the root S of the belief. False: the process has
-  /// no special way to do so, and x has not changed.
+  /// x becomes f(x), and the first n columns of FS [n x any] ∂f/∂x S with the root S of the belief. False: the process
+  /// has no special way to do so, and x has not changed.
   virtual bool advance_root(Eigen::VectorXd& /*x*/, LaneMatrix& /*FS*/) const { return false; }
   /// The same, and `shift` becomes the mean of f(x ± gamma S_i) - f(x), for a gamma so small that f is quadratic there.
   virtual bool advance_pairs(Eigen::VectorXd& /*x*/, const LaneMatrix& /*S*/, double /*gamma*/, LaneMatrix& /*FS*/,
@@ -61,8 +61,8 @@ class MeasurementModel {
                          Eigen::Ref<Eigen::MatrixXd> H) const = 0;
 };
 
-/// Lower triangular L [n x n] with L Lᵀ = A Aᵀ and diagonal >= 0, by Householder reflections of the rows of A. A: [n x m],
-/// m >= n. Keeps its memory.
+/// Lower triangular L [n x n] with L Lᵀ = A Aᵀ and diagonal >= 0, by Householder reflections of the rows of A. A: [n x
+/// m], m >= n. Keeps its memory.
 class LowerRoot {
  public:
   /// A [n x m], for the caller to fill: it holds anything.
@@ -115,8 +115,8 @@ class GaussianFilter {
   void reset(const Eigen::VectorXd& x, const Eigen::MatrixXd& S);
   /// Throws std::runtime_error naming the state if the belief is no longer finite.
   virtual void predict(const DiscreteProcess& process, const Eigen::MatrixXd& Q_root) = 0;
-  /// The backward step of the last predict(), which started at x_0, S_0. The reflections that make the first rows of the
-  /// left array triangular turn it into the right one:
+  /// The backward step of the last predict(), which started at x_0, S_0. The reflections that make the first rows of
+  /// the left array triangular turn it into the right one:
   ///
   ///   [ D  Q_root ]      →    [ S⁻       0    ]     D: predicted points minus their mean, or F S_0
   ///   [ A    0    ]           [ G S⁻   V_root ]     A: the same columns before the prediction
@@ -138,8 +138,8 @@ class GaussianFilter {
   long repaired() const { return repaired_; }
 
  protected:
-  /// The exact update with a measurement that is affine, or linearised at x: with ν = z - h(x) and H = ∂h/∂x, whitened by
-  /// R_root, one measurement after the other (MatrixKernels::correct()):
+  /// The exact update with a measurement that is affine, or linearised at x: with ν = z - h(x) and H = ∂h/∂x, whitened
+  /// by R_root, one measurement after the other (MatrixKernels::correct()):
   ///
   ///   L Lᵀ = I + H' P H'ᵀ,  H' = R_root⁻¹ H         S_y = R_root L
   ///   x' = x + G S_y⁻¹ ν,   G = P H'ᵀ L⁻ᵀ           S' S'ᵀ = P - G Gᵀ

@@ -9,8 +9,8 @@
 ///   x = f(X_0) + δ,   P = W Σ d_i d_iᵀ + (β - α²) δ δᵀ + Q
 ///
 /// Where γ is small, as with the paper's α, f is quadratic as far as the points reach: d_±i = ± o_i + e_i. Then
-/// √(2W) o_i is column i of ∂f/∂x S, and Σ e_i e_iᵀ is γ² times smaller than what δ adds to P and left out. Only δ = 2W Σ e_i
-/// needs the points (DiscreteProcess::advance_pairs()).
+/// √(2W) o_i is column i of ∂f/∂x S, and Σ e_i e_iᵀ is γ² times smaller than what δ adds to P and left out. Only δ = 2W
+/// Σ e_i needs the points (DiscreteProcess::advance_pairs()).
 ///
 /// So S is one triangularisation of [√W d_i, √(β - α²) δ, Q_root]; a down-date is needed only if β < α². A δ no larger
 /// than the rounding errors of 2n points, 2n W · 4 eps |X|, is set to zero.
@@ -60,8 +60,8 @@ class SquareRootUkf : public GaussianFilter {
   /// δ or ε of one component; 0 if it is rounding of numbers of that `size`, or beyond the limit. spread: √(W Σ d_i²).
   double significant_shift(double shift, double size, double spread) const;
   void place_sigma_points(Eigen::MatrixXd& X) const;
-  /// Sets x_ to f(x_), the first of predicted_columns_ to √W d_i, of pairs to √2W o_i, and delta_ to W Σ d_i; returns their
-  /// number. `others`: number of the columns that follow.
+  /// Sets x_ to f(x_), the first of predicted_columns_ to √W d_i, of pairs to √2W o_i, and delta_ to W Σ d_i; returns
+  /// their number. `others`: number of the columns that follow.
   int move_sigma_points(const DiscreteProcess& process, int others);
   /// L = root of [A, √c v], c = β - α² of any sign; columns: A and a last column that is set here.
   void root_with_central(LaneMatrix& columns, const Eigen::Ref<const Eigen::VectorXd>& v,

@@ -55,9 +55,9 @@ std::vector<Weight> unknown_zeros(const ArmModel& model) {
   return zeros;
 }
 
-/// Numbers that the model knows within a tolerance, but those that are asked for. The ratio of a drive is one number, the
-/// capstan's radius. A link is uncertain by its mass alone: with more numbers the sigma points lie farther apart, and some
-/// arms among them cannot be integrated.
+/// Numbers that the model knows within a tolerance, but those that are asked for. The ratio of a drive is one number,
+/// the capstan's radius. A link is uncertain by its mass alone: with more numbers the sigma points lie farther apart,
+/// and some arms among them cannot be integrated.
 std::vector<Weight> other_numbers(const ArmModel& model, const std::vector<std::string>& keys) {
   ArmParameters<double> arm = model.nominal;
   std::vector<Weight> others;

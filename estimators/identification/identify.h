@@ -6,7 +6,8 @@
 /// are rounded, torque errors last for a while, and errors of other parameters are permanent. So the filter runs over
 /// the log again with weights held at u. The weights are the requested parameters and every other parameter for which
 /// the model states a tolerance. Centres of mass and inertias of links are taken as exact. The least-squares sums are
-/// taken over blocks b of the log. The Gauss-Newton step for u is repeated until u of the requested parameters converges:
+/// taken over blocks b of the log. The Gauss-Newton step for u is repeated until u of the requested parameters
+/// converges:
 ///
 ///   A_b = Σ Yᵀ S⁻¹ Y,   g_b = Σ Yᵀ S⁻¹ ν,   A = Σ A_b + I,   u ← u + A⁻¹ (Σ g_b - u)
 ///

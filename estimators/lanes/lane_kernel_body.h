@@ -26,8 +26,8 @@ void advance(const Transmission<T>& transmission, const StateLayout& layout, dou
       });
 }
 
-// Local to each set. linearised_derivative() is inline: the linker keeps one copy for all sets, and its address would lead
-// to that copy. So are the next ones.
+// Local to each set. linearised_derivative() is inline: the linker keeps one copy for all sets, and its address would
+// lead to that copy. So are the next ones.
 void linearise(const LinearisedArm& model, double time, const HeldInputs& in, const double* x, const ChainPoint* near,
                double* x_dot, double* A, LinearisedPoint& point) {
   with_known_joints(

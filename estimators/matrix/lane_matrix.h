@@ -110,8 +110,8 @@ inline void set_squares(const LaneMatrix& A, double* squares) {
   widest_matrix_kernels().column_squares(A.rows(), A.columns(), A.lanes(), A.blocks(), squares);
 }
 
-/// B = A, of like shape, with memory of columns as Eigen and LaneMatrix::view() have it. This and the next take half the
-/// time of Eigen's for small matrices.
+/// B = A, of like shape, with memory of columns as Eigen and LaneMatrix::view() have it. This and the next take half
+/// the time of Eigen's for small matrices.
 template <class A_t, class B_t>
 void set_block(const A_t& A, B_t&& B) {
   widest_matrix_kernels().copy(static_cast<int>(A.rows()), static_cast<int>(A.cols()), A.data(),

@@ -41,8 +41,8 @@ void product(int rows, int k, int m, const Lanes* A, int a_blocks, const RightFa
 
 constexpr int kMostRootPieces = kMostRootRows / tiles::kPieceWidth;
 
-/// A -= u times row `from`, and then w = A times row `onto`, of `columns` columns. known: the height in registers, or 0 if
-/// the compiler is not to know it.
+/// A -= u times row `from`, and then w = A times row `onto`, of `columns` columns. known: the height in registers, or 0
+/// if the compiler is not to know it.
 template <int known>
 HALYARD_INLINE void reflect_of(int height, int from, int onto, int columns, int stride, const Piece* u, Piece* A,
                                Piece* w) {
@@ -104,8 +104,8 @@ HALYARD_INLINE void put_column(int n, int i, double scale, const Piece* v, doubl
   for (int k = 0; k < i; ++k) L[k] = 0;
 }
 
-/// Reflection i turns row i of A into `image` times a unit vector: with v that row less the image, A -= (A v) vᵀ factor.
-/// w: A times row i.
+/// Reflection i turns row i of A into `image` times a unit vector: with v that row less the image, A -= (A v) vᵀ
+/// factor. w: A times row i.
 void lower_root(int n, int m, int steps, int blocks, Lanes* A, double* L, int l_stride) {
   const int height = pieces_of(n), stride = blocks * kPiecesPerBlock;
   Piece w[kMostRootPieces], u[kMostRootPieces];

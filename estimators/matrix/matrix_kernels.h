@@ -39,13 +39,13 @@ struct MatrixKernels {
   void (*product)(int rows, int k, int m, const Lanes* A, int a_blocks, const RightFactor& B, Lanes* C, int c_blocks,
                   bool add);
   /// Of A [n x m], m >= n, n <= kMostRootRows, whose columns take `blocks` lanes each: the first `steps` columns of the
-  /// lower triangular L [n x n] with L Lᵀ = A Aᵀ and diagonal >= 0, by as many Householder reflections of A's rows. A is
-  /// overwritten; its rows and columns from `steps` on hold the rest B, with L Lᵀ + B Bᵀ = A Aᵀ. L above the diagonal
-  /// becomes zero.
+  /// lower triangular L [n x n] with L Lᵀ = A Aᵀ and diagonal >= 0, by as many Householder reflections of A's rows. A
+  /// is overwritten; its rows and columns from `steps` on hold the rest B, with L Lᵀ + B Bᵀ = A Aᵀ. L above the
+  /// diagonal becomes zero.
   void (*lower_root)(int n, int m, int steps, int blocks, Lanes* A, double* L, int l_stride);
   /// The exact correction of a root S [n x n] with m measurements H x [m x n], whose noises are independent and have a
-  /// variance of one: L [m x m] and G [n x m] with L Lᵀ = I + H S Sᵀ Hᵀ, L lower triangular, G Lᵀ = S Sᵀ Hᵀ; S becomes S'
-  /// with S' S'ᵀ = S Sᵀ - G Gᵀ. S and G: in lanes, `blocks` a column. One measurement after the other (Potter): with
+  /// variance of one: L [m x m] and G [n x m] with L Lᵀ = I + H S Sᵀ Hᵀ, L lower triangular, G Lᵀ = S Sᵀ Hᵀ; S becomes
+  /// S' with S' S'ᵀ = S Sᵀ - G Gᵀ. S and G: in lanes, `blocks` a column. One measurement after the other (Potter): with
   /// w = Sᵀ h and l² = 1 + wᵀ w, the column of G is S w / l, and S' = S - S w wᵀ / (l (l + 1)).
   void (*correct)(int n, int m, int blocks, const double* H, int h_stride, Lanes* S, Lanes* G, double* L, int l_stride);
   /// Σ_r A_rc² of each column of A [rows x columns].
@@ -56,7 +56,8 @@ struct MatrixKernels {
   void (*copy)(int rows, int columns, const double* A, int a_stride, double* B, int b_stride);
   /// B [columns x rows] = Aᵀ, A [rows x columns]; strides: of columns.
   void (*transpose)(int rows, int columns, const double* A, int a_stride, double* B, int b_stride);
-  /// The functions of phi_functions.h, of all levels, from Y = Z. Returns the number of doublings; if this would exceed `most`, or Y is not finite, -1, and nothing is computed.
+  /// The functions of phi_functions.h, of all levels, from Y = Z. Returns the number of doublings; if this would exceed
+  /// `most`, or Y is not finite, -1, and nothing is computed.
   int (*phi_functions)(const PhiShape& shape, int most, const PhiMemory& memory);
 };
 

@@ -7,7 +7,8 @@
 namespace halyard {
 namespace {
 
-/// Operations on the parts of PhiShape. known_n, known_first, known_end: the shape, or 0 if the compiler is not to know it.
+/// Operations on the parts of PhiShape. known_n, known_first, known_end: the shape, or 0 if the compiler is not to know
+/// it.
 template <int known_n, int known_first, int known_end>
 struct PhiOperations {
   using Piece = tiles::Piece;

@@ -2,8 +2,9 @@
 /// Products of small matrices in tiles that stay in the registers, for the files that are compiled once for each
 /// instruction set (matrix_kernels.h). All functions are forced inline.
 ///
-/// A tile is up to three registers of rows by four columns: twelve sums, three entries of A and one of B fill the sixteen
-/// registers that AVX2 has. Rows are counted in registers (pieces), so that twelve rows cost no more than three of them.
+/// A tile is up to three registers of rows by four columns: twelve sums, three entries of A and one of B fill the
+/// sixteen registers that AVX2 has. Rows are counted in registers (pieces), so that twelve rows cost no more than three
+/// of them.
 
 #include <utility>
 

@@ -18,8 +18,8 @@ struct KnownRates {
   const double *x, *x_dot, *force;
 };
 
-/// Rows of the rates of motors and joints and of the internal states, from l.positions on. d, changes: in `blocks` lanes a row.
-/// first_force: F at the first deviation; null: not wanted.
+/// Rows of the rates of motors and joints and of the internal states, from l.positions on. d, changes: in `blocks`
+/// lanes a row. first_force: F at the first deviation; null: not wanted.
 template <int known>
 HALYARD_INLINE void set_changes(const Transmission<Lanes>& transmission, const StateLayout& l, double time,
                                 const CommandHistory* history, const Lanes* command, const Lanes* external,

@@ -1,7 +1,8 @@
 #pragma once
 /// Mean of N_i = f(x + d_i) - f(x) - A d_i over narrow deviations d_i, for a plain transmission under the paper's cable
 /// law. Frictions and cables have a curvature in one direction each, so that the variance of its speed or stretch says
-/// all. Of the chain, the inverse dynamics D(q, q', a) = M(q) a + h(q, q') is evaluated at each deviation, eight at a time:
+/// all. Of the chain, the inverse dynamics D(q, q', a) = M(q) a + h(q, q') is evaluated at each deviation, eight at a
+/// time:
 ///
 ///   M n_i = ½ F''(d_i, d_i) - (D(q + δq, q' + δq', a + δa) - D - D' (δq, δq') - M δa)        n: the joints' part of N
 ///
@@ -77,8 +78,8 @@ HALYARD_INLINE void set_chain_force(const ArmParameters<double>& arm, const Stat
   inverse_dynamics<known>(arm, chain_pose<known>(arm, q), v, a, D);
 }
 
-/// The chain's part of the mean of N over `count` deviations, into the point at x. root: rows of S [size x count], in `blocks`
-/// lanes each, with zeros beyond `count`. x_dot, A and point: at x.
+/// The chain's part of the mean of N over `count` deviations, into the point at x. root: rows of S [size x count], in
+/// `blocks` lanes each, with zeros beyond `count`. x_dot, A and point: at x.
 template <int known>
 HALYARD_INLINE void chain_curvature(const LinearisedArm& model, LinearisedPoint& point, const double* x,
                                     const double* x_dot, const double* A, double gamma, int count, int blocks,
@@ -93,7 +94,8 @@ HALYARD_INLINE void chain_curvature(const LinearisedArm& model, LinearisedPoint&
   for (int k = 0; k < n; ++k) point.chain.curvature[k] = tiles::sum_of(sums[k]) / count;
 }
 
-/// mean [size] of N over such deviations, of a plain transmission. chain: of a state shortly before, with its curvature.
+/// mean [size] of N over such deviations, of a plain transmission. chain: of a state shortly before, with its
+/// curvature.
 template <int known>
 HALYARD_INLINE void mean_curvature(const LinearisedArm& model, const ChainPoint& chain, const LinearisedPoint& point,
                                    double gamma, int count, int blocks, const Lanes* root, double* mean) {

@@ -61,8 +61,8 @@ HALYARD_INLINE void unpack_state(const ArmParameters<T>& arm, const StateLayout&
   set_motion<known>(arm, q, v, s);
 }
 
-/// What the transmission does at state x: F on the joints, the accelerations of the motors, and the rates of the effects'
-/// states. command, external: [n], held over the step.
+/// What the transmission does at state x: F on the joints, the accelerations of the motors, and the rates of the
+/// effects' states. command, external: [n], held over the step.
 template <int known = 0, class T>
 HALYARD_INLINE void set_forces(const Transmission<T>& transmission, const StateLayout& l, double time,
                                const CommandHistory* history, const T* command, const T* external, const T* x, T* force,

@@ -6,11 +6,12 @@
 ///   a   accelerations of the joints     [n]      rad/s² | m/s²
 ///   F   forces on the joints            [n]      N m | N
 ///
-/// M and the slopes may be those of a state shortly before, M_0 and its a_0. Then a = a_0 + M_0⁻¹ (F - (M a_0 + h)), whose
-/// error is the change of M since then times that of a.
+/// M and the slopes may be those of a state shortly before, M_0 and its a_0. Then a = a_0 + M_0⁻¹ (F - (M a_0 + h)),
+/// whose error is the change of M since then times that of a.
 ///
-/// Dual numbers differentiate the transmission in all directions of the state, if it is not plain. Slopes differentiate the
-/// inverse dynamics in the directions of q and q'. Neither passes through the mass matrix, its factors or its columns.
+/// Dual numbers differentiate the transmission in all directions of the state, if it is not plain. Slopes differentiate
+/// the inverse dynamics in the directions of q and q'. Neither passes through the mass matrix, its factors or its
+/// columns.
 
 #include "estimators/process/plain_transmission.h"
 #include "estimators/process/slopes.h"
@@ -252,8 +253,9 @@ HALYARD_INLINE void set_joint_rows(const ArmParameters<double>& arm, const State
   }
 }
 
-/// x_dot [size], A = ∂x'/∂x [size x size], column-major, and what is found besides. near: null, or what was found of the
-/// chain at a state shortly before, from which M and the slopes are taken; it may be that of `point`. known: see joint_count().
+/// x_dot [size], A = ∂x'/∂x [size x size], column-major, and what is found besides. near: null, or what was found of
+/// the chain at a state shortly before, from which M and the slopes are taken; it may be that of `point`. known: see
+/// joint_count().
 template <int known = 0>
 HALYARD_INLINE void linearised_derivative(const LinearisedArm& model, double time, const HeldInputs& in,
                                           const double* x, const ChainPoint* near, double* x_dot, double* A,

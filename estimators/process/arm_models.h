@@ -46,8 +46,8 @@ class ArmProcess : public DiscreteProcess {
   ExponentialStep* exponential_;
 };
 
-/// h for some of the motors, given by the 0-based indices of their joints, in ascending order. The process model and the
-/// indices must outlive this object.
+/// h for some of the motors, given by the 0-based indices of their joints, in ascending order. The process model and
+/// the indices must outlive this object.
 class MotorReadings final : public MeasurementModel {
  public:
   MotorReadings(const ProcessModel& model, double time_s, const std::vector<int>& motors)

@@ -1,6 +1,6 @@
 #pragma once
-/// The second stage x_2 of a step from x, for a plain transmission under the paper's cable law. With the linearisation A at
-/// x, which is not repeated at x_2,
+/// The second stage x_2 of a step from x, for a plain transmission under the paper's cable law. With the linearisation
+/// A at x, which is not repeated at x_2,
 ///
 ///   f(x_2)     = f(x) + A (x_2 - x) + D
 ///   f(x_2 + d) = f(x_2) + A d + N(d),   N(d) = N' d + higher terms,   so that ∂f/∂x at x_2 is A + N'
@@ -11,8 +11,8 @@
 ///   motors   J D = -(e + r u)        e   friction over its tangent at x        [2 n]: motors, then joints
 ///   joints   M D = -e + Rᵀ u         u   cable force over its tangent at x     [n]
 ///
-/// The excess rate is the largest change of a damping rate f' / J or of a cable's rate √(s r² / J); J: inertia of the motor, or
-/// 1 / (M⁻¹)_kk. Where it is small beside 1/h, N' is not needed, and a later step can keep A.
+/// The excess rate is the largest change of a damping rate f' / J or of a cable's rate √(s r² / J); J: inertia of the
+/// motor, or 1 / (M⁻¹)_kk. Where it is small beside 1/h, N' is not needed, and a later step can keep A.
 
 #include "estimators/process/arm_curvature.h"
 
@@ -101,8 +101,8 @@ HALYARD_INLINE void set_rates_beside(const LinearisedArm& model, const HeldInput
   }
 }
 
-/// rates [moving rows] = factor N of eight deviations d at a time: rows of [size], in `blocks` lanes each. friction(i, ∂v): e
-/// of friction i; cable(k, ∂x): u of cable k.
+/// rates [moving rows] = factor N of eight deviations d at a time: rows of [size], in `blocks` lanes each. friction(i,
+/// ∂v): e of friction i; cable(k, ∂x): u of cable k.
 template <int known, class Friction, class Cable>
 HALYARD_INLINE void set_excess(const LinearisedArm& model, const LinearisedPoint& start, double factor, int blocks,
                                const Lanes* d, Lanes* rates, const Friction& friction, const Cable& cable) {

@@ -3,7 +3,7 @@
 /// arm_dynamics.h, A = ∂f/∂x at the start x, and E, φ_k of h A (phi_functions.h),
 ///
 ///   mean          x_2 = x + h φ_1 f(t, x)                            second order: exponential Rosenbrock-Euler
-///                 x⁺  = x_2 + c,   c = 2 h φ_3 D,                    third order; where f is smooth, in cables and friction
+///                 x⁺  = x_2 + c,   c = 2 h φ_3 D,                    third order, for smooth f in cables and friction
 ///                 D   = f(t + h, x_2) - f(t, x) - A (x_2 - x)
 ///   transition    F   = E + h φ_2 (A_2 - A) E,   A_2 = ∂f/∂x at x_2   second order
 ///   curvature     ∫ exp(A (h - s)) m(s) ds, where m is the mean of N over sigma points x ± d_i; m(0) from N(t, x, d),
@@ -20,42 +20,45 @@
 ///
 /// Sigma points are assumed to be narrow. Where f is smooth (ProcessModel::is_smooth()), N then is half the second
 /// derivative of f in the direction d, whose mean arm_curvature.h gives without rates at the points, and the pairs'
-/// differences are those of the linear F. There, A_2 and f(t + h, x_2 + Γ_0) take the chain as linear (arm_second_stage.h),
-/// so that neither needs a Jacobian at x_2. An effect or a slack
+/// differences are those of the linear F. There, A_2 and f(t + h, x_2 + Γ_0) take the chain as linear
+/// (arm_second_stage.h), so that neither needs a Jacobian at x_2. An effect or a slack
 /// cable may have a kink between the points of a pair: the transmission is evaluated at both (arm_changes.h), and
 ///
 ///   F S   = (d_2 + h φ_2 (N°(t + h, x_2, d_2) - N°(t, x, d))) / γ,   d_2 = E d + h φ_1 N°(t, x, d),   d = γ S
 ///
-/// with the odd part N° of N takes the place of the Jacobian's. N Nᵀ is left out of the covariance: it is of fourth order.
+/// with the odd part N° of N takes the place of the Jacobian's. N Nᵀ is left out of the covariance: it is of fourth
+/// order.
 ///
 /// m is the curvature of f. At rest it falls within the step; mean_shift.h has the integral.
 ///
-/// The rigid chain changes slowly: within a step it is taken as linear. Beside the slopes of cables and friction its own
-/// are small, as is its curvature: a step takes both, and the masses, from an earlier one of the last 10 ms, if it can.
-/// It also keeps A and the φ functions, if it is as long as theirs or a half, quarter, ... of it, and the slopes have not
-/// changed much. f(t, x) is new in every step, and D and N are what f is more than this A makes of it, so that the mean
-/// stays of second order.
+/// The rigid chain changes slowly: within a step it is taken as linear. Beside the slopes of cables and friction its
+/// own are small, as is its curvature: a step takes both, and the masses, from an earlier one of the last 10 ms, if it
+/// can. It also keeps A and the φ functions, if it is as long as theirs or a half, quarter, ... of it, and the slopes
+/// have not changed much. f(t, x) is new in every step, and D and N are what f is more than this A makes of it, so that
+/// the mean stays of second order.
 ///
 ///   - Where f is smooth, no rate of friction or cable may be off by more than 1e-3 / h (excess rate,
 ///     arm_second_stage.h).
 ///   - Else A_0 = ∂f/∂x at x is found in every step, and may be off by 1e-2 / h (distance(), phi_functions.h). Beyond
-///     1e-3 / h the step follows B = A_0 - A: the part h B (x_2 - x) of h D grows with s and not with s², so that it has the
-///     weight φ_2 in x⁺, and not 2 φ_3, and F = E + h φ_1 B + h φ_2 ((A_2 - A) E - B). N has it in itself.
+///     1e-3 / h the step follows B = A_0 - A: the part h B (x_2 - x) of h D grows with s and not with s², so that it
+///     has the weight φ_2 in x⁺, and not 2 φ_3, and F = E + h φ_1 B + h φ_2 ((A_2 - A) E - B). N has it in itself.
 ///
 /// Γ_0 is the response of the linearised model to a force that is held over the step; Γ Γᵀ replaces Van Loan's
-/// integral, which is for white noise. Simpson's rule keeps it equal to what the sub-steps give where the model is linear.
+/// integral, which is for white noise. Simpson's rule keeps it equal to what the sub-steps give where the model is
+/// linear.
 ///
 /// The guard: the step is refused, and the caller takes shorter ones or the sub-steps of process_model.h, if
 ///
 ///   - a component of c exceeds 5 % of the standard deviation that the linearised step predicts for it (friction that
-///     reverses, a gap that closes, a command that jumps within the step). With effects, up to 20 % will do where f is seen to
-///     be curved evenly: its slopes then change by (A_2 - A_0) (x_2 - x) = 2 D, and what D is more than half of it makes c, or
+///     reverses, a gap that closes, a command that jumps within the step). With effects, up to 20 % will do where f is
+///     seen to be curved evenly: its slopes then change by (A_2 - A_0) (x_2 - x) = 2 D, and what D is more than half of
+///     it makes c, or
 ///   - the last term of F S exceeds 20 % of it where sigma points ask for it, or
 ///   - a number is not finite.
 ///
-/// Held forces are not taken from this formula if the last term of Γ exceeds 5 % of it: at rest, where the noise is faster
-/// than friction's smoothing speed and is damped less than the slope of friction says. Where f is smooth, sub-steps of
-/// the deviations give it then (arm_impulses.h); else it is refused.
+/// Held forces are not taken from this formula if the last term of Γ exceeds 5 % of it: at rest, where the noise is
+/// faster than friction's smoothing speed and is damped less than the slope of friction says. Where f is smooth,
+/// sub-steps of the deviations give it then (arm_impulses.h); else it is refused.
 ///
 /// Source: Hochbruck and Ostermann, "Exponential integrators", Acta Numerica 2010: exponential Rosenbrock-Euler method
 /// and exprb32 (mean), ETD2RK (pairs). Van Loan, "Computing integrals involving the matrix exponential", IEEE
@@ -91,8 +94,8 @@ class ExponentialStep {
   Eigen::Map<const Eigen::MatrixXd> mobility() const {
     return {point_.chain.mobility, process_.n_joints(), process_.n_joints()};
   }
-  /// Starts the step that has been linearised. S: root of the covariance of x. G [n_states x sources]: held forces, which
-  /// may be none. False if the guard refuses the step.
+  /// Starts the step that has been linearised. S: root of the covariance of x. G [n_states x sources]: held forces,
+  /// which may be none. False if the guard refuses the step.
   bool start(const LaneMatrix& S, const Eigen::MatrixXd& G);
   /// False if start() has refused the step because a number is not finite: a shorter one would be refused, too.
   bool is_finite() const { return is_finite_; }
@@ -141,7 +144,8 @@ class ExponentialStep {
   bool set_pairs(double gamma);
   /// The chain's part of the means of N, in point_.
   void set_chain_curvature(double gamma);
-  /// h N(t, x, ± d_i) where `known` is of x: the moving rows of its odd part for every row of d, and the mean of its even part.
+  /// h N(t, x, ± d_i) where `known` is of x: the moving rows of its odd part for every row of d, and the mean of its
+  /// even part.
   void set_both_parts(const Step& at, const KnownRates& known, const LaneMatrix& d, LaneMatrix& odd,
                       Eigen::VectorXd& mean);
 

@@ -80,8 +80,8 @@ class ArmNoise {
 
   /// G [n_states x 2 n_joints] of a step that starts where M(q)⁻¹ is `mobility`.
   const Eigen::MatrixXd& impulses(const Step& step, const Eigen::Ref<const Eigen::MatrixXd>& mobility);
-  /// Q_root [n_states x sources] of a step that starts at x. exponential: the same step, if it has been started with its
-  /// impulses().
+  /// Q_root [n_states x sources] of a step that starts at x. exponential: the same step, if it has been started with
+  /// its impulses().
   const Eigen::MatrixXd& process_root(const Step& step, const Eigen::VectorXd& x,
                                       ExponentialStep* exponential = nullptr);
   /// Adapts c to an innovation of these motors; dt_s: time since the innovation before, s.

@@ -1,7 +1,7 @@
 #pragma once
-/// A transmission that is linear but for the cables' forces and the friction: cables drive all joints, and no effect acts
-/// between the commands and the joints but unknown constants of a filter, which add a multiple of their state to a cable's
-/// stretch or to a joint's force. Then few derivatives say everything:
+/// A transmission that is linear but for the cables' forces and the friction: cables drive all joints, and no effect
+/// acts between the commands and the joints but unknown constants of a filter, which add a multiple of their state to a
+/// cable's stretch or to a joint's force. Then few derivatives say everything:
 ///
 ///   x_k  = r_k q_m,k - Σ_j R_kj q_j + b_k           x_k' = r_k q_m,k' - Σ_j R_kj q_j'
 ///   ∂g_k = s_k ∂x_k + d_k ∂x_k' + ½ c_k ∂x_k²       ∂(friction) = f' ∂v + ½ f'' ∂v²

@@ -78,14 +78,14 @@ class ProcessModel {
   /// The same into memory of the caller.
   void derivative(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot) const;
   void linearise(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot, Eigen::MatrixXd& A) const;
-  /// The same, and `point`, what is found besides (arm_linearisation.h). near: null, or what was found of the chain at a
-  /// state shortly before, from which its masses and slopes are taken.
+  /// The same, and `point`, what is found besides (arm_linearisation.h). near: null, or what was found of the chain at
+  /// a state shortly before, from which its masses and slopes are taken.
   void linearise(const Step& step, const Eigen::VectorXd& x, const ChainPoint* near, Eigen::VectorXd& x_dot,
                  Eigen::MatrixXd& A, LinearisedPoint& point) const;
   /// A at x, with the chain as linearise() found it at a state shortly before.
   void jacobian_beside(const Step& step, const Eigen::VectorXd& x, const ChainPoint& chain, Eigen::MatrixXd& A) const;
-  /// f(x + d) - f(x) of every row d of the matrix [count x n_states], eight at a time: changes [count x n_states - positions],
-  /// without the rows of the positions (arm_changes.h). first_force: null, or F [n] at the first x + d.
+  /// f(x + d) - f(x) of every row d of the matrix [count x n_states], eight at a time: changes [count x n_states -
+  /// positions], without the rows of the positions (arm_changes.h). first_force: null, or F [n] at the first x + d.
   void changes(const Step& step, const ChainPoint& chain, const KnownRates& at, const LaneMatrix& d,
                LaneMatrix& changes, double* first_force = nullptr) const;
   /// The chain's part of the mean of f(x + d_i) - f(x) - A d_i over d_i = gamma S_i, into point.chain.curvature
@@ -95,12 +95,12 @@ class ProcessModel {
   /// Of a model that is_smooth(), mean [n_states] of it all at `point`, with the chain's part that of `chain`.
   void mean_curvature(const ChainPoint& chain, const LinearisedPoint& point, double gamma, const LaneMatrix& root,
                       Eigen::VectorXd& mean) const;
-  /// Of a model that is_smooth(), with `start` of linearise() at x, the second stage x_2 of a step (arm_second_stage.h):
-  /// D [moving_states() - layout().positions], and `end`, the point at x_2.
+  /// Of a model that is_smooth(), with `start` of linearise() at x, the second stage x_2 of a step
+  /// (arm_second_stage.h): D [moving_states() - layout().positions], and `end`, the point at x_2.
   void second_stage(const LinearisedPoint& start, const Eigen::VectorXd& x, const Eigen::VectorXd& x_2,
                     LinearisedPoint& end, Eigen::VectorXd& D) const;
-  /// Of a model that is_smooth(), x' at x, beside the A and `point` of linearise() at a state shortly before: slopes stay
-  /// those of A. point.excess_rate says how well they fit.
+  /// Of a model that is_smooth(), x' at x, beside the A and `point` of linearise() at a state shortly before: slopes
+  /// stay those of A. point.excess_rate says how well they fit.
   void rates_beside(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot, LinearisedPoint& point) const;
   /// factor N(d) at x_2, of every row d of the matrix [count x n_states]; rates [count x D.size()].
   void far_excess(const LinearisedPoint& start, const LinearisedPoint& end, const Eigen::VectorXd& x_2, double factor,

@@ -1,6 +1,6 @@
 #pragma once
-/// A value with kLaneWidth directional derivatives, for the rigid chain only: it has no divisions and functions but those
-/// that the chain needs. Parameters stay plain numbers, which have no slopes.
+/// A value with kLaneWidth directional derivatives, for the rigid chain only: it has no divisions and functions but
+/// those that the chain needs. Parameters stay plain numbers, which have no slopes.
 
 #include "transmission/scalar.h"
 

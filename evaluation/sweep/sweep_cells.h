@@ -75,8 +75,8 @@ class CellJournal {
 /// The cells in the journals of some folders. Memory: 16 bytes for each point of the grid, for any size of the cells.
 class StoredCells {
  public:
-  /// A point that is in several journals is taken from the first. Journals may grow meanwhile; what comes later does not
-  /// count. Throws InputError for a journal that is damaged or of another sweep.
+  /// A point that is in several journals is taken from the first. Journals may grow meanwhile; what comes later does
+  /// not count. Throws InputError for a journal that is damaged or of another sweep.
   StoredCells(const std::vector<std::filesystem::path>& folders, const SweepGrid& grid);
 
   std::size_t size() const { return places_.size(); }  ///< points of the grid

@@ -11,8 +11,8 @@ namespace halyard {
 /// One axis' coordinates of all samples: [d][n].
 using UnitSamples = std::vector<std::vector<double>>;
 
-/// Latin hypercube (McKay, Beckman and Conover, Technometrics 21, 1979): each axis is divided into n equal intervals, and
-/// each interval has one sample, at a random place.
+/// Latin hypercube (McKay, Beckman and Conover, Technometrics 21, 1979): each axis is divided into n equal intervals,
+/// and each interval has one sample, at a random place.
 UnitSamples latin_hypercube(std::size_t dimension, std::size_t samples, std::uint64_t seed);
 
 /// The first n points of Sobol's sequence, which fills the cube more evenly than random numbers do, with Joe and Kuo's

@@ -47,7 +47,8 @@ Sweep read_sweep(const std::filesystem::path& path);
 /// The same without a look at the points.
 Sweep read_sweep_definition(const std::filesystem::path& path);
 
-/// Throws InputError if the robot, the scenario or the model is invalid at this point. source: what the message starts with.
+/// Throws InputError if the robot, the scenario or the model is invalid at this point. source: what the message starts
+/// with.
 void check_point(const Sweep& sweep, std::size_t point, const std::string& source);
 
 }  // namespace halyard

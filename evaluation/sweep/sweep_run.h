@@ -11,7 +11,8 @@
 
 namespace halyard {
 
-/// Simulates a point and runs the estimators over its log, or computes the detection limits. A failure is stored in the cell, not thrown.
+/// Simulates a point and runs the estimators over its log, or computes the detection limits. A failure is stored in the
+/// cell, not thrown.
 SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOptions& containment = {});
 
 /// Throws InputError if an estimator of the sweep cannot be made: with the model of the first point, and with the least
@@ -28,8 +29,8 @@ struct SweepRunOptions {
 };
 
 /// Computes the shard's cells in parallel. Each is on the disk when its point is done, in the journal of the shard
-/// (sweep_cells.h); several shards may run into one folder at the same time. The result does not depend on the number of
-/// jobs. If the folder holds another sweep, its cells and tables are removed first; with `resume`, an InputError is
+/// (sweep_cells.h); several shards may run into one folder at the same time. The result does not depend on the number
+/// of jobs. If the folder holds another sweep, its cells and tables are removed first; with `resume`, an InputError is
 /// thrown instead.
 /// Throws InputError also if an estimator cannot be made, and std::runtime_error if a cell cannot be written.
 void run_sweep(const Sweep& sweep, const std::filesystem::path& folder, const SweepRunOptions& options);

@@ -10,7 +10,8 @@
 namespace halyard {
 
 /// Mean of independent numbers with its 95 % interval: mean ± t s / sqrt(n), t the 97.5th percentile of Student's
-/// distribution with n - 1 degrees of freedom, s² = Σ(x - mean)² / (n - 1). Welford's recursion (Technometrics 4, 1962).
+/// distribution with n - 1 degrees of freedom, s² = Σ(x - mean)² / (n - 1). Welford's recursion (Technometrics 4,
+/// 1962).
 class MeanWithInterval {
  public:
   /// NaN does not count.
@@ -24,8 +25,8 @@ class MeanWithInterval {
   double mean_ = 0, squares_ = 0;
 };
 
-/// What a report says of all points of a sweep, collected from one cell after the other; its size does not grow with the
-/// number of points.
+/// What a report says of all points of a sweep, collected from one cell after the other; its size does not grow with
+/// the number of points.
 class SweepSummary {
  public:
   explicit SweepSummary(const SweepGrid& grid);
@@ -40,8 +41,8 @@ class SweepSummary {
   };
   std::vector<std::vector<std::vector<Span>>> spans;  ///< [n_measures][n_subjects][n_joints]
 
-  /// What a measure shows over one axis, averaged over everything else. An axis with at most 40 values has one place for
-  /// each, in increasing order; the range of other axes is divided into 20 equal bins.
+  /// What a measure shows over one axis, averaged over everything else. An axis with at most 40 values has one place
+  /// for each, in increasing order; the range of other axes is divided into 20 equal bins.
   struct Curve {
     std::vector<double> x;                ///< values, or centres of the bins
     std::vector<MeanWithInterval> means;  ///< [x.size()], in SI units

@@ -10,9 +10,9 @@
 
 namespace halyard {
 
-/// Adds a CSV file with one row per point, estimator or effect, and joint: the values of the axes, the seed where there are
-/// several, what was measured in SI units, and the reason of a failure with the command that repeats it. Reads each cell once,
-/// in the order of the points, and returns their summary.
+/// Adds a CSV file with one row per point, estimator or effect, and joint: the values of the axes, the seed where there
+/// are several, what was measured in SI units, and the reason of a failure with the command that repeats it. Reads each
+/// cell once, in the order of the points, and returns their summary.
 SweepSummary write_sweep_table(OutputFiles& files, const std::filesystem::path& path, const SweepGrid& grid,
                                const StoredCells& cells);
 

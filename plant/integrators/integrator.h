@@ -37,8 +37,8 @@ std::unique_ptr<Integrator> make_sundials_integrator(ArmPlant& plant, const Inte
 
 /// From here on a tolerance is none.
 inline constexpr double kUncontrolled = 1e30;
-/// The absolute tolerance of each state, [size], for that of positions, which a motor has behind its gear: at its shaft it
-/// is gear_ratio times as large. kUncontrolled for the energy meters.
+/// The absolute tolerance of each state, [size], for that of positions, which a motor has behind its gear: at its shaft
+/// it is gear_ratio times as large. kUncontrolled for the energy meters.
 Eigen::VectorXd absolute_tolerances(const DriveTrain& drive, double tolerance);
 
 /// Throws the std::runtime_error of an integration that failed.

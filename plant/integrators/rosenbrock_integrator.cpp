@@ -27,8 +27,8 @@ constexpr double kTimeDifference = 1e-3;
 ///
 ///   (1 / (γ h) - J) g_i = f(t + c_i h, y + Σ_j a_ij g_j) + h d_i ∂f/∂t + Σ_j c_ij g_j / h
 ///
-/// The last stage is the estimate of the error. The coefficients, in this notation, are those of Boost's odeint. Its own
-/// stepper is not used because its linear algebra takes several times as long.
+/// The last stage is the estimate of the error. The coefficients, in this notation, are those of Boost's odeint. Its
+/// own stepper is not used because its linear algebra takes several times as long.
 class Rosenbrock : public Integrator {
  public:
   Rosenbrock(ArmPlant& plant, const IntegratorOptions& options, double time_s, const Eigen::VectorXd& y)

@@ -6,8 +6,8 @@
 ///   J   ∂y'/∂y      [size x size]
 ///   γ   coefficient of the method;  h   step, s
 ///
-/// Positions follow from rates, because x' = v, and meters from all others, because nothing depends on them. So only the
-/// rates and the states of effects, the core, need a decomposition:
+/// Positions follow from rates, because x' = v, and meters from all others, because nothing depends on them. So only
+/// the rates and the states of effects, the core, need a decomposition:
 ///
 ///   (1 / (γ h) - J_cc - γ h J_cx E) g_c = r_c + γ h J_cx r_x,     g_x = γ h (r_x + E g_c)
 ///

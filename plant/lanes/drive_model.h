@@ -8,8 +8,9 @@
 
 namespace halyard {
 
-/// A plain drive train: cables of one law drive all joints, and no effect acts between the commands and the joints. What
-/// happens at one joint is then independent of the other joints, so all joints are evaluated at once, lane k for joint k.
+/// A plain drive train: cables of one law drive all joints, and no effect acts between the commands and the joints.
+/// What happens at one joint is then independent of the other joints, so all joints are evaluated at once, lane k for
+/// joint k.
 struct PlainDrive {
   JointParameters<Lanes> joint;  ///< lanes beyond the last joint repeat it
   Lanes travel;                  ///< r_m / N, m/rad

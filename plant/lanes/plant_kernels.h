@@ -1,12 +1,13 @@
 #pragma once
-/// The equations of the plant, with their derivatives. There is one copy per instruction set (transmission/lanes/instruction_set.h);
-/// results of two sets differ by rounding.
+/// The equations of the plant, with their derivatives. There is one copy per instruction set
+/// (transmission/lanes/instruction_set.h); results of two sets differ by rounding.
 ///
 ///   F = joint_force(y), z' = z_dot(y)       drive train
 ///   (M(q) + M_rotors) a + h(q, q') = F      rigid chain (model/rigid_chain.h)
 ///
-/// The files plant_<set>.cpp instantiate the templates of this folder in an unnamed namespace, and all functions that these
-/// call are forced inline: otherwise the linker could use a function compiled for a wider set where it cannot run.
+/// The files plant_<set>.cpp instantiate the templates of this folder in an unnamed namespace, and all functions that
+/// these call are forced inline: otherwise the linker could use a function compiled for a wider set where it cannot
+/// run.
 
 #include <vector>
 

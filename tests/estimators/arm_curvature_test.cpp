@@ -1,5 +1,5 @@
-/// Linearisation, curvature and changes of rates: of an arm whose transmission is plain, with unknown constants, and of one
-/// with effects.
+/// Linearisation, curvature and changes of rates: of an arm whose transmission is plain, with unknown constants, and of
+/// one with effects.
 
 #include <gtest/gtest.h>
 

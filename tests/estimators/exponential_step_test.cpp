@@ -50,8 +50,8 @@ TEST(ExponentialStep, TheMeanIsOfSecondOrderAtLeast) {
     const Moved m = moved(process, x, dt_s);
     return (m.exponential - m.exact)(process.layout().rate[2]);
   };
-  // A local error of h³ from the chain, which is taken as linear, a little more in stiff directions: 4 to 8 for half the
-  // step. It is small: of the change of the speed, 1e-5 and less.
+  // A local error of h³ from the chain, which is taken as linear, a little more in stiff directions: 4 to 8 for half
+  // the step. It is small: of the change of the speed, 1e-5 and less.
   EXPECT_GT(std::abs(error(2 * kStep)), 4 * std::abs(error(kStep)));
   const Moved m = moved(process, x, kStep);
   const int rate = process.layout().rate[2];

@@ -1,5 +1,5 @@
-// Tables of effects: a module whose table and effects come from the input. Effects that are accepted stay in the library
-// of the process; their names have at most two letters, so that they cannot become many.
+// Tables of effects: a module whose table and effects come from the input. Effects that are accepted stay in the
+// library of the process; their names have at most two letters, so that they cannot become many.
 #include <dlfcn.h>
 
 #include "plugins/host/effect_module.h"

@@ -1,9 +1,9 @@
 #pragma once
-/// What the fuzzers share. Each NAME_fuzz.cpp defines LLVMFuzzerTestOneInput() for one reader: libFuzzer's program calls
-/// it with inputs that it makes up, the ordinary build's program (replay.cpp) with those of corpus/NAME.
+/// What the fuzzers share. Each NAME_fuzz.cpp defines LLVMFuzzerTestOneInput() for one reader: libFuzzer's program
+/// calls it with inputs that it makes up, the ordinary build's program (replay.cpp) with those of corpus/NAME.
 ///
-/// A reader has to answer every input with a value or with an InputError of one line that fits on a screen. Anything else
-/// is a finding: it ends the process, and libFuzzer keeps the input.
+/// A reader has to answer every input with a value or with an InputError of one line that fits on a screen. Anything
+/// else is a finding: it ends the process, and libFuzzer keeps the input.
 
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
-// The main program of a fuzzer in the ordinary build: gives it every file of the folders in its arguments. A finding, or
-// an input that takes longer than five seconds, ends the program with an error.
+// The main program of a fuzzer in the ordinary build: gives it every file of the folders in its arguments. A finding,
+// or an input that takes longer than five seconds, ends the program with an error.
 #include <chrono>
 #include <iterator>
 #include <vector>

@@ -96,8 +96,8 @@ TEST(DriveTrain, OfPlainArmsIsThatOfArmsWithAnEffectThatDoesNothing) {
         drive.rates(DriveTerms::all, 0, y.data(), y.data() + 3, y.data() + 6, rates[i].data(), rates[i].data() + 3);
         drive.slopes(DriveTerms::all, 0, y.data(), y.data() + 3, y.data() + 6, slopes[i]);
       }
-      // Some ten roundings of powers and forces up to 1e4 and of slopes up to 1e10. Exponential cables multiply those of
-      // the stretch, eps · 0.1 m, by k_e / T_0 = 1.4e4 / m.
+      // Some ten roundings of powers and forces up to 1e4 and of slopes up to 1e10. Exponential cables multiply those
+      // of the stretch, eps · 0.1 m, by k_e / T_0 = 1.4e4 / m.
       const double rounding = law == CableLaw::exponential ? 1e-12 : 1e-14;
       EXPECT_LT((rates[0] - rates[1]).cwiseAbs().maxCoeff(), rounding * (1e4 + rates[1].cwiseAbs().maxCoeff()));
       EXPECT_LT((slopes[0] - slopes[1]).cwiseAbs().maxCoeff(), rounding * slopes[1].cwiseAbs().maxCoeff());

@@ -1,6 +1,6 @@
-// check_run_paths PATH...: looks at every ELF file given, listed in a file @LIST, or below a folder given. Every entry of
-// a run path has to start from $ORIGIN, the folder of the file itself: an empty or relative entry is looked up in the
-// current folder of whoever runs the program, and an absolute one names a folder of the machine that built it.
+// check_run_paths PATH...: looks at every ELF file given, listed in a file @LIST, or below a folder given. Every entry
+// of a run path has to start from $ORIGIN, the folder of the file itself: an empty or relative entry is looked up in
+// the current folder of whoever runs the program, and an absolute one names a folder of the machine that built it.
 #include <cstdio>
 #include <exception>
 

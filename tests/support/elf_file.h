@@ -36,8 +36,8 @@ inline bool is_elf_file(const std::filesystem::path& path) {
   return std::memcmp(ident, ELFMAG, SELFMAG) == 0 && ident[EI_CLASS] == (sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32);
 }
 
-/// Empty for a file without a dynamic section (a static program, an object). Throws std::out_of_range for a file that is
-/// cut short, std::invalid_argument for one that is no ELF file.
+/// Empty for a file without a dynamic section (a static program, an object). Throws std::out_of_range for a file that
+/// is cut short, std::invalid_argument for one that is no ELF file.
 inline DynamicSection dynamic_section_of(const std::filesystem::path& path) {
   if (!is_elf_file(path)) throw std::invalid_argument(path.string() + " is no ELF file");
   std::ifstream file(path, std::ios::binary);

@@ -1,9 +1,9 @@
 #pragma once
 /// The part of oneTBB that halyard uses, on std::thread, for builds with the thread sanitizer.
 ///
-/// Debian's libtbb is not instrumented: the sanitizer sees neither how it hands work to its threads nor how it waits for
-/// them, and would report every result that the body of a loop leaves behind. Here it sees both, and so what it reports
-/// is a race between the bodies. A loop inside a loop runs on the thread that comes to it.
+/// Debian's libtbb is not instrumented: the sanitizer sees neither how it hands work to its threads nor how it waits
+/// for them, and would report every result that the body of a loop leaves behind. Here it sees both, and so what it
+/// reports is a race between the bodies. A loop inside a loop runs on the thread that comes to it.
 
 #include <algorithm>
 #include <atomic>

@@ -1,6 +1,6 @@
 #pragma once
-/// The arms of trials. Each stands for a model file that a user wrote with care: all its parameters are those of the arm,
-/// until recording.h moves the arm's away from them.
+/// The arms of trials. Each stands for a model file that a user wrote with care: all its parameters are those of the
+/// arm, until recording.h moves the arm's away from them.
 ///
 ///   raven2   examples/raven2/raven2.xml
 ///   random   1 to 7 joints on cables, one in five prismatic, at random angles to each other

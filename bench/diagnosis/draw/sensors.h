@@ -12,8 +12,9 @@
 ///   stretches missing, of each joint     none        0 to 2, log-uniform 50 ms to 1 s
 ///   noise of the logged torque           0 to 2 %    0 to 20 % of the motor's friction   as poor
 ///
-/// The latency is 0 where a `delay` is hidden. Uniform where nothing else is said; noise and jitter are standard deviations. q contains the errors of hidden
-/// effects, such as an eccentric encoder. The motors are read by every row, rounded, as the plant reads them.
+/// The latency is 0 where a `delay` is hidden. Uniform where nothing else is said; noise and jitter are standard
+/// deviations. q contains the errors of hidden effects, such as an eccentric encoder. The motors are read by every row,
+/// rounded, as the plant reads them.
 
 #include "bench/diagnosis/draw/random.h"
 #include "bench/diagnosis/results/situation.h"

@@ -9,8 +9,8 @@ namespace {
 
 /// More Coulomb friction at the motor, by four elastic contacts that slide one after another:
 ///   F = F_c/4 Σ z_i / z_y,i,   z_i' = v (1 - |z_i / z_y,i|⁴) where v z_i > 0,   z_i' = v elsewhere
-/// Source: the generalized Maxwell-slip model, Al-Bender, Lampaert, Swevers, IEEE Trans. Automatic Control 50 (2005). The
-/// fourth power rounds the point of sliding, so that the equations stay smooth.
+/// Source: the generalized Maxwell-slip model, Al-Bender, Lampaert, Swevers, IEEE Trans. Automatic Control 50 (2005).
+/// The fourth power rounds the point of sliding, so that the equations stay smooth.
 class MaxwellSlipFriction : public EffectOf<MaxwellSlipFriction> {
  public:
   std::string name() const override { return "maxwell_slip_friction"; }

@@ -171,8 +171,8 @@ class QuadraticDrag : public EffectOf<QuadraticDrag> {
   }
 };
 
-/// Hum of the mains on a motor: τ = τ + A sin(2π f t). The rotor nearly moves alone, by A / (J (2π f)²); typically three
-/// counts of its encoder.
+/// Hum of the mains on a motor: τ = τ + A sin(2π f t). The rotor nearly moves alone, by A / (J (2π f)²); typically
+/// three counts of its encoder.
 class Hum : public EffectOf<Hum>, public AboveBand {
  public:
   std::string name() const override { return "hum"; }

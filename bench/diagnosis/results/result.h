@@ -77,8 +77,8 @@ struct Result {
   double latency_s = 0, joint_rate_hz = 0;  ///< of the joint sensors; a rate of 0: none
   double outliers = 0;                      ///< TrialOptions::outliers
   std::vector<TrueEffect> truth;
-  /// Names that are true beside the truth: of parameters that are off by more than their tolerance, of a part of an effect
-  /// by another equation (OtherForm::beside), and `delay` where the joint sensors are late.
+  /// Names that are true beside the truth: of parameters that are off by more than their tolerance, of a part of an
+  /// effect by another equation (OtherForm::beside), and `delay` where the joint sensors are late.
   std::vector<Place> also_true;
   std::string verdict;
   std::vector<Named> named;

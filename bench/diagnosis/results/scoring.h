@@ -4,14 +4,14 @@
 /// Each name is compared with the truth once: a second name for the same effect is false. A name in
 /// Result::also_true is neither right nor false.
 ///
-///   kind                  strictly right                                    loosely right
-///   clean                 verdict clean                                     no false name
-///   effect, form          the truth is the first name, no other name is     the truth is the first name, or among at
-///                         false, nothing is left unexplained                most two alternatives to it
-///   two_at_joint, three   all visible effects are named, no name is         all visible effects are named
+///   kind                  strictly right                                 loosely right
+///   clean                 verdict clean                                  no false name
+///   effect, form          the truth is the first name, no other name is  the truth is the first name, or among at
+///                         false, nothing is left unexplained             most two alternatives to it
+///   two_at_joint, three   all visible effects are named, no name is      all visible effects are named
 ///                         false, nothing is left unexplained
-///   outside               verdict unknown, no name with a probability       verdict unknown, or an unexplained residual
-///                         above 0.5                                         beside the names
+///   outside               verdict unknown, no name with a probability    verdict unknown, or an unexplained residual
+///                         above 0.5                                      beside the names
 ///
 /// Effects that are too small to be seen (TrueEffect::is_visible()) may be named or not.
 

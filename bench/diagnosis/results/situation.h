@@ -45,7 +45,8 @@ std::string label(const Situation& situation);
 /// A number that differs between situations, for the random stream.
 unsigned stream_of(const Situation& situation);
 
-/// The situations of rows 1, 2, 3, 4 and 6 of the acceptance table (bench/README.md). Throws InputError for another row.
+/// The situations of rows 1, 2, 3, 4 and 6 of the acceptance table (bench/README.md). Throws InputError for another
+/// row.
 std::vector<Situation> situations_of_row(int row, Arms arms);
 
 }  // namespace halyard::blind

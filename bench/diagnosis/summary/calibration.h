@@ -15,7 +15,8 @@ struct Claim {
 
 /// Every probability of the trials: of names and alternatives (true if the effect is hidden, or true beside it); of
 /// `clean` (nothing is hidden), and of "none of these" (an effect outside the library is). The last two are left out
-/// where it is open whether they are true: of effects that are too small to see, and of parameters beyond their tolerance.
+/// where it is open whether they are true: of effects that are too small to see, and of parameters beyond their
+/// tolerance.
 std::vector<Claim> claims_of(const Results& ran);
 
 /// Bins of a tenth with fewer claims say nothing.
@@ -37,8 +38,8 @@ struct ErrorRatio {
   double worst, mean;
 };
 ErrorRatio error_ratio(const std::vector<double>& error, const std::vector<double>& other);
-/// A joint's error is above the given model's by at least 1 %, and by 3 standard deviations of the difference, estimated
-/// from the hold-out's seconds: about one such joint in a thousand by chance.
+/// A joint's error is above the given model's by at least 1 %, and by 3 standard deviations of the difference,
+/// estimated from the hold-out's seconds: about one such joint in a thousand by chance.
 bool rises_above_given(const Result& r);
 
 }  // namespace halyard::blind

@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::quiet_NaN();
 
-/// The parameter that says how large the effect is at this joint; nothing if there is none, or the joint cannot have it.
+/// The parameter that says how large the effect is at this joint; nothing if there is none, or the joint cannot have
+/// it.
 std::optional<EffectParameter> size_at(const Effect& effect, const ArmModel& model, int joint) {
   if (std::ranges::count(effect_places(effect, model.nominal), EffectPlace(joint)) == 0) return std::nullopt;
   const std::vector<EffectParameter> parameters = effect.parameters(model.nominal, joint);

@@ -1,6 +1,6 @@
 #pragma once
-/// What a sweep measures. A sweep file names one or more of these groups of numbers, which are computed for every run of
-/// an estimator:
+/// What a sweep measures. A sweep file names one or more of these groups of numbers, which are computed for every run
+/// of an estimator:
 ///
 ///   errors   ErrorStatistics of each joint                               judgement/error_statistics.h
 ///   nees     mean NEES of each joint, and its 95 % band                  judgement/consistency.h

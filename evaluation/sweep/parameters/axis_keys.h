@@ -15,13 +15,13 @@
 namespace halyard {
 
 /// SI unit of the values of a key; empty for a pure number.
-/// Throws InputError if robot, scenario and model have no such number, if none of the estimators can have the option, if
-/// the axis applies to something else, or if it multiplies an option that the model does not give.
+/// Throws InputError if robot, scenario and model have no such number, if none of the estimators can have the option,
+/// if the axis applies to something else, or if it multiplies an option that the model does not give.
 std::string unit_of_key(const std::string& key, const SweepAxis& axis, const Scenario& scenario, const ArmModel& model,
                         const std::vector<std::string>& estimators);
 
-/// Whether a factor of the key's number, where the axis applies, is always zero: a noise, for example, that the scenario
-/// does not have. For a key that unit_of_key() accepts.
+/// Whether a factor of the key's number, where the axis applies, is always zero: a noise, for example, that the
+/// scenario does not have. For a key that unit_of_key() accepts.
 bool is_zero(const std::string& key, const SweepAxis& axis, Scenario scenario, ArmModel model);
 
 /// Puts a point's values into the robot and the scenario, or into the model of the estimators. A noise that is zero for

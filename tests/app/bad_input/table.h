@@ -23,8 +23,8 @@ enum class Wrong {
   motion,    ///< a log that is right in form: commands that check it
 };
 
-/// Makes the wrong text from a right one: raven2.xml, experiment_a.xml of 0.1 s, a sweep, a log of three rows (Wrong::log),
-/// or the log of a motion.
+/// Makes the wrong text from a right one: raven2.xml, experiment_a.xml of 0.1 s, a sweep, a log of three rows
+/// (Wrong::log), or the log of a motion.
 using Change = std::function<std::string(const std::string&)>;
 
 struct BadInputRow {

@@ -78,7 +78,8 @@ TEST(FinalFit, KeepsNoSizeWhoseIntervalContainsItsNeutralValue) {
   EXPECT_NEAR(sum, kOffset, 0.02 * kOffset);
 }
 
-/// A pulley that rubs, on an arm whose mass, frictions and stiffness are off within their tolerances; and its final fit.
+/// A pulley that rubs, on an arm whose mass, frictions and stiffness are off within their tolerances; and its final
+/// fit.
 struct Rubbing {
   ArmModel model = first_joints(1);
   PlacedEffect truth = rubbing(0.05);
@@ -147,8 +148,8 @@ struct Refitted {
   }
 };
 
-/// The motor's side and the joint's side share the friction of a cable. The motor's own friction is uncertain as well, so
-/// that only what acts at the joint is certain: the size times a share.
+/// The motor's side and the joint's side share the friction of a cable. The motor's own friction is uncertain as well,
+/// so that only what acts at the joint is certain: the size times a share.
 TEST(FinalFit, KeepsASizeThatIsUncertainOnlyTogetherWithItsShape) {
   PlacedEffect truth = place_neutral_effect(*find_effect("pulley_friction"), first_joints(1).nominal, 0);
   truth.p[0] = 0.03, truth.p[1] = 0.8;

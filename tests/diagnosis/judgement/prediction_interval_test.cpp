@@ -58,8 +58,8 @@ HoldOut holdout_of(const Log& log, const Fit& fit, const std::vector<double>& qu
 TEST(PredictionInterval, OfWhiteNoiseContains95PercentOfTheSamples) {
   const Fit fit = no_parameters();
   const std::vector<double> quantile = quantiles_of(noisy_log(1));
-  // A quantile of m = 2750 independent samples (half of 5.5 s at 1 kHz): its coverage deviates by sqrt(0.95 * 0.05 / m) =
-  // 0.42 %, and the density at 1.96 deviations, 2 * 0.0584, makes 0.036 deviations of it. Three times that.
+  // A quantile of m = 2750 independent samples (half of 5.5 s at 1 kHz): its coverage deviates by sqrt(0.95 * 0.05 / m)
+  // = 0.42 %, and the density at 1.96 deviations, 2 * 0.0584, makes 0.036 deviations of it. Three times that.
   EXPECT_NEAR(quantile[0] / kNoise, 1.96, 3 * 0.036);
 
   const PredictionInterval interval = prediction_interval(holdout_of(noisy_log(2), fit, quantile), 1);

@@ -38,7 +38,8 @@ ChannelNoise noise_of(const std::vector<double>& x) {
 }
 
 // The least of three bands of 10 bins and more, each bin the median of 59 overlapping segments: a bin scatters by some
-// 17 %, the narrowest band by 5 %, so that the least of three is 5 % low: 3 % of the deviation, and two deviations more.
+// 17 %, the narrowest band by 5 %, so that the least of three is 5 % low: 3 % of the deviation, and two deviations
+// more.
 constexpr double kScatter = 0.08;
 
 TEST(ChannelNoise, IsTheDeviationOfWhiteNoise) {

@@ -21,8 +21,8 @@ struct Recorded {
   ArmModel model = first_joints(2);
   Record record = make_records(simulate(motion(model, 2)).measured, model, {})[0];
 
-  /// One hypothesis for each effect of the library, at the last place where the arm can have it; beside it the arm without
-  /// effects, and with the effect twice if that is possible.
+  /// One hypothesis for each effect of the library, at the last place where the arm can have it; beside it the arm
+  /// without effects, and with the effect twice if that is possible.
   std::vector<Hypothesis> one_of_each() const {
     std::vector<Hypothesis> all = {{model.nominal, {}}};
     for (const Effect* effect : effect_library()) {

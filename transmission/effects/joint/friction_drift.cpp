@@ -1,8 +1,8 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/friction.h"
 
-/// Friction that changes in time, as in a drive that warms up. The Coulomb level and viscous coefficient of the motor are
-/// multiplied by 1 + g, those of the joint by 1 + σ g:
+/// Friction that changes in time, as in a drive that warms up. The Coulomb level and viscous coefficient of the motor
+/// are multiplied by 1 + g, those of the joint by 1 + σ g:
 ///
 ///   g = max(-1, α + ρ (1 - exp(-λ t)) / λ),   t >= 0
 ///

@@ -8,8 +8,8 @@
 ///   σ   `at_joint`: 0: the motor's encoder is wrong; 1: the joint's sensor is                  -
 ///
 /// Only cables of other joints that this joint's motion moves can tell the two apart. Where there are none, the joint's
-/// sensor is the reference, and σ is no parameter. The effect has no meaning where the model does not know one of the two
-/// zeros.
+/// sensor is the reference, and σ is no parameter. The effect has no meaning where the model does not know one of the
+/// two zeros.
 
 namespace halyard::effects {
 
