@@ -119,26 +119,27 @@ Planner::Shown Planner::show(const PlacedEffect& candidate) const {
   return shown;
 }
 
-Planner::Growing Planner::scaled(const PlacedEffect& effect) const {
+Planner::Placed Planner::beside_nominal(const PlacedEffect& effect) const {
   Hypothesis with = nominal_;
   with.effects.push_back(effect);
-  const auto parameters = effect_parameters(evidence_, with, model_.nominal, nominal_.effects.size());
-  const auto at = [with, parameters](double factor) {
-    Hypothesis h = with;
-    for (const FitParameter& p : parameters)
-      if (!p.shape) set_parameter(h, p, std::lerp(p.nominal, parameter_value(with, p), std::min(factor, 1.0)));
+  return {with, effect_parameters(evidence_, with, model_.nominal, nominal_.effects.size())};
+}
+
+Planner::Growing Planner::scaled(const PlacedEffect& effect) const {
+  const auto at = [placed = beside_nominal(effect)](double factor) {
+    Hypothesis h = placed.with;
+    for (const FitParameter& p : placed.parameters)
+      if (!p.shape) set_parameter(h, p, std::lerp(p.nominal, parameter_value(placed.with, p), std::min(factor, 1.0)));
     return h;
   };
   return {at, 1};
 }
 
 bool Planner::is_searched(const PlacedEffect& effect) const {
-  Hypothesis with = nominal_;
-  with.effects.push_back(effect);
-  const auto parameters = effect_parameters(evidence_, with, model_.nominal, nominal_.effects.size());
-  return std::ranges::all_of(parameters, [&](const FitParameter& p) {
+  const Placed placed = beside_nominal(effect);
+  return std::ranges::all_of(placed.parameters, [&](const FitParameter& p) {
     if (!p.shape || p.is_past || p.range != SearchRange::own) return true;
-    const double value = parameter_value(with, p);
+    const double value = parameter_value(placed.with, p);
     return value >= p.lower && value <= p.upper;
   });
 }
@@ -198,9 +199,8 @@ BaselineReach Planner::make_reach() {
 }
 
 Planner::SizedCandidate Planner::sized(const PlacedEffect& candidate) const {
-  SizedCandidate c{nominal_, {}, {}, {}};
-  c.with.effects.push_back(candidate);
-  c.parameters = effect_parameters(evidence_, c.with, model_.nominal, nominal_.effects.size());
+  auto [with, parameters] = beside_nominal(candidate);
+  SizedCandidate c{std::move(with), std::move(parameters), {}, {}};
   for (std::size_t i = 0; i < c.parameters.size(); ++i)
     if (!c.parameters[i].shape) {
       c.sizes.push_back(i);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diagnosis/fit/baseline_reach.h"
+#include "diagnosis/fit/fit_parameter.h"
 #include "diagnosis/plan.h"
 #include "diagnosis/planning/change_detector.h"
 
@@ -61,7 +62,13 @@ class Planner {
   double cosine(const Shown& right, const Shown& other) const;
 
  private:
+  /// The model with an effect, and the parameters of this effect.
+  struct Placed {
+    Hypothesis with;
+    std::vector<FitParameter> parameters;
+  };
   struct SizedCandidate;
+  Placed beside_nominal(const PlacedEffect& effect) const;
   SizedCandidate sized(const PlacedEffect& candidate) const;
   BaselineReach make_reach();
   Hypothesis best_shapes(const SizedCandidate& c, Shown& shown, std::vector<Eigen::VectorXd>& columns) const;

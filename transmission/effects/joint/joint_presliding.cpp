@@ -1,20 +1,7 @@
 #include "transmission/effects/built_in.h"
-#include "transmission/effects/typical_size.h"
-#include "transmission/friction.h"
+#include "transmission/effects/presliding.h"
 
-/// Friction of the joint that is elastic before it slides. The share ρ of the Coulomb friction follows Dahl's equation
-/// instead of the speed:
-///
-///   F' = F + ρ F_c (z / z_y - tanh(v / v_s)),   z' = v - |v| z / z_y
-///
-///   z     elastic deflection of the contacts         rad | m
-///   z_y   deflection at which they slide: |z| < z_y  rad | m
-///   ρ     share of the Coulomb level F_c             -
-///
-/// After a reversal the friction turns round over an angle of some z_y, however slow the motion. It is passive while ρ
-/// is at most one.
-/// Source: Dahl, "A solid friction model", Aerospace Corporation TOR-0158 (1968), with the exponent 1; LuGre's equation
-/// without its damping (Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995)).
+/// Friction of the joint that is elastic before it slides (presliding.h): F_c, v_s and v are those of the joint.
 
 namespace halyard::effects {
 
@@ -37,13 +24,12 @@ class JointPresliding : public EffectOf<JointPresliding> {
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
     const JointParameters<T>& j = c.arm.joint[*c.joint];
-    const T sliding = smooth_sign(s[*c.joint].joint_rate, j.joint_smoothing);
-    s[*c.joint].joint_force -= c.p[0] * j.joint_coulomb * (c.z[0] / c.p[1] - sliding);
+    s[*c.joint].joint_force -=
+        presliding_force(c.p, j.joint_coulomb, j.joint_smoothing, s[*c.joint].joint_rate, c.z[0]);
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
-    const T v = s[*c.joint].joint_rate;
-    z_dot[0] = v - abs(v) * c.z[0] / c.p[1];
+    z_dot[0] = presliding_rate(c.p, s[*c.joint].joint_rate, c.z[0]);
   }
 };
 

@@ -1,0 +1,32 @@
+#pragma once
+/// Friction that is elastic before it slides. The share ρ of the Coulomb friction follows Dahl's equation instead of the
+/// speed:
+///
+///   F' = F + ρ F_c (z / z_y - tanh(v / v_s)),   z' = v - |v| z / z_y
+///
+///   z     elastic deflection of the contacts         rad | m
+///   z_y   deflection at which they slide: |z| < z_y  rad | m
+///   F_c   Coulomb level                              N m | N
+///   ρ     share of it                                -
+///
+/// After a reversal the friction turns round over a deflection of some z_y, however slow the motion. It is passive while
+/// ρ is at most one.
+/// Source: Dahl, "A solid friction model", Aerospace Corporation TOR-0158 (1968), with the exponent 1; LuGre's equation
+/// without its damping (Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995)).
+
+#include "transmission/friction.h"
+
+namespace halyard::effects {
+
+/// F' - F of a drive or joint that moves at v. p: ρ and z_y, the effect's parameters.
+template <class T>
+HALYARD_INLINE T presliding_force(const T* p, const T& coulomb, const T& smoothing, const T& v, const T& z) {
+  return p[0] * coulomb * (z / p[1] - smooth_sign(v, smoothing));
+}
+
+template <class T>
+HALYARD_INLINE T presliding_rate(const T* p, const T& v, const T& z) {
+  return v - abs(v) * z / p[1];
+}
+
+}  // namespace halyard::effects
