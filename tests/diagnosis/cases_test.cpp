@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "diagnosis/diagnose.h"
@@ -81,6 +82,26 @@ TEST(Cases, BacklashWithRoundEdgesLeavesNothing) {
   EXPECT_TRUE(d.unexplained.empty());
   EXPECT_NEAR(d.effects[0].parameters[0].value, 548e-6, 0.02 * 548e-6) << "the truth, m; another form of the edges";
   EXPECT_LT(d.after.joint_rms[1], 0.02 * d.before.joint_rms[1]);
+}
+
+/// "encoder_offset 2" and so on, sorted; 0: of the whole arm.
+std::vector<std::string> names_of(const Diagnosis& d) {
+  std::vector<std::string> names;
+  for (const NamedEffect& e : d.effects)
+    names.push_back(e.effect.effect->name() + " " + std::to_string(e.effect.joint ? *e.effect.joint + 1 : 0));
+  std::ranges::sort(names);
+  return names;
+}
+
+TEST(Cases, APayloadIsFoundBesideAZeroErrorAndFriction) {
+  SKIP_WITHOUT_CASES();
+  const Diagnosis d = diagnose_case("three_effects_a");
+  ASSERT_EQ(names_of(d), (std::vector<std::string>{"encoder_offset 2", "motor_friction 3", "payload 0"}));
+  EXPECT_TRUE(d.unexplained.empty());
+  for (const NamedEffect& e : d.effects)
+    if (e.effect.effect->name() == "payload") {
+      EXPECT_NEAR(e.parameters[0].value, 0.1246, 0.1 * 0.1246) << "the truth, kg";
+    }
 }
 
 TEST(Cases, BacklashOfAGearedJointIsNoStiffness) {
