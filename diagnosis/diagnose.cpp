@@ -59,8 +59,8 @@ class Diagnoser {
 
   Diagnosis run(std::vector<Log> training, std::optional<Log> holdout) {
     result_.log_findings = findings_of(model_, training, holdout, options_.columns.value_or(model_.columns));
-    for (Log& log : training) log = usable(std::move(log));
-    if (holdout) holdout = usable(std::move(*holdout));
+    for (Log& log : training) log = cleaned(std::move(log));
+    if (holdout) holdout = cleaned(std::move(*holdout));
     DiagnosisData data = diagnosis_data(model_, training, holdout);
     for (const DiagnosisData::Late& late : data.late) result_.log_findings.push_back(finding_of(late));
     has_own_holdout_ = holdout.has_value();
@@ -72,7 +72,7 @@ class Diagnoser {
     const Evidence evidence(data.training, result_.given);
     const Evidence whole(std::move(data.training), result_.given, Split::none);
     search(evidence, whole);
-    if (is_one_sine(evidence)) refuse_names(evidence);
+    if (names_would_be_guesses(evidence)) refuse_names(evidence);
     else tell_names(evidence);
     tell_rests(evidence);
     predict_holdout(evidence, whole, data.training_joints);
@@ -88,7 +88,8 @@ class Diagnoser {
   }
 
  private:
-  Log usable(Log log) {
+  /// Without readings that repeat the one before and without outliers; says so in the findings.
+  Log cleaned(Log log) {
     for (const RepeatedReadings& r : keep_own_readings(log, model_)) result_.log_findings.push_back(finding_of(log, r));
     return without_outliers(std::move(log));
   }
@@ -117,8 +118,8 @@ class Diagnoser {
     changed_ = revise(evidence, whole, result_.given, attribution());
   }
 
-  /// One sine fits many effects alike: a name taken from it would be a guess.
-  bool is_one_sine(const Evidence& evidence) const {
+  /// A single record of one sine fits many effects alike: a name taken from it would be a guess.
+  bool names_would_be_guesses(const Evidence& evidence) const {
     for (int k = 0; k < model_.n(); ++k)
       if (!is_one_sinusoid(evidence.records(), model_.nominal, k)) return false;
     return final_hypothesis().effects.size() > given_;

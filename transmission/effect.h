@@ -16,7 +16,8 @@
 ///                                      motor stage
 ///
 /// To write an effect, derive from EffectOf<Yours> and define the members that you need as templates over the scalar T
-/// (scalar.h). effects/cable/backlash.cpp is an example without states, effects/cable/hysteresis.cpp one with states.
+/// (scalar.h), and stages(): no other member than those of its stages is called. effects/cable/backlash.cpp is an
+/// example without states, effects/cable/hysteresis.cpp one with states.
 
 #include <memory>
 #include <optional>
@@ -37,8 +38,8 @@ struct EffectParameter {
   std::string unit;
   /// value at which the parameter has no influence; for a shape parameter (below), the typical value
   double neutral = 0;
-  /// Order of magnitude that the physics of such an arm suggests. If a model file lists the effect but not this
-  /// parameter, the parameter gets this value.
+  /// Order of magnitude that the physics of such an arm suggests. A model file that lists the effect without any of its
+  /// sizes gets all of them at this value; if it gives some, the others are neutral.
   double typical = 0;
   double lower = 0;  ///< physical bounds
   double upper = 0;

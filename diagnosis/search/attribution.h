@@ -21,8 +21,8 @@ struct Round {
 
 struct Attribution {
   Fit baseline;                 ///< parameters refitted within their tolerance, no effects
-  Fit final_fit;                ///< with the named effects
-  std::vector<Naming> namings;  ///< for each effect of final_fit
+  Fit final_fit;                ///< with the effects that were found
+  std::vector<Naming> namings;  ///< for each effect of final_fit that the model did not come with
   double no_effect = 1;         ///< weight of "no effect" in the last round without a winner
   std::vector<Round> rounds;
   Score nominal_score, baseline_score, final_score;

@@ -1,5 +1,5 @@
 #pragma once
-/// A step of the process model by an exponential integrator, without sub-steps. With the rates f(t, x) of
+/// A step of the process model by an exponential integrator, in place of many sub-steps. With the rates f(t, x) of
 /// arm_dynamics.h, A = ∂f/∂x at the start x, and E, φ_k of h A (phi_functions.h),
 ///
 ///   mean          x_2 = x + h φ_1 f(t, x)                            second order: exponential Rosenbrock-Euler
@@ -8,34 +8,39 @@
 ///   transition    F   = E + h φ_2 (A_2 - A) E,   A_2 = ∂f/∂x at x_2   second order
 ///   curvature     ∫ exp(A (h - s)) m(s) ds, where m is the mean of N over sigma points x ± d_i; m(0) from N(t, x, d),
 ///                 m(h) from N_2(t + h, x_2, E d)
-///                 N(t, x, d) = f(t, x + d) - f(t, x) - A d,   N_2: with A_2
+///                 N(t, x, d) = f(t, x + d) - f(t, x) - A d: what f is more than linear;   N_2: with A_2
 ///   held force    Γ   = Γ_0 + h φ_2 (f(t + h, x_2 + Γ_0) - f(t + h, x_2) - A Γ_0)
 ///                                                                     response to the accelerations G / h
 ///                 Γ_0 = (G + 4 exp(h A / 2) G + E G) / 6             φ_1 G by Simpson's rule, as in noise.h
 ///
-///   h      length of the step                            s
-///   d      deviation of a sigma point from the mean      [n_states]
-///   c      error estimate of x_2                         [n_states]
-///   G      impulses of force noise (noise.h)             [n_states x sources]
+///   h      length of the step                                        s
+///   x      state; x⁺ at the end of the step, x_2 a first estimate    [n_states]
+///   D      what f(t + h, x_2) is more than linear from x             [n_states] per s
+///   c      correction of x_2, and the estimate of its error          [n_states]
+///   S      root of the covariance of x; F S that of x⁺               [n_states x n_states]
+///   d      deviation of a sigma point, γ times a column of S         [n_states]
+///   G      impulses of force noise (noise.h)                         [n_states x sources]
+///   Γ      what these do to x⁺ if the force is held over the step    [n_states x sources]
 ///
 /// Sigma points are assumed to be narrow. Where f is smooth (ProcessModel::is_smooth()), N then is half the second
 /// derivative of f in the direction d, whose mean arm_curvature.h gives without rates at the points, and the pairs'
 /// differences are those of the linear F. There, A_2 and f(t + h, x_2 + Γ_0) take the chain as linear
-/// (arm_second_stage.h), so that neither needs a Jacobian at x_2. An effect or a slack
-/// cable may have a kink between the points of a pair: the transmission is evaluated at both (arm_changes.h), and
+/// (arm_second_stage.h), so that neither needs a Jacobian at x_2. An effect or a slack cable may have a kink between
+/// the points of a pair: the transmission is evaluated at both (arm_changes.h), and
 ///
 ///   F S   = (d_2 + h φ_2 (N°(t + h, x_2, d_2) - N°(t, x, d))) / γ,   d_2 = E d + h φ_1 N°(t, x, d),   d = γ S
 ///
 /// with the odd part N° of N takes the place of the Jacobian's. N Nᵀ is left out of the covariance: it is of fourth
 /// order.
 ///
-/// m is the curvature of f. At rest it falls within the step; mean_shift.h has the integral.
+/// m is half the mean second derivative of f over the sigma points. At rest it falls within the step; mean_shift.h has
+/// the integral.
 ///
 /// The rigid chain changes slowly: within a step it is taken as linear. Beside the slopes of cables and friction its
 /// own are small, as is its curvature: a step takes both, and the masses, from an earlier one of the last 10 ms, if it
 /// can. It also keeps A and the φ functions, if it is as long as theirs or a half, quarter, ... of it, and the slopes
-/// have not changed much. f(t, x) is new in every step, and D and N are what f is more than this A makes of it, so that
-/// the mean stays of second order.
+/// have not changed much. f(t, x) is new in every step, and D and N are what f is more than this A makes of it. With
+/// an A of an earlier step the mean is of second order, not of third.
 ///
 ///   - Where f is smooth, no rate of friction or cable may be off by more than 1e-3 / h (excess rate,
 ///     arm_second_stage.h).

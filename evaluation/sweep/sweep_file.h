@@ -23,8 +23,8 @@ namespace halyard {
 ///   measures     what is measured of estimators, see measures/sweep_measure.h    default: errors
 ///   seed, duration   replace the scenario's                    -, s
 ///   design       grid, latin_hypercube or sobol, see sweep_design.h   default: grid
-///   samples      number of points, unless the design is a grid
-///   repeats      each point is simulated with so many seeds, from `seed` on   default: 1
+///   samples      number of combinations of values, unless the design is a grid
+///   repeats      each combination is simulated with so many seeds, from `seed` on, each a point   default: 1
 ///   skip         time at the start that errors exclude         s, default 0.5
 ///   parameter    one or more keys, see parameters/axis_keys.h
 ///   values       or from, to, steps and scale (linear or log)  SI; of samples from, to and scale

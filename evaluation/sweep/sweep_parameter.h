@@ -15,7 +15,8 @@ namespace halyard {
 ///   joint2.effect.backlash.half_gap    a parameter of an effect of a joint
 ///   arm.effect.payload.mass            a parameter of an effect of the whole arm
 ///
-/// An effect that the model lacks is added first, with its other parameters at their typical values.
+/// An effect that the model lacks is added first. If the key is one of its sizes, its other sizes are neutral; else
+/// they have typical values.
 /// Throws InputError for an unknown key. The message lists the known keys, but has no file and line.
 ArmNumber model_parameter(ArmModel& model, const std::string& key);
 

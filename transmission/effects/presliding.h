@@ -1,6 +1,6 @@
 #pragma once
-/// Friction that is elastic before it slides. The share ρ of the Coulomb friction follows Dahl's equation instead of the
-/// speed:
+/// Friction that is elastic before it slides. The share ρ of the Coulomb friction follows Dahl's equation instead of
+/// the speed:
 ///
 ///   F' = F + ρ F_c (z / z_y - tanh(v / v_s)),   z' = v - |v| z / z_y
 ///
@@ -9,8 +9,8 @@
 ///   F_c   Coulomb level                              N m | N
 ///   ρ     share of it                                -
 ///
-/// After a reversal the friction turns round over a deflection of some z_y, however slow the motion. It is passive while
-/// ρ is at most one.
+/// After a reversal the friction turns round over a deflection of some z_y, however slow the motion. It is passive
+/// while ρ is at most one.
 /// Source: Dahl, "A solid friction model", Aerospace Corporation TOR-0158 (1968), with the exponent 1; LuGre's equation
 /// without its damping (Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995)).
 
