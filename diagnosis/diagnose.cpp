@@ -240,6 +240,7 @@ class Diagnoser {
     result_.revised = result_.given;
     result_.revised.nominal = final_hypothesis().nominal;
     result_.revised.effects = on_own_clocks(evidence, final_hypothesis()).effects;
+    for (PlacedEffect& e : result_.revised.effects) keep_within_bounds(e, result_.revised.nominal);
     details_->past = final_hypothesis().past;
     result_.before = prediction_errors(joints, torques, result_.given.nominal, &HoldOut::before);
     result_.after = prediction_errors(joints, torques, result_.given.nominal, &HoldOut::after);

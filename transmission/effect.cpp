@@ -85,4 +85,10 @@ PlacedEffect place_neutral_effect(const Effect& effect, const ArmParameters<doub
   return place_with(&EffectParameter::neutral, effect, arm, joint);
 }
 
+void keep_within_bounds(PlacedEffect& effect, const ArmParameters<double>& arm) {
+  const std::vector<EffectParameter> parameters = effect.effect->parameters(arm, effect.joint);
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    effect.p[i] = std::clamp(effect.p[i], parameters[i].lower, parameters[i].upper);
+}
+
 }  // namespace halyard

@@ -212,4 +212,8 @@ PlacedEffect place_effect(const Effect& effect, const ArmParameters<double>& arm
 /// place_effect() does.
 PlacedEffect place_neutral_effect(const Effect& effect, const ArmParameters<double>& arm, EffectPlace joint);
 
+/// Moves each parameter that lies outside its bounds in this arm to the nearer bound. Bounds depend on the arm's
+/// numbers: after these have changed, a value at a bound may lie outside, and no model file could contain it.
+void keep_within_bounds(PlacedEffect& effect, const ArmParameters<double>& arm);
+
 }  // namespace halyard

@@ -74,6 +74,10 @@ void print_errors(const ArmModel& model, const Diagnosis& d, const DiagnosisEval
       if (changed && !e.before.rms.empty() && !e.after.rms.empty())
         print(e.name + " position", e.before.rms[k], e.after.rms[k], position);
   }
+  for (const EstimatorComparison& e : evaluation.estimators) {
+    if (!e.before.failure.empty()) fmt::print("  {} failed with the given model: {}\n", e.name, e.before.failure);
+    if (!e.after.failure.empty()) fmt::print("  {} failed with the revised model: {}\n", e.name, e.after.failure);
+  }
 }
 
 }  // namespace

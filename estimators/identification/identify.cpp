@@ -315,6 +315,7 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
     tell_number(unknowns, i, refined.estimate, trace, number);
     info.number.set(number.value);
   }
+  for (PlacedEffect& e : result.model.effects) keep_within_bounds(e, result.model.nominal);
   result.deviating = deviating_numbers(model, unknowns, refined.estimate);
   return result;
 }

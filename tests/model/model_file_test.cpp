@@ -165,6 +165,36 @@ void expect_same_bits(const std::vector<double>& a, const std::vector<double>& b
   }
 }
 
+/// The model with an effect whose parameters lie at their lower bounds, and then with more friction.
+ArmModel with_effect_at_bound_and_more_friction(const Effect& effect, EffectPlace place) {
+  ArmModel model = read_model(kExamples / "raven2.xml");
+  PlacedEffect placed = place_effect(effect, model.nominal, place);
+  const std::vector<EffectParameter> parameters = effect.parameters(model.nominal, place);
+  for (std::size_t i = 0; i < parameters.size(); ++i) placed.p[i] = parameters[i].lower;
+  model.effects = {placed};
+  for (int k = 0; k < model.n(); ++k) {
+    JointParameters<double>& j = model.nominal.joint[k];
+    j.joint_coulomb *= 1.2, j.motor_coulomb *= 1.2, j.stiffness /= 1.2;
+  }
+  return model;
+}
+
+TEST(ModelFile, ReadsBackAnEffectAtItsBoundAfterTheArmHasChanged) {
+  int refused = 0;
+  for (const Effect* effect : effect_library()) {
+    const std::vector<EffectPlace> places = effect_places(*effect, read_model(kExamples / "raven2.xml").nominal);
+    ArmModel model = with_effect_at_bound_and_more_friction(*effect, places.back());
+    try {
+      parse_model(model_to_xml(model), "again.xml");
+    } catch (const InputError&) {
+      ++refused;
+    }
+    keep_within_bounds(model.effects[0], model.nominal);
+    EXPECT_NO_THROW(parse_model(model_to_xml(model), "again.xml")) << effect->name();
+  }
+  EXPECT_GT(refused, 0) << "no effect's bounds depend on these numbers: the test is of no use";
+}
+
 TEST(ModelFile, WrittenModelReadsBackToTheLastBit) {
   std::vector<ArmModel> models = {parse_model(kArm, "arm.xml"), read_model(kExamples / "raven2.xml")};
   models[1].nominal.joint[0].stiffness = 1.0 / 3;
