@@ -121,7 +121,7 @@ void CandidateRound::quick_fits(const std::vector<std::size_t>& candidates, std:
     Look& look = looks[candidates[c]];
     if (!look.ends.empty()) {
       look.trial = judge_.trial(look.ends[0], without_, look.ends[0].effects.size() - 1);
-      look.left = left_at(look.ends[0]);
+      for (const auto& rows : evidence_.fit_rows(look.ends)) look.left = std::min(look.left, screen_->left(rows));
     }
     look.trial.is_fitted = true;
   });

@@ -49,7 +49,7 @@ class CandidateRound {
   struct Look {
     Trial trial;                                            ///< of the best
     std::vector<Hypothesis> ends;                           ///< the best first; empty if none is usable
-    double left = std::numeric_limits<double>::infinity();  ///< at the best end, see Screen::left()
+    double left = std::numeric_limits<double>::infinity();  ///< the least of all ends, see Screen::left()
   };
   void quick_fits(const std::vector<std::size_t>& candidates, std::vector<Look>& looks) const;
   /// See Screen::left().
