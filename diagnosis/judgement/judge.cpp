@@ -17,6 +17,22 @@ std::vector<double> floors_beside(const Evidence& evidence, const Score& before)
   return least;
 }
 
+/// Σ x² or Σ (x - m)² of each deciding block and channel, whichever is less; m: mean of x over the channel. x: one number
+/// for each deciding row. [block][2n]
+std::vector<std::vector<double>> squares_beside_a_constant(const Evidence& evidence, const std::vector<double>& x) {
+  std::vector<std::vector<double>> squares = evidence.block_products(x, x);
+  const auto sums = evidence.block_products(x, std::vector<double>(x.size(), 1));
+  const auto& count = evidence.block_count();
+  for (int c = 0; c < evidence.channels(); ++c) {
+    double sum = 0, n = 0;
+    for (std::size_t b = 0; b < sums.size(); ++b) sum += sums[b][c], n += count[b][c];
+    const double mean = n > 0 ? sum / n : 0;
+    for (std::size_t b = 0; b < sums.size(); ++b)
+      squares[b][c] -= std::max(0.0, mean * (2 * sums[b][c] - mean * count[b][c]));
+  }
+  return squares;
+}
+
 }  // namespace
 
 Trial unusable(const PlacedEffect& effect) {
@@ -228,7 +244,8 @@ bool Judge::within_tolerance(const Hypothesis& h, std::size_t place) const {
 }
 
 /// What the effects that were found may miss, all together: sums of squares, [deciding block][2n]. What they do to the
-/// residuals is more than what they have removed, if the model's refitted numbers had hidden a part of it.
+/// residuals is more than what they have removed, if the model's refitted numbers had hidden a part of it. A constant
+/// that they do all the time does not count: what is missed of it is a constant, too, and their own sizes absorb it.
 std::vector<std::vector<double>> Judge::misfits(const Scored& found) const {
   const std::size_t given = model_.effects.size(), n = found.hypothesis.effects.size();
   std::vector<std::vector<double>> all(found.score.block_sum.size(), std::vector<double>(evidence_.channels(), 0));
@@ -239,10 +256,9 @@ std::vector<std::vector<double>> Judge::misfits(const Scored& found) const {
     if (others.effects.size() == n) continue;
     const Score without = evidence_.score(others);
     if (!without.finite) continue;
-    const std::vector<double> done = difference(without.deciding, found.score.deciding);
-    const auto sums = evidence_.block_products(done, done);
+    const auto done = squares_beside_a_constant(evidence_, difference(without.deciding, found.score.deciding));
     for (std::size_t b = 0; b < all.size(); ++b)
-      for (std::size_t c = 0; c < all[b].size(); ++c) all[b][c] += misfit * misfit * sums[b][c];
+      for (std::size_t c = 0; c < all[b].size(); ++c) all[b][c] += misfit * misfit * done[b][c];
   }
   return all;
 }

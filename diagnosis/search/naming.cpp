@@ -14,11 +14,7 @@ double probability_of_any_name(const Naming& naming, double none) {
 }
 
 int numbers_added(const PlacedEffect& effect, const ArmParameters<double>& arm) {
-  const std::vector<EffectParameter> parameters = effect.effect->parameters(arm, effect.joint);
-  int added = effect.effect->stages() != 0 ? 1 : 0;
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    added += parameters[i].is_shape() || effect.p[i] != parameters[i].neutral;
-  return added;
+  return static_cast<int>(effect.effect->parameters(arm, effect.joint).size()) + (effect.effect->stages() != 0 ? 1 : 0);
 }
 
 std::vector<bool> convincing(const std::vector<Trial>& trials, double significance) {

@@ -11,8 +11,7 @@ inline bool same_name(const PlacedEffect& a, const PlacedEffect& b) {
   return a.effect == b.effect && a.joint == b.joint;
 }
 
-/// The numbers that an effect adds to a model: its shapes, and the sizes that are not neutral. An equation of its own
-/// counts like one more.
+/// The numbers that an effect adds to a model. An equation of its own counts like one more.
 int numbers_added(const PlacedEffect& effect, const ArmParameters<double>& arm);
 
 /// How an effect came to its name.

@@ -131,27 +131,37 @@ TEST(Judge, ASmallEffectMattersBesideALargeOneIfItActsAtOtherTimes) {
   EXPECT_FALSE(of_error.matters);
 }
 
-/// The zero of a joint is off. A part was found: an offset has no other form, so less of it counts as misfit.
-TEST(Judge, AnEffectThatOnlyChangesANumberMissesLess) {
+/// True if an eccentricity of the joint's encoder matters beside another effect, which was found.
+bool eccentricity_matters_beside(const std::string& name, double size, double amplitude) {
   const ArmModel model = first_joints(1);
-  const auto offset = [&](double size) {
-    PlacedEffect e = place_neutral_effect(*find_effect("encoder_offset"), model.nominal, 0);
-    e.p[0] = size;
-    return e;
-  };
-  constexpr double kOff = 0.05;
+  PlacedEffect found = place_neutral_effect(*find_effect(name), model.nominal, 0), eccentricity;
+  found.p[0] += size;
+  eccentricity = place_neutral_effect(*find_effect("encoder_eccentricity"), model.nominal, 0);
+  eccentricity.p[0] = amplitude, eccentricity.p[2] = 8;
   ArmModel robot = model;
-  robot.effects = {offset(kOff)};
+  robot.effects = {found, eccentricity};
   const Evidence evidence(make_records(simulate(motion(robot, 6)).measured, model, {}), model);
-  const Judge judge(evidence, model, {});
-  const auto rest_matters = [&](double left) {
-    const Hypothesis without{model.nominal, {offset((1 - left) * kOff)}},
-        with{model.nominal, {offset((1 - left) * kOff), offset(left * kOff)}};
-    return judge.trial(with, {without, evidence.score(without)}, 1).matters;
-  };
-  EXPECT_TRUE(rest_matters(1.5 * kRule.number_misfit));
-  EXPECT_FALSE(rest_matters(0.5 * kRule.number_misfit));
-  EXPECT_LT(1.5 * kRule.number_misfit, kRule.form_misfit);
+  const Hypothesis without{model.nominal, {found}}, with{model.nominal, robot.effects};
+  return Judge(evidence, model, {}).trial(with, {without, evidence.score(without)}, 1).matters;
+}
+
+/// The joint moves by 0.2 rad RMS about 0.8 rad.
+TEST(Judge, ASmallEffectDoesNotMatterBesideALargeOneThatVaries) {
+  EXPECT_TRUE(eccentricity_matters_beside("capstan_ratio", 0, 2e-4));
+  EXPECT_FALSE(eccentricity_matters_beside("capstan_ratio", 0.3, 2e-4));
+  EXPECT_TRUE(eccentricity_matters_beside("capstan_ratio", 0.3, 1e-2));
+}
+
+TEST(Judge, AnEffectThatOnlyChangesANumberMissesLess) {
+  const ArmParameters<double> arm = first_joints(1).nominal;
+  EXPECT_EQ(misfit_of(place_effect(*find_effect("capstan_ratio"), arm, 0)), kRule.number_misfit);
+  EXPECT_EQ(misfit_of(place_effect(*find_effect("backlash"), arm, 0)), kRule.form_misfit);
+  EXPECT_LT(kRule.number_misfit, kRule.form_misfit);
+}
+
+/// What is missed of a constant is a constant.
+TEST(Judge, ASmallEffectMattersBesideALargeConstant) {
+  EXPECT_TRUE(eccentricity_matters_beside("encoder_offset", 0.3, 2e-4));
 }
 
 TEST(Judge, AnEffectLeansOnABoundIfItEndsThere) {
