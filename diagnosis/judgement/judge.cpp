@@ -17,8 +17,8 @@ std::vector<double> floors_beside(const Evidence& evidence, const Score& before)
   return least;
 }
 
-/// Σ x² or Σ (x - m)² of each deciding block and channel, whichever is less; m: mean of x over the channel. x: one number
-/// for each deciding row. [block][2n]
+/// Σ x² or Σ (x - m)² of each deciding block and channel, whichever is less; m: mean of x over the channel. x: one
+/// number for each deciding row. [block][2n]
 std::vector<std::vector<double>> squares_beside_a_constant(const Evidence& evidence, const std::vector<double>& x) {
   std::vector<std::vector<double>> squares = evidence.block_products(x, x);
   const auto sums = evidence.block_products(x, std::vector<double>(x.size(), 1));
