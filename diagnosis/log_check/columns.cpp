@@ -18,11 +18,20 @@ constexpr const char* kLeaveEmpty = "leave these cells empty, or leave the colum
 /// The samples that a column has.
 struct Samples {
   std::vector<double> time, x;
+  double usual_interval = 0;  ///< s
   Samples(const Log& log, const std::vector<double>& column) {
     for (std::size_t i = 0; i < column.size(); ++i)
       if (std::isfinite(column[i])) time.push_back(log.time[i]), x.push_back(column[i]);
+    std::vector<double> intervals;
+    for (std::size_t i = 1; i < time.size(); ++i) intervals.push_back(time[i] - time[i - 1]);
+    usual_interval = median(std::move(intervals));
   }
   std::size_t size() const { return x.size(); }
+  /// False for the first sample after a gap, in which a joint may have moved by any way.
+  bool follows(std::size_t i) const {
+    constexpr double kGap = 4;  // usual intervals
+    return time[i] - time[i - 1] < kGap * usual_interval;
+  }
 };
 
 /// Samples begin..end-1 that are equal.
@@ -138,7 +147,7 @@ bool has_lasting_laps(const Samples& s, double period) {
   std::size_t lasting = 0, lost = 0;
   for (std::size_t i = 1; i < s.size(); ++i) {
     const double step = s.x[i] - s.x[i - 1];
-    if (std::abs(step) <= period / 2) continue;
+    if (std::abs(step) <= period / 2 || !s.follows(i)) continue;
     std::size_t back = i + 1;
     const std::size_t end = std::min(s.size(), i + 1 + kReturns);
     while (back < end && !((s.x[back] - s.x[back - 1]) * step < 0 && std::abs(s.x[back] - s.x[back - 1]) > period / 2))
@@ -155,6 +164,7 @@ bool runs_in_laps(const Samples& s, double period) {
   if (spread(s.x) > (1 + 1e-6) * period) return false;
   double largest = 0, largest_at_end = 0;
   for (std::size_t i = 1; i < s.size(); ++i) {
+    if (!s.follows(i)) continue;
     const double step = std::abs(s.x[i] - s.x[i - 1]);
     if (step > period / 2) largest_at_end = std::max(largest_at_end, period - step);
     else largest = std::max(largest, step);

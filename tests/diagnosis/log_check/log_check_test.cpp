@@ -253,6 +253,25 @@ TEST(LogCheck, TakesALostBitForAnOutlierAndNotForTheLapOfACounter) {
   }
 }
 
+/// The joint moves by more than half of 2^14 counts in one gap, and by nearly a fourth in another.
+TEST(LogCheck, TakesNoGapForTheLapOfACounter) {
+  Log log = right_log();
+  std::vector<double>& q = log.joint_position[0];
+  const double period = 16384 * raven().nominal.joint[0].joint_encoder_resolution;
+  const auto [low, high] = std::ranges::minmax_element(q);
+  const auto [first, last] = std::minmax(low, high);
+  ASSERT_GT(*high - *low, 0.53 * period) << "the test shows nothing";
+  auto from = q.begin(), to = q.end();
+  for (; from != q.end(); ++from) {
+    to = std::find_if(from, q.end(), [&](double x) { return std::abs(x - *from) > 0.24 * period; });
+    if (to != q.end() && (to < first || from > last)) break;
+  }
+  ASSERT_NE(from, q.end()) << "the test shows nothing";
+  std::fill(first + 1, last, std::numeric_limits<double>::quiet_NaN());
+  std::fill(from + 1, to, std::numeric_limits<double>::quiet_NaN());
+  for (const LogFinding& f : check_log(log, raven())) EXPECT_NE(f.severity, Severity::gross) << finding_line(f);
+}
+
 TEST(LogCheck, NamesAMotorThatWrapsInEachTurn) {
   constexpr double kTurn = 2 * std::numbers::pi;
   for (int k = 0; k < 3; ++k)
