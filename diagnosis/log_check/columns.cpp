@@ -8,6 +8,7 @@
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/robust.h"
 #include "diagnosis/record/record.h"
+#include "diagnosis/record/sampled_column.h"
 
 namespace halyard {
 namespace {
@@ -18,20 +19,11 @@ constexpr const char* kLeaveEmpty = "leave these cells empty, or leave the colum
 /// The samples that a column has.
 struct Samples {
   std::vector<double> time, x;
-  double usual_interval = 0;  ///< s
   Samples(const Log& log, const std::vector<double>& column) {
     for (std::size_t i = 0; i < column.size(); ++i)
       if (std::isfinite(column[i])) time.push_back(log.time[i]), x.push_back(column[i]);
-    std::vector<double> intervals;
-    for (std::size_t i = 1; i < time.size(); ++i) intervals.push_back(time[i] - time[i - 1]);
-    usual_interval = median(std::move(intervals));
   }
   std::size_t size() const { return x.size(); }
-  /// False for the first sample after a gap, in which a joint may have moved by any way.
-  bool follows(std::size_t i) const {
-    constexpr double kGap = 4;  // usual intervals
-    return time[i] - time[i - 1] < kGap * usual_interval;
-  }
 };
 
 /// Samples begin..end-1 that are equal.
@@ -140,14 +132,15 @@ Period period_of(const Jumps& jumps, const PositionColumn& column) {
   return {};
 }
 
-/// The steps of more than half a period, of either sign, that the next few readings do not take back.
-bool has_lasting_laps(const Samples& s, double period) {
+/// The steps of more than half a period, of either sign, that the next few readings do not take back. longest: time
+/// that a step may take, s.
+bool has_lasting_laps(const Samples& s, double period, double longest) {
   constexpr std::size_t kReturns = 3;   // readings within which a lost bit is right again
   constexpr std::size_t kFewLost = 10;  // a reading that rests at the end of its period goes to and fro more often
   std::size_t lasting = 0, lost = 0;
   for (std::size_t i = 1; i < s.size(); ++i) {
     const double step = s.x[i] - s.x[i - 1];
-    if (std::abs(step) <= period / 2 || !s.follows(i)) continue;
+    if (std::abs(step) <= period / 2 || s.time[i] - s.time[i - 1] >= longest) continue;
     std::size_t back = i + 1;
     const std::size_t end = std::min(s.size(), i + 1 + kReturns);
     while (back < end && !((s.x[back] - s.x[back - 1]) * step < 0 && std::abs(s.x[back] - s.x[back - 1]) > period / 2))
@@ -159,24 +152,25 @@ bool has_lasting_laps(const Samples& s, double period) {
 }
 
 /// Whether a reading runs through a period again and again: it stays within one period, and a step of nearly a period
-/// is a usual step once the period is taken off.
-bool runs_in_laps(const Samples& s, double period) {
+/// is a usual step once the period is taken off. longest: time that a step may take, s.
+bool runs_in_laps(const Samples& s, double period, double longest) {
   if (spread(s.x) > (1 + 1e-6) * period) return false;
   double largest = 0, largest_at_end = 0;
   for (std::size_t i = 1; i < s.size(); ++i) {
-    if (!s.follows(i)) continue;
+    if (s.time[i] - s.time[i - 1] >= longest) continue;
     const double step = std::abs(s.x[i] - s.x[i - 1]);
     if (step > period / 2) largest_at_end = std::max(largest_at_end, period - step);
     else largest = std::max(largest, step);
   }
-  return largest_at_end > 0 && largest_at_end < 2 * largest && largest < period / 4 && has_lasting_laps(s, period);
+  return largest_at_end > 0 && largest_at_end < 2 * largest && largest < period / 4 &&
+         has_lasting_laps(s, period, longest);
 }
 
 /// Jumps of a slow column stand out from its motion. A motor that turns fast jumps so often that they do not.
-Period period_of(const Samples& s, const PositionColumn& column) {
+Period period_of(const Samples& s, const PositionColumn& column, double longest) {
   std::vector<Period> all = counters_of(column);
   if (column.turns) all.insert(all.begin(), of_turns(1));
-  const auto found = std::ranges::find_if(all, [&](const Period& p) { return runs_in_laps(s, p.size); });
+  const auto found = std::ranges::find_if(all, [&](const Period& p) { return runs_in_laps(s, p.size, longest); });
   return found == all.end() ? Period{} : *found;
 }
 
@@ -190,8 +184,9 @@ void check_wraps(LogUnderCheck& c, const PositionColumn& column) {
   const auto reject = [&](const std::string& what, const Period& period) {
     c.reject(name, what + "; expected a continuous position", "unwrap it with " + c.wrap_option(name, period.size));
   };
-  const Samples s(c.log, (c.log.*column.signal)[column.k]);
-  if (const Period period = period_of(s, column); period.size > 0)
+  const std::vector<double>& readings = (c.log.*column.signal)[column.k];
+  const double longest = c.rule.lap_within * SampledColumn(c.log.time, readings).interval();
+  if (const Period period = period_of(Samples(c.log, readings), column, longest); period.size > 0)
     return reject("starts again after " + period.what, period);
   const Jumps jumps = jumps_of(c, column);
   if (const Period period = period_of(jumps, column); jumps.count > 0 && period.size > 0)

@@ -82,6 +82,9 @@ struct LogCheckRule {
   double jitter = 0.3;
   /// A gap is an interval longer than this many median intervals. Jitter stays below.
   double gap = 2.5;
+  /// Across more median intervals of a column than this, a step is no lap of a counter: the joint may have moved by any
+  /// way. Reason: above `gap`, so that a sensor that loses two readings in a row still shows its laps.
+  double lap_within = 4;
   /// Share of all rows from which on missing rows are reported.
   double missing = 1e-3;
   /// A column is late if it is late by more than this many of its own sample intervals, and by more than late_s. Cables
