@@ -31,7 +31,8 @@ struct DecisionRule {
   /// Prior cost of a candidate with a parameter at its bound, nats. Reason: a number at the end of its tolerance costs
   /// 2.
   double at_bound = 2;
-  /// A candidate whose quick fit has a larger p value than this is neither fitted fully nor judged further.
+  /// A candidate whose quick fit has a larger p value than this is neither fitted fully nor judged further, unless it is
+  /// one of the `leaders_by_rest`.
   double worth_a_fit = 0.05;
 
   // Several effects are proposed together.
@@ -84,7 +85,7 @@ struct DecisionRule {
   std::size_t starts_fitted = 3;
   /// The first `leaders` of those are fitted fully, if their gain is at least the share `leads` of the largest gain. So
   /// are the `leaders_by_rest` whose fits leave least. Reason: a quick fit keeps the model's numbers linear, and its
-  /// gain can be negative although the effect is the right one.
+  /// gain can be negative, or not significant, although the effect is the right one.
   std::size_t leaders = 4, leaders_by_rest = 2;
   double leads = 0.25;
   /// A fit is nudged again if the last nudges gained more than this in log-likelihood. Reason: a quarter of what one

@@ -11,7 +11,7 @@ struct LaneDrive {
   void (*drive)(const Transmission<Lanes>&, const DrivenInput*, std::size_t size, double start, double dt,
                 const Chebyshev& scheme, const CommandHistory*, DrivenState<Lanes>&, Lanes* out, Lanes* states);
   void (*replay)(const Transmission<Lanes>&, const DrivenInput*, std::size_t size, double start, double dt,
-                 const Chebyshev& scheme, const CommandHistory*, const Lanes* states, Lanes* out);
+                 const CommandHistory*, const Lanes* states, Lanes* out);
 };
 
 /// The kernels that this processor can run, the widest first; the last is the generic one.

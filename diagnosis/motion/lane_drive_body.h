@@ -28,9 +28,9 @@ void drive_lanes(const Transmission<Lanes>& transmission, const DrivenInput* sam
 }
 
 void replay_lanes(const Transmission<Lanes>& transmission, const DrivenInput* samples, std::size_t size, double start,
-                  double dt, const Chebyshev& scheme, const CommandHistory* history, const Lanes* states, Lanes* out) {
+                  double dt, const CommandHistory* history, const Lanes* states, Lanes* out) {
   with_known_joints(transmission.arm().n, [&]<int known>() {
-    replay_record<known>(transmission, samples, size, start, dt, scheme, history, states, out);
+    replay_record<known>(transmission, samples, size, start, dt, history, states, out);
   });
 }
 

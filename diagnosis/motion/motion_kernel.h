@@ -44,9 +44,17 @@ HALYARD_INLINE void prescribe(const ArmParameters<T>& arm, const DrivenInput& u,
   }
 }
 
-/// The rigid chain over one step. It changes little within 2 ms, so it is computed once, for the middle of the step.
+/// The rigid chain changes little within this time, s: it is computed once, for the middle.
+inline constexpr double kChainHeld = 0.008;
+
+/// So many samples share a chain.
+inline std::size_t samples_of_chain(double dt) {
+  return std::max(std::size_t{1}, static_cast<std::size_t>(kChainHeld / dt + 0.5));
+}
+
+/// The rigid chain over a few samples.
 template <class T>
-struct ChainOverStep {
+struct HeldChain {
   T M[kMaxJoints][kMaxJoints];  ///< factored mass matrix
   T bias[kMaxJoints];           ///< velocity and gravity forces
   int n_prescribed = 0;
@@ -57,13 +65,12 @@ struct ChainOverStep {
 };
 
 template <int known = 0, class T>
-HALYARD_INLINE void chain_over_step(const ArmParameters<T>& arm, const DrivenState<T>& x, double ahead,
-                                    ChainOverStep<T>& chain) {
+HALYARD_INLINE void chain_at(const ArmParameters<T>& arm, const T* q, const T* v, HeldChain<T>& chain) {
   const int n = joint_count<known>(arm);
-  T q[kMaxJoints], zero[kMaxJoints];
-  for (int k = 0; k < n; ++k) q[k] = x.q[k] + T(ahead) * x.v[k], zero[k] = T(0.0);
+  T zero[kMaxJoints];
+  for (int k = 0; k < n; ++k) zero[k] = T(0.0);
   const ChainPose<T> pose = chain_pose<known>(arm, q);
-  inverse_dynamics<known>(arm, pose, x.v, zero, chain.bias);
+  inverse_dynamics<known>(arm, pose, v, zero, chain.bias);
   mass_matrix<known>(arm, pose, chain.M);
   ldl_factor<T, kMaxJoints>(n, chain.M);
   chain.n_prescribed = 0;
@@ -87,6 +94,18 @@ HALYARD_INLINE void chain_over_step(const ArmParameters<T>& arm, const DrivenSta
   ldl_factor<T, kMaxJoints>(chain.n_prescribed, chain.A);
 }
 
+/// The chain for the middle of the next `held` s. before: rates as long ago; the joints go on accelerating as since then.
+template <int known = 0, class T>
+HALYARD_INLINE void chain_ahead(const ArmParameters<T>& arm, const T* q, const T* v, const T* before, double held,
+                                HeldChain<T>& chain) {
+  T middle[kMaxJoints], rate[kMaxJoints];
+  for (int k = 0, n = joint_count<known>(arm); k < n; ++k) {
+    rate[k] = v[k] + T(0.5) * (v[k] - before[k]);
+    middle[k] = q[k] + T(0.25 * held) * (v[k] + rate[k]);
+  }
+  chain_at<known>(arm, middle, rate, chain);
+}
+
 /// Accelerations of the joints as the motors' motion gives them, without stretch: for sensors that lag.
 template <int known = 0, class T>
 HALYARD_INLINE void set_accelerations(const ArmParameters<T>& arm, const DrivenInput& u, JointSignals<T>* s) {
@@ -100,7 +119,7 @@ HALYARD_INLINE void set_accelerations(const ArmParameters<T>& arm, const DrivenI
 /// Rates of x; torque_residual [n] and joint_reading [n] if not null. Without a chain there are no accelerations; only
 /// arms with cables at all joints allow this.
 template <class T, int known = 0>
-HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const ChainOverStep<T>* chain, double time,
+HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const HeldChain<T>* chain, double time,
                                       const CommandHistory* history, const DrivenInput& u, const DrivenState<T>& x,
                                       DrivenState<T>& rate, T* torque_residual, T* joint_reading) {
   const ArmParameters<T>& arm = transmission.arm();
@@ -200,11 +219,10 @@ HALYARD_INLINE void copy_state(int n, int m, const DrivenState<T>& from, DrivenS
 /// One step of x from time over h; input(t, at) sets the DrivenInput at time t. row, if not null: torque residual [n]
 /// and joint reading [n] at the start of the step.
 template <int known = 0, class T, class Input>
-HALYARD_INLINE void driven_step(const Transmission<T>& transmission, double time, double h, const Chebyshev& c,
-                                const CommandHistory* history, const Input& input, DrivenState<T>& x, T* row) {
+HALYARD_INLINE void driven_step(const Transmission<T>& transmission, const HeldChain<T>& chain, double time, double h,
+                                const Chebyshev& c, const CommandHistory* history, const Input& input,
+                                DrivenState<T>& x, T* row) {
   const int n = joint_count<known>(transmission.arm()), m = transmission.n_states();
-  ChainOverStep<T> chain;
-  chain_over_step<known>(transmission.arm(), x, 0.5 * h, chain);
   DrivenInput at;
   DrivenState<T> f0, f, stage[2];
   input(time, at);
@@ -235,6 +253,9 @@ HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const Driv
                                  DrivenState<T>& x, T* out, T* states) {
   const ArmParameters<T>& arm = transmission.arm();
   const int n = joint_count<known>(arm), m = transmission.n_states();
+  const std::size_t held = samples_of_chain(dt);
+  HeldChain<T> chain;
+  T before[kMaxJoints];
   for (std::size_t i = 0; i < size; ++i) {
     const double time = start + dt * static_cast<double>(i);
     // After the last sample its input is held.
@@ -246,29 +267,37 @@ HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const Driv
       for (int k = 0; k < m; ++k) row[2 * n + k] = x.z[k];
     }
     const auto input = [&](double t, DrivenInput& at) { interpolate(n, a, b, (t - time) / dt, at); };
+    if (i % held == 0) {
+      chain_ahead<known>(arm, x.q, x.v, i == 0 ? x.v : before, dt * static_cast<double>(held), chain);
+      for (int k = 0; k < n; ++k) before[k] = x.v[k];
+    }
     const double h = dt / scheme.steps;
     for (int s = 0; s < scheme.steps; ++s)
-      driven_step<known>(transmission, time + s * h, h, scheme, history, input, x, s == 0 ? out + i * 2 * n : nullptr);
+      driven_step<known>(transmission, chain, time + s * h, h, scheme, history, input, x,
+                         s == 0 ? out + i * 2 * n : nullptr);
   }
 }
 
-/// Computes the output of drive_record with the same scheme from its `states`: for hypotheses that differ only in
-/// parameters on which the motion does not depend.
+/// Computes the output of drive_record from its `states`: for hypotheses that differ only in parameters on which the
+/// motion does not depend.
 template <int known = 0, class T>
 HALYARD_INLINE void replay_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
-                                  double start, double dt, const Chebyshev& scheme, const CommandHistory* history,
-                                  const T* states, T* out) {
+                                  double start, double dt, const CommandHistory* history, const T* states, T* out) {
   const ArmParameters<T>& arm = transmission.arm();
   const int n = joint_count<known>(arm), m = transmission.n_states();
   bool prescribed = false;
   for (int k = 0; k < n; ++k) prescribed = prescribed || arm.joint[k].drive != Drive::cable;
+  const std::size_t held = samples_of_chain(dt);
+  HeldChain<T> chain;
   for (std::size_t i = 0; i < size; ++i) {
     const T* from = states + i * (2 * n + m);
     DrivenState<T> x, rate;
     for (int k = 0; k < n; ++k) x.q[k] = from[k], x.v[k] = from[n + k];
     for (int k = 0; k < m; ++k) x.z[k] = from[2 * n + k];
-    ChainOverStep<T> chain;
-    if (prescribed) chain_over_step<known>(arm, x, 0.5 * dt / scheme.steps, chain);
+    if (prescribed && i % held == 0) {
+      const T* before = i == 0 ? from : from - held * (2 * n + m);
+      chain_ahead<known>(arm, x.q, x.v, before + n, dt * static_cast<double>(held), chain);
+    }
     T* row = out + i * 2 * n;
     driven_derivative<T, known>(transmission, prescribed ? &chain : nullptr, start + dt * static_cast<double>(i),
                                 history, samples[i], x, rate, row, row + n);

@@ -23,8 +23,8 @@ Eigen::MatrixXd driven_jacobian(const Transmission<Dual>& transmission, const Re
     std::copy(y, y + n, state.q);
     std::copy(y + n, y + 2 * n, state.v);
     std::copy(y + 2 * n, y + size, state.z);
-    ChainOverStep<Dual> chain;
-    chain_over_step(transmission.arm(), state, 0.0, chain);
+    HeldChain<Dual> chain;
+    chain_at(transmission.arm(), state.q, state.v, chain);
     driven_derivative<Dual>(transmission, &chain, record.start, nullptr, u, state, state_rate, nullptr, nullptr);
     std::copy(state_rate.q, state_rate.q + n, y_dot);
     std::copy(state_rate.v, state_rate.v + n, y_dot + n);

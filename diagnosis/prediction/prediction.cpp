@@ -235,8 +235,8 @@ class Prediction {
         for (const int s : lanes.states_of(lane)) row[moving + s].set(l, *of_mover++);
       }
     }
-    kernel().replay(lanes.transmission(), inputs_.data(), record_.size, record_.start, record_.dt,
-                    schemes_[jobs_[batch[0]].request], &history_, path.data(), out.data());
+    kernel().replay(lanes.transmission(), inputs_.data(), record_.size, record_.start, record_.dt, &history_,
+                    path.data(), out.data());
     take(batch, out);
   }
 

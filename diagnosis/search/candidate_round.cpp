@@ -10,18 +10,20 @@
 namespace halyard {
 
 std::vector<std::size_t> leaders_of(const std::vector<Prospect>& prospects, double share) {
-  std::vector<std::size_t> judged;
-  for (std::size_t i = 0; i < prospects.size(); ++i)
-    if (prospects[i].is_judged) judged.push_back(i);
-  if (judged.empty()) return {};
-  std::ranges::stable_sort(judged, std::ranges::greater{}, [&](std::size_t i) { return prospects[i].gain; });
-  std::vector<std::size_t> leaders = judged;
+  const auto gain = [&](std::size_t i) { return prospects[i].gain; };
+  const auto left = [&](std::size_t i) { return prospects[i].left; };
+  std::vector<std::size_t> leaders, usable;
+  for (std::size_t i = 0; i < prospects.size(); ++i) {
+    if (prospects[i].is_judged) leaders.push_back(i);
+    if (std::isfinite(left(i))) usable.push_back(i);
+  }
+  std::ranges::stable_sort(leaders, std::ranges::greater{}, gain);
   if (leaders.size() > kRule.leaders) leaders.resize(kRule.leaders);
-  const double worth = share * prospects[judged[0]].gain;
-  std::erase_if(leaders, [&](std::size_t i) { return prospects[i].gain <= worth; });
-  std::ranges::stable_sort(judged, {}, [&](std::size_t i) { return prospects[i].left; });
-  if (judged.size() > kRule.leaders_by_rest) judged.resize(kRule.leaders_by_rest);
-  for (const std::size_t i : judged)
+  const double worth = leaders.empty() ? 0 : share * gain(leaders[0]);
+  std::erase_if(leaders, [&](std::size_t i) { return gain(i) <= worth; });
+  std::ranges::stable_sort(usable, {}, left);
+  if (usable.size() > kRule.leaders_by_rest) usable.resize(kRule.leaders_by_rest);
+  for (const std::size_t i : usable)
     if (std::ranges::find(leaders, i) == leaders.end()) leaders.push_back(i);
   return leaders;
 }

@@ -22,9 +22,16 @@ TEST(Leaders, MayComeInAnyOrder) {
   EXPECT_EQ(leaders_of({judged(9, 12), judged(30, 11), judged(40, 10)}, kQuarter), (std::vector<std::size_t>{2, 1}));
 }
 
-TEST(Leaders, AreJudged) {
-  EXPECT_EQ(leaders_of({{false, 40, 10}, judged(30, 100)}, kQuarter), (std::vector<std::size_t>{1}));
-  EXPECT_TRUE(leaders_of({{false, 40, 10}}, kQuarter).empty());
+TEST(Leaders, ByGainAreJudged) {
+  EXPECT_EQ(leaders_of({{false, 40, 30}, judged(30, 20), judged(1, 10)}, kQuarter), (std::vector<std::size_t>{1, 2}));
+}
+
+TEST(Leaders, ByRestNeedNotBeJudged) {
+  EXPECT_EQ(leaders_of({{false, 1, 10}, judged(30, 100)}, kQuarter), (std::vector<std::size_t>{1, 0}));
+}
+
+TEST(Leaders, CanBeIntegrated) {
+  EXPECT_TRUE(leaders_of({Prospect{}}, kQuarter).empty());
 }
 
 }  // namespace
