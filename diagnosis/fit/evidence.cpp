@@ -15,6 +15,7 @@ namespace {
 constexpr double kRowRate = 50;            ///< residual rows a second; they are band-limited to 20 Hz
 constexpr double kCorrelationTime = 0.25;  ///< s; residuals of a motion closer than this say the same
 constexpr double kTorqueFloor = 0.01;      ///< of the torque's root mean square
+constexpr std::size_t kMostRecent = 1000;  ///< residuals that are kept, of some 50 kB each
 constexpr double kResolutionFloor = 0.3;   ///< of the joint encoder's resolution: its rounding's deviation
 
 /// The step of a sensor that the model says nothing of: the smallest change that the record shows.
@@ -51,7 +52,7 @@ Span joint_span_of(const std::vector<Record>& records, const ArmModel& model, in
 }  // namespace
 
 Evidence::Evidence(std::vector<Record> records, const ArmModel& model, Split split)
-    : n_(model.n()), records_(std::move(records)) {
+    : n_(model.n()), recent_(std::make_unique<RecentResiduals>(kMostRecent)), records_(std::move(records)) {
   double total = 0, dt = records_.front().dt;
   for (const Record& r : records_) total += r.dt * static_cast<double>(r.size), dt = std::min(dt, r.dt);
   stride_ = std::max(1, static_cast<int>(std::lround(1 / (kRowRate * dt))));
@@ -172,7 +173,7 @@ void Evidence::find_moving_span() {
 
 std::vector<std::vector<Residuals>> Evidence::predict_all(const std::vector<Hypothesis>& hypotheses) const {
   std::vector<PredictionRequest> requests;
-  for (const Record& record : records_) requests.push_back({&record, &hypotheses, stride_});
+  for (const Record& record : records_) requests.push_back({&record, &hypotheses, stride_, recent_.get()});
   return predict(requests);
 }
 

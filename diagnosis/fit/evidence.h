@@ -2,10 +2,11 @@
 /// The data of a diagnosis: records divided into blocks of time. Every other block is for fitting and the rest for
 /// deciding, so that gains are measured on data that the fit did not use.
 
+#include <memory>
 #include <span>
 
 #include "diagnosis/noise/channel_noise.h"
-#include "diagnosis/prediction/prediction.h"
+#include "diagnosis/prediction/recent_residuals.h"
 
 namespace halyard {
 
@@ -110,6 +111,7 @@ class Evidence {
   int stride_ = 1;
   double correlated_rows_ = 1, noise_rows_ = 1;
   double block_s_ = 1;
+  std::unique_ptr<RecentResiduals> recent_;
   std::vector<int> first_block_;  ///< [record]
   std::vector<Record> records_;
   std::vector<Place> places_;

@@ -31,8 +31,8 @@ struct DecisionRule {
   /// Prior cost of a candidate with a parameter at its bound, nats. Reason: a number at the end of its tolerance costs
   /// 2.
   double at_bound = 2;
-  /// A candidate whose quick fit has a larger p value than this is neither fitted fully nor judged further, unless it is
-  /// one of the `leaders_by_rest`.
+  /// A candidate whose quick fit has a larger p value than this is neither fitted fully nor judged further, except the
+  /// `leaders_by_rest`.
   double worth_a_fit = 0.05;
 
   // Several effects are proposed together.

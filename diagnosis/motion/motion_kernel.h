@@ -94,7 +94,8 @@ HALYARD_INLINE void chain_at(const ArmParameters<T>& arm, const T* q, const T* v
   ldl_factor<T, kMaxJoints>(chain.n_prescribed, chain.A);
 }
 
-/// The chain for the middle of the next `held` s. before: rates as long ago; the joints go on accelerating as since then.
+/// The chain for the middle of the next `held` s. before: the rates as long ago; the joints go on accelerating as since
+/// then.
 template <int known = 0, class T>
 HALYARD_INLINE void chain_ahead(const ArmParameters<T>& arm, const T* q, const T* v, const T* before, double held,
                                 HeldChain<T>& chain) {

@@ -12,6 +12,7 @@
 #include "diagnosis/prediction/driven_start.h"
 #include "diagnosis/prediction/lane_residuals.h"
 #include "diagnosis/prediction/motion_key.h"
+#include "diagnosis/prediction/recent_residuals.h"
 #include "diagnosis/prediction/shared_lanes.h"
 #include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/record/common_clock.h"
@@ -60,6 +61,9 @@ struct Job {
   std::vector<double> motion = {};  ///< motion_key()
   std::size_t mover = 0;            ///< the first job of the request with the same motion: itself, if it is integrated
   bool is_replayed_later = false;
+  bool is_known = false;                         ///< its residuals need not be computed
+  std::optional<RecentResiduals::Key> key = {};  ///< of what is computed, to be kept
+  std::optional<std::size_t> twin = {};          ///< a job with the same key, whose residuals it takes
   DrivenState<double> start = {};
   std::vector<Eigenvalues> spectrum = {};
   bool is_able = false;             ///< can be integrated
@@ -69,8 +73,12 @@ struct Job {
 /// All requests about one record at one stride.
 class Prediction {
  public:
-  Prediction(const Record& record, int stride)
-      : record_(record), stride_(stride), inputs_(driven_inputs(record)), history_(whole_history(record, inputs_)) {}
+  Prediction(const Record& record, int stride, RecentResiduals* recent)
+      : record_(record),
+        stride_(stride),
+        recent_(recent),
+        inputs_(driven_inputs(record)),
+        history_(whole_history(record, inputs_)) {}
 
   void add(const std::vector<Hypothesis>& hypotheses, std::vector<Residuals>& residuals) {
     residuals.resize(hypotheses.size());
@@ -86,25 +94,55 @@ class Prediction {
   void run() {
     find_movers();
     find_starts();
+    if (recent_) recall();
     std::vector<std::size_t> movers, replayed;
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
-      if (jobs_[jobs_[i].mover].is_able) (jobs_[i].mover == i ? movers : replayed).push_back(i);
-      else *jobs_[i].residuals = unknown_residuals(record_, stride_);
+      Job& job = jobs_[i];
+      if (!is_able(job)) *job.residuals = unknown_residuals(record_, stride_);
+      else if (job.mover != i && !job.is_known) replayed.push_back(i), jobs_[job.mover].is_replayed_later = true;
     }
+    for (std::size_t i = 0; i < jobs_.size(); ++i)
+      if (is_able(jobs_[i]) && jobs_[i].mover == i && (!jobs_[i].is_known || jobs_[i].is_replayed_later))
+        movers.push_back(i);
     each_batch(movers, [&](const std::vector<std::size_t>& batch) { drive(batch); });
     each_batch(replayed, [&](const std::vector<std::size_t>& batch) { replay(batch); });
+    for (Job& job : jobs_) {
+      if (job.key) recent_->keep(std::move(*job.key), *job.residuals);
+      if (job.twin) *job.residuals = *jobs_[*job.twin].residuals;
+    }
   }
 
  private:
+  bool is_able(const Job& job) const { return jobs_[job.mover].is_able; }
+
+  /// Takes what was predicted lately, and finds jobs that ask for the same.
+  void recall() {
+    std::map<RecentResiduals::Key, std::size_t> first;
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+      Job& job = jobs_[i];
+      if (!is_able(job)) continue;
+      RecentResiduals::Key key(*job.hypothesis, record_, stride_, schemes_[job.request], job.mover != i);
+      const auto [same, is_new] = first.try_emplace(key, i);
+      if (!is_new) {
+        job.twin = same->second;
+      } else if (auto known = recent_->find(key)) {
+        *job.residuals = std::move(*known);
+        job.is_known = true;
+      } else {
+        job.key = std::move(key);
+      }
+      job.is_known = job.is_known || job.twin;
+    }
+  }
+
   /// Jobs of a request with the same motion are integrated once, by the first of them, and replayed for the others.
   void find_movers() {
     tbb::parallel_for(std::size_t{0}, jobs_.size(),
                       [&](std::size_t i) { jobs_[i].motion = motion_key(*jobs_[i].hypothesis, record_); });
     std::map<std::pair<std::size_t, std::vector<double>>, std::size_t> known;
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
-      const auto [entry, is_new] = known.try_emplace({jobs_[i].request, std::move(jobs_[i].motion)}, i);
+      const auto entry = known.try_emplace({jobs_[i].request, std::move(jobs_[i].motion)}, i).first;
       jobs_[i].mover = entry->second;
-      if (!is_new) jobs_[entry->second].is_replayed_later = true;
     }
   }
 
@@ -248,6 +286,7 @@ class Prediction {
 
   const Record& record_;
   int stride_;
+  RecentResiduals* recent_;
   std::vector<DrivenInput> inputs_;
   CommandHistory history_;
   std::deque<Hypothesis> on_own_clocks_;  ///< of the jobs, if the record's clock is not the common one
@@ -278,12 +317,12 @@ std::vector<std::vector<Residuals>> predict_at_once(const std::vector<Prediction
   std::vector<std::vector<Residuals>> residuals(requests.size());
   std::vector<std::tuple<const Record*, int, Prediction>> predictions;
   for (std::size_t r = 0; r < requests.size(); ++r) {
-    const auto& [record, hypotheses, stride] = requests[r];
+    const auto& [record, hypotheses, stride, recent] = requests[r];
     auto of_record = std::ranges::find_if(predictions, [record = record, stride = stride](const auto& p) {
       return std::get<0>(p) == record && std::get<1>(p) == stride;
     });
     if (of_record == predictions.end()) {
-      predictions.emplace_back(record, stride, Prediction(*record, stride));
+      predictions.emplace_back(record, stride, Prediction(*record, stride, recent));
       of_record = std::prev(predictions.end());
     }
     std::get<2>(*of_record).add(*hypotheses, residuals[r]);
@@ -298,7 +337,7 @@ std::vector<std::vector<Residuals>> predict(const std::vector<PredictionRequest>
 }
 
 std::vector<Residuals> predict(const Record& record, const std::vector<Hypothesis>& hypotheses, int stride) {
-  return std::move(predict({{&record, &hypotheses, stride}})[0]);
+  return std::move(predict({PredictionRequest{&record, &hypotheses, stride}})[0]);
 }
 
 FullPrediction predict_fully(const Record& record, const Hypothesis& hypothesis) {

@@ -33,11 +33,14 @@ struct Residuals {
   bool finite = true;  ///< false: the motion of this hypothesis cannot be integrated
 };
 
+class RecentResiduals;
+
 /// Hypotheses about a record that are integrated with the same steps, so that their residuals can be compared.
 struct PredictionRequest {
   const Record* record;
   const std::vector<Hypothesis>* hypotheses;
   int stride;
+  RecentResiduals* recent = nullptr;  ///< what is in it is not predicted again; the same for requests about one record
 };
 
 /// Residuals of each hypothesis of each request. They depend neither on the other requests nor on the number of

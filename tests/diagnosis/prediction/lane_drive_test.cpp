@@ -108,9 +108,13 @@ TEST(LaneDrive, AHeldChainMovesAnArmLikeOneThatIsAlwaysNew) {
   const std::vector<DrivenInput> motors = swinging_motors(3);
   DrivenState<double> x = at_rest<double>();
   std::vector<double> out(kSamples * 6);
-  drive_record(lift_transmission<double>(arm, {}), motors.data(), kSamples, 0.0, kDt, scheme, nullptr, x, out.data(), static_cast<double*>(nullptr));
+  drive_record(lift_transmission<double>(arm, {}), motors.data(), kSamples, 0.0, kDt, scheme, nullptr, x, out.data(),
+               static_cast<double*>(nullptr));
   const DrivenState<double> exact = moved_with_a_new_chain_each_step(arm, motors);
-  for (int k = 0; k < 3; ++k) std::printf("%d %g %g %g\n", k, x.q[k] - exact.q[k], exact.q[k], exact.v[k]);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(x.q[k], exact.q[k], 1e-7) << "a hundredth of what a joint's encoder resolves";
+    EXPECT_GT(std::abs(exact.v[k]), 0.05) << "it moves";
+  }
 }
 
 }  // namespace

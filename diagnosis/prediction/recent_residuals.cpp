@@ -1,0 +1,45 @@
+#include "diagnosis/prediction/recent_residuals.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "diagnosis/prediction/shared_lanes.h"
+#include "transmission/arm_fields.h"
+
+namespace halyard {
+
+RecentResiduals::Key::Key(const Hypothesis& h, const Record& record, int stride, const Chebyshev& scheme,
+                          bool is_replayed)
+    : record_(&record),
+      stride_(stride),
+      steps_(scheme.steps),
+      stages_(scheme.stages),
+      is_replayed_(is_replayed),
+      numbers_(past_states(h, record)) {
+  const auto append = [&](const auto& number) { numbers_.push_back(static_cast<double>(number)); };
+  const auto append_field = [&](const ArmField&, const auto& value) { for_each_entry(append, value); };
+  for_each_arm_field(append_field, h.nominal);
+  for (int k = 0; k < h.nominal.n; ++k) for_each_joint_field(append_field, h.nominal.joint[k]);
+  for (const PlacedEffect& e : h.effects) {
+    effects_.push_back(e.effect);
+    append(e.joint.value_or(-1));
+    numbers_.insert(numbers_.end(), e.p, e.p + kMaxEffectParameters);
+  }
+}
+
+std::optional<Residuals> RecentResiduals::find(const Key& key) {
+  const std::lock_guard lock(mutex_);
+  const auto known = kept_.find(key);
+  if (known == kept_.end()) return {};
+  known->second.last_use = ++uses_;
+  return known->second.residuals;
+}
+
+void RecentResiduals::keep(Key key, Residuals residuals) {
+  const std::lock_guard lock(mutex_);
+  kept_.insert_or_assign(std::move(key), Kept{std::move(residuals), ++uses_});
+  if (kept_.size() <= most_) return;
+  kept_.erase(std::ranges::min_element(kept_, {}, [](const auto& entry) { return entry.second.last_use; }));
+}
+
+}  // namespace halyard
