@@ -30,9 +30,7 @@ TEST(Leaders, ByRestNeedNotBeJudged) {
   EXPECT_EQ(leaders_of({{false, 1, 10}, judged(30, 100)}, kQuarter), (std::vector<std::size_t>{1, 0}));
 }
 
-TEST(Leaders, CanBeIntegrated) {
-  EXPECT_TRUE(leaders_of({Prospect{}}, kQuarter).empty());
-}
+TEST(Leaders, CanBeIntegrated) { EXPECT_TRUE(leaders_of({Prospect{}}, kQuarter).empty()); }
 
 }  // namespace
 }  // namespace halyard
