@@ -177,6 +177,18 @@ void record(const Scenario& scenario, const Tick& tick, double time_s, long i, S
   }
 }
 
+/// No motor turns so fast, rad/s.
+constexpr double kFastestMotor = 1e5;
+
+void refuse_runaway(const Scenario& scenario, const Tick& tick, double time_s) {
+  for (int k = 0; k < scenario.robot.n(); ++k)
+    if (has_motor(scenario, k) && !(std::abs(tick.signals[k].motor_rate) < kFastestMotor))
+      throw InputError(place(scenario) + "motor " + std::to_string(k + 1) + " turns faster than 100000 rad/s at " +
+                       std::to_string(time_s) +
+                       " s, so the controlled arm is unstable; lower kp and kd of the joint's "
+                       "<controller>, or state its torque_limit");
+}
+
 /// From the start at time 0 to the end.
 EnergyBalance energy_balance(ArmPlant& plant, const Eigen::VectorXd& start, const Eigen::VectorXd& end,
                              double end_time_s) {
@@ -217,6 +229,12 @@ void check_scenario(const Scenario& scenario) {
     } catch (const InputError& error) {
       throw InputError(joint + error.what());
     }
+    const ControllerParameters& controller = scenario.robot.joints[k].controller;
+    const bool is_driven = controller.kp > 0 || controller.kd > 0 || !has_motor(scenario, k);
+    if (scenario.trajectory[k].kind != JointTrajectory::Kind::hold && !is_driven)
+      throw InputError(joint +
+                       "the joint has no controller that follows it; give the model's joint a <controller> with "
+                       "kp and kd");
     const JointDescription& range = scenario.robot.joints[k];
     if (!(range.lower < range.upper)) continue;
     const std::string unit = scenario.robot.nominal.joint[k].type == JointType::revolute ? " rad" : " m";
@@ -251,6 +269,7 @@ SimulationResult simulate(const Scenario& scenario, const std::function<void(dou
   for (long i = 0; i <= ticks; ++i) {
     const double t = i * period;
     const Tick tick = loop.tick(t, plant->drive(), integrator->state());
+    refuse_runaway(scenario, tick, t);
     record(scenario, tick, t, i, result);
     if (progress && i % ticks_per_report == 0) progress(static_cast<double>(i) / ticks);
     if (i == ticks) break;

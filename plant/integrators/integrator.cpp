@@ -33,7 +33,7 @@ void fail_between(double from_s, double until_s, const std::string& why) {
   char text[96];
   std::snprintf(text, sizeof text, "integration failed between t = %.6f s and %.6f s: ", from_s, until_s);
   throw std::runtime_error(text + why +
-                           "; check the scenario's stiffness, damping and friction, or set other tolerances");
+                           "; check stiffness, damping, friction and the controllers' gains, or set other tolerances");
 }
 
 std::unique_ptr<Integrator> make_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,

@@ -25,6 +25,16 @@ Scenario experiment(const std::string& letter, double duration) {
   return s;
 }
 
+/// What simulate() says of a scenario that it refuses.
+std::string refusal(const Scenario& scenario) {
+  try {
+    simulate(scenario);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 /// Writes files into a folder of its own and reads a scenario from there.
 class ScenarioFile : public testing::Test {
  protected:
@@ -115,6 +125,22 @@ TEST(Experiments, AreHomedWhereTheyStart) {
   // A ratio larger by 5.64 % over 45 deg.
   a.homed = false;
   EXPECT_NEAR(told(a)(0) / a.robot.home()(0), 1 / 1.0564, 2e-3);
+}
+
+TEST(Experiments, NeedAControllerWhereAJointIsToMove) {
+  Scenario a = experiment("a", 0.01);
+  a.robot.joints[1].controller = {};
+  EXPECT_NE(refusal(a).find("trajectory of joint 2: the joint has no controller that follows it"), std::string::npos)
+      << refusal(a);
+  a.trajectory[1] = {};
+  a.trajectory[1].center = a.robot.joints[1].home;
+  EXPECT_EQ(refusal(a), "") << "an arm without a motion to follow may fall";
+}
+
+TEST(Experiments, EndWhereTheControlledArmIsUnstable) {
+  Scenario a = experiment("a", 1);
+  a.robot.joints[0].controller = {.kp = 1e4, .kd = 0, .torque_limit = 0};
+  EXPECT_NE(refusal(a).find("motor 1 turns faster than 100000 rad/s at 0.0"), std::string::npos) << refusal(a);
 }
 
 TEST_F(ScenarioFile, HasDefaultsAndKeepsUnnamedJointsAtHome) {
