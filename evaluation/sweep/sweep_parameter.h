@@ -11,7 +11,7 @@ namespace halyard {
 ///
 ///   joint2.cable.stiffness             one of named_parameters()
 ///   joint2.encoders.joint_resolution   a number of the encoders, which no diagnosis refits
-///   joint2.controller.kp               a gain of the controller, or its torque_limit; only simulations use them
+///   joint2.controller.kp               a gain of the controller, or its torque_limit
 ///   joint2.effect.backlash.half_gap    a parameter of an effect of a joint
 ///   arm.effect.payload.mass            a parameter of an effect of the whole arm
 ///
