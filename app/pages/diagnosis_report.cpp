@@ -124,15 +124,38 @@ void add_evidence(report::Page& page, const Diagnosis& d, const DiagnosisEvaluat
         unexplained[i], true);
 }
 
+std::string outcome_of(const Round& round) {
+  if (round.at_once)
+    return round.accepted ? "several candidates were added at once" : "several candidates at once were not convincing";
+  if (!round.revised) return round.accepted ? "the first candidate was added" : "no candidate was convincing";
+  return fmt::format("revision of {}: {}", effect_label(*round.revised),
+                     round.accepted     ? "the first candidate was fitted in its place"
+                     : round.name_stays ? "it stays as it was"
+                                        : "no candidate was convincing, and it is not needed any more");
+}
+
+/// What became of a candidate. is_taken: it was added.
+std::string fate_of(const Trial& t, const Round& round, bool is_taken) {
+  if (!t.promising) return "takes nothing of the residual";
+  if (!t.is_fitted) return "leaves more of the residual than those that were fitted";
+  if (!t.usable) return "cannot be integrated";
+  if (is_taken) return "added";
+  if (round.revised && same_name(t.effect, *round.revised)) return "fitted anew";
+  if (t.gain <= 0) return "does not help on data that the fit did not see";
+  if (!t.is_judged()) return "not significant";
+  if (t.at_bound) return "ends at the end of what is plausible";
+  if (t.is_another) return "is needed only for what another effect explains, too";
+  if (t.is_refit) return "within the tolerance of the model's numbers";
+  if (!t.matters) return "too small to matter";
+  if (round.accepted) return "helps less than the first";
+  return round.name_stays ? "helps less than the name" : "not significant";
+}
+
 void add_candidates(report::Page& page, const Diagnosis& d) {
   for (std::size_t r = 0; r < d.details->attribution.rounds.size(); ++r) {
     const Round& round = d.details->attribution.rounds[r];
     report::Table table;
-    const char* what = round.at_once
-                           ? (round.accepted ? "several candidates were added at once"
-                                             : "several candidates at once were not convincing")
-                           : (round.accepted ? "the first candidate was added" : "no candidate was convincing");
-    table.caption = fmt::format("Round {}: {}", r + 1, what);
+    table.caption = fmt::format("Round {}: {}", r + 1, outcome_of(round));
     table.header = {"candidate", "gain [nats]", "p", "verdict"};
     table.align = {report::Align::left, report::Align::right, report::Align::right, report::Align::left};
     std::size_t shown = 0;
@@ -142,18 +165,7 @@ void add_candidates(report::Page& page, const Diagnosis& d) {
       table.rows.push_back({{effect_label(t.effect), taken},
                             t.usable ? fmt::format("{:.1f}", t.gain) : std::string("-"),
                             t.usable ? fmt::format("{:.2g}", t.p_value) : std::string("-"),
-                            !t.promising     ? "takes nothing of the residual"
-                            : !t.is_fitted   ? "leaves more of the residual than those that were fitted"
-                            : !t.usable      ? "cannot be integrated"
-                            : taken          ? "added"
-                            : t.gain <= 0    ? "does not help on data that the fit did not see"
-                            : !t.is_judged() ? "not significant"
-                            : t.at_bound     ? "ends at the end of what is plausible"
-                            : t.is_another   ? "is needed only for what another effect explains, too"
-                            : t.is_refit     ? "within the tolerance of the model's numbers"
-                            : !t.matters     ? "too small to matter"
-                            : round.accepted ? "helps less than the first"
-                                             : "not significant"});
+                            fate_of(t, round, taken)});
     }
     page.table(table);
   }

@@ -241,12 +241,15 @@ class Search {
       });
       CandidateRound round = round_of(without, without.fit.hypothesis, "the revision of name " + std::to_string(i + 1));
       const auto won = compete(round, without.scored(), rivals);
+      Round& told = result_.rounds.back();
+      told.revised = old;
       const auto naming = result_.namings.begin() + static_cast<std::ptrdiff_t>(kept);
       const bool is_same = won && same_name(won->fit.hypothesis.effects.back(), old);
       if (is_same) *naming = won->naming;
       Found revised = won ? Found{won->fit, evidence_.score(won->fit.hypothesis)} : without;
       if (won ? is_beaten(revised, current, is_same) : is_needed(current, without, place)) {
-        if (won) result_.rounds.back().accepted = false;
+        told.accepted = false;
+        told.name_stays = true;
         if (!is_same) *naming = naming_beside_rivals(current, without, place);
         ++kept;
         continue;

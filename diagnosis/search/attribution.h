@@ -6,6 +6,7 @@
 /// at one joint, compete with pairs of other effects (pair_rivals.h).
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "diagnosis/search/naming.h"
@@ -17,6 +18,9 @@ struct Round {
   std::vector<Trial> trials;  ///< the added candidate first, then in the order of the gain of their quick fits
   bool accepted = false;      ///< the first trial was added; of several at once: all were
   bool at_once = false;       ///< the trials are of effects that were proposed together, each beside the others
+  /// The name for whose place the candidates compete; nothing before all names are found.
+  std::optional<PlacedEffect> revised;
+  bool name_stays = false;  ///< of a revision: the name and its earlier fit are kept
 };
 
 struct Attribution {
