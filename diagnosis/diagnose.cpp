@@ -153,7 +153,7 @@ class Diagnoser {
                         told_parameters(evidence, e), namings[e - given_].alternatives};
       const Record* const happens_in = record_of(f.hypothesis.effects[e], model_.nominal, evidence.records());
       if (happens_in && n_logs_ > 1) named.log = happens_in->source;
-      const double none = probability_of_none_for(evidence, attribution(), e);
+      const double none = probability_of_none_for(evidence, attribution(), given_, e);
       result_.probability_none = std::max(result_.probability_none, none);
       std::vector<double> all = {named.probability *= 1 - none};
       for (Alternative& a : named.alternatives) all.push_back(a.probability *= 1 - none);

@@ -15,8 +15,9 @@ namespace {
 constexpr double kRowRate = 50;            ///< residual rows a second; they are band-limited to 20 Hz
 constexpr double kCorrelationTime = 0.25;  ///< s; residuals of a motion closer than this say the same
 constexpr double kTorqueFloor = 0.01;      ///< of the torque's root mean square
-constexpr std::size_t kMostRecent = 1000;  ///< residuals that are kept, of some 50 kB each
 constexpr double kResolutionFloor = 0.3;   ///< of the joint encoder's resolution: its rounding's deviation
+
+constexpr std::size_t kMostRecent = 1000;  ///< residuals that are kept, of some 50 kB each
 
 /// The step of a sensor that the model says nothing of: the smallest change that the record shows.
 double smallest_step(const std::vector<SensorSample>& samples) {

@@ -57,6 +57,13 @@ struct DecisionRule {
   double tell_apart = 2;
   /// Two candidates are alternatives if they share at least this fraction of the smaller gain (shared_gain()).
   double shared_gain = 0.5;
+  /// Prior cost of an effect, nats. Reason: an arm has few of those in the library. Two effects that explain as much as
+  /// one are less plausible.
+  double cost_of_effect = 1.5;
+  /// Prior cost of each number of an effect, nats. Reason: numbers that the data do not need are already paid for,
+  /// because the likelihood is that of blocks which no fit has used. With one nat for each number, names with a
+  /// probability of 0.5 to 0.9 came true in 55 % of 88 cases of the blind trials (docs/diagnosis.md).
+  double cost_of_number = 0.5;
   /// s of P(none), see name_probability.h.
   double none_sharpness = 1.5;
   /// An effect is told if this is the least probability that its name or one of its alternatives is right. Reason:

@@ -29,7 +29,7 @@ std::vector<double> name_weights(const Evidence& evidence, const std::vector<Com
       sum += w;
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
-      score[i] = -all[i].prior_cost - all[i].numbers;
+      score[i] = -all[i].prior_cost;
       for (std::size_t b = 0; b < blocks.size(); ++b) {
         const std::vector<double>& ln = (*all[i].log_likelihood)[blocks[b]];
         score[i] += static_cast<double>(blocks.size()) * weight[b] / sum * std::reduce(ln.begin(), ln.end());

@@ -6,8 +6,7 @@
 ///
 ///   l_ib   ln L of candidate i on deciding block b (likelihood.h)
 ///   ω_d    one draw of weights of the B blocks, Dirichlet(1, ..., 1): another log of the same arm
-///   π_i    prior: exp(-(numbers that the candidate adds) - (the prior cost of the model's own numbers, judge.h)); an
-///          equation of its own counts like one more number
+///   π_i    prior: exp(-(prior cost of the candidate, naming.h) - (that of the model's own numbers, judge.h))
 ///
 /// Source: pseudo-BMA+ of Yao, Vehtari, Simpson, Gelman, Bayesian Analysis 13 (2018), section 3.4.
 ///
@@ -27,8 +26,7 @@ namespace halyard {
 /// A candidate that competes for the name.
 struct Competitor {
   const Likelihood* log_likelihood = nullptr;
-  int numbers = 0;        ///< that it adds to the model, and one more if it adds an equation
-  double prior_cost = 0;  ///< of its changes of the model's own numbers, nats
+  double prior_cost = 0;  ///< of the candidate and of its changes of the model's own numbers, nats
 };
 
 /// The weight of each competitor, then that of no effect; they sum to one. The draws have a fixed seed.

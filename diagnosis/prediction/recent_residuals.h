@@ -19,7 +19,6 @@ class RecentResiduals {
   /// Everything that the residuals depend on, to the last bit: a replay is rounded in another way.
   struct Key {
     Key(const Hypothesis& h, const Record& record, int stride, const Chebyshev& scheme, bool is_replayed);
-    bool operator<(const Key& other) const { return (*this <=> other) < 0; }
     std::partial_ordering operator<=>(const Key&) const = default;
 
    private:

@@ -13,8 +13,10 @@ double probability_of_any_name(const Naming& naming, double none) {
   return (1 - none) * sum;
 }
 
-int numbers_added(const PlacedEffect& effect, const ArmParameters<double>& arm) {
-  return static_cast<int>(effect.effect->parameters(arm, effect.joint).size()) + (effect.effect->stages() != 0 ? 1 : 0);
+double prior_cost_of(const PlacedEffect& effect, const ArmParameters<double>& arm) {
+  const std::size_t numbers =
+      effect.effect->parameters(arm, effect.joint).size() + (effect.effect->stages() != 0 ? 1 : 0);
+  return kRule.cost_of_effect + kRule.cost_of_number * static_cast<double>(numbers);
 }
 
 std::vector<bool> convincing(const std::vector<Trial>& trials, double significance) {
@@ -88,10 +90,10 @@ std::vector<double> Competition::weights(const std::vector<std::size_t>& rivals)
   for (const std::size_t i : rivals) {
     // At its bound an effect is less plausible, but may still be the right one.
     const double implausible = trials_[i].at_bound ? kRule.at_bound : 0;
-    all.push_back({&trials_[i].log_likelihood, numbers_added(trials_[i].effect, model_.nominal),
-                   trials_[i].prior_cost + implausible});
+    all.push_back({&trials_[i].log_likelihood,
+                   prior_cost_of(trials_[i].effect, model_.nominal) + trials_[i].prior_cost + implausible});
   }
-  return name_weights(evidence_, all, {&ln_without_, 0, judge_.prior_cost(without_.hypothesis)});
+  return name_weights(evidence_, all, {&ln_without_, judge_.prior_cost(without_.hypothesis)});
 }
 
 }  // namespace halyard

@@ -11,8 +11,9 @@ inline bool same_name(const PlacedEffect& a, const PlacedEffect& b) {
   return a.effect == b.effect && a.joint == b.joint;
 }
 
-/// The numbers that an effect adds to a model. An equation of its own counts like one more.
-int numbers_added(const PlacedEffect& effect, const ArmParameters<double>& arm);
+/// Of an effect: cost_of_effect, and cost_of_number for each of its numbers (decision_rule.h). An equation of its own
+/// counts like one more number.
+double prior_cost_of(const PlacedEffect& effect, const ArmParameters<double>& arm);
 
 /// How an effect came to its name.
 struct Naming {

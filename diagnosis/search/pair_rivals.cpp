@@ -121,19 +121,19 @@ std::vector<PairRivals::Pair> PairRivals::pairs(const Attribution& found, const 
 /// Of the names, then of the pairs, then of no effect. none: the hypothesis without the names.
 std::vector<double> PairRivals::weights(const Attribution& found, const Places& places, const Hypothesis& none,
                                         const std::vector<Pair>& pairs) const {
-  const auto numbers = [&](const PlacedEffect& e) { return numbers_added(e, model_.nominal); };
+  const auto cost = [&](const PlacedEffect& e) { return prior_cost_of(e, model_.nominal); };
   const std::vector<double> least = squared_floors(evidence_);
   const Hypothesis& h = found.final_fit.hypothesis;
   const Likelihood of_names = log_likelihood(evidence_, found.final_score, least);
   const Likelihood of_none = log_likelihood(evidence_, evidence_.score(none), least);
   std::vector<Likelihood> of_pairs;
   for (const Pair& p : pairs) of_pairs.push_back(log_likelihood(evidence_, p.score, least));
-  std::vector<Competitor> all = {{&of_names, 0, judge_.prior_cost(h)}};
-  for (const std::size_t place : places) all[0].numbers += numbers(h.effects[place]);
+  std::vector<Competitor> all = {{&of_names, judge_.prior_cost(h)}};
+  for (const std::size_t place : places) all[0].prior_cost += cost(h.effects[place]);
   for (std::size_t i = 0; i < pairs.size(); ++i)
     all.push_back(
-        {&of_pairs[i], numbers(pairs[i].first) + numbers(pairs[i].second), judge_.prior_cost(pairs[i].fit.hypothesis)});
-  return name_weights(evidence_, all, {&of_none, 0, judge_.prior_cost(none)});
+        {&of_pairs[i], cost(pairs[i].first) + cost(pairs[i].second) + judge_.prior_cost(pairs[i].fit.hypothesis)});
+  return name_weights(evidence_, all, {&of_none, judge_.prior_cost(none)});
 }
 
 /// True if a pair has taken the place of the names.

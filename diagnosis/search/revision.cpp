@@ -110,13 +110,27 @@ std::vector<std::size_t> revise(const Evidence& evidence, const Evidence& whole,
   return Revision(evidence, whole, given, found).run();
 }
 
-double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t effect) {
+namespace {
+
+Hypothesis without_added_at(Hypothesis h, std::size_t given, EffectPlace joint) {
+  for (std::size_t e = h.effects.size(); e-- > given;)
+    if (h.effects[e].joint == joint) h = without_effect(h, e);
+  return h;
+}
+
+}  // namespace
+
+double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t given,
+                               std::size_t effect) {
   const Hypothesis& h = found.final_fit.hypothesis;
   const Score without = evidence.score(without_effect(h, effect));
   if (!without.finite) return 0;
   const std::optional<int> c = most_explained_channel(evidence, found.final_score, without);
   if (!c) return 0;
-  const double misfit_square = std::pow(misfit_of(h.effects[effect]), 2) * without.mean_square[*c];
+  double before = without.mean_square[*c];
+  if (const Score none = evidence.score(without_added_at(h, given, h.effects[effect].joint)); none.finite)
+    before = std::min(before, none.mean_square[*c]);
+  const double misfit_square = std::pow(misfit_of(h.effects[effect]), 2) * before;
   return probability_of_none(found.final_score.mean_square[*c], misfit_square, evidence.floor()[*c]);
 }
 
@@ -178,7 +192,7 @@ std::string reason_of(Doubt doubt, const Naming& naming) {
 }
 
 bool is_doubtful(const Evidence& evidence, const Attribution& found, std::size_t given, std::size_t effect) {
-  const double none = probability_of_none_for(evidence, found, effect);
+  const double none = probability_of_none_for(evidence, found, given, effect);
   return probability_of_any_name(found.namings[effect - given], none) < kRule.worth_a_name;
 }
 

@@ -23,18 +23,18 @@ Likelihood even_gain(const halyard::Evidence& evidence, double nats) {
 TEST(NameWeights, OfEqualCandidatesAreEqualAndSumToOneWithNoEffect) {
   const halyard::Evidence evidence = halyard::small_evidence();
   const Likelihood gain = even_gain(evidence, 3), none = even_gain(evidence, 0);
-  const std::vector<double> w = halyard::name_weights(evidence, {{&gain, 1, 0}, {&gain, 1, 0}}, {&none, 0, 0});
+  const std::vector<double> w = halyard::name_weights(evidence, {{&gain, 1}, {&gain, 1}}, {&none, 0});
   ASSERT_EQ(w.size(), 3U);
   EXPECT_DOUBLE_EQ(w[0], w[1]);
   EXPECT_NEAR(w[0] + w[1] + w[2], 1, 1e-12);
   EXPECT_LT(w[2], 1e-3);
 }
 
-TEST(NameWeights, AnAdditionalNumberCostsAFactorE) {
+TEST(NameWeights, FallByTheFactorOfThePriorCost) {
   const halyard::Evidence evidence = halyard::small_evidence();
   const Likelihood gain = even_gain(evidence, 3), none = even_gain(evidence, 0);
-  const std::vector<double> w = halyard::name_weights(evidence, {{&gain, 1, 0}, {&gain, 2, 0}}, {&none, 0, 0});
-  EXPECT_NEAR(w[0] / w[1], std::exp(1.0), 1e-9);
+  const std::vector<double> w = halyard::name_weights(evidence, {{&gain, 1}, {&gain, 2.5}}, {&none, 0});
+  EXPECT_NEAR(w[0] / w[1], std::exp(1.5), 1e-9);
 }
 
 TEST(NameWeights, AGainOfOneBlockAloneIsDoubtful) {
@@ -42,7 +42,7 @@ TEST(NameWeights, AGainOfOneBlockAloneIsDoubtful) {
   const Likelihood none = even_gain(evidence, 0);
   Likelihood one = none;
   one.back()[0] = 5;
-  const std::vector<double> w = halyard::name_weights(evidence, {{&one, 1, 0}}, {&none, 0, 0});
+  const std::vector<double> w = halyard::name_weights(evidence, {{&one, 1}}, {&none, 0});
   EXPECT_GT(w[1], 0.05) << "another log may not contain that block";
 }
 

@@ -87,6 +87,20 @@ TEST(Revision, KeepsADoubtfulEffectButNotOneThatBelongsToTheLog) {
   EXPECT_EQ(s.effects()[0].effect->name(), "capstan_ratio");
 }
 
+TEST(Doubts, EffectsThatCancelEachOtherExplainNoMoreThanTheyDoTogether) {
+  PlacedEffect ratio = on_the_only_joint("capstan_ratio", kRatio), offset = on_the_only_joint("encoder_offset", 0);
+  Searched s({}, {});
+  const double middle = s.records[0].motor_angle[0][0];
+  offset.p[0] = (1 - 1 / kRatio) * middle;
+  const auto none_of_the_ratio = [&](const std::vector<PlacedEffect>& effects) {
+    s.found.final_fit.hypothesis = {s.model.nominal, effects};
+    s.found.final_score = s.evidence.score(s.found.final_fit.hypothesis);
+    return probability_of_none_for(s.evidence, s.found, 0, 0);
+  };
+  EXPECT_GT(none_of_the_ratio({ratio, offset}), 0.9) << "the arm has neither";
+  EXPECT_LT(none_of_the_ratio({on_the_only_joint("capstan_ratio", 1)}), 0.5);
+}
+
 TEST(Doubts, AnEffectThatIsNeededOnlyBesideADoubtfulOneGetsNoName) {
   const PlacedEffect ratio = on_the_only_joint("capstan_ratio", kRatio),
                      offset = on_the_only_joint("encoder_offset", 0.02);
