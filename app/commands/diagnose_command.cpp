@@ -38,6 +38,9 @@ std::vector<UsualStage> usual_stages() {
           {"estimators on the hold-out", 1.0}};
 }
 
+/// Alternatives that are less probable are in the files only.
+constexpr double kWorthALine = 0.01;
+
 void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   fmt::print("{}\n", verdict_line(d));
   for (const NamedEffect& e : d.effects)
@@ -46,7 +49,8 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
                  p.upper);
   for (const NamedEffect& e : d.effects)
     for (const Alternative& a : e.alternatives)
-      fmt::print("  {}: or {} ({})\n", effect_label(e.effect), effect_label(a.effect), percent(a.probability));
+      if (a.probability >= kWorthALine)
+        fmt::print("  {}: or {} ({})\n", effect_label(e.effect), effect_label(a.effect), percent(a.probability));
   for (std::size_t i = 0; i < d.effects.size(); ++i)
     fmt::print("  {}: {}\n", effect_label(d.effects[i].effect), evaluation.why[i]);
   for (const Estimated& p : d.refitted)

@@ -121,11 +121,10 @@ std::vector<EstimatorComparison> compare_on(const std::vector<HeldOutLog>& held_
 }  // namespace
 
 std::string alternatives_sentence(const NamedEffect& effect) {
-  if (effect.alternatives.empty()) return "";
-  std::string text = " These data cannot tell it from ";
-  for (std::size_t i = 0; i < effect.alternatives.size(); ++i)
-    text += (i == 0 ? "" : ", ") + effect_label(effect.alternatives[i].effect);
-  return text + ".";
+  std::string names;
+  for (const Alternative& a : effect.alternatives)
+    if (a.in_set) names += (names.empty() ? "" : ", ") + effect_label(a.effect);
+  return names.empty() ? "" : " These data cannot tell it from " + names + ".";
 }
 
 DiagnosisEvaluation evaluate_diagnosis(const ArmModel& model, const Diagnosis& d, const std::vector<Log>& training,

@@ -31,7 +31,8 @@ DiagnosisEvaluation evaluate_diagnosis(const ArmModel& model, const Diagnosis& d
                                        const std::function<void(const std::string&, double)>& progress = {},
                                        const ContainmentOptions& containment = {});
 
-/// Sentence about an effect's alternatives: " These data cannot tell it from hysteresis of joint 2."; empty if none.
+/// Sentence about those alternatives that are in the smallest set which holds the right name: " These data cannot tell
+/// it from hysteresis of joint 2."; empty if there are none.
 std::string alternatives_sentence(const NamedEffect& effect);
 
 }  // namespace halyard
