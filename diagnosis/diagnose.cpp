@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <mutex>
 
 #include "diagnosis/calibration/calibrate.h"
+#include "diagnosis/calibration/lateness.h"
 #include "diagnosis/diagnosis_details.h"
 #include "diagnosis/explanation/estimates.h"
 #include "diagnosis/explanation/lines_above_band.h"
@@ -61,21 +63,21 @@ class Diagnoser {
     result_.log_findings = findings_of(model_, training, holdout, options_.columns.value_or(model_.columns));
     for (Log& log : training) log = cleaned(std::move(log));
     if (holdout) holdout = cleaned(std::move(*holdout));
-    DiagnosisData data = diagnosis_data(model_, training, holdout);
-    for (const DiagnosisData::Late& late : data.late) result_.log_findings.push_back(finding_of(late));
     has_own_holdout_ = holdout.has_value();
     n_logs_ = training.size();
     result_.holdout = holdout ? holdout->source : "last third of the training data";
-    result_.given = calibrated(model_, data.training);
+    Searched searched = search(training, holdout, model_);
+    if (const auto tells = model_for_lateness(training, model_, final_hypothesis()))
+      searched = search(training, holdout, *tells);
+    const Evidence& evidence = *searched.evidence;
+    DiagnosisData& data = searched.data;
+    for (const DiagnosisData::Late& late : data.late) result_.log_findings.push_back(finding_of(late));
     details_->joint_view = std::move(data.joint_view);
     details_->torque_view = std::move(data.torque_view);
-    const Evidence evidence(data.training, result_.given);
-    const Evidence whole(std::move(data.training), result_.given, Split::none);
-    search(evidence, whole);
     if (names_would_be_guesses(evidence)) refuse_names(evidence);
     else tell_names(evidence);
     tell_rests(evidence);
-    predict_holdout(evidence, whole, data.training_joints);
+    predict_holdout(evidence, *searched.whole, data.training_joints);
     tell_doubtful(evidence);
     tell_probabilities(evidence);
     tell_stuck_sensors(training);
@@ -112,10 +114,22 @@ class Diagnoser {
     return has_own_holdout_ ? on_own_clocks(evidence, h) : h;
   }
 
-  void search(const Evidence& evidence, const Evidence& whole) {
-    attribution() = attribute(evidence, result_.given, {options_.most_effects, options_.significance}, progress_);
+  /// The data of a search, as it has split them.
+  struct Searched {
+    DiagnosisData data;  ///< without its training records
+    std::unique_ptr<Evidence> evidence, whole;
+  };
+
+  /// tells_lateness: see diagnosis_data().
+  Searched search(const std::vector<Log>& training, const std::optional<Log>& holdout, const ArmModel& tells_lateness) {
+    Searched s{diagnosis_data(model_, training, holdout, tells_lateness), nullptr, nullptr};
+    result_.given = calibrated(model_, s.data.training);
+    s.evidence = std::make_unique<Evidence>(s.data.training, result_.given);
+    s.whole = std::make_unique<Evidence>(std::move(s.data.training), result_.given, Split::none);
+    attribution() = attribute(*s.evidence, result_.given, {options_.most_effects, options_.significance}, progress_);
     say("final fit", 0);
-    changed_ = revise(evidence, whole, result_.given, attribution());
+    changed_ = revise(*s.evidence, *s.whole, result_.given, attribution());
+    return s;
   }
 
   /// A single record of one sine fits many effects alike: a name taken from it would be a guess.

@@ -8,6 +8,7 @@
 
 #include "diagnosis/fit/fit.h"
 #include "diagnosis/log_check/robust.h"
+#include "diagnosis/search_space.h"
 
 namespace halyard {
 namespace {
@@ -168,6 +169,26 @@ std::optional<double> correction(const Log& log, const ArmModel& model, const st
 }
 
 }  // namespace
+
+std::optional<ArmModel> model_for_lateness(const std::vector<Log>& logs, const ArmModel& given,
+                                           const Hypothesis& found) {
+  constexpr int kCommandDelay = 0;
+  for (const Log& log : logs)
+    for (int k = 0; k < given.n(); ++k)
+      if (!log.joint_position[k].empty() && !has_slow_joint_sensor(log, given, k)) return std::nullopt;
+  const auto is_of_all_sensors = [&](const PlacedEffect& e) {
+    return e.effect->name() == "delay" && (e.joint == kWholeArm || given.n() == 1) && e.p[kCommandDelay] == 0;
+  };
+  ArmModel model = given;
+  model.nominal = found.nominal;
+  model.effects = found.effects;
+  const auto added = model.effects.begin() + std::ssize(given.effects);
+  const auto delay = std::find_if(added, model.effects.end(), is_of_all_sensors);
+  if (delay == model.effects.end()) return std::nullopt;
+  model.effects.erase(delay);
+  std::erase_if(model.effects, [&](const PlacedEffect& e) { return has_instants(e, given.nominal); });
+  return model;
+}
 
 std::optional<double> slow_sensor_lateness(const Log& log, const ArmModel& model) {
   std::vector<int> slow;

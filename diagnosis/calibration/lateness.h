@@ -20,12 +20,18 @@
 
 #include <optional>
 
-#include "diagnosis/record/record.h"
+#include "diagnosis/prediction/prediction.h"
 
 namespace halyard {
 
 /// Lateness d, s; negative: the motors' readings are late. 0 if there are no slow sensors or no common lateness;
 /// nothing if the log is too short to tell.
 std::optional<double> slow_sensor_lateness(const Log& log, const ArmModel& model);
+
+/// A search that finds a `delay` of all joint sensors, and these are slow, has found what their lateness is off: it was
+/// measured while effects were missing. Returns the model with what was found and without this delay, by which the
+/// lateness is measured again; nothing if there is no such delay. Events are left out: they belong to one log.
+std::optional<ArmModel> model_for_lateness(const std::vector<Log>& logs, const ArmModel& given,
+                                           const Hypothesis& found);
 
 }  // namespace halyard

@@ -119,8 +119,8 @@ std::vector<double> lateness_of(const std::vector<Log>& logs, const ArmModel& mo
 
 }  // namespace
 
-DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& training,
-                             const std::optional<Log>& holdout) {
+DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& training, const std::optional<Log>& holdout,
+                             const ArmModel& tells_lateness) {
   DiagnosisData data;
   const auto place_among_training = [&](Record& r, std::size_t first) {
     for (std::size_t place = first; place < data.training.size(); ++place)
@@ -160,7 +160,7 @@ DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& trai
     untouched.push_back(std::move(last));
   }
   if (holdout) parts.push_back(*holdout);
-  const std::vector<double> late = lateness_of(parts, model), shifts = clock_shifts(training);
+  const std::vector<double> late = lateness_of(parts, tells_lateness), shifts = clock_shifts(training);
   for (std::size_t i = 0; i < parts.size(); ++i)
     if (late[i] != 0) data.late.push_back({parts[i].source, late[i]});
   for (std::size_t i = 0; i < training.size(); ++i) {

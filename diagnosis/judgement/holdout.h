@@ -38,9 +38,10 @@ struct DiagnosisData {
 };
 
 /// Without a hold-out log, the last third of each training log is held out. Cables have memory, so the part of the log
-/// before that third is predicted as well, but not compared.
-DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& training,
-                             const std::optional<Log>& holdout);
+/// before that third is predicted as well, but not compared. tells_lateness: the model by which the lateness of slow
+/// sensors is measured.
+DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& training, const std::optional<Log>& holdout,
+                             const ArmModel& tells_lateness);
 
 /// Measured minus predicted at sample i of joint k; NaN where nothing is compared.
 double joint_error(const Record& r, const FullPrediction& p, int k, std::size_t i);

@@ -80,7 +80,7 @@ void take_over(const Diagnosis& d, const Recording& recording, Result& r) {
   r.probability_clean = d.probability_clean;
   r.probability_none = d.probability_none;
   r.holdout = hold_out_errors(d.details->joint_view.records, d, robot);
-  const DiagnosisData sensed = diagnosis_data(d.given, {recording.training}, recording.sensed_holdout);
+  const DiagnosisData sensed = diagnosis_data(d.given, {recording.training}, recording.sensed_holdout, d.given);
   r.sensed_holdout = hold_out_errors(sensed.joint_view.records, d, robot);
 }
 

@@ -64,10 +64,33 @@ TEST(SlowSensors, OfALogThatIsTooShortToTellAreAsLateAsThoseOfTheOthers) {
       (shorter.*signal)[k].assign((whole.*signal)[k].begin(), (whole.*signal)[k].begin() + cut);
   ASSERT_FALSE(slow_sensor_lateness(shorter, model));
   for (const std::vector<Log>& logs : {std::vector{shorter, whole}, std::vector{whole, shorter}}) {
-    const DiagnosisData data = diagnosis_data(model, logs, whole);
+    const DiagnosisData data = diagnosis_data(model, logs, whole, model);
     ASSERT_EQ(data.late.size(), 3u);
     EXPECT_EQ(data.late[0].seconds, data.late[1].seconds);
   }
+}
+
+TEST(SlowSensors, ThatADelayShiftsFurtherAreMeasuredAgainWithTheOtherEffects) {
+  const ArmModel model = first_joints(2);
+  const auto effect = [&](const char* name, EffectPlace joint) {
+    return place_neutral_effect(*find_effect(name), model.nominal, joint);
+  };
+  PlacedEffect delay = effect("delay", kWholeArm);
+  delay.p[1] = -7e-4;
+  const auto names = [&](const Log& log, const std::vector<PlacedEffect>& found) {
+    std::string all;
+    const auto tells = model_for_lateness({log}, model, {model.nominal, found});
+    if (!tells) return std::string("no other model");
+    for (const PlacedEffect& e : tells->effects) all += e.effect->name() + " ";
+    return all;
+  };
+  const PlacedEffect other = effect("hysteresis", 0), push = effect("external_force", 1);
+  EXPECT_EQ(names(late_by(4, 4), {other, delay, push}), "hysteresis ");
+  EXPECT_EQ(names(late_by(4, 4), {other}), "no other model");
+  EXPECT_EQ(names(late_by(4, 4), {effect("delay", 0)}), "no other model") << "one sensor is late against the others";
+  EXPECT_EQ(names(late_by(4, 4, 1), {other, delay}), "no other model") << "sensors with the motors' clock";
+  delay.p[0] = 2e-3;
+  EXPECT_EQ(names(late_by(4, 4), {other, delay}), "no other model") << "the torques act late, too";
 }
 
 TEST(SlowSensors, InTimeAreNotLate) { EXPECT_EQ(*slow_sensor_lateness(late_by(0, 0), first_joints(2)), 0); }

@@ -34,7 +34,7 @@ Evidence evidence_of(const Log& log) {
 
 std::vector<double> quantiles_of(const Log& log) {
   const ArmModel model = first_joints(1);
-  const DiagnosisData data = diagnosis_data(model, {log}, log);
+  const DiagnosisData data = diagnosis_data(model, {log}, log, model);
   return residual_quantiles(Evidence(data.training, model), data.training_joints, {model.nominal, {}});
 }
 
