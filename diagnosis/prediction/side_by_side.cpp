@@ -13,9 +13,6 @@ thread_local std::size_t number_of_thread = 0;
 
 }  // namespace
 
-SideBySide::SideBySide(std::size_t n_jobs)
-    : outer_(meeting_of_thread), job_in_outer_(number_of_thread), running_(n_jobs) {}
-
 SideBySide* SideBySide::of_this_thread() { return meeting_of_thread; }
 
 void SideBySide::enter(std::size_t number) {
@@ -31,12 +28,7 @@ void SideBySide::leave() {
 }
 
 std::vector<std::vector<Residuals>> SideBySide::predict(const std::vector<PredictionRequest>& requests) {
-  return predict(number_of_thread, requests);
-}
-
-std::vector<std::vector<Residuals>> SideBySide::predict(std::size_t job,
-                                                        const std::vector<PredictionRequest>& requests) {
-  Waiting own{job, &requests, {}, {}};
+  Waiting own{number_of_thread, &requests, {}, {}};
   std::unique_lock lock(mutex_);
   waiting_.push_back(&own);
   serve_if_all_wait();
@@ -55,7 +47,7 @@ void SideBySide::serve() {
   std::vector<PredictionRequest> all;
   for (const Waiting* w : waiting_) all.insert(all.end(), w->requests->begin(), w->requests->end());
   try {
-    auto residuals = outer_ ? outer_->predict(job_in_outer_, all) : predict_at_once(all);
+    auto residuals = predict_at_once(all);
     auto next = std::make_move_iterator(residuals.begin());
     for (Waiting* w : waiting_) {
       const auto end = next + std::ssize(*w->requests);

@@ -14,16 +14,14 @@
 
 namespace halyard {
 
-/// Runs job(0), ..., job(n - 1), sixteen at a time. Each runs on a thread of its own. A job may itself run jobs side by
-/// side: what they want together is what it wants. Throws what the first job that failed has thrown, when all have
-/// ended.
+/// Runs job(0), ..., job(n - 1), sixteen at a time. Each runs on a thread of its own. Throws what the first job that
+/// failed has thrown, when all have ended.
 void run_side_by_side(std::size_t n, const std::function<void(std::size_t)>& job);
 
 /// The meeting of the jobs that run at the same time.
 class SideBySide {
  public:
-  /// Made by a thread that runs a job of another meeting, its predictions are wanted there.
-  explicit SideBySide(std::size_t n_jobs);
+  explicit SideBySide(std::size_t n_jobs) : running_(n_jobs) {}
 
   /// That of the job on this thread; null if it runs alone.
   static SideBySide* of_this_thread();
@@ -44,12 +42,9 @@ class SideBySide {
     bool is_served = false;
   };
 
-  std::vector<std::vector<Residuals>> predict(std::size_t job, const std::vector<PredictionRequest>& requests);
   void serve_if_all_wait();
   void serve();
 
-  SideBySide* outer_;
-  std::size_t job_in_outer_;
   std::mutex mutex_;
   std::condition_variable served_;
   std::size_t running_;

@@ -38,8 +38,6 @@ Baseline baseline(const Evidence& evidence, const ArmModel& model, const Refitte
   return b;
 }
 
-constexpr auto kQuiet = [](const std::string&, double) {};
-
 /// Each costs a round.
 constexpr int kMostBetterFits = 3;
 
@@ -112,22 +110,14 @@ class Search {
     return true;
   }
 
-  CandidateRound round_of(const Found& without, const Hypothesis& from, const std::string& name,
-                          const SearchProgress& progress) const {
-    return {evidence_, model_, refitter_, judge_, without.scored(), from, name, progress};
+  CandidateRound round_of(const Found& without, const Hypothesis& from, const std::string& name) const {
+    return {evidence_, model_, refitter_, judge_, without.scored(), from, name, progress_};
   }
 
-  /// A round and how it ended.
-  struct Ended {
-    Round told;
-    std::optional<Won> won;
-    double no_effect = 0;  ///< its weight, if nothing has won
-  };
-
   /// All candidates compete for the place after the effects of `without`.
-  Ended competed(CandidateRound& round, const Scored& without, const std::vector<PlacedEffect>& candidates) const {
-    Ended ended;
-    Round& told = ended.told;
+  std::optional<Won> compete(CandidateRound& round, const Scored& without,
+                             const std::vector<PlacedEffect>& candidates) {
+    Round told;
     told.trials = round.look(candidates);
     const std::vector<Fit> fits = round.fit_leaders(told.trials);
     const std::vector<bool> is_convincing = convincing(told.trials, options_.significance);
@@ -135,21 +125,18 @@ class Search {
     for (std::size_t i = 0; i < fits.size(); ++i)
       if (is_convincing[i] && fits[i].usable) able.push_back(i);
     const Competition competition(evidence_, model_, judge_, without, told.trials);
+    std::optional<Won> won;
     if (able.empty()) {
-      ended.no_effect = competition.weight_of_no_effect();
+      result_.no_effect = competition.weight_of_no_effect();
     } else {
       const Competition::Choice choice = competition.choose(able);
-      ended.won = {fits[choice.named], competition.naming(choice)};
+      won = {fits[choice.named], competition.naming(choice)};
       told.accepted = true;
       const auto named = told.trials.begin() + static_cast<std::ptrdiff_t>(choice.named);
       std::rotate(told.trials.begin(), named, named + 1);
     }
-    return ended;
-  }
-  std::optional<Won> tell(Ended ended) {
-    if (!ended.won) result_.no_effect = ended.no_effect;
-    result_.rounds.push_back(std::move(ended.told));
-    return std::move(ended.won);
+    result_.rounds.push_back(std::move(told));
+    return won;
   }
 
   /// One round with all candidates, and if none of them is convincing alone, with several at once.
@@ -158,17 +145,17 @@ class Search {
     const bool is_first = result_.rounds.empty();
     const Hypothesis so_far = current.fit.hypothesis;
     const auto next_round = [&](const Hypothesis& from) {
-      return round_of(current, from, "round " + std::to_string(result_.rounds.size() + 1), progress_);
+      return round_of(current, from, "round " + std::to_string(result_.rounds.size() + 1));
     };
     // Before any effect is named, the missing effects distort the refitted baseline: candidates start at the model's
     // own parameters. But if these are far off, the residual is not linear in them, and a small effect is lost beside
     // this.
     CandidateRound round = next_round(is_first ? Hypothesis{model_.nominal, model_.effects, so_far.past} : so_far);
-    auto won = tell(competed(round, current.scored(), candidates(so_far)));
+    auto won = compete(round, current.scored(), candidates(so_far));
     const bool is_from_the_model = is_first && won;
     if (!won && is_first) {
       CandidateRound second = next_round(so_far);
-      won = tell(competed(second, current.scored(), candidates(so_far)));
+      won = compete(second, current.scored(), candidates(so_far));
     }
     if (!won) return add_together(current, round);
     Found with{won->fit, evidence_.score(won->fit.hypothesis)}, without, again;
@@ -239,67 +226,40 @@ class Search {
     const std::size_t all = result_.namings.size();
     std::size_t n = all - (last_name_competed() ? 1 : 0);
     std::size_t kept = 0;  // names that have been revised and stay in front of the others
-    std::vector<std::optional<Ended>> rounds;
-    for (std::size_t i = 0, next = 0; i < n; ++i) {
-      if (next == rounds.size()) rounds = revisions(current, pool, kept, n - i), next = 0;
-      std::optional<Ended>& round = rounds[next++];
-      if (!round || stays(current, kept, std::move(*round))) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t place = given_ + kept;
+      const PlacedEffect old = current.fit.hypothesis.effects[place];
+      const Hypothesis others = without_effect(current.fit.hypothesis, place);
+      const Found without = without_[kept];
+      if (!without.fit.usable) {
         ++kept;
         continue;
       }
-      n = all;         // the last name competed beside an effect that has gone,
-      rounds.clear();  // and so did those whose rounds were run at the same time
-      next = 0;
+      std::vector<PlacedEffect> rivals = candidates(others);
+      std::erase_if(rivals, [&](const PlacedEffect& r) {
+        return std::ranges::none_of(pool, [&](const PlacedEffect& p) { return same_name(p, r); });
+      });
+      CandidateRound round = round_of(without, without.fit.hypothesis, "the revision of name " + std::to_string(i + 1));
+      const auto won = compete(round, without.scored(), rivals);
+      Round& told = result_.rounds.back();
+      told.revised = old;
+      const auto naming = result_.namings.begin() + static_cast<std::ptrdiff_t>(kept);
+      const bool is_same = won && same_name(won->fit.hypothesis.effects.back(), old);
+      if (is_same) *naming = won->naming;
+      Found revised = won ? Found{won->fit, evidence_.score(won->fit.hypothesis)} : without;
+      if (won ? is_beaten(revised, current, is_same) : is_needed(current, without, place)) {
+        told.accepted = false;
+        told.name_stays = true;
+        if (!is_same) *naming = naming_beside_rivals(current, without, place);
+        ++kept;
+        continue;
+      }
+      const Naming its = won ? won->naming : Naming{};
+      result_.namings.erase(naming);
+      if (won) result_.namings.push_back(its);
+      change(current, std::move(revised));
+      n = all;  // the last name competed beside an effect that has gone
     }
-  }
-
-  /// The rounds of so many names from `first` on, side by side: most names stay. Nothing where the arm cannot be
-  /// predicted without the effect.
-  std::vector<std::optional<Ended>> revisions(const Found& current, const std::vector<PlacedEffect>& pool,
-                                              std::size_t first, std::size_t n) const {
-    std::vector<std::optional<Ended>> rounds(n);
-    run_side_by_side(n, [&](std::size_t i) {
-      if (without_[first + i].fit.usable)
-        rounds[i] = revision(current, pool, first + i, i == 0 ? progress_ : SearchProgress(kQuiet));
-    });
-    return rounds;
-  }
-
-  Ended revision(const Found& current, const std::vector<PlacedEffect>& pool, std::size_t name,
-                 const SearchProgress& progress) const {
-    const Found& without = without_[name];
-    std::vector<PlacedEffect> rivals = candidates(without.fit.hypothesis);
-    std::erase_if(rivals, [&](const PlacedEffect& r) {
-      return std::ranges::none_of(pool, [&](const PlacedEffect& p) { return same_name(p, r); });
-    });
-    CandidateRound round = round_of(without, without.fit.hypothesis, "the revision of names", progress);
-    Ended ended = competed(round, without.scored(), rivals);
-    ended.told.revised = current.fit.hypothesis.effects[given_ + name];
-    return ended;
-  }
-
-  /// False if the revision of this name has changed what was found: then its effect is gone, or stands behind the
-  /// others.
-  bool stays(Found& current, std::size_t name, Ended ended) {
-    const std::size_t place = given_ + name;
-    const Found without = without_[name];
-    const PlacedEffect old = *ended.told.revised;
-    const auto won = tell(std::move(ended));
-    const auto naming = result_.namings.begin() + static_cast<std::ptrdiff_t>(name);
-    const bool is_same = won && same_name(won->fit.hypothesis.effects.back(), old);
-    if (is_same) *naming = won->naming;
-    Found revised = won ? Found{won->fit, evidence_.score(won->fit.hypothesis)} : without;
-    if (won ? is_beaten(revised, current, is_same) : is_needed(current, without, place)) {
-      result_.rounds.back().accepted = false;
-      result_.rounds.back().name_stays = true;
-      if (!is_same) *naming = naming_beside_rivals(current, without, place);
-      return true;
-    }
-    const Naming its = won ? won->naming : Naming{};
-    result_.namings.erase(naming);
-    if (won) result_.namings.push_back(its);
-    change(current, std::move(revised));
-    return false;
   }
 
   /// The naming of an effect that stays, among the candidates of the round in which its name was revised.
@@ -389,7 +349,7 @@ std::vector<PlacedEffect> all_candidates(const ArmParameters<double>& arm) {
 
 Attribution attribute(const Evidence& evidence, const ArmModel& model, const AttributionOptions& options,
                       const std::function<void(const std::string&, double)>& progress) {
-  const SearchProgress say = progress ? progress : SearchProgress(kQuiet);
+  const SearchProgress say = progress ? progress : [](const std::string&, double) {};
   say("nominal model", 0);
   return Search(evidence, model, options, say).run();
 }

@@ -83,21 +83,6 @@ TEST(SideBySide, JobsThatAskUnequallyOftenGetTheNumbersThatTheyHaveAlone) {
     EXPECT_EQ(beside[i], finite_numbers(predict(r.record, {all[i]}, kStride)[0])) << i;
 }
 
-TEST(SideBySide, JobsOfAJobMeetTheOtherJobs) {
-  const Recorded r;
-  const std::vector<Hypothesis> all = r.one_of_each();
-  std::vector<std::vector<double>> beside(6);
-  run_side_by_side(2, [&](std::size_t outer) {
-    run_side_by_side(3, [&](std::size_t inner) {
-      const std::size_t i = 3 * outer + inner;
-      for (std::size_t times = 0; times <= i % 4; ++times)
-        beside[i] = finite_numbers(predict(r.record, {all[i]}, kStride)[0]);
-    });
-  });
-  for (std::size_t i = 0; i < beside.size(); ++i)
-    EXPECT_EQ(beside[i], finite_numbers(predict(r.record, {all[i]}, kStride)[0])) << i;
-}
-
 TEST(SideBySide, AJobThatFailsDoesNotHoldUpTheOthers) {
   const Recorded r;
   const std::vector<Hypothesis> plain = {{r.model.nominal, {}}};
