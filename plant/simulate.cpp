@@ -183,8 +183,8 @@ constexpr double kFastestMotor = 1e5;
 void refuse_runaway(const Scenario& scenario, const Tick& tick, double time_s) {
   for (int k = 0; k < scenario.robot.n(); ++k)
     if (has_motor(scenario, k) && !(std::abs(tick.signals[k].motor_rate) < kFastestMotor))
-      throw InputError(place(scenario) + "motor " + std::to_string(k + 1) + " turns faster than 100000 rad/s at " +
-                       std::to_string(time_s) +
+      throw InputError(place(scenario) + "motor " + std::to_string(k + 1) + " turns faster than " +
+                       std::to_string(std::lround(kFastestMotor)) + " rad/s at " + std::to_string(time_s) +
                        " s, so the controlled arm is unstable; lower kp and kd of the joint's "
                        "<controller>, or state its torque_limit");
 }

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "tests/support/message_of.h"
 
 namespace halyard {
@@ -51,6 +54,34 @@ TEST(SampledTrajectory, RunsStraightBetweenItsSamplesAndStaysBeforeAndAfter) {
   EXPECT_EQ(desired_position(t, 0, 2), 20);
   EXPECT_EQ(desired_position(t, 0, 3.5), 5);
   EXPECT_EQ(desired_position(t, 0, 9), 0);
+}
+
+TEST(Trajectory, OfSinesStartsAtItsCenterAtRest) {
+  JointTrajectory t;
+  t.kind = Kind::sines;
+  t.center = 0.5;
+  t.sines = {{0.2, 0.4, 1.0}, {0.1, 0.9, 0}};
+  EXPECT_EQ(desired_position(t, 2, 0), 0.5);
+  // f(s) grows as 10 s³: within 1 ms by less than 2e-9 of the amplitudes.
+  EXPECT_NEAR(desired_position(t, 2, 1e-3), 0.5, 2e-9);
+  const double after = 7.3, w = 2 * std::numbers::pi * after;
+  EXPECT_DOUBLE_EQ(desired_position(t, 2, after), 0.5 + 0.2 * std::sin(0.4 * w + 1.0) + 0.1 * std::sin(0.9 * w));
+}
+
+TEST(Trajectory, BetweenPointsMovesWithMinimumJerkAndDwells) {
+  JointTrajectory t;
+  t.kind = Kind::point_to_point;
+  t.points = {1, 2, 4};
+  t.move_s = 1;
+  t.dwell_s = 0.5;
+  EXPECT_EQ(desired_position(t, 0, 0), 1);
+  EXPECT_DOUBLE_EQ(desired_position(t, 0, 0.5), 1.5);  // half way at half time
+  EXPECT_EQ(desired_position(t, 0, 1.2), 2);
+  EXPECT_DOUBLE_EQ(desired_position(t, 0, 2.0), 3);
+  EXPECT_DOUBLE_EQ(desired_position(t, 0, 3.5), 2.5);  // from the last point to the first
+  EXPECT_EQ(desired_position(t, 0, 4.5), 1);
+  // Peak speed of a minimum-jerk move is 15/8 of the mean.
+  EXPECT_NEAR((desired_position(t, 0, 0.5 + 1e-4) - desired_position(t, 0, 0.5 - 1e-4)) / 2e-4, 15.0 / 8, 1e-6);
 }
 
 }  // namespace
