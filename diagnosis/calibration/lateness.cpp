@@ -173,19 +173,19 @@ std::optional<double> correction(const Log& log, const ArmModel& model, const st
 std::optional<ArmModel> model_for_lateness(const std::vector<Log>& logs, const ArmModel& given,
                                            const Hypothesis& found) {
   constexpr int kCommandDelay = 0;
-  for (const Log& log : logs)
-    for (int k = 0; k < given.n(); ++k)
-      if (!log.joint_position[k].empty() && !has_slow_joint_sensor(log, given, k)) return std::nullopt;
   const auto is_of_all_sensors = [&](const PlacedEffect& e) {
     return e.effect->name() == "delay" && (e.joint == kWholeArm || given.n() == 1) && e.p[kCommandDelay] == 0;
   };
+  const auto first = found.effects.begin();
+  const auto delay = std::find_if(first + std::ssize(given.effects), found.effects.end(), is_of_all_sensors);
+  if (delay == found.effects.end()) return std::nullopt;
+  for (const Log& log : logs)
+    for (int k = 0; k < given.n(); ++k)
+      if (!log.joint_position[k].empty() && !has_slow_joint_sensor(log, given, k)) return std::nullopt;
   ArmModel model = given;
   model.nominal = found.nominal;
   model.effects = found.effects;
-  const auto added = model.effects.begin() + std::ssize(given.effects);
-  const auto delay = std::find_if(added, model.effects.end(), is_of_all_sensors);
-  if (delay == model.effects.end()) return std::nullopt;
-  model.effects.erase(delay);
+  model.effects.erase(model.effects.begin() + (delay - first));
   std::erase_if(model.effects, [&](const PlacedEffect& e) { return has_instants(e, given.nominal); });
   return model;
 }
