@@ -21,6 +21,7 @@
 #include "diagnosis/record/common_clock.h"
 #include "diagnosis/search/revision.h"
 #include "diagnosis/search_space.h"
+#include "model/input_error.h"
 
 namespace halyard {
 namespace {
@@ -162,13 +163,13 @@ class Diagnoser {
     const std::vector<Naming>& namings = attribution().namings;
     doubts_ = doubts(evidence, result_.given, attribution(), options_.significance);
     for (std::size_t e = given_; e < f.hypothesis.effects.size(); ++e) {
+      const double none = probability_of_none_for(evidence, attribution(), given_, e);
+      result_.probability_none = std::max(result_.probability_none, none);
       if (doubts_[e - given_] != Doubt::none) continue;
       NamedEffect named{on_its_clock(evidence, f.hypothesis.effects[e]), namings[e - given_].weight,
                         told_parameters(evidence, e), namings[e - given_].alternatives};
       const Record* const happens_in = record_of(f.hypothesis.effects[e], model_.nominal, evidence.records());
       if (happens_in && n_logs_ > 1) named.log = happens_in->source;
-      const double none = probability_of_none_for(evidence, attribution(), given_, e);
-      result_.probability_none = std::max(result_.probability_none, none);
       std::vector<double> all = {named.probability *= 1 - none};
       for (Alternative& a : named.alternatives) all.push_back(a.probability *= 1 - none);
       const std::vector<bool> in = credible_set(all, kRule.set_share);
@@ -180,16 +181,17 @@ class Diagnoser {
 
   /// Effects without a name that stay in the revised model, because it predicts better with them.
   void tell_doubtful(const Evidence& evidence) {
+    const Score with = evidence.score(final_hypothesis());
     for (std::size_t e = given_; e - given_ < doubts_.size(); ++e) {
       const Doubt doubt = doubts_[e - given_];
       if (doubt == Doubt::none) continue;
       const Score without = evidence.score(without_effect(final_hypothesis(), e));
-      const auto c =
-          without.finite ? most_explained_channel(evidence, attribution().final_score, without) : std::nullopt;
-      const int k = c.value_or(0) % model_.n();
-      result_.unexplained.push_back({k, fmt::format("{} explains a part of it and is in the revised model, but {}",
-                                                    effect_label(final_hypothesis().effects[e]),
-                                                    reason_of(doubt, attribution().namings[e - given_]))});
+      const auto c = without.finite ? most_explained_channel(evidence, with, without) : std::nullopt;
+      const PlacedEffect& effect = final_hypothesis().effects[e];
+      const int k = c ? *c % model_.n() : effect.joint.value_or(0);
+      result_.unexplained.push_back(
+          {k, fmt::format("{} explains a part of it and is in the revised model, but {}", effect_label(effect),
+                          reason_of(doubt, attribution().namings[e - given_]))});
     }
   }
 
@@ -225,11 +227,9 @@ class Diagnoser {
       if (evidence.has_channel(c))
         result_.probability_none =
             std::max(result_.probability_none, probability_of_none(score.mean_square[c], 0, evidence.floor()[c]));
+    // Something acts also where the effect gets no name, or predicts the hold-out badly.
     std::vector<double> present;
-    for (const NamedEffect& e : result_.effects) {
-      present.push_back(e.probability);
-      for (const Alternative& a : e.alternatives) present.back() += a.probability;
-    }
+    for (const Naming& naming : attribution().namings) present.push_back(probability_of_any_name(naming, 0));
     result_.probability_clean = probability_of_clean(result_.probability_none, attribution().no_effect, present);
   }
 
@@ -384,6 +384,7 @@ ArmModel Diagnosis::revised_on_holdout() const {
 
 Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, const std::optional<Log>& holdout,
                    const DiagnosisOptions& options, const Progress& progress) {
+  if (training.empty()) throw InputError("diagnose: no log; expected at least one to learn from");
   std::mutex one_at_a_time;
   const Progress say = [&](const std::string& what, double fraction) {
     const std::lock_guard<std::mutex> lock(one_at_a_time);

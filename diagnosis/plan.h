@@ -7,7 +7,8 @@
 ///   r⊥     part of a residual r that the baseline's parameters within their tolerances cannot explain
 ///          (baseline_reach.h)
 ///
-/// An effect is detected at size p if it meets the conditions of a diagnosis (judge.h):
+/// An effect is detected at size p if it meets these conditions. They are those of a diagnosis (judge.h) for a log
+/// whose only residual is r0. The t test is that of the gains themselves, and the likelihood ratio always counts:
 ///
 ///   change         rms((r0 + d)⊥ - r0⊥) and rms(d) each exceed a certain multiple of the floor in some channel
 ///   share          ms((r0 + d)⊥) - ms(r0⊥) exceeds a certain share of ms((r0 + d)⊥) in some channel
@@ -55,7 +56,7 @@ struct DetectionLimit {
 };
 
 /// Detection limits of all candidates that the model does not have already, in a fixed order. progress(what, fraction)
-/// is called repeatedly.
+/// is called repeatedly, by several threads at once.
 /// Throws InputError for logs that cannot be compared with the model.
 std::vector<DetectionLimit> detection_limits(const ArmModel& model, const std::vector<Log>& logs,
                                              const std::function<void(const std::string&, double)>& progress = {});

@@ -193,6 +193,10 @@ using PlacedEffect = EffectInstance<double>;
 
 /// "backlash of joint 2", "payload".
 std::string effect_label(const PlacedEffect& effect);
+/// True for the same effect at the same joint, whatever its parameters.
+inline bool same_name(const PlacedEffect& a, const PlacedEffect& b) {
+  return a.effect == b.effect && a.joint == b.joint;
+}
 
 /// All effects, in a fixed order.
 const std::vector<const Effect*>& effect_library();

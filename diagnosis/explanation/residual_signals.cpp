@@ -79,11 +79,12 @@ class JointObserver {
     const std::size_t reach = std::max<std::size_t>(1, std::lround(kStep / record_.dt));
     const std::size_t before = i - std::min(i, reach), after = std::min(i + reach, record_.size - 1);
     const double h = 0.5 * record_.dt * static_cast<double>(after - before);
+    const bool is_centred = after - i == i - before;  // not at the ends of a record
     for (int j = 0; j < n_; ++j) {
       const std::vector<double>& q = record_.joint[j];
       m.q(j) = q[i] - s[j].joint_error;
       m.v(j) = (q[after] - q[before]) / (2 * h);
-      m.a(j) = (q[after] - 2 * q[i] + q[before]) / (h * h);
+      m.a(j) = is_centred ? (q[after] - 2 * q[i] + q[before]) / (h * h) : kNone;
     }
     return m;
   }

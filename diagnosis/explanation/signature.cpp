@@ -11,14 +11,13 @@
 namespace halyard {
 namespace {
 
-/// Joint k's motion as the motors tell it, every stride-th sample.
+/// Joint k's motion as the motors tell it, or its sensor if it has no motor, every stride-th sample.
 std::vector<double> joint_motion(const Record& record, const ArmParameters<double>& arm, int k, int stride) {
-  const Eigen::VectorXd undriven = Eigen::VectorXd::Zero(record.n);
   std::vector<double> y;
   for (std::size_t i = 0; i < record.size; i += stride) {
     Eigen::VectorXd q_m(record.n);
     for (int j = 0; j < record.n; ++j) q_m(j) = record.motor_angle[j][i];
-    y.push_back(unstretched_joints(arm, q_m, undriven)(k));
+    y.push_back(unstretched_joints(arm, q_m, q_m)(k));
   }
   return y;
 }

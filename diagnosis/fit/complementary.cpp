@@ -16,7 +16,7 @@ bool have_the_same_whole_numbers(const Hypothesis& h, const PlacedEffect& a, con
 
 bool are_complementary(const Fit& fit, std::size_t one, std::size_t other) {
   const PlacedEffect &a = fit.hypothesis.effects[one], &b = fit.hypothesis.effects[other];
-  if (a.effect != b.effect || a.joint != b.joint || a.effect->n_states() > 0) return false;
+  if (!same_name(a, b) || a.effect->n_states() > 0) return false;
   if (!have_the_same_whole_numbers(fit.hypothesis, a, b)) return false;
   return std::ranges::none_of(fit.parameters, [&](FitParameter p) {
     if (p.effect != one) return false;

@@ -59,7 +59,7 @@ Evidence::Evidence(std::vector<Record> records, const ArmModel& model, Split spl
   stride_ = std::max(1, static_cast<int>(std::lround(1 / (kRowRate * dt))));
   correlated_rows_ = std::max(1.0, kCorrelationTime / (stride_ * dt));
   // The autocorrelation of white noise behind a Gaussian filter is exp(-t² / (4 σ²)).
-  const double noise_s = 2 * std::sqrt(std::numbers::pi) * records_.front().compare_sigma;
+  const double noise_s = 2 * std::sqrt(std::numbers::pi) * records_.front().filter_sigma();
   noise_rows_ = std::max(1.0, noise_s / (stride_ * dt));
   block_s_ = std::clamp(total / 60, kCorrelationTime, 1.0);
 

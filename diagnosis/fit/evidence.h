@@ -70,7 +70,7 @@ class Evidence {
   bool exceeds_floor(const std::vector<double>& change, double times) const { return over_floor(change) > times; }
   /// Number of rows that equal one independent sample, because residuals are correlated.
   double correlated_rows() const { return correlated_rows_; }
-  /// The same for a sensor's white noise, which only the filter of the residuals correlates.
+  /// The same for a sensor's white noise, which only the filters of a record correlate.
   double noise_rows() const { return noise_rows_; }
   /// From the first to the last sample of all records, s.
   Span time_span() const { return time_span_; }

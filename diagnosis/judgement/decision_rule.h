@@ -34,6 +34,12 @@ struct DecisionRule {
   /// A candidate whose quick fit has a larger p value than this is neither fitted fully nor judged further, except the
   /// `leaders_by_rest`.
   double worth_a_fit = 0.05;
+  /// A size that makes the effect what its name says, as the rate makes a drift, has to gain with a smaller p value.
+  /// Reason: the effect has already convinced; this only decides between two names.
+  double essential_level = 0.05;
+  /// In a revision, a name that wins its place again keeps its new fit if that gains more than this over the earlier
+  /// one. Reason: a quarter of what one more parameter gains by chance decides nothing.
+  double worth_a_change = 0.5;
 
   // Several effects are proposed together.
 
@@ -99,7 +105,7 @@ struct DecisionRule {
   /// more parameter gains by chance decides nothing.
   double worth_a_nudge = 0.5;
   /// After `first_passes` passes, the same rule with the share `still_leads` decides which of the full fits go on, up
-  /// to `most_passes` in all.
+  /// to `most_passes` in all; but only those with a significant gain.
   int first_passes = 3, most_passes = 12;
   double still_leads = 0.5;
 };

@@ -36,8 +36,8 @@ std::vector<double> name_weights(const Evidence& evidence, const std::vector<Com
 /// P(none) of one channel. misfit_square: η² MSE_before.
 double probability_of_none(double mean_square_after, double misfit_square, double floor);
 
-/// That the arm has no effect which the model lacks. no_effect: its weight after the last name. present: for each name,
-/// the probability that it or one of its alternatives acts.
+/// That the arm has no effect which the model lacks. no_effect: its weight after the last name. present: for each
+/// effect that was found, with a name or without, what its name and the alternatives weigh against no effect.
 double probability_of_clean(double none, double no_effect, const std::vector<double>& present);
 
 /// probability: of each name. True for the names of the smallest set that holds the right name with `share` of the sum

@@ -1,5 +1,6 @@
 #pragma once
-/// Decides whether a diagnosis would detect a change of the residual, by the rules of judge.h on the fitting rows.
+/// Decides whether a diagnosis would detect a change of the residual, on the fitting rows. The rules are those of
+/// judge.h for a single effect, without what effects that were found before may miss.
 ///
 /// The change is what is left of it when the model's own numbers are refitted. It is detected if, beside the residual
 /// of the model as given,

@@ -28,7 +28,7 @@ std::vector<Shown> show_all(const Planner& planner, const std::function<void()>&
 std::vector<const Shown*> others_than(const PlacedEffect& effect, const std::vector<Shown>& shown) {
   std::vector<const Shown*> others;
   for (const Shown& s : shown)
-    if (s.limit.effect.effect != effect.effect || s.limit.effect.joint != effect.joint) others.push_back(&s);
+    if (!same_name(s.limit.effect, effect)) others.push_back(&s);
   return others;
 }
 

@@ -68,9 +68,7 @@ Planner::Planner(const ArmModel& model, const std::vector<Log>& logs)
       reach_(make_reach()) {
   candidates_ = all_candidates(model.nominal);
   std::erase_if(candidates_, [&](const PlacedEffect& candidate) {
-    return std::any_of(model.effects.begin(), model.effects.end(), [&](const PlacedEffect& e) {
-      return e.effect == candidate.effect && e.joint == candidate.joint;
-    });
+    return std::ranges::any_of(model.effects, [&](const PlacedEffect& e) { return same_name(e, candidate); });
   });
   residual_ = reach_.weighted(base_);
   const double fitted = static_cast<double>(std::min(kRule.most_fitted, candidates_.size()));

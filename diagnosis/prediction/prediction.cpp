@@ -193,11 +193,8 @@ class Prediction {
 
   static std::size_t index_of_list(const std::vector<PlacedEffect>& effects,
                                    std::vector<const std::vector<PlacedEffect>*>& known) {
-    const auto found = std::ranges::find_if(known, [&](const auto* list) {
-      return std::ranges::equal(*list, effects, [](const PlacedEffect& a, const PlacedEffect& b) {
-        return a.effect == b.effect && a.joint == b.joint;
-      });
-    });
+    const auto found =
+        std::ranges::find_if(known, [&](const auto* list) { return std::ranges::equal(*list, effects, same_name); });
     if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
     known.push_back(&effects);
     return known.size() - 1;

@@ -9,8 +9,7 @@ using Place = std::vector<PlacedEffect>::const_iterator;
 
 /// The first effect of that name at that joint from `first` on.
 Place find_from(Place first, Place last, const PlacedEffect& effect) {
-  return std::find_if(first, last,
-                      [&](const PlacedEffect& e) { return e.effect == effect.effect && e.joint == effect.joint; });
+  return std::find_if(first, last, [&](const PlacedEffect& e) { return same_name(e, effect); });
 }
 
 CommonEffects common_effects(const std::vector<const Hypothesis*>& hypotheses) {

@@ -17,6 +17,7 @@
 ///
 /// A joint without a motor (drive none) follows its own sensor, or stays at home if the log has none.
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -53,6 +54,8 @@ struct Record {
   std::string source;
   std::optional<std::size_t> place;  ///< index among the records of an Evidence that it belongs to
 
+  /// Of both filters together: a compared reading has passed K_m and K_c.
+  double filter_sigma() const { return std::hypot(motion_sigma, compare_sigma); }
   double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
   bool has_joint(int k) const { return !joint[k].empty(); }
   bool has_torque(int k) const { return !torque[k].empty(); }

@@ -65,7 +65,7 @@ class Search {
     result_.baseline_score = baseline_.score;
     result_.final_fit = std::move(current.fit);
     result_.final_score = std::move(current.score);
-    PairRivals(evidence_, model_, refitter_, judge_, given_, options_.significance).weigh(result_);
+    PairRivals(evidence_, model_, refitter_, judge_, given_, options_).weigh(result_);
     return std::move(result_);
   }
 
@@ -78,10 +78,14 @@ class Search {
 
   int n_added(const Found& f) const { return static_cast<int>(f.fit.hypothesis.effects.size() - given_); }
 
-  /// The effect that a round names, if any.
+  /// The effect that a round names.
   struct Won {
     Fit fit;
     Naming naming;
+  };
+  struct Outcome {
+    std::optional<Won> won;
+    double no_effect = 0;  ///< its weight if no candidate has won
   };
 
   /// A fit from the model's own numbers: while effects were still missing, the fits had distorted the numbers.
@@ -115,8 +119,7 @@ class Search {
   }
 
   /// All candidates compete for the place after the effects of `without`.
-  std::optional<Won> compete(CandidateRound& round, const Scored& without,
-                             const std::vector<PlacedEffect>& candidates) {
+  Outcome compete(CandidateRound& round, const Scored& without, const std::vector<PlacedEffect>& candidates) {
     Round told;
     told.trials = round.look(candidates);
     const std::vector<Fit> fits = round.fit_leaders(told.trials);
@@ -125,18 +128,18 @@ class Search {
     for (std::size_t i = 0; i < fits.size(); ++i)
       if (is_convincing[i] && fits[i].usable) able.push_back(i);
     const Competition competition(evidence_, model_, judge_, without, told.trials);
-    std::optional<Won> won;
+    Outcome outcome;
     if (able.empty()) {
-      result_.no_effect = competition.weight_of_no_effect();
+      outcome.no_effect = competition.weight_of_no_effect();
     } else {
       const Competition::Choice choice = competition.choose(able);
-      won = {fits[choice.named], competition.naming(choice)};
+      outcome.won = {fits[choice.named], competition.naming(choice)};
       told.accepted = true;
       const auto named = told.trials.begin() + static_cast<std::ptrdiff_t>(choice.named);
       std::rotate(told.trials.begin(), named, named + 1);
     }
     result_.rounds.push_back(std::move(told));
-    return won;
+    return outcome;
   }
 
   /// One round with all candidates, and if none of them is convincing alone, with several at once.
@@ -151,13 +154,17 @@ class Search {
     // own parameters. But if these are far off, the residual is not linear in them, and a small effect is lost beside
     // this.
     CandidateRound round = next_round(is_first ? Hypothesis{model_.nominal, model_.effects, so_far.past} : so_far);
-    auto won = compete(round, current.scored(), candidates(so_far));
-    const bool is_from_the_model = is_first && won;
-    if (!won && is_first) {
+    Outcome outcome = compete(round, current.scored(), candidates(so_far));
+    const bool is_from_the_model = is_first && outcome.won;
+    if (!outcome.won && is_first) {
       CandidateRound second = next_round(so_far);
-      won = compete(second, current.scored(), candidates(so_far));
+      outcome = compete(second, current.scored(), candidates(so_far));
     }
-    if (!won) return add_together(current, round);
+    const std::optional<Won>& won = outcome.won;
+    if (!won) {
+      result_.no_effect = outcome.no_effect;
+      return add_together(current, round);
+    }
     Found with{won->fit, evidence_.score(won->fit.hypothesis)}, without, again;
     run_side_by_side(is_from_the_model ? 1 : 2,
                      [&](std::size_t i) { i == 0 ? without = without_last(with) : again = afresh(with); });
@@ -209,7 +216,7 @@ class Search {
     const JointProposal proposal = search.propose(round.linear(), current.scored(), options_.significance,
                                                   options_.most_effects - n_added(current));
     if (proposal.trials.empty()) return false;
-    result_.rounds.push_back({proposal.trials, proposal.is_convincing, true});
+    result_.rounds.push_back({.trials = proposal.trials, .accepted = proposal.is_convincing, .at_once = true});
     if (!proposal.is_convincing) return false;
     for (const Trial& t : proposal.trials)
       result_.namings.push_back(Competition(evidence_, model_, judge_, current.scored(), {t}).naming({0, {0}}));
@@ -240,7 +247,7 @@ class Search {
         return std::ranges::none_of(pool, [&](const PlacedEffect& p) { return same_name(p, r); });
       });
       CandidateRound round = round_of(without, without.fit.hypothesis, "the revision of name " + std::to_string(i + 1));
-      const auto won = compete(round, without.scored(), rivals);
+      const std::optional<Won> won = compete(round, without.scored(), rivals).won;
       Round& told = result_.rounds.back();
       told.revised = old;
       const auto naming = result_.namings.begin() + static_cast<std::ptrdiff_t>(kept);
@@ -279,7 +286,7 @@ class Search {
   /// True if the name that won a revision stays behind what was there before it: from another start its fit, or the fit
   /// of the earlier name in this round, may miss what the earlier fit had found.
   bool is_beaten(const Found& revised, const Found& before, bool is_same) const {
-    if (is_same) return judge_.cost(before.scored()) < judge_.cost(revised.scored()) + kRule.worth_a_nudge;
+    if (is_same) return judge_.cost(before.scored()) < judge_.cost(revised.scored()) + kRule.worth_a_change;
     return judge_.gain_over(before.scored(), revised.scored()) > kRule.by_chance;
   }
 

@@ -19,7 +19,7 @@ struct Round {
   bool accepted = false;      ///< the first trial was added; of several at once: all were
   bool at_once = false;       ///< the trials are of effects that were proposed together, each beside the others
   /// The name for whose place the candidates compete; nothing before all names are found.
-  std::optional<PlacedEffect> revised;
+  std::optional<PlacedEffect> revised = {};
   bool name_stays = false;  ///< of a revision: the name and its earlier fit are kept
 };
 
@@ -27,7 +27,7 @@ struct Attribution {
   Fit baseline;                 ///< parameters refitted within their tolerance, no effects
   Fit final_fit;                ///< with the effects that were found
   std::vector<Naming> namings;  ///< for each effect of final_fit that the model did not come with
-  double no_effect = 1;         ///< weight of "no effect" in the last round without a winner
+  double no_effect = 1;         ///< weight of "no effect" in the last round that should add one and did not
   std::vector<Round> rounds;
   Score nominal_score, baseline_score, final_score;
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "diagnosis/prediction/side_by_side.h"
+#include "diagnosis/search/essence.h"
 
 namespace halyard {
 
@@ -158,19 +159,6 @@ Refit CandidateRound::refit_from(const Hypothesis& end) const {
   return r;
 }
 
-namespace {
-
-/// The refit from another start, of which nothing is known yet.
-Refit restarted(Refit refit, const Hypothesis& at) {
-  refit.at = at;
-  refit.best = {};
-  refit.last = std::numeric_limits<double>::infinity();
-  refit.settled = refit.is_nudged = false;
-  return refit;
-}
-
-}  // namespace
-
 /// Beside another effect that is still missing, a part of a right effect may end at its bound to explain that one. If
 /// the rest of it can be named, this is what the candidate is.
 void CandidateRound::give_up_bounds(Refit& refit, Trial& trial) const {
@@ -188,23 +176,6 @@ void CandidateRound::give_up_bounds(Refit& refit, Trial& trial) const {
   trial = rest;
 }
 
-void CandidateRound::find_essence(const Refit& refit, Trial& trial) const {
-  const Hypothesis& h = refit.best.hypothesis;
-  const std::size_t place = h.effects.size() - 1;
-  Refit reduced = restarted(refit, h);
-  for (const FitParameter& p : refitter_.parameters(h))
-    if (p.effect == place && p.is_essential) set_parameter(reduced.at, p, p.nominal), reduced.held.push_back(p);
-  if (reduced.held.size() == refit.held.size()) return;
-  refitter_.go_on(reduced, kRule.first_passes);
-  if (!reduced.best.usable) return;
-  const Scored with{h, evidence_.score(h)};
-  const Scored without{reduced.best.hypothesis, evidence_.score(reduced.best.hypothesis)};
-  // A name has to explain a share of the residual, an essential size need not: friction that stays cannot err in a way
-  // that drifts.
-  trial.is_another = judge_.gain_over(with, without) <= kRule.by_chance ||
-                     judge_.p_of_gain(with.score, without.score) > kRule.worth_a_fit;
-}
-
 std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
   std::vector<std::pair<std::size_t, Refit>> first;
   for (const std::size_t i : leaders_)
@@ -218,7 +189,10 @@ std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
     const Hypothesis& h = refits[i].best.hypothesis;
     trials[i] = refits[i].best.usable ? judge_.trial(h, without_, h.effects.size() - 1) : unusable(trials[i].effect);
     if (trials[i].at_bound) give_up_bounds(refits[i], trials[i]);
-    if (trials[i].can_be_named()) find_essence(refits[i], trials[i]);
+    if (!trials[i].can_be_named()) return;
+    const Hypothesis& named = refits[i].best.hypothesis;
+    trials[i].is_another =
+        is_another_effect(evidence_, refitter_, judge_, restarted(refits[i], named), named.effects.size() - 1);
   };
   const auto go_on_with = [&](const std::string& what, const std::vector<std::size_t>& going, int passes) {
     each(what, going.size(), [&](std::size_t g) {

@@ -37,7 +37,8 @@ class CandidateRound {
   /// Fits the leaders fully and judges them anew: the trials that gain most, and those that would leave least once the
   /// model's parameters have followed. The quick look computes the sensitivities of these parameters once; here they
   /// are renewed until nothing changes. Which end of its quick fits a candidate goes on from is decided after one such
-  /// pass from each. Returns a fit for each trial of the last look(), unusable where there was none.
+  /// pass from each. After a few passes, those that are judged and still lead go on; a candidate whose gain is not
+  /// significant by then does not. Returns a fit for each trial of the last look(), unusable where there was none.
   std::vector<Fit> fit_leaders(std::vector<Trial>& trials) const;
   /// What the look has found to first order.
   const LinearRound& linear() const { return linear_; }
@@ -59,8 +60,6 @@ class CandidateRound {
   /// A full fit of the same candidate.
   Refit refit_from(const Hypothesis& end) const;
   void give_up_bounds(Refit& refit, Trial& trial) const;
-  /// Tests whether the candidate needs its essential sizes, if it has any.
-  void find_essence(const Refit& refit, Trial& trial) const;
   double least_promise() const;
 
   const Evidence& evidence_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/prediction/side_by_side.h"
+#include "diagnosis/search/essence.h"
 #include "diagnosis/search/sparse_selection.h"
 
 namespace halyard {
@@ -123,6 +124,8 @@ std::vector<Trial> JointSearch::trials(const JointProposal& p, std::size_t first
     without[i] = refit.best;
     const Hypothesis left = refit.best.usable ? refit.best.hypothesis : refit.at;
     all[i] = judge_.trial(p.fit.hypothesis, {left, evidence_.score(left)}, place);
+    if (all[i].can_be_named())
+      all[i].is_another = is_another_effect(evidence_, refitter_, judge_, {p.fit.hypothesis, p.score}, place);
   });
   return all;
 }

@@ -6,11 +6,6 @@
 
 namespace halyard {
 
-/// True for the same effect at the same joint, whatever its parameters.
-inline bool same_name(const PlacedEffect& a, const PlacedEffect& b) {
-  return a.effect == b.effect && a.joint == b.joint;
-}
-
 /// Of an effect: cost_of_effect, and cost_of_number for each of its numbers (decision_rule.h). An equation of its own
 /// counts like one more number.
 double prior_cost_of(const PlacedEffect& effect, const ArmParameters<double>& arm);

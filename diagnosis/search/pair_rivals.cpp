@@ -5,6 +5,7 @@
 
 #include "diagnosis/judgement/name_probability.h"
 #include "diagnosis/prediction/side_by_side.h"
+#include "diagnosis/search/essence.h"
 
 namespace halyard {
 namespace {
@@ -91,7 +92,8 @@ bool PairRivals::can_be_named(const Pair& pair) const {
   for (const std::size_t place : {h.effects.size() - 2, h.effects.size() - 1}) {
     const Fit left = refitter_.refit(without_effect(h, place), pair.score);
     if (!left.usable) return false;
-    if (!judge_.trial(h, {left.hypothesis, evidence_.score(left.hypothesis)}, place).passes(significance_))
+    if (!judge_.trial(h, {left.hypothesis, evidence_.score(left.hypothesis)}, place).passes(options_.significance) ||
+        is_another_effect(evidence_, refitter_, judge_, {h, pair.score}, place))
       return false;
   }
   return true;
@@ -211,10 +213,23 @@ void PairRivals::weigh(Attribution& found) const {
   const auto effects = [&]() -> const std::vector<PlacedEffect>& { return found.final_fit.hypothesis.effects; };
   // Names that replace one go to the end; no round has rivals of them.
   for (std::size_t left = effects().size() - given_, place = given_; left > 0; --left)
-    if (!weigh(found, {place})) ++place;
-  for (std::size_t second = given_; second < effects().size(); ++second)
-    for (std::size_t first = given_; first < second; ++first)
-      if (effects()[first].joint && effects()[first].joint == effects()[second].joint) weigh(found, {first, second});
+    if (effects().size() >= given_ + static_cast<std::size_t>(options_.most_effects) || !weigh(found, {place})) ++place;
+  weigh_twos(found);
+}
+
+/// Each two names once. Names that replace two go to the end, the others move up; no round has rivals of the new ones.
+void PairRivals::weigh_twos(Attribution& found) const {
+  const std::vector<PlacedEffect> names = found.final_fit.hypothesis.effects;
+  constexpr std::size_t kGone = 0;
+  std::vector<std::size_t> place(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) place[i] = i + 1;  // counted from one
+  for (std::size_t second = given_ + 1; second < names.size(); ++second)
+    for (std::size_t first = given_; first < second; ++first) {
+      const std::size_t a = place[first], b = place[second];
+      if (a == kGone || b == kGone || !names[first].joint || names[first].joint != names[second].joint) continue;
+      if (!weigh(found, {a - 1, b - 1})) continue;
+      for (std::size_t& p : place) p = p == a || p == b ? kGone : p - (p > a ? 1 : 0) - (p > b ? 1 : 0);
+    }
 }
 
 }  // namespace halyard

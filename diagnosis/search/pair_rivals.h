@@ -20,13 +20,8 @@ class PairRivals {
  public:
   /// given: number of effects that the model came with.
   PairRivals(const Evidence& evidence, const ArmModel& model, const Refitter& refitter, const Judge& judge,
-             std::size_t given, double significance)
-      : evidence_(evidence),
-        model_(model),
-        refitter_(refitter),
-        judge_(judge),
-        given_(given),
-        significance_(significance) {}
+             std::size_t given, const AttributionOptions& options)
+      : evidence_(evidence), model_(model), refitter_(refitter), judge_(judge), given_(given), options_(options) {}
 
   /// Weighs every name, and then every two names at one joint, against the pairs of their rivals in the search's
   /// rounds: final_fit, final_score and namings change.
@@ -42,6 +37,7 @@ class PairRivals {
   std::vector<double> weights(const Attribution& found, const Places& places, const Hypothesis& none,
                               const std::vector<Pair>& pairs) const;
   bool weigh(Attribution& found, const Places& places) const;
+  void weigh_twos(Attribution& found) const;
   void add_alternatives(Attribution& found, const Places& places, const std::vector<Pair>& pairs,
                         const std::vector<double>& weight) const;
   static Naming naming_of(const PlacedEffect& effect, const PlacedEffect& other, const std::vector<Pair>& pairs,
@@ -54,7 +50,7 @@ class PairRivals {
   const Refitter& refitter_;
   const Judge& judge_;
   std::size_t given_;
-  double significance_;
+  const AttributionOptions& options_;
 };
 
 }  // namespace halyard

@@ -8,6 +8,14 @@
 
 namespace halyard {
 
+Refit restarted(Refit refit, const Hypothesis& at) {
+  refit.at = at;
+  refit.best = {};
+  refit.last = std::numeric_limits<double>::infinity();
+  refit.settled = refit.is_nudged = false;
+  return refit;
+}
+
 Refitter::Refitter(const Evidence& evidence, const ArmModel& model, std::size_t given)
     : evidence_(evidence), model_(model), given_(given) {
   constexpr double kSensitive = 0.1;  // of a channel's floor

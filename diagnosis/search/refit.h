@@ -21,6 +21,9 @@ struct Refit {
   std::size_t nudged_from = 0;          ///< effects before this one are not nudged
 };
 
+/// The refit from another start, of which nothing is known yet.
+Refit restarted(Refit refit, const Hypothesis& at);
+
 class Refitter {
  public:
   /// Keeps the parameters of the model that the data are sensitive to: their whole tolerance moves a channel by at

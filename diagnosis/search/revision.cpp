@@ -21,8 +21,7 @@ class Revision {
 
   std::vector<std::size_t> run() {
     fit_finally(found_.final_fit);
-    while (drop_one()) {}
-    while (join_one()) {}
+    while (drop_one() || join_one()) {}
     const std::vector<std::size_t> changed = changed_numbers(whole_, model_, found_.final_fit);
     // A model that lacks nothing stays as it is.
     if (changed.empty() && effects().size() == given_) give_numbers_back();

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "diagnosis/explanation/signature.h"
+#include "model/input_error.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
 #include "tests/support/finite_numbers.h"
@@ -340,6 +341,21 @@ TEST(OneSinusoid, IsSeenInTheJointsOwnMotionAndInAJointThatStandsStill) {
   }
 }
 
+TEST(OneSinusoid, OfAJointWithoutAMotorIsThatOfItsSensor) {
+  ArmModel model = two_joints();
+  model.nominal.joint[1].drive = Drive::none;
+  const Sine slow{0.25, 0.3, 0}, fast{0.1, 0.9, 0};
+  const auto one = [&](const std::vector<Sine>& elbow) {
+    Log log = kinematic_log(two_joints(), {{slow}, elbow}, 8);
+    log.motor_position[1].clear();
+    return is_one_sinusoid(make_records(log, model, {}), model.nominal, 1);
+  };
+  EXPECT_TRUE(one({slow}));
+  EXPECT_FALSE(one({slow, fast}));
+}
+
+TEST(Diagnose, NeedsALog) { EXPECT_THROW(diagnose(two_joints(), {}, {}, quick()), InputError); }
+
 TEST(Diagnose, NamesNothingFromOneSine) {
   const ArmModel model = two_joints();
   const Log other = simulate(motion(model, 3, 1)).measured;
@@ -354,6 +370,7 @@ TEST(Diagnose, NamesNothingFromOneSine) {
   EXPECT_TRUE(d.effects.empty());
   ASSERT_FALSE(d.unexplained.empty());
   EXPECT_NE(d.unexplained[0].signature.find("one sine"), std::string::npos);
+  EXPECT_LT(d.probability_clean, 0.01) << "what acts has no name, but it acts";
   EXPECT_TRUE(d.revised.effects.empty());
 }
 

@@ -45,8 +45,8 @@ TEST(IndependentRows, ManyOfNoiseAndFewOfErrorsOfTheModel) {
   std::normal_distribution<double> noise(0, 20 * model.nominal.joint[0].joint_encoder_resolution);
   for (double& q : log.joint_position[0]) q += noise(random);
   const Evidence evidence(make_records(log, model, {}), model);
-  // Residuals of 20 Hz, 50 times a second: 2 √π σ_t = 1 / (20 √π) s.
-  EXPECT_NEAR(evidence.noise_rows(), 50 / (20 * std::sqrt(std::numbers::pi)), 1e-9);
+  // Filters of 20 and 60 Hz, 50 times a second: 2 √π σ_t = 1 / (20 √π) s of the first alone.
+  EXPECT_NEAR(evidence.noise_rows(), 50 / (20 * std::sqrt(std::numbers::pi)) * std::hypot(1, 20.0 / 60), 1e-9);
   EXPECT_GT(evidence.correlated_rows(), 8 * evidence.noise_rows());
 
   std::vector<double> scale = evidence.floor();

@@ -8,8 +8,8 @@
 namespace halyard {
 namespace {
 
-PlacedEffect of_a_pair(const std::string& name, const std::vector<double>& p) {
-  PlacedEffect e = place_neutral_effect(*find_effect(name), first_joints(1).nominal, 0);
+PlacedEffect of_a_pair(const std::string& name, const std::vector<double>& p, int joint = 0) {
+  PlacedEffect e = place_neutral_effect(*find_effect(name), first_joints(joint + 1).nominal, joint);
   std::copy(p.begin(), p.end(), e.p);
   return e;
 }
@@ -27,10 +27,10 @@ Round led_by(const PlacedEffect& first, const std::vector<PlacedEffect>& others,
   return round;
 }
 
-/// An arm of one joint, and what a search may have found.
+/// An arm of few joints, and what a search may have found.
 class PairRivalsTest : public testing::Test {
  protected:
-  explicit PairRivalsTest(const std::vector<PlacedEffect>& truth) : model_(first_joints(1)) {
+  explicit PairRivalsTest(const std::vector<PlacedEffect>& truth, int joints = 1) : model_(first_joints(joints)) {
     ArmModel robot = model_;
     robot.effects = truth;
     evidence_.emplace(make_records(simulate(motion(robot, 8)).measured, model_, {}), model_);
@@ -45,7 +45,9 @@ class PairRivalsTest : public testing::Test {
     found.namings.assign(effects.size(), {1, {}});
     return found;
   }
-  void weigh(Attribution& found) const { PairRivals(*evidence_, model_, *refitter_, *judge_, 0, 0.01).weigh(found); }
+  void weigh(Attribution& found, int most_effects = 6) const {
+    PairRivals(*evidence_, model_, *refitter_, *judge_, 0, {.most_effects = most_effects}).weigh(found);
+  }
 
   ArmModel model_;
   std::optional<Evidence> evidence_;
@@ -53,16 +55,21 @@ class PairRivalsTest : public testing::Test {
   std::optional<Judge> judge_;
 };
 
-/// More friction with its presliding, at the motor of the only joint; and the same at the joint.
+/// More friction with its presliding, at a motor; and the same at the joint.
+std::vector<PlacedEffect> at_motor(int joint = 0) {
+  return {of_a_pair("motor_friction", {0.012}, joint), of_a_pair("motor_presliding", {0.8, 0.4}, joint)};
+}
+std::vector<PlacedEffect> at_joint(int joint = 0) {
+  return {of_a_pair("joint_friction", {1}, joint), of_a_pair("joint_presliding", {0.8, 0.004}, joint)};
+}
+std::vector<PlacedEffect> both(std::vector<PlacedEffect> a, const std::vector<PlacedEffect>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 class FrictionAndPresliding : public PairRivalsTest {
  protected:
   FrictionAndPresliding() : PairRivalsTest(at_motor()) {}
-  static std::vector<PlacedEffect> at_motor() {
-    return {of_a_pair("motor_friction", {0.012}), of_a_pair("motor_presliding", {0.8, 0.4})};
-  }
-  static std::vector<PlacedEffect> at_joint() {
-    return {of_a_pair("joint_friction", {1}), of_a_pair("joint_presliding", {0.8, 0.004})};
-  }
   Attribution weighed(Attribution found, const std::vector<PlacedEffect>& rivals, double share = 0.8) const {
     const auto& names = found.final_fit.hypothesis.effects;
     found.rounds = {led_by(names[0], {rivals[0]}, share), led_by(names[1], {rivals[1]}, share)};
@@ -97,6 +104,22 @@ TEST_F(FrictionAndPresliding, HaveNoRivalsThatGainedLittle) {
   EXPECT_TRUE(after.namings[0].alternatives.empty());
 }
 
+class FrictionAndPreslidingOfTwo : public PairRivalsTest {
+ protected:
+  FrictionAndPreslidingOfTwo() : PairRivalsTest(both(at_motor(0), at_motor(1)), 2) {}
+};
+
+TEST_F(FrictionAndPreslidingOfTwo, JointsAreReplacedAtBoth) {
+  Attribution found = named(both(at_joint(0), at_joint(1)));
+  for (int k = 0; k < 2; ++k)
+    for (std::size_t i = 0; i < 2; ++i) found.rounds.push_back(led_by(at_joint(k)[i], {at_motor(k)[i]}, 0.8));
+  weigh(found);
+  std::vector<std::string> names;
+  for (const PlacedEffect& e : found.final_fit.hypothesis.effects) names.push_back(effect_label(e));
+  EXPECT_EQ(names, (std::vector<std::string>{"motor_friction of joint 1", "motor_presliding of joint 1",
+                                             "motor_friction of joint 2", "motor_presliding of joint 2"}));
+}
+
 std::vector<PlacedEffect> at_motor_and_pulleys() {
   return {of_a_pair("motor_friction", {0, -6e-6, -0.3}), of_a_pair("pulley_friction", {0.08, 0.4})};
 }
@@ -122,6 +145,13 @@ TEST_F(FrictionOfMotorAndPulleys, TakeThePlaceOfThatOfTheJoint) {
     ASSERT_EQ(naming.alternatives.size(), 1u);
     EXPECT_EQ(naming.alternatives[0].effect.effect->name(), "joint_friction") << "the name before";
   }
+}
+
+TEST_F(FrictionOfMotorAndPulleys, DoNotExceedTheMostEffects) {
+  Attribution found = named({at_the_joint()});
+  found.rounds = {led_by(found.final_fit.hypothesis.effects[0], at_motor_and_pulleys(), 0.7)};
+  weigh(found, 1);
+  EXPECT_EQ(found.final_fit.hypothesis.effects.size(), 1u);
 }
 
 /// Beside the friction of the motor, effects that resemble the friction of the pulleys share what that has.
