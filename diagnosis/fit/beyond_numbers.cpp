@@ -1,5 +1,6 @@
 #include "diagnosis/fit/beyond_numbers.h"
 
+#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
@@ -7,15 +8,16 @@ namespace halyard {
 
 BeyondNumbers::BeyondNumbers(const Evidence& evidence, const std::vector<std::vector<double>>& columns,
                              const std::vector<double>& scale)
-    : evidence_(evidence), scale_(scale), numbers_(static_cast<Eigen::Index>(columns.size())) {
+    : evidence_(evidence), scale_(scale) {
   const auto rows = static_cast<Eigen::Index>(evidence.row_channel().size());
+  const auto numbers = static_cast<Eigen::Index>(columns.size());
   // The prior is a row more for each number: with it the projection is that of the penalised fit.
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows + numbers_, numbers_);
-  for (Eigen::Index i = 0; i < numbers_; ++i) {
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows + numbers, numbers);
+  for (Eigen::Index i = 0; i < numbers; ++i) {
     J.col(i).head(rows) = weighted(columns[static_cast<std::size_t>(i)]);
     J(rows + i, i) = 1;
   }
-  qr_.compute(J);
+  Q_ = J.householderQr().householderQ() * Eigen::MatrixXd::Identity(rows + numbers, numbers);
 }
 
 Eigen::VectorXd BeyondNumbers::weighted(const std::vector<double>& rows) const {
@@ -26,20 +28,17 @@ Eigen::VectorXd BeyondNumbers::weighted(const std::vector<double>& rows) const {
   return r;
 }
 
-/// In the basis of the QR factorisation, without what the numbers explain.
-Eigen::VectorXd BeyondNumbers::rotated(const Eigen::VectorXd& r) const {
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(r.size() + numbers_);
+Eigen::VectorXd BeyondNumbers::of(const Eigen::VectorXd& r) const {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(Q_.rows());
   x.head(r.size()) = r;
-  x = qr_.householderQ().adjoint() * x;
-  x.head(numbers_).setZero();
+  const Eigen::VectorXd explained = Q_.topRows(r.size()).transpose() * r;
+  x.noalias() -= Q_ * explained;
   return x;
 }
 
-Eigen::VectorXd BeyondNumbers::of(const Eigen::VectorXd& r) const { return qr_.householderQ() * rotated(r); }
-
 double BeyondNumbers::left(const std::vector<double>& rows) const {
   if (rows.empty()) return std::numeric_limits<double>::infinity();
-  return rotated(weighted(rows)).squaredNorm();
+  return of(weighted(rows)).squaredNorm();
 }
 
 }  // namespace halyard

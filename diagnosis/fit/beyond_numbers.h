@@ -9,7 +9,7 @@
 ///
 /// Source: variable projection, Golub and Pereyra, SIAM J. Numer. Anal. 10 (1973) 413-432.
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 
 #include "diagnosis/fit/fit.h"
 
@@ -29,12 +29,9 @@ class BeyondNumbers {
   double left(const std::vector<double>& rows) const;
 
  private:
-  Eigen::VectorXd rotated(const Eigen::VectorXd& r) const;
-
   const Evidence& evidence_;
   std::vector<double> scale_;
-  Eigen::Index numbers_;
-  Eigen::HouseholderQR<Eigen::MatrixXd> qr_;
+  Eigen::MatrixXd Q_;  ///< an orthonormal basis of what the numbers explain, [rows + numbers x numbers]
 };
 
 }  // namespace halyard

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "diagnosis/record/coarse_record.h"
 #include "diagnosis/record/resting.h"
 #include "model/input_error.h"
 #include "transmission/coupling.h"
@@ -17,7 +18,7 @@ constexpr double kCorrelationTime = 0.25;  ///< s; residuals of a motion closer 
 constexpr double kTorqueFloor = 0.01;      ///< of the torque's root mean square
 constexpr double kResolutionFloor = 0.3;   ///< of the joint encoder's resolution: its rounding's deviation
 
-constexpr std::size_t kMostRecent = 1000;  ///< residuals that are kept, of some 50 kB each
+constexpr double kCoarseStep = 4e-3;  ///< s; below a quarter of a period of what the motion's filter passes
 
 /// The step of a sensor that the model says nothing of: the smallest change that the record shows.
 double smallest_step(const std::vector<SensorSample>& samples) {
@@ -53,37 +54,39 @@ Span joint_span_of(const std::vector<Record>& records, const ArmModel& model, in
 }  // namespace
 
 Evidence::Evidence(std::vector<Record> records, const ArmModel& model, Split split)
-    : n_(model.n()), recent_(std::make_unique<RecentResiduals>(kMostRecent)), records_(std::move(records)) {
-  double total = 0, dt = records_.front().dt;
-  for (const Record& r : records_) total += r.dt * static_cast<double>(r.size), dt = std::min(dt, r.dt);
-  stride_ = std::max(1, static_cast<int>(std::lround(1 / (kRowRate * dt))));
-  correlated_rows_ = std::max(1.0, kCorrelationTime / (stride_ * dt));
+    : n_(model.n()), grid_(std::make_shared<Grid>()) {
+  grid_->records = std::move(records);
+  double total = 0, dt = this->records().front().dt;
+  for (const Record& r : this->records()) total += r.dt * static_cast<double>(r.size), dt = std::min(dt, r.dt);
+  grid_->stride = std::max(1, static_cast<int>(std::lround(1 / (kRowRate * dt))));
+  correlated_rows_ = std::max(1.0, kCorrelationTime / (grid_->stride * dt));
   // The autocorrelation of white noise behind a Gaussian filter is exp(-t² / (4 σ²)).
-  const double noise_s = 2 * std::sqrt(std::numbers::pi) * records_.front().filter_sigma();
-  noise_rows_ = std::max(1.0, noise_s / (stride_ * dt));
+  const double noise_s = 2 * std::sqrt(std::numbers::pi) * this->records().front().filter_sigma();
+  noise_rows_ = std::max(1.0, noise_s / (grid_->stride * dt));
   block_s_ = std::clamp(total / 60, kCorrelationTime, 1.0);
 
   channel_rows_.assign(channels(), 0);
   fit_count_.assign(channels(), 0);
   int blocks = 0;
-  for (std::size_t r = 0; r < records_.size(); ++r) {
-    records_[r].place = r;
+  for (std::size_t r = 0; r < this->records().size(); ++r) {
+    grid_->records[r].place = r;
     first_block_.push_back(blocks);
     blocks = add_rows(static_cast<int>(r), model, split);
   }
   if (row_channel_.empty())
-    throw InputError(records_.front().source +
+    throw InputError(this->records().front().source +
                      ": nothing to compare: no joint sensor, and no motor that moves with a known torque");
   block_count_.assign(blocks / 2 + 1, std::vector<int>(channels(), 0));
   for (const Place& p : places_)
     if (!p.fit) ++block_count_[p.block][p.channel];
-  noise_ = channel_noise(records_, {model.nominal, model.effects});
+  noise_ = channel_noise(this->records(), {model.nominal, model.effects});
+  coarse_ = coarse_grid(*grid_);
   find_floors(model);
   find_spans(model);
 }
 
 int Evidence::add_rows(int r, const ArmModel& model, Split split) {
-  const Record& record = records_[r];
+  const Record& record = records()[r];
   int end = first_block_[r];
   for (int c = 0; c < channels(); ++c) {
     const int k = c % n_;
@@ -91,10 +94,10 @@ int Evidence::add_rows(int r, const ArmModel& model, Split split) {
     if (joint ? !record.has_joint(k) : !record.has_torque(k)) continue;
     const std::vector<double>& valid = joint ? record.joint_valid[k] : record.torque_valid[k];
     const double v_s = slowest_smoothing(model, k);
-    for (std::size_t i = 0; i < record.size; i += stride_) {
+    for (std::size_t i = 0; i < record.size; i += grid_->stride) {
       if (valid[i] == 0 || (!joint && rests(record, k, i, v_s))) continue;
       const int block = block_of(r, i);
-      const int index = static_cast<int>(i) / stride_;
+      const int index = static_cast<int>(i) / grid_->stride;
       const double time = record.time(i) + record.clock_shift;
       if (split == Split::none) add_row({r, c, index, block, true}, time);
       else add_row({r, c, index, block / 2, !decides(r, i)}, time);
@@ -105,7 +108,7 @@ int Evidence::add_rows(int r, const ArmModel& model, Split split) {
 }
 
 int Evidence::block_of(int r, std::size_t i) const {
-  return first_block_[r] + static_cast<int>(records_[r].dt * static_cast<double>(i) / block_s_);
+  return first_block_[r] + static_cast<int>(records()[r].dt * static_cast<double>(i) / block_s_);
 }
 
 void Evidence::add_row(const Place& place, double time) {
@@ -124,11 +127,12 @@ void Evidence::find_floors(const ArmModel& model) {
   std::vector<double> square(n_, 0), count(n_, 0);
   for (const Place& p : places_)
     if (p.channel < n_)
-      square[p.channel] += std::pow(records_[p.record].torque[p.channel][p.index * stride_], 2), count[p.channel] += 1;
+      square[p.channel] += std::pow(records()[p.record].torque[p.channel][p.index * grid_->stride], 2),
+          count[p.channel] += 1;
   for (int k = 0; k < n_; ++k) {
     const JointParameters<double>& j = model.nominal.joint[k];
     if (count[k] > 0) floor_[k] = kTorqueFloor * std::sqrt(square[k] / count[k]);
-    for (const Record& record : records_) {
+    for (const Record& record : records()) {
       if (!record.has_joint(k)) continue;
       const double told = j.joint_encoder_resolution;
       floor_[n_ + k] =
@@ -140,15 +144,15 @@ void Evidence::find_floors(const ArmModel& model) {
 }
 
 void Evidence::find_spans(const ArmModel& model) {
-  time_span_ = {records_.front().start, records_.front().start};
-  for (const Record& r : records_)
+  time_span_ = {records().front().start, records().front().start};
+  for (const Record& r : records())
     time_span_ = {std::min(time_span_.first, r.start + r.clock_shift),
                   std::max(time_span_.last, r.time(r.size - 1) + r.clock_shift)};
   for (int k = 0; k < n_; ++k) {
-    joint_span_.push_back(joint_span_of(records_, model, k));
+    joint_span_.push_back(joint_span_of(records(), model, k));
     Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     double fastest = 0;
-    for (const Record& r : records_) {
+    for (const Record& r : records()) {
       const auto [low, high] = std::ranges::minmax(r.motor_angle[k]);
       span = {std::min(span.first, low), std::max(span.last, high)};
       for (const double rate : r.motor_rate[k]) fastest = std::max(fastest, std::abs(rate));
@@ -162,7 +166,7 @@ void Evidence::find_spans(const ArmModel& model) {
 void Evidence::find_moving_span() {
   constexpr double kMoves = 0.05;  // of the greatest speed
   moving_span_ = {time_span_.last, time_span_.first};
-  for (const Record& r : records_)
+  for (const Record& r : records())
     for (int k = 0; k < n_; ++k)
       for (std::size_t i = 0; i < r.size; ++i)
         if (std::abs(r.motor_rate[k][i]) > kMoves * greatest_speed_[k]) {
@@ -172,9 +176,55 @@ void Evidence::find_moving_span() {
   if (moving_span_.last < moving_span_.first) moving_span_ = time_span_;
 }
 
+/// The coarsest grid up to kCoarseStep that has all rows.
+std::shared_ptr<Evidence::Grid> Evidence::coarse_grid(const Grid& fine) {
+  const double dt = fine.records.front().dt;
+  int times = 1;
+  for (int t = 2; t * dt < 1.01 * kCoarseStep; ++t)
+    if (fine.stride % t == 0) times = t;
+  if (times == 1 || std::ranges::any_of(fine.records, [&](const Record& r) { return r.dt != dt; })) return nullptr;
+  auto coarse = std::make_shared<Grid>();
+  for (const Record& record : fine.records) coarse->records.push_back(coarse_record(record, times));
+  coarse->stride = fine.stride / times;
+  return coarse;
+}
+
+std::unique_ptr<Evidence> Evidence::coarse_around(const Hypothesis& base) const {
+  if (!coarse_) return nullptr;
+  std::unique_ptr<Evidence> coarse(new Evidence(*this));
+  coarse->grid_ = coarse_;
+  coarse->coarse_ = nullptr;
+  Correction correction{base, {}};
+  for (std::vector<Residuals>& residuals : predict_all({base})) {
+    if (!residuals[0].finite) return nullptr;
+    correction.fine.push_back(std::move(residuals[0]));
+  }
+  for (const std::vector<Residuals>& residuals : coarse->predict_all({base}))
+    if (!residuals[0].finite) return nullptr;
+  coarse->correction_ = std::move(correction);
+  return coarse;
+}
+
 std::vector<std::vector<Residuals>> Evidence::predict_all(const std::vector<Hypothesis>& hypotheses) const {
+  if (!correction_) return predict_on_own_grid(hypotheses);
+  // In one request all have the same steps, so that errors of the grid are alike.
+  std::vector<Hypothesis> with_base = hypotheses;
+  with_base.push_back(correction_->base);
+  std::vector<std::vector<Residuals>> all = predict_on_own_grid(with_base);
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const Residuals base = std::move(all[r].back());
+    all[r].pop_back();
+    for (Residuals& of_h : all[r])
+      for (std::size_t c = 0; c < of_h.channel.size(); ++c)
+        for (std::size_t i = 0; i < of_h.channel[c].size(); ++i)
+          of_h.channel[c][i] += correction_->fine[r].channel[c][i] - base.channel[c][i];
+  }
+  return all;
+}
+
+std::vector<std::vector<Residuals>> Evidence::predict_on_own_grid(const std::vector<Hypothesis>& hypotheses) const {
   std::vector<PredictionRequest> requests;
-  for (const Record& record : records_) requests.push_back({&record, &hypotheses, stride_, recent_.get()});
+  for (const Record& record : records()) requests.push_back({&record, &hypotheses, grid_->stride, &grid_->recent});
   return predict(requests);
 }
 

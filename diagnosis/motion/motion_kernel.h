@@ -186,11 +186,19 @@ HALYARD_INLINE void axpy(int n, int m, double h, const DrivenState<T>& x, const 
   for (int k = 0; k < m; ++k) y.z[k] = x.z[k] + T(h) * rate.z[k];
 }
 
-/// The input between two samples, at the share u of their distance; the torque is held.
-HALYARD_INLINE void interpolate(int n, const DrivenInput& a, const DrivenInput& b, double u, DrivenInput& at) {
+/// The cubic between values a and b with slopes a_dot and b_dot, at the share u of their distance h.
+HALYARD_INLINE double hermite(double a, double a_dot, double b, double b_dot, double h, double u) {
+  const double rise = b - a;
+  return a + u * (rise + (1 - u) * ((1 - u) * (h * a_dot - rise) - u * (h * b_dot - rise)));
+}
+
+/// The input between two samples h apart, at the share u of their distance; the torque is held.
+HALYARD_INLINE void interpolate(int n, const DrivenInput& a, const DrivenInput& b, double h, double u,
+                                DrivenInput& at) {
   for (int k = 0; k < n; ++k) {
-    at.motor_angle[k] = a.motor_angle[k] + u * (b.motor_angle[k] - a.motor_angle[k]);
-    at.motor_rate[k] = a.motor_rate[k] + u * (b.motor_rate[k] - a.motor_rate[k]);
+    at.motor_angle[k] = hermite(a.motor_angle[k], a.motor_rate[k], b.motor_angle[k], b.motor_rate[k], h, u);
+    at.motor_rate[k] =
+        hermite(a.motor_rate[k], a.motor_acceleration[k], b.motor_rate[k], b.motor_acceleration[k], h, u);
     at.motor_acceleration[k] = a.motor_acceleration[k] + u * (b.motor_acceleration[k] - a.motor_acceleration[k]);
     at.torque[k] = a.torque[k];
     at.external[k] = a.external[k] + u * (b.external[k] - a.external[k]);
@@ -267,7 +275,7 @@ HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const Driv
       for (int k = 0; k < n; ++k) row[k] = x.q[k], row[n + k] = x.v[k];
       for (int k = 0; k < m; ++k) row[2 * n + k] = x.z[k];
     }
-    const auto input = [&](double t, DrivenInput& at) { interpolate(n, a, b, (t - time) / dt, at); };
+    const auto input = [&](double t, DrivenInput& at) { interpolate(n, a, b, dt, (t - time) / dt, at); };
     if (i % held == 0) {
       chain_ahead<known>(arm, x.q, x.v, i == 0 ? x.v : before, dt * static_cast<double>(held), chain);
       for (int k = 0; k < n; ++k) before[k] = x.v[k];

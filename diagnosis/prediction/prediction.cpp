@@ -80,6 +80,9 @@ class Prediction {
         inputs_(driven_inputs(record)),
         history_(whole_history(record, inputs_)) {}
 
+  Prediction(const Prediction&) = delete;  // jobs have pointers to its hypotheses
+  bool is_of(const Record& record, int stride) const { return &record_ == &record && stride_ == stride; }
+
   void add(const std::vector<Hypothesis>& hypotheses, std::vector<Residuals>& residuals) {
     residuals.resize(hypotheses.size());
     for (std::size_t h = 0; h < hypotheses.size(); ++h) {
@@ -312,19 +315,18 @@ Hypothesis without_effect(Hypothesis h, std::size_t place) {
 
 std::vector<std::vector<Residuals>> predict_at_once(const std::vector<PredictionRequest>& requests) {
   std::vector<std::vector<Residuals>> residuals(requests.size());
-  std::vector<std::tuple<const Record*, int, Prediction>> predictions;
+  std::deque<Prediction> predictions;
   for (std::size_t r = 0; r < requests.size(); ++r) {
     const auto& [record, hypotheses, stride, recent] = requests[r];
-    auto of_record = std::ranges::find_if(predictions, [record = record, stride = stride](const auto& p) {
-      return std::get<0>(p) == record && std::get<1>(p) == stride;
-    });
+    auto of_record = std::ranges::find_if(
+        predictions, [record = record, stride = stride](const Prediction& p) { return p.is_of(*record, stride); });
     if (of_record == predictions.end()) {
-      predictions.emplace_back(record, stride, Prediction(*record, stride, recent));
+      predictions.emplace_back(*record, stride, recent);
       of_record = std::prev(predictions.end());
     }
-    std::get<2>(*of_record).add(*hypotheses, residuals[r]);
+    of_record->add(*hypotheses, residuals[r]);
   }
-  tbb::parallel_for(std::size_t{0}, predictions.size(), [&](std::size_t p) { std::get<2>(predictions[p]).run(); });
+  tbb::parallel_for(std::size_t{0}, predictions.size(), [&](std::size_t p) { predictions[p].run(); });
   return residuals;
 }
 

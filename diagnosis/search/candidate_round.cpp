@@ -38,6 +38,7 @@ CandidateRound::CandidateRound(const Evidence& evidence, const ArmModel& model, 
       judge_(judge),
       without_(std::move(without)),
       linear_{std::move(from), {}, {}, {}},
+      coarse_(evidence.coarse_around(linear_.from)),
       scale_(channel_scale(evidence, without_.score.fit_mean_square)),
       name_(name),
       progress_(progress) {
@@ -69,11 +70,11 @@ double CandidateRound::least_promise() const {
 
 std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candidates) {
   if (linear_.columns.size() < linear_.numbers.size() || found_columns_.size() < found_.size()) return {};
-  screen_.emplace(evidence_, linear_.from, linear_.columns, scale_);
+  screen_.emplace(quick(), linear_.from, linear_.columns, scale_);
   linear_.starts.assign(candidates.size(), {});
   each("candidates", candidates.size(), [&](std::size_t i) {
     linear_.starts[i] =
-        best_start(evidence_, *screen_, refitter_.with_effect(linear_.from, candidates[i]), model_.nominal);
+        best_start(quick(), *screen_, refitter_.with_effect(linear_.from, candidates[i]), model_.nominal);
   });
   std::vector<std::size_t> fitted;
   for (std::size_t i = 0; i < candidates.size(); ++i)
@@ -114,7 +115,7 @@ void CandidateRound::quick_fits(const std::vector<std::size_t>& candidates, std:
   each("fits", all.size(), [&](std::size_t a) {
     const Fit fit = quick_fit(*all[a].start);
     if (!fit.usable) return;
-    all[a].end = {fit.hypothesis, evidence_.score(fit.hypothesis)};
+    all[a].end = {fit.hypothesis, quick().score(fit.hypothesis)};
     if (all[a].end.score.finite) all[a].cost = judge_.cost(all[a].end);
   });
   std::ranges::stable_sort(all, {}, &FromStart::cost);
@@ -124,7 +125,7 @@ void CandidateRound::quick_fits(const std::vector<std::size_t>& candidates, std:
     Look& look = looks[candidates[c]];
     if (!look.ends.empty()) {
       look.trial = judge_.trial(look.ends[0], without_, look.ends[0].effects.size() - 1);
-      for (const auto& rows : evidence_.fit_rows(look.ends)) look.left = std::min(look.left, screen_->left(rows));
+      for (const auto& rows : quick().fit_rows(look.ends)) look.left = std::min(look.left, screen_->left(rows));
     }
     look.trial.is_fitted = true;
   });
@@ -147,7 +148,7 @@ Fit CandidateRound::quick_fit(const Hypothesis& start) const {
   FitOptions options;
   options.iterations = 6;
   options.cost_tolerance = 3e-4;
-  return fit(evidence_, start, parameters, scale_, options, linear);
+  return fit(quick(), start, parameters, scale_, options, linear);
 }
 
 Refit CandidateRound::refit_from(const Hypothesis& end) const {

@@ -44,6 +44,8 @@ class CandidateRound {
   const LinearRound& linear() const { return linear_; }
 
  private:
+  /// For the quick look.
+  const Evidence& quick() const { return coarse_ ? *coarse_ : evidence_; }
   /// Calls one(i) for all i < n, side by side.
   void each(const std::string& what, std::size_t n, const std::function<void(std::size_t)>& one) const;
   /// A candidate after its quick fits, one from each start.
@@ -54,7 +56,7 @@ class CandidateRound {
   };
   void quick_fits(const std::vector<std::size_t>& candidates, std::vector<Look>& looks) const;
   /// See Screen::left().
-  double left_at(const Hypothesis& h) const { return screen_->left(evidence_.fit_rows({h})[0]); }
+  double left_at(const Hypothesis& h) const { return screen_->left(quick().fit_rows({h})[0]); }
   /// The effects so far and the model's numbers stay linear.
   Fit quick_fit(const Hypothesis& start) const;
   /// A full fit of the same candidate.
@@ -68,6 +70,7 @@ class CandidateRound {
   const Judge& judge_;
   Scored without_;
   LinearRound linear_;
+  std::unique_ptr<Evidence> coarse_;                ///< around linear_.from; null: there is none
   std::optional<Screen> screen_;                    ///< of the last look
   std::vector<std::vector<Hypothesis>> ends_;       ///< of the quick fits of each trial
   std::vector<std::size_t> leaders_;                ///< trials that are fitted fully

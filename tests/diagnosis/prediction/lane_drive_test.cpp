@@ -88,7 +88,7 @@ DrivenState<double> moved_with_a_new_chain_each_step(const ArmParameters<double>
     for (int s = 0; s < kSteps; ++s) {
       const auto rate_at = [&](double share, const DrivenState<double>& y) {
         DrivenInput u;
-        interpolate(arm.n, motors[i], motors[std::min(i + 1, motors.size() - 1)], share, u);
+        interpolate(arm.n, motors[i], motors[std::min(i + 1, motors.size() - 1)], kDt, share, u);
         HeldChain<double> chain;
         chain_at(arm, y.q, y.v, chain);
         driven_derivative<double>(transmission, &chain, 0.0, nullptr, u, y, rate, nullptr, nullptr);
