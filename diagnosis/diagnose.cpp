@@ -21,7 +21,6 @@
 #include "diagnosis/record/common_clock.h"
 #include "diagnosis/search/revision.h"
 #include "diagnosis/search_space.h"
-#include "model/input_error.h"
 
 namespace halyard {
 namespace {
@@ -384,7 +383,6 @@ ArmModel Diagnosis::revised_on_holdout() const {
 
 Diagnosis diagnose(const ArmModel& model, const std::vector<Log>& training, const std::optional<Log>& holdout,
                    const DiagnosisOptions& options, const Progress& progress) {
-  if (training.empty()) throw InputError("diagnose: no log; expected at least one to learn from");
   std::mutex one_at_a_time;
   const Progress say = [&](const std::string& what, double fraction) {
     const std::lock_guard<std::mutex> lock(one_at_a_time);

@@ -53,33 +53,34 @@ Span joint_span_of(const std::vector<Record>& records, const ArmModel& model, in
 
 }  // namespace
 
-Evidence::Evidence(std::vector<Record> records, const ArmModel& model, Split split)
+Evidence::Evidence(std::vector<Record> data, const ArmModel& model, Split split)
     : n_(model.n()), grid_(std::make_shared<Grid>()) {
-  grid_->records = std::move(records);
-  double total = 0, dt = this->records().front().dt;
-  for (const Record& r : this->records()) total += r.dt * static_cast<double>(r.size), dt = std::min(dt, r.dt);
+  if (data.empty()) throw InputError("no log to compare the model with; expected at least one");
+  grid_->records = std::move(data);
+  double total = 0, dt = records().front().dt;
+  for (const Record& r : records()) total += r.dt * static_cast<double>(r.size), dt = std::min(dt, r.dt);
   grid_->stride = std::max(1, static_cast<int>(std::lround(1 / (kRowRate * dt))));
   correlated_rows_ = std::max(1.0, kCorrelationTime / (grid_->stride * dt));
   // The autocorrelation of white noise behind a Gaussian filter is exp(-t² / (4 σ²)).
-  const double noise_s = 2 * std::sqrt(std::numbers::pi) * this->records().front().filter_sigma();
+  const double noise_s = 2 * std::sqrt(std::numbers::pi) * records().front().filter_sigma();
   noise_rows_ = std::max(1.0, noise_s / (grid_->stride * dt));
   block_s_ = std::clamp(total / 60, kCorrelationTime, 1.0);
 
   channel_rows_.assign(channels(), 0);
   fit_count_.assign(channels(), 0);
   int blocks = 0;
-  for (std::size_t r = 0; r < this->records().size(); ++r) {
+  for (std::size_t r = 0; r < records().size(); ++r) {
     grid_->records[r].place = r;
     first_block_.push_back(blocks);
     blocks = add_rows(static_cast<int>(r), model, split);
   }
   if (row_channel_.empty())
-    throw InputError(this->records().front().source +
+    throw InputError(records().front().source +
                      ": nothing to compare: no joint sensor, and no motor that moves with a known torque");
   block_count_.assign(blocks / 2 + 1, std::vector<int>(channels(), 0));
   for (const Place& p : places_)
     if (!p.fit) ++block_count_[p.block][p.channel];
-  noise_ = channel_noise(this->records(), {model.nominal, model.effects});
+  noise_ = channel_noise(records(), {model.nominal, model.effects});
   coarse_ = coarse_grid(*grid_);
   find_floors(model);
   find_spans(model);

@@ -32,7 +32,7 @@ enum class Split {
 class Evidence {
  public:
   /// Estimates the noise of each channel with the model as given. Throws InputError if nothing can be compared.
-  Evidence(std::vector<Record> records, const ArmModel& model, Split split = Split::alternate);
+  Evidence(std::vector<Record> data, const ArmModel& model, Split split = Split::alternate);
 
   /// The same rows, blocks and floors for hypotheses that resemble `base`, at two thirds of the cost: the motion is
   /// integrated on a grid of up to 4 ms, whose error at `base` is known and taken off.

@@ -137,9 +137,9 @@ std::vector<ChannelSamples> torque_samples(const std::vector<Record>& records, c
   return by_rate;
 }
 
-/// σ_t of a record's filters, s.
+/// σ_t of a record's filter of the motion, and of both filters, s.
 struct Filters {
-  double motion_sigma = 0, compare_sigma = 0;
+  double motion_sigma = 0, both_sigma = 0;
 };
 
 /// is_torque: the filter of the motion has attenuated it.
@@ -155,7 +155,7 @@ ChannelNoise noise_of(const ChannelSamples& samples, const Filters& filters, boo
     for (std::size_t b = 0; b < density.size(); ++b)
       density[b] *= std::exp(std::pow(omega_sigma * static_cast<double>(b) * resolution, 2));
   }
-  return noise_of_density(density, resolution, highest, std::hypot(filters.motion_sigma, filters.compare_sigma));
+  return noise_of_density(density, resolution, highest, filters.both_sigma);
 }
 
 ChannelNoise torque_noise(ChannelSamples samples, const Filters& filters) {
@@ -241,7 +241,7 @@ std::vector<ChannelNoise> channel_noise(const std::vector<Record>& records, cons
   Filters filters;
   for (Record record : records) {
     filters.motion_sigma = std::max(filters.motion_sigma, record.motion_sigma);
-    filters.compare_sigma = std::max(filters.compare_sigma, record.compare_sigma);
+    filters.both_sigma = std::max(filters.both_sigma, record.filter_sigma());
     record.compare = {1};
     // A reading between grid points needs the prediction at both, also where nothing was measured.
     record.joint_measured = record.joint_valid;

@@ -1,6 +1,7 @@
 #include "diagnosis/prediction/side_by_side.h"
 
 #include <algorithm>
+#include <system_error>
 #include <thread>
 
 namespace halyard {
@@ -84,12 +85,15 @@ void run_side_by_side(std::size_t n, const std::function<void(std::size_t)>& job
   };
   {
     std::vector<std::jthread> threads;
-    for (std::size_t first = 0; first < width; ++first) try {
+    const auto start = [&](std::size_t first) {
+      try {
         threads.emplace_back(run, first);
       } catch (const std::system_error&) {  // no more threads: the others must not wait for its jobs
         errors[first] = std::current_exception();
         meeting.leave();
       }
+    };
+    for (std::size_t first = 0; first < width; ++first) start(first);
   }
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);

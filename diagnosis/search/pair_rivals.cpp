@@ -1,6 +1,7 @@
 #include "diagnosis/search/pair_rivals.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "diagnosis/judgement/name_probability.h"
@@ -220,15 +221,17 @@ void PairRivals::weigh(Attribution& found) const {
 /// Each two names once. Names that replace two go to the end, the others move up; no round has rivals of the new ones.
 void PairRivals::weigh_twos(Attribution& found) const {
   const std::vector<PlacedEffect> names = found.final_fit.hypothesis.effects;
-  constexpr std::size_t kGone = 0;
-  std::vector<std::size_t> place(names.size());
-  for (std::size_t i = 0; i < names.size(); ++i) place[i] = i + 1;  // counted from one
+  std::vector<std::optional<std::size_t>> place(names.size());  // nothing: another name has replaced it
+  for (std::size_t i = 0; i < names.size(); ++i) place[i] = i;
   for (std::size_t second = given_ + 1; second < names.size(); ++second)
     for (std::size_t first = given_; first < second; ++first) {
-      const std::size_t a = place[first], b = place[second];
-      if (a == kGone || b == kGone || !names[first].joint || names[first].joint != names[second].joint) continue;
-      if (!weigh(found, {a - 1, b - 1})) continue;
-      for (std::size_t& p : place) p = p == a || p == b ? kGone : p - (p > a ? 1 : 0) - (p > b ? 1 : 0);
+      const std::optional<std::size_t> a = place[first], b = place[second];
+      if (!a || !b || !names[first].joint || names[first].joint != names[second].joint) continue;
+      if (!weigh(found, {*a, *b})) continue;
+      place[first].reset();
+      place[second].reset();
+      for (std::optional<std::size_t>& p : place)
+        if (p) *p -= (*p > *a ? 1 : 0) + (*p > *b ? 1 : 0);
     }
 }
 

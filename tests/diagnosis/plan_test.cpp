@@ -10,6 +10,7 @@
 #include "diagnosis/diagnose.h"
 #include "diagnosis/fit/baseline_reach.h"
 #include "diagnosis/search/attribution.h"
+#include "model/input_error.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
 #include "tests/support/program_run.h"
@@ -71,6 +72,8 @@ TEST(DetectionLimit, IsWhereADiagnosisBeginsToSee) {
   const Diagnosis below = verdict_at(0.2);
   EXPECT_EQ(below.verdict, Diagnosis::Verdict::clean);
 }
+
+TEST(DetectionLimit, NeedsALog) { EXPECT_THROW(detection_limits(first_joints(1), {}), InputError); }
 
 TEST(DetectionLimit, IsTheShareOfAGivenEffectFromWhichItIsDetected) {
   const ArmModel model = first_joints(1);
