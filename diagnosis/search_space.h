@@ -49,9 +49,10 @@ struct ParameterSearch {
   /// motion of the records; what changes over the whole range of speeds is another law.
   double per_motor_speed = 0;
   TolerancedNumber changes = {};  ///< the model parameter that it changes, if any
-  /// True for a size without which the effect is another one: friction that drifts at no rate is only more friction.
-  /// The effect is named only if its other sizes do not explain as much alone.
-  bool is_essential = false;
+  /// For an essential parameter: the value at which the effect is another one. Friction that drifts at no rate is only
+  /// more friction, and a loop that yields at once is a softer cable. The effect is named only if it does not explain as
+  /// much with this value, or the bound that is nearest to it.
+  std::optional<double> another_at = {};
 };
 
 /// The motion of a record has to contain at least kFewestPeriods periods of an effect that is periodic in a position:

@@ -28,7 +28,7 @@ struct FitParameter {
   bool is_whole = false;  ///< a whole number: tried at its starts and not fitted
   /// An effect's state at the start of a record, which belongs to the data and not to the arm.
   bool is_past = false;
-  bool is_essential = false;  ///< see ParameterSearch
+  std::optional<double> another_at = {};  ///< see ParameterSearch
 };
 
 /// Index of the parameter that is the same number, if there is one.

@@ -84,6 +84,12 @@ struct DecisionRule {
   /// some thirty numbers. Then two in a thousand diagnoses of clean arms report a number by chance.
   double refit_deviations = 4;
 
+  /// Prior cost of a model that is off by up to twice what its tolerances say, nats; as much again for each doubling.
+  /// Reason: one model in ten.
+  double cost_of_wider_tolerances = 2.3;
+  /// The tolerances of a model count up to this many times.
+  double widest_tolerances = 4;
+
   // The effort of the search.
 
   /// A candidate that promises less than this share of the residual, to first order, is not fitted.
@@ -93,9 +99,12 @@ struct DecisionRule {
   double promise_of_channel = 0.12;
   /// Number of candidates that are fitted in a round: those with the smallest residual at the start of their search.
   std::size_t most_fitted = 16;
-  /// Number of starts of a candidate with shapes from which its quick fit begins, each at other shapes. Reason: the fit
-  /// of a hysteresis ends in one of several minima, and the start that leaves least is often not in the lowest.
+  /// Number of starts of a candidate with shapes from which its quick fit begins, each at other shapes. Reason: the
+  /// start that leaves least is often not in the lowest minimum.
   std::size_t starts_fitted = 3;
+  /// The same of a candidate with a shape at one end of which it is another effect (another_at). Reason: a fit that runs
+  /// there is lost. In a log with three effects, three of the five yield stretches of a hysteresis ran there.
+  std::size_t starts_fitted_beside_another = 5;
   /// The first `leaders` of those are fitted fully, if their gain is at least the share `leads` of the largest gain. So
   /// are the `leaders_by_rest` whose fits leave least. Reason: a quick fit keeps the model's numbers linear, and its
   /// gain can be negative, or not significant, although the effect is the right one.

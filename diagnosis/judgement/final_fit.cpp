@@ -247,7 +247,7 @@ std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given) {
       if (p.effect == e && !p.is_past) is_kept[p.index] = true, has_size = has_size || !p.shape;
     bool is_whole = true;
     for (std::size_t i = 0; i < is_kept.size(); ++i)
-      is_whole = is_whole && (is_kept[i] || !space.parameters[i].is_essential);
+      is_whole = is_whole && (is_kept[i] || !space.parameters[i].another_at);
     if (!has_size || !is_whole) idle.push_back(e);
   }
   return idle;

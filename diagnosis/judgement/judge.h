@@ -43,7 +43,7 @@ struct Trial {
   bool at_bound = false;
   bool is_refit = false;  ///< its sizes stay within the model's tolerance
   bool matters = false;
-  bool is_another = false;  ///< its sizes that are not essential explain as much alone, see ParameterSearch
+  bool is_another = false;  ///< it explains as much without its essential parameters, see ParameterSearch
   Likelihood log_likelihood;
 
   /// True if only the significance of its gain is left to be tested.

@@ -119,8 +119,11 @@ void CandidateRound::quick_fits(const std::vector<std::size_t>& candidates, std:
     if (all[a].end.score.finite) all[a].cost = judge_.cost(all[a].end);
   });
   std::ranges::stable_sort(all, {}, &FromStart::cost);
-  for (const FromStart& a : all)
-    if (std::isfinite(a.cost)) looks[a.candidate].ends.push_back(a.end.hypothesis);
+  for (const FromStart& a : all) {
+    std::vector<Hypothesis>& ends = looks[a.candidate].ends;
+    const auto is_there = [&](const Hypothesis& end) { return is_same_end(end, a.end.hypothesis); };
+    if (std::isfinite(a.cost) && std::ranges::none_of(ends, is_there)) ends.push_back(a.end.hypothesis);
+  }
   run_side_by_side(candidates.size(), [&](std::size_t c) {
     Look& look = looks[candidates[c]];
     if (!look.ends.empty()) {
@@ -129,6 +132,16 @@ void CandidateRound::quick_fits(const std::vector<std::size_t>& candidates, std:
     }
     look.trial.is_fitted = true;
   });
+}
+
+/// True if two quick fits have ended in the same minimum; what is left of the past belongs to it.
+bool CandidateRound::is_same_end(const Hypothesis& a, const Hypothesis& b) const {
+  constexpr double kNear = 0.01;
+  return std::ranges::all_of(
+      effect_parameters(quick(), a, model_.nominal, a.effects.size() - 1), [&](const FitParameter& p) {
+        const double x = parameter_value(a, p), y = parameter_value(b, p);
+        return p.is_past || std::abs(x - y) <= kNear * std::max(p.scale, std::abs(x - p.nominal));
+      });
 }
 
 Fit CandidateRound::quick_fit(const Hypothesis& start) const {
@@ -146,7 +159,7 @@ Fit CandidateRound::quick_fit(const Hypothesis& start) const {
   for (const FitParameter& p : refitter_.parameters(start))
     if (p.effect == own) parameters.push_back(p);
   FitOptions options;
-  options.iterations = 6;
+  options.iterations = 20;
   options.cost_tolerance = 3e-4;
   return fit(quick(), start, parameters, scale_, options, linear);
 }

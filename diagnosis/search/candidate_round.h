@@ -51,12 +51,13 @@ class CandidateRound {
   /// A candidate after its quick fits, one from each start.
   struct Look {
     Trial trial;                                            ///< of the best
-    std::vector<Hypothesis> ends;                           ///< the best first; empty if none is usable
+    std::vector<Hypothesis> ends;                           ///< different ones, the best first; empty if none is usable
     double left = std::numeric_limits<double>::infinity();  ///< the least of all ends, see Screen::left()
   };
   void quick_fits(const std::vector<std::size_t>& candidates, std::vector<Look>& looks) const;
   /// See Screen::left().
   double left_at(const Hypothesis& h) const { return screen_->left(quick().fit_rows({h})[0]); }
+  bool is_same_end(const Hypothesis& a, const Hypothesis& b) const;
   /// The effects so far and the model's numbers stay linear.
   Fit quick_fit(const Hypothesis& start) const;
   /// A full fit of the same candidate.

@@ -6,13 +6,13 @@ bool is_another_effect(const Evidence& evidence, const Refitter& refitter, const
                        std::size_t place) {
   Refit reduced = restarted(with, with.at);
   for (const FitParameter& p : refitter.parameters(with.at))
-    if (p.effect == place && p.is_essential) set_parameter(reduced.at, p, p.nominal), reduced.held.push_back(p);
+    if (p.effect == place && p.another_at) set_parameter(reduced.at, p, *p.another_at), reduced.held.push_back(p);
   if (reduced.held.size() == with.held.size()) return false;
   refitter.go_on(reduced, kRule.first_passes);
   if (!reduced.best.usable) return false;
   const Scored all{with.at, evidence.score(with.at)};
   const Scored without{reduced.best.hypothesis, evidence.score(reduced.best.hypothesis)};
-  // A name has to explain a share of the residual, an essential size need not: friction that stays cannot err in a way
+  // A name has to explain a share of the residual, an essential parameter need not: friction that stays cannot err in a way
   // that drifts.
   return judge.gain_over(all, without) <= kRule.by_chance ||
          judge.p_of_gain(all.score, without.score) > kRule.essential_level;

@@ -28,9 +28,10 @@ void creep(SearchSpace& space, const Arm&, int) { space["time_constant"].starts 
 
 void hysteresis(SearchSpace& space, const Arm& arm, int joint) {
   const double stretch = typical_stretch(arm.joint[joint]);
-  space["yield_stretch"].starts = {0.003 * stretch, 0.01 * stretch, 0.03 * stretch, 0.1 * stretch, 0.3 * stretch};
-  // At the least one the loop is hardly more than a softer cable, which competes under its own name.
-  space["yield_stretch"].natural_bounds = true;
+  ParameterSearch& yield = space["yield_stretch"];
+  yield.starts = {0.003 * stretch, 0.01 * stretch, 0.03 * stretch, 0.1 * stretch, 0.3 * stretch};
+  yield.natural_bounds = true;
+  yield.another_at = 0;
 }
 
 void pulley_friction(SearchSpace& space, const Arm&, int) { space["motor_share"].natural_bounds = true; }

@@ -17,7 +17,7 @@ void external_force(SearchSpace& space, const Arm&, int) {
 }
 
 void friction_drift(SearchSpace& space, const Arm&, int) {
-  space["rate"].is_essential = true;
+  space["rate"].another_at = 0;
   space["settling_rate"].starts = {0, 0.03, 0.1, 0.3};
   space["joint_share"].starts = {0.2, 1};
   space["joint_share"].natural_bounds = true;

@@ -101,7 +101,10 @@ class StartSearch {
     }
     std::erase_if(least, [](const Least& l) { return !std::isfinite(l.left); });
     std::ranges::stable_sort(least, {}, &Least::left);
-    if (least.size() > kRule.starts_fitted) least.resize(kRule.starts_fitted);
+    const bool may_be_another =
+        std::ranges::any_of(parameters_, [](const FitParameter& p) { return p.shape && p.another_at; });
+    const std::size_t most = may_be_another ? kRule.starts_fitted_beside_another : kRule.starts_fitted;
+    if (least.size() > most) least.resize(most);
     for (const Least& l : least) start.hypotheses.push_back(l.hypothesis);
     if (!least.empty()) start.left = least[0].left;
     return start;

@@ -29,8 +29,8 @@ struct Start {
 /// `with`: the candidate is its last effect. Each size is tried with each start of the shapes that follow it, at its
 /// typical value and at the value that the linear fit gives. A size without shapes is also tried over decades; one with
 /// shapes also at nine tenths of its range, if the range is not much more than the typical value. A single instant is
-/// tried over the record and at the jumps of the residual. At most kRule.starts_fitted hypotheses, each of another law:
-/// they differ in more than the past.
+/// tried over the record and at the jumps of the residual. At most so many hypotheses as kRule says, each of another
+/// law: they differ in more than the past.
 Start best_start(const Evidence& evidence, const Screen& screen, const Hypothesis& with,
                  const ArmParameters<double>& nominal);
 

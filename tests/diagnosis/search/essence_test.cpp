@@ -4,33 +4,43 @@
 
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
+#include "transmission/effects/typical_size.h"
 
 namespace halyard {
 namespace {
 
-/// Friction of motor and joint that rises to this factor at once, and then by this rate, 1/s.
-PlacedEffect drifting_friction(double rate, double factor) {
-  PlacedEffect e = place_neutral_effect(*find_effect("friction_drift"), first_joints(1).nominal, 0);
-  e.p[0] = rate, e.p[1] = factor;
+PlacedEffect effect_of_joint_1(const char* name, double first, double second) {
+  PlacedEffect e = place_neutral_effect(*find_effect(name), first_joints(1).nominal, 0);
+  e.p[0] = first, e.p[1] = second;
   return e;
 }
 
-/// Whether a drift that is fitted to the log of an arm with `truth` needs no drift.
-bool needs_no_drift(const PlacedEffect& truth) {
+/// Whether an effect that is fitted to the log of an arm with `truth` is another one. start: of its fit.
+bool is_another(const PlacedEffect& truth, const PlacedEffect& start) {
   const ArmModel model = first_joints(1);
   ArmModel robot = model;
   robot.effects = {truth};
   const Evidence evidence(make_records(simulate(motion(robot, 6)).measured, model, {}), model);
   const Refitter refitter(evidence, model, 0);
   const Judge judge(evidence, model, refitter.numbers());
-  const Hypothesis start{model.nominal, {drifting_friction(0.01, 1.5)}};
-  const Hypothesis fitted = refitter.refit(start, evidence.score(start)).hypothesis;
+  const Hypothesis from{model.nominal, {start}};
+  const Hypothesis fitted = refitter.refit(from, evidence.score(from)).hypothesis;
   return is_another_effect(evidence, refitter, judge, {fitted, evidence.score(fitted)}, 0);
 }
 
+/// Friction of motor and joint that rises to this factor at once, and then by this rate, 1/s.
+PlacedEffect drifting_friction(double rate, double factor) { return effect_of_joint_1("friction_drift", rate, factor); }
+
 TEST(Essence, OfADriftIsThatItDrifts) {
-  EXPECT_TRUE(needs_no_drift(drifting_friction(0, 1.6)));
-  EXPECT_FALSE(needs_no_drift(drifting_friction(0.08, 1.2)));
+  EXPECT_TRUE(is_another(drifting_friction(0, 1.6), drifting_friction(0.01, 1.5)));
+  EXPECT_FALSE(is_another(drifting_friction(0.08, 1.2), drifting_friction(0.01, 1.5)));
+}
+
+TEST(Essence, OfAHysteresisIsItsLoop) {
+  const double stretch = typical_stretch(first_joints(1).nominal.joint[0]);
+  const PlacedEffect start = effect_of_joint_1("hysteresis", 0.4, 0.01 * stretch);
+  EXPECT_TRUE(is_another(effect_of_joint_1("stiffness", 0.5, 1), start));
+  EXPECT_FALSE(is_another(effect_of_joint_1("hysteresis", 0.5, 0.05 * stretch), start));
 }
 
 }  // namespace
