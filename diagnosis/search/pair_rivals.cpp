@@ -139,6 +139,12 @@ std::vector<double> PairRivals::weights(const Attribution& found, const Places& 
   return name_weights(evidence_, all, {&of_none, judge_.prior_cost(none)});
 }
 
+/// After a pair that is more probable and cannot be named.
+void PairRivals::doubt(Naming& naming) {
+  const auto most = std::ranges::max_element(naming.alternatives, {}, &Alternative::probability);
+  if (most != naming.alternatives.end() && most->probability > naming.weight) naming.surer = most->effect;
+}
+
 /// True if a pair has taken the place of the names.
 bool PairRivals::weigh(Attribution& found, const Places& places) const {
   const std::vector<Pair> rivals = pairs(found, places);
@@ -150,6 +156,8 @@ bool PairRivals::weigh(Attribution& found, const Places& places) const {
   const auto best = static_cast<std::size_t>(std::max_element(weight.begin(), weight.end() - 1) - weight.begin());
   if (best == 0 || !can_be_named(rivals[best - 1])) {
     add_alternatives(found, places, rivals, weight);
+    if (best != 0)
+      for (const std::size_t place : places) doubt(found.namings[place - given_]);
     return false;
   }
   take_the_place(found, places, rivals, weight, best - 1);
