@@ -19,6 +19,7 @@
 #include "diagnosis/log_check/own_readings.h"
 #include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/record/common_clock.h"
+#include "diagnosis/search/basis.h"
 #include "diagnosis/search/revision.h"
 #include "diagnosis/search_space.h"
 
@@ -128,7 +129,9 @@ class Diagnoser {
     s.whole = std::make_unique<Evidence>(std::move(s.data.training), result_.given, Split::none);
     attribution() = attribute(*s.evidence, result_.given, {options_.most_effects, options_.significance}, progress_);
     say("final fit", 0);
-    changed_ = revise(*s.evidence, *s.whole, result_.given, attribution());
+    result_.tolerance_factor = attribution().tolerance_factor;
+    tolerated_ = with_tolerances_times(result_.tolerance_factor, result_.given);
+    changed_ = revise(*s.evidence, *s.whole, tolerated_, attribution());
     return s;
   }
 
@@ -150,6 +153,7 @@ class Diagnoser {
   void give_up_revision(const Evidence& evidence) {
     result_.effects.clear();
     result_.refitted.clear();
+    result_.tolerance_factor = 1;
     doubts_.clear();
     attribution().final_fit = attribution().baseline;
     attribution().final_fit.hypothesis = {result_.given.nominal, result_.given.effects,
@@ -160,7 +164,7 @@ class Diagnoser {
   void tell_names(const Evidence& evidence) {
     const Fit& f = attribution().final_fit;
     const std::vector<Naming>& namings = attribution().namings;
-    doubts_ = doubts(evidence, result_.given, attribution(), options_.significance);
+    doubts_ = doubts(evidence, tolerated_, attribution(), options_.significance);
     for (std::size_t e = given_; e < f.hypothesis.effects.size(); ++e) {
       const double none = probability_of_none_for(evidence, attribution(), given_, e);
       result_.probability_none = std::max(result_.probability_none, none);
@@ -303,7 +307,7 @@ class Diagnoser {
     if (worse.empty()) return;
     if (give_motion_back(whole)) {
       predict_after(evidence);
-      worse = worse_joints(model_, joints, torques, holdout_floors(evidence, result_.given, joints, torques));
+      worse = worse_joints(model_, joints, torques, holdout_floors(evidence, tolerated_, joints, torques));
     }
     if (!worse.empty()) refuse(evidence, worse);
   }
@@ -311,10 +315,10 @@ class Diagnoser {
   /// False if the model's motion cannot be integrated with the effects: then all stays as it is. The verdict stays that
   /// of the fit before: what numbers explain within their tolerances is not unexplained because other data want others.
   bool give_motion_back(const Evidence& whole) {
-    const Fit fit = with_given_motion(whole, result_.given, attribution().final_fit);
+    const Fit fit = with_given_motion(whole, tolerated_, attribution().final_fit);
     if (!fit.usable) return false;
     attribution().final_fit = fit;
-    changed_ = changed_numbers(whole, result_.given, attribution().final_fit);
+    changed_ = changed_numbers(whole, tolerated_, attribution().final_fit);
     tell_refits();
     return true;
   }
@@ -358,6 +362,7 @@ class Diagnoser {
   bool has_own_holdout_ = false;      ///< a log, not the last third of the training
   std::size_t n_logs_ = 0;            ///< of the training
   std::size_t given_;                 ///< effects that the model came with
+  ArmModel tolerated_;                ///< Diagnosis::given with the tolerances of the search
   std::vector<std::size_t> changed_;  ///< see changed_numbers()
   std::vector<Doubt> doubts_;         ///< of each added effect
   std::shared_ptr<DiagnosisDetails> details_ = std::make_shared<DiagnosisDetails>();

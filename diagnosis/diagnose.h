@@ -83,6 +83,9 @@ struct Diagnosis {
   enum class Verdict { clean, effects, unknown } verdict = Verdict::clean;
   std::vector<NamedEffect> effects;
   std::vector<Estimated> refitted;
+  /// The numbers of the model were refitted within so many times their tolerances. Above 1: the model is off by more
+  /// than it states, and what lies beyond a tolerance need not be an effect.
+  double tolerance_factor = 1;
   std::vector<Unexplained> unexplained;
   std::vector<NotExcited> not_excited;
   std::vector<LogFinding> log_findings;  ///< of check_log() about all logs, and what was corrected

@@ -55,6 +55,7 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
     fmt::print("  {}: {}\n", effect_label(d.effects[i].effect), evaluation.why[i]);
   for (const Estimated& p : d.refitted)
     fmt::print("  refitted {}: {:.5g} -> {:.5g} {}\n", p.name, p.nominal, p.value, p.unit);
+  if (const std::string line = tolerance_line(d); !line.empty()) fmt::print("  {}\n", line);
   for (const LogFinding& f : d.log_findings) fmt::print("  {}: {}\n", severity_word(f.severity), finding_line(f));
   for (const Unexplained& u : d.unexplained) fmt::print("  unexplained, joint {}: {}\n", u.joint + 1, u.signature);
 }

@@ -111,6 +111,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
   const Json all = {{"verdict", verdict_word(d.verdict)},
                     {"effects", effects},
                     {"refitted", refitted},
+                    {"tolerance_factor", number(d.tolerance_factor)},
                     {"probability_clean", probability(d.probability_clean)},
                     {"probability_none", probability(d.probability_none)},
                     {"unexplained", unexplained},
@@ -142,6 +143,14 @@ std::string verdict_line(const Diagnosis& d) {
     line += fmt::format("{}{} ({})", i == 0 ? ": " : ", ", label_of(d.effects[i]), percent(d.effects[i].probability));
   if (d.verdict == Diagnosis::Verdict::effects && !d.unexplained.empty()) line += "; an unexplained residual remains";
   return line;
+}
+
+std::string tolerance_line(const Diagnosis& d) {
+  if (d.tolerance_factor == 1) return "";
+  return fmt::format(
+      "The model is off by more than its tolerances state: its numbers were refitted within {:g} times these, which "
+      "explains the log better than a name for each number.",
+      d.tolerance_factor);
 }
 
 void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {

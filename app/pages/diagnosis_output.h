@@ -27,6 +27,9 @@ std::string percent(double probability);
 /// The verdict, and the names with their probabilities: "effects: backlash of joint 2 (over 99 %)", "clean", "unknown".
 std::string verdict_line(const Diagnosis& diagnosis);
 
+/// A sentence about a model that is off by more than its tolerances; empty if it is not.
+std::string tolerance_line(const Diagnosis& diagnosis);
+
 /// The verdict as a call-out of a page, with the reasons if there is an evaluation.
 void add_verdict(report::Page& page, const Diagnosis& diagnosis, const DiagnosisEvaluation& evaluation = {});
 /// Suspicious findings about the logs as a call-out; nothing if there are none.

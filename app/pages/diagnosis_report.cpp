@@ -30,7 +30,9 @@ void add_numbers(report::Page& page, const Diagnosis& d) {
   }
   if (!d.refitted.empty()) {
     report::Table table;
-    table.caption = "Numbers of the model that were refitted within its tolerance: no effects";
+    table.caption = fmt::format("Numbers of the model that were refitted within {}: no effects",
+                                d.tolerance_factor > 1 ? fmt::format("{:g} times its tolerances", d.tolerance_factor)
+                                                       : std::string("its tolerances"));
     table.header = {"number", "model", "refitted", "95 % interval", "unit"};
     table.align = {report::Align::left, report::Align::right, report::Align::right, report::Align::right,
                    report::Align::left};
@@ -39,6 +41,7 @@ void add_numbers(report::Page& page, const Diagnosis& d) {
           {p.name, fmt::format("{:.5g}", p.nominal), fmt::format("{:.5g}", p.value), interval(p), p.unit});
     page.table(table);
   }
+  if (const std::string line = tolerance_line(d); !line.empty()) page.paragraph(line);
 }
 
 /// What a chart draws of one joint: a value of each sample, NaN where there is none, over another value.
@@ -125,6 +128,11 @@ void add_evidence(report::Page& page, const Diagnosis& d, const DiagnosisEvaluat
 }
 
 std::string outcome_of(const Round& round) {
+  if (round.tolerance_factor) {
+    std::string text = fmt::format("the model's tolerances count {:g} times", *round.tolerance_factor);
+    for (const PlacedEffect& e : round.gone) text += ", without " + effect_label(e);
+    return text;
+  }
   if (round.at_once)
     return round.accepted ? "several candidates were added at once" : "several candidates at once were not convincing";
   if (!round.revised) return round.accepted ? "the first candidate was added" : "no candidate was convincing";

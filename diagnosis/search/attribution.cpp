@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/prediction/side_by_side.h"
+#include "diagnosis/search/basis.h"
 #include "diagnosis/search/candidate_round.h"
 #include "diagnosis/search/pair_rivals.h"
 #include "model/input_error.h"
@@ -21,23 +22,6 @@ bool may_repeat(const PlacedEffect& e, const ArmParameters<double>& arm) {
                    "more slowly: take larger smoothing speeds, or less damping");
 }
 
-/// The model without added effects: its parameters refitted within their tolerances.
-struct Baseline {
-  Score nominal_score;
-  Fit fit;
-  Score score;
-};
-
-Baseline baseline(const Evidence& evidence, const ArmModel& model, const Refitter& refitter) {
-  const Hypothesis nominal{model.nominal, model.effects};
-  Baseline b;
-  b.nominal_score = evidence.score(nominal);
-  if (b.nominal_score.finite && refitter.is_usable()) b.fit = refitter.refit(nominal, b.nominal_score);
-  if (!b.fit.usable) refuse(model);
-  b.score = evidence.score(b.fit.hypothesis);
-  return b;
-}
-
 /// Each costs a round.
 constexpr int kMostBetterFits = 3;
 
@@ -46,37 +30,59 @@ class Search {
   Search(const Evidence& evidence, const ArmModel& model, const AttributionOptions& options,
          const SearchProgress& progress)
       : evidence_(evidence),
-        model_(model),
+        stated_(model),
         options_(options),
         progress_(progress),
         given_(model.effects.size()),
-        refitter_(evidence, model, given_),
-        baseline_(baseline(evidence, model, refitter_)),
-        judge_(evidence, model, refitter_.numbers()) {}
+        basis_(std::make_unique<Basis>(evidence, model, 1, given_)) {
+    const Hypothesis nominal{model.nominal, model.effects};
+    result_.nominal_score = evidence_.score(nominal);
+    if (result_.nominal_score.finite && basis_->refitter.is_usable())
+      baseline_ = basis_->refitted(nominal, result_.nominal_score);
+    if (!baseline_.fit.usable) refuse(model);
+  }
 
   Attribution run() {
-    Found current{baseline_.fit, baseline_.score};
-    while (n_added(current) < options_.most_effects && add(current)) {}
+    Found current = baseline_;
+    do {
+      while (n_added(current) < options_.most_effects && add(current))
+        if (n_added(current) > 1) widen(current);
+    } while (widen(current));
     without_ = without_each(current);
     revise_names(current);
     remove_idle(current);
+    if (basis_->factor > 1) rebase(current, 1);
     result_.baseline = baseline_.fit;
-    result_.nominal_score = baseline_.nominal_score;
     result_.baseline_score = baseline_.score;
     result_.final_fit = std::move(current.fit);
     result_.final_score = std::move(current.score);
-    PairRivals(evidence_, model_, refitter_, judge_, given_, options_).weigh(result_);
+    result_.tolerance_factor = basis_->factor;
+    PairRivals(evidence_, basis_->model, basis_->refitter, basis_->judge, given_, options_).weigh(result_);
     return std::move(result_);
   }
 
  private:
-  struct Found {
-    Fit fit;
-    Score score;
-    Scored scored() const { return {fit.hypothesis, score}; }
-  };
-
   int n_added(const Found& f) const { return static_cast<int>(f.fit.hypothesis.effects.size() - given_); }
+
+  /// Wider tolerances, if they and fewer names are more probable. False if not.
+  bool widen(Found& current) {
+    return basis_->factor < kRule.widest_tolerances && basis_->is_narrow(current.fit.hypothesis) &&
+           rebase(current, 2 * basis_->factor);
+  }
+  bool rebase(Found& current, double factor) {
+    progress_("the tolerances of the model", 0);
+    std::optional<Rebased> to = rebased(evidence_, stated_, factor, *basis_, current);
+    if (!to) return false;
+    basis_ = std::move(to->basis);
+    baseline_ = std::move(to->baseline);
+    current = std::move(to->found);
+    std::vector<Naming> kept;
+    for (const std::size_t i : to->kept) kept.push_back(result_.namings[i]);
+    result_.namings = std::move(kept);
+    result_.rounds.push_back({.tolerance_factor = factor, .gone = std::move(to->gone)});
+    last_name_competed_ = false;
+    return true;
+  }
 
   /// The effect that a round names.
   struct Won {
@@ -91,16 +97,16 @@ class Search {
   /// A fit from the model's own numbers: while effects were still missing, the fits had distorted the numbers.
   Found afresh(const Found& current) const {
     const Hypothesis& h = current.fit.hypothesis;
-    return refitted({model_.nominal, h.effects, h.past}, current.score);
+    return refitted({basis_->model.nominal, h.effects, h.past}, current.score);
   }
   bool is_better(const Found& f, const Found& than) const {
-    return f.fit.usable && f.score.finite && judge_.cost(f.scored()) < judge_.cost(than.scored());
+    return f.fit.usable && f.score.finite && basis_->judge.cost(f.scored()) < basis_->judge.cost(than.scored());
   }
 
   std::vector<PlacedEffect> candidates(const Hypothesis& h) const {
-    std::vector<PlacedEffect> all = all_candidates(model_.nominal);
+    std::vector<PlacedEffect> all = all_candidates(basis_->model.nominal);
     std::erase_if(all, [&](const PlacedEffect& candidate) {
-      return !may_repeat(candidate, model_.nominal) &&
+      return !may_repeat(candidate, basis_->model.nominal) &&
              std::ranges::any_of(h.effects, [&](const PlacedEffect& e) { return same_name(e, candidate); });
     });
     return all;
@@ -115,7 +121,7 @@ class Search {
   }
 
   CandidateRound round_of(const Found& without, const Hypothesis& from, const std::string& name) const {
-    return {evidence_, model_, refitter_, judge_, without.scored(), from, name, progress_};
+    return {evidence_, basis_->model, basis_->refitter, basis_->judge, without.scored(), from, name, progress_};
   }
 
   /// All candidates compete for the place after the effects of `without`.
@@ -127,7 +133,7 @@ class Search {
     std::vector<std::size_t> able;
     for (std::size_t i = 0; i < fits.size(); ++i)
       if (is_convincing[i] && fits[i].usable) able.push_back(i);
-    const Competition competition(evidence_, model_, judge_, without, told.trials);
+    const Competition competition(evidence_, basis_->model, basis_->judge, without, told.trials);
     Outcome outcome;
     if (able.empty()) {
       outcome.no_effect = competition.weight_of_no_effect();
@@ -153,7 +159,8 @@ class Search {
     // Before any effect is named, the missing effects distort the refitted baseline: candidates start at the model's
     // own parameters. But if these are far off, the residual is not linear in them, and a small effect is lost beside
     // this.
-    CandidateRound round = next_round(is_first ? Hypothesis{model_.nominal, model_.effects, so_far.past} : so_far);
+    CandidateRound round =
+        next_round(is_first ? Hypothesis{basis_->model.nominal, basis_->model.effects, so_far.past} : so_far);
     Outcome outcome = compete(round, current.scored(), candidates(so_far));
     const bool is_from_the_model = is_first && outcome.won;
     if (!outcome.won && is_first) {
@@ -171,25 +178,18 @@ class Search {
     if (!convinces_against_its_own_fit(current, with, std::move(without))) return ++better_fits_ <= kMostBetterFits;
     current = std::move(is_better(again, with) ? again : with);
     result_.namings.push_back(won->naming);
+    last_name_competed_ = true;
     return true;
   }
 
-  Found refitted(const Hypothesis& h, const Score& before) const {
-    Found f{refitter_.refit(h, before), {}};
-    if (f.fit.usable) f.score = evidence_.score(f.fit.hypothesis);
-    return f;
-  }
+  Found refitted(const Hypothesis& h, const Score& before) const { return basis_->refitted(h, before); }
   Found without_last(const Found& with) const {
     return refitted(without_effect(with.fit.hypothesis, with.fit.hypothesis.effects.size() - 1), with.score);
   }
   /// Fits without each of the added effects, side by side.
   std::vector<Found> without_each(const Found& current) const {
-    if (n_added(current) == 1) return {{baseline_.fit, baseline_.score}};
-    std::vector<Found> without(n_added(current));
-    run_side_by_side(without.size(), [&](std::size_t i) {
-      without[i] = refitted(without_effect(current.fit.hypothesis, given_ + i), current.score);
-    });
-    return without;
+    if (n_added(current) == 1) return {baseline_};
+    return basis_->without_each(current);
   }
 
   /// Fits with several effects have several minima. A candidate may win because its fit found a better one for
@@ -198,11 +198,11 @@ class Search {
   /// from there. without: without_last(with).
   bool convinces_against_its_own_fit(Found& current, const Found& with, Found without) {
     if (!without.fit.usable || !without.score.finite ||
-        judge_.cost(without.scored()) + kRule.by_chance > judge_.cost(current.scored()))
+        basis_->judge.cost(without.scored()) + kRule.by_chance > basis_->judge.cost(current.scored()))
       return true;
     current = std::move(without);
     Round& told = result_.rounds.back();
-    told.trials[0] = judge_.trial(with.fit.hypothesis, current.scored(), with.fit.hypothesis.effects.size() - 1);
+    told.trials[0] = basis_->judge.trial(with.fit.hypothesis, current.scored(), with.fit.hypothesis.effects.size() - 1);
     told.accepted = convincing(told.trials, options_.significance)[0];
     return told.accepted;
   }
@@ -212,14 +212,16 @@ class Search {
     const bool is_done = std::ranges::any_of(result_.rounds, &Round::at_once);
     if (is_done) return false;
     progress_("several effects at once", 0);
-    const JointSearch search(evidence_, refitter_, judge_, given_);
+    const JointSearch search(evidence_, basis_->refitter, basis_->judge, given_);
     const JointProposal proposal = search.propose(round.linear(), current.scored(), options_.significance,
                                                   options_.most_effects - n_added(current));
     if (proposal.trials.empty()) return false;
     result_.rounds.push_back({.trials = proposal.trials, .accepted = proposal.is_convincing, .at_once = true});
     if (!proposal.is_convincing) return false;
     for (const Trial& t : proposal.trials)
-      result_.namings.push_back(Competition(evidence_, model_, judge_, current.scored(), {t}).naming({0, {0}}));
+      result_.namings.push_back(
+          Competition(evidence_, basis_->model, basis_->judge, current.scored(), {t}).naming({0, {0}}));
+    last_name_competed_ = false;
     current = {proposal.fit, proposal.score};
     Found again = afresh(current);
     if (is_better(again, current)) current = std::move(again);
@@ -231,7 +233,7 @@ class Search {
   void revise_names(Found& current) {
     const std::vector<PlacedEffect> pool = gainers();
     const std::size_t all = result_.namings.size();
-    std::size_t n = all - (last_name_competed() ? 1 : 0);
+    std::size_t n = all - (last_name_competed_ ? 1 : 0);
     std::size_t kept = 0;  // names that have been revised and stay in front of the others
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t place = given_ + kept;
@@ -271,32 +273,24 @@ class Search {
 
   /// The naming of an effect that stays, among the candidates of the round in which its name was revised.
   Naming naming_beside_rivals(const Found& current, const Found& without, std::size_t place) const {
-    std::vector<Trial> trials = {judge_.trial(current.fit.hypothesis, without.scored(), place)};
+    std::vector<Trial> trials = {basis_->judge.trial(current.fit.hypothesis, without.scored(), place)};
     for (const Trial& t : result_.rounds.back().trials)
       if (!same_name(t.effect, trials[0].effect)) trials.push_back(t);
-    return Competition(evidence_, model_, judge_, without.scored(), trials).naming({0, {0}});
+    return Competition(evidence_, basis_->model, basis_->judge, without.scored(), trials).naming({0, {0}});
   }
 
   /// Without the effect, another one may end at a bound to replace it. That is no explanation.
   bool is_needed(const Found& with, const Found& without, std::size_t place) const {
-    return judge_.is_needed(with.scored(), without.scored(), place, options_.significance) ||
-           (judge_.leans_on_a_bound(without.scored()) && !judge_.leans_on_a_bound(with.scored()));
+    return basis_->judge.is_needed(with.scored(), without.scored(), place, options_.significance) ||
+           (basis_->judge.leans_on_a_bound(without.scored()) && !basis_->judge.leans_on_a_bound(with.scored()));
   }
 
   /// True if the name that won a revision stays behind what was there before it: from another start its fit, or the fit
   /// of the earlier name in this round, may miss what the earlier fit had found.
   bool is_beaten(const Found& revised, const Found& before, bool is_same) const {
-    if (is_same) return judge_.cost(before.scored()) < judge_.cost(revised.scored()) + kRule.worth_a_change;
-    return judge_.gain_over(before.scored(), revised.scored()) > kRule.by_chance;
-  }
-
-  /// True if the last name came from a round beside all the others. Names that were added at once have not competed
-  /// yet.
-  bool last_name_competed() const {
-    bool competed = false;
-    for (const Round& round : result_.rounds)
-      if (round.accepted) competed = !round.at_once;
-    return competed;
+    if (is_same)
+      return basis_->judge.cost(before.scored()) < basis_->judge.cost(revised.scored()) + kRule.worth_a_change;
+    return basis_->judge.gain_over(before.scored(), revised.scored()) > kRule.by_chance;
   }
 
   /// Candidates that gained in any round.
@@ -329,16 +323,16 @@ class Search {
   }
 
   const Evidence& evidence_;
-  const ArmModel& model_;
+  const ArmModel& stated_;
   const AttributionOptions& options_;
   const SearchProgress& progress_;
   std::size_t given_;  ///< effects that the model came with
-  Refitter refitter_;
-  Baseline baseline_;
-  Judge judge_;
+  std::unique_ptr<const Basis> basis_;
+  Found baseline_;  ///< without added effects
   Attribution result_;
-  std::vector<Found> without_;  ///< after the rounds: fits without each added effect
-  int better_fits_ = 0;         ///< rounds without a name that ended with a better fit of the effects so far
+  std::vector<Found> without_;       ///< after the rounds: fits without each added effect
+  bool last_name_competed_ = false;  ///< it won a round beside all the others
+  int better_fits_ = 0;              ///< rounds without a name that ended with a better fit of the effects so far
 };
 
 }  // namespace

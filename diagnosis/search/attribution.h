@@ -3,7 +3,8 @@
 /// parameters on the fitting blocks and judged on the deciding blocks (judge.h). The best is added, until none helps
 /// significantly. When none helps alone, a few are tried together (joint_proposal.h). Then all names but the last that
 /// won a round are revised, and the removal of each added effect is tried. At last, each name, and then every two names
-/// at one joint, compete with pairs of other effects (pair_rivals.h).
+/// at one joint, compete with pairs of other effects (pair_rivals.h). If fewer names with wider tolerances of the model
+/// explain the log better, the tolerances are widened (basis.h), and the search goes on.
 
 #include <functional>
 #include <optional>
@@ -13,7 +14,7 @@
 
 namespace halyard {
 
-/// One round of the search: all candidates against the same baseline, or several effects at once.
+/// One round of the search: all candidates against the same baseline, several effects at once, or other tolerances.
 struct Round {
   std::vector<Trial> trials;  ///< the added candidate first, then in the order of the gain of their quick fits
   bool accepted = false;      ///< the first trial was added; of several at once: all were
@@ -21,6 +22,9 @@ struct Round {
   /// The name for whose place the candidates compete; nothing before all names are found.
   std::optional<PlacedEffect> revised = {};
   bool name_stays = false;  ///< of a revision: the name and its earlier fit are kept
+  /// No candidates competed: from here on the tolerances of the model count so many times, and these names are gone.
+  std::optional<double> tolerance_factor = {};
+  std::vector<PlacedEffect> gone = {};
 };
 
 struct Attribution {
@@ -30,6 +34,7 @@ struct Attribution {
   double no_effect = 1;         ///< weight of "no effect" in the last round that should add one and did not
   std::vector<Round> rounds;
   Score nominal_score, baseline_score, final_score;
+  double tolerance_factor = 1;  ///< the tolerances of the model counted so many times, see basis.h
 };
 
 /// Every effect of the library at every place where the arm can have it, at its typical size, in a fixed order.

@@ -1,0 +1,120 @@
+#include "diagnosis/search/basis.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/prediction/side_by_side.h"
+#include "diagnosis/search/attribution.h"
+
+namespace halyard {
+namespace {
+
+/// ln p of a above that of b, see basis.h.
+double evidence_over(const Evidence& evidence, const Found& a, double prior_a, const Found& b, double prior_b) {
+  const std::vector<double> least = squared_floors(evidence);
+  return paired(evidence, log_likelihood(evidence, a.score, least), log_likelihood(evidence, b.score, least)).sum +
+         prior_b - prior_a;
+}
+
+}  // namespace
+
+ArmModel with_tolerances_times(double factor, ArmModel model) {
+  for (JointDescription& joint : model.joints) {
+    Tolerances& t = joint.tolerances;
+    for (double* const each :
+         {&t.length, &t.mass, &t.com, &t.inertia, &t.stiffness, &t.friction, &t.smoothing, &t.coupling})
+      *each *= factor;
+    if (t.torque_scale < 1) t.torque_scale *= factor;
+  }
+  return model;
+}
+
+Basis::Basis(const Evidence& evidence, const ArmModel& stated, double times, std::size_t given)
+    : factor(times),
+      model(with_tolerances_times(times, stated)),
+      refitter(evidence, model, given),
+      judge(evidence, model, refitter.numbers()),
+      evidence_(evidence),
+      given_(given) {}
+
+Found Basis::refitted(const Hypothesis& h, const Score& before) const {
+  Found f{refitter.refit(h, before), {}};
+  f.score.finite = false;
+  if (f.fit.usable) f.score = evidence_.score(f.fit.hypothesis);
+  return f;
+}
+
+std::vector<Found> Basis::without_each(const Found& found) const {
+  std::vector<Found> without(found.fit.hypothesis.effects.size() - given_);
+  run_side_by_side(without.size(), [&](std::size_t i) {
+    without[i] = refitted(without_effect(found.fit.hypothesis, given_ + i), found.score);
+  });
+  return without;
+}
+
+bool Basis::is_narrow(const Hypothesis& h) const {
+  constexpr double kPressed = 0.95;  // of the tolerance
+  int n = 0;
+  for (const FitParameter& p : refitter.numbers()) {
+    const double off = parameter_value(h, p) - p.nominal;
+    const bool has_name = std::any_of(h.effects.begin() + static_cast<std::ptrdiff_t>(given_), h.effects.end(),
+                                      [&](const PlacedEffect& e) { return effect_covers(e, model.nominal, p); });
+    n += has_name || off > kPressed * (p.upper - p.nominal) || off < kPressed * (p.lower - p.nominal);
+  }
+  return n > 1;
+}
+
+double Basis::prior_cost(const Found& found) const {
+  const Hypothesis& h = found.fit.hypothesis;
+  const auto columns = sensitivities(evidence_, h, refitter.numbers_beside(h));
+  const std::vector<double> scale = channel_scale(evidence_, found.score.fit_mean_square);
+  Eigen::MatrixXd J(static_cast<Eigen::Index>(evidence_.row_channel().size()),
+                    static_cast<Eigen::Index>(columns.size()));
+  for (Eigen::Index i = 0; i < J.cols(); ++i)
+    for (Eigen::Index r = 0; r < J.rows(); ++r)
+      J(r, i) = columns[static_cast<std::size_t>(i)][static_cast<std::size_t>(r)] /
+                (scale[evidence_.row_channel()[static_cast<std::size_t>(r)]] * std::sqrt(evidence_.correlated_rows()));
+  Eigen::MatrixXd A = J.transpose() * J;
+  A.diagonal().array() += 1;
+  double cost = judge.prior_cost(h) + Eigen::MatrixXd(A.llt().matrixL()).diagonal().array().log().sum();
+  const double choice = std::log(static_cast<double>(all_candidates(model.nominal).size()));
+  for (std::size_t e = given_; e < h.effects.size(); ++e) cost += prior_cost_of(h.effects[e], model.nominal) + choice;
+  return cost + kRule.cost_of_wider_tolerances * std::log2(factor);
+}
+
+std::optional<Rebased> rebased(const Evidence& evidence, const ArmModel& stated, double factor, const Basis& own,
+                               const Found& found) {
+  const std::size_t given = stated.effects.size();
+  Rebased r{std::make_unique<Basis>(evidence, stated, factor, given), {}, {}, {}, {}};
+  if (!r.basis->refitter.is_usable()) return {};
+  for (std::size_t i = given; i < found.fit.hypothesis.effects.size(); ++i) r.kept.push_back(i - given);
+  r.found = r.basis->refitted(found.fit.hypothesis, found.score);
+  if (!r.found.score.finite) return {};
+  double prior = r.basis->prior_cost(r.found);
+  for (bool drops = true; drops;) {
+    drops = false;
+    const std::vector<Found> without = r.basis->without_each(r.found);
+    std::size_t best = 0;
+    double most = 0, its_prior = 0;
+    for (std::size_t i = 0; i < without.size(); ++i) {
+      if (!without[i].score.finite) continue;
+      const double p = r.basis->prior_cost(without[i]);
+      const double gain = evidence_over(evidence, without[i], p, r.found, prior);
+      if (gain > most) most = gain, best = i, its_prior = p, drops = true;
+    }
+    if (!drops) break;
+    r.gone.push_back(r.found.fit.hypothesis.effects[given + best]);
+    r.found = without[best];
+    prior = its_prior;
+    r.kept.erase(r.kept.begin() + static_cast<std::ptrdiff_t>(best));
+  }
+  if (evidence_over(evidence, r.found, prior, found, own.prior_cost(found)) <= 0) return {};
+  Hypothesis none = r.found.fit.hypothesis;
+  while (none.effects.size() > given) none = without_effect(none, none.effects.size() - 1);
+  r.baseline = r.basis->refitted(none, found.score);
+  if (!r.baseline.score.finite) return {};
+  return r;
+}
+
+}  // namespace halyard

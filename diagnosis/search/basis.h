@@ -1,0 +1,71 @@
+#pragma once
+/// What hypotheses are fitted and judged by: the model and its tolerances. How far a model is off is itself uncertain.
+/// If its tolerances are too narrow, the search would find one effect for each number that lies beyond them. Therefore
+/// tolerances of `factor` times those that the model states compete with fewer names:
+///
+///   ln p = Σ_b ln L_b - Σ_i u_i²/2 - ½ ln det(1 + Jᵀ J) - Σ_e (cost_e + ln m) - cost of wider tolerances
+///
+///   ln L_b   of the deciding blocks, likelihood.h        u   numbers of the model, in half tolerances
+///   J        sensitivities to them, weighted by the noise, per half tolerance             [fitting rows x numbers]
+///   cost_e   prior_cost_of() each name                   m   number of candidates of which it was chosen
+///
+/// Source: Laplace's approximation of the evidence, MacKay, Neural Computation 4 (1992) 415-447, section 3.
+
+#include <memory>
+
+#include "diagnosis/judgement/judge.h"
+#include "diagnosis/search/refit.h"
+
+namespace halyard {
+
+/// The same model with `factor` times its tolerances. A torque scale of which nothing is known stays unknown.
+ArmModel with_tolerances_times(double factor, ArmModel model);
+
+/// A fitted hypothesis.
+struct Found {
+  Fit fit;
+  Score score;
+  Scored scored() const { return {fit.hypothesis, score}; }
+};
+
+class Basis {
+ public:
+  /// given: number of effects that the model came with. Check refitter.is_usable().
+  Basis(const Evidence& evidence, const ArmModel& stated, double factor, std::size_t given);
+  Basis(const Basis&) = delete;
+  Basis& operator=(const Basis&) = delete;
+
+  /// All passes of a fit; `before` gives the first weights.
+  Found refitted(const Hypothesis& h, const Score& before) const;
+  /// refitted() without each of the added effects, side by side.
+  std::vector<Found> without_each(const Found& found) const;
+  /// True if a number is pressed against its tolerance, or a name stands for one, twice at least in all.
+  bool is_narrow(const Hypothesis& h) const;
+  /// What the prior takes from ln p, see above.
+  double prior_cost(const Found& found) const;
+
+  const double factor;
+  const ArmModel model;
+  const Refitter refitter;
+  const Judge judge;
+
+ private:
+  const Evidence& evidence_;
+  std::size_t given_;
+};
+
+/// Another basis, and what is left of the names on it.
+struct Rebased {
+  std::unique_ptr<const Basis> basis;
+  Found baseline;  ///< without added effects
+  Found found;
+  std::vector<std::size_t> kept;   ///< indices of the names
+  std::vector<PlacedEffect> gone;  ///< the others
+};
+
+/// `found` on another basis of the model as stated, without the names that are not needed there; nothing if it is more
+/// probable on its own basis.
+std::optional<Rebased> rebased(const Evidence& evidence, const ArmModel& stated, double factor, const Basis& own,
+                               const Found& found);
+
+}  // namespace halyard
