@@ -50,8 +50,8 @@ struct ParameterSearch {
   double per_motor_speed = 0;
   TolerancedNumber changes = {};  ///< the model parameter that it changes, if any
   /// For an essential parameter: the value at which the effect is another one. Friction that drifts at no rate is only
-  /// more friction, and a loop that yields at once is a softer cable. The effect is named only if it does not explain as
-  /// much with this value, or the bound that is nearest to it.
+  /// more friction, and a loop that yields at once is a softer cable. The effect is named only if it does not explain
+  /// as much with this value, or with the bound that is nearest to it.
   std::optional<double> another_at = {};
 };
 

@@ -102,8 +102,8 @@ struct DecisionRule {
   /// Number of starts of a candidate with shapes from which its quick fit begins, each at other shapes. Reason: the
   /// start that leaves least is often not in the lowest minimum.
   std::size_t starts_fitted = 3;
-  /// The same of a candidate with a shape at one end of which it is another effect (another_at). Reason: a fit that runs
-  /// there is lost. In a log with three effects, three of the five yield stretches of a hysteresis ran there.
+  /// The same of a candidate with a shape at one end of which it is another effect (another_at). Reason: a fit that
+  /// runs there is lost. In a log with three effects, three of the five yield stretches of a hysteresis ran there.
   std::size_t starts_fitted_beside_another = 5;
   /// The first `leaders` of those are fitted fully, if their gain is at least the share `leads` of the largest gain. So
   /// are the `leaders_by_rest` whose fits leave least. Reason: a quick fit keeps the model's numbers linear, and its

@@ -12,8 +12,8 @@ bool is_another_effect(const Evidence& evidence, const Refitter& refitter, const
   if (!reduced.best.usable) return false;
   const Scored all{with.at, evidence.score(with.at)};
   const Scored without{reduced.best.hypothesis, evidence.score(reduced.best.hypothesis)};
-  // A name has to explain a share of the residual, an essential parameter need not: friction that stays cannot err in a way
-  // that drifts.
+  // A name has to explain a share of the residual, an essential parameter need not: friction that stays cannot err in a
+  // way that drifts.
   return judge.gain_over(all, without) <= kRule.by_chance ||
          judge.p_of_gain(all.score, without.score) > kRule.essential_level;
 }
