@@ -79,6 +79,7 @@ class Diagnoser {
     else tell_names(evidence);
     tell_rests(evidence);
     predict_holdout(evidence, *searched.whole, data.training_joints);
+    if (!is_revised()) result_.tolerance_factor = 1;
     tell_doubtful(evidence);
     tell_probabilities(evidence);
     tell_stuck_sensors(training);
@@ -153,7 +154,6 @@ class Diagnoser {
   void give_up_revision(const Evidence& evidence) {
     result_.effects.clear();
     result_.refitted.clear();
-    result_.tolerance_factor = 1;
     doubts_.clear();
     attribution().final_fit = attribution().baseline;
     attribution().final_fit.hypothesis = {result_.given.nominal, result_.given.effects,

@@ -31,6 +31,7 @@ std::vector<UsualStage> usual_stages() {
           {"fits", 0.3},
           {"best candidates", 0.9},
           {"finalists", 0.4},
+          {"wider tolerances", 0.2},
           {"final fit", 0.6},
           {"hold-out", 0.2},
           {"what these data could show", 0.4},

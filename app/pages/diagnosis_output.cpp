@@ -148,15 +148,16 @@ std::string verdict_line(const Diagnosis& d) {
 std::string tolerance_line(const Diagnosis& d) {
   if (d.tolerance_factor == 1) return "";
   return fmt::format(
-      "The model is off by more than its tolerances state: its numbers were refitted within {:g} times these, which "
-      "explains the log better than a name for each number.",
+      "The model is off by more than its tolerances state: its numbers were refitted within {:g} times these, which is "
+      "more probable than an effect for each of them.",
       d.tolerance_factor);
 }
 
 void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   switch (d.verdict) {
     case Diagnosis::Verdict::clean:
-      page.verdict(report::VerdictKind::good, "Clean: the model explains the data to what its sensors resolve.");
+      page.verdict(report::VerdictKind::good,
+                   "Clean: the model explains the data to what its sensors resolve. " + tolerance_line(d));
       break;
     case Diagnosis::Verdict::unknown: {
       std::string text = "Unknown: a residual that matters is left, and no candidate explains it.";

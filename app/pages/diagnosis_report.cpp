@@ -164,6 +164,10 @@ void add_candidates(report::Page& page, const Diagnosis& d) {
     const Round& round = d.details->attribution.rounds[r];
     report::Table table;
     table.caption = fmt::format("Round {}: {}", r + 1, outcome_of(round));
+    if (round.tolerance_factor) {
+      page.paragraph(table.caption + ".");
+      continue;
+    }
     table.header = {"candidate", "gain [nats]", "p", "verdict"};
     table.align = {report::Align::left, report::Align::right, report::Align::right, report::Align::left};
     std::size_t shown = 0;

@@ -18,7 +18,7 @@ namespace halyard {
 /// integrated either, the result is not usable.
 Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given);
 
-/// Effects, as indices in the hypothesis, of which no size is left in the fit, or not the essential ones.
+/// Effects, as indices in the hypothesis, of which no size is left in the fit, or not the essential parameters.
 std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given);
 
 /// Half of the 95 % interval over the standard deviation: Student's quantile for the fit's blocks.

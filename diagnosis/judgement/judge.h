@@ -19,7 +19,7 @@
 /// - no parameter that matters lies at its plausible bound. No shape lies within a factor of two of such a bound if the
 ///   bound itself has an equal likelihood. The ends of the record and of the motion are the bounds of a push;
 /// - one of its sizes at least exceeds the tolerance of the number that it changes. Otherwise it is a refit;
-/// - it needs the sizes that make it this effect: without them it explains significantly less.
+/// - it needs the parameters that make it this effect: without them it explains significantly less.
 
 #include <optional>
 

@@ -48,10 +48,10 @@ class Search {
       while (n_added(current) < options_.most_effects && add(current))
         if (n_added(current) > 1) widen(current);
     } while (widen(current));
+    narrow(current);
     without_ = without_each(current);
     revise_names(current);
     remove_idle(current);
-    if (basis_->factor > 1) rebase(current, 1);
     result_.baseline = baseline_.fit;
     result_.baseline_score = baseline_.score;
     result_.final_fit = std::move(current.fit);
@@ -64,13 +64,27 @@ class Search {
  private:
   int n_added(const Found& f) const { return static_cast<int>(f.fit.hypothesis.effects.size() - given_); }
 
-  /// Wider tolerances, if they and fewer names are more probable. False if not.
+  /// Wider tolerances, if these are more probable with the same names or fewer. False if not.
   bool widen(Found& current) {
-    return basis_->factor < kRule.widest_tolerances && basis_->is_narrow(current.fit.hypothesis) &&
-           rebase(current, 2 * basis_->factor);
+    if (basis_->factor >= kRule.widest_tolerances || !basis_->is_narrow(current.fit.hypothesis)) return false;
+    if (n_added(current) == 0 && explained(current.score)) return false;
+    const double cost = basis_->judge.cost(current.scored());
+    if (cost == refused_ || !rebase(current, 2 * basis_->factor)) {
+      refused_ = cost;
+      return false;
+    }
+    result_.no_effect = 1;
+    better_fits_ = 0;
+    return true;
+  }
+  /// Effects that were found later may have made wider tolerances needless.
+  void narrow(Found& current) {
+    const double widest = basis_->factor;
+    for (double factor = 1; factor < widest; factor *= 2)
+      if (rebase(current, factor)) return;
   }
   bool rebase(Found& current, double factor) {
-    progress_("the tolerances of the model", 0);
+    progress_("wider tolerances", 0);
     std::optional<Rebased> to = rebased(evidence_, stated_, factor, *basis_, current);
     if (!to) return false;
     basis_ = std::move(to->basis);
@@ -209,8 +223,8 @@ class Search {
 
   /// Several effects at once, if that was not done yet.
   bool add_together(Found& current, const CandidateRound& round) {
-    const bool is_done = std::ranges::any_of(result_.rounds, &Round::at_once);
-    if (is_done) return false;
+    for (auto round = result_.rounds.rbegin(); round != result_.rounds.rend() && !round->tolerance_factor; ++round)
+      if (round->at_once) return false;
     progress_("several effects at once", 0);
     const JointSearch search(evidence_, basis_->refitter, basis_->judge, given_);
     const JointProposal proposal = search.propose(round.linear(), current.scored(), options_.significance,
@@ -332,6 +346,7 @@ class Search {
   Attribution result_;
   std::vector<Found> without_;       ///< after the rounds: fits without each added effect
   bool last_name_competed_ = false;  ///< it won a round beside all the others
+  std::optional<double> refused_;    ///< cost of the fit with which wider tolerances were less probable
   int better_fits_ = 0;              ///< rounds without a name that ended with a better fit of the effects so far
 };
 

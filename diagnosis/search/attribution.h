@@ -3,8 +3,8 @@
 /// parameters on the fitting blocks and judged on the deciding blocks (judge.h). The best is added, until none helps
 /// significantly. When none helps alone, a few are tried together (joint_proposal.h). Then all names but the last that
 /// won a round are revised, and the removal of each added effect is tried. At last, each name, and then every two names
-/// at one joint, compete with pairs of other effects (pair_rivals.h). If fewer names with wider tolerances of the model
-/// explain the log better, the tolerances are widened (basis.h), and the search goes on.
+/// at one joint, compete with pairs of other effects (pair_rivals.h). If wider tolerances of the model
+/// are more probable, with the same names or fewer, the search goes on with them (basis.h).
 
 #include <functional>
 #include <optional>

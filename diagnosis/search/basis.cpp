@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/search/attribution.h"
@@ -17,15 +18,23 @@ double evidence_over(const Evidence& evidence, const Found& a, double prior_a, c
          prior_b - prior_a;
 }
 
+/// Numbers to which the data are insensitive within the tolerances of the basis return to the model's values.
+Hypothesis with_own_numbers(Hypothesis h, const Basis& basis) {
+  for (const FitParameter& p : baseline_parameters(basis.model))
+    if (!find_parameter(basis.refitter.numbers(), p)) set_parameter(h, p, p.nominal);
+  return h;
+}
+
 }  // namespace
 
 ArmModel with_tolerances_times(double factor, ArmModel model) {
+  constexpr double kNearlyUnknown = 0.99;  // a scale of tolerance 1 is unknown
   for (JointDescription& joint : model.joints) {
     Tolerances& t = joint.tolerances;
     for (double* const each :
          {&t.length, &t.mass, &t.com, &t.inertia, &t.stiffness, &t.friction, &t.smoothing, &t.coupling})
       *each *= factor;
-    if (t.torque_scale < 1) t.torque_scale *= factor;
+    if (t.torque_scale < 1) t.torque_scale = std::min(factor * t.torque_scale, kNearlyUnknown);
   }
   return model;
 }
@@ -67,7 +76,9 @@ bool Basis::is_narrow(const Hypothesis& h) const {
 
 double Basis::prior_cost(const Found& found) const {
   const Hypothesis& h = found.fit.hypothesis;
-  const auto columns = sensitivities(evidence_, h, refitter.numbers_beside(h));
+  const std::vector<FitParameter> numbers = refitter.numbers_beside(h);
+  const auto columns = sensitivities(evidence_, h, numbers);
+  if (columns.size() < numbers.size()) return std::numeric_limits<double>::infinity();
   const std::vector<double> scale = channel_scale(evidence_, found.score.fit_mean_square);
   Eigen::MatrixXd J(static_cast<Eigen::Index>(evidence_.row_channel().size()),
                     static_cast<Eigen::Index>(columns.size()));
@@ -88,8 +99,10 @@ std::optional<Rebased> rebased(const Evidence& evidence, const ArmModel& stated,
   const std::size_t given = stated.effects.size();
   Rebased r{std::make_unique<Basis>(evidence, stated, factor, given), {}, {}, {}, {}};
   if (!r.basis->refitter.is_usable()) return {};
+  const double own_prior = own.prior_cost(found);
+  if (!std::isfinite(own_prior)) return {};
   for (std::size_t i = given; i < found.fit.hypothesis.effects.size(); ++i) r.kept.push_back(i - given);
-  r.found = r.basis->refitted(found.fit.hypothesis, found.score);
+  r.found = r.basis->refitted(with_own_numbers(found.fit.hypothesis, *r.basis), found.score);
   if (!r.found.score.finite) return {};
   double prior = r.basis->prior_cost(r.found);
   for (bool drops = true; drops;) {
@@ -109,7 +122,7 @@ std::optional<Rebased> rebased(const Evidence& evidence, const ArmModel& stated,
     prior = its_prior;
     r.kept.erase(r.kept.begin() + static_cast<std::ptrdiff_t>(best));
   }
-  if (evidence_over(evidence, r.found, prior, found, own.prior_cost(found)) <= 0) return {};
+  if (evidence_over(evidence, r.found, prior, found, own_prior) <= 0) return {};
   Hypothesis none = r.found.fit.hypothesis;
   while (none.effects.size() > given) none = without_effect(none, none.effects.size() - 1);
   r.baseline = r.basis->refitted(none, found.score);

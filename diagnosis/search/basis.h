@@ -1,7 +1,7 @@
 #pragma once
-/// What hypotheses are fitted and judged by: the model and its tolerances. How far a model is off is itself uncertain.
-/// If its tolerances are too narrow, the search would find one effect for each number that lies beyond them. Therefore
-/// tolerances of `factor` times those that the model states compete with fewer names:
+/// A basis: the model with `factor` times its tolerances, and the fits and the judge that use them. How far a model is
+/// off is itself uncertain. If its tolerances are too narrow, the search would find one effect for each number that lies
+/// beyond them. Therefore wider tolerances, with the same names or fewer, compete with those that the model states:
 ///
 ///   ln p = Σ_b ln L_b - Σ_i u_i²/2 - ½ ln det(1 + Jᵀ J) - Σ_e (cost_e + ln m) - cost of wider tolerances
 ///
@@ -9,7 +9,9 @@
 ///   J        sensitivities to them, weighted by the noise, per half tolerance             [fitting rows x numbers]
 ///   cost_e   prior_cost_of() each name                   m   number of candidates of which it was chosen
 ///
-/// Source: Laplace's approximation of the evidence, MacKay, Neural Computation 4 (1992) 415-447, section 3.
+/// Source: after Laplace's approximation of the evidence, MacKay, Neural Computation 4 (1992) 415-447, section 3. ln L
+/// is that of blocks which no fit has used, as everywhere in the search, and so effects need no determinant. Numbers
+/// need one: twice the tolerances make each place within them half as probable.
 
 #include <memory>
 
@@ -39,9 +41,9 @@ class Basis {
   Found refitted(const Hypothesis& h, const Score& before) const;
   /// refitted() without each of the added effects, side by side.
   std::vector<Found> without_each(const Found& found) const;
-  /// True if a number is pressed against its tolerance, or a name stands for one, twice at least in all.
+  /// True if at least two numbers are pressed against their tolerance or replaced by a name.
   bool is_narrow(const Hypothesis& h) const;
-  /// What the prior takes from ln p, see above.
+  /// What the prior takes from ln p, see above. Infinite if a sensitivity cannot be computed.
   double prior_cost(const Found& found) const;
 
   const double factor;
@@ -59,7 +61,7 @@ struct Rebased {
   std::unique_ptr<const Basis> basis;
   Found baseline;  ///< without added effects
   Found found;
-  std::vector<std::size_t> kept;   ///< indices of the names
+  std::vector<std::size_t> kept;   ///< indices of its names among those before
   std::vector<PlacedEffect> gone;  ///< the others
 };
 

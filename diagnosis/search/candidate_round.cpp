@@ -134,7 +134,7 @@ void CandidateRound::quick_fits(const std::vector<std::size_t>& candidates, std:
   });
 }
 
-/// True if two quick fits have ended in the same minimum; what is left of the past belongs to it.
+/// True if two quick fits have ended in the same minimum; the past is not compared.
 bool CandidateRound::is_same_end(const Hypothesis& a, const Hypothesis& b) const {
   constexpr double kNear = 0.01;
   return std::ranges::all_of(

@@ -17,10 +17,12 @@ constexpr std::size_t kMostRivals = 2, kMostRivalsOfOne = 3;
 constexpr double kShareOfOne = 0.5;
 
 /// The candidates at the joint of the effect that gained nearly as much as it, the closest first, as they were fitted.
+/// Rounds before the tolerances were widened say nothing about names within the wider ones.
 std::vector<PlacedEffect> rivals_of(const PlacedEffect& effect, const Hypothesis& found,
                                     const std::vector<Round>& rounds, std::size_t most) {
   std::vector<std::pair<double, PlacedEffect>> all;
   for (const Round& round : rounds) {
+    if (round.tolerance_factor > 1) all.clear();
     if (round.at_once || round.trials.empty() || !same_name(round.trials[0].effect, effect)) continue;
     for (const Trial& t : round.trials) {
       if (!t.is_judged() || t.is_refit || t.is_another || t.effect.joint != effect.joint) continue;
@@ -139,10 +141,11 @@ std::vector<double> PairRivals::weights(const Attribution& found, const Places& 
   return name_weights(evidence_, all, {&of_none, judge_.prior_cost(none)});
 }
 
-/// After a pair that is more probable and cannot be named.
-void PairRivals::doubt(Naming& naming) {
-  const auto most = std::ranges::max_element(naming.alternatives, {}, &Alternative::probability);
-  if (most != naming.alternatives.end() && most->probability > naming.weight) naming.surer = most->effect;
+/// An effect of the pair, which cannot be named, may be more probable than the name.
+void PairRivals::doubt(Naming& naming, const Pair& pair) {
+  for (const Alternative& a : naming.alternatives)
+    if (a.probability > naming.weight && (same_name(a.effect, pair.first) || same_name(a.effect, pair.second)))
+      naming.surer = a.effect;
 }
 
 /// True if a pair has taken the place of the names.
@@ -157,7 +160,7 @@ bool PairRivals::weigh(Attribution& found, const Places& places) const {
   if (best == 0 || !can_be_named(rivals[best - 1])) {
     add_alternatives(found, places, rivals, weight);
     if (best != 0)
-      for (const std::size_t place : places) doubt(found.namings[place - given_]);
+      for (const std::size_t place : places) doubt(found.namings[place - given_], rivals[best - 1]);
     return false;
   }
   take_the_place(found, places, rivals, weight, best - 1);

@@ -37,7 +37,7 @@ class PairRivals {
   std::vector<double> weights(const Attribution& found, const Places& places, const Hypothesis& none,
                               const std::vector<Pair>& pairs) const;
   bool weigh(Attribution& found, const Places& places) const;
-  static void doubt(Naming& naming);
+  static void doubt(Naming& naming, const Pair& pair);
   void weigh_twos(Attribution& found) const;
   void add_alternatives(Attribution& found, const Places& places, const std::vector<Pair>& pairs,
                         const std::vector<double>& weight) const;

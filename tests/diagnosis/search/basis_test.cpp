@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "diagnosis/diagnose.h"
 #include "diagnosis/search/attribution.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
@@ -17,6 +18,8 @@ TEST(Basis, WidensWhatIsKnown) {
   const Tolerances wide = with_tolerances_times(2, model).joints[0].tolerances;
   EXPECT_EQ(wide.friction, 0.4);
   EXPECT_EQ(wide.torque_scale, 1) << "nothing is known of it";
+  model.joints[0].tolerances.torque_scale = 0.5;
+  EXPECT_LT(with_tolerances_times(2, model).joints[0].tolerances.torque_scale, 1) << "something is known of it";
 }
 
 /// Moves each number of the model by so many tolerances, up and down in turns.
@@ -33,10 +36,15 @@ TEST(Basis, AModelThatIsOffByMoreThanItStatesGetsWiderTolerancesAndNoNames) {
   const ArmModel model = first_joints(1);
   ArmModel robot = model;
   move_numbers(robot, 1.8);
-  const Evidence evidence(make_records(simulate(motion(robot, 12)).measured, model, {}), model);
-  const Attribution a = attribute(evidence, model, {}, {});
-  EXPECT_EQ(a.tolerance_factor, 2);
-  EXPECT_TRUE(a.final_fit.hypothesis.effects.empty());
+  DiagnosisOptions options;
+  options.tell_not_excited = false;
+  const Diagnosis d =
+      diagnose(model, {simulate(motion(robot, 12)).measured}, simulate(motion(robot, 12, 1)).measured, options);
+  EXPECT_EQ(d.verdict, Diagnosis::Verdict::clean);
+  EXPECT_TRUE(d.effects.empty());
+  EXPECT_FALSE(d.refitted.empty());
+  EXPECT_EQ(d.tolerance_factor, 2);
+  EXPECT_EQ(d.revised.joints[0].tolerances.friction, model.joints[0].tolerances.friction) << "the model's own stay";
 }
 
 TEST(Basis, OneNumberThatIsOffIsAnEffect) {
