@@ -1,7 +1,7 @@
 #pragma once
 /// A basis: the model with `factor` times its tolerances, and the fits and the judge that use them. How far a model is
-/// off is itself uncertain. If its tolerances are too narrow, the search would find one effect for each number that lies
-/// beyond them. Therefore wider tolerances, with the same names or fewer, compete with those that the model states:
+/// off is itself uncertain. If its tolerances are too narrow, the search would find one effect for each number beyond
+/// them. Therefore wider tolerances, with the same names or fewer, compete with those that the model states:
 ///
 ///   ln p = Σ_b ln L_b - Σ_i u_i²/2 - ½ ln det(1 + Jᵀ J) - Σ_e (cost_e + ln m) - cost of wider tolerances
 ///
