@@ -34,8 +34,8 @@ struct DecisionRule {
   /// A candidate whose quick fit has a larger p value than this is neither fitted fully nor judged further, except the
   /// `leaders_by_rest`.
   double worth_a_fit = 0.05;
-  /// A parameter that makes the effect what its name says, as the rate makes a drift, has to gain with a smaller p value.
-  /// Reason: the effect has already convinced; this only decides between two names.
+  /// A parameter that makes the effect what its name says, as the rate makes a drift, has to gain with a smaller p
+  /// value. Reason: the effect has already convinced; this only decides between two names.
   double essential_level = 0.05;
   /// In a revision, a name that wins its place again keeps its new fit if that gains more than this over the earlier
   /// one. Reason: a quarter of what one more parameter gains by chance decides nothing.
