@@ -156,8 +156,7 @@ std::string tolerance_line(const Diagnosis& d) {
 void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   switch (d.verdict) {
     case Diagnosis::Verdict::clean:
-      page.verdict(report::VerdictKind::good,
-                   "Clean: the model explains the data to what its sensors resolve. " + tolerance_line(d));
+      page.verdict(report::VerdictKind::good, "Clean: the model explains the data to what its sensors resolve.");
       break;
     case Diagnosis::Verdict::unknown: {
       std::string text = "Unknown: a residual that matters is left, and no candidate explains it.";
@@ -180,6 +179,7 @@ void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluati
       break;
     }
   }
+  if (const std::string line = tolerance_line(d); !line.empty()) page.paragraph(line);
 }
 
 void add_log_findings(report::Page& page, const Diagnosis& d) {

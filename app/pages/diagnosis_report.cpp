@@ -41,7 +41,6 @@ void add_numbers(report::Page& page, const Diagnosis& d) {
           {p.name, fmt::format("{:.5g}", p.nominal), fmt::format("{:.5g}", p.value), interval(p), p.unit});
     page.table(table);
   }
-  if (const std::string line = tolerance_line(d); !line.empty()) page.paragraph(line);
 }
 
 /// What a chart draws of one joint: a value of each sample, NaN where there is none, over another value.

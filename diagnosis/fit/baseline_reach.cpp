@@ -62,6 +62,10 @@ std::vector<double> BaselineReach::rows(const Eigen::VectorXd& weighted) const {
   return {all.data(), all.data() + all.size()};
 }
 
+double BaselineReach::half_log_det() const {
+  return Eigen::MatrixXd(A_.llt().matrixL()).diagonal().array().log().sum();
+}
+
 BaselineReach::Sizes BaselineReach::sizes(Eigen::MatrixXd E, Eigen::VectorXd lower, Eigen::VectorXd upper) const {
   Sizes s{std::move(E), std::move(lower), std::move(upper), {}, {}};
   s.JtE = J_.transpose() * s.E;

@@ -43,6 +43,9 @@ class BaselineReach {
   Eigen::VectorXd weighted(const std::vector<double>& rows) const;
   std::vector<double> rows(const Eigen::VectorXd& weighted) const;
 
+  /// ½ ln det(1 + Jᵀ J): how much narrower than their tolerances the data make the numbers, nats.
+  double half_log_det() const;
+
   Sizes sizes(Eigen::MatrixXd E, Eigen::VectorXd lower, Eigen::VectorXd upper) const;
   Taken take(const Eigen::VectorXd& x) const;
   Taken take(const Eigen::VectorXd& x, const Sizes& sizes) const;

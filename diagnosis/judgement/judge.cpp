@@ -102,16 +102,11 @@ bool Judge::is_needed(const Scored& with, const Scored& without, std::size_t pla
 double Judge::p_of_gain(const Score& with, const Score& without) const {
   const double by_blocks = p_value(paired(nested_gains(evidence_, with, without, floors_beside(evidence_, without))));
   if (!explains_a_rest(without, with)) return by_blocks;
-  const std::vector<double> least = squared_floors(evidence_);
-  const double ratio =
-      paired(evidence_, log_likelihood(evidence_, with, least), log_likelihood(evidence_, without, least)).sum;
-  return std::min(1.0, 2 * std::min(by_blocks, std::exp(-ratio)));
+  return std::min(1.0, 2 * std::min(by_blocks, std::exp(-log_likelihood_gain(evidence_, with, without))));
 }
 
 double Judge::gain_over(const Scored& a, const Scored& b) const {
-  const std::vector<double> least = squared_floors(evidence_);
-  return paired(evidence_, log_likelihood(evidence_, a.score, least), log_likelihood(evidence_, b.score, least)).sum +
-         prior_cost(b.hypothesis) - prior_cost(a.hypothesis);
+  return log_likelihood_gain(evidence_, a.score, b.score) + prior_cost(b.hypothesis) - prior_cost(a.hypothesis);
 }
 
 /// True if, in the channel with a rest that the effect takes most of, nothing that matters is left or next to

@@ -35,6 +35,11 @@ Paired paired(const Evidence& evidence, const Likelihood& with, const Likelihood
   return paired(differences);
 }
 
+double log_likelihood_gain(const Evidence& evidence, const Score& with, const Score& without) {
+  const std::vector<double> least = squared_floors(evidence);
+  return paired(evidence, log_likelihood(evidence, with, least), log_likelihood(evidence, without, least)).sum;
+}
+
 double shared_gain(const Likelihood& a, const Likelihood& b, const Likelihood& without) {
   double of_a = 0, of_b = 0, of_both = 0;
   for (std::size_t i = 0; i < without.size(); ++i)

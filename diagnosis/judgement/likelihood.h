@@ -29,6 +29,9 @@ std::vector<double> squared_floors(const Evidence& evidence);
 /// The paired differences with - without over the deciding blocks that have rows.
 Paired paired(const Evidence& evidence, const Likelihood& with, const Likelihood& without);
 
+/// Σ_b (ln L_b with - ln L_b without), with least_c the channel's floor.
+double log_likelihood_gain(const Evidence& evidence, const Score& with, const Score& without);
+
 /// The gain that two candidates have in the same blocks and channels, as a fraction of the smaller of their two gains.
 double shared_gain(const Likelihood& a, const Likelihood& b, const Likelihood& without);
 

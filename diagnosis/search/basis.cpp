@@ -1,22 +1,15 @@
 #include "diagnosis/search/basis.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/fit/baseline_reach.h"
 #include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/search/attribution.h"
 
 namespace halyard {
 namespace {
-
-/// ln p of a above that of b, see basis.h.
-double evidence_over(const Evidence& evidence, const Found& a, double prior_a, const Found& b, double prior_b) {
-  const std::vector<double> least = squared_floors(evidence);
-  return paired(evidence, log_likelihood(evidence, a.score, least), log_likelihood(evidence, b.score, least)).sum +
-         prior_b - prior_a;
-}
 
 /// Numbers to which the data are insensitive within the tolerances of the basis return to the model's values.
 Hypothesis with_own_numbers(Hypothesis h, const Basis& basis) {
@@ -80,15 +73,7 @@ double Basis::prior_cost(const Found& found) const {
   const auto columns = sensitivities(evidence_, h, numbers);
   if (columns.size() < numbers.size()) return std::numeric_limits<double>::infinity();
   const std::vector<double> scale = channel_scale(evidence_, found.score.fit_mean_square);
-  Eigen::MatrixXd J(static_cast<Eigen::Index>(evidence_.row_channel().size()),
-                    static_cast<Eigen::Index>(columns.size()));
-  for (Eigen::Index i = 0; i < J.cols(); ++i)
-    for (Eigen::Index r = 0; r < J.rows(); ++r)
-      J(r, i) = columns[static_cast<std::size_t>(i)][static_cast<std::size_t>(r)] /
-                (scale[evidence_.row_channel()[static_cast<std::size_t>(r)]] * std::sqrt(evidence_.correlated_rows()));
-  Eigen::MatrixXd A = J.transpose() * J;
-  A.diagonal().array() += 1;
-  double cost = judge.prior_cost(h) + Eigen::MatrixXd(A.llt().matrixL()).diagonal().array().log().sum();
+  double cost = judge.prior_cost(h) + BaselineReach(evidence_, columns, scale).half_log_det();
   const double choice = std::log(static_cast<double>(all_candidates(model.nominal).size()));
   for (std::size_t e = given_; e < h.effects.size(); ++e) cost += prior_cost_of(h.effects[e], model.nominal) + choice;
   return cost + kRule.cost_of_wider_tolerances * std::log2(factor);
@@ -105,24 +90,23 @@ std::optional<Rebased> rebased(const Evidence& evidence, const ArmModel& stated,
   r.found = r.basis->refitted(with_own_numbers(found.fit.hypothesis, *r.basis), found.score);
   if (!r.found.score.finite) return {};
   double prior = r.basis->prior_cost(r.found);
-  for (bool drops = true; drops;) {
-    drops = false;
+  for (;;) {
     const std::vector<Found> without = r.basis->without_each(r.found);
     std::size_t best = 0;
     double most = 0, its_prior = 0;
     for (std::size_t i = 0; i < without.size(); ++i) {
       if (!without[i].score.finite) continue;
       const double p = r.basis->prior_cost(without[i]);
-      const double gain = evidence_over(evidence, without[i], p, r.found, prior);
-      if (gain > most) most = gain, best = i, its_prior = p, drops = true;
+      const double gain = log_likelihood_gain(evidence, without[i].score, r.found.score) + prior - p;
+      if (gain > most) most = gain, best = i, its_prior = p;
     }
-    if (!drops) break;
+    if (most == 0) break;
     r.gone.push_back(r.found.fit.hypothesis.effects[given + best]);
     r.found = without[best];
     prior = its_prior;
     r.kept.erase(r.kept.begin() + static_cast<std::ptrdiff_t>(best));
   }
-  if (evidence_over(evidence, r.found, prior, found, own_prior) <= 0) return {};
+  if (log_likelihood_gain(evidence, r.found.score, found.score) + own_prior - prior <= 0) return {};
   Hypothesis none = r.found.fit.hypothesis;
   while (none.effects.size() > given) none = without_effect(none, none.effects.size() - 1);
   r.baseline = r.basis->refitted(none, found.score);
