@@ -110,6 +110,10 @@ struct DecisionRule {
   /// gain can be negative, or not significant, although the effect is the right one.
   std::size_t leaders = 4, leaders_by_rest = 2;
   double leads = 0.25;
+  /// In a revision, a candidate is fitted fully if its quick fit gains this share of what the name gains whose place it
+  /// wants, or leaves less than half of what that one takes away. Reason: in two logs with three effects each, the full
+  /// fits of those that gained less ended at most with three quarters of the name's gain.
+  double rivals = 1.0 / 3;
   /// A fit is nudged again if the last nudges gained more than this in log-likelihood. Reason: a quarter of what one
   /// more parameter gains by chance decides nothing.
   double worth_a_nudge = 0.5;

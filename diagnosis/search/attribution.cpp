@@ -93,7 +93,7 @@ class Search {
     std::vector<Naming> kept;
     for (const std::size_t i : to->kept) kept.push_back(result_.namings[i]);
     result_.namings = std::move(kept);
-    result_.rounds.push_back({.tolerance_factor = factor, .gone = std::move(to->gone)});
+    result_.rounds.push_back({.trials = {}, .tolerance_factor = factor, .gone = std::move(to->gone)});
     last_name_competed_ = false;
     return true;
   }
@@ -102,6 +102,12 @@ class Search {
   struct Won {
     Fit fit;
     Naming naming;
+    PlacedEffect effect;
+  };
+  /// A name for whose place the candidates of a round compete.
+  struct Standing {
+    const Found& found;
+    std::size_t place;
   };
   struct Outcome {
     std::optional<Won> won;
@@ -138,11 +144,19 @@ class Search {
     return {evidence_, basis_->model, basis_->refitter, basis_->judge, without.scored(), from, name, progress_};
   }
 
-  /// All candidates compete for the place after the effects of `without`.
-  Outcome compete(CandidateRound& round, const Scored& without, const std::vector<PlacedEffect>& candidates) {
+  /// All candidates compete for the place after the effects of `without`, or for that of `standing`.
+  Outcome compete(CandidateRound& round, const Scored& without, const std::vector<PlacedEffect>& candidates,
+                  const std::optional<Standing>& standing = {}) {
     Round told;
     told.trials = round.look(candidates);
-    const std::vector<Fit> fits = round.fit_leaders(told.trials);
+    std::optional<Trial> its;
+    if (standing) {
+      const Hypothesis& h = standing->found.fit.hypothesis;
+      its = basis_->judge.trial(h, without, standing->place);
+      round.keep_rivals_of(*its, h, told.trials);
+    }
+    std::vector<Fit> fits = round.fit_leaders(told.trials);
+    if (standing) keep_standing(standing->found, *its, told.trials, fits);
     const std::vector<bool> is_convincing = convincing(told.trials, options_.significance);
     std::vector<std::size_t> able;
     for (std::size_t i = 0; i < fits.size(); ++i)
@@ -153,13 +167,30 @@ class Search {
       outcome.no_effect = competition.weight_of_no_effect();
     } else {
       const Competition::Choice choice = competition.choose(able);
-      outcome.won = {fits[choice.named], competition.naming(choice)};
+      outcome.won = {fits[choice.named], competition.naming(choice), told.trials[choice.named].effect};
       told.accepted = true;
       const auto named = told.trials.begin() + static_cast<std::ptrdiff_t>(choice.named);
       std::rotate(told.trials.begin(), named, named + 1);
     }
     result_.rounds.push_back(std::move(told));
     return outcome;
+  }
+
+  /// A name competes for its place with its present fit, unless its fit in this round is better.
+  void keep_standing(const Found& found, const Trial& its, std::vector<Trial>& trials, std::vector<Fit>& fits) const {
+    const auto same = std::ranges::find_if(trials, [&](const Trial& t) { return same_name(t.effect, its.effect); });
+    if (same == trials.end()) {
+      trials.push_back(its);
+      fits.push_back(found.fit);
+      return;
+    }
+    Fit& fit = fits[static_cast<std::size_t>(same - trials.begin())];
+    if (fit.usable) {
+      const Found anew{fit, evidence_.score(fit.hypothesis)};
+      if (basis_->judge.cost(anew.scored()) + kRule.worth_a_change <= basis_->judge.cost(found.scored())) return;
+    }
+    *same = its;
+    fit = found.fit;
   }
 
   /// One round with all candidates, and if none of them is convincing alone, with several at once.
@@ -263,11 +294,11 @@ class Search {
         return std::ranges::none_of(pool, [&](const PlacedEffect& p) { return same_name(p, r); });
       });
       CandidateRound round = round_of(without, without.fit.hypothesis, "the revision of name " + std::to_string(i + 1));
-      const std::optional<Won> won = compete(round, without.scored(), rivals).won;
+      const std::optional<Won> won = compete(round, without.scored(), rivals, Standing{current, place}).won;
       Round& told = result_.rounds.back();
       told.revised = old;
       const auto naming = result_.namings.begin() + static_cast<std::ptrdiff_t>(kept);
-      const bool is_same = won && same_name(won->fit.hypothesis.effects.back(), old);
+      const bool is_same = won && same_name(won->effect, old);
       if (is_same) *naming = won->naming;
       Found revised = won ? Found{won->fit, evidence_.score(won->fit.hypothesis)} : without;
       if (won ? is_beaten(revised, current, is_same) : is_needed(current, without, place)) {
@@ -299,11 +330,10 @@ class Search {
            (basis_->judge.leans_on_a_bound(without.scored()) && !basis_->judge.leans_on_a_bound(with.scored()));
   }
 
-  /// True if the name that won a revision stays behind what was there before it: from another start its fit, or the fit
-  /// of the earlier name in this round, may miss what the earlier fit had found.
+  /// True if the name that won a revision stays behind what was there before it: the fit of another name in this round
+  /// may miss what the earlier fit had found, and the same name may have won with the earlier fit.
   bool is_beaten(const Found& revised, const Found& before, bool is_same) const {
-    if (is_same)
-      return basis_->judge.cost(before.scored()) < basis_->judge.cost(revised.scored()) + kRule.worth_a_change;
+    if (is_same) return !is_better(revised, before);
     return basis_->judge.gain_over(before.scored(), revised.scored()) > kRule.by_chance;
   }
 

@@ -29,6 +29,11 @@ std::vector<std::size_t> leaders_of(const std::vector<Prospect>& prospects, doub
   return leaders;
 }
 
+bool is_rival(const Prospect& candidate, double shared, const Prospect& standing, double left_without) {
+  if (candidate.gain > 0 && shared < kRule.shared_gain) return false;
+  return candidate.gain >= kRule.rivals * standing.gain || candidate.left <= (standing.left + left_without) / 2;
+}
+
 CandidateRound::CandidateRound(const Evidence& evidence, const ArmModel& model, const Refitter& refitter,
                                const Judge& judge, Scored without, Hypothesis from, const std::string& name,
                                const SearchProgress& progress)
@@ -93,8 +98,10 @@ std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candida
   std::vector<Trial> trials;
   std::vector<Prospect> prospects;
   ends_.clear();
+  left_.clear();
   for (Look& l : looks) {
     prospects.push_back({l.trial.is_judged(), l.trial.gain, l.left});
+    left_.push_back(l.left);
     trials.push_back(std::move(l.trial));
     ends_.push_back(std::move(l.ends));
   }
@@ -188,6 +195,18 @@ void CandidateRound::give_up_bounds(Refit& refit, Trial& trial) const {
   if (!rest.can_be_named()) return;
   refit = std::move(reduced);
   trial = rest;
+}
+
+void CandidateRound::keep_rivals_of(const Trial& standing, const Hypothesis& with, const std::vector<Trial>& trials) {
+  const Likelihood none = log_likelihood(evidence_, without_.score, squared_floors(evidence_));
+  const Prospect its{true, standing.gain, left_at(with)};
+  const double left_without = left_at(without_.hypothesis);
+  std::erase_if(leaders_, [&](std::size_t i) {
+    const Trial& t = trials[i];
+    if (same_name(t.effect, standing.effect)) return t.gain <= standing.gain;
+    const Prospect prospect{t.is_judged(), t.gain, left_[i]};
+    return !is_rival(prospect, shared_gain(t.log_likelihood, standing.log_likelihood, none), its, left_without);
+  });
 }
 
 std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {

@@ -30,6 +30,21 @@ TEST(Leaders, ByRestNeedNotBeJudged) {
   EXPECT_EQ(leaders_of({{false, 1, 10}, judged(30, 100)}, kQuarter), (std::vector<std::size_t>{1, 0}));
 }
 
+constexpr double kWithout = 200;
+const Prospect kStanding = judged(90, 20);
+
+TEST(Rivals, GainMuchOfWhatTheNameGains) {
+  EXPECT_TRUE(is_rival(judged(31, 150), 0.9, kStanding, kWithout));
+  EXPECT_FALSE(is_rival(judged(29, 150), 0.9, kStanding, kWithout));
+}
+
+TEST(Rivals, MayLeaveLittleAndGainNothingYet) {
+  EXPECT_TRUE(is_rival(judged(-5, 109), 0, kStanding, kWithout));
+  EXPECT_FALSE(is_rival(judged(-5, 111), 0, kStanding, kWithout));
+}
+
+TEST(Rivals, ExplainTheSamePart) { EXPECT_FALSE(is_rival(judged(100, 10), 0.4, kStanding, kWithout)); }
+
 TEST(Leaders, CanBeIntegrated) { EXPECT_TRUE(leaders_of({Prospect{}}, kQuarter).empty()); }
 
 }  // namespace
