@@ -149,6 +149,19 @@ TEST(ArmFields, AreAllPackedLaneByLane) {
   for (int lane = 0; lane < kLaneWidth; ++lane) expect_equal(packed, arms[lane], lane);
 }
 
+TEST(ArmFields, OfACableExistAtACableAndThoseOfAMotorAtEachDrive) {
+  const auto field = [](FieldOf of) {
+    ArmField f{"part", "name", "", "", FieldKind::structure};
+    f.of = of;
+    return f;
+  };
+  for (const Drive drive : {Drive::cable, Drive::rigid, Drive::none}) {
+    EXPECT_TRUE(field(FieldOf::every_joint).exists_at(drive));
+    EXPECT_EQ(field(FieldOf::driven_joint).exists_at(drive), drive != Drive::none);
+    EXPECT_EQ(field(FieldOf::cable_joint).exists_at(drive), drive == Drive::cable);
+  }
+}
+
 TEST(ArmParameters, OfAJointThatSaysNothingChangeNothing) {
   const JointParameters<double> joint;
   for (int r = 0; r < 3; ++r) {
@@ -166,6 +179,9 @@ TEST(ArmParameters, OfAJointThatSaysNothingChangeNothing) {
     EXPECT_EQ(lost, 0);
   }
   for (const double coupled : joint.coupling) EXPECT_EQ(coupled, 0);
+  for (const double moment : joint.inertia) EXPECT_EQ(moment, 0);
+  EXPECT_EQ(joint.motor_encoder_resolution, 0);
+  EXPECT_EQ(joint.joint_encoder_resolution, 0);
   EXPECT_TRUE(joint.motor_zero_known && joint.joint_zero_known);
 }
 

@@ -42,6 +42,9 @@ TEST(CommandHistory, GivesTheSlopeToDualAndEachTimeToItsLane) {
   const Dual d = history.at(0, Dual::seed(0.7, 1) * 2.0);  // at 1.4: after the last
   EXPECT_EQ(d.a, 1);
   EXPECT_EQ(d.d[1], 0);
+  const Dual before = history.at(0, Dual::seed(-1.0, 2));
+  EXPECT_EQ(before.a, 0);
+  EXPECT_EQ(before.d[2], 0);
   const Dual inside = history.at(0, Dual(1.0) - Dual::seed(0.125, 3));  // at 0.875, a delay's derivative
   EXPECT_EQ(inside.a, 1.75);
   EXPECT_EQ(inside.d[3], 2);  // slope -2 N m/s, by minus the delay

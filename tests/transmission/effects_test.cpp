@@ -207,6 +207,19 @@ TEST(EffectLibrary, EffectsAreFoundByNameAndRefusedWhereTheyCannotBe) {
   EXPECT_EQ(message("payload", 0), "effect payload belongs to the whole arm: name no joint");
 }
 
+TEST(EffectLibrary, StatesMoveInTheSameWayIfTheTorquesOfTheMotorsAreUnwanted) {
+  const ArmParameters<double> arm = random_arm(4, CableLaw::linear);
+  std::mt19937_64 random(5);
+  for (const PlacedEffect& e : built_in_everywhere(arm)) {
+    const Transmission<double> transmission(arm, {e});
+    const std::vector<double> z(kMaxEffectStates, 0.01);
+    Evaluated wanted = evaluate(transmission, random_motion(random), z.data()), unwanted = wanted;
+    double z_dot[kMaxEffectStates] = {};
+    transmission.evaluate(0, nullptr, z.data(), unwanted.s, z_dot, MotorTorques::unwanted);
+    for (int i = 0; i < transmission.n_states(); ++i) EXPECT_EQ(z_dot[i], wanted.z_dot[i]) << effect_label(e);
+  }
+}
+
 // --------------------------------------------------------------------------------- a user's effect
 
 /// Torque that acts after a delay, through a motor that follows with a time constant and hums with the mains: uses past
@@ -311,6 +324,22 @@ TEST(UsersEffect, JoinsTheLibraryOnceUnderANameOfItsOwn) {
     }
   }
   EXPECT_EQ(effect_library().size(), before + 1);
+}
+
+class ManyStates : public SlowMotor {
+ public:
+  ManyStates() : SlowMotor("many_states") {}
+  int n_states() const override { return kMaxEffectStates + 1; }
+};
+
+TEST(UsersEffect, WithMoreStatesThanThereIsRoomForIsRefused) {
+  try {
+    register_effect(std::make_unique<ManyStates>());
+    FAIL() << "joined the library";
+  } catch (const std::invalid_argument& e) {
+    EXPECT_STREQ(e.what(), "effect \"many_states\" has 9 states: expected at most 8");
+  }
+  EXPECT_EQ(find_effect("many_states"), nullptr);
 }
 
 class ManyNumbers : public EffectOf<ManyNumbers> {

@@ -194,5 +194,15 @@ TEST(Transmission, PackedArmsKeepTheirOwnNumbers) {
   }
 }
 
+TEST(JointSignals, OfWhichNothingIsKnownAreZero) {
+  const auto& [command, motor_angle, motor_rate, joint_position, joint_rate, external_force, motor_torque, stretch,
+               stretch_rate, cable_force_motor, cable_force_joint, joint_force, motor_error, joint_error,
+               joint_acceleration] = JointSignals<double>{};
+  for (const double signal :
+       {command, motor_angle, motor_rate, joint_position, joint_rate, external_force, motor_torque, stretch,
+        stretch_rate, cable_force_motor, cable_force_joint, joint_force, motor_error, joint_error, joint_acceleration})
+    EXPECT_EQ(signal, 0);
+}
+
 }  // namespace
 }  // namespace halyard
