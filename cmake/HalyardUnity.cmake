@@ -75,8 +75,8 @@ compile_together(halyard_diagnosis judgement
   diagnose.cpp judgement/false_discovery.cpp judgement/final_fit.cpp judgement/holdout.cpp judgement/judge.cpp
   judgement/likelihood.cpp judgement/name_probability.cpp judgement/nested_gain.cpp judgement/paired_t.cpp
   judgement/prediction_interval.cpp
-  search/attribution.cpp search/candidate_round.cpp search/joint_proposal.cpp search/naming.cpp
-  search/pair_rivals.cpp search/refit.cpp search/revision.cpp search/sparse_selection.cpp
+  round/candidate_round.cpp round/joint_proposal.cpp round/refit.cpp round/sparse_selection.cpp
+  search/attribution.cpp search/compete.cpp search/naming.cpp search/pair_rivals.cpp search/revision.cpp
   starts/leaps.cpp starts/screen.cpp starts/starts.cpp)
 
 compile_together(halyard_evaluation studies

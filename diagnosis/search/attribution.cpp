@@ -3,18 +3,12 @@
 #include <algorithm>
 
 #include "diagnosis/prediction/side_by_side.h"
-#include "diagnosis/search/basis.h"
-#include "diagnosis/search/candidate_round.h"
+#include "diagnosis/search/compete.h"
 #include "diagnosis/search/pair_rivals.h"
 #include "model/input_error.h"
 
 namespace halyard {
 namespace {
-
-/// True for effects of which a joint may have several: pushes, slips, ripples of several orders.
-bool may_repeat(const PlacedEffect& e, const ArmParameters<double>& arm) {
-  return has_instants(e, arm) || search_space(*e.effect, arm, e.joint).order_of_motor_torque;
-}
 
 [[noreturn]] void refuse(const ArmModel& model) {
   throw InputError(model.source +
@@ -98,22 +92,6 @@ class Search {
     return true;
   }
 
-  /// The effect that a round names.
-  struct Won {
-    Fit fit;
-    Naming naming;
-    PlacedEffect effect;
-  };
-  /// A name for whose place the candidates of a round compete.
-  struct Standing {
-    const Found& found;
-    std::size_t place;
-  };
-  struct Outcome {
-    std::optional<Won> won;
-    double no_effect = 0;  ///< its weight if no candidate has won
-  };
-
   /// A fit from the model's own numbers: while effects were still missing, the fits had distorted the numbers.
   Found afresh(const Found& current) const {
     const Hypothesis& h = current.fit.hypothesis;
@@ -124,12 +102,7 @@ class Search {
   }
 
   std::vector<PlacedEffect> candidates(const Hypothesis& h) const {
-    std::vector<PlacedEffect> all = all_candidates(basis_->model.nominal);
-    std::erase_if(all, [&](const PlacedEffect& candidate) {
-      return !may_repeat(candidate, basis_->model.nominal) &&
-             std::ranges::any_of(h.effects, [&](const PlacedEffect& e) { return same_name(e, candidate); });
-    });
-    return all;
+    return candidates_beside(h, basis_->model.nominal);
   }
 
   /// True if no channel has a residual left above its floor.
@@ -144,53 +117,12 @@ class Search {
     return {evidence_, basis_->model, basis_->refitter, basis_->judge, without.scored(), from, name, progress_};
   }
 
-  /// All candidates compete for the place after the effects of `without`, or for that of `standing`.
-  Outcome compete(CandidateRound& round, const Scored& without, const std::vector<PlacedEffect>& candidates,
-                  const std::optional<Standing>& standing = {}) {
-    Round told;
-    told.trials = round.look(candidates);
-    std::optional<Trial> its;
-    if (standing) {
-      const Hypothesis& h = standing->found.fit.hypothesis;
-      its = basis_->judge.trial(h, without, standing->place);
-      round.keep_rivals_of(*its, h, told.trials);
-    }
-    std::vector<Fit> fits = round.fit_leaders(told.trials);
-    if (standing) keep_standing(standing->found, *its, told.trials, fits);
-    const std::vector<bool> is_convincing = convincing(told.trials, options_.significance);
-    std::vector<std::size_t> able;
-    for (std::size_t i = 0; i < fits.size(); ++i)
-      if (is_convincing[i] && fits[i].usable) able.push_back(i);
-    const Competition competition(evidence_, basis_->model, basis_->judge, without, told.trials);
-    Outcome outcome;
-    if (able.empty()) {
-      outcome.no_effect = competition.weight_of_no_effect();
-    } else {
-      const Competition::Choice choice = competition.choose(able);
-      outcome.won = {fits[choice.named], competition.naming(choice), told.trials[choice.named].effect};
-      told.accepted = true;
-      const auto named = told.trials.begin() + static_cast<std::ptrdiff_t>(choice.named);
-      std::rotate(told.trials.begin(), named, named + 1);
-    }
-    result_.rounds.push_back(std::move(told));
+  RoundOutcome compete(CandidateRound& round, const Found& without, const std::vector<PlacedEffect>& candidates,
+                       const std::optional<Standing>& standing = {}) {
+    RoundOutcome outcome =
+        halyard::compete(evidence_, *basis_, options_.significance, round, without.scored(), candidates, standing);
+    result_.rounds.push_back(std::move(outcome.told));
     return outcome;
-  }
-
-  /// A name competes for its place with its present fit, unless its fit in this round is better.
-  void keep_standing(const Found& found, const Trial& its, std::vector<Trial>& trials, std::vector<Fit>& fits) const {
-    const auto same = std::ranges::find_if(trials, [&](const Trial& t) { return same_name(t.effect, its.effect); });
-    if (same == trials.end()) {
-      trials.push_back(its);
-      fits.push_back(found.fit);
-      return;
-    }
-    Fit& fit = fits[static_cast<std::size_t>(same - trials.begin())];
-    if (fit.usable) {
-      const Found anew{fit, evidence_.score(fit.hypothesis)};
-      if (basis_->judge.cost(anew.scored()) + kRule.worth_a_change <= basis_->judge.cost(found.scored())) return;
-    }
-    *same = its;
-    fit = found.fit;
   }
 
   /// One round with all candidates, and if none of them is convincing alone, with several at once.
@@ -206,11 +138,11 @@ class Search {
     // this.
     CandidateRound round =
         next_round(is_first ? Hypothesis{basis_->model.nominal, basis_->model.effects, so_far.past} : so_far);
-    Outcome outcome = compete(round, current.scored(), candidates(so_far));
+    RoundOutcome outcome = compete(round, current, candidates(so_far));
     const bool is_from_the_model = is_first && outcome.won;
     if (!outcome.won && is_first) {
       CandidateRound second = next_round(so_far);
-      outcome = compete(second, current.scored(), candidates(so_far));
+      outcome = compete(second, current, candidates(so_far));
     }
     const std::optional<Won>& won = outcome.won;
     if (!won) {
@@ -294,7 +226,7 @@ class Search {
         return std::ranges::none_of(pool, [&](const PlacedEffect& p) { return same_name(p, r); });
       });
       CandidateRound round = round_of(without, without.fit.hypothesis, "the revision of name " + std::to_string(i + 1));
-      const std::optional<Won> won = compete(round, without.scored(), rivals, Standing{current, place}).won;
+      const std::optional<Won> won = compete(round, without, rivals, Standing{current, place}).won;
       Round& told = result_.rounds.back();
       told.revised = old;
       const auto naming = result_.namings.begin() + static_cast<std::ptrdiff_t>(kept);

@@ -16,7 +16,7 @@
 #include <memory>
 
 #include "diagnosis/judgement/judge.h"
-#include "diagnosis/search/refit.h"
+#include "diagnosis/round/refit.h"
 
 namespace halyard {
 

@@ -6,7 +6,7 @@
 
 #include "diagnosis/judgement/name_probability.h"
 #include "diagnosis/prediction/side_by_side.h"
-#include "diagnosis/search/essence.h"
+#include "diagnosis/round/essence.h"
 
 namespace halyard {
 namespace {

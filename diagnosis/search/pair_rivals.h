@@ -11,8 +11,8 @@
 /// rivals compete with the names by their log-likelihood on the deciding blocks (name_probability.h), so that the
 /// probability of a name counts these pairs, too. The most probable pair is named.
 
+#include "diagnosis/round/refit.h"
 #include "diagnosis/search/attribution.h"
-#include "diagnosis/search/refit.h"
 
 namespace halyard {
 

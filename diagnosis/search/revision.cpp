@@ -9,7 +9,7 @@
 #include "diagnosis/fit/complementary.h"
 #include "diagnosis/judgement/final_fit.h"
 #include "diagnosis/judgement/name_probability.h"
-#include "diagnosis/search/refit.h"
+#include "diagnosis/round/refit.h"
 
 namespace halyard {
 namespace {

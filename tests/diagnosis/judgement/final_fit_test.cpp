@@ -6,7 +6,7 @@
 #include <iterator>
 #include <limits>
 
-#include "diagnosis/search/refit.h"
+#include "diagnosis/round/refit.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
 

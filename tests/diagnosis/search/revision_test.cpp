@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "diagnosis/judgement/final_fit.h"
-#include "diagnosis/search/refit.h"
+#include "diagnosis/round/refit.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
 

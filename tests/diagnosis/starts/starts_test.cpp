@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/search/refit.h"
+#include "diagnosis/round/refit.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
 

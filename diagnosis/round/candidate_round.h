@@ -7,7 +7,7 @@
 #include <string>
 
 #include "diagnosis/judgement/judge.h"
-#include "diagnosis/search/joint_proposal.h"
+#include "diagnosis/round/joint_proposal.h"
 #include "diagnosis/starts/screen.h"
 
 namespace halyard {

@@ -1,9 +1,9 @@
-#include "diagnosis/search/joint_proposal.h"
+#include "diagnosis/round/joint_proposal.h"
 
 #include <gtest/gtest.h>
 
+#include "diagnosis/round/candidate_round.h"
 #include "diagnosis/search/attribution.h"
-#include "diagnosis/search/candidate_round.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
 

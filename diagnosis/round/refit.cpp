@@ -1,4 +1,4 @@
-#include "diagnosis/search/refit.h"
+#include "diagnosis/round/refit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "diagnosis/search/joint_proposal.h"
+#include "diagnosis/round/joint_proposal.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "diagnosis/prediction/side_by_side.h"
-#include "diagnosis/search/essence.h"
-#include "diagnosis/search/sparse_selection.h"
+#include "diagnosis/round/essence.h"
+#include "diagnosis/round/sparse_selection.h"
 
 namespace halyard {
 namespace {

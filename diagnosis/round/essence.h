@@ -3,7 +3,7 @@
 /// ../search_space.h). Without them they are another one: friction that is off, and stays so.
 
 #include "diagnosis/judgement/judge.h"
-#include "diagnosis/search/refit.h"
+#include "diagnosis/round/refit.h"
 
 namespace halyard {
 

@@ -1,4 +1,4 @@
-#include "diagnosis/search/candidate_round.h"
+#include "diagnosis/round/candidate_round.h"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 /// in step 3 uses them, too, so the p values of what is left are approximate.
 
 #include "diagnosis/judgement/judge.h"
-#include "diagnosis/search/refit.h"
+#include "diagnosis/round/refit.h"
 #include "diagnosis/starts/starts.h"
 
 namespace halyard {

@@ -1,4 +1,4 @@
-#include "diagnosis/search/sparse_selection.h"
+#include "diagnosis/round/sparse_selection.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,4 +1,4 @@
-#include "diagnosis/search/candidate_round.h"
+#include "diagnosis/round/candidate_round.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "diagnosis/prediction/side_by_side.h"
-#include "diagnosis/search/essence.h"
+#include "diagnosis/round/essence.h"
 
 namespace halyard {
 

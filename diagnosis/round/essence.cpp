@@ -1,4 +1,4 @@
-#include "diagnosis/search/essence.h"
+#include "diagnosis/round/essence.h"
 
 namespace halyard {
 

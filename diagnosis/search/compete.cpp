@@ -1,0 +1,74 @@
+#include "diagnosis/search/compete.h"
+
+#include <algorithm>
+
+namespace halyard {
+namespace {
+
+bool may_repeat(const PlacedEffect& e, const ArmParameters<double>& arm) {
+  return has_instants(e, arm) || search_space(*e.effect, arm, e.joint).order_of_motor_torque;
+}
+
+/// The standing name competes with its present fit, unless its fit in this round is better. its: its trial.
+void keep_standing(const Evidence& evidence, const Judge& judge, const Found& found, const Trial& its,
+                   std::vector<Trial>& trials, std::vector<Fit>& fits) {
+  const auto same = std::ranges::find_if(trials, [&](const Trial& t) { return same_name(t.effect, its.effect); });
+  if (same == trials.end()) {
+    trials.push_back(its);
+    fits.push_back(found.fit);
+    return;
+  }
+  Fit& fit = fits[static_cast<std::size_t>(same - trials.begin())];
+  if (fit.usable) {
+    const Found anew{fit, evidence.score(fit.hypothesis)};
+    if (judge.cost(anew.scored()) + kRule.worth_a_change <= judge.cost(found.scored())) return;
+  }
+  *same = its;
+  fit = found.fit;
+}
+
+}  // namespace
+
+std::vector<PlacedEffect> candidates_beside(const Hypothesis& h, const ArmParameters<double>& arm) {
+  std::vector<PlacedEffect> all = all_candidates(arm);
+  std::erase_if(all, [&](const PlacedEffect& candidate) {
+    return !may_repeat(candidate, arm) &&
+           std::ranges::any_of(h.effects, [&](const PlacedEffect& e) { return same_name(e, candidate); });
+  });
+  return all;
+}
+
+RoundOutcome compete(const Evidence& evidence, const Basis& basis, double significance, CandidateRound& round,
+                     const Scored& without, const std::vector<PlacedEffect>& candidates,
+                     const std::optional<Standing>& standing) {
+  RoundOutcome outcome;
+  std::vector<Trial>& trials = outcome.told.trials;
+  trials = round.look(candidates);
+  std::vector<Fit> fits;
+  if (standing) {
+    const Hypothesis& h = standing->found.fit.hypothesis;
+    const Trial its = basis.judge.trial(h, without, standing->place);
+    round.keep_rivals_of(its, h, trials);
+    fits = round.fit_leaders(trials);
+    keep_standing(evidence, basis.judge, standing->found, its, trials, fits);
+  } else {
+    fits = round.fit_leaders(trials);
+  }
+  const std::vector<bool> is_convincing = convincing(trials, significance);
+  std::vector<std::size_t> able;
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    if (is_convincing[i] && fits[i].usable) able.push_back(i);
+  const Competition competition(evidence, basis.model, basis.judge, without, trials);
+  if (able.empty()) {
+    outcome.no_effect = competition.weight_of_no_effect();
+    return outcome;
+  }
+  const Competition::Choice choice = competition.choose(able);
+  outcome.won = {fits[choice.named], competition.naming(choice), trials[choice.named].effect};
+  outcome.told.accepted = true;
+  const auto named = trials.begin() + static_cast<std::ptrdiff_t>(choice.named);
+  std::rotate(trials.begin(), named, named + 1);
+  return outcome;
+}
+
+}  // namespace halyard
