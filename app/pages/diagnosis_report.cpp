@@ -147,7 +147,7 @@ std::string fate_of(const Trial& t, const Round& round, bool is_taken) {
   if (!t.is_fitted) return "leaves more of the residual than those that were fitted";
   if (!t.usable) return "cannot be integrated";
   if (is_taken) return "added";
-  if (round.revised && same_name(t.effect, *round.revised)) return "fitted anew";
+  if (round.revised && same_name(t.effect, *round.revised)) return round.name_stays ? "stays" : "the name before";
   if (t.gain <= 0) return "does not help on data that the fit did not see";
   if (!t.is_judged()) return "not significant";
   if (t.at_bound) return "ends at the end of what is plausible";

@@ -105,14 +105,15 @@ struct DecisionRule {
   /// The same of a candidate with a shape at one end of which it is another effect (another_at). Reason: a fit that
   /// runs there is lost. In a log with three effects, three of the five yield stretches of a hysteresis ran there.
   std::size_t starts_fitted_beside_another = 5;
-  /// The first `leaders` of those are fitted fully, if their gain is at least the share `leads` of the largest gain. So
-  /// are the `leaders_by_rest` whose fits leave least. Reason: a quick fit keeps the model's numbers linear, and its
-  /// gain can be negative, or not significant, although the effect is the right one.
+  /// Of the candidates that were fitted, the `leaders` that gain most are fitted fully, if their gain is at least the
+  /// share `leads` of the largest gain. So are the `leaders_by_rest` whose fits leave least. Reason: a quick fit keeps
+  /// the model's numbers linear, and its gain can be negative, or not significant, although the effect is the right
+  /// one.
   std::size_t leaders = 4, leaders_by_rest = 2;
   double leads = 0.25;
-  /// In a revision, a candidate is fitted fully if its quick fit gains this share of what the name gains whose place it
-  /// wants, or leaves less than half of what that one takes away. Reason: in two logs with three effects each, the full
-  /// fits of those that gained less ended at most with three quarters of the name's gain.
+  /// In a revision, a candidate is fitted fully if its quick fit gains this share of what the name gains, or takes at
+  /// least half as much of the residual away. Reason: in two logs with three effects each, the full fits of those that
+  /// did neither ended at most with three quarters of the name's gain.
   double rivals = 1.0 / 3;
   /// A fit is nudged again if the last nudges gained more than this in log-likelihood. Reason: a quarter of what one
   /// more parameter gains by chance decides nothing.

@@ -109,7 +109,7 @@ double Judge::gain_over(const Scored& a, const Scored& b) const {
   return log_likelihood_gain(evidence_, a.score, b.score) + prior_cost(b.hypothesis) - prior_cost(a.hypothesis);
 }
 
-/// True if, in the channel with a rest that the effect takes most of, nothing that matters is left or next to
+/// True if, in the channel with a rest of which the effect takes most, it leaves nothing that matters, or next to
 /// nothing.
 bool Judge::explains_a_rest(const Score& before, const Score& after) const {
   const std::vector<bool> had = significant_rest(evidence_, before), has = significant_rest(evidence_, after);

@@ -35,7 +35,7 @@ struct Trial {
   bool promising = true;  ///< false: even at its best start it explains too little of the residual to be fitted
   bool is_fitted = true;  ///< it was among the candidates that leave the smallest residual
   bool usable = false;    ///< it could be integrated
-  double gain = 0;        ///< on the deciding blocks, above the baseline of its round
+  double gain = 0;        ///< on the deciding blocks, above the hypothesis without it
   double prior_cost = 0;  ///< of the baseline's numbers with it
   double p_value = 1;     ///< of no gain, without correction for the number of candidates
   bool is_judged() const { return usable && p_value <= kRule.worth_a_fit; }

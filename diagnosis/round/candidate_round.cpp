@@ -96,16 +96,14 @@ std::vector<Trial> CandidateRound::look(const std::vector<PlacedEffect>& candida
   quick_fits(fitted, looks);
   std::ranges::stable_sort(looks, std::ranges::greater{}, [](const Look& l) { return l.trial.gain; });
   std::vector<Trial> trials;
-  std::vector<Prospect> prospects;
+  prospects_.clear();
   ends_.clear();
-  left_.clear();
   for (Look& l : looks) {
-    prospects.push_back({l.trial.is_judged(), l.trial.gain, l.left});
-    left_.push_back(l.left);
+    prospects_.push_back({l.trial.is_judged(), l.trial.gain, l.left});
     trials.push_back(std::move(l.trial));
     ends_.push_back(std::move(l.ends));
   }
-  leaders_ = leaders_of(prospects, kRule.leads);
+  leaders_ = leaders_of(prospects_, kRule.leads);
   return trials;
 }
 
@@ -198,15 +196,19 @@ void CandidateRound::give_up_bounds(Refit& refit, Trial& trial) const {
 }
 
 void CandidateRound::keep_rivals_of(const Trial& standing, const Hypothesis& with, const std::vector<Trial>& trials) {
+  if (trials.empty()) return;
   const Likelihood none = log_likelihood(evidence_, without_.score, squared_floors(evidence_));
   const Prospect its{true, standing.gain, left_at(with)};
   const double left_without = left_at(without_.hypothesis);
-  std::erase_if(leaders_, [&](std::size_t i) {
+  std::vector<Prospect> rivals = prospects_;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
     const Trial& t = trials[i];
-    if (same_name(t.effect, standing.effect)) return t.gain <= standing.gain;
-    const Prospect prospect{t.is_judged(), t.gain, left_[i]};
-    return !is_rival(prospect, shared_gain(t.log_likelihood, standing.log_likelihood, none), its, left_without);
-  });
+    const double shared = t.usable ? shared_gain(t.log_likelihood, standing.log_likelihood, none) : 0;
+    const bool competes =
+        same_name(t.effect, standing.effect) ? t.gain > standing.gain : is_rival(rivals[i], shared, its, left_without);
+    if (!competes) rivals[i] = {};
+  }
+  leaders_ = leaders_of(rivals, kRule.leads);
 }
 
 std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {

@@ -26,9 +26,9 @@ struct Prospect {
 /// the right candidate may gain nothing yet.
 std::vector<std::size_t> leaders_of(const std::vector<Prospect>& prospects, double share);
 
-/// True if a candidate may be what a name stands for whose fit has converged: it gains enough of what that one gains,
-/// or leaves as little, and explains the same part of the residual. shared: shared_gain() of both; left_without: what
-/// is left without either.
+/// True if a candidate may be right in place of a name. It gains at least the share `rivals` of decision_rule.h of what
+/// the name gains, or takes at least half as much of the residual away. What it gains has to be a part of what the name
+/// gains. shared: shared_gain() of both; left_without: what is left without either.
 bool is_rival(const Prospect& candidate, double shared, const Prospect& standing, double left_without);
 
 class CandidateRound {
@@ -45,8 +45,8 @@ class CandidateRound {
   /// pass from each. After a few passes, those that are judged and still lead go on; a candidate whose gain is not
   /// significant by then does not. Returns a fit for each trial of the last look(), unusable where there was none.
   std::vector<Fit> fit_leaders(std::vector<Trial>& trials) const;
-  /// Between look() and fit_leaders(), if the candidates compete for the place of a name: only its rivals are fitted,
-  /// and the name itself only if its quick fit gains more than its present one. with: the present fit.
+  /// Between look() and fit_leaders(), if the candidates compete for the place of a name: the leaders are then chosen
+  /// among its rivals, and the name itself is one only if its quick fit gains more than its present fit `with`.
   void keep_rivals_of(const Trial& standing, const Hypothesis& with, const std::vector<Trial>& trials);
   /// What the look has found to first order.
   const LinearRound& linear() const { return linear_; }
@@ -82,7 +82,7 @@ class CandidateRound {
   std::unique_ptr<Evidence> coarse_;                ///< around linear_.from; null: there is none
   std::optional<Screen> screen_;                    ///< of the last look
   std::vector<std::vector<Hypothesis>> ends_;       ///< of the quick fits of each trial
-  std::vector<double> left_;                        ///< of each trial: the least of its ends
+  std::vector<Prospect> prospects_;                 ///< of the trials of the last look
   std::vector<std::size_t> leaders_;                ///< trials that are fitted fully
   std::vector<FitParameter> found_;                 ///< of the effects so far
   std::vector<std::vector<double>> found_columns_;  ///< sensitivities to them

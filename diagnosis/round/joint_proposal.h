@@ -7,8 +7,7 @@
 /// 3. it is pruned: each effect has to pass all tests of a single one (judge.h), beside the others of the set, with its
 ///    significance divided by their number. Of those that fail, the one that gains least is removed, until none fails;
 /// 4. the set is convincing if it is significant as a whole against the hypothesis without it. A single effect that is
-/// left
-///    has failed in the round, from a start of its own: its significance is divided by the number of candidates.
+///    left has failed in the round, from a start of its own: its significance is divided by the number of candidates.
 ///
 /// Steps 3 and 4 use the deciding blocks, which the selection and the fits have not seen. The choice of what is removed
 /// in step 3 uses them, too, so the p values of what is left are approximate.

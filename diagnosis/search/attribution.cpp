@@ -178,6 +178,7 @@ class Search {
         basis_->judge.cost(without.scored()) + kRule.by_chance > basis_->judge.cost(current.scored()))
       return true;
     current = std::move(without);
+    if (n_added(current) == 0) baseline_ = current;
     Round& told = result_.rounds.back();
     told.trials[0] = basis_->judge.trial(with.fit.hypothesis, current.scored(), with.fit.hypothesis.effects.size() - 1);
     told.accepted = convincing(told.trials, options_.significance)[0];
@@ -186,8 +187,8 @@ class Search {
 
   /// Several effects at once, if that was not done yet.
   bool add_together(Found& current, const CandidateRound& round) {
-    for (auto round = result_.rounds.rbegin(); round != result_.rounds.rend() && !round->tolerance_factor; ++round)
-      if (round->at_once) return false;
+    for (auto told = result_.rounds.rbegin(); told != result_.rounds.rend() && !told->tolerance_factor; ++told)
+      if (told->at_once) return false;
     progress_("several effects at once", 0);
     const JointSearch search(evidence_, basis_->refitter, basis_->judge, given_);
     const JointProposal proposal = search.propose(round.linear(), current.scored(), options_.significance,
@@ -206,7 +207,8 @@ class Search {
   }
 
   /// Each name was given while other effects were still missing. All candidates that had gained something compete for
-  /// its place once more, beside the other effects. A name that no candidate wins stays if it is still needed.
+  /// its place once more, beside the other effects, and so does the name itself. A name stays if it wins, if it loses
+  /// to a fit that gains less, or if nobody wins and it is still needed.
   void revise_names(Found& current) {
     const std::vector<PlacedEffect> pool = gainers();
     const std::size_t all = result_.namings.size();
@@ -233,7 +235,7 @@ class Search {
       const bool is_same = won && same_name(won->effect, old);
       if (is_same) *naming = won->naming;
       Found revised = won ? Found{won->fit, evidence_.score(won->fit.hypothesis)} : without;
-      if (won ? is_beaten(revised, current, is_same) : is_needed(current, without, place)) {
+      if (won ? won->is_standing || (!is_same && loses_to(current, revised)) : is_needed(current, without, place)) {
         told.accepted = false;
         told.name_stays = true;
         if (!is_same) *naming = naming_beside_rivals(current, without, place);
@@ -244,7 +246,7 @@ class Search {
       result_.namings.erase(naming);
       if (won) result_.namings.push_back(its);
       change(current, std::move(revised));
-      n = all;  // the last name competed beside an effect that has gone
+      n = all;  // the last name competed beside an effect that has changed
     }
   }
 
@@ -262,10 +264,9 @@ class Search {
            (basis_->judge.leans_on_a_bound(without.scored()) && !basis_->judge.leans_on_a_bound(with.scored()));
   }
 
-  /// True if the name that won a revision stays behind what was there before it: the fit of another name in this round
-  /// may miss what the earlier fit had found, and the same name may have won with the earlier fit.
-  bool is_beaten(const Found& revised, const Found& before, bool is_same) const {
-    if (is_same) return !is_better(revised, before);
+  /// True if another name that has won a revision gains less than the name before it: its fit in this round may miss
+  /// what the earlier fit had found.
+  bool loses_to(const Found& before, const Found& revised) const {
     return basis_->judge.gain_over(before.scored(), revised.scored()) > kRule.by_chance;
   }
 

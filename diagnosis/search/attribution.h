@@ -1,10 +1,11 @@
 #pragma once
 /// Finds the effects that explain the residual. In each round, candidates are fitted together with the baseline's
 /// parameters on the fitting blocks and judged on the deciding blocks (judge.h). The best is added, until none helps
-/// significantly. When none helps alone, a few are tried together (joint_proposal.h). Then all names but the last that
-/// won a round are revised, and the removal of each added effect is tried. At last, each name, and then every two names
-/// at one joint, compete with pairs of other effects (pair_rivals.h). If wider tolerances of the model
-/// are more probable, with the same names or fewer, the search goes on with them (basis.h).
+/// significantly. When none helps alone, a few are tried together (joint_proposal.h). Then the names are revised,
+/// except the last one if it has won a round beside all the others. After that, the removal of each added effect is
+/// tried. At last, each name, and then every two names at one joint, compete with pairs of other effects
+/// (pair_rivals.h). If wider tolerances of the model are more probable, with the same names or fewer, the search goes
+/// on with them (basis.h).
 
 #include <functional>
 #include <optional>
@@ -14,11 +15,12 @@
 
 namespace halyard {
 
-/// One round of the search: all candidates against the same baseline, several effects at once, or other tolerances.
+/// One round of the search: all candidates against the same hypothesis, several effects at once, or other tolerances.
 struct Round {
-  std::vector<Trial> trials;  ///< the added candidate first, then in the order of the gain of their quick fits
-  bool accepted = false;      ///< the first trial was added; of several at once: all were
-  bool at_once = false;       ///< the trials are of effects that were proposed together, each beside the others
+  /// The candidate that has won first, then in the order of the gain of their quick fits.
+  std::vector<Trial> trials;
+  bool accepted = false;  ///< the first trial was added; of several at once: all were
+  bool at_once = false;   ///< the trials are of effects that were proposed together, each beside the others
   /// The name for whose place the candidates compete; nothing before all names are found.
   std::optional<PlacedEffect> revised = {};
   bool name_stays = false;  ///< of a revision: the name and its earlier fit are kept

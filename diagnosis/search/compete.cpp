@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "diagnosis/round/essence.h"
+
 namespace halyard {
 namespace {
 
@@ -9,22 +11,33 @@ bool may_repeat(const PlacedEffect& e, const ArmParameters<double>& arm) {
   return has_instants(e, arm) || search_space(*e.effect, arm, e.joint).order_of_motor_torque;
 }
 
-/// The standing name competes with its present fit, unless its fit in this round is better. its: its trial.
-void keep_standing(const Evidence& evidence, const Judge& judge, const Found& found, const Trial& its,
-                   std::vector<Trial>& trials, std::vector<Fit>& fits) {
+/// The trial of the standing name, if it competes with the fit that it has. its: its trial with this fit.
+std::optional<std::size_t> keep_standing(const Evidence& evidence, const Judge& judge, const Found& found,
+                                         const Trial& its, std::vector<Trial>& trials, std::vector<Fit>& fits) {
   const auto same = std::ranges::find_if(trials, [&](const Trial& t) { return same_name(t.effect, its.effect); });
   if (same == trials.end()) {
     trials.push_back(its);
     fits.push_back(found.fit);
-    return;
+    return trials.size() - 1;
   }
-  Fit& fit = fits[static_cast<std::size_t>(same - trials.begin())];
+  const auto place = static_cast<std::size_t>(same - trials.begin());
+  Fit& fit = fits[place];
   if (fit.usable) {
     const Found anew{fit, evidence.score(fit.hypothesis)};
-    if (judge.cost(anew.scored()) + kRule.worth_a_change <= judge.cost(found.scored())) return;
+    if (judge.cost(anew.scored()) + kRule.worth_a_change <= judge.cost(found.scored())) return {};
   }
   *same = its;
   fit = found.fit;
+  return place;
+}
+
+/// The trial of a name beside the other effects, with the fit that it has.
+Trial trial_of(const Evidence& evidence, const Basis& basis, const Standing& name, const Scored& without) {
+  const Hypothesis& h = name.found.fit.hypothesis;
+  Trial t = basis.judge.trial(h, without, name.place);
+  if (t.can_be_named())
+    t.is_another = is_another_effect(evidence, basis.refitter, basis.judge, {h, name.found.score}, name.place);
+  return t;
 }
 
 }  // namespace
@@ -45,12 +58,12 @@ RoundOutcome compete(const Evidence& evidence, const Basis& basis, double signif
   std::vector<Trial>& trials = outcome.told.trials;
   trials = round.look(candidates);
   std::vector<Fit> fits;
+  std::optional<std::size_t> kept;
   if (standing) {
-    const Hypothesis& h = standing->found.fit.hypothesis;
-    const Trial its = basis.judge.trial(h, without, standing->place);
-    round.keep_rivals_of(its, h, trials);
+    const Trial its = trial_of(evidence, basis, *standing, without);
+    round.keep_rivals_of(its, standing->found.fit.hypothesis, trials);
     fits = round.fit_leaders(trials);
-    keep_standing(evidence, basis.judge, standing->found, its, trials, fits);
+    kept = keep_standing(evidence, basis.judge, standing->found, its, trials, fits);
   } else {
     fits = round.fit_leaders(trials);
   }
@@ -64,7 +77,7 @@ RoundOutcome compete(const Evidence& evidence, const Basis& basis, double signif
     return outcome;
   }
   const Competition::Choice choice = competition.choose(able);
-  outcome.won = {fits[choice.named], competition.naming(choice), trials[choice.named].effect};
+  outcome.won = {fits[choice.named], competition.naming(choice), trials[choice.named].effect, choice.named == kept};
   outcome.told.accepted = true;
   const auto named = trials.begin() + static_cast<std::ptrdiff_t>(choice.named);
   std::rotate(trials.begin(), named, named + 1);

@@ -7,8 +7,7 @@
 
 namespace halyard {
 
-/// All candidates but those of which the arm has one already: a joint may have several pushes, slips, and ripples of
-/// several orders.
+/// All candidates but those which `h` has already, except pushes, slips and ripples, of which a joint may have several.
 std::vector<PlacedEffect> candidates_beside(const Hypothesis& h, const ArmParameters<double>& arm);
 
 /// A name for whose place candidates compete: the effect with index `place` in `found`.
@@ -22,6 +21,7 @@ struct Won {
   Fit fit;
   Naming naming;
   PlacedEffect effect;
+  bool is_standing = false;  ///< it is the standing name, with the fit that this has
 };
 
 struct RoundOutcome {
@@ -30,8 +30,9 @@ struct RoundOutcome {
   double no_effect = 0;  ///< its weight if no candidate has won
 };
 
-/// The candidates compete for the place after the effects of `without`, or for that of `standing`. Then a name that
-/// wins its own place again comes with its present fit, unless its fit in this round is better.
+/// The candidates compete for the place after the effects of `without`, or for that of `standing`. The standing name
+/// then competes with the fit that it has, unless its fit in this round costs (Judge::cost()) less by `worth_a_change`
+/// of decision_rule.h.
 RoundOutcome compete(const Evidence& evidence, const Basis& basis, double significance, CandidateRound& round,
                      const Scored& without, const std::vector<PlacedEffect>& candidates,
                      const std::optional<Standing>& standing);

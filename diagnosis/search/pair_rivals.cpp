@@ -16,18 +16,28 @@ constexpr std::size_t kMostRivals = 2, kMostRivalsOfOne = 3;
 /// Each effect of a pair that would replace one name is an alternative of it: they share the weight of the pair.
 constexpr double kShareOfOne = 0.5;
 
+/// The candidate that led a round: the name that stays, or the one that has won or gained most.
+const Trial* leader_of(const Round& round) {
+  if (round.at_once || round.trials.empty()) return nullptr;
+  if (!round.name_stays) return &round.trials[0];
+  const auto name =
+      std::ranges::find_if(round.trials, [&](const Trial& t) { return same_name(t.effect, *round.revised); });
+  return name != round.trials.end() ? &*name : nullptr;
+}
+
 /// The candidates at the joint of the effect that gained nearly as much as it, the closest first, as they were fitted.
-/// Rounds before the tolerances were widened say nothing about names within the wider ones.
+/// Rounds with other tolerances say nothing about names within the present ones.
 std::vector<PlacedEffect> rivals_of(const PlacedEffect& effect, const Hypothesis& found,
                                     const std::vector<Round>& rounds, std::size_t most) {
   std::vector<std::pair<double, PlacedEffect>> all;
   for (const Round& round : rounds) {
-    if (round.tolerance_factor > 1) all.clear();
-    if (round.at_once || round.trials.empty() || !same_name(round.trials[0].effect, effect)) continue;
+    if (round.tolerance_factor) all.clear();
+    const Trial* const leader = leader_of(round);
+    if (!leader || !same_name(leader->effect, effect) || leader->gain <= 0) continue;
     for (const Trial& t : round.trials) {
       if (!t.is_judged() || t.is_refit || t.is_another || t.effect.joint != effect.joint) continue;
       const bool is_found = std::ranges::any_of(found.effects, [&](const auto& e) { return same_name(e, t.effect); });
-      const double share = t.gain / round.trials[0].gain;
+      const double share = t.gain / leader->gain;
       if (!is_found && share >= kRule.shared_gain) all.emplace_back(share, t.effect);
     }
   }
@@ -54,10 +64,11 @@ void add_alternative(Naming& naming, const PlacedEffect& effect, double weight) 
   std::ranges::stable_sort(naming.alternatives, std::ranges::greater{}, &Alternative::probability);
 }
 
-/// Takes the alternative from the naming and returns its probability.
+/// Takes the alternative from the naming and returns its probability; 0: it is none.
 double take(Naming& naming, const PlacedEffect& effect) {
   const auto its =
       std::ranges::find_if(naming.alternatives, [&](const Alternative& a) { return same_name(a.effect, effect); });
+  if (its == naming.alternatives.end()) return 0;
   const double probability = its->probability;
   naming.alternatives.erase(its);
   return probability;
@@ -141,11 +152,16 @@ std::vector<double> PairRivals::weights(const Attribution& found, const Places& 
   return name_weights(evidence_, all, {&of_none, judge_.prior_cost(none)});
 }
 
-/// An effect of the pair, which cannot be named, may be more probable than the name.
+/// An effect of the pair, which cannot be named, may be more probable than the name. The alternatives are in the order
+/// of their probability.
 void PairRivals::doubt(Naming& naming, const Pair& pair) {
-  for (const Alternative& a : naming.alternatives)
-    if (a.probability > naming.weight && (same_name(a.effect, pair.first) || same_name(a.effect, pair.second)))
+  for (const Alternative& a : naming.alternatives) {
+    if (a.probability <= naming.weight || (naming.surer && same_name(a.effect, *naming.surer))) return;
+    if (same_name(a.effect, pair.first) || same_name(a.effect, pair.second)) {
       naming.surer = a.effect;
+      return;
+    }
+  }
 }
 
 /// True if a pair has taken the place of the names.
@@ -185,6 +201,9 @@ void PairRivals::add_alternatives(Attribution& found, const Places& places, cons
 Naming PairRivals::naming_of(const PlacedEffect& effect, const PlacedEffect& other, const std::vector<Pair>& pairs,
                              const std::vector<double>& weight, Naming naming, const PlacedEffect& before) {
   rename_to(naming, before, 0);
+  // What each of the pair weighed alone: the effect is named now, and beside the other one it is not needed.
+  naming.weight = take(naming, effect);
+  take(naming, other);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const PlacedEffect &first = pairs[i].first, &second = pairs[i].second;
     const auto has = [&](const PlacedEffect& e) { return same_name(first, e) || same_name(second, e); };

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -64,8 +65,14 @@ TEST(EffectTable, ListsTheSizesAndBoundsOfAllEffects) {
   std::vector<std::string> listed;
   for (std::string line; std::getline(file, line);) listed.push_back(line);
   const std::vector<std::string> lines = table_of(arm_of_round_numbers());
-  ASSERT_EQ(listed.size(), lines.size());
-  for (std::size_t i = 0; i < lines.size(); ++i) EXPECT_EQ(listed[i], lines[i]) << "line " << i + 1;
+  if (listed == lines) return;
+  const std::string present = testing::TempDir() + "effect_table.tsv";
+  std::ofstream out(present);
+  for (const std::string& line : lines) out << line << '\n';
+  const auto [in_list, in_library] = std::mismatch(listed.begin(), listed.end(), lines.begin(), lines.end());
+  FAIL() << "line " << in_list - listed.begin() + 1 << "\n  listed:  " << (in_list != listed.end() ? *in_list : "")
+         << "\n  library: " << (in_library != lines.end() ? *in_library : "")
+         << "\nIf this is meant, replace the table by " << present;
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ TEST(JointProposal, FindsTwoEffectsThatEachExplainLittleAlone) {
   ASSERT_NE(at_once, a.rounds.end());
   EXPECT_TRUE(at_once->accepted);
   for (auto round = a.rounds.begin(); round != at_once; ++round) {
+    if (round->trials.empty()) continue;  // the tolerances were widened
     const std::string first = round->trials[0].effect.effect->name();
     EXPECT_FALSE(round->accepted && (first == "capstan_ratio" || first == "encoder_offset"))
         << first << " was named alone: the test shows nothing";

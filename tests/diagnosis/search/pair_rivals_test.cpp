@@ -147,6 +147,42 @@ TEST_F(FrictionOfMotorAndPulleys, TakeThePlaceOfThatOfTheJoint) {
   }
 }
 
+TEST_F(FrictionOfMotorAndPulleys, AreNoAlternativesOfThemselves) {
+  Attribution found = named({at_the_joint()});
+  found.namings[0] = {0.7, {{at_motor_and_pulleys()[0], 0.2, false}, {at_motor_and_pulleys()[1], 0.1, false}}};
+  found.rounds = {led_by(found.final_fit.hypothesis.effects[0], at_motor_and_pulleys(), 0.7)};
+  weigh(found);
+  ASSERT_EQ(found.namings.size(), 2u);
+  for (const Naming& naming : found.namings) {
+    ASSERT_EQ(naming.alternatives.size(), 1u);
+    EXPECT_EQ(naming.alternatives[0].effect.effect->name(), "joint_friction");
+    EXPECT_LE(naming.weight, 1);
+  }
+}
+
+/// The name has lost its place to an effect that gains less than it had gained before.
+TEST_F(FrictionOfMotorAndPulleys, AreFoundAmongTheRivalsOfANameThatStays) {
+  Attribution found = named({at_the_joint()});
+  const PlacedEffect name = found.final_fit.hypothesis.effects[0];
+  Round revision = led_by(of_a_pair("hysteresis", {0.3}), at_motor_and_pulleys(), 0.7);
+  revision.trials.push_back(led_by(name, {}, 1).trials[0]);
+  revision.revised = name;
+  revision.name_stays = true;
+  found.rounds = {revision};
+  weigh(found);
+  EXPECT_EQ(found.final_fit.hypothesis.effects.size(), 2u);
+}
+
+TEST_F(FrictionOfMotorAndPulleys, OfARoundWithOtherTolerancesAreNoRivals) {
+  for (const double factor : {1.0, 2.0}) {
+    Attribution found = named({at_the_joint()});
+    found.rounds = {led_by(found.final_fit.hypothesis.effects[0], at_motor_and_pulleys(), 0.7), Round{}};
+    found.rounds[1].tolerance_factor = factor;
+    weigh(found);
+    EXPECT_EQ(found.final_fit.hypothesis.effects.size(), 1u) << factor;
+  }
+}
+
 TEST_F(FrictionOfMotorAndPulleys, DoNotExceedTheMostEffects) {
   Attribution found = named({at_the_joint()});
   found.rounds = {led_by(found.final_fit.hypothesis.effects[0], at_motor_and_pulleys(), 0.7)};

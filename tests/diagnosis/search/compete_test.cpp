@@ -1,0 +1,87 @@
+#include "diagnosis/search/compete.h"
+
+#include <gtest/gtest.h>
+
+#include "plant/simulate.h"
+#include "tests/support/short_arm.h"
+
+namespace halyard {
+namespace {
+
+/// An arm of one joint with more friction at its motor than its model has.
+class CompeteTest : public testing::Test {
+ protected:
+  CompeteTest() {
+    ArmModel robot = model_;
+    robot.effects = {more_friction("motor_friction", 0.012)};
+    evidence_.emplace(make_records(simulate(motion(robot, 8)).measured, model_, {}), model_);
+    basis_.emplace(*evidence_, model_, 1, 0);
+    without_ = fitted({});
+  }
+  PlacedEffect more_friction(const std::string& name, double coulomb) const {
+    PlacedEffect e = place_neutral_effect(*find_effect(name), model_.nominal, 0);
+    e.p[0] = coulomb;
+    return e;
+  }
+  Found fitted(const std::vector<PlacedEffect>& effects) const {
+    const Hypothesis h{model_.nominal, effects};
+    return basis_->refitted(h, evidence_->score(h));
+  }
+  /// The place of the name, for which `candidates` compete.
+  RoundOutcome outcome(const std::optional<Standing>& standing, const std::vector<std::string>& candidates) const {
+    CandidateRound round(*evidence_, basis_->model, basis_->refitter, basis_->judge, without_.scored(),
+                         without_.fit.hypothesis, "a round", quiet_);
+    std::vector<PlacedEffect> effects;
+    for (const std::string& name : candidates) effects.push_back(place_effect(*find_effect(name), model_.nominal, 0));
+    return compete(*evidence_, *basis_, 0.01, round, without_.scored(), effects, standing);
+  }
+
+  const ArmModel model_ = first_joints(1);
+  const SearchProgress quiet_ = [](const std::string&, double) {};
+  std::optional<Evidence> evidence_;
+  std::optional<Basis> basis_;
+  Found without_;
+};
+
+TEST_F(CompeteTest, TheRightCandidateWins) {
+  const RoundOutcome o = outcome({}, {"joint_friction", "motor_friction"});
+  ASSERT_TRUE(o.won);
+  EXPECT_EQ(o.won->effect.effect->name(), "motor_friction");
+  EXPECT_FALSE(o.won->is_standing);
+}
+
+TEST_F(CompeteTest, ARightNameKeepsItsPlaceAndItsFit) {
+  const Found found = fitted({more_friction("motor_friction", 0.01)});
+  const RoundOutcome o = outcome(Standing{found, 0}, {"joint_friction", "motor_friction"});
+  ASSERT_TRUE(o.won);
+  EXPECT_EQ(o.won->effect.effect->name(), "motor_friction");
+  EXPECT_TRUE(o.won->is_standing);
+  EXPECT_EQ(o.won->fit.hypothesis.effects[0].p[0], found.fit.hypothesis.effects[0].p[0]);
+}
+
+TEST_F(CompeteTest, AWrongNameLosesItsPlaceToTheRightOne) {
+  const Found found = fitted({more_friction("joint_friction", 0.5)});
+  const RoundOutcome o = outcome(Standing{found, 0}, {"joint_friction", "motor_friction"});
+  ASSERT_TRUE(o.won);
+  EXPECT_EQ(o.won->effect.effect->name(), "motor_friction");
+}
+
+TEST_F(CompeteTest, ANameWithABadFitGetsABetterOne) {
+  Found found = fitted({more_friction("motor_friction", 0.01)});
+  found.fit.hypothesis.effects[0].p[0] *= 0.8;
+  found.score = evidence_->score(found.fit.hypothesis);
+  const RoundOutcome o = outcome(Standing{found, 0}, {"motor_friction"});
+  ASSERT_TRUE(o.won);
+  EXPECT_FALSE(o.won->is_standing);
+  EXPECT_NEAR(o.won->fit.hypothesis.effects[0].p[0], 0.012, 0.0004);
+}
+
+TEST_F(CompeteTest, ANameThatIsNoCandidateCompetesAllTheSame) {
+  const Found found = fitted({more_friction("motor_friction", 0.01)});
+  const RoundOutcome o = outcome(Standing{found, 0}, {"joint_friction"});
+  ASSERT_TRUE(o.won);
+  EXPECT_TRUE(o.won->is_standing);
+}
+
+}  // namespace
+}  // namespace halyard
