@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -205,6 +206,32 @@ TEST(EffectLibrary, EffectsAreFoundByNameAndRefusedWhereTheyCannotBe) {
   EXPECT_EQ(message("backlash", 3), "effect backlash cannot be at joint 4 of this arm");
   EXPECT_EQ(message("backlash", kWholeArm), "effect backlash belongs to a joint: name one");
   EXPECT_EQ(message("payload", 0), "effect payload belongs to the whole arm: name no joint");
+}
+
+TEST(EffectLibrary, EveryStateHasARateAndNothingElseIsWritten) {
+  const ArmParameters<double> arm = random_arm(4, CableLaw::linear);
+  constexpr double kUntouched = 1e300;
+  std::mt19937_64 random(6);
+  for (const PlacedEffect& e : built_in_everywhere(arm)) {
+    const Transmission<double> transmission(arm, {e});
+    const std::vector<double> z(kMaxEffectStates, 0.01);
+    Evaluated moving = evaluate(transmission, random_motion(random), z.data());
+    std::vector<double> z_dot(kMaxEffectStates, kUntouched);
+    transmission.evaluate(0, nullptr, z.data(), moving.s, z_dot.data());
+    for (int i = 0; i < kMaxEffectStates; ++i)
+      EXPECT_EQ(z_dot[i] != kUntouched, i < e.effect->n_states()) << effect_label(e) << " " << i;
+  }
+}
+
+TEST(EffectLibrary, StagesAreSingleBits) {
+  unsigned all = 0;
+  for (const EffectStage stage : {EffectStage::command, EffectStage::stretch, EffectStage::cable_force,
+                                  EffectStage::motor, EffectStage::joint, EffectStage::sensors}) {
+    const auto bit = static_cast<unsigned>(stage);
+    EXPECT_TRUE(std::has_single_bit(bit)) << bit;
+    EXPECT_EQ(all & bit, 0u) << bit;
+    all |= bit;
+  }
 }
 
 TEST(EffectLibrary, StatesMoveInTheSameWayIfTheTorquesOfTheMotorsAreUnwanted) {
