@@ -68,7 +68,7 @@ struct DecisionRule {
   double cost_of_effect = 1.5;
   /// Prior cost of each number of an effect, nats. Reason: numbers that the data do not need are already paid for,
   /// because the likelihood is that of blocks which no fit has used. With one nat for each number, names with a
-  /// probability of 0.5 to 0.9 came true in 55 % of 88 cases of the blind trials (docs/diagnosis.md).
+  /// probability of 0.5 to 0.9 came true in 55 % of 88 cases of the blind trials (docs/blind_trials.md).
   double cost_of_number = 0.5;
   /// s of P(none), see name_probability.h.
   double none_sharpness = 1.5;
