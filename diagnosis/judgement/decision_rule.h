@@ -37,8 +37,8 @@ struct DecisionRule {
   /// A parameter that makes the effect what its name says, as the rate makes a drift, has to gain with a smaller p
   /// value. Reason: the effect has already convinced; this only decides between two names.
   double essential_level = 0.05;
-  /// In a revision, a name that wins its place again keeps its new fit if that gains more than this over the earlier
-  /// one. Reason: a quarter of what one more parameter gains by chance decides nothing.
+  /// In a revision, a name competes with its fit in this round if that costs less than the earlier one by this.
+  /// Reason: a quarter of what one more parameter gains by chance decides nothing.
   double worth_a_change = 0.5;
 
   // Several effects are proposed together.

@@ -3,24 +3,26 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "tests/support/limits.h"
 
 namespace halyard {
 namespace {
 
-TEST(PrincipalMoments, DoNotDependOnTheAxes) {
+/// inertia: xx, yy, zz, xy, xz, yz.
+Eigen::Vector3d moments_of(const std::array<double, 6>& inertia) {
   JointParameters<double> joint;
+  std::ranges::copy(inertia, joint.inertia);
+  return principal_moments(joint);
+}
+
+TEST(PrincipalMoments, DoNotDependOnTheAxes) {
   // Moments 2, 3, 4 about the axes z, (x + y) / sqrt(2), (x - y) / sqrt(2).
-  const double tensor[] = {3.5, 3.5, 2, -0.5, 0, 0};
-  std::copy(std::begin(tensor), std::end(tensor), joint.inertia);
-  const Eigen::Vector3d about_z = principal_moments(joint);
+  const Eigen::Vector3d about_z = moments_of({3.5, 3.5, 2, -0.5, 0, 0});
   // The same body with its axes renamed: x, y, z become y, z, x, and z, x, y.
-  const double once[] = {2, 3.5, 3.5, 0, 0, -0.5}, twice[] = {3.5, 2, 3.5, 0, -0.5, 0};
-  std::copy(std::begin(once), std::end(once), joint.inertia);
-  const Eigen::Vector3d about_x = principal_moments(joint);
-  std::copy(std::begin(twice), std::end(twice), joint.inertia);
-  const Eigen::Vector3d about_y = principal_moments(joint);
+  const Eigen::Vector3d about_x = moments_of({2, 3.5, 3.5, 0, 0, -0.5}),
+                        about_y = moments_of({3.5, 2, 3.5, 0, -0.5, 0});
   for (int i = 0; i < 3; ++i)
     for (const Eigen::Vector3d& moments : {about_x, about_y, about_z}) EXPECT_NEAR(moments(i), 2 + i, 32 * kEps);
 }
