@@ -12,12 +12,12 @@
 #include "diagnosis/diagnosis_details.h"
 #include "diagnosis/explanation/estimates.h"
 #include "diagnosis/explanation/lines_above_band.h"
+#include "diagnosis/explanation/not_excited.h"
 #include "diagnosis/explanation/signature.h"
 #include "diagnosis/judgement/final_fit.h"
 #include "diagnosis/judgement/name_probability.h"
 #include "diagnosis/judgement/prediction_interval.h"
 #include "diagnosis/log_check/own_readings.h"
-#include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/record/common_clock.h"
 #include "diagnosis/search/basis.h"
 #include "diagnosis/search/revision.h"
@@ -86,7 +86,10 @@ class Diagnoser {
     result_.verdict = !result_.effects.empty()      ? Diagnosis::Verdict::effects
                       : result_.unexplained.empty() ? Diagnosis::Verdict::clean
                                                     : Diagnosis::Verdict::unknown;
-    if (options_.tell_not_excited) tell_not_excited(evidence);
+    if (options_.tell_not_excited) {
+      say("what these data could show", 0);
+      result_.not_excited = not_excited(evidence, final_hypothesis(), model_.nominal);
+    }
     result_.details = details_;
     return std::move(result_);
   }
@@ -215,8 +218,16 @@ class Diagnoser {
     }
   }
 
+  /// Mean square of each channel that the named effects may miss, because their equations may have another form.
+  std::vector<double> misfit_of_names(const Evidence& evidence) {
+    std::vector<std::size_t> named;
+    for (std::size_t e = given_; e < final_hypothesis().effects.size(); ++e)
+      if (doubts_[e - given_] == Doubt::none) named.push_back(e);
+    return mean_square_misfit(evidence, {final_hypothesis(), attribution().final_score}, named);
+  }
+
   void tell_rests(const Evidence& evidence) {
-    const std::vector<bool> rest_of = significant_rest(evidence, attribution().final_score);
+    const std::vector<bool> rest_of = significant_rest(evidence, attribution().final_score, misfit_of_names(evidence));
     const int n = model_.n();
     for (int k = 0; k < n; ++k)
       if (rest_of[k] || rest_of[n + k]) result_.unexplained.push_back({k, signature(evidence, final_hypothesis(), k)});
@@ -226,10 +237,11 @@ class Diagnoser {
 
   void tell_probabilities(const Evidence& evidence) {
     const Score& score = attribution().final_score;
+    const std::vector<double> misfit = misfit_of_names(evidence);
     for (int c = 0; c < evidence.channels(); ++c)
       if (evidence.has_channel(c))
-        result_.probability_none =
-            std::max(result_.probability_none, probability_of_none(score.mean_square[c], 0, evidence.floor()[c]));
+        result_.probability_none = std::max(result_.probability_none,
+                                            probability_of_none(score.mean_square[c], misfit[c], evidence.floor()[c]));
     // Something acts also where the effect gets no name, or predicts the hold-out badly.
     std::vector<double> present;
     for (const Naming& naming : attribution().namings) present.push_back(probability_of_any_name(naming, 0));
@@ -334,26 +346,6 @@ class Diagnoser {
       result_.unexplained.push_back(
           {k, fmt::format("{} would explain the training data, but predict this joint worse on the hold-out", names)});
     for (HoldOut* view : {&details_->joint_view, &details_->torque_view}) view->after = view->before;
-  }
-
-  /// Effects whose typical size changes no signal of the training data by more than its floor.
-  void tell_not_excited(const Evidence& evidence) {
-    say("what these data could show", 0);
-    const Hypothesis& at = final_hypothesis();
-    const auto base = evidence.fit_rows({at})[0];
-    const std::vector<PlacedEffect> candidates = all_candidates(model_.nominal);
-    std::vector<char> shows(candidates.size(), 1);
-    run_side_by_side(candidates.size(), [&](std::size_t i) {
-      Hypothesis with = at;
-      with.effects.push_back(candidates[i]);
-      const auto rows = evidence.fit_rows({with})[0];
-      shows[i] = rows.empty() || evidence.exceeds_floor(difference(rows, base), 1);
-    });
-    for (std::size_t i = 0; i < candidates.size(); ++i)
-      if (!shows[i])
-        result_.not_excited.push_back(
-            {candidates[i].effect->name(), candidates[i].joint,
-             "at its typical size it changes no signal of these data by more than the sensors resolve"});
   }
 
   const ArmModel& model_;

@@ -14,9 +14,10 @@ struct DecisionRule {
   double share = 0.05;
   /// Even the right effect may miss the truth, because the form of its equation differs. This is the root mean square
   /// of what it may miss, relative to what it does in the same block of time. An effect that explains less than
-  /// this beside a larger effect may be the larger effect's error of form. Reason: in the logs with other equations
-  /// (rounded backlash, Bouc-Wen, LuGre) the right effect leaves 2 to 15 %.
-  double form_misfit = 0.1;
+  /// this beside a larger effect may be the larger effect's error of form. A residual that is smaller than this is
+  /// not told. Reason: in the logs with other equations (rounded backlash, Bouc-Wen, LuGre) the right effect leaves 2
+  /// to 15 %.
+  double form_misfit = 0.15;
   /// The same for an effect that only changes a number of the model, as an offset does: its equation has no other form.
   /// Reason: what it misses comes from the model's other numbers, which are some percent off.
   double number_misfit = 0.03;

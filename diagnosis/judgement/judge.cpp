@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 #include "diagnosis/judgement/nested_gain.h"
 
@@ -41,10 +42,11 @@ Trial unusable(const PlacedEffect& effect) {
   return t;
 }
 
-std::vector<bool> significant_rest(const Evidence& evidence, const Score& score) {
+std::vector<bool> significant_rest(const Evidence& evidence, const Score& score, const std::vector<double>& misfit) {
   std::vector<bool> rest(evidence.channels(), false);
   for (int c = 0; c < evidence.channels(); ++c)
-    rest[c] = evidence.has_channel(c) && std::sqrt(score.mean_square[c]) > kRule.rest_ratio * evidence.floor()[c];
+    rest[c] = evidence.has_channel(c) && score.mean_square[c] > std::pow(kRule.rest_ratio * evidence.floor()[c], 2) +
+                                                                    (misfit.empty() ? 0 : misfit[c]);
   return rest;
 }
 
@@ -66,6 +68,44 @@ std::optional<int> most_explained_channel(const Evidence& evidence, const Score&
 
 double misfit_of(const PlacedEffect& effect) {
   return effect.effect->stages() == 0 ? kRule.number_misfit : kRule.form_misfit;
+}
+
+bool mends_the_form_of(const PlacedEffect& candidate, const PlacedEffect& found, const ArmParameters<double>& arm) {
+  constexpr unsigned kCable =
+      static_cast<unsigned>(EffectStage::stretch) | static_cast<unsigned>(EffectStage::cable_force);
+  const auto yields = [&](const PlacedEffect& e) { return (e.effect->stages() & kCable) && !has_instants(e, arm); };
+  return candidate.joint == found.joint && yields(candidate) && yields(found);
+}
+
+std::vector<std::vector<double>> misfits(const Evidence& evidence, const Scored& found,
+                                         const std::vector<std::size_t>& effects) {
+  std::vector<std::vector<double>> all(found.score.block_sum.size(), std::vector<double>(evidence.channels(), 0));
+  for (const double misfit : {kRule.form_misfit, kRule.number_misfit}) {
+    Hypothesis others = found.hypothesis;
+    for (const std::size_t e : effects | std::views::reverse)
+      if (misfit_of(found.hypothesis.effects[e]) == misfit) others = without_effect(others, e);
+    if (others.effects.size() == found.hypothesis.effects.size()) continue;
+    const Score without = evidence.score(others);
+    if (!without.finite) continue;
+    const auto done = squares_beside_a_constant(evidence, difference(without.deciding, found.score.deciding));
+    for (std::size_t b = 0; b < all.size(); ++b)
+      for (std::size_t c = 0; c < all[b].size(); ++c) all[b][c] += misfit * misfit * done[b][c];
+  }
+  return all;
+}
+
+std::vector<double> mean_square_misfit(const Evidence& evidence, const Scored& found,
+                                       const std::vector<std::size_t>& effects) {
+  std::vector<double> square(evidence.channels(), 0), count(evidence.channels(), 0);
+  const auto sums = misfits(evidence, found, effects);
+  for (std::size_t b = 0; b < sums.size(); ++b)
+    for (std::size_t c = 0; c < square.size(); ++c) {
+      square[c] += sums[b][c];
+      count[c] += evidence.block_count()[b][c];
+    }
+  for (std::size_t c = 0; c < square.size(); ++c)
+    if (count[c] > 0) square[c] /= count[c];
+  return square;
 }
 
 std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
@@ -238,40 +278,31 @@ bool Judge::within_tolerance(const Hypothesis& h, std::size_t place) const {
   return true;
 }
 
-/// What the effects that were found may miss, all together: sums of squares, [deciding block][2n]. What they do to the
-/// residuals is more than what they have removed, if the model's refitted numbers had hidden a part of it. A constant
-/// that they do all the time does not count: what is missed of it is a constant, too, and their own sizes absorb it.
-std::vector<std::vector<double>> Judge::misfits(const Scored& found) const {
-  const std::size_t given = model_.effects.size(), n = found.hypothesis.effects.size();
-  std::vector<std::vector<double>> all(found.score.block_sum.size(), std::vector<double>(evidence_.channels(), 0));
-  for (const double misfit : {kRule.form_misfit, kRule.number_misfit}) {
-    Hypothesis others = found.hypothesis;
-    for (std::size_t e = n; e-- > given;)
-      if (misfit_of(others.effects[e]) == misfit) others = without_effect(others, e);
-    if (others.effects.size() == n) continue;
-    const Score without = evidence_.score(others);
-    if (!without.finite) continue;
-    const auto done = squares_beside_a_constant(evidence_, difference(without.deciding, found.score.deciding));
-    for (std::size_t b = 0; b < all.size(); ++b)
-      for (std::size_t c = 0; c < all[b].size(); ++c) all[b][c] += misfit * misfit * done[b][c];
+Judge::FoundMisfits Judge::misfits_beside(const Scored& without, const PlacedEffect& candidate) const {
+  std::vector<std::size_t> all, elsewhere;
+  for (std::size_t e = model_.effects.size(); e < without.hypothesis.effects.size(); ++e) {
+    all.push_back(e);
+    if (!mends_the_form_of(candidate, without.hypothesis.effects[e], model_.nominal)) elsewhere.push_back(e);
   }
-  return all;
+  FoundMisfits m{misfits(evidence_, without, all), {}};
+  m.elsewhere = elsewhere.size() == all.size() ? m.all : misfits(evidence_, without, elsewhere);
+  return m;
 }
 
 /// True if the effect takes a share of the residual that is more than the misfit of what was named before it. Where the
 /// earlier effects do little, their misfit is small as well. Therefore blocks in which their misfit may be larger than
 /// the channel's residual do not count, and a small effect is seen where a large one does not act. The residual of the
 /// whole channel decides this and not that of the block: otherwise the blocks in which a misfit is large by chance
-/// would be kept. misfits: misfits() before.
-bool Judge::takes_a_share(const Score& before, const Score& after, const std::vector<std::vector<double>>& misfits,
-                          int c) const {
+/// would be kept. All blocks count beside an effect whose form the candidate could mend: its fit has spread the misfit
+/// over all of them.
+bool Judge::takes_a_share(const Score& before, const Score& after, const FoundMisfits& misfits, int c) const {
   double all = 0, gain = 0, misfit = 0;  // sums of squares
   for (std::size_t b = 0; b < before.block_sum.size(); ++b) {
     const double had = before.block_sum[b][c];
     all += had;
-    if (misfits[b][c] > before.mean_square[c] * evidence_.block_count()[b][c]) continue;
+    if (misfits.elsewhere[b][c] > before.mean_square[c] * evidence_.block_count()[b][c]) continue;
     gain += had - after.block_sum[b][c];
-    misfit += misfits[b][c];
+    misfit += misfits.all[b][c];
   }
   return gain > std::max(kRule.share * all, misfit);
 }
@@ -281,7 +312,7 @@ bool Judge::takes_a_share(const Score& before, const Score& after, const std::ve
 /// after one burst in the fitting blocks, an effect would count for what it does elsewhere below the noise.
 bool Judge::matters(const Scored& without, const Scored& with, std::size_t place) const {
   bool counts = prior_cost(without.hypothesis) - prior_cost(with.hypothesis) > kRule.relief;
-  const auto before = misfits(without);
+  const FoundMisfits before = misfits_beside(without, with.hypothesis.effects[place]);
   for (int c = 0; c < evidence_.channels() && !counts; ++c)
     counts =
         is_beyond_noise(evidence_, without.score.mean_square, c) && takes_a_share(without.score, with.score, before, c);

@@ -59,8 +59,10 @@ struct Scored {
   Score score;
 };
 
-/// [2n] True for channels whose residual on the deciding blocks is well above the channel's floor.
-std::vector<bool> significant_rest(const Evidence& evidence, const Score& score);
+/// [2n] True for channels whose residual on the deciding blocks is well above the channel's floor, and above what the
+/// effects that were found may miss. misfit: mean_square_misfit(), or nothing.
+std::vector<bool> significant_rest(const Evidence& evidence, const Score& score,
+                                   const std::vector<double>& misfit = {});
 
 /// True if noise alone does not explain these residuals of a channel: they are above explained_ratio times the floor.
 /// mean_square: [2n].
@@ -73,6 +75,19 @@ std::optional<int> most_explained_channel(const Evidence& evidence, const Score&
 /// What an effect may miss although it is the right one, relative to what it does: form_misfit of decision_rule.h, or
 /// number_misfit if it has no equation of its own.
 double misfit_of(const PlacedEffect& effect);
+
+/// True for two effects in one cable, none of them an event: both change how far it yields under its load, so that the
+/// second can mend the form of the first.
+bool mends_the_form_of(const PlacedEffect& candidate, const PlacedEffect& found, const ArmParameters<double>& arm);
+
+/// What these effects of a hypothesis may miss, all together: sums of squares, [deciding block][2n]. What they do to the
+/// residuals is more than what they have removed, if the model's refitted numbers had hidden a part of it. A constant
+/// that they do all the time does not count: what is missed of it is a constant, too, and their own sizes absorb it.
+std::vector<std::vector<double>> misfits(const Evidence& evidence, const Scored& found,
+                                         const std::vector<std::size_t>& effects);
+/// The same as mean squares over the deciding blocks, [2n].
+std::vector<double> mean_square_misfit(const Evidence& evidence, const Scored& found,
+                                       const std::vector<std::size_t>& effects);
 
 /// a - b, row by row; both have the same length.
 std::vector<double> difference(std::vector<double> a, const std::vector<double>& b);
@@ -112,10 +127,14 @@ class Judge {
                                    const ParameterGroup& group) const;
   bool is_as_good_at_bound(const Scored& with, const FitParameter& p) const;
   bool within_tolerance(const Hypothesis& h, std::size_t place) const;
-  bool takes_a_share(const Score& before, const Score& after, const std::vector<std::vector<double>>& misfits,
-                     int channel) const;
+  /// What the effects so far may miss, see misfits().
+  struct FoundMisfits {
+    std::vector<std::vector<double>> all;
+    std::vector<std::vector<double>> elsewhere;  ///< of those that do not act in the candidate's cable
+  };
+  FoundMisfits misfits_beside(const Scored& without, const PlacedEffect& candidate) const;
+  bool takes_a_share(const Score& before, const Score& after, const FoundMisfits& misfits, int channel) const;
   bool matters(const Scored& without, const Scored& with, std::size_t place) const;
-  std::vector<std::vector<double>> misfits(const Scored& found) const;
 
   const Evidence& evidence_;
   const ArmModel& model_;

@@ -1,0 +1,14 @@
+#pragma once
+/// What a diagnosis could not have found in its data.
+
+#include <vector>
+
+#include "diagnosis/diagnose.h"
+#include "diagnosis/fit/evidence.h"
+
+namespace halyard {
+
+/// Effects whose typical size, beside the hypothesis `at`, changes no signal by more than its floor.
+std::vector<NotExcited> not_excited(const Evidence& evidence, const Hypothesis& at, const ArmParameters<double>& arm);
+
+}  // namespace halyard
