@@ -197,7 +197,7 @@ class Diagnoser {
       const int k = c ? *c % model_.n() : effect.joint.value_or(0);
       result_.unexplained.push_back(
           {k, fmt::format("{} explains a part of it and is in the revised model, but {}", effect_label(effect),
-                          reason_of(doubt, attribution().namings[e - given_]))});
+                          reason_of(doubt, attribution().namings[e - given_], final_hypothesis().effects))});
     }
   }
 
@@ -236,12 +236,15 @@ class Diagnoser {
   }
 
   void tell_probabilities(const Evidence& evidence) {
+    // One half where a rest begins to be told.
     const Score& score = attribution().final_score;
     const std::vector<double> misfit = misfit_of_names(evidence);
-    for (int c = 0; c < evidence.channels(); ++c)
-      if (evidence.has_channel(c))
-        result_.probability_none = std::max(result_.probability_none,
-                                            probability_of_none(score.mean_square[c], misfit[c], evidence.floor()[c]));
+    for (int c = 0; c < evidence.channels(); ++c) {
+      if (!evidence.has_channel(c)) continue;
+      const double none = probability_of_none(score.mean_square[c], misfit[c] / (kRule.rest_ratio * kRule.rest_ratio),
+                                              evidence.floor()[c]);
+      result_.probability_none = std::max(result_.probability_none, none);
+    }
     // Something acts also where the effect gets no name, or predicts the hold-out badly.
     std::vector<double> present;
     for (const Naming& naming : attribution().namings) present.push_back(probability_of_any_name(naming, 0));

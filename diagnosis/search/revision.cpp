@@ -178,11 +178,15 @@ std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const
   return doubt;
 }
 
-std::string reason_of(Doubt doubt, const Naming& naming) {
+std::string reason_of(Doubt doubt, const Naming& naming, const std::vector<PlacedEffect>& found) {
   switch (doubt) {
     case Doubt::another_cause: return "so much is left that another cause is more probable";
-    case Doubt::surer_rival:
-      return fmt::format("{} is more probable, and cannot be named itself", effect_label(*naming.surer));
+    case Doubt::surer_rival: {
+      const bool repeats =
+          std::ranges::any_of(found, [&](const PlacedEffect& e) { return same_name(e, *naming.surer); });
+      return fmt::format("{}{} is more probable, and cannot be named itself", repeats ? "another " : "",
+                         effect_label(*naming.surer));
+    }
     case Doubt::no_certain_size: return "its size may as well be zero";
     case Doubt::only_beside_one: return "it is needed only beside another effect that has no name";
     case Doubt::none: break;

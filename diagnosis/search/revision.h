@@ -40,8 +40,8 @@ enum class Doubt {
   only_beside_one   ///< not needed without the doubtful effects: it may only make up for their error
 };
 
-/// Completes "EFFECT explains a part of it, but ...".
-std::string reason_of(Doubt doubt, const Naming& naming);
+/// Completes "EFFECT explains a part of it, but ...". found: all effects that were found.
+std::string reason_of(Doubt doubt, const Naming& naming, const std::vector<PlacedEffect>& found);
 
 /// For each added effect of the final fit. significance: as of the search.
 std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const Attribution& found,

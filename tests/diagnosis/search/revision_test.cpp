@@ -125,5 +125,17 @@ TEST(Doubts, AnEffectWhoseSizeMayBeNeutralGetsNoName) {
   EXPECT_EQ(named(), (std::vector{Doubt::no_certain_size}));
 }
 
+TEST(ReasonOfDoubt, ASurerRivalThatWasFoundBeforeIsAnotherOne) {
+  const ArmModel model = first_joints(1);
+  const PlacedEffect push = place_effect(*find_effect("external_force"), model.nominal, 0),
+                     friction = place_effect(*find_effect("motor_friction"), model.nominal, 0);
+  Naming naming;
+  naming.surer = push;
+  EXPECT_EQ(reason_of(Doubt::surer_rival, naming, {friction}),
+            "external_force of joint 1 is more probable, and cannot be named itself");
+  EXPECT_EQ(reason_of(Doubt::surer_rival, naming, {push, friction}),
+            "another external_force of joint 1 is more probable, and cannot be named itself");
+}
+
 }  // namespace
 }  // namespace halyard
