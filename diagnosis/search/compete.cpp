@@ -57,16 +57,14 @@ RoundOutcome compete(const Evidence& evidence, const Basis& basis, double signif
   RoundOutcome outcome;
   std::vector<Trial>& trials = outcome.told.trials;
   trials = round.look(candidates);
-  std::vector<Fit> fits;
-  std::optional<std::size_t> kept;
+  std::optional<Trial> its;
   if (standing) {
-    const Trial its = trial_of(evidence, basis, *standing, without);
-    round.keep_rivals_of(its, standing->found.fit.hypothesis, trials);
-    fits = round.fit_leaders(trials);
-    kept = keep_standing(evidence, basis.judge, standing->found, its, trials, fits);
-  } else {
-    fits = round.fit_leaders(trials);
+    its = trial_of(evidence, basis, *standing, without);
+    round.keep_rivals_of(*its, standing->found.fit.hypothesis, trials);
   }
+  std::vector<Fit> fits = round.fit_leaders(trials);
+  std::optional<std::size_t> kept;
+  if (its) kept = keep_standing(evidence, basis.judge, standing->found, *its, trials, fits);
   const std::vector<bool> is_convincing = convincing(trials, significance);
   std::vector<std::size_t> able;
   for (std::size_t i = 0; i < fits.size(); ++i)
