@@ -220,7 +220,7 @@ TEST(IdentifiedKeys, ThatCannotBeIdentifiedAreRefusedWithTheReason) {
             "number");
 }
 
-TEST(Identify, NeedsTheSensorOfTheJointAndALogThatIsLongEnough) {
+TEST(IdentifiedLogs, NeedTheSensorOfTheJointAndALogThatIsLongEnough) {
   const ArmModel model = read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml");
   Log log(3);
   log.source = "log.csv";

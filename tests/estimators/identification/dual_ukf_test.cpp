@@ -6,82 +6,26 @@
 /// There the filter with held weights is Friedland's separate-bias estimation, which is exact: its sums over a record
 /// are those of the Kalman filter of [x, w]. (Friedland, IEEE Trans. Automatic Control 14, 1969.)
 
-#include "estimators/identification/dual_ukf.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <random>
 
-#include "model/model_file.h"
+#include "tests/estimators/identification/linear_slide.h"
 
 namespace halyard {
 namespace {
 
-constexpr double kStep = 2e-3;  // s
 constexpr double kBias = 0.01;  // N m, prior deviation of the torque's bias
-constexpr const char* kSlide = R"(<arm name="slide">
-<gravity>0 0 0</gravity>
-<joint name="slide" type="prismatic" drive="cable">
-<frame xyz="0 0 0" rpy="0 0 0"/>
-<link mass="4" com="0 0 0" inertia="1e-3 1e-3 1e-3 0 0 0"/>
-<motor inertia="2e-5" coulomb="0" viscous="1e-4" smoothing="0.4" gear_ratio="12" capstan_radius="5.5 mm"/>
-<cable law="linear" stiffness="2e4" damping="60" tension="1e4" pulley_radius="1"/>
-<friction coulomb="0" viscous="2" smoothing="0.01"/>
-<encoders motor_counts="4000" joint_resolution="0.1 mm"/>
-<controller kp="0" kd="0" torque_limit="1"/>
-<range lower="-0.5" upper="0.5" home="0"/>
-</joint>
-<estimator name="sr_ukf" torque_noise="0.02" joint_force_noise="5"/>
-</arm>)";
 
-ArmModel slide() { return parse_model(kSlide, "slide.xml"); }
-
-NoiseLevels noise_levels(const ArmModel& model, const ProcessModel& process) {
-  OptionReader reader("the test", model.estimators.at("sr_ukf"));
-  return read_noise(reader, model, process);
-}
-
-/// Standard deviations of what motor and joint encoder read.
-Eigen::Vector2d encoder_noise(const ArmModel& model) {
-  const JointParameters<double>& j = model.nominal.joint[0];
-  return Eigen::Vector2d(j.motor_encoder_resolution, j.joint_encoder_resolution) / std::sqrt(12.0);
-}
-
-double command_at(double time_s) { return 0.05 * std::sin(2 * std::numbers::pi * 3 * time_s); }
-
-/// A record of the arm with bias w, as noisy as the filter takes it to be. The slide starts where its belief starts.
+/// A record of the slide with bias w.
 std::vector<EncoderSample> record_of(const ArmModel& model, double w, int samples, unsigned seed) {
   ArmModel robot = model;
   robot.nominal.joint[0].torque_bias = kBias * w;
-  const ProcessModel process(robot);
-  ArmNoise noise(robot, process, noise_levels(robot, process));
-  const Eigen::Vector2d sigma = encoder_noise(robot);
-  const StateLayout& l = process.layout();
-  std::mt19937 random(seed);
-  std::normal_distribution<double> normal;
-  Eigen::VectorXd x = process.state_at_rest(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1));
-  std::vector<EncoderSample> record;
-  for (int i = 0; i < samples; ++i) {
-    EncoderSample s;
-    s.time_s = kStep * i;
-    s.motor_torque = Eigen::VectorXd::Constant(1, command_at(s.time_s));
-    s.motor_position = Eigen::VectorXd::Constant(1, x(*l.motor_angle[0]) + sigma(0) * normal(random));
-    s.joint_position = Eigen::VectorXd::Constant(1, x(l.position[0]) + sigma(1) * normal(random));
-    record.push_back(s);
-    Step step;
-    step.time_s = s.time_s;
-    step.dt_s = kStep;
-    step.motor_torque = s.motor_torque.data();
-    const Eigen::MatrixXd Q_root = noise.process_root(step, x);
-    process.advance(step, x.data());
-    for (Eigen::Index c = 0; c < Q_root.cols(); ++c) x += Q_root.col(c) * normal(random);
-  }
-  return record;
+  return record_of_slide(robot, samples, seed);
 }
 
 DualUkf filter_of(const ArmModel& model, const DualUkfOptions& options) {
@@ -118,7 +62,7 @@ Posterior by_augmented_filter(const ArmModel& model, const std::vector<EncoderSa
   const StateLayout& l = process.layout();
   const JointParameters<double>& j = process.arm().joint[0];
   const int n = process.n_states();
-  ArmNoise noise(model, process, noise_levels(model, process));
+  ArmNoise noise(model, process, noise_of_slide(model, process));
 
   Eigen::VectorXd start = Eigen::VectorXd::Zero(n);
   start(*l.motor_angle[0]) = record[0].motor_position(0);
@@ -132,7 +76,7 @@ Posterior by_augmented_filter(const ArmModel& model, const std::vector<EncoderSa
   Matrix P = Matrix::Identity(n + 1, n + 1), H = Matrix::Zero(2, n + 1), F = Matrix::Identity(n + 1, n + 1);
   P.topLeftCorner(n, n) = (S_0 * S_0.transpose()).cast<Real>();
   H(0, *l.motor_angle[0]) = H(1, l.position[0]) = 1;
-  const Matrix R = encoder_noise(model).cwiseAbs2().asDiagonal().toDenseMatrix().cast<Real>();
+  const Matrix R = encoder_noise_of_slide(model).cwiseAbs2().asDiagonal().toDenseMatrix().cast<Real>();
 
   for (std::size_t i = 1; i < record.size(); ++i) {
     Step step;
