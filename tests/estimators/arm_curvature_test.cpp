@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "estimators/filters/camera_filter.h"
@@ -204,6 +205,44 @@ TEST(ArmSecondStage, NearExcessIsTheChangeOfTheJacobian) {
     most = std::max(most, exact.col(c).norm() / (1e-9 + p.A.col(c).norm()));
   }
   EXPECT_GT(most, 0.1);
+}
+
+TEST(ArmSecondStage, ItsExcessRateIsTheLargestChangeOfADampingRateOrOfACablesRate) {
+  const Point p(raven2());
+  const StateLayout& l = p.process.layout();
+  const auto damping = [](double coulomb, double smoothing, double v) {  // slope of F_c tanh(v / v_s)
+    return coulomb / smoothing * (1 - std::pow(std::tanh(v / smoothing), 2));
+  };
+  const auto excess_at = [&](int state, double change) {
+    Eigen::VectorXd x_2 = p.x, D;
+    x_2(state) += change;
+    LinearisedPoint end;
+    p.process.second_stage(p.found, p.x, x_2, end, D);
+    return end.excess_rate;
+  };
+  for (int k = 0; k < 3; ++k) {
+    const JointParameters<double>& j = p.process.arm().joint[k];
+    for (const double change : {0.3, -2.0}) {
+      const double motor = p.x(*l.motor_rate[k]), joint = p.x(l.rate[k]);
+      const double of_motor = std::abs(damping(j.motor_coulomb, j.motor_smoothing, motor + change) -
+                                       damping(j.motor_coulomb, j.motor_smoothing, motor)) /
+                              j.rotor_inertia;
+      EXPECT_NEAR(excess_at(*l.motor_rate[k], change), of_motor,
+                  1e-12 * j.motor_coulomb / j.motor_smoothing / j.rotor_inertia)
+          << k;
+      const double mobility = p.found.chain.mobility[k * 4], slow = 0.01 * change;
+      const double of_joint = mobility * std::abs(damping(j.joint_coulomb, j.joint_smoothing, joint + slow) -
+                                                  damping(j.joint_coulomb, j.joint_smoothing, joint));
+      // Where friction is saturated at both speeds, its slopes are the rests of 1 less 1.
+      EXPECT_NEAR(excess_at(l.rate[k], slow), of_joint, 1e-12 * mobility * j.joint_coulomb / j.joint_smoothing) << k;
+      // The paper's law has the slope 2 k cosh(x); here the stretch becomes some centimetres.
+      const double x = 0.03 * change;
+      const double of_cable =
+          j.motor_travel() * std::sqrt(2 * j.stiffness / j.rotor_inertia) * (std::sqrt(std::cosh(x)) - 1);
+      // At the start the cables are stretched by less than 0.1 mm.
+      EXPECT_NEAR(excess_at(*l.motor_angle[k], x / j.motor_travel()), of_cable, 1e-2 * of_cable) << k;
+    }
+  }
 }
 
 TEST(ArmCurvature, AnEffectBetweenCommandAndJointIsNotPlain) {
