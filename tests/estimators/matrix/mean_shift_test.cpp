@@ -1,0 +1,70 @@
+/// The integral of a curvature that falls within a step, against its closed forms.
+
+#include "estimators/matrix/mean_shift.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/estimators/matrix/lane_matrices.h"
+#include "tests/support/limits.h"
+
+namespace halyard {
+namespace {
+
+/// The shift of one state with x' = a x over a step of length 1, by the functions of `level`, from m(0) to m(1).
+double shift_of(double a, double from, double to, int level = 0) {
+  const PhiShape shape{1, 0, 1};
+  PhiFunctions phi;
+  EXPECT_TRUE(phi.compute(std::exp2(level), Eigen::MatrixXd::Constant(1, 1, a), shape));
+  MeanShift mean_shift(shape);
+  LaneMatrix shift;
+  const auto number = [](double x) { return Eigen::VectorXd::Constant(1, x); };
+  constexpr double kDeviation = 0.3;
+  mean_shift.compute(phi, level, in_lanes(Eigen::MatrixXd::Constant(1, 1, kDeviation)),
+                     number(std::pow(kDeviation * std::exp(a), 2)), number(from), number(to), shift);
+  return shift.view()(0, 0);
+}
+
+double phi_1(double z) { return std::expm1(z) / z; }
+double phi_2(double z) { return (phi_1(z) - 1) / z; }
+
+TEST(MeanShift, OfACurvatureThatStaysIsThatOfAConstantForce) {
+  for (const double a : {-6.0, -1.5, -0.2, 0.7})
+    for (const int level : {0, 1}) EXPECT_NEAR(shift_of(a, 2, 2, level), 2 * phi_1(a), 1e-7) << a;
+}
+
+TEST(MeanShift, WhereDeviationsDoNotFallTheCurvatureGoesStraight) {
+  // ∫ exp(a (1 - s)) (m_0 + (m_1 - m_0) s) ds
+  for (const double a : {0.4, 1.0, 2.5}) EXPECT_NEAR(shift_of(a, 3, 1), 3 * phi_1(a) + (1 - 3) * phi_2(a), 1e-6) << a;
+}
+
+TEST(MeanShift, WhereTheyFallItFollowsTheSquareOfTheDeviations) {
+  // With V(s) = exp(2 a s) the integral is φ_1 (m_1 + (m_0 - m_1) exp(a) / (1 + exp(a))).
+  for (const double a : {-0.5, -2.0, -4.4, -9.0})
+    for (const int level : {0, 1}) {
+      const double exact = phi_1(a) * (1 + (5 - 1) * std::exp(a) / (1 + std::exp(a)));
+      // Simpson's mean in each part of the step, and straight lines between them.
+      EXPECT_NEAR(shift_of(a, 5, 1, level), exact, 0.02 * exact) << a << ", level " << level;
+    }
+}
+
+TEST(MeanShift, OfAPositionIsTheIntegralOfItsRates) {
+  // q' = v, v' = a v: with a constant curvature of v the shift of q is φ_2, and a constant state has none.
+  const PhiShape shape{3, 1, 2};
+  constexpr double kRate = -3;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(3, 3), S = 0.1 * Eigen::MatrixXd::Identity(3, 3);
+  A(0, 1) = 1, A(1, 1) = kRate, A(1, 2) = 0.5;
+  PhiFunctions phi;
+  ASSERT_TRUE(phi.compute(1, A, shape));
+  LaneMatrix shift;
+  const Eigen::Vector3d m(0, 2, 0);
+  const Eigen::VectorXd end_squares = (phi.E().view() * S).rowwise().squaredNorm();
+  MeanShift(shape).compute(phi, 0, in_lanes(S.transpose()), end_squares, m, m, shift);
+  EXPECT_NEAR(shift.view()(0, 0), 2 * phi_2(kRate), 1e-7);
+  EXPECT_NEAR(shift.view()(1, 0), 2 * phi_1(kRate), 1e-7);
+  EXPECT_EQ(shift.view()(2, 0), 0);
+}
+
+}  // namespace
+}  // namespace halyard
