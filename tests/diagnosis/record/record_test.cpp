@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -202,6 +203,24 @@ TEST(Record, AHoleInAMotorsPositionSplitsALogThoughRowsGoOn) {
   ASSERT_EQ(records.size(), 2u);
   EXPECT_NEAR(records[0].time(records[0].size - 1), 2, 3e-3);
   EXPECT_NEAR(records[1].start, 2.3, 1e-9);
+}
+
+TEST(Record, ASensorThatNeverChangesTellsNothingUnlessItsResolutionIsStated) {
+  ArmModel model = raven2();
+  model.nominal.joint[0].joint_encoder_resolution = 0;
+  model.nominal.joint[1].joint_encoder_resolution = 0;
+  model.nominal.joint[2].joint_encoder_resolution = 1e-3;
+  // The motors move less than what makes a sensor stuck.
+  Log log = log_of([](double t) { return 1e-6 * std::sin(t); }, 4, 1000);
+  for (const int k : {0, 2}) std::ranges::fill(log.joint_position[k], 0.25);
+  std::ranges::fill(log.motor_torque[0], 0);
+  std::ranges::fill(log.motor_torque[1], 0.1);
+  const Record r = make_records(log, model, {})[0];
+  EXPECT_FALSE(r.has_joint(0)) << "never changes";
+  EXPECT_TRUE(r.has_joint(1)) << "changes";
+  EXPECT_TRUE(r.has_joint(2)) << "a coarse sensor of a joint that hardly moves";
+  EXPECT_FALSE(r.has_torque(0)) << "always zero";
+  EXPECT_TRUE(r.has_torque(1)) << "constant";
 }
 
 TEST(Record, AbsentColumnsAndJointsWithoutMotorHaveNothingToCompare) {

@@ -20,6 +20,8 @@ TEST(Basis, WidensWhatIsKnown) {
   EXPECT_EQ(wide.torque_scale, 1) << "nothing is known of it";
   model.joints[0].tolerances.torque_scale = 0.5;
   EXPECT_LT(with_tolerances_times(2, model).joints[0].tolerances.torque_scale, 1) << "something is known of it";
+  model.joints[0].tolerances.torque_scale = 0.1;
+  EXPECT_EQ(with_tolerances_times(2, model).joints[0].tolerances.torque_scale, 0.2);
 }
 
 /// Moves each number of the model by so many tolerances, up and down in turns.
