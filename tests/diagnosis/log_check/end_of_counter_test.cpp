@@ -1,0 +1,64 @@
+/// Positions that stop at the end of a counter, several wrong torques, and times at the ends of what a log may have.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "tests/support/checked_logs.h"
+
+namespace halyard {
+namespace {
+
+std::string in_six_digits(double x) {
+  std::ostringstream text;
+  text << x;
+  return text.str();
+}
+
+TEST(LogCheck, SuspectsAMotorThatStopsAtTheEndOfItsCounter) {
+  // A joint's sensor would tell that it stands still.
+  const auto [low, high] = std::ranges::minmax(right_log().motor_position[0]);
+  for (const double share : {0.2, 0.8}) {
+    const double end = low + share * (high - low);
+    const Log log = without_joint_sensors(
+        changed(&Log::motor_position, 0, [&](double q) { return share < 0.5 ? std::max(q, end) : std::min(q, end); }));
+    const std::string told = lines_of(check_log(log, raven()));
+    EXPECT_NE(told.find("suspicious: rig.csv: motor_position_1: stops abruptly at its extreme value " +
+                        in_six_digits(end) + " "),
+              std::string::npos)
+        << told;
+  }
+}
+
+TEST(LogCheck, CountsTheTorquesOfAnImpossibleSizeBesideTheFirst) {
+  for (const std::size_t spikes : {1, 2, 3}) {
+    Log log = right_log();
+    for (std::size_t i = 0; i < spikes; ++i) log.motor_torque[1][700 + 100 * i] = -1e6;
+    const std::string told = lines_of(check_log(log, raven())), more = " (and " + std::to_string(spikes - 1) + " more)";
+    EXPECT_EQ(told.find(more) != told.npos, spikes > 1) << told;
+    EXPECT_EQ(told.find("more)") != told.npos, spikes > 1) << told;
+  }
+}
+
+/// A log whose samples follow each other after `step` s.
+Log with_step(double step) {
+  Log log = right_log();
+  for (std::size_t i = 0; i < log.size(); ++i) log.time[i] = step * static_cast<double>(i);
+  return log;
+}
+
+TEST(LogCheck, TakesTenSamplesASecondForPlausibleAndFewerNot) {
+  EXPECT_EQ(lines_of(check_log(with_step(0.1), raven())).find("expected at least 10"), std::string::npos);
+  const std::string slow = lines_of(check_log(with_step(0.101), raven())),
+                    fast = lines_of(check_log(with_step(1.9e-5), raven()));
+  EXPECT_NE(slow.find("gross: rig.csv: time: a sample follows another after 0.101 s; expected at least 10 and at most "
+                      "50000 samples a second"),
+            std::string::npos)
+      << slow;
+  EXPECT_NE(fast.find("gross: rig.csv: time: a sample follows another after 1.9e-05 s"), std::string::npos) << fast;
+  EXPECT_EQ(fast.find("looks like"), std::string::npos) << "no unit makes it slower";
+}
+
+}  // namespace
+}  // namespace halyard
