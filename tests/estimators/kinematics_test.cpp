@@ -54,6 +54,18 @@ TEST(Kinematics, AMissingMotorSampleHoldsItsLastAngle) {
   EXPECT_EQ(kinematics.estimate().joint_position, before);
 }
 
+TEST(Kinematics, CountsItsStepsSinceTheStart) {
+  const ArmModel model = raven2();
+  KinematicsEstimator kinematics(model);
+  const Eigen::VectorXd q_m = unstretched_motors(model.nominal, model.home());
+  for (const int steps : {3, 2}) {
+    kinematics.reset(at_angles(0, q_m));
+    EXPECT_EQ(kinematics.report().steps, 0);
+    for (int i = 1; i <= steps; ++i) kinematics.update(at_angles(1e-3 * i, q_m));
+    EXPECT_EQ(kinematics.report().steps, steps);
+  }
+}
+
 TEST(Kinematics, TakesParametersThatEffectsChange) {
   ArmModel model = raven2();
   add_effect(model, "capstan_ratio", 0, {1.05});

@@ -102,6 +102,23 @@ TEST(ResidualSignals, ADirectionIsThatOfTheLastMotionAboveRest) {
   }
 }
 
+TEST(ResidualSignals, BeforeTheFirstMotionTheDirectionIsThatOfTheFirst) {
+  // The arm stands for a second, goes up, and comes back: its last motion is down.
+  Scenario there_and_back = fine_motion();
+  there_and_back.fade_in_s = 0;
+  for (JointTrajectory& t : there_and_back.trajectory) {
+    t.kind = JointTrajectory::Kind::point_to_point;
+    t.points = {t.center, t.center, t.center + 0.2, t.center};
+    t.move_s = 1;
+  }
+  const Observed o(there_and_back);
+  for (int k = 0; k < 2; ++k) {
+    const ResidualSignals s = o.signals(k);
+    EXPECT_EQ(s.joint_direction.front(), 1) << "joint " << k + 1;
+    EXPECT_EQ(s.joint_direction.back(), -1) << "joint " << k + 1;
+  }
+}
+
 TEST(ResidualSignals, OfARightModelTheTransmissionsIsTheStretchAndTheOthersVanish) {
   const Observed& o = in_motion();
   const ResidualSignals of_each[] = {o.signals(0), o.signals(1)};
