@@ -289,7 +289,7 @@ HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const Driv
 
 /// Computes the output of drive_record from its `states`: for hypotheses that differ only in parameters on which the
 /// motion does not depend.
-template <int known = 0, class T>
+template <int known, class T>
 HALYARD_INLINE void replay_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
                                   double start, double dt, const CommandHistory* history, const T* states, T* out) {
   const ArmParameters<T>& arm = transmission.arm();
