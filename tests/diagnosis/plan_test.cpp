@@ -104,8 +104,10 @@ TEST(NamingLimit, OfABacklashUnderALoadIsWhereItsGapIsCrossed) {
 TEST(NamingLimit, OfAnEccentricityIsInfiniteIfTheMotionHasTooFewPeriods) {
   const ArmModel model = first_joints(1);
   const Log log = log_of(motion(model, 8));
-  const PlacedEffect once_a_turn = placed("encoder_eccentricity", model, 0, {0.01, 0.01, 1});
-  const PlacedEffect often = placed("encoder_eccentricity", model, 0, {0.01, 0.01, 32});
+  PlacedEffect once_a_turn = placed("encoder_eccentricity", model, 0);
+  once_a_turn.p[0] = once_a_turn.p[1] = 0.01, once_a_turn.p[2] = 1;
+  PlacedEffect often = once_a_turn;
+  often.p[2] = 32;
   EXPECT_LE(detected_from(model, {log}, {once_a_turn})[0], 1);
   EXPECT_TRUE(std::isinf(named_from(model, {log}, once_a_turn)));
   EXPECT_LE(named_from(model, {log}, often), 1);
