@@ -80,9 +80,10 @@ double misfit_of(const PlacedEffect& effect);
 /// second can mend the form of the first.
 bool mends_the_form_of(const PlacedEffect& candidate, const PlacedEffect& found, const ArmParameters<double>& arm);
 
-/// What these effects of a hypothesis may miss, all together: sums of squares, [deciding block][2n]. What they do to the
-/// residuals is more than what they have removed, if the model's refitted numbers had hidden a part of it. A constant
-/// that they do all the time does not count: what is missed of it is a constant, too, and their own sizes absorb it.
+/// What these effects of a hypothesis may miss, all together: sums of squares, [deciding block][2n]. What they do to
+/// the residuals is more than what they have removed, if the model's refitted numbers had hidden a part of it. A
+/// constant that they do all the time does not count: what is missed of it is a constant, too, and their own sizes
+/// absorb it.
 std::vector<std::vector<double>> misfits(const Evidence& evidence, const Scored& found,
                                          const std::vector<std::size_t>& effects);
 /// The same as mean squares over the deciding blocks, [2n].
