@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 
 #include "diagnosis/judgement/nested_gain.h"
 
@@ -82,8 +81,8 @@ std::vector<std::vector<double>> misfits(const Evidence& evidence, const Scored&
   std::vector<std::vector<double>> all(found.score.block_sum.size(), std::vector<double>(evidence.channels(), 0));
   for (const double misfit : {kRule.form_misfit, kRule.number_misfit}) {
     Hypothesis others = found.hypothesis;
-    for (const std::size_t e : effects | std::views::reverse)
-      if (misfit_of(found.hypothesis.effects[e]) == misfit) others = without_effect(others, e);
+    for (std::size_t i = effects.size(); i-- > 0;)
+      if (misfit_of(found.hypothesis.effects[effects[i]]) == misfit) others = without_effect(others, effects[i]);
     if (others.effects.size() == found.hypothesis.effects.size()) continue;
     const Score without = evidence.score(others);
     if (!without.finite) continue;
