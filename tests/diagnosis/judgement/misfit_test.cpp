@@ -58,7 +58,7 @@ TEST(Misfit, IsAShareOfWhatAnEffectDoesBesideAConstant) {
                             of_both = mean_square_misfit(arm.evidence, truth, {0, 1});
   const Score without = arm.evidence.score(without_effect(truth.hypothesis, 1));
   double square = 0, sum = 0, n = 0;
-  for (std::size_t r = 0, row = 0; r < without.deciding.size(); ++r, ++row) {
+  for (std::size_t r = 0; r < without.deciding.size(); ++r) {
     const double change = without.deciding[r] - truth.score.deciding[r];
     if (change != 0) square += change * change, sum += change, n += 1;  // only the sensor of joint 2 changes
   }
@@ -72,7 +72,7 @@ TEST(Misfit, IsAShareOfWhatAnEffectDoesBesideAConstant) {
 TEST(Misfit, ARestWithinItIsNotSignificant) {
   const Offsets arm;
   Hypothesis nearly{arm.model.nominal, arm.robot.effects};
-  const auto rest_beside = [&](double share) {
+  const auto rest_beside = [&](double share) -> bool {
     nearly.effects[1].p[0] = share * arm.robot.effects[1].p[0];
     const Scored found{nearly, arm.evidence.score(nearly)};
     EXPECT_TRUE(significant_rest(arm.evidence, found.score)[3]);
