@@ -12,44 +12,27 @@
 #include "estimators/filters/ekf.h"
 #include "estimators/filters/sr_ukf.h"
 #include "estimators/process/arm_models.h"
+#include "tests/estimators/process/held_force.h"
 #include "tests/support/arm_runs.h"
 
 namespace halyard {
 namespace {
 
-NoiseLevels levels_of(const ArmModel& model, const ProcessModel& process, const EstimatorOptions& options = {}) {
-  OptionReader reader("the test", options);
-  return read_noise(reader, model, process);
-}
-
 /// Moving at a speed at which no friction is near its reversal.
 Eigen::VectorXd moving(const ArmModel& model, const ProcessModel& process) {
-  const Eigen::VectorXd q = model.home(), v = Eigen::Vector3d(0.5, -0.5, 0.05);
-  const Eigen::VectorXd angle = unstretched_motors(process.arm(), q), rate = unstretched_motors(process.arm(), v);
-  Eigen::VectorXd x = process.state_at_rest(angle, q);
-  for (int k = 0; k < 3; ++k) {
-    x(process.layout().rate[k]) = v(k);
-    x(*process.layout().motor_rate[k]) = rate(k);
-  }
-  return x;
+  return at_speed(model, process, Eigen::Vector3d(0.5, -0.5, 0.05));
 }
 
 TEST(ProcessNoise, IsWhatAForceHeldOverTheStepDoes) {
   const ArmModel model = raven2();
   const ProcessModel process(model);
   const NoiseLevels levels = levels_of(model, process);
-  const double dt = 1e-3, held = std::sqrt(2 * levels.correlation_time / dt);
+  const double dt = 1e-3;
   const Eigen::VectorXd x = moving(model, process);
   ArmNoise noise(model, process, levels);
   const Eigen::MatrixXd Q_root = noise.process_root({0, dt}, x);
   for (int source = 0; source < 6; ++source) {
-    Eigen::VectorXd torque = Eigen::VectorXd::Zero(3), force = Eigen::VectorXd::Zero(3);
-    Eigen::VectorXd free = x, forced = x;
-    process.advance({0, dt, torque.data(), force.data()}, free.data());
-    (source < 3 ? torque(source) : force(source - 3)) =
-        held * (source < 3 ? levels.torque(source) : levels.joint_force(source - 3));
-    process.advance({0, dt, torque.data(), force.data()}, forced.data());
-    const Eigen::VectorXd moved = forced - free;
+    const Eigen::VectorXd moved = moved_by_held_force(process, levels, x, dt, source);
     EXPECT_LT((Q_root.col(source) - moved).norm(), 0.02 * moved.norm()) << "source " << source;
     // The joint's own displacement by it, which the stiff damper of joint 3 halves.
     const int position = process.layout().position[source % 3];

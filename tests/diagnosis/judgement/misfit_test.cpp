@@ -11,13 +11,12 @@
 namespace halyard {
 namespace {
 
+/// Its sizes are so many times the typical ones.
 PlacedEffect sized(const std::string& name, const ArmModel& model, int joint, double of_typical) {
-  PlacedEffect e = place_neutral_effect(*find_effect(name), model.nominal, joint);
+  PlacedEffect e = place_effect(*find_effect(name), model.nominal, joint);
   const auto parameters = e.effect->parameters(model.nominal, joint);
   for (std::size_t i = 0; i < parameters.size(); ++i)
-    e.p[i] = parameters[i].is_shape()
-                 ? parameters[i].typical
-                 : parameters[i].neutral + of_typical * (parameters[i].typical - parameters[i].neutral);
+    e.p[i] = parameters[i].neutral + of_typical * (e.p[i] - parameters[i].neutral);
   return e;
 }
 

@@ -8,6 +8,7 @@
 
 #include "estimators/identification/dual_ukf.h"
 #include "model/model_file.h"
+#include "tests/estimators/process/held_force.h"
 
 namespace halyard {
 
@@ -32,8 +33,7 @@ inline ArmModel slide() {
 }
 
 inline NoiseLevels noise_of_slide(const ArmModel& model, const ProcessModel& process) {
-  OptionReader reader("the test", model.estimators.at("sr_ukf"));
-  return read_noise(reader, model, process);
+  return levels_of(model, process, model.estimators.at("sr_ukf"));
 }
 
 /// Standard deviations of what motor and joint encoder read.

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "estimators/process/noise.h"
 #include "estimators/process/standstill.h"
+#include "tests/estimators/process/held_force.h"
 #include "tests/support/arm_runs.h"
 #include "tests/support/pendulum.h"
 
@@ -14,14 +14,9 @@ namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-NoiseLevels usual_levels(const ArmModel& model, const ProcessModel& process, const EstimatorOptions& options = {}) {
-  OptionReader reader("the test", options);
-  return read_noise(reader, model, process);
-}
-
 Eigen::MatrixXd first_root(const ArmModel& model, const Eigen::VectorXd& x, double dt_s) {
   const ProcessModel process(model);
-  return ArmNoise(model, process, usual_levels(model, process)).initial_root(x, dt_s);
+  return ArmNoise(model, process, levels_of(model, process)).initial_root(x, dt_s);
 }
 
 TEST(NoiseLevels, AreResolutionsAndTolerancesOfFrictionAndGravity) {
@@ -33,7 +28,7 @@ TEST(NoiseLevels, AreResolutionsAndTolerancesOfFrictionAndGravity) {
   }
   model.nominal.joint[1].motor_encoder_resolution = 1e-7;
   const ProcessModel process(model);
-  const NoiseLevels levels = usual_levels(model, process);
+  const NoiseLevels levels = levels_of(model, process);
   const Eigen::VectorXd gravity = largest_gravity_force(process.arm(), model);
   for (int k = 0; k < 3; ++k) {
     const JointParameters<double>& j = model.nominal.joint[k];
@@ -47,14 +42,14 @@ TEST(NoiseLevels, AreResolutionsAndTolerancesOfFrictionAndGravity) {
   const PlacedEffect& e = model.effects[0];
   const double scale = e.effect->state_scale(process.arm(), e.joint, e.p)[0];
   EXPECT_DOUBLE_EQ(levels.wander(0), scale / 100);
-  EXPECT_DOUBLE_EQ(usual_levels(model, process, {{"effect_noise_time", "100"}}).wander(0), scale / 10);
+  EXPECT_DOUBLE_EQ(levels_of(model, process, {{"effect_noise_time", "100"}}).wander(0), scale / 10);
 }
 
 TEST(NoiseLevels, AnEffectsStateWandersAsTheSquareRootOfTime) {
   ArmModel model = raven2();
   add_effect(model, "hysteresis", 2, {});
   const ProcessModel process(model);
-  const NoiseLevels levels = usual_levels(model, process);
+  const NoiseLevels levels = levels_of(model, process);
   ArmNoise noise(model, process, levels);
   const Eigen::VectorXd x = at_speed(model, process, Eigen::Vector3d(0.5, -0.5, 0.05));
   for (const double dt : {1e-3, 4e-3}) {
@@ -70,7 +65,7 @@ TEST(InitialRoot, OfCableDrivesIsTheEncoderTheStretchAndTheFrictionThatHoldsIt) 
   const ProcessModel process(model);
   const StateLayout& l = process.layout();
   const ArmParameters<double>& arm = process.arm();
-  const NoiseLevels levels = usual_levels(model, process);
+  const NoiseLevels levels = levels_of(model, process);
   Eigen::VectorXd x = at_speed(model, process, Eigen::Vector3d::Zero());
   const Eigen::Vector3d stretch(1e-4, -2e-4, 3e-4);
   for (int k = 0; k < 3; ++k) x(*l.motor_angle[k]) += stretch(k) / arm.joint[k].motor_travel();
@@ -105,7 +100,7 @@ TEST(InitialRoot, OfARigidDriveIsItsEncoderAndOfAJointWithoutMotorATenthOfItsRan
   ArmModel model = raven2();
   model.nominal.joint[1].drive = Drive::rigid;
   const ProcessModel process(model);
-  const NoiseLevels levels = usual_levels(model, process);
+  const NoiseLevels levels = levels_of(model, process);
   const Eigen::VectorXd x = process.state_at_rest(unstretched_motors(process.arm(), model.home()), model.home());
   const Eigen::MatrixXd S = first_root(model, x, kForever);
   Eigen::Matrix3d of_joints;
@@ -126,21 +121,14 @@ TEST(ProcessNoise, OfARigidDriveTurnsItsJointByTheTorqueAtTheMotor) {
   ArmModel model = raven2();
   for (int k = 0; k < 3; ++k) model.nominal.joint[k].drive = Drive::rigid;
   const ProcessModel process(model);
-  const NoiseLevels levels = usual_levels(model, process);
+  const NoiseLevels levels = levels_of(model, process);
   ArmNoise noise(model, process, levels);
   Eigen::VectorXd x = process.state_at_rest(unstretched_motors(process.arm(), model.home()), model.home());
   for (int k = 0; k < 3; ++k) x(process.layout().rate[k]) = k < 2 ? 0.5 : 0.05;
   constexpr double kStep = 1e-3;
   const Eigen::MatrixXd Q_root = noise.process_root({0, kStep}, x);
-  const double held = std::sqrt(2 * levels.correlation_time / kStep);
   for (int source = 0; source < 6; ++source) {
-    Eigen::Vector3d torque = Eigen::Vector3d::Zero(), force = torque;
-    Eigen::VectorXd free = x, forced = x;
-    process.advance({0, kStep, torque.data(), force.data()}, free.data());
-    (source < 3 ? torque(source) : force(source - 3)) =
-        held * (source < 3 ? levels.torque(source) : levels.joint_force(source - 3));
-    process.advance({0, kStep, torque.data(), force.data()}, forced.data());
-    const Eigen::VectorXd moved = forced - free;
+    const Eigen::VectorXd moved = moved_by_held_force(process, levels, x, kStep, source);
     ASSERT_GT(moved.norm(), 0) << source;
     EXPECT_LT((Q_root.col(source) - moved).norm(), 0.02 * moved.norm()) << source;  // as a held force does
   }
@@ -149,7 +137,7 @@ TEST(ProcessNoise, OfARigidDriveTurnsItsJointByTheTorqueAtTheMotor) {
 TEST(ProcessNoise, AdaptationGoesWithTheSquareOfWhatIsExpectedAndCountsAnOutlierAsThree) {
   const ArmModel model = raven2();
   const ProcessModel process(model);
-  NoiseLevels levels = usual_levels(model, process, {{"adaptation_time", "0.5"}});
+  NoiseLevels levels = levels_of(model, process, {{"adaptation_time", "0.5"}});
   ArmNoise noise(model, process, levels);
   noise.reset(Eigen::Vector3d::Ones());
   constexpr double kStep = 1e-3;
