@@ -1,6 +1,7 @@
 #include "diagnosis/prediction/side_by_side.h"
 
 #include <algorithm>
+#include <deque>
 #include <system_error>
 #include <thread>
 
@@ -8,6 +9,7 @@ namespace halyard {
 namespace {
 
 constexpr std::size_t kAtOnce = 16;
+constexpr std::size_t kMeetings = 2;
 
 thread_local SideBySide* meeting_of_thread = nullptr;
 thread_local std::size_t number_of_thread = 0;
@@ -69,10 +71,12 @@ void run_side_by_side(std::size_t n, const std::function<void(std::size_t)>& job
     if (n == 1) job(0);
     return;
   }
-  SideBySide meeting(width);
+  std::deque<SideBySide> meetings;
+  for (std::size_t m = 0; m < kMeetings; ++m) meetings.emplace_back((width + kMeetings - 1 - m) / kMeetings);
   std::vector<std::exception_ptr> errors(n);
   // Each thread has its jobs beforehand: which jobs meet does not depend on how fast they are.
   const auto run = [&](std::size_t first) {
+    SideBySide& meeting = meetings[first % kMeetings];
     meeting.enter(first);
     for (std::size_t i = first; i < n; i += width) {
       try {
@@ -90,7 +94,7 @@ void run_side_by_side(std::size_t n, const std::function<void(std::size_t)>& job
         threads.emplace_back(run, first);
       } catch (const std::system_error&) {  // no more threads: the others must not wait for its jobs
         errors[first] = std::current_exception();
-        meeting.leave();
+        meetings[first % kMeetings].leave();
       }
     };
     for (std::size_t first = 0; first < width; ++first) start(first);
