@@ -1,7 +1,7 @@
 #pragma once
 /// Jobs that run side by side and share the lanes of their predictions. A fit asks for few predictions at a time and
-/// waits for them. When every job of a meeting is waiting, all their hypotheses are predicted at once, and the lanes are
-/// full. There are two meetings: while the jobs of one solve for their next step, or it predicts too little for all
+/// waits for them. When every job of a meeting is waiting, all their hypotheses are predicted at once, and the lanes
+/// are full. There are two meetings: while the jobs of one solve for their next step, or it predicts too little for all
 /// cores, the other keeps the cores busy. Each job gets exactly the numbers that it would get alone.
 
 #include <condition_variable>
