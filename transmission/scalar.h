@@ -170,7 +170,10 @@ HALYARD_INLINE Dual exp(const Dual& x) {
   const double e = std::exp(x.a);
   return {e, x.d * e};
 }
-HALYARD_INLINE Dual sinh(const Dual& x) { return {std::sinh(x.a), x.d * std::cosh(x.a)}; }
+HALYARD_INLINE Dual sinh(const Dual& x) {
+  const double s = std::sinh(x.a);
+  return {s, x.d * std::sqrt(1 + s * s)};
+}
 HALYARD_INLINE Dual log(const Dual& x) { return {std::log(x.a), x.d / x.a}; }
 HALYARD_INLINE Dual sqrt(const Dual& x) {
   const double s = std::sqrt(x.a);

@@ -29,14 +29,16 @@ class CapstanEccentricity : public EffectOf<CapstanEccentricity> {
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
     const JointParameters<T>& j = c.arm.joint[*c.joint];
     JointSignals<T>& own = s[*c.joint];
-    const T theta = own.motor_angle / j.gear_ratio, cosine = cos(theta), sine = sin(theta);
+    T sine, cosine;
+    sin_cos(T(own.motor_angle / j.gear_ratio), sine, cosine);
     own.stretch += j.capstan_radius * (c.p[0] * sine + c.p[1] * (T(1.0) - cosine));
     own.stretch_rate += j.motor_travel() * (c.p[0] * cosine + c.p[1] * sine) * own.motor_rate;
   }
   template <class T>
   void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T theta = s[*c.joint].motor_angle / c.arm.joint[*c.joint].gear_ratio;
-    s[*c.joint].cable_force_motor *= T(1.0) + c.p[0] * cos(theta) + c.p[1] * sin(theta);
+    T sine, cosine;
+    sin_cos(T(s[*c.joint].motor_angle / c.arm.joint[*c.joint].gear_ratio), sine, cosine);
+    s[*c.joint].cable_force_motor *= T(1.0) + c.p[0] * cosine + c.p[1] * sine;
   }
 };
 

@@ -31,8 +31,9 @@ class TorqueRipple : public EffectOf<TorqueRipple> {
 
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T phase = c.p[2] * s[*c.joint].motor_angle;
-    s[*c.joint].motor_torque += c.p[0] * cos(phase) + c.p[1] * sin(phase);
+    T sine, cosine;
+    sin_cos(T(c.p[2] * s[*c.joint].motor_angle), sine, cosine);
+    s[*c.joint].motor_torque += c.p[0] * cosine + c.p[1] * sine;
   }
 };
 

@@ -28,8 +28,9 @@ class EncoderEccentricity : public EffectOf<EncoderEccentricity> {
 
   template <class T>
   void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T phase = c.p[2] * s[*c.joint].joint_position;
-    s[*c.joint].joint_error += c.p[0] * cos(phase) + c.p[1] * sin(phase);
+    T sine, cosine;
+    sin_cos(T(c.p[2] * s[*c.joint].joint_position), sine, cosine);
+    s[*c.joint].joint_error += c.p[0] * cosine + c.p[1] * sine;
   }
 };
 
