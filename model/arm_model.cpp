@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 #include "transmission/arm_fields.h"
@@ -53,37 +54,53 @@ ArmNumber largest_moment(double (&inertia)[6]) {
   return ArmNumber(*largest, others);
 }
 
+/// Calls visit(field, value, numbers) for each field of joint k of which named_parameters() lists so many numbers.
+template <class Visit>
+void for_each_named_field(JointParameters<double>& joint, int k, const Visit& visit) {
+  const auto if_named = [&](const ArmField& field, auto& value) {
+    using Value = std::remove_reference_t<decltype(value)>;
+    if (field.noun.empty() || !field.exists_at(joint.drive)) return;
+    if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, double[6]>) visit(field, value, 1);
+    else if constexpr (std::is_same_v<Value, double[3]>) visit(field, value, 3);
+    else if constexpr (std::is_same_v<Value, double[kMaxJoints]>) visit(field, value, k);
+  };
+  for_each_joint_field(if_named, joint);
+}
+
+/// The i-th of a field's numbers.
+ArmNumber number_of(double& value, int) { return ArmNumber(value); }
+ArmNumber number_of(double (&inertia)[6], int) { return largest_moment(inertia); }
+template <int size>
+ArmNumber number_of(double (&values)[size], int i) {
+  return ArmNumber(values[i]);
+}
+
 void add_named_parameters(ArmParameters<double>& arm, int k, std::vector<ParameterInfo>& all) {
   JointParameters<double>& joint = arm.joint[k];
-  const auto number = [](int i) { return "joint" + std::to_string(i + 1); };
+  const auto of_joint = [](int i) { return "joint" + std::to_string(i + 1); };
   const auto words = [](int i) { return "joint " + std::to_string(i + 1); };
-  const auto visit = [&](const ArmField& field, auto& value) {
-    if (field.noun.empty() || !field.exists_at(joint.drive)) return;
+  for_each_named_field(joint, k, [&](const ArmField& field, auto& value, int numbers) {
+    using Value = std::remove_reference_t<decltype(value)>;
     const std::string part(field.part_at(joint.drive)), name(field.name), noun(field.noun);
     double Tolerances::*const tolerance = tolerance_of(field.kind);
-    using Value = std::remove_reference_t<decltype(value)>;
     const std::string of_part = part == "friction" ? "" : part + " ";  // "joint 1 viscous friction"
-    const std::string in_words = words(k) + " " + of_part + noun, key = number(k) + "." + part + "." + name;
+    const std::string in_words = words(k) + " " + of_part + noun, key = of_joint(k) + "." + part + "." + name;
     const char* unit = field.unit.of(joint.type);
-    if constexpr (std::is_same_v<Value, double>) {
-      all.push_back(
-          {in_words, key, unit, k, tolerance, ArmNumber(value), std::abs(value), least_of(field.bound, value)});
-    } else if constexpr (std::is_same_v<Value, double[3]>) {
-      for (int i = 0; i < 3; ++i)
-        all.push_back({in_words + " " + kAxes[i], key + "." + kAxes[i], unit, k, tolerance, ArmNumber(value[i]),
+    for (int i = 0; i < numbers; ++i) {
+      const ArmNumber number = number_of(value, i);
+      const double size = std::abs(number.get());
+      if constexpr (std::is_same_v<Value, double>)
+        all.push_back({in_words, key, unit, k, tolerance, number, size, least_of(field.bound, number.get())});
+      else if constexpr (std::is_same_v<Value, double[6]>)
+        all.push_back({in_words, key, unit, k, tolerance, number, size, least_of(Bound::positive, number.get())});
+      else if constexpr (std::is_same_v<Value, double[3]>)
+        all.push_back({in_words + " " + kAxes[i], key + "." + kAxes[i], unit, k, tolerance, number,
                        distance_of_mass(joint), kNoLeast});
-    } else if constexpr (std::is_same_v<Value, double[6]>) {
-      const ArmNumber largest = largest_moment(value);
-      all.push_back(
-          {in_words, key, unit, k, tolerance, largest, largest.get(), least_of(Bound::positive, largest.get())});
-    } else if constexpr (std::is_same_v<Value, double[kMaxJoints]>) {
-      for (int j = 0; j < k; ++j)
-        all.push_back({words(k) + " " + noun + " with " + words(j), number(k) + "." + part + "." + number(j),
-                       coupling_unit(joint.type, arm.joint[j].type), k, tolerance, ArmNumber(value[j]),
-                       std::abs(value[j]), kNoLeast});
+      else
+        all.push_back({words(k) + " " + noun + " with " + words(i), of_joint(k) + "." + part + "." + of_joint(i),
+                       coupling_unit(joint.type, arm.joint[i].type), k, tolerance, number, size, kNoLeast});
     }
-  };
-  for_each_joint_field(visit, joint);
+  });
 }
 
 }  // namespace
@@ -110,6 +127,16 @@ std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm) {
   std::vector<ParameterInfo> all;
   for (int k = 0; k < arm.n; ++k) add_named_parameters(arm, k, all);
   return all;
+}
+
+ArmNumber named_number(ArmParameters<double>& arm, int index) {
+  std::optional<ArmNumber> found;
+  for (int k = 0; k < arm.n && !found; ++k)
+    for_each_named_field(arm.joint[k], k, [&](const ArmField&, auto& value, int numbers) {
+      if (index >= 0 && index < numbers) found = number_of(value, index);
+      index -= numbers;
+    });
+  return found.value();
 }
 
 }  // namespace halyard

@@ -96,6 +96,11 @@ struct alignas(8 * n) PackedMask {
     HALYARD_EACH_PIECE r.piece[i] = a.piece[i] <= b.piece[i];
     return r;
   }
+  HALYARD_INLINE bool all() const {
+    bool set = true;
+    HALYARD_EACH_PIECE set &= lane_math::all(piece[i]);
+    return set;
+  }
   /// The entries of a where the mask is set, elsewhere those of b.
   HALYARD_INLINE Values choose(Values a, const Values& b) const {
     HALYARD_EACH_PIECE a.piece[i] = piece[i] ? a.piece[i] : b.piece[i];

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -284,6 +285,19 @@ TEST(ParameterInfo, TheMomentsOfALinkStayInProportion) {
   EXPECT_DOUBLE_EQ(model.reach(*inertia), 0.1 * inertia->number.get());
   inertia->number.set(2 * inertia->number.get());
   for (int i = 0; i < 6; ++i) EXPECT_DOUBLE_EQ(model.nominal.joint[0].inertia[i], 2 * before.inertia[i]);
+}
+
+TEST(ParameterInfo, ANumberIsFoundWithoutItsName) {
+  ArmModel model = parse_model(kArm, "arm.xml");
+  const auto all = named_parameters(model.nominal);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const ArmNumber found = named_number(model.nominal, static_cast<int>(i));
+    const double before = all[i].number.get();
+    found.set(before + 1);
+    EXPECT_EQ(all[i].number.get(), before + 1) << all[i].key;
+    found.set(before);
+  }
+  EXPECT_THROW(named_number(model.nominal, static_cast<int>(all.size())), std::bad_optional_access);
 }
 
 }  // namespace

@@ -21,7 +21,10 @@ struct SmoothStep {
 
 template <class T>
 HALYARD_INLINE SmoothStep<T> smooth_step(double time, const T& at, const T& width = T(kStepWidth)) {
-  const T u = max(T(0.0), min(T(1.0), T((T(time) - at) / width + T(0.5))));
+  const T after = T(time) - at;
+  if (holds(after <= -width)) return {0.0, 0.0};
+  if (holds(after >= width)) return {1.0, 0.0};
+  const T u = max(T(0.0), min(T(1.0), T(after / width + T(0.5))));
   return {u * u * (T(3.0) - T(2.0) * u), T(6.0) / width * u * (T(1.0) - u)};
 }
 
