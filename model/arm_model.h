@@ -90,7 +90,8 @@ struct ParameterInfo {
 /// joint are left out, such as cable stiffness at a rigid drive.
 std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm);
 
-/// named_parameters(arm)[index].number, found without the names of all. Throws std::bad_optional_access if there is none.
+/// named_parameters(arm)[index].number, found without the names of all. Throws std::bad_optional_access if there is
+/// none.
 ArmNumber named_number(ArmParameters<double>& arm, int index);
 
 }  // namespace halyard
