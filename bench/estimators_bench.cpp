@@ -35,23 +35,6 @@ BENCHMARK_CAPTURE(estimator_step, disturbance_sr_ukf, &make_disturbance_sr_ukf)
 BENCHMARK_CAPTURE(estimator_step, camera_sr_ukf, &make_camera_sr_ukf)->Name("EstimatorStep/camera_sr_ukf");
 BENCHMARK_CAPTURE(estimator_step, smoother, &make_smoother)->Name("EstimatorStep/smoother");
 
-/// With an effect at each motor or cable.
-void step_with_effects(benchmark::State& state, Make make) {
-  ArmModel model = raven2();
-  int joint = 0;
-  for (const char* name : {"motor_friction", "torque_ripple", "backlash"})
-    model.effects.push_back(place_effect(*find_effect(name), model.nominal, joint++));
-  static const std::vector<Sample> samples = samples_of(simulate(sines(model, 2)).measured);
-  const std::unique_ptr<Estimator> estimator = make(model, {});
-  std::size_t next = samples.size();
-  for (auto _ : state) {
-    if (next == samples.size()) estimator->reset(samples[0]), next = 1;
-    benchmark::DoNotOptimize(estimator->update(samples[next++]));
-  }
-}
-BENCHMARK_CAPTURE(step_with_effects, ekf, &make_ekf)->Name("EstimatorStep/ekf_with_three_effects");
-BENCHMARK_CAPTURE(step_with_effects, sr_ukf, &make_sr_ukf)->Name("EstimatorStep/sr_ukf_with_three_effects");
-
 /// The process model's step, sigma points one by one in scalar code.
 class OneByOne final : public ArmProcess {
  public:

@@ -129,12 +129,13 @@ std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm) {
   return all;
 }
 
-ArmNumber named_number(ArmParameters<double>& arm, int index) {
+ArmNumber named_number(ArmParameters<double>& arm, std::size_t index) {
   std::optional<ArmNumber> found;
+  int left = static_cast<int>(index);
   for (int k = 0; k < arm.n && !found; ++k)
     for_each_named_field(arm.joint[k], k, [&](const ArmField&, auto& value, int numbers) {
-      if (index >= 0 && index < numbers) found = number_of(value, index);
-      index -= numbers;
+      if (left >= 0 && left < numbers) found = number_of(value, left);
+      left -= numbers;
     });
   return found.value();
 }

@@ -90,8 +90,8 @@ struct ParameterInfo {
 /// joint are left out, such as cable stiffness at a rigid drive.
 std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm);
 
-/// named_parameters(arm)[index].number, found without the names of all. Throws std::bad_optional_access if there is
+/// named_parameters(arm)[index].number, without the names of all others. Throws std::bad_optional_access if there is
 /// none.
-ArmNumber named_number(ArmParameters<double>& arm, int index);
+ArmNumber named_number(ArmParameters<double>& arm, std::size_t index);
 
 }  // namespace halyard

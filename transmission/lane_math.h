@@ -123,7 +123,7 @@ template <class V, class I>
 HALYARD_INLINE V tanh(const V& x) {
   constexpr double kSaturated = 20;  // exp(-2 |x|) < ε / 2 already from 18.4 on
   const V size = magnitude(x);
-  if (all<I>(size >= kSaturated)) return with_sign_of<V>(x, V{} + 1.0);
+  if (all(size >= kSaturated)) return with_sign_of<V>(x, V{} + 1.0);
   const V m = expm1<V, I>(bounded<V>(-2.0 * size));
   return with_sign_of<V>(x, magnitude<V>(m / (m + 2.0)));
 }

@@ -96,6 +96,7 @@ struct alignas(8 * n) PackedMask {
     HALYARD_EACH_PIECE r.piece[i] = a.piece[i] <= b.piece[i];
     return r;
   }
+  /// True if all entries are set.
   HALYARD_INLINE bool all() const {
     bool set = true;
     HALYARD_EACH_PIECE set &= lane_math::all(piece[i]);

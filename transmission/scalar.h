@@ -197,8 +197,8 @@ HALYARD_INLINE void sin_cos(double x, double& sine, double& cosine) {
 HALYARD_INLINE double select(bool c, double a, double b) { return c ? a : b; }
 HALYARD_INLINE Dual select(bool c, const Dual& a, const Dual& b) { return c ? a : b; }
 
-/// True if a condition holds, in all lanes of Lanes. Code that leaves something out then must not change any lane's
-/// value: it does not depend on the others.
+/// True if a condition holds, in all lanes of Lanes. A branch on it must leave each lane's value as it is without the
+/// branch, because a lane's value does not depend on the others.
 HALYARD_INLINE bool holds(bool condition) { return condition; }
 HALYARD_INLINE bool holds(const LaneMask& condition) { return condition.all(); }
 

@@ -70,13 +70,13 @@ double parameter_value(const Hypothesis& h, const FitParameter& p) {
   if (p.is_past) return h.past_state(*p.effect, p.index);
   if (p.effect) return h.effects[*p.effect].p[p.index];
   ArmParameters<double> arm = h.nominal;
-  return named_number(arm, static_cast<int>(p.index)).get();
+  return named_number(arm, p.index).get();
 }
 
 void set_parameter(Hypothesis& h, const FitParameter& p, double value) {
   if (p.is_past) h.set_past_state(*p.effect, p.index, value);
   else if (p.effect) h.effects[*p.effect].p[p.index] = value;
-  else named_number(h.nominal, static_cast<int>(p.index)).set(value);
+  else named_number(h.nominal, p.index).set(value);
 }
 
 Hypothesis stepped(const Hypothesis& h, const FitParameter& p) {

@@ -119,13 +119,6 @@ HALYARD_INLINE void set_excess(const LinearisedArm& model, const LinearisedPoint
 /// Friction is constant within 1e-8 beyond this many times its smoothing speed.
 inline constexpr double kSaturated = 10;
 
-/// True if the magnitudes of all lanes are below `bound`.
-HALYARD_INLINE bool all_below(const Lanes& a, double bound) {
-  bool below = true;
-  for (int i = 0; i < kLaneWidth; ++i) below &= a[i] < bound && -a[i] < bound;
-  return below;
-}
-
 /// factor N(d), where d need not be narrow for friction; the cables are taken as quadratic.
 template <int known>
 HALYARD_INLINE void set_far_excess(const LinearisedArm& model, const LinearisedPoint& start, const LinearisedPoint& end,
@@ -134,7 +127,7 @@ HALYARD_INLINE void set_far_excess(const LinearisedArm& model, const LinearisedP
   const auto of_friction = [&](int i, const Lanes& change) __attribute__((always_inline)) {
     const double v = x_2[t.speed[i]], away = v < 0 ? -v : v;
     const Lanes tangent = (t.viscous[i] - start.friction.slope[i]) * change;
-    if (all_below(change, away - kSaturated * t.smoothing[i])) return tangent;
+    if (holds(abs(change) < away - kSaturated * t.smoothing[i])) return tangent;
     const Lanes sign = tanh((v + change) * t.per_smoothing[i]);
     return t.coulomb[i] * (sign - end.friction.sign[i]) + tangent;
   };

@@ -291,13 +291,13 @@ TEST(ParameterInfo, ANumberIsFoundWithoutItsName) {
   ArmModel model = parse_model(kArm, "arm.xml");
   const auto all = named_parameters(model.nominal);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const ArmNumber found = named_number(model.nominal, static_cast<int>(i));
+    const ArmNumber found = named_number(model.nominal, i);
     const double before = all[i].number.get();
     found.set(before + 1);
     EXPECT_EQ(all[i].number.get(), before + 1) << all[i].key;
     found.set(before);
   }
-  EXPECT_THROW(named_number(model.nominal, static_cast<int>(all.size())), std::bad_optional_access);
+  EXPECT_THROW(named_number(model.nominal, all.size()), std::bad_optional_access);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ struct SmoothStep {
 template <class T>
 HALYARD_INLINE SmoothStep<T> smooth_step(double time, const T& at, const T& width = T(kStepWidth)) {
   const T after = T(time) - at;
+  // Half a width beyond the edges, where rounding cannot move u into (0, 1).
   if (holds(after <= -width)) return {0.0, 0.0};
   if (holds(after >= width)) return {1.0, 0.0};
   const T u = max(T(0.0), min(T(1.0), T(after / width + T(0.5))));

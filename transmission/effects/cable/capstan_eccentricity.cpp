@@ -1,4 +1,5 @@
 #include "transmission/effects/built_in.h"
+#include "transmission/effects/harmonic.h"
 
 /// A ratio that varies with the capstan's angle θ = q_m / N, as with a capstan whose axis is off its centre:
 ///
@@ -36,9 +37,8 @@ class CapstanEccentricity : public EffectOf<CapstanEccentricity> {
   }
   template <class T>
   void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
-    T sine, cosine;
-    sin_cos(T(s[*c.joint].motor_angle / c.arm.joint[*c.joint].gear_ratio), sine, cosine);
-    s[*c.joint].cable_force_motor *= T(1.0) + c.p[0] * cosine + c.p[1] * sine;
+    const T theta = s[*c.joint].motor_angle / c.arm.joint[*c.joint].gear_ratio;
+    s[*c.joint].cable_force_motor *= T(1.0) + harmonic(c.p[0], c.p[1], theta);
   }
 };
 

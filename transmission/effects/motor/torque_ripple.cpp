@@ -1,4 +1,5 @@
 #include "transmission/effects/built_in.h"
+#include "transmission/effects/harmonic.h"
 #include "transmission/effects/typical_size.h"
 
 /// Motor torque that is periodic in the motor's angle (cogging, commutation):
@@ -31,9 +32,7 @@ class TorqueRipple : public EffectOf<TorqueRipple> {
 
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
-    T sine, cosine;
-    sin_cos(T(c.p[2] * s[*c.joint].motor_angle), sine, cosine);
-    s[*c.joint].motor_torque += c.p[0] * cosine + c.p[1] * sine;
+    s[*c.joint].motor_torque += harmonic(c.p[0], c.p[1], T(c.p[2] * s[*c.joint].motor_angle));
   }
 };
 

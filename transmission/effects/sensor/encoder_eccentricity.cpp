@@ -1,4 +1,5 @@
 #include "transmission/effects/built_in.h"
+#include "transmission/effects/harmonic.h"
 
 /// A joint sensor's error that is periodic in the joint's position:
 ///
@@ -28,9 +29,7 @@ class EncoderEccentricity : public EffectOf<EncoderEccentricity> {
 
   template <class T>
   void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
-    T sine, cosine;
-    sin_cos(T(c.p[2] * s[*c.joint].joint_position), sine, cosine);
-    s[*c.joint].joint_error += c.p[0] * cosine + c.p[1] * sine;
+    s[*c.joint].joint_error += harmonic(c.p[0], c.p[1], T(c.p[2] * s[*c.joint].joint_position));
   }
 };
 
