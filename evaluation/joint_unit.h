@@ -15,6 +15,9 @@ struct JointUnit {
   double shown_per_si = 1;
 };
 
+/// What stands behind a number of this unit: " N m"; nothing for "1".
+inline std::string unit_suffix(const std::string& unit) { return unit == "1" ? "" : " " + unit; }
+
 /// Units of every joint of the arm.
 inline std::vector<JointUnit> joint_units(const ArmModel& model) {
   std::vector<JointUnit> units;

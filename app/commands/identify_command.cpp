@@ -21,7 +21,7 @@ namespace {
 void print(const IdentificationStudy& result) {
   for (const IdentifiedNumber& number : result.identification.numbers)
     fmt::print("{}: {:.5g} -> {:.7g}{} (95 %: {:.7g} to {:.7g}), {}\n", number.name, number.nominal, number.value,
-               number.unit == "1" ? "" : " " + number.unit, number.lower, number.upper, in_words(number.convergence));
+               unit_suffix(number.unit), number.lower, number.upper, in_words(number.convergence));
   for (const std::string& doubt : doubts(result)) fmt::print("note: {}\n", doubt);
   const std::vector<JointUnit> units = joint_units(result.given);
   for (const EstimatorComparison& e : result.estimators)

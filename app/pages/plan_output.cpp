@@ -28,7 +28,7 @@ Json number(double value) {
 std::string joint_text(EffectPlace joint) { return joint ? fmt::format("{}", *joint + 1) : "arm"; }
 
 std::string with_unit(double value, const std::string& unit) {
-  return fmt::format("{:.4g}{}{}", value, unit == "1" ? "" : " ", unit == "1" ? "" : unit);
+  return fmt::format("{:.4g}{}", value, unit_suffix(unit));
 }
 
 std::string limit_text(const DetectionLimit& d) {

@@ -87,9 +87,8 @@ std::string calibration_sentence(const std::vector<Experiment>& experiments) {
   std::string changes;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (before[i].number.get() == after[i].number.get()) continue;
-    changes +=
-        fmt::format("{}{} {:.4g} to {:.4g}{}", changes.empty() ? "" : ", ", before[i].name, before[i].number.get(),
-                    after[i].number.get(), before[i].unit == "1" ? "" : " " + before[i].unit);
+    changes += fmt::format("{}{} {:.4g} to {:.4g}{}", changes.empty() ? "" : ", ", before[i].name,
+                           before[i].number.get(), after[i].number.get(), unit_suffix(before[i].unit));
   }
   const auto gains = [&](const char* name) {
     const std::size_t run = run_named(experiments, name);

@@ -5,8 +5,8 @@
 ///   A = Σ A_b + I,   step = A⁻¹ (Σ g_b - u),   var(u) = max( (B-1)/B Σ_b (u_-b - mean)² + |rows of A⁻¹|²,  diag A⁻¹ )
 ///
 ///   u          parameters, in standard deviations of their prior           [p]
-///   A_b, g_b   Σ Yᵀ S⁻¹ Y and Σ Yᵀ S⁻¹ ν over the samples of block b, evaluated at u; Y, S and ν as in DualStep
-///              (dual_ukf.h)                                                [p x p], [p]
+///   A_b, g_b   Σ Yᵀ S⁻¹ Y / s² and Σ Yᵀ S⁻¹ ν / s² over the samples of block b, evaluated at u; Y, S and ν as in
+///              DualStep (dual_ukf.h), s² as in identify.h                  [p x p], [p]
 ///   B          number of blocks; u_-b is the estimate without block b
 ///
 /// The reasons are in identify.h. Source: Künsch, Annals of Statistics 17 (1989).

@@ -9,7 +9,11 @@
 /// taken over blocks b of the log. The Gauss-Newton step for u is repeated until u of the requested parameters
 /// converges:
 ///
-///   A_b = Σ Yᵀ S⁻¹ Y,   g_b = Σ Yᵀ S⁻¹ ν,   A = Σ A_b + I,   u ← u + A⁻¹ (Σ g_b - u)
+///   A_b = Σ Yᵀ S⁻¹ Y / s²,   g_b = Σ Yᵀ S⁻¹ ν / s²,   A = Σ A_b + I,   u ← u + A⁻¹ (Σ g_b - u)
+///   s² = max(1, mean of νᵀ S⁻¹ ν per reading)
+///
+/// With s², a filter that assumes too little noise does not take its innovations for knowledge of the parameters (the
+/// variance of unit weight of least squares). Steps are damped (batch_estimate.h).
 ///
 /// Y must be the derivative of the predicted readings (dual_ukf.h). If Y is too large, A is too large as well. The
 /// iteration then stops before Σ g_b = u, and the intervals are too narrow.
@@ -77,12 +81,15 @@ struct Identification {
   std::vector<double> time;                ///< s, of the logs joined end to end
   int blocks = 0;
   bool converged = false;  ///< the last pass moved no parameter by more than a fifth of its standard deviation
-  ArmModel model;          ///< with the identified values
+  /// RMS of the innovations at the estimate, in standard deviations of the filter; at least 1.
+  double innovation_size = 1;
+  std::string filter_failure;  ///< why the dual filter ended before the logs did; empty: it did not
+  ArmModel model;              ///< with the identified values
 };
 
 /// Identifies the parameters `keys`. progress(text, fraction) is called repeatedly.
 /// Throws InputError if a log is shorter than 3 s, if it lacks the sensor of a joint with a requested parameter, or if
-/// there are several logs and encoders with unknown zero.
+/// there are several logs and encoders with unknown zero, or if the arm cannot be integrated over the logs.
 Identification identify(const ArmModel& model, const std::vector<Log>& logs, const std::vector<std::string>& keys,
                         const std::function<void(const std::string&, double)>& progress = {});
 

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <utility>
 
+#include "evaluation/joint_unit.h"
+
 namespace halyard {
 namespace {
 
 constexpr const char* kEstimators[] = {"kinematics", "sr_ukf"};
 constexpr double kWorse = 1.1;  // an error that has grown by more has grown
+constexpr double kLarge = 3;    // innovations of so many standard deviations are not the filter's noise
 
 std::string names_of(const std::vector<Log>& logs) {
   std::string names;
@@ -86,12 +89,21 @@ std::vector<std::string> doubts(const IdentificationStudy& result) {
   const std::vector<DeviatingNumber>& deviating = result.identification.deviating;
   std::string names;
   for (std::size_t i = 0; i < std::min(kNamed, deviating.size()); ++i)
-    names += (i == 0 ? "" : ", ") + fmt::format("{} ({:.3g} instead of {:.3g} {})", deviating[i].name,
-                                                deviating[i].value, deviating[i].nominal, deviating[i].unit);
+    names +=
+        (i == 0 ? "" : ", ") + fmt::format("{} ({:.3g} instead of {:.3g}{})", deviating[i].name, deviating[i].value,
+                                           deviating[i].nominal, unit_suffix(deviating[i].unit));
   if (deviating.size() > kNamed) names += fmt::format(" and {} more", deviating.size() - kNamed);
   if (!names.empty())
     all.push_back("other parameters would move by more than twice their tolerance: " + names +
                   "; this is a sign that the model lacks an effect, which halyard diagnose can find");
+  if (const std::string& failure = result.identification.filter_failure; !failure.empty())
+    all.push_back(fmt::format("the dual filter ended early ({}); the estimate starts at the model's values", failure));
+  if (const double size = result.identification.innovation_size; size > kLarge)
+    all.push_back(
+        fmt::format("the filter's innovations are {:.2g} times what its noise explains, and the estimate is less "
+                    "certain by this factor: the model lacks an effect, which halyard diagnose can find, or its "
+                    "<estimator name=\"sr_ukf\"> states too little noise",
+                    size));
   if (!result.identification.converged)
     all.push_back("the estimate still moves after the last pass over the data, and is not where its interval says");
   const EstimatorComparison& judge = judge_of(result);

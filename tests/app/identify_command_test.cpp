@@ -66,7 +66,7 @@ TEST_F(IdentifyCommand, KeepsTheGivenNumbersIfOthersPredictWorse) {
   const json all = json::parse(text_of(path("out/identify.json")));
   EXPECT_EQ(all.at("adopted"), false);
   const std::string doubts = all.at("doubts").dump();
-  EXPECT_TRUE(contains(doubts, "the estimate still moves after the last pass")) << doubts;
+  EXPECT_TRUE(contains(doubts, "times what its noise explains")) << doubts;
   EXPECT_TRUE(contains(doubts, "model.xml keeps the given ones")) << doubts;
   EXPECT_NE(all.at("parameters").at(0).at("value"), all.at("parameters").at(0).at("from"));
   const json& rms = all.at("error").at("joint_position_rms").at("sr_ukf");

@@ -57,5 +57,23 @@ TEST(IdentificationStudy, NamesNumbersThatDeviateAndAnEstimateThatMoves) {
   EXPECT_NE(doubts(study)[1].find("still moves"), std::string::npos);
 }
 
+TEST(IdentificationStudy, NamesAFilterThatEndedEarlyOrWasSurprised) {
+  IdentificationStudy study = study_of({1, 1}, {1, 1});
+  study.identification.innovation_size = 2;
+  EXPECT_TRUE(doubts(study).empty());
+  study.identification.innovation_size = 17.3;
+  study.identification.filter_failure = "diverged at 0.3 s";
+  ASSERT_EQ(doubts(study).size(), 2u);
+  EXPECT_NE(doubts(study)[0].find("ended early (diverged at 0.3 s)"), std::string::npos);
+  EXPECT_NE(doubts(study)[1].find("17 times what its noise explains"), std::string::npos);
+}
+
+TEST(IdentificationStudy, ANumberWithoutUnitIsShownWithoutOne) {
+  IdentificationStudy study = study_of({1, 1}, {1, 1});
+  study.identification.deviating = {{"joint 1 motor torque scale", "1", 1, 0.95, -2.5}};
+  ASSERT_EQ(doubts(study).size(), 1u);
+  EXPECT_NE(doubts(study)[0].find("(0.95 instead of 1)"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace halyard

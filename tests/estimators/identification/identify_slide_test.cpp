@@ -6,8 +6,10 @@
 #include <set>
 
 #include "estimators/distributions.h"
+#include "estimators/identification/batch_estimate.h"
 #include "estimators/identification/identify.h"
 #include "tests/estimators/identification/linear_slide.h"
+#include "tests/support/message_of.h"
 
 namespace halyard {
 namespace {
@@ -179,6 +181,57 @@ TEST(IdentifyOnALinearArm, AnUnknownZeroOfTheMotorsEncoderIsFoundAlong) {
   // The prior of the zero, 10 mm, weighs little beside 4 s.
   EXPECT_NEAR(moved.value, as_it_is.value, 0.01 * half_width(as_it_is));
   EXPECT_NEAR(half_width(moved), half_width(as_it_is), 0.01 * half_width(as_it_is));
+}
+
+TEST(IdentifyOnALinearArm, AFilterThatTakesTheArmForQuietIsToldAndItsIntervalsHold) {
+  const ArmModel robot = biased_slide();
+  ArmModel model = robot;
+  model.estimators.at("sr_ukf") = {{"torque_noise", "0.001"}, {"joint_force_noise", "0.25"}};  // a twentieth
+  int held = 0;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const Identification found = identify(model, {log_of_slide(robot, 4, seed)}, {kBiasKey, kInertiaKey});
+    EXPECT_GT(found.innovation_size, 3);
+    EXPECT_LT(found.innovation_size, 30);
+    for (const IdentifiedNumber& n : found.numbers) held += n.lower <= n.nominal && n.nominal <= n.upper;
+  }
+  EXPECT_GE(held, 6);  // of 8; fewer by a chance of 0.6 %
+  EXPECT_LT(identify(robot, {log_of_slide(robot, 4, 1)}, {kBiasKey}).innovation_size, 1.1);
+}
+
+TEST(IdentifyOnALinearArm, AnArmThatCannotBeIntegratedIsToldWithLogAndModel) {
+  ArmModel model = biased_slide();
+  model.nominal.joint[0].motor_viscous = 1e6;  // N m s/rad, settles within 20 ps
+  const std::string message = message_of([&] { identify(model, {log_of_slide(biased_slide(), 4, 1)}, {kBiasKey}); });
+  EXPECT_EQ(message.find("slide.csv: cannot be followed by slide.xml: process model: a step of"), 0u) << message;
+}
+
+TEST(BatchEstimate, EndsAtTheSameNumbersFromAnyStart) {
+  const ArmModel model = biased_slide();
+  const Unknowns unknowns = list_unknowns(model, {kBiasKey, kInertiaKey});
+  const std::vector<Log> logs = {log_of_slide(model, 4, 1)};
+  const auto from = [&](double inertia, double bias) {
+    return estimate_from_blocks(model, unknowns, logs, Eigen::Vector2d(inertia, bias), [](int, double) {});
+  };
+  const BatchEstimate near = from(0, 0);
+  ASSERT_TRUE(near.converged);
+  for (const auto& [inertia, bias] : {std::pair(2.0, -2.0), std::pair(-50.0, 50.0)}) {
+    const BatchEstimate far = from(inertia, bias);
+    EXPECT_TRUE(far.converged);
+    EXPECT_LT((far.estimate.u - near.estimate.u).cwiseAbs().maxCoeff(), 0.2 * near.estimate.deviation.maxCoeff());
+  }
+}
+
+TEST(BatchEstimate, StartsAtTheModelWhereTheFilterEndsAtAnArmThatCannotBeIntegrated) {
+  ArmModel model = biased_slide();
+  model.nominal.joint[0].motor_viscous = 0.5;  // three deviations more: beyond the sub-steps of a sample
+  const std::string key = "joint1.motor.viscous";
+  const Unknowns unknowns = list_unknowns(model, {key});
+  const std::vector<Log> logs = {log_of_slide(model, 3, 1)};
+  int passes = 0;
+  const BatchEstimate found = estimate_from_blocks(model, unknowns, logs, Eigen::VectorXd::Constant(1, 3),
+                                                   [&](int pass, double) { passes = pass; });
+  EXPECT_GE(passes, 2);
+  EXPECT_LT(std::abs(found.estimate.u(0)), 1);
 }
 
 TEST(IdentifyOnALinearArm, ProgressGoesFromNothingToAllInEachStage) {
