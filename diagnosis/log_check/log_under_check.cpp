@@ -121,7 +121,7 @@ std::string LogUnderCheck::option(const std::string& column, const ColumnSource&
 
 ColumnSource LogUnderCheck::corrected(const std::string& column, const Correction& c) const {
   ColumnSource source = source_of(column);
-  source.scale *= c.factor;
+  source.scale *= c.factor * c.unit_factor;
   source.offset = c.factor * source.offset + c.offset;
   return source;
 }
@@ -148,8 +148,9 @@ std::string LogUnderCheck::swap_options(const std::string& a, const std::string&
 }
 
 void LogUnderCheck::correct(Signals Log::*signal, int k, const Correction& c) {
-  for (double& x : (log.*signal)[k]) x = c.factor * x + c.offset;
   const std::string column = column_name(signal, k);
+  const double of_map = source_of(column).offset;
+  for (double& x : (log.*signal)[k]) x = c.factor * (c.unit_factor * (x - of_map) + of_map) + c.offset;
   sources_[column] = corrected(column, c);
 }
 

@@ -20,9 +20,11 @@ struct SampledMotion {
 };
 SampledMotion sampled_motion(const Log& log, const ArmModel& model);
 
-/// Value in SI units = factor · (value in the log) + offset.
+/// Value in SI units = factor · (value in the log) + offset; unit_factor multiplies the raw value beforehand, and leaves
+/// the offset of the column's map, which is in SI units, as it is.
 struct Correction {
   double factor = 1, offset = 0;
+  double unit_factor = 1;
 };
 
 /// A unit that a column may be in by mistake.

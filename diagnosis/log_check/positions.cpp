@@ -120,18 +120,19 @@ void check_ratio(LogUnderCheck& c, const SampledMotion& m, int k, const Slope& s
       fmt::format("joint {} moves {:.4g} times as far as motor {} says (slope; expected 1 within a factor of {:g})",
                   k + 1, std::abs(s.slope), k + 1, c.rule.ratio);
   if (const auto unit = unit_that_explains(c, m, k, s.slope)) {
-    const Correction correction{.factor = unit->unit.factor};
+    const Correction correction{.unit_factor = unit->unit.factor};
     const std::string name = column_name(unit->signal, k);
     c.reject(name, seen + ", as if it were " + unit->unit.what, "read it with " + c.option(name, correction));
     c.correct(unit->signal, k, correction);
     return;
   }
+  const Correction correction{.unit_factor = 1 / std::abs(s.slope)};
   const std::string remedy =
       fmt::format("correct gear_ratio, capstan_radius or pulley_radius of joint {} in the model, or read it with {}",
-                  k + 1, c.option(joint, Correction{.factor = 1 / std::abs(s.slope)}));
+                  k + 1, c.option(joint, correction));
   if (is_near(std::abs(s.slope), 1, c.rule.gross_ratio)) c.suspect(joint, seen, remedy);
   else c.reject(joint, seen + ", which no unit explains", remedy);
-  c.correct(&Log::joint_position, k, {.factor = 1 / std::abs(s.slope)});
+  c.correct(&Log::joint_position, k, correction);
 }
 
 /// The correction of a reversed joint reading: about zero, or about where the motors say.
@@ -172,7 +173,7 @@ void check_range_of_motion(LogUnderCheck& c, const SampledMotion& m, int k) {
   const std::string name = column_name(&Log::motor_position, k);
   std::vector<UnitGuess> units = position_units(false, j.motor_encoder_resolution);
   std::string guess = "in another unit";
-  Correction correction{.factor = c.range(k) / (2 * spread(m.expected[k]))};
+  Correction correction{.unit_factor = c.range(k) / (2 * spread(m.expected[k]))};
   constexpr double kLeastUsed = 0.2;  // of the range: a unit that leaves less of the motion is not the reason
   double best = kInfinity;
   for (const UnitGuess& unit : units) {
@@ -183,7 +184,7 @@ void check_range_of_motion(LogUnderCheck& c, const SampledMotion& m, int k) {
     // Of several units that fit into the range the one that moves most is the likeliest.
     const double misfit =
         c.beyond_range(k, corrected, j.motor_zero_known && j.motor_encoder_offset == 0) - 0.1 * std::min(1.0, used);
-    if (misfit < best) best = misfit, guess = "in " + unit.what, correction.factor = unit.factor;
+    if (misfit < best) best = misfit, guess = "in " + unit.what, correction.unit_factor = unit.factor;
   }
   c.reject(name,
            fmt::format("moves joint {} by {:.3g}, {:.3g} times its range, as if the angle were {}; expected rad at the "

@@ -109,7 +109,7 @@ void check_torque_unit(LogUnderCheck& c, const TorqueComparison& t, int k, const
     return c.suspect(torque, seen, "give the column its unit or scale; " + current);
   if (const std::string why = not_of_unit(c, t, k, best.factor, r); !why.empty())
     return c.suspect(torque, seen + why, "nothing to do if the motor saturates below its command");
-  const Correction correction{.factor = best.factor};
+  const Correction correction{.unit_factor = best.factor};
   c.reject(torque, seen + ", as if it were " + best.what,
            "read it with " + c.option(torque, correction) + "; " + current);
   c.correct(&Log::motor_torque, k, correction);

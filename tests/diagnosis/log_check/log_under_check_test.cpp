@@ -63,6 +63,16 @@ TEST(LogUnderCheck, CorrectionsFollowEachOther) {
   EXPECT_EQ(c.log.motor_position[1], (std::vector<double>{0.25, 0.5, 2})) << "the others stay";
 }
 
+TEST(LogUnderCheck, AnotherUnitOfTheFileLeavesTheOffsetOfItsMap) {
+  LogUnderCheck c = Mapped().check();
+  EXPECT_EQ(c.option("motor_position_1", Correction{.unit_factor = 3}),
+            "--column motor_position_1=one,scale=6,offset=0.5");
+  c.correct(kMotors, 0, {.unit_factor = 3});
+  // x - 0.5 is what the map's scale gives.
+  EXPECT_EQ(c.log.motor_position[0], (std::vector<double>{-0.25, 0.5, 5}));
+  EXPECT_EQ(c.option("motor_position_1", Correction{}), "--column motor_position_1=one,scale=6,offset=0.5");
+}
+
 TEST(LogUnderCheck, AnExchangeSwapsWhatTheFileHasAndKeepsScalesAndOffsets) {
   LogUnderCheck c = Mapped().check();
   const std::string told = c.swap_options("motor_position_1", "motor_position_2");
