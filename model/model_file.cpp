@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 
@@ -31,11 +33,23 @@ Matrix3 rotation(double angle, const Eigen::Vector3d& axis) {
   return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
 }
 
+/// Refuses an angle of a fixed rotation beyond one turn: it is in degrees.
+void check_angle(const XmlElement& element, std::string_view attribute, double angle) {
+  if (std::abs(angle) <= 2 * std::numbers::pi) return;
+  element.fail(attribute, "expected an angle of at most one turn, 2 pi rad; write deg behind a number in degrees");
+}
+
+double fixed_angle(const XmlElement& element, std::string_view attribute) {
+  const double angle = element.number(attribute, "rad");
+  check_angle(element, attribute, angle);
+  return angle;
+}
+
 /// T(i-1,i) = Rx(alpha) Tx(a) Rz(theta) Tz(d) at q = 0 (Craig).
 void read_dh(const XmlElement& dh, Joint& joint) {
   dh.only({"alpha", "a", "theta", "d"});
-  const Matrix3 Rx = rotation(dh.number("alpha", "rad"), Eigen::Vector3d::UnitX());
-  const Matrix3 R = Rx * rotation(dh.number("theta", "rad"), Eigen::Vector3d::UnitZ());
+  const Matrix3 Rx = rotation(fixed_angle(dh, "alpha"), Eigen::Vector3d::UnitX());
+  const Matrix3 R = Rx * rotation(fixed_angle(dh, "theta"), Eigen::Vector3d::UnitZ());
   set_frame(joint, R, Rx * Eigen::Vector3d(dh.number("a", "m"), 0, dh.number("d", "m")));
 }
 
@@ -53,6 +67,7 @@ void read_frame(const XmlElement& frame, Joint& joint) {
     }
   } else {
     const std::vector<double> rpy = frame.numbers("rpy", "rad", 3);
+    for (const double angle : rpy) check_angle(frame, "rpy", angle);
     R = rotation(rpy[2], Eigen::Vector3d::UnitZ()) * rotation(rpy[1], Eigen::Vector3d::UnitY()) *
         rotation(rpy[0], Eigen::Vector3d::UnitX());
   }

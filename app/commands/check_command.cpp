@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "app/bundled_files.h"
 #include "diagnosis/log_check/log_check.h"
@@ -28,9 +29,22 @@ std::string effect_list(const ArmModel& model) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// Ranges that are so wide that they may be in degrees.
+void print_range_notes(const ArmModel& model) {
+  constexpr double kManyTurns = 4;
+  for (int k = 0; k < model.n(); ++k) {
+    const JointDescription& joint = model.joints[k];
+    const double turns = (joint.upper - joint.lower) / (2 * std::numbers::pi);
+    if (model.nominal.joint[k].type == JointType::revolute && turns > kManyTurns)
+      fmt::print(
+          "note: the range of joint {} is {:.3g} turns wide; if it is in degrees, write deg behind its numbers\n",
+          k + 1, turns);
+  }
+}
+
 /// unchecked: estimators whose options could not be checked.
 void print_arm(const ArmModel& model, const std::vector<std::string>& unchecked) {
-  fmt::print("  {} joints:", model.n());
+  fmt::print("  {} joint{}:", model.n(), model.n() == 1 ? "" : "s");
   for (int k = 0; k < model.n(); ++k) {
     const JointParameters<double>& joint = model.nominal.joint[k];
     const char* drive = joint.drive == Drive::cable ? "cable" : joint.drive == Drive::rigid ? "rigid" : "no drive";
@@ -38,6 +52,7 @@ void print_arm(const ArmModel& model, const std::vector<std::string>& unchecked)
                joint.type == JointType::revolute ? "revolute" : "prismatic", drive);
   }
   fmt::print("\n  effects: {}\n", effect_list(model));
+  print_range_notes(model);
   if (!unchecked.empty())
     fmt::print("  not checked: options of estimators that are not installed: {}\n", fmt::join(unchecked, ", "));
 }

@@ -56,8 +56,8 @@ void run_simulate(const SimulateOptions& options) {
   files.add(options.out, log_csv(result.measured, about));
   files.commit();
 
-  fmt::print("scenario \"{}\": {} samples, {:g} s, {} joints\n", scenario.name, result.measured.size(),
-             result.measured.duration(), result.measured.n_joints);
+  fmt::print("scenario \"{}\": {} samples, {:g} s, {} joint{}\n", scenario.name, result.measured.size(),
+             result.measured.duration(), result.measured.n_joints, result.measured.n_joints == 1 ? "" : "s");
   const std::vector<JointUnit> units = joint_units(scenario.robot);
   for (int k = 0; k < result.truth.n_joints; ++k) print_joint(result, units[k], k);
   const EnergyBalance& energy = result.energy;

@@ -47,6 +47,14 @@ TEST_F(App, CheckTellsWhatAFileIs) {
   EXPECT_TRUE(contains(done({"check", example("tension_sweep.xml")}), "14 points"));
 }
 
+TEST_F(App, CheckNotesARangeThatMayBeInDegrees) {
+  const std::string model = text_of(example("raven2.xml"));
+  EXPECT_FALSE(contains(done({"check", example("raven2.xml")}), "note:"));
+  write_text(path("wide.xml"), replaced(model, "lower=\"0 deg\" upper=\"90 deg\"", "lower=\"0\" upper=\"90\""));
+  EXPECT_TRUE(
+      contains(done({"check", "wide.xml"}), "note: the range of joint 1 is 14.3 turns wide; if it is in degrees"));
+}
+
 TEST_F(App, CheckMakesTheEstimatorsThatAModelHasOptionsFor) {
   write_short_scenario("experiment_a.xml");
   const std::string model = text_of(path("raven2.xml"));

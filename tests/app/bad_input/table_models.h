@@ -50,6 +50,14 @@ inline std::vector<BadInputRow> bad_models() {
       {"SingularCoupling", Wrong::model, put(R"(coefficient="0.007797")", R"(coefficient="1e18")"),
        "bad.xml:8: <arm>: coupling matrix [3 x 3] has rank 1: some joint direction moves no motor; correct the "
        "coupling coefficients"},
+      {"AngleInDegrees", Wrong::model, put(R"(theta="205 deg")", R"(theta="205")"),
+       "bad.xml:16: <dh theta=\"205\">: expected an angle of at most one turn, 2 pi rad; write deg behind a number "
+       "in degrees"},
+      {"AnglesInDegrees", Wrong::model,
+       put(R"(<dh alpha="0" a="0" theta="205 deg" d="0"/>)", R"(<frame xyz="0 0 0" rpy="0 -90 0"/>)"),
+       "bad.xml:16: <frame rpy=\"0 -90 0\">: expected an angle of at most one turn, 2 pi rad; write deg behind a "
+       "number "
+       "in degrees"},
       {"HomeOutsideTheRange", Wrong::model, put(R"(home="45 deg")", R"(home="100 deg")"),
        "bad.xml:31: <range home=\"100 deg\">: expected a position from lower to upper"},
       {"RangeUpsideDown", Wrong::model, put(R"(lower="0 deg")", R"(lower="91 deg")"),
