@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <string>
 #include <thread>
@@ -14,18 +15,25 @@ namespace {
 
 const char* name_of(int signal) { return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "SIGHUP"; }
 
+std::atomic<const char*> kept = nullptr;
+
 /// In a thread of its own, which may take locks; a signal handler may not.
 [[noreturn]] void wait_and_end(const sigset_t& signals) {
   int signal = 0;
   while (sigwait(&signals, &signal) != 0) {}
   remove_everything_unfinished();
   const std::string wipe = ::isatty(STDERR_FILENO) ? "\r\033[K" : "";  // a line of progress may stand there
-  const std::string line = wipe + "halyard: ended by " + name_of(signal) + "; unfinished outputs were removed\n";
+  const char* what = kept;
+  const std::string line = wipe + "halyard: ended by " + name_of(signal) + "; unfinished outputs were removed" +
+                           (what ? std::string("; ") + what : "") + "\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
   ::_exit(128 + signal);
 }
 
 }  // namespace
+
+KeptOnInterruption::KeptOnInterruption(const char* what) { kept = what; }
+KeptOnInterruption::~KeptOnInterruption() { kept = nullptr; }
 
 void occupy_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})

@@ -12,4 +12,13 @@ void occupy_closed_streams();
 /// pipe and a limit of the file size (SIGPIPE, SIGXFSZ) become errors of the write instead of ending the program.
 void end_cleanly_on_signals();
 
+/// While it lives, the line that tells of a signal also tells what is kept and how to go on.
+class KeptOnInterruption {
+ public:
+  explicit KeptOnInterruption(const char* what);
+  ~KeptOnInterruption();
+  KeptOnInterruption(const KeptOnInterruption&) = delete;
+  KeptOnInterruption& operator=(const KeptOnInterruption&) = delete;
+};
+
 }  // namespace halyard

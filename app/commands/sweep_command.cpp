@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "app/interruption.h"
 #include "app/output_check.h"
 #include "app/pages/comparison_figures.h"
 #include "app/pages/sweep/sweep_report.h"
@@ -73,6 +74,11 @@ void run_sweep_command(const SweepCommandOptions& options) {
       if (done == 0) line.emplace("sweep", static_cast<double>(total), "points");
       else line->add(1);
     };
+    run.discarding = [](std::size_t points) {
+      fmt::print(stderr, "note: {} finished point{} of this sweep will be computed again; --resume keeps them\n",
+                 points, points == 1 ? "" : "s");
+    };
+    const KeptOnInterruption kept("finished points are kept: go on with the same command and --resume");
     run_sweep(sweep, options.out, run);
   }
   if (!shard.is_whole()) {

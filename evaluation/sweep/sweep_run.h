@@ -24,6 +24,8 @@ struct SweepRunOptions {
   Shard shard = {};
   bool resume = false;  ///< true: keep stored cells, of any shard; false: compute all cells of the shard again
   ContainmentOptions containment = {};
+  /// Called without `resume`, if the folder holds finished points of this sweep that will be computed again.
+  std::function<void(std::size_t points)> discarding = {};
   /// Called once with done = 0 and then after each point; from any thread.
   std::function<void(std::size_t done, std::size_t total)> progress = {};
 };

@@ -163,6 +163,8 @@ TEST_F(Faults, ASignalEndsARunAndAllThatItStartedAndLeavesNothing) {
       run.send(signal);
       EXPECT_EQ(run.wait(), 128 + signal);
       expect_line(text_of(err_path()), signal == SIGINT ? "halyard: ended by SIGINT" : "halyard: ended by SIGTERM");
+      EXPECT_EQ(contains(text_of(err_path()), "points are kept: go on with the same command and --resume"),
+                command[0] == "sweep");
       EXPECT_TRUE(comes_true([&] { return size_of(groups) == 0; })) << "what an estimator started goes on";
       auto after = files_in(folder_);
       after.erase("out/sweep.json");  // the description of a sweep stands from the start
