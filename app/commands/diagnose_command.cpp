@@ -90,7 +90,8 @@ void print_errors(const ArmModel& model, const Diagnosis& d, const DiagnosisEval
 
 void run_diagnose(const DiagnoseCommandOptions& options) {
   const auto lock = lock_output_folder(options.out);
-  const ArmModel model = read_model(options.model);
+  ArmModel model = read_model(options.model);
+  model.columns = columns_of(model, options.columns);  // the model that is written reads the same logs
   std::vector<std::filesystem::path> all = options.data;
   if (!options.holdout.empty()) all.push_back(options.holdout);
   check_given_once(all);

@@ -35,7 +35,8 @@ void print(const IdentificationStudy& result) {
 
 void run_identify(const IdentifyCommandOptions& options) {
   const auto lock = lock_output_folder(options.out);
-  const ArmModel model = read_model(options.model);
+  ArmModel model = read_model(options.model);
+  model.columns = columns_of(model, options.columns);  // the model that is written reads the same logs
   const std::vector<std::string> keys = identified_keys(model, options.parameters);
   std::vector<std::filesystem::path> paths = options.data;
   if (!options.holdout.empty()) paths.push_back(options.holdout);

@@ -18,8 +18,9 @@ TEST_F(IdentifyCommand, WritesAModelThatOtherCommandsTake) {
              replaced(replaced(text_of(path("experiment_a.xml")), " homed=\"true\"", ""), "<trajectory joint=\"1\"",
                       "<set parameter=\"joint2.coupling.joint1\" value=\"0.152\"/><trajectory joint=\"1\""));
   done({"simulate", "scenario.xml", "--out", "log.csv"});
-  const std::string printed =
-      done({"identify", "--model", "raven2.xml", "--data", "log.csv", "--parameters", "coupling", "--out", "out"});
+  write_text(path("log.csv"), replaced(text_of(path("log.csv")), "joint_position_3", "tool"));
+  const std::string printed = done({"identify", "--model", "raven2.xml", "--data", "log.csv", "--parameters",
+                                    "coupling", "--out", "out", "--column", "joint_position_3=tool"});
   EXPECT_TRUE(contains(printed, "joint 2 coupling with joint 1: 0.14545 -> 0.15")) << printed;
 
   const json all = json::parse(text_of(path("out/identify.json")));
@@ -48,6 +49,7 @@ TEST_F(IdentifyCommand, WritesAModelThatOtherCommandsTake) {
   EXPECT_LT(deviation.back(), 0.01 * deviation.front());
 
   done({"check", "out/model.xml"});
+  EXPECT_TRUE(contains(done({"check", "log.csv", "--model", "out/model.xml"}), "nothing suspicious"));
   EXPECT_TRUE(contains(text_of(path("out/model.xml")), "coefficient=\"0.15"));
   EXPECT_TRUE(contains(text_of(path("out/report.html")), "Joint 2 coupling with joint 1: converged."));
 }
