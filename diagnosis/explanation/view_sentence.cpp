@@ -8,9 +8,12 @@
 namespace halyard {
 namespace {
 
+/// A radius of a linear motor is 1 in the model as given, and may be refitted; no rotating motor has a capstan of a metre.
+bool is_about_one(double radius) { return std::abs(radius - 1) < 0.5; }
+
 /// True if the motor's "angle" and "torque" are the joint's position and force.
 bool is_linear_motor(const JointParameters<double>& j) {
-  return j.type == JointType::prismatic && j.motor_travel() == 1 && j.pulley_radius == 1;
+  return j.type == JointType::prismatic && is_about_one(j.motor_travel()) && is_about_one(j.pulley_radius);
 }
 
 ShownUnit position_unit(const JointParameters<double>& j) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/column_map.h"
 #include "model/input_error.h"
 
 namespace halyard {
@@ -25,16 +26,6 @@ const std::vector<Kind>& kinds() {
 
 bool is_of(const Kind& kind, const std::string& key) {
   return std::ranges::any_of(kind.parts, [&](const char* part) { return key.find(part) != key.npos; });
-}
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t end = std::min(text.find(',', at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return words;
 }
 
 [[noreturn]] void fail_kind(const ArmModel& model, const Kind& kind) {
@@ -73,7 +64,10 @@ std::vector<std::string> identified_keys(const ArmModel& model, const std::strin
   ArmParameters<double> arm = model.nominal;
   const std::vector<ParameterInfo> all = named_parameters(arm);
   std::vector<bool> chosen(all.size(), false);
-  for (const std::string& word : split(text)) {
+  std::vector<std::string_view> words;
+  split(text, words);
+  for (const std::string_view trimmed : words) {
+    const std::string word(trimmed);
     const auto kind = std::ranges::find_if(kinds(), [&](const Kind& k) { return word == k.word; });
     bool any = false;
     for (std::size_t i = 0; i < all.size(); ++i) {

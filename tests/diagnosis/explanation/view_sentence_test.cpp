@@ -13,7 +13,8 @@ ArmParameters<double> three_kinds() {
   arm.joint[0].type = JointType::revolute;
   for (int k : {1, 2}) arm.joint[k].type = JointType::prismatic;
   for (int k : {0, 1}) arm.joint[k].gear_ratio = 12, arm.joint[k].capstan_radius = arm.joint[k].pulley_radius = 0.01;
-  arm.joint[2].gear_ratio = arm.joint[2].capstan_radius = arm.joint[2].pulley_radius = 1;
+  arm.joint[2].gear_ratio = arm.joint[2].pulley_radius = 1;
+  arm.joint[2].capstan_radius = 0.97;  // as refitted
   return arm;
 }
 

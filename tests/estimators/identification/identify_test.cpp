@@ -188,7 +188,7 @@ TEST(IdentifiedKeys, AreKindsAndSingleNumbers) {
   using Keys = std::vector<std::string>;
   EXPECT_EQ(identified_keys(model, "coupling"),
             (Keys{"joint2.coupling.joint1", "joint3.coupling.joint1", "joint3.coupling.joint2"}));
-  EXPECT_EQ(identified_keys(model, "joint1.cable.damping,joint1.cable.damping,stiffness").size(), 4u);
+  EXPECT_EQ(identified_keys(model, "joint1.cable.damping,joint1.cable.damping, stiffness").size(), 4u);
   EXPECT_EQ(identified_keys(model, "motor_friction,joint_friction").size(), 12u);
   model.nominal.joint[1].coupling[0] = 0;
   EXPECT_EQ(identified_keys(model, "coupling").size(), 2u);
