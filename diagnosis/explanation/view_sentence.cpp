@@ -8,7 +8,8 @@
 namespace halyard {
 namespace {
 
-/// A radius of a linear motor is 1 in the model as given, and may be refitted; no rotating motor has a capstan of a metre.
+/// A radius of a linear motor is 1 in the model as given, and may be refitted. No rotating motor has a capstan of a
+/// metre.
 bool is_about_one(double radius) { return std::abs(radius - 1) < 0.5; }
 
 /// True if the motor's "angle" and "torque" are the joint's position and force.

@@ -20,8 +20,8 @@ struct SampledMotion {
 };
 SampledMotion sampled_motion(const Log& log, const ArmModel& model);
 
-/// Value in SI units = factor · (value in the log) + offset; unit_factor multiplies the raw value beforehand, and leaves
-/// the offset of the column's map, which is in SI units, as it is.
+/// Value in SI units = factor · (value in the log) + offset. unit_factor multiplies the raw value beforehand, and
+/// leaves the offset of the column's map, which is in SI units, as it is.
 struct Correction {
   double factor = 1, offset = 0;
   double unit_factor = 1;
