@@ -21,6 +21,7 @@
 #include "diagnosis/record/common_clock.h"
 #include "diagnosis/search/basis.h"
 #include "diagnosis/search/revision.h"
+#include "diagnosis/search/unlisted_friction.h"
 #include "diagnosis/search_space.h"
 
 namespace halyard {
@@ -136,6 +137,7 @@ class Diagnoser {
     result_.tolerance_factor = attribution().tolerance_factor;
     tolerated_ = with_tolerances_times(result_.tolerance_factor, result_.given);
     changed_ = revise(*s.evidence, *s.whole, tolerated_, attribution());
+    weigh_unlisted_friction(*s.evidence, tolerated_, attribution());
     return s;
   }
 

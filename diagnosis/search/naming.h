@@ -16,6 +16,8 @@ struct Naming {
   std::vector<Alternative> alternatives;  ///< with their weights as probabilities, the most probable first
   /// The most probable of those that are more probable than the name, but cannot be named: at a bound, for example.
   std::optional<PlacedEffect> surer = {};
+  /// Weight of a friction that the library does not have, against the name (unlisted_friction.h).
+  double unlisted = 0;
 };
 
 /// That the name or one of its alternatives is right. none: probability that no name is (name_probability.h).

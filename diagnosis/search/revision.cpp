@@ -122,15 +122,17 @@ Hypothesis without_added_at(Hypothesis h, std::size_t given, EffectPlace joint) 
 double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t given,
                                std::size_t effect) {
   const Hypothesis& h = found.final_fit.hypothesis;
+  const double unlisted = found.namings[effect - given].unlisted;
   const Score without = evidence.score(without_effect(h, effect));
-  if (!without.finite) return 0;
+  if (!without.finite) return unlisted;
   const std::optional<int> c = most_explained_channel(evidence, found.final_score, without);
-  if (!c) return 0;
+  if (!c) return unlisted;
   double before = without.mean_square[*c];
   if (const Score none = evidence.score(without_added_at(h, given, h.effects[effect].joint)); none.finite)
     before = std::min(before, none.mean_square[*c]);
   const double misfit_square = std::pow(misfit_of(h.effects[effect]), 2) * before;
-  return probability_of_none(found.final_score.mean_square[*c], misfit_square, evidence.floor()[*c]);
+  return std::max(unlisted,
+                  probability_of_none(found.final_score.mean_square[*c], misfit_square, evidence.floor()[*c]));
 }
 
 namespace {
@@ -180,7 +182,10 @@ std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const
 
 std::string reason_of(Doubt doubt, const Naming& naming, const std::vector<PlacedEffect>& found) {
   switch (doubt) {
-    case Doubt::another_cause: return "so much is left that another cause is more probable";
+    case Doubt::another_cause:
+      return naming.unlisted > kRule.worth_a_name
+                 ? "a friction that grows faster than the speed, which the library lacks, explains it better"
+                 : "so much is left that another cause is more probable";
     case Doubt::surer_rival: {
       const bool repeats =
           std::ranges::any_of(found, [&](const PlacedEffect& e) { return same_name(e, *naming.surer); });

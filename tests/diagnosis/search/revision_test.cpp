@@ -94,6 +94,7 @@ TEST(Doubts, EffectsThatCancelEachOtherExplainNoMoreThanTheyDoTogether) {
   offset.p[0] = (1 - 1 / kRatio) * middle;
   const auto none_of_the_ratio = [&](const std::vector<PlacedEffect>& effects) {
     s.found.final_fit.hypothesis = {s.model.nominal, effects};
+    s.found.namings.resize(effects.size());
     s.found.final_score = s.evidence.score(s.found.final_fit.hypothesis);
     return probability_of_none_for(s.evidence, s.found, 0, 0);
   };
@@ -123,6 +124,18 @@ TEST(Doubts, AnEffectWhoseSizeMayBeNeutralGetsNoName) {
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
     if (fit.parameters[i].effect) fit.std_deviation[i] = 1.01 * (kRatio - 1) / interval_factor(fit);
   EXPECT_EQ(named(), (std::vector{Doubt::no_certain_size}));
+}
+
+TEST(Doubts, AFrictionThatTheLibraryLacksMakesANameDoubtful) {
+  const PlacedEffect friction = on_the_only_joint("motor_friction", 3e-3);
+  Searched s({friction}, {friction});
+  s.revise();
+  EXPECT_EQ(doubts(s.evidence, s.model, s.found, 0.01), std::vector<Doubt>{Doubt::none});
+  s.found.namings[0].unlisted = 0.9;
+  EXPECT_GE(probability_of_none_for(s.evidence, s.found, 0, 0), 0.9);
+  EXPECT_EQ(doubts(s.evidence, s.model, s.found, 0.01), std::vector<Doubt>{Doubt::another_cause});
+  EXPECT_NE(reason_of(Doubt::another_cause, s.found.namings[0], s.effects()).find("grows faster than the speed"),
+            std::string::npos);
 }
 
 TEST(ReasonOfDoubt, ASurerRivalThatWasFoundBeforeIsAnotherOne) {

@@ -1,0 +1,75 @@
+/// A named friction against one that grows faster than the speed, on logs of arms that have the one or the other.
+
+#include "diagnosis/search/unlisted_friction.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "diagnosis/round/refit.h"
+#include "plant/simulate.h"
+#include "tests/support/short_arm.h"
+
+namespace halyard {
+namespace {
+
+/// F' = F - c |v|^1.5 v: not the equation that stands for such frictions in the diagnosis.
+class SteepFriction : public EffectOf<SteepFriction> {
+ public:
+  std::string name() const override { return "steep_friction"; }
+  std::string summary() const override { return "friction that grows with the power 2.5 of the speed"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
+    return {{"size", "N m", 0, 1, 0, 100}};
+  }
+  template <class T>
+  void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const T v = s[*c.joint].joint_rate;
+    s[*c.joint].joint_force -= c.p[0] * abs(v) * sqrt(T(abs(v) + 1e-9)) * v;
+  }
+};
+
+PlacedEffect of_only_joint(const Effect& effect, std::vector<double> sizes) {
+  PlacedEffect e = place_neutral_effect(effect, first_joints(1).nominal, 0);
+  std::ranges::copy(sizes, e.p);
+  return e;
+}
+
+/// Weight of an unlisted friction against the name that a search gave to what this arm has.
+double unlisted_weight(const PlacedEffect& truth, const PlacedEffect& named) {
+  const ArmModel model = first_joints(1);
+  ArmModel robot = model;
+  robot.effects = {truth};
+  const std::vector<Record> records = make_records(simulate(motion(robot, 5)).measured, model, {});
+  const Evidence evidence(records, model);
+  Attribution found;
+  const Hypothesis h{model.nominal, {named}};
+  found.final_fit = Refitter(evidence, model, 0).refit(h, evidence.score(h));
+  found.final_score = evidence.score(found.final_fit.hypothesis);
+  found.namings.push_back({1, {}});
+  weigh_unlisted_friction(evidence, model, found);
+  return found.namings[0].unlisted;
+}
+
+TEST(UnlistedFriction, TakesTheNameOfWhatGrowsFasterThanTheSpeed) {
+  const SteepFriction steep;
+  EXPECT_GT(unlisted_weight(of_only_joint(steep, {1}), of_only_joint(*find_effect("joint_friction"), {0, 0.3})), 0.99);
+}
+
+TEST(UnlistedFriction, LeavesCoulombAndViscousFrictionTheirNames) {
+  for (const char* name : {"joint_friction", "motor_friction"}) {
+    const double scale = std::string(name) == "joint_friction" ? 1 : 1e-2;
+    for (const auto& [coulomb, viscous] : {std::pair(0.4, 0.0), std::pair(0.0, 1.0), std::pair(0.4, 1.0)}) {
+      const PlacedEffect truth = of_only_joint(*find_effect(name), {scale * coulomb, scale * viscous});
+      EXPECT_LT(unlisted_weight(truth, truth), 0.01) << name << ' ' << coulomb << ' ' << viscous;
+    }
+  }
+}
+
+TEST(UnlistedFriction, CompetesWithNamesOfFrictionAlone) {
+  const PlacedEffect ratio = of_only_joint(*find_effect("capstan_ratio"), {1.02});
+  EXPECT_EQ(unlisted_weight(ratio, ratio), 0);
+}
+
+}  // namespace
+}  // namespace halyard
