@@ -25,9 +25,8 @@ void run_filter(DualUkf& filter, const std::vector<Log>& logs, const std::functi
   for (const Log& log : logs) {
     filter.start_record();
     const auto n = static_cast<Eigen::Index>(log.n_joints);
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     const auto cell = [](const std::vector<double>& column, std::size_t i) {
-      return column.empty() ? kNan : column[i];
+      return column.empty() ? std::numeric_limits<double>::quiet_NaN() : column[i];
     };
     EncoderSample sample;
     sample.motor_torque.resize(n), sample.motor_position.resize(n), sample.joint_position.resize(n);
