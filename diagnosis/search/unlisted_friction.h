@@ -3,7 +3,9 @@
 /// that grows faster than the speed (churned grease, a fluid around the arm) is fitted by more viscous and less Coulomb
 /// friction, and leaves little. It is therefore compared with the name itself:
 ///
-///   F' = F - (c_2 |v| + c_3 v²) v      c_2, c_3 ≥ 0   N m s²/rad², N m s³/rad³ | N s²/m², N s³/m³; v: rate of the joint
+///   F' = F - (c_2 |v| + c_3 v²) v
+///
+///   c_2, c_3   at least 0, N m s²/rad² and N m s³/rad³ | N s²/m² and N s³/m³      v   rate of the joint
 ///
 /// The name is replaced by this effect, everything is fitted again, and both compete by their gain on the deciding
 /// blocks and by their prior costs. The library does not contain this effect, so it can take a name away but not get
