@@ -17,8 +17,8 @@
 namespace halyard {
 namespace {
 
-Log read(const ArmModel& model, const std::filesystem::path& path, const std::vector<std::string>& columns) {
-  Log log = read_log_of(model, path, columns, /*torque_required=*/false);
+Log read(const ArmModel& model, const std::filesystem::path& path) {
+  Log log = read_log_of(model, path, {}, /*torque_required=*/false);
   for (const std::string& note : {ignored_columns_note(log), missing_torques_note(log, model)})
     if (!note.empty()) fmt::print("{}\n", note);
   return log;
@@ -96,9 +96,9 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
   if (!options.holdout.empty()) all.push_back(options.holdout);
   check_given_once(all);
   std::vector<Log> training;
-  for (const auto& path : options.data) training.push_back(read(model, path, options.columns));
+  for (const auto& path : options.data) training.push_back(read(model, path));
   std::optional<Log> holdout;
-  if (!options.holdout.empty()) holdout = read(model, options.holdout, options.columns);
+  if (!options.holdout.empty()) holdout = read(model, options.holdout);
   check_not_input(options.out / "model.xml");
 
   Diagnosis d;
@@ -107,7 +107,7 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
     StageProgress progress("diagnose", usual_stages(),
                            options.progress_in_pipe ? PipedProgress::lines : PipedProgress::nothing);
     const auto tell = [&](const std::string& what, double fraction) { progress.set(what, fraction); };
-    d = diagnose(model, training, holdout, {.columns = columns_of(model, options.columns)}, tell);
+    d = diagnose(model, training, holdout, {}, tell);
     evaluation = evaluate_diagnosis(model, d, training, holdout, tell);
   }
   OutputFiles files;

@@ -44,7 +44,7 @@ void run_identify(const IdentifyCommandOptions& options) {
   std::vector<Log> logs;
   std::string notes;
   for (const auto& path : paths) {
-    logs.push_back(read_timed_log(model, path, options.columns));
+    logs.push_back(read_timed_log(model, path, {}));
     if (const std::string note = ignored_columns_note(logs.back()); !note.empty()) notes += note + "\n";
   }
   std::optional<Log> holdout;
@@ -56,7 +56,7 @@ void run_identify(const IdentifyCommandOptions& options) {
   IdentificationStudy result;
   {
     StageProgress progress("identify");
-    result = blaming_wrong_logs(logs, model, options.columns, [&] {
+    result = blaming_wrong_logs(logs, model, {}, [&] {
       return study_identification(model, logs, holdout, keys,
                                   [&](const std::string& what, double fraction) { progress.set(what, fraction); });
     });

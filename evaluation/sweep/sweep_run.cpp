@@ -22,26 +22,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::size_t stored_points(const SweepGrid& grid, const fs::path& folder, const Shard& shard) {
-  const StoredCells stored({folder}, grid);
-  std::size_t count = 0;
-  for (std::size_t point = 0; point < grid.size(); ++point) count += shard.holds(point) && stored.has(point);
-  return count;
-}
-
 /// Points of the shard that are still to be computed; a journal that does not count is removed.
 std::vector<std::size_t> points_to_do(const SweepGrid& grid, const fs::path& folder, const SweepRunOptions& options) {
+  const StoredCells stored({folder}, grid);
+  std::vector<std::size_t> todo;
+  std::size_t discarded = 0;
+  for (std::size_t point = 0; point < grid.size(); ++point) {
+    if (!options.shard.holds(point)) continue;
+    if (!(options.resume && stored.has(point))) todo.push_back(point);
+    discarded += !options.resume && stored.has(point);
+  }
+  if (discarded > 0 && options.discarding) options.discarding(discarded);
   if (!options.resume) {
-    if (const std::size_t points = stored_points(grid, folder, options.shard); points > 0 && options.discarding)
-      options.discarding(points);
     if (options.shard.is_whole())
       for (const fs::path& journal : journals_in(folder)) fs::remove(journal);
     fs::remove(journal_path(folder, options.shard));
   }
-  const StoredCells stored({folder}, grid);
-  std::vector<std::size_t> todo;
-  for (std::size_t point = 0; point < grid.size(); ++point)
-    if (options.shard.holds(point) && !(options.resume && stored.has(point))) todo.push_back(point);
   return todo;
 }
 
