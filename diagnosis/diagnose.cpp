@@ -72,6 +72,7 @@ class Diagnoser {
     if (const auto tells = model_for_lateness(training, model_, final_hypothesis()))
       searched = search(training, holdout, *tells);
     const Evidence& evidence = *searched.evidence;
+    weigh_unlisted_friction(evidence, tolerated_, attribution());
     DiagnosisData& data = searched.data;
     for (const DiagnosisData::Late& late : data.late) result_.log_findings.push_back(finding_of(late));
     details_->joint_view = std::move(data.joint_view);
@@ -137,7 +138,6 @@ class Diagnoser {
     result_.tolerance_factor = attribution().tolerance_factor;
     tolerated_ = with_tolerances_times(result_.tolerance_factor, result_.given);
     changed_ = revise(*s.evidence, *s.whole, tolerated_, attribution());
-    weigh_unlisted_friction(*s.evidence, tolerated_, attribution());
     return s;
   }
 

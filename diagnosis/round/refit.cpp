@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "diagnosis/fit/nudged.h"
-#include "diagnosis/judgement/decision_rule.h"
 
 namespace halyard {
 
@@ -103,6 +102,12 @@ Fit Refitter::refit(const Hypothesis& h, const Score& before) const {
   Refit r{h, before};
   go_on(r, kRule.most_passes);
   return r.best;
+}
+
+std::optional<Scored> Refitter::refitted(const Hypothesis& h, const Score& before) const {
+  const Fit fit = refit(h, before);
+  if (!fit.usable) return std::nullopt;
+  return Scored{fit.hypothesis, evidence_.score(fit.hypothesis)};
 }
 
 }  // namespace halyard

@@ -3,9 +3,11 @@
 /// residual that the last one left.
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "diagnosis/fit/fit.h"
+#include "diagnosis/judgement/judge.h"
 
 namespace halyard {
 
@@ -46,6 +48,8 @@ class Refitter {
   void go_on(Refit& refit, int passes) const;
   /// Runs all passes, starting from h. `before` is the score that gives the first weights.
   Fit refit(const Hypothesis& h, const Score& before) const;
+  /// The hypothesis after refit(), with its score; nothing if it cannot be integrated.
+  std::optional<Scored> refitted(const Hypothesis& h, const Score& before) const;
 
  private:
   const Evidence& evidence_;

@@ -117,22 +117,26 @@ Hypothesis without_added_at(Hypothesis h, std::size_t given, EffectPlace joint) 
   return h;
 }
 
-}  // namespace
-
-double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t given,
-                               std::size_t effect) {
+/// By what is left in the channel in which the effect does most.
+double probability_of_none_by_rest(const Evidence& evidence, const Attribution& found, std::size_t given,
+                                   std::size_t effect) {
   const Hypothesis& h = found.final_fit.hypothesis;
-  const double unlisted = found.namings[effect - given].unlisted;
   const Score without = evidence.score(without_effect(h, effect));
-  if (!without.finite) return unlisted;
+  if (!without.finite) return 0;
   const std::optional<int> c = most_explained_channel(evidence, found.final_score, without);
-  if (!c) return unlisted;
+  if (!c) return 0;
   double before = without.mean_square[*c];
   if (const Score none = evidence.score(without_added_at(h, given, h.effects[effect].joint)); none.finite)
     before = std::min(before, none.mean_square[*c]);
   const double misfit_square = std::pow(misfit_of(h.effects[effect]), 2) * before;
-  return std::max(unlisted,
-                  probability_of_none(found.final_score.mean_square[*c], misfit_square, evidence.floor()[*c]));
+  return probability_of_none(found.final_score.mean_square[*c], misfit_square, evidence.floor()[*c]);
+}
+
+}  // namespace
+
+double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t given,
+                               std::size_t effect) {
+  return std::max(found.namings[effect - given].unlisted, probability_of_none_by_rest(evidence, found, given, effect));
 }
 
 namespace {
@@ -166,14 +170,10 @@ std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const
   const Refitter refitter(evidence, given, first);
   if (!refitter.is_usable()) return doubt;
   const Judge judge(evidence, given, refitter.numbers());
-  const auto refitted = [&](const Hypothesis& h) {
-    const Fit fit = refitter.refit(h, found.final_score);
-    return fit.usable ? std::optional(Scored{fit.hypothesis, evidence.score(fit.hypothesis)}) : std::nullopt;
-  };
-  const auto with = refitted(sure);
+  const auto with = refitter.refitted(sure, found.final_score);
   for (std::size_t e = 0, place = first; e < doubt.size(); ++e) {
     if (doubt[e] != Doubt::none) continue;
-    const auto without = refitted(without_effect(sure, place));
+    const auto without = refitter.refitted(without_effect(sure, place), found.final_score);
     if (with && without && !judge.is_needed(*with, *without, place, significance)) doubt[e] = Doubt::only_beside_one;
     ++place;
   }

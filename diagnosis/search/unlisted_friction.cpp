@@ -34,23 +34,12 @@ bool is_friction(const PlacedEffect& effect) {
   return name == "joint_friction" || name == "motor_friction";
 }
 
-std::optional<Scored> refitted(const Refitter& refitter, const Evidence& evidence, const Hypothesis& h,
-                               const Score& before) {
-  const Fit fit = refitter.refit(h, before);
-  if (!fit.usable) return std::nullopt;
-  return Scored{fit.hypothesis, evidence.score(fit.hypothesis)};
-}
-
 }  // namespace
-
-const Effect& unlisted_friction() {
-  static const UnlistedFriction effect;
-  return effect;
-}
 
 void weigh_unlisted_friction(const Evidence& evidence, const ArmModel& model, Attribution& found) {
   const std::size_t given = model.effects.size();
   const Hypothesis& all = found.final_fit.hypothesis;
+  static const UnlistedFriction unlisted;  // the evidence remembers predictions by their effects
   std::optional<Refitter> refitter;
   std::optional<Scored> named;
   for (std::size_t e = given; e < all.effects.size(); ++e) {
@@ -59,12 +48,12 @@ void weigh_unlisted_friction(const Evidence& evidence, const ArmModel& model, At
     if (!refitter) {
       refitter.emplace(evidence, model, given);
       if (!refitter->is_usable()) return;
-      named = refitted(*refitter, evidence, all, found.final_score);
+      named = refitter->refitted(all, found.final_score);
     }
     if (!named) return;
-    const PlacedEffect rival = place_effect(unlisted_friction(), model.nominal, effect.joint);
-    const auto other =
-        refitted(*refitter, evidence, refitter->with_effect(without_effect(all, e), rival), found.final_score);
+    const PlacedEffect rival = place_effect(unlisted, model.nominal, effect.joint);
+    const Hypothesis replaced = refitter->with_effect(without_effect(all, e), rival);
+    const auto other = refitter->refitted(replaced, found.final_score);
     if (!other) continue;
     const Judge judge(evidence, model, refitter->numbers());
     const double gain =

@@ -15,9 +15,6 @@
 
 namespace halyard {
 
-/// Friction that grows faster than the speed.
-const Effect& unlisted_friction();
-
 /// Sets Naming::unlisted of the added effects that are friction of a joint or of a motor. model: with the tolerances
 /// of the search.
 void weigh_unlisted_friction(const Evidence& evidence, const ArmModel& model, Attribution& found);
