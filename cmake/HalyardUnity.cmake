@@ -46,7 +46,7 @@ compile_together(halyard_estimators process
   identification/arm_family.cpp identification/block_jackknife.cpp identification/dual_ukf.cpp
   identification/identified_keys.cpp identification/identify.cpp
   matrix/matrix_kernels.cpp matrix/mean_shift.cpp matrix/phi_functions.cpp process/exponential_step.cpp process/noise.cpp
-  process/plain_transmission.cpp process/process_model.cpp process/standstill.cpp process/static_equilibrium.cpp)
+  process/plain/plain_transmission.cpp process/process_model.cpp process/standstill.cpp process/static_equilibrium.cpp)
 
 compile_together(halyard_plugins estimators
   host/eigen_alignment.cpp host/estimator_module.cpp host/loader.cpp host/plugin_estimator.cpp host/shared_module.cpp)

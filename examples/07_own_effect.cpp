@@ -13,17 +13,18 @@
 
 #include "arm_example.h"
 #include "estimators/built_in.h"
-#include "transmission/effect.h"
+#include "transmission/one_signal.h"
 
 namespace {
 
 using namespace halyard;
 
-class HarnessSpring : public EffectOf<HarnessSpring> {
+class HarnessSpring : public EffectOf<HarnessSpring>, public OneSignalEffect {
  public:
   std::string name() const override { return "harness_spring"; }
   std::string summary() const override { return "a cable harness that pulls the joint to where it lies relaxed"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
+  Signal signal_at(EffectStage) const override { return Signal::joint_position; }  // filters are faster if they know
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
     const bool turns = arm.joint[*joint].type == JointType::revolute;
     // Name, unit, neutral, typical, lower, upper.

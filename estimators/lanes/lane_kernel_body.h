@@ -2,7 +2,7 @@
 /// No include guard: each lanes_<set>.cpp includes it exactly once.
 
 #include "estimators/lanes/lane_kernels.h"
-#include "estimators/process/arm_impulses.h"
+#include "estimators/process/plain/arm_impulses.h"
 
 namespace halyard {
 namespace {
@@ -62,43 +62,44 @@ void chain_curvature(const LinearisedArm& model, LinearisedPoint& point, const d
       });
 }
 
-void mean_curvature(const LinearisedArm& model, const ChainPoint& chain, const LinearisedPoint& point, double gamma,
-                    int count, int blocks, const Lanes* root, double* mean) {
+void mean_curvature(const LinearisedArm& model, double time, const double* x, const ChainPoint& chain,
+                    const LinearisedPoint& point, double gamma, int count, int blocks, const Lanes* root,
+                    double* mean) {
   with_known_joints(
       model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
-        halyard::mean_curvature<known>(model, chain, point, gamma, count, blocks, root, mean);
+        halyard::mean_curvature<known>(model, time, x, chain, point, gamma, count, blocks, root, mean);
       });
 }
 
-void second_stage(const LinearisedArm& model, const LinearisedPoint& start, const double* x, const double* x_2,
-                  LinearisedPoint& end, double* D) {
+void second_stage(const LinearisedArm& model, double time, const LinearisedPoint& start, const double* x,
+                  const double* x_2, LinearisedPoint& end, double* D) {
   with_known_joints(
       model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
-        halyard::second_stage<known>(model, start, x, x_2, end, D);
+        halyard::second_stage<known>(model, time, start, x, x_2, end, D);
       });
 }
 
-void rates_beside(const LinearisedArm& model, const HeldInputs& in, const double* x, double* x_dot,
+void rates_beside(const LinearisedArm& model, double time, const HeldInputs& in, const double* x, double* x_dot,
                   LinearisedPoint& point) {
   with_known_joints(
       model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
-        set_rates_beside<known>(model, in, x, x_dot, point);
+        set_rates_beside<known>(model, time, in, x, x_dot, point);
       });
 }
 
-void far_excess(const LinearisedArm& model, const LinearisedPoint& start, const LinearisedPoint& end, const double* x_2,
-                double factor, int blocks, const Lanes* d, Lanes* rates) {
+void far_excess(const LinearisedArm& model, double time, const LinearisedPoint& start, const LinearisedPoint& end,
+                const double* x_2, double factor, int blocks, const Lanes* d, Lanes* rates) {
   with_known_joints(
       model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
-        set_far_excess<known>(model, start, end, x_2, factor, blocks, d, rates);
+        set_far_excess<known>(model, time, start, end, x_2, factor, blocks, d, rates);
       });
 }
 
-void near_excess(const LinearisedArm& model, const LinearisedPoint& start, const LinearisedPoint& end, double factor,
+void near_excess(const LinearisedArm& model, const LinearisedPoint& start, const LinearisedPoint& at, double factor,
                  int blocks, const Lanes* d, Lanes* rates) {
   with_known_joints(
       model.layout.n_joints, [&]<int known>() __attribute__((always_inline)) {
-        set_near_excess<known>(model, start, end, factor, blocks, d, rates);
+        set_near_excess<known>(model, start, at, factor, blocks, d, rates);
       });
 }
 

@@ -31,16 +31,17 @@ struct LaneKernels {
   /// chain_curvature() and mean_curvature() of arm_curvature.h.
   void (*chain_curvature)(const LinearisedArm& model, LinearisedPoint& point, const double* x, const double* x_dot,
                           const double* A, double gamma, int count, int blocks, const Lanes* root);
-  void (*mean_curvature)(const LinearisedArm& model, const ChainPoint& chain, const LinearisedPoint& point,
-                         double gamma, int count, int blocks, const Lanes* root, double* mean);
+  void (*mean_curvature)(const LinearisedArm& model, double time, const double* x, const ChainPoint& chain,
+                         const LinearisedPoint& point, double gamma, int count, int blocks, const Lanes* root,
+                         double* mean);
   /// second_stage(), set_rates_beside(), set_far_excess() and set_near_excess() of arm_second_stage.h.
-  void (*second_stage)(const LinearisedArm& model, const LinearisedPoint& start, const double* x, const double* x_2,
-                       LinearisedPoint& end, double* D);
-  void (*rates_beside)(const LinearisedArm& model, const HeldInputs& in, const double* x, double* x_dot,
+  void (*second_stage)(const LinearisedArm& model, double time, const LinearisedPoint& start, const double* x,
+                       const double* x_2, LinearisedPoint& end, double* D);
+  void (*rates_beside)(const LinearisedArm& model, double time, const HeldInputs& in, const double* x, double* x_dot,
                        LinearisedPoint& point);
-  void (*far_excess)(const LinearisedArm& model, const LinearisedPoint& start, const LinearisedPoint& end,
+  void (*far_excess)(const LinearisedArm& model, double time, const LinearisedPoint& start, const LinearisedPoint& end,
                      const double* x_2, double factor, int blocks, const Lanes* d, Lanes* rates);
-  void (*near_excess)(const LinearisedArm& model, const LinearisedPoint& start, const LinearisedPoint& end,
+  void (*near_excess)(const LinearisedArm& model, const LinearisedPoint& start, const LinearisedPoint& at,
                       double factor, int blocks, const Lanes* d, Lanes* rates);
   /// impulse_response() of arm_impulses.h.
   void (*impulse_response)(const LinearisedArm& model, const ImpulseStep& step, int blocks, const Lanes* G,

@@ -13,14 +13,14 @@
 /// the inverse dynamics in the directions of q and q'. Neither passes through the mass matrix, its factors or its
 /// columns.
 
-#include "estimators/process/plain_transmission.h"
+#include "estimators/process/plain/plain_transmission.h"
 #include "estimators/process/slopes.h"
 
 namespace halyard {
 
 /// F, and its slopes in all directions of the state.
 struct JointForces {
-  double value[kMaxJoints];
+  double value[kMaxJoints] = {};
   double slope[kMaxJoints][kMaxStates];
 };
 
@@ -33,17 +33,35 @@ struct ChainPoint {
   double curvature[kMaxJoints];              ///< of M a + h: its mean, set by chain_curvature() of arm_curvature.h
 };
 
+/// Slopes of friction and cables in A.
+struct DriveSlopes {
+  double in_rate[2 * kMaxJoints], in_position[2 * kMaxJoints];  ///< of friction
+  double stiff[kMaxJoints], damped[kMaxJoints];                 ///< of the cables
+  double root_of_stiff[kMaxJoints];                             ///< √|stiff|
+};
+
+HALYARD_INLINE void set_slopes(const Frictions& friction, const CableForces& cable, int n, DriveSlopes& slopes) {
+  for (int i = 0; i < 2 * n; ++i)
+    slopes.in_rate[i] = friction.slope[i], slopes.in_position[i] = friction.in_position[i];
+  for (int k = 0; k < n; ++k) {
+    slopes.stiff[k] = cable.stiff[k], slopes.damped[k] = cable.damped[k];
+    slopes.root_of_stiff[k] = __builtin_sqrt(abs(cable.stiff[k]));
+  }
+}
+
 /// What a linearisation finds besides x' and A.
 struct LinearisedPoint {
   ChainPoint chain;
   double force[kMaxJoints];  ///< F
   Frictions friction;        ///< of a plain transmission, as the next
   CableForces cable;
-  double excess_rate = 0;  ///< of a second stage (arm_second_stage.h), 1/s
+  DriveSlopes of_A;        ///< those above, or of a state shortly before, if A is (arm_second_stage.h)
+  double excess_rate = 0;  ///< how far friction and cables are from these (arm_second_stage.h), 1/s
 };
 
 /// A step whose impulses are followed (arm_impulses.h).
 struct ImpulseStep {
+  double time_s;                 ///< at the start
   const LinearisedPoint& start;  ///< at x
   const double *A, *x, *x_2;     ///< ∂f/∂x at x, the state at the start and at the end
   double dt_s;
@@ -79,24 +97,37 @@ HALYARD_INLINE void linearise_transmission(const Transmission<Dual>& transmissio
   }
 }
 
+/// The arm's equations, and what is held over a step.
+struct LinearisedArm {
+  const Transmission<Dual>& transmission;
+  const Transmission<Lanes>& lanes;  ///< the same, as are the next
+  const PlainTransmission* plain;    ///< null if it is not plain
+  const ArmParameters<double>& arm;
+  const StateLayout& layout;
+};
+struct HeldInputs {
+  const CommandHistory* history;
+  const Dual *command, *external;  ///< [n]
+};
+
 /// F of a plain transmission, the rows of x_dot but those of the joints' rates, and what friction and cables are at x.
-/// `dual`: the parameters of `arm`.
 template <int known>
-HALYARD_INLINE void set_plain_forces(const PlainTransmission& t, const ArmParameters<double>& arm,
-                                     const ArmParameters<Dual>& dual, const StateLayout& l, const Dual* command,
-                                     const Dual* external, const double* x, Frictions& friction, CableForces& cable,
-                                     double* x_dot, double* force) {
+HALYARD_INLINE void set_plain_forces(const LinearisedArm& model, double time, const HeldInputs& in, const double* x,
+                                     Frictions& friction, CableForces& cable, double* x_dot, double* force) {
+  const PlainTransmission& t = *model.plain;
+  const ArmParameters<double>& arm = model.arm;
+  const StateLayout& l = model.layout;
   const int n = joint_count<known>(arm);
-  set_frictions(t, n, x, friction);
-  set_cable_forces<known>(t, arm, dual, l, x, cable);
+  set_frictions<known>(t, model.transmission, time, x, friction);
+  set_cable_forces<known>(t, model.transmission, arm, l, time, x, cable);
   for (int i = l.effect_states; i < l.size; ++i) x_dot[i] = 0;
   for (int k = 0; k < n; ++k) {
-    force[k] = external[k].a - friction.value[n + k];
+    force[k] = in.external[k].a - friction.value[n + k];
     if (const PlainTransmission::Constant& added = t.force[k]; added.state >= 0)
       force[k] += added.factor * x[added.state];
   }
   for (int k = 0; k < n; ++k) {
-    const double torque = arm.joint[k].torque_scale * command[k].a + arm.joint[k].torque_bias - friction.value[k];
+    const double torque = arm.joint[k].torque_scale * in.command[k].a + arm.joint[k].torque_bias - friction.value[k];
     x_dot[*l.motor_angle[k]] = x[*l.motor_rate[k]];
     x_dot[*l.motor_rate[k]] = t.per_rotor_inertia[k] * (torque - t.travel[k] * cable.value[k]);
     x_dot[l.position[k]] = x[l.rate[k]];
@@ -114,6 +145,7 @@ HALYARD_INLINE void set_plain_slopes(const PlainTransmission& t, const ArmParame
   for (int k = 0; k < n; ++k) {
     for (int i = 0; i < size; ++i) forces.slope[k][i] = 0;
     forces.slope[k][l.rate[k]] = -friction.slope[n + k];
+    forces.slope[k][l.position[k]] = -friction.in_position[n + k];
     if (const PlainTransmission::Constant& added = t.force[k]; added.state >= 0)
       forces.slope[k][added.state] = added.factor;
   }
@@ -122,6 +154,7 @@ HALYARD_INLINE void set_plain_slopes(const PlainTransmission& t, const ArmParame
     const double travel = t.travel[k], per_inertia = t.per_rotor_inertia[k];
     A[angle + rate * size] = A[l.position[k] + l.rate[k] * size] = 1;
     A[rate + rate * size] = -per_inertia * friction.slope[k];
+    A[rate + angle * size] = -per_inertia * friction.in_position[k];
     const double pull = travel * per_inertia, stiff = cable.stiff[k], damped = cable.damped[k];
     // The slope of the cable's force in a state.
     const auto add = [&](int state, double slope) __attribute__((always_inline)) {
@@ -207,18 +240,6 @@ HALYARD_INLINE ChainPose<double> pose_at(const ArmParameters<double>& arm, const
   return chain_pose<known>(arm, q);
 }
 
-/// The arm's equations, and what is held over a step.
-struct LinearisedArm {
-  const Transmission<Dual>& transmission;
-  const PlainTransmission* plain;  ///< of the same transmission; null if it is not plain
-  const ArmParameters<double>& arm;
-  const StateLayout& layout;
-};
-struct HeldInputs {
-  const CommandHistory* history;
-  const Dual *command, *external;  ///< [n]
-};
-
 /// F with its slopes, and all rows of x_dot and A but those of the joints' rates. Of a plain transmission also what
 /// friction and cables are.
 template <int known>
@@ -229,8 +250,7 @@ HALYARD_INLINE void linearise_forces(const LinearisedArm& model, double time, co
   if (!model.plain)
     return linearise_transmission<known>(model.transmission, l, time, in.history, in.command, in.external, x, x_dot, A,
                                          forces);
-  set_plain_forces<known>(*model.plain, model.arm, model.transmission.arm(), l, in.command, in.external, x, friction,
-                          cable, x_dot, forces.value);
+  set_plain_forces<known>(model, time, in, x, friction, cable, x_dot, forces.value);
   set_plain_slopes<known>(*model.plain, model.arm, l, friction, cable, A, forces);
 }
 
@@ -273,6 +293,8 @@ HALYARD_INLINE void linearised_derivative(const LinearisedArm& model, double tim
   } else if (near != &chain) {
     chain = *near;
   }
+  if (model.plain) set_slopes(point.friction, point.cable, n, point.of_A);
+  point.excess_rate = 0;
   for (int k = 0; k < n; ++k) point.force[k] = forces.value[k];
   set_accelerations<known>(arm, l, pose, x, forces.value, chain, x_dot);
   if (!near) set_chain_slopes<known>(arm, l, x, chain.acceleration, chain);

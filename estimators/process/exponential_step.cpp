@@ -14,6 +14,7 @@ constexpr double kRootTolerance = 0.2;        // of the root
 constexpr double kHeldForceTolerance = 0.05;  // of the response
 constexpr double kNoGrowth = 1e-3;            // of the root
 constexpr double kNear = 1e-2;                // largest h (A - A_k) that is followed beside A_k
+constexpr double kKinkReach = 4;              // standard deviations
 constexpr double kSameLength = 1e-9;          // of a step
 
 /// ‖column of change‖ <= tolerance ‖column of whole‖ for all columns; false if one is not finite.
@@ -37,6 +38,9 @@ ExponentialStep::ExponentialStep(const ProcessModel& process)
   process.linearise(usual, Eigen::VectorXd::Zero(process.n_states()), f_, A_);
   phi_.balance(usual.dt_s * A_);
   L_.resize(moving_);
+  excess_.resize(moving_);
+  u_row_.reshape(1, shape_.n);
+  excess_row_.reshape(1, moving_);
   Z_0_.resize(shape_.n, shape_.n);
   slopes_.resize(shape_.n, shape_.n);
   S_.reshape(shape_.n, shape_.n);
@@ -57,14 +61,17 @@ void ExponentialStep::linearise(const Step& step, const Eigen::VectorXd& x) {
   const bool known = step.time_s >= chain_known_since_ && step.time_s < chain_known_since_ + kChainAge;
   const int level = known && has_functions() ? level_of(step.dt_s) : -1;
   if (level != level_) answer_is_due_ = true;
-  if (level >= 0 && process_.is_smooth()) {
+  if (level >= 0 && process_.is_plain()) {
     process_.rates_beside(step, x, f_, point_);
     level_ = level;
-    if (step.dt_s * point_.excess_rate <= kNoGrowth) return;
+    const double off = step.dt_s * point_.excess_rate;
+    is_off_ = off > kNoGrowth;
+    if (off <= kNear) return;
+    is_off_ = false;
   }
   if (!known) chain_known_since_ = step.time_s, has_curvature_ = false;
   process_.linearise(step, x, known ? &point_.chain : nullptr, f_, A_2_, point_);
-  if (level >= 0 && !process_.is_smooth()) {
+  if (level >= 0 && !process_.is_plain()) {
     const double off = step.dt_s * phi_.distance(A_2_, A_);
     if (off <= kNear) {
       level_ = level;
@@ -108,6 +115,7 @@ bool ExponentialStep::start(const LaneMatrix& S, const Eigen::MatrixXd& G) {
   is_finite_ = false;
   if (!usable_) return forget(), false;
   set_x_2();
+  is_smooth_ = process_.is_plain() && !process_.has_kink_near(step_, x_, point_, x_2_, kKinkReach, S);
   set_linear_response(G);
   set_second_stage();
   set_product(phi().phi_3, right(D_), 1, shift_);
@@ -123,7 +131,7 @@ bool ExponentialStep::start(const LaneMatrix& S, const Eigen::MatrixXd& G) {
   spread_squares_.resize(n);
   set_row_squares(moved_root_, n, spread_squares_.data());
   is_finite_ = std::isfinite(c_.squaredNorm() + spread_squares_.sum());
-  usable_ = is_within(kMeanTolerance) || (!process_.is_smooth() && is_within(kCurvedTolerance) && is_curved_evenly());
+  usable_ = is_within(kMeanTolerance) || (process_.has_effects() && is_within(kCurvedTolerance) && is_curved_evenly());
   return usable_;
 }
 
@@ -133,21 +141,25 @@ bool ExponentialStep::is_within(double tolerance) const {
   return within;
 }
 
+const Eigen::VectorXd& ExponentialStep::excess_of_u(const LinearisedPoint& at) {
+  for (int c = 0; c < shape_.n; ++c) u_row_.view()(0, c) = u_(c);
+  process_.near_excess(point_, at, step_.dt_s, u_row_, excess_row_);
+  excess_ = excess_row_.view().row(0);
+  return excess_;
+}
+
 bool ExponentialStep::is_curved_evenly() {
-  set_end_slopes();
   part_ = D_;
-  part_.noalias() -= 0.5 * slopes_.middleRows(shape_.first, moving_) * u_;
+  if (is_smooth_) {
+    part_ -= 0.5 * excess_of_u(point_2_);
+  } else {
+    set_end_slopes();
+    part_.noalias() -= 0.5 * slopes_.middleRows(shape_.first, moving_) * u_;
+  }
   if (is_off_) part_ += 0.5 * L_;
   set_product(phi().phi_3, right(part_), 1, shift_);
   c_ = 2 * shift_.view().col(0);
   return is_within(kMeanTolerance);
-}
-
-void ExponentialStep::set_end_slopes() {
-  if (has_slopes_) return;
-  process_.jacobian_beside(end_, x_2_, point_.chain, A_2_);
-  slopes_ = step_.dt_s * (A_2_ - A_);
-  has_slopes_ = true;
 }
 
 void ExponentialStep::set_x_2() {
@@ -179,46 +191,15 @@ void ExponentialStep::set_linear_response(const Eigen::MatrixXd& G) {
 }
 
 void ExponentialStep::set_second_stage() {
+  if (!is_smooth_) return set_rough_stage();
   const double h = step_.dt_s;
-  if (process_.is_smooth()) {
-    process_.second_stage(point_, x_, x_2_, point_2_, D_);
-    D_ *= h;
-    return process_.far_excess(point_, point_2_, x_2_, -h, response_, minus_N_);
-  }
-  set_rough_stage();
-}
-
-void ExponentialStep::set_rough_stage() {
-  const double h = step_.dt_s;
-  const int n = shape_.n, blocks = response_.blocks();
   u_ = x_2_ - x_;
-  held_.reshape(response_.rows(), n);
-  for (int c = 0, i = 0; c < n; ++c)
-    for (const int end = (c + 1) * blocks; i < end; ++i) held_.lanes()[i] = response_.lanes()[i] + u_(c);
-  process_.changes(end_, point_.chain, {x_.data(), f_.data(), point_.force}, held_, rates_, point_2_.force);
-  f_2_ = f_;
-  for (int c = 0; c < n; ++c) response_.lanes()[c * blocks].set(0, u_(c));
-  minus_N_.reshape(response_.rows(), moving_);
-  for (int c = 0, i = 0; c < moving_; ++c) {
-    const double change = rates_.lanes()[c * blocks][0];
-    f_2_(shape_.first + c) += change;
-    for (const int end = (c + 1) * blocks; i < end; ++i) minus_N_.lanes()[i] = h * (change - rates_.lanes()[i]);
-    minus_N_.lanes()[c * blocks].set(0, -h * change);
-  }
-  minus_N_.clear_padding();
-  Z_ = h * A_;
-  multiply(response_.columns(0, n), transposed(rows_from(shape_.first, right(Z_))), minus_N_.columns(0, moving_), true);
-  D_.resize(moving_);
-  for (int c = 0; c < moving_; ++c) {
-    Lanes& of_x_2 = minus_N_.lanes()[c * blocks];
-    D_(c) = -of_x_2[0];
-    of_x_2.set(0, 0);
-  }
-  if (is_off_) {
-    L_.noalias() = Z_0_.middleRows(shape_.first, moving_) * u_;
-    D_ -= L_;
-  }
-  for (int c = 0; c < n; ++c) response_.lanes()[c * blocks].set(0, 0);
+  process_.second_stage(end_, point_, x_, x_2_, point_2_, D_);
+  D_ *= h;
+  process_.far_excess(end_, point_, point_2_, x_2_, -h, response_, minus_N_);
+  if (!is_off_) return;
+  L_ = excess_of_u(point_);
+  D_ -= L_;
 }
 
 bool ExponentialStep::respond(Eigen::Ref<Eigen::MatrixXd> Gamma) {
@@ -228,9 +209,9 @@ bool ExponentialStep::respond(Eigen::Ref<Eigen::MatrixXd> Gamma) {
   multiply(minus_N_.columns(0, moving_), transposed(right(phi().phi_2)), change_.columns(0, n), false);
   if (is_small_change(change_, response_, kHeldForceTolerance)) {
     change_.set_lanes([&](std::size_t i) { return response_.lanes()[i] - change_.lanes()[i]; });
-  } else if (process_.is_smooth()) {
+  } else if (is_smooth_) {
     change_ = response_;
-    process_.impulse_response(point_, A_, x_, x_2_, step_.dt_s, forces_, change_);
+    process_.impulse_response(step_, point_, A_, x_, x_2_, forces_, change_);
   } else {
     return false;
   }
@@ -244,12 +225,20 @@ void ExponentialStep::set_spread(const LaneMatrix& moved) {
 }
 
 bool ExponentialStep::set_growth(const LaneMatrix& moved) {
-  if (!process_.is_smooth()) return set_rough_growth(moved);
-  if (step_.dt_s * point_2_.excess_rate <= kNoGrowth) return growth_.set_zero(0, 0), true;
+  if (!is_smooth_) return set_rough_growth(moved);
+  if (step_.dt_s * point_2_.excess_rate <= kNoGrowth && !is_off_) return growth_.set_zero(0, 0), true;
   set_spread(moved);
   process_.near_excess(point_, point_2_, step_.dt_s, spread_, moved_);
-  set_product(moved_, transposed(right(phi().phi_2)), moved.columns(), growth_);
+  if (is_off_) process_.near_excess(point_, point_, step_.dt_s, S_, odd_);
+  set_growth_of_rates(moved.columns());
   return true;
+}
+
+void ExponentialStep::set_growth_of_rates(int n) {
+  if (!is_off_) return set_product(moved_, transposed(right(phi().phi_2)), n, growth_);
+  moved_.set_lanes([&](std::size_t i) { return moved_.lanes()[i] - odd_.lanes()[i]; });
+  set_product(odd_, transposed(right(phi().phi_1)), n, growth_);
+  add_product(moved_, transposed(right(phi().phi_2)), growth_);
 }
 
 bool ExponentialStep::set_rough_growth(const LaneMatrix& moved) {
@@ -262,12 +251,11 @@ bool ExponentialStep::set_rough_growth(const LaneMatrix& moved) {
   moved_.reshape(n, moving_);
   multiply(spread_.columns(0, n), transposed(rows_from(shape_.first, right(slopes_))), moved_.columns(0, moving_),
            false);
-  if (!is_off_) return set_product(moved_, transposed(right(phi().phi_2)), n, growth_), true;
-  odd_.reshape(n, moving_);
-  multiply(S_.columns(0, n), transposed(rows_from(shape_.first, right(Z_0_))), odd_.columns(0, moving_), false);
-  moved_.set_lanes([&](std::size_t i) { return moved_.lanes()[i] - odd_.lanes()[i]; });
-  set_product(odd_, transposed(right(phi().phi_1)), n, growth_);
-  add_product(moved_, transposed(right(phi().phi_2)), growth_);
+  if (is_off_) {
+    odd_.reshape(n, moving_);
+    multiply(S_.columns(0, n), transposed(rows_from(shape_.first, right(Z_0_))), odd_.columns(0, moving_), false);
+  }
+  set_growth_of_rates(n);
   return true;
 }
 
@@ -293,7 +281,7 @@ bool ExponentialStep::advance_pairs(Eigen::VectorXd& x, const LaneMatrix& S, dou
   if (!usable_) return false;
   S_.reshape(shape_.n, shape_.n);
   set_transposed(S.view(), S_.view());
-  usable_ = process_.is_smooth() ? set_smooth_pairs(gamma) : set_pairs(gamma);
+  usable_ = is_smooth_ ? set_smooth_pairs(gamma) : set_pairs(gamma);
   if (!usable_) return false;
   mean_shift_.compute(phi_, level_, S_, spread_squares_, first_, last_, shift_);
   shift = shift_.view().col(0);
@@ -315,8 +303,8 @@ bool ExponentialStep::set_smooth_pairs(double gamma) {
   if (growth_.columns() == 0) set_spread(moved_root_);
   else if (!is_small_change(growth_, spread_, kRootTolerance)) return false;
   set_chain_curvature(gamma);
-  process_.mean_curvature(point_.chain, point_, gamma, S_, first_);
-  process_.mean_curvature(point_.chain, point_2_, gamma, spread_, last_);
+  process_.mean_curvature(step_, x_, point_.chain, point_, gamma, S_, first_);
+  process_.mean_curvature(end_, x_2_, point_.chain, point_2_, gamma, spread_, last_);
   first_ *= step_.dt_s;
   last_ *= step_.dt_s;
   return true;
@@ -348,36 +336,6 @@ bool ExponentialStep::set_pairs(double gamma) {
   growth_.set_lanes(
       [&](std::size_t i) { return (growth_.lanes()[i] + last_term_.lanes()[i]) * (1 / gamma) - spread_.lanes()[i]; });
   return true;
-}
-
-void ExponentialStep::set_both_parts(const Step& at, const KnownRates& known, const LaneMatrix& d, LaneMatrix& odd,
-                                     Eigen::VectorXd& mean) {
-  const int n = shape_.n, count = d.rows(), joints = process_.n_joints();
-  const double half = 0.5 * step_.dt_s;
-  pairs_.reshape(2 * count, n);
-  for (int c = 0; c < n; ++c)
-    for (int i = 0; i < count; ++i) {
-      pairs_.view()(i, c) = d.view()(i, c);
-      pairs_.view()(count + i, c) = -d.view()(i, c);
-    }
-  process_.changes(at, point_.chain, known, pairs_, pair_changes_);
-  odd.reshape(count, moving_);
-  multiply(d.columns(0, n), transposed(rows_from(shape_.first, right(Z_))), odd.columns(0, moving_), false);
-  mean.resize(n);
-  for (int c = 0; c < moving_; ++c) {
-    const double* const plus = pair_changes_.view().col(c).data();
-    const double* const minus = plus + count;
-    double* const of_pair = odd.view().col(c).data();
-    double sum = 0;
-    for (int i = 0; i < count; ++i) {
-      of_pair[i] = half * (plus[i] - minus[i]) - of_pair[i];
-      sum += plus[i] + minus[i];
-    }
-    mean(shape_.first + c) = half * sum / count;
-  }
-  double of_chain[kMaxJoints];
-  mobility_times(point_.chain, joints, point_.chain.curvature, of_chain);
-  for (int k = 0; k < joints; ++k) mean(process_.layout().rate[k]) -= step_.dt_s * of_chain[k];
 }
 
 }  // namespace halyard

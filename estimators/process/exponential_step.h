@@ -22,11 +22,13 @@
 ///   G      impulses of force noise (noise.h)                         [n_states x sources]
 ///   Γ      what these do to x⁺ if the force is held over the step    [n_states x sources]
 ///
-/// Sigma points are assumed to be narrow. Where f is smooth (ProcessModel::is_smooth()), N then is half the second
-/// derivative of f in the direction d, whose mean arm_curvature.h gives without rates at the points, and the pairs'
+/// Sigma points are assumed to be narrow. Where f is smooth, N then is half the second derivative of f in the direction
+/// d. If the process is_plain(), too, arm_curvature.h gives its mean without rates at the points, and the pairs'
 /// differences are those of the linear F. There, A_2 and f(t + h, x_2 + Γ_0) take the chain as linear
-/// (arm_second_stage.h), so that neither needs a Jacobian at x_2. An effect or a slack cable may have a kink between
-/// the points of a pair: the transmission is evaluated at both (arm_changes.h), and
+/// (arm_second_stage.h), so that neither needs a Jacobian at x_2. An effect of a cable may have a kink, such as the edge
+/// of a backlash: a step is smooth if none lies between x and x_2 or within four standard deviations beside them. In
+/// other steps, and with other effects and slack cables, there may be a kink between the points of a pair: the
+/// transmission is evaluated at both (arm_changes.h), and
 ///
 ///   F S   = (d_2 + h φ_2 (N°(t + h, x_2, d_2) - N°(t, x, d))) / γ,   d_2 = E d + h φ_1 N°(t, x, d),   d = γ S
 ///
@@ -39,14 +41,13 @@
 /// The rigid chain changes slowly: within a step it is taken as linear. Beside the slopes of cables and friction its
 /// own are small, as is its curvature: a step takes both, and the masses, from an earlier one of the last 10 ms, if it
 /// can. It also keeps A and the φ functions, if it is as long as theirs or a half, quarter, ... of it, and the slopes
-/// have not changed much. f(t, x) is new in every step, and D and N are what f is more than this A makes of it. With
-/// an A of an earlier step the mean is of second order, not of third.
+/// have not changed much: A_0 = ∂f/∂x at x may be off by 1e-2 / h. f(t, x) is new in every step, and D and N are what f
+/// is more than this A makes of it. With an A of an earlier step the mean is of second order, not of third.
 ///
-///   - Where f is smooth, no rate of friction or cable may be off by more than 1e-3 / h (excess rate,
-///     arm_second_stage.h).
-///   - Else A_0 = ∂f/∂x at x is found in every step, and may be off by 1e-2 / h (distance(), phi_functions.h). Beyond
-///     1e-3 / h the step follows B = A_0 - A: the part h B (x_2 - x) of h D grows with s and not with s², so that it
-///     has the weight φ_2 in x⁺, and not 2 φ_3, and F = E + h φ_1 B + h φ_2 ((A_2 - A) E - B). N has it in itself.
+/// How far A_0 is off, the rates of friction and cables say if the process is plain (excess rate, arm_second_stage.h),
+/// else the matrix (distance(), phi_functions.h). Beyond 1e-3 / h the step follows B = A_0 - A: the part h B (x_2 - x)
+/// of h D grows with s and not with s², so that it has the weight φ_2 in x⁺, and not 2 φ_3, and
+/// F = E + h φ_1 B + h φ_2 ((A_2 - A) E - B). Where f is not smooth, N has it in itself.
 ///
 /// Γ_0 is the response of the linearised model to a force that is held over the step; Γ Γᵀ replaces Van Loan's
 /// integral, which is for white noise. Simpson's rule keeps it equal to what the sub-steps give where the model is
@@ -128,6 +129,8 @@ class ExponentialStep {
   void set_linear_response(const Eigen::MatrixXd& G);
   /// h D, and -h N of the held forces.
   void set_second_stage();
+  /// h N' (x_2 - x) with the slopes at this point, of the moving rows.
+  const Eigen::VectorXd& excess_of_u(const LinearisedPoint& at);
   /// |c| <= tolerance, in standard deviations.
   bool is_within(double tolerance) const;
   /// The same with the guard's tolerance, after c has become that of a curvature which is not even.
@@ -141,6 +144,8 @@ class ExponentialStep {
   bool set_growth(const LaneMatrix& moved);
   /// The same where f is not smooth. S_: the root, where B is followed.
   bool set_rough_growth(const LaneMatrix& moved);
+  /// growth_ of n columns, from h (A_2 - A) E S in moved_ and h B S in odd_.
+  void set_growth_of_rates(int n);
   /// The first columns of F become `moved` and growth_.
   void add_growth(const LaneMatrix& moved, LaneMatrix& F);
   /// growth_, first_ and last_ from one point of each pair, where f is smooth; false: refused.
@@ -159,6 +164,7 @@ class ExponentialStep {
   const int moving_;      // number of rows that are neither kinematic nor zero
   Step step_, end_;
   bool usable_ = false, is_finite_ = false;
+  bool is_smooth_ = false;  // the step uses the structure of a plain transmission
   double chain_known_since_ = std::numeric_limits<double>::infinity();  // time of M and the slopes in point_.chain, s
   bool has_curvature_ = false;                                          // in point_.chain
   double phi_dt_s_ = std::numeric_limits<double>::quiet_NaN();          // length of the step of phi_, whose A is A_
@@ -167,7 +173,7 @@ class ExponentialStep {
   bool answer_is_due_ = true;                                           // so has response_
   bool is_off_ = false, has_slopes_ = false;                            // B is followed; slopes_ are of this step
   Eigen::VectorXd x_, f_, f_2_, x_2_, u_, next_, c_;                    // u_: x_2 - x
-  Eigen::VectorXd D_, L_, part_;                                        // of the moving rows; h D, h B (x_2 - x)
+  Eigen::VectorXd D_, L_, excess_, part_;                               // of the moving rows; h D, h B (x_2 - x)
   Eigen::VectorXd first_, last_;                                        // h m(0), h m(h)
   Eigen::MatrixXd A_, A_2_, Z_, Z_0_, slopes_;                          // Z_: h A; Z_0_: h B
   LinearisedPoint point_{}, point_2_{};                                 // of linearise() at x and x_2
@@ -177,6 +183,7 @@ class ExponentialStep {
   LaneMatrix forces_, response_;            // G, Γ_0; row 0 is for x_2 itself
   LaneMatrix held_, rates_;                 // x_2 - x with Γ_0, and what f changes by there
   LaneMatrix minus_N_, change_;             // -h N, and what the last term of Γ subtracts; then Γ
+  LaneMatrix u_row_, excess_row_;           // u, and excess_of_u()
   LaneMatrix pairs_, pair_changes_;         // ± d, and what f changes by there
   LaneMatrix deviations_, odd_, odd_end_;   // d, and the odd parts of h N at the start and the end
   LaneMatrix last_term_;                    // of γ F S

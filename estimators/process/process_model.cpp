@@ -71,8 +71,9 @@ ProcessModel::ProcessModel(const ArmModel& model)
   state_names_ = name_states(transmission_, layout_);
   for (const auto& e : transmission_.effects())
     if (e.effect->stages() & static_cast<unsigned>(EffectStage::sensors)) readings_are_linear_ = false;
-  is_smooth_ = plain_.has_value();
-  for (int k = 0; k < n_joints(); ++k) is_smooth_ = is_smooth_ && arm().joint[k].law == CableLaw::paper;
+  is_plain_ = plain_.has_value();
+  for (int k = 0; k < n_joints(); ++k) is_plain_ = is_plain_ && arm().joint[k].law == CableLaw::paper;
+  has_effects_ = !plain_ || plain_->has_effects();
   linear_z_.resize(n_joints());
   linear_H_.set_zero(n_joints(), n_states());
   differentiate_readings(0, Eigen::VectorXd::Zero(n_states()), linear_z_, linear_H_.view());
@@ -213,44 +214,53 @@ void ProcessModel::chain_curvature(LinearisedPoint& point, const Eigen::VectorXd
                                     root.blocks(), root.lanes());
 }
 
-void ProcessModel::mean_curvature(const ChainPoint& chain, const LinearisedPoint& point, double gamma,
-                                  const LaneMatrix& root, Eigen::VectorXd& mean) const {
+void ProcessModel::mean_curvature(const Step& step, const Eigen::VectorXd& x, const ChainPoint& chain,
+                                  const LinearisedPoint& point, double gamma, const LaneMatrix& root,
+                                  Eigen::VectorXd& mean) const {
   mean.resize(n_states());
-  lane_kernels()[0].mean_curvature(linearised_arm(), chain, point, gamma, root.rows(), root.blocks(), root.lanes(),
-                                   mean.data());
+  lane_kernels()[0].mean_curvature(linearised_arm(), step.time_s, x.data(), chain, point, gamma, root.rows(),
+                                   root.blocks(), root.lanes(), mean.data());
 }
 
-void ProcessModel::second_stage(const LinearisedPoint& start, const Eigen::VectorXd& x, const Eigen::VectorXd& x_2,
-                                LinearisedPoint& end, Eigen::VectorXd& D) const {
+void ProcessModel::second_stage(const Step& next, const LinearisedPoint& start, const Eigen::VectorXd& x,
+                                const Eigen::VectorXd& x_2, LinearisedPoint& end, Eigen::VectorXd& D) const {
   D.resize(moving_states() - layout_.positions);
-  lane_kernels()[0].second_stage(linearised_arm(), start, x.data(), x_2.data(), end, D.data());
+  lane_kernels()[0].second_stage(linearised_arm(), next.time_s, start, x.data(), x_2.data(), end, D.data());
 }
 
 void ProcessModel::rates_beside(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot,
                                 LinearisedPoint& point) const {
   const StepInputs<Dual> in(step, n_joints());
   x_dot.resize(n_states());
-  lane_kernels()[0].rates_beside(linearised_arm(), {step.history, in.command, in.external}, x.data(), x_dot.data(),
-                                 point);
+  lane_kernels()[0].rates_beside(linearised_arm(), step.time_s, {step.history, in.command, in.external}, x.data(),
+                                 x_dot.data(), point);
 }
 
-void ProcessModel::far_excess(const LinearisedPoint& start, const LinearisedPoint& end, const Eigen::VectorXd& x_2,
-                              double factor, const LaneMatrix& d, LaneMatrix& rates) const {
+void ProcessModel::far_excess(const Step& next, const LinearisedPoint& start, const LinearisedPoint& end,
+                              const Eigen::VectorXd& x_2, double factor, const LaneMatrix& d, LaneMatrix& rates) const {
   rates.reshape(d.rows(), moving_states() - layout_.positions);
-  lane_kernels()[0].far_excess(linearised_arm(), start, end, x_2.data(), factor, d.blocks(), d.lanes(), rates.lanes());
+  lane_kernels()[0].far_excess(linearised_arm(), next.time_s, start, end, x_2.data(), factor, d.blocks(), d.lanes(),
+                               rates.lanes());
 }
 
-void ProcessModel::near_excess(const LinearisedPoint& start, const LinearisedPoint& end, double factor,
+void ProcessModel::near_excess(const LinearisedPoint& start, const LinearisedPoint& at, double factor,
                                const LaneMatrix& d, LaneMatrix& rates) const {
   rates.reshape(d.rows(), moving_states() - layout_.positions);
-  lane_kernels()[0].near_excess(linearised_arm(), start, end, factor, d.blocks(), d.lanes(), rates.lanes());
+  lane_kernels()[0].near_excess(linearised_arm(), start, at, factor, d.blocks(), d.lanes(), rates.lanes());
 }
 
-void ProcessModel::impulse_response(const LinearisedPoint& start, const Eigen::MatrixXd& A, const Eigen::VectorXd& x,
-                                    const Eigen::VectorXd& x_2, double dt_s, const LaneMatrix& G,
+bool ProcessModel::has_kink_near(const Step& step, const Eigen::VectorXd& x, const LinearisedPoint& at,
+                                 const Eigen::VectorXd& x_2, double deviations, const LaneMatrix& S) const {
+  return plain_ && halyard::has_kink_near(*plain_, transmission_, layout_, step.time_s, x.data(), at.cable, x_2.data(),
+                                          deviations, S.view());
+}
+
+void ProcessModel::impulse_response(const Step& step, const LinearisedPoint& start, const Eigen::MatrixXd& A,
+                                    const Eigen::VectorXd& x, const Eigen::VectorXd& x_2, const LaneMatrix& G,
                                     LaneMatrix& Gamma) const {
-  const ImpulseStep step{start, A.data(), x.data(), x_2.data(), dt_s, 2 * substeps(dt_s / 2)};
-  lane_kernels()[0].impulse_response(linearised_arm(), step, G.blocks(), G.lanes(), Gamma.lanes());
+  const ImpulseStep impulses{
+      step.time_s, start, A.data(), x.data(), x_2.data(), step.dt_s, 2 * substeps(step.dt_s / 2)};
+  lane_kernels()[0].impulse_response(linearised_arm(), impulses, G.blocks(), G.lanes(), Gamma.lanes());
 }
 
 Eigen::VectorXd ProcessModel::motor_readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd* H) const {

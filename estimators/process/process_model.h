@@ -92,25 +92,32 @@ class ProcessModel {
   /// (arm_curvature.h). x_dot, A, point: of linearise() at x. root: S transposed.
   void chain_curvature(LinearisedPoint& point, const Eigen::VectorXd& x, const Eigen::VectorXd& x_dot,
                        const Eigen::MatrixXd& A, double gamma, const LaneMatrix& root) const;
-  /// Of a model that is_smooth(), mean [n_states] of it all at `point`, with the chain's part that of `chain`.
-  void mean_curvature(const ChainPoint& chain, const LinearisedPoint& point, double gamma, const LaneMatrix& root,
-                      Eigen::VectorXd& mean) const;
-  /// Of a model that is_smooth(), with `start` of linearise() at x, the second stage x_2 of a step
-  /// (arm_second_stage.h): D [moving_states() - layout().positions], and `end`, the point at x_2.
-  void second_stage(const LinearisedPoint& start, const Eigen::VectorXd& x, const Eigen::VectorXd& x_2,
-                    LinearisedPoint& end, Eigen::VectorXd& D) const;
-  /// Of a model that is_smooth(), x' at x, beside the A and `point` of linearise() at a state shortly before: slopes
-  /// stay those of A. point.excess_rate says how well they fit.
+  /// Of a model that is_plain(), as the next ones: mean [n_states] of it all at x, with the chain's part that of
+  /// `chain`. point: at x and the start of the step.
+  void mean_curvature(const Step& step, const Eigen::VectorXd& x, const ChainPoint& chain, const LinearisedPoint& point,
+                      double gamma, const LaneMatrix& root, Eigen::VectorXd& mean) const;
+  /// With `start` at x, the second stage x_2 of a step (arm_second_stage.h): D [moving_states() - layout().positions],
+  /// and `end`, the point at x_2 and the start of the step `next`, as in the next ones.
+  void second_stage(const Step& next, const LinearisedPoint& start, const Eigen::VectorXd& x,
+                    const Eigen::VectorXd& x_2, LinearisedPoint& end, Eigen::VectorXd& D) const;
+  /// x' at x, beside the A and `point` of linearise() at a state shortly before: slopes stay those of A.
+  /// point.excess_rate says how well they fit.
   void rates_beside(const Step& step, const Eigen::VectorXd& x, Eigen::VectorXd& x_dot, LinearisedPoint& point) const;
   /// factor N(d) at x_2, of every row d of the matrix [count x n_states]; rates [count x D.size()].
-  void far_excess(const LinearisedPoint& start, const LinearisedPoint& end, const Eigen::VectorXd& x_2, double factor,
-                  const LaneMatrix& d, LaneMatrix& rates) const;
-  /// factor N' d.
-  void near_excess(const LinearisedPoint& start, const LinearisedPoint& end, double factor, const LaneMatrix& d,
+  void far_excess(const Step& next, const LinearisedPoint& start, const LinearisedPoint& end,
+                  const Eigen::VectorXd& x_2, double factor, const LaneMatrix& d, LaneMatrix& rates) const;
+  /// factor N' d, with the slopes at a point, `start` or `end`.
+  void near_excess(const LinearisedPoint& start, const LinearisedPoint& at, double factor, const LaneMatrix& d,
                    LaneMatrix& rates) const;
-  /// Γ of the impulses G (arm_impulses.h): rows of [n_states]; Gamma: of the shape of G. A, start: of linearise() at x.
-  void impulse_response(const LinearisedPoint& start, const Eigen::MatrixXd& A, const Eigen::VectorXd& x,
-                        const Eigen::VectorXd& x_2, double dt_s, const LaneMatrix& G, LaneMatrix& Gamma) const;
+  /// True if an effect of a cable has a kink between x and x_2, or within so many standard deviations beside them.
+  /// at: the point at x. S: root of the covariance.
+  bool has_kink_near(const Step& step, const Eigen::VectorXd& x, const LinearisedPoint& at, const Eigen::VectorXd& x_2,
+                     double deviations, const LaneMatrix& S) const;
+  /// Γ of the impulses G (arm_impulses.h): rows of [n_states]; Gamma: of the shape of G. A, start: as in
+  /// second_stage().
+  void impulse_response(const Step& step, const LinearisedPoint& start, const Eigen::MatrixXd& A,
+                        const Eigen::VectorXd& x, const Eigen::VectorXd& x_2, const LaneMatrix& G,
+                        LaneMatrix& Gamma) const;
 
   /// h(x) [n] and H = ∂h/∂x [n x n_states]; the row of a joint without motor is zero.
   Eigen::VectorXd motor_readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd* H = nullptr) const;
@@ -119,9 +126,11 @@ class ProcessModel {
   /// z [n] becomes h(x), H [n x n_states] its slopes.
   void linearise_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
                           Eigen::Ref<Eigen::MatrixXd> H) const;
-  /// True if f surely has no kinks: all cables follow the paper's law, and the transmission is plain
-  /// (plain_transmission.h).
-  bool is_smooth() const { return is_smooth_; }
+  /// True if few derivatives say everything: all cables follow the paper's law, and the transmission is plain
+  /// (plain_transmission.h). Then f has no kinks but those of effects of the cables.
+  bool is_plain() const { return is_plain_; }
+  /// True if it has effects between the commands and the joints.
+  bool has_effects() const { return has_effects_; }
   /// Number of states before those at the end that surely are constant: x' = 0.
   int moving_states() const { return plain_ ? layout_.effect_states : layout_.size; }
   /// True if h is affine, that is, if no effect acts at the sensors.
@@ -132,7 +141,7 @@ class ProcessModel {
 
  private:
   void find_stiffest_rate(const ArmModel& model);
-  LinearisedArm linearised_arm() const { return {dual_, plain_ ? &*plain_ : nullptr, arm(), layout_}; }
+  LinearisedArm linearised_arm() const { return {dual_, lanes_, plain_ ? &*plain_ : nullptr, arm(), layout_}; }
   [[noreturn]] void throw_not_finite(double time_s, int state) const;
 
   Transmission<double> transmission_;
@@ -144,7 +153,8 @@ class ProcessModel {
   void differentiate_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
                               Eigen::Ref<Eigen::MatrixXd> H) const;
 
-  bool is_smooth_ = false;
+  bool is_plain_ = false;
+  bool has_effects_ = false;
   bool readings_are_linear_ = true;
   Eigen::VectorXd linear_z_;  // h(0), and H, if they are linear
   LaneMatrix linear_H_;

@@ -1,5 +1,5 @@
-/// Linearisation, curvature and changes of rates: of an arm whose transmission is plain, with unknown constants, and of
-/// one with effects.
+/// Linearisation, curvature and changes of rates: of an arm whose transmission is plain, with unknown constants or with
+/// effects of one signal, and of one with other effects.
 
 #include <gtest/gtest.h>
 
@@ -21,6 +21,20 @@ ArmModel with_constants() {
   OptionReader reader("the test", none);
   return with_unknown_offsets(with_unknown_forces(model, read_force_levels(reader, model)),
                               read_camera_options(reader, model));
+}
+
+/// The RAVEN-II with all kinds of effects of one signal.
+ArmModel with_one_signal_effects() {
+  ArmModel model = raven2();
+  add_effect(model, "motor_friction", 0, {1e-3, 1e-6, 0.5, 0.5});
+  add_effect(model, "stribeck", 0, {0.2, 0.05, 3e-3, 2});
+  add_effect(model, "cable_slip", 0, {1e-6, 5e-4});
+  add_effect(model, "torque_ripple", 1, {2e-3, -1e-3, 12});
+  add_effect(model, "friction_drift", 1, {-0.5, 0.3, 0, 1});
+  add_effect(model, "stiffness", 1, {1.2, 0.8, 1e5});
+  add_effect(model, "joint_friction", 2, {0.1, 0.01, 0.5, 0.5});
+  add_effect(model, "backlash", 2, {1e-4, 1e-3});  // well rounded
+  return model;
 }
 
 /// A state in motion, within the smoothing speeds of friction, with constants that are not zero.
@@ -46,13 +60,25 @@ struct Point {
 
 TEST(ArmCurvature, UnknownConstantsHaveTheirSlopes) {
   const Point p(with_constants());
-  ASSERT_TRUE(p.process.is_smooth());
+  ASSERT_TRUE(p.process.is_plain());
   for (int i = p.process.layout().effect_states; i < p.process.n_states(); ++i) {
     const Eigen::VectorXd change = 1e-4 * Eigen::VectorXd::Unit(p.process.n_states(), i);
     const Eigen::VectorXd slope = (p.rates(p.x + change) - p.rates(p.x - change)) / 2e-4;
     // The cables are linear within 1e-7; rates of up to 1e4 are rounded.
     EXPECT_LT((p.A.col(i) - slope).norm(), 1e-6 * slope.norm() + 1e-7) << i;
     EXPECT_GT(slope.norm(), 0) << i;
+  }
+}
+
+TEST(ArmLinearisation, EffectsOfOneSignalHaveTheirRatesAndSlopes) {
+  const Point p(with_one_signal_effects());
+  ASSERT_TRUE(p.process.is_plain());
+  EXPECT_LT((p.f - p.rates(p.x)).norm(), 1e-12 * p.f.norm());
+  for (int i = 0; i < p.process.n_states(); ++i) {
+    const Eigen::VectorXd change = 1e-7 * Eigen::VectorXd::Unit(p.process.n_states(), i);
+    const Eigen::VectorXd slope = (p.rates(p.x + change) - p.rates(p.x - change)) / 2e-7;
+    // Friction's third derivative, and rates of up to 1e4 that are rounded.
+    EXPECT_LT((p.A.col(i) - slope).norm(), 1e-6 * slope.norm() + 1e-4) << p.process.state_name(i);
   }
 }
 
@@ -70,7 +96,7 @@ TEST(ArmLinearisation, TakesMassesAndSlopesOfTheChainFromAStateShortlyBefore) {
 }
 
 TEST(ArmCurvature, IsTheMeanOfWhatNarrowDeviationsAdd) {
-  for (const ArmModel& model : {raven2(), with_constants()}) {
+  for (const ArmModel& model : {raven2(), with_constants(), with_one_signal_effects()}) {
     Point p(model);
     const int n = p.process.n_states();
     std::mt19937_64 random(1);
@@ -82,7 +108,7 @@ TEST(ArmCurvature, IsTheMeanOfWhatNarrowDeviationsAdd) {
     constexpr double kSpread = 1e-2;
     Eigen::VectorXd mean, exact = Eigen::VectorXd::Zero(n);
     p.process.chain_curvature(p.found, p.x, p.f, p.A, kSpread, root);
-    p.process.mean_curvature(p.found.chain, p.found, kSpread, root, mean);
+    p.process.mean_curvature(p.step, p.x, p.found.chain, p.found, kSpread, root, mean);
     for (int i = 0; i < n; ++i) {
       const Eigen::VectorXd d = kSpread * S.col(i);
       exact += (p.rates(p.x + d) - p.f + (p.rates(p.x - d) - p.f)) / (2 * n);
@@ -107,7 +133,7 @@ ArmModel with_effects() {
 TEST(ArmChanges, AreThoseOfTheRatesAlsoBeyondAKink) {
   const Point p(with_effects());
   const int n = p.process.n_states(), first = p.process.layout().positions, rows = 11;  // more than a register holds
-  ASSERT_FALSE(p.process.is_smooth());
+  ASSERT_FALSE(p.process.is_plain());
   LaneMatrix d, changes;
   d.set_zero(rows, n);
   std::mt19937_64 random(1);
@@ -145,29 +171,36 @@ TEST(ArmLinearisation, TheJacobianBesideIsThatOfTheLinearisation) {
 
 /// A second stage of a point: where it would be after 1 ms, with D and the point there.
 struct SecondStage {
+  Step next{1e-3, 1e-3};
   Eigen::VectorXd x_2, D;
   LinearisedPoint end;
 
   explicit SecondStage(const Point& p) {
     x_2 = p.x + p.step.dt_s * p.f;
-    p.process.second_stage(p.found, p.x, x_2, end, D);
+    p.process.second_stage(next, p.found, p.x, x_2, end, D);
   }
 };
 
-TEST(ArmSecondStage, HasTheRatesThere) {
-  const Point p(with_constants());
-  const SecondStage s(p);
+/// What follows holds for both.
+class ArmSecondStages : public testing::TestWithParam<bool> {
+ protected:
+  const Point p{GetParam() ? with_one_signal_effects() : with_constants()};
+  const SecondStage s{p};
+  Eigen::VectorXd rates(const Eigen::VectorXd& at) const { return p.process.derivative(s.next, at); }
+};
+INSTANTIATE_TEST_SUITE_P(Plain, ArmSecondStages, testing::Bool(),
+                         [](const auto& info) { return info.param ? "WithEffects" : "WithConstants"; });
+
+TEST_P(ArmSecondStages, HasTheRatesThere) {
   const int first = p.process.layout().positions, moving = static_cast<int>(s.D.size());
   const Eigen::VectorXd linear = p.f + p.A * (s.x_2 - p.x);
-  const Eigen::VectorXd exact = (p.rates(s.x_2) - linear).segment(first, moving);
+  const Eigen::VectorXd exact = (rates(s.x_2) - linear).segment(first, moving);
   ASSERT_GT(exact.norm(), 0.01 * (linear - p.f).norm());  // D is not small here
   // M and the chain's slopes change by less than 1e-3 within 1 ms.
   EXPECT_LT((s.D - exact).norm(), 1e-3 * exact.norm());
 }
 
-TEST(ArmSecondStage, ExcessFollowsFrictionFarAndTheChainLinearly) {
-  const Point p(with_constants());
-  const SecondStage s(p);
+TEST_P(ArmSecondStages, ExcessFollowsFrictionFarAndTheChainLinearly) {
   const StateLayout& l = p.process.layout();
   LaneMatrix D, excess;
   D.set_zero(6, p.process.n_states());
@@ -175,11 +208,11 @@ TEST(ArmSecondStage, ExcessFollowsFrictionFarAndTheChainLinearly) {
     D.view()(k, l.rate[k]) = 5e-3;  // as far as friction's smoothing speed
     D.view()(3 + k, *l.motor_rate[k]) = 0.5;
   }
-  p.process.far_excess(p.found, s.end, s.x_2, 1, D, excess);
-  const Eigen::VectorXd f_2 = p.rates(s.x_2);
+  p.process.far_excess(s.next, p.found, s.end, s.x_2, 1, D, excess);
+  const Eigen::VectorXd f_2 = rates(s.x_2);
   double farthest = 0;  // of the tangent from the model, relative
   for (int i = 0; i < D.rows(); ++i) {
-    const Eigen::VectorXd d = D.view().row(i), exact = p.rates(s.x_2 + d) - f_2, linear = p.A * d;
+    const Eigen::VectorXd d = D.view().row(i), exact = rates(s.x_2 + d) - f_2, linear = p.A * d;
     Eigen::VectorXd found = linear;
     found.segment(l.positions, excess.columns()) += excess.view().row(i).transpose();
     // The chain's forces of second order in 5 mrad/s, and what M and the chain's slopes change within 1 ms.
@@ -189,13 +222,11 @@ TEST(ArmSecondStage, ExcessFollowsFrictionFarAndTheChainLinearly) {
   EXPECT_GT(farthest, 0.05);
 }
 
-TEST(ArmSecondStage, NearExcessIsTheChangeOfTheJacobian) {
-  const Point p(with_constants());
-  const SecondStage s(p);
+TEST_P(ArmSecondStages, NearExcessIsTheChangeOfTheJacobian) {
   const int n = p.process.n_states(), first = p.process.layout().positions;
   Eigen::VectorXd f_2;
   Eigen::MatrixXd A_2;
-  p.process.linearise(p.step, s.x_2, f_2, A_2);
+  p.process.linearise(s.next, s.x_2, f_2, A_2);
   LaneMatrix units, excess;
   units.set_zero(n, n);
   units.view().diagonal().setOnes();
@@ -220,7 +251,7 @@ TEST(ArmSecondStage, ItsExcessRateIsTheLargestChangeOfADampingRateOrOfACablesRat
     Eigen::VectorXd x_2 = p.x, D;
     x_2(state) += change;
     LinearisedPoint end;
-    p.process.second_stage(p.found, p.x, x_2, end, D);
+    p.process.second_stage(p.step, p.found, p.x, x_2, end, D);
     return end.excess_rate;
   };
   for (int k = 0; k < 3; ++k) {
@@ -248,12 +279,50 @@ TEST(ArmSecondStage, ItsExcessRateIsTheLargestChangeOfADampingRateOrOfACablesRat
   }
 }
 
-TEST(ArmCurvature, AnEffectBetweenCommandAndJointIsNotPlain) {
+TEST(PlainTransmission, HasNoEffectOfSeveralSignals) {
   ArmModel model = raven2();
-  model.effects.push_back(place_effect(*find_effect("encoder_offset"), model.nominal, 1));
-  EXPECT_TRUE(ProcessModel(model).is_smooth());
-  model.effects.push_back(place_effect(*find_effect("backlash"), model.nominal, 1));
-  EXPECT_FALSE(ProcessModel(model).is_smooth());
+  add_effect(model, "encoder_offset", 1, {});
+  EXPECT_FALSE(ProcessModel(model).has_effects());
+  add_effect(model, "backlash", 1, {});
+  EXPECT_TRUE(ProcessModel(model).is_plain());
+  EXPECT_TRUE(ProcessModel(model).has_effects());
+  for (const char* name : {"hysteresis", "delay", "pulley_friction", "capstan_eccentricity"}) {
+    ArmModel other = model;
+    add_effect(other, name, 1, {});
+    EXPECT_FALSE(ProcessModel(other).is_plain()) << name;
+  }
+}
+
+TEST(PlainTransmission, ACableWithAnUnknownOffsetHasNoEffect) {
+  ArmModel model = with_constants();
+  add_effect(model, "backlash", 1, {});
+  EXPECT_FALSE(ProcessModel(model).is_plain());
+}
+
+TEST(PlainTransmission, SeesAKinkBetweenTwoStatesAndBesideThem) {
+  ArmModel model = raven2();
+  const double half_gap = 1e-3;
+  add_effect(model, "backlash", 1, {half_gap, 0});
+  Point p(model);
+  const int n = p.process.n_states(), motor = *p.process.layout().motor_angle[1];
+  const double travel = p.process.arm().joint[1].motor_travel();
+  const auto has_kink = [&](double from, double to, double deviations) {
+    Eigen::VectorXd x = p.x, x_2 = p.x;
+    x(motor) += from / travel, x_2(motor) += to / travel;
+    p.process.linearise(p.step, x, nullptr, p.f, p.A, p.found);
+    LaneMatrix S;  // 0.1 mm of the cable, from two sources
+    S.set_zero(n, n);
+    S.view()(motor, 0) = 0.6e-4 / travel, S.view()(motor, 3) = -0.8e-4 / travel;
+    return p.process.has_kink_near(p.step, x, p.found, x_2, deviations, S);
+  };
+  EXPECT_FALSE(has_kink(0, 0.9 * half_gap, 0));
+  EXPECT_TRUE(has_kink(0, 1.1 * half_gap, 0));
+  EXPECT_TRUE(has_kink(0, -1.1 * half_gap, 0));
+  EXPECT_TRUE(has_kink(1.1 * half_gap, -1.1 * half_gap, 0));  // the same slope at both
+  EXPECT_FALSE(has_kink(1.1 * half_gap, 1.5 * half_gap, 0.9));
+  EXPECT_TRUE(has_kink(1.1 * half_gap, 1.5 * half_gap, 1.1));
+  EXPECT_FALSE(has_kink(0.5 * half_gap, 0.6 * half_gap, 3.9));
+  EXPECT_TRUE(has_kink(0.5 * half_gap, 0.6 * half_gap, 4.1));
 }
 
 }  // namespace

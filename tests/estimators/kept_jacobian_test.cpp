@@ -173,8 +173,9 @@ TEST_F(KeptJacobianWithEffects, IsFollowedByTheSlopesThatAreNew) {
 
 TEST_F(KeptJacobianWithEffects, IsNewBeyondAKink) {
   Eigen::VectorXd x = moving(1);
-  x(*process_.layout().motor_angle[2]) += 0.1;  // out of the gap
-  expect_near(x, 3e-3);                         // the chain is kept
+  const double half_gap = process_.transmission().effects()[2].p[0];
+  x(*process_.layout().motor_angle[2]) += 1.1 * half_gap / process_.arm().joint[2].motor_travel();
+  expect_near(x, 3e-3);  // the chain is kept
 }
 
 }  // namespace

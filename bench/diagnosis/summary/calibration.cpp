@@ -36,7 +36,8 @@ std::vector<Claim> claims_of(const Results& ran) {
     for (std::size_t i = 0; i < r->named.size(); ++i) {
       const Named& n = r->named[i];
       claims.push_back({n.probability, scores[i] != NameScore::false_name});
-      for (const Alternative& a : n.alternatives) claims.push_back({a.probability, is_true(*r, a.place)});
+      for (const Alternative& a : n.alternatives)
+        if (is_right(*r, a.place) || !is_true(*r, a.place)) claims.push_back({a.probability, is_right(*r, a.place)});
     }
     if (is_too_small(*r) || r->situation.off > 1) continue;
     if (r->probability_clean) claims.push_back({*r->probability_clean, r->truth.empty()});

@@ -1,5 +1,6 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
+#include "transmission/one_signal.h"
 
 /// A dead zone in the path from motor to joint: the cable is stretched only beyond the gap,
 ///
@@ -15,11 +16,12 @@
 
 namespace halyard::effects {
 
-class Backlash : public EffectOf<Backlash> {
+class Backlash : public EffectOf<Backlash>, public OneSignalEffect {
  public:
   std::string name() const override { return "backlash"; }
   std::string summary() const override { return "a dead zone in the path from motor to joint"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::stretch); }
+  bool has_kinks() const override { return true; }
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive == Drive::cable;
   }

@@ -1,5 +1,6 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/smooth_step.h"
+#include "transmission/one_signal.h"
 
 /// A sudden, lasting offset between motor and joint, because the cable slips on its capstan:
 ///
@@ -13,7 +14,7 @@
 
 namespace halyard::effects {
 
-class CableSlip : public EffectOf<CableSlip> {
+class CableSlip : public EffectOf<CableSlip>, public OneSignalEffect {
  public:
   std::string name() const override { return "cable_slip"; }
   std::string summary() const override { return "a sudden lasting jump of the motor-to-joint relation"; }

@@ -1,5 +1,6 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
+#include "transmission/one_signal.h"
 
 /// Stiffness or damping that differs from the model's, or a law that stiffens: k_e' = κ k_e, b_e' = δ b_e,
 ///
@@ -14,7 +15,7 @@
 
 namespace halyard::effects {
 
-class Stiffness : public EffectOf<Stiffness> {
+class Stiffness : public EffectOf<Stiffness>, public OneSignalEffect {
  public:
   std::string name() const override { return "stiffness"; }
   std::string summary() const override { return "another stiffness or damping of the cable, or a stiffening law"; }

@@ -1,5 +1,6 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/friction.h"
+#include "transmission/one_signal.h"
 
 /// Friction that changes in time, as in a drive that warms up. The Coulomb level and viscous coefficient of the motor
 /// are multiplied by 1 + g, those of the joint by 1 + σ g:
@@ -30,12 +31,15 @@ T growth(const EffectContext<T>& c) {
 
 }  // namespace
 
-class FrictionDrift : public EffectOf<FrictionDrift> {
+class FrictionDrift : public EffectOf<FrictionDrift>, public OneSignalEffect {
  public:
   std::string name() const override { return "friction_drift"; }
   std::string summary() const override { return "friction that changes in time, as of a drive that warms up"; }
   unsigned stages() const override {
     return static_cast<unsigned>(EffectStage::motor) | static_cast<unsigned>(EffectStage::joint);
+  }
+  Signal signal_at(EffectStage stage) const override {
+    return stage == EffectStage::motor ? Signal::motor_rate : Signal::joint_rate;
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"rate", "1/s", 0, -0.01, -2, 2},

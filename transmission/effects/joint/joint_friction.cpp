@@ -1,6 +1,7 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
+#include "transmission/one_signal.h"
 
 /// Friction at the joint that differs from the model's, and its asymmetry:
 ///
@@ -14,11 +15,12 @@
 
 namespace halyard::effects {
 
-class JointFriction : public EffectOf<JointFriction> {
+class JointFriction : public EffectOf<JointFriction>, public OneSignalEffect {
  public:
   std::string name() const override { return "joint_friction"; }
   std::string summary() const override { return "another Coulomb or viscous friction at the joint, or its asymmetry"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
+  Signal signal_at(EffectStage) const override { return Signal::joint_rate; }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
     const JointParameters<double>& j = arm.joint[*joint];
     const bool turns = j.type == JointType::revolute;

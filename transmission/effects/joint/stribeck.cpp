@@ -1,6 +1,7 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
+#include "transmission/one_signal.h"
 
 /// Friction that falls with speed near standstill, on top of the Coulomb level, at the joint and at its motor:
 ///
@@ -29,12 +30,15 @@ EffectParameter speed(const char* name, const char* unit, double v_s) {
 
 }  // namespace
 
-class Stribeck : public EffectOf<Stribeck> {
+class Stribeck : public EffectOf<Stribeck>, public OneSignalEffect {
  public:
   std::string name() const override { return "stribeck"; }
   std::string summary() const override { return "friction that falls with speed near standstill"; }
   unsigned stages() const override {
     return static_cast<unsigned>(EffectStage::motor) | static_cast<unsigned>(EffectStage::joint);
+  }
+  Signal signal_at(EffectStage stage) const override {
+    return stage == EffectStage::motor ? Signal::motor_rate : Signal::joint_rate;
   }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
     const JointParameters<double>& j = arm.joint[*joint];

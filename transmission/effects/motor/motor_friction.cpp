@@ -1,6 +1,7 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
+#include "transmission/one_signal.h"
 
 /// Friction at the motor that differs from the model's, and its asymmetry:
 ///
@@ -14,7 +15,7 @@
 
 namespace halyard::effects {
 
-class MotorFriction : public EffectOf<MotorFriction> {
+class MotorFriction : public EffectOf<MotorFriction>, public OneSignalEffect {
  public:
   std::string name() const override { return "motor_friction"; }
   std::string summary() const override { return "another Coulomb or viscous friction at the motor, or its asymmetry"; }

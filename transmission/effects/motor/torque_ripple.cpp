@@ -1,6 +1,7 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/harmonic.h"
 #include "transmission/effects/typical_size.h"
+#include "transmission/one_signal.h"
 
 /// Motor torque that is periodic in the motor's angle (cogging, commutation):
 ///
@@ -15,11 +16,12 @@
 
 namespace halyard::effects {
 
-class TorqueRipple : public EffectOf<TorqueRipple> {
+class TorqueRipple : public EffectOf<TorqueRipple>, public OneSignalEffect {
  public:
   std::string name() const override { return "torque_ripple"; }
   std::string summary() const override { return "motor torque periodic in the motor's angle"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::motor); }
+  Signal signal_at(EffectStage) const override { return Signal::motor_angle; }
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive != Drive::none;
   }

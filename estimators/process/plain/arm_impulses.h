@@ -1,17 +1,17 @@
 #pragma once
-/// The arm's answer to impulses that reach beyond the smoothing speed of friction, for a plain transmission under the
-/// paper's cable law: sub-steps of the deviations d alone, where those of process_model.h move whole states.
+/// The arm's answer to impulses that reach beyond the smoothing speed of friction, for a plain transmission without
+/// kinks near x: sub-steps of the deviations d alone, where those of process_model.h move whole states.
 ///
 ///   d' = A d + N(s, d),   d(0) = G          Γ = (G + 4 d(h/2) + d(h)) / 6, as in noise.h
 ///
-///   A      ∂f/∂x at x, the start of the step
-///   N      the drives' answer to the excess of friction over its tangent at x (arm_second_stage.h), about speeds that
-///          go straight from those of x to those of x_2 at the end; cables and chain are taken as linear
+///   A      ∂f/∂x at x, the start of the step, or at a state shortly before
+///   N      the drives' answer to the excess of friction over what A says (arm_second_stage.h), about states that go
+///          straight from x to x_2 at the end; cables and chain are taken as linear
 ///   h, s   length of the step, time in it                          s
 ///
 /// The sub-steps are those of the classical Runge-Kutta method.
 
-#include "estimators/process/arm_second_stage.h"
+#include "estimators/process/plain/arm_second_stage.h"
 
 namespace halyard {
 
@@ -23,14 +23,12 @@ HALYARD_INLINE void deviation_rates(const LinearisedArm& model, const ImpulseSte
   const StateLayout& l = model.layout;
   const int n = joint_count<known>(model.arm), first = 2 * n, end = 4 * n;
   double at[kMaxStates];
-  for (int i = first; i < end; ++i) at[i] = step.x[i] + s * (step.x_2[i] - step.x[i]);
+  for (int i = 0; i < end; ++i) at[i] = step.x[i] + s * (step.x_2[i] - step.x[i]);
+  const double time = step.time_s + s * step.dt_s;
   Frictions friction;
-  set_frictions(t, n, at, friction);
+  set_frictions<known>(t, model.transmission, time, at, friction);
   Lanes e[2 * kMaxJoints], u[kMaxJoints];
-  for (int i = 0; i < 2 * n; ++i) {
-    const Lanes change = d[t.speed[i]], sign = tanh((at[t.speed[i]] + change) * t.per_smoothing[i]);
-    e[i] = t.coulomb[i] * (sign - friction.sign[i]) + (t.viscous[i] - step.start.friction.slope[i]) * change;
-  }
+  set_far_friction<known>(model, time, step.start.of_A, at, friction, 1, 1, d, e);
   for (int k = 0; k < n; ++k) u[k] = Lanes(0.0);
   answer_of_drives(model, step.start.chain, n, e, u, 1, rates + first);
   for (int i = 0; i < first; ++i) {
