@@ -25,9 +25,9 @@
 /// Sigma points are assumed to be narrow. Where f is smooth, N then is half the second derivative of f in the direction
 /// d. If the process is_plain(), too, arm_curvature.h gives its mean without rates at the points, and the pairs'
 /// differences are those of the linear F. There, A_2 and f(t + h, x_2 + Γ_0) take the chain as linear
-/// (arm_second_stage.h), so that neither needs a Jacobian at x_2. An effect of a cable may have a kink, such as the edge
-/// of a backlash: a step is smooth if none lies between x and x_2 or within four standard deviations beside them. In
-/// other steps, and with other effects and slack cables, there may be a kink between the points of a pair: the
+/// (arm_second_stage.h), so that neither needs a Jacobian at x_2. An effect of a cable may have a kink, such as the
+/// edge of a backlash: a step is smooth if none lies between x and x_2 or within four standard deviations beside them.
+/// In other steps, and with other effects and slack cables, there may be a kink between the points of a pair: the
 /// transmission is evaluated at both (arm_changes.h), and
 ///
 ///   F S   = (d_2 + h φ_2 (N°(t + h, x_2, d_2) - N°(t, x, d))) / γ,   d_2 = E d + h φ_1 N°(t, x, d),   d = γ S

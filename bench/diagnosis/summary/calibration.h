@@ -13,10 +13,10 @@ struct Claim {
   bool came_true;
 };
 
-/// Every probability of the trials: of names (true if the effect is hidden, or true beside it) and alternatives (true if
-/// it is hidden); of `clean` (nothing is hidden), and of "none of these" (an effect outside the library is). Left out is
-/// what may or may not be true: an alternative that is true beside the hidden effects, but need not be what was named;
-/// the last two of effects that are too small to see, and of parameters beyond their tolerance.
+/// Every probability of the trials: of names (true if the effect is hidden, or true beside it) and alternatives (true
+/// if it is hidden); of `clean` (nothing is hidden), and of "none of these" (an effect outside the library is). Left
+/// out is what may or may not be true: an alternative that is true beside the hidden effects, but need not be what was
+/// named; the last two of effects that are too small to see, and of parameters beyond their tolerance.
 std::vector<Claim> claims_of(const Results& ran);
 
 /// Bins of a tenth with fewer claims say nothing.
