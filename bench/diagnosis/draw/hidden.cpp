@@ -179,6 +179,13 @@ void draw_parameters(PlacedEffect& effect, const ArmModel& model, const Ranges& 
   }
 }
 
+std::vector<std::string> names_beside(const Hidden& hidden) {
+  std::vector<std::string> names;
+  if (!hidden.right_beside.empty()) names.push_back(hidden.right_beside);
+  if (hidden.right_name == "friction_drift") names.insert(names.end(), {"motor_friction", "joint_friction"});
+  return names;
+}
+
 double relative_size(const PlacedEffect& effect, const ArmModel& model) {
   const std::vector<Drawn> all = drawn_parameters(effect, model);
   double most = 0;

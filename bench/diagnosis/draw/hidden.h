@@ -11,8 +11,11 @@ namespace halyard::blind {
 struct Hidden {
   PlacedEffect acts;
   std::string right_name;
-  std::string right_beside = {};  ///< a name that is right beside it, of a part of it; empty if there is none
+  std::string right_beside = {};  ///< OtherForm::beside
 };
+
+/// Names that are right beside it: of a part of it; of friction that drifts, other friction than the model's.
+std::vector<std::string> names_beside(const Hidden& hidden);
 
 /// What the motion of a trial limits: where instants and positions can lie, how fast is near standstill, and of which
 /// orders the motion has enough periods.

@@ -32,7 +32,7 @@ class GradualSaturation : public EffectOf<GradualSaturation> {
 ///   τ = scale · i + bias,   i' = (τ_c - i) / T
 /// Source: the closed current loop of a drive is commonly reduced to its dominant pole; Leonhard, Control of Electrical
 /// Drives (2001), section 7.
-class CurrentLoop : public EffectOf<CurrentLoop> {
+class CurrentLoop : public EffectOf<CurrentLoop>, public PlannedAs {
  public:
   std::string name() const override { return "current_loop"; }
   std::string summary() const override { return "a motor torque that follows its command with a lag of first order"; }
@@ -42,6 +42,11 @@ class CurrentLoop : public EffectOf<CurrentLoop> {
     return {{"time", "s", 0, 0.005, 0, 0.05}};
   }
   int n_states() const override { return 1; }
+  PlacedEffect planned_as(const PlacedEffect& effect, const ArmParameters<double>& arm) const override {
+    PlacedEffect delay = place_neutral_effect(*find_effect("delay"), arm, effect.joint);
+    delay.p[0] = effect.p[0];
+    return delay;
+  }
   template <class T>
   void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
     const T share = min(T(1.0), T(c.p[0] / T(kShortest)));
@@ -53,8 +58,7 @@ class CurrentLoop : public EffectOf<CurrentLoop> {
   }
 
  private:
-  /// s. A plan's prediction steps by 2 ms and cannot integrate shorter lags: they act as a share of this one, which
-  /// delays a slow torque by as much. Lags that are drawn are longer.
+  /// s. Shorter lags act as a share of this one, which delays a slow torque by as much. Lags that are drawn are longer.
   static constexpr double kShortest = 0.002;
 };
 

@@ -30,6 +30,14 @@ class AboveBand {
   virtual double encoder_counts(const ArmParameters<double>& arm, int joint, const double* p) const = 0;
 };
 
+/// An effect that a plan's prediction cannot integrate, because its steps are longer than the effect lasts.
+class PlannedAs {
+ public:
+  virtual ~PlannedAs() = default;
+  /// An effect of the library that changes a log by as much.
+  virtual PlacedEffect planned_as(const PlacedEffect& effect, const ArmParameters<double>& arm) const = 0;
+};
+
 struct OwnedForm {
   std::unique_ptr<const Effect> effect;
   std::string like, beside = {};

@@ -78,7 +78,7 @@ struct Result {
   double outliers = 0;                      ///< TrialOptions::outliers
   std::vector<TrueEffect> truth;
   /// Names that are true beside the truth: of parameters that are off by more than their tolerance, of a part of an
-  /// effect by another equation (OtherForm::beside), and `delay` where the joint sensors are late.
+  /// effect (names_beside()), and `delay` where the joint sensors are late.
   std::vector<Place> also_true;
   std::string verdict;
   std::vector<Named> named;

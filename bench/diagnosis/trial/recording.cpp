@@ -84,10 +84,13 @@ Ranges ranges_of(const Scenario& training) {
 
 std::vector<double> seen_from(const ArmModel& model, const Log& probe, const std::vector<Hidden>& hidden) {
   std::vector<PlacedEffect> effects;
-  for (const Hidden& h : hidden) effects.push_back(h.acts);
+  for (const Hidden& h : hidden) {
+    const auto* other = dynamic_cast<const PlannedAs*>(h.acts.effect);
+    effects.push_back(other ? other->planned_as(h.acts, model.nominal) : h.acts);
+  }
   std::vector<double> shares = detected_from(model, {probe}, effects);
   for (std::size_t i = 0; i < hidden.size(); ++i)
-    if (const auto* above = dynamic_cast<const AboveBand*>(effects[i].effect))
+    if (const auto* above = dynamic_cast<const AboveBand*>(hidden[i].acts.effect))
       shares[i] = 1 / above->encoder_counts(model.nominal, effects[i].joint.value_or(0), effects[i].p);
   return shares;
 }

@@ -51,7 +51,7 @@ void describe(const Recording& recording, Result& r) {
   }
   r.also_true = names_beyond_tolerance(recording.model, recording.robot);
   for (std::size_t i = 0; i < recording.hidden.size(); ++i)
-    if (const std::string& part = recording.hidden[i].right_beside; !part.empty())
+    for (const std::string& part : names_beside(recording.hidden[i]))
       r.also_true.push_back({part, r.truth[i].place.joint});
   if (r.latency_s > 0)
     for (int joint = 0; joint <= r.joints; ++joint) r.also_true.push_back({"delay", joint});
