@@ -160,6 +160,7 @@ class Diagnoser {
     result_.effects.clear();
     result_.refitted.clear();
     doubts_.clear();
+    none_for_.clear();
     attribution().final_fit = attribution().baseline;
     attribution().final_fit.hypothesis = {result_.given.nominal, result_.given.effects,
                                           attribution().baseline.hypothesis.past};
@@ -172,6 +173,7 @@ class Diagnoser {
     doubts_ = doubts(evidence, tolerated_, attribution(), options_.significance);
     for (std::size_t e = given_; e < f.hypothesis.effects.size(); ++e) {
       const double none = probability_of_none_for(evidence, attribution(), given_, e);
+      none_for_.push_back(none);
       result_.probability_none = std::max(result_.probability_none, none);
       if (doubts_[e - given_] != Doubt::none) continue;
       NamedEffect named{on_its_clock(evidence, f.hypothesis.effects[e]), namings[e - given_].weight,
@@ -199,7 +201,8 @@ class Diagnoser {
       const int k = c ? *c % model_.n() : effect.joint.value_or(0);
       result_.unexplained.push_back(
           {k, fmt::format("{} explains a part of it and is in the revised model, but {}", effect_label(effect),
-                          reason_of(doubt, attribution().namings[e - given_], final_hypothesis().effects))});
+                          reason_of(doubt, attribution().namings[e - given_], none_for_[e - given_],
+                                    final_hypothesis().effects))});
     }
   }
 
@@ -224,7 +227,7 @@ class Diagnoser {
   std::vector<double> misfit_of_names(const Evidence& evidence) {
     std::vector<std::size_t> named;
     for (std::size_t e = given_; e < final_hypothesis().effects.size(); ++e)
-      if (doubts_[e - given_] == Doubt::none) named.push_back(e);
+      if (const Doubt d = doubts_[e - given_]; d == Doubt::none || d == Doubt::guess) named.push_back(e);
     return mean_square_misfit(evidence, {final_hypothesis(), attribution().final_score}, named);
   }
 
@@ -362,6 +365,7 @@ class Diagnoser {
   ArmModel tolerated_;                ///< Diagnosis::given with the tolerances of the search
   std::vector<std::size_t> changed_;  ///< see changed_numbers()
   std::vector<Doubt> doubts_;         ///< of each added effect
+  std::vector<double> none_for_;      ///< of each, probability_of_none_for()
   std::shared_ptr<DiagnosisDetails> details_ = std::make_shared<DiagnosisDetails>();
   Diagnosis result_;
 };

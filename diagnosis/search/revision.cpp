@@ -150,8 +150,24 @@ bool has_certain_size(const Fit& fit, std::size_t effect) {
 
 Doubt own_doubt(const Evidence& evidence, const Attribution& found, std::size_t given, std::size_t effect) {
   if (is_doubtful(evidence, found, given, effect)) return Doubt::another_cause;
-  if (found.namings[effect - given].surer) return Doubt::surer_rival;
-  return has_certain_size(found.final_fit, effect) ? Doubt::none : Doubt::no_certain_size;
+  const Naming& naming = found.namings[effect - given];
+  if (naming.surer) return Doubt::surer_rival;
+  if (!has_certain_size(found.final_fit, effect)) return Doubt::no_certain_size;
+  const double none = probability_of_none_for(evidence, found, given, effect);
+  return naming.weight * (1 - none) < kRule.sure_name ? Doubt::guess : Doubt::none;
+}
+
+/// False if it may only make up for something else: then others may be needed only beside it.
+bool is_there(Doubt doubt) { return doubt == Doubt::none || doubt == Doubt::guess; }
+
+/// "backlash of joint 3 (27 %) or hysteresis of joint 3 (9 %)": alternatives of some weight.
+std::string others(const Naming& naming, double none) {
+  constexpr double kWorthMentioning = 0.05;
+  std::string text;
+  for (const Alternative& a : naming.alternatives)
+    if (const double p = a.probability * (1 - none); p > kWorthMentioning)
+      text += fmt::format("{}{} ({:.0f} %)", text.empty() ? "" : " or ", effect_label(a.effect), 100 * p);
+  return text;
 }
 
 }  // namespace
@@ -164,15 +180,17 @@ std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const
   Hypothesis sure = all;
   for (std::size_t e = all.effects.size(); e-- > first;) {
     doubt[e - first] = own_doubt(evidence, found, first, e);
-    if (doubt[e - first] != Doubt::none) sure = without_effect(sure, e);
+    if (!is_there(doubt[e - first])) sure = without_effect(sure, e);
   }
+  // The most probable name of a single effect is told with its alternatives.
+  if (std::ranges::count_if(doubt, is_there) == 1) std::ranges::replace(doubt, Doubt::guess, Doubt::none);
   if (sure.effects.size() == all.effects.size()) return doubt;
   const Refitter refitter(evidence, given, first);
   if (!refitter.is_usable()) return doubt;
   const Judge judge(evidence, given, refitter.numbers());
   const auto with = refitter.refitted(sure, found.final_score);
   for (std::size_t e = 0, place = first; e < doubt.size(); ++e) {
-    if (doubt[e] != Doubt::none) continue;
+    if (!is_there(doubt[e])) continue;
     const auto without = refitter.refitted(without_effect(sure, place), found.final_score);
     if (with && without && !judge.is_needed(*with, *without, place, significance)) doubt[e] = Doubt::only_beside_one;
     ++place;
@@ -180,7 +198,7 @@ std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const
   return doubt;
 }
 
-std::string reason_of(Doubt doubt, const Naming& naming, const std::vector<PlacedEffect>& found) {
+std::string reason_of(Doubt doubt, const Naming& naming, double none, const std::vector<PlacedEffect>& found) {
   switch (doubt) {
     case Doubt::another_cause:
       return naming.unlisted > kRule.worth_a_name
@@ -191,6 +209,11 @@ std::string reason_of(Doubt doubt, const Naming& naming, const std::vector<Place
           std::ranges::any_of(found, [&](const PlacedEffect& e) { return same_name(e, *naming.surer); });
       return fmt::format("{}{} is more probable, and cannot be named itself", repeats ? "another " : "",
                          effect_label(*naming.surer));
+    }
+    case Doubt::guess: {
+      const std::string other = others(naming, none);
+      return fmt::format("its name is a guess ({:.0f} %): {}", 100 * naming.weight * (1 - none),
+                         other.empty() ? "another cause may as well be right" : "it may be " + other);
     }
     case Doubt::no_certain_size: return "its size may as well be zero";
     case Doubt::only_beside_one: return "it is needed only beside another effect that has no name";

@@ -36,12 +36,14 @@ enum class Doubt {
   none,
   another_cause,    ///< is_doubtful()
   surer_rival,      ///< Naming::surer
+  guess,            ///< one of several effects whose name is not much more probable than others
   no_certain_size,  ///< the intervals of all its sizes contain their neutral values
   only_beside_one   ///< not needed without the doubtful effects: it may only make up for their error
 };
 
-/// Completes "EFFECT explains a part of it, but ...". found: all effects that were found.
-std::string reason_of(Doubt doubt, const Naming& naming, const std::vector<PlacedEffect>& found);
+/// Completes "EFFECT explains a part of it, but ...". found: all effects that were found. none: probability that no
+/// name is right.
+std::string reason_of(Doubt doubt, const Naming& naming, double none, const std::vector<PlacedEffect>& found);
 
 /// For each added effect of the final fit. significance: as of the search.
 std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const Attribution& found,

@@ -115,6 +115,34 @@ TEST(Doubts, AnEffectThatIsNeededOnlyBesideADoubtfulOneGetsNoName) {
   EXPECT_EQ(of({}), (std::vector{Doubt::another_cause, Doubt::only_beside_one}));
 }
 
+TEST(Doubts, AnEffectGetsNoNameThatIsAGuessAndDoesNotCostOthersTheirs) {
+  const PlacedEffect ratio = on_the_only_joint("capstan_ratio", kRatio),
+                     offset = on_the_only_joint("encoder_offset", 0.02);
+  const auto with_weight = [&](double weight) {
+    Searched s({ratio, offset}, {ratio, offset});
+    s.found.namings[0] = {weight, {{on_the_only_joint("backlash", 1e-4), 1 - weight}}};
+    std::ranges::fill(s.found.final_fit.std_deviation, 0);
+    return doubts(s.evidence, s.model, s.found, 0.01);
+  };
+  EXPECT_EQ(with_weight(0.7), (std::vector{Doubt::guess, Doubt::none}));
+  EXPECT_EQ(with_weight(0.8), (std::vector{Doubt::none, Doubt::none}));
+}
+
+TEST(Doubts, ASingleEffectGetsItsMostProbableName) {
+  const PlacedEffect ratio = on_the_only_joint("capstan_ratio", kRatio);
+  Searched s({ratio}, {ratio});
+  s.found.namings[0].weight = 0.7;
+  EXPECT_EQ(doubts(s.evidence, s.model, s.found, 0.01), std::vector<Doubt>{Doubt::none});
+}
+
+TEST(Doubts, AGuessIsToldWithItsProbabilityAndWhatElseItMayBe) {
+  const Naming naming{0.7, {{on_the_only_joint("backlash", 1e-4), 0.25}, {on_the_only_joint("creep", 1e-4), 0.05}}};
+  EXPECT_EQ(reason_of(Doubt::guess, naming, 0.1, {}),
+            "its name is a guess (63 %): it may be backlash of joint 1 (22 %)");
+  EXPECT_EQ(reason_of(Doubt::guess, {0.7, {}}, 0.1, {}),
+            "its name is a guess (63 %): another cause may as well be right");
+}
+
 TEST(Doubts, AnEffectWhoseSizeMayBeNeutralGetsNoName) {
   const PlacedEffect ratio = on_the_only_joint("capstan_ratio", kRatio);
   Searched s({ratio}, {ratio});
@@ -134,7 +162,7 @@ TEST(Doubts, AFrictionThatTheLibraryLacksMakesANameDoubtful) {
   s.found.namings[0].unlisted = 0.9;
   EXPECT_GE(probability_of_none_for(s.evidence, s.found, 0, 0), 0.9);
   EXPECT_EQ(doubts(s.evidence, s.model, s.found, 0.01), std::vector<Doubt>{Doubt::another_cause});
-  EXPECT_NE(reason_of(Doubt::another_cause, s.found.namings[0], s.effects()).find("grows faster than the speed"),
+  EXPECT_NE(reason_of(Doubt::another_cause, s.found.namings[0], 0, s.effects()).find("grows faster than the speed"),
             std::string::npos);
 }
 
@@ -144,9 +172,9 @@ TEST(ReasonOfDoubt, ASurerRivalThatWasFoundBeforeIsAnotherOne) {
                      friction = place_effect(*find_effect("motor_friction"), model.nominal, 0);
   Naming naming;
   naming.surer = push;
-  EXPECT_EQ(reason_of(Doubt::surer_rival, naming, {friction}),
+  EXPECT_EQ(reason_of(Doubt::surer_rival, naming, 0, {friction}),
             "external_force of joint 1 is more probable, and cannot be named itself");
-  EXPECT_EQ(reason_of(Doubt::surer_rival, naming, {push, friction}),
+  EXPECT_EQ(reason_of(Doubt::surer_rival, naming, 0, {push, friction}),
             "another external_force of joint 1 is more probable, and cannot be named itself");
 }
 
