@@ -76,10 +76,10 @@ struct DecisionRule {
   /// An effect is told if this is the least probability that its name or one of its alternatives is right. Reason:
   /// below one half it is more probable that all of them are wrong.
   double worth_a_name = 0.5;
-  /// If several effects were found, one gets a name if this is the least probability that the name itself is right.
-  /// Reason: three to one. In blind trials (seeds 20271202 and 20271204, docs/blind_trials.md), names below it came
-  /// true in 11 of 26 cases beside other names, and in 11 of 14 alone. Of two or three hidden effects, names above it
-  /// came true in 239 of 242.
+  /// If several effects were found, one gets a name if its name has at least this weight among its alternatives
+  /// (Naming::weight). Reason: three to one. In blind trials (seeds 20271202 and 20271204, docs/blind_trials.md), names
+  /// of less weight came true in 10 of 18 cases beside other names. Of two or three hidden effects, names of more
+  /// weight came true in 245 of 250.
   double sure_name = 0.75;
   /// The set of names that is reported holds the truth with this probability.
   double set_share = 0.9;

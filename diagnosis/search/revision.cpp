@@ -153,8 +153,7 @@ Doubt own_doubt(const Evidence& evidence, const Attribution& found, std::size_t 
   const Naming& naming = found.namings[effect - given];
   if (naming.surer) return Doubt::surer_rival;
   if (!has_certain_size(found.final_fit, effect)) return Doubt::no_certain_size;
-  const double none = probability_of_none_for(evidence, found, given, effect);
-  return naming.weight * (1 - none) < kRule.sure_name ? Doubt::guess : Doubt::none;
+  return naming.weight < kRule.sure_name ? Doubt::guess : Doubt::none;
 }
 
 /// False if it may only make up for something else: then others may be needed only beside it.
