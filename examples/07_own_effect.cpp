@@ -13,7 +13,7 @@
 
 #include "arm_example.h"
 #include "estimators/built_in.h"
-#include "transmission/one_signal.h"
+#include "transmission/effects/one_signal.h"
 
 namespace {
 

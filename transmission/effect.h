@@ -18,7 +18,8 @@
 /// To write an effect, derive from EffectOf<Yours> and define the members that you need as templates over the scalar T
 /// (scalar.h), and stages(): no other member than those of its stages is called. effects/cable/backlash.cpp is an
 /// example without states, effects/cable/hysteresis.cpp one with states.
-/// An effect whose forces depend on one signal each can say so: then filters are faster (one_signal.h).
+/// An effect whose forces depend on one signal each can say so: then filters are faster
+/// (effects/one_signal.h).
 
 #include <memory>
 #include <optional>

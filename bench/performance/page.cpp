@@ -129,10 +129,10 @@ some steps need more:
 - 2 % of the steps are refused by the guard and taken in two to four parts, in long arms in more. In 4 % the answer to
   the noise needs sub-steps, because friction is not linear over its reach
   ([arm_impulses.h](../estimators/process/plain/arm_impulses.h)).
-- An effect whose forces depend on one signal each ([one_signal.h](../transmission/one_signal.h)) costs little more than
-  its own evaluation at both ends of a step, for its slopes and its curvature. Near a kink, such as the edge of a
-  backlash, and with effects of other kinds, `ekf` finds the Jacobian at both ends and `sr_ukf` evaluates both points of
-  each pair of sigma points at both ends.
+- An effect whose forces depend on one signal each ([one_signal.h](../transmission/effects/one_signal.h)) costs little
+  more than its own evaluation at both ends of a step, for its slopes and its curvature. Near a kink, such as the edge
+  of a backlash, and with effects of other kinds, `ekf` finds the Jacobian at both ends and `sr_ukf` evaluates both
+  points of each pair of sigma points at both ends.
 
 Arms of 1 to 7 joints. Each has the first joints of the longest one, whose last links are light: there the guard
 refuses more steps. The order of the algorithm is n³: products and roots of n x n matrices.

@@ -1,6 +1,6 @@
 /// What effects of one signal promise.
 
-#include "transmission/one_signal.h"
+#include "transmission/effects/one_signal.h"
 
 #include <gtest/gtest.h>
 

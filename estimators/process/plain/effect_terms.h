@@ -1,9 +1,9 @@
 #pragma once
-/// Effects of one signal (transmission/one_signal.h) in a plain transmission: forces at motors and joints, and what
-/// becomes of a cable's stretch and force. Evaluated for one signal at a time, by the code of the effect itself: over
-/// Dual for slopes, over Lanes for eight values of the signal.
+/// Effects of one signal (transmission/effects/one_signal.h) in a plain transmission: forces at motors and joints, and
+/// what becomes of a cable's stretch and force. Evaluated for one signal at a time, by the code of the effect itself:
+/// over Dual for slopes, over Lanes for eight values of the signal.
 
-#include "transmission/one_signal.h"
+#include "transmission/effects/one_signal.h"
 #include "transmission/transmission.h"
 
 namespace halyard {

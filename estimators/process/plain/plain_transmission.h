@@ -1,7 +1,7 @@
 #pragma once
 /// A transmission whose derivatives are few: cables drive all joints, and between the commands and the joints there are
-/// only effects of one signal (transmission/one_signal.h), and unknown constants of a filter, which add a multiple of
-/// their state to a cable's stretch or to a joint's force.
+/// only effects of one signal (transmission/effects/one_signal.h), and unknown constants of a filter, which add a
+/// multiple of their state to a cable's stretch or to a joint's force.
 ///
 ///   x_k  = r_k q_m,k - Σ_j R_kj q_j + b_k           x_k' = r_k q_m,k' - Σ_j R_kj q_j'
 ///   ∂g_k = s_k ∂x_k + d_k ∂x_k' + ½ c_k ∂x_k²       ∂(friction) = f' ∂v + ½ f'' ∂v² + p ∂(position)

@@ -1,6 +1,6 @@
 #include "transmission/effects/built_in.h"
+#include "transmission/effects/one_signal.h"
 #include "transmission/effects/typical_size.h"
-#include "transmission/one_signal.h"
 
 /// A dead zone in the path from motor to joint: the cable is stretched only beyond the gap,
 ///

@@ -1,6 +1,6 @@
 #include "transmission/effects/built_in.h"
+#include "transmission/effects/one_signal.h"
 #include "transmission/effects/smooth_step.h"
-#include "transmission/one_signal.h"
 
 /// A sudden, lasting offset between motor and joint, because the cable slips on its capstan:
 ///

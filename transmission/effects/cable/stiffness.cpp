@@ -1,6 +1,6 @@
 #include "transmission/effects/built_in.h"
+#include "transmission/effects/one_signal.h"
 #include "transmission/effects/typical_size.h"
-#include "transmission/one_signal.h"
 
 /// Stiffness or damping that differs from the model's, or a law that stiffens: k_e' = κ k_e, b_e' = δ b_e,
 ///

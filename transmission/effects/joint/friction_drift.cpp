@@ -1,6 +1,6 @@
 #include "transmission/effects/built_in.h"
+#include "transmission/effects/one_signal.h"
 #include "transmission/friction.h"
-#include "transmission/one_signal.h"
 
 /// Friction that changes in time, as in a drive that warms up. The Coulomb level and viscous coefficient of the motor
 /// are multiplied by 1 + g, those of the joint by 1 + σ g:

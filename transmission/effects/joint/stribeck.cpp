@@ -1,7 +1,7 @@
 #include "transmission/effects/built_in.h"
+#include "transmission/effects/one_signal.h"
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
-#include "transmission/one_signal.h"
 
 /// Friction that falls with speed near standstill, on top of the Coulomb level, at the joint and at its motor:
 ///

@@ -1,7 +1,7 @@
 #include "transmission/effects/built_in.h"
+#include "transmission/effects/one_signal.h"
 #include "transmission/effects/typical_size.h"
 #include "transmission/friction.h"
-#include "transmission/one_signal.h"
 
 /// Friction at the motor that differs from the model's, and its asymmetry:
 ///

@@ -1,7 +1,7 @@
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/harmonic.h"
+#include "transmission/effects/one_signal.h"
 #include "transmission/effects/typical_size.h"
-#include "transmission/one_signal.h"
 
 /// Motor torque that is periodic in the motor's angle (cogging, commutation):
 ///
