@@ -21,7 +21,7 @@
 #include "diagnosis/record/common_clock.h"
 #include "diagnosis/search/basis.h"
 #include "diagnosis/search/revision.h"
-#include "diagnosis/search/unlisted_friction.h"
+#include "diagnosis/search/unlisted_causes.h"
 #include "diagnosis/search_space.h"
 
 namespace halyard {
@@ -72,7 +72,7 @@ class Diagnoser {
     if (const auto tells = model_for_lateness(training, model_, final_hypothesis()))
       searched = search(training, holdout, *tells);
     const Evidence& evidence = *searched.evidence;
-    weigh_unlisted_friction(evidence, tolerated_, attribution());
+    weigh_unlisted_causes(evidence, tolerated_, attribution());
     DiagnosisData& data = searched.data;
     for (const DiagnosisData::Late& late : data.late) result_.log_findings.push_back(finding_of(late));
     details_->joint_view = std::move(data.joint_view);

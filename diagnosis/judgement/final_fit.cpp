@@ -7,6 +7,7 @@
 
 #include "diagnosis/calibration/calibrate.h"
 #include "diagnosis/fit/nudged.h"
+#include "diagnosis/fit/ordered_instants.h"
 #include "diagnosis/judgement/decision_rule.h"
 #include "diagnosis/prediction/motion_key.h"
 #include "estimators/distributions.h"
@@ -193,7 +194,8 @@ Hypothesis nudged_start(const Evidence& whole, const ArmModel& model, const Fit&
 Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given) {
   const Score score = whole.score(chosen.hypothesis);
   if (!score.finite) return {};
-  const Fit tried = weighed_fit(whole, nudged_start(whole, model, chosen, given, score), chosen.parameters);
+  const Hypothesis start = with_ordered_instants(nudged_start(whole, model, chosen, given, score), chosen.parameters);
+  const Fit tried = weighed_fit(whole, start, chosen.parameters);
   const Fit& all = tried.usable ? tried : chosen;
   if (!all.usable) return {};
   Fit certain = keep_certain_sizes(whole, all, given);

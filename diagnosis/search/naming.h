@@ -10,14 +10,19 @@ namespace halyard {
 /// counts like one more number.
 double prior_cost_of(const PlacedEffect& effect, const ArmParameters<double>& arm);
 
+/// A cause that the library does not have (unlisted_causes.h).
+struct Unlisted {
+  double weight = 0;    ///< against the name
+  std::string summary;  ///< as of an effect
+};
+
 /// How an effect came to its name.
 struct Naming {
   double weight = 0;                      ///< among the candidates of its round, see name_probability.h
   std::vector<Alternative> alternatives;  ///< with their weights as probabilities, the most probable first
   /// The most probable of those that are more probable than the name, but cannot be named: at a bound, for example.
   std::optional<PlacedEffect> surer = {};
-  /// Weight of a friction that the library does not have, against the name (unlisted_friction.h).
-  double unlisted = 0;
+  Unlisted unlisted = {};
 };
 
 /// That the name or one of its alternatives is right. none: probability that no name is (name_probability.h).

@@ -136,7 +136,8 @@ double probability_of_none_by_rest(const Evidence& evidence, const Attribution& 
 
 double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t given,
                                std::size_t effect) {
-  return std::max(found.namings[effect - given].unlisted, probability_of_none_by_rest(evidence, found, given, effect));
+  return std::max(found.namings[effect - given].unlisted.weight,
+                  probability_of_none_by_rest(evidence, found, given, effect));
 }
 
 namespace {
@@ -200,8 +201,8 @@ std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const
 std::string reason_of(Doubt doubt, const Naming& naming, double none, const std::vector<PlacedEffect>& found) {
   switch (doubt) {
     case Doubt::another_cause:
-      return naming.unlisted > kRule.worth_a_name
-                 ? "a friction that grows faster than the speed, which the library lacks, explains it better"
+      return naming.unlisted.weight > kRule.worth_a_name
+                 ? naming.unlisted.summary + ", which the library lacks, explains it better"
                  : "so much is left that another cause is more probable";
     case Doubt::surer_rival: {
       const bool repeats =

@@ -23,7 +23,7 @@ std::vector<std::size_t> revise(const Evidence& evidence, const Evidence& whole,
 /// P(none) of what the effect of that index explains in the final fit (name_probability.h). Effects at one joint may
 /// cancel each other for the most part, as a zero and a ratio that together imitate a bent characteristic. What such an
 /// effect may miss is measured by what all added effects at its joint do together, if that is less than what it does
-/// alone. P(none) is at least Naming::unlisted. given: number of effects that the model came with.
+/// alone. P(none) is at least the weight of Naming::unlisted. given: number of effects that the model came with.
 double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t given,
                                std::size_t effect);
 

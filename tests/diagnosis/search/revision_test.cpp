@@ -159,7 +159,7 @@ TEST(Doubts, AFrictionThatTheLibraryLacksMakesANameDoubtful) {
   Searched s({friction}, {friction});
   s.revise();
   EXPECT_EQ(doubts(s.evidence, s.model, s.found, 0.01), std::vector<Doubt>{Doubt::none});
-  s.found.namings[0].unlisted = 0.9;
+  s.found.namings[0].unlisted = {0.9, "friction that grows faster than the speed"};
   EXPECT_GE(probability_of_none_for(s.evidence, s.found, 0, 0), 0.9);
   EXPECT_EQ(doubts(s.evidence, s.model, s.found, 0.01), std::vector<Doubt>{Doubt::another_cause});
   EXPECT_NE(reason_of(Doubt::another_cause, s.found.namings[0], 0, s.effects()).find("grows faster than the speed"),

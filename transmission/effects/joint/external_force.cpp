@@ -8,7 +8,7 @@
 ///
 ///   F_e        `force`, positive if it pushes the joint forward                      N m | N
 ///   t_1, t_2   `start`, `stop` on the log's clock, where the force is F_e / 2              s
-///   s          smooth step of the width 10 ms + r (t_2 - t_1), see smooth_step.h
+///   s          smooth step of the width 10 ms + r |t_2 - t_1|, see smooth_step.h
 ///   r          `rise`: share of its duration in which the force rises, and in which it falls. 0: at once; 1: it
 ///              falls as soon as it has reached F_e, as a push by hand does                -
 ///   k          `contact_stiffness`. Positive: a wall above q_c that pushes back down;
@@ -41,7 +41,7 @@ class ExternalForce : public EffectOf<ExternalForce> {
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
     const T *p = c.p, beyond = s[*c.joint].joint_position - p[5];
     const T depth = max(T(0.0), select(p[4] >= T(0.0), beyond, T(-beyond)));
-    const T width = T(kStepWidth) + p[3] * max(T(0.0), T(p[2] - p[1]));
+    const T width = T(kStepWidth) + p[3] * abs(T(p[2] - p[1]));
     const T push = smooth_step(c.time, p[1], width).value - smooth_step(c.time, p[2], width).value;
     s[*c.joint].joint_force += p[0] * push - p[4] * depth;
   }

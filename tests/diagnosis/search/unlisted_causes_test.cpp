@@ -1,6 +1,6 @@
-/// A named friction against one that grows faster than the speed, on logs of arms that have the one or the other.
+/// Names against causes that the library lacks, on logs of arms that have the one or the other.
 
-#include "diagnosis/search/unlisted_friction.h"
+#include "diagnosis/search/unlisted_causes.h"
 
 #include <gtest/gtest.h>
 
@@ -29,34 +29,57 @@ class SteepFriction : public EffectOf<SteepFriction> {
   }
 };
 
+/// e' = e + a (1 - exp(-t / τ)): a sensor that warms up.
+class WarmingSensor : public EffectOf<WarmingSensor> {
+ public:
+  std::string name() const override { return "warming_sensor"; }
+  std::string summary() const override { return "a joint's sensor whose zero moves while it warms up"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::sensors); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
+    return {{"size", "rad", 0, 0.01, -1, 1}, {"time", "s", 1, 2, 0.1, 100}};
+  }
+  template <class T>
+  void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
+    s[*c.joint].joint_error += c.p[0] * (T(1.0) - exp(T(-c.time) / c.p[1]));
+  }
+};
+
 PlacedEffect of_only_joint(const Effect& effect, std::vector<double> sizes) {
   PlacedEffect e = place_neutral_effect(effect, first_joints(1).nominal, 0);
   std::ranges::copy(sizes, e.p);
   return e;
 }
 
-/// Weight of an unlisted friction against the name that a search gave to what this arm has.
-double unlisted_weight(const PlacedEffect& truth, const PlacedEffect& named) {
+/// For each name that a search gave to what this arm has, the weight of the cause that the library lacks.
+std::vector<double> unlisted_weights(const std::vector<PlacedEffect>& truth, const std::vector<PlacedEffect>& named) {
   const ArmModel model = first_joints(1);
   ArmModel robot = model;
-  robot.effects = {truth};
+  robot.effects = truth;
   const std::vector<Record> records = make_records(simulate(motion(robot, 5)).measured, model, {});
   const Evidence evidence(records, model);
   Attribution found;
-  const Hypothesis h{model.nominal, {named}};
+  const Hypothesis h{model.nominal, named};
   found.final_fit = Refitter(evidence, model, 0).refit(h, evidence.score(h));
   found.final_score = evidence.score(found.final_fit.hypothesis);
-  found.namings.push_back({1, {}});
-  weigh_unlisted_friction(evidence, model, found);
-  return found.namings[0].unlisted;
+  found.namings.resize(named.size(), {1, {}});
+  weigh_unlisted_causes(evidence, model, found);
+  std::vector<double> weights;
+  for (const Naming& naming : found.namings) weights.push_back(naming.unlisted.weight);
+  return weights;
 }
 
-TEST(UnlistedFriction, TakesTheNameOfWhatGrowsFasterThanTheSpeed) {
+double unlisted_weight(const PlacedEffect& truth, const PlacedEffect& named) {
+  return unlisted_weights({truth}, {named})[0];
+}
+
+PlacedEffect slip(double jump, double time) { return of_only_joint(*find_effect("cable_slip"), {jump, time}); }
+
+TEST(UnlistedCauses, AFrictionThatGrowsFasterThanTheSpeed) {
   const SteepFriction steep;
   EXPECT_GT(unlisted_weight(of_only_joint(steep, {1}), of_only_joint(*find_effect("joint_friction"), {0, 0.3})), 0.99);
 }
 
-TEST(UnlistedFriction, LeavesCoulombAndViscousFrictionTheirNames) {
+TEST(UnlistedCauses, LeaveCoulombAndViscousFrictionTheirNames) {
   for (const char* name : {"joint_friction", "motor_friction"}) {
     const double scale = std::string(name) == "joint_friction" ? 1 : 1e-2;
     for (const auto& [coulomb, viscous] : {std::pair(0.4, 0.0), std::pair(0.0, 1.0), std::pair(0.4, 1.0)}) {
@@ -66,7 +89,18 @@ TEST(UnlistedFriction, LeavesCoulombAndViscousFrictionTheirNames) {
   }
 }
 
-TEST(UnlistedFriction, CompetesWithNamesOfFrictionAlone) {
+TEST(UnlistedCauses, ASensorThatWandersIsNoPairOfSlips) {
+  const WarmingSensor warming;
+  for (const double w : unlisted_weights({of_only_joint(warming, {0.02, 1.5})}, {slip(1e-4, 1), slip(1e-4, 3)}))
+    EXPECT_GT(w, 0.99);
+}
+
+TEST(UnlistedCauses, LeaveSlipsTheirNames) {
+  for (const std::vector<PlacedEffect>& slips : {std::vector{slip(1e-4, 2.2)}, {slip(1e-4, 1.3), slip(-2e-4, 3.1)}})
+    for (const double w : unlisted_weights(slips, slips)) EXPECT_LT(w, 0.01) << slips.size();
+}
+
+TEST(UnlistedCauses, LeaveOtherNamesAlone) {
   const PlacedEffect ratio = of_only_joint(*find_effect("capstan_ratio"), {1.02});
   EXPECT_EQ(unlisted_weight(ratio, ratio), 0);
 }

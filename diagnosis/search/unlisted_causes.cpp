@@ -1,0 +1,109 @@
+#include "diagnosis/search/unlisted_causes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "diagnosis/round/refit.h"
+#include "transmission/effects/typical_size.h"
+
+namespace halyard {
+namespace {
+
+class SteepFriction : public EffectOf<SteepFriction> {
+ public:
+  std::string name() const override { return "unlisted_friction"; }
+  std::string summary() const override { return "friction that grows faster than the speed"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::joint); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    constexpr double kMost = 300;
+    const bool turns = arm.joint[*joint].type == JointType::revolute;
+    const double speed = turns ? 1 : 0.1, force = typical_joint_friction(arm.joint[*joint]);
+    const double square = force / (speed * speed), cube = square / speed;
+    return {{"square", turns ? "N m s^2/rad^2" : "N s^2/m^2", 0, square, 0, kMost * square},
+            {"cube", turns ? "N m s^3/rad^3" : "N s^3/m^3", 0, cube, 0, kMost * cube}};
+  }
+  template <class T>
+  void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const T v = s[*c.joint].joint_rate;
+    s[*c.joint].joint_force -= (c.p[0] * abs(v) + c.p[1] * v * v) * v;
+  }
+};
+
+class WanderingZero : public EffectOf<WanderingZero> {
+ public:
+  explicit WanderingZero(Span records) : records_(records) {}
+  std::string name() const override { return "unlisted_wander"; }
+  std::string summary() const override { return "a joint's sensor whose zero wanders"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::sensors); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
+    const bool turns = arm.joint[*joint].type == JointType::revolute;
+    const double typical = turns ? 1e-3 : 1e-4, most = turns ? 0.5 : 0.05;
+    std::vector<EffectParameter> all;
+    for (int i = 0; i < kMaxEffectParameters; ++i)
+      all.push_back({"cosine_" + std::to_string(i), turns ? "rad" : "m", 0, typical, -most, most});
+    return all;
+  }
+  template <class T>
+  void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
+    const double phase = std::numbers::pi * (c.time - records_.first) / (records_.last - records_.first);
+    for (int i = 0; i < kMaxEffectParameters; ++i) s[*c.joint].joint_error += c.p[i] * T(std::cos(i * phase));
+  }
+
+ private:
+  Span records_;
+};
+
+/// Added effects that one cause may replace.
+struct Question {
+  std::vector<std::size_t> names;
+  const Effect& cause;
+};
+
+std::vector<Question> questions(const std::vector<PlacedEffect>& effects, std::size_t given, const Effect& friction,
+                                const Effect& wander) {
+  std::vector<Question> all;
+  for (std::size_t e = given; e < effects.size(); ++e) {
+    const std::string name = effects[e].effect->name();
+    if (name == "joint_friction" || name == "motor_friction") all.push_back({{e}, friction});
+    if (name != "cable_slip") continue;
+    const auto before = std::ranges::find_if(
+        all, [&](const Question& q) { return &q.cause == &wander && effects[q.names[0]].joint == effects[e].joint; });
+    if (before == all.end()) all.push_back({{e}, wander});
+    else before->names.push_back(e);
+  }
+  return all;
+}
+
+}  // namespace
+
+void weigh_unlisted_causes(const Evidence& evidence, const ArmModel& model, Attribution& found) {
+  const std::size_t given = model.effects.size();
+  const Hypothesis& all = found.final_fit.hypothesis;
+  const SteepFriction friction;
+  const WanderingZero wander(evidence.time_span());
+  const std::vector<Question> asked = questions(all.effects, given, friction, wander);
+  if (asked.empty()) return;
+  const Refitter refitter(evidence, model, given);
+  if (!refitter.is_usable()) return;
+  const auto named = refitter.refitted(all, found.final_score);
+  if (!named) return;
+  const Judge judge(evidence, model, refitter.numbers());
+  for (const Question& q : asked) {
+    const PlacedEffect cause = place_effect(q.cause, model.nominal, all.effects[q.names[0]].joint);
+    Hypothesis others = all;
+    double prior_gain = -prior_cost_of(cause, model.nominal);
+    for (auto e = q.names.rbegin(); e != q.names.rend(); ++e) {
+      prior_gain += prior_cost_of(all.effects[*e], model.nominal);
+      others = without_effect(others, *e);
+    }
+    const auto replaced = refitter.refitted(refitter.with_effect(others, cause), found.final_score);
+    if (!replaced) continue;
+    const double gain = judge.gain_over(*replaced, *named) + prior_gain;
+    for (const std::size_t e : q.names)
+      found.namings[e - given].unlisted = {1 / (1 + std::exp(-gain)), q.cause.summary()};
+  }
+}
+
+}  // namespace halyard
