@@ -71,23 +71,42 @@ endfunction()
 # same templates are instantiated elsewhere over double, where the
 # sanitizers check them.
 option(HALYARD_SANITIZE_LANES "In a build with sanitizers, check the lane files too: GCC takes minutes for each" OFF)
+set(halyard_lane_options -O3 -fno-signed-zeros -fno-trapping-math -fno-math-errno
+  $<$<CXX_COMPILER_ID:GNU>:-fno-devirtualize-speculatively> $<$<CXX_COMPILER_ID:GNU>:-fno-tree-loop-distribute-patterns>)
+if(NOT HALYARD_SANITIZE_LANES)
+  list(APPEND halyard_lane_options -fno-sanitize=all)
+endif()
+# Otherwise GCC copies wide vectors in pieces of 16 bytes, and the processor waits when it loads them whole.
+set(wide_moves $<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,12>>)
+set(halyard_avx2_options -mavx2 -mfma $<${wide_moves}:-mmove-max=256> $<${wide_moves}:-mstore-max=256>)
+set(halyard_avx512_options -mavx512f -mavx512dq -mfma $<${wide_moves}:-mmove-max=512> $<${wide_moves}:-mstore-max=512>)
+set(halyard_wide_sets "")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  set(halyard_wide_sets avx2 avx512)
+endif()
 function(halyard_lane_files room stem)
-  set(options -O3 -fno-signed-zeros -fno-trapping-math -fno-math-errno
-    $<$<CXX_COMPILER_ID:GNU>:-fno-devirtualize-speculatively> $<$<CXX_COMPILER_ID:GNU>:-fno-tree-loop-distribute-patterns>)
-  if(NOT HALYARD_SANITIZE_LANES)
-    list(APPEND options -fno-sanitize=all)
-  endif()
-  set_source_files_properties(${stem}_generic.cpp PROPERTIES COMPILE_OPTIONS "${options};-O2")
+  set_source_files_properties(${stem}_generic.cpp PROPERTIES COMPILE_OPTIONS "${halyard_lane_options};-O2")
   target_sources(halyard_${room} PRIVATE ${stem}_generic.cpp)
-  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    # Otherwise GCC copies wide vectors in pieces of 16 bytes, and the processor waits when it loads them whole.
-    set(wide_moves $<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,12>>)
-    set_source_files_properties(${stem}_avx2.cpp PROPERTIES
-      COMPILE_OPTIONS "${options};-mavx2;-mfma;$<${wide_moves}:-mmove-max=256;-mstore-max=256>")
-    set_source_files_properties(${stem}_avx512.cpp PROPERTIES
-      COMPILE_OPTIONS "${options};-mavx512f;-mavx512dq;-mfma;$<${wide_moves}:-mmove-max=512;-mstore-max=512>")
-    target_sources(halyard_${room} PRIVATE ${stem}_avx2.cpp ${stem}_avx512.cpp)
-  endif()
+  foreach(set ${halyard_wide_sets})
+    set_source_files_properties(${stem}_${set}.cpp PROPERTIES
+      COMPILE_OPTIONS "${halyard_lane_options};${halyard_${set}_options}")
+    target_sources(halyard_${room} PRIVATE ${stem}_${set}.cpp)
+  endforeach()
+endfunction()
+
+# halyard_effect_copies(source...): the code of effects over Dual and Lanes, once more for each wider instruction set
+# (transmission/effects/built_in.h), as objects of the library of the transmission.
+function(halyard_effect_copies)
+  foreach(set ${halyard_wide_sets})
+    add_library(halyard_effects_${set} OBJECT ${ARGN})
+    target_compile_definitions(halyard_effects_${set} PRIVATE HALYARD_EFFECT_SET=${set})
+    target_compile_options(halyard_effects_${set} PRIVATE -Wno-psabi ${halyard_lane_options} ${halyard_${set}_options})
+    target_include_directories(halyard_effects_${set} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/include)
+    target_link_libraries(halyard_effects_${set} PRIVATE Eigen3::Eigen halyard_warnings)
+    target_compile_features(halyard_effects_${set} PRIVATE cxx_std_20)
+    set_target_properties(halyard_effects_${set} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_sources(halyard_transmission PRIVATE $<TARGET_OBJECTS:halyard_effects_${set}>)
+  endforeach()
 endfunction()
 
 # halyard_headers(ROOM header...): headers of a room that are installed.

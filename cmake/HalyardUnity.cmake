@@ -21,7 +21,9 @@ compile_together(halyard_transmission core arm_parameters.cpp command_history.cp
 foreach(place cable joint motor sensor)
   file(GLOB effects RELATIVE ${PROJECT_SOURCE_DIR}/transmission CONFIGURE_DEPENDS
     ${PROJECT_SOURCE_DIR}/transmission/effects/${place}/*.cpp)
-  compile_together(halyard_transmission ${place}_effects ${effects})
+  foreach(target halyard_transmission halyard_effects_avx2 halyard_effects_avx512)
+    compile_together(${target} ${place}_effects ${effects})
+  endforeach()
 endforeach()
 
 compile_together(halyard_model model

@@ -3,7 +3,7 @@
 #   cmake -DNM=<nm> -DOBJECTS=<list> -P lane_symbols.cmake
 set(checked 0)
 foreach(object IN LISTS OBJECTS)
-  if(NOT object MATCHES "_(generic|avx2|avx512)\\.cpp")
+  if(NOT object MATCHES "_(generic|avx2|avx512)\\.(cpp|dir)")
     continue()
   endif()
   execute_process(COMMAND ${NM} -C ${object} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)

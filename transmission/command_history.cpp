@@ -45,17 +45,4 @@ CommandHistory::Segment CommandHistory::segment(int joint, double time_s) const 
   return {value(next - 1) + slope * (time_s - from), slope};
 }
 
-double CommandHistory::at(int joint, double time_s) const { return segment(joint, time_s).value; }
-
-Dual CommandHistory::at(int joint, const Dual& time_s) const {
-  const Segment s = segment(joint, time_s.a);
-  return {s.value, s.slope * time_s.d};
-}
-
-Lanes CommandHistory::at(int joint, const Lanes& time_s) const {
-  Lanes r;
-  for (int i = 0; i < kLaneWidth; ++i) r.set(i, segment(joint, time_s[i]).value);
-  return r;
-}
-
 }  // namespace halyard

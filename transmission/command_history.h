@@ -23,9 +23,16 @@ class CommandHistory {
   /// between the middles of these hold intervals, so it has a derivative and no delay on average. Before the middle of
   /// the first interval the value is the first command; after the middle of the last interval it is the last command.
   /// The last hold interval is assumed to be as long as the one before.
-  double at(int joint, double time_s) const;
-  Dual at(int joint, const Dual& time_s) const;
-  Lanes at(int joint, const Lanes& time_s) const;
+  double at(int joint, double time_s) const { return segment(joint, time_s).value; }
+  HALYARD_INLINE Dual at(int joint, const Dual& time_s) const {
+    const Segment s = segment(joint, time_s.a);
+    return {s.value, s.slope * time_s.d};
+  }
+  HALYARD_INLINE Lanes at(int joint, const Lanes& time_s) const {
+    Lanes r;
+    for (int i = 0; i < kLaneWidth; ++i) r.set(i, segment(joint, time_s[i]).value);
+    return r;
+  }
 
  private:
   struct Segment {

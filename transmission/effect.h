@@ -18,8 +18,7 @@
 /// To write an effect, derive from EffectOf<Yours> and define the members that you need as templates over the scalar T
 /// (scalar.h), and stages(): no other member than those of its stages is called. effects/cable/backlash.cpp is an
 /// example without states, effects/cable/hysteresis.cpp one with states.
-/// An effect whose forces depend on one signal each can say so: then filters are faster
-/// (effects/one_signal.h).
+/// An effect whose forces depend on one signal each can say so: then filters are faster (effects/one_signal.h).
 
 #include <memory>
 #include <optional>
@@ -96,6 +95,20 @@ struct EffectContext {
 
 enum class EffectStage : unsigned { command = 1, stretch = 2, cable_force = 4, motor = 8, joint = 16, sensors = 32 };
 
+class Effect;
+
+/// The action and the rates of an effect over a type T that is wider than a register, as functions: a library effect has
+/// them compiled for several instruction sets (effects/built_in.h).
+template <class T>
+struct EffectCode {
+  void (*act)(const Effect&, EffectStage, const EffectContext<T>&, JointSignals<T>* s);
+  void (*rates)(const Effect&, const EffectContext<T>&, const JointSignals<T>* s, T* z_dot);
+};
+struct WideCode {
+  EffectCode<Dual> dual;
+  EffectCode<Lanes> lanes;
+};
+
 class Effect {
  public:
   virtual ~Effect() = default;
@@ -122,12 +135,30 @@ class Effect {
 
   /// s: signals of all joints, [arm.n]; an effect at a joint reads and writes s[*joint].
   virtual void act(EffectStage, const EffectContext<double>&, JointSignals<double>* s) const = 0;
-  virtual void act(EffectStage, const EffectContext<Dual>&, JointSignals<Dual>* s) const = 0;
-  virtual void act(EffectStage, const EffectContext<Lanes>&, JointSignals<Lanes>* s) const = 0;
+  HALYARD_INLINE void act(EffectStage g, const EffectContext<Dual>& c, JointSignals<Dual>* s) const {
+    code_.dual.act(*this, g, c, s);
+  }
+  HALYARD_INLINE void act(EffectStage g, const EffectContext<Lanes>& c, JointSignals<Lanes>* s) const {
+    code_.lanes.act(*this, g, c, s);
+  }
 
   virtual void rates(const EffectContext<double>&, const JointSignals<double>* s, double* z_dot) const = 0;
-  virtual void rates(const EffectContext<Dual>&, const JointSignals<Dual>* s, Dual* z_dot) const = 0;
-  virtual void rates(const EffectContext<Lanes>&, const JointSignals<Lanes>* s, Lanes* z_dot) const = 0;
+  HALYARD_INLINE void rates(const EffectContext<Dual>& c, const JointSignals<Dual>* s, Dual* z_dot) const {
+    code_.dual.rates(*this, c, s, z_dot);
+  }
+  HALYARD_INLINE void rates(const EffectContext<Lanes>& c, const JointSignals<Lanes>* s, Lanes* z_dot) const {
+    code_.lanes.rates(*this, c, s, z_dot);
+  }
+
+  const WideCode& code() const { return code_; }
+  /// Replaces the code over Dual and Lanes by a copy for another instruction set.
+  void use(const WideCode& copy) { code_ = copy; }
+
+ protected:
+  explicit Effect(const WideCode& code) : code_(code) {}
+
+ private:
+  WideCode code_;
 };
 
 /// Implements the interface above for a class with template members.
@@ -156,23 +187,15 @@ class EffectOf : public Effect {
   }
   void change_parameters(ArmParameters<Dual>& a, EffectPlace k, const Dual* p) const final { self().change(a, k, p); }
   void change_parameters(ArmParameters<Lanes>& a, EffectPlace k, const Lanes* p) const final { self().change(a, k, p); }
-  void act(EffectStage g, const EffectContext<double>& c, JointSignals<double>* s) const final { dispatch(g, c, s); }
-  void act(EffectStage g, const EffectContext<Dual>& c, JointSignals<Dual>* s) const final { dispatch(g, c, s); }
-  void act(EffectStage g, const EffectContext<Lanes>& c, JointSignals<Lanes>* s) const final { dispatch(g, c, s); }
+  using Effect::act, Effect::rates;
+  void act(EffectStage g, const EffectContext<double>& c, JointSignals<double>* s) const final { act_at(g, c, s); }
   void rates(const EffectContext<double>& c, const JointSignals<double>* s, double* r) const final {
     self().state_rate(c, s, r);
   }
-  void rates(const EffectContext<Dual>& c, const JointSignals<Dual>* s, Dual* r) const final {
-    self().state_rate(c, s, r);
-  }
-  void rates(const EffectContext<Lanes>& c, const JointSignals<Lanes>* s, Lanes* r) const final {
-    self().state_rate(c, s, r);
-  }
 
- private:
-  const Derived& self() const { return static_cast<const Derived&>(*this); }
+  /// Calls the member of this stage.
   template <class T>
-  void dispatch(EffectStage stage, const EffectContext<T>& c, JointSignals<T>* s) const {
+  HALYARD_INLINE void act_at(EffectStage stage, const EffectContext<T>& c, JointSignals<T>* s) const {
     switch (stage) {
       case EffectStage::command: return self().on_command(c, s);
       case EffectStage::stretch: return self().on_stretch(c, s);
@@ -181,6 +204,20 @@ class EffectOf : public Effect {
       case EffectStage::joint: return self().on_joint(c, s);
       case EffectStage::sensors: return self().on_sensors(c, s);
     }
+  }
+
+ protected:
+  EffectOf() : Effect({{act_of<Dual>, rates_of<Dual>}, {act_of<Lanes>, rates_of<Lanes>}}) {}
+
+ private:
+  HALYARD_INLINE const Derived& self() const { return static_cast<const Derived&>(*this); }
+  template <class T>
+  static void act_of(const Effect& e, EffectStage stage, const EffectContext<T>& c, JointSignals<T>* s) {
+    static_cast<const Derived&>(e).act_at(stage, c, s);
+  }
+  template <class T>
+  static void rates_of(const Effect& e, const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) {
+    static_cast<const Derived&>(e).state_rate(c, s, z_dot);
   }
 };
 

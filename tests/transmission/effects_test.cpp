@@ -164,7 +164,7 @@ TEST(EffectLibrary, AnEffectIsOneFileAndOneLine) {
     return all.str();
   };
   const std::string library = text(folder / "library.cpp");
-  const std::regex made(R"(make_effect<(\w+)>\(\);)");
+  const std::regex made(R"(HALYARD_EFFECT\((\w+)\))");
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".cpp" || entry.path().parent_path() == folder) continue;

@@ -155,7 +155,7 @@ TEST_F(BadInput, AModuleOfEffectsThatCannotBeLoaded) {
   expect_module_refused("./text.so", {"plugin ./text.so: "});
   expect_module_refused("./none.so", {"plugin ./none.so: "});
   expect_module_refused(broken + "/well_formed.so", {"well_formed.so: ", "halyard_effects"});
-  expect_module_refused(broken + "/effects_older_interface.so", {"effects_older_interface.so: ", "effect interface 1"});
+  expect_module_refused(broken + "/effects_older_interface.so", {"effects_older_interface.so: ", "effect interface 2"});
 }
 
 TEST_F(BadInput, ASweepThatCannotBeComputed) {

@@ -50,6 +50,6 @@ class Backlash : public EffectOf<Backlash>, public OneSignalEffect {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<Backlash>();
+HALYARD_EFFECT(Backlash)
 
 }  // namespace halyard::effects

@@ -35,6 +35,6 @@ class CableSlip : public EffectOf<CableSlip>, public OneSignalEffect {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<CableSlip>();
+HALYARD_EFFECT(CableSlip)
 
 }  // namespace halyard::effects

@@ -42,6 +42,6 @@ class CapstanEccentricity : public EffectOf<CapstanEccentricity> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<CapstanEccentricity>();
+HALYARD_EFFECT(CapstanEccentricity)
 
 }  // namespace halyard::effects

@@ -27,6 +27,6 @@ class CapstanRatio : public EffectOf<CapstanRatio> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<CapstanRatio>();
+HALYARD_EFFECT(CapstanRatio)
 
 }  // namespace halyard::effects

@@ -34,6 +34,6 @@ class CouplingError : public EffectOf<CouplingError> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<CouplingError>();
+HALYARD_EFFECT(CouplingError)
 
 }  // namespace halyard::effects

@@ -43,6 +43,6 @@ class Creep : public EffectOf<Creep> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<Creep>();
+HALYARD_EFFECT(Creep)
 
 }  // namespace halyard::effects

@@ -48,6 +48,6 @@ class Hysteresis : public EffectOf<Hysteresis> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<Hysteresis>();
+HALYARD_EFFECT(Hysteresis)
 
 }  // namespace halyard::effects

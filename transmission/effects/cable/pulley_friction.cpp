@@ -42,6 +42,6 @@ class PulleyFriction : public EffectOf<PulleyFriction> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<PulleyFriction>();
+HALYARD_EFFECT(PulleyFriction)
 
 }  // namespace halyard::effects

@@ -43,6 +43,6 @@ class Slack : public EffectOf<Slack> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<Slack>();
+HALYARD_EFFECT(Slack)
 
 }  // namespace halyard::effects

@@ -43,6 +43,6 @@ class Stiffness : public EffectOf<Stiffness>, public OneSignalEffect {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<Stiffness>();
+HALYARD_EFFECT(Stiffness)
 
 }  // namespace halyard::effects

@@ -47,6 +47,6 @@ class ExternalForce : public EffectOf<ExternalForce> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<ExternalForce>();
+HALYARD_EFFECT(ExternalForce)
 
 }  // namespace halyard::effects

@@ -63,6 +63,6 @@ class FrictionDrift : public EffectOf<FrictionDrift>, public OneSignalEffect {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<FrictionDrift>();
+HALYARD_EFFECT(FrictionDrift)
 
 }  // namespace halyard::effects

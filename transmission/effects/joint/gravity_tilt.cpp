@@ -52,6 +52,6 @@ class GravityTilt : public EffectOf<GravityTilt> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<GravityTilt>();
+HALYARD_EFFECT(GravityTilt)
 
 }  // namespace halyard::effects

@@ -45,6 +45,6 @@ class JointFriction : public EffectOf<JointFriction>, public OneSignalEffect {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<JointFriction>();
+HALYARD_EFFECT(JointFriction)
 
 }  // namespace halyard::effects

@@ -33,6 +33,6 @@ class JointPresliding : public EffectOf<JointPresliding> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<JointPresliding>();
+HALYARD_EFFECT(JointPresliding)
 
 }  // namespace halyard::effects

@@ -40,6 +40,6 @@ class Payload : public EffectOf<Payload> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<Payload>();
+HALYARD_EFFECT(Payload)
 
 }  // namespace halyard::effects

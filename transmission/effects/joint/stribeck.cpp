@@ -64,6 +64,6 @@ class Stribeck : public EffectOf<Stribeck>, public OneSignalEffect {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<Stribeck>();
+HALYARD_EFFECT(Stribeck)
 
 }  // namespace halyard::effects

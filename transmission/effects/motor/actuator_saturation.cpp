@@ -42,6 +42,6 @@ class ActuatorSaturation : public EffectOf<ActuatorSaturation> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<ActuatorSaturation>();
+HALYARD_EFFECT(ActuatorSaturation)
 
 }  // namespace halyard::effects

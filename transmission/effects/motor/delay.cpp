@@ -49,6 +49,6 @@ class Delay : public EffectOf<Delay> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<Delay>();
+HALYARD_EFFECT(Delay)
 
 }  // namespace halyard::effects

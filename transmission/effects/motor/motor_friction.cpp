@@ -46,6 +46,6 @@ class MotorFriction : public EffectOf<MotorFriction>, public OneSignalEffect {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<MotorFriction>();
+HALYARD_EFFECT(MotorFriction)
 
 }  // namespace halyard::effects

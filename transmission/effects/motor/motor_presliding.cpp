@@ -33,6 +33,6 @@ class MotorPresliding : public EffectOf<MotorPresliding> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<MotorPresliding>();
+HALYARD_EFFECT(MotorPresliding)
 
 }  // namespace halyard::effects

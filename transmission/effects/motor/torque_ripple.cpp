@@ -38,6 +38,6 @@ class TorqueRipple : public EffectOf<TorqueRipple>, public OneSignalEffect {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<TorqueRipple>();
+HALYARD_EFFECT(TorqueRipple)
 
 }  // namespace halyard::effects

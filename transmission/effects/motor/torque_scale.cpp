@@ -31,6 +31,6 @@ class TorqueScale : public EffectOf<TorqueScale> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<TorqueScale>();
+HALYARD_EFFECT(TorqueScale)
 
 }  // namespace halyard::effects

@@ -33,6 +33,6 @@ class EncoderEccentricity : public EffectOf<EncoderEccentricity> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<EncoderEccentricity>();
+HALYARD_EFFECT(EncoderEccentricity)
 
 }  // namespace halyard::effects

@@ -39,6 +39,6 @@ class EncoderOffset : public EffectOf<EncoderOffset> {
   }
 };
 
-template std::unique_ptr<const Effect> make_effect<EncoderOffset>();
+HALYARD_EFFECT(EncoderOffset)
 
 }  // namespace halyard::effects
