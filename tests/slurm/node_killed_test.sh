@@ -17,7 +17,7 @@ cluster=$folder/slurm
 cp "$examples"/raven2/{experiment_a.xml,raven2.xml} "$folder"
 cd "$folder"
 cat >study.xml <<'END'
-<sweep name="two nodes" scenario="experiment_a.xml" estimators="kinematics,sr_ukf" duration="4">
+<sweep name="two nodes" scenario="experiment_a.xml" estimators="kinematics,sr_ukf" duration="24">
   <axis parameter="joint2.cable.stiffness" factor="true" from="0.5" to="2" steps="24" scale="log" applies_to="robot"/>
 </sweep>
 END
