@@ -95,8 +95,13 @@ function(halyard_lane_files room stem)
 endfunction()
 
 # halyard_effect_copies(source...): the code of effects over Dual and Lanes, once more for each wider instruction set
-# (transmission/effects/built_in.h), as objects of the library of the transmission.
+# (transmission/effects/built_in.h), as objects of the library of the transmission. Only GCC inlines all that these
+# functions call; with another compiler effects have their generic code alone.
 function(halyard_effect_copies)
+  if(NOT halyard_wide_sets OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    return()
+  endif()
+  target_compile_definitions(halyard_transmission PRIVATE HALYARD_WIDE_EFFECTS)
   foreach(set ${halyard_wide_sets})
     add_library(halyard_effects_${set} OBJECT ${ARGN})
     target_compile_definitions(halyard_effects_${set} PRIVATE HALYARD_EFFECT_SET=${set})

@@ -97,8 +97,8 @@ enum class EffectStage : unsigned { command = 1, stretch = 2, cable_force = 4, m
 
 class Effect;
 
-/// The action and the rates of an effect over a type T that is wider than a register, as functions: a library effect has
-/// them compiled for several instruction sets (effects/built_in.h).
+/// The action and the rates of an effect over a type T that is wider than a register, as functions: those of a library
+/// effect are compiled for several instruction sets (effects/built_in.h).
 template <class T>
 struct EffectCode {
   void (*act)(const Effect&, EffectStage, const EffectContext<T>&, JointSignals<T>* s);

@@ -5,10 +5,10 @@
 ///
 /// library.cpp calls this function, so a new effect needs its own file and one line in library.cpp.
 ///
-/// On x86-64 the file is compiled three times. The two further times HALYARD_EFFECT_SET is the name of an instruction
-/// set (lanes/instruction_set.h), and only the effect's code over Dual and Lanes is left. The function above creates
-/// effects with the code of the widest set that the processor has. Everything in this code has to be inlined: a value of
-/// type Lanes is passed in other registers in each set.
+/// With HALYARD_WIDE_EFFECTS the file is compiled three times. The two further times HALYARD_EFFECT_SET is the name of
+/// an instruction set (lanes/instruction_set.h), and only the effect's code over Dual and Lanes is left. The function
+/// above creates effects with the code of the widest set that the processor has. Everything in this code has to be
+/// inlined: other files may not call it, and a value of type Lanes is passed in other registers in each set.
 
 #include "transmission/effect.h"
 #include "transmission/lanes/instruction_set.h"
@@ -41,7 +41,7 @@ std::unique_ptr<const Effect> make_effect() {
   effect->use(usable_copies(copies_of(effect.get())).front());
   return effect;
 }
-#if defined(__x86_64__)
+#if defined(HALYARD_WIDE_EFFECTS)
 #define HALYARD_EFFECT(E)                             \
   extern const WideCode k##E##_avx2, k##E##_avx512;   \
   static KernelCopies<WideCode> copies_of(const E*) { \
