@@ -41,6 +41,8 @@ class Basis {
   Found refitted(const Hypothesis& h, const Score& before) const;
   /// refitted() without each of the added effects, side by side.
   std::vector<Found> without_each(const Found& found) const;
+  /// The same; of effects that are certainly needed (DecisionRule::certainly_needed) the score is not finite.
+  std::vector<Found> without_each_doubtful(const Found& found) const;
   /// True if at least two numbers are pressed against their tolerance or replaced by a name.
   bool is_narrow(const Hypothesis& h) const;
   /// What the prior takes from ln p, see above. Infinite if a sensitivity cannot be computed.

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/round/refit.h"
 #include "transmission/effects/typical_size.h"
 
@@ -87,22 +88,28 @@ void weigh_unlisted_causes(const Evidence& evidence, const ArmModel& model, Attr
   if (asked.empty()) return;
   const Refitter refitter(evidence, model, given);
   if (!refitter.is_usable()) return;
-  const auto named = refitter.refitted(all, found.final_score);
-  if (!named) return;
-  const Judge judge(evidence, model, refitter.numbers());
+  // All names at first, then with the cause of each question in their place.
+  std::vector<Hypothesis> rivals = {all};
+  std::vector<double> prior_gain;
   for (const Question& q : asked) {
     const PlacedEffect cause = place_effect(q.cause, model.nominal, all.effects[q.names[0]].joint);
     Hypothesis others = all;
-    double prior_gain = -prior_cost_of(cause, model.nominal);
+    prior_gain.push_back(-prior_cost_of(cause, model.nominal));
     for (auto e = q.names.rbegin(); e != q.names.rend(); ++e) {
-      prior_gain += prior_cost_of(all.effects[*e], model.nominal);
+      prior_gain.back() += prior_cost_of(all.effects[*e], model.nominal);
       others = without_effect(others, *e);
     }
-    const auto replaced = refitter.refitted(refitter.with_effect(others, cause), found.final_score);
-    if (!replaced) continue;
-    const double gain = judge.gain_over(*replaced, *named) + prior_gain;
-    for (const std::size_t e : q.names)
-      found.namings[e - given].unlisted = {1 / (1 + std::exp(-gain)), q.cause.summary()};
+    rivals.push_back(refitter.with_effect(others, cause));
+  }
+  std::vector<std::optional<Scored>> fitted(rivals.size());
+  run_side_by_side(rivals.size(), [&](std::size_t i) { fitted[i] = refitter.refitted(rivals[i], found.final_score); });
+  if (!fitted[0]) return;
+  const Judge judge(evidence, model, refitter.numbers());
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (!fitted[i + 1]) continue;
+    const double gain = judge.gain_over(*fitted[i + 1], *fitted[0]) + prior_gain[i];
+    for (const std::size_t e : asked[i].names)
+      found.namings[e - given].unlisted = {1 / (1 + std::exp(-gain)), asked[i].cause.summary()};
   }
 }
 
