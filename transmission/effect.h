@@ -150,7 +150,6 @@ class Effect {
     code_.lanes.rates(*this, c, s, z_dot);
   }
 
-  const WideCode& code() const { return code_; }
   /// Replaces the code over Dual and Lanes by a copy for another instruction set.
   void use(const WideCode& copy) { code_ = copy; }
 

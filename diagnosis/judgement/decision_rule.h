@@ -94,7 +94,7 @@ struct DecisionRule {
   /// Reason: one model in ten.
   double cost_of_wider_tolerances = 2.3;
   /// With other tolerances, a name whose removal costs so many nats after the first pass of the fit is needed. Reason:
-  /// further passes win back up to 71 % (39 fits of two logs with three effects), and the prior gains less than ten by
+  /// further passes win back up to 70 % (39 fits of two logs with three effects), and the prior gains less than ten by
   /// a name fewer.
   double certainly_needed = 100;
   /// The tolerances of a model count up to this many times.

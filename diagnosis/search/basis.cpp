@@ -47,23 +47,14 @@ Found Basis::refitted(const Hypothesis& h, const Score& before) const {
   return f;
 }
 
-std::vector<Found> Basis::without_each(const Found& found) const {
+std::vector<Found> Basis::without_each(const Found& found, double enough) const {
   std::vector<Found> without(found.fit.hypothesis.effects.size() - given_);
   run_side_by_side(without.size(), [&](std::size_t i) {
-    without[i] = refitted(without_effect(found.fit.hypothesis, given_ + i), found.score);
-  });
-  return without;
-}
-
-std::vector<Found> Basis::without_each_doubtful(const Found& found) const {
-  std::vector<Found> without(found.fit.hypothesis.effects.size() - given_);
-  run_side_by_side(without.size(), [&](std::size_t i) {
+    without[i].score.finite = false;
     Refit refit{without_effect(found.fit.hypothesis, given_ + i), found.score};
     refitter.go_on(refit, 1);
-    const double loss = log_likelihood_gain(evidence_, found.score, refit.score);
-    if (loss < kRule.certainly_needed) refitter.go_on(refit, kRule.most_passes - 1);
-    else refit.best.usable = false;
-    without[i].score.finite = false;
+    if (log_likelihood_gain(evidence_, found.score, refit.score) >= enough) return;
+    refitter.go_on(refit, kRule.most_passes - 1);
     if (refit.best.usable) without[i] = {refit.best, evidence_.score(refit.best.hypothesis)};
   });
   return without;
@@ -105,7 +96,7 @@ std::optional<Rebased> rebased(const Evidence& evidence, const ArmModel& stated,
   if (!r.found.score.finite) return {};
   double prior = r.basis->prior_cost(r.found);
   for (;;) {
-    const std::vector<Found> without = r.basis->without_each_doubtful(r.found);
+    const std::vector<Found> without = r.basis->without_each(r.found, kRule.certainly_needed);
     std::size_t best = 0;
     double most = 0, its_prior = 0;
     for (std::size_t i = 0; i < without.size(); ++i) {

@@ -13,6 +13,7 @@
 /// is that of blocks which no fit has used, as everywhere in the search, and so effects need no determinant. Numbers
 /// need one: twice the tolerances make each place within them half as probable.
 
+#include <limits>
 #include <memory>
 
 #include "diagnosis/judgement/judge.h"
@@ -39,10 +40,9 @@ class Basis {
 
   /// All passes of a fit; `before` gives the first weights.
   Found refitted(const Hypothesis& h, const Score& before) const;
-  /// refitted() without each of the added effects, side by side.
-  std::vector<Found> without_each(const Found& found) const;
-  /// The same; of effects that are certainly needed (DecisionRule::certainly_needed) the score is not finite.
-  std::vector<Found> without_each_doubtful(const Found& found) const;
+  /// refitted() without each of the added effects, side by side. Where the loss after the first pass is at least
+  /// `enough` nats, the fit ends there, and the score is not finite.
+  std::vector<Found> without_each(const Found& found, double enough = std::numeric_limits<double>::infinity()) const;
   /// True if at least two numbers are pressed against their tolerance or replaced by a name.
   bool is_narrow(const Hypothesis& h) const;
   /// What the prior takes from ln p, see above. Infinite if a sensitivity cannot be computed.
