@@ -38,20 +38,20 @@ constexpr WideCode kWideCode = {{act_of<E, Dual>, rates_of<E, Dual>}, {act_of<E,
 template <class E>
 std::unique_ptr<const Effect> make_effect() {
   auto effect = std::make_unique<E>();
-  effect->use(usable_copies(copies_of(effect.get())).front());
+  effect->use(code_of(effect.get()));
   return effect;
 }
 #if defined(HALYARD_WIDE_EFFECTS)
-#define HALYARD_EFFECT(E)                             \
-  extern const WideCode k##E##_avx2, k##E##_avx512;   \
-  static KernelCopies<WideCode> copies_of(const E*) { \
-    static constexpr WideCode generic = kWideCode<E>; \
-    return {&generic, &k##E##_avx2, &k##E##_avx512};  \
-  }                                                   \
+#define HALYARD_EFFECT(E)                                                             \
+  extern const WideCode k##E##_avx2, k##E##_avx512;                                   \
+  static WideCode code_of(const E*) {                                                 \
+    static constexpr WideCode generic = kWideCode<E>;                                 \
+    return usable_copies<WideCode>({&generic, &k##E##_avx2, &k##E##_avx512}).front(); \
+  }                                                                                   \
   template std::unique_ptr<const Effect> make_effect<E>();
 #else
-#define HALYARD_EFFECT(E)                                                       \
-  static KernelCopies<WideCode> copies_of(const E*) { return {&kWideCode<E>}; } \
+#define HALYARD_EFFECT(E)                                    \
+  static WideCode code_of(const E*) { return kWideCode<E>; } \
   template std::unique_ptr<const Effect> make_effect<E>();
 #endif
 #endif
