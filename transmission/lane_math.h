@@ -128,13 +128,20 @@ HALYARD_INLINE V tanh(const V& x) {
   return with_sign_of<V>(x, magnitude<V>(m / (m + 2.0)));
 }
 
-template <class V, class I>
-HALYARD_INLINE V sinh(const V& x) {
-  const V size = magnitude(x), r2 = x * x, r4 = r2 * r2;
+/// sinh(x) for |x| < kSeriesEnd.
+inline constexpr double kSeriesEnd = 0.5;
+template <class V>
+HALYARD_INLINE V sinh_series(const V& x) {
+  const V r2 = x * x, r4 = r2 * r2;
   const V a = (1.0 / 6 + r2 * (1.0 / 120)) + r4 * (1.0 / 5040 + r2 * (1.0 / 362880));
   const V b = (1.0 / 39916800 + r2 * (1.0 / 6227020800)) + r4 * (1.0 / 1307674368000);
-  const V near = x + x * r2 * (a + r4 * r4 * b);
-  const I is_near = size < 0.5;
+  return x + x * r2 * (a + r4 * r4 * b);
+}
+
+template <class V, class I>
+HALYARD_INLINE V sinh(const V& x) {
+  const V size = magnitude(x), near = sinh_series(x);
+  const I is_near = size < kSeriesEnd;
   if (all(is_near)) return near;
   const V m = expm1<V, I>(bounded(size));
   return is_near != 0 ? near : with_sign_of<V>(x, 0.5 * (m + m / (m + 1.0)));

@@ -105,6 +105,11 @@ HALYARD_INLINE Lanes sqrt(Lanes a) {
 
 // -------------------------------------------------------------------------------------- Dual
 
+/// A cable's stretch is small, and a library's function costs three times the series.
+HALYARD_INLINE double sinh(double x) {
+  return std::abs(x) < lane_math::kSeriesEnd ? lane_math::sinh_series(x) : std::sinh(x);
+}
+
 /// a + b eps with eps² = 0, for kDualWidth directions at once.
 struct Dual {
   using Vector = Packed<kDualWidth, kDualWidth>;
@@ -171,7 +176,7 @@ HALYARD_INLINE Dual exp(const Dual& x) {
   return {e, x.d * e};
 }
 HALYARD_INLINE Dual sinh(const Dual& x) {
-  const double s = std::sinh(x.a);
+  const double s = sinh(x.a);
   return {s, x.d * std::sqrt(1 + s * s)};
 }
 HALYARD_INLINE Dual log(const Dual& x) { return {std::log(x.a), x.d / x.a}; }
@@ -186,7 +191,6 @@ using std::cos;
 using std::exp;
 using std::log;
 using std::sin;
-using std::sinh;
 using std::sqrt;
 using std::tanh;
 
