@@ -3,8 +3,9 @@
 ///   each tick   wake up, read the motors, command a torque, update the filter, take its estimate
 ///   then        the arm moves on, until the next tick
 ///
-/// Look for: the histogram of latencies, from the tick to the estimate. docs/live_use.md says what to do in a loop of
-/// your own. For a run of a minute at real-time priority, beside a thread that loads another core:
+/// Look for: the histogram of latencies, from the tick to the estimate, and that of waking up, which is the machine's
+/// part. docs/live_use.md says what to do in a loop of your own. For a run of a minute at real-time priority, beside a
+/// thread that loads another core:
 ///
 ///   12_live_loop --seconds 60 --fifo --load 1
 
@@ -106,7 +107,7 @@ int main(int argc, char** argv) {
   const Sample first = arm.tick(0);
   filter->reset(first);
   kinematics->reset(first);
-  Histogram update, latency;
+  Histogram waking, update, latency;
   Eigen::VectorXd error = Eigen::VectorXd::Zero(model.n()), naive = error;
   long late = 0, missed = 0, samples = 0;
   const Clock::time_point start = Clock::now();
@@ -117,6 +118,7 @@ int main(int argc, char** argv) {
       continue;
     }
     std::this_thread::sleep_until(start + tick * period);
+    waking.add(Clock::now() - (start + tick * period));
     const Sample sample = arm.tick(static_cast<double>(tick) * period_s);
     const Clock::time_point begin = Clock::now();
     filter->update(sample);
@@ -133,6 +135,7 @@ int main(int argc, char** argv) {
   }
 
   fmt::print("{}, {:.0f} s at 1 kHz: {} samples, {} late, {} missed\n", name, seconds, samples, late, missed);
+  waking.print("from the tick to waking up");
   update.print("update and estimate");
   latency.print("from the tick to the estimate");
   std::string closer;
