@@ -71,15 +71,19 @@ TEST(LogCheck, KnowsTheUnitOfATorqueThatStopsAtTheLimitOfTheModel) {
   ArmModel model = raven();
   const double limit = 0.02;
   model.joints[1].controller.torque_limit = limit;
-  const auto stopped = [&](double unit) {
+  const auto stopped = [&](double unit, double noise = 0) {
     Log log = right_log();
-    for (double& t : log.motor_torque[1]) t = std::clamp(t * unit, -limit * unit / 12.25, limit * unit / 12.25);
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> error(1, noise);
+    for (double& t : log.motor_torque[1])
+      t = std::clamp(t * unit, -limit * unit / 12.25, limit * unit / 12.25) * (noise > 0 ? error(random) : 1);
     return log;
   };
   const auto has_gross = [&](const Log& log) {
     return std::ranges::count(check_log(log, model), Severity::gross, &LogFinding::severity) > 0;
   };
   EXPECT_FALSE(has_gross(stopped(12.25)));
+  EXPECT_FALSE(has_gross(stopped(12.25, 0.012))) << "a sensor of current with noise";
   EXPECT_TRUE(has_gross(stopped(1e3)));
 }
 
