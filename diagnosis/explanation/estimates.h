@@ -8,8 +8,9 @@
 
 namespace halyard {
 
-/// Parameter i of the fit. Its interval does not reach beyond what the number can be. That of a size of an effect that
-/// was found ends at the neutral value.
+/// Parameter i of the fit. Its interval counts that a number of the model lies anywhere within its tolerance, with the
+/// variance of a uniform distribution (JCGM 100:2008, Guide to the expression of uncertainty in measurement, 4.3.7). It
+/// does not reach beyond what the number can be. That of a size of an effect that was found ends at the neutral value.
 /// given: number of effects that the model came with.
 Estimated estimate_of(const Fit& fit, std::size_t i, std::size_t given);
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "estimators/distributions.h"
 
 namespace halyard {
@@ -22,6 +24,7 @@ struct OneNumber {
     fit.value = {value};
     fit.std_deviation = {1};
     fit.blocks = 9;
+    fit.covariance = Eigen::MatrixXd::Zero(1, 1);
   }
   Estimated told(std::size_t given) const { return estimate_of(fit, 0, given); }
 };
@@ -34,6 +37,19 @@ TEST(Estimates, AreStudentsIntervalsAboutTheValue) {
   EXPECT_EQ(e.value, 10);
   EXPECT_DOUBLE_EQ(e.lower, 10 - n.half);
   EXPECT_DOUBLE_EQ(e.upper, 10 + n.half);
+}
+
+/// x + b is measured exactly. The fit takes b as normal with half its tolerance; b lies anywhere within it.
+TEST(Estimates, CountThatANumberOfTheModelLiesAnywhereWithinItsTolerance) {
+  constexpr double kTolerance = 0.6, kPrior = kTolerance / 2;
+  OneNumber n(10, 0, -100, 100, 0, false);
+  FitParameter number;
+  number.scale = kPrior;
+  n.fit.parameters.push_back(number);
+  n.fit.value = {10, 0};
+  n.fit.std_deviation = {kPrior, kPrior};
+  n.fit.covariance = kPrior * kPrior * Eigen::Matrix2d{{1, -1}, {-1, 1}};
+  EXPECT_DOUBLE_EQ(n.told(0).upper, 10 + n.half * kTolerance / std::sqrt(3));
 }
 
 TEST(Estimates, EndWhereTheNumberCannotGo) {
