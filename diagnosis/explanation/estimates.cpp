@@ -8,9 +8,10 @@
 namespace halyard {
 namespace {
 
-/// Standard deviation of parameter i if numbers of the model lie anywhere within their tolerances. A fit counts the
-/// tolerance as two deviations, a uniform distribution has √3 of them. The estimate shifts by -H⁻¹ P times what a number
-/// is off, so that its variance grows by (4/3 - 1) Σ_j (C_ij / σ_j)² over the numbers j; C = H⁻¹, P_jj = 1 / σ_j².
+/// Standard deviation of parameter i if numbers of the model lie anywhere within their tolerances. A fit takes half a
+/// tolerance as one deviation; that of a uniform distribution is larger by 2/√3. The estimate shifts by -H⁻¹ P times
+/// what a number is off. So its variance grows by (4/3 - 1) Σ_j (C_ij / σ_j)² over the numbers j; C = H⁻¹,
+/// P_jj = 1 / σ_j².
 double uniform_deviation(const Fit& fit, std::size_t i) {
   constexpr double kMore = 4.0 / 3 - 1;
   double shift = 0;
