@@ -251,7 +251,7 @@ void ProcessModel::near_excess(const LinearisedPoint& start, const LinearisedPoi
 
 bool ProcessModel::has_kink_near(const Step& step, const Eigen::VectorXd& x, const LinearisedPoint& at,
                                  const Eigen::VectorXd& x_2, double deviations, const LaneMatrix& S) const {
-  return plain_ && halyard::has_kink_near(*plain_, lanes_, layout_, step.time_s, x.data(), at.cable, x_2.data(),
+  return plain_ && halyard::has_kink_near(*plain_, transmission_, layout_, step.time_s, x.data(), at.cable, x_2.data(),
                                           deviations, S.view());
 }
 

@@ -66,22 +66,6 @@ bool take_effects(const Transmission<double>& transmission, const StateLayout& l
   return true;
 }
 
-/// Standard deviation of the stretch of cable k, which depends on few states.
-double deviation_of_stretch(const PlainTransmission& plain, const StateLayout& l, int n, int k,
-                            const Eigen::Ref<const Eigen::MatrixXd>& S) {
-  double row[kMaxStates], variance = 0;
-  const int columns = static_cast<int>(S.cols());
-  const auto add = [&](int state, double factor) {
-    if (factor == 0) return;
-    for (int c = 0; c < columns; ++c) row[c] += factor * S(state, c);
-  };
-  std::fill_n(row, columns, 0.0);
-  add(*l.motor_angle[k], plain.travel[k]);
-  for (int i = 0; i < n; ++i) add(l.position[i], -plain.path[k][i]);
-  for (int c = 0; c < columns; ++c) variance += row[c] * row[c];
-  return std::sqrt(variance);
-}
-
 }  // namespace
 
 std::optional<PlainTransmission> plain_transmission(const Transmission<double>& transmission,
@@ -114,22 +98,23 @@ bool PlainTransmission::has_effects() const {
   return !forces.empty() || std::ranges::any_of(of_cable, [](const auto& terms) { return !terms.empty(); });
 }
 
-bool has_kink_near(const PlainTransmission& plain, const Transmission<Lanes>& transmission, const StateLayout& layout,
+bool has_kink_near(const PlainTransmission& plain, const Transmission<double>& transmission, const StateLayout& layout,
                    double time, const double* x, const CableForces& at_x, const double* x_2, double deviations,
                    const Eigen::Ref<const Eigen::MatrixXd>& S) {
   const int n = layout.n_joints;
   for (int k = 0; k < n; ++k) {
     if (!plain.has_kinks[k]) continue;
+    double variance = 0;
+    for (Eigen::Index c = 0; c < S.cols(); ++c) {
+      const double stretch = stretch_of(plain, layout, n, k, S.col(c).data(), 1);
+      variance += stretch * stretch;
+    }
     const double at = stretch_of(plain, layout, n, k, x, 1), rate = stretch_rate_of(plain, layout, n, k, x, 1);
-    const double moved = stretch_of(plain, layout, n, k, x_2, 1) - at;
-    const double reach = deviations * deviation_of_stretch(plain, layout, n, k, S);
-    const double ends[2] = {std::min(moved, 0.0) - reach, std::max(moved, 0.0) + reach};
-    Lanes stretch(at);
-    for (int i = 0; i < 2; ++i) stretch.set(i, at + ends[i]);
-    const Lanes force = cable_force_of(transmission, plain.of_cable[k], k, time, stretch, Lanes(rate));
-    for (int i = 0; i < 2; ++i) {
-      const double most = kStraight * 2 * transmission.arm().joint[k].stiffness[0] * std::abs(ends[i]);
-      if (!(std::abs(force[i] - at_x.value[k] - at_x.stiff[k] * ends[i]) <= most)) return true;
+    const double moved = stretch_of(plain, layout, n, k, x_2, 1) - at, reach = deviations * std::sqrt(variance);
+    for (const double d : {std::min(moved, 0.0) - reach, std::max(moved, 0.0) + reach}) {
+      const double force = cable_force_of(transmission, plain.of_cable[k], k, time, at + d, rate);
+      const double most = kStraight * 2 * transmission.arm().joint[k].stiffness * std::abs(d);
+      if (!(std::abs(force - at_x.value[k] - at_x.stiff[k] * d) <= most)) return true;
     }
   }
   return false;

@@ -153,7 +153,7 @@ HALYARD_INLINE void set_cable_forces(const PlainTransmission& t, const Transmiss
 
 /// True if an effect of a cable has a kink between the states x and x_2, or within so many standard deviations beside
 /// them: the force there is not on its tangent at x. S: root of the covariance of x.
-bool has_kink_near(const PlainTransmission& plain, const Transmission<Lanes>& transmission, const StateLayout& layout,
+bool has_kink_near(const PlainTransmission& plain, const Transmission<double>& transmission, const StateLayout& layout,
                    double time, const double* x, const CableForces& at_x, const double* x_2, double deviations,
                    const Eigen::Ref<const Eigen::MatrixXd>& S);
 
