@@ -73,8 +73,8 @@ struct DecisionRule {
   double cost_of_number = 0.5;
   /// s of P(none), see name_probability.h.
   double none_sharpness = 1.5;
-  /// An effect is told if this is the least probability that its name or one of its alternatives is right. Reason:
-  /// below one half it is more probable that all of them are wrong.
+  /// An effect is told if this is the least probability that its name or one of its alternatives is right, and that the
+  /// name is, if it is the only one. Reason: below one half it is more probable that they are wrong.
   double worth_a_name = 0.5;
   /// If several effects were found, one gets a name if its name has at least this weight among its alternatives
   /// (Naming::weight). Reason: three to one. In blind trials (seeds 20271202 and 20271204, docs/blind_trials.md), names
@@ -87,8 +87,9 @@ struct DecisionRule {
   // Numbers of the model.
 
   /// A refitted number is reported if it lies so many standard deviations off the model's number. Reason: a model has
-  /// some thirty numbers. Then two in a thousand diagnoses of clean arms report a number by chance.
-  double refit_deviations = 4;
+  /// some thirty numbers. Then two in a thousand diagnoses of clean arms report a number by chance. The same for a
+  /// shape of an effect that has a usual value, as sharp edges of a gap.
+  double unusual_deviations = 4;
 
   /// Prior cost of a model that is off by up to twice what its tolerances say, nats; as much again for each doubling.
   /// Reason: one model in ten.

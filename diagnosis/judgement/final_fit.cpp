@@ -15,6 +15,11 @@
 namespace halyard {
 namespace {
 
+/// True for a shape whose usual value is a physical limit, such as edges that are sharp.
+bool has_usual_value(const FitParameter& p) {
+  return p.shape && !p.is_past && p.natural_bounds && (p.nominal == p.lower || p.nominal == p.upper);
+}
+
 /// Resets uncertain parameters of a fit. The effect of a reset on the other parameters is computed to first order.
 class UncertainParameters {
  public:
@@ -56,7 +61,7 @@ class UncertainParameters {
     const auto at = static_cast<Eigen::Index>(i);
     // What no sensor resolves is no refit of the model.
     if (!p.effect && reach_[i] * std::abs(value_(at) - p.nominal) / p.scale < 1) return 0;
-    const double needed = !p.effect ? kRule.refit_deviations : interval_factor(fit_);
+    const double needed = !p.effect || has_usual_value(p) ? kRule.unusual_deviations : interval_factor(fit_);
     const double shrunk = std::sqrt(variance_beside_shapes(i) / fit_.covariance(at, at));
     return std::abs(value_(at) - p.nominal) / (needed * shrunk * fit_.std_deviation[i]);
   }
@@ -132,11 +137,6 @@ std::vector<double> reach_in_floors(const Evidence& whole, const Fit& f) {
   return reach;
 }
 
-/// True for a shape whose usual value is a physical limit, such as edges that are sharp.
-bool has_usual_value(const FitParameter& p) {
-  return p.shape && !p.is_past && p.natural_bounds && (p.nominal == p.lower || p.nominal == p.upper);
-}
-
 /// Resets the sizes of added effects, and shapes to their usual values, until all that are left are certain. The
 /// numbers of the model stay in the fit.
 Fit keep_certain_sizes(const Evidence& whole, const Fit& f, std::size_t given) {
@@ -177,7 +177,8 @@ void count_resets(const Fit& all, std::size_t given, Fit& f) {
   }
 }
 
-/// The shapes of added effects in a place that is better on the whole data, if there is one.
+/// The parameters of added effects in a place that is better on the whole data, if there is one. An instant may lie
+/// anywhere in a block that the fit before did not see.
 Hypothesis nudged_start(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given,
                         const Score& score) {
   if (chosen.hypothesis.effects.size() == given) return chosen.hypothesis;
@@ -185,8 +186,12 @@ Hypothesis nudged_start(const Evidence& whole, const ArmModel& model, const Fit&
   std::erase_if(numbers, [](const FitParameter& p) { return p.effect.has_value(); });
   const auto columns = sensitivities(whole, chosen.hypothesis, numbers);
   if (columns.size() != numbers.size()) return chosen.hypothesis;
-  const std::vector<double> scale = channel_scale(whole, score.fit_mean_square);
-  return nudged(whole, chosen.hypothesis, given, model.nominal, BeyondNumbers(whole, columns, scale)).at;
+  const BeyondNumbers beyond(whole, columns, channel_scale(whole, score.fit_mean_square));
+  constexpr int kMostNudges = 6;  // each moves an instant to the nearest of a ladder of steps
+  Nudge nudge{chosen.hypothesis, std::numeric_limits<double>::infinity()};
+  for (int i = 0; i < kMostNudges && nudge.gain > kRule.worth_a_nudge; ++i)
+    nudge = nudged(whole, nudge.at, given, model.nominal, beyond);
+  return nudge.at;
 }
 
 }  // namespace

@@ -142,6 +142,9 @@ double probability_of_none_for(const Evidence& evidence, const Attribution& foun
 
 namespace {
 
+/// False if it may only make up for something else: then others may be needed only beside it.
+bool is_there(Doubt doubt) { return doubt == Doubt::none || doubt == Doubt::guess; }
+
 /// The final fit asks whether a size is certain if its shapes were known, and not whether it is certain beside them.
 bool has_certain_size(const Fit& fit, std::size_t effect) {
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
@@ -157,8 +160,13 @@ Doubt own_doubt(const Evidence& evidence, const Attribution& found, std::size_t 
   return naming.weight < kRule.sure_name ? Doubt::guess : Doubt::none;
 }
 
-/// False if it may only make up for something else: then others may be needed only beside it.
-bool is_there(Doubt doubt) { return doubt == Doubt::none || doubt == Doubt::guess; }
+/// The most probable name of a single effect is told with its alternatives, if it is more probable than not.
+void tell_single_name(const Evidence& evidence, const Attribution& found, std::size_t given,
+                      std::vector<Doubt>& doubt) {
+  const auto only = static_cast<std::size_t>(std::ranges::find_if(doubt, is_there) - doubt.begin());
+  const double none = probability_of_none_for(evidence, found, given, given + only);
+  if (found.namings[only].weight * (1 - none) > kRule.worth_a_name) doubt[only] = Doubt::none;
+}
 
 /// "backlash of joint 3 (27 %) or hysteresis of joint 3 (9 %)": alternatives of some weight.
 std::string others(const Naming& naming, double none) {
@@ -182,8 +190,7 @@ std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const
     doubt[e - first] = own_doubt(evidence, found, first, e);
     if (!is_there(doubt[e - first])) sure = without_effect(sure, e);
   }
-  // The most probable name of a single effect is told with its alternatives.
-  if (std::ranges::count_if(doubt, is_there) == 1) std::ranges::replace(doubt, Doubt::guess, Doubt::none);
+  if (std::ranges::count_if(doubt, is_there) == 1) tell_single_name(evidence, found, first, doubt);
   if (sure.effects.size() == all.effects.size()) return doubt;
   const Refitter refitter(evidence, given, first);
   if (!refitter.is_usable()) return doubt;

@@ -54,6 +54,22 @@ TEST(FinalFit, KeepsASlipThatTheDataDetermine) {
   EXPECT_NEAR(one.fit.hypothesis.effects[0].p[0], kJump, 0.01 * kJump);
 }
 
+TEST(FinalFit, FindsAnInstantWithinABlockThatTheFitBeforeDidNotSee) {
+  const ArmModel model = first_joints(1);
+  ArmModel robot = model;
+  robot.effects = {slip(model, kJump, kTime)};
+  const std::vector<Record> records = make_records(simulate(motion(robot, 5)).measured, model, {});
+  const Evidence evidence(records, model), whole(records, model, Split::none);
+  constexpr double kBefore = kTime - 0.34;
+  const Hypothesis h{model.nominal, {slip(model, kJump, kBefore)}};
+  Fit seen;  // as after a fit to the other blocks
+  seen.hypothesis = h;
+  seen.parameters = Refitter(evidence, model, 0).parameters(h);
+  const Fit fit = final_fit(whole, model, seen, 0);
+  ASSERT_TRUE(fit.usable);
+  EXPECT_NEAR(fit.hypothesis.effects[0].p[1], kTime, 0.03);  // this arm's vibration hides the rest
+}
+
 TEST(FinalFit, KeepsADriftThatIsLinearInTime) {
   PlacedEffect truth = place_neutral_effect(*find_effect("friction_drift"), first_joints(1).nominal, 0), start = truth;
   truth.p[0] = -0.12, truth.p[1] = 0.05;  // 1/s, -; its settling rate is 0

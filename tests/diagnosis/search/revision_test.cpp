@@ -128,11 +128,17 @@ TEST(Doubts, AnEffectGetsNoNameThatIsAGuessAndDoesNotCostOthersTheirs) {
   EXPECT_EQ(with_weight(0.8), (std::vector{Doubt::none, Doubt::none}));
 }
 
-TEST(Doubts, ASingleEffectGetsItsMostProbableName) {
+TEST(Doubts, ASingleEffectGetsItsMostProbableNameIfThatIsMoreProbableThanNot) {
   const PlacedEffect ratio = on_the_only_joint("capstan_ratio", kRatio);
   Searched s({ratio}, {ratio});
-  s.found.namings[0].weight = 0.7;
-  EXPECT_EQ(doubts(s.evidence, s.model, s.found, 0.01), std::vector<Doubt>{Doubt::none});
+  const auto with = [&](double weight, double unlisted) {
+    s.found.namings[0] = {weight, {{on_the_only_joint("backlash", 1e-4), 1 - weight}}};
+    s.found.namings[0].unlisted.weight = unlisted;
+    return doubts(s.evidence, s.model, s.found, 0.01)[0];
+  };
+  EXPECT_EQ(with(0.7, 0), Doubt::none);
+  EXPECT_EQ(with(0.45, 0), Doubt::guess);
+  EXPECT_EQ(with(0.6, 0.3), Doubt::guess) << "with 30 % none of both is right";
 }
 
 TEST(Doubts, AGuessIsToldWithItsProbabilityAndWhatElseItMayBe) {
