@@ -13,7 +13,11 @@ void backlash(SearchSpace& space, const Arm& arm, int joint) {
   space["rounding"].natural_bounds = true;
 }
 
-void cable_slip(SearchSpace& space, const Arm&, int) { space["time"].range = SearchRange::record_time; }
+void cable_slip(SearchSpace& space, const Arm&, int) {
+  space["time"].range = SearchRange::record_time;
+  space["duration"].starts = {0, 0.4};
+  space["duration"].natural_bounds = true;
+}
 
 void capstan_ratio(SearchSpace& space, const Arm&, int joint) {
   space["ratio"].changes = {&Tolerances::length, joint, 1};

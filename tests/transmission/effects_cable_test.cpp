@@ -341,5 +341,20 @@ TEST(CableSlip, ShiftsTheStretchByItsJumpFromItsTimeOn) {
   EXPECT_NEAR(slipped, -jump, 1e-13);
 }
 
+TEST(CableSlip, TakesItsDuration) {
+  const ArmParameters<double> arm = random_arm(18, CableLaw::linear);
+  const double jump = 0.02, at = 3, duration = 0.59;  // of a step of 0.6 s in all
+  const Transmission<double> bare(arm, {}), with(arm, {placed("cable_slip", arm, 2, {jump, at, duration})});
+  std::mt19937_64 random(9);
+  const Motion m = random_motion(random);
+  const auto slipped = [&](double time) {
+    return evaluate(bare, m, nullptr, time).s[2].stretch - evaluate(with, m, nullptr, time).s[2].stretch;
+  };
+  EXPECT_EQ(slipped(at - 0.301), 0);
+  EXPECT_NEAR(slipped(at - 0.15), 0.15625 * jump, 1e-12) << "a quarter of the way: u² (3 - 2u)";
+  EXPECT_NEAR(slipped(at), 0.5 * jump, 1e-12);
+  EXPECT_NEAR(slipped(at + 0.301), jump, 4 * kEps);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -156,13 +156,14 @@ class TwoRateCreep : public EffectOf<TwoRateCreep> {
   }
 };
 
-/// A slip of the cable on its capstan that takes half a second instead of none:
-///   x_eff = x - s f((t - t_0) / 0.5 s),  f from 0 to 1
-/// Source: a belt slips from the edge of its contact on; Johnson, Contact Mechanics (1985).
+/// A slip of the cable on its capstan that is fast at first and settles, instead of a smooth step:
+///   x_eff = x - s (1 - exp(-(t - t_0) / 0.15 s)) from t_0 on
+/// Source: a belt slips from the edge of its contact on, and the slower the less tension is left to carry; Johnson,
+/// Contact Mechanics (1985), section 8.1.
 class GradualSlip : public EffectOf<GradualSlip>, public RefinesSearch {
  public:
   std::string name() const override { return "gradual_slip"; }
-  std::string summary() const override { return "a lasting slip of the cable that takes half a second"; }
+  std::string summary() const override { return "a lasting slip of the cable that settles over half a second"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::stretch); }
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_cable(arm, joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
@@ -174,10 +175,11 @@ class GradualSlip : public EffectOf<GradualSlip>, public RefinesSearch {
   }
   template <class T>
   void on_stretch(const EffectContext<T>& c, JointSignals<T>* s) const {
-    constexpr double kTakes = 0.5;  // s
-    const T u = max(T(0.0), min(T(1.0), T((T(c.time) - c.p[1]) / T(kTakes))));
-    s[*c.joint].stretch -= c.p[0] * u * u * (T(3.0) - T(2.0) * u);
-    s[*c.joint].stretch_rate -= c.p[0] * T(6.0 / kTakes) * u * (T(1.0) - u);
+    constexpr double kSettles = 0.15;  // s
+    const T after = T(c.time) - c.p[1];
+    const T left = select(after > T(0.0), exp(T(-max(T(0.0), after) / T(kSettles))), T(1.0));
+    s[*c.joint].stretch -= c.p[0] * (T(1.0) - left);
+    s[*c.joint].stretch_rate -= select(after > T(0.0), T(c.p[0] / T(kSettles) * left), T(0.0));
   }
 };
 
