@@ -1,7 +1,10 @@
 #include "diagnosis/fit/complementary.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
+
+#include "diagnosis/judgement/decision_rule.h"
 
 namespace halyard {
 namespace {
@@ -14,15 +17,51 @@ bool have_the_same_whole_numbers(const Hypothesis& h, const PlacedEffect& a, con
   return true;
 }
 
-bool are_complementary(const Fit& fit, std::size_t one, std::size_t other) {
+bool is_alike(const Fit& fit, std::size_t one, std::size_t other) {
   const PlacedEffect &a = fit.hypothesis.effects[one], &b = fit.hypothesis.effects[other];
-  if (!same_name(a, b) || a.effect->n_states() > 0) return false;
-  if (!have_the_same_whole_numbers(fit.hypothesis, a, b)) return false;
-  return std::ranges::none_of(fit.parameters, [&](FitParameter p) {
-    if (p.effect != one) return false;
-    p.effect = other;
-    return find_parameter(fit.parameters, p).has_value();
-  });
+  return same_name(a, b) && a.effect->n_states() == 0 && have_the_same_whole_numbers(fit.hypothesis, a, b);
+}
+
+/// The same parameter of the other effect, if the fit has it.
+std::optional<std::size_t> same_of(const Fit& fit, FitParameter p, std::size_t other) {
+  p.effect = other;
+  return find_parameter(fit.parameters, p);
+}
+
+bool have_a_size_each(const Fit& fit, std::size_t one, std::size_t other) {
+  const auto has_size = [&](std::size_t effect) {
+    return std::ranges::any_of(fit.parameters, [&](const FitParameter& p) { return p.effect == effect && !p.shape; });
+  };
+  return has_size(one) && has_size(other);
+}
+
+/// The fit without those sizes of one effect that are next to nothing beside the same size of the other, and without
+/// the shapes of these.
+Fit without_remains(Fit fit, std::size_t one, std::size_t other) {
+  const auto moved = [&](std::size_t i) {
+    return std::abs(parameter_value(fit.hypothesis, fit.parameters[i]) - fit.parameters[i].nominal);
+  };
+  std::vector<bool> gone(fit.parameters.size(), false);
+  for (const auto& [its, others] : {std::pair(one, other), std::pair(other, one)})
+    for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+      if (const FitParameter& p = fit.parameters[i]; p.effect == its && !p.shape)
+        if (const auto same = same_of(fit, p, others)) gone[i] = moved(i) < kRule.number_misfit * moved(*same);
+  for (const ParameterGroup& group : groups_of(fit.parameters))
+    if (!group.sizes.empty() && std::ranges::all_of(group.sizes, [&](std::size_t i) { return gone[i]; }))
+      for (const std::size_t i : group.shapes) gone[i] = true;
+  std::vector<FitParameter> left;
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    if (gone[i]) set_parameter(fit.hypothesis, fit.parameters[i], fit.parameters[i].nominal);
+    else left.push_back(fit.parameters[i]);
+  }
+  fit.parameters = std::move(left);
+  return fit;
+}
+
+bool are_complementary(const Fit& fit, std::size_t one, std::size_t other) {
+  return have_a_size_each(fit, one, other) && std::ranges::none_of(fit.parameters, [&](const FitParameter& p) {
+           return p.effect == one && same_of(fit, p, other);
+         });
 }
 
 Joined join(const Fit& fit, std::size_t kept, std::size_t gone) {
@@ -47,8 +86,11 @@ Joined join(const Fit& fit, std::size_t kept, std::size_t gone) {
 std::optional<Joined> join_complementary(const Fit& fit, std::size_t given) {
   const std::size_t n = fit.hypothesis.effects.size();
   for (std::size_t kept = given; kept < n; ++kept)
-    for (std::size_t gone = kept + 1; gone < n; ++gone)
-      if (are_complementary(fit, kept, gone)) return join(fit, kept, gone);
+    for (std::size_t gone = kept + 1; gone < n; ++gone) {
+      if (!is_alike(fit, kept, gone)) continue;
+      const Fit without = without_remains(fit, kept, gone);
+      if (are_complementary(without, kept, gone)) return join(without, kept, gone);
+    }
   return {};
 }
 

@@ -19,7 +19,8 @@ struct Joined {
 };
 
 /// The first two effects from `given` on, at the same joint and of the same kind, that have no size in common in the
-/// fit. Effects with internal states are not joined: each has a past of its own.
+/// fit. A size that is a smaller share of the other's than number_misfit (decision_rule.h) does not count: it mends an
+/// error of the other's numbers. Effects with internal states are not joined: each has a past of its own.
 std::optional<Joined> join_complementary(const Fit& fit, std::size_t given);
 
 }  // namespace halyard

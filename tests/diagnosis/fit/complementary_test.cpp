@@ -40,6 +40,28 @@ TEST(JoinComplementary, MakesOneForceOfAContactAndAPush) {
   }
 }
 
+TEST(JoinComplementary, LeavesOutASizeThatIsNextToNothingBesideTheOthers) {
+  const Evidence evidence = small_evidence();
+  const auto joined_with = [&](double contact) {
+    Fit fit = fit_of(evidence, "external_force", {{4, 5}, {0, 1, 2, 3, 4, 5}});
+    fit.hypothesis.effects[1].p[4] = contact;  // beside 14 N/m
+    return join_complementary(fit, 0);
+  };
+  const auto joined = joined_with(0.3);
+  ASSERT_TRUE(joined.has_value());
+  EXPECT_EQ(std::vector<double>(joined->hypothesis.effects[0].p, joined->hypothesis.effects[0].p + 6),
+            (std::vector<double>{20, 21, 22, 23, 14, 15}));
+  EXPECT_EQ(joined->parameters.size(), 7);
+  EXPECT_FALSE(joined_with(1).has_value());
+}
+
+TEST(JoinComplementary, LeavesASmallPushBesideALargeOne) {
+  const Evidence evidence = small_evidence();
+  Fit fit = fit_of(evidence, "external_force", {{0, 1, 2, 3, 4, 5}, {0, 1, 2, 3}});
+  fit.hypothesis.effects[1].p[0] = 0.1;  // beside 10 N
+  EXPECT_FALSE(join_complementary(fit, 0)) << "nothing would be left of it";
+}
+
 TEST(JoinComplementary, LeavesTwoPushesTwoEffects) {
   const Evidence evidence = small_evidence();
   EXPECT_FALSE(join_complementary(fit_of(evidence, "external_force", {{0, 1, 2, 3}, {0, 1, 2, 3}}), 0));
