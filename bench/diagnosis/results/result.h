@@ -59,10 +59,10 @@ struct Named {
   std::vector<Parameter> parameters;
 };
 
-/// Errors of the joint position on the hold-out, RMS of each joint: of the given model, the revised one, the truth. NaN
-/// for a joint without readings.
+/// Errors of the joint position on the hold-out, RMS of each joint: of the given model, the revised one, the truth, and
+/// the fit that knows the effects (informed_fit.h; empty if there is none). NaN for a joint without readings.
 struct HoldOutErrors {
-  std::vector<double> before, after, true_model;
+  std::vector<double> before, after, true_model, informed;
   /// (after² - before²) over its standard deviation, of each joint; see hold_out_errors().
   std::vector<double> rise;
 };

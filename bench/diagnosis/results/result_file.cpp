@@ -101,10 +101,12 @@ Json to_json(const HoldOutErrors& e) {
   return {{"before", numbers(e.before)},
           {"after", numbers(e.after)},
           {"true_model", numbers(e.true_model)},
+          {"informed", numbers(e.informed)},
           {"rise", numbers(e.rise)}};
 }
 HoldOutErrors holdout_from(const Json& j) {
-  return {numbers(j.at("before")), numbers(j.at("after")), numbers(j.at("true_model")), numbers(j.at("rise"))};
+  return {numbers(j.at("before")), numbers(j.at("after")), numbers(j.at("true_model")), numbers(j.at("informed")),
+          numbers(j.at("rise"))};
 }
 
 Result result_from(const Json& all) {

@@ -181,22 +181,29 @@ std::string median_and_90(const std::vector<double>& x) {
   return fmt::format("median {:.3f}, 90 % below {:.3f}", median(x), quantile(x, 0.9));
 }
 
-/// Over the true model's error: only of trials whose truth a revised model can express.
+/// What a revised model's error is compared with.
+struct Reference {
+  std::vector<double> HoldOutErrors::*errors;
+  std::string whose;
+};
+
+/// Over the error of another model: only of trials whose truth a revised model can express.
 /// errors: which hold-out, told in `against`.
 void add_ratio_lines(std::vector<Line>& lines, const Results& diagnosed, Sensors sensors, HoldOutErrors Result::*errors,
-                     const std::string& against) {
+                     const std::string& against, const Reference& other) {
   std::vector<double> worst, mean;
   for (const Result* r : diagnosed) {
     if (r->situation.sensors != sensors || r->situation.kind == Kind::form || r->situation.kind == Kind::outside)
       continue;
     const HoldOutErrors& e = r->*errors;
-    const ErrorRatio ratio = error_ratio(e.after, e.true_model);
+    if ((e.*other.errors).empty()) continue;
+    const ErrorRatio ratio = error_ratio(e.after, e.*other.errors);
     if (!std::isfinite(ratio.mean)) continue;
     worst.push_back(ratio.worst);
     mean.push_back(ratio.mean);
   }
   if (worst.empty()) return;
-  const std::string what = "hold-out error" + against + " over the true model's, " + sensor_text(sensors);
+  const std::string what = "hold-out error" + against + " over " + other.whose + ", " + sensor_text(sensors);
   lines.push_back({"7", what + ", mean of the joints: " + median_and_90(mean), "median 1.2", {}, {}, {}, {}});
   lines.push_back({"7", what + ", worst joint: " + median_and_90(worst), "", {}, {}, {}, {}});
 }
@@ -204,10 +211,14 @@ void add_ratio_lines(std::vector<Line>& lines, const Results& diagnosed, Sensors
 void add_holdout_lines(std::vector<Line>& lines, const Results& ran) {
   const Results diagnosed = those(ran, [](const Result& r) { return r.failure.empty() && !r.holdout.after.empty(); });
   if (diagnosed.empty()) return;
+  const Reference truth{&HoldOutErrors::true_model, "the true model's"};
+  const Reference informed{&HoldOutErrors::informed, "that of a fit which knows the effects"};
   for (const Sensors sensors : {Sensors::good, Sensors::poor, Sensors::motors})
-    add_ratio_lines(lines, diagnosed, sensors, &Result::holdout, "");
+    add_ratio_lines(lines, diagnosed, sensors, &Result::holdout, "", truth);
   for (const Sensors sensors : {Sensors::good, Sensors::poor})
-    add_ratio_lines(lines, diagnosed, sensors, &Result::sensed_holdout, ", as these sensors read it,");
+    add_ratio_lines(lines, diagnosed, sensors, &Result::sensed_holdout, ", as these sensors read it,", truth);
+  for (const Sensors sensors : {Sensors::good, Sensors::poor, Sensors::motors})
+    add_ratio_lines(lines, diagnosed, sensors, &Result::holdout, "", informed);
   std::vector<double> over_given;
   for (const Result* r : diagnosed) over_given.push_back(error_ratio(r->holdout.after, r->holdout.before).worst);
   lines.push_back(

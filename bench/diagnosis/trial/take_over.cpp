@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bench/diagnosis/trial/informed_fit.h"
 #include "diagnosis/diagnosis_details.h"
 
 namespace halyard::blind {
@@ -43,12 +44,14 @@ class SquaredErrors {
 };
 
 /// Of the models on the records of a hold-out.
-HoldOutErrors hold_out_errors(const std::vector<Record>& records, const Diagnosis& d, const ArmModel& robot) {
+HoldOutErrors hold_out_errors(const std::vector<Record>& records, const Diagnosis& d, const ArmModel& robot,
+                              const std::optional<ArmModel>& informed) {
   HoldOutErrors errors;
   const auto by = [&](const ArmModel& model) { return predict_all(records, {model.nominal, model.effects}); };
-  const std::vector<FullPrediction> given = by(d.given), revised = by(d.revised_on_holdout()), truth = by(robot);
+  const std::vector<FullPrediction> given = by(d.given), revised = by(d.revised_on_holdout()), truth = by(robot),
+                                    best = informed ? by(*informed) : std::vector<FullPrediction>();
   for (int k = 0; k < robot.n(); ++k) {
-    SquaredErrors before, after, true_model;
+    SquaredErrors before, after, true_model, of_informed;
     for (std::size_t r = 0; r < records.size(); ++r) {
       const Record& record = records[r];
       long second = -1;
@@ -59,12 +62,14 @@ HoldOutErrors hold_out_errors(const std::vector<Record>& records, const Diagnosi
         before.add(q - given[r].joint_reading[k][i], now != second);
         after.add(q - revised[r].joint_reading[k][i], now != second);
         true_model.add(of_truth, now != second);
+        if (informed) of_informed.add(q - best[r].joint_reading[k][i], now != second);
         second = now;
       }
     }
     errors.before.push_back(before.rms());
     errors.after.push_back(after.rms());
     errors.true_model.push_back(true_model.rms());
+    if (informed) errors.informed.push_back(of_informed.rms());
     errors.rise.push_back(after.rise_above(before));
   }
   return errors;
@@ -79,9 +84,10 @@ void take_over(const Diagnosis& d, const Recording& recording, Result& r) {
   for (const Unexplained& u : d.unexplained) r.unexplained.push_back(u.joint + 1);
   r.probability_clean = d.probability_clean;
   r.probability_none = d.probability_none;
-  r.holdout = hold_out_errors(d.details->joint_view.records, d, robot);
+  const std::optional<ArmModel> informed = informed_fit(d.given, recording, r.situation.off);
+  r.holdout = hold_out_errors(d.details->joint_view.records, d, robot, informed);
   const DiagnosisData sensed = diagnosis_data(d.given, {recording.training}, recording.sensed_holdout, d.given);
-  r.sensed_holdout = hold_out_errors(sensed.joint_view.records, d, robot);
+  r.sensed_holdout = hold_out_errors(sensed.joint_view.records, d, robot, informed);
 }
 
 }  // namespace halyard::blind
