@@ -95,12 +95,13 @@ std::optional<SubmittedArray> submitted_array(const fs::path& out) {
   std::ifstream file(job_file(out), std::ios::binary);
   if (!file) return std::nullopt;
   try {
-    const auto json = nlohmann::json::parse(file);
-    const SubmittedArray array{json.at("job").get<std::string>(), json.at("parts").get<std::size_t>()};
+    const auto json = nlohmann::ordered_json::parse(file);
+    const SubmittedArray array{json.at("job").get<std::string>(), whole_number(json.at("parts"))};
     const bool is_number =
         !array.job.empty() && std::ranges::all_of(array.job, [](unsigned char c) { return std::isdigit(c); });
     if (is_number && array.parts > 0) return array;
-  } catch (const nlohmann::json::exception&) {}
+  } catch (const nlohmann::json::exception&) {
+  } catch (const std::invalid_argument&) {}
   throw InputError(job_file(out).string() + ": is damaged; remove it");
 }
 

@@ -98,7 +98,7 @@ class Evidence {
  private:
   /// Records, and what was predicted of them lately.
   struct Grid {
-    static constexpr std::size_t kMostRecent = 1000;  ///< residuals that are kept, of some 50 kB each
+    static constexpr std::size_t kMostRecent = 64 << 20;  ///< bytes of residuals that are kept; a minute has some 300 kB
     std::vector<Record> records;
     int stride = 1;  ///< samples from a row to the next
     RecentResiduals recent{kMostRecent};

@@ -35,11 +35,23 @@ std::optional<Residuals> RecentResiduals::find(const Key& key) {
   return known->second.residuals;
 }
 
+std::size_t RecentResiduals::bytes_of(const Key& key, const Residuals& residuals) {
+  std::size_t numbers = 0;
+  for (const auto& channel : residuals.channel) numbers += channel.size();
+  return key.bytes() + numbers * sizeof(double);
+}
+
 void RecentResiduals::keep(Key key, Residuals residuals) {
   const std::lock_guard lock(mutex_);
-  kept_.insert_or_assign(std::move(key), Kept{std::move(residuals), ++uses_});
-  if (kept_.size() <= most_) return;
-  kept_.erase(std::ranges::min_element(kept_, {}, [](const auto& entry) { return entry.second.last_use; }));
+  const auto [place, is_new] = kept_.try_emplace(std::move(key));
+  if (!is_new) bytes_ -= bytes_of(place->first, place->second.residuals);
+  bytes_ += bytes_of(place->first, residuals);
+  place->second = {std::move(residuals), ++uses_};
+  while (bytes_ > most_bytes_ && kept_.size() > 1) {
+    const auto oldest = std::ranges::min_element(kept_, {}, [](const auto& entry) { return entry.second.last_use; });
+    bytes_ -= bytes_of(oldest->first, oldest->second.residuals);
+    kept_.erase(oldest);
+  }
 }
 
 }  // namespace halyard

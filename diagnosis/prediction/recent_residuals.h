@@ -20,6 +20,7 @@ class RecentResiduals {
   struct Key {
     Key(const Hypothesis& h, const Record& record, int stride, const Chebyshev& scheme, bool is_replayed);
     std::partial_ordering operator<=>(const Key&) const = default;
+    std::size_t bytes() const { return numbers_.size() * sizeof(double); }
 
    private:
     const Record* record_;
@@ -29,9 +30,9 @@ class RecentResiduals {
     std::vector<double> numbers_;
   };
 
-  explicit RecentResiduals(std::size_t most) : most_(most) {}
+  explicit RecentResiduals(std::size_t most_bytes) : most_bytes_(most_bytes) {}
   std::optional<Residuals> find(const Key& key);
-  /// Forgets what was not asked for longest, if there are more than `most`.
+  /// Forgets what was not asked for longest, as long as all together exceed `most_bytes`.
   void keep(Key key, Residuals residuals);
 
  private:
@@ -39,7 +40,9 @@ class RecentResiduals {
     Residuals residuals;
     std::uint64_t last_use;
   };
-  std::size_t most_;
+  static std::size_t bytes_of(const Key& key, const Residuals& residuals);
+
+  std::size_t most_bytes_, bytes_ = 0;
   std::mutex mutex_;
   std::map<Key, Kept> kept_;
   std::uint64_t uses_ = 0;

@@ -243,7 +243,7 @@ SweepCell StoredCells::read(std::size_t point) const {
   };
   try {
     const ordered_json json = ordered_json::parse(line(point));
-    SweepCell cell{json.at("point").get<std::size_t>(), {}};
+    SweepCell cell{whole_number(json.at("point")), {}};
     for (const ordered_json& result : json.at("results")) {
       SweepCell::Result& read = cell.results.emplace_back();
       read.failure = result.at("failure").get<std::string>();
@@ -257,6 +257,8 @@ SweepCell StoredCells::read(std::size_t point) const {
     check(cell.results.size() == n_subjects_);
     return cell;
   } catch (const ordered_json::exception&) {
+    damaged(journals_.at(place.journal).path, place.offset);
+  } catch (const std::invalid_argument&) {
     damaged(journals_.at(place.journal).path, place.offset);
   }
 }

@@ -141,7 +141,7 @@ SweepGrid read_grid(const fs::path& folder) {
     grid.skip_s = json.at("errors_counted_after_s").get<double>();
     for (const ordered_json& axis : json.at("axes")) grid.axes.push_back(axis_of(axis));
     grid.is_sampled = json.at("sampled").get<bool>();
-    grid.seeds = json.at("seeds").get<std::vector<std::uint64_t>>();
+    for (const ordered_json& seed : json.at("seeds")) grid.seeds.push_back(whole_number(seed));
     grid.estimators = json.at("estimators").get<std::vector<std::string>>();
     // Earlier programs wrote neither, and measured errors.
     for (const ordered_json& effect : json.value("effects", ordered_json::array()))
@@ -160,7 +160,7 @@ SweepGrid read_grid(const fs::path& folder) {
     double points = double(grid.n_seeds());
     for (const SweepAxis& axis : grid.axes) points *= grid.is_sampled ? 1.0 : double(axis.values.size());
     if (points > kMostSweepPoints) throw std::invalid_argument("more points than a sweep can have");
-    if (grid.axes.empty() || grid.size() != json.at("points").get<std::size_t>()) {
+    if (grid.axes.empty() || grid.size() != whole_number(json.at("points"))) {
       throw std::invalid_argument("the number of points is not that of the axes");
     }
     return grid;

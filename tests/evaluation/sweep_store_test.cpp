@@ -171,6 +171,8 @@ TEST_F(SweepStore, RefusesAGridThatContradictsItself) {
   EXPECT_TRUE(refuses("/measures", nlohmann::json::array({"beauty"})));
   EXPECT_TRUE(refuses("/sampled", true));  // the axes have two and three values
   EXPECT_TRUE(refuses("/points", 7));
+  EXPECT_TRUE(refuses("/points", 2.2e110)) << "no integer holds it";
+  EXPECT_TRUE(refuses("/seeds", {1.5}));
   EXPECT_TRUE(refuses("/axes", nlohmann::json::array()));
   EXPECT_TRUE(refuses("/seeds", std::vector<int>(1000001, 1)));  // more points than a sweep can have
 }

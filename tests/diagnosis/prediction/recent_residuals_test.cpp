@@ -30,6 +30,7 @@ class Recent : public testing::Test {
   }
 
   static constexpr int kStride = 10;
+  static constexpr std::size_t kPlenty = 1 << 20;
   ArmModel model_ = first_joints(2);
   Record record_ = make_records(simulate(motion(model_, 2)).measured, model_, {})[0];
 };
@@ -39,7 +40,7 @@ TEST_F(Recent, ResidualsAreThoseOfANewPrediction) {
   const std::vector<Hypothesis> all = {plain, with_more_friction(0.01), with_effect("backlash"), plain,
                                        with_more_friction(0.02)};
   const auto anew = predicted(all, nullptr);
-  RecentResiduals recent(10);
+  RecentResiduals recent(kPlenty);
   EXPECT_EQ(predicted({plain, with_more_friction(0.01)}, &recent), (std::vector{anew[0], anew[1]}));
   EXPECT_EQ(predicted(all, &recent), anew) << "known ones, unknown ones, twins, and replays of a known motion";
   EXPECT_EQ(predicted(all, &recent), anew) << "all known";
@@ -47,7 +48,7 @@ TEST_F(Recent, ResidualsAreThoseOfANewPrediction) {
 
 TEST_F(Recent, ResidualsAreNotPredictedAgain) {
   const std::vector<Hypothesis> plain = {{model_.nominal, {}}};
-  RecentResiduals recent(10);
+  RecentResiduals recent(kPlenty);
   const auto before = predicted(plain, &recent);
   for (double& torque : record_.torque[0]) torque += 1;  // the record is known by its address
   EXPECT_NE(predicted(plain, nullptr), before);
@@ -56,7 +57,7 @@ TEST_F(Recent, ResidualsAreNotPredictedAgain) {
 
 TEST_F(Recent, ResidualsOfAnythingElseAreUnknown) {
   const Hypothesis plain{model_.nominal, {}};
-  RecentResiduals recent(10);
+  RecentResiduals recent(kPlenty);
   recent.keep(key(plain), {});
   Hypothesis other = with_effect("creep");
   recent.keep(key(other), {});
@@ -70,13 +71,17 @@ TEST_F(Recent, ResidualsOfAnythingElseAreUnknown) {
 
 TEST_F(Recent, ResidualsThatNobodyAskedForAreForgotten) {
   const Hypothesis first{model_.nominal, {}}, second = with_effect("creep"), third = with_effect("backlash");
-  RecentResiduals recent(2);
-  recent.keep(key(first), {});
-  recent.keep(key(second), {});
+  Residuals one;
+  one.channel = {std::vector<double>(30'000), std::vector<double>(70'000)};
+  RecentResiduals recent(250'000 * sizeof(double));
+  recent.keep(key(first), one);
+  recent.keep(key(second), one);
+  recent.keep(key(second), one);  // the same ones take no more room
   EXPECT_TRUE(recent.find(key(first)));
-  recent.keep(key(third), {});
+  recent.keep(key(third), one);
   EXPECT_TRUE(recent.find(key(first)));
   EXPECT_FALSE(recent.find(key(second)));
+  EXPECT_TRUE(recent.find(key(third)));
 }
 
 }  // namespace
