@@ -62,23 +62,6 @@ class LaneMatrix {
   std::vector<Lanes> lanes_;
 };
 
-inline double sum_of(const Lanes& a) {
-  double sum = 0;
-  for (int i = 0; i < kLaneWidth; ++i) sum += a[i];
-  return sum;
-}
-
-/// Sum of the first `rows` entries of column c.
-inline double sum_of_rows(const LaneMatrix& A, int c, int rows) {
-  const Lanes* column = A.lanes() + c * A.blocks();
-  const int whole = rows / kLaneWidth;
-  Lanes sum(0.0);
-  for (int b = 0; b < whole; ++b) sum += column[b];
-  double total = sum_of(sum);
-  for (int i = 0; i < rows % kLaneWidth; ++i) total += column[whole][i];
-  return total;
-}
-
 /// Factors of products.
 inline RightFactor right(const Eigen::Ref<const Eigen::MatrixXd>& B) {
   return {B.data(), 1, static_cast<int>(B.outerStride())};

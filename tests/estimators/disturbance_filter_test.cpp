@@ -10,6 +10,7 @@
 #include "model/input_error.h"
 #include "plant/simulate.h"
 #include "tests/support/arm_runs.h"
+#include "tests/support/pendulum.h"
 
 namespace halyard {
 namespace {
@@ -136,6 +137,28 @@ TEST(DisturbanceFilter, AJointWithoutMotorHasNeitherForceNorCable) {
   EXPECT_TRUE(extra_outputs.leftCols(2).row(2).array().isNaN().all());
   EXPECT_TRUE(std::isnan(extra_outputs(0, cable_force)));
   EXPECT_TRUE(std::isfinite(extra_outputs(1, cable_force)));
+}
+
+TEST(DisturbanceFilter, TheForcesLevelsAreThoseOfGravityAndFriction) {
+  ArmModel model = pendulum();
+  model.joints[0].lower = -0.5;
+  model.joints[0].upper = 0.5;
+  model.joints[0].home = 0;
+  model.nominal.gravity[0] = -16;
+  const double gravity = 8 * std::sin(0.5);  // 1 kg at 0.5 m
+  const EstimatorOptions none, given = {{"force_start", "7"}, {"force_wander", "9"}};
+  const auto levels = [&](const EstimatorOptions& options, double friction) {
+    model.nominal.joint[0].joint_coulomb = friction;
+    OptionReader reader("the test", options);
+    return read_force_levels(reader, model);
+  };
+  const UnknownLevels light = levels(none, 0.25), rough = levels(none, 5), told = levels(given, 5);
+  EXPECT_NEAR(light.start(0), gravity, 1e-12);
+  EXPECT_NEAR(light.wander(0), gravity / 4, 1e-12);
+  EXPECT_EQ(rough.start(0), 5);
+  EXPECT_EQ(rough.wander(0), 10);
+  EXPECT_EQ(told.start(0), 7);
+  EXPECT_EQ(told.wander(0), 9);
 }
 
 TEST(DisturbanceFilter, WrongOptionsAreRefused) {

@@ -187,6 +187,19 @@ TEST(FixedLagSmoother, AGapPartsTheRecord) {
     ASSERT_EQ(parted.at(time).joint_position, estimate.joint_position) << time;
 }
 
+TEST(FixedLagSmoother, AResetForgetsWhatWasNotYetTold) {
+  const ArmRun run = run_arm(raven2(), 0.05);
+  const auto smoother = make_smoother(raven2(), {{"lag", "0.01"}});
+  smoother->reset(run.samples[0]);
+  for (std::size_t i = 1; i < run.samples.size(); ++i) smoother->update(run.samples[i]);
+  smoother->reset(run.samples[0]);
+  EXPECT_FALSE(smoother->revise(false).has_value());
+  const std::optional<Revision> only = smoother->revise(true);
+  ASSERT_TRUE(only.has_value());
+  EXPECT_EQ(only->time_s, run.samples[0].time_s);
+  EXPECT_FALSE(smoother->revise(true).has_value());
+}
+
 TEST(FixedLagSmoother, WrongOptionsAreRefused) {
   const auto refusal = [](const EstimatorOptions& options) -> std::string {
     try {

@@ -140,6 +140,36 @@ TEST_F(KeptJacobian, ForcesAreAnsweredAnewWhenTheyChange) {
   EXPECT_LT((twice - 2 * once).norm(), 1e-3 * twice.norm());
 }
 
+TEST_F(KeptJacobian, ForcesAreAnsweredAnewWhenTheLengthChanges) {
+  const Eigen::VectorXd x = moving(1);
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(12, 1);
+  G(process_.layout().rate[0]) = 1e-6;
+  const auto answer = [&](ExponentialStep& exponential, double time_s, double dt_s) {
+    Eigen::MatrixXd Gamma(12, 1);
+    exponential.linearise({time_s, dt_s, torque_.data()}, x);
+    EXPECT_TRUE(exponential.start(in_lanes(Eigen::MatrixXd::Identity(12, 12)), G));
+    EXPECT_TRUE(exponential.respond(Gamma));
+    return Gamma;
+  };
+  ExponentialStep exponential(process_), fresh(process_);
+  const Eigen::MatrixXd whole = answer(exponential, 0, kLength), half = answer(exponential, kLength, kLength / 2),
+                        own = answer(fresh, kLength, kLength / 2);
+  EXPECT_GT((whole - own).norm(), 0.1 * own.norm());
+  EXPECT_LT((half - own).norm(), 1e-6 * own.norm());
+}
+
+TEST_F(KeptJacobian, IsFollowedByTheSlopesOfFrictionThatAreNew) {
+  // A motor's friction was saturated, and now has a slope of less than 1e-2 of 1/h.
+  Eigen::VectorXd x = moving(1);
+  x(*process_.layout().motor_rate[0]) = 3 * process_.arm().joint[0].motor_smoothing;
+  const Belief b = difference(moving(1), x);
+  ExponentialStep exponential(process_);
+  const Belief own = step(exponential, x, 0);
+  // Half of it was observed, in the root from the slopes of the chain; 9e-4 and 3e-3 if the new slope is neglected.
+  EXPECT_LT(b.x.norm(), 1e-4 * (own.x - x).norm());
+  EXPECT_LT(b.FS.view().norm(), 1e-3 * own.FS.view().norm());
+}
+
 ArmModel with_some_effects() {
   ArmModel model = raven2();
   add_effect(model, "motor_friction", 0, {});

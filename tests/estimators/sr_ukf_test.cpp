@@ -71,7 +71,7 @@ TEST(SrUkf, GivesMeanAndVarianceOfASquareExactly) {
 TEST(SrUkf, ASmallerBetaTakesTheSquaresOwnVarianceAway) {
   // The fourth moment counts β times: 4 m² σ² + β σ⁴. Below α², β takes it from the covariance by a down-date.
   const double m = 3, sigma = 0.5;
-  for (const double beta : {0.0, 0.5, 1.0, 2.0}) {
+  for (const double beta : {0.0, 0.5, 1.0, 1.5, 2.0}) {
     SquareRootUkf filter({.alpha = 1, .beta = beta});
     filter.reset(Eigen::VectorXd::Constant(1, m), Eigen::MatrixXd::Constant(1, 1, sigma));
     filter.predict(Square(), Eigen::MatrixXd::Zero(1, 1));

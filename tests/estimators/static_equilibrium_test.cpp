@@ -82,5 +82,31 @@ TEST(StaticEquilibrium, ARigidJointStandsWhereItsMotorSays) {
   EXPECT_NEAR(g[2], gravity(2), 2e-8);
 }
 
+TEST(StaticEquilibrium, NoneOfASlideThatFallsIsToldWithTheJointAndItsForce) {
+  // A rigid lift that carries a slide without a motor, both along gravity.
+  ArmModel model = pendulum();
+  model.nominal.n = 2;
+  model.joints.resize(2, model.joints[0]);
+  for (int k = 0; k < 2; ++k) {
+    JointParameters<double>& j = model.nominal.joint[k];
+    j.type = JointType::prismatic;
+    j.drive = k == 0 ? Drive::rigid : Drive::none;
+    j.mass = k == 0 ? 5 : 2;
+    j.coupling[k] = 1;
+  }
+  model.nominal.gravity[0] = 0;
+  model.nominal.gravity[2] = -10;
+  const ProcessModel process(model);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(2);
+  try {
+    static_equilibrium(process, 2.5, none, none, Eigen::VectorXd(), none);
+    FAIL() << "found one";
+  } catch (const std::runtime_error& e) {
+    EXPECT_STREQ(e.what(),
+                 "static equilibrium: none found for the motor angles at 2.5 s: joint 2 is left with a force of -20; "
+                 "check its cable's stiffness and the motor encoder's offset");
+  }
+}
+
 }  // namespace
 }  // namespace halyard

@@ -54,6 +54,14 @@ TEST(BlockJackknife, IsTheClassicJackknifeOfAMeanWhereThePriorIsWeak) {
   EXPECT_NEAR(e.deviation(0), std::sqrt(square / (5 * 4)), 1e-8);
 }
 
+TEST(BlockJackknife, ThePriorsOwnUncertaintyAddsToThatOfTheBlocks) {
+  // A = 1 + 1 + 1. Without the first block u is -10 / 2, without the second 10 / 2: a variance of 1/2 (25 + 25).
+  const std::vector<BlockSums> blocks = {{Eigen::MatrixXd::Ones(1, 1), Eigen::VectorXd::Constant(1, 10)},
+                                         {Eigen::MatrixXd::Ones(1, 1), Eigen::VectorXd::Constant(1, -10)}};
+  const JackknifeEstimate e = jackknife_least_squares(blocks, Eigen::VectorXd::Zero(1), unbounded(1));
+  EXPECT_DOUBLE_EQ(e.deviation(0), std::sqrt(25 + 1.0 / 9));
+}
+
 TEST(BlockJackknife, NeverSaysLessThanTheInformationAllows) {
   // Blocks that agree exactly.
   const std::vector<BlockSums> blocks(6, {Eigen::MatrixXd::Constant(1, 1, 4.0), Eigen::VectorXd::Constant(1, 2.0)});

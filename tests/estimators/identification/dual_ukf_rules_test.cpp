@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "tests/estimators/identification/linear_slide.h"
+#include "tests/support/arm_runs.h"
 
 namespace halyard {
 namespace {
@@ -61,6 +62,17 @@ TEST(DualUkfRules, StartsAnewAfterAGapAndKeepsTheWeights) {
   }
 }
 
+TEST(DualUkfRules, AGapOfASecondIsLongUnlessToldOtherwise) {
+  const std::vector<EncoderSample> record = record_of_slide(slide(), 2, 1);
+  for (const double gap : {0.9, 1.1}) {
+    DualUkf filter = filter_with(0.01, {.settle = 0});
+    for (const EncoderSample& sample : record) filter.update(sample);
+    EncoderSample later = record.back();
+    later.time_s += gap;
+    EXPECT_EQ(filter.update(later).nu.size(), gap > 1 ? 0 : 2) << gap;
+  }
+}
+
 TEST(DualUkfRules, NoSampleMovesAWeightByMoreThanAFiftiethOfItsPrior) {
   ArmModel robot = slide();
   robot.nominal.joint[0].torque_bias = 0.2;  // 20 deviations
@@ -107,6 +119,69 @@ TEST(DualUkfRules, TimeThatDoesNotIncreaseIsRefusedButInANewRecord) {
   EXPECT_THROW(filter.update(record[0]), std::invalid_argument);
   filter.start_record();
   EXPECT_NO_THROW(filter.update(record[0]));
+}
+
+TEST(DualUkfRules, WaitsForAMotorThatHasNotBeenRead) {
+  std::vector<EncoderSample> record = record_of_slide(slide(), 4, 1);
+  for (const int i : {0, 1}) record[i].motor_position(0) = std::numeric_limits<double>::quiet_NaN();
+  DualUkf filter = filter_with(0.01, {.settle = 0});
+  for (const int i : {0, 1, 2}) EXPECT_EQ(filter.update(record[i]).nu.size(), 0) << i;
+  EXPECT_EQ(filter.update(record[3]).nu.size(), 2);
+}
+
+TEST(DualUkfRules, StartsWhereTheEncodersOfAllJointsSayThatTheArmIs) {
+  ArmModel model = raven2();
+  for (int k = 0; k < 3; ++k) {
+    model.nominal.joint[k].motor_encoder_offset = 0.3 - k;
+    model.nominal.joint[k].joint_encoder_offset = 0.05 * (k + 1);
+  }
+  DualUkf filter(model, {{.key = "joint1.motor.torque_bias", .nominal = 0, .scale = 1e-6}}, {.settle = 0});
+  const Eigen::Vector3d q = model.home() + Eigen::Vector3d(0.1, -0.2, 0.03);
+  EncoderSample sample;
+  sample.motor_torque = Eigen::Vector3d::Zero();
+  sample.motor_position = unstretched_motors(model.nominal, q) + Eigen::Vector3d(0.3, -0.7, -1.7);
+  sample.joint_position = q + Eigen::Vector3d(0.05, 0.1, 0.15);
+  EXPECT_EQ(filter.update(sample).nu.size(), 0);
+  sample.time_s = 1e-3;
+  const DualStep step = filter.update(sample);
+  ASSERT_EQ(step.nu.size(), 6);
+  // Gravity moves joints and motors by some micrometres and microradians within a millisecond.
+  EXPECT_LT(step.nu.cwiseAbs().maxCoeff(), 1e-3);
+}
+
+TEST(DualUkfRules, TakesTheSubStepsOfTheArmThatItBelievesIn) {
+  ArmModel model = slide();
+  model.nominal.joint[0].motor_viscous = 5.5;
+  const std::vector<EncoderSample> record = record_of_slide(model, 2, 1);
+  DualUkf filter(model, {{.key = "joint1.motor.viscous", .nominal = 5.5, .scale = 0.5, .logarithmic = true}},
+                 {.learn = false});
+  const auto go = [&](double w) {
+    filter.set_weights(Eigen::VectorXd::Constant(1, w), Eigen::MatrixXd::Identity(1, 1));
+    filter.start_record();
+    for (const EncoderSample& sample : record) filter.update(sample);
+  };
+  EXPECT_NO_THROW(go(0));
+  try {  // 4.5 times as stiff
+    go(3);
+    FAIL() << "took too few";
+  } catch (const std::runtime_error& e) {
+    EXPECT_TRUE(std::string(e.what()).starts_with("process model: a step of 0.002 s would need")) << e.what();
+  }
+}
+
+TEST(DualUkfRules, AStateThatIsNotFiniteIsToldWithItsTime) {
+  std::vector<EncoderSample> record = record_of_slide(slide(), 3, 1);
+  for (EncoderSample& sample : record) sample.time_s += 5;
+  DualUkf filter = filter_with(0.01, {});
+  record[1].motor_torque(0) = 1e308;
+  filter.update(record[0]);
+  filter.update(record[1]);
+  try {
+    filter.update(record[2]);
+    FAIL() << "went on";
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find(" is not finite at 5.004 s"), std::string::npos) << e.what();
+  }
 }
 
 TEST(DualUkfRules, ALogarithmicWeightKeepsItsSign) {

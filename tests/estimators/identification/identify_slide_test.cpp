@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "estimators/distributions.h"
@@ -222,16 +223,56 @@ TEST(BatchEstimate, EndsAtTheSameNumbersFromAnyStart) {
 }
 
 TEST(BatchEstimate, StartsAtTheModelWhereTheFilterEndsAtAnArmThatCannotBeIntegrated) {
-  ArmModel model = biased_slide();
-  model.nominal.joint[0].motor_viscous = 0.5;  // three deviations more: beyond the sub-steps of a sample
-  const std::string key = "joint1.motor.viscous";
-  const Unknowns unknowns = list_unknowns(model, {key});
-  const std::vector<Log> logs = {log_of_slide(model, 3, 1)};
+  ArmModel model = biased_slide(), stiff = model;
+  model.nominal.joint[0].motor_viscous = 5.5;
+  stiff.nominal.joint[0].motor_viscous = 5.5 * std::exp(3 * 0.5);  // three deviations more
+  ASSERT_NO_THROW(ProcessModel(model).substeps(kSlideStep));
+  ASSERT_THROW(ProcessModel(stiff).substeps(kSlideStep), std::runtime_error);
+  const Unknowns unknowns = list_unknowns(model, {"joint1.motor.viscous"});
+  const std::vector<Log> logs = {log_of_slide(model, 0.6, 1)};
   int passes = 0;
   const BatchEstimate found = estimate_from_blocks(model, unknowns, logs, Eigen::VectorXd::Constant(1, 3),
                                                    [&](int pass, double) { passes = pass; });
   EXPECT_GE(passes, 2);
   EXPECT_LT(std::abs(found.estimate.u(0)), 1);
+}
+
+TEST(BatchEstimate, StartsWhereTheFilterEndedButWithinThreeDeviations) {
+  const ArmModel model = biased_slide();
+  const Unknowns unknowns = list_unknowns(model, {kBiasKey});
+  const auto passes_again = [&](double deviations) {
+    ArmModel robot = model;
+    robot.nominal.joint[0].torque_bias += deviations * 0.5 * kModelBias;
+    const std::vector<Log> logs = {log_of_slide(robot, 2, 1, {.step_s = 1e-2})};
+    const auto from = [&](const Eigen::VectorXd& u, int& passes) {
+      return estimate_from_blocks(model, unknowns, logs, u, [&](int pass, double) { passes = pass; });
+    };
+    int passes = 0;
+    const BatchEstimate found = from(Eigen::VectorXd::Zero(1), passes);
+    EXPECT_GE(passes, 2);
+    EXPECT_NEAR(found.estimate.u(0), deviations, 0.4);
+    from(found.estimate.u, passes);
+    return passes;
+  };
+  EXPECT_EQ(passes_again(2), 1);  // it is there
+  EXPECT_EQ(passes_again(-2), 1);
+  EXPECT_GE(passes_again(3.5), 2);  // it starts half a deviation before
+  EXPECT_GE(passes_again(-3.5), 2);
+}
+
+TEST(BatchEstimate, EachBlockHasTheSamplesOfItsOwnTime) {
+  const ArmModel model = biased_slide();
+  ArmModel robot = model;
+  robot.nominal.joint[0].torque_bias = 2 * kModelBias;
+  Log log = log_of_slide(robot, 6, 1, {.step_s = 1e-2});
+  for (std::size_t i = 0; i < log.size(); ++i)
+    if (log.time[i] < 4) log.motor_position[0][i] = std::numeric_limits<double>::quiet_NaN();
+  const BatchEstimate found = estimate_from_blocks(model, list_unknowns(model, {kBiasKey}), {log},
+                                                   Eigen::VectorXd::Zero(1), [](int, double) {});
+  EXPECT_EQ(found.estimate.blocks, 6);
+  EXPECT_NEAR(found.estimate.u(0), 2, 0.8);
+  // Two of the six blocks tell of the bias, and agree. If one had it all, nothing would be left without it.
+  EXPECT_LT(found.estimate.deviation(0), 0.8);
 }
 
 TEST(IdentifyOnALinearArm, ProgressGoesFromNothingToAllInEachStage) {

@@ -220,6 +220,26 @@ TEST(IdentifiedKeys, ThatCannotBeIdentifiedAreRefusedWithTheReason) {
             "number");
 }
 
+TEST(IdentifiedKeys, AnUnknownOneIsRefusedWithTheKindsAndTheKeysOfItsJoint) {
+  ArmModel model = read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml");
+  model.source = "arm.xml";
+  const auto refusal = [&](const std::string& text) { return message_of([&] { identified_keys(model, text); }); };
+  const std::string start =
+      ": arm.xml has none of that name; expected some of coupling, stiffness, damping, tension, motor_friction, "
+      "joint_friction, or of the keys ";
+  const auto check = [&](const std::string& word, const std::string& first_key, const std::string& joint, bool other) {
+    const std::string message = refusal(word), others = " (the other joints have the like)";
+    EXPECT_TRUE(message.starts_with("parameter '" + word + "'" + start + first_key + ", ")) << message;
+    EXPECT_NE(message.find(", " + joint + ".cable.stiffness, "), std::string::npos) << message;
+    for (const std::string k : {"joint1", "joint2", "joint3"})
+      EXPECT_EQ(message.find(k + ".cable.stiffness") != std::string::npos, k == joint) << message;
+    EXPECT_EQ(message.find(others) != std::string::npos, other) << message;
+  };
+  check("joint2.cable.stifness", "joint2.link.mass", "joint2", false);
+  check("joint4.cable.stiffness", "joint1.link.mass", "joint1", true);
+  check("stifness", "joint1.link.mass", "joint1", true);
+}
+
 TEST(IdentifiedLogs, NeedTheSensorOfTheJointAndALogThatIsLongEnough) {
   const ArmModel model = read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml");
   Log log(3);

@@ -31,7 +31,7 @@ Eigen::MatrixXd lower_root_of(const MatrixKernels& kernels, const Eigen::MatrixX
 
 TEST(MatrixKernels, FormAndAddAProductOfAnySize) {
   for (const MatrixKernels& kernels : matrix_kernels())
-    for (const int n : {1, 7, 8, 12, 21})
+    for (const int n : {1, 6, 7, 8, 12, 13, 15, 16, 18, 19, 21})
       for (const int m : {1, 4, 11}) {
         const Eigen::MatrixXd A = random_matrix(n, n, 1), B = random_matrix(n, m, 2), C = random_matrix(n, m, 3);
         LaneMatrix sum = in_lanes(C);
@@ -189,11 +189,14 @@ TEST(MatrixKernels, SquaresOfRowsAreSummed) {
     const Eigen::MatrixXd A = random_matrix(rows, 7, 11);
     for (const MatrixKernels& kernels : matrix_kernels()) {
       const LaneMatrix lanes = in_lanes(A);
-      Eigen::VectorXd squares = Eigen::VectorXd::Constant(rows + 1, -1);
-      kernels.row_squares(rows, 6, lanes.lanes(), lanes.blocks(), squares.data());
-      // Sums of 6 numbers below 1.
-      EXPECT_LT((squares.head(rows) - A.leftCols(6).rowwise().squaredNorm()).norm(), 6 * rows * kEps) << kernels.name;
-      EXPECT_EQ(squares(rows), -1) << kernels.name << rows;
+      for (const int count : {1, 5, 6}) {
+        Eigen::VectorXd squares = Eigen::VectorXd::Constant(rows + 1, -1);
+        kernels.row_squares(rows, count, lanes.lanes(), lanes.blocks(), squares.data());
+        // Sums of up to 6 numbers below 1.
+        EXPECT_LT((squares.head(rows) - A.leftCols(count).rowwise().squaredNorm()).norm(), 6 * rows * kEps)
+            << kernels.name << rows << count;
+        EXPECT_EQ(squares(rows), -1) << kernels.name << rows << count;
+      }
     }
   }
 }

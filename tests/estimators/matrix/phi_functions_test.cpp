@@ -101,6 +101,23 @@ TEST(PhiFunctions, OfZeroAreTheReciprocalFactorials) {
   EXPECT_LT((phi.phi_3().view() - I / 6).norm(), 10 * kEps);
 }
 
+TEST(PhiFunctions, DoNotDependOnWhatWasComputedBefore) {
+  // Other sizes, other parts of the same size, and another matrix of the same parts.
+  PhiFunctions again;
+  for (const PhiShape& shape : {PhiShape{9, 4, 9}, {9, 4, 8}, {9, 3, 8}, {8, 3, 8}, {8, 3, 8}}) {
+    const Eigen::MatrixXd Z = mechanical(shape);
+    for (const double h : {1.0, 0.7}) {
+      PhiFunctions fresh;
+      ASSERT_TRUE(again.compute(h, Z, shape));
+      ASSERT_TRUE(fresh.compute(h, Z, shape));
+      EXPECT_EQ(again.E().view(), fresh.E().view()) << shape.n << shape.first << shape.end;
+      EXPECT_EQ(again.phi_1().view(), fresh.phi_1().view()) << shape.n << shape.first << shape.end;
+      EXPECT_EQ(again.phi_2().view(), fresh.phi_2().view()) << shape.n << shape.first << shape.end;
+      EXPECT_EQ(again.phi_3().view(), fresh.phi_3().view()) << shape.n << shape.first << shape.end;
+    }
+  }
+}
+
 TEST(PhiFunctions, RefuseAMatrixThatIsNotFiniteOrTooLarge) {
   PhiFunctions phi;
   EXPECT_FALSE(compute(phi, Eigen::MatrixXd::Constant(2, 2, kNan)));

@@ -7,6 +7,7 @@
 #include "estimators/process/standstill.h"
 #include "tests/estimators/process/held_force.h"
 #include "tests/support/arm_runs.h"
+#include "tests/support/message_of.h"
 #include "tests/support/pendulum.h"
 
 namespace halyard {
@@ -43,6 +44,33 @@ TEST(NoiseLevels, AreResolutionsAndTolerancesOfFrictionAndGravity) {
   const double scale = e.effect->state_scale(process.arm(), e.joint, e.p)[0];
   EXPECT_DOUBLE_EQ(levels.wander(0), scale / 100);
   EXPECT_DOUBLE_EQ(levels_of(model, process, {{"effect_noise_time", "100"}}).wander(0), scale / 10);
+}
+
+TEST(NoiseLevels, OptionsReplaceThem) {
+  const ArmModel model = raven2();
+  const ProcessModel process(model);
+  EXPECT_EQ(levels_of(model, process).correlation_time, 1e-3);
+  EXPECT_EQ(levels_of(model, process).adaptation_time, 0);
+  const NoiseLevels levels = levels_of(model, process,
+                                       {{"encoder_noise", "1e-9"},
+                                        {"torque_noise", "0 0.5 0.25"},
+                                        {"joint_force_noise", "0.125"},
+                                        {"noise_time", "0.0625"},
+                                        {"adaptation_time", "0.75"}});
+  EXPECT_EQ(levels.encoder, Eigen::Vector3d::Constant(1e-9));
+  EXPECT_EQ(levels.torque, Eigen::Vector3d(0, 0.5, 0.25));
+  EXPECT_EQ(levels.joint_force, Eigen::Vector3d::Constant(0.125));
+  EXPECT_EQ(levels.correlation_time, 0.0625);
+  EXPECT_EQ(levels.adaptation_time, 0.75);
+  EXPECT_EQ(levels_of(model, process, {{"noise_time", "0"}}).correlation_time, 0);
+}
+
+TEST(NoiseLevels, NegativeOnesAreRefused) {
+  const ArmModel model = raven2();
+  const ProcessModel process(model);
+  for (const char* name :
+       {"encoder_noise", "torque_noise", "joint_force_noise", "noise_time", "effect_noise_time", "adaptation_time"})
+    EXPECT_NE(message_of([&] { levels_of(model, process, {{name, "-1e-3"}}); }), "no InputError") << name;
 }
 
 TEST(NoiseLevels, AnEffectsStateWandersAsTheSquareRootOfTime) {
@@ -115,6 +143,21 @@ TEST(InitialRoot, OfARigidDriveIsItsEncoderAndOfAJointWithoutMotorATenthOfItsRan
   const Eigen::MatrixXd S_hanging = first_root(hanging, Eigen::VectorXd::Zero(2), 1e-3);
   EXPECT_DOUBLE_EQ(S_hanging(0, 0), 0.15);
   EXPECT_DOUBLE_EQ(S_hanging(1, 1), hanging.nominal.joint[0].joint_smoothing);
+}
+
+TEST(InitialRoot, OfEffectsIsTheTypicalSizeOfTheirStates) {
+  ArmModel model = raven2();
+  for (const int k : {0, 2}) add_effect(model, "hysteresis", k, {});
+  const ProcessModel process(model);
+  const Eigen::VectorXd x = process.state_at_rest(unstretched_motors(process.arm(), model.home()), model.home());
+  const Eigen::MatrixXd S = first_root(model, x, kForever);
+  Eigen::Matrix2d expected = Eigen::Matrix2d::Zero();
+  for (int i = 0; i < 2; ++i) {
+    const PlacedEffect& e = model.effects[i];
+    expected(i, i) = e.effect->state_scale(process.arm(), e.joint, e.p)[0];
+  }
+  EXPECT_EQ(S.bottomRightCorner(2, 2), expected);
+  EXPECT_EQ(S.bottomLeftCorner(2, 12).norm() + S.topRightCorner(12, 2).norm(), 0);
 }
 
 TEST(ProcessNoise, OfARigidDriveTurnsItsJointByTheTorqueAtTheMotor) {

@@ -1,0 +1,128 @@
+/// What a filter on the arm takes for the speed when it starts anew after a gap.
+
+#include <gtest/gtest.h>
+
+#include "estimators/built_in.h"
+#include "estimators/filters/arm_filter.h"
+#include "estimators/filters/sr_ukf.h"
+#include "tests/estimators/process/held_force.h"
+#include "tests/support/arm_runs.h"
+
+namespace halyard {
+namespace {
+
+class Restart : public testing::Test {
+ protected:
+  explicit Restart(const ArmModel& model = raven2())
+      : model_(model),
+        process_(std::make_shared<const ProcessModel>(model_)),
+        filter_(model_, process_, {.noise = levels_of(model_, *process_)}, std::make_unique<SquareRootUkf>()) {
+    // A record at home, and after a gap the first reading.
+    filter_.reset(sample_at(0, model_.home()));
+    filter_.update(sample_at(1e-3, model_.home()));
+    read(kAgain, model_.home());
+  }
+  Sample sample_at(double time_s, const Eigen::VectorXd& q) const {
+    return {time_s, Eigen::VectorXd::Zero(3), unstretched_motors(process_->arm(), q), {}};
+  }
+  void read(double time_s, const Eigen::VectorXd& q) { filter_.update(sample_at(time_s, q)); }
+  /// Reads the joints at home + v dt, dt after the gap.
+  void read_moved(const Eigen::Vector3d& v, double dt_s) { read(kAgain + dt_s, model_.home() + dt_s * v); }
+  Eigen::Vector3d velocity() const { return filter_.estimate().joint_velocity; }
+
+  static constexpr double kAgain = 3;  // s
+  ArmModel model_;
+  std::shared_ptr<const ProcessModel> process_;
+  ArmFilter filter_;
+};
+
+TEST_F(Restart, TwoReadingsGiveTheSpeedOfMotorsAndJoints) {
+  EXPECT_EQ(velocity(), Eigen::Vector3d::Zero());
+  const Eigen::Vector3d v(0.5, -0.2, 0.04);
+  read_moved(v, 2e-3);
+  // Differences of motor angles of some 100 rad over 2 ms.
+  EXPECT_LT((velocity() - v).norm(), 1e-10);
+  const Eigen::VectorXd rates = unstretched_motors(process_->arm(), v);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(filter_.filter().x()(*process_->layout().motor_rate[k]), rates(k), 1e-9) << k;
+}
+
+TEST_F(Restart, ReadingsFartherApartThanAStepGiveNoSpeed) {
+  const Eigen::Vector3d v(0.5, -0.2, 0.04);
+  read_moved(v, 11e-3);
+  EXPECT_EQ(velocity(), Eigen::Vector3d::Zero());
+}
+
+TEST_F(Restart, ReadingsOneStepApartGiveIt) {
+  const Eigen::Vector3d v(0.5, -0.2, 0.04);
+  read_moved(v, 9e-3);
+  EXPECT_LT((velocity() - v).norm(), 1e-10);
+}
+
+TEST_F(Restart, ASpeedThatCrossesTheRangeInLessThan50MsIsNotBelieved) {
+  constexpr double kStep = 2e-3;
+  double start = kAgain;
+  for (int k = 0; k < 3; ++k)
+    for (const double share : {0.9, -0.9, 1.1, -1.1}) {
+      start += 10;
+      read(start, model_.home());
+      Eigen::Vector3d v = Eigen::Vector3d::Zero();
+      v(k) = share * (model_.joints[k].upper - model_.joints[k].lower) / 0.05;
+      const Eigen::VectorXd far = model_.home() + kStep * v;
+      read(start + kStep, far);
+      const bool believed = std::abs(share) < 1;
+      EXPECT_LT((velocity() - (believed ? v : Eigen::Vector3d::Zero().eval())).norm(), 1e-8) << k << ", " << share;
+      if (believed) continue;
+      const Eigen::Vector3d slow(0.1, 0.2, -0.03);  // one of the two readings was wrong: a third one tells the speed
+      read(start + 2 * kStep, far + kStep * slow);
+      EXPECT_LT((velocity() - slow).norm(), 1e-8) << k << ", " << share;
+    }
+}
+
+TEST(Start, MotorsAreWhereTheirEncodersReadLessTheirOffsets) {
+  ArmModel model = raven2();
+  const Eigen::Vector3d offset(0.3, -2, 5);
+  const Eigen::VectorXd q_m = unstretched_motors(model.nominal, model.home());
+  const auto started = [&](const Eigen::VectorXd& reading) {
+    const auto filter = make_sr_ukf(model, {});
+    filter->reset({0, Eigen::VectorXd::Zero(3), reading, {}});
+    return filter->estimate().joint_position;
+  };
+  const Eigen::VectorXd without = started(q_m);
+  for (int k = 0; k < 3; ++k) model.nominal.joint[k].motor_encoder_offset = offset(k);
+  EXPECT_LT((started(q_m + offset) - without).norm(), 1e-12);
+}
+
+TEST(Start, AfterTheGateHasRefusedForLongItFiltersAgain) {
+  const ArmModel model = raven2();
+  const auto filter = make_sr_ukf(model, {{"gate", "0.9999"}, {"restart_gap", "0.05"}});
+  Sample s{0, Eigen::VectorXd::Zero(3), unstretched_motors(model.nominal, model.home()), {}};
+  filter->reset(s);
+  s.motor_position(0) += 1;
+  long refused = 0;
+  for (int i = 1; i <= 70; ++i) {
+    s.time_s = 1e-3 * i;
+    const Innovation innovation = filter->update(s);
+    refused += !innovation.accepted;
+    // It starts anew at the first sample that is more than 50 ms after the first refusal.
+    EXPECT_EQ(innovation.nu.size(), i == 52 ? 0 : 3) << i;
+  }
+  EXPECT_EQ(refused, 51);
+}
+
+TEST(DelayedCommands, ReachTheFilterFromThePast) {
+  ArmModel model = raven2();
+  add_effect(model, "delay", 0, {5e-3});
+  const ArmRun run = run_arm(model, 0.2);
+  const auto knowing = make_sr_ukf(model, {}), ignorant = make_sr_ukf(raven2(), {});
+  const auto mean_nis_of = [&](Estimator& estimator) {
+    estimator.reset(run.samples[0]);
+    double sum = 0;
+    for (std::size_t i = 1; i < run.samples.size(); ++i) sum += estimator.update(run.samples[i]).nis();
+    return sum / 3 / static_cast<double>(run.samples.size() - 1);
+  };
+  EXPECT_LT(mean_nis_of(*knowing), 1.5);  // 0.9 was observed
+  EXPECT_GT(mean_nis_of(*ignorant), 3);   // 5.1
+}
+
+}  // namespace
+}  // namespace halyard
