@@ -39,6 +39,11 @@ std::vector<UsualStage> usual_stages() {
           {"estimators on the hold-out", 1.0}};
 }
 
+/// "0.0002 m", and "0.85" of a number without a unit. digits: how many.
+std::string with_unit(double value, int digits, const std::string& unit) {
+  return fmt::format("{:.{}g}{}", value, digits, unit == "1" ? "" : " " + unit);
+}
+
 /// Alternatives that are less probable are in the files only.
 constexpr double kWorthALine = 0.01;
 
@@ -46,7 +51,7 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   fmt::print("{}\n", verdict_line(d));
   for (const NamedEffect& e : d.effects)
     for (const Estimated& p : e.parameters)
-      fmt::print("  {} {}: {:.4g} {} (95 %: {:.4g} to {:.4g})\n", label_of(e), p.name, p.value, p.unit, p.lower,
+      fmt::print("  {} {}: {} (95 %: {:.4g} to {:.4g})\n", label_of(e), p.name, with_unit(p.value, 4, p.unit), p.lower,
                  p.upper);
   for (const NamedEffect& e : d.effects)
     for (const Alternative& a : e.alternatives)
@@ -55,7 +60,7 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   for (std::size_t i = 0; i < d.effects.size(); ++i)
     fmt::print("  {}: {}\n", effect_label(d.effects[i].effect), evaluation.why[i]);
   for (const Estimated& p : d.refitted)
-    fmt::print("  refitted {}: {:.5g} -> {:.5g} {}\n", p.name, p.nominal, p.value, p.unit);
+    fmt::print("  refitted {}: {:.5g} -> {}\n", p.name, p.nominal, with_unit(p.value, 5, p.unit));
   if (const std::string line = tolerance_line(d); !line.empty()) fmt::print("  {}\n", line);
   for (const LogFinding& f : d.log_findings) fmt::print("  {}: {}\n", severity_word(f.severity), finding_line(f));
   for (const Unexplained& u : d.unexplained) fmt::print("  unexplained, joint {}: {}\n", u.joint + 1, u.signature);

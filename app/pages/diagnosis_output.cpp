@@ -132,8 +132,10 @@ std::string percent(double probability) {
 std::vector<std::string> absent_event_lines(const Diagnosis& d) {
   std::vector<std::string> lines;
   for (const std::size_t e : d.absent_events)
-    lines.push_back(fmt::format("The hold-out shows no {} at that time: its errors are predicted without it.",
-                                effect_label(d.revised.effects[e])));
+    lines.push_back(
+        fmt::format("The hold-out shows no {} at that time: its errors are predicted without it. model.xml "
+                    "contains it: remove it there before you use the model for other logs.",
+                    effect_label(d.revised.effects[e])));
   return lines;
 }
 
@@ -159,7 +161,7 @@ void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluati
       page.verdict(report::VerdictKind::good, "Clean: the model explains the data to what its sensors resolve.");
       break;
     case Diagnosis::Verdict::unknown: {
-      std::string text = "Unknown: a residual that matters is left, and no candidate explains it.";
+      std::string text = "Unknown: a residual that matters is left, and no explanation is more probable than not.";
       for (const Unexplained& u : d.unexplained) text += fmt::format("\nJoint {}: {}.", u.joint + 1, u.signature);
       page.verdict(report::VerdictKind::bad, text);
       break;

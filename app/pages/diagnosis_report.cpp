@@ -30,7 +30,7 @@ void add_numbers(report::Page& page, const Diagnosis& d) {
   }
   if (!d.refitted.empty()) {
     report::Table table;
-    table.caption = fmt::format("Numbers of the model that were refitted within {}: no effects",
+    table.caption = fmt::format("Numbers of the model that were refitted within {}; they do not count as effects",
                                 d.tolerance_factor > 1 ? fmt::format("{:g} times its tolerances", d.tolerance_factor)
                                                        : std::string("its tolerances"));
     table.header = {"number", "model", "refitted", "95 % interval", "unit"};

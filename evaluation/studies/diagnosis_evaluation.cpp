@@ -55,7 +55,7 @@ std::string shown_parameter(const Estimated& p) {
 std::string why_named(const NamedEffect& named, const EffectEvidence& evidence, const ArmParameters<double>& arm) {
   std::string text;
   if (evidence.views.empty()) {
-    text = "No single view tells it; the candidates were weighed by all residuals together.";
+    text = "No single picture of the report shows it: it is preferred because the fit as a whole improves.";
   } else {
     const View& v = evidence.views.front();
     text = fmt::format("Without it the {} of joint {} {}", residual_name(arm, evidence.joint, v.residual),

@@ -12,4 +12,10 @@ inline Evidence small_evidence() {
   return Evidence(make_records(simulate(motion(model, 6)).measured, model, {}), model);
 }
 
+/// Of the first joint alone on two seconds of motion.
+inline Evidence brief_evidence() {
+  const ArmModel model = first_joints(1);
+  return Evidence(make_records(simulate(motion(model, 2)).measured, model, {}), model);
+}
+
 }  // namespace halyard

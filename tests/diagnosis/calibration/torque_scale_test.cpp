@@ -168,5 +168,28 @@ TEST(ActingOverCommanded, OfAnEffectOfTheCommandIsTheShareThatActs) {
   EXPECT_EQ(ratio_of(record, h), 0.5) << "a command that never changes tells nothing";
 }
 
+TEST(Calibrated, ALargeMeanTorqueDoesNotHideThatATorqueGoesWithTheMotion) {
+  // Gravity, much larger than its changes over a small motion without friction.
+  ArmModel model = first_joints(2);
+  for (int k = 0; k < 2; ++k) {
+    JointParameters<double>& j = model.nominal.joint[k];
+    j.motor_coulomb = j.joint_coulomb = 0;
+    j.mass *= 3;
+  }
+  Scenario scenario = motion(model, 3);
+  for (JointTrajectory& t : scenario.trajectory)
+    for (Sine& sine : t.sines) sine.amplitude *= 0.1;
+  const Log log = simulate(scenario).measured;
+  model.joints[1].tolerances.torque_scale = 1;
+  const std::vector<Record> records = make_records(log, model, {});
+  const TorqueComparison c = compare_torques(model, records);
+  double n = 0, mean = 0, square = 0;
+  for (const double t : c.needed[1])
+    if (std::isfinite(t)) n += 1, mean += t, square += t * t;
+  mean /= n;
+  ASSERT_GT(mean * mean, 10 * (square / n - mean * mean)) << "the test shows nothing";
+  EXPECT_NEAR(calibrated(model, records).nominal.joint[1].torque_scale, 1, 0.05);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "estimators/distributions.h"
+#include "tests/support/small_evidence.h"
 
 namespace halyard {
 namespace {
@@ -73,6 +74,55 @@ TEST(Estimates, OfShapesGivenEffectsAndNumbersOfTheModelReachBeyondIt) {
   EXPECT_DOUBLE_EQ(shape.told(0).lower, 1 - shape.half);
   EXPECT_DOUBLE_EQ(given.told(1).lower, 1 - given.half);
   EXPECT_DOUBLE_EQ(number.told(0).lower, 1 - number.half);
+}
+
+/// What is told of an effect of one joint. The fit has determined all of its parameters but whole numbers.
+std::vector<Estimated> told_of(const PlacedEffect& effect, const PlacedEffect& told) {
+  static const Evidence evidence = brief_evidence();
+  const ArmParameters<double> arm = first_joints(1).nominal;
+  Fit fit;
+  fit.hypothesis = {arm, {effect}};
+  fit.parameters = effect_parameters(evidence, fit.hypothesis, arm, 0);
+  std::erase_if(fit.parameters, [](const FitParameter& p) { return p.is_whole; });
+  for (const FitParameter& p : fit.parameters) fit.value.push_back(parameter_value(fit.hypothesis, p));
+  fit.std_deviation.assign(fit.parameters.size(), 1e-6);
+  fit.blocks = 9;
+  fit.covariance = Eigen::MatrixXd::Zero(std::ssize(fit.parameters), std::ssize(fit.parameters));
+  return estimated_parameters(evidence, arm, fit, 0, 0, told);
+}
+
+PlacedEffect of_one_joint(const char* name) { return place_effect(*find_effect(name), first_joints(1).nominal, 0); }
+
+TEST(Estimates, AreOfTheEffectAndNotOfItsPast) {
+  const PlacedEffect loop = of_one_joint("hysteresis");
+  const std::vector<Estimated> told = told_of(loop, loop);
+  ASSERT_EQ(told.size(), 2u) << "it has a state, too";
+  EXPECT_EQ(told[0].name, "share");
+  EXPECT_EQ(told[1].name, "yield_stretch");
+}
+
+TEST(Estimates, OfAWholeNumberHaveNoInterval) {
+  PlacedEffect ripple = of_one_joint("torque_ripple");
+  ripple.p[2] = 6;
+  const std::vector<Estimated> told = told_of(ripple, ripple);
+  ASSERT_EQ(told.size(), 3u);
+  EXPECT_EQ(told[2].name, "order");
+  EXPECT_EQ(told[2].value, 6);
+  EXPECT_EQ(told[2].lower, 6);
+  EXPECT_EQ(told[2].upper, 6);
+  EXPECT_LT(told[0].lower, told[0].upper);
+}
+
+TEST(Estimates, OfAnInstantAreOnTheClockOnWhichItIsTold) {
+  PlacedEffect slip = of_one_joint("cable_slip"), told_slip = slip;
+  slip.p[1] = 1.5, told_slip.p[1] = 0.25;
+  const std::vector<Estimated> told = told_of(slip, told_slip);
+  ASSERT_GE(told.size(), 2u);
+  EXPECT_EQ(told[0].value, slip.p[0]);
+  const double half = t_quantile(8, 0.025) * 1e-6;
+  EXPECT_DOUBLE_EQ(told[1].value, 0.25);
+  EXPECT_NEAR(told[1].lower, 0.25 - half, 1e-12);
+  EXPECT_NEAR(told[1].upper, 0.25 + half, 1e-12);
 }
 
 }  // namespace

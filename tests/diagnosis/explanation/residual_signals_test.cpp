@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "estimators/process/standstill.h"
@@ -189,6 +190,21 @@ TEST(ResidualSignals, WhatOneRecordLacksIsUnknown) {
   EXPECT_EQ(s.time.size(), 2 * in_motion().signals(1).time.size());
   o.records[1].joint[0].clear();
   EXPECT_TRUE(o.signals(1).of(ResidualKind::joint_torque).empty()) << "the force on a joint needs all sensors";
+}
+
+TEST(ResidualSignals, ATorqueCountsOnlyWhereItIsValidAndItsMotorMoves) {
+  Observed o = in_motion();
+  Record& r = o.records[0];
+  const auto torques = [&] { return o.signals(1).of(ResidualKind::motor_torque); };
+  const std::vector<double> all = torques();
+  const auto counted = std::find_if(all.begin() + 200, all.end(), [](double t) { return std::isfinite(t); });
+  ASSERT_NE(counted, all.end());
+  const auto i = static_cast<std::size_t>(counted - all.begin()), at = i * std::lround(0.01 / r.dt);
+  r.torque_valid[1][at] = 0;
+  EXPECT_TRUE(std::isnan(torques()[i])) << "not measured";
+  r.torque_valid[1][at] = 1;
+  r.motor_rate[1][at] = 0;
+  EXPECT_TRUE(std::isnan(torques()[i])) << "friction has any value at rest";
 }
 
 }  // namespace

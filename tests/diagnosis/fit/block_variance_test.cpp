@@ -65,4 +65,14 @@ TEST(BlockVariance, BlocksAreGroupedButSomeAreLeft) {
   EXPECT_EQ(halyard::grouped_blocks(block, 50, 10).back(), 9);
 }
 
+TEST(BlockVariance, CorrelationTimeDoesNotDependOnTheMean) {
+  std::mt19937 random(3);
+  const auto rows_of = [](const Eigen::VectorXd& x) {
+    return halyard::correlation_rows({x.data(), static_cast<std::size_t>(x.size())});
+  };
+  const Eigen::VectorXd x = correlated_noise(2000, random), above = x.array() + 50;
+  // Products of 50 keep 12 digits.
+  EXPECT_NEAR(rows_of(above), rows_of(x), 1e-8 * rows_of(x));
+}
+
 }  // namespace

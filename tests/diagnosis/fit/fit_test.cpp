@@ -54,7 +54,8 @@ TEST(IndependentRows, ManyOfNoiseAndFewOfErrorsOfTheModel) {
   EXPECT_NEAR(independent_rows(evidence, scale)[1], evidence.noise_rows(), 0.2 * evidence.noise_rows());
   for (double& s : scale) s *= 100;
   // The noise is a ten-thousandth of such a mean square.
-  EXPECT_NEAR(independent_rows(evidence, scale)[1], evidence.correlated_rows(), 2e-4 * evidence.correlated_rows());
+  for (const int c : {0, 1})
+    EXPECT_NEAR(independent_rows(evidence, scale)[c], evidence.correlated_rows(), 2e-4 * evidence.correlated_rows());
 }
 
 TEST(Fit, FindsTheInstantOfASlipThatIsAPeriodOfTheCableOff) {
@@ -109,6 +110,23 @@ TEST(BaselineParameters, LeaveNoValueThatAModelFileMayNotHave) {
     ArmModel at_bound = model;
     at_bound.nominal = h.nominal;
     EXPECT_NO_THROW(parse_model(model_to_xml(at_bound), "at bound")) << p.name;
+  }
+}
+
+TEST(Sensitivities, AreChangesByOneUnitOfTheOptimiser) {
+  const ArmModel model = first_joints(1);
+  const Evidence evidence(make_records(simulate(motion(model, 2)).measured, model, {}), model);
+  const Hypothesis at{model.nominal, {place_neutral_effect(*find_effect("encoder_offset"), model.nominal, 0)}};
+  FitParameter offset = effect_parameters(evidence, at, model.nominal, 0).at(0);
+  for (const double scale : {0.005, 0.02}) {  // rad
+    offset.scale = scale;
+    const auto columns = sensitivities(evidence, at, {offset});
+    ASSERT_EQ(columns.size(), 1u);
+    for (std::size_t r = 0; r < columns[0].size(); ++r)
+      if (evidence.row_channel()[r] == 1) {
+        // The motor is taken to be as far back, but for the cable's stretch under the changed gravity.
+        ASSERT_NEAR(columns[0][r], scale, 0.01 * scale);
+      }
   }
 }
 

@@ -94,6 +94,20 @@ TEST(FinalFit, KeepsNoSizeWhoseIntervalContainsItsNeutralValue) {
   EXPECT_NEAR(sum, kOffset, 0.02 * kOffset);
 }
 
+/// A Stribeck speed that is far beyond what a search allows: the fit ends at the bound, and would be reset there.
+TEST(FinalFit, KeepsASizeAtABoundIfNothingElseMakesUpForIt) {
+  PlacedEffect truth = place_neutral_effect(*find_effect("stribeck"), first_joints(1).nominal, 0);
+  truth.p[0] = 6, truth.p[1] = 0.7;  // N m, rad/s
+  PlacedEffect start = truth;
+  start.p[1] = 0.05;
+  const Fitted one({start}, truth);
+  ASSERT_TRUE(one.fit.usable);
+  const auto speed = std::ranges::find_if(one.fit.parameters, [](const FitParameter& p) { return p.shape; });
+  ASSERT_NE(speed, one.fit.parameters.end());
+  EXPECT_TRUE(ends_at_bound(*speed, one.fit.hypothesis.effects[0].p[1])) << one.fit.hypothesis.effects[0].p[1];
+  EXPECT_GT(one.fit.hypothesis.effects[0].p[0], 0.5);
+}
+
 /// A pulley that rubs, on an arm whose mass, rotor, frictions and stiffness are off within their tolerances; and its
 /// final fit.
 struct Rubbing {
@@ -215,6 +229,22 @@ TEST(FinalFit, GivesTheModelsNumbersBack) {
     EXPECT_EQ(parameter_value(as_given.hypothesis, p), p.nominal) << p.name;
   }
   for (const FitParameter& p : as_given.parameters) EXPECT_TRUE(p.effect) << p.name;
+}
+
+TEST(FinalFit, KeepsItsEffectsAndGivesTheModelsMotionBack) {
+  const ArmModel model = first_joints(1);
+  const Evidence whole(make_records(simulate(motion(model, 2)).measured, model, {}), model, Split::none);
+  Fit found;
+  // More friction of the motor, which the log does not have, and which leaves the motion as it is.
+  found.hypothesis = {model.nominal, {place_effect(*find_effect("motor_friction"), model.nominal, 0)}};
+  found.hypothesis.nominal.joint[0].mass *= 1.02;
+  found.parameters = baseline_parameters(model);
+  found.parameters.push_back(effect_parameters(whole, found.hypothesis, model.nominal, 0).at(0));
+  const Fit given = with_given_motion(whole, model, found);
+  ASSERT_TRUE(given.usable);
+  EXPECT_EQ(given.hypothesis.effects[0].p[0], found.hypothesis.effects[0].p[0]);
+  EXPECT_EQ(given.hypothesis.nominal.joint[0].mass, model.nominal.joint[0].mass);
+  for (const FitParameter& p : given.parameters) EXPECT_FALSE(p.effect) << p.name;
 }
 
 }  // namespace

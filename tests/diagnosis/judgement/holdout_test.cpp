@@ -156,5 +156,46 @@ TEST(SlowestSmoothing, IsTheLeastThatItsToleranceAdmits) {
   EXPECT_DOUBLE_EQ(slowest_smoothing(model, 1), 0.2);
 }
 
+TEST(HoldOutFloors, AreThoseOfTheTrainingDataWhereTheyHaveTheChannel) {
+  const ArmModel model = first_joints(2);
+  const Log holdout = simulate(motion(model, 2, 1)).measured;
+  Log training = simulate(motion(model, 2)).measured;
+  training.joint_position[1].clear();
+  const Evidence evidence(make_records(training, model, {}), model);
+  const HoldOut joints{make_records(holdout, model, kJointErrorBand), {}, {}},
+      torques{make_records(holdout, model, {}), {}, {}};
+  const std::vector<double> floor = holdout_floors(evidence, model, joints, torques);
+  for (const int c : {0, 1, 2}) EXPECT_EQ(floor[c], evidence.floor()[c]) << c;
+  EXPECT_GT(floor[3], 1e-4) << "rad; tolerances of lengths of some percent";
+}
+
+TEST(WorseJoints, AreThoseWhoseSquaresGrowByAFortieth) {
+  const ArmModel model = first_joints(1);
+  Record record = small_record();
+  record.dt = 0.05;
+  record.motor_rate[0].assign(kSamples, 100);
+  const auto worse = [&](double factor) {
+    const auto size = [](std::size_t i) { return 1 + 1e-3 * (i % 7); };
+    const HoldOut none = holdout_with(record, [](std::size_t) { return 0.0; });
+    HoldOut torques = holdout_with(record, size);
+    torques.after = holdout_with(record, [&](std::size_t i) { return factor * size(i); }).after;
+    return worse_joints(model, none, torques, {0.01, 0.01});
+  };
+  EXPECT_TRUE(worse(1.01).empty()) << "by 2 %";
+  EXPECT_EQ(worse(1.02), std::vector<int>{0}) << "by 4 %";
+  EXPECT_TRUE(worse(0.5).empty());
+}
+
+TEST(Resting, SeesNothingBeyondTheEndOfARecord) {
+  Record record = small_record();
+  record.compare = {0.2, 0.2, 0.2, 0.2, 0.2};
+  // The last sample moves; behind it the memory has zeros.
+  record.motor_rate[0].assign(kSamples + 2, 0);
+  record.motor_rate[0][kSamples - 1] = 10;
+  record.motor_rate[0].resize(kSamples);
+  EXPECT_FALSE(rests(record, 0, kSamples - 1, kSmoothing)) << "two fifths of the kernel see a rest";
+  EXPECT_TRUE(rests(record, 0, kSamples - 2, kSmoothing)) << "three fifths";
+}
+
 }  // namespace
 }  // namespace halyard

@@ -76,5 +76,14 @@ TEST(NestedGain, RejectsATrueNullAsOftenAsItSays) {
   EXPECT_NEAR(rejected, 0.05 * kTrials, 40);
 }
 
+TEST(NestedGain, IsTwoThirdsOfItWhereTheFloorIsAsLargeAsTheResidual) {
+  const Evidence evidence = brief_evidence();
+  const std::vector<double> residual(deciding_rows(evidence), 0.3), zero(residual.size(), 0.0), floor(2, 0.3 * 0.3);
+  const std::vector<double> gains =
+      nested_gains(evidence, score_of(evidence, zero), score_of(evidence, residual), floor);
+  const double independent = static_cast<double>(residual.size()) / evidence.correlated_rows();
+  EXPECT_NEAR(std::reduce(gains.begin(), gains.end()), independent * 2 / 3, 1e-9 * independent);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -150,5 +150,27 @@ TEST(PredictionInterval, IsUnknownIfASensitivityCannotBeIntegrated) {
   EXPECT_TRUE(std::isnan(interval.coverage[0]));
 }
 
+TEST(PredictionInterval, OfALogWithoutAnEventCountsTheOtherParameters) {
+  const ArmModel model = first_joints(1);
+  Fit fit = no_parameters();
+  for (const char* name : {"cable_slip", "encoder_offset"})
+    fit.hypothesis.effects.push_back(place_effect(*find_effect(name), model.nominal, 0));
+  fit.parameters.resize(3);
+  fit.parameters[0].effect = 0, fit.parameters[2].effect = 1;  // the second is a number of the model
+  fit.value = {1, 2, 3}, fit.std_deviation = {4, 5, 6};
+  fit.covariance = Eigen::Matrix3d{{11, 12, 13}, {12, 22, 23}, {13, 23, 33}};
+  fit.block_covariance = 2 * fit.covariance;
+  const Fit left = without_event(fit, 0);
+  ASSERT_EQ(left.hypothesis.effects.size(), 1u);
+  EXPECT_EQ(left.hypothesis.effects[0].effect->name(), "encoder_offset");
+  ASSERT_EQ(left.parameters.size(), 2u);
+  EXPECT_FALSE(left.parameters[0].effect);
+  EXPECT_EQ(left.parameters[1].effect, 0u);
+  EXPECT_EQ(left.value, (std::vector<double>{2, 3}));
+  EXPECT_EQ(left.std_deviation, (std::vector<double>{5, 6}));
+  EXPECT_EQ(left.covariance, (Eigen::Matrix2d{{22, 23}, {23, 33}}));
+  EXPECT_EQ(left.block_covariance, (Eigen::Matrix2d{{44, 46}, {46, 66}}));
+}
+
 }  // namespace
 }  // namespace halyard

@@ -31,6 +31,15 @@ TEST(LogCheck, SuspectsAMotorThatStopsAtTheEndOfItsCounter) {
   }
 }
 
+TEST(LogCheck, SuspectsNoMotorThatIsHeldAndStepsBetweenAFewCounts) {
+  constexpr double kCount = 1.5e-3;
+  Log log = without_joint_sensors(right_log());
+  for (std::size_t i = 0; i < log.size(); ++i)
+    log.motor_position[0][i] =
+        kCount * (i % 500 < 60 ? 2.0 : static_cast<double>(i / 2 % 2));  // rests at its last count
+  EXPECT_EQ(lines_of(check_log(log, raven())).find("stops abruptly"), std::string::npos);
+}
+
 TEST(LogCheck, CountsTheTorquesOfAnImpossibleSizeBesideTheFirst) {
   for (const std::size_t spikes : {1, 2, 3}) {
     Log log = right_log();

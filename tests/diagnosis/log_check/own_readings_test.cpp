@@ -94,5 +94,16 @@ TEST(LogWithRepeatedReadings, IsCleanAndToldOf) {
       << d.log_findings[0].what;
 }
 
+TEST(OwnReadings, OfASensorThatRestsAndJumpsOnceAreAllItsRows) {
+  Log log(1);
+  for (int i = 0; i < 500; ++i) {
+    log.time.push_back(1e-3 * i);
+    log.joint_position[0].push_back(1e-3 * (i < 200 ? i : i < 250 ? 200 : i - 40));
+  }
+  const std::vector<double> all = log.joint_position[0];
+  EXPECT_TRUE(keep_own_readings(log, first_joints(1)).empty());
+  EXPECT_EQ(log.joint_position[0], all);
+}
+
 }  // namespace
 }  // namespace halyard

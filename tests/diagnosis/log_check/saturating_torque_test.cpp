@@ -11,6 +11,7 @@
 
 #include "model/arm_log.h"
 #include "tests/support/checked_logs.h"
+#include "tests/support/limits.h"
 
 namespace halyard {
 namespace {
@@ -85,6 +86,18 @@ TEST(LogCheck, KnowsTheUnitOfATorqueThatStopsAtTheLimitOfTheModel) {
   EXPECT_FALSE(has_gross(stopped(12.25)));
   EXPECT_FALSE(has_gross(stopped(12.25, 0.012))) << "a sensor of current with noise";
   EXPECT_TRUE(has_gross(stopped(1e3)));
+}
+
+TEST(SaturatingTorque, OfAMotorThatGivesHalfOfWhatIsBeyondItsLimitIsSeenExactly) {
+  // One of the limits that are tried is 10, the quantile of 0.19: nothing is left beside it.
+  std::vector<double> x, y;
+  for (int i = 1; i <= 50; ++i)
+    for (const int sign : {-1, 1}) {
+      x.push_back(sign * i);
+      y.push_back(sign * (i <= 10 ? i : 10 + 0.5 * (i - 10)));
+    }
+  // ½ ln of what the unit leaves over the smallest number, 2e-308.
+  EXPECT_GT(evidence_of_saturation(x, y, 0.1, 10, 1), 300);
 }
 
 }  // namespace

@@ -136,4 +136,27 @@ TEST(ChannelNoise, OfLogsWithDifferentRatesIsTheMeanOfTheirs) {
   EXPECT_NEAR(noise_of_channel({slow, fast}, 1).in_band, mean, 0.01 * mean);
 }
 
+TEST(MedianDensity, OfASineHasItsWindowsPeakInItsOwnBin) {
+  std::vector<double> x(3000, 0.0);
+  add_sine(x, 1, 50);
+  const std::vector<double> density = halyard::median_density({x}, kInterval, kSegment);
+  ASSERT_EQ(density.size(), 500U);
+  // 2 Δ |Σ w sin|² / Σ w² with Σ w = N / 2 and Σ w² = 3 N / 8; its neighbours have half of the amplitude.
+  const double peak = kInterval * kSegment / 3 / std::numbers::ln2;
+  EXPECT_NEAR(density[50], peak, 1e-6 * peak);
+  EXPECT_NEAR(density[49], peak / 4, 1e-6 * peak);
+  EXPECT_NEAR(density[51], peak / 4, 1e-6 * peak);
+  EXPECT_NEAR(density[47], 0, 1e-6 * peak);
+}
+
+TEST(ChannelNoise, FindsALineInTheReadingsOfAJointSensor) {
+  constexpr double kHum = 1e-3;  // rad, a dozen steps of the encoder
+  halyard::Log log = simulate(halyard::motion(halyard::first_joints(1), 2)).measured;
+  add_sine(log.joint_position[0], kHum, 50);
+  const std::vector<halyard::NoiseLine> lines = noise_of_channel({log}, 1).lines;
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_NEAR(lines[0].frequency, 50, 0.5);
+  EXPECT_NEAR(lines[0].amplitude, kHum, 0.05 * kHum);
+}
+
 }  // namespace

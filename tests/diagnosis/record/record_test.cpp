@@ -242,5 +242,15 @@ TEST(Record, AbsentColumnsAndJointsWithoutMotorHaveNothingToCompare) {
   }
 }
 
+TEST(Record, BeginsAndEndsWithThePositionsOfAllMotors) {
+  Log log = log_of([](double t) { return t; }, 6, 1000);
+  for (int i = 0; i < 1000; ++i) log.motor_position[0][i] = kNan;
+  for (int i = 4000; i <= 6000; ++i) log.motor_position[1][i] = kNan;
+  const std::vector<Record> records = make_records(log, raven2(), kOneKernel);
+  ASSERT_EQ(records.size(), 1u);
+  EXPECT_NEAR(records[0].start, 1, 1e-9);
+  EXPECT_NEAR(records[0].time(records[0].size - 1), 4, 3e-3);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -47,5 +47,10 @@ TEST(Rivals, ExplainTheSamePart) { EXPECT_FALSE(is_rival(judged(100, 10), 0.4, k
 
 TEST(Leaders, CanBeIntegrated) { EXPECT_TRUE(leaders_of({Prospect{}}, kQuarter).empty()); }
 
+TEST(Leaders, ThatGainNothingAreTheTwoThatLeaveLeast) {
+  EXPECT_EQ(leaders_of({judged(0, 12), judged(0, 11), judged(0, 13), judged(0, 10)}, kQuarter),
+            (std::vector<std::size_t>{3, 1}));
+}
+
 }  // namespace
 }  // namespace halyard

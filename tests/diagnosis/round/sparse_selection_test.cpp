@@ -114,5 +114,16 @@ TEST(SparseSelection, WeighsEachChannelByWhatIsLeftInIt) {
   EXPECT_EQ(select_groups(p, 6, 4).groups, Groups{3});
 }
 
+TEST(SparseSelection, HoldsAnAmountByItsPrior) {
+  // The residual hardly counts beside the least square of 1: ½ Σ (x - a y)² + ½ P a², with Σ y² = P = 200.
+  const std::vector<Eigen::VectorXd> columns = cosines(1);
+  SparseProblem p = problem_of(columns, 1e-3 * columns[0]);
+  p.groups.clear();
+  p.free = 1;
+  p.prior(0) = kRows / 2;
+  p.least_square = {1};
+  EXPECT_NEAR(select_groups(p, 6, 4).amount(0), 0.5e-3, 1e-8);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -153,5 +153,37 @@ TEST(SearchSpace, ARefinementThatIsWrongIsRefusedWithTheEffectsName) {
             "effect 'bump': the index of its order is no parameter of it; give the index of one");
 }
 
+TEST(SearchSpace, WholeNumbersStartInsideTheirBounds) {
+  const ArmParameters<double> arm = random_arm(1, CableLaw::linear);
+  int n = 0;
+  for (const char* name : {"torque_ripple", "encoder_eccentricity"}) {
+    const EffectParameter order = find_effect(name)->parameters(arm, 0)[2];
+    const ParameterSearch search = search_space(*find_effect(name), arm, 0)["order"];
+    ASSERT_TRUE(search.is_whole) << name;
+    for (const double start : search.starts) {
+      EXPECT_GE(start, order.lower) << name;
+      EXPECT_LE(start, order.upper) << name;
+      ++n;
+    }
+  }
+  EXPECT_GT(n, 0);
+}
+
+TEST(SearchSpace, AShareThatMayBeOneHasNaturalBounds) {
+  const ArmParameters<double> arm = random_arm(1, CableLaw::linear);
+  int n = 0;
+  for (const Effect* effect : effect_library())
+    for (const EffectPlace joint : effect_places(*effect, arm)) {
+      const SearchSpace space = search_space(*effect, arm, joint);
+      for (const EffectParameter& p : effect->parameters(arm, joint)) {
+        if (!p.name.ends_with("share") || p.upper != 1) continue;
+        const auto search = std::ranges::find(space.parameters, p.name, &ParameterSearch::name);
+        EXPECT_TRUE(search->natural_bounds) << effect->name() << " " << p.name;
+        ++n;
+      }
+    }
+  EXPECT_GT(n, 0);
+}
+
 }  // namespace
 }  // namespace halyard
