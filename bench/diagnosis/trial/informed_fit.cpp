@@ -19,10 +19,10 @@ std::optional<ArmModel> informed_fit(const ArmModel& given, const Recording& rec
   const Log log = without_outliers(usable_readings(recording.training, given));
   const std::vector<Record> records = diagnosis_data(given, {log}, recording.holdout, given).training;
   const Evidence evidence(records, given), whole(records, given, Split::none);
-  Fit start;
-  start.hypothesis = {given.nominal, recording.robot.effects, {}};
-  start.parameters = Refitter(evidence, tolerated, 0).parameters(start.hypothesis);
-  const Fit fit = final_fit(whole, tolerated, start, 0);
+  const Hypothesis start{given.nominal, recording.robot.effects, {}};
+  const Fit refitted = Refitter(evidence, tolerated, 0).refit(start, evidence.score(start));
+  if (!refitted.usable) return {};
+  const Fit fit = final_fit(whole, tolerated, refitted, 0);
   if (!fit.usable) return {};
   ArmModel informed = given;
   informed.nominal = fit.hypothesis.nominal;
