@@ -9,7 +9,6 @@
 #include "diagnosis/fit/nudged.h"
 #include "diagnosis/fit/ordered_instants.h"
 #include "diagnosis/judgement/decision_rule.h"
-#include "diagnosis/judgement/likelihood.h"
 #include "diagnosis/prediction/motion_key.h"
 #include "estimators/distributions.h"
 
@@ -138,76 +137,25 @@ std::vector<double> reach_in_floors(const Evidence& whole, const Fit& f) {
   return reach;
 }
 
-/// Fall of the log-likelihood from one hypothesis to another, over all rows of the fits.
-double fall_of_likelihood(const Evidence& whole, const Hypothesis& from, const Hypothesis& to) {
-  const Score before = whole.score(from), after = whole.score(to);
-  if (!before.finite || !after.finite) return std::numeric_limits<double>::infinity();
-  double fall = 0;
-  for (int c = 0; c < whole.channels(); ++c) {
-    if (!whole.has_channel(c)) continue;
-    const double least = std::pow(whole.floor()[c], 2);
-    fall += block_log_likelihood(whole, whole.fit_count(c), before.fit_mean_square[c], least) -
-            block_log_likelihood(whole, whole.fit_count(c), after.fit_mean_square[c], least);
-  }
-  return fall;
-}
-
-/// Sizes of added effects, and shapes with usual values, that are not certain: false in the result.
-struct Certain {
-  std::vector<bool> kept;
-  std::vector<double> value;  ///< once the others are reset, to first order
-};
-
-Certain certain_parameters(const Fit& f, std::size_t given) {
+/// Resets the sizes of added effects, and shapes to their usual values, until all that are left are certain. The
+/// numbers of the model stay in the fit.
+Fit keep_certain_sizes(const Evidence& whole, const Fit& f, std::size_t given) {
   std::vector<bool> may_go;
   for (const FitParameter& p : f.parameters) may_go.push_back(p.effect >= given && (!p.shape || has_usual_value(p)));
   UncertainParameters uncertain(f, may_go, std::vector<double>(f.parameters.size(), 0));
   uncertain.reset_all();
-  Certain certain{uncertain.kept(), {}};
-  for (std::size_t i = 0; i < f.parameters.size(); ++i) certain.value.push_back(uncertain.value(i));
-  return certain;
-}
-
-/// The same, but of an effect that would lose all its sizes nothing is reset.
-Certain with_all_effects(const Fit& f, std::size_t given, Certain certain) {
-  for (std::size_t e = given; e < f.hypothesis.effects.size(); ++e) {
-    bool has_size = false;
-    for (std::size_t i = 0; i < f.parameters.size(); ++i)
-      has_size = has_size || (f.parameters[i].effect == e && !f.parameters[i].shape && certain.kept[i]);
-    for (std::size_t i = 0; i < f.parameters.size(); ++i)
-      if (f.parameters[i].effect == e && !has_size) certain.kept[i] = true;
-  }
-  certain.value = f.value;
-  return certain;
-}
-
-/// The fit without what is not certain; not usable if all is, or if what is reset turns out to be needed: how much the
-/// others make up for it is known to first order only.
-Fit without_uncertain(const Evidence& whole, const Fit& f, const Certain& certain) {
   Hypothesis h = f.hypothesis;
   std::vector<FitParameter> left;
   for (std::size_t i = 0; i < f.parameters.size(); ++i) {
     const FitParameter& p = f.parameters[i];
-    set_parameter(h, p, certain.kept[i] ? std::clamp(certain.value[i], p.lower, p.upper) : p.nominal);
-    if (certain.kept[i]) left.push_back(p);
+    const bool kept = uncertain.kept()[i];
+    set_parameter(h, p, kept ? std::clamp(uncertain.value(i), p.lower, p.upper) : p.nominal);
+    if (kept) left.push_back(p);
   }
-  if (left.size() == f.parameters.size()) return {};
-  Fit again = weighed_fit(whole, h, left);
-  if (!again.usable) return again;
-  const double by_chance = std::pow(kRule.unusual_deviations, 2) / 2;
-  again.usable = fall_of_likelihood(whole, f.hypothesis, again.hypothesis) <=
-                 by_chance * static_cast<double>(f.parameters.size() - left.size());
-  return again;
-}
-
-/// Resets the sizes of added effects, and shapes to their usual values, until all that are left are certain or needed.
-/// The numbers of the model stay in the fit.
-Fit keep_certain_sizes(const Evidence& whole, const Fit& f, std::size_t given) {
-  const Certain certain = certain_parameters(f, given);
+  if (left.size() == f.parameters.size()) return f;
+  const Fit again = weighed_fit(whole, h, left);
   // A size that was certain beside those that were reset may not be certain any more.
-  if (const Fit less = without_uncertain(whole, f, certain); less.usable) return keep_certain_sizes(whole, less, given);
-  const Fit some = without_uncertain(whole, f, with_all_effects(f, given, certain));
-  return some.usable ? keep_certain_sizes(whole, some, given) : f;
+  return again.usable ? keep_certain_sizes(whole, again, given) : f;
 }
 
 /// Standard deviations of effects that keep some of their parameters, as if they had kept all of them: what was reset

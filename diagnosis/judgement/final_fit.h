@@ -11,7 +11,6 @@ namespace halyard {
 /// All numbers of the model stay in the fit, held by their tolerances: a number that was set back to the model's value
 /// would be taken for exact, and what it is off would go into the effects' parameters. Sizes of effects that did not
 /// change significantly are reset to neutral, one at a time, the least certain first, and the others are fitted again.
-/// What is reset to first order only is kept if the others cannot make up for it.
 /// An effect all of whose sizes are reset has no parameter in the result. The standard deviations of an effect that
 /// keeps some of its sizes count what the others may be.
 /// given: number of effects that the model came with; they stay.

@@ -142,17 +142,6 @@ double probability_of_none_for(const Evidence& evidence, const Attribution& foun
 
 namespace {
 
-/// A shape of which the data do not show where in its range it lies does nothing there.
-bool ends_at_a_bound(const Fit& fit, std::size_t effect) {
-  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
-    const FitParameter& p = fit.parameters[i];
-    const auto at = static_cast<Eigen::Index>(i);
-    const bool does_nothing = p.shape && fit.covariance(at, at) >= std::pow(p.upper - p.lower, 2);
-    if (p.effect == effect && !p.is_past && !does_nothing && ends_at_bound(p, fit.value[i])) return true;
-  }
-  return false;
-}
-
 /// False if it may only make up for something else: then others may be needed only beside it.
 bool is_there(Doubt doubt) { return doubt == Doubt::none || doubt == Doubt::guess; }
 
@@ -168,7 +157,6 @@ Doubt own_doubt(const Evidence& evidence, const Attribution& found, std::size_t 
   const Naming& naming = found.namings[effect - given];
   if (naming.surer) return Doubt::surer_rival;
   if (!has_certain_size(found.final_fit, effect)) return Doubt::no_certain_size;
-  if (ends_at_a_bound(found.final_fit, effect)) return Doubt::at_bound;
   return naming.weight < kRule.sure_name ? Doubt::guess : Doubt::none;
 }
 
@@ -235,7 +223,6 @@ std::string reason_of(Doubt doubt, const Naming& naming, double none, const std:
                          other.empty() ? "another cause may as well be right" : "it may be " + other);
     }
     case Doubt::no_certain_size: return "its size may as well be zero";
-    case Doubt::at_bound: return "one of its numbers ends at the end of what is plausible";
     case Doubt::only_beside_one: return "it is needed only beside another effect that has no name";
     case Doubt::none: break;
   }

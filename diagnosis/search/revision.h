@@ -38,7 +38,6 @@ enum class Doubt {
   surer_rival,      ///< Naming::surer
   guess,            ///< one of several effects whose name is not much more probable than others
   no_certain_size,  ///< the intervals of all its sizes contain their neutral values
-  at_bound,         ///< one of its numbers ends at the end of what is plausible
   only_beside_one   ///< not needed without the doubtful effects: it may only make up for their error
 };
 

@@ -94,20 +94,6 @@ TEST(FinalFit, KeepsNoSizeWhoseIntervalContainsItsNeutralValue) {
   EXPECT_NEAR(sum, kOffset, 0.02 * kOffset);
 }
 
-/// A Stribeck speed that is far beyond what a search allows: the fit ends at the bound, and would be reset there.
-TEST(FinalFit, KeepsASizeAtABoundIfNothingElseMakesUpForIt) {
-  PlacedEffect truth = place_neutral_effect(*find_effect("stribeck"), first_joints(1).nominal, 0);
-  truth.p[0] = 6, truth.p[1] = 0.7;  // N m, rad/s
-  PlacedEffect start = truth;
-  start.p[1] = 0.05;
-  const Fitted one({start}, truth);
-  ASSERT_TRUE(one.fit.usable);
-  const auto speed = std::ranges::find_if(one.fit.parameters, [](const FitParameter& p) { return p.shape; });
-  ASSERT_NE(speed, one.fit.parameters.end());
-  EXPECT_TRUE(ends_at_bound(*speed, one.fit.hypothesis.effects[0].p[1])) << one.fit.hypothesis.effects[0].p[1];
-  EXPECT_GT(one.fit.hypothesis.effects[0].p[0], 0.5);
-}
-
 /// A pulley that rubs, on an arm whose mass, rotor, frictions and stiffness are off within their tolerances; and its
 /// final fit.
 struct Rubbing {

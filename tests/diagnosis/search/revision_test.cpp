@@ -149,18 +149,6 @@ TEST(Doubts, AGuessIsToldWithItsProbabilityAndWhatElseItMayBe) {
             "its name is a guess (63 %): another cause may as well be right");
 }
 
-TEST(Doubts, AnEffectWithANumberAtTheEndOfWhatIsPlausibleGetsNoName) {
-  const PlacedEffect ratio = on_the_only_joint("capstan_ratio", kRatio);
-  Searched s({ratio}, {ratio});
-  s.found.namings[0].weight = 1;
-  Fit& fit = s.found.final_fit;
-  const auto size = std::ranges::find_if(fit.parameters, [](const FitParameter& p) { return p.effect.has_value(); });
-  ASSERT_NE(size, fit.parameters.end());
-  EXPECT_EQ(doubts(s.evidence, s.model, s.found, 0.01)[0], Doubt::none);
-  fit.value[static_cast<std::size_t>(size - fit.parameters.begin())] = size->upper;
-  EXPECT_EQ(doubts(s.evidence, s.model, s.found, 0.01)[0], Doubt::at_bound);
-}
-
 TEST(Doubts, AnEffectWhoseSizeMayBeNeutralGetsNoName) {
   const PlacedEffect ratio = on_the_only_joint("capstan_ratio", kRatio);
   Searched s({ratio}, {ratio});
