@@ -98,7 +98,8 @@ class Evidence {
  private:
   /// Records, and what was predicted of them lately.
   struct Grid {
-    static constexpr std::size_t kMostRecent = 64 << 20;  ///< bytes of residuals that are kept; a minute has some 300 kB
+    static constexpr std::size_t kMostRecent = 64
+                                               << 20;  ///< bytes of residuals that are kept; a minute has some 300 kB
     std::vector<Record> records;
     int stride = 1;  ///< samples from a row to the next
     RecentResiduals recent{kMostRecent};

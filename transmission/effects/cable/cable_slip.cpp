@@ -19,7 +19,9 @@ namespace halyard::effects {
 class CableSlip : public EffectOf<CableSlip>, public OneSignalEffect {
  public:
   std::string name() const override { return "cable_slip"; }
-  std::string summary() const override { return "a lasting jump of the motor-to-joint relation, sudden or within seconds"; }
+  std::string summary() const override {
+    return "a lasting jump of the motor-to-joint relation, sudden or within seconds";
+  }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::stretch); }
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive == Drive::cable;
