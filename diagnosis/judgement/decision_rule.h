@@ -74,7 +74,8 @@ struct DecisionRule {
   /// s of P(none), see name_probability.h.
   double none_sharpness = 1.5;
   /// An effect is told if this is the least probability that its name or one of its alternatives is right, and that the
-  /// name is, if it is the only one. Reason: below one half it is more probable that they are wrong.
+  /// name is, if it is the only effect with more than one alternative. Reason: below one half it is more probable that
+  /// they are wrong.
   double worth_a_name = 0.5;
   /// If several effects were found, one gets a name if its name has at least this weight among its alternatives
   /// (Naming::weight). Reason: three to one. In blind trials (seeds 20271202 and 20271204, docs/blind_trials.md), names

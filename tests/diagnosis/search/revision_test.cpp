@@ -131,14 +131,15 @@ TEST(Doubts, AnEffectGetsNoNameThatIsAGuessAndDoesNotCostOthersTheirs) {
 TEST(Doubts, ASingleEffectGetsItsMostProbableNameIfThatIsMoreProbableThanNot) {
   const PlacedEffect ratio = on_the_only_joint("capstan_ratio", kRatio);
   Searched s({ratio}, {ratio});
-  const auto with = [&](double weight, double unlisted) {
-    s.found.namings[0] = {weight, {{on_the_only_joint("backlash", 1e-4), 1 - weight}}};
+  const auto with = [&](double weight, double second, double unlisted) {
+    s.found.namings[0] = {weight, {{on_the_only_joint("backlash", 1e-4), second}}};
     s.found.namings[0].unlisted.weight = unlisted;
     return doubts(s.evidence, s.model, s.found, 0.01)[0];
   };
-  EXPECT_EQ(with(0.7, 0), Doubt::none);
-  EXPECT_EQ(with(0.45, 0), Doubt::guess);
-  EXPECT_EQ(with(0.6, 0.3), Doubt::guess) << "with 30 % none of both is right";
+  EXPECT_EQ(with(0.7, 0.3, 0), Doubt::none);
+  EXPECT_EQ(with(0.45, 0.3, 0), Doubt::guess);
+  EXPECT_EQ(with(0.49, 0.48, 0), Doubt::none) << "it is one of the two";
+  EXPECT_EQ(with(0.6, 0.4, 0.3), Doubt::guess) << "with 30 % none of both is right";
 }
 
 TEST(Doubts, AGuessIsToldWithItsProbabilityAndWhatElseItMayBe) {
