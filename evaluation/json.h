@@ -10,7 +10,7 @@ namespace halyard {
 /// The number, or null for NaN, which JSON does not have.
 nlohmann::ordered_json number_or_null(double value);
 
-/// Throws std::invalid_argument for anything but a whole number that is not negative. The library would convert a
+/// Throws the library's exception for anything but a whole number that is not negative. Its get() would convert a
 /// fraction or a larger number, which is undefined where the integer cannot hold it.
 std::uint64_t whole_number(const nlohmann::ordered_json& json);
 

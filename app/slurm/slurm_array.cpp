@@ -100,8 +100,7 @@ std::optional<SubmittedArray> submitted_array(const fs::path& out) {
     const bool is_number =
         !array.job.empty() && std::ranges::all_of(array.job, [](unsigned char c) { return std::isdigit(c); });
     if (is_number && array.parts > 0) return array;
-  } catch (const nlohmann::json::exception&) {
-  } catch (const std::invalid_argument&) {}
+  } catch (const nlohmann::json::exception&) {}
   throw InputError(job_file(out).string() + ": is damaged; remove it");
 }
 

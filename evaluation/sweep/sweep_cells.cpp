@@ -258,8 +258,6 @@ SweepCell StoredCells::read(std::size_t point) const {
     return cell;
   } catch (const ordered_json::exception&) {
     damaged(journals_.at(place.journal).path, place.offset);
-  } catch (const std::invalid_argument&) {
-    damaged(journals_.at(place.journal).path, place.offset);
   }
 }
 
