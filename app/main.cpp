@@ -4,6 +4,7 @@
 /// else. A failure is one line on stderr.
 
 #include <glog/logging.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -45,11 +46,16 @@ void check_environment() {
   }
 }
 
+/// Fits run on short-lived threads. With an arena for each, freed memory stays where the next thread does not look:
+/// a diagnosis took twice the memory and a seventh more time.
+void share_freed_memory() { mallopt(M_ARENA_MAX, 2); }
+
 }  // namespace
 
 int main(int argc, char** argv) {
   halyard::occupy_closed_streams();
   halyard::end_cleanly_on_signals();
+  share_freed_memory();
   // Ceres writes to the log of why it gives up; what a fit came to is in the output, and stderr is for one line.
   FLAGS_minloglevel = google::GLOG_FATAL;
   try {

@@ -206,6 +206,21 @@ std::unique_ptr<Evidence> Evidence::coarse_around(const Hypothesis& base) const 
   return coarse;
 }
 
+std::unique_ptr<Evidence> Evidence::coarse_around(const Hypothesis& base, const std::vector<double>& most) const {
+  std::unique_ptr<Evidence> coarse = coarse_around(base);
+  if (!coarse) return nullptr;
+  std::vector<double> square(channels(), 0);
+  const std::vector<std::vector<Residuals>> of_coarse = coarse->predict_on_own_grid({base});
+  for (const Place& p : places_)
+    if (p.fit)
+      square[p.channel] += std::pow(of_coarse[p.record][0].channel[p.channel][p.index] -
+                                        coarse->correction_->fine[p.record].channel[p.channel][p.index],
+                                    2);
+  for (int c = 0; c < channels(); ++c)
+    if (square[c] > fit_count_[c] * most[c] * most[c]) return nullptr;
+  return coarse;
+}
+
 std::vector<std::vector<Residuals>> Evidence::predict_all(const std::vector<Hypothesis>& hypotheses) const {
   if (!correction_) return predict_on_own_grid(hypotheses);
   // In one request all have the same steps, so that errors of the grid are alike.

@@ -41,6 +41,8 @@ class Evidence {
   ///
   /// Null if there is no such grid with the same rows, or if `base` cannot be integrated on it.
   std::unique_ptr<Evidence> coarse_around(const Hypothesis& base) const;
+  /// Null, too, if the error at `base`, as root mean square over a channel's fitting rows, is more than most[channel].
+  std::unique_ptr<Evidence> coarse_around(const Hypothesis& base, const std::vector<double>& most) const;
 
   int n() const { return n_; }
   int channels() const { return 2 * n_; }

@@ -6,6 +6,16 @@
 #include "diagnosis/fit/nudged.h"
 
 namespace halyard {
+namespace {
+
+/// [channel] Errors of the grid that do not matter beside residuals of this size.
+std::vector<double> small_beside(std::vector<double> scale) {
+  constexpr double kSmall = 0.2;
+  for (double& s : scale) s *= kSmall;
+  return scale;
+}
+
+}  // namespace
 
 Refit restarted(Refit refit, const Hypothesis& at) {
   refit.at = at;
@@ -62,13 +72,15 @@ void Refitter::go_on(Refit& r, int passes) const {
     r.settled = true;
     const std::vector<double> scale = channel_scale(evidence_, r.score.fit_mean_square);
     const std::vector<FitParameter> numbers = numbers_beside(r.at);
-    const auto columns = sensitivities(evidence_, r.at, numbers);
+    const std::unique_ptr<Evidence> coarse = evidence_.coarse_around(r.at, small_beside(scale));
+    const Evidence& quick = coarse ? *coarse : evidence_;
+    const auto columns = sensitivities(quick, r.at, numbers);
     if (columns.empty() && !numbers.empty()) return;
     // A nudge that finds little will not find more near the next minimum.
     const bool was_nudged = r.is_nudged;
     if (r.is_nudged) {
       const std::size_t first = std::max(given_, r.nudged_from);
-      Nudge nudge = nudged(evidence_, r.at, first, model_.nominal, BeyondNumbers(evidence_, columns, scale));
+      Nudge nudge = nudged(quick, r.at, first, model_.nominal, BeyondNumbers(quick, columns, scale));
       r.is_nudged = nudge.gain > kRule.worth_a_nudge;
       r.at = std::move(nudge.at);
     }
@@ -76,7 +88,7 @@ void Refitter::go_on(Refit& r, int passes) const {
     options.cost_tolerance = 1e-3;
     std::vector<FitParameter> fitted = parameters(r.at);
     std::erase_if(fitted, [&](const FitParameter& p) { return find_parameter(r.held, p).has_value(); });
-    const Fit f = fit(evidence_, r.at, fitted, scale, options, columns);
+    const Fit f = fit(quick, r.at, fitted, scale, options, columns);
     if (!f.usable) return;
     const Score score = evidence_.score(f.hypothesis);
     if (!score.finite) return;

@@ -1,6 +1,6 @@
 #pragma once
 /// Fits a hypothesis together with the parameters of the model, in passes: each pass weighs the channels by the
-/// residual that the last one left.
+/// residual that the last one left. While this is large, a pass predicts on a coarser grid (Evidence::coarse_around()).
 
 #include <limits>
 #include <optional>

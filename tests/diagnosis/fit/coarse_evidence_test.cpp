@@ -55,6 +55,16 @@ TEST_P(CoarseEvidence, FollowsAChange) {
 
 INSTANTIATE_TEST_SUITE_P(RowsAReading, CoarseEvidence, testing::Values(1, 10));
 
+TEST(CoarseEvidence, IsNoneWhereTheGridErrsTooMuch) {
+  const ArmModel model = first_joints(2);
+  const Evidence evidence = recorded(model, 1);
+  const Hypothesis base{model.nominal, {}};
+  std::vector<double> most(4, 1);
+  EXPECT_TRUE(evidence.coarse_around(base, most));
+  most[3] = 1e-12;  // m: no grid is as good
+  EXPECT_FALSE(evidence.coarse_around(base, most));
+}
+
 TEST(CoarseEvidence, OfABaseThatCannotBeIntegratedIsNone) {
   const ArmModel model = first_joints(1);
   Hypothesis impossible{model.nominal, {}};
