@@ -299,5 +299,11 @@ TEST(SrUkfOnTheArm, FindsTheJointsOfTheSecondSimulatorThroughABacklashThatItKnow
   EXPECT_LT(rms(2), 0.02e-3);
 }
 
+TEST(SrUkfOnTheArm, WeightsAtTheEndsOfTheirRangesAreTaken) {
+  // Twelve states and kappa have to be more than nothing.
+  EXPECT_EQ(refusal({{"alpha", "1e-5"}, {"beta", "0"}, {"kappa", "-11.998"}, {"curvature_limit", "0"}}), "accepted");
+  EXPECT_NE(refusal({{"kappa", "-11.9995"}}), "accepted");
+}
+
 }  // namespace
 }  // namespace halyard

@@ -86,5 +86,22 @@ TEST(Ekf, FindsTheJointsOfTheSecondSimulator) {
   }
 }
 
+TEST(Ekf, AStateWithoutDoubtHasNoBackwardGain) {
+  ExtendedKalmanFilter filter;
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(2, 2), Q_root = S;
+  S(0, 0) = 3;
+  Q_root(0, 0) = 4;
+  const Eigen::Vector2d x(1, 2);
+  filter.reset(x, S);
+  const LaneMatrix S_0 = filter.root();
+  filter.predict(LinearProcess(Eigen::Matrix2d::Identity()), Q_root);
+  BackwardStep step;
+  filter.backward_step(x, S_0, step);
+  EXPECT_DOUBLE_EQ(step.G.view()(0, 0), 9.0 / 25);  // of the variance after it, what was there before
+  EXPECT_EQ(step.G.view()(0, 1), 0);
+  EXPECT_EQ(step.G.view()(1, 0), 0);
+  EXPECT_EQ(step.G.view()(1, 1), 0);
+}
+
 }  // namespace
 }  // namespace halyard

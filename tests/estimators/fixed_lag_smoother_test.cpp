@@ -12,6 +12,7 @@
 #include "plant/simulate.h"
 #include "tests/support/arm_runs.h"
 #include "tests/support/linear_gaussian.h"
+#include "tests/support/message_of.h"
 
 namespace halyard {
 namespace {
@@ -216,6 +217,14 @@ TEST(FixedLagSmoother, WrongOptionsAreRefused) {
             "estimator smoother: option beta is smaller than alpha squared: a down-date cannot be smoothed; give a "
             "larger beta or a smaller alpha");
   EXPECT_EQ(refusal({{"lag", "0.5"}}), "accepted");
+}
+
+TEST(FixedLagSmoother, ABetaOfAlphaSquaredIsEnough) {
+  const auto answer = [](const std::string& beta) {
+    return message_of([&] { make_smoother(raven2(), {{"alpha", "0.5"}, {"beta", beta}}); });
+  };
+  EXPECT_EQ(answer("0.25"), "no InputError");
+  EXPECT_NE(answer("0.2499"), "no InputError");
 }
 
 }  // namespace

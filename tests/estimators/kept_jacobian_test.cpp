@@ -208,5 +208,48 @@ TEST_F(KeptJacobianWithEffects, IsNewBeyondAKink) {
   expect_near(x, 3e-3);  // the chain is kept
 }
 
+TEST_F(KeptJacobian, IsKeptForTenMillisecondsAndNotForEarlierSteps) {
+  const Eigen::VectorXd x = moving(1.0001);
+  for (const double later : {-1e-3, 9e-3, 11e-3}) {
+    ExponentialStep after(process_), alone(process_);
+    step(after, moving(1), 0);
+    const Belief b = step(after, x, later), own = step(alone, x, later);
+    const bool is_kept = later > 0 && later < 1e-2;
+    EXPECT_EQ(Eigen::MatrixXd(b.FS.view()) != Eigen::MatrixXd(own.FS.view()), is_kept) << later;
+  }
+}
+
+/// Checks F of a step from x, which follows one from `before`, by what the step makes of a root.
+void expect_transition(const ProcessModel& process, const Eigen::Vector3d& torque, const Eigen::VectorXd& before,
+                       const Eigen::VectorXd& x) {
+  const int n = process.n_states();
+  const Eigen::MatrixXd S = Eigen::VectorXd::LinSpaced(n, 1, 2).asDiagonal();
+  ExponentialStep exponential(process);
+  LaneMatrix FS = in_lanes(Eigen::MatrixXd::Zero(n, n)), F;
+  for (const bool is_second : {false, true}) {
+    Eigen::VectorXd moved = is_second ? x : before;
+    exponential.linearise({is_second ? kLength : 0, kLength, torque.data()}, moved);
+    ASSERT_TRUE(exponential.start(in_lanes(S), Eigen::MatrixXd(n, 0)));
+    ASSERT_TRUE(exponential.advance_root(moved, FS));
+  }
+  ASSERT_TRUE(exponential.transition(F));
+  const Eigen::MatrixXd expected = FS.view(), found = F.view() * S;
+  for (int c = 0; c < n; ++c) EXPECT_LT((found - expected).col(c).norm(), 1e-12 * expected.col(c).norm()) << c;
+}
+
+TEST_F(KeptJacobian, TheTransitionMovesARootAsTheStepDoes) {
+  Eigen::VectorXd followed = moving(1);  // by the new slopes of friction, as above
+  followed(*process_.layout().motor_rate[0]) = 3 * process_.arm().joint[0].motor_smoothing;
+  for (const Eigen::VectorXd& x : {moving(1.0001), followed, moving(0.01)})
+    expect_transition(process_, torque_, moving(1), x);
+}
+
+TEST_F(KeptJacobianWithEffects, TheTransitionMovesARootAsTheStepDoes) {
+  Eigen::VectorXd followed = moving(1);  // by the new slope of the ripple, as above
+  followed(*process_.layout().motor_angle[1]) += 0.02;
+  for (const Eigen::VectorXd& x : {moving(1.0001), followed, moving(0.01)})
+    expect_transition(process_, torque_, moving(1), x);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -95,5 +95,27 @@ TEST(Kinematics, HasNoOptions) {
   }
 }
 
+TEST(Kinematics, VelocityIsThatSinceTheSampleBefore) {
+  constexpr double kTick = 1.0 / 512;  // s; sums of it are exact
+  const ArmModel model = raven2();
+  KinematicsEstimator kinematics(model);
+  const Eigen::Vector3d q(0.3, 1.7, 0.33), first(0.5, -0.2, 0.04), second(-0.3, 0.4, 0.02);
+  const Eigen::Vector3d q_1 = q + kTick * first, q_2 = q_1 + 3 * kTick * second;
+  kinematics.reset(at_angles(2, unstretched_motors(model.nominal, q)));
+  kinematics.update(at_angles(2 + kTick, unstretched_motors(model.nominal, q_1)));
+  kinematics.update(at_angles(2 + 4 * kTick, unstretched_motors(model.nominal, q_2)));
+  // Two positions to 50 eps each, over three ticks.
+  EXPECT_LT((kinematics.estimate().joint_velocity - second).cwiseAbs().maxCoeff(), 100 * kEps / (3 * kTick));
+}
+
+TEST(Kinematics, AMotorThatHasNotBeenReadInARecordIsAtHome) {
+  const ArmModel model = raven2();
+  KinematicsEstimator kinematics(model);
+  kinematics.reset(at_angles(0, unstretched_motors(model.nominal, Eigen::Vector3d(0.3, 1.7, 0.33))));
+  kinematics.reset(at_angles(0, Eigen::Vector3d::Constant(kNan)));
+  // As of the path equation.
+  EXPECT_LT((kinematics.estimate().joint_position - model.home()).cwiseAbs().maxCoeff(), 10 * 5 * kEps);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -329,5 +329,20 @@ TEST_F(WithTestEffects, DelayedCommandsComeFromTheHistoryInEveryPath) {
   }
 }
 
+TEST(ProcessModel, AJointWithoutMotorReadsZeroThereAlsoBesideAnEffectOfItsSensors) {
+  ArmModel model = pendulum();
+  model.nominal.joint[0].motor_encoder_offset = 0.3;
+  add_effect(model, "encoder_eccentricity", 0, {0.02, 0.01, 1});
+  const ProcessModel process(model);
+  ASSERT_FALSE(process.readings_are_linear());
+  const Eigen::VectorXd x = Eigen::Vector2d(0.4, -0.7);
+  Eigen::VectorXd z = Eigen::VectorXd::Ones(1);
+  process.read(0, x, z);
+  EXPECT_EQ(z(0), 0);
+  Eigen::MatrixXd H;
+  EXPECT_EQ(process.motor_readings(0, x, &H)(0), 0);
+  EXPECT_EQ(H, Eigen::MatrixXd::Zero(1, 2));
+}
+
 }  // namespace
 }  // namespace halyard

@@ -161,5 +161,85 @@ TEST(SrUkf, AKinkMovesTheMeanByNoMoreThanTheLimitAllows) {
   EXPECT_EQ(mean_after({.curvature_limit = 0.03}), 0);
 }
 
+/// x' = F x. Of pairs of sigma points it says that their mean moves by `shift` besides.
+class LinearPairs final : public DiscreteProcess {
+ public:
+  LinearPairs(const Eigen::MatrixXd& F, const Eigen::VectorXd& shift) : F_(F), shift_(shift) {}
+  void advance(Eigen::MatrixXd& X) const override { X = F_ * X; }
+  void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const override {
+    x = F_ * x;
+    F = F_;
+  }
+  bool advance_pairs(Eigen::VectorXd& x, const LaneMatrix& S, double gamma, LaneMatrix& FS,
+                     Eigen::VectorXd& shift) const override {
+    gamma_ = gamma;
+    x = F_ * x;
+    FS.view().leftCols(F_.cols()) = F_ * S.view();
+    shift = shift_;
+    return true;
+  }
+  std::string name_of(int state) const override { return "state " + std::to_string(state); }
+  /// Of the pairs; 0: none were moved.
+  double gamma() const { return gamma_; }
+
+ private:
+  Eigen::MatrixXd F_;
+  Eigen::VectorXd shift_;
+  mutable double gamma_ = 0;
+};
+
+TEST(SrUkf, MovesSigmaPointsInPairsWhereTheyAreNarrow) {
+  const LinearGaussian p(1);
+  for (const double gamma : {1e-3, 0.099, 0.101, 1.0}) {
+    SquareRootUkf filter({.alpha = gamma / 2});  // γ² = α² n of four states
+    filter.reset(p.x_0, initial_root());
+    const LinearPairs process(p.F, Eigen::VectorXd::Zero(4));
+    filter.predict(process, p.Q_root);
+    EXPECT_DOUBLE_EQ(process.gamma(), gamma < 0.1 ? gamma : 0);
+  }
+}
+
+TEST(SrUkf, WhatPairsMoveTheMeanByCountsForADeviationOfOneAndWidensTheBelief) {
+  constexpr double kAlpha = 0.02, kBeta = 1.5, kKappa = 2, kSquare = kAlpha * kAlpha * (4 + kKappa);  // γ²
+  const LinearGaussian p(1);
+  const Eigen::Vector4d delta(0.1, -0.2, 0.05, 0.3);
+  SquareRootUkf filter({.alpha = kAlpha, .beta = kBeta, .kappa = kKappa});
+  filter.reset(p.x_0, initial_root());
+  filter.predict(LinearPairs(p.F, kSquare / 4 * delta), p.Q_root);  // δ = W Σ d_i, of eight points
+  const Eigen::MatrixXd P =
+      p.F * p.F.transpose() + p.Q_root * p.Q_root.transpose() + (kBeta - kAlpha * kAlpha) * delta * delta.transpose();
+  // A few roundings of numbers up to 10.
+  EXPECT_LT((filter.x() - p.F * p.x_0 - delta).norm(), 20 * kEps);
+  EXPECT_LT((filter.S() * filter.S().transpose() - P).norm(), 100 * kEps);
+}
+
+TEST(SrUkf, TheBackwardStepOfPairsIsThatOfTheKalmanSmoother) {
+  const LinearGaussian p(1);
+  Eigen::Matrix4d root;
+  root << 2, 0, 0, 0, 0.3, 1, 0, 0, -0.2, 0.1, 3, 0, 0.4, -0.6, 0.2, 0.5;
+  SquareRootUkf filter;
+  filter.reset(p.x_0, root);
+  const LaneMatrix S_0 = filter.root();
+  const LinearPairs process(p.F, Eigen::VectorXd::Zero(4));
+  filter.predict(process, p.Q_root);
+  ASSERT_GT(process.gamma(), 0);
+  BackwardStep step;
+  filter.backward_step(p.x_0, S_0, step);
+  const Eigen::MatrixXd P_0 = root * root.transpose();
+  const Eigen::MatrixXd P = p.F * P_0 * p.F.transpose() + p.Q_root * p.Q_root.transpose();
+  const Eigen::MatrixXd G = P.llt().solve(p.F * P_0).transpose(), V = step.V_root.view();
+  // Roundings of numbers up to 10, through the inverse of P.
+  EXPECT_LT((step.G.view() - G).norm(), 1e-12);
+  EXPECT_LT((V * V.transpose() - (P_0 - G * P * G.transpose())).norm(), 1e-12);
+}
+
+TEST(SrUkf, WeightsWithoutSpreadAreRefused) {
+  EXPECT_THROW(SquareRootUkf({.alpha = 0}), std::invalid_argument);
+  const LinearGaussian p(1);
+  SquareRootUkf filter({.kappa = -4});  // four states
+  filter.reset(p.x_0, initial_root());
+  EXPECT_THROW(filter.predict(LinearProcess(p.F), p.Q_root), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -185,5 +185,29 @@ TEST(ArmParameters, OfAJointThatSaysNothingChangeNothing) {
   EXPECT_TRUE(joint.motor_zero_known && joint.joint_zero_known);
 }
 
+TEST(ArmFields, OfACableBelongToTheRigidTransmissionOfARigidDrive) {
+  const ArmField of_cable{"cable", "stiffness", "", "N/m", FieldKind::stiffness};
+  const ArmField of_motor{"motor", "viscous", "", "N m s/rad", FieldKind::friction};
+  EXPECT_EQ(of_cable.part_at(Drive::rigid), "rigid");
+  EXPECT_EQ(of_cable.part_at(Drive::cable), "cable");
+  EXPECT_EQ(of_cable.part_at(Drive::none), "cable");
+  for (const Drive drive : {Drive::cable, Drive::rigid, Drive::none}) EXPECT_EQ(of_motor.part_at(drive), "motor");
+}
+
+TEST(ArmParameters, OfAnArmThatSaysNothingAreNoBodyAndNoCableUnderTheEarthsGravity) {
+  const ArmParameters<double> arm;
+  EXPECT_EQ(arm.n, 0);
+  EXPECT_EQ(arm.gravity[0], -9.81);
+  EXPECT_EQ(arm.gravity[1], 0);
+  EXPECT_EQ(arm.gravity[2], 0);
+  for (const double coordinate : arm.payload_point) EXPECT_EQ(coordinate, 0);
+  const JointParameters<double>& joint = arm.joint[0];
+  for (const double nothing : {joint.mass, joint.rotor_inertia, joint.stiffness, joint.damping, joint.tension}) {
+    EXPECT_EQ(nothing, 0);
+  }
+  EXPECT_EQ(joint.motor_smoothing, 0.5);
+  EXPECT_EQ(joint.joint_smoothing, 5e-3);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -34,5 +34,15 @@ TEST(Inertia, OfABodyFulfilsTheTriangleInequality) {
   EXPECT_EQ(judge_inertia({0, 0, 0}), Inertia::of_a_body);  // a point
 }
 
+TEST(Inertia, IsJudgedAlikeInEveryUnitAndForgivesRounding) {
+  constexpr double kRounding = 1e-12;  // of moments of the order of 1
+  for (const double unit : {1e-9, 1.0, 1e9}) {
+    EXPECT_EQ(judge_inertia(unit * Eigen::Vector3d(1, 2, 3 + kRounding)), Inertia::of_a_body) << unit;
+    EXPECT_EQ(judge_inertia(unit * Eigen::Vector3d(-kRounding, 2, 2)), Inertia::of_a_body) << unit;
+    EXPECT_EQ(judge_inertia(unit * Eigen::Vector3d(1, 2, 3.1)), Inertia::too_long) << unit;
+    EXPECT_EQ(judge_inertia(unit * Eigen::Vector3d(-0.1, 2, 2)), Inertia::negative) << unit;
+  }
+}
+
 }  // namespace
 }  // namespace halyard

@@ -115,5 +115,21 @@ TEST(CableLaw, StoredEnergyIsTheIntegralOfTheForce) {
   }
 }
 
+TEST(CableLaw, ARunThatIsLetGoFastHasNoTensionAtAll) {
+  for (const CableLaw law : {CableLaw::exponential, CableLaw::linear}) {
+    // The damper would take 1380 N off a tension of 43 N.
+    EXPECT_EQ(run_tensions(cable(law), 0.0, 1.0).backward, 0);
+    EXPECT_EQ(run_tensions(cable(law), 0.0, -1.0).forward, 0);
+  }
+}
+
+TEST(CableLaw, ExponentialCableIsOddAlsoBeyondItsBound) {
+  const JointParameters<double> j = cable(CableLaw::exponential);
+  for (const double exponent : {29.5, 30.5, 1e3}) {
+    const double x = exponent * j.tension / j.stiffness;
+    EXPECT_EQ(cable_force(j, -x, 0.0), -cable_force(j, x, 0.0)) << exponent;
+  }
+}
+
 }  // namespace
 }  // namespace halyard

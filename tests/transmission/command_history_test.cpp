@@ -68,5 +68,19 @@ TEST(CommandHistory, RemembersItsSpanAndForgetsWhatIsOlder) {
   EXPECT_NEAR(history.at(0, 0.0), 4.999 - span, 2.01 * dt);
 }
 
+TEST(CommandHistory, ForgetsAllWhenItIsCleared) {
+  CommandHistory history(1, 0.01);
+  const double old = 5, first = 1, second = 3;
+  for (int i = 0; i < 100; ++i) history.push(i * 1e-3, &old);
+  history.clear();
+  const Dual nothing = history.at(0, Dual::seed(0.05, 2));
+  EXPECT_EQ(nothing.a, 0);
+  EXPECT_EQ(nothing.d[2], 0);
+  history.push(0, &first);  // earlier than what was forgotten
+  EXPECT_EQ(history.at(0, 7.0), 1);
+  history.push(1, &second);
+  EXPECT_EQ(history.at(0, 1.0), 2);  // half way between the middles of both holds
+}
+
 }  // namespace
 }  // namespace halyard

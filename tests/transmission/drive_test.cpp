@@ -108,5 +108,28 @@ TEST(Jacobian, IsThatOfAClosedFormOverSeveralPasses) {
   }
 }
 
+TEST(CableDrive, TheJointsDoNotCarryItsRotor) {
+  const ArmParameters<double> arm = random_arm(3, CableLaw::paper);
+  double M[kMaxJoints][kMaxJoints] = {};
+  add_rotor_mass(arm, M);
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(M[r][c], 0) << r << c;
+}
+
+TEST(JointWithoutDrive, HasNoMotorThatTurns) {
+  ArmParameters<double> arm = random_arm(3, CableLaw::paper);
+  arm.joint[1].drive = Drive::none;
+  JointSignals<double> s[kMaxJoints];
+  for (JointSignals<double>& of_joint : s) of_joint.motor_angle = of_joint.motor_rate = 5;
+  set_motion(arm, kPosition, kRate, s);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(s[k].joint_position, kPosition[k]) << k;
+    EXPECT_EQ(s[k].joint_rate, kRate[k]) << k;
+    // Motors of cables move on their own.
+    EXPECT_EQ(s[k].motor_angle, k == 1 ? 0 : 5) << k;
+    EXPECT_EQ(s[k].motor_rate, k == 1 ? 0 : 5) << k;
+  }
+}
+
 }  // namespace
 }  // namespace halyard

@@ -85,5 +85,49 @@ TEST(EffectBounds, FrictionOfTheJointIsAsMuchPowerAtTheMotor) {
   EXPECT_DOUBLE_EQ(typical_motor_friction(j) * rate, from_motor * joint_rate);
 }
 
+TEST(EffectBounds, OfAnEncodersErrorIsAnyShareAtTheJointAndNoneUnlessTold) {
+  const ArmParameters<double> arm = random_arm(5, CableLaw::linear);  // the first joint moves other cables
+  const EffectParameter share = bounds_of("encoder_offset", "at_joint", arm);
+  EXPECT_EQ(share.neutral, 0);
+  EXPECT_EQ(share.typical, 0);
+  EXPECT_EQ(share.lower, 0);
+  EXPECT_EQ(share.upper, 1);
+}
+
+TEST(EffectBounds, OfViscousFrictionFollowTheCoulombLevelWhereTheModelHasNone) {
+  ArmParameters<double> arm = random_arm(5, CableLaw::linear);
+  arm.joint[0].motor_viscous = arm.joint[0].joint_viscous = 0;
+  EXPECT_DOUBLE_EQ(bounds_of("motor_friction", "viscous_change", arm).typical,
+                   0.3 * 0.002 * typical_motor_friction(arm.joint[0]));
+  EXPECT_DOUBLE_EQ(bounds_of("joint_friction", "viscous_change", arm).typical,
+                   0.3 * 0.02 * typical_joint_friction(arm.joint[0]));
+}
+
+TEST(EffectBounds, ACableIsStretchedByItsTensionOrByHalfTheFrictionOfItsJoint) {
+  JointParameters<double> j;
+  j.joint_coulomb = 0.6;
+  j.pulley_radius = 0.05;
+  j.stiffness = 1e4;
+  EXPECT_DOUBLE_EQ(typical_stretch(j), 0.5 * 0.6 / 0.05 / 1e4);
+  j.tension = 20;
+  EXPECT_DOUBLE_EQ(typical_stretch(j), 20 / 1e4);
+}
+
+TEST(EffectBounds, AGapIsThreeHundredthsOfTheCapstanOrTenStretches) {
+  JointParameters<double> j;  // a gear has a radius of 1
+  j.tension = 20;
+  j.stiffness = 1e4;
+  EXPECT_DOUBLE_EQ(typical_half_gap(j), 10 * 20 / 1e4);
+  j.capstan_radius = 0.01;
+  EXPECT_DOUBLE_EQ(typical_half_gap(j), 0.03 * 0.01);
+}
+
+TEST(EffectBounds, SizesOfAJointWithoutNumbersAreAboveZero) {
+  JointParameters<double> j;
+  j.stiffness = 1e12;
+  EXPECT_EQ(typical_joint_friction(j), 1e-6);
+  EXPECT_EQ(typical_stretch(j), 1e-9);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -264,5 +264,20 @@ TEST(FrictionDrift, ScalesAllFrictionOfMotorAndJointFromItsStartToItsEnd) {
   }
 }
 
+TEST(FrictionDrift, TakesNoMoreThanAllFrictionAway) {
+  const ArmParameters<double> arm = random_arm(21, CableLaw::linear);
+  ArmParameters<double> smooth = arm;
+  JointParameters<double>& j = smooth.joint[0];
+  j.motor_coulomb = j.motor_viscous = j.joint_coulomb = j.joint_viscous = 0;
+  std::mt19937_64 random(5);
+  const Motion m = random_motion(random);
+  // Half of it a second, over ten seconds.
+  const Transmission<double> drifting(arm, {placed("friction_drift", arm, 0, {-0.5, 0, 0, 1})});
+  const Evaluated a = evaluate(drifting, m, nullptr, 10),
+                  b = evaluate(Transmission<double>(smooth, {}), m, nullptr, 10);
+  EXPECT_NEAR(a.s[0].motor_torque, b.s[0].motor_torque, 10 * 4 * kEps);
+  EXPECT_NEAR(a.s[0].joint_force, b.s[0].joint_force, 100 * 4 * kEps);  // cables pull with up to 100 N
+}
+
 }  // namespace
 }  // namespace halyard

@@ -40,5 +40,13 @@ TEST(Jacobian, RefusesMoreVariablesThanItHasRoomFor) {
   EXPECT_THROW(jacobian(squares(0), x, y, J), std::invalid_argument);
 }
 
+TEST(Jacobian, TakesAsManyVariablesAsItHasRoomFor) {
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(kMaxJacobian, 1, kMaxJacobian);
+  Eigen::VectorXd y(3);
+  Eigen::MatrixXd J(3, kMaxJacobian);
+  jacobian(squares(kMaxJacobian), x, y, J);
+  for (int c = 0; c < kMaxJacobian; ++c) EXPECT_EQ(J(2, c), 3 * x(c)) << c;
+}
+
 }  // namespace
 }  // namespace halyard

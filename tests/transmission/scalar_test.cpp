@@ -194,5 +194,40 @@ TEST(Lanes, FunctionsKeepNotANumberAndSaturate) {
   EXPECT_GT(sinh(Lanes(inf))[1], 1e300);
 }
 
+TEST(Dual, EqualValuesCompareAsPlainNumbersWhateverTheirDerivatives) {
+  const Dual one = Dual::seed(1, 0), same = Dual::seed(1, 3);
+  EXPECT_FALSE(one < same);
+  EXPECT_FALSE(one > same);
+  EXPECT_TRUE(one <= same);
+  EXPECT_TRUE(one >= same);
+}
+
+TEST(Lanes, ThePlainValueIsThatOfTheFirstLane) {
+  Lanes lanes(2.0);
+  lanes.set(0, 7);
+  EXPECT_EQ(value(lanes), 7);
+  EXPECT_EQ(value(Dual::seed(3, 1)), 3);
+  EXPECT_EQ(value(4.0), 4);
+}
+
+TEST(Lanes, ExponentialsStayWhatTheyAreBeyondTheBoundOfTheirArgument) {
+  constexpr double kBound = 708;
+  for (const auto& f : {+[](Lanes x) { return exp(x); }, +[](Lanes x) { return sinh(x); }})
+    for (const double way : {1.0, -1.0})
+      for (const double x : {708.5, 1e3}) EXPECT_EQ(f(Lanes(way * x))[0], f(Lanes(way * kBound))[0]) << way * x;
+}
+
+TEST(Lanes, AMaskHasAllEntriesOnlyIfItHasEach) {
+  // Wider than a register of this file, whose entries are then looked at one by one.
+  typedef long long Entries __attribute__((vector_size(8 * kLaneWidth)));
+  EXPECT_TRUE(lane_math::all(~Entries{}));
+  EXPECT_FALSE(lane_math::all(Entries{}));
+  for (int i = 0; i < kLaneWidth; ++i) {
+    Entries one_less = ~Entries{};
+    one_less[i] = 0;
+    EXPECT_FALSE(lane_math::all(one_less)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace halyard

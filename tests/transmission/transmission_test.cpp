@@ -204,5 +204,129 @@ TEST(JointSignals, OfWhichNothingIsKnownAreZero) {
     EXPECT_EQ(signal, 0);
 }
 
+TEST(PathMatrix, AJointWithoutDriveHasNoMotorWhoseAngleCounts) {
+  ArmParameters<double> arm = random_arm(3, CableLaw::paper);
+  arm.joint[1].drive = Drive::none;
+  const Eigen::Vector3d q(0.4, -0.9, 0.15);
+  Eigen::VectorXd q_m = unstretched_motors(arm, q);
+  EXPECT_EQ(q_m(1), 0);
+  const Eigen::VectorXd joints = unstretched_joints(arm, q_m, q);
+  q_m(1) = 7;
+  EXPECT_EQ(unstretched_joints(arm, q_m, q), joints);
+}
+
+/// A rigid drive, a joint without one, and a cable, in motion and under load.
+struct MixedDrives {
+  ArmParameters<double> arm = random_arm(14, CableLaw::linear);
+  JointSignals<double> s[kMaxJoints];
+
+  MixedDrives() {
+    arm.joint[0].drive = Drive::rigid;
+    arm.joint[1].drive = Drive::none;
+    for (int k = 0; k < 3; ++k) {
+      s[k].command = 0.5 + k;
+      s[k].motor_angle = 0.3;
+      s[k].motor_rate = 0.7;
+      s[k].joint_position = -0.2;
+      s[k].joint_rate = 0.4;
+      s[k].external_force = 2 - k;
+    }
+    Transmission<double>(arm, {}).evaluate(0, nullptr, nullptr, s, nullptr);
+  }
+};
+
+TEST(Transmission, NothingButACableIsStretchedOrPulls) {
+  const MixedDrives mixed;
+  for (int k = 0; k < 3; ++k)
+    for (const double of_cable :
+         {mixed.s[k].stretch, mixed.s[k].stretch_rate, mixed.s[k].cable_force_motor, mixed.s[k].cable_force_joint})
+      EXPECT_EQ(of_cable != 0, k == 2) << k;
+}
+
+TEST(Transmission, AJointsForceIsThatOfTheCablesAndTheLoadLessItsFriction) {
+  const MixedDrives mixed;
+  const double g = mixed.s[2].cable_force_joint;
+  for (int k = 0; k < 3; ++k) {
+    const JointParameters<double>& j = mixed.arm.joint[k];
+    const double force = path_per_joint(mixed.arm.joint[2], k) * g + mixed.s[k].external_force -
+                         friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, mixed.s[k].joint_rate);
+    EXPECT_NEAR(mixed.s[k].joint_force, force, 100 * 4 * kEps) << k;  // a cable pulls with up to 100 N
+  }
+}
+
+TEST(Transmission, AMotorsTorqueIsItsScaledCommandAndBiasLessItsFriction) {
+  const MixedDrives mixed;
+  for (const int k : {0, 2}) {
+    const JointParameters<double>& j = mixed.arm.joint[k];
+    const double torque = j.torque_scale * mixed.s[k].command + j.torque_bias -
+                          friction(j.motor_coulomb, j.motor_viscous, j.motor_smoothing, mixed.s[k].motor_rate);
+    EXPECT_NEAR(mixed.s[k].motor_torque, torque, 3 * 4 * kEps) << k;
+  }
+  EXPECT_EQ(mixed.s[1].motor_torque, 0) << "there is no motor";
+}
+
+/// A state that follows the torque of the motor, as the heat of its winding does.
+class FollowsTorque : public EffectOf<FollowsTorque> {
+ public:
+  explicit FollowsTorque(EffectStage acts_at) : acts_at_(acts_at) {}
+  std::string name() const override { return "follows_torque"; }
+  std::string summary() const override { return "a state that follows the torque of the motor"; }
+  unsigned stages() const override { return static_cast<unsigned>(acts_at_); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
+    return {{"gain", "1", 0, 1, 0, 2}};
+  }
+  int n_states() const override { return 1; }
+  template <class T>
+  void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
+    z_dot[0] = c.p[0] * s[*c.joint].motor_torque - c.z[0];
+  }
+
+ private:
+  EffectStage acts_at_;
+};
+
+TEST(Transmission, AStateThatNeedsTheTorqueOfItsMotorHasItWhereTorquesAreUnwanted) {
+  const ArmParameters<double> arm = random_arm(15, CableLaw::linear);
+  for (const EffectStage stage : {EffectStage::command, EffectStage::motor}) {
+    const FollowsTorque effect(stage);
+    const PlacedEffect without_state = place_effect(*find_effect("backlash"), arm, 0);
+    const Transmission<double> transmission(arm, {place_effect(effect, arm, 1), without_state});
+    JointSignals<double> wanted[kMaxJoints], unwanted[kMaxJoints];
+    for (int k = 0; k < 3; ++k) {
+      wanted[k].command = unwanted[k].command = 1 + k;
+      wanted[k].motor_rate = unwanted[k].motor_rate = 0.5;
+    }
+    const double z = 0.25;
+    double rate = 0, same = 0;
+    transmission.evaluate(0, nullptr, &z, wanted, &rate);
+    transmission.evaluate(0, nullptr, &z, unwanted, &same, MotorTorques::unwanted);
+    EXPECT_EQ(rate, wanted[1].motor_torque - z);
+    EXPECT_EQ(same, rate);
+  }
+}
+
+TEST(Transmission, TorquesThatNothingNeedsAreNotComputedWhereTheyAreUnwanted) {
+  const ArmParameters<double> arm = random_arm(15, CableLaw::linear);
+  // One effect has a state, another acts at the motor.
+  const Transmission<double> transmission(
+      arm, {place_effect(*find_effect("hysteresis"), arm, 0), place_effect(*find_effect("torque_ripple"), arm, 1)});
+  JointSignals<double> s[kMaxJoints];
+  for (JointSignals<double>& of_joint : s) of_joint.motor_torque = kNan;
+  const double z = 0;
+  double rate = 0;
+  transmission.evaluate(0, nullptr, &z, s, &rate, MotorTorques::unwanted);
+  for (int k = 0; k < 3; ++k) EXPECT_TRUE(std::isnan(s[k].motor_torque)) << k;
+}
+
+TEST(ArmSignals, OfWhatMayBeLeftOutAreZero) {
+  ArmSignals<double> signals(2);
+  for (int k = 0; k < 2; ++k) {
+    const JointSignals<double>& s = signals.joint()[k];
+    for (const double left_out : {s.motor_torque, s.motor_error, s.joint_error, s.joint_acceleration}) {
+      EXPECT_EQ(left_out, 0) << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace halyard

@@ -116,5 +116,35 @@ TEST(CameraFilterStart, ByDefaultAnOffsetIsAHundredthOfTheCablesTravel) {
   }
 }
 
+TEST(CameraFilterStart, AJointThatIsSeenShortOfItsMotorHasAnOffsetThatTakesItUp) {
+  constexpr double kShort = 1e-4, kUnsure = 3e-4;  // m
+  CameraFilter filter = first_frame_filter(std::make_unique<ExtendedKalmanFilter>(), "0 0 3e-4");
+  const ArmModel model = raven2();
+  const ArmParameters<double>& arm = model.nominal;
+  Sample s{0, Eigen::VectorXd::Zero(3), unstretched_motors(arm, model.home()), {}};
+  filter.reset(s);
+  Eigen::Vector3d q = filter.estimate().joint_position;
+  const double variance = std::pow(filter.estimate().joint_position_std(2), 2);
+  // Torques that hold the motors against their cables.
+  double path[3];
+  cable_path(arm, q.data(), path);
+  for (int k = 0; k < 3; ++k) {
+    const double travel = arm.joint[k].motor_travel();
+    s.motor_torque(k) = travel * cable_force(arm.joint[k], travel * s.motor_position(k) - path[k], 0.0);
+  }
+  filter.reset(s);
+  q(2) -= kShort;
+  Eigen::Vector3d marker;
+  position_of(arm, chain_pose(arm, q.data()), arm.payload_point, marker.data());
+  s.time_s = kSampleTime;
+  s.marker = marker;
+  filter.update(s);
+  const Eigen::MatrixXd told = filter.estimate().extra_outputs;
+  // The rest of the variance is that of the stretch.
+  const double expected = kShort * kUnsure * kUnsure / variance;
+  EXPECT_NEAR(told(2, 0), expected, 0.05 * expected);
+  for (const int k : {0, 1}) EXPECT_EQ(told(k, 0), 0) << "it is known";
+}
+
 }  // namespace
 }  // namespace halyard

@@ -124,5 +124,17 @@ TEST(DelayedCommands, ReachTheFilterFromThePast) {
   EXPECT_GT(mean_nis_of(*ignorant), 3);   // 5.1
 }
 
+TEST(Start, AGapOfASecondIsLongUnlessToldOtherwise) {
+  ArmModel model = raven2();
+  model.nominal.gravity[0] = 0;  // it stays where it is
+  for (const double gap : {0.9, 1.1}) {
+    const auto filter = make_ekf(model, {});
+    Sample s{0, Eigen::VectorXd::Zero(3), unstretched_motors(model.nominal, model.home()), {}};
+    filter->reset(s);
+    s.time_s = gap;
+    EXPECT_EQ(filter->update(s).nu.size(), gap > 1 ? 0 : 3) << gap;
+  }
+}
+
 }  // namespace
 }  // namespace halyard

@@ -193,5 +193,79 @@ TEST(DualUkfRules, ALogarithmicWeightKeepsItsSign) {
   EXPECT_EQ(linear.slope(2), 0.5);
 }
 
+TEST(DualUkfRules, AJointEncoderThatDoesNotRoundErrsByTenMicroradiansOrOneMicrometre) {
+  for (const JointType type : {JointType::revolute, JointType::prismatic}) {
+    ArmModel model = slide();
+    model.estimators.at("sr_ukf") = {{"torque_noise", "0"}, {"joint_force_noise", "0"}};
+    JointParameters<double>& j = model.nominal.joint[0];
+    j.type = type;
+    j.inertia[2] = j.mass;  // so that it turns as it slides
+    j.joint_encoder_resolution = 0;
+    DualUkf filter(model, {{.key = "joint1.motor.torque_bias", .nominal = 0, .scale = 1e-15}},
+                   {.learn = false, .settle = 0});
+    EncoderSample sample;
+    sample.motor_torque = sample.motor_position = sample.joint_position = Eigen::VectorXd::Zero(1);
+    DualStep last;
+    for (int i = 0; i < 200; ++i) {
+      sample.time_s = i * kSlideStep;
+      last = filter.update(sample);
+    }
+    // Its motion is certain by now, so that the encoder's error is left of the innovation.
+    ASSERT_EQ(last.nu.size(), 2);
+    const double expected = type == JointType::revolute ? 1e-5 : 1e-6;
+    EXPECT_NEAR(last.S_root.row(1).norm(), expected, 0.05 * expected);
+  }
+}
+
+TEST(DualUkfRules, AMeasuredLoadMovesWhatItPredicts) {
+  const ArmModel model = slide();
+  const double torque = 0, load = 40;
+  const auto predicted = [&](bool is_loaded) {
+    DualUkf filter = filter_with(1e-15, {.learn = false, .settle = 0});
+    EncoderSample sample;
+    sample.motor_torque = sample.motor_position = sample.joint_position = Eigen::VectorXd::Zero(1);
+    if (is_loaded) sample.joint_torque = Eigen::VectorXd::Constant(1, load);
+    filter.update(sample);
+    sample.time_s = kSlideStep;
+    return Eigen::VectorXd(-filter.update(sample).nu);  // of readings of zero
+  };
+  const ProcessModel process(model);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(4);
+  process.advance({0, kSlideStep, &torque, &load}, x.data());
+  const Eigen::Vector2d moved(x(*process.layout().motor_angle[0]), x(process.layout().position[0]));
+  ASSERT_GT(moved.norm(), 1e-5);
+  // Sigma points of rates of 2e3 rad/s, a thousandth of a deviation apart, round to some 1e-12 rad.
+  EXPECT_LT((predicted(true) - predicted(false) - moved).norm(), 1e-6 * moved.norm());
+}
+
+TEST(DualUkfRules, ANewRecordForgetsTorquesLoadsAndReadingsOfTheOneBefore) {
+  ArmModel model = slide();
+  add_effect(model, "delay", 0, {3e-3});
+  const std::vector<Weight> weights = {{.key = "joint1.motor.torque_bias", .nominal = 0, .scale = 0.01}};
+  const DualUkfOptions options{.learn = false, .settle = 0};
+  DualUkf used(model, weights, options), fresh(model, weights, options);
+  for (EncoderSample& sample : record_of_slide(slide(), 20, 1)) {
+    sample.joint_torque = Eigen::VectorXd::Constant(1, 30);
+    used.update(sample);
+  }
+  used.start_record();
+  std::vector<EncoderSample> record = record_of_slide(slide(), 20, 2);
+  record[0].motor_torque(0) = record[0].motor_position(0) = record[0].joint_position(0) =
+      std::numeric_limits<double>::quiet_NaN();
+  for (const EncoderSample& sample : record) {
+    const DualStep a = used.update(sample), b = fresh.update(sample);
+    ASSERT_EQ(a.nu.size(), b.nu.size()) << sample.time_s;
+    EXPECT_EQ(a.nu, b.nu) << sample.time_s;
+    EXPECT_EQ(a.S_root, b.S_root) << sample.time_s;
+  }
+}
+
+TEST(DualUkfRules, ByDefaultItSettlesForHalfASecondAndForgetsInTwo) {
+  DualUkf filter = filter_with(1e-15, {});
+  for (const EncoderSample& sample : record_of_slide(slide(), 501, 1)) filter.update(sample);
+  // As above: T = 2 s exp(t / 2 s), over the half second that is left of one.
+  EXPECT_NEAR(2 * std::log(filter.S_w()(0, 0)), 1 - std::exp(-0.25), kSlideStep);
+}
+
 }  // namespace
 }  // namespace halyard

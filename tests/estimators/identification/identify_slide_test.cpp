@@ -8,6 +8,7 @@
 
 #include "estimators/distributions.h"
 #include "estimators/identification/batch_estimate.h"
+#include "estimators/identification/filter_run.h"
 #include "estimators/identification/identify.h"
 #include "tests/estimators/identification/linear_slide.h"
 #include "tests/support/message_of.h"
@@ -294,6 +295,26 @@ TEST(IdentifyOnALinearArm, ProgressGoesFromNothingToAllInEachStage) {
   EXPECT_EQ(stages[0], "dual filter");
   for (std::size_t pass = 1; pass < stages.size(); ++pass)
     EXPECT_EQ(stages[pass], "estimate, pass " + std::to_string(pass));
+}
+
+TEST(FilterRun, TimeGoesOnFromLogToLogWhenTheyBegin) {
+  const ArmModel model = biased_slide();
+  const SlideMotion slow{.step_s = 1e-2};
+  std::vector<Log> logs = {log_of_slide(model, 0.5, 1, slow), log_of_slide(model, 0.3, 2, slow)};
+  for (double& time : logs[0].time) time += 7;
+  for (double& time : logs[1].time) time += 100;
+  DualUkf filter(model, list_unknowns(model, {kBiasKey}).learnt_weights());
+  std::vector<double> times, fractions;
+  run_filter(
+      filter, logs, [&](double fraction) { fractions.push_back(fraction); },
+      [&](const DualStep&, double time) { times.push_back(time); });
+  ASSERT_EQ(times.size(), 51u + 31u);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    EXPECT_NEAR(times[i], i < 51 ? 0.01 * double(i) : 0.5 + 0.01 * double(i - 51), 1e-12) << i;
+  // At the first sample of each log.
+  ASSERT_EQ(fractions.size(), 2u);
+  EXPECT_EQ(fractions[0], 0);
+  EXPECT_NEAR(fractions[1], 0.5 / 0.8, 1e-12);
 }
 
 }  // namespace

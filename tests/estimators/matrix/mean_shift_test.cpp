@@ -66,5 +66,24 @@ TEST(MeanShift, OfAPositionIsTheIntegralOfItsRates) {
   EXPECT_EQ(shift.view()(2, 0), 0);
 }
 
+TEST(MeanShift, OfSeveralStatesIsThatOfEach) {
+  // Two positions whose rates fall alone, so fast that both take the same number of halves.
+  const PhiShape shape{4, 2, 4};
+  const Eigen::Vector2d a(-9, -8.5), from(5, 2), to(1, 3);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(4, 4), S = 0.3 * Eigen::MatrixXd::Identity(4, 4);
+  for (int k = 0; k < 2; ++k) A(k, 2 + k) = 1, A(2 + k, 2 + k) = a(k);
+  PhiFunctions phi;
+  ASSERT_TRUE(phi.compute(1, A, shape));
+  ASSERT_EQ(phi.doublings(), 3);
+  Eigen::VectorXd first = Eigen::VectorXd::Zero(4), last = first;
+  first.tail(2) = from;
+  last.tail(2) = to;
+  const Eigen::VectorXd end_squares = (phi.E().view() * S).rowwise().squaredNorm();
+  LaneMatrix shift;
+  MeanShift(shape).compute(phi, 0, in_lanes(S.transpose()), end_squares, first, last, shift);
+  // Roundings of numbers of the order of 1.
+  for (int k = 0; k < 2; ++k) EXPECT_NEAR(shift.view()(2 + k, 0), shift_of(a(k), from(k), to(k)), 1e-12) << k;
+}
+
 }  // namespace
 }  // namespace halyard

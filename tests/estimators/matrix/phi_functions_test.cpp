@@ -124,5 +124,92 @@ TEST(PhiFunctions, RefuseAMatrixThatIsNotFiniteOrTooLarge) {
   EXPECT_FALSE(compute(phi, Eigen::MatrixXd::Constant(2, 2, 1e9)));
 }
 
+/// The functions of a number by their polynomials of degree 11 and so many doublings, in long double.
+struct ScalarPhi {
+  long double E, phi_1, phi_2, phi_3;
+
+  ScalarPhi(double z, int doublings) {
+    const long double y = std::ldexp(static_cast<long double>(z), -doublings);
+    phi_3 = 0;
+    long double term = 1.0L / 6;
+    for (int i = 0; i <= 11; ++i) {  // y^i / (i + 3)!
+      phi_3 += term;
+      term *= y / (i + 4);
+    }
+    phi_2 = 0.5L + y * phi_3;
+    phi_1 = 1 + y * phi_2;
+    E = 1 + y * phi_1;
+    for (int k = 0; k < doublings; ++k) {
+      phi_3 = (E * phi_3 + phi_1 / 2 + phi_2 + phi_3) / 8;
+      phi_2 = (E * phi_2 + phi_1 + phi_2) / 4;
+      phi_1 = (E * phi_1 + phi_1) / 2;
+      E *= E;
+    }
+  }
+};
+
+TEST(PhiFunctions, OfANumberAreTheirPolynomialsToRounding) {
+  for (const double z : {-15.5, -7.7, -3.9, -1.2, 0.3, 1.9, 3.9, 7.7}) {
+    PhiFunctions phi;
+    ASSERT_TRUE(compute(phi, Eigen::MatrixXd::Constant(1, 1, z)));
+    const ScalarPhi expected(z, phi.doublings());
+    const auto check = [&](const LaneMatrix& found, long double exact) {
+      // Some ten roundings of terms of the order of 1, which each doubling may double.
+      EXPECT_NEAR(found.view()(0, 0), static_cast<double>(exact), 100 * kEps * std::max(1.0L, exact)) << z;
+    };
+    check(phi.E(), expected.E);
+    check(phi.phi_1(), expected.phi_1);
+    check(phi.phi_2(), expected.phi_2);
+    check(phi.phi_3(), expected.phi_3);
+  }
+}
+
+int doublings_of(const Eigen::MatrixXd& Z) {
+  PhiFunctions phi;
+  return compute(phi, Z) ? phi.doublings() : -1;
+}
+
+TEST(PhiFunctions, HalveTheirArgumentUntilItsSquareAndItsCubeAreThoseOfLessThanTwo) {
+  const auto number = [](double z) { return Eigen::MatrixXd::Constant(1, 1, z).eval(); };
+  EXPECT_EQ(doublings_of(number(0)), 1) << "once at least";
+  EXPECT_EQ(doublings_of(number(-3.99)), 1);
+  EXPECT_EQ(doublings_of(number(-4.01)), 2);
+  EXPECT_EQ(doublings_of(number(-8.01)), 3);
+  const auto with_square = [](double norm) {  // the cube is zero
+    Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(3, 3);
+    Z(0, 1) = Z(1, 2) = norm;
+    return Z;
+  };
+  EXPECT_EQ(doublings_of(with_square(3.99)), 1);
+  EXPECT_EQ(doublings_of(with_square(4)), 2);
+  const auto with_cube = [](double norm) {  // the square is the unit matrix
+    Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(2, 2);
+    Z(0, 1) = norm;
+    Z(1, 0) = 1 / norm;
+    return Z;
+  };
+  EXPECT_EQ(doublings_of(with_cube(63.9)), 1);
+  EXPECT_EQ(doublings_of(with_cube(64)), 2);
+  const double most = std::exp2(PhiFunctions::kMostDoublings + 1);
+  EXPECT_EQ(doublings_of(number(-0.99 * most)), PhiFunctions::kMostDoublings);
+  EXPECT_EQ(doublings_of(number(-1.01 * most)), -1);
+}
+
+TEST(PhiFunctions, DistancesDoNotDependOnTheUnitsOfTheStates) {
+  constexpr double kUnit = 1024;  // of the first state over those of the others
+  Eigen::MatrixXd A(3, 3);
+  A << 100, kUnit, 7, 1 / kUnit, 100, 0, 0, 0, 0;
+  PhiFunctions phi;
+  phi.balance(A);
+  EXPECT_EQ(phi.distance(A, A), 0);
+  Eigen::MatrixXd above = A, below = A;
+  above(0, 1) -= 0.25 * kUnit;
+  below(1, 0) += 0.5 / kUnit;
+  EXPECT_EQ(phi.distance(A, above), 0.25);
+  EXPECT_EQ(phi.distance(A, below), 0.5);
+  below(2, 2) = kNan;
+  EXPECT_TRUE(std::isnan(phi.distance(A, below)));
+}
+
 }  // namespace
 }  // namespace halyard
