@@ -6,9 +6,12 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
+#include "diagnosis/explanation/lines_above_band.h"
 #include "diagnosis/explanation/residual_signals.h"
 #include "plant/simulate.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
@@ -38,6 +41,24 @@ TEST(Signature, OfARightModelIsEmpty) {
   const ArmModel model = first_joints(1);
   const Evidence evidence(make_records(simulate(motion(model, 4)).measured, model, {}), model);
   EXPECT_EQ(signature(evidence, {model.nominal, {}}, 0), "");
+}
+
+TEST(LinesAboveBand, TellASineThatIsLargerThanWhatTheSensorResolves) {
+  const ArmModel model = first_joints(1);
+  const auto told = [&](double amplitude) {
+    Log log = log_along(2, 1000, slow_swing);
+    for (std::size_t i = 0; i < log.size(); ++i)
+      log.joint_position[0][i] += amplitude * std::sin(2 * std::numbers::pi * 50 * log.time[i]);
+    const Evidence evidence(make_records(log, model, {}), model);
+    return lines_above_band(evidence, {model.nominal, {}});
+  };
+  const std::vector<Unexplained> lines = told(9.5e-4);  // rad: 0.0544 deg
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0].joint, 0);
+  EXPECT_TRUE(
+      lines[0].signature.starts_with("the position residual contains a sine of 50 Hz with an amplitude of 0.05"))
+      << lines[0].signature;
+  EXPECT_TRUE(told(1e-5).empty()) << "the sensor's rounding is 2.4e-5";
 }
 
 }  // namespace

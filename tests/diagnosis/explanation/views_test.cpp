@@ -186,5 +186,28 @@ TEST(Spectrum, GapsDoNotCount) {
   EXPECT_NEAR(strongest_line(spectrum(x, y, 0.5, 2, 0.1)).share, 1, 1e-10);
 }
 
+/// Orders of a ripple of a motor that turns evenly for 10 s.
+std::vector<double> orders_at(double turns_a_second) {
+  ResidualSignals s;
+  s.dt = 0.01;
+  for (int i = 0; i <= 1000; ++i) {
+    s.motor_angle.push_back(2 * kPi * turns_a_second * s.dt * i);
+    s.residual[static_cast<std::size_t>(ResidualKind::motor_torque)].push_back(std::sin(3 * s.motor_angle.back()));
+  }
+  return angle_spectrum(s, ResidualKind::motor_torque, Abscissa::motor_angle).frequency;
+}
+
+TEST(Views, OrdersOverAnAngleAreThoseThatTheMotionAndTheBandShow) {
+  EXPECT_TRUE(orders_at(0.15).empty()) << "one and a half turns";
+  // Three turns: an order has to pass twice, and lines are told apart by a twelfth.
+  const std::vector<double> slow = orders_at(0.3), fast = orders_at(4);
+  EXPECT_NEAR(slow.front(), 2.0 / 3, 1e-9);
+  EXPECT_NEAR(slow.back(), 24, 1.0 / 12 + 1e-9);
+  EXPECT_NEAR(slow[1] - slow[0], 1.0 / 12, 1e-9);
+  // Forty turns: 20 Hz are the order 5.
+  EXPECT_NEAR(fast.front(), 0.5, 1e-9);
+  EXPECT_NEAR(fast.back(), 5, 0.25 / 40 + 1e-9);
+}
+
 }  // namespace
 }  // namespace halyard

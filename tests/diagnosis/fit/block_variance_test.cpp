@@ -75,4 +75,30 @@ TEST(BlockVariance, CorrelationTimeDoesNotDependOnTheMean) {
   EXPECT_NEAR(rows_of(above), rows_of(x), 1e-8 * rows_of(x));
 }
 
+TEST(BlockVariance, OfTwoBlocksIsTwiceTheirScatterAndThePriorBetweenTheInverses) {
+  // g = ±3, Σ g² = 18, B / (B - 1) = 2, P = 4, H = 4 + 4: C = (36 + 4) / 64.
+  const Eigen::Vector4d r(1, 2, -1, -2);
+  const std::vector<int> block = {5, 5, 9, 9};
+  const halyard::BlockVariance v =
+      halyard::block_variance(Eigen::MatrixXd::Ones(4, 1), r, Eigen::VectorXd::Constant(1, 4), block);
+  EXPECT_EQ(v.blocks, 2);
+  EXPECT_NEAR(v.covariance(0, 0), 40.0 / 64, 1e-9);
+}
+
+TEST(BlockVariance, CorrelationTimeOfAStepEndsAtAQuarterOfTheRows) {
+  // Of 20 rows of 1 and 20 of -1, ρ at lag l is 1 - 3 l / 40. Lags 1 to 9 count.
+  std::vector<double> step(40, 1.0);
+  for (std::size_t i = 20; i < step.size(); ++i) step[i] = -1;
+  EXPECT_NEAR(halyard::correlation_rows(step), 1 + 2 * (9 - 3 * 45 / 40.0), 1e-12);
+}
+
+TEST(BlockVariance, BlocksAreGroupedFromTheFirstOn) {
+  std::vector<int> block(100);
+  std::iota(block.begin(), block.end(), 300);
+  const std::vector<int> groups = halyard::grouped_blocks(block, 50, 10);
+  EXPECT_EQ(groups.front(), 0);
+  EXPECT_EQ(groups[10], 1);
+  EXPECT_EQ(groups.back(), 9);
+}
+
 }  // namespace

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/small_evidence.h"
 
 namespace halyard {
@@ -80,6 +82,43 @@ TEST(EvidenceFloor, AChangeIsMeasuredInThoseOfItsChannel) {
   EXPECT_NEAR(evidence.over_floor(change), 3, 1e-12);
   EXPECT_TRUE(evidence.exceeds_floor(change, 2.99));
   EXPECT_FALSE(evidence.exceeds_floor(change, 3.01));
+}
+
+TEST(EvidenceFloor, OfATorqueIsAHundredthOfItsSizeWhileItsMotorMoves) {
+  constexpr double kMoving = 0.05, kResting = 5;  // N m
+  const ArmModel model = first_joints(1);
+  // The joint stands from 1.5 to 2.5 s.
+  Log log = log_along(4, 100, [](double t) { return 0.5 + 0.2 * std::min(t, 1.5) + 0.2 * std::max(0.0, t - 2.5); });
+  for (const double t : log.time) log.motor_torque[0].push_back(t > 1.75 && t < 2.25 ? kResting : kMoving);
+  EXPECT_NEAR(Evidence(make_records(log, model, {}), model).resolved()[0], 0.01 * kMoving, 1e-12);
+}
+
+TEST(EvidenceSpans, OfTheMotionAreFromItsFirstInstantToItsLastOnTheCommonClock) {
+  const ArmModel model = first_joints(1);
+  // The joint moves from 1 to 2 s.
+  const Log log = log_along(3, 100, [](double t) { return 0.5 + 0.2 * std::clamp(t - 1, 0.0, 1.0); });
+  std::vector<Record> records = make_records(log, model, {}), again = records;
+  again[0].clock_shift = 4;
+  records.push_back(again[0]);
+  const Evidence evidence(records, model);
+  // Its rate is interpolated over samples of 10 ms, and filtered over as much.
+  EXPECT_NEAR(evidence.moving_span().first, 1, 0.02);
+  EXPECT_NEAR(evidence.moving_span().last, 4 + 2, 0.02);
+  EXPECT_NEAR(evidence.time_span().first, 0, 1e-9);
+  EXPECT_NEAR(evidence.time_span().last, 4 + 3, 1e-9);
+}
+
+TEST(EvidenceSpans, OfAJointWithoutSensorAreThoseOfItsMotorLessTheZeroErrorOfItsEncoder) {
+  constexpr double kOffset = 3;  // rad of the motor: 0.022 of the joint
+  ArmModel model = first_joints(1);
+  model.nominal.joint[0].motor_encoder_offset = kOffset;
+  Log log = log_along(4, 100, slow_swing);
+  log.joint_position[0].clear();
+  for (double& q : log.motor_position[0]) q += kOffset;
+  log.motor_torque[0].assign(log.size(), 0.05);
+  const Span span = Evidence(make_records(log, model, {}), model).joint_span(0);
+  EXPECT_NEAR(span.first, 0.5, 1e-3);
+  EXPECT_NEAR(span.last, 1.1, 1e-3);
 }
 
 }  // namespace

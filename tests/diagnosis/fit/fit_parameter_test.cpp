@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "plant/simulate.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/short_arm.h"
 #include "tests/support/small_evidence.h"
 
@@ -91,6 +93,44 @@ TEST(FitParameter, TheFloorOfATorqueIsInTheUnitOfTheLog) {
   };
   EXPECT_NEAR(rms(in_amperes, model) / rms(in_newton_metres, given), 1 / kScale, 1e-3 / kScale)
       << "and so is the residual";
+}
+
+TEST(FitParameter, OfASpeedNearStandstillIsAtMostAQuarterOfTheFastestMotion) {
+  const ArmModel model = first_joints(1);
+  const JointParameters<double>& j = model.nominal.joint[0];
+  const Hypothesis h{model.nominal, {place_effect(*find_effect("stribeck"), model.nominal, 0)}};
+  const std::vector<FitParameter> all = effect_parameters(made_evidence(), h, model.nominal, 0);
+  ASSERT_EQ(all.size(), 4u);
+  constexpr double kFastest = 0.51;  // rad/s
+  EXPECT_NEAR(all[1].upper, kFastest / 4, 1e-3);
+  EXPECT_NEAR(all[3].upper, kFastest / 4 * j.pulley_radius / j.motor_travel(), 0.1);
+  // Of 15, 50 and 150 mrad/s of the joint, and 1.5, 5 and 15 rad/s of the motor.
+  EXPECT_EQ(all[1].starts, (std::vector<double>{3 * j.joint_smoothing, 10 * j.joint_smoothing}));
+  EXPECT_EQ(all[3].starts.size(), 3u);
+}
+
+TEST(FitParameter, OfTheGreatestSpeedOfAMotorStartsAboveItsFastestMotion) {
+  const ArmModel model = first_joints(1);
+  const Hypothesis h{model.nominal, {place_effect(*find_effect("actuator_saturation"), model.nominal, 0)}};
+  const FitParameter p = effect_parameters(made_evidence(), h, model.nominal, 0)[2];
+  ASSERT_EQ(p.name, "no_load_speed");
+  EXPECT_TRUE(std::ranges::is_sorted(p.starts));
+  EXPECT_EQ(p.starts.size(), 3 + 4u);
+  for (const double left : {0.02, 0.06, 0.2, 0.5}) {
+    // The torque at the fastest motion is this share of that at standstill.
+    const double start = made_evidence().greatest_speed(0) / (1 - left);
+    EXPECT_NEAR(std::ranges::min(p.starts, {}, [&](double s) { return std::abs(s - start); }), start, 1e-9) << left;
+  }
+}
+
+TEST(FitParameter, OfAnOrderIsOneThatPassesOneAndAHalfPeriodsInTheMotion) {
+  const ArmModel model = first_joints(1);
+  const Hypothesis h{model.nominal, {place_effect(*find_effect("encoder_eccentricity"), model.nominal, 0)}};
+  const FitParameter p = effect_parameters(made_evidence(), h, model.nominal, 0)[2];
+  ASSERT_EQ(p.name, "order");
+  // The joint moves over 0.6 rad: 1.5 · 2π / 0.6 = 15.7.
+  EXPECT_EQ(p.lower, 16);
+  EXPECT_EQ(p.starts, (std::vector<double>{16, 20, 24, 32}));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 
 #include "diagnosis/round/refit.h"
 #include "plant/simulate.h"
@@ -231,6 +232,52 @@ TEST(FinalFit, KeepsItsEffectsAndGivesTheModelsMotionBack) {
   EXPECT_EQ(given.hypothesis.effects[0].p[0], found.hypothesis.effects[0].p[0]);
   EXPECT_EQ(given.hypothesis.nominal.joint[0].mass, model.nominal.joint[0].mass);
   for (const FitParameter& p : given.parameters) EXPECT_FALSE(p.effect) << p.name;
+}
+
+TEST(FinalFit, AValueMayBeNeutralWithinStudentsIntervalOfItsBlocks) {
+  // The quantiles of one and two degrees of freedom in closed form. There is at least one.
+  const double of_one = std::tan(0.475 * std::numbers::pi), of_two = 0.95 / std::sqrt(2 * 0.975 * 0.025);
+  for (const auto& [blocks, quantile] : {std::pair(0, of_one), std::pair(2, of_one), std::pair(3, of_two)}) {
+    constexpr double kNeutral = 1, kDeviation = 0.5;
+    Fit fit;
+    fit.blocks = blocks;
+    fit.parameters.resize(1);
+    fit.parameters[0].nominal = kNeutral;
+    fit.std_deviation = {kDeviation};
+    for (const double sign : {-1, 1}) {
+      fit.value = {kNeutral + sign * quantile * kDeviation * (1 - 1e-6)};
+      EXPECT_TRUE(may_be_neutral(fit, 0)) << blocks;
+      fit.value = {kNeutral + sign * quantile * kDeviation * (1 + 1e-6)};
+      EXPECT_FALSE(may_be_neutral(fit, 0)) << blocks;
+    }
+  }
+}
+
+/// A fit of one effect that has kept the parameters of these indices.
+Fit fit_that_keeps(const char* name, const std::vector<std::size_t>& kept) {
+  const ArmParameters<double> arm = first_joints(1).nominal;
+  Fit fit;
+  fit.hypothesis = {arm, {place_effect(*find_effect(name), arm, 0)}};
+  const std::vector<EffectParameter> parameters = find_effect(name)->parameters(arm, 0);
+  for (const std::size_t i : kept) {
+    FitParameter p;
+    p.effect = 0, p.index = i, p.shape = parameters[i].is_shape();
+    fit.parameters.push_back(p);
+  }
+  return fit;
+}
+
+TEST(FinalFit, AnEffectIsIdleWithoutASizeOrWithoutAnEssentialParameter) {
+  const auto is_idle = [](const Fit& fit) { return idle_effects(fit, 0) == std::vector<std::size_t>{0}; };
+  EXPECT_FALSE(is_idle(fit_that_keeps("backlash", {0})));
+  EXPECT_TRUE(is_idle(fit_that_keeps("backlash", {1}))) << "the rounding of no gap";
+  EXPECT_FALSE(is_idle(fit_that_keeps("friction_drift", {0})));
+  EXPECT_TRUE(is_idle(fit_that_keeps("friction_drift", {1}))) << "it does not drift";
+  Fit loop = fit_that_keeps("hysteresis", {0, 1});
+  EXPECT_FALSE(is_idle(loop));
+  loop.parameters[1].is_past = true;
+  EXPECT_TRUE(is_idle(loop)) << "a state of its past is not its yield stretch";
+  EXPECT_TRUE(idle_effects(fit_that_keeps("backlash", {}), 1).empty()) << "the model came with it";
 }
 
 }  // namespace

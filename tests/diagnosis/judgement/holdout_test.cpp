@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/record/resting.h"
 #include "plant/simulate.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/limits.h"
 #include "tests/support/short_arm.h"
 
@@ -195,6 +197,64 @@ TEST(Resting, SeesNothingBeyondTheEndOfARecord) {
   record.motor_rate[0].resize(kSamples);
   EXPECT_FALSE(rests(record, 0, kSamples - 1, kSmoothing)) << "two fifths of the kernel see a rest";
   EXPECT_TRUE(rests(record, 0, kSamples - 2, kSmoothing)) << "three fifths";
+}
+
+TEST(WorseJoints, AreNoneWhoseSquaresGrowByLessThanASquaredFloor) {
+  const ArmModel model = first_joints(1);
+  Record record = small_record();
+  record.dt = 0.05;
+  record.motor_rate[0].assign(kSamples, 100);
+  const auto worse = [&](double after) {
+    const auto about = [](double size) {
+      return [size](std::size_t i) { return size * (1 + 1e-3 * static_cast<double>(i % 7)); };
+    };
+    const HoldOut none = holdout_with(record, [](std::size_t) { return 0.0; });
+    HoldOut torques = holdout_with(record, about(1));
+    torques.after = holdout_with(record, about(after)).after;
+    return worse_joints(model, none, torques, {1.5, 1.5});
+  };
+  EXPECT_TRUE(worse(1.7).empty()) << "from 1 to 2.9; the squared floor is 2.25";
+  EXPECT_EQ(worse(1.9), std::vector<int>{0}) << "from 1 to 3.6";
+}
+
+TEST(WorseJoints, AreNoneThatASingleSecondMakesWorse) {
+  const ArmModel model = first_joints(1);
+  Record record = small_record();
+  record.dt = 0.05;  // 20 s
+  record.motor_rate[0].assign(kSamples, 100);
+  const HoldOut none = holdout_with(record, [](std::size_t) { return 0.0; });
+  HoldOut torques = none;
+  // By Student's distribution a mean of one standard error is 17 % probable.
+  torques.after = holdout_with(record, [](std::size_t i) { return i / 20 == 7 ? 10.0 : 0.0; }).after;
+  EXPECT_TRUE(worse_joints(model, none, torques, {0.01, 0.01}).empty());
+}
+
+TEST(ErrorOverFloors, IsTheSumOfSquaresOfBothViewsWithoutTorquesAtRest) {
+  ArmModel model = first_joints(1);
+  model.nominal.joint[0].motor_smoothing = kSmoothing;
+  // The motor moves in the first quarter.
+  const HoldOut view = holdout_with(small_record(), [](std::size_t) { return 0.6; });
+  EXPECT_NEAR(error_over_floors(model, view, view, &HoldOut::after, {0.3, 0.2}), (4 * 0.25 + 9) * kSamples, 1e-9);
+  EXPECT_NEAR(error_over_floors(model, view, view, &HoldOut::after, {0.3, 0}), 4 * 0.25 * kSamples, 1e-9);
+}
+
+TEST(HoldOutData, IsTheLastThirdOfALogWhoseStartIsPredictedAndNotCompared) {
+  const ArmModel model = first_joints(1);
+  const std::vector<Log> logs = {log_along(9, 100, slow_swing)};
+  const DiagnosisData data = diagnosis_data(model, logs, std::nullopt, model);
+  ASSERT_EQ(data.training.size(), 1u);
+  const Record& training = data.training[0];
+  EXPECT_NEAR(training.time(training.size - 1), 6, 0.02);
+  for (const HoldOut* view : {&data.joint_view, &data.torque_view}) {
+    ASSERT_EQ(view->records.size(), 1u);
+    const Record& r = view->records[0];
+    EXPECT_EQ(r.start, 0);
+    EXPECT_EQ(r.place, 0u) << "its past is that of the training record";
+    const std::vector<double>& valid = r.joint_valid[0];
+    const auto first = std::ranges::find(valid, 1.0);
+    ASSERT_NE(first, valid.end());
+    EXPECT_NEAR(r.time(static_cast<std::size_t>(first - valid.begin())), 6, 0.02);
+  }
 }
 
 }  // namespace

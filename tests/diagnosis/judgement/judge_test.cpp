@@ -6,6 +6,7 @@
 #include <random>
 
 #include "plant/simulate.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
@@ -206,6 +207,64 @@ TEST(Judge, TheMisfitOfAnEffectCountsWhatTheModelsNumbersHadHidden) {
   const double left = evidence.score(refitted).mean_square[0],
                rest = evidence.score({model.nominal, {friction(0.93)}}).mean_square[0];
   EXPECT_GT(rest, std::pow(kRule.form_misfit, 2) * (left - rest));
+}
+
+TEST(Judge, TheCostOfAFitIsThatOfItsResidualsAndOfItsNumbers) {
+  const ArmModel model = first_joints(1);
+  const Evidence& evidence = made_evidence();
+  const std::vector<FitParameter> numbers = baseline_parameters(model);
+  const Judge judge(evidence, model, numbers);
+  Scored given, moved;
+  given.hypothesis = moved.hypothesis = {model.nominal, {}};
+  given.score.fit_mean_square = {1, 1};
+  moved.score.fit_mean_square = {0.1, 20};
+  set_parameter(moved.hypothesis, numbers[0], numbers[0].upper);
+  EXPECT_NEAR(judge.prior_cost(moved.hypothesis), 2, 1e-9) << "two deviations are the whole tolerance";
+  double expected = 2;
+  for (const int c : {0, 1}) {
+    const double floor_square = std::pow(evidence.floor()[c], 2);
+    expected += evidence.fit_count(c) / (2 * evidence.correlated_rows()) *
+                std::log((moved.score.fit_mean_square[c] + floor_square) / (1 + floor_square));
+  }
+  EXPECT_NEAR(judge.cost(moved) - judge.cost(given), expected, 1e-9);
+}
+
+/// Of the joint, in floors; nothing of the torque.
+std::vector<double> squares_of_joint(double floors) { return {0, std::pow(floors * made_evidence().floor()[1], 2)}; }
+
+TEST(Judge, ARestIsMoreThanThreeFloorsAndWhatTheEffectsMayMiss) {
+  const auto is_rest = [](double floors, const std::vector<double>& misfit) {
+    Score score;
+    score.mean_square = squares_of_joint(floors);
+    return significant_rest(made_evidence(), score, misfit) == std::vector<bool>{false, true};
+  };
+  EXPECT_FALSE(is_rest(2.99, {}));
+  EXPECT_TRUE(is_rest(3.01, {}));
+  // Beside a misfit of four floors it is five.
+  EXPECT_FALSE(is_rest(4.99, squares_of_joint(4)));
+  EXPECT_TRUE(is_rest(5.01, squares_of_joint(4)));
+}
+
+TEST(Judge, NoiseExplainsATenthMoreThanTheFloor) {
+  EXPECT_FALSE(is_beyond_noise(made_evidence(), squares_of_joint(1.09), 1));
+  EXPECT_TRUE(is_beyond_noise(made_evidence(), squares_of_joint(1.11), 1));
+  EXPECT_FALSE(is_beyond_noise(made_evidence(), squares_of_joint(1.11), 0));
+}
+
+TEST(Judge, TheMostExplainedChannelIsThatOfTheMostSquaredFloors) {
+  // In squared floors of the torque and of the joint, whose floor is a smaller number.
+  const auto most = [](std::pair<double, double> without, std::pair<double, double> with) {
+    const std::vector<double>& floor = made_evidence().floor();
+    Score before, after;
+    before.mean_square = {without.first * floor[0] * floor[0], without.second * floor[1] * floor[1]};
+    after.mean_square = {with.first * floor[0] * floor[0], with.second * floor[1] * floor[1]};
+    return most_explained_channel(made_evidence(), after, before);
+  };
+  ASSERT_LT(made_evidence().floor()[1], 0.5 * made_evidence().floor()[0]) << "the test shows nothing";
+  EXPECT_EQ(most({10, 10}, {7, 4}), 1);
+  EXPECT_EQ(most({10, 10}, {4, 7}), 0);
+  EXPECT_EQ(most({10, 10}, {12, 9.5}), 1);
+  EXPECT_FALSE(most({10, 10}, {11, 12}));
 }
 
 }  // namespace

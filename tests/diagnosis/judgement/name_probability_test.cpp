@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "diagnosis/judgement/decision_rule.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/small_evidence.h"
 
 namespace {
@@ -67,6 +69,29 @@ TEST(ProbabilityOfClean, CountsTheAlternativesOfAName) {
 TEST(CredibleSet, IsTheSmallestOneWithItsShare) {
   EXPECT_EQ(halyard::credible_set({0.5, 0.1, 0.4}, 0.9), (std::vector<bool>{true, false, true}));
   EXPECT_EQ(halyard::credible_set({0.95, 0.05}, 0.9), (std::vector<bool>{true, false}));
+}
+
+TEST(NameWeights, OfAGainThatIsEvenOverTheBlocksThatHaveRowsAreThoseOfItsSum) {
+  const auto& count = halyard::made_evidence().block_count();
+  const auto has_rows = [&](std::size_t b) { return std::reduce(count[b].begin(), count[b].end()) > 0; };
+  Likelihood gain = even_gain(halyard::made_evidence(), 0);
+  const Likelihood none = gain;
+  double blocks = 0;
+  for (std::size_t b = 0; b < count.size(); ++b) blocks += has_rows(b);
+  ASSERT_LT(blocks, static_cast<double>(count.size())) << "the first half second is not compared";
+  for (std::size_t b = 0; b < count.size(); ++b)
+    if (has_rows(b)) gain[b][0] = std::log(3.0) / blocks;
+  const std::vector<double> w = halyard::name_weights(halyard::made_evidence(), {{&gain, 0}}, {&none, 0});
+  // Whatever the weights of the blocks are in a draw, their sum is the number of blocks.
+  EXPECT_NEAR(w[0], 0.75, 1e-12);
+  EXPECT_NEAR(w[1], 0.25, 1e-12);
+}
+
+TEST(ProbabilityOfNone, CountsTheMisfitAsPartOfTheFloor) {
+  // Sixteen squared floors beside a misfit of three are four, where nine make it even: 1 / (1 + (9 / 4)^1.5).
+  const double floor = 1e-3, square = floor * floor;
+  EXPECT_NEAR(halyard::probability_of_none(16 * square, 3 * square, floor), 8.0 / 35, 1e-12);
+  EXPECT_EQ(halyard::probability_of_none(0, 0, floor), 0);
 }
 
 }  // namespace

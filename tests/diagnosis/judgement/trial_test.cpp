@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/judgement/judge.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/small_evidence.h"
 
 namespace halyard {
@@ -66,6 +67,33 @@ TEST(Trial, ThatExplainsAWholeRestIsTestedTwice) {
   // No block changes: half of all gains are larger by chance, and the likelihood ratio is 1.
   EXPECT_DOUBLE_EQ(judge.p_of_gain(score_with_rest(evidence, 1.005), before), 0.5) << "a rest is left";
   EXPECT_DOUBLE_EQ(judge.p_of_gain(score_with_rest(evidence, 0.99), before), 1) << "twice the smaller one";
+}
+
+TEST(Trial, ThatLeavesNextToNothingOfARestIsTestedTwice) {
+  const ArmModel model = first_joints(1);
+  const Judge judge(made_evidence(), model, {});
+  const Score before = score_with_rest(made_evidence(), 1000);
+  // A tenth of the root mean square is a hundredth of the mean square.
+  EXPECT_DOUBLE_EQ(judge.p_of_gain(score_with_rest(made_evidence(), 10.1), before), 0.5);
+  EXPECT_DOUBLE_EQ(judge.p_of_gain(score_with_rest(made_evidence(), 9.9), before), 1) << "twice the smaller one";
+}
+
+TEST(Trial, ThatExplainsAWholeRestInFewBlocksHasTwiceItsLikelihoodRatio) {
+  const ArmModel model = first_joints(1);
+  const Evidence& evidence = made_evidence();
+  const Judge judge(evidence, model, {});
+  const Score before = score_with_rest(evidence, 1.01);
+  Score after = score_with_rest(evidence, 0.99);
+  double rows = 0;
+  for (const auto& block : evidence.block_count()) rows += block[1];
+  constexpr double kGain = 3;  // nats; what the blocks have in common says nothing
+  for (auto& block : after.block_sum) block[1] *= std::exp(-2 * kGain * evidence.correlated_rows() / rows);
+  // The floor of 2e-5 is added to a mean square of one.
+  EXPECT_NEAR(judge.p_of_gain(after, before), 2 * std::exp(-kGain), 1e-6);
+  Score worse = after;
+  for (std::size_t r = 0; r < worse.deciding.size(); ++r) worse.deciding[r] = r % 3 == 0 ? 1.3 : 1.1;
+  worse.block_sum = evidence.block_products(worse.deciding, worse.deciding);
+  EXPECT_EQ(judge.p_of_gain(worse, before), 1) << "a probability";
 }
 
 }  // namespace

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/clock_check.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/checked_logs.h"
 #include "tests/support/message_of.h"
 
@@ -117,6 +120,171 @@ TEST(LogFindings, TellTheLineIfTheErrorIsInOne) {
   LogFinding wrong = finding_of("motor_torque_1", Severity::gross);
   wrong.line = 17;
   EXPECT_EQ(finding_line(wrong), "some.csv:17: motor_torque_1: is wrong; mend it");
+}
+
+TEST(CounterCheck, NamesEachCounterOfAnEncoderByItsBits) {
+  constexpr double kPeriod = 0.7;  // rad
+  ArmModel model = first_joints(1);
+  Log log(1);
+  for (int i = 0; i < 400; ++i) {
+    log.time.push_back(1e-3 * i);
+    log.joint_position[0].push_back(kPeriod * std::fmod(0.0143 * i, 1.0));
+  }
+  for (const int bits : {10, 12, 13, 14, 15, 16, 17, 18, 20, 24, 32}) {
+    model.nominal.joint[0].joint_encoder_resolution = std::ldexp(kPeriod, -bits);
+    const std::vector<LogFinding> findings = found_by(check_counters, log, model);
+    ASSERT_EQ(findings.size(), 1u) << bits;
+    EXPECT_EQ(findings[0].what, "starts again after 2^" + std::to_string(bits) +
+                                    " counts of its encoder; expected a continuous position");
+  }
+}
+
+TEST(CounterCheck, TakesJumpsForThoseOfACounterIfThereAreTwoOfItsSize) {
+  const ArmModel model = first_joints(1);
+  const double period = std::exp2(13) * model.nominal.joint[0].joint_encoder_resolution;
+  const auto found = [&](double up, double down) {
+    Log log(1);
+    for (int i = 0; i < 3000; ++i) {
+      log.time.push_back(1e-3 * i);
+      log.motor_position[0].push_back(0.05 * i);
+      log.joint_position[0].push_back(1e-4 * i + (i < 1000 ? 0 : up) - (i < 2000 ? 0 : down));
+    }
+    return lines_of(found_by(check_counters, log, model));
+  };
+  const std::string two = found(period, period);
+  EXPECT_NE(two.find("joint_position_1: jumps by 0.6435 between two samples at 1 s, the first of 2 jumps, which is "
+                     "2^13 counts of its encoder; expected a continuous position"),
+            std::string::npos)
+      << two;
+  EXPECT_EQ(found(period, 0), "") << "a single one";
+  EXPECT_EQ(found(period, 1.5 * period), "") << "of two sizes";
+  EXPECT_EQ(found(1.03 * period, 1.03 * period), "") << "no counter has this size";
+}
+
+TEST(CounterCheck, SaysThatAnArmStandsStillIfNoMotorMovesByMoreThanThreeCounts) {
+  const auto stands_still = [](double resolution, double way) {
+    ArmModel model = first_joints(1);
+    model.nominal.joint[0].motor_encoder_resolution = resolution;
+    Log log(1);
+    for (int i = 0; i < 300; ++i) {
+      log.time.push_back(1e-3 * i);
+      log.motor_position[0].push_back(i % 2 == 0 ? 0 : way);
+    }
+    const std::vector<LogFinding> findings = found_by(check_counters, log, model);
+    return findings.size() == 1 && findings[0].stands_still;
+  };
+  EXPECT_TRUE(stands_still(0.01, 0.029));
+  EXPECT_FALSE(stands_still(0.01, 0.031));
+  // With fine counts it is a ten-thousandth of the joint's range: 0.0214 rad of the motor.
+  EXPECT_TRUE(stands_still(1e-3, 0.021));
+  EXPECT_FALSE(stands_still(1e-3, 0.022));
+}
+
+TEST(ColumnCheck, TellsHowLongAPositionStandsStillWhileTheOtherOneMoves) {
+  const ArmModel model = first_joints(1);
+  const Log moving = log_along(3, 1000, [](double t) { return 0.2 + 0.4 * t; });
+  const auto told = [&](Signals Log::*signal) {
+    Log log = moving;
+    std::vector<double>& x = (log.*signal)[0];
+    // In the last one the joint moves by less than a twentieth of its range.
+    for (const auto& [from, to] : {std::pair(500, 800), std::pair(1500, 2000), std::pair(2400, 2550)}) {
+      const double held = x[from];
+      for (int i = from; i <= to; ++i) x[i] = held;
+    }
+    const std::vector<LogFinding> findings = found_by(check_columns, log, model);
+    return findings.size() == 1 ? findings[0].what : lines_of(findings);
+  };
+  EXPECT_EQ(told(&Log::joint_position),
+            "stands still for 0.8 s while the motor moves, longest from 1.5 to 2 s; the sensor is stuck or not "
+            "connected");
+  EXPECT_EQ(told(&Log::motor_position),
+            "stands still for 0.8 s while the joint moves, longest from 1.5 to 2 s; expected the angle of the motor");
+}
+
+TEST(ColumnCheck, TellsHowOftenAndHowLongAMotorStopsAbruptlyAtItsExtreme) {
+  const auto told = [](int stops) {
+    Log log(1);
+    for (int i = 0; i < 1000 * stops; ++i) {
+      const int phase = i % 1000;
+      log.time.push_back(1e-3 * i);
+      log.motor_position[0].push_back(std::min({60 + 0.1 * phase, 100.0, 100 - 0.1 * (phase - 599)}));
+    }
+    return lines_of(found_by(check_columns, log, first_joints(1)));
+  };
+  EXPECT_EQ(told(1), "") << "once may be by chance";
+  const std::string three = told(3);
+  EXPECT_NE(three.find("motor_position_1: stops abruptly at its extreme value 100 3 times, for 0.597 s together: a "
+                       "counter or converter at its end"),
+            std::string::npos)
+      << three;
+}
+
+/// What is told of a torque of up to 1 N m that stays at 2 N m so many times for so many samples of 1000.
+std::string told_of_stopping_torque(int times, int samples, double limit_of_model = 0) {
+  ArmModel model = first_joints(1);
+  model.joints[0].controller.torque_limit = limit_of_model;
+  Log log(1);
+  for (int i = 0; i < 1000; ++i) log.time.push_back(1e-3 * i), log.motor_torque[0].push_back(std::sin(0.1 * i));
+  for (int t = 0; t < times; ++t)
+    for (int s = 0; s < samples; ++s) log.motor_torque[0][10 + 30 * t + s] = 2;
+  const std::vector<LogFinding> findings = found_by(check_clipped_torques, log, model);
+  return findings.size() == 1 ? findings[0].what : lines_of(findings);
+}
+
+TEST(TorqueCheck, TakesATorqueForClippedThatStaysAtItsExtremeInAHundredthOfTheSamples) {
+  EXPECT_EQ(told_of_stopping_torque(10, 5), "is exactly 2 in 5 % of the samples, its extreme value: clipped");
+  EXPECT_EQ(told_of_stopping_torque(4, 3), "is exactly 2 in 1.2 % of the samples, its extreme value: clipped");
+  EXPECT_EQ(told_of_stopping_torque(3, 3), "") << "0.9 %";
+  EXPECT_EQ(told_of_stopping_torque(30, 2), "") << "it does not stay for three samples";
+}
+
+TEST(TorqueCheck, TakesNoTorqueForClippedThatStopsWithinATwentiethOfTheModelsLimit) {
+  EXPECT_EQ(told_of_stopping_torque(10, 5, 2 / 1.04), "");
+  EXPECT_EQ(told_of_stopping_torque(10, 5, 2 / 0.96), "");
+  EXPECT_NE(told_of_stopping_torque(10, 5, 2 / 1.06), "");
+  EXPECT_NE(told_of_stopping_torque(10, 5, 2 / 0.94), "");
+}
+
+/// What is told of the zeros of a motor and a joint that stand there. The joint's range is 0 to 1.571 rad.
+LogFinding zero_told(double by_motor, std::optional<double> by_joint) {
+  Log log = log_along(1, 100, [=](double) { return by_motor; });
+  if (by_joint) log.joint_position[0].assign(log.size(), *by_joint);
+  else log.joint_position[0].clear();
+  const std::vector<LogFinding> findings = found_by(check_zeros, log, first_joints(1));
+  EXPECT_LE(findings.size(), 1u) << lines_of(findings);
+  return findings.empty() ? LogFinding{} : findings[0];
+}
+
+TEST(ZeroCheck, TellsAReadingThatIsHalfARangeFromWhatTheMotorSays) {
+  const LogFinding off = zero_told(0.6, 1.6);
+  EXPECT_EQ(off.column, "joint_position_1");
+  EXPECT_EQ(off.what, "is 1.6 in the median where the motors say 0.6; the joint's range is 0 to 1.571");
+  EXPECT_EQ(off.remedy,
+            "correct its zero with --column joint_position_1=joint_position_1,offset=-1, or state "
+            "joint_offset=\"unknown\" in <encoders> of joint 1");
+  EXPECT_EQ(zero_told(0.6, 1.3).what, "") << "by 0.7 of 1.571";
+}
+
+TEST(ZeroCheck, TellsAMotorThatPutsItsJointAQuarterOfARangeOutside) {
+  EXPECT_EQ(zero_told(2.1, 0.6).what,
+            "puts joint 1 at 2.1 in the median; its sensor says 0.6, its range is 0 to 1.571");
+  EXPECT_EQ(zero_told(2.1, std::nullopt).what, "puts joint 1 at 2.1 in the median, outside its range, 0 to 1.571");
+  EXPECT_EQ(zero_told(1.9, std::nullopt).what, "");
+}
+
+TEST(DelayCheck, TellsByHowMuchASensorIsLateOrAhead) {
+  const ArmModel model = first_joints(1);
+  const auto told = [&](double late) {
+    Log log = log_along(2, 500, slow_swing);
+    for (std::size_t i = 0; i < log.size(); ++i) log.joint_position[0][i] = slow_swing(log.time[i] - late);
+    const std::vector<LogFinding> findings = found_by(check_delays, log, model);
+    return findings.size() == 1 ? findings[0].what : lines_of(findings);
+  };
+  EXPECT_EQ(told(0.04), "is 40 ms late against motor_position_1; the shift removes 100 % of the squared mismatch");
+  EXPECT_EQ(told(-0.04), "is 40 ms ahead of motor_position_1; the shift removes 100 % of the squared mismatch");
+  // Three sample intervals are 6 ms.
+  EXPECT_EQ(told(0.007), "is 7 ms late against motor_position_1; the shift removes 100 % of the squared mismatch");
+  EXPECT_EQ(told(0.005), "");
 }
 
 }  // namespace

@@ -159,4 +159,45 @@ TEST(ChannelNoise, FindsALineInTheReadingsOfAJointSensor) {
   EXPECT_NEAR(lines[0].amplitude, kHum, 0.05 * kHum);
 }
 
+TEST(ChannelNoise, IsThatOfTheQuietestBandFromTenToEightyHertz) {
+  for (const double quietest : {10.0, 20.0, 40.0}) {
+    std::vector<double> density(500, 4.0);  // of 1 Hz each
+    for (std::size_t b = 0; b < density.size(); ++b) {
+      const double f = static_cast<double>(b);
+      if (f < 10 || f >= 80) density[b] = 0.01;
+      else if (f >= quietest && f < 2 * quietest) density[b] = 1;
+    }
+    const ChannelNoise noise = halyard::noise_of_density(density, 1, 500, kFilter);
+    EXPECT_NEAR(noise.white, std::sqrt(500.0), 1e-9) << quietest;
+    EXPECT_NEAR(noise.in_band, std::sqrt(1 / (4 * std::sqrt(std::numbers::pi) * kFilter)), 1e-9) << quietest;
+  }
+}
+
+TEST(ChannelNoise, IsTakenFromNoBandThatHardlyBeginsBelowTheHighestFrequency) {
+  // Up to 26 Hz: the band from 20 Hz on has a third of its width. Up to 12 Hz: the upper third alone.
+  std::vector<double> fast(26, 4.0), slow(12, 1.0);
+  for (std::size_t b = 20; b < fast.size(); ++b) fast[b] = 1;
+  for (std::size_t b = 8; b < slow.size(); ++b) slow[b] = 4;
+  EXPECT_NEAR(halyard::noise_of_density(fast, 1, 26, kFilter).white, std::sqrt(4.0 * 26), 1e-9);
+  EXPECT_NEAR(halyard::noise_of_density(slow, 1, 12, kFilter).white, std::sqrt(4.0 * 12), 1e-9);
+}
+
+TEST(ChannelNoise, ALineIsThirtyTimesItsSurroundingsBetween22And150Hertz) {
+  const auto lines = [](double height, std::size_t hertz) {
+    std::vector<double> density(1000, 1.0);  // of half a hertz each
+    density[2 * hertz] = height;
+    return halyard::noise_of_density(density, 0.5, 500, kFilter).lines;
+  };
+  EXPECT_TRUE(lines(29.9, 60).empty());
+  const std::vector<halyard::NoiseLine> found = lines(30.1, 60);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].frequency, 60);
+  // A sine of amplitude A has the power A² / 2, and a density over ln 2.
+  EXPECT_NEAR(found[0].amplitude, std::sqrt(2 * 29.1 * 0.5 * std::numbers::ln2), 1e-9);
+  EXPECT_EQ(lines(1e4, 23).size(), 1U);
+  EXPECT_EQ(lines(1e4, 148).size(), 1U);
+  EXPECT_TRUE(lines(1e4, 21).empty());
+  EXPECT_TRUE(lines(1e4, 151).empty());
+}
+
 }  // namespace

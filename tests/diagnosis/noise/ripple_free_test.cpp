@@ -50,5 +50,17 @@ TEST(RippleFree, TakesNothingFromAMotorThatTurnsTooLittle) {
   EXPECT_EQ(ripple_free({x}, {angle})[0], x);
 }
 
+TEST(RippleFree, TakesOrdersThatPassOneAndAHalfPeriodsAndNoLowerOnes) {
+  constexpr std::size_t kFew = 2000;
+  std::vector<double> angle(kFew), once(kFew), twice(kFew);
+  for (std::size_t i = 0; i < kFew; ++i) {
+    angle[i] = 10 + 1.2 * 2 * std::numbers::pi * static_cast<double>(i) / kFew;  // 1.2 turns
+    once[i] = std::cos(angle[i]), twice[i] = std::cos(2 * angle[i]);
+  }
+  EXPECT_LT(rms(ripple_free({twice}, {angle})[0]), 1e-3);
+  // Over a whole turn nothing of it can be made of higher orders: at least √(1 / 2.4) is left.
+  EXPECT_GT(rms(ripple_free({once}, {angle})[0]), 0.6);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "diagnosis/prediction/driven_start.h"
 #include "tests/support/random_arm.h"
 
 namespace halyard {
@@ -115,6 +116,55 @@ TEST(LaneDrive, AHeldChainMovesAnArmLikeOneThatIsAlwaysNew) {
     EXPECT_NEAR(x.q[k], exact.q[k], 1e-7) << "a hundredth of what a joint's encoder resolves";
     EXPECT_GT(std::abs(exact.v[k]), 0.05) << "it moves";
   }
+}
+
+/// A wheel on a cable whose runs become stiffer under load, with its motor held: both have closed forms.
+struct HeldWheel {
+  static constexpr double kTravel = 0.005, kInertia = 0.05, kSmoothing = 0.01;
+  Hypothesis wheel;
+  Record record;
+
+  HeldWheel() {
+    ArmParameters<double>& arm = wheel.nominal;
+    arm.n = 1;
+    JointParameters<double>& j = arm.joint[0];
+    j.law = CableLaw::exponential;
+    j.mass = 1, j.inertia[2] = kInertia;
+    j.capstan_radius = kTravel, j.pulley_radius = 0.1, j.coupling[0] = 1;
+    j.stiffness = 1000, j.damping = 1, j.tension = 5;
+    j.joint_coulomb = 0.3, j.joint_viscous = 0.02, j.joint_smoothing = kSmoothing;
+    record.n = 1;
+    // The cable pulls with twice the tension of a run, at most.
+    record.torque = {{0.02, -2 * j.tension * kTravel, 0.01}};
+  }
+  /// At rest, then in motion under the largest load.
+  std::vector<Eigenvalues> spectra() const {
+    return eigenvalues_of(wheel, record, DrivenInput{}, DrivenState<double>{});
+  }
+  /// 2 k_e r² / I of the unloaded cable, 1/s².
+  static constexpr double kStiffness = 2 * 1000 * 0.1 * 0.1 / kInertia;
+};
+
+TEST(DrivenStart, AtRestDryFrictionDampsBesideTheCable) {
+  const std::vector<Eigenvalues> spectra = HeldWheel().spectra();
+  ASSERT_EQ(spectra.size(), 2u);
+  const Eigenvalues& rest = spectra[0];
+  ASSERT_EQ(rest.size(), 2u);
+  EXPECT_NEAR((rest[0] * rest[1]).real(), HeldWheel::kStiffness, 1e-9 * HeldWheel::kStiffness);
+  const double damping = 2 * 1 * 0.1 * 0.1 + 0.3 / HeldWheel::kSmoothing + 0.02;
+  EXPECT_NEAR((rest[0] + rest[1]).real(), -damping / HeldWheel::kInertia, 1e-9 * damping / HeldWheel::kInertia);
+}
+
+TEST(DrivenStart, InMotionTheCablePullsAsHardAsItsMotorAndDryFrictionDoesNotDamp) {
+  const std::vector<Eigenvalues> spectra = HeldWheel().spectra();
+  ASSERT_EQ(spectra.size(), 2u);
+  const Eigenvalues& moving = spectra[1];
+  ASSERT_EQ(moving.size(), 2u);
+  // Where 2 sinh(a x) = 2, the slope is cosh(a x) = √2 times as large, and at twice that stretch cosh(2 a x) = 3 times.
+  const double stiffness = (moving[0] * moving[1]).real();
+  EXPECT_GE(stiffness, std::sqrt(2.0) * HeldWheel::kStiffness);
+  EXPECT_LE(stiffness, 3 * HeldWheel::kStiffness);
+  EXPECT_NEAR((moving[0] + moving[1]).real(), -(2 * 1 * 0.1 * 0.1 + 0.02) / HeldWheel::kInertia, 1e-4);
 }
 
 }  // namespace

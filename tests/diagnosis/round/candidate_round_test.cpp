@@ -52,5 +52,16 @@ TEST(Leaders, ThatGainNothingAreTheTwoThatLeaveLeast) {
             (std::vector<std::size_t>{3, 1}));
 }
 
+TEST(Leaders, AreAtMostFourByGainAndTwoByRest) {
+  std::vector<Prospect> all;
+  for (int i = 0; i < 8; ++i) all.push_back(judged(40 - i, 100 - i));
+  EXPECT_EQ(leaders_of(all, kQuarter), (std::vector<std::size_t>{0, 1, 2, 3, 7, 6}));
+}
+
+TEST(Rivals, AreThoseAtTheEdgesToo) {
+  EXPECT_TRUE(is_rival(judged(kRule.rivals * kStanding.gain, 150), kRule.shared_gain, kStanding, kWithout));
+  EXPECT_TRUE(is_rival(judged(0, 110), 0, kStanding, kWithout)) << "it takes half as much away, and gains nothing";
+}
+
 }  // namespace
 }  // namespace halyard

@@ -125,5 +125,18 @@ TEST(SparseSelection, HoldsAnAmountByItsPrior) {
   EXPECT_NEAR(select_groups(p, 6, 4).amount(0), 0.5e-3, 1e-8);
 }
 
+TEST(SparseSelection, PaysForNumbersByIndependentSamplesAndForTheChoiceByOwners) {
+  const std::vector<Eigen::VectorXd> columns = cosines(3);
+  SparseProblem p = problem_of(columns, 10 * columns[0]);
+  p.least_square = {1};
+  p.correlated_rows = 4;
+  p.groups[0].numbers = 3;
+  p.groups[1].owner = 0, p.groups[2].owner = 1;
+  const SelectedGroups s = select_groups(p, 6, 4);
+  EXPECT_EQ(s.groups, Groups{0});
+  // Nothing is left, and ln 1 = 0: three numbers at half the logarithm of 100 samples, one of two owners.
+  EXPECT_NEAR(s.cost, 1.5 * std::log(kRows / 4.0) + std::log(2.0), 1e-9);
+}
+
 }  // namespace
 }  // namespace halyard

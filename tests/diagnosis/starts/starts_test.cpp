@@ -4,6 +4,7 @@
 
 #include "diagnosis/round/refit.h"
 #include "plant/simulate.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
@@ -54,6 +55,24 @@ TEST(BestStart, PromisesWhatTheSizeOfTheLinearFitTells) {
   const Hypothesis& best = l.start.hypotheses.at(0);
   ASSERT_LT(best.effects[0].p[0], 0.3) << "it is the typical size: the test shows nothing";
   EXPECT_GE(l.start.promise, l.screen.direction(l.evidence.fit_rows({best})[0]).promise);
+}
+
+TEST(Screen, AsksForTheMultipleOfAChangeThatLeavesNothing) {
+  const Evidence& evidence = made_evidence();
+  const Hypothesis at{first_joints(1).nominal, {}};
+  const Screen screen(evidence, at, {}, std::vector<double>(2, 1.0));
+  const std::vector<double> residual = evidence.fit_rows({at})[0];
+  for (const double left : {0.0, 0.5, 3.0}) {
+    std::vector<double> rows = residual;
+    for (double& r : rows) r *= left;
+    const Screen::Direction d = screen.direction(rows);
+    EXPECT_NEAR(d.promise, 1, 1e-9) << left;
+    EXPECT_NEAR(d.amount, 1 / (1 - left), 1e-9) << left;
+  }
+  std::vector<double> beside = residual;
+  beside[0] += residual[1], beside[1] -= residual[0];
+  EXPECT_NEAR(screen.direction(beside).promise, 0, 1e-9) << "it has nothing in common with the residual";
+  EXPECT_EQ(screen.direction({}).promise, 0);
 }
 
 }  // namespace
