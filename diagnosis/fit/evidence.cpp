@@ -191,6 +191,10 @@ std::shared_ptr<Evidence::Grid> Evidence::coarse_grid(const Grid& fine) {
 }
 
 std::unique_ptr<Evidence> Evidence::coarse_around(const Hypothesis& base) const {
+  return coarse_around(base, std::vector<double>(channels(), std::numeric_limits<double>::infinity()));
+}
+
+std::unique_ptr<Evidence> Evidence::coarse_around(const Hypothesis& base, const std::vector<double>& most) const {
   if (!coarse_) return nullptr;
   std::unique_ptr<Evidence> coarse(new Evidence(*this));
   coarse->grid_ = coarse_;
@@ -200,24 +204,18 @@ std::unique_ptr<Evidence> Evidence::coarse_around(const Hypothesis& base) const 
     if (!residuals[0].finite) return nullptr;
     correction.fine.push_back(std::move(residuals[0]));
   }
-  for (const std::vector<Residuals>& residuals : coarse->predict_all({base}))
+  const std::vector<std::vector<Residuals>> of_coarse = coarse->predict_all({base});
+  for (const std::vector<Residuals>& residuals : of_coarse)
     if (!residuals[0].finite) return nullptr;
-  coarse->correction_ = std::move(correction);
-  return coarse;
-}
-
-std::unique_ptr<Evidence> Evidence::coarse_around(const Hypothesis& base, const std::vector<double>& most) const {
-  std::unique_ptr<Evidence> coarse = coarse_around(base);
-  if (!coarse) return nullptr;
   std::vector<double> square(channels(), 0);
-  const std::vector<std::vector<Residuals>> of_coarse = coarse->predict_on_own_grid({base});
   for (const Place& p : places_)
     if (p.fit)
-      square[p.channel] += std::pow(of_coarse[p.record][0].channel[p.channel][p.index] -
-                                        coarse->correction_->fine[p.record].channel[p.channel][p.index],
-                                    2);
+      square[p.channel] += std::pow(
+          of_coarse[p.record][0].channel[p.channel][p.index] - correction.fine[p.record].channel[p.channel][p.index],
+          2);
   for (int c = 0; c < channels(); ++c)
     if (square[c] > fit_count_[c] * most[c] * most[c]) return nullptr;
+  coarse->correction_ = std::move(correction);
   return coarse;
 }
 

@@ -8,7 +8,8 @@
 namespace halyard {
 namespace {
 
-/// [channel] Errors of the grid that do not matter beside residuals of this size.
+/// [channel] Errors of the grid that do not matter beside residuals of this size. Reason: without a limit, hysteresis
+/// with a small loop ended in a wrong minimum; with half of this limit, the coarse grid was hardly ever used.
 std::vector<double> small_beside(std::vector<double> scale) {
   constexpr double kSmall = 0.2;
   for (double& s : scale) s *= kSmall;

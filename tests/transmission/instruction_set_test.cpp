@@ -1,5 +1,3 @@
-// A new file, tests/transmission/instruction_set_test.cpp: complete.
-
 /// Which instruction sets are used, and the copies of code for them.
 
 #include "transmission/lanes/instruction_set.h"

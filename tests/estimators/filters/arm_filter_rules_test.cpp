@@ -9,14 +9,11 @@
 
 #include "estimators/built_in.h"
 #include "estimators/filters/ekf.h"
-#include "estimators/filters/sr_ukf.h"
-#include "model/input_error.h"
 #include "tests/estimators/process/held_force.h"
 #include "tests/support/arm_runs.h"
 #include "tests/support/limits.h"
 #include "tests/support/linear_gaussian.h"
 #include "tests/support/message_of.h"
-#include "tests/support/torn_record.h"
 
 namespace halyard {
 namespace {
