@@ -68,15 +68,15 @@ compile_together(halyard_diagnosis prediction
 compile_together(halyard_diagnosis log_check
   log_check/clock.cpp log_check/columns.cpp log_check/log_check.cpp log_check/log_under_check.cpp
   log_check/outliers.cpp log_check/own_readings.cpp log_check/positions.cpp log_check/robust.cpp log_check/saturating_torque.cpp
-  log_check/torques.cpp log_check/zeros.cpp)
+  log_check/torques.cpp log_check/usable_logs.cpp log_check/zeros.cpp)
 compile_together(halyard_diagnosis fit
   calibration/lateness.cpp fit/baseline_reach.cpp fit/beyond_numbers.cpp fit/block_variance.cpp
   fit/complementary.cpp fit/evidence.cpp fit/fit.cpp fit/fit_parameter.cpp fit/nudged.cpp
   noise/channel_noise.cpp noise/delay_free.cpp noise/ripple_free.cpp planning/change_detector.cpp planning/plan.cpp planning/planner.cpp)
 compile_together(halyard_diagnosis judgement
-  diagnose.cpp judgement/false_discovery.cpp judgement/final_fit.cpp judgement/holdout.cpp judgement/judge.cpp
+  diagnose.cpp holdout/adoption.cpp holdout/holdout.cpp holdout/prediction_interval.cpp
+  judgement/false_discovery.cpp judgement/final_fit.cpp judgement/judge.cpp
   judgement/likelihood.cpp judgement/name_probability.cpp judgement/nested_gain.cpp judgement/paired_t.cpp
-  judgement/prediction_interval.cpp
   round/candidate_round.cpp round/joint_proposal.cpp round/refit.cpp round/sparse_selection.cpp
   search/attribution.cpp search/compete.cpp search/naming.cpp search/pair_rivals.cpp search/revision.cpp
   starts/leaps.cpp starts/screen.cpp starts/starts.cpp)

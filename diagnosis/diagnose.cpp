@@ -14,10 +14,10 @@
 #include "diagnosis/explanation/lines_above_band.h"
 #include "diagnosis/explanation/not_excited.h"
 #include "diagnosis/explanation/signature.h"
-#include "diagnosis/judgement/final_fit.h"
+#include "diagnosis/holdout/adoption.h"
+#include "diagnosis/holdout/prediction_interval.h"
 #include "diagnosis/judgement/name_probability.h"
-#include "diagnosis/judgement/prediction_interval.h"
-#include "diagnosis/log_check/own_readings.h"
+#include "diagnosis/log_check/usable_logs.h"
 #include "diagnosis/record/common_clock.h"
 #include "diagnosis/search/basis.h"
 #include "diagnosis/search/revision.h"
@@ -29,30 +29,11 @@ namespace {
 
 using Progress = std::function<void(const std::string&, double)>;
 
-/// Findings about the logs. Throws InputError if there is a gross one.
-std::vector<LogFinding> findings_of(const ArmModel& model, const std::vector<Log>& training,
-                                    const std::optional<Log>& holdout, const ColumnMap& columns) {
-  std::vector<const Log*> logs;
-  for (const Log& log : training) logs.push_back(&log);
-  if (holdout) logs.push_back(&*holdout);
-  std::vector<LogFinding> all;
-  for (const Log* log : logs)
-    for (LogFinding& finding : check_log(*log, model, columns)) all.push_back(std::move(finding));
-  stop_at_gross_finding(all);
-  return all;
-}
-
 LogFinding finding_of(const DiagnosisData::Late& late) {
   return {late.log, "joint_position",
           fmt::format("the joint sensors, slower than the motors' encoders, are {:.3g} ms {} them",
                       1e3 * std::abs(late.seconds), late.seconds > 0 ? "late against" : "ahead of"),
           "nothing to do: the diagnosis has moved their readings by this time", LogFinding::Severity::corrected};
-}
-
-LogFinding finding_of(const Log& log, const RepeatedReadings& r) {
-  return {log.source, fmt::format("{}_position_{}", r.signal == &Log::motor_position ? "motor" : "joint", r.joint + 1),
-          fmt::format("repeats each reading until the next one, {:.3g} ms later", 1e3 * r.interval),
-          "nothing to do: the diagnosis has left the repeated ones out", LogFinding::Severity::corrected};
 }
 
 /// What the stages of one diagnosis share.
@@ -61,10 +42,10 @@ class Diagnoser {
   Diagnoser(const ArmModel& model, const DiagnosisOptions& options, const Progress& progress)
       : model_(model), options_(options), progress_(progress), given_(model.effects.size()) {}
 
-  Diagnosis run(std::vector<Log> training, std::optional<Log> holdout) {
-    result_.log_findings = findings_of(model_, training, holdout, options_.columns.value_or(model_.columns));
-    for (Log& log : training) log = cleaned(std::move(log));
-    if (holdout) holdout = cleaned(std::move(*holdout));
+  Diagnosis run(std::vector<Log> all_training, std::optional<Log> own_holdout) {
+    const auto [training, holdout, findings] =
+        usable_logs(model_, std::move(all_training), std::move(own_holdout), options_.columns.value_or(model_.columns));
+    result_.log_findings = findings;
     has_own_holdout_ = holdout.has_value();
     n_logs_ = training.size();
     result_.holdout = holdout ? holdout->source : "last third of the training data";
@@ -80,7 +61,8 @@ class Diagnoser {
     if (names_would_be_guesses(evidence)) refuse_names(evidence);
     else tell_names(evidence);
     tell_rests(evidence);
-    predict_holdout(evidence, *searched.whole, data.training_joints);
+    adopt_on_holdout(evidence, *searched.whole, data.training_joints);
+    tell_refits();
     if (!is_revised()) result_.tolerance_factor = 1;
     tell_doubtful(evidence);
     tell_probabilities(evidence);
@@ -97,12 +79,6 @@ class Diagnoser {
   }
 
  private:
-  /// Without readings that repeat the one before and without outliers; says so in the findings.
-  Log cleaned(Log log) {
-    for (const RepeatedReadings& r : keep_own_readings(log, model_)) result_.log_findings.push_back(finding_of(log, r));
-    return without_outliers(std::move(log));
-  }
-
   void say(const std::string& what, double fraction) const {
     if (progress_) progress_(what, fraction);
   }
@@ -112,15 +88,6 @@ class Diagnoser {
   PlacedEffect on_its_clock(const Evidence& evidence, const PlacedEffect& effect) const {
     return on_clock_of_its_log(effect, model_.nominal, evidence.records());
   }
-  Hypothesis on_own_clocks(const Evidence& evidence, Hypothesis h) const {
-    for (std::size_t e = given_; e < h.effects.size(); ++e) h.effects[e] = on_its_clock(evidence, h.effects[e]);
-    return h;
-  }
-  /// As the hold-out sees it: a log of its own has its own clock, the last thirds have those of their logs.
-  Hypothesis on_holdout_clock(const Evidence& evidence, const Hypothesis& h) const {
-    return has_own_holdout_ ? on_own_clocks(evidence, h) : h;
-  }
-
   /// The data of a search, as it has split them.
   struct Searched {
     DiagnosisData data;  ///< without its training records
@@ -158,7 +125,7 @@ class Diagnoser {
   /// The revised model is the given one.
   void give_up_revision(const Evidence& evidence) {
     result_.effects.clear();
-    result_.refitted.clear();
+    changed_.clear();
     doubts_.clear();
     none_for_.clear();
     attribution().final_fit = attribution().baseline;
@@ -186,7 +153,6 @@ class Diagnoser {
       for (std::size_t a = 0; a < named.alternatives.size(); ++a) named.alternatives[a].in_set = in[a + 1];
       result_.effects.push_back(std::move(named));
     }
-    tell_refits();
   }
 
   /// Effects without a name that stay in the revised model, because it predicts better with them.
@@ -215,7 +181,6 @@ class Diagnoser {
 
   void tell_refits() {
     const Fit& f = attribution().final_fit;
-    result_.refitted.clear();
     for (const std::size_t i : changed_) {
       const FitParameter& p = f.parameters[i];
       result_.refitted.push_back(estimate_of(f, i, given_));
@@ -264,96 +229,58 @@ class Diagnoser {
                                               "stuck, not connected, or the joint is not driven by this motor"});
   }
 
-  /// Errors by both models. A revised model that predicts the hold-out worse than the given one is not adopted: first
-  /// without the numbers that move the joints, then not at all.
-  void predict_holdout(const Evidence& evidence, const Evidence& whole, const std::vector<Record>& training_joints) {
+  /// The revised model, if the hold-out lets it be adopted, and the errors by both models.
+  void adopt_on_holdout(const Evidence& evidence, const Evidence& whole, const std::vector<Record>& training_joints) {
     say("hold-out", 0);
     HoldOut &joints = details_->joint_view, &torques = details_->torque_view;
     const Hypothesis before{result_.given.nominal, result_.given.effects, attribution().baseline.hypothesis.past};
     for (HoldOut* view : {&joints, &torques}) view->before = predict_all(view->records, before);
-    predict_after(evidence);
+    const AdoptionTask task{evidence, whole, result_.given, tolerated_, has_own_holdout_};
     const std::vector<FitParameter> fitted = attribution().final_fit.parameters;
-    veto(evidence, whole);
+    const Adoption adoption = adopted_on_holdout(task, {attribution().final_fit, changed_}, joints, torques);
+    attribution().final_fit = adoption.revised.fit;
+    changed_ = adoption.revised.changed;
+    result_.absent_events = adoption.absent_events;
+    if (!adoption.worse.empty()) refuse(evidence, adoption.worse);
     result_.revised = result_.given;
     result_.revised.nominal = final_hypothesis().nominal;
-    result_.revised.effects = on_own_clocks(evidence, final_hypothesis()).effects;
+    result_.revised.effects =
+        on_clocks_of_their_logs(final_hypothesis(), given_, model_.nominal, evidence.records()).effects;
     for (PlacedEffect& e : result_.revised.effects) keep_within_bounds(e, result_.revised.nominal);
     details_->past = final_hypothesis().past;
     result_.before = prediction_errors(joints, torques, result_.given.nominal, &HoldOut::before);
     result_.after = prediction_errors(joints, torques, result_.given.nominal, &HoldOut::after);
-    // The effects that a veto leaves are as uncertain as before.
+    tell_intervals(task, fitted, training_joints);
+  }
+
+  /// Intervals of the joint positions. The effects that the hold-out's veto leaves are as uncertain as before.
+  ///   fitted: the parameters of the fit before that veto
+  void tell_intervals(const AdoptionTask& task, const std::vector<FitParameter>& fitted,
+                      const std::vector<Record>& training_joints) {
+    HoldOut& joints = details_->joint_view;
     Fit uncertain = attribution().final_fit;
     if (final_hypothesis().effects.size() > given_) uncertain.parameters = fitted;
-    uncertain = with_all_numbers(whole, uncertain, attribution().baseline.parameters);
+    uncertain = with_all_numbers(task.whole, uncertain, attribution().baseline.parameters);
     for (const std::size_t e : result_.absent_events)
       if (uncertain.usable) uncertain = without_event(std::move(uncertain), e);
-    uncertain.hypothesis = on_holdout_clock(evidence, uncertain.hypothesis);
-    joints.half_width =
-        half_widths(joints.records, uncertain, residual_quantiles(evidence, training_joints, final_hypothesis()));
+    uncertain.hypothesis = on_holdout_clock(task, uncertain.hypothesis);
+    const std::vector<double> noise = residual_quantiles(task.evidence, training_joints, final_hypothesis());
+    joints.half_width = half_widths(joints.records, uncertain, noise);
     result_.joint_interval = prediction_interval(joints, model_.n());
   }
 
-  /// HoldOut::after, and the events that did not happen in a hold-out log of its own.
-  void predict_after(const Evidence& evidence) {
-    HoldOut &joints = details_->joint_view, &torques = details_->torque_view;
-    const auto predict = [&](const Hypothesis& on_common_clock) {
-      const Hypothesis h = on_holdout_clock(evidence, on_common_clock);
-      for (HoldOut* view : {&joints, &torques}) view->after = predict_all(view->records, h);
-      return error_over_floors(model_, joints, torques, &HoldOut::after, evidence.floor());
-    };
-    result_.absent_events.clear();
-    Hypothesis on_holdout = final_hypothesis();
-    double least = predict(on_holdout);
-    bool is_predicted = true;
-    for (std::size_t e = on_holdout.effects.size(); has_own_holdout_ && e-- > given_;) {
-      if (!has_instants(on_holdout.effects[e], model_.nominal)) continue;
-      const Hypothesis without = without_effect(on_holdout, e);
-      const double error = predict(without);
-      is_predicted = error < least;
-      if (!is_predicted) continue;
-      result_.absent_events.push_back(e);
-      on_holdout = without;
-      least = error;
-    }
-    if (!is_predicted) predict(on_holdout);
-  }
+  bool is_revised() const { return final_hypothesis().effects.size() > given_ || !changed_.empty(); }
 
-  bool is_revised() const { return final_hypothesis().effects.size() > given_ || !result_.refitted.empty(); }
-
-  void veto(const Evidence& evidence, const Evidence& whole) {
-    HoldOut &joints = details_->joint_view, &torques = details_->torque_view;
-    if (!is_revised()) return;
-    std::vector<int> worse = worse_joints(model_, joints, torques, evidence.floor());
-    if (worse.empty()) return;
-    if (give_motion_back(whole)) {
-      predict_after(evidence);
-      worse = worse_joints(model_, joints, torques, holdout_floors(evidence, tolerated_, joints, torques));
-    }
-    if (!worse.empty()) refuse(evidence, worse);
-  }
-
-  /// False if the model's motion cannot be integrated with the effects: then all stays as it is. The verdict stays that
-  /// of the fit before: what numbers explain within their tolerances is not unexplained because other data want others.
-  bool give_motion_back(const Evidence& whole) {
-    const Fit fit = with_given_motion(whole, tolerated_, attribution().final_fit);
-    if (!fit.usable) return false;
-    attribution().final_fit = fit;
-    changed_ = changed_numbers(whole, tolerated_, attribution().final_fit);
-    tell_refits();
-    return true;
-  }
-
+  /// What the hold-out refuses becomes unexplained.
   void refuse(const Evidence& evidence, const std::vector<int>& worse) {
     const bool is_told = is_revised();  // numbers that changed too little to be told go back without a word
     std::string names;
     for (const NamedEffect& e : result_.effects) names += (names.empty() ? "" : ", ") + effect_label(e.effect);
     if (names.empty()) names = "refitted parameters";
     give_up_revision(evidence);
-    result_.absent_events.clear();
     for (const int k : is_told ? worse : std::vector<int>())
       result_.unexplained.push_back(
           {k, fmt::format("{} would explain the training data, but predict this joint worse on the hold-out", names)});
-    for (HoldOut* view : {&details_->joint_view, &details_->torque_view}) view->after = view->before;
   }
 
   const ArmModel& model_;

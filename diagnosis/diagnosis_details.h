@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "diagnosis/diagnose.h"
-#include "diagnosis/judgement/holdout.h"
+#include "diagnosis/holdout/holdout.h"
 #include "diagnosis/search/attribution.h"
 
 namespace halyard {

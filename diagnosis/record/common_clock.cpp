@@ -49,4 +49,10 @@ PlacedEffect on_clock_of_its_log(PlacedEffect effect, const ArmParameters<double
   return effect;
 }
 
+Hypothesis on_clocks_of_their_logs(Hypothesis h, std::size_t first, const ArmParameters<double>& arm,
+                                   const std::vector<Record>& records) {
+  for (std::size_t e = first; e < h.effects.size(); ++e) h.effects[e] = on_clock_of_its_log(h.effects[e], arm, records);
+  return h;
+}
+
 }  // namespace halyard

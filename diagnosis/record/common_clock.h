@@ -25,4 +25,8 @@ const Record* record_of(const PlacedEffect& effect, const ArmParameters<double>&
 PlacedEffect on_clock_of_its_log(PlacedEffect effect, const ArmParameters<double>& arm,
                                  const std::vector<Record>& records);
 
+/// The hypothesis with each of its effects from index `first` on the clock of the log in which it happens.
+Hypothesis on_clocks_of_their_logs(Hypothesis h, std::size_t first, const ArmParameters<double>& arm,
+                                   const std::vector<Record>& records);
+
 }  // namespace halyard

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "diagnosis/holdout/holdout.h"
 #include "diagnosis/judgement/final_fit.h"
-#include "diagnosis/judgement/holdout.h"
 #include "diagnosis/log_check/outliers.h"
 #include "diagnosis/log_check/own_readings.h"
 #include "diagnosis/round/refit.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/judgement/holdout.h"
+#include "diagnosis/holdout/holdout.h"
 #include "model/log.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"

@@ -1,4 +1,4 @@
-#include "diagnosis/judgement/prediction_interval.h"
+#include "diagnosis/holdout/prediction_interval.h"
 
 #include <gtest/gtest.h>
 

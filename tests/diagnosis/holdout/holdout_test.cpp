@@ -1,4 +1,4 @@
-#include "diagnosis/judgement/holdout.h"
+#include "diagnosis/holdout/holdout.h"
 
 #include <gtest/gtest.h>
 

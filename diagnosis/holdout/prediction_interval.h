@@ -15,7 +15,7 @@
 /// the training data; their coverage of the hold-out measures how well.
 
 #include "diagnosis/fit/fit.h"
-#include "diagnosis/judgement/holdout.h"
+#include "diagnosis/holdout/holdout.h"
 
 namespace halyard {
 
