@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "diagnosis/search_space/built_in.h"
+#include "model/drive_ratio.h"
 #include "transmission/effects/typical_size.h"
 
 namespace halyard {
@@ -19,8 +20,8 @@ void cable_slip(SearchSpace& space, const Arm&, int) {
   space["duration"].natural_bounds = true;
 }
 
-void capstan_ratio(SearchSpace& space, const Arm&, int joint) {
-  space["ratio"].changes = {&Tolerances::length, joint, 1};
+void capstan_ratio(SearchSpace& space, const Arm& arm, int joint) {
+  space["ratio"].changes = {&Tolerances::length, joint, static_cast<double>(uncertain_lengths(arm.joint[joint]))};
 }
 
 void coupling(SearchSpace& space, const Arm& arm, int joint) {

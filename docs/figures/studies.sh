@@ -35,32 +35,32 @@ TABLE
 
 figure blind_trials hours bench
 figure_blind_trials() {
-  local kind sensors trials shard
+  local kind sensors trials shards shard
   # Parts of twelve, each of which spreads over the library's effects.
-  while read -r kind sensors trials; do
-    for shard in 1 2 3 4; do
+  while read -r kind sensors trials shards; do
+    for shard in $shards; do
       ran "$bench/halyard_blind_trials --kind $kind --sensors $sensors --off 1 --arms raven2 --trials $trials \
 --shard $shard/12 --seed 20271209 --resume --out out/trials"
     done
   done <<'DRAWS'
-clean good 24
-clean poor 24
-effect good 36
-effect poor 36
-effect motors 36
-two_at_joint good 36
-two_at_joint poor 36
-three good 36
-three poor 36
-form good 24
-form poor 24
-outside good 24
-outside poor 24
+clean good 60 5 6 7 8 9 10 11
+clean poor 60 5 6 7 8 9 10 11
+effect good 48 5 6 7
+effect poor 48 5 6 7
+effect motors 48 5 6 7
+two_at_joint good 24 5 6 7
+two_at_joint poor 24 5 6 7
+three good 24 5 6 7
+three poor 24 5 6 7
+form good 60 5 6 7
+form poor 60 5 6 7
+outside good 60 5 6 7
+outside poor 60 5 6 7
 DRAWS
   ran "$bench/halyard_blind_trials --summary out/trials"
   cat <<'TABLE'
 From `halyard_blind_trials --seed 20271209 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N --shard i/12`,
-i from 1 to 4. N is 36 for one effect and for two or three effects, and 24 for the other kinds:
+i from 5 to 7, of clean arms to 11. N is 48 for one effect, 24 for two or three effects, and 60 for the other kinds:
 
 TABLE
   awk '/^## /{ inside = $2 == "Acceptance" } inside && /^[|]/' "$work/out/trials/summary.md"

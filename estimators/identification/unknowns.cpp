@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "estimators/identification/identified_keys.h"
+#include "model/drive_ratio.h"
 
 namespace halyard {
 namespace {
@@ -50,7 +51,7 @@ std::vector<Weight> other_numbers(const ArmModel& model, const std::vector<std::
     if (info.key.ends_with(".gear_ratio") || info.key.ends_with(".pulley_radius")) continue;
     if (info.tolerance == &Tolerances::com || info.tolerance == &Tolerances::inertia) continue;
     if (std::ranges::find(keys, info.key) != keys.end() || !is_in_equations(model, info)) continue;
-    const double reach = model.reach(info);
+    const double reach = info.key.ends_with(".capstan_radius") ? reach_of_ratio(model, info.joint) : model.reach(info);
     if (reach > 0) others.push_back({.key = info.key, .nominal = info.number.get(), .scale = reach / 2});
   }
   return others;

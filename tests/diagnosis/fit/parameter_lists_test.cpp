@@ -10,6 +10,8 @@
 namespace halyard {
 namespace {
 
+constexpr double kRelative = 1e-12;
+
 FitParameter number_of(std::optional<std::size_t> effect, std::size_t index, bool shape) {
   FitParameter p;
   p.effect = effect, p.index = index, p.shape = shape;
@@ -69,6 +71,21 @@ TEST(ParameterLists, AParameterEndsAtABoundThatIsNotItsNeutralValue) {
   EXPECT_FALSE(ends_at_bound(p, 2));
   p.is_whole = false, p.effect = {};
   EXPECT_FALSE(ends_at_bound(p, 2)) << "a number of the model";
+}
+
+/// One number stands for all lengths of a drive's ratio. Each may be off, and so the ratio by their sum.
+TEST(ParameterLists, TheRatioOfADriveMayBeOffByTheTolerancesOfAllItsLengths) {
+  ArmModel model = first_joints(3);
+  const auto reach_of = [&](const std::string& joint) {
+    for (const FitParameter& p : baseline_parameters(model))
+      if (p.name.starts_with(joint) && p.name.ends_with("capstan radius")) return (p.upper - p.nominal) / p.nominal;
+    return 0.0;
+  };
+  const double length = model.joints[0].tolerances.length;
+  EXPECT_NEAR(reach_of("joint 1"), 3 * length, kRelative);
+  EXPECT_NEAR(reach_of("joint 3"), 2 * length, kRelative) << "its cable pulls along the axis";
+  model.nominal.joint[0].capstan_radius = model.nominal.joint[0].pulley_radius = 1;
+  EXPECT_NEAR(reach_of("joint 1"), length, kRelative) << "a gear";
 }
 
 TEST(ParameterLists, NumbersOfTheModelHaveItsTolerances) {

@@ -185,5 +185,16 @@ TEST(SearchSpace, AShareThatMayBeOneHasNaturalBounds) {
   EXPECT_GT(n, 0);
 }
 
+/// A fit keeps whole numbers as they start, and a sine of a neighbouring order leaves most of the residual.
+TEST(SearchSpace, AnEccentricSensorMayHaveAnyOrderUpTo32) {
+  const ArmParameters<double> arm = random_arm(1, CableLaw::linear);
+  for (int k = 0; k < arm.n; ++k) {
+    if (arm.joint[k].type != JointType::revolute) continue;
+    SearchSpace space = search_space(*find_effect("encoder_eccentricity"), arm, k);
+    for (int order = 1; order <= 32; ++order)
+      EXPECT_TRUE(std::ranges::binary_search(space["order"].starts, order)) << order;
+  }
+}
+
 }  // namespace
 }  // namespace halyard

@@ -111,6 +111,10 @@ TEST(Unknowns, OfADriveItIsTheCapstanAndOfALinkTheMassThatIsUncertain) {
   const Unknowns all = list_unknowns(raven2(), {"joint1.cable.stiffness"});
   for (const char* key : {"joint1.motor.capstan_radius", "joint2.link.mass"})
     EXPECT_NE(weight_named(all, key), nullptr) << key;
+  const JointParameters<double> j = raven2().nominal.joint[0];
+  EXPECT_DOUBLE_EQ(weight_named(all, "joint1.motor.capstan_radius")->scale,
+                   1.5 * raven2().joints[0].tolerances.length * j.capstan_radius)
+      << "half of what its three lengths may be off";
   for (const char* key : {"joint1.motor.gear_ratio", "joint1.cable.pulley_radius", "joint1.cable.tension",
                           "joint2.link.com.x", "joint2.link.inertia"})
     EXPECT_EQ(weight_named(all, key), nullptr) << key;
