@@ -35,32 +35,30 @@ TABLE
 
 figure blind_trials hours bench
 figure_blind_trials() {
-  local kind sensors trials shards shard
+  local kind sensors shard
   # Parts of twelve, each of which spreads over the library's effects.
-  while read -r kind sensors trials shards; do
-    for shard in $shards; do
-      ran "$bench/halyard_blind_trials --kind $kind --sensors $sensors --off 1 --arms raven2 --trials $trials \
---shard $shard/12 --seed 20271209 --resume --out out/trials"
-    done
+  while read -r kind sensors shard; do
+    ran "$bench/halyard_blind_trials --kind $kind --sensors $sensors --off 1 --arms raven2 --trials 60 \
+--shard $shard/12 --seed 20271210 --resume --out out/trials"
   done <<'DRAWS'
-clean good 60 5 6 7 8 9 10 11
-clean poor 60 5 6 7 8 9 10 11
-effect good 48 5 6 7
-effect poor 48 5 6 7
-effect motors 48 5 6 7
-two_at_joint good 24 5 6 7
-two_at_joint poor 24 5 6 7
-three good 24 5 6 7
-three poor 24 5 6 7
-form good 60 5 6 7
-form poor 60 5 6 7
-outside good 60 5 6 7
-outside poor 60 5 6 7
+clean good 1
+clean poor 5
+effect good 1
+effect poor 5
+effect motors 9
+two_at_joint good 5
+two_at_joint poor 9
+three good 9
+three poor 1
+form good 1
+form poor 5
+outside good 9
+outside poor 1
 DRAWS
   ran "$bench/halyard_blind_trials --summary out/trials"
   cat <<'TABLE'
-From `halyard_blind_trials --seed 20271209 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N --shard i/12`,
-i from 5 to 7, of clean arms to 11. N is 48 for one effect, 24 for two or three effects, and 60 for the other kinds:
+From `halyard_blind_trials --seed 20271210 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials 60 --shard i/12`,
+i is 1, 5 or 9: another one for each kind of sensors:
 
 TABLE
   awk '/^## /{ inside = $2 == "Acceptance" } inside && /^[|]/' "$work/out/trials/summary.md"
