@@ -28,9 +28,8 @@ endforeach()
 
 compile_together(halyard_model model
   arm_log.cpp arm_model.cpp column_map.cpp homing.cpp log.cpp memory_limit.cpp model_file.cpp
-  model_writer.cpp
   output/folder_lock.cpp output/output_files.cpp output/read_files.cpp output/unfinished.cpp
-  xml/field_reader.cpp)
+  xml/field_reader.cpp xml/model_writer.cpp)
 
 compile_together(halyard_simbody simbody integrators/simbody_integrator.cpp simbody_arm.cpp)
 compile_together(halyard_plant simulation
@@ -68,7 +67,7 @@ compile_together(halyard_diagnosis prediction
 compile_together(halyard_diagnosis log_check
   log_check/clock.cpp log_check/columns.cpp log_check/log_check.cpp log_check/log_under_check.cpp
   log_check/outliers.cpp log_check/own_readings.cpp log_check/positions.cpp log_check/robust.cpp log_check/saturating_torque.cpp
-  log_check/torques.cpp log_check/usable_logs.cpp log_check/zeros.cpp)
+  log_check/torques.cpp log_check/zeros.cpp)
 compile_together(halyard_diagnosis fit
   calibration/lateness.cpp fit/baseline_reach.cpp fit/beyond_numbers.cpp fit/block_variance.cpp
   fit/complementary.cpp fit/evidence.cpp fit/fit.cpp fit/fit_parameter.cpp fit/nudged.cpp

@@ -17,7 +17,7 @@
 #include "diagnosis/holdout/adoption.h"
 #include "diagnosis/holdout/prediction_interval.h"
 #include "diagnosis/judgement/name_probability.h"
-#include "diagnosis/log_check/usable_logs.h"
+#include "diagnosis/log_check/own_readings.h"
 #include "diagnosis/record/common_clock.h"
 #include "diagnosis/search/basis.h"
 #include "diagnosis/search/revision.h"
@@ -88,6 +88,7 @@ class Diagnoser {
   PlacedEffect on_its_clock(const Evidence& evidence, const PlacedEffect& effect) const {
     return on_clock_of_its_log(effect, model_.nominal, evidence.records());
   }
+
   /// The data of a search, as it has split them.
   struct Searched {
     DiagnosisData data;  ///< without its training records

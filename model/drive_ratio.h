@@ -16,10 +16,12 @@ inline int uncertain_lengths(const JointParameters<double>& joint) {
   return (joint.gear_ratio != 1) + (joint.capstan_radius != 1) + (joint.pulley_radius != 1);
 }
 
-/// The sum of the tolerances of the lengths, m: how far the capstan's radius may be off when it stands for them.
-inline double reach_of_ratio(const ArmModel& model, int joint) {
-  const JointParameters<double>& j = model.nominal.joint[joint];
-  return model.joints[joint].tolerances.length * uncertain_lengths(j) * j.capstan_radius;
+/// ArmModel::reach(), but the capstan's radius stands for the ratio: it has the sum of the lengths' tolerances, and the
+/// gear ratio and the pulley's radius have 0.
+inline double reach_with_one_ratio(const ArmModel& model, const ParameterInfo& number) {
+  if (number.key.ends_with(".gear_ratio") || number.key.ends_with(".pulley_radius")) return 0;
+  const bool stands_for_ratio = number.key.ends_with(".capstan_radius");
+  return model.reach(number) * (stands_for_ratio ? uncertain_lengths(model.nominal.joint[number.joint]) : 1);
 }
 
 }  // namespace halyard

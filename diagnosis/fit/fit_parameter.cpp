@@ -93,10 +93,7 @@ std::vector<FitParameter> baseline_parameters(const ArmModel& model) {
   std::vector<FitParameter> all;
   const auto named = named_parameters(arm);
   for (std::size_t i = 0; i < named.size(); ++i) {
-    const auto is = [&](const char* word) { return named[i].key.find(word) != std::string::npos; };
-    if (is("gear_ratio") || is("pulley_radius")) continue;  // one ratio, told by the capstan's radius
-    const double value = named[i].number.get();
-    const double reach = is("capstan_radius") ? reach_of_ratio(model, named[i].joint) : model.reach(named[i]);
+    const double value = named[i].number.get(), reach = reach_with_one_ratio(model, named[i]);
     if (!(reach > 0)) continue;
     all.push_back({named[i].name, named[i].unit, std::nullopt, i, value, std::max(value - reach, named[i].least),
                    value + reach, reach / 2, true});

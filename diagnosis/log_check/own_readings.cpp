@@ -1,5 +1,7 @@
 #include "diagnosis/log_check/own_readings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -72,6 +74,12 @@ std::vector<std::size_t> repeats_in(const std::vector<double>& x, double resolut
   return repeats;
 }
 
+LogFinding finding_of(const Log& log, const RepeatedReadings& r) {
+  return {log.source, fmt::format("{}_position_{}", r.signal == &Log::motor_position ? "motor" : "joint", r.joint + 1),
+          fmt::format("repeats each reading until the next one, {:.3g} ms later", 1e3 * r.interval),
+          "nothing to do: the diagnosis has left the repeated ones out", LogFinding::Severity::corrected};
+}
+
 }  // namespace
 
 std::vector<RepeatedReadings> keep_own_readings(Log& log, const ArmModel& model) {
@@ -96,9 +104,23 @@ std::vector<RepeatedReadings> keep_own_readings(Log& log, const ArmModel& model)
   return repeated;
 }
 
-Log usable_readings(Log log, const ArmModel& model) {
-  keep_own_readings(log, model);
+Log usable_readings(Log log, const ArmModel& model, std::vector<LogFinding>* findings) {
+  for (const RepeatedReadings& r : keep_own_readings(log, model))
+    if (findings) findings->push_back(finding_of(log, r));
   return without_outliers(std::move(log));
+}
+
+UsableLogs usable_logs(const ArmModel& model, std::vector<Log> training, std::optional<Log> holdout,
+                       const ColumnMap& columns) {
+  UsableLogs usable{std::move(training), std::move(holdout), {}};
+  std::vector<Log*> logs;
+  for (Log& log : usable.training) logs.push_back(&log);
+  if (usable.holdout) logs.push_back(&*usable.holdout);
+  for (const Log* log : logs)
+    for (LogFinding& finding : check_log(*log, model, columns)) usable.findings.push_back(std::move(finding));
+  stop_at_gross_finding(usable.findings);
+  for (Log* log : logs) *log = usable_readings(std::move(*log), model, &usable.findings);
+  return usable;
 }
 
 }  // namespace halyard

@@ -8,10 +8,10 @@
 ///
 /// A joint that stands behind backlash or friction has equal readings as well, but then sets out slowly.
 
+#include <optional>
 #include <vector>
 
-#include "model/arm_model.h"
-#include "model/log.h"
+#include "diagnosis/log_check/log_check.h"
 
 namespace halyard {
 
@@ -22,8 +22,20 @@ struct RepeatedReadings {
   double interval = 0;  ///< usual time from a reading to the next, s
 };
 
-/// The log as the diagnosis takes it: without repeated readings and without outliers.
-Log usable_readings(Log log, const ArmModel& model);
+/// The log as the diagnosis takes it: without repeated readings and without outliers. findings: gets one for each
+/// sensor whose readings were repeated.
+Log usable_readings(Log log, const ArmModel& model, std::vector<LogFinding>* findings = nullptr);
+
+struct UsableLogs {
+  std::vector<Log> training;
+  std::optional<Log> holdout;
+  std::vector<LogFinding> findings;  ///< of check_log() about all logs, then those of usable_readings()
+};
+
+/// The logs of a diagnosis, checked and as it takes them. columns: the map with which they were read. Throws InputError
+/// if check_log() has a gross finding about one of them.
+UsableLogs usable_logs(const ArmModel& model, std::vector<Log> training, std::optional<Log> holdout,
+                       const ColumnMap& columns);
 
 /// Empties the cells that repeat a motor's position or a joint's, and torques that are repeated with their motor's.
 std::vector<RepeatedReadings> keep_own_readings(Log& log, const ArmModel& model);

@@ -32,9 +32,7 @@ void torque_scale(SearchSpace& space, const Arm&, int joint) {
 
 void torque_ripple(SearchSpace& space, const Arm&, int) {
   // Pole pairs, slots and commutator bars, and what they have in common.
-  std::vector<double>& orders = space["order"].starts;
-  for (int n = 1; n <= 24; ++n) orders.push_back(n);
-  for (const int n : {28, 30, 32, 36, 42, 48}) orders.push_back(n);
+  space["order"].starts = whole_orders(24, {28, 30, 32, 36, 42, 48});
   space["order"].is_whole = true;
   space.order_of_motor_torque = 2;
 }

@@ -11,10 +11,7 @@ void encoder_offset(SearchSpace& space, const ArmParameters<double>&, int) {
 
 void encoder_eccentricity(SearchSpace& space, const ArmParameters<double>& arm, int joint) {
   if (arm.joint[joint].type == JointType::revolute) {
-    // A sine of a neighbouring order leaves most of the residual.
-    std::vector<double>& orders = space["order"].starts;
-    for (int n = 1; n <= 32; ++n) orders.push_back(n);
-    for (const int n : {36, 40, 48, 64}) orders.push_back(n);
+    space["order"].starts = whole_orders(32, {36, 40, 48, 64});
     space["order"].is_whole = true;
   } else {
     // Decades of scales. Where a motion is known, they are as close as it can tell them apart (fit_parameter.h).

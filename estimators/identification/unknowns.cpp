@@ -48,10 +48,9 @@ std::vector<Weight> other_numbers(const ArmModel& model, const std::vector<std::
   ArmParameters<double> arm = model.nominal;
   std::vector<Weight> others;
   for (const ParameterInfo& info : named_parameters(arm)) {
-    if (info.key.ends_with(".gear_ratio") || info.key.ends_with(".pulley_radius")) continue;
     if (info.tolerance == &Tolerances::com || info.tolerance == &Tolerances::inertia) continue;
     if (std::ranges::find(keys, info.key) != keys.end() || !is_in_equations(model, info)) continue;
-    const double reach = info.key.ends_with(".capstan_radius") ? reach_of_ratio(model, info.joint) : model.reach(info);
+    const double reach = reach_with_one_ratio(model, info);
     if (reach > 0) others.push_back({.key = info.key, .nominal = info.number.get(), .scale = reach / 2});
   }
   return others;
