@@ -69,9 +69,11 @@ class JointObserver {
       angle(j) = record_.motor_angle[j][i] - s[j].motor_error;
       rate(j) = record_.motor_rate[j][i];
       acceleration(j) = record_.motor_acceleration[j][i];
-      undriven(j) = record_.has_joint(j) ? record_.joint[j][i] - s[j].joint_error : 0.0;
+      // A joint without a motor moves as the record says in place of a motor.
+      undriven(j) = record_.motor_angle[j][i] - arm_.joint[j].joint_encoder_offset;
     }
-    return {from_motors_ * angle + from_undriven_ * undriven, from_motors_ * rate, from_motors_ * acceleration};
+    return {from_motors_ * angle + from_undriven_ * undriven, from_motors_ * rate + from_undriven_ * rate,
+            from_motors_ * acceleration + from_undriven_ * acceleration};
   }
 
   Motion measured(std::size_t i, const JointSignals<double>* s) const {

@@ -308,23 +308,24 @@ void check_clipped_torque(LogUnderCheck& c, int k) {
 }
 
 void check_idle(LogUnderCheck& c) {
-  bool moves = false, torque = false, any = false;
+  bool moves = false, torque = false;
+  std::string first;  // column of the first motor
   for (int k = 0; k < c.n(); ++k) {
     if (!c.is_driven(k)) continue;
-    any = true;
+    if (first.empty()) first = "motor_position_" + std::to_string(k + 1);
     const double counts = 3 * c.model.nominal.joint[k].motor_encoder_resolution;
     const double least = std::max(counts, 1e-4 * c.range(k) / std::abs(c.joint_per_motor(k)));
     moves = moves || spread(c.log.motor_position[k]) > least;
     torque = torque || std::ranges::any_of(c.log.motor_torque[k], [](double t) { return std::isfinite(t) && t != 0; });
   }
-  if (!any || moves) return;
-  c.reject("motor_position_1",
-           torque
-               ? "torque is commanded and no motor moves: there is nothing to learn from; expected a motion"
-               : "no motor moves and no torque is commanded, as of a robot that is switched off: there is nothing to "
-                 "learn from; expected a motion",
-           "give a record in which the motors move; if they did, give the columns of their encoders, such as --column "
-           "motor_position_1=NAME");
+  if (first.empty() || moves) return;
+  c.reject(
+      first,
+      torque ? "torque is commanded and no motor moves: there is nothing to learn from; expected a motion"
+             : "no motor moves and no torque is commanded, as of a robot that is switched off: there is nothing to "
+               "learn from; expected a motion",
+      "give a record in which the motors move; if they did, give the columns of their encoders, such as --column " +
+          first + "=NAME");
   c.findings.back().stands_still = true;
 }
 

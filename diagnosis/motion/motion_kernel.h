@@ -55,7 +55,7 @@ inline std::size_t samples_of_chain(double dt) {
 /// The rigid chain over a few samples.
 template <class T>
 struct HeldChain {
-  T M[kMaxJoints][kMaxJoints];  ///< factored mass matrix
+  T M[kMaxJoints][kMaxJoints];  ///< factored mass matrix, with the rotors of rigid drives
   T bias[kMaxJoints];           ///< velocity and gravity forces
   int n_prescribed = 0;
   int prescribed[kMaxJoints];          ///< joints with a rigid drive or none
@@ -72,6 +72,7 @@ HALYARD_INLINE void chain_at(const ArmParameters<T>& arm, const T* q, const T* v
   const ChainPose<T> pose = chain_pose<known>(arm, q);
   inverse_dynamics<known>(arm, pose, v, zero, chain.bias);
   mass_matrix<known>(arm, pose, chain.M);
+  add_rotor_mass<known>(arm, chain.M);
   ldl_factor<T, kMaxJoints>(n, chain.M);
   chain.n_prescribed = 0;
   for (int k = 0; k < n; ++k)
@@ -162,7 +163,9 @@ HALYARD_INLINE void driven_derivative(const Transmission<T>& transmission, const
     for (int r = 0; r < chain->n_prescribed; ++r) {
       const int k = chain->prescribed[r];
       for (int i = 0; i < n; ++i) a[i] += chain->response[r][i] * lambda[r];
-      if (arm.joint[k].drive == Drive::rigid) s[k].cable_force_motor = lambda[r];
+      const JointParameters<T>& j = arm.joint[k];  // M carries its rotor, which is no part of the transmission's force
+      if (j.drive == Drive::rigid)
+        s[k].cable_force_motor = lambda[r] - j.rotor_inertia * u.motor_acceleration[k] / j.motor_travel();
     }
   }
 

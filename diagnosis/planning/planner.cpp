@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/prediction/room.h"
 #include "diagnosis/search/attribution.h"
-#include "model/input_error.h"
 
 namespace halyard {
 namespace {
@@ -188,10 +188,7 @@ BaselineReach Planner::make_reach() {
   const Score score = evidence_.score(nominal_);
   const std::vector<FitParameter> numbers = baseline_parameters(model_);
   const auto columns = sensitivities(evidence_, nominal_, numbers);
-  if (!score.finite || (columns.empty() && !numbers.empty()))
-    throw InputError(model_.source +
-                     ": cannot be integrated along the motion; expected frictions and cables that settle more slowly: "
-                     "take larger smoothing speeds, or less damping");
+  if (!score.finite || (columns.empty() && !numbers.empty())) refuse_to_predict(model_, "motion");
   base_ = evidence_.fit_rows({nominal_})[0];
   return BaselineReach(evidence_, columns, channel_scale(evidence_, score.fit_mean_square));
 }

@@ -13,6 +13,7 @@
 #include "diagnosis/prediction/lane_residuals.h"
 #include "diagnosis/prediction/motion_key.h"
 #include "diagnosis/prediction/recent_residuals.h"
+#include "diagnosis/prediction/room.h"
 #include "diagnosis/prediction/shared_lanes.h"
 #include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/record/common_clock.h"
@@ -153,7 +154,7 @@ class Prediction {
   void find_starts() {
     tbb::parallel_for(std::size_t{0}, jobs_.size(), [&](std::size_t i) {
       Job& job = jobs_[i];
-      if (job.mover != i) return;
+      if (job.mover != i || !has_room(job.hypothesis->effects, record_.n)) return;
       job.start = unstretched_state(*job.hypothesis, record_, inputs_[0]);
       job.spectrum = eigenvalues_of(*job.hypothesis, record_, standing(inputs_[0]), job.start);
       job.is_able = !job.spectrum.empty() && stages_for(job.spectrum, record_.dt) > 0;

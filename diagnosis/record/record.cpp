@@ -91,6 +91,8 @@ class Stretch {
       for (const SampledColumn* c : {&motion_[k], &torque_[k], &joint_[k]})
         if (c->is_there()) fastest = std::min(fastest, c->interval());
     }
+    if (!std::isfinite(fastest))
+      throw InputError(log.source + ": has no motion, no torque and no joint sensor of this arm; give a log with one");
     start_ = log.time.front();
     // Whole samples to a step of the grid, or whole steps to a sample.
     const double ratio = options.step_s / fastest;

@@ -2,19 +2,13 @@
 
 #include <algorithm>
 
+#include "diagnosis/prediction/room.h"
 #include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/search/compete.h"
 #include "diagnosis/search/pair_rivals.h"
-#include "model/input_error.h"
 
 namespace halyard {
 namespace {
-
-[[noreturn]] void refuse(const ArmModel& model) {
-  throw InputError(model.source +
-                   ": cannot be integrated along the measured motion; expected frictions and cables that settle "
-                   "more slowly: take larger smoothing speeds, or less damping");
-}
 
 /// Each costs a round.
 constexpr int kMostBetterFits = 3;
@@ -33,7 +27,7 @@ class Search {
     result_.nominal_score = evidence_.score(nominal);
     if (result_.nominal_score.finite && basis_->refitter.is_usable())
       baseline_ = basis_->refitted(nominal, result_.nominal_score);
-    if (!baseline_.fit.usable) refuse(model);
+    if (!baseline_.fit.usable) refuse_to_predict(model, "measured motion");
   }
 
   Attribution run() {

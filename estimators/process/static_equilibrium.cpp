@@ -40,6 +40,7 @@ void rest_forces(const ProcessModel& process, double time_s, const Eigen::Vector
 Eigen::MatrixXd mass_matrix_at(const ArmParameters<double>& arm, const Eigen::VectorXd& q) {
   double M[kMaxJoints][kMaxJoints];
   mass_matrix(arm, chain_pose(arm, q.data()), M);
+  add_rotor_mass(arm, M);
   Eigen::MatrixXd out(arm.n, arm.n);
   for (int r = 0; r < arm.n; ++r)
     for (int c = 0; c < arm.n; ++c) out(r, c) = M[r][c];

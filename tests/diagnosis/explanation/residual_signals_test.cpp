@@ -81,6 +81,29 @@ TEST(ResidualSignals, TheMotionIsThatOfTheMotorsWithoutStretch) {
   }
 }
 
+TEST(ResidualSignals, AJointWithoutMotorMovesAsItsSensorSays) {
+  Log log = simulate(fine_motion()).measured;
+  log.motor_position[0].clear(), log.motor_torque[0].clear();
+  ArmModel model = first_joints(2);
+  model.nominal.joint[0].drive = Drive::none;
+  const std::vector<Record> records = make_records(log, model, {});
+  const Record& r = records[0];
+  const Hypothesis h{model.nominal, {}};
+  const std::vector<FullPrediction> predictions = {predict_fully(r, h)};
+  const ResidualSignals shoulder = residual_signals(records, predictions, h, 0),
+                        elbow = residual_signals(records, predictions, h, 1), driven = in_motion().signals(1);
+  const int stride = static_cast<int>(std::lround(0.01 / r.dt));
+  double error = 0, n = 0;
+  for (std::size_t i = 0; i < shoulder.time.size(); ++i) {
+    EXPECT_NEAR(shoulder.joint_position[i], r.motor_angle[0][i * stride], 1e-12);
+    EXPECT_NEAR(shoulder.joint_rate[i], r.motor_rate[0][i * stride], 1e-12);
+    const double e = elbow.load[i] - driven.load[i];
+    if (std::isfinite(e)) error += e * e, n += 1;
+  }
+  // Where the shoulder's own cable stretches, the load of the elbow differs from that by the motors alone.
+  EXPECT_LT(std::sqrt(error / n), 0.02 * rms(driven.load));
+}
+
 TEST(ResidualSignals, ADirectionIsThatOfTheLastMotionAboveRest) {
   for (int k = 0; k < 2; ++k) {
     const ResidualSignals s = in_motion().signals(k);

@@ -371,6 +371,20 @@ TEST(LogCheck, RejectsARobotThatIsSwitchedOff) {
   expect_one(log, "motor_position_1", Severity::gross, {"torque is commanded and no motor moves"});
 }
 
+TEST(LogCheck, NamesTheFirstMotorOfARobotThatIsSwitchedOff) {
+  ArmModel model = raven();
+  model.nominal.joint[0].drive = Drive::none;
+  Log log = right_log();
+  for (const auto signal : {&Log::motor_torque, &Log::motor_position, &Log::joint_position})
+    for (auto& column : log.*signal) std::ranges::fill(column, signal == &Log::motor_torque ? 0 : column[0]);
+  log.motor_position[0].clear(), log.motor_torque[0].clear();
+  const std::vector<LogFinding> findings = check_log(log, model);
+  const auto off = std::ranges::find(findings, true, &LogFinding::stands_still);
+  ASSERT_NE(off, findings.end());
+  EXPECT_EQ(off->column, "motor_position_2");
+  EXPECT_NE(off->remedy.find("--column motor_position_2=NAME"), off->remedy.npos) << off->remedy;
+}
+
 // ------------------------------------------------------------------------------------- the diagnosis
 
 TEST(Diagnose, StopsAtAReversedMotorAndNamesTheColumn) {

@@ -161,6 +161,27 @@ TEST(Prediction, AHypothesisThatCannotBeIntegratedSaysSoAndLeavesItsNeighboursAl
   }
 }
 
+TEST(Prediction, OfARigidDriveNeedsNoLinkBesideTheRotor) {
+  ArmModel model = first_joints(1);
+  JointParameters<double>& j = model.nominal.joint[0];
+  j.drive = Drive::rigid;
+  j.mass = 0;
+  for (double& moment : j.inertia) moment = 0;
+  Scenario s = motion(model, 3);
+  s.quantise = false;
+  s.engine = Engine::halyard;
+  const Record record = make_records(simulate(s).measured, model, {})[0];
+  const Residuals residuals = predict(record, {{model.nominal, {}}}, 4)[0];
+  ASSERT_TRUE(residuals.finite);
+  double square = 0, torque = 0;
+  for (std::size_t i = 0; i < residuals.channel[0].size(); ++i) {
+    const double e = residuals.channel[0][i], t = record.torque[0][4 * i];
+    if (std::isfinite(e)) square += e * e, torque += t * t;
+  }
+  // Filters of motion and torque do not commute with friction.
+  EXPECT_LT(square, 0.03 * 0.03 * torque);
+}
+
 TEST(Prediction, OfAnArmThatRingsIsStable) {
   const ArmModel model = first_joints(2);
   const Record record = make_records(unquantised_log(model, 2), model, {})[0];

@@ -10,6 +10,8 @@
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "tests/support/limits.h"
+#include "tests/support/message_of.h"
+#include "tests/support/pendulum.h"
 
 namespace halyard {
 namespace {
@@ -49,6 +51,14 @@ TEST(Record, RampsKeepTheirValueAndSlopeUpToTheEnds) {
     EXPECT_NEAR(r.joint[1][i], ramp(r.time(i)), kValueRounding);
     EXPECT_NEAR(r.external[1][i], ramp(r.time(i)), kValueRounding);
   }
+}
+
+TEST(Record, OfAnArmWithoutMotorsNeedsAnySignalOfIts) {
+  Log log(1);
+  log.source = "loads.csv";
+  for (int i = 0; i <= 2000; ++i) log.time.push_back(1e-3 * i), log.joint_torque[0].push_back(0);
+  EXPECT_EQ(message_of([&] { make_records(log, pendulum(), {}); }),
+            "loads.csv: has no motion, no torque and no joint sensor of this arm; give a log with one");
 }
 
 TEST(Record, ParabolasKeepTheirSlopeAndCurvature) {
