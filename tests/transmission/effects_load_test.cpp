@@ -31,6 +31,15 @@ TEST(Payload, IsTheDirectSumOfTwoBodies) {
   }
 }
 
+TEST(Payload, OfNothingLeavesALinkWithoutMassAsItIs) {
+  ArmParameters<double> arm = random_arm(4, CableLaw::linear);
+  arm.joint[2].mass = 0;
+  const Transmission<double> with(arm, {placed("payload", arm, kWholeArm, {0})});
+  EXPECT_EQ(with.arm().joint[2].mass, 0);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(with.arm().joint[2].com[i], arm.joint[2].com[i]);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(with.arm().joint[2].inertia[i], arm.joint[2].inertia[i]);
+}
+
 TEST(GravityTilt, TurnsGravityAndLeavesItsSize) {
   ArmParameters<double> arm = random_arm(30, CableLaw::linear);
   const double g = 9.81, alpha = 0.2, beta = -0.1;
@@ -54,6 +63,16 @@ TEST(GravityTilt, TurnsGravityAndLeavesItsSize) {
     const std::vector<double> got = tilted(axis, names[axis][0], names[axis][1]);
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(got[i], expected[axis][i], g * 4 * kEps) << axis << i;
   }
+}
+
+TEST(GravityTilt, OfEquallyStrongAxesLeavesOutTheFirst) {
+  ArmParameters<double> arm = random_arm(30, CableLaw::linear);
+  arm.gravity[0] = 1;
+  arm.gravity[1] = -7;
+  arm.gravity[2] = 7;
+  const auto parameters = find_effect("gravity_tilt")->parameters(arm, kWholeArm);
+  EXPECT_EQ(parameters[0].name, "about_x");
+  EXPECT_EQ(parameters[1].name, "about_z");
 }
 
 /// What external_force with parameters p adds to joint 1's force at a position and a time.

@@ -51,6 +51,22 @@ TEST(TorqueScale, TurnsTheCommandIntoTorqueByItsConstantAndBias) {
   }
 }
 
+TEST(Delay, OfNoTimeChangesNothingExactly) {
+  const ArmParameters<double> arm = random_arm(26, CableLaw::linear);
+  CommandHistory history(3, 1);
+  for (int i = 0; i <= 40; ++i) {
+    const double command[3] = {0.1 * i, 0.3 * i, std::sin(0.7 * i)};
+    history.push(0.002 * i - 0.001, command);
+  }
+  const Transmission<double> with(arm, {placed("delay", arm, kWholeArm, {0, 0.003})}), without(arm, {});
+  for (int i = 0; i <= 40; ++i) {
+    Motion m;
+    m.command[0] = 0.1 * i, m.command[1] = 0.3 * i, m.command[2] = std::sin(0.7 * i);
+    const Evaluated late = evaluate(with, m, nullptr, 0.002 * i, &history), plain = evaluate(without, m, nullptr);
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(late.s[k].motor_torque, plain.s[k].motor_torque) << i << ", " << k;
+  }
+}
+
 TEST(Delay, LetsTheTorqueActLateAtItsJointOrAtAll) {
   const ArmParameters<double> arm = random_arm(26, CableLaw::linear);
   CommandHistory history(3, 1);

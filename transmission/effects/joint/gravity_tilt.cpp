@@ -13,7 +13,7 @@
 namespace halyard::effects {
 namespace {
 
-/// The base axis along which gravity is strongest: the one that is left out.
+/// The base axis along which gravity is strongest, the first of equals: the one that is left out.
 template <class T>
 int vertical_axis(const ArmParameters<T>& arm) {
   int vertical = 0;

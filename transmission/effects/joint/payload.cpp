@@ -24,11 +24,13 @@ class Payload : public EffectOf<Payload> {
   template <class T>
   void change(ArmParameters<T>& arm, EffectPlace, const T* p) const {
     JointParameters<T>& last = arm.joint[arm.n - 1];
-    const T total = last.mass + p[0], reduced = last.mass * p[0] / total;
+    // A link without mass stays as it is without a payload.
+    const T total = last.mass + p[0], divisor = select(abs(p[0]) > T(0.0), total, T(1.0));
+    const T reduced = last.mass * p[0] / divisor;
     T d[3];
     for (int i = 0; i < 3; ++i) {
       d[i] = arm.payload_point[i] - last.com[i];
-      last.com[i] += p[0] / total * d[i];
+      last.com[i] += p[0] / divisor * d[i];
     }
     last.inertia[0] += reduced * (d[1] * d[1] + d[2] * d[2]);
     last.inertia[1] += reduced * (d[0] * d[0] + d[2] * d[2]);

@@ -29,8 +29,11 @@ class Delay : public EffectOf<Delay> {
   void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
     if (!c.history) return;
     const T then = T(c.time) - c.p[0];
-    for (int k = first(c); k < end(c); ++k)
-      s[k].motor_torque += c.arm.joint[k].torque_scale * (c.history->at(k, then) - s[k].command);
+    for (int k = first(c); k < end(c); ++k) {
+      // Exactly none without a delay: the history is rounded.
+      const T late = select(c.p[0] > T(0.0), T(c.history->at(k, then) - s[k].command), T(0.0));
+      s[k].motor_torque += c.arm.joint[k].torque_scale * late;
+    }
   }
   template <class T>
   void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
