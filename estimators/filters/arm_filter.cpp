@@ -103,7 +103,7 @@ void ArmFilter::start(const Sample& sample) {
                                                unstretched_joints(process_->arm(), angle, home));
   x = process_->state_at_rest(angle, q);
   // At rest, unless the motors were read just before.
-  const bool read_before = before(motors_).allFinite() && since <= options_.max_step;
+  const bool read_before = !motors_.empty() && before(motors_).allFinite() && since <= options_.max_step;
   bool seen_moving = read_before;
   Eigen::VectorXd moved, path;
   if (seen_moving) {
@@ -143,7 +143,7 @@ Eigen::MatrixXd ArmFilter::start_root(const Eigen::VectorXd& x, const Eigen::Vec
 
 void ArmFilter::predict(double to_time_s) {
   const double span = to_time_s - time_;
-  const int pieces = static_cast<int>(std::ceil(span / options_.max_step - 1e-9));
+  const int pieces = steps_over(span, options_.max_step);
   Step step;
   step.dt_s = span / pieces;
   step.motor_torque = torque_.data();

@@ -227,7 +227,7 @@ Eigen::MatrixXd DualUkf::predict(double time_s, const Eigen::MatrixXd& E) {
   points_are_set_ = true;
 
   const double span = time_s - time_;
-  const int pieces = std::max(1, static_cast<int>(std::ceil(span / options_.max_step - 1e-9)));
+  const int pieces = steps_over(span, options_.max_step);
   Step step;
   step.dt_s = span / pieces;
   step.motor_torque = torque_.data();

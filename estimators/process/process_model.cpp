@@ -7,6 +7,7 @@
 
 #include "estimators/eigen_modes.h"
 #include "estimators/process/standstill.h"
+#include "model/input_error.h"
 #include "transmission/jacobian.h"
 
 namespace halyard {
@@ -59,6 +60,11 @@ void load_lanes(const Eigen::Ref<const Eigen::MatrixXd>& X, int first, Lanes* x)
 
 }  // namespace
 
+int steps_over(double span_s, double longest_s) {
+  constexpr double kRounding = 1e-9, kMost = 1e9;
+  return static_cast<int>(std::clamp(std::ceil(span_s / longest_s - kRounding), 1.0, kMost));
+}
+
 ProcessModel::ProcessModel(const ArmModel& model)
     : transmission_(lift_transmission<double>(model.nominal, model.effects)),
       dual_(lift_transmission<Dual>(model.nominal, model.effects)),
@@ -66,8 +72,8 @@ ProcessModel::ProcessModel(const ArmModel& model)
       layout_(state_layout(transmission_)),
       plain_(plain_transmission(transmission_, layout_)) {
   if (layout_.size > kMaxStates)
-    throw std::invalid_argument("arm with effects has " + std::to_string(layout_.size) + " states, more than " +
-                                std::to_string(kMaxStates) + ": place fewer effects with internal states");
+    throw InputError("arm with effects has " + std::to_string(layout_.size) + " states, more than " +
+                     std::to_string(kMaxStates) + ": place fewer effects with internal states");
   state_names_ = name_states(transmission_, layout_);
   for (const auto& e : transmission_.effects())
     if (e.effect->stages() & static_cast<unsigned>(EffectStage::sensors)) readings_are_linear_ = false;

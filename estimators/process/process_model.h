@@ -32,13 +32,17 @@ struct Step {
   const CommandHistory* history = nullptr;  ///< for effects with a delay; null: none
 };
 
+/// Into how many equal steps, none longer than `longest_s`, a span is divided; at least one.
+int steps_over(double span_s, double longest_s);
+
 class ProcessModel {
  public:
   /// Largest number of sub-steps in a step of up to 1 ms; a longer step may have as many in each millisecond. This
   /// limits the cost at 1 kHz. A model that needs more is too stiff.
   static constexpr int kMaxSubsteps = 500;
 
-  /// Throws std::runtime_error if the model gives no finite derivative at standstill.
+  /// Throws InputError if the effects have too many states, and std::runtime_error if the model gives no finite
+  /// derivative at standstill.
   explicit ProcessModel(const ArmModel& model);
 
   int n_joints() const { return layout_.n_joints; }

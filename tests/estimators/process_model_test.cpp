@@ -10,6 +10,7 @@
 #include "estimators/process/static_equilibrium.h"
 #include "tests/support/arm_runs.h"
 #include "tests/support/limits.h"
+#include "tests/support/message_of.h"
 #include "tests/support/pendulum.h"
 #include "transmission/coupling.h"
 
@@ -342,6 +343,16 @@ TEST(ProcessModel, AJointWithoutMotorReadsZeroThereAlsoBesideAnEffectOfItsSensor
   Eigen::MatrixXd H;
   EXPECT_EQ(process.motor_readings(0, x, &H)(0), 0);
   EXPECT_EQ(H, Eigen::MatrixXd::Zero(1, 2));
+}
+
+TEST(ProcessModel, HasRoomForSoManyStates) {
+  ArmModel model = raven2();
+  const auto states = [&model](int of_effects) {
+    model.effects.assign(of_effects, place_effect(*find_effect("joint_presliding"), model.nominal, 0));
+    return message_of([&model] { ProcessModel process(model); });
+  };
+  EXPECT_EQ(states(52), "no InputError");
+  EXPECT_EQ(states(53), "arm with effects has 65 states, more than 64: place fewer effects with internal states");
 }
 
 }  // namespace

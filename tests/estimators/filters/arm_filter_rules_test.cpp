@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "estimators/built_in.h"
 #include "estimators/filters/ekf.h"
@@ -14,6 +15,7 @@
 #include "tests/support/limits.h"
 #include "tests/support/linear_gaussian.h"
 #include "tests/support/message_of.h"
+#include "tests/support/pendulum.h"
 
 namespace halyard {
 namespace {
@@ -35,6 +37,28 @@ TEST(ArmFilter, OptionsAtTheEndsOfTheirRangesAreTakenAndNoneBeyond) {
     EXPECT_EQ(answer(e.name, e.taken), "no InputError") << e.name;
     EXPECT_NE(answer(e.name, e.refused), "no InputError") << e.name;
   }
+}
+
+TEST(ArmFilter, ASpanHasAtLeastOneStepAndNoneThatIsTooLong) {
+  EXPECT_EQ(steps_over(0.001, 1e7), 1);
+  EXPECT_EQ(steps_over(0.02, 0.01), 2);
+  EXPECT_EQ(steps_over(0.0201, 0.01), 3);
+  EXPECT_EQ(steps_over(1e6, 1e-6), 1000000000) << "no more than an int holds";
+}
+
+TEST(ArmFilter, ASampleIsOneStepHoweverLongStepsMayBe) {
+  const ArmModel model = raven2();
+  const ArmRun run = run_arm(model, 0.5);
+  EXPECT_EQ(rms_error(*make_ekf(model, {{"max_step", "1e7"}}), run, 0), rms_error(*make_ekf(model, {}), run, 0));
+}
+
+TEST(ArmFilter, AnArmWithoutMotorsIsPredicted) {
+  const auto filter = make_ekf(pendulum(), {});
+  const Eigen::VectorXd none = Eigen::VectorXd::Constant(1, std::numeric_limits<double>::quiet_NaN());
+  filter->reset({0, none, none, {}});
+  for (int i = 1; i <= 100; ++i) filter->update({1e-3 * i, none, none, {}});
+  EXPECT_TRUE(std::isfinite(filter->estimate().joint_position(0)));
+  EXPECT_TRUE(std::isfinite(filter->estimate().joint_velocity(0)));
 }
 
 /// The RAVEN-II at rest at home, under no torque.
