@@ -27,7 +27,7 @@ const halyard_effect_table& checked_table(const SharedModule& module) {
     refuse(module,
            std::string("exports no function ") + kSymbol + "; it holds no effects, or its function lacks extern \"C\"");
   }
-  const halyard_effect_table* table = exported();
+  const halyard_effect_table* table = called(exported, module, kSymbol);
   if (!table) refuse(module, std::string(kSymbol) + "() returns no table; return the address of a static one");
   if (table->interface_version != HALYARD_EFFECT_INTERFACE) {
     refuse(module, "built for effect interface " + std::to_string(table->interface_version) + ", this program speaks " +
@@ -103,6 +103,8 @@ Effects checked_effects(const SharedModule& module, const halyard_effect_table& 
     throw;
   } catch (const std::exception& error) {
     refuse(module, std::string("its effects cannot be made: ") + error.what());
+  } catch (...) {
+    refuse(module, "its effects cannot be made: it lets an exception out");
   }
   return effects;
 }

@@ -21,7 +21,7 @@ const halyard_estimator_table* checked_table(const SharedModule& module) {
   const auto exported = reinterpret_cast<decltype(&halyard_estimator)>(module.symbol(kSymbol));
   if (!exported)
     refuse(std::string("exports no function ") + kSymbol + "; it is no estimator, or its function lacks extern \"C\"");
-  const halyard_estimator_table* table = exported();
+  const halyard_estimator_table* table = called(exported, module, kSymbol);
   if (!table) refuse(std::string(kSymbol) + "() returns no table; return the address of a static one");
 
   const std::uint32_t version = table->interface_version;

@@ -71,7 +71,12 @@ std::vector<std::string> extra_output_names_of(const halyard_estimator_table& ta
   std::vector<std::string> names;
   const std::string start = std::string("estimator ") + table.name + ": extra output ";
   for (std::size_t i = 0; table.extra_output_name; ++i) {
-    const char* name = table.extra_output_name(instance, i);
+    const char* name = nullptr;
+    const Outcome asked = run([&](char*, std::size_t) {
+      name = table.extra_output_name(instance, i);
+      return HALYARD_OK;
+    });
+    if (asked.code != HALYARD_OK) throw std::runtime_error(start + "names: " + asked.message);
     if (!name) break;
     if (i == kMaxNames) throw std::runtime_error(start + "names do not end");
     const bool taken = name == std::string("joint_position") || name == std::string("joint_velocity") ||

@@ -1,8 +1,11 @@
 #pragma once
 /// A shared module that is open as long as the object lives.
 
+#include <exception>
 #include <filesystem>
 #include <string>
+
+#include "model/input_error.h"
 
 namespace halyard {
 
@@ -27,5 +30,18 @@ class SharedModule {
 
 /// Foreign text as one line: control characters become blanks, at most 500 bytes are kept.
 std::string one_line(std::string text);
+
+/// What the module's exported function of this name returns. Throws InputError if it lets an exception out.
+template <class Function>
+auto called(Function function, const SharedModule& module, const std::string& name) {
+  const std::string start = "plugin " + module.path().string() + ": " + name + "() lets an exception out";
+  try {
+    return function();
+  } catch (const std::exception& error) {
+    throw InputError(start + ": " + one_line(error.what()));
+  } catch (...) {
+    throw InputError(start);
+  }
+}
 
 }  // namespace halyard

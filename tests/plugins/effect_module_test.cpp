@@ -43,6 +43,7 @@ TEST(EffectModule, AModuleThatBreaksTheContractIsRefusedWithOneLineAndLeavesNoth
       refusal("effects_other_layout"),
       "the types that it shares with this program have other sizes there; rebuild it against the installed headers");
   EXPECT_EQ(refusal("effects_no_table"), "halyard_effects() returns no table; return the address of a static one");
+  EXPECT_EQ(refusal("effects_throwing_table"), "halyard_effects() lets an exception out");
   EXPECT_EQ(refusal("effects_missing_entry"), "its table lacks an entry; fill every entry");
   EXPECT_EQ(refusal("effects_none"), "makes no effect");
   EXPECT_EQ(refusal("effects_null"), "makes an effect that is null");

@@ -70,6 +70,7 @@ TEST(Plugins, TheHandshakeRefusesABrokenTableInOneLine) {
   EXPECT_EQ(reason("missing_symbol"),
             "exports no function halyard_estimator; it is no estimator, or its function lacks extern \"C\"");
   EXPECT_EQ(reason("no_table"), "halyard_estimator() returns no table; return the address of a static one");
+  EXPECT_EQ(reason("throws_its_table"), "halyard_estimator() lets an exception out: no licence for tables");
   EXPECT_EQ(reason("older_interface"),
             "built for interface 1, this program speaks 2; rebuild it against the installed headers");
   EXPECT_EQ(
@@ -219,6 +220,8 @@ TEST(Plugins, NamesOfExtraOutputsThatAreNoColumnsAreRefused) {
   EXPECT_EQ(refused("spaced_extra_output_name"),
             "estimator fixture: extra output 'two words': its name has other than letters, digits, '_', '-'");
   EXPECT_EQ(refused("endless_extra_outputs"), "estimator fixture: extra output names do not end");
+  EXPECT_EQ(refused("throws_its_names"),
+            "estimator throws_its_names: extra output names: lets an exception out: no names today");
 }
 
 // Without the check the process dies when the module frees a vector that it got from the library.
