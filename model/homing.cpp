@@ -10,7 +10,7 @@
 namespace halyard {
 namespace {
 
-constexpr double kHomingTime = 1;  ///< s from the first sample
+constexpr double kHomingTime = 1;  ///< s from the first sample at which both sides have readings
 
 /// The last readings of a log's sensors, which need not share their rows. NaN: none yet.
 struct Latest {
@@ -38,9 +38,11 @@ Eigen::VectorXd by_motors(const Latest& latest, const ArmModel& model) {
   return unstretched_joints(arm, q_m, undriven);
 }
 
-/// What motor k's encoder would read by the joints' sensors, or by the motors where a joint inboard has none.
+/// What motor k's encoder would read by the joints' sensors, or by the motors where a joint inboard has none. NaN
+/// before its own joint has a reading.
 double told_of_motor(const Latest& latest, const ArmModel& model, int k) {
   const ArmParameters<double>& arm = model.nominal;
+  if (std::isnan(latest.joint(k))) return latest.joint(k);
   Eigen::VectorXd q = by_motors(latest, model);
   for (int j = 0; j < arm.n; ++j) {
     const bool known = !std::isnan(latest.joint(j)) && arm.joint[j].joint_zero_known;
@@ -53,12 +55,15 @@ double told_of_motor(const Latest& latest, const ArmModel& model, int k) {
 void home_one(Log& log, const ArmModel& model, int k, bool motor) {
   Latest latest(model.n());
   std::vector<double> zero;
-  for (std::size_t i = 0; i < log.size() && (zero.empty() || log.time[i] <= log.time.front() + kHomingTime); ++i) {
+  double end = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < log.size() && log.time[i] <= end; ++i) {
     latest.see(log, i);
     const double z = motor
                          ? latest.motor(k) - told_of_motor(latest, model, k)
                          : latest.joint(k) - by_motors(latest, model)(k) - model.nominal.joint[k].joint_encoder_offset;
-    if (std::isfinite(z)) zero.push_back(z);
+    if (!std::isfinite(z)) continue;
+    if (zero.empty()) end = log.time[i] + kHomingTime;
+    zero.push_back(z);
   }
   if (zero.empty())
     throw InputError(

@@ -7,9 +7,10 @@
 namespace halyard {
 
 /// Subtracts the zero from each encoder whose zero the model does not know (motor_offset="unknown",
-/// joint_offset="unknown"). For each sample in the first second of the log, the expected reading is computed from the
-/// encoders on the other side of the transmission, with unstretched cables. The zero is the median of reading minus
-/// expected reading. Cable stretch during that second remains as an error. Homing a log twice changes nothing.
+/// joint_offset="unknown"). For each sample in the first second in which the encoders on both sides of the
+/// transmission have readings, the expected reading is computed from those on the other side, with unstretched cables.
+/// The zero is the median of reading minus expected reading. Cable stretch during that second remains as an error.
+/// Homing a log twice changes nothing.
 ///
 /// Throws InputError if the log lacks the sensors that determine the zero.
 void home_encoders(Log& log, const ArmModel& model);

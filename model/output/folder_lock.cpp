@@ -20,6 +20,31 @@ bool is_named(int file, const std::filesystem::path& path) {
          opened.st_dev == named.st_dev;
 }
 
+std::filesystem::path lock_path(const std::filesystem::path& folder, const std::string& part) {
+  return folder / (".halyard" + (part.empty() ? "" : "-" + part) + ".lock");
+}
+
+bool is_held(const std::filesystem::path& path) {
+  const Descriptor file(path, O_RDONLY);
+  return file && ::flock(*file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
+/// Whether a run holds the whole folder, or, if that is what is wanted, a part of it.
+bool is_shared_with_another(const std::filesystem::path& folder, const std::string& part) {
+  if (!part.empty()) return is_held(lock_path(folder, ""));
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(".halyard-") && name.ends_with(".lock") && is_held(entry.path())) return true;
+  }
+  return false;
+}
+
+[[noreturn]] void refuse_shared(const std::filesystem::path& folder) {
+  throw InputError("--out " + in_quotes(folder.string()) +
+                   ": another run writes into this folder; wait for its end, or give another folder");
+}
+
 [[noreturn]] void refuse(const std::filesystem::path& folder, int error) {
   throw InputError("--out " + in_quotes(folder.string()) +
                    ": cannot be written: " + std::generic_category().message(error) + "; give another folder");
@@ -33,16 +58,16 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& p
   } catch (const std::filesystem::filesystem_error& error) {
     refuse(folder, error.code().value());
   }
-  const std::filesystem::path path = folder / (".halyard" + (part.empty() ? "" : "-" + part) + ".lock");
+  const std::filesystem::path path = lock_path(folder, part);
   for (;;) {  // until the file is not one that another run removed meanwhile
     file_ = Descriptor(path, O_RDWR | O_CREAT);
     if (!file_) refuse(folder, errno);
-    if (::flock(*file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      throw InputError("--out " + in_quotes(folder.string()) +
-                       ": another run writes into this folder; wait for its end, or give another folder");
+    if (::flock(*file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) refuse_shared(folder);
     if (is_named(*file_, path)) break;
   }
   made_.add(path);
+  // Both look after they hold their own: of a whole run and a part at most one goes on.
+  if (is_shared_with_another(folder, part)) refuse_shared(folder);
 }
 
 }  // namespace halyard

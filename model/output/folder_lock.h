@@ -12,7 +12,8 @@ namespace halyard {
 /// system on the file .halyard.lock in the folder (flock), so a run that was killed leaves no lock behind, only the
 /// file. Where the file system has no locks, nothing is kept out.
 ///
-/// part: runs that compute different parts of one result may share a folder; each keeps out other runs of its part.
+/// part: runs that compute different parts of one result may share a folder; each keeps out other runs of its part, and
+/// runs without a part.
 class FolderLock {
  public:
   /// Makes missing folders; those that are still empty at the end are removed.

@@ -106,10 +106,13 @@ int OutputFiles::give_name(File& f) {
   if (fs::is_directory(f.path, ignored)) return EISDIR;
   const char *from = f.temporary.c_str(), *to = f.path.c_str();
   f.exchanged = ::renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_EXCHANGE) == 0;
-  return f.exchanged || ::rename(from, to) == 0 ? 0 : errno;
+  if (f.exchanged) return 0;
+  f.replaced = fs::exists(f.path, ignored);
+  return ::rename(from, to) == 0 ? 0 : errno;
 }
 
 void OutputFiles::take_back(const File& f) {
+  if (f.replaced) return;
   const unsigned flags = f.exchanged ? RENAME_EXCHANGE : 0;
   ::renameat2(AT_FDCWD, f.path.c_str(), AT_FDCWD, f.temporary.c_str(), flags);
 }

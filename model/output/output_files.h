@@ -35,6 +35,7 @@ class OutputFiles {
   struct File {
     std::filesystem::path path, temporary;
     bool exchanged = false;  ///< `temporary` is now the older file
+    bool replaced = false;   ///< the older file is gone: the file system cannot exchange names
   };
   static int give_name(File& f);
   static void take_back(const File& f);

@@ -202,6 +202,16 @@ TEST_F(OutputFolder, IsLockedForOneRunAtATime) {
   EXPECT_NO_THROW(FolderLock again(out));
 }
 
+TEST_F(OutputFolder, PartsShareItWithEachOtherAndNotWithAWholeRun) {
+  {
+    const FolderLock part(folder_, "1_of_2"), other(folder_, "2_of_2");
+    EXPECT_NE(message_of([&] { FolderLock again(folder_, "1_of_2"); }), "no InputError");
+    EXPECT_NE(message_of([&] { FolderLock whole(folder_); }), "no InputError");
+  }
+  const FolderLock whole(folder_);
+  EXPECT_NE(message_of([&] { FolderLock part(folder_, "1_of_2"); }), "no InputError");
+}
+
 TEST_F(OutputFolder, ALockOfAKilledRunIsTakenOver) {
   int ready[2];
   ASSERT_EQ(::pipe(ready), 0);
