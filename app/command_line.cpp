@@ -60,7 +60,7 @@ void add_simulate_command(CLI::App& app) {
 }
 
 void add_estimate_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("estimate", "run one estimator over a log, from motor signals alone");
+  CLI::App& command = *app.add_subcommand("estimate", "run one estimator over a log, without its joint sensors");
   const auto options = std::make_shared<EstimateCommandOptions>();
   command.add_option("--model", options->model, "model file")->type_name("M.xml")->required();
   command.add_option("--estimator", options->estimator, "name or path of a plug-in")
@@ -113,8 +113,9 @@ void add_diagnose_command(CLI::App& app) {
   const auto options = std::make_shared<DiagnoseCommandOptions>();
   const auto plan = std::make_shared<PlanCommandOptions>();
   const auto plan_files = std::make_shared<std::vector<std::filesystem::path>>();
-  CLI::Option* model = command.add_option("--model", options->model, "model file")->type_name("M.xml");
-  CLI::Option* data = command.add_option("--data", options->data, "log to learn from; may be repeated")
+  CLI::Option* model =
+      command.add_option("--model", options->model, "model file; required without --plan")->type_name("M.xml");
+  CLI::Option* data = command.add_option("--data", options->data, "log to learn from, as --model; may be repeated")
                           ->type_name("LOG.csv")
                           ->take_all()
                           ->allow_extra_args(false);

@@ -36,7 +36,8 @@ void add_sweep_command(CLI::App& app) {
   const auto shard = std::make_shared<std::string>();
   const auto point = std::make_shared<std::size_t>();
   command.add_option("SWEEP.xml", options->sweep, "sweep file")->type_name("")->required();
-  CLI::Option* out = command.add_option("--out", options->out, "folder of the results")->type_name("DIR");
+  CLI::Option* out =
+      command.add_option("--out", options->out, "folder of the results; required without --point")->type_name("DIR");
   CLI::Option* jobs =
       add_number(command, "--jobs", options->run.jobs, {.least = 1, .most = 1024}, "threads; default: one per core");
   CLI::Option* part = command.add_option("--shard", *shard, "compute part i of n, for halyard merge")->type_name("i/n");
@@ -57,7 +58,7 @@ void add_sweep_command(CLI::App& app) {
     slurm->sweep = options->sweep, slurm->out = options->out;
     if (slurm_wanted->count() > 0) return run_sweep_slurm(*slurm);
     if (status->count() > 0) return run_sweep_status(options->sweep, options->out);
-    if (!shard->empty()) options->run.shard = parse_shard(*shard);
+    if (part->count() > 0) options->run.shard = parse_shard(*shard);
     run_sweep_command(*options);
   });
 }
@@ -65,7 +66,9 @@ void add_sweep_command(CLI::App& app) {
 void add_merge_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("merge", "put the parts of a sweep together");
   const auto options = std::make_shared<MergeCommandOptions>();
-  command.add_option("DIR", options->parts, "folders that halyard sweep --shard wrote")->type_name("")->required();
+  command.add_option("DIR", options->parts, "folders of the parts of a sweep (--shard or --slurm)")
+      ->type_name("")
+      ->required();
   command.add_option("--out", options->out, "folder of the whole; default: the first part")->type_name("DIR");
   finish(command, [options] {
     if (options->out.empty()) options->out = options->parts.front();

@@ -15,18 +15,22 @@
 #include "model/xml/xml_reader.h"
 #include "plant/scenario.h"
 #include "plugins/host/loader.h"
+#include "transmission/effect.h"
 
 namespace halyard {
 namespace {
 
+/// Also tells the values that the file leaves out.
 std::string effect_list(const ArmModel& model) {
-  std::vector<std::string> names;
+  std::vector<std::string> effects;
   for (const PlacedEffect& placed : model.effects) {
-    std::string name = placed.effect->name();
-    if (placed.joint) name += fmt::format(" (joint {})", *placed.joint + 1);
-    names.push_back(name);
+    std::vector<std::string> values;
+    const double* value = placed.p;
+    for (const EffectParameter& p : placed.effect->parameters(model.nominal, placed.joint))
+      values.push_back(fmt::format("{} {:.4g}{}", p.name, *value++, p.unit == "1" ? "" : " " + p.unit));
+    effects.push_back(fmt::format("{} ({})", effect_label(placed), fmt::join(values, ", ")));
   }
-  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+  return effects.empty() ? "none" : fmt::format("{}", fmt::join(effects, ", "));
 }
 
 /// Ranges that are so wide that they may be in degrees.

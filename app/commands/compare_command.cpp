@@ -168,9 +168,12 @@ void run_compare(const CompareCommandOptions& options) {
   std::optional<MonteCarlo> runs;
   if (options.runs > 1) {
     Progress progress("runs", options.runs, "runs");
-    runs = run_monte_carlo(
-        *data.scenario, data.model, options.estimators,
-        {.runs = options.runs, .skip_s = options.skip_s, .run_done = [&](double amount) { progress.add(amount); }});
+    runs = run_monte_carlo(*data.scenario, data.model, options.estimators,
+                           {.runs = options.runs,
+                            .skip_s = options.skip_s,
+                            .use_joint_torque = options.use_joint_torque,
+                            .containment = {.step_limit_s = options.step_limit_s},
+                            .run_done = [&](double amount) { progress.add(amount); }});
     runs->noise = options.noise;
   }
   OutputFiles files;

@@ -8,6 +8,7 @@
 #include "app/pages/estimator_table.h"
 #include "diagnosis/explanation/view_sentence.h"
 #include "evaluation/joint_unit.h"
+#include "evaluation/json.h"
 #include "model/model_file.h"
 
 namespace halyard {
@@ -119,7 +120,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
                     {"log_check", log_check},
                     {"error", error_json(d)},
                     {"estimators", estimators_json(evaluation)}};
-  return all.dump(2) + "\n";
+  return json_text(all);
 }
 
 std::string label_of(const NamedEffect& e) { return effect_label(e.effect) + (e.log.empty() ? "" : " in " + e.log); }

@@ -10,6 +10,7 @@
 #include "app/pages/diagnosis_output.h"
 #include "app/report/page.h"
 #include "evaluation/joint_unit.h"
+#include "evaluation/json.h"
 
 namespace halyard {
 namespace {
@@ -194,7 +195,7 @@ std::string plan_json(const Plan& plan) {
                          {"given", separation_json(m.given, plan.model)},
                          {"proposed", m.scenario ? separation_json(m.proposed, plan.model) : Json(nullptr)}};
   }
-  return all.dump(2) + "\n";
+  return json_text(all);
 }
 
 void write_plan(OutputFiles& files, const std::filesystem::path& folder, const Plan& plan) {

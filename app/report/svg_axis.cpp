@@ -29,7 +29,9 @@ SvgAxis::SvgAxis(std::span<const double> numbers, bool is_logarithmic, bool roun
   }
   if (least > greatest) return;
   from_ = least, to_ = greatest;
-  if (from_ == to_) {
+  // Numbers that differ by roundings alone have no room for ticks between them.
+  constexpr double kLeastRange = 1e-9;
+  if (to_ - from_ <= kLeastRange * std::max(std::abs(from_), std::abs(to_))) {
     const double room = is_logarithmic_ || from_ == 0 ? 0.5 : std::abs(from_) / 2;
     from_ -= room, to_ += room;
   }

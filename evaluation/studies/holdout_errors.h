@@ -17,7 +17,7 @@ struct EstimatorErrors {
   /// [motor] divided by its predicted standard deviation, ~ N(0, 1) if the model is right; NaN: none
   Signals innovation;
   Signals joint_rate;   ///< [n] estimated, rad/s | m/s
-  double mean_nis = 0;  ///< mean of νᵀ S⁻¹ ν / m, ~ 1 if the model is right; 0: no innovations
+  double mean_nis = 0;  ///< mean of νᵀ S⁻¹ ν / m, ~ 1 if the model is right; NaN: no innovations
   std::string failure;  ///< why it failed
 };
 /// A log, and the time in s from which its errors count. The samples before that time let the estimator's state settle.

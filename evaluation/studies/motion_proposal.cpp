@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <boost/random/uniform_int_distribution.hpp>
+#include <boost/random/uniform_real_distribution.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -44,9 +46,9 @@ double rounded(double value) { return std::stod(fmt::format("{:.4g}", value)); }
 class Draw {
  public:
   explicit Draw(int i) : random_(static_cast<std::uint64_t>(i)) {}
-  double uniform(double a, double b) { return std::uniform_real_distribution<double>(a, b)(random_); }
+  double uniform(double a, double b) { return boost::random::uniform_real_distribution<double>(a, b)(random_); }
   double logarithmic(double a, double b) { return std::exp(uniform(std::log(a), std::log(b))); }
-  int whole(int a, int b) { return std::uniform_int_distribution<int>(a, b)(random_); }
+  int whole(int a, int b) { return boost::random::uniform_int_distribution<int>(a, b)(random_); }
 
   JointTrajectory trajectory(const Range& range) {
     const double half = 0.95 * (range.upper - range.lower) / 2, reach = uniform(0.15, 1) * half;

@@ -41,7 +41,7 @@ struct Sweep {
 };
 
 /// Reads a sweep file. Throws InputError if the file, the scenario or the model is invalid, and if the robot or the
-/// model would be invalid at a point of the grid: at any of 10 000 points, or at 10 000 of more, evenly spaced.
+/// model would be invalid at a point of the grid: at any of 2000 points, or at 1000 to 2000 of more, evenly spaced.
 Sweep read_sweep(const std::filesystem::path& path);
 
 /// The same without a look at the points.

@@ -158,7 +158,8 @@ SweepGrid read_grid(const fs::path& folder) {
       if (grid.is_sampled && axis.values.size() != grid.axes.front().values.size())
         throw std::invalid_argument("samples are missing");
     double points = double(grid.n_seeds());
-    for (const SweepAxis& axis : grid.axes) points *= grid.is_sampled ? 1.0 : double(axis.values.size());
+    for (const SweepAxis& axis : grid.axes)
+      if (!grid.is_sampled || &axis == &grid.axes.front()) points *= double(axis.values.size());
     if (points > kMostSweepPoints) throw std::invalid_argument("more points than a sweep can have");
     if (grid.axes.empty() || grid.size() != whole_number(json.at("points"))) {
       throw std::invalid_argument("the number of points is not that of the axes");

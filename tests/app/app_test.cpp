@@ -47,6 +47,11 @@ TEST_F(App, CheckTellsWhatAFileIs) {
   EXPECT_TRUE(contains(done({"check", example("tension_sweep.xml")}), "14 points"));
 }
 
+TEST_F(App, CheckTellsAlsoTheValuesThatAnEffectOfTheFileLeavesOut) {
+  EXPECT_TRUE(contains(done({"check", example("undeclared_effect.xml")}),
+                       "effects: backlash of joint 2 (half_gap 0.0002 m, rounding 0 m)"));
+}
+
 TEST_F(App, CheckNotesARangeThatMayBeInDegrees) {
   const std::string model = text_of(example("raven2.xml"));
   EXPECT_FALSE(contains(done({"check", example("raven2.xml")}), "note:"));

@@ -68,6 +68,17 @@ TEST_F(App, CompareSaysWhichIsBetterAndWhetherEachKnowsHowFarOffItIs) {
   EXPECT_TRUE(contains(text_of(path("noise_1/report.html")), "3 runs with seeds of their own"));
 }
 
+TEST_F(App, CompareLimitsTheStepsInAllItsRuns) {
+  write_short_scenario("experiment_a.xml", "0.6");
+  const RunResult result =
+      run({"compare", "experiment_a.xml", "--estimators", "kinematics," HALYARD_BROKEN_PLUGINS "/never_returns.so",
+           "--runs", "2", "--step-limit", "0.3", "--out", "cmp"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const json never = json::parse(text_of(path("cmp/comparison.json"))).at("monte_carlo").at("estimators").at(1);
+  EXPECT_EQ(never.at("failures"), 2);
+  EXPECT_TRUE(contains(never.at("first_failure").get<std::string>(), "took more than 0.3 s")) << never;
+}
+
 TEST_F(App, TheSameComparisonGivesTheSameBytes) {
   write_short_scenario("experiment_a.xml", "0.6");
   for (const char* out : {"1", "2"}) {

@@ -39,6 +39,14 @@ TEST(SvgAxis, GivesRoundTicks) {
   EXPECT_DOUBLE_EQ(powers.back(), 1e2);
 }
 
+TEST(SvgAxis, TakesNumbersThatDifferByARoundingForOne) {
+  const std::vector<double> numbers = {3.1e-4, 3.1000000000000005e-4};
+  ASSERT_NE(numbers[0], numbers[1]);
+  const SvgAxis axis(numbers, false, false);
+  EXPECT_NEAR(axis.place(numbers[0]), 0.5, 1e-9);
+  EXPECT_LT(axis.ticks().size(), 20u);
+}
+
 TEST(SvgAxis, PlacesNumbersEvenlyOrByTheirLogarithm) {
   const std::vector<double> numbers = {1, 100};
   EXPECT_DOUBLE_EQ(SvgAxis(numbers, false, false).place(50.5), 0.5);

@@ -110,6 +110,13 @@ TEST_F(Sweep, MeasuresDetectionLimits) {
   EXPECT_TRUE(contains(text_of(path("out/curves.svg")), "detection limit of hysteresis, share"));
 }
 
+TEST_F(Sweep, RefusesAPartWithoutANumber) {
+  const RunResult result = run({"sweep", "sweep.xml", "--out", "out", "--shard", ""});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.err, "--shard '': expected i/n")) << result.err;
+  EXPECT_FALSE(fs::exists(path("out")));
+}
+
 TEST_F(Sweep, ResumesWithoutComputingFinishedCellsAgain) {
   done({"sweep", "sweep.xml", "--out", "out"});
   const auto whole = files_in(path("out"));

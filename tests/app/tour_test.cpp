@@ -58,7 +58,7 @@ TEST_F(Tour, ShowsTheExperimentsAndFindsTheUndeclaredEffectWithoutAnyRecordings)
     const json& of = diagnosis.at("estimators").at(estimator).at("joint_position_rms");
     EXPECT_LT(of.at("after").at(1).get<double>(), 0.1 * of.at("before").at(1).get<double>()) << estimator;
   }
-  EXPECT_TRUE(contains(done({"check", "out/undeclared_effect/model.xml"}), "effects: backlash (joint 2)"));
+  EXPECT_TRUE(contains(done({"check", "out/undeclared_effect/model.xml"}), "effects: backlash of joint 2 (half_gap "));
 }
 
 TEST_F(Tour, SaysWhichFolderIsWrongBeforeItStarts) {

@@ -247,6 +247,16 @@ TEST_F(PlanCommand, TakesTheScenariosEffectsOutAndSaysSo) {
   EXPECT_EQ(worn.substr(worn.find('\n') + 1), clean) << "the same arm moves";
 }
 
+TEST_F(PlanCommand, WritesItsResultWhateverBytesANameHas) {
+  std::filesystem::copy_file(path("arm.xml"), path("f\xe9"
+                                                   "d\xe9.xml"));  // Latin-1, which is no UTF-8
+  done({"diagnose", "--plan",
+        "f\xe9"
+        "d\xe9.xml",
+        "motion.xml", "--out", "plan"});
+  EXPECT_TRUE(nlohmann::json::parse(testing_program::text_of(path("plan/plan.json"))).contains("limits"));
+}
+
 TEST_F(PlanCommand, RefusesBadInputInOneLine) {
   const auto refused = [&](const std::vector<std::string>& arguments, const std::string& says) {
     std::vector<std::string> all = {"diagnose"};

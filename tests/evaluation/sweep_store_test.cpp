@@ -177,6 +177,19 @@ TEST_F(SweepStore, RefusesAGridThatContradictsItself) {
   EXPECT_TRUE(refuses("/seeds", std::vector<int>(1000001, 1)));  // more points than a sweep can have
 }
 
+TEST_F(SweepStore, RefusesMoreSamplesThanASweepCanHave) {
+  store([&](auto& files) { write_grid(files, folder, grid); });
+  std::ifstream file(folder / "sweep.json");
+  nlohmann::json wrong = nlohmann::json::parse(file);
+  wrong["sampled"] = true;
+  constexpr int kSamples = 2000, kSeeds = 1000;  // either number alone is allowed
+  for (nlohmann::json& axis : wrong["axes"]) axis["values"] = std::vector<double>(kSamples, 1);
+  wrong["seeds"] = std::vector<int>(kSeeds, 1);
+  wrong["points"] = kSamples * kSeeds;
+  write(folder / "sweep.json", wrong.dump());
+  EXPECT_TRUE(message_of([&] { read_grid(folder); }).ends_with("is damaged; remove it and run the sweep again"));
+}
+
 TEST_F(SweepStore, DiscardsCellsAndTablesOfAnotherSweepAndKeepsItsOwn) {
   store([&](auto& files) { write_grid(files, folder, grid); });
   write(journal_path(folder, {2, 3}), journal_header(grid));
