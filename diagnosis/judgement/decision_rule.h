@@ -117,7 +117,7 @@ struct DecisionRule {
   /// The same of a candidate with a shape at one end of which it is another effect (another_at). Reason: a fit that
   /// runs there is lost. In a log with three effects, three of the five yield stretches of a hysteresis ran there.
   std::size_t starts_fitted_beside_another = 5;
-  /// Of the candidates that were fitted, the `leaders` that gain most are fitted fully, if their gain is at least the
+  /// Of the candidates that were fitted, the `leaders` that gain most are fitted fully, if their gain is more than the
   /// share `leads` of the largest gain. So are the `leaders_by_rest` whose fits leave least. Reason: a quick fit keeps
   /// the model's numbers linear, and its gain can be negative, or not significant, although the effect is the right
   /// one.

@@ -21,7 +21,7 @@ struct Prospect {
   double gain = 0;
   double left = std::numeric_limits<double>::infinity();  ///< see Screen::left()
 };
-/// Indices of those whose fit is worth to be continued: some that are judged and gain most, at least `share` of the
+/// Indices of those whose fit is worth to be continued: some that are judged and gain most, more than `share` of the
 /// largest gain, and some that leave least, judged or not. A fit overshoots where the model's numbers are not linear:
 /// the right candidate may gain nothing yet.
 std::vector<std::size_t> leaders_of(const std::vector<Prospect>& prospects, double share);

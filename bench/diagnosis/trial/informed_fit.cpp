@@ -4,7 +4,6 @@
 
 #include "diagnosis/holdout/holdout.h"
 #include "diagnosis/judgement/final_fit.h"
-#include "diagnosis/log_check/outliers.h"
 #include "diagnosis/log_check/own_readings.h"
 #include "diagnosis/round/refit.h"
 #include "diagnosis/search/basis.h"
@@ -16,7 +15,7 @@ std::optional<ArmModel> informed_fit(const ArmModel& given, const Recording& rec
       std::ranges::all_of(recording.hidden, [](const Hidden& h) { return h.acts.effect->name() == h.right_name; });
   if (!are_listed) return {};
   const ArmModel tolerated = with_tolerances_times(std::max(1, off), given);
-  const Log log = without_outliers(usable_readings(recording.training, given));
+  const Log log = usable_readings(recording.training, given);
   const std::vector<Record> records = diagnosis_data(given, {log}, recording.holdout, given).training;
   const Evidence evidence(records, given), whole(records, given, Split::none);
   const Hypothesis start{given.nominal, recording.robot.effects, {}};

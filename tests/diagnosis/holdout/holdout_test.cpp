@@ -90,23 +90,42 @@ TEST(HoldOutError, IgnoresSamplesThatAreNotCompared) {
 
 /// The training data have no joint sensor, the hold-out has one. A drive's ratio that is off within its tolerance moves
 /// the joint's reading: nothing that the training data could tell, and no reason to give up what they told.
+/// A hold-out with all sensors, and training data that lack the last joint's.
+struct WithoutLastSensor {
+  ArmModel model;
+  Evidence evidence;
+  HoldOut joints, torques;
+
+  WithoutLastSensor(int n, double seconds)
+      : model(first_joints(n)),
+        evidence(make_records(training(model, seconds), model, {}), model),
+        joints{make_records(simulate(motion(model, seconds, 1)).measured, model, kJointErrorBand), {}, {}},
+        torques{make_records(simulate(motion(model, seconds, 1)).measured, model, {}), {}, {}} {}
+
+  static Log training(const ArmModel& model, double seconds) {
+    Log log = simulate(motion(model, seconds)).measured;
+    log.joint_position.back().clear();
+    return log;
+  }
+};
+
+TEST(HoldOutFloors, AreThoseOfTheTrainingDataWhereTheyHaveTheChannel) {
+  const WithoutLastSensor data(2, 2);
+  const std::vector<double> floor = holdout_floors(data.evidence, data.model, data.joints, data.torques);
+  for (const int c : {0, 1, 2}) EXPECT_EQ(floor[c], data.evidence.floor()[c]) << c;
+  EXPECT_GT(floor[3], 1e-4) << "rad; tolerances of lengths of some percent";
+}
+
 TEST(HoldOutFloors, AllowTheTolerancesWhereNoTrainingDataAre) {
-  const ArmModel model = first_joints(1);
-  const Log holdout = simulate(motion(model, 4, 1)).measured;
-  Log training = simulate(motion(model, 4)).measured;
-  training.joint_position[0].clear();
-  const Evidence evidence(make_records(training, model, {}), model);
-  HoldOut joints{make_records(holdout, model, kJointErrorBand), {}, {}},
-      torques{make_records(holdout, model, {}), {}, {}};
-  const std::vector<double> floor = holdout_floors(evidence, model, joints, torques);
-  EXPECT_EQ(floor[0], evidence.floor()[0]) << "the training data have the torque";
-  const Hypothesis given{model.nominal, {}};
-  joints.before = predict_all(joints.records, given), torques.before = predict_all(torques.records, given);
+  WithoutLastSensor data(1, 4);
+  const std::vector<double> floor = holdout_floors(data.evidence, data.model, data.joints, data.torques);
+  const Hypothesis given{data.model.nominal, {}};
+  for (HoldOut* view : {&data.joints, &data.torques}) view->before = view->after = predict_all(view->records, given);
   const auto worse_with = [&](double tolerances) {
     Hypothesis revised = given;
-    revised.nominal.joint[0].capstan_radius *= 1 + tolerances * model.joints[0].tolerances.length;
-    joints.after = predict_all(joints.records, revised), torques.after = torques.before;
-    return worse_joints(model, joints, torques, floor);
+    revised.nominal.joint[0].capstan_radius *= 1 + tolerances * data.model.joints[0].tolerances.length;
+    data.joints.after = predict_all(data.joints.records, revised);
+    return worse_joints(data.model, data.joints, data.torques, floor);
   };
   EXPECT_TRUE(worse_with(0.5).empty());
   EXPECT_EQ(worse_with(5), std::vector<int>{0});
@@ -156,19 +175,6 @@ TEST(SlowestSmoothing, IsTheLeastThatItsToleranceAdmits) {
   EXPECT_EQ(slowest_smoothing(model, 1), 0.5);
   model.joints[1].tolerances.smoothing = 3;
   EXPECT_DOUBLE_EQ(slowest_smoothing(model, 1), 0.2);
-}
-
-TEST(HoldOutFloors, AreThoseOfTheTrainingDataWhereTheyHaveTheChannel) {
-  const ArmModel model = first_joints(2);
-  const Log holdout = simulate(motion(model, 2, 1)).measured;
-  Log training = simulate(motion(model, 2)).measured;
-  training.joint_position[1].clear();
-  const Evidence evidence(make_records(training, model, {}), model);
-  const HoldOut joints{make_records(holdout, model, kJointErrorBand), {}, {}},
-      torques{make_records(holdout, model, {}), {}, {}};
-  const std::vector<double> floor = holdout_floors(evidence, model, joints, torques);
-  for (const int c : {0, 1, 2}) EXPECT_EQ(floor[c], evidence.floor()[c]) << c;
-  EXPECT_GT(floor[3], 1e-4) << "rad; tolerances of lengths of some percent";
 }
 
 /// worse_joints() of a moving motor whose torque residual of about 1 grows to this size. floor: of both channels.
