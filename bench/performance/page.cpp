@@ -191,7 +191,7 @@ Least time while moving: {}. At rest: {}.
 **Which integrator for the stiff cable of link 1?** `rosenbrock`. It has the exact Jacobian of all forces and solves
 linear systems only, so that the accuracy limits its steps and not the stiffness of cable or friction. The explicit
 methods take shorter steps as the cable becomes stiffer: `explicit_rk` needs up to three times as long as `rosenbrock`
-at x1, and four to nine times at x100. `imex_link1` removes the limit that the cable sets, but not that of friction:
+at x1, and four to ten times at x100. `imex_link1` removes the limit that the cable sets, but not that of friction:
 where friction is sharp (x0.02), it takes two to three times as long as `imex`. On Simbody's chain, `simbody_rkm` is
 faster than `dirk` up to x10 while the arm moves, unless friction is sharp; `dirk` is faster at x100, and always at
 rest.
