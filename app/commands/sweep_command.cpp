@@ -63,9 +63,10 @@ Shard parse_shard(std::string_view text) {
 
 void run_sweep_command(const SweepCommandOptions& options) {
   const Shard& shard = options.run.shard;
-  // Other shards may compute into the same folder at the same time.
+  // Other shards may compute into the same folder at the same time, but none beside a run of the whole sweep.
   const auto lock =
       lock_output_folder(options.out, shard.is_whole() ? "" : fmt::format("{}_of_{}", shard.index, shard.count));
+  const auto parts = shard.is_whole() ? lock_output_folder(options.out, FolderLock::kAllParts) : nullptr;
   const Sweep sweep = read_sweep(options.sweep);
   {
     std::optional<Progress> line;

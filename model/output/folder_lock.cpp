@@ -29,13 +29,16 @@ bool is_held(const std::filesystem::path& path) {
   return file && ::flock(*file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
 }
 
-/// Whether a run holds the whole folder, or, if that is what is wanted, a part of it.
-bool is_shared_with_another(const std::filesystem::path& folder, const std::string& part) {
-  if (!part.empty()) return is_held(lock_path(folder, ""));
+/// Whether a run of all parts goes on beside one of a part.
+bool is_computed_twice(const std::filesystem::path& folder, const std::string& part) {
+  const std::filesystem::path all = lock_path(folder, FolderLock::kAllParts);
+  if (part.empty()) return false;
+  if (part != FolderLock::kAllParts) return is_held(all);
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with(".halyard-") && name.ends_with(".lock") && is_held(entry.path())) return true;
+    const bool is_of_part = name.starts_with(".halyard-") && name.ends_with(".lock") && name != all.filename();
+    if (is_of_part && is_held(entry.path())) return true;
   }
   return false;
 }
@@ -66,8 +69,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& p
     if (is_named(*file_, path)) break;
   }
   made_.add(path);
-  // Both look after they hold their own: of a whole run and a part at most one goes on.
-  if (is_shared_with_another(folder, part)) refuse_shared(folder);
+  // Both look after they hold their own: at most one goes on.
+  if (is_computed_twice(folder, part)) refuse_shared(folder);
 }
 
 }  // namespace halyard

@@ -12,10 +12,13 @@ namespace halyard {
 /// system on the file .halyard.lock in the folder (flock), so a run that was killed leaves no lock behind, only the
 /// file. Where the file system has no locks, nothing is kept out.
 ///
-/// part: runs that compute different parts of one result may share a folder; each keeps out other runs of its part, and
-/// runs without a part.
+/// part: runs that compute different parts of one result may share a folder; each keeps out other runs of its part. A
+/// run of kAllParts and one of a part keep out each other. Runs without a part keep out each other alone: what submits
+/// the parts or puts them together may do so while they run.
 class FolderLock {
  public:
+  static constexpr const char* kAllParts = "all";
+
   /// Makes missing folders; those that are still empty at the end are removed.
   /// Throws InputError if another run holds the folder, or if it cannot be written.
   explicit FolderLock(const std::filesystem::path& folder, const std::string& part = "");

@@ -202,14 +202,19 @@ TEST_F(OutputFolder, IsLockedForOneRunAtATime) {
   EXPECT_NO_THROW(FolderLock again(out));
 }
 
-TEST_F(OutputFolder, PartsShareItWithEachOtherAndNotWithAWholeRun) {
+TEST_F(OutputFolder, PartsShareItWithEachOtherAndNotWithARunOfAll) {
+  const auto is_refused = [&](const std::string& part) {
+    return message_of([&] { FolderLock lock(folder_, part); }) != "no InputError";
+  };
   {
     const FolderLock part(folder_, "1_of_2"), other(folder_, "2_of_2");
-    EXPECT_NE(message_of([&] { FolderLock again(folder_, "1_of_2"); }), "no InputError");
-    EXPECT_NE(message_of([&] { FolderLock whole(folder_); }), "no InputError");
+    EXPECT_TRUE(is_refused("1_of_2"));
+    EXPECT_TRUE(is_refused(FolderLock::kAllParts));
+    EXPECT_FALSE(is_refused("")) << "submits or merges";
   }
-  const FolderLock whole(folder_);
-  EXPECT_NE(message_of([&] { FolderLock part(folder_, "1_of_2"); }), "no InputError");
+  const FolderLock all(folder_, FolderLock::kAllParts);
+  EXPECT_TRUE(is_refused("1_of_2"));
+  EXPECT_FALSE(is_refused(""));
 }
 
 TEST_F(OutputFolder, ALockOfAKilledRunIsTakenOver) {
