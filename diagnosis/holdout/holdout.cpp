@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <map>
 
 #include "diagnosis/calibration/lateness.h"
 #include "diagnosis/fit/fit.h"
@@ -58,24 +57,45 @@ void compare_from(Record& r, double from) {
       for (std::size_t i = 0; i < x.size() && r.time(i) < from; ++i) x[i] = 0;
 }
 
-/// True if the squares of `error` grow from `before` to `after`, beyond chance and beyond what matters.
+/// Squares of the errors before and after, of the compared samples of one record.
+struct Squares {
+  std::vector<double> before, after;
+  double seconds = 0;  ///< that they last
+};
+
+/// Means over blocks of about so many seconds of the growth of the squares.
+void add_block_means(const Squares& s, double block_s, std::vector<double>& growth) {
+  const auto n = s.before.size(), blocks = static_cast<std::size_t>(std::max(1L, std::lround(s.seconds / block_s)));
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const std::size_t first = b * n / blocks, end = (b + 1) * n / blocks;
+    double sum = 0;
+    for (std::size_t i = first; i < end; ++i) sum += s.after[i] - s.before[i];
+    if (end > first) growth.push_back(sum / static_cast<double>(end - first));
+  }
+}
+
+/// True if the squares of `error` grow from `before` to `after`, beyond chance and beyond what matters; or if there is
+/// no prediction any more. Chance: a paired t test over blocks of a second, or shorter ones of a short hold-out.
 bool grows(const HoldOut& view, int k, double floor, const ErrorOfSample& error) {
-  constexpr double kShare = 0.025, kSignificance = 0.01;
-  std::map<std::pair<std::size_t, int>, std::pair<double, double>> second;
-  double before = 0, after = 0, count = 0;
-  for (std::size_t r = 0; r < view.records.size(); ++r)
-    for (std::size_t i = 0; i < view.records[r].size; ++i) {
-      const Record& record = view.records[r];
+  constexpr double kShare = 0.025, kSignificance = 0.01, kLongest = 1, kShortest = 0.25, kBlocks = 8;
+  std::vector<Squares> records(view.records.size());
+  double before = 0, after = 0, count = 0, seconds = 0;
+  for (std::size_t r = 0; r < view.records.size(); ++r) {
+    const Record& record = view.records[r];
+    for (std::size_t i = 0; i < record.size; ++i) {
       const double e = error(record, view.before[r], k, i), f = error(record, view.after[r], k, i);
-      if (std::isnan(e) || std::isnan(f)) continue;
-      auto& [of_before, of_after] = second[{r, static_cast<int>(record.time(i))}];
-      of_before += e * e, of_after += f * f;
+      if (std::isnan(e)) continue;
+      if (std::isnan(f)) return true;
+      records[r].before.push_back(e * e), records[r].after.push_back(f * f);
       before += e * e, after += f * f, count += 1;
     }
+    records[r].seconds = record.dt * static_cast<double>(records[r].before.size());
+    seconds += records[r].seconds;
+  }
   if (count == 0 || after - before < count * floor * floor || after - before < kShare * before) return false;
-  std::vector<double> differences;
-  for (const auto& [at, squares] : second) differences.push_back(squares.second - squares.first);
-  return p_value(paired(differences)) < kSignificance;
+  std::vector<double> growth;
+  for (const Squares& s : records) add_block_means(s, std::clamp(seconds / kBlocks, kShortest, kLongest), growth);
+  return p_value(paired(growth)) < kSignificance;
 }
 
 /// [2n] Root mean square of the change of each channel that the tolerances of the model cause together; NaN without
@@ -240,9 +260,11 @@ double error_over_floors(const ArmModel& model, const HoldOut& joints, const Hol
   const auto add = [&](const HoldOut& view, int k, double of_channel, const ErrorOfSample& error) {
     if (!(of_channel > 0)) return;
     for (std::size_t r = 0; r < view.records.size(); ++r)
-      for (std::size_t i = 0; i < view.records[r].size; ++i)
-        if (const double e = error(view.records[r], (view.*which)[r], k, i); !std::isnan(e))
-          sum += std::pow(e / of_channel, 2);
+      for (std::size_t i = 0; i < view.records[r].size; ++i) {
+        if (std::isnan(error(view.records[r], view.before[r], k, i))) continue;
+        const double e = error(view.records[r], (view.*which)[r], k, i);
+        sum += std::isnan(e) ? std::numeric_limits<double>::infinity() : std::pow(e / of_channel, 2);
+      }
   };
   for (int k = 0; k < n; ++k) {
     add(torques, k, floor[k], moving_torque_error(model, k));

@@ -32,7 +32,9 @@ class SteepFriction : public EffectOf<SteepFriction> {
   }
 };
 
-class WanderingZero : public EffectOf<WanderingZero> {
+/// A half-range cosine series over all records. Its origin is an instant, so that it goes on from log to log where each
+/// has a clock of its own.
+class WanderingZero : public EffectOf<WanderingZero>, public RefinesSearch {
  public:
   explicit WanderingZero(Span records) : records_(records) {}
   std::string name() const override { return "unlisted_wander"; }
@@ -42,17 +44,24 @@ class WanderingZero : public EffectOf<WanderingZero> {
     const bool turns = arm.joint[*joint].type == JointType::revolute;
     const double typical = turns ? 1e-3 : 1e-4, most = turns ? 0.5 : 0.05;
     std::vector<EffectParameter> all;
-    for (int i = 0; i < kMaxEffectParameters; ++i)
+    for (int i = 0; i < kCosines; ++i)
       all.push_back({"cosine_" + std::to_string(i), turns ? "rad" : "m", 0, typical, -most, most});
+    all.push_back({"origin", "s", records_.first, records_.first, -kFar, kFar});
     return all;
+  }
+  void refine_search(SearchSpace& space, const ArmParameters<double>&, EffectPlace) const override {
+    space["origin"].range = SearchRange::record_time;
+    space["origin"].is_whole = true;  // not fitted
   }
   template <class T>
   void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const double phase = std::numbers::pi * (c.time - records_.first) / (records_.last - records_.first);
-    for (int i = 0; i < kMaxEffectParameters; ++i) s[*c.joint].joint_error += c.p[i] * T(std::cos(i * phase));
+    const T phase = T(std::numbers::pi / (records_.last - records_.first)) * (T(c.time) - c.p[kCosines]);
+    for (int i = 0; i < kCosines; ++i) s[*c.joint].joint_error += c.p[i] * cos(T(T(i) * phase));
   }
 
  private:
+  static constexpr int kCosines = kMaxEffectParameters - 1;
+  static constexpr double kFar = 1e10;  ///< s
   Span records_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/record/resting.h"
 #include "plant/simulate.h"
@@ -178,9 +179,9 @@ TEST(SlowestSmoothing, IsTheLeastThatItsToleranceAdmits) {
 }
 
 /// worse_joints() of a moving motor whose torque residual of about 1 grows to this size. floor: of both channels.
-std::vector<int> worse_after(double size, double floor) {
+std::vector<int> worse_after(double size, double floor, double seconds = 20) {
   Record record = small_record();
-  record.dt = 0.05;
+  record.dt = seconds / kSamples;
   record.motor_rate[0].assign(kSamples, 100);
   const auto about = [](double mean) {
     return [mean](std::size_t i) { return mean * (1 + 1e-3 * static_cast<double>(i % 7)); };
@@ -195,6 +196,23 @@ TEST(WorseJoints, AreThoseWhoseSquaresGrowByAFortieth) {
   EXPECT_TRUE(worse_after(1.01, 0.01).empty()) << "by 2 %";
   EXPECT_EQ(worse_after(1.02, 0.01), std::vector<int>{0}) << "by 4 %";
   EXPECT_TRUE(worse_after(0.5, 0.01).empty());
+}
+
+TEST(WorseJoints, AreSeenInShortHoldOuts) {
+  for (const double seconds : {1.5, 2.0, 2.5, 3.0, 9.01})
+    EXPECT_EQ(worse_after(1.9, 0.01, seconds).size(), 1u) << seconds;
+}
+
+TEST(WorseJoints, AreThoseThatCannotBePredictedAnyMore) {
+  const ArmModel model = first_joints(1);
+  Record record = small_record();
+  record.motor_rate[0].assign(kSamples, 100);
+  HoldOut torques = holdout_with(record, [](std::size_t) { return 1.0; });
+  for (double& e : torques.after[0].torque_residual[0]) e = std::numeric_limits<double>::quiet_NaN();
+  const HoldOut none = holdout_with(record, [](std::size_t) { return 0.0; });
+  EXPECT_EQ(worse_joints(model, none, torques, {0.01, 0.01}), std::vector<int>{0});
+  EXPECT_EQ(error_over_floors(model, none, torques, &HoldOut::after, {0.01, 0.01}),
+            std::numeric_limits<double>::infinity());
 }
 
 TEST(WorseJoints, AreNoneWhoseSquaresGrowByLessThanASquaredFloor) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "diagnosis/holdout/holdout.h"
 #include "diagnosis/round/refit.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
@@ -50,12 +51,17 @@ PlacedEffect of_only_joint(const Effect& effect, std::vector<double> sizes) {
   return e;
 }
 
-/// For each name that a search gave to what this arm has, the weight of the cause that the library lacks.
-std::vector<double> unlisted_weights(const std::vector<PlacedEffect>& truth, const std::vector<PlacedEffect>& named) {
-  const ArmModel model = first_joints(1);
-  ArmModel robot = model;
+/// What an arm with these effects logs.
+Log log_of(const std::vector<PlacedEffect>& truth) {
+  ArmModel robot = first_joints(1);
   robot.effects = truth;
-  const std::vector<Record> records = make_records(simulate(motion(robot, 5)).measured, model, {});
+  return simulate(motion(robot, 5)).measured;
+}
+
+/// For each name that a search gave to what these logs show, the weight of the cause that the library lacks.
+std::vector<double> unlisted_weights(const std::vector<Log>& logs, const std::vector<PlacedEffect>& named) {
+  const ArmModel model = first_joints(1);
+  const std::vector<Record> records = diagnosis_data(model, logs, logs[0], model).training;
   const Evidence evidence(records, model);
   Attribution found;
   const Hypothesis h{model.nominal, named};
@@ -66,6 +72,10 @@ std::vector<double> unlisted_weights(const std::vector<PlacedEffect>& truth, con
   std::vector<double> weights;
   for (const Naming& naming : found.namings) weights.push_back(naming.unlisted.weight);
   return weights;
+}
+
+std::vector<double> unlisted_weights(const std::vector<PlacedEffect>& truth, const std::vector<PlacedEffect>& named) {
+  return unlisted_weights(std::vector{log_of(truth)}, named);
 }
 
 double unlisted_weight(const PlacedEffect& truth, const PlacedEffect& named) {
@@ -93,6 +103,17 @@ TEST(UnlistedCauses, ASensorThatWandersIsNoPairOfSlips) {
   const WarmingSensor warming;
   for (const double w : unlisted_weights({of_only_joint(warming, {0.02, 1.5})}, {slip(1e-4, 1), slip(1e-4, 3)}))
     EXPECT_GT(w, 0.99);
+}
+
+TEST(UnlistedCauses, ASensorWandersOnFromLogToLog) {
+  const WarmingSensor warming;
+  // The second log begins where the first ended, with the sensor warm; its clock starts anew, or goes on.
+  const Log cold = log_of({of_only_joint(warming, {0.02, 1.5})}), warm = log_of({of_only_joint(warming, {0.02, 0.1})});
+  for (const double later : {0.0, 6.0}) {
+    Log second = warm;
+    for (double& t : second.time) t += later;
+    for (const double w : unlisted_weights({cold, second}, {slip(1e-4, 1), slip(1e-4, 3)})) EXPECT_GT(w, 0.99) << later;
+  }
 }
 
 TEST(UnlistedCauses, LeaveSlipsTheirNames) {
