@@ -213,6 +213,15 @@ void check_last_time(const std::vector<double>& time, const Lines& row) {
 
 }  // namespace
 
+std::vector<std::string> column_names(const std::filesystem::path& path) {
+  const std::string text = read_text(path);
+  Lines lines(text, path.string());
+  std::vector<std::string> names;
+  if (!lines.next()) return names;
+  for (Column& column : read_header(lines)) names.push_back(std::move(column.name));
+  return names;
+}
+
 Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& map, const ReadOptions& options) {
   if (n_joints < 1) throw std::invalid_argument("read_log: n_joints must be at least 1");
   map.check_joints(n_joints);

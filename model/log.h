@@ -89,6 +89,9 @@ struct ReadOptions {
 Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& map = {},
              const ReadOptions& options = {});
 
+/// The names of a file's columns, read as read_log() does; none if the file has no header. Throws InputError as it does.
+std::vector<std::string> column_names(const std::filesystem::path& path);
+
 /// The line of the file log.source that holds a sample, as an editor counts; 0 if it cannot be told.
 std::size_t line_of_sample(const Log& log, std::size_t sample);
 

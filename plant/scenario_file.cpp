@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <set>
 #include <string>
@@ -51,15 +50,10 @@ void read_sines(const XmlElement& element, const std::string& unit, JointTraject
 }
 
 void check_column(const XmlElement& element, const std::filesystem::path& file, const std::string& column) {
-  std::ifstream stream(file);
-  std::string header;
-  while (std::getline(stream, header) && header.starts_with('#')) {}
-  if (!stream) return;  // read_log says why
-  std::vector<std::string_view> names;
-  split(header, names);
-  if (std::ranges::find(names, column) != names.end()) return;
+  const std::vector<std::string> names = column_names(file);
+  if (names.empty() || std::ranges::find(names, column) != names.end()) return;  // read_log says what else is wrong
   std::vector<std::string> known;
-  for (const std::string_view name : names) known.push_back(in_quotes(name));
+  for (const std::string& name : names) known.push_back(in_quotes(name));
   element.fail("column", file.string() + " has no column " + in_quotes(column) + "; it has " + listed(known) +
                              "; give one of these as column");
 }

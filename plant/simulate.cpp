@@ -139,8 +139,7 @@ class ControlLoop {
     for (std::size_t k = 0; k < noise.joint_reading.size(); ++k)
       tick.signals[k].joint_error += noise.joint_reading[k] * normal_(random_);
     tick.readings = read_encoders(drive.arm(), tick.signals, scenario_.quantise);
-    const Eigen::VectorXd desired = unstretched_motors(assumed_arm(scenario_), desired_joints(scenario_, time_s));
-    tick.commanded_torque = controller_.torque(desired, tick.readings.motor);
+    tick.commanded_torque = controller_.torque(desired_readings(time_s), tick.readings.motor);
     tick.applied_torque = tick.commanded_torque;
     add_noise(noise.motor_torque, tick.applied_torque);
     tick.load = Eigen::VectorXd::Zero(n);
@@ -149,6 +148,15 @@ class ControlLoop {
   }
 
  private:
+  /// What the motors' encoders would read at the desired positions if the arm were as the controller assumes.
+  Eigen::VectorXd desired_readings(double time_s) const {
+    const ArmParameters<double>& arm = assumed_arm(scenario_);
+    Eigen::VectorXd readings = unstretched_motors(arm, desired_joints(scenario_, time_s));
+    for (int k = 0; k < arm.n; ++k)
+      if (arm.joint[k].drive != Drive::none) readings(k) += arm.joint[k].motor_encoder_offset;
+    return readings;
+  }
+
   void add_noise(const std::vector<double>& deviation, Eigen::VectorXd& to) {
     for (std::size_t k = 0; k < deviation.size(); ++k) to[k] += deviation[k] * normal_(random_);
   }

@@ -25,7 +25,7 @@ double point_at(const JointTrajectory& t, double time_s) {
   const double leg = t.move_s + t.dwell_s;
   const double legs_done = std::floor(time_s / leg);
   const auto n = t.points.size();
-  const auto i = static_cast<std::size_t>(legs_done) % n;
+  const auto i = static_cast<std::size_t>(std::fmod(legs_done, static_cast<double>(n)));
   const double from = t.points[i], to = t.points[(i + 1) % n];
   return from + (to - from) * minimum_jerk((time_s - legs_done * leg) / t.move_s);
 }

@@ -21,7 +21,8 @@ void add_camera(const Camera& camera, const double* point, const Log& truth, std
     if (time[i] < next / camera.rate_hz - kRounding) continue;
     next = std::floor((time[i] + kRounding) * camera.rate_hz) + 1;
     const double lost = share(random);
-    const Eigen::Vector3d error(normal(random), normal(random), normal(random));
+    Eigen::Vector3d error;
+    for (double& e : error) e = normal(random);
     const double exposed = time[i] - camera.latency_s;
     if (exposed < time[0] - kRounding || lost < camera.dropout) continue;
 

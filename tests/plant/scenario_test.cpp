@@ -186,6 +186,17 @@ TEST_F(ScenarioFile, SaysWhatIsWrongAndWhere) {
             std::string::npos);
 }
 
+TEST_F(ScenarioFile, ReadsTheColumnsOfASampleFileAsThoseOfALog) {
+  for (const char* header : {"time,path", "\"time\",\"path\"", "\n\ntime,path", "  # of a robot\ntime,path",
+                             "\xef\xbb\xbf"
+                             "time,path",
+                             "\xef\xbb\xbf# of a robot\ntime,path"}) {
+    write("x.csv", header + std::string("\n0,0.5\n1,1\n"));
+    const Scenario s = read(R"(<trajectory joint="1" kind="samples" file="x.csv" column="path"/>)");
+    EXPECT_EQ(s.trajectory[0].sample_position, (std::vector<double>{0.5, 1})) << header;
+  }
+}
+
 TEST_F(ScenarioFile, SaysWhatIsWrongWithASampleFile) {
   EXPECT_EQ(message(R"(<trajectory joint="1" kind="samples" file="x.csv"/>)"),
             "s.xml:2: <trajectory file=\"x.csv\">: x.csv: no such file; correct the path, which is relative to this "

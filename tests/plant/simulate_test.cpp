@@ -162,6 +162,19 @@ TEST(Simulate, ControlsTheTrueArmByTheModelItAssumes) {
   EXPECT_NEAR(log.motor_position[0][0], wanted / 1.05, 1e-3 * wanted);
 }
 
+TEST(Simulate, TheControllerKnowsTheOffsetOfAnEncoderThatTheModelStates) {
+  Scenario scenario = experiment("a", 0.3);
+  scenario.quantise = false;
+  scenario.homed = false;
+  const std::vector<double> right = simulate(scenario).truth.joint_position[0];
+  scenario.robot.nominal.joint[0].motor_encoder_offset = 10;
+  const std::vector<double> unknown = simulate(scenario).truth.joint_position[0];
+  EXPECT_GT(std::abs(unknown.back() - right.back()), 0.01) << "an error that only the robot has";
+  scenario.assumed->joint[0].motor_encoder_offset = 10;
+  const std::vector<double> stated = simulate(scenario).truth.joint_position[0];
+  for (std::size_t i = 0; i < right.size(); ++i) EXPECT_NEAR(stated[i], right[i], 1e-9) << i;
+}
+
 TEST(Simulate, RefusesWhatCannotBeRun) {
   Scenario scenario = experiment("a", 1);
   scenario.trajectory.pop_back();

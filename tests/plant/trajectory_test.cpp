@@ -68,6 +68,16 @@ TEST(Trajectory, OfSinesStartsAtItsCenterAtRest) {
   EXPECT_DOUBLE_EQ(desired_position(t, 2, after), 0.5 + 0.2 * std::sin(0.4 * w + 1.0) + 0.1 * std::sin(0.9 * w));
 }
 
+TEST(Trajectory, BetweenPointsStaysAmongThemHoweverShortAMoveIs) {
+  JointTrajectory t;
+  t.kind = JointTrajectory::Kind::point_to_point;
+  t.points = {1, 2, 3};
+  t.move_s = 1e-300;
+  const double q = desired_position(t, 0, 1);
+  EXPECT_GE(q, 1);
+  EXPECT_LE(q, 3);
+}
+
 TEST(Trajectory, BetweenPointsMovesWithMinimumJerkAndDwells) {
   JointTrajectory t;
   t.kind = Kind::point_to_point;
