@@ -38,7 +38,7 @@ figure_blind_trials() {
   local kind sensors shard
   # Parts of twelve, each of which spreads over the library's effects.
   while read -r kind sensors shard; do
-    ran "$bench/halyard_blind_trials --kind $kind --sensors $sensors --off 1 --arms raven2 --trials 60 \
+    ran "bench/halyard_blind_trials --kind $kind --sensors $sensors --off 1 --arms raven2 --trials 60 \
 --shard $shard/12 --seed 20271210 --resume --out out/trials"
   done <<'DRAWS'
 clean good 1
@@ -55,7 +55,7 @@ form poor 5
 outside good 9
 outside poor 1
 DRAWS
-  ran "$bench/halyard_blind_trials --summary out/trials"
+  ran "bench/halyard_blind_trials --summary out/trials"
   cat <<'TABLE'
 From `halyard_blind_trials --seed 20271210 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials 60 --shard i/12`,
 i is 1, 5 or 9: another one for each kind of sensors:
@@ -68,8 +68,8 @@ figure coverage hours bench
 figure_coverage() {
   echo 'From `halyard_identify_coverage --runs 50 --seconds 12 --seed 11`, where all other parameters are exact:'
   echo
-  ran "$bench/halyard_identify_coverage --runs 50 --seconds 12 --seed 11"
-  printed "$bench/halyard_identify_coverage --runs 50 --seconds 12 --seed 11"
+  ran "bench/halyard_identify_coverage --runs 50 --seconds 12 --seed 11"
+  printed "bench/halyard_identify_coverage --runs 50 --seconds 12 --seed 11"
 }
 
 figure coverage_off hours bench
@@ -78,7 +78,7 @@ figure_coverage_off() {
   for off in stiffness everything; do
     echo "From \`halyard_identify_coverage --runs 20 --seconds 12 --seed 11 --off $off\`:"
     echo
-    printed "$bench/halyard_identify_coverage --runs 20 --seconds 12 --seed 11 --off $off"
+    printed "bench/halyard_identify_coverage --runs 20 --seconds 12 --seed 11 --off $off"
     echo
   done
 }

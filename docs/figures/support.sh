@@ -31,8 +31,10 @@ prepare_work_folder() {
   [ -x "$program" ] || stop "$program: no such program; build it with ./run --help, or say --program FILE"
   mkdir -p "$work/out" "$work/made" "$work/printed"
   work=$(realpath "$work")
+  rm -f "$work/failed"
   ln -sfn "$root/examples" "$work/examples"
   ln -sfn "$root/docs" "$work/docs"
+  ln -sfn "$bench" "$work/bench"  # without blanks
   [ ! -d "$recordings" ] || ln -sfn "$(realpath "$recordings")" "$work/recordings"
   printf '#!/bin/sh\nexec "%s" "$@"\n' "$program" >"$work/run"
   chmod +x "$work/run"
@@ -43,7 +45,11 @@ printed() {
   local log
   log=$work/printed/$(cksum <<<"$1" | cut -d ' ' -f 1)
   if [ ! -f "$log" ]; then
-    (cd "$work" && bash -c "$1" >"$log.part" 2>"$log.errors") || { cat "$log.errors" >&2; stop "failed: $1"; }
+    (cd "$work" && bash -c "$1" >"$log.part" 2>"$log.errors") || {
+      cat "$log.errors" >&2
+      touch "$work/failed"  # where this runs in a subshell, `stop` ends that alone
+      stop "failed: $1"
+    }
     mv "$log.part" "$log"
   fi
   cat "$log"

@@ -1,7 +1,7 @@
 #pragma once
 /// What the sensors of a trial make of the joints' motion and of the motors' torques.
 ///
-///   reading_j = round(q(t_j - latency + jitter_j) + noise_j),   t_j = j / rate, in the first row of the log after it
+///   reading_j = round(q(t_j - latency + jitter_j) + noise_j),   t_j: of the first row of the log after j / rate
 ///
 ///                                        good        poor                                motors
 ///   rate                                 all rows    log-uniform 30 Hz to 1 kHz          no joint sensors

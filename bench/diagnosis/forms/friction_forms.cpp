@@ -102,7 +102,7 @@ class ExponentialStribeck : public EffectOf<ExponentialStribeck>, public Refines
 };
 
 /// Friction of motor and joint that changes linearly in time instead of settling:
-///   F = F (1 + a t / 20 s)
+///   F = F (1 + a t / 32 s)       32 s: how long a trial's motion lasts, so that a > -1 leaves a friction
 /// Source: the first-order term of warming up; Bittencourt and Gunnarsson, J. Dyn. Sys. Meas. Control 134 (2012), on
 /// the friction of robot joints over temperature.
 class LinearFrictionDrift : public EffectOf<LinearFrictionDrift> {
@@ -132,7 +132,7 @@ class LinearFrictionDrift : public EffectOf<LinearFrictionDrift> {
  private:
   template <class T>
   static T share_now(const EffectContext<T>& c) {
-    constexpr double kSpan = 20;
+    constexpr double kSpan = 32;
     return c.p[0] * T(c.time / kSpan);
   }
 };
