@@ -35,30 +35,21 @@ TABLE
 
 figure blind_trials hours bench
 figure_blind_trials() {
-  local kind sensors shard
-  # Parts of twelve, each of which spreads over the library's effects.
-  while read -r kind sensors shard; do
-    ran "bench/halyard_blind_trials --kind $kind --sensors $sensors --off 1 --arms raven2 --trials 60 \
---shard $shard/12 --seed 20271210 --resume --out out/trials"
+  local trials kinds sensors
+  while read -r trials kinds sensors; do
+    kinds="--kind ${kinds//,/ --kind }" sensors="--sensors ${sensors//,/ --sensors }"
+    ran "bench/halyard_blind_trials $kinds $sensors --off 1 --arms raven2 --trials $trials --seed 20271211 --resume \
+--out out/trials"
   done <<'DRAWS'
-clean good 1
-clean poor 5
-effect good 1
-effect poor 5
-effect motors 9
-two_at_joint good 5
-two_at_joint poor 9
-three good 9
-three poor 1
-form good 1
-form poor 5
-outside good 9
-outside poor 1
+100 clean good,poor,motors
+40 effect good,poor,motors
+20 two_at_joint,three good,poor
+20 form,outside good,poor
 DRAWS
   ran "bench/halyard_blind_trials --summary out/trials"
   cat <<'TABLE'
-From `halyard_blind_trials --seed 20271210 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials 60 --shard i/12`,
-i is 1, 5 or 9: another one for each kind of sensors:
+From `halyard_blind_trials --seed 20271211 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N`; N is 100 for
+clean arms, 40 for one effect, 20 for the other kinds. There are motors only for clean arms and one effect:
 
 TABLE
   awk '/^## /{ inside = $2 == "Acceptance" } inside && /^[|]/' "$work/out/trials/summary.md"
