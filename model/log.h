@@ -89,7 +89,8 @@ struct ReadOptions {
 Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& map = {},
              const ReadOptions& options = {});
 
-/// The names of a file's columns, read as read_log() does; none if the file has no header. Throws InputError as it does.
+/// The names of a file's columns, read as read_log() does; none if the file has no header. Throws InputError as it
+/// does.
 std::vector<std::string> column_names(const std::filesystem::path& path);
 
 /// The line of the file log.source that holds a sample, as an editor counts; 0 if it cannot be told.
