@@ -57,20 +57,15 @@ void compare_from(Record& r, double from) {
       for (std::size_t i = 0; i < x.size() && r.time(i) < from; ++i) x[i] = 0;
 }
 
-/// Squares of the errors before and after, of the compared samples of one record.
-struct Squares {
-  std::vector<double> before, after;
-  double seconds = 0;  ///< that they last
-};
-
-/// Means over blocks of about so many seconds of the growth of the squares.
-void add_block_means(const Squares& s, double block_s, std::vector<double>& growth) {
-  const auto n = s.before.size(), blocks = static_cast<std::size_t>(std::max(1L, std::lround(s.seconds / block_s)));
+/// Appends the means of x, samples of one record, over equal blocks of about so many samples.
+void add_block_means(const std::vector<double>& x, double block, std::vector<double>& means) {
+  const auto n = x.size();
+  const auto blocks = static_cast<std::size_t>(std::max(1L, std::lround(static_cast<double>(n) / block)));
   for (std::size_t b = 0; b < blocks; ++b) {
     const std::size_t first = b * n / blocks, end = (b + 1) * n / blocks;
     double sum = 0;
-    for (std::size_t i = first; i < end; ++i) sum += s.after[i] - s.before[i];
-    if (end > first) growth.push_back(sum / static_cast<double>(end - first));
+    for (std::size_t i = first; i < end; ++i) sum += x[i];
+    if (end > first) means.push_back(sum / static_cast<double>(end - first));
   }
 }
 
@@ -78,7 +73,7 @@ void add_block_means(const Squares& s, double block_s, std::vector<double>& grow
 /// no prediction any more. Chance: a paired t test over blocks of a second, or shorter ones of a short hold-out.
 bool grows(const HoldOut& view, int k, double floor, const ErrorOfSample& error) {
   constexpr double kShare = 0.025, kSignificance = 0.01, kLongest = 1, kShortest = 0.25, kBlocks = 8;
-  std::vector<Squares> records(view.records.size());
+  std::vector<std::vector<double>> growth(view.records.size());  // of the squares, [record][compared sample]
   double before = 0, after = 0, count = 0, seconds = 0;
   for (std::size_t r = 0; r < view.records.size(); ++r) {
     const Record& record = view.records[r];
@@ -86,16 +81,16 @@ bool grows(const HoldOut& view, int k, double floor, const ErrorOfSample& error)
       const double e = error(record, view.before[r], k, i), f = error(record, view.after[r], k, i);
       if (std::isnan(e)) continue;
       if (std::isnan(f)) return true;
-      records[r].before.push_back(e * e), records[r].after.push_back(f * f);
+      growth[r].push_back(f * f - e * e);
       before += e * e, after += f * f, count += 1;
     }
-    records[r].seconds = record.dt * static_cast<double>(records[r].before.size());
-    seconds += records[r].seconds;
+    seconds += record.dt * static_cast<double>(growth[r].size());
   }
   if (count == 0 || after - before < count * floor * floor || after - before < kShare * before) return false;
-  std::vector<double> growth;
-  for (const Squares& s : records) add_block_means(s, std::clamp(seconds / kBlocks, kShortest, kLongest), growth);
-  return p_value(paired(growth)) < kSignificance;
+  const double block_s = std::clamp(seconds / kBlocks, kShortest, kLongest);
+  std::vector<double> means;
+  for (std::size_t r = 0; r < growth.size(); ++r) add_block_means(growth[r], block_s / view.records[r].dt, means);
+  return p_value(paired(means)) < kSignificance;
 }
 
 /// [2n] Root mean square of the change of each channel that the tolerances of the model cause together; NaN without

@@ -312,7 +312,7 @@ void check_idle(LogUnderCheck& c) {
   std::string first;  // column of the first motor
   for (int k = 0; k < c.n(); ++k) {
     if (!c.is_driven(k)) continue;
-    if (first.empty()) first = "motor_position_" + std::to_string(k + 1);
+    if (first.empty()) first = column_name(&Log::motor_position, k);
     const double counts = 3 * c.model.nominal.joint[k].motor_encoder_resolution;
     const double least = std::max(counts, 1e-4 * c.range(k) / std::abs(c.joint_per_motor(k)));
     moves = moves || spread(c.log.motor_position[k]) > least;
