@@ -49,7 +49,9 @@ void check_output_file(const fs::path& path) {
   if (fs::is_directory(path, error) || !path.has_filename()) fail(path, "is a folder; give a file name");
   if (fs::exists(path, error) && !fs::is_regular_file(path, error))
     fail(path, "is no plain file; give another file name");
-  check_output_folder(path.has_parent_path() ? path.parent_path() : fs::path("."));
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  check_output_folder(folder);
+  remove_leftovers(folder);
 }
 
 void check_not_input(const fs::path& out) {

@@ -9,7 +9,8 @@
 
 namespace halyard {
 
-/// Throws InputError for an empty path, a folder, a parent that is a file, or one without permission to write.
+/// Throws InputError for an empty path, a folder, a parent that is a file, or one without permission to write. Removes
+/// what a killed run left beside the file.
 void check_output_file(const std::filesystem::path& path);
 
 /// Throws InputError if `out` is a file that the command has read, because writing would replace it.

@@ -14,7 +14,7 @@ namespace halyard {
 ///
 /// part: runs that compute different parts of one result may share a folder; each keeps out other runs of its part. A
 /// run of kAllParts and one of a part keep out each other. Runs without a part keep out each other alone: what submits
-/// the parts or puts them together may do so while they run.
+/// the parts may do so while they run.
 class FolderLock {
  public:
   static constexpr const char* kAllParts = "all";

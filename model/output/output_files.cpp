@@ -1,6 +1,7 @@
 #include "model/output/output_files.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -40,20 +41,31 @@ fs::path replaceable(const fs::path& path) {
   return target;
 }
 
-constexpr std::string_view kPart = ".part-";
+/// ".part-HOST-N-": N is the number of the space in which process numbers count, such as a container's. Machines that
+/// share a folder do not know each other's processes.
+const std::string& part_mark() {
+  static const std::string mark = [] {
+    char host[256] = "";
+    ::gethostname(host, sizeof host - 1);
+    struct stat processes {};
+    ::stat("/proc/self/ns/pid", &processes);
+    return ".part-" + std::string(host) + "-" + std::to_string(processes.st_ino) + "-";
+  }();
+  return mark;
+}
 
-/// In the same folder, so that the rename stays within one file system; unique among processes and threads.
+/// In the same folder, so that the rename stays within one file system; unique among machines, processes and threads.
 fs::path sibling(fs::path path) {
   static std::atomic<unsigned> count{0};
-  path += std::string(kPart) + std::to_string(::getpid()) + "-" + std::to_string(count++);
+  path += part_mark() + std::to_string(::getpid()) + "-" + std::to_string(count++);
   return path;
 }
 
-/// The process that a sibling() belongs to, if the name is of one.
+/// The process that a sibling() of this machine belongs to, if the name is of one.
 std::optional<pid_t> owner_of(const std::string& name) {
-  const std::size_t at = name.rfind(kPart);
+  const std::size_t at = name.rfind(part_mark());
   if (at == name.npos) return std::nullopt;
-  const char *begin = name.data() + at + kPart.size(), *end = name.data() + name.size();
+  const char *begin = name.data() + at + part_mark().size(), *end = name.data() + name.size();
   pid_t owner = 0;
   unsigned count = 0;
   const auto [dash, no_owner] = std::from_chars(begin, end, owner);

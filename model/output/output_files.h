@@ -50,7 +50,7 @@ class OutputFiles {
 void write_file_whole(const std::filesystem::path& path, std::string_view content);
 
 /// Removes what processes that were killed (SIGKILL, power) left of their temporary files in this folder, not below it.
-/// Files of processes that still run on this machine stay.
+/// Files of processes that still run stay, and those of other machines.
 void remove_leftovers(const std::filesystem::path& folder);
 
 }  // namespace halyard

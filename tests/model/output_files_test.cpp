@@ -14,6 +14,7 @@
 #include <string>
 
 #include "model/output/folder_lock.h"
+#include "tests/support/background_run.h"
 #include "tests/support/message_of.h"
 
 namespace halyard {
@@ -177,16 +178,17 @@ TEST_F(OutputFolder, AFullDiskLeavesEverythingAsItWas) {
 }
 
 TEST_F(OutputFolder, LeftoversOfKilledProcessesGoAndThoseOfRunningOnesStay) {
-  const pid_t ended = ::fork();
-  if (ended == 0) ::_exit(0);
-  ::waitpid(ended, nullptr, 0);
-  const std::string of_ended = "log.csv.part-" + std::to_string(ended) + "-0";
-  const std::string of_this = "log.csv.part-" + std::to_string(::getpid()) + "-7";
-  for (const std::string& name : {of_ended, of_this, std::string("log.csv.part-of-a-name"), of_ended + "a"})
+  OutputFiles running;
+  running.add(folder_ / "log.csv", "");
+  const fs::path of_this = fs::directory_iterator(folder_)->path();
+  testing_program::kill_while_writing(folder_ / "truth.csv");
+  EXPECT_EQ(files(), 2u);
+  // A name of no process, and one of a machine whose processes are not known here.
+  for (const char* name : {"log.csv.part-of-a-name", "log.csv.part-elsewhere-4026531836-4194305-0"})
     write_file_whole(folder_ / name, "");
   remove_leftovers(folder_);
-  EXPECT_FALSE(fs::exists(folder_ / of_ended));
   EXPECT_EQ(files(), 3u);
+  EXPECT_TRUE(fs::exists(of_this));
 }
 
 TEST_F(OutputFolder, IsLockedForOneRunAtATime) {

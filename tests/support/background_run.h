@@ -16,6 +16,8 @@
 #include <thread>
 #include <vector>
 
+#include "model/output/output_files.h"
+
 namespace halyard::testing_program {
 
 /// Waits until `condition()`; for at most a minute, ample for a machine with other work.
@@ -47,6 +49,17 @@ inline std::vector<Process> running_processes() {
     if (p.state != 'Z') all.push_back(p);
   }
   return all;
+}
+
+/// Leaves beside `path` what a process leaves that is killed while it writes this file.
+inline void kill_while_writing(const std::filesystem::path& path) {
+  const pid_t writer = ::fork();
+  if (writer == 0) {
+    OutputFiles files;
+    files.add(path, "half a line");
+    ::raise(SIGKILL);
+  }
+  ::waitpid(writer, nullptr, 0);
 }
 
 class BackgroundRun {
