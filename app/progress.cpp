@@ -22,6 +22,11 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
+void tell(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 Progress::Progress(std::string label, double total, std::string unit)
     : label_(std::move(label)),
       total_(total),
@@ -31,10 +36,7 @@ Progress::Progress(std::string label, double total, std::string unit)
       last_drawn_(start_) {}
 
 Progress::~Progress() {
-  if (drawn_) {
-    std::fputs(kWipeLine, stderr);
-    std::fflush(stderr);
-  }
+  if (drawn_) tell(kWipeLine);
 }
 
 void Progress::set(double done) {
@@ -58,9 +60,8 @@ void Progress::draw() {
   drawn_ = true;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const double rate = done_ / elapsed;
-  fmt::print(stderr, "{}{}: {:3.0f} %   {:.3g} {}/s   {} left", kWipeLine, label_, 100 * std::min(1.0, done_ / total_),
-             rate, unit_, duration_text(std::max(0.0, total_ - done_) / rate));
-  std::fflush(stderr);
+  tell(fmt::format("{}{}: {:3.0f} %   {:.3g} {}/s   {} left", kWipeLine, label_, 100 * std::min(1.0, done_ / total_),
+                   rate, unit_, duration_text(std::max(0.0, total_ - done_) / rate)));
 }
 
 StageProgress::StageProgress(std::string label, std::vector<UsualStage> run, PipedProgress piped)
@@ -72,10 +73,7 @@ StageProgress::StageProgress(std::string label, std::vector<UsualStage> run, Pip
       last_line_(start_) {}
 
 StageProgress::~StageProgress() {
-  if (drawn_) {
-    std::fputs(kWipeLine, stderr);
-    std::fflush(stderr);
-  }
+  if (drawn_) tell(kWipeLine);
 }
 
 void StageProgress::set(const std::string& stage, double fraction) {
@@ -84,11 +82,9 @@ void StageProgress::set(const std::string& stage, double fraction) {
   const Clock::time_point now = Clock::now();
   const double left = estimate_.left(stage, fraction, std::chrono::duration<double>(now - start_).count());
   if (in_lines_ && now - last_line_ < kLineEvery) return;
-  fmt::print(stderr, "{}{}: {}: {:3.0f} %", on_terminal_ ? kWipeLine : "", label_, stage,
-             100 * std::min(1.0, fraction));
-  if (left > 0) fmt::print(stderr, "   at least {} left", duration_text(left));
-  if (in_lines_) fmt::print(stderr, "\n");
-  std::fflush(stderr);
+  tell(fmt::format("{}{}: {}: {:3.0f} %{}{}", on_terminal_ ? kWipeLine : "", label_, stage,
+                   100 * std::min(1.0, fraction),
+                   left > 0 ? fmt::format("   at least {} left", duration_text(left)) : "", in_lines_ ? "\n" : ""));
   last_line_ = now;
   drawn_ = on_terminal_;
 }

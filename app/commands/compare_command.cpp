@@ -108,7 +108,7 @@ void print_errors(const Comparison& comparison) {
     const EstimatorRun& run = comparison.runs[i];
     if (!run.failure.empty()) {
       fmt::print("{}: {}\n", run.name, run.refused ? "refused the data" : "failed");
-      fmt::print(stderr, "{}\n", run.failure);
+      tell(run.failure + "\n");
       continue;
     }
     fmt::print("{} ({:.3g} us a step)\n", run.name, run.microseconds_per_step);

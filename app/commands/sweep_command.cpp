@@ -76,8 +76,13 @@ void run_sweep_command(const SweepCommandOptions& options) {
       else line->add(1);
     };
     run.discarding = [](std::size_t points) {
-      fmt::print(stderr, "note: {} finished point{} of this sweep will be computed again; --resume keeps them\n",
-                 points, points == 1 ? "" : "s");
+      tell(fmt::format("note: {} finished point{} of this sweep will be computed again; --resume keeps them\n", points,
+                       points == 1 ? "" : "s"));
+    };
+    run.discarding_other = [&options] {
+      tell(fmt::format(
+          "note: {} holds results of another sweep, or of this one before its files were changed; they are removed\n",
+          options.out.string()));
     };
     const KeptOnInterruption kept("finished points are kept: go on with the same command and --resume");
     run_sweep(sweep, options.out, run);
@@ -117,6 +122,8 @@ void run_merge_command(const MergeCommandOptions& options) {
   const auto lock = lock_output_folder(options.out);
   OutputFiles files;
   const SweepResult whole = merge_sweep(files, options.parts, options.out);
+  // The journals of the parts are removed at the end: none may still be written.
+  const auto parts = lock_output_folder(options.out, FolderLock::kAllParts);
   const SweepSummary summary = write_sweep_report(files, options.out, whole.grid, whole.cells);
   files.commit();
   print_result(options.out, whole.grid, summary);

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 
 #include "app/commands/sweep_command.h"
 #include "app/output_check.h"
 #include "app/slurm/slurm_array.h"
+#include "evaluation/shell_quotes.h"
 #include "evaluation/sweep/sweep_file.h"
+#include "evaluation/sweep/sweep_run.h"
 #include "evaluation/sweep/sweep_store.h"
 #include "model/input_error.h"
 
@@ -41,17 +44,37 @@ std::vector<std::size_t> open_parts(const std::vector<PartState>& states) {
   return parts;
 }
 
-/// Prints a line for each part that Slurm got; returns whether any of them is still active.
+/// "sweep S.xml --out DIR", and what else this sweep needs to be understood.
+std::string sweep_command(const fs::path& sweep, const fs::path& out) {
+  return fmt::format("halyard sweep {} --out {}{}", in_shell_quotes(sweep.string()), in_shell_quotes(out.string()),
+                     effects_options());
+}
+
+std::string merge_command(const fs::path& out) { return "halyard merge " + in_shell_quotes(out.string()); }
+
+void refuse_other(const fs::path& out, const SweepGrid& grid) {
+  if (holds_other_sweep(out, grid)) refuse_other_sweep(out, "remove it");
+}
+
+/// Prints a line for each part that Slurm got; returns whether any of them is still active, as far as is known.
 bool print_parts(const StoredCells& cells, const SubmittedArray& array) {
-  const std::vector<ActiveTask> active = active_tasks(array.job);
+  std::vector<ActiveTask> active;
+  std::string unknown;
+  try {
+    active = active_tasks(array.job);
+  } catch (const std::runtime_error& error) {
+    unknown = error.what();
+  }
   const std::vector<PartState> states = part_states(cells, array.parts);
-  fmt::print("Slurm job {}:\n", array.job);
+  fmt::print("Slurm job {}:{}\n", array.job, unknown.empty() ? "" : " " + unknown);
   for (std::size_t i = 0; i < states.size(); ++i) {
     const auto task = std::ranges::find(active, i + 1, &ActiveTask::task);
-    const std::string state = task != active.end() ? ", " + task->state : states[i].is_done() ? "" : ", not running";
+    const std::string state = task != active.end()                      ? ", " + task->state
+                              : states[i].is_done() || !unknown.empty() ? ""
+                                                                        : ", not running";
     fmt::print("  part {} of {}: {} of {} done{}\n", i + 1, states.size(), states[i].done, states[i].points, state);
   }
-  return !active.empty();
+  return !active.empty() || !unknown.empty();
 }
 
 }  // namespace
@@ -65,8 +88,9 @@ void run_sweep_slurm(const SweepSlurmOptions& options) {
     fmt::print("{}", slurm_script(array));
     return;
   }
+  check_estimators(sweep);  // a wrong one is found now, not by each part
   const auto lock = lock_output_folder(options.out);
-  check_same_sweep(options.out, sweep.grid);
+  refuse_other(options.out, sweep.grid);
   if (const auto before = submitted_array(options.out); before && !active_tasks(before->job).empty())
     throw InputError(
         fmt::format("--out {}: Slurm job {} still computes this sweep; wait for its end, or end it with: "
@@ -75,21 +99,21 @@ void run_sweep_slurm(const SweepSlurmOptions& options) {
   store_grid(options.out, sweep.grid);
   array.tasks = open_parts(part_states(StoredCells({options.out}, sweep.grid), array.parts));
   if (array.tasks.empty()) {
-    fmt::print("sweep \"{}\": all {} points are done\nnext: halyard merge {}\n", sweep.grid.name, sweep.grid.size(),
-               options.out.string());
+    fmt::print("sweep \"{}\": all {} points are done\nnext: {}\n", sweep.grid.name, sweep.grid.size(),
+               merge_command(options.out));
     return;
   }
   const std::string job = submit(array);
   fmt::print("sweep \"{}\": {} points, {} of {} parts submitted as Slurm job {}\n", sweep.grid.name, sweep.grid.size(),
              array.tasks.size(), array.parts, job);
-  fmt::print("progress: halyard sweep {} --out {} --status\nnext: halyard merge {}\n", options.sweep.string(),
-             options.out.string(), options.out.string());
+  fmt::print("progress: {} --status\nnext: {}\n", sweep_command(options.sweep, options.out),
+             merge_command(options.out));
 }
 
 void run_sweep_status(const fs::path& sweep, const fs::path& out) {
   const SweepGrid grid = read_sweep_definition(sweep).grid;
   read_grid(out);
-  check_same_sweep(out, grid);
+  refuse_other(out, grid);
   const StoredCells cells({out}, grid);
   const std::size_t done = cells.count(), failed = cells.count_failed();
   fmt::print("sweep \"{}\": {} of {} points are done ({:.1f} %)", grid.name, done, grid.size(),
@@ -99,10 +123,14 @@ void run_sweep_status(const fs::path& sweep, const fs::path& out) {
   const bool is_active = array && print_parts(cells, *array);
   if (done == grid.size()) {
     if (fs::exists(out / "sweep.csv")) fmt::print("table: {}\n", (out / "sweep.csv").string());
-    else fmt::print("next: halyard merge {}\n", out.string());
+    else fmt::print("next: {}\n", merge_command(out));
   } else if (!is_active) {
-    fmt::print("to continue: halyard sweep {} --out {} {}\n", sweep.string(), out.string(),
-               array ? fmt::format("--slurm --nodes {}", array->parts) : "--resume");
+    std::string rest = "--resume";
+    if (array) {
+      rest = fmt::format("--slurm --nodes {}", array->parts);
+      for (const std::string& option : array->options) rest += " --sbatch " + in_shell_quotes(option);
+    }
+    fmt::print("to continue: {} {}\n", sweep_command(sweep, out), rest);
   }
 }
 

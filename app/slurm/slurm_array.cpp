@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "evaluation/json.h"
+#include "evaluation/shell_quotes.h"
 #include "model/input_error.h"
 #include "model/output/output_files.h"
 #include "plugins/host/effect_module.h"
@@ -24,12 +25,6 @@ namespace fs = std::filesystem;
 
 fs::path job_file(const fs::path& out) { return out / "slurm" / "job.json"; }
 fs::path script_file(const fs::path& out) { return out / "slurm" / "job.sh"; }
-
-std::string in_shell_quotes(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 struct ShellResult {
   int exit_code = 0;
@@ -50,29 +45,46 @@ ShellResult run_in_shell(const std::string& command) {
   return result;
 }
 
+fs::path log_folder(const fs::path& out) { return fs::absolute(out) / "slurm"; }
+
 /// The path with what sbatch replaces in names of files written out.
 std::string log_pattern(const fs::path& out) {
   std::string pattern;
-  for (const char c : (fs::absolute(out) / "slurm").string())
-    pattern += c == '%' ? std::string("%%") : std::string(1, c);
+  for (const char c : log_folder(out).string()) pattern += c == '%' ? std::string("%%") : std::string(1, c);
   return pattern + "/part_%a.log";
+}
+
+/// "1-4,7,9-12": a list of each number would be too long for Slurm where there are thousands.
+std::string in_ranges(const std::vector<std::size_t>& tasks) {
+  std::vector<std::string> ranges;
+  for (std::size_t first = 0, next; first < tasks.size(); first = next) {
+    for (next = first + 1; next < tasks.size() && tasks[next] == tasks[next - 1] + 1;) ++next;
+    const std::size_t from = tasks[first], to = tasks[next - 1];
+    ranges.push_back(from == to ? fmt::format("{}", from) : fmt::format("{}-{}", from, to));
+  }
+  return fmt::format("{}", fmt::join(ranges, ","));
 }
 
 }  // namespace
 
+std::string effects_options() {
+  std::string options;
+  for (const fs::path& module : loaded_effect_modules()) options += " --effects " + in_shell_quotes(module.string());
+  return options;
+}
+
 std::string slurm_script(const SlurmArray& array) {
   std::string text = fmt::format(
-      "#!/bin/bash\n#SBATCH --job-name=halyard\n#SBATCH --array={}\n#SBATCH --nodes=1\n#SBATCH --exclusive\n"
+      "#!/bin/bash\n# Before sbatch: mkdir -p {}  (for what the tasks print; without it Slurm starts none)\n#SBATCH "
+      "--job-name=halyard\n#SBATCH --array={}\n#SBATCH --nodes=1\n#SBATCH --exclusive\n"
       "#SBATCH --requeue\n#SBATCH --open-mode=append\n#SBATCH --output={}\n",
-      fmt::join(array.tasks, ","), in_shell_quotes(log_pattern(array.out)));
+      in_shell_quotes(log_folder(array.out).string()), in_ranges(array.tasks), in_shell_quotes(log_pattern(array.out)));
   for (const std::string& option : array.options) text += "#SBATCH " + option + "\n";
   text += fmt::format("cd {} || exit 1\nexec {} sweep {} --out {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --resume \\\n",
                       in_shell_quotes(fs::current_path().string()),
                       in_shell_quotes(fs::read_symlink("/proc/self/exe").string()),
                       in_shell_quotes(array.sweep.string()), in_shell_quotes(array.out.string()), array.parts);
-  for (const fs::path& module : loaded_effect_modules())
-    text += "  --effects " + in_shell_quotes(module.string()) + " \\\n";
-  return text + "  --jobs \"${SLURM_CPUS_ON_NODE:-1}\"\n";
+  return text + fmt::format(" {} --jobs \"${{SLURM_CPUS_ON_NODE:-1}}\"\n", effects_options());
 }
 
 std::string submit(const SlurmArray& array) {
@@ -83,10 +95,15 @@ std::string submit(const SlurmArray& array) {
   const fs::path script = script_file(array.out);
   write_file_whole(script, slurm_script(array));
   const ShellResult result = run_in_shell("sbatch --parsable " + in_shell_quotes(script.string()));
-  if (result.exit_code != 0) throw std::runtime_error("halyard sweep: sbatch refused the job: " + result.printed);
+  if (result.exit_code != 0)
+    throw std::runtime_error("halyard sweep: sbatch refused the job: " + result.printed +
+                             (result.printed.find("array") == result.printed.npos
+                                  ? ""
+                                  : "; fewer --nodes may help: MaxArraySize in slurm.conf limits them"));
   // "17", or "17;cluster"
   const std::string job = result.printed.substr(result.printed.rfind('\n') + 1);
-  const nlohmann::ordered_json json = {{"job", job.substr(0, job.find(';'))}, {"parts", array.parts}};
+  const nlohmann::ordered_json json = {
+      {"job", job.substr(0, job.find(';'))}, {"parts", array.parts}, {"options", array.options}};
   write_file_whole(job_file(array.out), json_text(json));
   return json.at("job");
 }
@@ -96,7 +113,8 @@ std::optional<SubmittedArray> submitted_array(const fs::path& out) {
   if (!file) return std::nullopt;
   try {
     const auto json = nlohmann::ordered_json::parse(file);
-    const SubmittedArray array{json.at("job").get<std::string>(), whole_number(json.at("parts"))};
+    const SubmittedArray array{json.at("job").get<std::string>(), whole_number(json.at("parts")),
+                               json.value("options", std::vector<std::string>{})};
     const bool is_number =
         !array.job.empty() && std::ranges::all_of(array.job, [](unsigned char c) { return std::isdigit(c); });
     if (is_number && array.parts > 0) return array;
@@ -107,7 +125,11 @@ std::optional<SubmittedArray> submitted_array(const fs::path& out) {
 std::vector<ActiveTask> active_tasks(const std::string& job) {
   const ShellResult result = run_in_shell("squeue --noheader --array --job=" + job + " --format='%K %T %N'");
   std::vector<ActiveTask> tasks;
-  if (result.exit_code != 0) return tasks;
+  if (result.exit_code != 0) {
+    if (result.printed.find("Invalid job id") != result.printed.npos) return tasks;
+    throw std::runtime_error("halyard sweep: squeue cannot say whether Slurm job " + job +
+                             " still runs: " + result.printed);
+  }
   std::istringstream lines(result.printed);
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);

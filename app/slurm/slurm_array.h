@@ -2,7 +2,7 @@
 /// A sweep as a job array of Slurm: each task computes one shard into the same folder.
 ///
 ///   DIR/slurm/job.sh        the script that sbatch got
-///   DIR/slurm/job.json      {"job": "17", "parts": 4}
+///   DIR/slurm/job.json      {"job": "17", "parts": 4, "options": ["--time=1:00:00"]}
 ///   DIR/slurm/part_2.log    what shard 2 printed
 
 #include <cstddef>
@@ -20,6 +20,9 @@ struct SlurmArray {
   std::vector<std::string> options;  ///< more options for sbatch, such as "--time=1:00:00"
 };
 
+/// " --effects m.so ..." for the modules that this program has loaded; empty without any.
+std::string effects_options();
+
 /// Text of the script. It starts this program in the current folder, and can run again after its node was lost.
 std::string slurm_script(const SlurmArray& array);
 
@@ -30,6 +33,7 @@ std::string submit(const SlurmArray& array);
 struct SubmittedArray {
   std::string job;
   std::size_t parts = 1;
+  std::vector<std::string> options;  ///< as of SlurmArray
 };
 /// What was submitted last for this folder, if anything was. Throws InputError for a damaged file.
 std::optional<SubmittedArray> submitted_array(const std::filesystem::path& out);
@@ -39,7 +43,7 @@ struct ActiveTask {
   std::size_t task = 0;
   std::string state;  ///< "running on n2", "pending"
 };
-/// Nothing where Slurm does not know the job any more, or cannot be asked.
+/// Empty where Slurm does not know the job any more. Throws std::runtime_error if it cannot be asked.
 std::vector<ActiveTask> active_tasks(const std::string& job);
 
 }  // namespace halyard

@@ -58,17 +58,20 @@ std::optional<LineStart> parse_start(std::string_view line) {
   return line.starts_with(",") && line.ends_with("}") ? std::optional(start) : std::nullopt;
 }
 
+std::string message_of(int error) { return std::generic_category().message(error); }
+
 /// Calls `line(text, offset)` for each complete line of a file; a last line without line break does not count. Returns
-/// the length of the complete lines.
+/// the length of the complete lines. Throws std::runtime_error if the file cannot be read to its end.
 template <class Line>
-std::uint64_t for_each_line(int file, const Line& line) {
+std::uint64_t for_each_line(int file, const fs::path& path, const Line& line) {
   std::string rest;
   std::uint64_t offset = 0;  // of rest in the file
   std::vector<char> block(1 << 20);
   for (std::uint64_t at = 0;;) {
     const ssize_t n = ::pread(file, block.data(), block.size(), static_cast<off_t>(at));
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return offset;
+    if (n < 0) throw std::runtime_error(path.string() + ": cannot be read: " + message_of(errno));
+    if (n == 0) return offset;
     at += static_cast<std::uint64_t>(n);
     rest.append(block.data(), static_cast<std::size_t>(n));
     std::size_t begin = 0;
@@ -138,7 +141,7 @@ void CellJournal::open() {
   fs::create_directories(path_.parent_path());
   file_ = Descriptor(path_, O_RDWR | O_CREAT);
   if (!file_) fail();
-  written_ = for_each_line(*file_, [](std::string_view, std::uint64_t) {});
+  written_ = for_each_line(*file_, path_, [](std::string_view, std::uint64_t) {});
   if (::ftruncate(*file_, static_cast<off_t>(written_)) != 0) fail();
   if (written_ == 0) append(header_);
   // The names of the file and of its folder have to be on the disk too.
@@ -165,15 +168,22 @@ void CellJournal::bring_to_disk(std::uint64_t written) {
     const std::lock_guard reading(writing_);
     covered = written_;
   }
-  if (::fdatasync(*file_) != 0 && errno != EINVAL && errno != EROFS) {
+  struct stat status;
+  const bool is_written = ::fdatasync(*file_) == 0 || errno == EINVAL || errno == EROFS;
+  if (!is_written || ::fstat(*file_, &status) != 0) {
     const std::lock_guard reading(writing_);
     fail();
+  }
+  if (status.st_nlink == 0) {
+    const std::lock_guard reading(writing_);
+    failure_ = path_.string() + ": was removed while the sweep ran, with the points that were finished; run it again";
+    throw std::runtime_error(failure_);
   }
   synced_ = covered;
 }
 
 void CellJournal::fail() {
-  failure_ = path_.string() + ": not written: " + std::generic_category().message(errno) +
+  failure_ = path_.string() + ": not written: " + message_of(errno) +
              "; the points before are kept: make room and run again with --resume";
   if (file_) [[maybe_unused]]
     const int ignored = ::ftruncate(*file_, static_cast<off_t>(written_));
@@ -190,7 +200,7 @@ StoredCells::StoredCells(const std::vector<fs::path>& folders, const SweepGrid& 
   for (const fs::path& folder : folders) {
     for (const fs::path& path : journals_in(folder)) {
       Descriptor file(path, O_RDONLY);
-      if (!file) throw InputError(path.string() + ": cannot be read: " + std::generic_category().message(errno));
+      if (!file) throw InputError(path.string() + ": cannot be read: " + message_of(errno));
       journals_.push_back({path, std::move(file)});
       scan(journals_.size() - 1, header);
     }
@@ -199,16 +209,17 @@ StoredCells::StoredCells(const std::vector<fs::path>& folders, const SweepGrid& 
 
 void StoredCells::scan(std::size_t journal, const std::string& header) {
   const fs::path& path = journals_[journal].path;
-  for_each_line(*journals_[journal].file, [&](std::string_view line, std::uint64_t offset) {
+  for_each_line(*journals_[journal].file, path, [&](std::string_view line, std::uint64_t offset) {
     if (offset == 0) {
       if (line == std::string_view(header).substr(0, header.size() - 1)) return;
       if (!line.starts_with("{\"sweep\":")) damaged(path, 0);
-      throw InputError(path.string() + ": belongs to another sweep; give a folder of its own to each sweep");
+      throw InputError(path.string() +
+                       ": belongs to another sweep; remove it, or give a folder of its own to each sweep");
     }
     const std::optional<LineStart> start = parse_start(line);
     if (!start || start->point >= places_.size()) damaged(path, offset);
     Place& place = places_[start->point];
-    if (place.length > 0) return;
+    if (place.length > 0 && !failed_[start->point]) return;
     place = {offset, static_cast<std::uint32_t>(line.size() + 1), static_cast<std::uint32_t>(journal)};
     failed_[start->point] = start->failed > 0;
   });

@@ -54,7 +54,8 @@ class CellJournal {
   CellJournal(const std::filesystem::path& folder, const SweepGrid& grid, const Shard& shard);
 
   /// The cell is on the disk when this returns; from any thread. What a killed run left of a line is cut off first.
-  /// Throws std::runtime_error, such as for a full disk; from then on, every call throws.
+  /// Throws std::runtime_error, such as for a full disk or a journal that somebody removed; from then on, every call
+  /// throws.
   void add(const SweepCell& cell);
 
  private:
@@ -75,12 +76,14 @@ class CellJournal {
 /// The cells in the journals of some folders. Memory: 16 bytes for each point of the grid, for any size of the cells.
 class StoredCells {
  public:
-  /// A point that is in several journals is taken from the first. Journals may grow meanwhile; what comes later does
-  /// not count. Throws InputError for a journal that is damaged or of another sweep.
+  /// Of several results of a point the first without a failure counts, or else the last. Journals may grow meanwhile;
+  /// what comes later does not count. Throws InputError for a journal that is damaged or of another sweep, and
+  /// std::runtime_error for one that cannot be read to its end.
   StoredCells(const std::vector<std::filesystem::path>& folders, const SweepGrid& grid);
 
   std::size_t size() const { return places_.size(); }  ///< points of the grid
   bool has(std::size_t point) const { return places_.at(point).length > 0; }
+  bool has_failed(std::size_t point) const { return failed_.at(point); }
   std::size_t count() const;         ///< points that are there
   std::size_t count_failed() const;  ///< of them with a failure
 

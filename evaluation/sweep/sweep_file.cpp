@@ -19,6 +19,7 @@
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "model/xml/xml_reader.h"
+#include "plugins/host/effect_module.h"
 
 namespace halyard {
 namespace {
@@ -138,10 +139,21 @@ std::string file_text(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// What modules of estimators and effects contain: another build of them gives other results.
+std::string modules_text(const Sweep& sweep) {
+  std::string text = HALYARD_VERSION;
+  for (const std::string& name : sweep.grid.estimators)
+    if (name.find('/') != name.npos) text += file_text(name);
+  const auto is_own = [](const PlacedEffect& placed) { return is_from_module(*placed.effect); };
+  if (std::ranges::any_of(sweep.model.effects, is_own) || std::ranges::any_of(sweep.scenario.robot.effects, is_own))
+    for (const fs::path& module : loaded_effect_modules()) text += file_text(module);
+  return text;
+}
+
 /// Everything that results depend on; samples of trajectories too, which may stand in files of their own.
 std::string definition_id(const Sweep& sweep, const fs::path& sweep_file, const fs::path& scenario_file) {
-  std::string text =
-      file_text(sweep_file) + file_text(scenario_file) + model_to_xml(sweep.scenario.robot) + model_to_xml(sweep.model);
+  std::string text = file_text(sweep_file) + file_text(scenario_file) + model_to_xml(sweep.scenario.robot) +
+                     model_to_xml(sweep.model) + modules_text(sweep);
   for (const JointTrajectory& trajectory : sweep.scenario.trajectory) {
     for (std::size_t i = 0; i < trajectory.sample_time.size(); ++i) {
       text += exact_text(trajectory.sample_time[i]) + " " + exact_text(trajectory.sample_position[i]) + "\n";
@@ -254,9 +266,6 @@ Sweep read_sweep_definition(const fs::path& path) {
   grid.scenario = scenario_file.filename().string();
   grid.model = model_file.filename().string();
   grid.skip_s = element.number_or("skip", 0.5, "s", Sign::non_negative);
-  if (element.has("skip") && grid.skip_s >= sweep.scenario.duration_s)
-    element.fail("skip", fmt::format("expected a duration above the {:g} s that are skipped, not {:g} s", grid.skip_s,
-                                     sweep.scenario.duration_s));
   grid.units = joint_units(sweep.model);
   read_subjects(element, folder, sweep.model, grid);
   grid.seeds = read_seeds(element, sweep.scenario.seed);
@@ -270,6 +279,10 @@ Sweep read_sweep_definition(const fs::path& path) {
   }
   if (points > kMostSweepPoints)
     element.fail(fmt::format("{:g} points; expected at most {:g}; take fewer values", points, kMostSweepPoints));
+  if (!element.has("limits") && grid.skip_s >= sweep.scenario.duration_s)
+    element.fail("skip",
+                 fmt::format("{}expected less than the duration, {:g} s; of the first {:g} s no error is counted",
+                             element.has("skip") ? "" : "skip: ", sweep.scenario.duration_s, grid.skip_s));
   grid.id = definition_id(sweep, path, scenario_file);
   return sweep;
 }

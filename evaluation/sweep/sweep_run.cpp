@@ -8,12 +8,15 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <new>
+#include <system_error>
 
 #include "evaluation/comparison/compare.h"
 #include "evaluation/run/contained_run.h"
 #include "evaluation/sweep/measures/sweep_limits.h"
 #include "evaluation/sweep/parameters/estimator_option.h"
 #include "evaluation/sweep/sweep_store.h"
+#include "evaluation/worker/worker_process.h"
 #include "model/input_error.h"
 #include "plant/simulate.h"
 
@@ -24,12 +27,15 @@ namespace fs = std::filesystem;
 
 /// Points of the shard that are still to be computed; a journal that does not count is removed.
 std::vector<std::size_t> points_to_do(const SweepGrid& grid, const fs::path& folder, const SweepRunOptions& options) {
+  // Those of another sweep are here only if the run that was to remove them was killed first.
+  if (options.shard.is_whole()) remove_journals_of_others(folder, grid);
   const StoredCells stored({folder}, grid);
   std::vector<std::size_t> todo;
   std::size_t discarded = 0;
   for (std::size_t point = 0; point < grid.size(); ++point) {
     if (!options.shard.holds(point)) continue;
-    if (!(options.resume && stored.has(point))) todo.push_back(point);
+    const bool is_done = stored.has(point) && !stored.has_failed(point);
+    if (!(options.resume && is_done)) todo.push_back(point);
     discarded += !options.resume && stored.has(point);
   }
   if (discarded > 0 && options.discarding) options.discarding(discarded);
@@ -59,15 +65,32 @@ SweepCell::Result failure(const SweepGrid& grid, const std::string& reason) {
   return result_of(grid, reason, [](const MeasuredColumn& column, std::size_t) { return column.after_failure; });
 }
 
+/// Does the work of a point. Returns why it failed, or an empty text. A fault of the machine is no result of the point
+/// and is thrown: no memory, no process to be had, no worker.
+template <class Work>
+std::string failure_of(const Work& work) {
+  try {
+    work();
+    return "";
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::system_error&) {
+    throw;
+  } catch (const NoWorker&) {
+    throw;
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
 SweepCell limits_at(const Sweep& sweep, std::size_t point) {
   SweepCell cell{point, {}};
-  try {
+  const std::string reason = failure_of([&] {
     check_point(sweep, point, "the sweep");
     for (auto& limits : limits_of(sweep.grid.effects, sweep.scenario_at(point), sweep.model_at(point)))
       cell.results.push_back({"", std::move(limits)});
-  } catch (const std::exception& error) {
-    cell.results.assign(sweep.grid.n_subjects(), failure(sweep.grid, error.what()));
-  }
+  });
+  if (!reason.empty()) cell.results.assign(sweep.grid.n_subjects(), failure(sweep.grid, reason));
   return cell;
 }
 
@@ -77,23 +100,23 @@ SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOpti
   if (sweep.grid.measures_limits()) return limits_at(sweep, point);
   SweepCell cell{point, {}};
   SimulationResult data;
-  try {
+  const std::string no_data = failure_of([&] {
     check_point(sweep, point, "the sweep");
     data = simulate(faster(sweep.scenario_at(point)));
-  } catch (const std::exception& error) {
-    cell.results.assign(sweep.grid.estimators.size(), failure(sweep.grid, std::string("simulation: ") + error.what()));
+  });
+  if (!no_data.empty()) {
+    cell.results.assign(sweep.grid.estimators.size(), failure(sweep.grid, "simulation: " + no_data));
     return cell;
   }
   data.measured.source = "the simulated log";
   const ArmModel model = sweep.model_at(point);
   for (const std::string& estimator : sweep.grid.estimators) {
-    try {
+    const std::string reason = failure_of([&] {
       const Comparison comparison = compare_estimators(model, {estimator}, data.measured, data.truth,
                                                        {.skip_s = sweep.grid.skip_s, .containment = containment});
       cell.results.push_back(result_of(sweep.grid, comparison));
-    } catch (const std::exception& error) {
-      cell.results.push_back(failure(sweep.grid, error.what()));
-    }
+    });
+    if (!reason.empty()) cell.results.push_back(failure(sweep.grid, reason));
   }
   return cell;
 }
@@ -126,7 +149,11 @@ void check_estimators(const Sweep& sweep, const ContainmentOptions& containment)
 void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions& options) {
   check_estimators(sweep, options.containment);  // a wrong one is found now, not in every cell
 
-  if (options.resume) check_same_sweep(folder, sweep.grid);
+  if (holds_other_sweep(folder, sweep.grid)) {
+    if (options.resume) refuse_other_sweep(folder, "leave out --resume to compute this one");
+    if (!options.shard.is_whole()) refuse_other_sweep(folder, "remove it");  // other shards may be writing
+    if (options.discarding_other) options.discarding_other();
+  }
   store_grid(folder, sweep.grid);
   const std::vector<std::size_t> todo = points_to_do(sweep.grid, folder, options);
 

@@ -12,7 +12,7 @@
 namespace halyard {
 
 /// Simulates a point and runs the estimators over its log, or computes the detection limits. A failure is stored in the
-/// cell, not thrown.
+/// cell, not thrown. A fault of the machine is thrown, not stored: std::bad_alloc, std::system_error, NoWorker.
 SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOptions& containment = {});
 
 /// Throws InputError if an estimator of the sweep cannot be made: with the model of the first point, and with the least
@@ -22,19 +22,23 @@ void check_estimators(const Sweep& sweep, const ContainmentOptions& containment 
 struct SweepRunOptions {
   int jobs = 0;  ///< threads; 0: one per core
   Shard shard = {};
-  bool resume = false;  ///< true: keep stored cells, of any shard; false: compute all cells of the shard again
+  /// true: keep stored cells without a failure, of any shard; false: compute all cells of the shard again
+  bool resume = false;
   ContainmentOptions containment = {};
   /// Called without `resume`, if the folder holds finished points of this sweep that will be computed again.
   std::function<void(std::size_t points)> discarding = {};
+  /// Called if the folder holds another sweep that will be removed.
+  std::function<void()> discarding_other = {};
   /// Called once with done = 0 and then after each point; from any thread.
   std::function<void(std::size_t done, std::size_t total)> progress = {};
 };
 
 /// Computes the shard's cells in parallel. Each is on the disk when its point is done, in the journal of the shard
 /// (sweep_cells.h); several shards may run into one folder at the same time. The result does not depend on the number
-/// of jobs. If the folder holds another sweep, its cells and tables are removed first; with `resume`, an InputError is
-/// thrown instead.
-/// Throws InputError also if an estimator cannot be made, and std::runtime_error if a cell cannot be written.
+/// of jobs. If the folder holds another sweep, its cells and tables are removed first; with `resume`, or for a shard,
+/// which may not be alone in the folder, an InputError is thrown instead.
+/// Throws InputError also if an estimator cannot be made, std::runtime_error if a cell cannot be written, and as
+/// run_point() does.
 void run_sweep(const Sweep& sweep, const std::filesystem::path& folder, const SweepRunOptions& options);
 
 }  // namespace halyard

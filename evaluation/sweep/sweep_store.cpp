@@ -92,11 +92,19 @@ void discard_other_sweep(OutputFiles& files, const fs::path& folder, const Sweep
     files.remove(folder / name);
 }
 
-void check_same_sweep(const fs::path& folder, const SweepGrid& grid) {
-  if (!holds_other_sweep(folder, grid)) return;
+void refuse_other_sweep(const fs::path& folder, const std::string& remedy) {
   throw InputError(folder.string() +
-                   ": holds results of another sweep, or of this one before its files were changed; leave out --resume "
-                   "to compute it anew, or give another folder");
+                   ": holds results of another sweep, or of this one before its files were changed; " + remedy +
+                   ", or give another folder");
+}
+
+void remove_journals_of_others(const fs::path& folder, const SweepGrid& grid) {
+  const std::string header = journal_header(grid);
+  for (const fs::path& journal : journals_in(folder)) {
+    std::string first;
+    std::ifstream file(journal, std::ios::binary);
+    if (std::getline(file, first) && first + "\n" != header && first.starts_with("{\"sweep\":")) fs::remove(journal);
+  }
 }
 
 void write_grid(OutputFiles& files, const fs::path& folder, const SweepGrid& grid) {

@@ -2,6 +2,7 @@
 /// The folder of a sweep: DIR/sweep.json describes the grid, DIR/cells holds the results (sweep_cells.h).
 
 #include <filesystem>
+#include <string>
 
 #include "evaluation/sweep/sweep_grid.h"
 #include "model/output/output_files.h"
@@ -14,8 +15,11 @@ bool holds_other_sweep(const std::filesystem::path& folder, const SweepGrid& gri
 /// ones.
 void discard_other_sweep(OutputFiles& files, const std::filesystem::path& folder, const SweepGrid& grid);
 
-/// Throws InputError if the folder holds results of a sweep with another id.
-void check_same_sweep(const std::filesystem::path& folder, const SweepGrid& grid);
+/// Throws the InputError for a folder with another sweep. remedy: "remove it"; another folder is proposed, too.
+[[noreturn]] void refuse_other_sweep(const std::filesystem::path& folder, const std::string& remedy);
+
+/// Removes the journals of other sweeps from a folder whose sweep.json is of this one.
+void remove_journals_of_others(const std::filesystem::path& folder, const SweepGrid& grid);
 
 void write_grid(OutputFiles& files, const std::filesystem::path& folder, const SweepGrid& grid);
 /// Throws InputError if the folder has no sweep.json, or one that this program did not write.

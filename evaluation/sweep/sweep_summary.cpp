@@ -19,6 +19,8 @@ void MeanWithInterval::add(double x) {
   const double before = x - mean_;
   mean_ += before / double(n_);
   squares_ += before * (x - mean_);
+  least_ = std::min(least_, x);
+  greatest_ = std::max(greatest_, x);
 }
 
 double MeanWithInterval::mean() const { return n_ > 0 ? mean_ : std::numeric_limits<double>::quiet_NaN(); }

@@ -17,12 +17,15 @@ class MeanWithInterval {
   /// NaN does not count.
   void add(double x);
   std::size_t count() const { return n_; }
-  double mean() const;        ///< NaN without numbers
-  double half_width() const;  ///< NaN with fewer than two numbers
+  double mean() const;                           ///< NaN without numbers
+  double half_width() const;                     ///< NaN with fewer than two numbers
+  double least() const { return least_; }        ///< infinity without numbers
+  double greatest() const { return greatest_; }  ///< -infinity without numbers
 
  private:
   std::size_t n_ = 0;
   double mean_ = 0, squares_ = 0;
+  double least_ = std::numeric_limits<double>::infinity(), greatest_ = -least_;
 };
 
 /// What a report says of all points of a sweep, collected from one cell after the other; its size does not grow with

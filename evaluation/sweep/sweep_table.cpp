@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "evaluation/csv.h"
+#include "evaluation/shell_quotes.h"
+#include "plugins/host/effect_module.h"
 
 namespace halyard {
 namespace {
@@ -71,7 +73,10 @@ void add_rows(CsvTable& table, const SweepGrid& grid, const SweepCell& cell) {
 }  // namespace
 
 std::string command_of_point(const SweepGrid& grid, std::size_t point) {
-  return fmt::format("halyard sweep {} --point {}", grid.file, point);
+  std::string modules;
+  for (const std::filesystem::path& module : loaded_effect_modules())
+    modules += " --effects " + in_shell_quotes(module.filename().string());
+  return fmt::format("halyard sweep {} --point {}{}", in_shell_quotes(grid.file), point, modules);
 }
 
 SweepSummary write_sweep_table(OutputFiles& files, const std::filesystem::path& path, const SweepGrid& grid,

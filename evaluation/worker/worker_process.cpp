@@ -16,7 +16,6 @@
 #include <new>
 #include <system_error>
 
-#include "model/input_error.h"
 #include "plugins/host/program_location.h"
 
 namespace halyard {
@@ -183,14 +182,14 @@ fs::path worker_program() {
   std::error_code error;
   if (const char* given = std::getenv("HALYARD_WORKER")) {
     if (fs::is_regular_file(given, error)) return given;
-    throw InputError("HALYARD_WORKER: " + in_quotes(given) + " is no file; give the path of halyard_worker");
+    throw NoWorker("HALYARD_WORKER: " + in_quotes(given) + " is no file; give the path of halyard_worker");
   }
   const fs::path library_folder = folder_of_code(&worker_program);
   for (const fs::path& path :
        {program_folder() / HALYARD_WORKER_FROM_PROGRAM, program_folder() / HALYARD_WORKER_IN_BUILD,
         library_folder / HALYARD_WORKER_FROM_LIBRARY, library_folder / ".." / HALYARD_WORKER_IN_BUILD})
     if (fs::is_regular_file(path, error)) return path;
-  throw InputError(
+  throw NoWorker(
       "halyard_worker, the program that runs estimators, is not found beside this program or halyard's libraries; "
       "install it, or give its path in the environment variable HALYARD_WORKER");
 }
@@ -215,7 +214,7 @@ std::string result_of_worker(const WorkerTask& task, const WorkerWatch& watch) {
   if (!in_time) throw ended(fmt::format("took more than {:g} s, and was ended", watch.step_limit_s));
   if (WIFSIGNALED(status)) throw ended(fmt::format("crashed: {}", strsignal(WTERMSIG(status))));
   if (!page->has_started)
-    throw InputError(
+    throw NoWorker(
         fmt::format("{}: cannot be started (exit code {}); install it again", program.string(), WEXITSTATUS(status)));
   if (answer.empty()) throw ended("ended its process");
   return result_in(answer);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "evaluation/worker/worker_task.h"
+#include "model/input_error.h"
 
 namespace halyard {
 
@@ -18,9 +19,14 @@ class WorkerEnded : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// There is no worker program, or it cannot be started.
+class NoWorker : public InputError {
+  using InputError::InputError;
+};
+
 /// Path of the worker program: the environment variable HALYARD_WORKER, or else halyard_worker in the installation or
 /// build tree of the running program or of halyard's library.
-/// Throws InputError if there is none.
+/// Throws NoWorker if there is none.
 std::filesystem::path worker_program();
 
 struct WorkerWatch {
@@ -34,7 +40,7 @@ struct WorkerWatch {
 /// Runs the task in a worker and returns the bytes of its result. The worker is killed if this process or the calling
 /// thread ends first.
 /// If the worker reports an InputError, throws an InputError with its message; if it reports another exception, throws
-/// a std::runtime_error with its message. Throws WorkerEnded (`PLACE: what`) if there is no answer, and
+/// a std::runtime_error with its message. Throws WorkerEnded (`PLACE: what`) if there is no answer, and NoWorker or
 /// std::system_error if the worker cannot be started.
 std::string result_of_worker(const WorkerTask& task, const WorkerWatch& watch);
 

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "model/output/folder_lock.h"
 #include "tests/support/app_runs.h"
 #include "tests/support/background_run.h"
 
@@ -267,10 +268,63 @@ TEST_F(Faults, AKilledSweepIsResumedToTheSameBytes) {
 TEST_F(Faults, ASweepThatWasKilledWhileItJoinedItsPointsLeavesNothing) {
   done({"sweep", "sweep.xml", "--out", "whole"});
   const auto whole = files_in(path("whole"));
-  fs::create_directories(path("out/cells"));
-  write_text(path("out/cells/all.jsonl.part-4194305-1"), "half a line");  // no process has such a number
+  kill_while_writing(path("out/cells/all.jsonl"));
   done({"sweep", "sweep.xml", "--out", "out", "--resume"});
   EXPECT_TRUE(files_in(path("out")) == whole);
+}
+
+TEST_F(Faults, WhatAKilledRunLeftBesideAFileGoesWithTheNextRun) {
+  kill_while_writing(path("new/log.csv"));
+  done({"simulate", "experiment_a.xml", "--out", "new/log.csv"});
+  EXPECT_EQ(files_in(path("new")).size(), 2u);  // log and truth
+}
+
+TEST_F(Faults, ASweepWithoutAWorkerIsToBeResumedToTheSameBytes) {
+  done({"sweep", "sweep.xml", "--out", "whole"});
+  // The worker goes while the sweep runs: it is there when the estimators are checked, and the first start removes it.
+  write_text(path("worker"), "#!/bin/sh\n[ -e started ] && rm -f worker\ntouch started\nexec " +
+                                 (program_.parent_path() / "libexec/halyard/halyard_worker").string() + " \"$@\"\n");
+  fs::permissions(path("worker"), fs::perms::owner_all);
+  const RunResult broken = run({"sweep", "sweep.xml", "--out", "out", "--jobs", "1"},
+                               "HALYARD_WORKER='" + path("worker").string() + "'; export HALYARD_WORKER;");
+  EXPECT_EQ(broken.exit_code, 2);
+  expect_line(broken.err, "HALYARD_WORKER");
+  EXPECT_FALSE(contains(text_of(path("out/cells/all.jsonl")), "is no file")) << "stored as a failure of the estimator";
+  done({"sweep", "sweep.xml", "--out", "out", "--resume"});
+  EXPECT_TRUE(files_in(path("out")) == files_in(path("whole")));
+}
+
+TEST_F(Faults, AShardLeavesAnotherSweepAlone) {
+  done({"sweep", "sweep.xml", "--out", "out"});
+  const auto before = files_in(path("out"));
+  write_text(path("other.xml"), replaced(text_of(path("sweep.xml")), "steps=\"8\"", "steps=\"4\""));
+  const RunResult shard = run({"sweep", "other.xml", "--out", "out", "--shard", "1/2"});
+  EXPECT_EQ(shard.exit_code, 2);
+  expect_line(shard.err, "holds results of another sweep");
+  EXPECT_TRUE(files_in(path("out")) == before);
+  const RunResult whole = run({"sweep", "other.xml", "--out", "out"});
+  EXPECT_EQ(whole.exit_code, 0);
+  expect_line(whole.err, "they are removed");
+}
+
+TEST_F(Faults, AMergeDoesNotTakeTheJournalOfAShardThatRuns) {
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "1/2"});
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "2/2"});
+  const FolderLock shard(path("out"), "1_of_2");
+  const RunResult merge = run({"merge", "out"});
+  EXPECT_EQ(merge.exit_code, 2);
+  expect_line(merge.err, "another run writes into this folder");
+  EXPECT_TRUE(fs::exists(path("out/cells/1_of_2.jsonl")));
+}
+
+TEST_F(Faults, ATerminalThatGoesEndsNoRun) {
+  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_TRUE(terminal >= 0 && ::grantpt(terminal) == 0 && ::unlockpt(terminal) == 0);
+  BackgroundRun run(program_, folder_, {"sweep", "sweep.xml", "--out", "out", "--jobs", "1"}, ::ptsname(terminal));
+  ASSERT_TRUE(comes_true([&] { return fs::exists(path("out/cells/all.jsonl")); }));
+  ::close(terminal);
+  EXPECT_EQ(run.wait(), 0);
+  EXPECT_TRUE(fs::exists(path("out/sweep.csv")));
 }
 
 TEST_F(Faults, ASecondRunIntoAFolderIsRefused) {

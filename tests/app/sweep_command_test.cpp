@@ -225,10 +225,48 @@ TEST_F(Sweep, PrintsTheScriptOfItsJobArray) {
                                    "--time=1:00:00", "--print-script"});
   EXPECT_TRUE(script.starts_with("#!/bin/bash\n")) << script;
   for (const char* part :
-       {"#SBATCH --array=1,2,3\n", "#SBATCH --requeue\n", "#SBATCH --time=1:00:00\n",
+       {"# Before sbatch: mkdir -p '", "#SBATCH --array=1-3\n", "#SBATCH --requeue\n", "#SBATCH --time=1:00:00\n",
         "it'\\''s 5 %%/slurm/part_%a.log'\n", "--out 'it'\\''s 5 %' ", "--shard \"$SLURM_ARRAY_TASK_ID/3\" --resume"})
     EXPECT_TRUE(contains(script, part)) << part << " in\n" << script;
   EXPECT_FALSE(fs::exists(path("it's 5 %")));
+}
+
+TEST_F(Sweep, TellsWhatABandIsOfOtherParameters) {
+  write_text(
+      path("grid.xml"),
+      "<sweep name=\"grid\" scenario=\"experiment_a.xml\" estimators=\"kinematics\" duration=\"0.52\">"
+      "<axis parameter=\"joint2.cable.stiffness\" factor=\"true\" values=\"1 2\"/>"
+      "<axis parameter=\"joint1.friction.coulomb\" factor=\"true\" from=\"0.5\" to=\"2\" steps=\"13\"/></sweep>");
+  done({"sweep", "grid.xml", "--out", "out"});
+  const std::string report = text_of(path("out/report.html"));
+  EXPECT_TRUE(contains(report, "The bands reach from the least to the greatest value."));
+  EXPECT_FALSE(contains(report, "95 % intervals"));
+}
+
+TEST_F(Sweep, IsNotSubmittedTwiceWhereSlurmCannotBeAsked) {
+  const auto write_program = [&](const std::string& name, const std::string& commands) {
+    write_text(path("bin/" + name), "#!/bin/sh\n" + commands + "\n");
+    fs::permissions(path("bin/" + name), fs::perms::owner_all);
+  };
+  write_program("sbatch", "echo once >>submitted; echo 17");
+  write_program("squeue", "echo 'slurm_load_jobs error: Unable to contact slurm controller' >&2; exit 1");
+  const std::string with_slurm = "PATH='" + path("bin").string() + "':$PATH; export PATH;";
+  const std::vector<std::string> command = {"sweep", "sweep.xml", "--out", "out", "--slurm", "--nodes", "2"};
+  EXPECT_EQ(run(command, with_slurm).exit_code, 0);
+  const RunResult again = run(command, with_slurm);
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_TRUE(contains(again.err, "Unable to contact slurm controller")) << again.err;
+  const RunResult status = run({"sweep", "sweep.xml", "--out", "out", "--status"}, with_slurm);
+  EXPECT_EQ(status.exit_code, 0) << status.err;
+  EXPECT_FALSE(contains(status.out, "not running")) << status.out;
+  EXPECT_EQ(text_of(path("submitted")), "once\n");
+}
+
+TEST_F(Sweep, IsNotSubmittedWithAnEstimatorThatDoesNotExist) {
+  write_text(path("wrong.xml"), replaced(text_of(path("sweep.xml")), "kinematics,sr_ukf", "kinematics,ekff"));
+  const RunResult result = run({"sweep", "wrong.xml", "--out", "out", "--slurm", "--nodes", "2"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.err, "no estimator is named 'ekff'")) << result.err;
 }
 
 }  // namespace

@@ -174,7 +174,33 @@ TEST_F(SweepCells, OfAnotherSweepAreRefused) {
   const fs::path path = store({}, {0});
   grid_.id = "34cd";
   EXPECT_EQ(message_of([&] { stored(); }),
-            path.string() + ": belongs to another sweep; give a folder of its own to each sweep");
+            path.string() + ": belongs to another sweep; remove it, or give a folder of its own to each sweep");
+}
+
+TEST_F(SweepCells, ALaterResultReplacesAFailureAndNothingElse) {
+  SweepCell repeated = cell_at(4), other = cell_at(3);
+  repeated.results[1].failure.clear();
+  other.results[0].values = {errors_of_size(7), errors_of_size(7)};
+  store({}, {3, 4});
+  CellJournal journal(folder_, grid_, {});
+  journal.add(repeated);
+  journal.add(other);
+  EXPECT_FALSE(stored().has_failed(4));
+  EXPECT_EQ(stored().line(4), journal_line(repeated));
+  EXPECT_EQ(stored().line(3), journal_line(cell_at(3)));
+}
+
+TEST_F(SweepCells, AJournalThatCannotBeReadToItsEndIsNotTakenForAShorterOne) {
+  fs::create_directories(folder_ / "cells" / "all.jsonl");  // can be opened, not read
+  EXPECT_THROW(stored(), std::runtime_error);
+  EXPECT_THROW(CellJournal(folder_, grid_, {}).add(cell_at(1)), std::runtime_error);
+}
+
+TEST_F(SweepCells, AJournalThatSomebodyRemovesIsAnErrorOfTheRun) {
+  CellJournal journal(folder_, grid_, {});
+  journal.add(cell_at(1));
+  fs::remove_all(folder_);
+  for (const std::size_t point : {2, 3}) EXPECT_THROW(journal.add(cell_at(point)), std::runtime_error);
 }
 
 }  // namespace

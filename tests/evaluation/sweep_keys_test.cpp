@@ -162,5 +162,21 @@ TEST(SweepKeys, OfAScenarioAreCheckedAtEachPoint) {
             "camera.dropout = 1.5: expected a share from 0 to 1");
 }
 
+TEST(SweepFile, IsAnotherSweepWithAnotherBuildOfAModule) {
+  const fs::path folder = fs::path(testing::TempDir()) / "sweep_of_a_module";
+  fs::create_directories(folder);
+  const auto id_with = [&](const std::string& module) {
+    std::ofstream(folder / "mine.so") << module;
+    std::ofstream(folder / "sweep.xml") << "<sweep name=\"s\" scenario=\"" << kRaven
+                                        << "experiment_a.xml\" estimators=\"ekf,./mine.so\"><axis "
+                                           "parameter=\"joint1.cable.stiffness\" values=\"1e5 2e5\"/></sweep>";
+    return read_sweep_definition(folder / "sweep.xml").grid.id;
+  };
+  const std::string id = id_with("one build");
+  EXPECT_EQ(id_with("one build"), id);
+  EXPECT_NE(id_with("other build"), id);
+  fs::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace halyard

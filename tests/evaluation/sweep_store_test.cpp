@@ -207,5 +207,15 @@ TEST_F(SweepStore, DiscardsCellsAndTablesOfAnotherSweepAndKeepsItsOwn) {
   EXPECT_TRUE(fs::exists(folder / "notes.txt")) << "a file of the user's";
 }
 
+TEST_F(SweepStore, JournalsThatAnotherSweepLeftBesideTheGridGo) {
+  SweepGrid other = grid;
+  other.id = "34cd";
+  write(journal_path(folder, {1, 3}), journal_header(other));
+  write(journal_path(folder, {2, 3}), journal_header(grid));
+  write(folder / "cells" / "notes.jsonl", "a file of the user's\n");
+  remove_journals_of_others(folder, grid);
+  EXPECT_EQ(journals_in(folder), (std::vector{journal_path(folder, {2, 3}), folder / "cells" / "notes.jsonl"}));
+}
+
 }  // namespace
 }  // namespace halyard

@@ -36,6 +36,8 @@ TEST(SweepSummary, ACurveAveragesOverTheOtherAxes) {
   EXPECT_EQ(first.x, (std::vector<double>{1, 3})) << "in increasing order";
   EXPECT_EQ(first.means[0].mean(), 2.5) << "of points 2 and 3";
   EXPECT_EQ(first.means[1].mean(), 0.5) << "of points 0 and 1";
+  EXPECT_EQ(first.means[0].least(), 2);
+  EXPECT_EQ(first.means[0].greatest(), 3);
   const SweepSummary::Curve& second = summary.curve(0, 1, 0, 0);
   EXPECT_EQ(second.means[0].mean(), 1);
   EXPECT_EQ(second.means[1].mean(), 2);

@@ -67,16 +67,22 @@ report::Chart empty_chart(const SweepGrid& grid, const SweepSummary& summary, co
           .log_y = has_log_values(summary, row, k)};
 }
 
-report::Series series_of(const std::string& name, const SweepSummary::Curve& curve, double shown_per_si) {
+report::Series series_of(const std::string& name, const SweepSummary::Curve& curve, double shown_per_si,
+                         BandKind kind) {
   report::Series series{.name = name, .x = curve.x};
   report::Band band;
   for (const MeanWithInterval& place : curve.means) {
     series.y.push_back(shown_per_si * place.mean());
-    band.lower.push_back(shown_per_si * (place.mean() - place.half_width()));
-    band.upper.push_back(shown_per_si * (place.mean() + place.half_width()));
+    const bool is_range = kind == BandKind::range && place.count() > 0;
+    band.lower.push_back(shown_per_si * (is_range ? place.least() : place.mean() - place.half_width()));
+    band.upper.push_back(shown_per_si * (is_range ? place.greatest() : place.mean() + place.half_width()));
   }
   if (std::ranges::any_of(curve.means, [](const auto& place) { return place.count() > 1; })) series.band = band;
   return series;
+}
+
+BandKind band_of_means(const SweepGrid& grid) {
+  return grid.is_sampled || grid.axes.size() == 1 ? BandKind::interval : BandKind::range;
 }
 
 std::vector<report::Chart> mean_charts(const SweepGrid& grid, const SweepSummary& summary, const ChartRow& row,
@@ -86,8 +92,8 @@ std::vector<report::Chart> mean_charts(const SweepGrid& grid, const SweepSummary
   for (std::size_t k = 0; k < row.charts; ++k) {
     report::Chart& chart = charts.emplace_back(empty_chart(grid, summary, grid.axes[a], row, k));
     for (const std::size_t i : row.subjects)
-      chart.series.push_back(
-          series_of(names[i], summary.curve(row.measure, a, i, k), grid.shown_unit(row.measure, i, k).shown_per_si));
+      chart.series.push_back(series_of(names[i], summary.curve(row.measure, a, i, k),
+                                       grid.shown_unit(row.measure, i, k).shown_per_si, band_of_means(grid)));
   }
   return charts;
 }

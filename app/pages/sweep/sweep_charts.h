@@ -39,9 +39,17 @@ bool has_log_values(const SweepSummary& summary, const ChartRow& row, std::size_
 report::Chart empty_chart(const SweepGrid& grid, const SweepSummary& summary, const SweepAxis& axis,
                           const ChartRow& row, std::size_t k);
 
-/// A curve with the intervals of its places, if one of them has several points.
-report::Series series_of(const std::string& name, const SweepSummary::Curve& curve, double shown_per_si);
+/// What the band around a mean is.
+enum class BandKind {
+  interval,  ///< the 95 % interval of the mean, of points that differ by chance
+  range      ///< from the least to the greatest value, of points that differ because other parameters do
+};
 
+/// A curve with a band over its places, if one of them has several points.
+report::Series series_of(const std::string& name, const SweepSummary::Curve& curve, double shown_per_si, BandKind kind);
+
+/// The bands of mean_charts(). Samples differ by chance, the points of a grid do not.
+BandKind band_of_means(const SweepGrid& grid);
 /// The charts of a row over the a-th axis, averaged over everything else that varies.
 std::vector<report::Chart> mean_charts(const SweepGrid& grid, const SweepSummary& summary, const ChartRow& row,
                                        std::size_t a);

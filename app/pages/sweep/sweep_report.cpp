@@ -46,7 +46,7 @@ Chart slice_chart(const SweepGrid& grid, const StoredCells& cells, const SweepSu
       curve.means.push_back(mean);
     }
     const double shown_per_si = grid.shown_unit(row.measure, i, k).shown_per_si;
-    chart.series.push_back(series_of(grid.subjects()[i], curve, shown_per_si));
+    chart.series.push_back(series_of(grid.subjects()[i], curve, shown_per_si, BandKind::interval));
   }
   return chart;
 }
@@ -138,7 +138,10 @@ report::Page sweep_page(const SweepGrid& grid, const StoredCells& cells, const S
     page.paragraph(fmt::format("Each combination of values is simulated with {} seeds.", grid.seeds.size()));
   const bool is_aggregated = grid.is_sampled || grid.axes.front().values.size() > kMaxPlaces ||
                              grid.combinations() / grid.axes.front().values.size() > kMaxSlices;
-  if (is_aggregated || grid.n_seeds() > 1) page.paragraph("The bands are 95 % intervals of the means (Student's t).");
+  if (is_aggregated && band_of_means(grid) == BandKind::range)
+    page.paragraph("The bands reach from the least to the greatest value.");
+  else if (is_aggregated || grid.n_seeds() > 1)
+    page.paragraph("The bands are 95 % intervals of the means (Student's t).");
   if (summary.failures > 0) {
     page.verdict(
         report::VerdictKind::warning,
