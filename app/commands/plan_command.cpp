@@ -76,6 +76,7 @@ void run_plan(const PlanCommandOptions& options) {
   plan.scenario = options.scenario.string();
   plan.joint_sensor = options.joint_sensor;
   Scenario scenario = read_scenario(options.scenario);
+  if (!options.out.empty()) check_not_input(options.out / "scenario.xml");
   if (scenario.robot.n() != plan.model.n())
     throw InputError(fmt::format("{}: moves {} joints, {} has {}; give a scenario of this arm",
                                  options.scenario.string(), scenario.robot.n(), options.model.string(),

@@ -47,6 +47,7 @@ void run_experiments(const ExperimentsOptions& options) {
   const ExperimentsSetup setup{.raven2 = examples_folder(options.examples, "experiments") / "raven2",
                                .calibrated = options.calibrated,
                                .duration_s = options.duration_s};
+  if (setup.duration_s > 0) check_skip(CompareOptions{}.skip_s, setup.duration_s, "--duration");
   std::vector<Experiment> experiments;
   std::optional<EffectStudy> study;
   {

@@ -91,6 +91,8 @@ void write_experiments(OutputFiles& files, const std::filesystem::path& folder,
                        const std::vector<Experiment>& experiments, const std::optional<EffectStudy>& study) {
   files.add(folder / "experiments.csv", experiments_csv(experiments).text());
   if (study) files.add(folder / "effects.csv", study_csv(*study, first(experiments).units).text());
+  else if (std::filesystem::exists(folder / "experiments.json"))
+    files.remove(folder / "effects.csv");  // of an earlier run
   files.add(folder / "experiments.json", json_text(experiments_json(experiments, study)));
   files.add(folder / "report.html", experiments_page(experiments, study).html());
 }

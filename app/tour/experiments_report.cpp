@@ -85,10 +85,11 @@ std::string calibration_sentence(const std::vector<Experiment>& experiments) {
   ArmParameters<double> given = experiments.front().model.nominal, calibrated = experiments.front().calibrated.nominal;
   const std::vector<ParameterInfo> before = named_parameters(given), after = named_parameters(calibrated);
   std::string changes;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    if (before[i].number.get() == after[i].number.get()) continue;
-    changes += fmt::format("{}{} {:.4g} to {:.4g}{}", changes.empty() ? "" : ", ", before[i].name,
-                           before[i].number.get(), after[i].number.get(), unit_suffix(before[i].unit));
+  for (const ParameterInfo& number : before) {
+    const auto now = std::ranges::find(after, number.key, &ParameterInfo::key);  // not there if driven otherwise
+    if (now == after.end() || now->number.get() == number.number.get()) continue;
+    changes += fmt::format("{}{} {:.4g} to {:.4g}{}", changes.empty() ? "" : ", ", number.name, number.number.get(),
+                           now->number.get(), unit_suffix(number.unit));
   }
   const auto gains = [&](const char* name) {
     const std::size_t run = run_named(experiments, name);

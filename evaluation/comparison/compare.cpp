@@ -125,7 +125,7 @@ double Comparison::improvement_of(std::size_t run, int k) const {
 }
 
 void check_skip(double skip_s, double duration_s, const std::string& of) {
-  if (skip_s < duration_s || skip_s == CompareOptions{}.skip_s) return;
+  if (skip_s < duration_s) return;
   throw InputError(
       fmt::format("{}: lasts {:g} s, and the first {:g} s are skipped; nothing is left to count errors in: "
                   "skip less",

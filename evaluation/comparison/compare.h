@@ -66,8 +66,8 @@ struct Contestant {
   std::string name;
 };
 
-/// Throws InputError if a time that was asked for, other than the default, leaves nothing of a record of that duration.
-/// of: where the duration is told.
+/// Throws InputError if nothing of a record of that duration is left after the skipped time. of: where the duration is
+/// told.
 void check_skip(double skip_s, double duration_s, const std::string& of);
 
 /// Runs each estimator over `measured`, in a process of its own, and computes its errors against the joint positions of

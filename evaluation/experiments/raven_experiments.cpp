@@ -31,6 +31,15 @@ ArmModel read_three_joints(const fs::path& path) {
   return model;
 }
 
+ArmModel read_calibrated(const fs::path& path, const ArmModel& model) {
+  ArmModel calibrated = read_three_joints(path);
+  if (!joints_alike(calibrated.nominal, model.nominal))
+    throw InputError(path.string() +
+                     ": its joints are not of the RAVEN-II's types, or one has no motor; give a model "
+                     "of this arm with other numbers");
+  return calibrated;
+}
+
 Signals desired_positions(const Scenario& scenario, const std::vector<double>& time) {
   Signals desired(scenario.trajectory.size());
   for (std::size_t k = 0; k < desired.size(); ++k)
@@ -85,7 +94,7 @@ std::vector<Experiment> compute_experiments(const ExperimentsSetup& setup,
   };
   oneapi::tbb::parallel_for(std::size_t{0}, scenarios.size() + 1, [&](std::size_t job) {
     if (job == 0) {
-      calibrated = setup.calibrated.empty() ? calibrate(setup) : read_three_joints(setup.calibrated);
+      calibrated = setup.calibrated.empty() ? calibrate(setup) : read_calibrated(setup.calibrated, model);
       return;
     }
     const std::size_t i = job - 1;

@@ -78,5 +78,32 @@ TEST_F(Experiments, TellWhichEffectMakesTheError) {
   EXPECT_NEAR(error("all", "kinematics"), of_experiments, 1e-8 * of_experiments);  // 9 digits of CSV
 }
 
+TEST_F(Experiments, ACalibratedModelMayHaveARigidDrive) {
+  std::string rigid = text_of(example("raven2.xml"));
+  const std::size_t joint = rigid.find("drive=\"cable\"", rigid.find("drive=\"cable\"") + 1);
+  rigid.replace(joint, 13, "drive=\"rigid\"");
+  const std::size_t cable = rigid.find("<cable", joint);
+  rigid.replace(cable, rigid.find("/>", cable) + 2 - cable, "<rigid pulley_radius=\"0.02\"/>");
+  write_text(path("rigid.xml"), rigid);
+  done({"experiments", "--examples", ".", "--duration", "0.7", "--no-effect-study", "--calibrated", "rigid.xml",
+        "--out", "out"});
+  EXPECT_EQ(files_in(path("out")).size(), 3u);
+}
+
+TEST_F(Experiments, ACalibratedModelOfAnotherArmIsRefused) {
+  write_text(path("turning.xml"), replaced(text_of(example("raven2.xml")), "type=\"prismatic\"", "type=\"revolute\""));
+  const RunResult result = run({"experiments", "--examples", ".", "--duration", "0.7", "--no-effect-study",
+                                "--calibrated", "turning.xml", "--out", "out"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.err, "turning.xml: its joints are not of the RAVEN-II's types")) << result.err;
+}
+
+TEST_F(Experiments, ADurationWithoutACountedErrorIsRefused) {
+  const RunResult result = run({"experiments", "--examples", ".", "--duration", "0.3", "--no-effect-study",
+                                "--calibrated", "raven2/raven2.xml", "--out", "out"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.err, "--duration: lasts 0.3 s, and the first 0.5 s are skipped")) << result.err;
+}
+
 }  // namespace
 }  // namespace halyard::testing_program

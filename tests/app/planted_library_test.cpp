@@ -31,8 +31,8 @@ TEST_F(PlantedLibrary, IsNotLoaded) {
 
   EXPECT_EQ(run({"--version"}).exit_code, 0);
   // Estimators are run in processes of their own.
-  const RunResult compared =
-      run({"compare", "experiment_a.xml", "--model", "raven2.xml", "--estimators", "kinematics", "--out", "out"});
+  const RunResult compared = run({"compare", "experiment_a.xml", "--model", "raven2.xml", "--estimators", "kinematics",
+                                  "--skip", "0", "--out", "out"});
   EXPECT_EQ(compared.exit_code, 0) << compared.err;
   EXPECT_FALSE(fs::exists(path("planted_library_was_loaded")));
 }

@@ -36,7 +36,8 @@ class BadInput : public ProgramTest {
   void expect_estimate_refused(const std::string& data, const std::vector<std::string>& parts) const {
     expect_refused(
         {"estimate", "--model", "raven2.xml", "--estimator", "kinematics", "--data", data, "--out", "est.csv"}, parts);
-    expect_refused({"compare", data, "--model", "raven2.xml", "--estimators", "kinematics", "--out", "cmp"}, parts);
+    expect_refused(
+        {"compare", data, "--model", "raven2.xml", "--estimators", "kinematics", "--skip", "0", "--out", "cmp"}, parts);
   }
 
   /// Experiment A as moving.csv.
@@ -47,7 +48,7 @@ class BadInput : public ProgramTest {
   }
 
   void expect_sweep_refused(const std::string& axes, const std::vector<std::string>& parts,
-                            const std::string& attributes = "estimators=\"kinematics\"") const {
+                            const std::string& attributes = "estimators=\"kinematics\" skip=\"0\"") const {
     write_text(path("bad.xml"),
                "<sweep name=\"bad\" scenario=\"experiment_a.xml\" " + attributes + ">" + axes + "</sweep>");
     expect_refused({"check", "bad.xml"}, parts);

@@ -105,8 +105,9 @@ TEST_F(BadInput, AnEstimatorThatCannotBeLoaded) {
   const auto expect_estimator_refused = [&](const std::string& name, const std::vector<std::string>& parts) {
     expect_refused({"estimate", "--model", "raven2.xml", "--estimator", name, "--data", "log.csv", "--out", "e.csv"},
                    parts);
-    expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", "ekf," + name, "--out", "cmp"},
-                   parts);
+    expect_refused(
+        {"compare", "log.csv", "--model", "raven2.xml", "--estimators", "ekf," + name, "--skip", "0", "--out", "cmp"},
+        parts);
   };
   write_text(path("text.so"), "not a module\n");
   const std::string broken = HALYARD_BROKEN_PLUGINS;
@@ -196,13 +197,13 @@ TEST_F(BadInput, ASweepThatCannotBeComputed) {
   expect_sweep_refused(axis("estimator.ekf.torque_noise", "values=\"1e-3\""),
                        {"bad.xml:1:", "does not run", "kinematics"});
   expect_sweep_refused(axis("estimator.ekf.torque_nois", "values=\"1e-3\""), {"torque_nois", "joint_force_noise"},
-                       "estimators=\"ekf\"");
+                       "estimators=\"ekf\" skip=\"0\"");
 }
 
 TEST_F(BadInput, PartsOfASweepThatDoNotBelongTogether) {
   const auto write_sweep = [&](const std::string& values) {
     write_text(path("sweep.xml"),
-               "<sweep name=\"x\" scenario=\"experiment_a.xml\" estimators=\"kinematics\"><axis "
+               "<sweep name=\"x\" scenario=\"experiment_a.xml\" skip=\"0\" estimators=\"kinematics\"><axis "
                "parameter=\"joint1.cable.stiffness\" values=\"" +
                    values + "\"/></sweep>");
   };
@@ -241,8 +242,9 @@ TEST_F(BadInput, ArgumentsThatDoNotFit) {
   expect_refused({"simulate", "experiment_a.xml", "--out", "new.csv", "--fast"}, {"--fast", "halyard --help"});
   expect_refused({"estimate", "--model", "raven2.xml", "--data", "log.csv", "--out", "e.csv"}, {"--estimator"});
   expect_refused({"compare", "log.csv", "--estimators", "kinematics", "--out", "cmp"}, {"--model is missing"});
-  expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", "ekf,ekf", "--out", "cmp"},
-                 {"listed twice"});
+  expect_refused(
+      {"compare", "log.csv", "--model", "raven2.xml", "--estimators", "ekf,ekf", "--skip", "0", "--out", "cmp"},
+      {"listed twice"});
   expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", "", "--out", "cmp"}, {"estimators"});
   expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", "ekf", "--out", "cmp", "--runs", "3"},
                  {"--runs", "log.csv", "leave"});
@@ -281,7 +283,7 @@ TEST_F(BadInput, AFailureThatIsNotTheUsersIsExitCode1AndLeavesNothing) {
   const std::string broken = std::string(HALYARD_BROKEN_PLUGINS) + "/throws_in_update.so";
   expect_refused({"estimate", "--model", "raven2.xml", "--estimator", broken, "--data", "log.csv", "--out", "e.csv"},
                  {"throws_in_update", "log.csv at 0.002 s"}, 1);
-  expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", broken, "--out", "cmp"},
+  expect_refused({"compare", "log.csv", "--model", "raven2.xml", "--estimators", broken, "--skip", "0", "--out", "cmp"},
                  {"throws_in_update"}, 1);
 }
 

@@ -11,7 +11,7 @@ namespace halyard::testing_program {
 namespace {
 
 const std::string kSweep =
-    "<sweep name=\"s\" scenario=\"experiment_a.xml\" estimators=\"kinematics\">\n"
+    "<sweep name=\"s\" scenario=\"experiment_a.xml\" skip=\"0\" estimators=\"kinematics\">\n"
     "<axis parameter=\"joint1.cable.stiffness\" values=\"1e5 2e5\"/>\n</sweep>\n";
 
 std::vector<BadInputRow> all_rows() {
@@ -58,7 +58,7 @@ class BadInputTable : public BadInput, public ::testing::WithParamInterface<BadI
       case Wrong::options:
         return {{"check", "bad.xml"},
                 {"estimate", "--model", "bad.xml", "--estimator", "ekf", "--data", "log.csv", "--out", "e.csv"},
-                {"compare", "log.csv", "--model", "bad.xml", "--estimators", "ekf", "--out", "out"}};
+                {"compare", "log.csv", "--model", "bad.xml", "--estimators", "ekf", "--skip", "0", "--out", "out"}};
       case Wrong::model: {
         Commands all = commands(Wrong::options);
         const Commands more = {
@@ -75,7 +75,7 @@ class BadInputTable : public BadInput, public ::testing::WithParamInterface<BadI
       case Wrong::scenario:
         return {{"check", "bad.xml"},
                 {"simulate", "bad.xml", "--out", "new.csv"},
-                {"compare", "bad.xml", "--estimators", "ekf", "--out", "out"},
+                {"compare", "bad.xml", "--estimators", "ekf", "--skip", "0", "--out", "out"},
                 {"diagnose", "--plan", "raven2.xml", "bad.xml", "--out", "out"},
                 {"sweep", "of_bad_scenario.xml", "--out", "out"}};
       case Wrong::sweep: return {{"check", "bad.xml"}, {"sweep", "bad.xml", "--out", "out"}};
@@ -84,7 +84,7 @@ class BadInputTable : public BadInput, public ::testing::WithParamInterface<BadI
         Commands all = commands(Wrong::motion);
         const Commands more = {
             {"estimate", "--model", "raven2.xml", "--estimator", "ekf", "--data", "bad.csv", "--out", "e.csv"},
-            {"compare", "bad.csv", "--model", "raven2.xml", "--estimators", "ekf", "--out", "out"},
+            {"compare", "bad.csv", "--model", "raven2.xml", "--estimators", "ekf", "--skip", "0", "--out", "out"},
             {"identify", "--model", "raven2.xml", "--data", "bad.csv", "--parameters", "coupling", "--out", "out"}};
         all.insert(all.end(), more.begin(), more.end());
         return all;
