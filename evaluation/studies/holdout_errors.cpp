@@ -20,6 +20,7 @@ EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const 
   result.innovation.resize(n);
   result.joint_rate.resize(n);
   Signals estimate(n), truth(n);
+  std::vector<double> nis;
   try {
     for (const auto& [held, from] : logs) {
       const Log& log = *held;
@@ -30,6 +31,7 @@ EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const 
         to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
       };
       append(log.time, result.time);
+      append(run.nis, nis);
       for (std::size_t k = 0; k < n; ++k) {
         append(run.innovation[k], result.innovation[k]);
         append(run.estimates.joint_velocity[k], result.joint_rate[k]);
@@ -37,13 +39,13 @@ EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const 
         append(readings[k], estimate[k]);
         append(log.joint_position[k], truth[k]);
       }
-      result.mean_nis += mean_of(run.nis) / static_cast<double>(logs.size());
     }
   } catch (const std::exception& e) {
     EstimatorErrors failed;
     failed.failure = e.what();
     return failed;
   }
+  result.mean_nis = mean_of(nis);
   for (std::size_t k = 0; k < n; ++k) {
     const ErrorStatistics error = error_statistics(estimate[k], truth[k]);
     result.rms.push_back(error.rms);

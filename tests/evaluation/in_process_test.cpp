@@ -99,5 +99,14 @@ TEST_F(InProcess, AStudyOfAnIdentificationNeedsNoWorker) {
                   .estimators);
 }
 
+TEST_F(InProcess, TheInnovationsOfAHoldOutCountFromItsStart) {
+  const Log log = log_of(1);
+  const EstimatorErrors errors = errors_of("ekf", scenario.robot, {{&log, 0.7}}, {.in_process = true});
+  double sum = 0, count = 0;
+  for (const auto& motor : errors.innovation)
+    for (const double white : motor) sum += white * white, count += 1;
+  EXPECT_NEAR(errors.mean_nis, sum / count, 1e-9 * errors.mean_nis);  // rounding of the sums
+}
+
 }  // namespace
 }  // namespace halyard
