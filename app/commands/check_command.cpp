@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
 #include "app/bundled_files.h"
@@ -14,6 +16,7 @@
 #include "model/model_file.h"
 #include "model/xml/xml_reader.h"
 #include "plant/scenario.h"
+#include "plugins/host/effect_module.h"
 #include "plugins/host/loader.h"
 #include "transmission/effect.h"
 
@@ -112,6 +115,27 @@ void check_estimator_module(const CheckOptions& options) {
              options.kalman ? ", and is the Kalman filter on a linear arm" : "", model.source);
 }
 
+/// Whether the module is one of effects. Its exported name stands in the file as text: nothing of the module is run.
+bool is_effect_module(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const auto exports = [&](const std::string& name) { return text.find('\0' + name + '\0') != text.npos; };
+  return exports("halyard_effects") && !exports("halyard_estimator");
+}
+
+void check_effect_module(const CheckOptions& options) {
+  if (!options.model.empty() || options.kalman)
+    throw InputError("halyard check: --model and --kalman are for an estimator's module, and " +
+                     in_quotes(options.file.string()) + " has effects; leave them out");
+  const std::size_t before = effect_library().size();
+  load_effects(options.file);
+  std::vector<std::string> effects;
+  for (std::size_t i = before; i < effect_library().size(); ++i)
+    effects.push_back(fmt::format("{}, {}", effect_library()[i]->name(), effect_library()[i]->summary()));
+  fmt::print("{}: valid module of {} effect{}: {}\n", options.file.string(), effects.size(),
+             effects.size() == 1 ? "" : "s", fmt::join(effects, "; "));
+}
+
 /// "nothing suspicious", "2 suspicious, 1 corrected by a diagnosis".
 std::string summary_of(const std::vector<LogFinding>& findings) {
   const auto corrected = std::ranges::count(findings, LogFinding::Severity::corrected, &LogFinding::severity);
@@ -140,7 +164,8 @@ void check_log_file(const CheckOptions& options) {
 
 void run_check(const CheckOptions& options) {
   const std::filesystem::path& file = options.file;
-  if (file.extension() == ".so") return check_estimator_module(options);
+  if (file.extension() == ".so")
+    return is_effect_module(file) ? check_effect_module(options) : check_estimator_module(options);
   if (options.kalman)
     throw InputError("halyard check: --kalman is for an estimator's module (.so), and " + in_quotes(file.string()) +
                      " is none; leave it out");
