@@ -17,6 +17,8 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Instants of a run that the mean NEES over all runs is taken at.
 constexpr std::size_t kInstants = 500;
+/// Runs whose NEES are in memory at a time.
+constexpr int kBatch = 256;
 
 /// What one estimator made of one run.
 struct OneRun {
@@ -65,20 +67,28 @@ ErrorStatistics together(const std::vector<const OneRun*>& runs, int k) {
   return all;
 }
 
-double share_in_band(const std::vector<const OneRun*>& runs, int k) {
-  const auto [lower, upper] = chi_square_band(static_cast<double>(runs.size()));
-  double inside = 0, all = 0;
-  for (std::size_t i = 0; i < runs.front()->nees[k].size(); ++i) {
-    double sum = 0;
-    for (const OneRun* run : runs) sum += run->nees[k][i] / static_cast<double>(runs.size());
-    if (std::isnan(sum)) return kNan;
-    all += 1;
-    inside += sum >= lower && sum <= upper;
+/// Adds the NEES of a run to those of the runs before, and forgets them.
+void take_nees(OneRun& run, Signals& sum) {
+  if (sum.empty()) sum.resize(run.nees.size());
+  for (std::size_t k = 0; k < run.nees.size(); ++k) {
+    sum[k].resize(run.nees[k].size());
+    for (std::size_t i = 0; i < sum[k].size(); ++i) sum[k][i] += run.nees[k][i];
   }
-  return inside / all;
+  run.nees.clear();
 }
 
-RunsOfEstimator summed_up(const std::string& name, const std::vector<OneRun>& all, int n) {
+double share_in_band(const std::vector<double>& sum_of_nees, std::size_t n_runs) {
+  const double n = static_cast<double>(n_runs);
+  const auto [lower, upper] = chi_square_band(n);
+  double inside = 0;
+  for (const double sum : sum_of_nees) {
+    if (std::isnan(sum)) return kNan;
+    inside += sum / n >= lower && sum / n <= upper;
+  }
+  return inside / static_cast<double>(sum_of_nees.size());
+}
+
+RunsOfEstimator summed_up(const std::string& name, const std::vector<OneRun>& all, const Signals& sum_of_nees, int n) {
   RunsOfEstimator sum;
   sum.name = name;
   std::vector<const OneRun*> runs;
@@ -102,7 +112,7 @@ RunsOfEstimator summed_up(const std::string& name, const std::vector<OneRun>& al
     const auto at = [&](double share) { return rms.empty() ? kNan : rms[std::lround(share * double(rms.size() - 1))]; };
     sum.rms_lower.push_back(at(0.025));
     sum.rms_upper.push_back(at(0.975));
-    sum.in_band.push_back(runs.empty() ? kNan : share_in_band(runs, k));
+    sum.in_band.push_back(runs.empty() ? kNan : share_in_band(sum_of_nees[k], runs.size()));
   }
   return sum;
 }
@@ -144,19 +154,26 @@ MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, cons
     } catch (const std::runtime_error&) {}
   }
   std::vector<std::vector<OneRun>> all(estimators.size(), std::vector<OneRun>(options.runs));
-  tbb::parallel_for(0, options.runs, [&](int r) {
-    Scenario of_run = faster(scenario);
-    of_run.seed = scenario.seed + static_cast<std::uint64_t>(r);
-    const SimulationResult simulation = simulate(of_run);
-    for (std::size_t e = 0; e < estimators.size(); ++e) all[e][r] = run_one(model, estimators[e], simulation, options);
-    if (options.run_done) options.run_done(1);
-  });
+  std::vector<Signals> sums_of_nees(estimators.size());
+  for (int first = 0; first < options.runs; first += kBatch) {
+    const int end = std::min(first + kBatch, options.runs);
+    tbb::parallel_for(first, end, [&](int r) {
+      Scenario of_run = faster(scenario);
+      of_run.seed = scenario.seed + static_cast<std::uint64_t>(r);
+      const SimulationResult simulation = simulate(of_run);
+      for (std::size_t e = 0; e < estimators.size(); ++e)
+        all[e][r] = run_one(model, estimators[e], simulation, options);
+      if (options.run_done) options.run_done(1);
+    });
+    for (std::size_t e = 0; e < estimators.size(); ++e)
+      for (int r = first; r < end; ++r) take_nees(all[e][r], sums_of_nees[e]);
+  }
 
   MonteCarlo result;
   result.runs = options.runs;
   const auto base = std::ranges::find(estimators, "kinematics") - estimators.begin();
   for (std::size_t e = 0; e < estimators.size(); ++e) {
-    result.estimators.push_back(summed_up(estimators[e], all[e], model.n()));
+    result.estimators.push_back(summed_up(estimators[e], all[e], sums_of_nees[e], model.n()));
     for (int k = 0; k < model.n(); ++k) {
       const bool has_base = base < std::ssize(estimators) && base != static_cast<std::ptrdiff_t>(e);
       result.estimators.back().against_kinematics.push_back(has_base ? paired(all[e], all[base], k)
