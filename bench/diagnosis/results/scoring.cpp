@@ -11,6 +11,22 @@ bool is_also_true(const Result& r, const Place& place) {
   return std::ranges::find(r.also_true, place) != r.also_true.end();
 }
 
+/// Removes the place from those that are left; false if it is not among them.
+bool take(std::vector<Place>& left, const Place& place) {
+  const auto found = std::ranges::find(left, place);
+  if (found == left.end()) return false;
+  left.erase(found);
+  return true;
+}
+
+/// What a name can be right about.
+std::vector<Place> right_names(const Result& r) {
+  std::vector<Place> names;
+  if (r.situation.kind != Kind::outside)
+    for (const TrueEffect& t : r.truth) names.push_back(t.place);
+  return names;
+}
+
 /// The first name that is not merely also true; null if there is none.
 const Named* first_name(const Result& r) {
   const std::vector<NameScore> scores = score_names(r);
@@ -42,18 +58,30 @@ bool claims_something(const Result& r) {
 }  // namespace
 
 std::vector<NameScore> score_names(const Result& r) {
-  std::vector<Place> left;
-  if (r.situation.kind != Kind::outside)
-    for (const TrueEffect& t : r.truth) left.push_back(t.place);
+  std::vector<Place> left = right_names(r);
   std::vector<NameScore> scores;
-  for (const Named& n : r.named) {
-    const auto found = std::ranges::find(left, n.place);
-    scores.push_back(found != left.end()        ? NameScore::right
+  for (const Named& n : r.named)
+    scores.push_back(take(left, n.place)        ? NameScore::right
                      : is_also_true(r, n.place) ? NameScore::also_true
                                                 : NameScore::false_name);
-    if (found != left.end()) left.erase(found);
-  }
   return scores;
+}
+
+std::vector<Place> truth_without_name(const Result& r) {
+  std::vector<Place> left = right_names(r);
+  for (const Named& n : r.named) take(left, n.place);
+  return left;
+}
+
+std::vector<bool> sets_with_truth(const Result& r) {
+  std::vector<Place> left = truth_without_name(r);
+  std::vector<bool> holds;
+  const std::vector<NameScore> scores = score_names(r);
+  for (std::size_t i = 0; i < r.named.size(); ++i)
+    holds.push_back(scores[i] != NameScore::false_name ||
+                    std::ranges::any_of(r.named[i].alternatives,
+                                        [&](const Alternative& a) { return a.in_set && take(left, a.place); }));
+  return holds;
 }
 
 bool is_right(const Result& r, const Place& named) {

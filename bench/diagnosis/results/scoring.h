@@ -23,6 +23,11 @@ enum class NameScore { right, also_true, false_name };
 
 /// For each of Result::named.
 std::vector<NameScore> score_names(const Result& r);
+/// Effects of the truth that no name is right about.
+std::vector<Place> truth_without_name(const Result& r);
+/// For each of Result::named: its set contains the truth. The name is not false, or an alternative in the set is an
+/// effect of the truth without a name. Such an effect counts for one set.
+std::vector<bool> sets_with_truth(const Result& r);
 bool is_right(const Result& r, const Place& named);
 /// The effect of the truth is among the names.
 bool is_named(const Result& r, const TrueEffect& truth);

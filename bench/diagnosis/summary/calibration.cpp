@@ -69,10 +69,7 @@ std::string calibration_table(const std::vector<Claim>& claims) {
 Proportion set_coverage(const Results& ran) {
   Proportion s;
   for (const Result* r : ran)
-    for (const Named& n : r->named)
-      s.count(is_true(*r, n.place) || std::ranges::any_of(n.alternatives, [&](const Alternative& a) {
-                return a.in_set && is_true(*r, a.place);
-              }));
+    for (const bool holds : sets_with_truth(*r)) s.count(holds);
   return s;
 }
 

@@ -26,7 +26,7 @@ double largest_distance(const std::vector<Claim>& claims);
 /// Ten bins: mean probability against observed frequency, with its binomial interval. Empty without claims.
 std::string calibration_table(const std::vector<Claim>& claims);
 
-/// Names whose set (the name and the alternatives that are in it) contains the truth, of all names.
+/// Names whose set (the name and the alternatives that are in it) contains the truth, of all names: sets_with_truth().
 Proportion set_coverage(const Results& ran);
 /// Mean of the probabilities that these sets claim. A set ends with the name that brings it to 90 %, so it claims more.
 double probability_of_sets(const Results& ran);
