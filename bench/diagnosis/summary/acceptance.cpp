@@ -1,8 +1,9 @@
 #include "bench/diagnosis/summary/acceptance.h"
 
-#include "bench/diagnosis/summary/calibration.h"
-
 #include <cmath>
+
+#include "bench/diagnosis/summary/calibration.h"
+#include "bench/diagnosis/summary/probabilities.h"
 
 namespace halyard::blind {
 namespace {
@@ -152,17 +153,17 @@ void add_effects_and_several(std::vector<Line>& lines, const Results& ran, int o
 
 /// The row of probabilities and intervals.
 void add_calibration_lines(std::vector<Line>& lines, const Results& ran) {
-  const std::vector<Claim> claims = claims_of(ran);
-  if (!claims.empty())
-    lines.push_back({"5",
-                     fmt::format("probabilities: largest distance from the observed frequency in a bin of at "
-                                 "least {}: {:.1f} points",
-                                 kFewestInBin, 100 * largest_distance(claims)),
-                     "5 points",
-                     {},
-                     {},
-                     {},
-                     {}});
+  for (const ClaimKind kind : kClaimKinds)
+    if (const auto group = farthest_group(claims_of(ran, kind)))
+      lines.push_back({"5",
+                       fmt::format("probabilities of {}: largest distance from the observed frequency: {:.1f} points, "
+                                   "between {:.1f} and {:.1f}, which claim {:.1f} % on average",
+                                   words(kind), 100 * group->distance(), group->from, group->to, 100 * group->mean()),
+                       "5 points",
+                       group->came_true,
+                       {},
+                       {},
+                       {}});
   const Proportion sets = set_coverage(ran), intervals = interval_coverage(ran);
   if (sets.of > 0)
     lines.push_back({"5",

@@ -1,70 +1,8 @@
 #include "bench/diagnosis/summary/calibration.h"
 
-#include <array>
 #include <cmath>
 
 namespace halyard::blind {
-namespace {
-
-struct Bin {
-  Proportion came_true;
-  double sum = 0;
-  double mean() const { return sum / came_true.of; }
-  double distance() const { return std::abs(mean() - came_true.value()); }
-};
-
-std::array<Bin, 10> bins_of(const std::vector<Claim>& claims) {
-  std::array<Bin, 10> bins;
-  for (const Claim& c : claims) {
-    Bin& bin = bins[static_cast<std::size_t>(std::clamp(10 * c.probability, 0.0, 9.0))];
-    bin.came_true.count(c.came_true);
-    bin.sum += c.probability;
-  }
-  return bins;
-}
-
-bool is_true(const Result& r, const Place& place) {
-  return is_right(r, place) || std::ranges::find(r.also_true, place) != r.also_true.end();
-}
-
-}  // namespace
-
-std::vector<Claim> claims_of(const Results& ran) {
-  std::vector<Claim> claims;
-  for (const Result* r : ran) {
-    const std::vector<NameScore> scores = score_names(*r);
-    for (std::size_t i = 0; i < r->named.size(); ++i) {
-      const Named& n = r->named[i];
-      claims.push_back({n.probability, scores[i] != NameScore::false_name});
-      for (const Alternative& a : n.alternatives)
-        if (is_right(*r, a.place) || !is_true(*r, a.place)) claims.push_back({a.probability, is_right(*r, a.place)});
-    }
-    if (is_too_small(*r) || r->situation.off > 1) continue;
-    if (r->probability_clean) claims.push_back({*r->probability_clean, r->truth.empty()});
-    if (r->probability_none) claims.push_back({*r->probability_none, r->situation.kind == Kind::outside});
-  }
-  return claims;
-}
-
-double largest_distance(const std::vector<Claim>& claims) {
-  double most = 0;
-  for (const Bin& bin : bins_of(claims))
-    if (bin.came_true.of >= kFewestInBin) most = std::max(most, bin.distance());
-  return most;
-}
-
-std::string calibration_table(const std::vector<Claim>& claims) {
-  if (claims.empty()) return "";
-  std::string text =
-      "| probability | mean | came true | share | 95 % interval | distance |\n|---|---:|---:|---:|---|---:|\n";
-  const std::array<Bin, 10> bins = bins_of(claims);
-  for (std::size_t b = 0; b < bins.size(); ++b)
-    if (bins[b].came_true.of > 0)
-      text += fmt::format("| {:.1f} to {:.1f} | {:.3f} | {} | {:.1f} points |\n", 0.1 * static_cast<double>(b),
-                          0.1 * static_cast<double>(b + 1), bins[b].mean(), bins[b].came_true.cells(),
-                          100 * bins[b].distance());
-  return text + "\n";
-}
 
 Proportion set_coverage(const Results& ran) {
   Proportion s;

@@ -1,30 +1,9 @@
 #pragma once
-/// Whether probabilities, sets and intervals hold, and what a revised model predicts.
-
-#include <string>
+/// Whether sets and intervals hold, and what a revised model predicts.
 
 #include "bench/diagnosis/summary/selection.h"
 
 namespace halyard::blind {
-
-/// A probability that a diagnosis gave, and whether it came true.
-struct Claim {
-  double probability;
-  bool came_true;
-};
-
-/// Every probability of the trials: of names (true if the effect is hidden, or true beside it) and alternatives (true
-/// if it is hidden); of `clean` (nothing is hidden), and of "none of these" (an effect outside the library is). Left
-/// out is what may or may not be true: an alternative that is true beside the hidden effects, but need not be what was
-/// named; the last two of effects that are too small to see, and of parameters beyond their tolerance.
-std::vector<Claim> claims_of(const Results& ran);
-
-/// Bins of a tenth with fewer claims say nothing.
-inline constexpr int kFewestInBin = 20;
-/// Largest distance between mean probability and observed frequency of a bin; 0 without a full bin.
-double largest_distance(const std::vector<Claim>& claims);
-/// Ten bins: mean probability against observed frequency, with its binomial interval. Empty without claims.
-std::string calibration_table(const std::vector<Claim>& claims);
 
 /// Names whose set (the name and the alternatives that are in it) contains the truth, of all names: sets_with_truth().
 Proportion set_coverage(const Results& ran);

@@ -4,7 +4,7 @@
 
 #include "bench/diagnosis/summary/acceptance.h"
 #include "bench/diagnosis/summary/by_effect.h"
-#include "bench/diagnosis/summary/calibration.h"
+#include "bench/diagnosis/summary/probabilities.h"
 #include "bench/diagnosis/summary/trials_csv.h"
 #include "model/output/output_files.h"
 
@@ -61,7 +61,7 @@ std::string write_summary(const std::filesystem::path& out, const std::vector<Re
   write_file_whole(out / "trials.csv", trials_csv(all));
   write_file_whole(out / "summary.md",
                    head(all, ran) + section("Acceptance", acceptance) +
-                       section("Probabilities against observed frequencies", calibration_table(claims_of(ran))) +
+                       section("Probabilities against observed frequencies", probability_table(ran)) +
                        tables_by_effect(ran) +
                        section("Confusion: clean arms, and single effects that can be seen", markdown(table)));
   return acceptance;
