@@ -164,7 +164,7 @@ void add_calibration_lines(std::vector<Line>& lines, const Results& ran) {
                        {},
                        {},
                        {}});
-  const Proportion sets = set_coverage(ran), intervals = interval_coverage(ran);
+  const Proportion sets = set_coverage(ran);
   if (sets.of > 0)
     lines.push_back({"5",
                      fmt::format("sets of at least 90 % that contain the truth; they claim {:.1f} % on average",
@@ -174,8 +174,20 @@ void add_calibration_lines(std::vector<Line>& lines, const Results& ran) {
                      {},
                      {},
                      {}});
-  if (intervals.of > 0)
-    lines.push_back({"5", "intervals of 95 % that contain the truth", "92 to 98 %", intervals, {}, {}, {}});
+  const ParameterCounts parameters = parameter_counts(ran);
+  if (parameters.intervals_and_resets().of > 0)
+    lines.push_back({"5",
+                     "intervals of 95 % that contain the truth, with parameters that were reset to neutral, but are "
+                     "not, as misses; without these parameters",
+                     "92 to 98 %",
+                     parameters.intervals_and_resets(),
+                     parameters.intervals,
+                     {},
+                     {}});
+  if (parameters.off_neutral.of > 0)
+    lines.push_back(
+        {"5", "parameters that were reset to neutral, but are not", "", parameters.off_neutral, {}, {}, {}});
+  if (parameters.whole.of > 0) lines.push_back({"5", "whole numbers that are right", "", parameters.whole, {}, {}, {}});
 }
 
 std::string median_and_90(const std::vector<double>& x) {

@@ -2,7 +2,21 @@
 
 #include <cmath>
 
+#include "bench/diagnosis/summary/listed_parameter.h"
+
 namespace halyard::blind {
+namespace {
+
+void count_parameter(const std::string& effect, const TrueParameter& truth, const std::vector<Parameter>& found,
+                     ParameterCounts& counts) {
+  const ListedParameter listed = listed_parameter(effect, truth.name);
+  const auto p = std::ranges::find(found, truth.name, &Parameter::name);
+  if (p == found.end()) counts.off_neutral.count(truth.value != listed.neutral);
+  else if (listed.is_whole) counts.whole.count(p->value == truth.value);
+  else counts.intervals.count(p->lower <= truth.value && truth.value <= p->upper);
+}
+
+}  // namespace
 
 Proportion set_coverage(const Results& ran) {
   Proportion s;
@@ -22,17 +36,16 @@ double probability_of_sets(const Results& ran) {
   return sum / count;
 }
 
-Proportion interval_coverage(const Results& ran) {
-  Proportion s;
+ParameterCounts parameter_counts(const Results& ran) {
+  ParameterCounts counts;
   for (const Result* r : ran)
     for (const TrueEffect& t : r->truth) {
       const auto named = std::ranges::find(r->named, t.place, &Named::place);
       if (named == r->named.end() || !t.form.empty()) continue;
-      for (const Parameter& p : named->parameters)
-        for (const TrueParameter& truth : t.parameters)
-          if (p.name == truth.name && truth.acts) s.count(p.lower <= truth.value && truth.value <= p.upper);
+      for (const TrueParameter& truth : t.parameters)
+        if (truth.acts) count_parameter(t.place.effect, truth, named->parameters, counts);
     }
-  return s;
+  return counts;
 }
 
 ErrorRatio error_ratio(const std::vector<double>& error, const std::vector<double>& other) {

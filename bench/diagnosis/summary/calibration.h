@@ -9,8 +9,17 @@ namespace halyard::blind {
 Proportion set_coverage(const Results& ran);
 /// Mean of the probabilities that these sets claim. A set ends with the name that brings it to 90 %, so it claims more.
 double probability_of_sets(const Results& ran);
-/// Intervals of the effects that were named rightly, over their true parameters.
-Proportion interval_coverage(const Results& ran);
+/// The true parameters of the effects that were named rightly. A diagnosis gives no interval to whole numbers, and none
+/// to a parameter that it reset to neutral: then it says that the parameter is absent.
+struct ParameterCounts {
+  Proportion intervals;    ///< of 95 % that contain the truth
+  Proportion whole;        ///< whole numbers that are right
+  Proportion off_neutral;  ///< parameters without an interval whose truth is not neutral
+  /// A parameter that was reset, and is not neutral, is outside its interval. One that is neutral does not count: that
+  /// it is absent was claimed, and not that it lies in an interval of 95 %.
+  Proportion intervals_and_resets() const { return {intervals.hits, intervals.of + off_neutral.hits}; }
+};
+ParameterCounts parameter_counts(const Results& ran);
 
 /// Hold-out error over another one: the worst joint, and the geometric mean of the joints that have both; NaN if none.
 struct ErrorRatio {

@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include "bench/diagnosis/summary/acceptance.h"
+#include "bench/diagnosis/summary/calibration.h"
+#include "bench/diagnosis/summary/listed_parameter.h"
+#include "tests/bench/trials.h"
+
+namespace halyard::blind {
+namespace {
+
+void expect_share(const Proportion& share, int hits, int of) {
+  EXPECT_EQ(share.hits, hits);
+  EXPECT_EQ(share.of, of);
+}
+
+/// A stiffness of joint 1 with these true parameters, and what the diagnosis found.
+Result stiffness(std::vector<TrueParameter> truth, std::vector<Parameter> found) {
+  return trial(Kind::effect, {true_effect("stiffness", 1, std::move(truth))},
+               {named("stiffness", 1, 0.99, {}, std::move(found))});
+}
+
+TEST(IntervalsOfTrials, CountOverTheParametersOfRightNames) {
+  const Parameter found{"stiffness_ratio", 0.8, 0.7, 0.9};
+  const Result inside = stiffness({{"stiffness_ratio", 0.75, true}}, {found}),
+               outside = stiffness({{"stiffness_ratio", 0.95, true}}, {found});
+  expect_share(parameter_counts({&inside, &outside}).intervals, 1, 2);
+  Result elsewhere = inside, other_form = inside, idle = inside;
+  elsewhere.named[0].place.joint = 2;
+  other_form.truth[0].form = "soft_cable";
+  idle.truth[0].parameters[0].acts = false;
+  expect_share(parameter_counts({&elsewhere, &other_form, &idle}).intervals_and_resets(), 0, 0);
+}
+
+TEST(IntervalsOfTrials, MissAParameterThatWasResetAndIsNotNeutral) {
+  // Neutral are a ratio of 1 and a stiffening of 0: here the ratio of the damping is off, and was reset.
+  const Result r = stiffness({{"stiffness_ratio", 0.75, true}, {"damping_ratio", 1.2, true}, {"stiffening", 0, true}},
+                             {{"stiffness_ratio", 0.8, 0.7, 0.9}});
+  const ParameterCounts counts = parameter_counts({&r});
+  expect_share(counts.intervals, 1, 1);
+  expect_share(counts.off_neutral, 1, 2);
+  expect_share(counts.intervals_and_resets(), 1, 2);
+  const std::string table = acceptance_table({&r});
+  EXPECT_NE(table.find("without these parameters | 92 to 98 % | 1/2 |"), std::string::npos) << table;
+  EXPECT_NE(table.find("| parameters that were reset to neutral, but are not |  | 1/2 |"), std::string::npos) << table;
+}
+
+TEST(IntervalsOfTrials, LeaveOutWholeNumbers) {
+  const std::vector<TrueParameter> truth = {{"cosine", 0.002, true}, {"sine", 0.002, true}, {"order", 12, true}};
+  const Result r =
+      trial(Kind::effect, {true_effect("torque_ripple", 1, truth)},
+            {named("torque_ripple", 1, 0.99, {},
+                   {{"cosine", 0.002, 0.001, 0.003}, {"sine", 0.002, 0.001, 0.003}, {"order", 12, 12, 12}})});
+  const ParameterCounts counts = parameter_counts({&r});
+  expect_share(counts.intervals, 2, 2);
+  expect_share(counts.whole, 1, 1);
+  Result next = r;
+  next.named[0].parameters[2] = {"order", 13, 13, 13};
+  expect_share(parameter_counts({&next}).whole, 0, 1);
+  expect_share(parameter_counts({&next}).intervals, 2, 2);
+}
+
+TEST(IntervalsOfTrials, KnowTheParametersOfTheLibrary) {
+  EXPECT_EQ(listed_parameter("torque_scale", "scale").neutral, 1);
+  EXPECT_EQ(listed_parameter("torque_scale", "bias").neutral, 0);
+  EXPECT_TRUE(listed_parameter("torque_ripple", "order").is_whole);
+  EXPECT_TRUE(listed_parameter("encoder_eccentricity", "order").is_whole);
+  EXPECT_FALSE(listed_parameter("encoder_eccentricity", "wave_number").is_whole);
+  EXPECT_TRUE(listed_parameter("encoder_offset", "at_joint").is_whole);
+  // The RAVEN-II has no joint behind the third whose cable moves with joint 4.
+  EXPECT_EQ(listed_parameter("coupling", "from_joint_4").neutral, 0);
+  EXPECT_FALSE(listed_parameter("coupling", "from_joint_4").is_whole);
+}
+
+}  // namespace
+}  // namespace halyard::blind
