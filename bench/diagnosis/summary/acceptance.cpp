@@ -198,6 +198,8 @@ std::string median_and_90(const std::vector<double>& x) {
 struct Reference {
   std::vector<double> HoldOutErrors::*errors;
   std::string whose;
+  /// Only of arms with effects: on a clean one, a fit that knows the effects fits what a diagnosis without names does.
+  bool of_effects;
 };
 
 /// Over the error of another model: only of trials whose truth a revised model can express.
@@ -208,6 +210,7 @@ void add_ratio_lines(std::vector<Line>& lines, const Results& diagnosed, Sensors
   for (const Result* r : diagnosed) {
     if (r->situation.sensors != sensors || r->situation.kind == Kind::form || r->situation.kind == Kind::outside)
       continue;
+    if (other.of_effects && r->truth.empty()) continue;
     const HoldOutErrors& e = r->*errors;
     if ((e.*other.errors).empty()) continue;
     const ErrorRatio ratio = error_ratio(e.after, e.*other.errors);
@@ -216,7 +219,8 @@ void add_ratio_lines(std::vector<Line>& lines, const Results& diagnosed, Sensors
     mean.push_back(ratio.mean);
   }
   if (worst.empty()) return;
-  const std::string what = "hold-out error" + against + " over " + other.whose + ", " + sensor_text(sensors);
+  const std::string what = "hold-out error" + against + " over " + other.whose + ", " + sensor_text(sensors) +
+                           (other.of_effects ? ", arms with effects" : "");
   lines.push_back({"7", what + ", mean of the joints: " + median_and_90(mean), "median 1.2", {}, {}, {}, {}});
   lines.push_back({"7", what + ", worst joint: " + median_and_90(worst), "", {}, {}, {}, {}});
 }
@@ -224,8 +228,8 @@ void add_ratio_lines(std::vector<Line>& lines, const Results& diagnosed, Sensors
 void add_holdout_lines(std::vector<Line>& lines, const Results& ran) {
   const Results diagnosed = those(ran, [](const Result& r) { return r.failure.empty() && !r.holdout.after.empty(); });
   if (diagnosed.empty()) return;
-  const Reference truth{&HoldOutErrors::true_model, "the true model's"};
-  const Reference informed{&HoldOutErrors::informed, "that of a fit which knows the effects"};
+  const Reference truth{&HoldOutErrors::true_model, "the true model's", false};
+  const Reference informed{&HoldOutErrors::informed, "that of a fit which knows the effects", true};
   for (const Sensors sensors : {Sensors::good, Sensors::poor, Sensors::motors})
     add_ratio_lines(lines, diagnosed, sensors, &Result::holdout, "", truth);
   for (const Sensors sensors : {Sensors::good, Sensors::poor})

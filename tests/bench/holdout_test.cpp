@@ -1,0 +1,31 @@
+#include <gtest/gtest.h>
+
+#include "bench/diagnosis/summary/acceptance.h"
+#include "bench/diagnosis/summary/calibration.h"
+#include "tests/bench/trials.h"
+
+namespace halyard::blind {
+namespace {
+
+/// A trial whose revised model is wrong by this much at its only joint, where the others are by 1.
+Result with_error(Kind kind, std::vector<TrueEffect> truth, double error) {
+  Result r = trial(kind, std::move(truth), {});
+  r.holdout = {.before = {1}, .after = {error}, .true_model = {1}, .informed = {1}, .rise = {0}};
+  return r;
+}
+
+TEST(HoldOutOfTrials, IsComparedWithTheFitThatKnowsTheEffectsOnlyWhereThereAreSome) {
+  std::vector<Result> ran(5, with_error(Kind::clean, {}, 1));
+  ran.push_back(with_error(Kind::effect, {true_effect("backlash", 1)}, 3));
+  const std::string table = acceptance_table(pointers(ran));
+  EXPECT_NE(table.find("that of a fit which knows the effects, good sensors, arms with effects, mean of the joints: "
+                       "median 3.000"),
+            std::string::npos)
+      << table;
+  EXPECT_NE(table.find("the true model's, good sensors, mean of the joints: median 1.000"), std::string::npos) << table;
+  ran.pop_back();
+  EXPECT_EQ(acceptance_table(pointers(ran)).find("a fit which knows"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace halyard::blind
