@@ -86,6 +86,18 @@ TEST(ProbabilitiesOfTrials, OfNamesAreTrueIfTheEffectIsHiddenOrTrueBesideIt) {
   EXPECT_EQ(claims, expected);
 }
 
+TEST(ProbabilitiesOfTrials, OfNamesAreSharesOfThoseThatAreRightOrFalse) {
+  Result r = trial(Kind::effect, {true_effect("backlash", 1)},
+                   {named("backlash", 1, 0.95), named("backlash", 1, 0.91), named("delay", 0, 0.99),
+                    named("slack", 2, 0.9), named("creep", 3, 0.4)});
+  r.also_true = {{"delay", 0}};
+  const RightNames right = right_names({&r});
+  EXPECT_EQ(right.above_90.hits, 1);
+  EXPECT_EQ(right.above_90.of, 2);
+  EXPECT_EQ(right.from_50.hits, 0);
+  EXPECT_EQ(right.from_50.of, 1);
+}
+
 TEST(ProbabilitiesOfTrials, OfCleanAndOfNoneAreNotCountedWhereBothMayBeRight) {
   Result clean = trial(Kind::clean, {}, {});
   clean.probability_clean = 0.8, clean.probability_none = 0.2;

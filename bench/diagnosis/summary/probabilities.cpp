@@ -79,6 +79,19 @@ std::vector<Claim> claims_of(const Results& ran, ClaimKind kind) {
   return claims;
 }
 
+RightNames right_names(const Results& ran) {
+  RightNames right;
+  for (const Result* r : ran) {
+    const std::vector<NameScore> scores = score_names(*r);
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+      const double probability = r->named[i].probability;
+      if (scores[i] == NameScore::also_true || probability < 0.5) continue;
+      (probability > 0.9 ? right.above_90 : right.from_50).count(scores[i] == NameScore::right);
+    }
+  }
+  return right;
+}
+
 std::vector<ClaimGroup> groups_of(const std::vector<Claim>& claims) {
   std::vector<ClaimGroup> disjoint;
   bool last_was_sparse = false;
