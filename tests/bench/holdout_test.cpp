@@ -2,6 +2,7 @@
 
 #include "bench/diagnosis/summary/acceptance.h"
 #include "bench/diagnosis/summary/calibration.h"
+#include "estimators/distributions.h"
 #include "tests/bench/trials.h"
 
 namespace halyard::blind {
@@ -25,6 +26,23 @@ TEST(HoldOutOfTrials, IsComparedWithTheFitThatKnowsTheEffectsOnlyWhereThereAreSo
   EXPECT_NE(table.find("the true model's, good sensors, mean of the joints: median 1.000"), std::string::npos) << table;
   ran.pop_back();
   EXPECT_EQ(acceptance_table(pointers(ran)).find("a fit which knows"), std::string::npos);
+}
+
+TEST(HoldOutOfTrials, RisesAboveTheGivenModelsErrorByMoreThanAPercentAndThreeDeviations) {
+  Result r = with_error(Kind::clean, {}, 1.02);
+  r.holdout.rise = {3.1};
+  EXPECT_TRUE(rises_above_given(r));
+  r.holdout.rise = {2.9};
+  EXPECT_FALSE(rises_above_given(r));
+  r = with_error(Kind::clean, {}, 1.005);
+  r.holdout.rise = {30};
+  EXPECT_FALSE(rises_above_given(r));
+}
+
+TEST(HoldOutOfTrials, RisesBySevenInAThousandByChance) {
+  // The shares of chance that calibration.h tells have two digits.
+  EXPECT_NEAR(t_quantile(9, 0.0075), 3, 0.01);
+  EXPECT_NEAR(t_quantile(10, 0.0067), 3, 0.01);
 }
 
 }  // namespace
