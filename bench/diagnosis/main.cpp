@@ -15,6 +15,7 @@
 
 #include "app/interruption.h"
 #include "bench/diagnosis/results/scoring.h"
+#include "bench/diagnosis/summary/read_trials.h"
 #include "bench/diagnosis/summary/summary.h"
 #include "bench/diagnosis/trial/trial.h"
 #include "bench/program.h"
@@ -124,16 +125,7 @@ void run(const Options& options) {
 }
 
 void summarise(const Options& options) {
-  std::vector<fs::path> paths;
-  for (const fs::path& folder : options.summary) {
-    if (!fs::is_directory(folder / "trials"))
-      throw InputError(folder.string() + ": holds no trials; give the folder of an earlier --out");
-    for (const auto& entry : fs::directory_iterator(folder / "trials"))
-      if (entry.path().extension() == ".json") paths.push_back(entry.path());
-  }
-  std::ranges::sort(paths, {}, [](const fs::path& p) { return p.filename(); });
-  std::vector<Result> results;
-  for (const fs::path& path : paths) results.push_back(read_result(path));
+  const std::vector<Result> results = read_trials(options.summary);
   const fs::path out = options.out.empty() ? options.summary[0] : options.out;
   fmt::print("{}{}\n", write_summary(out, results), (out / "summary.md").string());
 }
