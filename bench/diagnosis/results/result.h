@@ -72,7 +72,9 @@ struct Result {
   int index = 0;
   std::uint64_t seed = 0;
   std::string failure;  ///< why there is no diagnosis; empty: there is
-  std::string arm;      ///< the arm that was drawn
+  /// Why earlier draws of this trial could not be recorded; nothing in files of before these were kept.
+  std::optional<std::vector<std::string>> dropped;
+  std::string arm;  ///< the arm that was drawn
   int joints = 0;
   double latency_s = 0, joint_rate_hz = 0;  ///< of the joint sensors; a rate of 0: none
   double outliers = 0;                      ///< TrialOptions::outliers

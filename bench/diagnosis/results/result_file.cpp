@@ -115,6 +115,7 @@ Result result_from(const Json& all) {
   r.index = all.at("index");
   r.seed = all.at("seed");
   r.failure = all.at("failure");
+  if (all.contains("dropped_draws")) r.dropped = all.at("dropped_draws").get<std::vector<std::string>>();
   r.arm = all.at("arm");
   r.joints = all.at("joints");
   r.latency_s = all.at("sensors").at("latency_s");
@@ -142,24 +143,24 @@ std::filesystem::path result_path(const std::filesystem::path& folder, const Sit
 }
 
 void write_result(const std::filesystem::path& folder, const Result& r) {
-  const Json all = {
-      {"situation", to_json(r.situation)},
-      {"index", r.index},
-      {"seed", r.seed},
-      {"failure", r.failure},
-      {"arm", r.arm},
-      {"joints", r.joints},
-      {"sensors", {{"latency_s", r.latency_s}, {"joint_rate_hz", r.joint_rate_hz}, {"outliers", r.outliers}}},
-      {"truth", list_of(r.truth)},
-      {"also_true", list_of(r.also_true)},
-      {"verdict", r.verdict},
-      {"named", list_of(r.named)},
-      {"unexplained", r.unexplained},
-      {"probability_clean", maybe(r.probability_clean)},
-      {"probability_none", maybe(r.probability_none)},
-      {"joint_position_rms", to_json(r.holdout)},
-      {"joint_position_rms_as_sensed", to_json(r.sensed_holdout)},
-      {"seconds", {{"wall", r.wall_s}}}};
+  Json all = {{"situation", to_json(r.situation)},
+              {"index", r.index},
+              {"seed", r.seed},
+              {"failure", r.failure},
+              {"arm", r.arm},
+              {"joints", r.joints},
+              {"sensors", {{"latency_s", r.latency_s}, {"joint_rate_hz", r.joint_rate_hz}, {"outliers", r.outliers}}},
+              {"truth", list_of(r.truth)},
+              {"also_true", list_of(r.also_true)},
+              {"verdict", r.verdict},
+              {"named", list_of(r.named)},
+              {"unexplained", r.unexplained},
+              {"probability_clean", maybe(r.probability_clean)},
+              {"probability_none", maybe(r.probability_none)},
+              {"joint_position_rms", to_json(r.holdout)},
+              {"joint_position_rms_as_sensed", to_json(r.sensed_holdout)},
+              {"seconds", {{"wall", r.wall_s}}}};
+  if (r.dropped) all["dropped_draws"] = *r.dropped;
   write_file_whole(result_path(folder, r.situation, r.index), all.dump(1) + "\n");
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/ranges.h>
 
+#include <map>
+
 #include "bench/diagnosis/summary/acceptance.h"
 #include "bench/diagnosis/summary/by_effect.h"
 #include "bench/diagnosis/summary/probabilities.h"
@@ -15,14 +17,35 @@ std::string section(const std::string& title, const std::string& text) {
   return text.empty() ? "" : "## " + title + "\n\n" + text;
 }
 
+/// Draws before those that the trials show, with their reasons.
+std::string dropped_draws(const Results& all) {
+  std::map<std::string, int> times;
+  int dropped = 0, silent = 0;
+  for (const Result* r : all) {
+    if (!r->dropped) {
+      ++silent;
+      continue;
+    }
+    for (const std::string& reason : *r->dropped) ++times[reason], ++dropped;
+  }
+  std::vector<std::string> reasons;
+  for (const auto& [reason, n] : times) reasons.push_back(fmt::format("{} times: {}", n, reason));
+  std::string text =
+      fmt::format("{} draws of {} trials could not be recorded", dropped, static_cast<int>(all.size()) - silent);
+  if (!reasons.empty()) text += fmt::format(" ({})", fmt::join(reasons, "; "));
+  if (silent > 0) text += fmt::format("; {} trials do not tell how many of theirs could not be", silent);
+  return text + ".";
+}
+
 std::string head(const Results& all, const Results& ran) {
   return fmt::format(
       "# Blind trials of the diagnosis\n\n{} trials; {} could not be drawn, in {} the diagnosis failed. An effect "
       "counts "
       "if `--plan` promises that a diagnosis detects it; smaller ones have lines of their own. Seconds are those of "
       "one "
-      "processor.\n\n",
-      all.size(), all.size() - ran.size(), share(ran, [](const Result& r) { return !r.failure.empty(); }).hits);
+      "processor. {}\n\n",
+      all.size(), all.size() - ran.size(), share(ran, [](const Result& r) { return !r.failure.empty(); }).hits,
+      dropped_draws(all));
 }
 
 /// Clean arms and those with one visible effect.

@@ -4,31 +4,15 @@
 
 #include <chrono>
 #include <optional>
-#include <stdexcept>
 
 #include "bench/diagnosis/trial/recording.h"
+#include "bench/diagnosis/trial/redraw.h"
 #include "bench/diagnosis/trial/take_over.h"
 #include "model/model_file.h"
 #include "model/output/output_files.h"
 
 namespace halyard::blind {
 namespace {
-
-/// Nothing, with the reason in `failure`, if no recording could be drawn.
-std::optional<Recording> try_to_draw(const ArmModel& raven2, const Situation& situation, int index,
-                                     const TrialOptions& options, Random& random, std::string& failure) {
-  constexpr int kAttempts = 40;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    try {
-      Recording recording = draw_recording(raven2, situation, index, options, random);
-      failure.clear();
-      return recording;
-    } catch (const std::runtime_error& error) {
-      failure = error.what();
-    }
-  }
-  return std::nullopt;
-}
 
 /// What is hidden, in the words of a result.
 void describe(const Recording& recording, Result& r) {
@@ -75,8 +59,13 @@ Result run_trial(const ArmModel& raven2, const Situation& situation, int index, 
   r.index = index;
   r.seed = options.seed;
   r.outliers = options.outliers;
-  const std::optional<Recording> recording = try_to_draw(raven2, situation, index, options, random, r.failure);
-  if (!recording) return r;
+  r.dropped.emplace();
+  const std::optional<Recording> recording =
+      first_possible([&] { return draw_recording(raven2, situation, index, options, random); }, *r.dropped);
+  if (!recording) {
+    r.failure = r.dropped->back();
+    return r;
+  }
   describe(*recording, r);
   if (!options.logs.empty()) write_logs(options.logs / fmt::format("{}-{:06}", label(situation), index), *recording);
 

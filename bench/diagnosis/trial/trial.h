@@ -3,7 +3,7 @@
 ///
 /// The trial's situation says what is hidden (results/situation.h), its number which effect: `effect`, `form` and
 /// `outside` take every one in turn. Arms, sensors and motions are drawn as draw/arms.h, draw/sensors.h and
-/// draw/motion.h say. Then the place of the effect is drawn, and its sizes once: each is present with probability 1/2,
+/// draw/motion.h say. Then the place of the effect is drawn, and its sizes: each is present with probability 1/2,
 /// at least one is, and of friction_drift its rate, without which it is motor_friction: typical size times log-uniform
 /// 0.5 to 3, of random sign where the bounds allow both, at most 95 % of the way to a bound that is no limit of nature.
 /// Shapes are one of the effect's starts, or typical times log-uniform 0.5 to 2. An instant lies in the first 10 to
@@ -32,7 +32,9 @@ struct TrialOptions {
   std::filesystem::path logs;  ///< folder for the logs and models that were diagnosed; empty: they are not kept
 };
 
-/// Depends on its arguments alone. A trial that cannot be run tells why in Result::failure.
+/// Depends on its arguments alone. Arm, places, sizes, motion and sensors are drawn again if they cannot be recorded
+/// (recording.h), at most kMostDraws times; Result::dropped tells why. A trial that cannot be run tells why in
+/// Result::failure.
 Result run_trial(const ArmModel& raven2, const Situation& situation, int index, const TrialOptions& options);
 
 }  // namespace halyard::blind
