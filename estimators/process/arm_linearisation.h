@@ -219,6 +219,21 @@ HALYARD_INLINE void mobility_times(const ChainPoint& point, int n, const double*
   }
 }
 
+/// M a + h, with the rotors of rigid drives that M includes (coupling.h). v, a, force: [n].
+template <int known, class T>
+HALYARD_INLINE void chain_force(const ArmParameters<double>& arm, const ChainPose<T>& pose, const T* v, const T* a,
+                                T* force) {
+  inverse_dynamics<known>(arm, pose, v, a, force);
+  for (int k = 0, n = joint_count<known>(arm); k < n; ++k) {
+    const JointParameters<double>& j = arm.joint[k];
+    if (j.drive != Drive::rigid) continue;
+    const double turns = j.pulley_radius / j.motor_travel();
+    T torque(0.0);
+    for (int i = 0; i < n; ++i) torque += (j.rotor_inertia * turns * turns * j.coupling[i]) * a[i];
+    for (int i = 0; i < n; ++i) force[i] += j.coupling[i] * torque;
+  }
+}
+
 /// a at x under the forces F, into x_dot and `chain`: from M and a that `chain` has.
 template <int known>
 HALYARD_INLINE void set_accelerations(const ArmParameters<double>& arm, const StateLayout& l,
@@ -227,7 +242,7 @@ HALYARD_INLINE void set_accelerations(const ArmParameters<double>& arm, const St
   const int n = joint_count<known>(arm);
   double v[kMaxJoints], rest[kMaxJoints], change[kMaxJoints];
   for (int k = 0; k < n; ++k) v[k] = x[l.rate[k]];
-  inverse_dynamics<known>(arm, pose, v, chain.acceleration, rest);
+  chain_force<known>(arm, pose, v, chain.acceleration, rest);
   for (int k = 0; k < n; ++k) rest[k] = force[k] - rest[k];
   mobility_times(chain, n, rest, change);
   for (int k = 0; k < n; ++k) x_dot[l.rate[k]] = chain.acceleration[k] += change[k];

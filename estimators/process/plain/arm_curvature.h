@@ -50,7 +50,7 @@ HALYARD_INLINE void add_chain(const ArmParameters<double>& arm, const StateLayou
     for (int k = 0; k < n; ++k) da[k] += A[l.rate[k] + c * l.size] * d;
   }
   for (int k = 0; k < n; ++k) a[k] = gamma * da[k] + x_dot[l.rate[k]], da[k] = a[k] - x_dot[l.rate[k]];
-  inverse_dynamics<known>(arm, chain_pose<known>(arm, q), v, a, force);
+  chain_force<known>(arm, chain_pose<known>(arm, q), v, a, force);
   for (int k = 0; k < n; ++k) {
     Lanes rest = force[k] - D[k];
     for (int i = 0; i < n; ++i)
@@ -66,7 +66,7 @@ HALYARD_INLINE void set_chain_force(const ArmParameters<double>& arm, const Stat
   double q[kMaxJoints], v[kMaxJoints], a[kMaxJoints];
   for (int k = 0, n = joint_count<known>(arm); k < n; ++k)
     q[k] = x[l.position[k]], v[k] = x[l.rate[k]], a[k] = x_dot[l.rate[k]];
-  inverse_dynamics<known>(arm, chain_pose<known>(arm, q), v, a, D);
+  chain_force<known>(arm, chain_pose<known>(arm, q), v, a, D);
 }
 
 /// The chain's part of the mean of N over `count` deviations, into the point at x. root: rows of S [size x count], in
