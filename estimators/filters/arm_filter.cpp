@@ -14,10 +14,12 @@ namespace halyard {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFastest = 0.05;   // s, for a joint to cross its range
-constexpr double kHistorySpan = 2;  // s, longer than any delay
-constexpr double kUsualRate = 1e3;  // Hz; at this rate and below, the history never asks for more memory
-constexpr int kMostHalvings = 5;    // of a step that the exponential step's guard refuses
+constexpr double kFastest = 0.05;    // s, for a joint to cross its range
+constexpr double kUsualSpeed = 1;    // ranges per second
+constexpr double kUnknownRange = 1;  // rad | m
+constexpr double kHistorySpan = 2;   // s, longer than any delay
+constexpr double kUsualRate = 1e3;   // Hz; at this rate and below, the history never asks for more memory
+constexpr int kMostHalvings = 5;     // of a step that the exponential step's guard refuses
 
 }  // namespace
 
@@ -59,9 +61,9 @@ ArmFilter::ArmFilter(const ArmModel& model, std::shared_ptr<const ProcessModel> 
 
 void ArmFilter::reset(const Sample& first) {
   const int n = process_->n_joints();
-  started_ = false;
+  begun_ = started_ = speed_is_due_ = false;
   time_ = first.time_s;
-  reading_ = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+  reading_ = read_at_ = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
   torque_ = external_ = Eigen::VectorXd::Zero(n);
   history_.clear();
   last_command_ = -kInfinity;
@@ -77,7 +79,6 @@ void ArmFilter::reset(const Sample& first) {
 void ArmFilter::remember(const Sample& sample) {
   for (int k = 0; k < process_->n_joints(); ++k) {
     if (std::isfinite(sample.motor_torque(k))) torque_(k) = sample.motor_torque(k);
-    if (std::isfinite(sample.motor_position(k))) reading_(k) = sample.motor_position(k);
     if (sample.joint_torque.size() > 0 && std::isfinite(sample.joint_torque(k))) external_(k) = sample.joint_torque(k);
   }
   if (sample.time_s > last_command_) {
@@ -89,9 +90,15 @@ void ArmFilter::remember(const Sample& sample) {
 
 void ArmFilter::start(const Sample& sample) {
   const Eigen::VectorXd before = reading_;
-  const double since = sample.time_s - time_;
+  const double since = sample.time_s - start_time_;
+  for (const int k : motors_)
+    if (std::isfinite(sample.motor_position(k))) reading_(k) = sample.motor_position(k), read_at_(k) = sample.time_s;
   remember(sample);
   if (!reading_(motors_).allFinite()) return;
+  // At the start of a record the arm rests, so that a reading does not age.
+  double age = 0;
+  for (const int k : motors_) age = begun_ ? std::max(age, sample.time_s - read_at_(k)) : 0;
+  if (age > options_.restart_gap) return;
   const Eigen::VectorXd home = model_.home();
   Eigen::VectorXd angle = unstretched_motors(process_->arm(), home);
   angle(motors_) = reading_(motors_);
@@ -102,30 +109,48 @@ void ArmFilter::start(const Sample& sample) {
   const Eigen::VectorXd q = static_equilibrium(*process_, sample.time_s, angle, external_, z,
                                                unstretched_joints(process_->arm(), angle, home));
   x = process_->state_at_rest(angle, q);
-  // At rest, unless the motors were read just before.
-  const bool read_before = !motors_.empty() && before(motors_).allFinite() && since <= options_.max_step;
-  bool seen_moving = read_before;
-  Eigen::VectorXd moved, path;
-  if (seen_moving) {
-    moved = reading_ - before;
-    path = unstretched_joints(process_->arm(), angle, home) - unstretched_joints(process_->arm(), angle - moved, home);
-    for (int k = 0; k < process_->n_joints(); ++k) {
-      const double range = model_.joints[k].upper - model_.joints[k].lower;
-      if (range > 0 && std::abs(path(k)) / since > range / kFastest) seen_moving = false;
-    }
-  }
-  if (seen_moving) {
-    for (int k = 0; k < process_->n_joints(); ++k) {
-      x(process_->layout().rate[k]) = path(k) / since;
-      if (const auto motor_rate = process_->layout().motor_rate[k]) x(*motor_rate) = moved(k) / since;
-    }
-  }
-  // After a gap the arm need not rest; and a speed that no joint has says that one of the two readings is wrong.
-  speed_is_due_ = since > options_.restart_gap || seen_moving != read_before;
-  filter_->reset(x, start_root(x, angle, q, seen_moving ? since : kInfinity));
+  // After a gap the arm need not rest. A speed that no joint has says that one of the two readings is wrong.
+  const bool has_speed = speed_is_due_ && set_speed(angle, reading_ - before, since, x);
+  speed_is_due_ = begun_ && !has_speed && age == 0 && !motors_.empty();
+  Eigen::MatrixXd S = start_root(x, angle, q, has_speed ? since : kInfinity);
+  if (begun_ && (!has_speed || since > options_.max_step)) widen(kUsualSpeed, process_->layout().positions, S);
+  if (age > 0) widen(kUsualSpeed * age, 0, S);
+  filter_->reset(x, S);
   exponential_.forget();
-  started_ = true;
+  begun_ = started_ = true;
+  start_time_ = sample.time_s;
   refused_since_ = kInfinity;
+}
+
+bool ArmFilter::set_speed(const Eigen::VectorXd& angle, const Eigen::VectorXd& moved, double dt_s,
+                          Eigen::VectorXd& x) const {
+  const StateLayout& l = process_->layout();
+  const Eigen::VectorXd home = model_.home();
+  const Eigen::VectorXd path =
+      unstretched_joints(process_->arm(), angle, home) - unstretched_joints(process_->arm(), angle - moved, home);
+  for (int k = 0; k < l.n_joints; ++k) {
+    const double range = model_.joints[k].upper - model_.joints[k].lower;
+    if (range > 0 && std::abs(path(k)) / dt_s > range / kFastest) return false;
+  }
+  for (int k = 0; k < l.n_joints; ++k) {
+    x(l.rate[k]) = path(k) / dt_s;
+    if (const auto motor_rate = l.motor_rate[k]) x(*motor_rate) = moved(k) / dt_s;
+  }
+  return true;
+}
+
+void ArmFilter::widen(double share, int first, Eigen::MatrixXd& S) const {
+  const StateLayout& l = process_->layout();
+  for (int k = 0; k < l.n_joints; ++k) {
+    const double range = model_.joints[k].upper - model_.joints[k].lower;
+    const int column = first + l.motor_angle[k].value_or(l.position[k]);
+    double& joint = S(first + l.position[k], column);
+    joint = std::max(joint, share * (range > 0 ? range : kUnknownRange));
+    for (int i = 0; i < l.n_joints; ++i) {
+      const JointParameters<double>& j = process_->arm().joint[i];
+      if (l.motor_angle[i]) S(first + *l.motor_angle[i], column) = joint * path_per_joint(j, k) / j.motor_travel();
+    }
+  }
 }
 
 Eigen::MatrixXd ArmFilter::start_root(const Eigen::VectorXd& x, const Eigen::VectorXd& angle, const Eigen::VectorXd& q,
@@ -184,7 +209,10 @@ Innovation ArmFilter::correct(const Sample& sample) {
   read_.clear();
   for (const int k : motors_)
     if (std::isfinite(sample.motor_position(k))) read_.push_back(k);
-  if (read_.empty()) return {};
+  if (read_.empty()) {
+    refused_since_ += sample.time_s - time_;
+    return {};
+  }
   const auto m = static_cast<Eigen::Index>(read_.size());
   ReadingVector z(m);
   ReadingMatrix R_root = ReadingMatrix::Zero(m, m);
@@ -203,19 +231,46 @@ Innovation ArmFilter::correct(const Sample& sample) {
 Innovation ArmFilter::update(const Sample& sample) {
   if (!(sample.time_s > time_))
     throw std::invalid_argument("filter: time does not increase at " + std::to_string(sample.time_s) + " s");
-  const bool after_gap = sample.time_s - time_ > options_.restart_gap;
-  const bool locked_out = sample.time_s - refused_since_ > options_.restart_gap;
-  const bool starts = !started_ || after_gap || locked_out || speed_is_due_;
-  if (starts) start(sample);
-  else predict(sample.time_s);
-  Innovation innovation = starts ? Innovation() : take(sample);
+  const bool loses_track = sample.time_s - time_ > options_.restart_gap || is_locked_out(sample);
+  if (loses_track) lose_track();
+  Innovation innovation;
+  if (!started_ || (speed_is_due_ && has_all_motors(sample))) {
+    start(sample);
+  } else {
+    predict(sample.time_s);
+    innovation = take(sample);
+  }
   innovation.time_s = sample.time_s;
   ++report_.steps;
   return innovation;
 }
 
+bool ArmFilter::has_all_motors(const Sample& sample) const {
+  return std::ranges::all_of(motors_, [&](int k) { return std::isfinite(sample.motor_position(k)); });
+}
+
+bool ArmFilter::is_locked_out(const Sample& sample) const {
+  return sample.time_s - refused_since_ > options_.restart_gap &&
+         std::ranges::any_of(motors_, [&](int k) { return std::isfinite(sample.motor_position(k)); });
+}
+
+void ArmFilter::lose_track() {
+  started_ = speed_is_due_ = false;
+  reading_.setConstant(std::numeric_limits<double>::quiet_NaN());
+  refused_since_ = kInfinity;
+  if (!begun_) return;
+  const StateLayout& l = process_->layout();
+  Eigen::VectorXd x = filter_->x();
+  x.segment(l.positions, l.positions).setZero();
+  Eigen::MatrixXd S = noise_.initial_root(x, kInfinity);
+  widen(1, 0, S);
+  filter_->reset(x, S);
+}
+
 Innovation ArmFilter::take(const Sample& sample) {
-  const Innovation innovation = correct(sample);
+  speed_is_due_ = speed_is_due_ && sample.time_s - start_time_ <= options_.max_step;
+  Innovation innovation;
+  if (!speed_is_due_) innovation = correct(sample);
   if (!innovation.accepted) ++report_.gated;
   remember(sample);
   return innovation;
@@ -228,12 +283,15 @@ void ArmFilter::repeat(const Sample& sample, const Predictions& predictions, std
 }
 
 void ArmFilter::save(Snapshot& snapshot) const {
+  snapshot.begun = begun_;
   snapshot.started = started_;
   snapshot.speed_is_due = speed_is_due_;
   snapshot.time_s = time_;
+  snapshot.start_time = start_time_;
   snapshot.refused_since = refused_since_;
   snapshot.x = filter_->x();
   snapshot.reading = reading_;
+  snapshot.read_at = read_at_;
   snapshot.torque = torque_;
   snapshot.external = external_;
   snapshot.adapted = noise_.adapted();
@@ -243,11 +301,14 @@ void ArmFilter::save(Snapshot& snapshot) const {
 }
 
 void ArmFilter::restore(const Snapshot& snapshot) {
+  begun_ = snapshot.begun;
   started_ = snapshot.started;
   speed_is_due_ = snapshot.speed_is_due;
   time_ = snapshot.time_s;
+  start_time_ = snapshot.start_time;
   refused_since_ = snapshot.refused_since;
   reading_ = snapshot.reading;
+  read_at_ = snapshot.read_at;
   torque_ = snapshot.torque;
   external_ = snapshot.external;
   noise_.reset(snapshot.adapted);

@@ -3,12 +3,15 @@
 /// and missing samples of a log.
 ///
 ///   start      when every motor has been read once; earlier samples are skipped. Joint positions: kinematics gives a
-///              first value, from which the static equilibrium at the motors' readings is computed. Speed: zero at the
-///              start of a record. At a restart it is computed from two successive readings. After a gap, both must
-///              come from after the gap, so the speed is set only at the second sample
+///              first value, from which the static equilibrium at the motors' readings is computed. Speed: zero
 ///   a step     the time between two samples, cut into equal pieces of at most `max_step`, and into halves and quarters
 ///              where the exponential step's guard refuses it
-///   restart    after a gap longer than `restart_gap`, or if the gate has rejected all readings for that long
+///   restart    after a gap longer than `restart_gap`, or if the gate has rejected all readings for that long, not
+///              counting samples without readings: when every motor has been read since then. Until then the joints
+///              rest where they were, uncertain by their ranges. Speed: by the next sample that has all motors, if the
+///              one of the start has them; readings of some motors within `max_step` wait for it. A speed is uncertain
+///              by the joint's range per second until then, and after that if the two samples are farther apart than
+///              `max_step`. A reading that is older than the start is uncertain by this speed, too
 ///   NaN        torque: the last one is held; position of a motor: no correction from it
 ///   gate       an innovation that is less probable than 1 - `gate` is not accepted; 1 accepts all
 
@@ -53,9 +56,9 @@ class ArmFilter final : public Estimator {
 
   /// The filter's whole state at an instant, except the command history: past commands do not change.
   struct Snapshot {
-    bool started = false, speed_is_due = false;
-    double time_s = 0, refused_since = 0;
-    Eigen::VectorXd x, reading, torque, external, adapted;
+    bool begun = false, started = false, speed_is_due = false;
+    double time_s = 0, start_time = 0, refused_since = 0;
+    Eigen::VectorXd x, reading, read_at, torque, external, adapted;
     Eigen::MatrixXd S;
     EstimatorReport report;
     ExponentialStep::Kept kept;
@@ -75,14 +78,25 @@ class ArmFilter final : public Estimator {
   void repeat(const Sample& sample, const Predictions& predictions, std::size_t first, std::size_t count);
 
  private:
+  /// Starts if all motors have been read, not long ago.
   void start(const Sample& sample);
+  /// Sets the rates in x from what the motors moved within dt_s; false: a joint would be too fast.
+  bool set_speed(const Eigen::VectorXd& angle, const Eigen::VectorXd& moved, double dt_s, Eigen::VectorXd& x) const;
   /// S of the first belief. Its mean is x, in which the joint positions are q.
   Eigen::MatrixXd start_root(const Eigen::VectorXd& x, const Eigen::VectorXd& angle, const Eigen::VectorXd& q,
                              double dt_s) const;
+  /// Joints may be wrong by this share of their ranges, and motors with them: positions, whose index is the first, or
+  /// rates.
+  void widen(double share, int first, Eigen::MatrixXd& S) const;
+  bool has_all_motors(const Sample& sample) const;
+  /// Whether the gate has refused for too long what this sample has again.
+  bool is_locked_out(const Sample& sample) const;
+  /// A restart is due: sets what is known until then.
+  void lose_track();
   void predict(double to_time_s);
   /// One step; in halves if the exponential step refuses it, `halvings` times at most, then by the sub-steps.
   void predict_over(Step step, int halvings);
-  /// Corrects with the motors' readings, and counts the sample.
+  /// Corrects with the motors' readings, if it need not wait for more of them.
   Innovation take(const Sample& sample);
   Innovation correct(const Sample& sample);
   void remember(const Sample& sample);
@@ -97,12 +111,13 @@ class ArmFilter final : public Estimator {
   std::vector<int> motors_;  // joints that have a motor
   std::vector<int> read_;    // those with a reading in this sample
   CommandHistory history_;
-  double last_command_ = 0;  // time of the newest command in history_, s
-  bool started_ = false;
-  bool speed_is_due_ = false;  // the start had one trusted reading only: the next sample gives the speed
-  double time_ = 0;
+  double last_command_ = 0;            // time of the newest command in history_, s
+  bool begun_ = false;                 // has started once since reset()
+  bool started_ = false;               // and no restart is due
+  bool speed_is_due_ = false;          // a restart had one trusted reading only: the next sample gives the speed
+  double time_ = 0, start_time_ = 0;   // of the last sample, of the last start; s
   double refused_since_ = 0;           // time from which the gate has rejected all readings, s; infinite: accepted
-  Eigen::VectorXd reading_;            // last of each motor; NaN: none yet
+  Eigen::VectorXd reading_, read_at_;  // of each motor at the start or before it; NaN: none; its time, s
   Eigen::VectorXd torque_, external_;  // held
   EstimatorReport report_;             // without the factors repaired since reset(), which report() adds
   long repaired_before_ = 0;           // filter_->repaired() at that reset()
