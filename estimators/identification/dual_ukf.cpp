@@ -287,7 +287,11 @@ DualStep DualUkf::update(const EncoderSample& sample) {
   if (!time_known_) forget_past();
   else if (!(sample.time_s > time_))
     throw std::invalid_argument("filter: time does not increase at " + std::to_string(sample.time_s) + " s");
-  if (!started_ || sample.time_s - time_ > options_.restart_gap) {
+  if (sample.time_s - time_ > options_.restart_gap) {
+    started_ = false;
+    latest_.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  if (!started_) {
     remember(sample);
     time_known_ = true;
     start(sample.time_s);

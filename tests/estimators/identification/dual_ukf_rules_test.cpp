@@ -129,6 +129,15 @@ TEST(DualUkfRules, WaitsForAMotorThatHasNotBeenRead) {
   EXPECT_EQ(filter.update(record[3]).nu.size(), 2);
 }
 
+TEST(DualUkfRules, AReadingFromBeforeAGapIsNoStart) {
+  std::vector<EncoderSample> record = record_of_slide(slide(), 5, 1);
+  for (const int i : {2, 3, 4}) record[i].time_s += 2;
+  record[2].motor_position(0) = std::numeric_limits<double>::quiet_NaN();
+  DualUkf filter = filter_with(0.01, {.settle = 0});
+  for (const int i : {0, 1, 2, 3}) EXPECT_EQ(filter.update(record[i]).nu.size(), i == 1 ? 2 : 0) << i;
+  EXPECT_EQ(filter.update(record[4]).nu.size(), 2);
+}
+
 TEST(DualUkfRules, StartsWhereTheEncodersOfAllJointsSayThatTheArmIs) {
   ArmModel model = raven2();
   for (int k = 0; k < 3; ++k) {
