@@ -113,7 +113,8 @@ void ArmFilter::start(const Sample& sample) {
   const bool has_speed = speed_is_due_ && set_speed(angle, reading_ - before, since, x);
   speed_is_due_ = begun_ && !has_speed && age == 0 && !motors_.empty();
   Eigen::MatrixXd S = start_root(x, angle, q, has_speed ? since : kInfinity);
-  if (begun_ && (!has_speed || since > options_.max_step)) widen(kUsualSpeed, process_->layout().positions, S);
+  if (begun_ ? !has_speed || since > options_.max_step : options_.in_motion)
+    widen(kUsualSpeed, process_->layout().positions, S);
   if (age > 0) widen(kUsualSpeed * age, 0, S);
   filter_->reset(x, S);
   exponential_.forget();

@@ -31,6 +31,7 @@ struct ArmFilterOptions {
   bool exponential = true;  ///< take the exponential step where its guard accepts it; false: always sub-steps
   /// Effect states that shift the joints' equilibrium at the start: their uncertainty adds to that of the joints.
   std::vector<int> settled = {};
+  bool in_motion = false;  ///< the speed at the start of a record is uncertain, too
 };
 
 /// Reads the noise options, max_step, restart_gap and gate.

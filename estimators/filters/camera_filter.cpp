@@ -31,8 +31,10 @@ const UnknownOffset& unknown_offset() {
   return effect;
 }
 
-/// The joints stand where the offsets let them: those are settled.
+/// The joints stand where the offsets let them: those are settled. In a record that begins in motion an offset would
+/// take up what the speed is wrong by, and may stretch a cable beyond all forces.
 ArmFilterOptions with_offsets(ArmFilterOptions options, const ProcessModel& process, const Eigen::VectorXd& wander) {
+  options.in_motion = true;
   options = with_wander(std::move(options), unknown_offset(), process, wander);
   for (const std::optional<int>& state : states_of(unknown_offset(), process))
     if (state) options.settled.push_back(*state - process.layout().effect_states);
