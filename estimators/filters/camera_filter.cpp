@@ -117,7 +117,7 @@ Innovation CameraFilter::update(const Sample& sample) {
   const std::size_t before = predictions_.size();
   const Innovation innovation = filter_.update(sample);
   remember(sample, predictions_.size() - before);
-  if (sample.marker.size() > 0) take_marker(sample);
+  if (sample.marker.size() == 3 && sample.marker.allFinite()) take_marker(sample);
   return innovation;
 }
 

@@ -10,6 +10,7 @@
 #include "estimators/filters/ekf.h"
 #include "estimators/filters/sr_ukf.h"
 #include "tests/support/arm_runs.h"
+#include "tests/support/limits.h"
 #include "transmission/jacobian.h"
 
 namespace halyard {
@@ -61,6 +62,28 @@ TEST(CameraFilterStart, TheFirstFrameCorrectsPositionsAndSpeedsAlikeInBothFilter
   EXPECT_LT((by_ekf.joint_position - by_ukf.joint_position).norm(), 0.1 * moved.norm());
   EXPECT_LT((by_ekf.joint_velocity - by_ukf.joint_velocity).norm(), 0.3 * pushed.norm());
   EXPECT_LT((by_ekf.joint_position_std - by_ukf.joint_position_std).norm(), 0.15 * by_ukf.joint_position_std.norm());
+}
+
+TEST(CameraFilterStart, AMarkerThatIsNotANumberWasNotSeen) {
+  CameraFilter filter = first_frame_filter(std::make_unique<ExtendedKalmanFilter>());
+  const ArmModel model = raven2();
+  const auto moved = [&](double time_s) {
+    return Sample{time_s, Eigen::VectorXd::Zero(3), unstretched_motors(model.nominal, model.home()), {}};
+  };
+  const auto run = [&](const Eigen::Vector3d& marker) {
+    filter.reset(moved(0));
+    for (int i = 1; i <= 3; ++i) {
+      Sample s = moved(i * kSampleTime);
+      if (i == 2) s.marker = marker;
+      filter.update(s);
+    }
+    return filter.estimate().joint_position;
+  };
+  filter.reset(moved(0));
+  for (int i = 1; i <= 3; ++i) filter.update(moved(i * kSampleTime));
+  const Eigen::VectorXd unseen = filter.estimate().joint_position;
+  EXPECT_EQ(run(Eigen::Vector3d::Constant(kNan)), unseen);
+  EXPECT_EQ(run(Eigen::Vector3d(0.1, kNan, 0.2)), unseen);
 }
 
 TEST(CameraFilterStart, ARecordMayBeginInMotionAlsoOnExponentialCables) {
