@@ -151,14 +151,15 @@ void DualUkf::start(double time_s) {
   Eigen::VectorXd angle = unstretched_motors(arm, home);
   for (int k = 0; k < n; ++k)
     if (arm.joint[k].drive != Drive::none) angle(k) = latest_(k);
-  Eigen::VectorXd x = structure_.state_at_rest(angle, unstretched_joints(arm, angle, home));
   // What the sensors err by depends on the state slowly: one correction is enough.
+  const Eigen::VectorXd guess = unstretched_joints(arm, angle, home);
   Eigen::MatrixXd H;
-  const Eigen::VectorXd read = center_.readings(time_s, x, H);
-  for (int k = 0; k < n; ++k) {
-    if (l.motor_angle[k]) x(*l.motor_angle[k]) += latest_(k) - read(k);
-    if (!std::isnan(latest_(n + k))) x(l.position[k]) += latest_(n + k) - read(n + k);
-  }
+  const Eigen::VectorXd read = center_.readings(time_s, structure_.state_at_rest(angle, guess), H);
+  for (int k = 0; k < n; ++k)
+    if (arm.joint[k].drive != Drive::none) angle(k) += latest_(k) - read(k);
+  Eigen::VectorXd x = structure_.state_at_rest(angle, unstretched_joints(arm, angle, home));
+  for (int k = 0; k < n; ++k)
+    if (!std::isnan(latest_(n + k))) x(l.position[k]) = guess(k) + latest_(n + k) - read(n + k);
   Eigen::MatrixXd S = noise_.initial_root(x, kInfinity);
   // A record may begin in motion.
   for (int k = 0; k < n; ++k) {

@@ -138,6 +138,23 @@ TEST(DualUkfRules, AReadingFromBeforeAGapIsNoStart) {
   EXPECT_EQ(filter.update(record[4]).nu.size(), 2);
 }
 
+TEST(DualUkfRules, AnOffsetOfAMotorIsNoMotionOfAJointThatHasNoSensor) {
+  ArmModel model = read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2_exponential.xml");
+  model.nominal.joint[0].motor_encoder_offset = 100;
+  DualUkf filter(model, {{.key = "joint1.motor.torque_bias", .nominal = 0, .scale = 1e-6}}, {.settle = 0});
+  EncoderSample sample;
+  sample.motor_torque = Eigen::Vector3d::Zero();
+  sample.motor_position = unstretched_motors(model.nominal, model.home()) + Eigen::Vector3d(100, 0, 0);
+  sample.joint_position = model.home();
+  sample.joint_position(0) = std::numeric_limits<double>::quiet_NaN();
+  filter.update(sample);
+  sample.time_s = 1e-3;
+  const DualStep step = filter.update(sample);
+  ASSERT_EQ(step.nu.size(), 5);
+  // Gravity moves joints and motors by some micrometres and microradians within a millisecond.
+  EXPECT_LT(step.nu.cwiseAbs().maxCoeff(), 1e-3);
+}
+
 TEST(DualUkfRules, StartsWhereTheEncodersOfAllJointsSayThatTheArmIs) {
   ArmModel model = raven2();
   for (int k = 0; k < 3; ++k) {
