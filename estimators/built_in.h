@@ -3,7 +3,8 @@
 ///
 ///   all but kinematics        the options of noise.h and arm_filter.h
 ///   unscented filters         also alpha, beta, kappa and curvature_limit (0.03) of sr_ukf.h
-///   disturbance_sr_ukf        also force_start and force_wander of disturbance_filter.h
+///   disturbance_sr_ukf,
+///   camera_sr_ukf             also force_start and force_wander of disturbance_filter.h
 ///   smoother                  also lag (0.2 s) of fixed_lag_smoother.h
 ///   camera_sr_ukf             also the options of camera_filter.h
 

@@ -46,9 +46,10 @@
 /// so that the innovations match their predicted covariance (covariance matching, Mehra 1972). Adaptation cannot find
 /// errors that the motors do not observe, such as those of a joint behind a stiff cable.
 ///
-/// The start is at rest in static equilibrium. The stretch x of the cables is uncertain: their stiffness K is
-/// uncertain, and friction may hold the joints away from equilibrium. So σ of the stretch is t_s |x| + F_c,q / (√3 K),
-/// where t_s is the model's relative tolerance of stiffness.
+/// The start is at rest in static equilibrium. The stretch x of the cables is uncertain: their stiffness, 2 K of both
+/// ways, is uncertain, and friction may hold the joints away from equilibrium. With the encoder, σ of the path that the
+/// joints take up is t_s |x| + F_c,q / (√3 2 K r_l) + (r_m / N) σ_z, where t_s is the model's relative tolerance of
+/// stiffness and r_l the radius of the link's pulley.
 
 #include <Eigen/Core>
 #include <vector>
