@@ -17,7 +17,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFastest = 0.05;    // s, for a joint to cross its range
 constexpr double kUsualSpeed = 1;    // ranges per second
 constexpr double kUnknownRange = 1;  // rad | m
-constexpr double kHistorySpan = 2;   // s, longer than any delay
 constexpr double kUsualRate = 1e3;   // Hz; at this rate and below, the history never asks for more memory
 constexpr int kMostHalvings = 5;     // of a step that the exponential step's guard refuses
 

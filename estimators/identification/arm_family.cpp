@@ -2,36 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "transmission/jacobian.h"
 
 namespace halyard {
-namespace {
-
-/// What all encoders read of a state.
-template <class T>
-void read_all(const Transmission<T>& transmission, const StateLayout& layout, double time_s, const T* x, T* z) {
-  const int n = layout.n_joints;
-  JointSignals<T> s[kMaxJoints];
-  unpack_state(transmission.arm(), layout, x, s);
-  transmission.sensor_errors(time_s, x + layout.effect_states, s);
-  for (int k = 0; k < n; ++k) {
-    const bool driven = transmission.arm().joint[k].drive != Drive::none;
-    z[k] = driven ? s[k].motor_angle + s[k].motor_error : T(0.0);
-    z[n + k] = s[k].joint_position + s[k].joint_error;
-  }
-}
-
-/// Eight columns from `first` on, the last one over again where there are fewer.
-void load(const Eigen::Ref<const Eigen::MatrixXd>& X, int first, Lanes* x) {
-  const int last = static_cast<int>(X.cols()) - 1;
-  for (int lane = 0; lane < kLaneWidth; ++lane)
-    for (int i = 0; i < X.rows(); ++i) x[i].set(lane, X(i, std::min(first + lane, last)));
-}
-
-}  // namespace
 
 ArmNumber find_number(ArmParameters<double>& arm, const std::string& key) {
   for (const ParameterInfo& info : named_parameters(arm))
@@ -72,17 +47,13 @@ void ArmFamily::advance(const Step& step, int substeps, Eigen::Ref<Eigen::Matrix
   }
   for (int first = 0; first < count; first += kLaneWidth) {
     Lanes x[kMaxStates];
-    load(X, first, x);
+    load_lanes(X, first, x);
     kernels.advance(lanes_[members() == 1 ? 0 : first / kLaneWidth], structure_.layout(), step.time_s, step.dt_s,
                     substeps, step.history, command, external, x);
     for (int i = 0; i < states; ++i)
       for (int lane = 0; lane < kLaneWidth && first + lane < count; ++lane) {
         X(i, first + lane) = x[i][lane];
-        if (std::isfinite(x[i][lane])) continue;
-        std::ostringstream text;
-        text << "process model: " << structure_.state_name(i) << " is not finite at " << step.time_s + step.dt_s
-             << " s; check the model's parameters and the log's torques there";
-        throw std::runtime_error(text.str());
+        if (!std::isfinite(x[i][lane])) structure_.throw_not_finite(step.time_s + step.dt_s, i);
       }
   }
 }
@@ -92,8 +63,8 @@ Eigen::MatrixXd ArmFamily::readings(double time_s, const Eigen::MatrixXd& X) con
   Eigen::MatrixXd all(2 * n, count);
   for (int first = 0; first < count; first += kLaneWidth) {
     Lanes x[kMaxStates], z[2 * kMaxJoints];
-    load(X, first, x);
-    read_all(lanes_[members() == 1 ? 0 : first / kLaneWidth], structure_.layout(), time_s, x, z);
+    load_lanes(X, first, x);
+    read_encoders(lanes_[members() == 1 ? 0 : first / kLaneWidth], structure_.layout(), time_s, x, z, z + n);
     for (int i = 0; i < 2 * n; ++i)
       for (int lane = 0; lane < kLaneWidth && first + lane < count; ++lane) all(i, first + lane) = z[i][lane];
   }
@@ -106,7 +77,7 @@ Eigen::VectorXd ArmFamily::readings(double time_s, const Eigen::VectorXd& x, Eig
   Eigen::VectorXd z(2 * n);
   H.resize(2 * n, structure_.n_states());
   const auto read = [&](const Dual* at, Dual* reading) {
-    read_all(transmission, structure_.layout(), time_s, at, reading);
+    read_encoders(transmission, structure_.layout(), time_s, at, reading, reading + n);
   };
   jacobian(read, x, z, H);
   return z;

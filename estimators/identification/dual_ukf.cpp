@@ -11,7 +11,6 @@ namespace halyard {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kHistorySpan = 2;          // s, longer than any delay
 constexpr double kLongestStep = 0.02;       // of a weight by one sample, in prior deviations: beyond, it is taken
 constexpr double kCaution = 2;              // for less exact by this factor, until the step is short
 constexpr double kAlpha = 0.03;             // of the weights' sigma points: f must be stable at all of them

@@ -51,10 +51,6 @@ class PhiFunctions {
   };
   const Level& level(int k) const { return levels_[static_cast<std::size_t>(k)]; }
   int doublings() const { return doublings_; }  ///< s, at least 1: the last level
-  const LaneMatrix& E() const { return levels_[0].E; }
-  const LaneMatrix& phi_1() const { return levels_[0].phi_1; }
-  const LaneMatrix& phi_2() const { return levels_[0].phi_2; }
-  const LaneMatrix& phi_3() const { return levels_[0].phi_3; }
 
  private:
   void take_memory(const PhiShape& shape);

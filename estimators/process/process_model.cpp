@@ -49,20 +49,19 @@ struct StepInputs {
   }
 };
 
-/// Eight columns of X from `first` on; the last one fills unused lanes.
+}  // namespace
+
+int steps_over(double span_s, double longest_s) {
+  constexpr double kRounding = 1e-9, kMost = 1e9;
+  return static_cast<int>(std::clamp(std::ceil(span_s / longest_s - kRounding), 1.0, kMost));
+}
+
 void load_lanes(const Eigen::Ref<const Eigen::MatrixXd>& X, int first, Lanes* x) {
   const int last = static_cast<int>(X.cols()) - 1;
   for (int lane = 0; lane < kLaneWidth; ++lane) {
     const double* column = X.col(std::min(first + lane, last)).data();
     for (Eigen::Index i = 0; i < X.rows(); ++i) x[i].set(lane, column[i]);
   }
-}
-
-}  // namespace
-
-int steps_over(double span_s, double longest_s) {
-  constexpr double kRounding = 1e-9, kMost = 1e9;
-  return static_cast<int>(std::clamp(std::ceil(span_s / longest_s - kRounding), 1.0, kMost));
 }
 
 ProcessModel::ProcessModel(const ArmModel& model)
@@ -280,11 +279,7 @@ Eigen::VectorXd ProcessModel::motor_readings(double time_s, const Eigen::VectorX
 
 void ProcessModel::read(double time_s, const Eigen::Ref<const Eigen::VectorXd>& x,
                         Eigen::Ref<Eigen::VectorXd> z) const {
-  JointSignals<double> s[kMaxJoints];
-  unpack_state(arm(), layout_, x.data(), s);
-  transmission_.sensor_errors(time_s, x.data() + layout_.effect_states, s);
-  for (int k = 0; k < n_joints(); ++k)
-    z(k) = arm().joint[k].drive == Drive::none ? 0 : s[k].motor_angle + s[k].motor_error;
+  read_encoders(transmission_, layout_, time_s, x.data(), z.data());
 }
 
 void ProcessModel::linearise_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
@@ -298,13 +293,7 @@ void ProcessModel::linearise_readings(double time_s, const Eigen::VectorXd& x, E
 
 void ProcessModel::differentiate_readings(double time_s, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> z,
                                           Eigen::Ref<Eigen::MatrixXd> H) const {
-  const auto read = [&](const Dual* at, Dual* reading) {
-    JointSignals<Dual> s[kMaxJoints];
-    unpack_state(dual_.arm(), layout_, at, s);
-    dual_.sensor_errors(time_s, at + layout_.effect_states, s);
-    for (int k = 0; k < n_joints(); ++k)
-      reading[k] = arm().joint[k].drive == Drive::none ? Dual(0.0) : s[k].motor_angle + s[k].motor_error;
-  };
+  const auto read = [&](const Dual* at, Dual* reading) { read_encoders(dual_, layout_, time_s, at, reading); };
   jacobian(read, x, z, H);
 }
 

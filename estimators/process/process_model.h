@@ -32,8 +32,28 @@ struct Step {
   const CommandHistory* history = nullptr;  ///< for effects with a delay; null: none
 };
 
+/// How long filters remember commands, s: longer than any delay.
+inline constexpr double kHistorySpan = 2;
+
 /// Into how many equal steps, none longer than `longest_s`, a span is divided; at least one.
 int steps_over(double span_s, double longest_s);
+
+/// Eight columns of X from `first` on; the last one fills unused lanes.
+void load_lanes(const Eigen::Ref<const Eigen::MatrixXd>& X, int first, Lanes* x);
+
+/// What the encoders read of a state: motors [n], 0 for a joint without one, and joints [n], if they are wanted.
+template <class T>
+HALYARD_INLINE void read_encoders(const Transmission<T>& transmission, const StateLayout& layout, double time_s,
+                                  const T* x, T* motors, T* joints = nullptr) {
+  JointSignals<T> s[kMaxJoints];
+  unpack_state(transmission.arm(), layout, x, s);
+  transmission.sensor_errors(time_s, x + layout.effect_states, s);
+  for (int k = 0; k < layout.n_joints; ++k) {
+    const bool driven = transmission.arm().joint[k].drive != Drive::none;
+    motors[k] = driven ? s[k].motor_angle + s[k].motor_error : T(0.0);
+    if (joints) joints[k] = s[k].joint_position + s[k].joint_error;
+  }
+}
 
 class ProcessModel {
  public:
@@ -140,13 +160,15 @@ class ProcessModel {
   /// True if h is affine, that is, if no effect acts at the sensors.
   bool readings_are_linear() const { return readings_are_linear_; }
 
+  /// Throws the std::runtime_error of a state that is not finite.
+  [[noreturn]] void throw_not_finite(double time_s, int state) const;
+
   /// The state at rest with these motor angles and joint positions [n], internal states zero.
   Eigen::VectorXd state_at_rest(const Eigen::VectorXd& motor_angle, const Eigen::VectorXd& joint_position) const;
 
  private:
   void find_stiffest_rate(const ArmModel& model);
   LinearisedArm linearised_arm() const { return {dual_, lanes_, plain_ ? &*plain_ : nullptr, arm(), layout_}; }
-  [[noreturn]] void throw_not_finite(double time_s, int state) const;
 
   Transmission<double> transmission_;
   Transmission<Dual> dual_;

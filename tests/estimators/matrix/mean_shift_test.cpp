@@ -59,7 +59,7 @@ TEST(MeanShift, OfAPositionIsTheIntegralOfItsRates) {
   ASSERT_TRUE(phi.compute(1, A, shape));
   LaneMatrix shift;
   const Eigen::Vector3d m(0, 2, 0);
-  const Eigen::VectorXd end_squares = (phi.E().view() * S).rowwise().squaredNorm();
+  const Eigen::VectorXd end_squares = (phi.level(0).E.view() * S).rowwise().squaredNorm();
   MeanShift(shape).compute(phi, 0, in_lanes(S.transpose()), end_squares, m, m, shift);
   EXPECT_NEAR(shift.view()(0, 0), 2 * phi_2(kRate), 1e-7);
   EXPECT_NEAR(shift.view()(1, 0), 2 * phi_1(kRate), 1e-7);
@@ -78,7 +78,7 @@ TEST(MeanShift, OfSeveralStatesIsThatOfEach) {
   Eigen::VectorXd first = Eigen::VectorXd::Zero(4), last = first;
   first.tail(2) = from;
   last.tail(2) = to;
-  const Eigen::VectorXd end_squares = (phi.E().view() * S).rowwise().squaredNorm();
+  const Eigen::VectorXd end_squares = (phi.level(0).E.view() * S).rowwise().squaredNorm();
   LaneMatrix shift;
   MeanShift(shape).compute(phi, 0, in_lanes(S.transpose()), end_squares, first, last, shift);
   // Roundings of numbers of the order of 1.

@@ -29,7 +29,7 @@ TEST(PhiFunctions, TheExponentialIsThatOfEigen) {
   const Eigen::MatrixXd Z = stiff_oscillator(1);
   ASSERT_TRUE(compute(phi, Z));
   // The polynomial's remainder, 2e-8 at most, doubled three times.
-  EXPECT_LT((phi.E().view() - Z.exp()).cwiseAbs().maxCoeff(), 1e-7);
+  EXPECT_LT((phi.level(0).E.view() - Z.exp()).cwiseAbs().maxCoeff(), 1e-7);
   for (int k = 1; k <= phi.doublings(); ++k)
     EXPECT_LT((phi.level(k).E.view() - (std::exp2(-k) * Z).exp()).cwiseAbs().maxCoeff(), 1e-7) << k;
   EXPECT_GT(phi.doublings(), 1);
@@ -40,9 +40,9 @@ TEST(PhiFunctions, SatisfyTheirRecurrence) {
   const Eigen::MatrixXd Z = stiff_oscillator(1), I = Eigen::MatrixXd::Identity(4, 4);
   ASSERT_TRUE(compute(phi, Z));
   // As above, times the norm of Z, 11.
-  EXPECT_LT((Z * phi.phi_1().view() - (phi.E().view() - I)).norm(), 1e-6);
-  EXPECT_LT((Z * phi.phi_2().view() - (phi.phi_1().view() - I)).norm(), 1e-6);
-  EXPECT_LT((Z * phi.phi_3().view() - (phi.phi_2().view() - 0.5 * I)).norm(), 1e-6);
+  EXPECT_LT((Z * phi.level(0).phi_1.view() - (phi.level(0).E.view() - I)).norm(), 1e-6);
+  EXPECT_LT((Z * phi.level(0).phi_2.view() - (phi.level(0).phi_1.view() - I)).norm(), 1e-6);
+  EXPECT_LT((Z * phi.level(0).phi_3.view() - (phi.level(0).phi_2.view() - 0.5 * I)).norm(), 1e-6);
 }
 
 /// p kinematic rows, moving rows up to `end`, and constant states.
@@ -73,8 +73,9 @@ TEST(PhiFunctions, UseTheFormOfAMechanicalSystem) {
       EXPECT_LT((part.phi_1.view() - whole.phi_1.view().middleCols(shape.first, m)).cwiseAbs().maxCoeff(), kTolerance);
       EXPECT_LT((part.phi_2.view() - whole.phi_2.view().middleCols(shape.first, m)).cwiseAbs().maxCoeff(), kTolerance);
     }
-    EXPECT_LT((phi.phi_3().view() - general.phi_3().view().middleCols(shape.first, m)).cwiseAbs().maxCoeff(),
-              kTolerance)
+    EXPECT_LT(
+        (phi.level(0).phi_3.view() - general.level(0).phi_3.view().middleCols(shape.first, m)).cwiseAbs().maxCoeff(),
+        kTolerance)
         << shape.n;
   }
 }
@@ -87,18 +88,18 @@ TEST(PhiFunctions, DoNotDependOnTheUnitsOfTheStates) {
   ASSERT_TRUE(compute(phi, Z));
   ASSERT_TRUE(compute(plain, stiff_oscillator(1)));
   const Eigen::Vector4d scale(1, unit, unit * unit, 1 / unit);
-  const Eigen::MatrixXd back = scale.cwiseInverse().asDiagonal() * phi.phi_1().view() * scale.asDiagonal();
-  EXPECT_LT((back - plain.phi_1().view()).cwiseAbs().maxCoeff(), 1e-7);
+  const Eigen::MatrixXd back = scale.cwiseInverse().asDiagonal() * phi.level(0).phi_1.view() * scale.asDiagonal();
+  EXPECT_LT((back - plain.level(0).phi_1.view()).cwiseAbs().maxCoeff(), 1e-7);
 }
 
 TEST(PhiFunctions, OfZeroAreTheReciprocalFactorials) {
   PhiFunctions phi;
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(3, 3);
   ASSERT_TRUE(compute(phi, Eigen::MatrixXd::Zero(3, 3)));
-  EXPECT_LT((phi.E().view() - I).norm(), 10 * kEps);
-  EXPECT_LT((phi.phi_1().view() - I).norm(), 10 * kEps);
-  EXPECT_LT((phi.phi_2().view() - I / 2).norm(), 10 * kEps);
-  EXPECT_LT((phi.phi_3().view() - I / 6).norm(), 10 * kEps);
+  EXPECT_LT((phi.level(0).E.view() - I).norm(), 10 * kEps);
+  EXPECT_LT((phi.level(0).phi_1.view() - I).norm(), 10 * kEps);
+  EXPECT_LT((phi.level(0).phi_2.view() - I / 2).norm(), 10 * kEps);
+  EXPECT_LT((phi.level(0).phi_3.view() - I / 6).norm(), 10 * kEps);
 }
 
 TEST(PhiFunctions, DoNotDependOnWhatWasComputedBefore) {
@@ -110,10 +111,10 @@ TEST(PhiFunctions, DoNotDependOnWhatWasComputedBefore) {
       PhiFunctions fresh;
       ASSERT_TRUE(again.compute(h, Z, shape));
       ASSERT_TRUE(fresh.compute(h, Z, shape));
-      EXPECT_EQ(again.E().view(), fresh.E().view()) << shape.n << shape.first << shape.end;
-      EXPECT_EQ(again.phi_1().view(), fresh.phi_1().view()) << shape.n << shape.first << shape.end;
-      EXPECT_EQ(again.phi_2().view(), fresh.phi_2().view()) << shape.n << shape.first << shape.end;
-      EXPECT_EQ(again.phi_3().view(), fresh.phi_3().view()) << shape.n << shape.first << shape.end;
+      EXPECT_EQ(again.level(0).E.view(), fresh.level(0).E.view()) << shape.n << shape.first << shape.end;
+      EXPECT_EQ(again.level(0).phi_1.view(), fresh.level(0).phi_1.view()) << shape.n << shape.first << shape.end;
+      EXPECT_EQ(again.level(0).phi_2.view(), fresh.level(0).phi_2.view()) << shape.n << shape.first << shape.end;
+      EXPECT_EQ(again.level(0).phi_3.view(), fresh.level(0).phi_3.view()) << shape.n << shape.first << shape.end;
     }
   }
 }
@@ -157,10 +158,10 @@ TEST(PhiFunctions, OfANumberAreTheirPolynomialsToRounding) {
       // Some ten roundings of terms of the order of 1, which each doubling may double.
       EXPECT_NEAR(found.view()(0, 0), static_cast<double>(exact), 100 * kEps * std::max(1.0L, exact)) << z;
     };
-    check(phi.E(), expected.E);
-    check(phi.phi_1(), expected.phi_1);
-    check(phi.phi_2(), expected.phi_2);
-    check(phi.phi_3(), expected.phi_3);
+    check(phi.level(0).E, expected.E);
+    check(phi.level(0).phi_1, expected.phi_1);
+    check(phi.level(0).phi_2, expected.phi_2);
+    check(phi.level(0).phi_3, expected.phi_3);
   }
 }
 
