@@ -6,6 +6,7 @@
 
 #include "model/input_error.h"
 #include "transmission/coupling.h"
+#include "transmission/transmission.h"
 
 namespace halyard {
 namespace {
@@ -26,10 +27,16 @@ struct Latest {
   }
 };
 
+/// The arm as its filters know it: with the changes of the model's effects.
+struct KnownArm {
+  ArmParameters<double> parameters;
+  Eigen::VectorXd home;
+};
+
 /// Joint positions by the motors.
-Eigen::VectorXd by_motors(const Latest& latest, const ArmModel& model) {
-  const ArmParameters<double>& arm = model.nominal;
-  Eigen::VectorXd q_m(arm.n), undriven = model.home();
+Eigen::VectorXd by_motors(const Latest& latest, const KnownArm& known) {
+  const ArmParameters<double>& arm = known.parameters;
+  Eigen::VectorXd q_m(arm.n), undriven = known.home;
   for (int k = 0; k < arm.n; ++k) {
     const JointParameters<double>& j = arm.joint[k];
     q_m(k) = j.drive == Drive::none ? 0 : latest.motor(k) - j.motor_encoder_offset;
@@ -40,27 +47,27 @@ Eigen::VectorXd by_motors(const Latest& latest, const ArmModel& model) {
 
 /// What motor k's encoder would read by the joints' sensors, or by the motors where a joint inboard has none. NaN
 /// before its own joint has a reading.
-double told_of_motor(const Latest& latest, const ArmModel& model, int k) {
-  const ArmParameters<double>& arm = model.nominal;
+double told_of_motor(const Latest& latest, const KnownArm& known, int k) {
+  const ArmParameters<double>& arm = known.parameters;
   if (std::isnan(latest.joint(k))) return latest.joint(k);
-  Eigen::VectorXd q = by_motors(latest, model);
+  Eigen::VectorXd q = by_motors(latest, known);
   for (int j = 0; j < arm.n; ++j) {
-    const bool known = !std::isnan(latest.joint(j)) && arm.joint[j].joint_zero_known;
-    if (known) q(j) = latest.joint(j) - arm.joint[j].joint_encoder_offset;
+    const bool is_told = !std::isnan(latest.joint(j)) && arm.joint[j].joint_zero_known;
+    if (is_told) q(j) = latest.joint(j) - arm.joint[j].joint_encoder_offset;
     if (j > k) q(j) = 0;  // a cable's path runs over its own joint and those inboard
   }
   return unstretched_motors(arm, q)(k) + arm.joint[k].motor_encoder_offset;
 }
 
-void home_one(Log& log, const ArmModel& model, int k, bool motor) {
-  Latest latest(model.n());
+void home_one(Log& log, const KnownArm& known, int k, bool motor) {
+  Latest latest(known.parameters.n);
   std::vector<double> zero;
   double end = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < log.size() && log.time[i] <= end; ++i) {
     latest.see(log, i);
-    const double z = motor
-                         ? latest.motor(k) - told_of_motor(latest, model, k)
-                         : latest.joint(k) - by_motors(latest, model)(k) - model.nominal.joint[k].joint_encoder_offset;
+    const double z =
+        motor ? latest.motor(k) - told_of_motor(latest, known, k)
+              : latest.joint(k) - by_motors(latest, known)(k) - known.parameters.joint[k].joint_encoder_offset;
     if (!std::isfinite(z)) continue;
     if (zero.empty()) end = log.time[i] + kHomingTime;
     zero.push_back(z);
@@ -76,6 +83,7 @@ void home_one(Log& log, const ArmModel& model, int k, bool motor) {
 }  // namespace
 
 void home_encoders(Log& log, const ArmModel& model) {
+  const KnownArm known{Transmission<double>(model.nominal, model.effects).arm(), model.home()};
   for (int k = 0; k < model.n(); ++k) {
     const JointParameters<double>& j = model.nominal.joint[k];
     const std::string number = std::to_string(k + 1);
@@ -83,8 +91,8 @@ void home_encoders(Log& log, const ArmModel& model) {
       throw InputError(log.source + ": the model does not know the zero of motor encoder " + number +
                        " (motor_offset=\"unknown\"), and the log has no joint_position_" + number +
                        " to tell it; give the joint's sensor, or the offset in the model");
-    if (!j.motor_zero_known) home_one(log, model, k, true);
-    if (!j.joint_zero_known && log.has_joint_position(k)) home_one(log, model, k, false);
+    if (!j.motor_zero_known) home_one(log, known, k, true);
+    if (!j.joint_zero_known && log.has_joint_position(k)) home_one(log, known, k, false);
   }
 }
 

@@ -43,6 +43,27 @@ TEST(Homing, WaitsForTheFirstReadingOfTheJointsSensor) {
   }
 }
 
+// The sensor of the joint knows nothing of the ratio, so that the motor's zero depends on the ratio that is assumed.
+TEST(Homing, KnowsTheChangesThatEffectsMake) {
+  ArmModel model = arm_with_unknown_zero();
+  model.effects = {place_effect(*find_effect("capstan_ratio"), model.nominal, 0)};
+  model.effects[0].p[0] = 1.05;
+  ArmModel changed = arm_with_unknown_zero();
+  changed.nominal.joint[0].capstan_radius *= 1.05;
+  const Log read = log_with_late_sensor(changed, 0);
+  Log homed = read;
+  home_encoders(homed, model);
+  EXPECT_NEAR(read.motor_position[0][0] - homed.motor_position[0][0], kZero, 1e-9);
+
+  // The other side: the joint's zero by the motor.
+  model.nominal.joint[0].motor_zero_known = true;
+  model.nominal.joint[0].motor_encoder_offset = kZero;
+  model.nominal.joint[0].joint_zero_known = false;
+  homed = read;
+  home_encoders(homed, model);
+  EXPECT_NEAR(read.joint_position[0][0] - homed.joint_position[0][0], 0, 1e-9);
+}
+
 TEST(Homing, RefusesASensorThatNeverReads) {
   const ArmModel model = arm_with_unknown_zero();
   Log log = log_with_late_sensor(model, 9);
