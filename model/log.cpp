@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -12,30 +11,16 @@
 #include <string_view>
 #include <utility>
 
+#include "model/input/text_file.h"
 #include "model/input_error.h"
-#include "model/memory_limit.h"
 #include "model/name_list.h"
 #include "model/output/output_files.h"
-#include "model/output/read_files.h"
 
 namespace halyard {
 namespace {
 
 std::string read_text(const std::filesystem::path& path) {
-  const auto fail = [&](const char* what) { throw InputError(path.string() + ": " + what); };
-  std::error_code unknown;
-  const auto status = std::filesystem::status(path, unknown);
-  if (!std::filesystem::exists(status)) fail("no such file; give the path of a CSV log");
-  if (std::filesystem::is_directory(status)) fail("is a directory; give the path of a CSV log");
-  constexpr double kBytesInMemory = 3;  // the text, its copy as it is read, and the numbers
-  if (const auto size = std::filesystem::file_size(path, unknown); !unknown)
-    check_memory(kBytesInMemory * static_cast<double>(size), path.string(), "cut the log into shorter ones");
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || text.bad()) fail("cannot be read; check its permissions and its disk");
-  note_read(path);
-  return std::move(text).str();
+  return read_text_file(path, {.name = "a CSV log", .if_too_large = "cut the log into shorter ones"});
 }
 
 bool is_binary(unsigned char c) { return c < 0x20 && c != '\t' && c != '\n' && c != '\r'; }

@@ -6,14 +6,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "model/column_map.h"
+#include "model/input/text_file.h"
 #include "model/input_error.h"
 #include "model/name_list.h"
-#include "model/output/read_files.h"
 
 namespace halyard {
 
@@ -88,20 +86,6 @@ std::string expected_numbers(std::string_view unit, std::size_t count) {
   return expected;
 }
 
-std::string read_text(const std::filesystem::path& path) {
-  const auto fail = [&](const char* what) { throw InputError(path.string() + ": " + what); };
-  std::error_code unknown;
-  const auto status = std::filesystem::status(path, unknown);
-  if (!std::filesystem::exists(status)) fail("no such file; give the path of an XML file");
-  if (std::filesystem::is_directory(status)) fail("is a directory; give the path of an XML file");
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || text.bad()) fail("cannot be read; check its permissions and its disk");
-  note_read(path);
-  return std::move(text).str();
-}
-
 /// tinyxml2's "XML_ERROR_MISMATCHED_ELEMENT" as "mismatched element".
 std::string reason(const tinyxml2::XMLDocument& xml) {
   std::string text = xml.ErrorName();
@@ -140,7 +124,10 @@ XmlElement XmlElement::expect_root(std::string_view root) const {
   return *this;
 }
 
-XmlElement XmlElement::read_file(const std::filesystem::path& path) { return root_of(read_text(path), path.string()); }
+XmlElement XmlElement::read_file(const std::filesystem::path& path) {
+  return root_of(read_text_file(path, {.name = "an XML file", .if_too_large = "give the path of an XML file"}),
+                 path.string());
+}
 
 XmlElement XmlElement::read_file(const std::filesystem::path& path, std::string_view root) {
   return read_file(path).expect_root(root);

@@ -277,6 +277,12 @@ TEST(WriteLog, ReadsBackWhatItWrote) {
   EXPECT_TRUE(back.joint_velocity[0].empty());
 }
 
+// Linux answers a read of the memory at address 0 by EIO, as a bad disk does.
+TEST(ReadLog, AFileThatCannotBeReadToItsEndIsNoShorterLog) {
+  EXPECT_EQ(message_of([] { read_log("/proc/self/mem", 1); }),
+            "/proc/self/mem: cannot be read; check its permissions and its disk");
+}
+
 TEST(WriteLog, RefusesWhatCouldNotBeReadBack) {
   std::filesystem::remove(temporary_path());
   Log log(1);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <fstream>
 #include <vector>
 
 #include "tests/support/small_arm.h"
@@ -29,6 +31,18 @@ TEST(XmlElement, TypedAttributesOfOtherFilesAreReadTheSameWay) {
             "folder/sweep.xml:1: <run>: stands twice inside <sweep>; give it once");
   EXPECT_EQ(message_of([&] { root.flag_or("jobs", true); }),
             "folder/sweep.xml:1: <sweep jobs=\"4\">: expected one of true, false");
+}
+
+TEST(XmlElement, AFileThatCannotBeReadOrHeldIsNoShorterFile) {
+  // Linux answers a read of the memory at address 0 by EIO, as a bad disk does.
+  EXPECT_EQ(message_of([] { XmlElement::read_file("/proc/self/mem"); }),
+            "/proc/self/mem: cannot be read; check its permissions and its disk");
+  const std::filesystem::path huge = std::filesystem::path(testing::TempDir()) / "huge.xml";
+  std::ofstream(huge) << "<arm>";
+  std::filesystem::resize_file(huge, std::uintmax_t(1) << 43);  // 8 TB, none of them on the disk
+  const std::string message = message_of([&] { XmlElement::read_file(huge); });
+  std::filesystem::remove(huge);
+  EXPECT_TRUE(message.starts_with(huge.string() + ": needs about 2.64e+04 GB of memory")) << message;
 }
 
 TEST(XmlElement, PathIsRelativeToTheFileAndOfAFileThatIsThere) {
