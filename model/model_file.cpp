@@ -10,6 +10,7 @@
 
 #include "model/input_error.h"
 #include "model/name_list.h"
+#include "model/xml/arm_checks.h"
 #include "model/xml/arm_words.h"
 #include "model/xml/field_reader.h"
 #include "model/xml/xml_reader.h"
@@ -184,7 +185,8 @@ JointDescription read_joint(const XmlElement& element, Joint& joint, int k, cons
 }
 
 /// Every joint has something to move, or its acceleration would be undefined.
-void check_inertia_of_motion(const ArmParameters<double>& arm, const std::vector<XmlElement>& elements) {
+void check_inertia_of_motion(const ArmParameters<double>& arm, const Eigen::VectorXd& home,
+                             const std::vector<XmlElement>& elements) {
   double mass = 0, inertia = 0;
   for (int k = arm.n - 1; k >= 0; --k) {
     const Joint& joint = arm.joint[k];
@@ -194,6 +196,10 @@ void check_inertia_of_motion(const ArmParameters<double>& arm, const std::vector
     if (has_rotor || mass > 0 || (joint.type == JointType::revolute && inertia > 0)) continue;
     elements[k].fail("this joint moves no mass; give its link or a link outboard of it a mass");
   }
+  if (const auto k = joint_without_inertia(arm, home))
+    elements[*k].fail(
+        "at home this joint moves without inertia while the joints inboard of it are free (the mass matrix is "
+        "singular); give its link or a link outboard of it an inertia about its axis");
 }
 
 void check_coupling(const ArmParameters<double>& arm, const XmlElement& element) {
@@ -219,7 +225,7 @@ void read_joints(const XmlElement& arm, const Tolerances& tolerances, ArmModel& 
     }
     model.joints.push_back(std::move(description));
   }
-  check_inertia_of_motion(model.nominal, elements);
+  check_inertia_of_motion(model.nominal, model.home(), elements);
   check_coupling(model.nominal, arm);
 }
 

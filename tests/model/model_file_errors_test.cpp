@@ -96,6 +96,9 @@ TEST(ModelFile, BadInputSaysWhereWhatAndWhatWasExpected) {
        "arm.xml:25: <joint>: this joint moves no mass; give its link or a link outboard of it a mass"},
       {"name=\"backlash\"", "name=\"backlsh\"",
        "arm.xml:32: <effect name=\"backlsh\">: unknown effect; expected one of "},
+      {"com=\"0.05 0 0\" inertia=\"1e-4 1e-4 1e-4 0 0 0\"", "com=\"0 0 0.1\" inertia=\"1e-3 1e-3 0 0 0 0\"",
+       "arm.xml:25: <joint>: at home this joint moves without inertia while the joints inboard of it are free (the "
+       "mass matrix is singular); give its link or a link outboard of it an inertia about its axis"},
       {"half_gap=\"0.35 mm\"", "gap=\"0.35 mm\"",
        "arm.xml:32: <effect gap=\"0.35 mm\">: unknown attribute; expected one of name, joint, half_gap, rounding"},
       {"half_gap=\"0.35 mm\"", "half_gap=\"-0.35 mm\"",
