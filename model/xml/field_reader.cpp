@@ -88,7 +88,9 @@ double read_resolution(const XmlElement& encoders, const std::string& side, cons
   if (!encoders.has(counts)) return encoders.number_or(resolution, 0, unit, Sign::non_negative);
   if (encoders.has(resolution)) encoders.fail(counts, "expected one of " + counts + " and " + resolution);
   if (std::string(unit) != "rad") encoders.fail(counts, "a prismatic joint has no turn; give " + resolution + " in m");
-  return 2 * std::numbers::pi / encoders.number(counts, "", Sign::positive);
+  const double per_turn = encoders.number(counts, "");
+  if (!(per_turn >= 1)) encoders.fail(counts, "expected at least 1 count per turn");
+  return 2 * std::numbers::pi / per_turn;
 }
 
 }  // namespace
