@@ -268,6 +268,27 @@ PlacedEffect read_effect(const XmlElement& element, const ArmParameters<double>&
   return placed;
 }
 
+/// Refuses effects that are each within their bounds but together change the arm to one that cannot be.
+void check_changed_arm(const std::vector<XmlElement>& elements, const ArmModel& model,
+                       const std::vector<PlacedEffect>& placed) {
+  if (placed.empty()) return;
+  std::vector<PlacedEffect> all = model.effects;
+  all.insert(all.end(), placed.begin(), placed.end());
+  const Eigen::VectorXd home = model.home();
+  const auto fault = first_fault(model.nominal, all, [&](const auto& before, const auto& after) {
+    std::string what = number_outside_bound(before, after);
+    if (!what.empty()) return what;
+    if (const auto k = joint_without_inertia(after, home))
+      what = "joint " + std::to_string(*k + 1) + " moves without inertia at home (the mass matrix is singular)";
+    return what;
+  });
+  if (!fault) return;
+  const std::size_t given = model.effects.size();  // these were good when they were read
+  elements[fault->effect < given ? 0 : fault->effect - given].fail(
+      "with " + effect_label(all[fault->effect]) + (fault->effect > 0 ? " after the effects before it, " : ", ") +
+      fault->what + "; make the change smaller, or remove one of the effects");
+}
+
 void read_columns(const XmlElement& columns, ArmModel& model) {
   columns.only({}, {"column"});
   for (const XmlElement& column : columns.children()) {
@@ -305,7 +326,7 @@ ArmModel read_arm(const XmlElement& arm) {
   Tolerances tolerances;
   if (const auto found = arm.optional_child("tolerances")) tolerances = read_tolerances(*found, tolerances);
   read_joints(arm, tolerances, model);
-  if (const auto effects = arm.optional_child("effects")) model.effects = read_effects(*effects, model.nominal);
+  if (const auto effects = arm.optional_child("effects")) model.effects = read_effects(*effects, model);
   if (const auto columns = arm.optional_child("columns")) read_columns(*columns, model);
   for (const XmlElement& estimator : arm.children("estimator")) read_estimator(estimator, model);
   return model;
@@ -313,10 +334,11 @@ ArmModel read_arm(const XmlElement& arm) {
 
 }  // namespace
 
-std::vector<PlacedEffect> read_effects(const XmlElement& effects, const ArmParameters<double>& arm) {
+std::vector<PlacedEffect> read_effects(const XmlElement& effects, const ArmModel& model) {
   effects.only({}, {"effect"});
   std::vector<PlacedEffect> placed;
-  for (const XmlElement& effect : effects.children()) placed.push_back(read_effect(effect, arm));
+  for (const XmlElement& effect : effects.children()) placed.push_back(read_effect(effect, model.nominal));
+  check_changed_arm(effects.children(), model, placed);
   return placed;
 }
 

@@ -169,7 +169,7 @@ Scenario read_scenario(const std::filesystem::path& path, const std::filesystem:
   std::set<std::string> changed;
   for (const XmlElement& set : root.children("set")) read_change(set, scenario.robot, changed);
   if (const auto effects = root.optional_child("effects"))
-    for (const PlacedEffect& e : read_effects(*effects, scenario.robot.nominal)) scenario.robot.effects.push_back(e);
+    for (const PlacedEffect& e : read_effects(*effects, scenario.robot)) scenario.robot.effects.push_back(e);
 
   scenario.trajectory.resize(scenario.robot.n());
   std::vector<bool> given(scenario.robot.n(), false);

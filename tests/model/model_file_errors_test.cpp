@@ -96,11 +96,11 @@ TEST(ModelFile, BadInputSaysWhereWhatAndWhatWasExpected) {
       {"<link mass=\"0.1\" com=\"0.05 0 0\" inertia=\"1e-4 1e-4 1e-4 0 0 0\"/>",
        "<link mass=\"0\" com=\"0 0 0\" inertia=\"0 0 0 0 0 0\"/>",
        "arm.xml:25: <joint>: this joint moves no mass; give its link or a link outboard of it a mass"},
-      {"name=\"backlash\"", "name=\"backlsh\"",
-       "arm.xml:32: <effect name=\"backlsh\">: unknown effect; expected one of "},
       {"com=\"0.05 0 0\" inertia=\"1e-4 1e-4 1e-4 0 0 0\"", "com=\"0 0 0.1\" inertia=\"1e-3 1e-3 0 0 0 0\"",
        "arm.xml:25: <joint>: at home this joint moves without inertia while the joints inboard of it are free (the "
        "mass matrix is singular); give its link or a link outboard of it an inertia about its axis"},
+      {"name=\"backlash\"", "name=\"backlsh\"",
+       "arm.xml:32: <effect name=\"backlsh\">: unknown effect; expected one of "},
       {"half_gap=\"0.35 mm\"", "gap=\"0.35 mm\"",
        "arm.xml:32: <effect gap=\"0.35 mm\">: unknown attribute; expected one of name, joint, half_gap, rounding"},
       {"half_gap=\"0.35 mm\"", "half_gap=\"-0.35 mm\"",
@@ -161,6 +161,26 @@ TEST(ModelFile, FileThatIsNoModelIsNamed) {
             "arm.xml:1: <scenario>: expected a file whose root element is <arm>; give such a file");
   EXPECT_EQ(message_for(std::string("<arm\0/>", 7)), "arm.xml: is not text; give an XML file in UTF-8");
   EXPECT_EQ(message_for(""), "arm.xml: is empty; give an XML file in UTF-8");
+}
+
+/// With two effects of these attributes at the place of the last one.
+std::string with_effects(const std::string& first, const std::string& second) {
+  return replaced("<effect name=\"payload\"/>", "<effect " + first + "/>\n<effect " + second + "/>");
+}
+
+TEST(ModelFile, EffectsThatAreFineAloneMustNotChangeTheArmToOneThatCannotBe) {
+  const std::string friction = "name=\"joint_friction\" joint=\"1\" coulomb_change=";
+  EXPECT_EQ(message_for(with_effects(friction + "\"-0.25\"", friction + "\"-0.375\"")),
+            "arm.xml:34: <effect>: with joint_friction of joint 1 after the effects before it, the coulomb of "
+            "<friction> of joint 1 becomes -0.125, expected at least 0; make the change smaller, or remove one of the "
+            "effects");
+  // 0.5 - 0.4 - 0.1 is -3e-17 after rounding.
+  EXPECT_EQ(message_for(with_effects(friction + "\"-0.4\"", friction + "\"-0.1\"")), "no InputError");
+
+  const std::string payload = "name=\"payload\" mass=\"-0.0625\"";
+  EXPECT_EQ(message_for(with_effects(payload, payload)),
+            "arm.xml:34: <effect>: with payload after the effects before it, the mass of <link> of joint 3 becomes "
+            "-0.025, expected at least 0; make the change smaller, or remove one of the effects");
 }
 
 }  // namespace

@@ -210,5 +210,27 @@ TEST_F(ScenarioFile, SaysWhatIsWrongWithASampleFile) {
   EXPECT_NE(cell.find("x.csv:3: column 'path'"), std::string::npos) << cell;
 }
 
+TEST_F(ScenarioFile, ItsEffectsActAfterThoseOfTheRobot) {
+  ArmModel robot = read_model(kExamples + "raven2.xml");
+  robot.effects = {place_neutral_effect(*find_effect("joint_friction"), robot.nominal, 1)};
+  robot.effects[0].p[0] = -robot.nominal.joint[1].joint_coulomb;  // all of it
+  write("robot.xml", model_to_xml(robot));
+  const auto with = [this](const std::string& change) {
+    read("<effects><effect name=\"joint_friction\" joint=\"2\" coulomb_change=\"" + change + "\"/></effects>");
+    try {
+      read_scenario(folder_ / "s.xml", folder_ / "robot.xml");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(with("0.01"), "no error");
+  EXPECT_EQ(with("-0.25"),
+            (folder_ / "s.xml").string() +
+                ":2: <effect>: with joint_friction of joint 2 after the effects before it, "
+                "the coulomb of <friction> of joint 2 becomes -0.25, expected at least 0; make the change smaller, or "
+                "remove one of the effects");
+}
+
 }  // namespace
 }  // namespace halyard
