@@ -123,6 +123,10 @@ void read_integrator(const XmlElement& element, IntegratorOptions& options) {
                                                     {"explicit_rk", IntegratorKind::explicit_rk},
                                                     {"simbody_rkm", IntegratorKind::simbody_rkm},
                                                     {"simbody_cpodes", IntegratorKind::simbody_cpodes}});
+  const bool is_simbodys =
+      options.kind == IntegratorKind::simbody_rkm || options.kind == IntegratorKind::simbody_cpodes;
+  if (is_simbodys && element.has("absolute_tolerance"))
+    element.fail("absolute_tolerance", "an integrator of Simbody's has only a relative tolerance; remove it");
   options.relative_tolerance = element.number_or("relative_tolerance", options.relative_tolerance, "", Sign::positive);
   options.absolute_tolerance = element.number_or("absolute_tolerance", options.absolute_tolerance, "", Sign::positive);
 }

@@ -206,6 +206,18 @@ EnergyBalance energy_balance(ArmPlant& plant, const Eigen::VectorXd& start, cons
           .stored = plant.stored_energy(end_time_s, end.data()) - plant.stored_energy(0, start.data())};
 }
 
+void check_integrator(const Scenario& scenario) {
+  const IntegratorOptions& options = scenario.integrator;
+  // Finer ones ask for more than the 16 digits of a number; from 1 on a step may be all error.
+  constexpr double kLeastRelative = 1e-14, kLeastAbsolute = 1e-15;
+  if (!(options.relative_tolerance >= kLeastRelative && options.relative_tolerance < 1))
+    throw InputError(place(scenario) + "the integrator's relative tolerance must be from 1e-14 to below 1");
+  if (!(options.absolute_tolerance >= kLeastAbsolute) || !std::isfinite(options.absolute_tolerance))
+    throw InputError(place(scenario) + "the integrator's absolute tolerance must be at least 1e-15");
+  if (needs_simbody(options.kind) && engine_of(scenario) != Engine::simbody)
+    throw InputError(place(scenario) + "an integrator of Simbody's needs engine=\"simbody\" of the scenario");
+}
+
 }  // namespace
 
 Scenario faster(Scenario scenario) {
@@ -224,10 +236,7 @@ void check_scenario(const Scenario& scenario) {
     throw InputError(where + "the control period must be at least 1e-6 s: logs give times to a microsecond");
   check_memory(scenario.duration_s / scenario.control_period_s * bytes_of_a_tick(scenario), where + "the run",
                "take a shorter duration or a longer control period");
-  if (!(scenario.integrator.relative_tolerance > 0) || !(scenario.integrator.absolute_tolerance > 0))
-    throw InputError(where + "the integrator's tolerances must be above 0");
-  if (needs_simbody(scenario.integrator.kind) && engine_of(scenario) != Engine::simbody)
-    throw InputError(where + "an integrator of Simbody's needs engine=\"simbody\" of the scenario");
+  check_integrator(scenario);
   if (static_cast<int>(scenario.trajectory.size()) != n || static_cast<int>(scenario.robot.joints.size()) != n)
     throw InputError(where + "there must be one trajectory for each of the " + std::to_string(n) + " joints");
   for (int k = 0; k < n; ++k) {

@@ -1,5 +1,6 @@
 #include "plant/integrators/integrator.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 
@@ -29,7 +30,8 @@ Eigen::VectorXd absolute_tolerances(const DriveTrain& drive, double tolerance) {
   return all;
 }
 
-void fail_between(double from_s, double until_s, const std::string& why) {
+void fail_between(double from_s, double until_s, std::string why) {
+  std::replace(why.begin(), why.end(), '\n', ' ');  // Simbody's messages have several lines
   char text[96];
   std::snprintf(text, sizeof text, "integration failed between t = %.6f s and %.6f s: ", from_s, until_s);
   throw std::runtime_error(text + why +

@@ -41,7 +41,7 @@ inline constexpr double kUncontrolled = 1e30;
 /// it is gear_ratio times as large. kUncontrolled for the energy meters.
 Eigen::VectorXd absolute_tolerances(const DriveTrain& drive, double tolerance);
 
-/// Throws the std::runtime_error of an integration that failed.
-[[noreturn]] void fail_between(double from_s, double until_s, const std::string& why);
+/// Throws the std::runtime_error of an integration that failed, one line.
+[[noreturn]] void fail_between(double from_s, double until_s, std::string why);
 
 }  // namespace halyard

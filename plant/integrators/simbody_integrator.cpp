@@ -1,5 +1,4 @@
-#include <stdexcept>
-#include <string>
+#include <exception>
 
 #include "plant/integrators/integrator.h"
 #include "plant/simbody_arm.h"
@@ -32,8 +31,7 @@ class SimbodyIntegrator : public Integrator {
       // The first return is at the start of the interval.
       while (integrator_->getAdvancedTime() < until_s) integrator_->stepTo(until_s, until_s);
     } catch (const std::exception& error) {
-      throw std::runtime_error("integration failed between t = " + std::to_string(from) + " s and " +
-                               std::to_string(until_s) + " s: " + error.what());
+      fail_between(from, until_s, error.what());
     }
     plant_.count_evaluations(integrator_->getNumRealizations() - before);
     const SimTK::Vector& y = integrator_->getAdvancedState().getY();

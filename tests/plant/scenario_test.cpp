@@ -210,6 +210,20 @@ TEST_F(ScenarioFile, SaysWhatIsWrongWithASampleFile) {
   EXPECT_NE(cell.find("x.csv:3: column 'path'"), std::string::npos) << cell;
 }
 
+TEST_F(ScenarioFile, RefusesTolerancesThatNoIntegratorKeeps) {
+  const auto integrator = [this](const std::string& attributes) { return message("<integrator " + attributes + "/>"); };
+  const std::string relative = "s.xml: scenario 's': the integrator's relative tolerance must be from 1e-14 to below 1";
+  EXPECT_EQ(integrator(R"(treatment="simbody_rkm" relative_tolerance="1")"), relative);
+  EXPECT_EQ(integrator(R"(treatment="simbody_cpodes" relative_tolerance="2")"), relative);
+  EXPECT_EQ(integrator(R"(relative_tolerance="1e-20")"), relative);
+  EXPECT_EQ(integrator(R"(absolute_tolerance="1e-300")"),
+            "s.xml: scenario 's': the integrator's absolute tolerance must be at least 1e-15");
+  EXPECT_EQ(integrator(R"(treatment="simbody_rkm" absolute_tolerance="1e-9")"),
+            "s.xml:2: <integrator absolute_tolerance=\"1e-9\">: an integrator of Simbody's has only a relative "
+            "tolerance; remove it");
+  EXPECT_EQ(integrator(R"(treatment="simbody_rkm" relative_tolerance="0.9")"), "no error");
+}
+
 TEST_F(ScenarioFile, ItsEffectsActAfterThoseOfTheRobot) {
   ArmModel robot = read_model(kExamples + "raven2.xml");
   robot.effects = {place_neutral_effect(*find_effect("joint_friction"), robot.nominal, 1)};
