@@ -5,6 +5,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "model/input_error.h"
 #include "model/memory_limit.h"
@@ -197,6 +198,16 @@ void refuse_runaway(const Scenario& scenario, const Tick& tick, double time_s) {
                        "<controller>, or state its torque_limit");
 }
 
+/// What an integrator does, a failure with the scenario's place.
+template <class Action>
+auto with_place(const Scenario& scenario, const Action& action) {
+  try {
+    return action();
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(place(scenario) + error.what());
+  }
+}
+
 /// From the start at time 0 to the end.
 EnergyBalance energy_balance(ArmPlant& plant, const Eigen::VectorXd& start, const Eigen::VectorXd& end,
                              double end_time_s) {
@@ -218,6 +229,19 @@ void check_integrator(const Scenario& scenario) {
     throw InputError(place(scenario) + "an integrator of Simbody's needs engine=\"simbody\" of the scenario");
 }
 
+void check_noise(const Scenario& scenario) {
+  constexpr double kMostNoise = 1e6;  // beyond any sensor and motor in SI units, and far from the largest numbers
+  const TickNoise& noise = scenario.noise;
+  const std::pair<const char*, const std::vector<double>*> all[] = {{"torque noise", &noise.motor_torque},
+                                                                    {"joint force noise", &noise.joint_force},
+                                                                    {"motor position noise", &noise.motor_reading},
+                                                                    {"joint position noise", &noise.joint_reading}};
+  for (const auto& [name, deviations] : all)
+    for (const double deviation : *deviations)
+      if (!(deviation >= 0 && deviation <= kMostNoise))
+        throw InputError(place(scenario) + "the " + name + " must be from 0 to 1e6 in SI units");
+}
+
 }  // namespace
 
 Scenario faster(Scenario scenario) {
@@ -237,6 +261,7 @@ void check_scenario(const Scenario& scenario) {
   check_memory(scenario.duration_s / scenario.control_period_s * bytes_of_a_tick(scenario), where + "the run",
                "take a shorter duration or a longer control period");
   check_integrator(scenario);
+  check_noise(scenario);
   if (static_cast<int>(scenario.trajectory.size()) != n || static_cast<int>(scenario.robot.joints.size()) != n)
     throw InputError(where + "there must be one trajectory for each of the " + std::to_string(n) + " joints");
   for (int k = 0; k < n; ++k) {
@@ -278,7 +303,8 @@ SimulationResult simulate(const Scenario& scenario, const std::function<void(dou
 
   const std::unique_ptr<ArmPlant> plant = make_plant(scenario);
   const Eigen::VectorXd start = starting_state(scenario, *plant);
-  const std::unique_ptr<Integrator> integrator = make_integrator(*plant, integrator_of(scenario), 0, start);
+  const std::unique_ptr<Integrator> integrator =
+      with_place(scenario, [&] { return make_integrator(*plant, integrator_of(scenario), 0, start); });
   ControlLoop loop(scenario);
   SimulationResult result{.measured = empty_log(scenario, ticks + 1, /*with_velocity=*/false),
                           .truth = empty_log(scenario, ticks + 1, /*with_velocity=*/true),
@@ -291,7 +317,7 @@ SimulationResult simulate(const Scenario& scenario, const std::function<void(dou
     if (progress && i % ticks_per_report == 0) progress(static_cast<double>(i) / ticks);
     if (i == ticks) break;
     plant->set_inputs(t, tick.applied_torque.data(), tick.load.data());
-    integrator->advance((i + 1) * period);
+    with_place(scenario, [&] { integrator->advance((i + 1) * period); });
   }
 
   if (scenario.camera)

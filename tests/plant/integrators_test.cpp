@@ -190,8 +190,10 @@ TEST(Integrators, NameTheTimeAtWhichTheyFail) {
       simulate(scenario);
       ADD_FAILURE() << name << " went on";
     } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find("integration failed between t = 0.05"), std::string::npos)
-          << name << ": " << error.what();
+      const std::string what = error.what(),
+                        start = "scenario '" + scenario.name + "': integration failed between t = 0.05";
+      EXPECT_TRUE(what.starts_with(start) && what.ends_with("or set other tolerances")) << name << ": " << what;
+      EXPECT_EQ(what.find('\n'), what.npos) << name;
     }
   }
 }

@@ -224,6 +224,13 @@ TEST_F(ScenarioFile, RefusesTolerancesThatNoIntegratorKeeps) {
   EXPECT_EQ(integrator(R"(treatment="simbody_rkm" relative_tolerance="0.9")"), "no error");
 }
 
+TEST_F(ScenarioFile, RefusesNoiseBeyondAnySensor) {
+  EXPECT_EQ(message(R"(<sensors joint_position_noise="1e308"/>)"),
+            "s.xml: scenario 's': the joint position noise must be from 0 to 1e6 in SI units");
+  EXPECT_EQ(message(R"(<sensors torque_noise="0 1e300 0"/>)"),
+            "s.xml: scenario 's': the torque noise must be from 0 to 1e6 in SI units");
+}
+
 TEST_F(ScenarioFile, ItsEffectsActAfterThoseOfTheRobot) {
   ArmModel robot = read_model(kExamples + "raven2.xml");
   robot.effects = {place_neutral_effect(*find_effect("joint_friction"), robot.nominal, 1)};
