@@ -1,8 +1,10 @@
 #include "plant/equilibrium.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -33,6 +35,15 @@ Eigen::VectorXd cable_forces_needed(ArmPlant& plant, double time_s, const Eigen:
   return reaction.fullPivLu().solve(needed);
 }
 
+constexpr double kFarthest = 1;  ///< stretch of a cable, m
+
+/// Whether the missing force changes its sign between -reach and reach. False if it is not finite at an end.
+template <class Missing>
+bool holds_within(const Missing& missing, double reach) {
+  const double low = missing(-reach), high = missing(reach);
+  return std::isfinite(low) && std::isfinite(high) && std::min(low, high) <= 0 && std::max(low, high) >= 0;
+}
+
 }  // namespace
 
 Eigen::VectorXd resting_state(ArmPlant& plant, double time_s, const Eigen::VectorXd& q) {
@@ -55,10 +66,13 @@ Eigen::VectorXd resting_state(ArmPlant& plant, double time_s, const Eigen::Vecto
       return s[k].cable_force_joint - needed(k);
     };
     double reach = 1e-6;
-    while (reach < 1 && missing(-reach) * missing(reach) > 0) reach *= 2;
-    if (reach >= 1)
-      throw InputError("joint " + std::to_string(k + 1) + ": no stretch of its cable gives the " +
-                       std::to_string(needed(k)) + " N that hold the arm; give it more stiffness or tension");
+    while (reach < kFarthest && !holds_within(missing, reach)) reach = std::min(2 * reach, kFarthest);
+    if (!holds_within(missing, reach)) {
+      char force[32];
+      std::snprintf(force, sizeof force, "%.6g", needed(k));
+      throw InputError("joint " + std::to_string(k + 1) + ": no stretch of its cable up to 1 m gives the " + force +
+                       " N that hold the arm; give it more stiffness or tension");
+    }
     std::uintmax_t iterations = 200;
     const boost::math::tools::eps_tolerance<double> to_rounding;
     const auto bracket = boost::math::tools::toms748_solve(missing, -reach, reach, to_rounding, iterations);

@@ -247,5 +247,19 @@ TEST(RestingState, LeavesTheJointsWithoutAcceleration) {
   }
 }
 
+TEST(RestingState, StretchesASoftCableByUpToAMetre) {
+  ArmParameters<double> arm = nominal_raven2().nominal;
+  const Eigen::VectorXd q = nominal_raven2().home();
+  const auto stretch = [&] {
+    ArmPlant plant(arm);
+    const Eigen::VectorXd y = resting_state(plant, 0, q);
+    const double angle = y(2 * plant.layout().n + *plant.layout().motor_angle[1]);
+    return arm.joint[1].motor_travel() * (angle - unstretched_motors(arm, q)(1));
+  };
+  // g = 2 k sinh(x): a stiffness at which the same force takes 0.8 m.
+  arm.joint[1].stiffness *= std::abs(std::sinh(stretch())) / std::sinh(0.8);
+  EXPECT_NEAR(std::abs(stretch()), 0.8, 1e-9);
+}
+
 }  // namespace
 }  // namespace halyard

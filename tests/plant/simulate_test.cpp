@@ -192,8 +192,17 @@ TEST(Simulate, RefusesWhatCannotBeRun) {
     FAIL() << "ran";
   } catch (const InputError& error) {
     const std::string what = error.what();
-    EXPECT_EQ(what.substr(0, 64), "scenario 'A: high tension': joint 2: no stretch of its cable giv");
+    EXPECT_EQ(what.substr(0, 73), "scenario 'A: high tension': joint 2: no stretch of its cable up to 1 m gi");
   }
+}
+
+TEST(Simulate, SaysWhichJointAnAbsurdForceMovesBeyondAnyCable) {
+  Scenario scenario = experiment("a", 0.01);
+  for (double& g : scenario.robot.nominal.gravity) g *= 1e160;
+  const std::string what = refusal_of(scenario);
+  EXPECT_TRUE(what.starts_with("scenario 'A: high tension': joint 1: no stretch of its cable up to 1 m gives the "))
+      << what;
+  EXPECT_LT(what.size(), 200u) << "numbers have few digits";
 }
 
 TEST(Simulate, NeedsAControllerWhereAJointIsToMove) {
