@@ -45,6 +45,8 @@ void check_trajectory(const JointTrajectory& t) {
     if (t.points.empty()) throw InputError("no points: give at least one position to stand at");
     if (!(t.move_s > 0) || !(t.dwell_s >= 0))
       throw InputError("moves must take more than 0 s and dwells not less than 0 s");
+    constexpr double kShortest = 1e-6;  // s, as the shortest period of control
+    if (t.move_s + t.dwell_s < kShortest) throw InputError("a move and its dwell must take at least 1e-6 s together");
   }
   if (t.kind == JointTrajectory::Kind::samples) {
     if (t.sample_time.empty() || t.sample_time.size() != t.sample_position.size())

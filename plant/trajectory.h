@@ -14,7 +14,7 @@
 namespace halyard {
 
 /// Throws InputError, without file and line, for a trajectory that cannot be followed: no points, no samples, moves of
-/// 0 s or less, negative dwells, or sample times that do not increase.
+/// 0 s or less, negative dwells, a move with its dwell below 1e-6 s, or sample times that do not increase.
 void check_trajectory(const JointTrajectory& trajectory);
 
 double desired_position(const JointTrajectory& trajectory, double fade_in_s, double time_s);

@@ -231,6 +231,15 @@ TEST_F(ScenarioFile, RefusesNoiseBeyondAnySensor) {
             "s.xml: scenario 's': the torque noise must be from 0 to 1e6 in SI units");
 }
 
+TEST_F(ScenarioFile, RefusesMovesTooShortToBeCounted) {
+  const auto moves = [this](const std::string& times) {
+    return message("<trajectory joint=\"1\" kind=\"point_to_point\" points=\"0.5 0.6\" " + times + "/>");
+  };
+  EXPECT_EQ(moves(R"(move="1e-308" dwell="0")"),
+            "s.xml: scenario 's': trajectory of joint 1: a move and its dwell must take at least 1e-6 s together");
+  EXPECT_EQ(moves(R"(move="1e-308" dwell="1")"), "no error");
+}
+
 TEST_F(ScenarioFile, ItsEffectsActAfterThoseOfTheRobot) {
   ArmModel robot = read_model(kExamples + "raven2.xml");
   robot.effects = {place_neutral_effect(*find_effect("joint_friction"), robot.nominal, 1)};
