@@ -9,12 +9,14 @@
 
 #include "model/input_error.h"
 #include "model/memory_limit.h"
+#include "model/xml/arm_checks.h"
 #include "plant/controller.h"
 #include "plant/equilibrium.h"
 #include "plant/integrators/integrator.h"
 #include "plant/sensors/camera.h"
 #include "plant/sensors/encoder.h"
 #include "plant/trajectory.h"
+#include "transmission/body_inertia.h"
 #include "transmission/coupling.h"
 
 namespace halyard {
@@ -242,6 +244,21 @@ void check_noise(const Scenario& scenario) {
         throw InputError(place(scenario) + "the " + name + " must be from 0 to 1e6 in SI units");
 }
 
+/// Effects that are each within their bounds may leave an inertia that no body has.
+void check_changed_inertia(const Scenario& scenario) {
+  const auto impossible_link = [](const ArmParameters<double>& before, const ArmParameters<double>& after) {
+    for (int k = 0; k < after.n; ++k)
+      if (judge_inertia(principal_moments(after.joint[k])) != Inertia::of_a_body &&
+          judge_inertia(principal_moments(before.joint[k])) == Inertia::of_a_body)
+        return "link " + std::to_string(k + 1);
+    return std::string();
+  };
+  const std::vector<PlacedEffect>& effects = scenario.robot.effects;
+  if (const auto fault = first_fault(scenario.robot.nominal, effects, impossible_link))
+    throw InputError(place(scenario) + "with " + effect_label(effects[fault->effect]) + " the inertia of " +
+                     fault->what + " is that of no body; make the change smaller, or remove the effect");
+}
+
 }  // namespace
 
 Scenario faster(Scenario scenario) {
@@ -292,6 +309,7 @@ void check_scenario(const Scenario& scenario) {
                          std::to_string(range.upper) + unit + "; make it smaller or move its center");
     }
   }
+  check_changed_inertia(scenario);
   make_plant(scenario);  // which refuses what it cannot compute
 }
 

@@ -262,5 +262,12 @@ TEST_F(ScenarioFile, ItsEffectsActAfterThoseOfTheRobot) {
                 "remove one of the effects");
 }
 
+TEST_F(ScenarioFile, AnEffectThatMakesAnInertiaImpossibleIsNamed) {
+  EXPECT_EQ(message(R"(<effects><effect name="payload" mass="-0.05"/></effects>)"),
+            "s.xml: scenario 's': with payload the inertia of link 3 is that of no body; make the change smaller, or "
+            "remove the effect");
+  EXPECT_EQ(message(R"(<effects><effect name="payload" mass="-0.01"/></effects>)"), "no error");
+}
+
 }  // namespace
 }  // namespace halyard
