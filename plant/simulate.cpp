@@ -72,7 +72,8 @@ ArmParameters<double> homed_arm(const Scenario& scenario) {
   const Eigen::VectorXd home = scenario.robot.home();
   const Eigen::VectorXd expected = unstretched_motors(assumed_arm(scenario), home);
   const Eigen::VectorXd there = unstretched_motors(Transmission<double>(arm, scenario.robot.effects).arm(), home);
-  for (int k = 0; k < arm.n; ++k) arm.joint[k].motor_encoder_offset += expected(k) - there(k);
+  for (int k = 0; k < arm.n; ++k)
+    arm.joint[k].motor_encoder_offset = assumed_arm(scenario).joint[k].motor_encoder_offset + expected(k) - there(k);
   return arm;
 }
 

@@ -162,6 +162,17 @@ TEST(Simulate, ControlsTheTrueArmByTheModelItAssumes) {
   EXPECT_NEAR(log.motor_position[0][0], wanted / 1.05, 1e-3 * wanted);
 }
 
+TEST(Simulate, HomingSetsTheZeroWhateverTheEncoderHadBefore) {
+  Scenario scenario = experiment("a", 0.01);
+  scenario.quantise = false;
+  scenario.homed = true;
+  const double reading = simulate(scenario).measured.motor_position[0][0];
+  scenario.robot.nominal.joint[0].motor_encoder_offset = 0.5;
+  EXPECT_NEAR(simulate(scenario).measured.motor_position[0][0], reading, 1e-12) << "of the robot alone";
+  scenario.assumed->joint[0].motor_encoder_offset = 10;
+  EXPECT_NEAR(simulate(scenario).measured.motor_position[0][0], reading + 10, 1e-12) << "as the controller assumes";
+}
+
 TEST(Simulate, TheControllerKnowsTheOffsetOfAnEncoderThatTheModelStates) {
   Scenario scenario = experiment("a", 0.3);
   scenario.quantise = false;
