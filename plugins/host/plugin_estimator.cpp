@@ -17,6 +17,12 @@ namespace {
 /// A number that the plug-in leaves out must not pass for one that it gave.
 constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
 
+std::string seconds(double time_s) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", time_s);
+  return text;
+}
+
 /// What a call into the module came to. An exception that it lets out is against the contract, and is contained.
 struct Outcome {
   int code = HALYARD_FAILED;
@@ -122,6 +128,9 @@ void PluginEstimator::reset(const Sample& first) {
 
 Innovation PluginEstimator::update(const Sample& next) {
   if (!started_) throw std::logic_error("estimator " + std::string(table_.name) + ": update() before reset()");
+  if (!(next.time_s > time_s_))
+    throw std::invalid_argument("estimator " + std::string(table_.name) + ": the sample's time " +
+                                seconds(next.time_s) + " s is not after " + seconds(time_s_) + " s");
   const halyard_sample sample = take(next);
   std::fill(nu_.begin(), nu_.end(), kUnset);
   std::fill(S_root_.begin(), S_root_.end(), kUnset);
@@ -224,9 +233,7 @@ void PluginEstimator::check_finite(const char* what, const double* values, Eigen
 void PluginEstimator::fail(const std::string& what) const { throw std::runtime_error(where() + what); }
 
 std::string PluginEstimator::where() const {
-  char time[32];
-  std::snprintf(time, sizeof time, "%.9g", time_s_);
-  return "plugin " + std::string(table_.name) + ": at " + time + " s: ";
+  return "plugin " + std::string(table_.name) + ": at " + seconds(time_s_) + " s: ";
 }
 
 }  // namespace halyard

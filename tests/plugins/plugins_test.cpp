@@ -185,6 +185,14 @@ TEST(Plugins, TheCallersMistakesDoNotReachThePlugin) {
   const std::vector<std::function<void(Sample&)>> mistakes = {
       [](Sample& sample) { sample.motor_torque.setZero(2); }, [](Sample& sample) { sample.motor_position.setZero(2); },
       [](Sample& sample) { sample.joint_torque.setZero(2); }, [](Sample& sample) { sample.marker.setZero(2); }};
+  estimator->reset(sample_at(1, 1));
+  estimator->update(sample_at(1.5, 2));
+  for (const double time_s : {1.5, 1.2, std::nan("")}) {
+    const std::string what = message_of<std::invalid_argument>([&] { estimator->update(sample_at(time_s, 3)); });
+    EXPECT_TRUE(what.starts_with("estimator fixture: the sample's time ") && what.ends_with(" s is not after 1.5 s"))
+        << what;
+  }
+  EXPECT_EQ(estimator->estimate().joint_position(0), 2) << "nothing has changed";
   for (const auto& mistake : mistakes) {
     Sample sample = sample_at(0);
     mistake(sample);
