@@ -24,7 +24,7 @@ namespace halyard {
 ///   - it works with and without an external load, with and without a marker
 ///   - report() counts the samples
 ///   - an unknown option is refused
-///   - standard deviations of estimates and innovations are finite and not negative
+///   - standard deviations of estimates are finite and not negative, those of innovations finite and above 0
 ///
 /// Does not test how accurate the estimates are. Throws as make_estimator() does if there is no such estimator. Calls
 /// trying(promise) before it tests each promise.

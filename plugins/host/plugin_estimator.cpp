@@ -143,11 +143,17 @@ Innovation PluginEstimator::update(const Sample& next) {
   const auto m = static_cast<Eigen::Index>(out.m);
   check_finite("innovation", nu_.data(), m);
   check_finite("root of the innovation's covariance", S_root_.data(), m * m);
+  const Eigen::Index measured = (!next.motor_position.array().isNaN()).count();
+  if (m > measured)
+    fail("update: gives " + std::to_string(m) + " innovations where " + std::to_string(measured) +
+         " motors have a position");
   Innovation innovation;
   innovation.time_s = next.time_s;
   innovation.nu = Eigen::Map<const Eigen::VectorXd>(nu_.data(), m);
   innovation.S_root =
       Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(S_root_.data(), m, m);
+  if (m > 0 && !(innovation.S_root.diagonal().minCoeff() > 0))
+    fail("update: gives an innovation without a deviation: S_root has a diagonal that is not above 0");
   innovation.accepted = out.accepted != 0;
   return innovation;
 }

@@ -11,8 +11,8 @@
 namespace halyard {
 
 /// Checks each result of the plug-in before it returns it. A failure throws `plugin NAME: at TIME s: what`: InputError
-/// if the plug-in refuses its input, std::runtime_error for an error, an unknown code, an exception, and numbers that
-/// are not finite. update() throws
+/// if the plug-in refuses its input, std::runtime_error for an error, an unknown code, an exception, numbers that are
+/// not finite, and innovations without a deviation or of motors that were not measured. update() throws
 /// std::invalid_argument, before it calls the plug-in, for a time that is not after that of the last sample.
 class PluginEstimator : public Estimator {
  public:

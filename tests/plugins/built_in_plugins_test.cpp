@@ -39,8 +39,11 @@ TEST(Conformance, FindsInnovationsAndRevisionsThatBelongToNoSample) {
   const auto first = [](const std::string& name) {
     return halyard::conformance_faults(fixture(name), raven2()).front();
   };
-  EXPECT_EQ(first("invents_innovations"), "missing samples: gives an innovation for a motor whose position is missing");
-  EXPECT_EQ(first("certain"), "plain record: gives an innovation without a deviation");
+  EXPECT_EQ(first("invents_innovations"),
+            "missing samples: plugin fixture: at 0.01 s: update: gives 3 innovations where 2 motors have a position");
+  EXPECT_EQ(first("certain"),
+            "plain record: plugin fixture: at 0.001 s: update: gives an innovation without a deviation: S_root has a "
+            "diagonal that is not above 0");
   EXPECT_EQ(first("revises_nowhere"), "plain record: revises an estimate of an instant that is no sample's");
   EXPECT_EQ(first("revises_endlessly"), "plain record: revises more estimates than there are");
 }

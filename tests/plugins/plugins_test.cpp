@@ -150,6 +150,9 @@ TEST(Plugins, ResultsThatBreakTheContractAreContained) {
   };
   EXPECT_EQ(at_work("unknown_code"), "plugin fixture: at 0.001 s: update: returns the unknown code 7");
   EXPECT_EQ(at_work("too_many_innovations"), "plugin fixture: at 0.001 s: update: gives 4 innovations of 3 motors");
+  EXPECT_EQ(at_work("certain"),
+            "plugin fixture: at 0.001 s: update: gives an innovation without a deviation: S_root has a diagonal that "
+            "is not above 0");
   EXPECT_EQ(at_work("forgets_std"), "plugin fixture: at 0.001 s: joint_position_std 1 is not finite");
   EXPECT_EQ(at_work("negative_std"), "plugin fixture: at 0.001 s: joint_position_std is negative");
   EXPECT_EQ(at_work("wrong_sizes"), "plugin wrong_sizes: at 0.001 s: estimate: joint_velocity has size 0 for 3 joints");
