@@ -11,6 +11,7 @@
 #include "model/rigid_chain.h"
 #include "plugins/host/loader.h"
 #include "transmission/coupling.h"
+#include "transmission/transmission.h"
 
 namespace halyard {
 namespace {
@@ -29,14 +30,24 @@ Eigen::VectorXd swing_position(const ArmModel& model, std::size_t i) {
   return q;
 }
 
+/// The parameters with the changes that the model's effects make to them.
+ArmParameters<double> changed_arm(const ArmModel& model) {
+  return Transmission<double>(model.nominal, model.effects).arm();
+}
+
+/// As the encoders of an arm without elasticity read it.
 Sample swing(const ArmModel& model, std::size_t i) {
-  return {kPeriod * static_cast<double>(i), Eigen::VectorXd::Zero(model.n()),
-          unstretched_motors(model.nominal, swing_position(model, i)), Eigen::VectorXd()};
+  const ArmParameters<double> arm = changed_arm(model);
+  Eigen::VectorXd readings = unstretched_motors(arm, swing_position(model, i));
+  for (int k = 0; k < arm.n; ++k)
+    if (arm.joint[k].drive != Drive::none) readings(k) += arm.joint[k].motor_encoder_offset;
+  return {kPeriod * static_cast<double>(i), Eigen::VectorXd::Zero(model.n()), readings, Eigen::VectorXd()};
 }
 
 Eigen::Vector3d marker_of(const ArmModel& model, const Eigen::VectorXd& q) {
   Eigen::Vector3d marker;
-  position_of(model.nominal, chain_pose(model.nominal, q.data()), model.nominal.payload_point, marker.data());
+  const ArmParameters<double> arm = changed_arm(model);
+  position_of(arm, chain_pose(arm, q.data()), arm.payload_point, marker.data());
   return marker;
 }
 

@@ -12,7 +12,8 @@
 namespace halyard {
 
 /// Runs the estimator over a synthetic record of 0.2 s. Each joint swings about home by 2 % of its range, the motors
-/// follow without cable stretch, and all motor torques are 0. Returns one line for each promise of estimator.h that the
+/// follow without cable stretch, and all motor torques are 0. The readings are those of the model's arm, with its
+/// encoders' offsets and the changes that its effects make. Returns one line for each promise of estimator.h that the
 /// estimator breaks:
 ///
 ///   - estimates are finite and repeatable, and asking for one changes nothing

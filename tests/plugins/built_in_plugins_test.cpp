@@ -48,6 +48,15 @@ TEST(Conformance, FindsInnovationsAndRevisionsThatBelongToNoSample) {
   EXPECT_EQ(first("revises_endlessly"), "plain record: revises more estimates than there are");
 }
 
+// The readings of the record are those of the model's own encoders and drives.
+TEST(Conformance, KnowsOffsetsAndEffectsOfTheModel) {
+  ArmModel model = raven2();
+  model.nominal.joint[0].motor_encoder_offset = 0.5;
+  model.effects = {halyard::place_effect(*halyard::find_effect("capstan_ratio"), model.nominal, 1)};
+  EXPECT_EQ(halyard::conformance_faults(fixture("starts_at_home"), model),
+            std::vector<std::string>{"unknown option: is not refused"});
+}
+
 namespace {
 
 struct BuiltIn {
