@@ -61,9 +61,14 @@ ArmParameters<double> plain_arm() {
   return arm;
 }
 
-void check_effect(const SharedModule& module, const Effect& effect) {
+/// Why a module's effects are refused. No InputError: one of those may also come from the module's own code.
+struct Refusal {
+  std::string why;
+};
+
+void check_effect(const Effect& effect) {
   const std::string name = effect.name();
-  const auto refuse_effect = [&](const std::string& why) { refuse(module, "effect " + in_quotes(name) + " " + why); };
+  const auto refuse_effect = [&](const std::string& why) { throw Refusal{"effect " + in_quotes(name) + " " + why}; };
   if (!is_plain_name(name)) refuse_effect("cannot be named so; use letters, digits, '_' and '-', at most 64");
   if (find_effect(name)) refuse_effect("is already in the library; give yours another name");
   if (effect.n_states() < 0 || effect.n_states() > kMaxEffectStates) {
@@ -91,16 +96,16 @@ Effects checked_effects(const SharedModule& module, const halyard_effect_table& 
   Effects effects;
   try {
     table.make(effects);
-    if (effects.empty()) refuse(module, "makes no effect");
+    if (effects.empty()) throw Refusal{"makes no effect"};
     for (std::size_t i = 0; i < effects.size(); ++i) {
-      if (!effects[i]) refuse(module, "makes an effect that is null");
-      check_effect(module, *effects[i]);
+      if (!effects[i]) throw Refusal{"makes an effect that is null"};
+      check_effect(*effects[i]);
       for (std::size_t j = 0; j < i; ++j)
         if (effects[j]->name() == effects[i]->name())
-          refuse(module, "makes " + in_quotes(effects[i]->name()) + " twice; give each a name of its own");
+          throw Refusal{"makes " + in_quotes(effects[i]->name()) + " twice; give each a name of its own"};
     }
-  } catch (const InputError&) {
-    throw;
+  } catch (const Refusal& refusal) {
+    refuse(module, refusal.why);
   } catch (const std::exception& error) {
     refuse(module, std::string("its effects cannot be made: ") + error.what());
   } catch (...) {
