@@ -1,6 +1,7 @@
 #include "plugins/host/effect_module.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <string_view>
 
@@ -66,6 +67,14 @@ struct Refusal {
   std::string why;
 };
 
+/// Filters take the scale of each state as the size of its noise.
+bool has_scale_of_each_state(const Effect& effect, const ArmParameters<double>& arm, EffectPlace place) {
+  const PlacedEffect placed = place_effect(effect, arm, place);
+  const std::vector<double> scales = effect.state_scale(arm, place, placed.p);
+  return static_cast<int>(scales.size()) == effect.n_states() &&
+         std::ranges::all_of(scales, [](double scale) { return std::isfinite(scale) && scale >= 0; });
+}
+
 void check_effect(const Effect& effect) {
   const std::string name = effect.name();
   const auto refuse_effect = [&](const std::string& why) { throw Refusal{"effect " + in_quotes(name) + " " + why}; };
@@ -89,6 +98,9 @@ void check_effect(const Effect& effect) {
                           p.typical <= p.upper;
       if (!inside) refuse_effect("has " + in_quotes(p.name) + " neutral or typical outside its bounds; correct them");
     }
+    if (!has_scale_of_each_state(effect, arm, place))
+      refuse_effect("must give its " + std::to_string(effect.n_states()) +
+                    " states one scale each, finite and not negative; correct state_scale()");
   }
 }
 

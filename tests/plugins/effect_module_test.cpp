@@ -55,6 +55,9 @@ TEST(EffectModule, AModuleThatBreaksTheContractIsRefusedWithOneLineAndLeavesNoth
   EXPECT_EQ(refusal("effects_taken_name"), "effect 'backlash' is already in the library; give yours another name");
   EXPECT_EQ(refusal("effects_throwing"), "its effects cannot be made: no table of springs in this folder");
   EXPECT_EQ(refusal("effects_refusing"), "its effects cannot be made: no springs are sold here");
+  EXPECT_EQ(refusal("effects_missing_scale"),
+            "effect 'fixture_spring' must give its 2 states one scale each, finite and not negative; correct "
+            "state_scale()");
   EXPECT_EQ(refusal("effects_too_many_parameters"), "effect 'fixture_spring' has 9 parameters; give it 1 to 8");
   EXPECT_EQ(refusal("effects_too_many_states"), "effect 'fixture_spring' has 9 states; the most is 8");
   EXPECT_EQ(refusal("effects_spaced_parameter"),

@@ -185,9 +185,6 @@ TEST(Plugins, TheCallersMistakesDoNotReachThePlugin) {
             "estimator fixture: revise() before reset()");
   EXPECT_EQ(message_of<std::logic_error>([&] { estimator->estimate(); }),
             "estimator fixture: estimate() before reset()");
-  const std::vector<std::function<void(Sample&)>> mistakes = {
-      [](Sample& sample) { sample.motor_torque.setZero(2); }, [](Sample& sample) { sample.motor_position.setZero(2); },
-      [](Sample& sample) { sample.joint_torque.setZero(2); }, [](Sample& sample) { sample.marker.setZero(2); }};
   estimator->reset(sample_at(1, 1));
   estimator->update(sample_at(1.5, 2));
   for (const double time_s : {1.5, 1.2, std::nan("")}) {
@@ -196,6 +193,9 @@ TEST(Plugins, TheCallersMistakesDoNotReachThePlugin) {
         << what;
   }
   EXPECT_EQ(estimator->estimate().joint_position(0), 2) << "nothing has changed";
+  const std::vector<std::function<void(Sample&)>> mistakes = {
+      [](Sample& sample) { sample.motor_torque.setZero(2); }, [](Sample& sample) { sample.motor_position.setZero(2); },
+      [](Sample& sample) { sample.joint_torque.setZero(2); }, [](Sample& sample) { sample.marker.setZero(2); }};
   for (const auto& mistake : mistakes) {
     Sample sample = sample_at(0);
     mistake(sample);
