@@ -66,9 +66,11 @@ struct Camera {
 };
 
 struct Scenario {
-  ArmModel robot;                                ///< the true robot, with its effects and changed parameters
-  std::optional<ArmParameters<double>> assumed;  ///< the arm that the controller assumes; none: robot.nominal
-  std::filesystem::path model;                   ///< the file that the robot was read from
+  ArmModel robot;  ///< the true robot, with its effects and changed parameters
+  /// The arm by which the controller turns desired joint positions into readings of the motors; none: robot.nominal.
+  /// Its gains are those of the robot.
+  std::optional<ArmParameters<double>> assumed;
+  std::filesystem::path model;  ///< the file that the robot was read from
   std::string name;
   double duration_s = 20;
   double control_period_s = 1e-3;
@@ -80,7 +82,8 @@ struct Scenario {
   bool quantise = true;  ///< round encoders to their resolution
   /// True: the zeros of the motor encoders were set at the home pose, with unstretched cables. They were computed with
   /// the parameters that the controller assumes. Readings are then correct at that pose, whatever the robot's true
-  /// ratios. Sensor errors of effects are added to the readings.
+  /// ratios and offsets. What effects add to a reading or to a stretch (encoder_eccentricity, capstan_eccentricity) is
+  /// not part of these parameters, and remains as an error at that pose.
   bool homed = false;
   TickNoise noise;
   std::optional<Camera> camera;
