@@ -52,7 +52,6 @@ struct Log {
   /// Whether the record has the column of joint k = 0..n_joints-1. Throws std::out_of_range for any other k.
   bool has_motor_torque(int k) const { return !motor_torque.at(k).empty(); }
   bool has_joint_position(int k) const { return !joint_position.at(k).empty(); }
-  bool has_joint_torque(int k) const { return !joint_torque.at(k).empty(); }
   bool has_marker() const { return !marker.empty() && !marker[0].empty(); }
 };
 

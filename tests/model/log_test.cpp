@@ -302,7 +302,7 @@ TEST(Slice, CutsEveryColumn) {
   const Log part = slice(log, 1, 3);
   EXPECT_EQ(part.time, (std::vector<double>{1, 2}));
   EXPECT_EQ(part.motor_position[0], (std::vector<double>{4, 6}));
-  EXPECT_FALSE(part.has_joint_torque(0));
+  EXPECT_TRUE(part.joint_torque[0].empty());
   EXPECT_EQ(slice(log, 2, 2).size(), 0);
   EXPECT_THROW(slice(log, 2, 4), std::out_of_range);
   EXPECT_THROW(slice(log, 2, 1), std::out_of_range);
