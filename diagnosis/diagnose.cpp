@@ -146,6 +146,7 @@ class Diagnoser {
       if (doubts_[e - given_] != Doubt::none) continue;
       NamedEffect named{on_its_clock(evidence, f.hypothesis.effects[e]), namings[e - given_].weight,
                         told_parameters(evidence, e), namings[e - given_].alternatives};
+      named.index = e;
       const Record* const happens_in = record_of(f.hypothesis.effects[e], model_.nominal, evidence.records());
       if (happens_in && n_logs_ > 1) named.log = happens_in->source;
       std::vector<double> all = {named.probability *= 1 - none};

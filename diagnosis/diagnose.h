@@ -41,7 +41,8 @@ struct NamedEffect {
   double probability = 0;  ///< that the arm has this effect at this joint, given the log
   std::vector<Estimated> parameters;
   std::vector<Alternative> alternatives;  ///< the most probable first
-  std::string log = {};  ///< the training log on whose clock its instants are; empty without instants or with one log
+  std::string log = {};   ///< the training log on whose clock its instants are; empty without instants or with one log
+  std::size_t index = 0;  ///< in the effects of Diagnosis::revised, which also has effects without a name
 };
 
 /// A significant residual that no candidate effect explains.

@@ -73,15 +73,15 @@ std::string why_named(const NamedEffect& named, const EffectEvidence& evidence, 
 }
 
 /// What speaks for each effect and each rest, on the records that the diagnosis learnt from.
-DiagnosisEvidence evidence_for(const ArmModel& model, const Diagnosis& d, std::vector<Record> records) {
+DiagnosisEvidence evidence_for(const Diagnosis& d, std::vector<Record> records) {
   const Hypothesis revised{d.revised.nominal, d.revised.effects, d.details->past};
   for (std::size_t r = 0; r < records.size(); ++r) records[r].place = static_cast<int>(r);
   std::vector<FullPrediction> predicted;
   for (const Record& r : records) predicted.push_back(predict_fully(r, revised));
   DiagnosisEvidence evidence;
-  for (std::size_t i = 0; i < d.effects.size(); ++i) {
-    const Hypothesis without = without_effect(revised, model.effects.size() + i);
-    evidence.effects.push_back(evidence_of(records, without, revised, predicted, d.effects[i].effect.joint));
+  for (const NamedEffect& named : d.effects) {
+    const Hypothesis without = without_effect(revised, named.index);
+    evidence.effects.push_back(evidence_of(records, without, revised, predicted, named.effect.joint));
   }
   for (const Unexplained& u : d.unexplained) {
     EffectEvidence rest{u.joint, residual_signals(records, predicted, revised, u.joint), {}, {}};
@@ -145,7 +145,7 @@ DiagnosisEvaluation evaluate_diagnosis(const ArmModel& model, const Diagnosis& d
 
   DiagnosisEvaluation result;
   if (progress) progress("residuals that point", 0);
-  const auto evidence = std::make_shared<DiagnosisEvidence>(evidence_for(model, d, std::move(records)));
+  const auto evidence = std::make_shared<DiagnosisEvidence>(evidence_for(d, std::move(records)));
   result.evidence = evidence;
   for (std::size_t i = 0; i < d.effects.size(); ++i)
     result.why.push_back(why_named(d.effects[i], evidence->effects[i], d.revised.nominal));

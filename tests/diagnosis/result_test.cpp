@@ -55,6 +55,7 @@ TEST(ResultOfADiagnosis, NamesTheEffectWithItsSizeAndHowSureItIs) {
   EXPECT_GT(size->upper, size->value);
   EXPECT_NEAR(size->value, told().coulomb, 0.2 * told().coulomb) << "what is beyond the model's friction";
   EXPECT_EQ(named.effect.p[0], size->value);
+  EXPECT_EQ(named.index, 0u);
   double sum = named.probability, last = 1;
   for (const Alternative& a : named.alternatives) {
     EXPECT_LE(a.probability, last) << "the most probable first";
@@ -76,6 +77,22 @@ TEST(ResultOfADiagnosis, RevisesTheModelByWhatItTells) {
   EXPECT_EQ(d.revised.effects[0].p[0], d.effects[0].effect.p[0]);
   EXPECT_TRUE(d.absent_events.empty());
   EXPECT_EQ(d.revised_on_holdout().effects.size(), 1u);
+}
+
+TEST(ResultOfADiagnosis, TellsWhichEffectOfTheRevisedModelHasTheName) {
+  ArmModel model = first_joints(1);
+  model.effects.push_back(place_neutral_effect(*find_effect("capstan_ratio"), model.nominal, 0));
+  model.effects[0].p[0] = 1.02;
+  ArmModel robot = model;
+  robot.nominal.joint[0].motor_coulomb *= 2;
+  DiagnosisOptions options;
+  options.most_effects = 1;
+  options.tell_not_excited = false;
+  const Diagnosis d = diagnose(model, {simulate(motion(robot, 5)).measured}, {}, options);
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects[0].index, 1u) << "the model came with one";
+  ASSERT_EQ(d.revised.effects.size(), 2u);
+  EXPECT_TRUE(same_name(d.revised.effects[d.effects[0].index], d.effects[0].effect));
 }
 
 TEST(ResultOfADiagnosis, ErrorsOnTheHoldOutAreSmallerAndSplitIntoBiasAndSpread) {
