@@ -56,6 +56,7 @@ class Diagnoser {
     weigh_unlisted_causes(evidence, tolerated_, attribution());
     DiagnosisData& data = searched.data;
     for (const DiagnosisData::Late& late : data.late) result_.log_findings.push_back(finding_of(late));
+    details_->training = evidence.records();
     details_->joint_view = std::move(data.joint_view);
     details_->torque_view = std::move(data.torque_view);
     if (names_would_be_guesses(evidence)) refuse_names(evidence);
@@ -249,7 +250,6 @@ class Diagnoser {
     result_.revised.effects =
         on_clocks_of_their_logs(final_hypothesis(), given_, model_.nominal, evidence.records()).effects;
     for (PlacedEffect& e : result_.revised.effects) keep_within_bounds(e, result_.revised.nominal);
-    details_->past = final_hypothesis().past;
     result_.before = prediction_errors(joints, torques, result_.given.nominal, &HoldOut::before);
     result_.after = prediction_errors(joints, torques, result_.given.nominal, &HoldOut::after);
     tell_intervals(task, fitted, training_joints);

@@ -12,9 +12,11 @@ namespace halyard {
 
 struct DiagnosisDetails {
   Attribution attribution;
-  std::vector<std::vector<double>> past;  ///< Hypothesis::past of the revised model's effects, for the training records
-  HoldOut joint_view;                     ///< in kJointErrorBand
-  HoldOut torque_view;                    ///< in kFitBand
+  /// What the search and the final fit have compared. The final fit predicts these: Diagnosis::revised has its instants
+  /// on the clocks of their logs.
+  std::vector<Record> training;
+  HoldOut joint_view;   ///< in kJointErrorBand
+  HoldOut torque_view;  ///< in kFitBand
 };
 
 }  // namespace halyard

@@ -190,7 +190,7 @@ void JointObserver::observe(int stride, ResidualSignals& out) {
       residual(ResidualKind::motor_torque).push_back(counts ? prediction_.torque_residual[k_][i] : kNone);
     }
 
-    out.time.push_back(record_.time(i));
+    out.time.push_back(record_.time(i) + record_.clock_shift);
     out.joint_position.push_back(implied.q(k_));
     out.joint_rate.push_back(implied.v(k_));
     out.motor_rate.push_back(record_.motor_rate[k_][i]);

@@ -25,7 +25,7 @@ inline constexpr std::array kResidualKinds = {ResidualKind::joint_position, Resi
 struct ResidualSignals {
   double dt = 0;  ///< s, between samples
   std::array<std::vector<double>, kResidualKinds.size()> residual;
-  std::vector<double> time;                              ///< s
+  std::vector<double> time;                              ///< on the common clock (common_clock.h), s
   std::vector<double> joint_position;                    ///< implied by the motors, rad | m
   std::vector<double> joint_rate, motor_rate;            ///< rad/s | m/s, rad/s
   std::vector<double> joint_direction, motor_direction;  ///< 1 | -1: direction of the last motion above noise

@@ -24,8 +24,7 @@ constexpr std::array kEstimators = {"kinematics", "ekf", "sr_ukf"};
 
 EffectEvidence evidence_of(const std::vector<Record>& records, const Hypothesis& without, const Hypothesis& with,
                            const std::vector<FullPrediction>& predicted_with, EffectPlace joint) {
-  std::vector<FullPrediction> predicted_without;
-  for (const Record& r : records) predicted_without.push_back(predict_fully(r, without));
+  const std::vector<FullPrediction> predicted_without = predict_all(records, without);
   // An effect of a joint that moves shows at that joint first, one of the arm anywhere.
   EffectEvidence best;
   double most = -1;
@@ -73,11 +72,10 @@ std::string why_named(const NamedEffect& named, const EffectEvidence& evidence, 
 }
 
 /// What speaks for each effect and each rest, on the records that the diagnosis learnt from.
-DiagnosisEvidence evidence_for(const Diagnosis& d, std::vector<Record> records) {
-  const Hypothesis revised{d.revised.nominal, d.revised.effects, d.details->past};
-  for (std::size_t r = 0; r < records.size(); ++r) records[r].place = static_cast<int>(r);
-  std::vector<FullPrediction> predicted;
-  for (const Record& r : records) predicted.push_back(predict_fully(r, revised));
+DiagnosisEvidence evidence_for(const Diagnosis& d) {
+  const std::vector<Record>& records = d.details->training;
+  const Hypothesis& revised = d.details->attribution.final_fit.hypothesis;
+  const std::vector<FullPrediction> predicted = predict_all(records, revised);
   DiagnosisEvidence evidence;
   for (const NamedEffect& named : d.effects) {
     const Hypothesis without = without_effect(revised, named.index);
@@ -131,21 +129,17 @@ DiagnosisEvaluation evaluate_diagnosis(const ArmModel& model, const Diagnosis& d
                                        const std::optional<Log>& holdout,
                                        const std::function<void(const std::string&, double)>& progress,
                                        const ContainmentOptions& containment) {
-  std::vector<Record> records;
   std::vector<Log> logs;
-  for (const Log& log : training) logs.push_back(usable_readings(log, model));
   if (holdout) logs.push_back(usable_readings(*holdout, model));
+  else
+    for (const Log& log : training) logs.push_back(usable_readings(log, model));
   std::vector<HeldOutLog> held_out;
-  for (std::size_t i = 0; i < training.size(); ++i) {
-    const auto [first, last] = split_log(logs[i], 2.0 / 3);
-    for (Record& r : make_records(holdout ? logs[i] : first, model, kFitBand)) records.push_back(std::move(r));
-    if (!holdout) held_out.push_back({&logs[i], last.time.front()});
-  }
-  if (holdout) held_out.push_back({&logs.back(), holdout->time.front()});
+  for (const Log& log : logs)
+    held_out.push_back({&log, holdout ? log.time.front() : split_log(log, 2.0 / 3).second.time.front()});
 
   DiagnosisEvaluation result;
   if (progress) progress("residuals that point", 0);
-  const auto evidence = std::make_shared<DiagnosisEvidence>(evidence_for(d, std::move(records)));
+  const auto evidence = std::make_shared<DiagnosisEvidence>(evidence_for(d));
   result.evidence = evidence;
   for (std::size_t i = 0; i < d.effects.size(); ++i)
     result.why.push_back(why_named(d.effects[i], evidence->effects[i], d.revised.nominal));

@@ -143,6 +143,11 @@ TEST(Push, OfOneOfTwoLogsIsToldOnThatLogsClock) {
     }
   EXPECT_EQ(d.revised.effects[0].p[1], d.effects[0].effect.p[1]);
   EXPECT_TRUE(d.unexplained.empty()) << "nothing happened in the first log";
+  const std::vector<Record>& compared = d.details->training;
+  ASSERT_EQ(compared.size(), 2u);
+  EXPECT_EQ(compared[0].clock_shift, 0);
+  EXPECT_NEAR(d.details->attribution.final_fit.hypothesis.effects[0].p[1], 2.0 + compared[1].clock_shift, 0.03);
+  EXPECT_GT(compared[1].clock_shift, kLogDuration);
 }
 
 TEST(MoreFriction, OfMotorAndJointThatStaysIsNoDrift) {
@@ -268,6 +273,9 @@ TEST(ClockOffsetBetweenSensors, OfASlowSensorIsCorrectedAndSaid) {
     EXPECT_EQ(f.severity, LogFinding::Severity::corrected) << finding_line(f);
     EXPECT_NE(f.what.find("12 ms late"), std::string::npos) << finding_line(f);
   }
+  // A reading in 10 ms.
+  const double read_at = d.details->training.at(0).joint_samples.at(0).at(5).time;
+  EXPECT_NEAR(std::remainder(read_at + 12e-3, 10e-3), 0, 0.5e-3) << "so the evidence compares what was compared here";
 }
 
 TEST(Clock, OfTheUnixEpochAndInMillisecondsIsTheLogsOwn) {

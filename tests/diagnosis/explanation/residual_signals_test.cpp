@@ -61,6 +61,14 @@ TEST(ResidualSignals, AreAHundredOfEachASecond) {
   }
 }
 
+TEST(ResidualSignals, TheTimeIsThatOfTheClockOfAllLogs) {
+  Observed o = in_motion();
+  o.records[0].clock_shift = 7;
+  const ResidualSignals own = in_motion().signals(0), shifted = o.signals(0);
+  ASSERT_EQ(shifted.time.size(), own.time.size());
+  for (std::size_t i = 0; i < own.time.size(); ++i) ASSERT_NEAR(shifted.time[i], own.time[i] + 7, 1e-9);
+}
+
 TEST(ResidualSignals, TheMotionIsThatOfTheMotorsWithoutStretch) {
   const Observed& o = in_motion();
   const Record& r = o.records[0];

@@ -56,8 +56,9 @@ TEST(UnknownPast, OfAnEffectThatTheModelHasIsNoEffect) {
   options.tell_not_excited = false;
   const Diagnosis d = diagnose(right, {amid.second_half()}, {}, options);
   EXPECT_EQ(d.verdict, Diagnosis::Verdict::clean);
-  ASSERT_EQ(d.details->past.size(), 1u);
-  EXPECT_GT(std::abs(d.details->past[0][0]), 0.1 * kYield);
+  const std::vector<std::vector<double>>& past = d.details->attribution.final_fit.hypothesis.past;
+  ASSERT_EQ(past.size(), 1u);
+  EXPECT_GT(std::abs(past[0][0]), 0.1 * kYield);
 }
 
 TEST(UnknownPast, IsOfItsRecordAndItsEffect) {
