@@ -310,6 +310,8 @@ const char* verdict_word(Diagnosis::Verdict verdict) {
   return "unknown";
 }
 
+bool Diagnosis::is_revised() const { return revised.effects.size() > given.effects.size() || !refitted.empty(); }
+
 ArmModel Diagnosis::revised_on_holdout() const {
   ArmModel model = revised;
   for (const std::size_t e : absent_events) model.effects.erase(model.effects.begin() + static_cast<std::ptrdiff_t>(e));

@@ -104,6 +104,8 @@ struct Diagnosis {
   PredictionInterval joint_interval;  ///< of revised_on_holdout()
   std::shared_ptr<const DiagnosisDetails> details;
 
+  /// False if `revised` is the model as it was given. It may contain effects that got no name.
+  bool is_revised() const;
   /// `revised` without its absent events.
   ArmModel revised_on_holdout() const;
 };

@@ -70,7 +70,6 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
 void print_errors(const ArmModel& model, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   for (const std::string& line : absent_event_lines(d)) fmt::print("  {}\n", line);
   const std::vector<JointUnit> units = joint_units(model);
-  const bool changed = !d.effects.empty() || !d.refitted.empty();
   for (int k = 0; k < model.n(); ++k) {
     const auto print = [k](const std::string& what, double before, double after, const ShownUnit& unit) {
       if (std::isfinite(before))
@@ -82,7 +81,7 @@ void print_errors(const ArmModel& model, const Diagnosis& d, const DiagnosisEval
     print("motor torque", d.before.torque_rms[k], d.after.torque_rms[k],
           residual_unit(model.nominal, k, ResidualKind::motor_torque));
     for (const EstimatorComparison& e : evaluation.estimators)
-      if (changed && !e.before.rms.empty() && !e.after.rms.empty())
+      if (d.is_revised() && !e.before.rms.empty() && !e.after.rms.empty())
         print(e.name + " position", e.before.rms[k], e.after.rms[k], position);
   }
   for (const EstimatorComparison& e : evaluation.estimators) {

@@ -300,8 +300,7 @@ void add_estimator_errors(report::Page& page, const ArmModel& model, const Diagn
 
 void write_diagnosis(OutputFiles& files, const std::filesystem::path& folder, const ArmModel& model, const Diagnosis& d,
                      const DiagnosisEvaluation& evaluation) {
-  const bool given = d.effects.empty() && d.refitted.empty();
-  files.add(folder / "model.xml", model_to_xml(given ? model : d.revised));
+  files.add(folder / "model.xml", model_to_xml(d.is_revised() ? d.revised : model));
   files.add(folder / "diagnosis.json", diagnosis_json(d, evaluation));
   files.add(folder / "report.html", diagnosis_page(model, d, evaluation).html());
 }

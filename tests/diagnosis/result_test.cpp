@@ -95,6 +95,19 @@ TEST(ResultOfADiagnosis, TellsWhichEffectOfTheRevisedModelHasTheName) {
   EXPECT_TRUE(same_name(d.revised.effects[d.effects[0].index], d.effects[0].effect));
 }
 
+TEST(ResultOfADiagnosis, HasARevisedModelAlsoIfNoEffectHasAName) {
+  Diagnosis d;
+  d.given = d.revised = first_joints(1);
+  EXPECT_FALSE(d.is_revised());
+  d.refitted.resize(1);
+  EXPECT_TRUE(d.is_revised());
+  d.refitted.clear();
+  d.revised.effects.push_back(place_effect(*find_effect("motor_friction"), d.given.nominal, 0));
+  EXPECT_TRUE(d.is_revised());
+  d.given = d.revised;
+  EXPECT_FALSE(d.is_revised()) << "the model came with it";
+}
+
 TEST(ResultOfADiagnosis, ErrorsOnTheHoldOutAreSmallerAndSplitIntoBiasAndSpread) {
   const Diagnosis& d = told().diagnosis;
   EXPECT_LT(d.after.torque_rms.at(0), 0.3 * d.before.torque_rms.at(0));
