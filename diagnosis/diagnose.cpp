@@ -61,7 +61,7 @@ class Diagnoser {
     details_->torque_view = std::move(data.torque_view);
     if (names_would_be_guesses(evidence)) refuse_names(evidence);
     else tell_names(evidence);
-    tell_rests(evidence);
+    tell_rests(evidence, attribution().final_score);
     adopt_on_holdout(evidence, *searched.whole, data.training_joints);
     tell_refits();
     if (!is_revised()) result_.tolerance_factor = 1;
@@ -199,8 +199,9 @@ class Diagnoser {
     return mean_square_misfit(evidence, {final_hypothesis(), attribution().final_score}, named);
   }
 
-  void tell_rests(const Evidence& evidence) {
-    const std::vector<bool> rest_of = significant_rest(evidence, attribution().final_score, misfit_of_names(evidence));
+  /// by: tells which residuals matter.
+  void tell_rests(const Evidence& evidence, const Score& by) {
+    const std::vector<bool> rest_of = significant_rest(evidence, by, misfit_of_names(evidence));
     const int n = model_.n();
     for (int k = 0; k < n; ++k)
       if (rest_of[k] || rest_of[n + k]) result_.unexplained.push_back({k, signature(evidence, final_hypothesis(), k)});
@@ -273,16 +274,17 @@ class Diagnoser {
 
   bool is_revised() const { return final_hypothesis().effects.size() > given_ || !changed_.empty(); }
 
-  /// What the hold-out refuses becomes unexplained.
+  /// What the hold-out refuses becomes unexplained, and what it had explained. Numbers that changed too little to be
+  /// told go back without a word, and what numbers explain within their tolerances stays explained.
   void refuse(const Evidence& evidence, const std::vector<int>& worse) {
-    const bool is_told = is_revised();  // numbers that changed too little to be told go back without a word
-    std::string names;
-    for (const NamedEffect& e : result_.effects) names += (names.empty() ? "" : ", ") + effect_label(e.effect);
-    if (names.empty()) names = "refitted parameters";
+    const bool is_told = is_revised();
+    const std::vector<PlacedEffect>& all = final_hypothesis().effects;
+    const std::string reason = reason_of_refusal({all.begin() + static_cast<std::ptrdiff_t>(given_), all.end()});
     give_up_revision(evidence);
-    for (const int k : is_told ? worse : std::vector<int>())
-      result_.unexplained.push_back(
-          {k, fmt::format("{} would explain the training data, but predict this joint worse on the hold-out", names)});
+    if (!is_told) return;
+    result_.unexplained.clear();  // what the refused model leaves
+    for (const int k : worse) result_.unexplained.push_back({k, reason});
+    tell_rests(evidence, attribution().baseline_score);
   }
 
   const ArmModel& model_;

@@ -233,6 +233,13 @@ std::string reason_of(Doubt doubt, const Naming& naming, double none, const std:
   return "";
 }
 
+std::string reason_of_refusal(const std::vector<PlacedEffect>& added) {
+  std::string what;
+  for (const PlacedEffect& e : added) what += (what.empty() ? "" : ", ") + effect_label(e);
+  return fmt::format("{} would explain the training data, but predict this joint worse on the hold-out",
+                     what.empty() ? "refitted parameters" : what);
+}
+
 bool is_doubtful(const Evidence& evidence, const Attribution& found, std::size_t given, std::size_t effect) {
   const double none = probability_of_none_for(evidence, found, given, effect);
   return probability_of_any_name(found.namings[effect - given], none) < kRule.worth_a_name;

@@ -45,6 +45,10 @@ enum class Doubt {
 /// name is right.
 std::string reason_of(Doubt doubt, const Naming& naming, double none, const std::vector<PlacedEffect>& found);
 
+/// Of a revision that the hold-out refuses. added: its effects, with names and without; none: it has refitted numbers
+/// alone.
+std::string reason_of_refusal(const std::vector<PlacedEffect>& added);
+
 /// For each added effect of the final fit. significance: as of the search.
 std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const Attribution& found,
                           double significance);

@@ -150,6 +150,17 @@ TEST(Push, OfOneOfTwoLogsIsToldOnThatLogsClock) {
   EXPECT_GT(compared[1].clock_shift, kLogDuration);
 }
 
+TEST(Veto, OfTheHoldOutLeavesWhatTheEffectExplained) {
+  const Diagnosis d = diagnosis_of(first_joints(1), {larger_logs().train, clean_logs().holdout});
+  EXPECT_EQ(d.verdict, Diagnosis::Verdict::unknown);
+  EXPECT_TRUE(d.effects.empty());
+  EXPECT_FALSE(d.is_revised());
+  ASSERT_EQ(d.unexplained.size(), 2u);
+  EXPECT_TRUE(d.unexplained[0].signature.starts_with("capstan_ratio of joint 1 would explain the training data"))
+      << d.unexplained[0].signature;
+  EXPECT_TRUE(d.unexplained[1].signature.starts_with("the position residual, ")) << d.unexplained[1].signature;
+}
+
 TEST(MoreFriction, OfMotorAndJointThatStaysIsNoDrift) {
   // `friction_drift` changes both at once, and fits this well without any rate.
   ArmModel truth = first_joints(1);

@@ -173,6 +173,13 @@ TEST(Doubts, AFrictionThatTheLibraryLacksMakesANameDoubtful) {
             std::string::npos);
 }
 
+TEST(ReasonOfRefusal, NamesAllThatWasAdded) {
+  const std::string end = " would explain the training data, but predict this joint worse on the hold-out";
+  EXPECT_EQ(reason_of_refusal({on_the_only_joint("backlash", 1e-4), on_the_only_joint("creep", 1e-4)}),
+            "backlash of joint 1, creep of joint 1" + end);
+  EXPECT_EQ(reason_of_refusal({}), "refitted parameters" + end);
+}
+
 TEST(ReasonOfDoubt, ASurerRivalThatWasFoundBeforeIsAnotherOne) {
   const ArmModel model = first_joints(1);
   const PlacedEffect push = place_effect(*find_effect("external_force"), model.nominal, 0),
