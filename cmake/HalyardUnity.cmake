@@ -56,7 +56,7 @@ compile_together(halyard_plugins checks host/conformance.cpp host/effect_module.
 
 compile_together(halyard_diagnosis records
   calibration/calibrate.cpp calibration/torque_comparison.cpp explanation/curve_fit.cpp
-  explanation/estimates.cpp explanation/lines_above_band.cpp explanation/residual_signals.cpp
+  explanation/estimates.cpp explanation/headline.cpp explanation/lines_above_band.cpp explanation/residual_signals.cpp
   explanation/signature.cpp explanation/spectrum.cpp explanation/view_sentence.cpp explanation/views.cpp
   motion/chebyshev.cpp motion/lane_drive.cpp
   prediction/driven_start.cpp prediction/filtered_effect.cpp prediction/measured_units.cpp record/record.cpp

@@ -118,9 +118,14 @@ class Diagnoser {
   }
 
   void refuse_names(const Evidence& evidence) {
+    const Record& record = evidence.records().front();
     for (int k = 0; k < model_.n(); ++k)
-      result_.unexplained.push_back(
-          {k, "the record is one sine, along which several effects look alike; record other motions or loads"});
+      result_.unexplained.push_back({k,
+                                     stands_still(record, model_.nominal, k)
+                                         ? "it stands still in the record; record other motions or loads"
+                                         : "the record is one sine, along which several effects look alike; record "
+                                           "other motions or loads",
+                                     Unexplained::Kind::motion});
     give_up_revision(evidence);
   }
 
@@ -169,9 +174,11 @@ class Diagnoser {
       const PlacedEffect& effect = final_hypothesis().effects[e];
       const int k = c ? *c % model_.n() : effect.joint.value_or(0);
       result_.unexplained.push_back(
-          {k, fmt::format("{} explains a part of it and is in the revised model, but {}", effect_label(effect),
-                          reason_of(doubt, attribution().namings[e - given_], none_for_[e - given_],
-                                    final_hypothesis().effects))});
+          {k,
+           fmt::format(
+               "{} explains a part of it and is in the revised model, but {}", effect_label(effect),
+               reason_of(doubt, attribution().namings[e - given_], none_for_[e - given_], final_hypothesis().effects)),
+           Unexplained::Kind::unnamed_effect});
     }
   }
 
@@ -228,9 +235,11 @@ class Diagnoser {
   void tell_stuck_sensors(const std::vector<Log>& training) {
     for (const Log& log : training)
       for (const int k : stuck_joint_sensors(log, model_))
-        result_.unexplained.push_back({k, "its sensor stands still in " + log.source +
-                                              " while its motor moves, and was left out: "
-                                              "stuck, not connected, or the joint is not driven by this motor"});
+        result_.unexplained.push_back({k,
+                                       "its sensor stands still in " + log.source +
+                                           " while its motor moves, and was left out: "
+                                           "stuck, not connected, or the joint is not driven by this motor",
+                                       Unexplained::Kind::stuck_sensor});
   }
 
   /// The revised model, if the hold-out lets it be adopted, and the errors by both models.
@@ -283,7 +292,7 @@ class Diagnoser {
     give_up_revision(evidence);
     if (!is_told) return;
     result_.unexplained.clear();  // what the refused model leaves
-    for (const int k : worse) result_.unexplained.push_back({k, reason});
+    for (const int k : worse) result_.unexplained.push_back({k, reason, Unexplained::Kind::refused});
     tell_rests(evidence, attribution().baseline_score);
   }
 

@@ -45,10 +45,19 @@ struct NamedEffect {
   std::size_t index = 0;  ///< in the effects of Diagnosis::revised, which also has effects without a name
 };
 
-/// A significant residual that no candidate effect explains.
+/// What the diagnosis cannot name.
 struct Unexplained {
+  enum class Kind {
+    rest,             ///< a significant residual that no candidate effect explains
+    unnamed_effect,   ///< it is in the revised model, but its name is not sure enough
+    refused,          ///< the hold-out refutes what explains the training data
+    motion,           ///< one sine or standstill: several effects look alike
+    stuck_sensor,     ///< it was left out
+    line_above_band,  ///< a narrow line above the compared frequencies
+  };
   int joint;              ///< 0-based
-  std::string signature;  ///< description of the residual
+  std::string signature;  ///< description
+  Kind kind = Kind::rest;
 };
 
 /// An effect that these data could not have shown.

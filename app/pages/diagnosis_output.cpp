@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/pages/estimator_table.h"
+#include "diagnosis/explanation/headline.h"
 #include "diagnosis/explanation/view_sentence.h"
 #include "evaluation/joint_unit.h"
 #include "evaluation/json.h"
@@ -162,7 +163,7 @@ void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluati
       page.verdict(report::VerdictKind::good, "Clean: the model explains the data to what its sensors resolve.");
       break;
     case Diagnosis::Verdict::unknown: {
-      std::string text = "Unknown: a residual that matters is left, and no explanation is more probable than not.";
+      std::string text = "Unknown: " + unknown_headline(d.unexplained) + ".";
       for (const Unexplained& u : d.unexplained) text += fmt::format("\nJoint {}: {}.", u.joint + 1, u.signature);
       page.verdict(report::VerdictKind::bad, text);
       break;

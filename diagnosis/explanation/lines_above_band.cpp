@@ -43,10 +43,12 @@ std::vector<Unexplained> lines_above_band(const Evidence& evidence, const Hypoth
   for (const ChannelLine& l : lines) {
     const int k = l.channel % arm.n;
     const ResidualKind kind = l.channel < arm.n ? ResidualKind::motor_torque : ResidualKind::joint_position;
-    told.push_back({k, fmt::format("the {} contains a sine of {:.0f} Hz with an amplitude of {}: hum, a resonance or "
-                                   "chatter, above the frequencies that are compared",
-                                   residual_name(arm, k, kind), l.line.frequency,
-                                   shown(l.line.amplitude, residual_unit(arm, k, kind)))});
+    told.push_back({k,
+                    fmt::format("the {} contains a sine of {:.0f} Hz with an amplitude of {}: hum, a resonance or "
+                                "chatter, above the frequencies that are compared",
+                                residual_name(arm, k, kind), l.line.frequency,
+                                shown(l.line.amplitude, residual_unit(arm, k, kind))),
+                    Unexplained::Kind::line_above_band});
   }
   return told;
 }

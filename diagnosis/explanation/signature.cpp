@@ -22,13 +22,6 @@ std::vector<double> joint_motion(const Record& record, const ArmParameters<doubl
   return y;
 }
 
-/// True if the motor hardly ever turns fast enough for its friction to have a direction.
-bool stands_still(const Record& record, const ArmParameters<double>& arm, int k) {
-  std::size_t moving = 0;
-  for (const double rate : record.motor_rate[k]) moving += std::abs(rate) > 2 * arm.joint[k].motor_smoothing;
-  return static_cast<double>(moving) < 0.05 * static_cast<double>(record.size);
-}
-
 }  // namespace
 
 std::string signature(const Evidence& evidence, const Hypothesis& hypothesis, int joint) {
@@ -54,6 +47,12 @@ std::string signature(const Evidence& evidence, const Hypothesis& hypothesis, in
                                 : view_phrase(*view, arm, joint);
   }
   return text;
+}
+
+bool stands_still(const Record& record, const ArmParameters<double>& arm, int joint) {
+  std::size_t moving = 0;
+  for (const double rate : record.motor_rate[joint]) moving += std::abs(rate) > 2 * arm.joint[joint].motor_smoothing;
+  return static_cast<double>(moving) < 0.05 * static_cast<double>(record.size);
 }
 
 bool is_one_sinusoid(const std::vector<Record>& records, const ArmParameters<double>& arm, int joint) {

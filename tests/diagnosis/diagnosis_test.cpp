@@ -181,8 +181,12 @@ TEST(Diagnose, NamesNothingFromOneSine) {
   const Diagnosis d = diagnose(model, {simulate(s).measured}, other, quick());
   EXPECT_EQ(d.verdict, Diagnosis::Verdict::unknown);
   EXPECT_TRUE(d.effects.empty());
-  ASSERT_FALSE(d.unexplained.empty());
-  EXPECT_NE(d.unexplained[0].signature.find("one sine"), std::string::npos);
+  ASSERT_EQ(d.unexplained.size(), 3u);
+  for (const int k : {0, 1}) EXPECT_EQ(d.unexplained[k].kind, Unexplained::Kind::motion);
+  EXPECT_EQ(d.unexplained[2].kind, Unexplained::Kind::rest) << "of the elbow";
+  EXPECT_EQ(d.unexplained[2].joint, 1);
+  EXPECT_NE(d.unexplained[0].signature.find("stands still"), std::string::npos) << d.unexplained[0].signature;
+  EXPECT_NE(d.unexplained[1].signature.find("one sine"), std::string::npos) << d.unexplained[1].signature;
   EXPECT_LT(d.probability_clean, 0.01) << "what acts has no name, but it acts";
   EXPECT_TRUE(d.revised.effects.empty());
 }

@@ -159,6 +159,8 @@ TEST(Veto, OfTheHoldOutLeavesWhatTheEffectExplained) {
   EXPECT_TRUE(d.unexplained[0].signature.starts_with("capstan_ratio of joint 1 would explain the training data"))
       << d.unexplained[0].signature;
   EXPECT_TRUE(d.unexplained[1].signature.starts_with("the position residual, ")) << d.unexplained[1].signature;
+  EXPECT_EQ(d.unexplained[0].kind, Unexplained::Kind::refused);
+  EXPECT_EQ(d.unexplained[1].kind, Unexplained::Kind::rest);
 }
 
 TEST(MoreFriction, OfMotorAndJointThatStaysIsNoDrift) {
@@ -204,6 +206,7 @@ TEST(StuckJointSensor, IsLeftOutAndTold) {
   EXPECT_TRUE(d.effects.empty());
   ASSERT_EQ(d.unexplained.size(), 1u);
   EXPECT_NE(d.unexplained[0].signature.find("stands still in rig.csv while its motor moves"), std::string::npos);
+  EXPECT_EQ(d.unexplained[0].kind, Unexplained::Kind::stuck_sensor);
 }
 
 // -------------------------------------------------------------------------------- rates and drop-outs

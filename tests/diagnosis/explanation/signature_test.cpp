@@ -55,6 +55,7 @@ TEST(LinesAboveBand, TellASineThatIsLargerThanWhatTheSensorResolves) {
   const std::vector<Unexplained> lines = told(9.5e-4);  // rad: 0.0544 deg
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].joint, 0);
+  EXPECT_EQ(lines[0].kind, Unexplained::Kind::line_above_band);
   EXPECT_TRUE(
       lines[0].signature.starts_with("the position residual contains a sine of 50 Hz with an amplitude of 0.05"))
       << lines[0].signature;

@@ -1,0 +1,26 @@
+#include "diagnosis/explanation/headline.h"
+
+#include <gtest/gtest.h>
+
+namespace halyard {
+namespace {
+
+using Kind = Unexplained::Kind;
+
+TEST(UnknownHeadline, SaysOfWhichKindsTheUnexplainedIs) {
+  EXPECT_EQ(unknown_headline({{0, "", Kind::rest}, {1, "", Kind::rest}}),
+            "a residual that matters is left without an explanation");
+  EXPECT_EQ(unknown_headline({{2, "", Kind::stuck_sensor}}), "a sensor stands still while its motor moves");
+  EXPECT_EQ(unknown_headline({{0, "", Kind::rest}, {1, "", Kind::refused}}),
+            "what explains the training data predicts the hold-out worse; a residual that matters is left without an "
+            "explanation");
+}
+
+TEST(UnknownHeadline, HasAClauseForEachKind) {
+  for (const Kind kind :
+       {Kind::rest, Kind::unnamed_effect, Kind::refused, Kind::motion, Kind::stuck_sensor, Kind::line_above_band})
+    EXPECT_FALSE(unknown_headline({{0, "", kind}}).empty());
+}
+
+}  // namespace
+}  // namespace halyard
