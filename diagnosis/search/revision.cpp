@@ -161,15 +161,15 @@ Doubt own_doubt(const Evidence& evidence, const Attribution& found, std::size_t 
 }
 
 /// The most probable name of a single effect is told with its alternatives if it is more probable than not, or if it is
-/// either this one or one other: the two form the set that is reported.
+/// either this one or one other: the two form the set that is reported. Otherwise it is a guess, whatever its weight.
 void tell_single_name(const Evidence& evidence, const Attribution& found, std::size_t given,
                       std::vector<Doubt>& doubt) {
   const auto only = static_cast<std::size_t>(std::ranges::find_if(doubt, is_there) - doubt.begin());
   const double none = probability_of_none_for(evidence, found, given, given + only);
   const Naming& naming = found.namings[only];
   const double either = naming.weight + (naming.alternatives.empty() ? 0 : naming.alternatives[0].probability);
-  if (naming.weight * (1 - none) > kRule.worth_a_name || either * (1 - none) > kRule.set_share)
-    doubt[only] = Doubt::none;
+  const bool is_told = naming.weight * (1 - none) > kRule.worth_a_name || either * (1 - none) > kRule.set_share;
+  doubt[only] = is_told ? Doubt::none : Doubt::guess;
 }
 
 /// "backlash of joint 3 (27 %) or hysteresis of joint 3 (9 %)": alternatives of some weight.

@@ -36,7 +36,7 @@ enum class Doubt {
   none,
   another_cause,    ///< is_doubtful()
   surer_rival,      ///< Naming::surer
-  guess,            ///< one of several effects whose name is not much more probable than others
+  guess,            ///< its name is not sure enough beside others, see kRule.sure_name and kRule.worth_a_name
   no_certain_size,  ///< the intervals of all its sizes contain their neutral values
   only_beside_one   ///< not needed without the doubtful effects: it may only make up for their error
 };

@@ -140,6 +140,8 @@ TEST(Doubts, ASingleEffectGetsItsMostProbableNameIfThatIsMoreProbableThanNot) {
   EXPECT_EQ(with(0.45, 0.3, 0), Doubt::guess);
   EXPECT_EQ(with(0.49, 0.48, 0), Doubt::none) << "it is one of the two";
   EXPECT_EQ(with(0.6, 0.4, 0.3), Doubt::guess) << "with 30 % none of both is right";
+  EXPECT_EQ(with(0.8, 0.2, 0.45), Doubt::guess) << "44 %, although four times as probable as the other";
+  EXPECT_EQ(with(0.8, 0.2, 0.3), Doubt::none) << "56 %";
 }
 
 TEST(Doubts, AGuessIsToldWithItsProbabilityAndWhatElseItMayBe) {
