@@ -47,7 +47,7 @@ namespace halyard {
 
 struct DetectionLimit {
   PlacedEffect effect;                      ///< at the limit; at its largest size if not excited
-  bool excited = false;                     ///< false: not detected even at its largest size
+  bool excited = false;                     ///< false: not detected even at its largest size, or too few of its periods
   std::string parameter, unit;              ///< the size parameter
   double neutral = 0;                       ///< value of the size parameter without the effect
   double limit = 0;                         ///< its value at the limit; its largest value if not excited

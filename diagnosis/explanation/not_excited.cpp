@@ -1,5 +1,6 @@
 #include "diagnosis/explanation/not_excited.h"
 
+#include "diagnosis/fit/fit_parameter.h"
 #include "diagnosis/judgement/judge.h"
 #include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/search/attribution.h"
@@ -17,10 +18,14 @@ std::vector<NotExcited> not_excited(const Evidence& evidence, const Hypothesis& 
     shows[i] = rows.empty() || evidence.exceeds_floor(difference(rows, base), 1);
   });
   std::vector<NotExcited> all;
-  for (std::size_t i = 0; i < candidates.size(); ++i)
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const PlacedEffect& c = candidates[i];
     if (!shows[i])
-      all.push_back({candidates[i].effect->name(), candidates[i].joint,
+      all.push_back({c.effect->name(), c.joint,
                      "at its typical size it changes no signal of these data by more than the sensors resolve"});
+    else if (!has_enough_periods(evidence, c, arm))
+      all.push_back({c.effect->name(), c.joint, "the motion has too few of its periods"});
+  }
   return all;
 }
 

@@ -27,16 +27,24 @@ void start_at_every_half_period(FitParameter& f, double span) {
   f.scale = 0.1 * spacing;
 }
 
+/// The motion in which the parameter is an order; 0: it is none. rad | m
+double motion_of_order(const SearchSpace& space, std::size_t index, const Evidence& evidence, int joint) {
+  if (space.order_of_motor_torque != index && space.order_of_joint_position != index) return 0;
+  const Span span = space.order_of_motor_torque == index ? evidence.motor_span(joint) : evidence.joint_span(joint);
+  return std::max(span.last - span.first, 1e-9);
+}
+
+/// The lowest order with kFewestPeriods periods in that motion.
+double least_order(double motion) { return kFewestPeriods * 2 * std::numbers::pi / motion; }
+
 /// Raises the lower bound of an order so far that the motion contains kFewestPeriods periods, and drops lower starts.
 void limit_period(FitParameter& f, const SearchSpace& space, std::size_t index, const Evidence& evidence, int joint) {
-  if (space.order_of_motor_torque != index && space.order_of_joint_position != index) return;
-  const Span span = space.order_of_motor_torque == index ? evidence.motor_span(joint) : evidence.joint_span(joint);
-  const double least = kFewestPeriods * 2 * std::numbers::pi / std::max(span.last - span.first, 1e-9);
-  f.lower = std::min(std::max(f.lower, least), f.upper);
+  const double motion = motion_of_order(space, index, evidence, joint);
+  if (motion == 0) return;
+  f.lower = std::min(std::max(f.lower, least_order(motion)), f.upper);
   std::erase_if(f.starts, [&](double start) { return start < f.lower; });
   if (f.starts.empty()) f.starts = {f.is_whole ? std::min(std::ceil(f.lower), f.upper) : f.lower};
-  if (space.order_of_joint_position == index && !f.is_whole)
-    start_at_every_half_period(f, std::max(span.last - span.first, 1e-9));
+  if (space.order_of_joint_position == index && !f.is_whole) start_at_every_half_period(f, motion);
 }
 
 /// Adds starts above the fastest motion, at which a torque that falls with speed reaches these shares of its value at
@@ -144,6 +152,16 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
       all.push_back(f);
     }
   return all;
+}
+
+bool has_enough_periods(const Evidence& evidence, const PlacedEffect& effect, const ArmParameters<double>& nominal) {
+  const auto parameters = effect.effect->parameters(nominal, effect.joint);
+  const SearchSpace space = search_space(*effect.effect, nominal, effect.joint);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double motion = motion_of_order(space, i, evidence, effect.joint.value_or(0));
+    if (motion > 0 && least_order(motion) > parameters[i].upper) return false;
+  }
+  return true;
 }
 
 std::vector<FitParameter> without_parameters_of(std::vector<FitParameter> parameters, std::size_t gone) {

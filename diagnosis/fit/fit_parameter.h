@@ -54,6 +54,9 @@ std::vector<FitParameter> baseline_parameters(const ArmModel& model);
 /// The effect's states at the start of each record follow as shapes, unless there are more than a dozen records.
 std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypothesis& h,
                                             const ArmParameters<double>& nominal, std::size_t place);
+/// False for an effect that is periodic in a position if the motion contains fewer than kFewestPeriods of its periods
+/// even at the highest order.
+bool has_enough_periods(const Evidence& evidence, const PlacedEffect& effect, const ArmParameters<double>& nominal);
 /// Sizes of an effect and the shapes that follow them, as indices in a list of parameters.
 struct ParameterGroup {
   std::vector<std::size_t> sizes, shapes;

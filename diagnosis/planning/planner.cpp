@@ -94,7 +94,9 @@ Planner::Shown Planner::show(const PlacedEffect& candidate) const {
     return h;
   };
   const auto& at = shown.growing.at;
-  const double factor = shown.seen_from = detected_from(shown.growing);
+  if (has_enough_periods(evidence_, candidate, model_.nominal)) shown.seen_from = detected_from(shown.growing);
+  else shown.fitted.clear();  // no search tries it
+  const double factor = shown.seen_from;
   shown.limit.excited = std::isfinite(factor);
   const Hypothesis there = at(std::min(factor, largest));
   shown.limit.effect = there.effects.back();
@@ -134,6 +136,7 @@ Planner::Growing Planner::scaled(const PlacedEffect& effect) const {
 }
 
 bool Planner::is_searched(const PlacedEffect& effect) const {
+  if (!has_enough_periods(evidence_, effect, model_.nominal)) return false;
   const Placed placed = beside_nominal(effect);
   return std::ranges::all_of(placed.parameters, [&](const FitParameter& p) {
     if (!p.shape || p.is_past || p.range != SearchRange::own) return true;

@@ -96,7 +96,7 @@ class Search {
   }
 
   std::vector<PlacedEffect> candidates(const Hypothesis& h) const {
-    return candidates_beside(h, basis_->model.nominal);
+    return candidates_beside(evidence_, h, basis_->model.nominal);
   }
 
   /// True if no channel has a residual left above its floor.

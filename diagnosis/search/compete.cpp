@@ -42,9 +42,11 @@ Trial trial_of(const Evidence& evidence, const Basis& basis, const Standing& nam
 
 }  // namespace
 
-std::vector<PlacedEffect> candidates_beside(const Hypothesis& h, const ArmParameters<double>& arm) {
+std::vector<PlacedEffect> candidates_beside(const Evidence& evidence, const Hypothesis& h,
+                                            const ArmParameters<double>& arm) {
   std::vector<PlacedEffect> all = all_candidates(arm);
   std::erase_if(all, [&](const PlacedEffect& candidate) {
+    if (!has_enough_periods(evidence, candidate, arm)) return true;
     return !may_repeat(candidate, arm) &&
            std::ranges::any_of(h.effects, [&](const PlacedEffect& e) { return same_name(e, candidate); });
   });

@@ -7,8 +7,10 @@
 
 namespace halyard {
 
-/// All candidates but those which `h` has already, except pushes, slips and ripples, of which a joint may have several.
-std::vector<PlacedEffect> candidates_beside(const Hypothesis& h, const ArmParameters<double>& arm);
+/// All candidates but those of which the motion has too few periods (has_enough_periods()), and those which `h` has
+/// already, except pushes, slips and ripples, of which a joint may have several.
+std::vector<PlacedEffect> candidates_beside(const Evidence& evidence, const Hypothesis& h,
+                                            const ArmParameters<double>& arm);
 
 /// A name for whose place candidates compete: the effect with index `place` in `found`.
 struct Standing {

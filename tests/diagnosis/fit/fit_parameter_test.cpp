@@ -133,5 +133,18 @@ TEST(FitParameter, OfAnOrderIsOneThatPassesOneAndAHalfPeriodsInTheMotion) {
   EXPECT_EQ(p.starts.front(), 16);
 }
 
+TEST(FitParameter, OfAnOrderNeedsAMotionOfOneAndAHalfPeriodsOfTheHighest) {
+  const ArmModel model = first_joints(1);
+  const auto has_enough = [&](const char* name, double way) {
+    const Log log = log_along(4, 100, [&](double t) { return 0.8 - way / 2 * std::cos(1.7 * t); });
+    return has_enough_periods(Evidence(make_records(log, model, {}), model),
+                              place_effect(*find_effect(name), model.nominal, 0), model.nominal);
+  };
+  // Its highest order is 64: 1.5 · 2π / 64 = 0.147 rad. The records begin near one end of the motion.
+  EXPECT_TRUE(has_enough("encoder_eccentricity", 0.16));
+  EXPECT_FALSE(has_enough("encoder_eccentricity", 0.14));
+  EXPECT_TRUE(has_enough("encoder_offset", 0.14)) << "has no periods";
+}
+
 }  // namespace
 }  // namespace halyard

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "plant/simulate.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
@@ -56,6 +58,24 @@ TEST(Planner, DetectsTheSameSizeWhateverItIsAShareOf) {
   ASSERT_LT(least, 0.01);
   // Shares are tried at ratios of 2^(1/8).
   for (const double larger : {1.3, 1.6}) EXPECT_NEAR(from(0.01 * larger) / least, 1, 0.1) << larger;
+}
+
+TEST(Planner, DoesNotExciteAnEffectOfWhichTheMotionHasTooFewPeriods) {
+  const ArmModel model = first_joints(1);
+  const auto eccentricity = [&](double half_way) {
+    const Planner planner(model, {log_along(4, 100, [&](double t) { return 0.8 - half_way * std::cos(1.7 * t); })});
+    PlacedEffect e = place_effect(*find_effect("encoder_eccentricity"), model.nominal, 0);
+    const Planner::Shown shown = planner.show(e);
+    e.p[2] = 64;  // the highest order
+    return std::pair(shown, planner.is_searched(e));
+  };
+  const auto [large, large_is_searched] = eccentricity(0.3);
+  EXPECT_TRUE(large.limit.excited);
+  EXPECT_TRUE(large_is_searched);
+  const auto [small, small_is_searched] = eccentricity(0.03);
+  EXPECT_FALSE(small.limit.excited);
+  EXPECT_TRUE(small.fitted.empty()) << "and imitates no other effect";
+  EXPECT_FALSE(small_is_searched);
 }
 
 }  // namespace

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "plant/simulate.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
@@ -81,6 +84,19 @@ TEST_F(CompeteTest, ANameThatIsNoCandidateCompetesAllTheSame) {
   const RoundOutcome o = outcome(Standing{found, 0}, {"joint_friction"});
   ASSERT_TRUE(o.won);
   EXPECT_TRUE(o.won->is_standing);
+}
+
+TEST(CandidatesBeside, AreNoneOfWhichTheMotionHasTooFewPeriods) {
+  const ArmModel model = first_joints(1);
+  const Log log = log_along(4, 100, [](double t) { return 0.8 - 0.03 * std::cos(1.7 * t); });
+  const Evidence evidence(make_records(log, model, {}), model);
+  const auto has = [&](const Evidence& of, const std::string& name) {
+    return std::ranges::any_of(candidates_beside(of, {model.nominal, {}}, model.nominal),
+                               [&](const PlacedEffect& e) { return e.effect->name() == name; });
+  };
+  EXPECT_TRUE(has(made_evidence(), "encoder_eccentricity"));
+  EXPECT_FALSE(has(evidence, "encoder_eccentricity"));
+  EXPECT_TRUE(has(evidence, "encoder_offset"));
 }
 
 }  // namespace
