@@ -39,9 +39,11 @@ std::string signature(const Evidence& evidence, const Hypothesis& hypothesis, in
     if (count == 0) continue;
     const double rms = std::sqrt(square / count), floor = evidence.floor()[channel];
     if (rms <= floor) continue;
+    const bool is_noise = floor > evidence.resolved()[channel];
     const ArmParameters<double>& arm = hypothesis.nominal;
-    text += fmt::format("{}the {}, {} RMS, is {:.1f} times what its sensor resolves, and ", text.empty() ? "" : "; ",
-                        residual_name(arm, joint, kind), shown(rms, residual_unit(arm, joint, kind)), rms / floor);
+    text += fmt::format("{}the {}, {} RMS, is {:.1f} times {}, and ", text.empty() ? "" : "; ",
+                        residual_name(arm, joint, kind), shown(rms, residual_unit(arm, joint, kind)), rms / floor,
+                        is_noise ? "its sensor's noise" : "what its sensor resolves");
     const auto view = std::find_if(views.begin(), views.end(), [&](const View& v) { return v.residual == kind; });
     text += view == views.end() ? "goes with none of direction, position, rate, load, angle and time"
                                 : view_phrase(*view, arm, joint);

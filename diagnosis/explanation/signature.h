@@ -5,8 +5,8 @@
 
 namespace halyard {
 
-/// One sentence for a 0-based joint: the size of its position and motor torque residuals on the training records, and
-/// the most informative view of each (views.h).
+/// One sentence for a 0-based joint: the size of its position and motor torque residuals on the training records, also
+/// over the floor of the channel, and the most informative view of each (views.h).
 std::string signature(const Evidence& evidence, const Hypothesis& hypothesis, int joint);
 
 /// True if the motor hardly ever turns fast enough for its friction to have a direction.

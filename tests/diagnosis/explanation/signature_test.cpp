@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <random>
 
 #include "diagnosis/explanation/lines_above_band.h"
 #include "diagnosis/explanation/residual_signals.h"
@@ -35,6 +36,19 @@ TEST(Signature, TellsTheRootMeanSquareOfAResidualOverWhatItsSensorResolves) {
   const std::string told = signature(evidence, h, 0);
   EXPECT_NE(told.find(ratio), std::string::npos) << told << "\n" << ratio;
   EXPECT_NE(told.find(" RMS, "), std::string::npos) << told;
+}
+
+TEST(Signature, TellsTheRootMeanSquareOverTheNoiseIfThatIsLarger) {
+  const ArmModel model = first_joints(1);
+  Log log = log_along(4, 1000, slow_swing);
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 0.01);  // rad: a hundred times what the sensor resolves
+  for (double& q : log.joint_position[0]) q += 0.5 + noise(random);
+  const Evidence evidence(make_records(log, model, {}), model);
+  ASSERT_GT(evidence.floor()[1], evidence.resolved()[1]);
+  const std::string told = signature(evidence, {model.nominal, {}}, 0);
+  EXPECT_NE(told.find(" times its sensor's noise, and "), std::string::npos) << told;
+  EXPECT_EQ(told.find("resolves"), std::string::npos) << told;
 }
 
 TEST(Signature, OfARightModelIsEmpty) {
