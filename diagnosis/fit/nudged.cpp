@@ -28,6 +28,7 @@ Nudge nudged(const Evidence& evidence, Hypothesis h, std::size_t first, const Ar
       if (p.shape && has_no_size(h, parameters, i)) continue;
       const double value = parameter_value(h, p);
       std::vector<double> values;
+      if (p.is_whole && p.range != SearchRange::own) continue;
       if (p.range != SearchRange::own) {
         const double spacing = (p.upper - p.lower) / (p.range == SearchRange::record_time ? kInstants : kPositions);
         for (const double by : {0.5, 0.25, 0.1, 0.04, 0.015, 0.005, 0.002})

@@ -11,7 +11,7 @@
 ///
 /// A joint's sensor whose zero wanders (with its temperature, or on a loose mount) is fitted by slips of the cable:
 ///
-///   e' = e + Σ_i a_i cos(i π (t - t_0) / T),   i = 0 ... 7
+///   e' = e + Σ_i a_i cos(i π (t - t_0) / T),   i = 0 ... 6
 ///
 ///   a_i   rad | m      t_0, T   start and length of the records, s
 ///

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
+#include "diagnosis/search_space.h"
 #include "tests/support/small_evidence.h"
 
 namespace halyard {
@@ -47,6 +51,39 @@ TEST(Nudged, LeavesASizeThatIsRightWithAnotherNumberOfTheModel) {
   };
   EXPECT_NEAR(size(columns), kSize, 0.11 * kSize);
   EXPECT_GT(size({}), 1.25 * kSize) << "the log does not show the difference";
+}
+
+/// A sine of the joint's sensor with an origin that is given.
+class SineFromAnOrigin : public EffectOf<SineFromAnOrigin>, public RefinesSearch {
+ public:
+  std::string name() const override { return "sine_from_an_origin"; }
+  std::string summary() const override { return "an error of the joint's sensor"; }
+  unsigned stages() const override { return static_cast<unsigned>(EffectStage::sensors); }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
+    return {{"size", "rad", 0, 0.01, -1, 1}, {"origin", "s", 0, 0, -100, 100}};
+  }
+  void refine_search(SearchSpace& space, const ArmParameters<double>&, EffectPlace) const override {
+    space["origin"].range = SearchRange::record_time;
+    space["origin"].is_whole = true;
+  }
+  template <class T>
+  void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
+    s[*c.joint].joint_error += c.p[0] * cos(T(std::numbers::pi) * (T(c.time) - c.p[1]));
+  }
+};
+
+TEST(Nudged, LeavesAnInstantThatIsGiven) {
+  const ArmModel model = first_joints(1);
+  Log log = simulate(motion(model, 3)).measured;
+  for (std::size_t i = 0; i < log.size(); ++i)
+    log.joint_position[0][i] += 0.01 * std::cos(std::numbers::pi * (log.time[i] - 0.3));
+  const Evidence evidence(make_records(log, model, {}), model);
+  const SineFromAnOrigin effect;
+  PlacedEffect from_zero = place_effect(effect, model.nominal, 0);
+  from_zero.p[0] = 0.01, from_zero.p[1] = 0;
+  const Nudge nudge =
+      nudged(evidence, {model.nominal, {from_zero}}, 0, model.nominal, BeyondNumbers(evidence, {}, evidence.floor()));
+  EXPECT_EQ(nudge.at.effects[0].p[1], 0) << "another origin would fit better";
 }
 
 }  // namespace
