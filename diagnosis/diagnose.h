@@ -26,6 +26,7 @@ struct Estimated {
   std::string name, unit;
   double value = 0, lower = 0, upper = 0;
   double nominal = 0;
+  bool is_whole = false;  ///< a whole number: it has no interval, and both ends are its value
 };
 
 /// An effect that may be the true one instead of the effect that was named.

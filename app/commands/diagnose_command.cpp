@@ -44,6 +44,11 @@ std::string with_unit(double value, int digits, const std::string& unit) {
   return fmt::format("{:.{}g}{}", value, digits, unit == "1" ? "" : " " + unit);
 }
 
+/// Nothing of a whole number.
+std::string interval_in_brackets(const Estimated& p) {
+  return p.is_whole ? "" : fmt::format(" (95 %: {:.4g} to {:.4g})", p.lower, p.upper);
+}
+
 /// Alternatives that are less probable are in the files only.
 constexpr double kWorthALine = 0.01;
 
@@ -51,8 +56,7 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   fmt::print("{}\n", verdict_line(d));
   for (const NamedEffect& e : d.effects)
     for (const Estimated& p : e.parameters)
-      fmt::print("  {} {}: {} (95 %: {:.4g} to {:.4g})\n", label_of(e), p.name, with_unit(p.value, 4, p.unit), p.lower,
-                 p.upper);
+      fmt::print("  {} {}: {}{}\n", label_of(e), p.name, with_unit(p.value, 4, p.unit), interval_in_brackets(p));
   for (const NamedEffect& e : d.effects)
     for (const Alternative& a : e.alternatives)
       if (a.probability >= kWorthALine)

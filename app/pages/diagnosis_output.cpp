@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "app/pages/estimator_table.h"
@@ -31,6 +32,11 @@ Json numbers(const std::vector<double>& values) {
 
 /// Three digits are more than a probability deserves.
 Json probability(double value) { return std::stod(fmt::format("{:.3f}", value)); }
+
+Json interval_of(const Estimated& e) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  return e.is_whole ? numbers({kNone, kNone}) : numbers({e.lower, e.upper});
+}
 
 Json joint_of(EffectPlace joint) { return joint ? Json(*joint + 1) : Json(nullptr); }
 
@@ -84,7 +90,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
                               {"probability", probability(a.probability)},
                               {"in_set", a.in_set}});
     for (const Estimated& p : e.parameters)
-      parameters[p.name] = {{"value", number(p.value)}, {"unit", p.unit}, {"ci95", numbers({p.lower, p.upper})}};
+      parameters[p.name] = {{"value", number(p.value)}, {"unit", p.unit}, {"ci95", interval_of(p)}};
     effects.push_back({{"effect", e.effect.effect->name()},
                        {"joint", joint_of(e.effect.joint)},
                        {"probability", probability(e.probability)},
@@ -98,7 +104,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
                         {"from", number(p.nominal)},
                         {"to", number(p.value)},
                         {"unit", p.unit},
-                        {"ci95", numbers({p.lower, p.upper})}});
+                        {"ci95", interval_of(p)}});
   for (const Unexplained& u : d.unexplained)
     unexplained.push_back({{"joint", u.joint + 1}, {"signature", u.signature}});
   for (const NotExcited& n : d.not_excited)

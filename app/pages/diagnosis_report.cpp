@@ -14,7 +14,9 @@
 namespace halyard {
 namespace {
 
-std::string interval(const Estimated& p) { return fmt::format("{:.4g} to {:.4g}", p.lower, p.upper); }
+std::string interval(const Estimated& p) {
+  return p.is_whole ? "-" : fmt::format("{:.4g} to {:.4g}", p.lower, p.upper);
+}
 
 void add_numbers(report::Page& page, const Diagnosis& d) {
   if (!d.effects.empty()) {

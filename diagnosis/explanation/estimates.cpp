@@ -46,7 +46,7 @@ std::vector<Estimated> estimated_parameters(const Evidence& evidence, const ArmP
       const double shift = told.p[p.index] - value;
       for (double* t : {&e.value, &e.lower, &e.upper}) *t += shift;
       all.push_back(e);
-    } else if (p.is_whole) all.push_back({p.name, p.unit, value, value, value, p.nominal});
+    } else if (p.is_whole) all.push_back({p.name, p.unit, value, value, value, p.nominal, true});
   }
   return all;
 }

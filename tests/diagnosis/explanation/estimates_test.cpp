@@ -107,6 +107,8 @@ TEST(Estimates, OfAWholeNumberHaveNoInterval) {
   const std::vector<Estimated> told = told_of(ripple, ripple);
   ASSERT_EQ(told.size(), 3u);
   EXPECT_EQ(told[2].name, "order");
+  EXPECT_TRUE(told[2].is_whole);
+  EXPECT_FALSE(told[0].is_whole);
   EXPECT_EQ(told[2].value, 6);
   EXPECT_EQ(told[2].lower, 6);
   EXPECT_EQ(told[2].upper, 6);
