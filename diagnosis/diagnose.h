@@ -33,7 +33,9 @@ struct Estimated {
 struct Alternative {
   PlacedEffect effect;
   double probability = 0;  ///< that it is the true effect, given the log
-  bool in_set = false;     ///< it is in the smallest set of effects that contains the true one with probability 90 %
+  /// It is in the smallest set of effects that contains the true one with probability 90 %, if the name or one of its
+  /// alternatives is right.
+  bool in_set = false;
 };
 
 /// An effect that the diagnosis found.

@@ -82,7 +82,7 @@ struct DecisionRule {
   /// of less weight came true in 10 of 18 cases beside other names. Of two or three hidden effects, names of more
   /// weight came true in 245 of 250.
   double sure_name = 0.75;
-  /// The set of names that is reported holds the truth with this probability.
+  /// The set of names that is reported holds the truth with this probability, if one of the names is right.
   double set_share = 0.9;
 
   // Numbers of the model.
