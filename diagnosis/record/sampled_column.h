@@ -45,11 +45,14 @@ class SampledColumn {
     return x_[i] + h * s * (slope_[i] + s * (3 * chord - 2 * slope_[i] - slope_[i + 1] + s * bend));
   }
 
-  /// Time from the sample before to the one after; infinite before the first and after the last.
+  /// Time from the sample before to the one after; infinite before the first and after the last. 0 at a sample, and
+  /// between the ends within a hundredth of an interval of one: the times of a grid differ from a log's by rounding.
   double hole_at(double time) const {
+    constexpr double kAtSample = 0.01;
     const auto after = std::lower_bound(t_.begin(), t_.end(), time);
     if (after != t_.end() && *after == time) return 0;
     if (after == t_.begin() || after == t_.end()) return std::numeric_limits<double>::infinity();
+    if (std::min(*after - time, time - after[-1]) <= kAtSample * interval_) return 0;
     return *after - after[-1];
   }
 

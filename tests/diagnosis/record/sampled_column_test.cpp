@@ -59,6 +59,12 @@ TEST(SampledColumn, TellsTheHoleAroundATimeAndTheNearestReading) {
   EXPECT_EQ(column.distance(7.5), 1.5);
 }
 
+TEST(SampledColumn, ATimeThatIsAReadingsButForRoundingIsInNoHole) {
+  const SampledColumn column({0, 1, 2, 5, 6, 7}, {0, 1, 2, 5, 6, 7});
+  for (const double near : {2 - 1e-9, 2 + 1e-9, 5 - 1e-9, 5 + 1e-9}) EXPECT_EQ(column.hole_at(near), 0) << near;
+  for (const double apart : {2.05, 4.95}) EXPECT_EQ(column.hole_at(apart), 3) << apart;
+}
+
 TEST(SampledColumn, ItsIntervalIsTheUsualOne) {
   EXPECT_EQ(SampledColumn({0, 1, 2, 3, 13, 14}, {0, 0, 0, 0, 0, 0}).interval(), 1);
   EXPECT_EQ(SampledColumn({0, 1, 2, 3, 4, 5, 6, 7, 8}, {0, kNone, 0, kNone, 0, kNone, 0, kNone, 0}).interval(), 2);
