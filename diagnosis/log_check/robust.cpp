@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace halyard {
 
@@ -17,6 +18,16 @@ double quantile(std::vector<double> x, double share) {
 double spread(const std::vector<double>& x) {
   const double width = quantile(x, 0.99) - quantile(x, 0.01);
   return std::isfinite(width) ? width : 0;
+}
+
+double mean_interval(const std::vector<double>& times) {
+  constexpr double kHole = 5;  // usual intervals
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
+  if (steps.empty()) return 1;
+  const double longest = kHole * median(steps);
+  std::erase_if(steps, [&](double step) { return step > longest; });
+  return std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(steps.size());
 }
 
 Slope slope_of(const std::vector<double>& reading, const std::vector<double>& expected, std::size_t change) {

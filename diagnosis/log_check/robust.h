@@ -11,6 +11,10 @@ inline double median(std::vector<double> x) { return quantile(std::move(x), 0.5)
 /// Width of the central 98 % of the samples; 0 without samples.
 double spread(const std::vector<double>& x);
 
+/// The mean time from a sample to the next, holes of more than five usual intervals left out. Filters average so many
+/// of uneven samples. 1 for a single sample or none.
+double mean_interval(const std::vector<double>& times);
+
 /// The samples at which both of two signals are finite.
 struct FinitePairs {
   std::vector<double> x, y;

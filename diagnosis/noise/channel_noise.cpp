@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <unsupported/Eigen/FFT>
 
 #include "diagnosis/log_check/robust.h"
@@ -83,17 +82,6 @@ void add_run(std::vector<ChannelSamples>& by_rate, double interval, std::vector<
   same->runs.push_back(std::move(run));
   same->motor_angle.push_back(std::move(motor_angle));
   same->command_rate.push_back(std::move(command_rate));
-}
-
-/// The mean time from a sample to the next, holes left out: of uneven samples, filters average so many.
-double mean_interval(const std::vector<double>& times) {
-  constexpr double kHole = 5;  // usual intervals
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
-  if (steps.empty()) return 1;
-  const double longest = kHole * median(steps);
-  std::erase_if(steps, [&](double step) { return step > longest; });
-  return std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(steps.size());
 }
 
 /// The sensor's own samples: between them, the readings of a record are interpolated, which attenuates noise.

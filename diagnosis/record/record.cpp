@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "diagnosis/log_check/robust.h"
 #include "diagnosis/record/sampled_column.h"
 #include "model/homing.h"
 #include "model/input_error.h"
@@ -166,13 +167,17 @@ class Stretch {
 
   /// False in a hole between samples that the kernel does not bridge.
   bool is_known(const SampledColumn& c, double time) const {
-    return c.hole_at(time) <= std::max(1.5 * c.interval(), sigma_of(options_.motion_hz));
+    return c.hole_at(time) <= std::max(1.5 * c.usual_hole(), sigma_of(options_.motion_hz));
   }
 
   /// Where the comparing kernel sees enough samples of a signal about it.
   static std::vector<double> comparable(const std::vector<double>& measured, const Record& r, double interval) {
-    constexpr double kEnough = 0.7;  // of what it would see of a signal without holes
-    const double usual = std::min(1.0, r.dt / std::max(interval, 1e-12));
+    constexpr double kEnough = 0.7;  // of what it usually sees of the signal, holes left out
+    // Single rows that are lost, and bursts, make the samples fewer than the usual interval says.
+    std::vector<double> times;
+    for (std::size_t i = 0; i < r.size; ++i)
+      if (measured[i] > 0) times.push_back(r.time(i));
+    const double usual = std::min(1.0, r.dt / std::max(interval, mean_interval(times)));
     const auto size = static_cast<std::ptrdiff_t>(r.size), reach = static_cast<std::ptrdiff_t>(r.compare.size() / 2);
     std::vector<double> valid(r.size, 0);
     for (std::ptrdiff_t i = 0; i < size; ++i) {

@@ -21,6 +21,7 @@ class SampledColumn {
     for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = t_[i + 1] - t_[i];
     std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
     interval_ = steps[steps.size() / 2];
+    usual_hole_ = middle_of_time(std::move(steps), interval_);
     slope_ = slopes();
   }
 
@@ -28,6 +29,9 @@ class SampledColumn {
   bool is_there() const { return t_.size() >= 4; }
   /// The usual time from a sample to the next, s.
   double interval() const { return interval_; }
+  /// The time from a sample to the next in which half of all time lies, s: the interval, or the time from a burst of
+  /// samples to the next burst.
+  double usual_hole() const { return usual_hole_; }
 
   std::vector<SensorSample> samples() const {
     std::vector<SensorSample> all;
@@ -64,6 +68,17 @@ class SampledColumn {
   }
 
  private:
+  /// The step in which the middle of all time lies if the steps follow each other by size.
+  static double middle_of_time(std::vector<double> steps, double usual) {
+    double all = 0, in_longer = 0, below = 0;
+    for (const double step : steps) all += step, in_longer += step > 1.5 * usual ? step : 0;
+    if (in_longer <= 0.5 * all) return usual;
+    std::sort(steps.begin(), steps.end());
+    const auto middle =
+        std::find_if(steps.begin(), steps.end(), [&](double step) { return (below += step) > 0.5 * all; });
+    return middle == steps.end() ? usual : *middle;
+  }
+
   /// The sample at a time or the last one before it, but not the last of all. Samples are nearly even: its place is
   /// guessed, and searched for only if the guess is wrong.
   std::size_t sample_before(double time) const {
@@ -90,7 +105,7 @@ class SampledColumn {
   }
 
   std::vector<double> t_, x_, slope_;
-  double interval_ = 0;
+  double interval_ = 0, usual_hole_ = 0;
 };
 
 }  // namespace halyard
