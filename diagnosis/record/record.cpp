@@ -270,11 +270,18 @@ bool has_slow_joint_sensor(const Log& log, const ArmModel& model, int k) {
   if (model.nominal.joint[k].drive == Drive::none) return false;
   const SampledColumn sensor(log.time, log.joint_position[k]), motor(log.time, log.motor_position[k]);
   if (!sensor.is_there() || !motor.is_there()) return false;
-  const std::vector<SensorSample> samples = sensor.samples();
-  double longer = 0;
-  for (std::size_t i = 1; i < samples.size(); ++i)
-    longer += samples[i].time - samples[i - 1].time > kSlower * motor.interval();
-  return longer > kOften * static_cast<double>(samples.size());
+  double longer = 0, samples = 0, last = std::numeric_limits<double>::infinity();
+  bool motor_between = false;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    if (std::isnan(log.joint_position[k][i])) {
+      motor_between = motor_between || !std::isnan(log.motor_position[k][i]);
+      continue;
+    }
+    // Where the encoder's readings are lost, too, or come late, the sensor is not slower than the encoder.
+    longer += motor_between && log.time[i] - last > kSlower * motor.interval();
+    samples += 1, last = log.time[i], motor_between = false;
+  }
+  return longer > kOften * samples;
 }
 
 std::vector<int> stuck_joint_sensors(const Log& log, const ArmModel& model) {

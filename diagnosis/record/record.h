@@ -84,7 +84,7 @@ std::vector<Record> make_records(const Log& log, const ArmModel& model, const Re
 inline constexpr double kLongestHold = 0.002;  ///< s
 
 /// True if the sensor of joint k is slower than its motor's encoder, and so has a clock of its own: one reading in
-/// fifty or more comes later than the encoder's next.
+/// fifty or more comes after a reading of the encoder that the sensor lacks.
 bool has_slow_joint_sensor(const Log& log, const ArmModel& model, int k);
 
 /// 0-based joints whose sensor does not change by a single bit while the motors move the joint by more than 5 % of its

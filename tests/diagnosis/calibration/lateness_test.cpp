@@ -134,6 +134,18 @@ TEST(SlowSensors, AreThoseThatOftenLackTheReadingOfTheirMotorsEncoder) {
   EXPECT_TRUE(has_slow_joint_sensor(log, model, 0));
 }
 
+TEST(SlowSensors, AreNotThoseThatLackReadingsTogetherWithTheirMotors) {
+  const ArmModel model = first_joints(2);
+  Log log = two_joint_log();
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < log.size(); i += 9) log.joint_position[0][i] = log.motor_position[0][i] = none;
+  EXPECT_FALSE(has_slow_joint_sensor(log, model, 0)) << "rows are lost";
+  // Every other row is late by 0.6 ms.
+  log = two_joint_log();
+  for (std::size_t i = 0; i < log.size(); i += 2) log.time[i] += 0.6 * kRow;
+  EXPECT_FALSE(has_slow_joint_sensor(log, model, 0)) << "a clock that jitters";
+}
+
 TEST(SlowSensors, OfAShortLogTellNothing) {
   EXPECT_FALSE(slow_sensor_lateness(split_log(late_by(12, 12), 0.5).first, first_joints(2)));
 }
