@@ -292,10 +292,13 @@ std::vector<int> stuck_joint_sensors(const Log& log, const ArmModel& model) {
   for (int k = 0; k < n; ++k) {
     if (model.nominal.joint[k].drive == Drive::none || !never_changes(log.joint_position[k])) continue;
     std::vector<double> by_motors;
-    Eigen::VectorXd q_m = Eigen::VectorXd::Zero(n);
-    for (std::size_t i = 0; i < log.size(); i += kEvery) {
-      for (int j = 0; j < n; ++j) q_m(j) = log.motor_position[j].empty() ? 0 : log.motor_position[j][i];
-      by_motors.push_back(unstretched_joints(model.nominal, q_m, model.home())(k));
+    Eigen::VectorXd q_m(n);  // the last readings; motors may be read in different rows
+    for (int j = 0; j < n; ++j) q_m(j) = log.motor_position[j].empty() ? 0 : std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t i = 0; i < log.size(); ++i) {
+      for (int j = 0; j < n; ++j)
+        if (!log.motor_position[j].empty() && std::isfinite(log.motor_position[j][i]))
+          q_m(j) = log.motor_position[j][i];
+      if (i % kEvery == 0) by_motors.push_back(unstretched_joints(model.nominal, q_m, model.home())(k));
     }
     const auto [low, high] = range_of(by_motors);
     if (high - low > kMotion * (model.joints[k].upper - model.joints[k].lower)) stuck.push_back(k);

@@ -233,6 +233,18 @@ TEST(Record, ASensorThatNeverChangesTellsNothingUnlessItsResolutionIsStated) {
   EXPECT_TRUE(r.has_torque(1)) << "constant";
 }
 
+TEST(Record, ASensorIsStuckWhicheverRowsHaveItsMotorsPosition) {
+  const ArmModel model = raven2();
+  for (const std::size_t first : {0, 5}) {
+    Log log = log_of([](double t) { return 200 * std::sin(t); }, 4, 1000);
+    std::ranges::fill(log.joint_position[1], 0.25);
+    for (std::vector<double>& column : log.motor_position)
+      for (std::size_t i = 0; i < column.size(); ++i)
+        if (i % 10 != first) column[i] = kNan;
+    EXPECT_EQ(stuck_joint_sensors(log, model), std::vector{1}) << first;
+  }
+}
+
 TEST(Record, AbsentColumnsAndJointsWithoutMotorHaveNothingToCompare) {
   ArmModel model = raven2();
   model.nominal.joint[2].drive = Drive::none;
