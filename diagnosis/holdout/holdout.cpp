@@ -1,5 +1,7 @@
 #include "diagnosis/holdout/holdout.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,6 +12,7 @@
 #include "diagnosis/judgement/paired_t.h"
 #include "diagnosis/record/common_clock.h"
 #include "diagnosis/record/resting.h"
+#include "model/input_error.h"
 
 namespace halyard {
 namespace {
@@ -119,6 +122,32 @@ std::vector<double> tolerance_spreads(const std::vector<Record>& records, const 
   return all_rms;
 }
 
+/// Seconds of the records that are compared, in the channel of which there are most.
+double compared_seconds(const std::vector<Record>& records) {
+  double most = 0;
+  for (const Signals Record::*valid : {&Record::joint_valid, &Record::torque_valid})
+    for (int k = 0; !records.empty() && k < records.front().n; ++k) {
+      double seconds = 0;
+      for (const Record& r : records)
+        seconds += r.dt * static_cast<double>(std::ranges::count_if((r.*valid)[k], [](double v) { return v > 0; }));
+      most = std::max(most, seconds);
+    }
+  return most;
+}
+
+/// Throws InputError if gaps leave too little of the last thirds of the training logs for worse_joints().
+void expect_holdout(const DiagnosisData& data, const std::vector<Log>& training) {
+  constexpr double kLeast = 0.7;  // s: rounded, three of the shortest blocks of grows()
+  const double held_out =
+      std::max(compared_seconds(data.joint_view.records), compared_seconds(data.torque_view.records));
+  // Of data without anything to compare, Evidence tells more.
+  if (held_out >= kLeast || compared_seconds(data.training) == 0) return;
+  throw InputError(
+      fmt::format("{}: the last third of each log is held out, and its gaps leave {:.2g} s of it to compare; expected "
+                  "at least {:g} s, or a hold-out log of its own",
+                  training.front().source, held_out, kLeast));
+}
+
 /// Of each log. One that is too short to tell has the sensors of the log before it, or of the next that can tell.
 std::vector<double> lateness_of(const std::vector<Log>& logs, const ArmModel& model) {
   std::vector<std::optional<double>> told;
@@ -184,6 +213,7 @@ DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& trai
     if (!holdout) hold_out(training[i], late[i], shifts[i], untouched[i].time.front(), place);
   }
   if (holdout) hold_out(*holdout, late.back(), 0, holdout->time.front(), data.training.size());
+  else expect_holdout(data, training);
   return data;
 }
 

@@ -40,6 +40,7 @@ struct DiagnosisData {
 /// Without a hold-out log, the last third of each training log is held out. Cables have memory, so the part of the log
 /// before that third is predicted as well, but not compared. tells_lateness: the model by which the lateness of slow
 /// sensors is measured.
+/// Throws InputError as make_records() does, and if gaps leave less than 0.7 s of the last thirds to compare.
 DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& training, const std::optional<Log>& holdout,
                              const ArmModel& tells_lateness);
 

@@ -10,6 +10,7 @@
 #include "plant/simulate.h"
 #include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/limits.h"
+#include "tests/support/message_of.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
@@ -269,6 +270,28 @@ TEST(HoldOutData, IsTheLastThirdOfALogWhoseStartIsPredictedAndNotCompared) {
     ASSERT_NE(first, valid.end());
     EXPECT_NEAR(r.time(static_cast<std::size_t>(first - valid.begin())), 6, 0.02);
   }
+}
+
+TEST(HoldOutData, ThatGapsLeaveTooShortToRefuseAModelAreAnError) {
+  const ArmModel model = first_joints(1);
+  // The last third begins at 8 s. Stretches of less than 1.5 s are left out, and the first half second of each.
+  const auto message = [&](double gap_from, double gap_to) {
+    const Log whole = log_along(12, 100, slow_swing);
+    Log log(1);
+    log.source = "some.csv";
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      if (whole.time[i] > gap_from && whole.time[i] < gap_to) continue;
+      log.time.push_back(whole.time[i]);
+      log.motor_position[0].push_back(whole.motor_position[0][i]);
+      log.joint_position[0].push_back(whole.joint_position[0][i]);
+    }
+    return message_of([&] { diagnosis_data(model, {log}, std::nullopt, model); });
+  };
+  const std::string too_short =
+      "some.csv: the last third of each log is held out, and its gaps leave 0 s of it to compare; expected at least "
+      "0.7 s, or a hold-out log of its own";
+  EXPECT_EQ(message(7.5, 10.8), too_short);
+  EXPECT_EQ(message(7.5, 9), "no InputError");
 }
 
 }  // namespace
