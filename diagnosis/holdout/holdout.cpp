@@ -148,14 +148,22 @@ void expect_holdout(const DiagnosisData& data, const std::vector<Log>& training)
                   training.front().source, held_out, kLeast));
 }
 
-/// Of each log. One that is too short to tell has the sensors of the log before it, or of the next that can tell.
-std::vector<double> lateness_of(const std::vector<Log>& logs, const ArmModel& model) {
+/// Of each training log, and then of a hold-out log. One that is too short to tell has the sensors of the training log
+/// before it, or of the next that can tell. If no training log can tell, none is moved: what the fits then find is
+/// judged on a hold-out in the same state.
+std::vector<double> lateness_of(const std::vector<Log>& training, const std::optional<Log>& holdout,
+                                const ArmModel& model) {
   std::vector<std::optional<double>> told;
-  for (const Log& log : logs) told.push_back(slow_sensor_lateness(log, model));
+  for (const Log& log : training) told.push_back(slow_sensor_lateness(log, model));
   for (std::size_t i = 1; i < told.size(); ++i)
     if (!told[i]) told[i] = told[i - 1];
   for (std::size_t i = told.size(); i-- > 1;)
     if (!told[i - 1]) told[i - 1] = told[i];
+  if (holdout && !told.empty()) {
+    const std::optional<double> of_training = told.back();
+    told.push_back(of_training ? slow_sensor_lateness(*holdout, model) : std::nullopt);
+    if (!told.back()) told.back() = of_training;
+  }
   std::vector<double> late;
   for (const std::optional<double>& t : told) late.push_back(t.value_or(0));
   return late;
@@ -203,16 +211,15 @@ DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& trai
     parts.push_back(holdout ? log : std::move(first));
     untouched.push_back(std::move(last));
   }
-  if (holdout) parts.push_back(*holdout);
-  const std::vector<double> late = lateness_of(parts, tells_lateness), shifts = clock_shifts(training);
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    if (late[i] != 0) data.late.push_back({parts[i].source, late[i]});
+  const std::vector<double> late = lateness_of(parts, holdout, tells_lateness), shifts = clock_shifts(training);
+  for (std::size_t i = 0; i < late.size(); ++i)
+    if (late[i] != 0) data.late.push_back({i < parts.size() ? parts[i].source : holdout->source, late[i]});
   for (std::size_t i = 0; i < training.size(); ++i) {
     const std::size_t place = data.training.size();
     learn_from(parts[i], late[i], shifts[i]);
     if (!holdout) hold_out(training[i], late[i], shifts[i], untouched[i].time.front(), place);
   }
-  if (holdout) hold_out(*holdout, late.back(), 0, holdout->time.front(), data.training.size());
+  if (holdout) hold_out(*holdout, late.empty() ? 0 : late.back(), 0, holdout->time.front(), data.training.size());
   else expect_holdout(data, training);
   return data;
 }

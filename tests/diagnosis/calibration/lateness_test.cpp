@@ -70,6 +70,16 @@ TEST(SlowSensors, OfALogThatIsTooShortToTellAreAsLateAsThoseOfTheOthers) {
   }
 }
 
+TEST(SlowSensors, OfTheTrainingAreNotMeasuredOnTheHoldOut) {
+  const ArmModel model = first_joints(2);
+  const Log whole = late_by(12, 12), shorter = split_log(whole, 0.4).first;
+  ASSERT_FALSE(slow_sensor_lateness(shorter, model));
+  EXPECT_TRUE(diagnosis_data(model, {shorter}, whole, model).late.empty());
+  const DiagnosisData data = diagnosis_data(model, {whole}, shorter, model);
+  ASSERT_EQ(data.late.size(), 2u);
+  EXPECT_EQ(data.late[1].seconds, data.late[0].seconds) << "the hold-out may take what the training tells";
+}
+
 TEST(SlowSensors, ThatADelayShiftsFurtherAreMeasuredAgainWithTheOtherEffects) {
   const ArmModel model = first_joints(2);
   const auto effect = [&](const char* name, EffectPlace joint) {
