@@ -18,32 +18,34 @@ constexpr double kGoesOn = 0.2;    ///< r over d; a motion that turns round at o
 
 /// A reading, and the rows from first to last that have it.
 struct Reading {
-  double x;
+  double x, time;
   std::size_t first, last;
   std::size_t rows() const { return last - first + 1; }
 };
 
 /// Rows that follow each other and are equal count as one reading.
-std::vector<Reading> changing_readings(const std::vector<double>& column) {
+std::vector<Reading> changing_readings(const std::vector<double>& time, const std::vector<double>& column) {
   std::vector<Reading> all;
   for (std::size_t i = 0; i < column.size(); ++i) {
     if (!std::isfinite(column[i])) continue;
-    if (all.empty() || column[i] != all.back().x) all.push_back({column[i], i, i});
+    if (all.empty() || column[i] != all.back().x) all.push_back({column[i], time[i], i, i});
     all.back().last = i;
   }
   return all;
 }
 
 /// A sensor that is slower than the log repeats a reading in several rows; one at rest gives the same reading again.
-std::vector<Reading> repeated_at_rest(const std::vector<Reading>& changing) {
+std::vector<Reading> repeated_at_rest(const std::vector<double>& time, const std::vector<Reading>& changing) {
   std::vector<double> lengths;
   for (const Reading& r : changing) lengths.push_back(static_cast<double>(r.rows()));
   const double rows_a_reading = median(std::move(lengths));
   std::vector<Reading> all;
   for (const Reading& r : changing) {
     const auto times = std::max<std::size_t>(1, std::lround(static_cast<double>(r.rows()) / rows_a_reading));
-    for (std::size_t i = 0; i < times; ++i)
-      all.push_back({r.x, r.first + r.rows() * i / times, r.first + r.rows() * (i + 1) / times - 1});
+    for (std::size_t i = 0; i < times; ++i) {
+      const std::size_t first = r.first + r.rows() * i / times;
+      all.push_back({r.x, time[first], first, r.first + r.rows() * (i + 1) / times - 1});
+    }
   }
   return all;
 }
@@ -77,18 +79,20 @@ struct Excursion {
   double neighbour = 0;  ///< largest distance of the four
 };
 
-Excursion excursion_of(const std::vector<Reading>& s, std::size_t i, std::size_t m) {
+/// at(j): where reading j lies on the line.
+template <class At>
+Excursion excursion_along(const std::vector<Reading>& s, std::size_t i, std::size_t m, const At& at) {
   const std::array<std::size_t, 4> around = {i - 2, i - 1, i + m, i + m + 1};
-  const double middle = static_cast<double>(i) + 0.5 * (static_cast<double>(m) - 1);
-  double mean = 0, slope = 0, square = 0;
+  double middle = 0, mean = 0, slope = 0, square = 0;
+  for (const std::size_t j : around) middle += 0.25 * at(j);
   for (const std::size_t j : around) {
-    const double from_middle = static_cast<double>(j) - middle;
+    const double from_middle = at(j) - middle;
     mean += 0.25 * s[j].x;
     slope += from_middle * s[j].x;
     square += from_middle * from_middle;
   }
   slope /= square;
-  const auto distance = [&](std::size_t j) { return s[j].x - mean - slope * (static_cast<double>(j) - middle); };
+  const auto distance = [&](std::size_t j) { return s[j].x - mean - slope * (at(j) - middle); };
   Excursion e;
   for (const std::size_t j : around) e.neighbour = std::max(e.neighbour, std::abs(distance(j)));
   for (std::size_t j = i; j < i + m; ++j) {
@@ -98,17 +102,25 @@ Excursion excursion_of(const std::vector<Reading>& s, std::size_t i, std::size_t
   return e;
 }
 
+/// Along the times, or along the numbers of the readings if these fit the four neighbours better: rows may be lost, and
+/// even readings may have uneven times.
+Excursion excursion_of(const std::vector<Reading>& s, std::size_t i, std::size_t m) {
+  const Excursion even = excursion_along(s, i, m, [](std::size_t j) { return static_cast<double>(j); });
+  const Excursion timed = excursion_along(s, i, m, [&](std::size_t j) { return s[j].time - s[i].time; });
+  return timed.neighbour < even.neighbour ? timed : even;
+}
+
 }  // namespace
 
 Outliers find_outliers(const std::vector<double>& time, const std::vector<double>& column, double factor,
                        double least) {
   Outliers found;
-  const std::vector<Reading> changing = changing_readings(column);
+  const std::vector<Reading> changing = changing_readings(time, column);
   if (changing.size() < 5) return found;
   found.usual = usual_distance(changing);  // a long rest does not show what is usual
   if (found.usual == 0) return found;
   least = std::max(least, factor * found.usual);
-  const std::vector<Reading> s = repeated_at_rest(changing);
+  const std::vector<Reading> s = repeated_at_rest(time, changing);
   for (std::size_t i = 2; i + 2 < s.size(); ++i)
     for (std::size_t m = 1; m <= kMostInARow && i + m + 1 < s.size(); ++m) {
       if (m > 1 && time[s[i + m].first] - time[s[i].first] > kLongest) break;

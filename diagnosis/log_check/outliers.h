@@ -2,7 +2,9 @@
 /// Single wrong readings of a sensor: a lost bit, a bad pose of a camera, a disturbed cable. The diagnosis leaves them
 /// out, because one of them acts on a filtered residual like a push.
 ///
-/// A line is fitted to the two readings before and the two after one to three readings. Those between are outliers if
+/// A line is fitted to the two readings before and the two after one to three readings: along their times, because rows
+/// may be lost, or along their numbers if that fits better, because a logger may write even readings at uneven times.
+/// Those between are outliers if
 ///
 ///   min |d| >= factor · u      and      max |r| <= min |d| / 5
 ///

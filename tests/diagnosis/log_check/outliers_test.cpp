@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -92,6 +93,31 @@ TEST(Outliers, AreNotStepsPushesOrVibrations) {
     vibration.x[500 + i] +=
         0.05 * std::exp(-0.05 * static_cast<double>(i)) * std::sin(0.2 * std::numbers::pi * static_cast<double>(i));
   EXPECT_EQ(vibration.outliers().readings, 0u);
+}
+
+TEST(Outliers, AreNotRightReadingsBesideLostRows) {
+  const Column all(20);
+  Column kept(20);
+  kept.time.clear(), kept.x.clear();
+  const Rows lost = {201, 202, 204, 205, 206, 209};
+  std::size_t beside = 0;
+  for (std::size_t i = 0; i < all.x.size(); ++i) {
+    if (std::ranges::count(lost, i) > 0) continue;
+    if (i == 207) beside = kept.x.size();
+    kept.time.push_back(all.time[i]), kept.x.push_back(all.x[i]);
+  }
+  EXPECT_EQ(kept.outliers().rows, Rows{});
+  kept.x[beside] += 1;
+  EXPECT_EQ(kept.outliers().rows, Rows{beside}) << "a wrong one is";
+}
+
+TEST(Outliers, AreNotReadingsOfASensorWhoseRowsComeLate) {
+  Column c(20);  // 700 Hz, whose readings are held until the next and begin with a row of 1 kHz
+  for (std::size_t i = 0; i < c.x.size(); ++i) {
+    const double t = std::floor(c.time[i] * 700) / 700;
+    c.x[i] = 20 * std::sin(2 * t);
+  }
+  EXPECT_EQ(c.outliers().rows, Rows{});
 }
 
 TEST(Outliers, LeaveEmptyCellsAndNothingElse) {
