@@ -51,18 +51,25 @@ bool check_unit(LogUnderCheck& c, double step) {
   return false;
 }
 
+/// Rows that are missing in interval i. Beside a row that was written late or early the interval is shorter.
+double missing_rows(const std::vector<double>& steps, std::size_t i, double step) {
+  double missing = std::round(steps[i] / step) - 1;
+  if (i > 0) missing = std::min(missing, std::round((steps[i - 1] + steps[i]) / step) - 2);
+  if (i + 1 < steps.size()) missing = std::min(missing, std::round((steps[i] + steps[i + 1]) / step) - 2);
+  return std::max(0.0, missing);
+}
+
 void check_regularity(LogUnderCheck& c, const std::vector<double>& steps, double step) {
-  double missing = 0, longest = 0, regular = 0;
-  for (const double s : steps) {
-    if (s <= c.rule.gap * step) regular += 1;
-    else missing += std::round(s / step) - 1, longest = std::max(longest, s);
-  }
+  double missing = 0, longest = 0, gaps = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    if (const double rows = missing_rows(steps, i, step); rows > 0)
+      missing += rows, gaps += 1, longest = std::max(longest, steps[i]);
   const auto rows = static_cast<double>(steps.size());
   if (missing > c.rule.missing * rows)
     c.suspect(
         "time",
         fmt::format("{:g} rows are missing in {:g} gaps, the longest of {:.3g} s, beside {} samples every {:.4g} s",
-                    missing, rows - regular, longest, steps.size() + 1, step),
+                    missing, gaps, longest, steps.size() + 1, step),
         "record without losses; gaps longer than 0.05 s split the log");
   std::vector<double> between;
   for (const double s : steps)

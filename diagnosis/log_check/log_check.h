@@ -80,7 +80,7 @@ struct LogCheckRule {
   double slowest_hz = 10, fastest_hz = 50e3;
   /// Width of the central 90 % of the sample intervals, relative to the median, that counts as jitter.
   double jitter = 0.3;
-  /// A gap is an interval longer than this many median intervals. Jitter stays below.
+  /// An interval longer than this many median intervals is a gap and no jitter.
   double gap = 2.5;
   /// Across more median intervals of a column than this, a step is no lap of a counter: the joint may have moved by any
   /// way. Reason: above `gap`, so that a sensor that loses two readings in a row still shows its laps.
