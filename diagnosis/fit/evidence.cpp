@@ -161,15 +161,20 @@ void Evidence::find_spans(const ArmModel& model) {
     motor_span_.push_back(span);
     greatest_speed_.push_back(fastest);
   }
-  find_moving_span();
+  find_moving_span(model);
 }
 
-void Evidence::find_moving_span() {
-  constexpr double kMoves = 0.05;  // of the greatest speed
+void Evidence::find_moving_span(const ArmModel& model) {
+  constexpr double kMoves = 0.05;     // of the greatest speed
+  constexpr double kRounding = 1e-6;  // rad/s | m/s; above what the filter makes of a constant
+  const auto stands_still = [&](int k) {
+    const bool driven = model.nominal.joint[k].drive != Drive::none;
+    return greatest_speed_[k] <= std::max(kRounding, driven ? 2 * slowest_smoothing(model, k) : 0);
+  };
   moving_span_ = {time_span_.last, time_span_.first};
   for (const Record& r : records())
     for (int k = 0; k < n_; ++k)
-      for (std::size_t i = 0; i < r.size; ++i)
+      for (std::size_t i = stands_still(k) ? r.size : 0; i < r.size; ++i)
         if (std::abs(r.motor_rate[k][i]) > kMoves * greatest_speed_[k]) {
           const double time = r.time(i) + r.clock_shift;
           moving_span_ = {std::min(moving_span_.first, time), std::max(moving_span_.last, time)};

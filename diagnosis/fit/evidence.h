@@ -85,7 +85,7 @@ class Evidence {
   /// From the first to the last sample of all records, s.
   Span time_span() const { return time_span_; }
   /// From the first to the last instant at which a motor, or a joint without one, moves: faster than a twentieth of its
-  /// greatest speed, s.
+  /// greatest speed, s. A motor that is never as fast as twice its `smoothing` speed stands still.
   Span moving_span() const { return moving_span_; }
   /// Range of joint k's motion, from its sensor or from the motors.
   Span joint_span(int k) const { return joint_span_[k]; }
@@ -131,7 +131,7 @@ class Evidence {
   void add_row(const Place& place, double time);
   void find_floors(const ArmModel& model);
   void find_spans(const ArmModel& model);
-  void find_moving_span();
+  void find_moving_span(const ArmModel& model);
 
   int n_;
   double correlated_rows_ = 1, noise_rows_ = 1;

@@ -108,6 +108,19 @@ TEST(EvidenceSpans, OfTheMotionAreFromItsFirstInstantToItsLastOnTheCommonClock) 
   EXPECT_NEAR(evidence.time_span().last, 4 + 3, 1e-9);
 }
 
+TEST(EvidenceSpans, OfTheMotionAreThoseOfTheMotorsThatMove) {
+  const ArmModel model = first_joints(2);
+  const Log of_one = log_along(3, 100, [](double t) { return 0.5 + 0.2 * std::clamp(t - 1, 0.0, 1.0); });
+  Log log(2);
+  log.time = of_one.time;
+  log.motor_position[0] = of_one.motor_position[0];
+  log.joint_position[0] = of_one.joint_position[0];
+  log.motor_position[1].assign(log.size(), 204.197239);  // its rate is 0 except for rounding
+  const Evidence evidence(make_records(log, model, {}), model);
+  EXPECT_NEAR(evidence.moving_span().first, 1, 0.02);
+  EXPECT_NEAR(evidence.moving_span().last, 2, 0.02);
+}
+
 TEST(EvidenceSpans, OfAJointWithoutSensorAreThoseOfItsMotorLessTheZeroErrorOfItsEncoder) {
   constexpr double kOffset = 3;  // rad of the motor: 0.022 of the joint
   ArmModel model = first_joints(1);
