@@ -184,11 +184,13 @@ void Evidence::find_moving_span(const ArmModel& model) {
 
 /// The coarsest grid up to kCoarseStep that has all rows.
 std::shared_ptr<Evidence::Grid> Evidence::coarse_grid(const Grid& fine) {
+  constexpr double kSame = 1e-6;  // of a step: logs of one rate differ by the rounding of their times
   const double dt = fine.records.front().dt;
   int times = 1;
   for (int t = 2; t * dt < 1.01 * kCoarseStep; ++t)
     if (fine.stride % t == 0) times = t;
-  if (times == 1 || std::ranges::any_of(fine.records, [&](const Record& r) { return r.dt != dt; })) return nullptr;
+  if (times == 1 || std::ranges::any_of(fine.records, [&](const Record& r) { return std::abs(r.dt / dt - 1) > kSame; }))
+    return nullptr;
   auto coarse = std::make_shared<Grid>();
   for (const Record& record : fine.records) coarse->records.push_back(coarse_record(record, times));
   coarse->stride = fine.stride / times;

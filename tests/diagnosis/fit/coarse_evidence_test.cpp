@@ -65,6 +65,16 @@ TEST(CoarseEvidence, IsNoneWhereTheGridErrsTooMuch) {
   EXPECT_FALSE(evidence.coarse_around(base, most));
 }
 
+TEST(CoarseEvidence, IsThereForRecordsWhoseStepsDifferByRounding) {
+  const ArmModel model = first_joints(2);
+  const Evidence one = recorded(model, 1);
+  std::vector<Record> records = {one.records()[0], one.records()[0]};
+  records[1].dt *= 1 + 1e-12;
+  EXPECT_TRUE(Evidence(records, model).coarse_around({model.nominal, {}}));
+  records[1].dt *= 1.1;
+  EXPECT_FALSE(Evidence(records, model).coarse_around({model.nominal, {}}));
+}
+
 TEST(CoarseEvidence, OfABaseThatCannotBeIntegratedIsNone) {
   const ArmModel model = first_joints(1);
   Hypothesis impossible{model.nominal, {}};
