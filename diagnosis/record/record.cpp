@@ -316,6 +316,10 @@ std::vector<Record> make_records(const Log& given, const ArmModel& model, const 
         fmt::format("{}: a sample follows another after {:.4g} s; expected at least 10 samples a second; if its "
                     "time is not in s, say so by a column map, such as time=NAME,unit=ms",
                     given.source, dt));
+  for (int k = 0; k < given.n_joints; ++k)
+    if (model.nominal.joint[k].drive != Drive::none && given.motor_position[k].empty())
+      throw InputError(fmt::format("{}: has no motor_position_{}; expected the angle of every motor of the model",
+                                   given.source, k + 1));
   const Log log = usable(given, model);
   const std::vector<Row> mark = mark_gaps(log, model, options.longest_gap_s);
 

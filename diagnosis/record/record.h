@@ -78,8 +78,8 @@ struct RecordOptions {
 /// A command is assumed to be held until the next sample, but at most for kLongestHold. A longer interval is assumed to
 /// be the logger's, not the controller's.
 ///
-/// Throws InputError if no stretch is at least a second longer than the settling time, or if there are fewer than ten
-/// samples a second; and as home_encoders() does.
+/// Throws InputError if a motor's position is not in the log, if no stretch is at least a second longer than the
+/// settling time, or if there are fewer than ten samples a second; and as home_encoders() does.
 std::vector<Record> make_records(const Log& log, const ArmModel& model, const RecordOptions& options);
 inline constexpr double kLongestHold = 0.002;  ///< s
 

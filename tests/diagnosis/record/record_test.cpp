@@ -61,6 +61,16 @@ TEST(Record, OfAnArmWithoutMotorsNeedsAnySignalOfIts) {
             "loads.csv: has no motion, no torque and no joint sensor of this arm; give a log with one");
 }
 
+TEST(Record, NeedsThePositionOfEachMotor) {
+  Log log = log_of([](double t) { return t; }, 4, 1000);
+  log.motor_position[1].clear();
+  EXPECT_EQ(message_of([&] { make_records(log, raven2(), {}); }),
+            "some.csv: has no motor_position_2; expected the angle of every motor of the model");
+  ArmModel model = raven2();
+  model.nominal.joint[1].drive = Drive::none;
+  EXPECT_EQ(make_records(log, model, {}).size(), 1u);
+}
+
 TEST(Record, ParabolasKeepTheirSlopeAndCurvature) {
   const auto parabola = [](double t) { return 1 + 0.3 * t - 0.7 * t * t; };
   const Record r = make_records(log_of(parabola, 4, 1000), raven2(), kOneKernel)[0];
