@@ -179,9 +179,18 @@ std::optional<ArmModel> model_for_lateness(const std::vector<Log>& logs, const A
   const auto first = found.effects.begin();
   const auto delay = std::find_if(first + std::ssize(given.effects), found.effects.end(), is_of_all_sensors);
   if (delay == found.effects.end()) return std::nullopt;
-  for (const Log& log : logs)
-    for (int k = 0; k < given.n(); ++k)
-      if (!log.joint_position[k].empty() && !has_slow_joint_sensor(log, given, k)) return std::nullopt;
+  bool any_slow = false;
+  for (const Log& log : logs) {
+    const std::vector<int> stuck = stuck_joint_sensors(log, given);
+    for (int k = 0; k < given.n(); ++k) {
+      // What is not compared tells no lateness.
+      if (given.nominal.joint[k].drive == Drive::none || std::ranges::count(stuck, k) > 0) continue;
+      if (log.joint_position[k].empty()) continue;
+      if (!has_slow_joint_sensor(log, given, k)) return std::nullopt;
+      any_slow = true;
+    }
+  }
+  if (!any_slow) return std::nullopt;
   ArmModel model = given;
   model.nominal = found.nominal;
   model.effects = found.effects;

@@ -103,6 +103,28 @@ TEST(SlowSensors, ThatADelayShiftsFurtherAreMeasuredAgainWithTheOtherEffects) {
   EXPECT_EQ(names(late_by(4, 4), {other, delay}), "no other model") << "the torques act late, too";
 }
 
+TEST(SlowSensors, AreMeasuredAgainBesideSensorsThatTellNoLateness) {
+  ArmModel model = first_joints(3);
+  model.nominal.joint[2].drive = Drive::none;
+  const Log log = late_by(4, 4);
+  Log of_three(3);
+  of_three.time = log.time;
+  for (int k = 0; k < 2; ++k) {
+    of_three.motor_position[k] = log.motor_position[k];
+    of_three.joint_position[k] = log.joint_position[k];
+  }
+  of_three.joint_position[2].assign(log.size(), 0.4);
+  const PlacedEffect delay = place_neutral_effect(*find_effect("delay"), model.nominal, kWholeArm);
+  EXPECT_TRUE(model_for_lateness({of_three}, model, {model.nominal, {delay}})) << "of a joint without a motor";
+  for (const int k : {0, 1}) of_three.joint_position[k] = two_joint_log().joint_position[k];
+  EXPECT_FALSE(model_for_lateness({of_three}, model, {model.nominal, {delay}})) << "no sensor is slow";
+
+  Log stuck = log;
+  stuck.joint_position[0].assign(log.size(), 0.5);
+  const ArmModel two = first_joints(2);
+  EXPECT_TRUE(model_for_lateness({stuck}, two, {two.nominal, {delay}}));
+}
+
 TEST(SlowSensors, InTimeAreNotLate) { EXPECT_EQ(*slow_sensor_lateness(late_by(0, 0), first_joints(2)), 0); }
 
 TEST(SlowSensors, OfWhichOneIsLateHaveNoCommonDelay) {
