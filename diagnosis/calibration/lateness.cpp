@@ -18,7 +18,6 @@ constexpr std::size_t kFewestBlocks = 5;
 constexpr double kAgree = 3;          ///< standard deviations
 constexpr double kModelError = 2e-3;  ///< s; friction and stretch that are off by their tolerance look so late
 constexpr double kExplains = 0.5;     ///< of the squares that offset and slope leave
-constexpr double kLongest = 0.1;      ///< s
 constexpr double kLeastTold = 2e-4;   ///< s; stretch under the largest rates that a log contains looks so late
 constexpr int kPasses = 3;
 constexpr double kSettled = 1e-4;  ///< s
@@ -211,7 +210,7 @@ std::optional<double> slow_sensor_lateness(const Log& log, const ArmModel& model
     const std::optional<double> more = correction(log, model, joints, late);
     if (!more) return 0;
     late += *more;
-    if (std::abs(late) > kLongest) return 0;
+    if (std::abs(late) > kLongestLateness) return 0;
     if (std::abs(*more) < kSettled) break;
   }
   return std::abs(late) < kLeastTold ? 0 : late;

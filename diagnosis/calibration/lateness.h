@@ -16,13 +16,16 @@
 /// The readings are moved by it. Then the model's own numbers are fitted together with zero, ratio and remaining delay
 /// of each sensor. The sum is over these delays, of the joints that agree with the median: an effect at one joint
 /// disturbs that joint's. d is corrected by the sum until it settles. The result is 0 if these joints are not the
-/// majority, or if d is below 0.2 ms.
+/// majority, if d is below 0.2 ms, or if it is beyond kLongestLateness: a clock so wrong is to be corrected in the log,
+/// and check_log() tells it.
 
 #include <optional>
 
 #include "diagnosis/prediction/prediction.h"
 
 namespace halyard {
+
+inline constexpr double kLongestLateness = 0.1;  ///< s, in either direction
 
 /// Lateness d, s; negative: the motors' readings are late. 0 if there are no slow sensors or no common lateness;
 /// nothing if the log is too short to tell.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/calibration/lateness.h"
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/robust.h"
 #include "diagnosis/record/record.h"
@@ -94,26 +95,39 @@ double mismatch(const SampledMotion& m, const SampledColumn& reading, int k, dou
   return std::max(0.0, cyy - cxy * cxy / cxx) / n;
 }
 
+/// A shift in time, s, and the mismatch that it leaves.
+struct Shift {
+  double late = 0, left = 0;
+
+  void try_from(double from, double to, double step, const SampledMotion& m, const SampledColumn& reading, int k) {
+    for (double t = from; t <= to; t += step)
+      if (const double e = mismatch(m, reading, k, t); e < left) left = e, late = t;
+  }
+};
+
 void check_delay(LogUnderCheck& c, const SampledMotion& m, int k) {
   if (m.expected[k].empty() || m.joint[k].empty()) return;
-  // A diagnosis measures the lag of slow sensors better, and takes it out.
-  if (spread(m.expected[k]) < c.rule.least_motion * c.range(k) || has_slow_joint_sensor(c.log, c.model, k)) return;
+  if (spread(m.expected[k]) < c.rule.least_motion * c.range(k)) return;
+  const bool slow = has_slow_joint_sensor(c.log, c.model, k);
   const SampledColumn reading(c.log.time, c.log.joint_position[k]), motor(c.log.time, c.log.motor_position[k]);
-  const double least = std::max(c.rule.late_s, c.rule.late_samples * std::max(reading.interval(), motor.interval()));
+  const double interval = std::max(reading.interval(), motor.interval());
+  // A diagnosis measures the lag of slow sensors better, and takes it out, up to a limit.
+  const double least = std::max(slow ? kLongestLateness : c.rule.late_s, c.rule.late_samples * interval);
   const double at_zero = mismatch(m, reading, k, 0);
-  double best = at_zero, late = 0;
+  Shift best{.left = at_zero};
   const double longest = std::min(0.5, 0.1 * c.log.duration());
   const double step = std::max(1e-3, least / 6);
-  for (double t = -longest; t <= longest; t += step)
-    if (const double e = mismatch(m, reading, k, t); e < best) best = e, late = t;
-  if (std::abs(late) <= least || best > (1 - c.rule.late_explains) * at_zero) return;
-  c.suspect(
-      column_name(&Log::joint_position, k),
-      fmt::format("is {:.3g} ms {} motor_position_{}; the shift removes {:.0f} % of the squared mismatch",
-                  1e3 * std::abs(late), late > 0 ? "late against" : "ahead of", k + 1, 100 * (1 - best / at_zero)),
-      "record both with one clock; the diagnosis takes a constant lag out if the sensor is slower than its motor's, "
-      "and "
-      "names it as the effect delay otherwise");
+  best.try_from(-longest, longest, step, m, reading, k);
+  if (slow) best.try_from(best.late - step, best.late + step, 1e-3, m, reading, k);
+  if (std::abs(best.late) <= least || best.left > (1 - c.rule.late_explains) * at_zero) return;
+  c.suspect(column_name(&Log::joint_position, k),
+            fmt::format("is {:.3g} ms {} motor_position_{}; the shift removes {:.0f} % of the squared mismatch",
+                        1e3 * std::abs(best.late), best.late > 0 ? "late against" : "ahead of", k + 1,
+                        100 * (1 - best.left / at_zero)),
+            slow ? fmt::format("correct the times of this column: a diagnosis measures and takes out at most {:g} s",
+                               kLongestLateness)
+                 : "record both with one clock; the diagnosis takes a constant lag out if the sensor is slower than "
+                   "its motor's, and names it as the effect delay otherwise");
 }
 
 }  // namespace

@@ -312,5 +312,20 @@ TEST(DelayCheck, TellsByHowMuchASensorIsLateOrAhead) {
   EXPECT_EQ(told(0.005), "");
 }
 
+TEST(DelayCheck, TellsThatASlowSensorIsLaterThanADiagnosisCanMeasure) {
+  const ArmModel model = first_joints(1);
+  const auto told = [&](double late) {
+    Log log = log_along(6, 500, slow_swing);
+    for (std::size_t i = 0; i < log.size(); ++i)
+      log.joint_position[0][i] = i % 16 == 0 ? slow_swing(log.time[i] - late) : std::nan("");
+    return lines_of(found_by(check_delays, log, model));
+  };
+  const std::string line = told(0.12);
+  EXPECT_NE(line.find("joint_position_1: is 120 ms late against motor_position_1"), line.npos) << line;
+  EXPECT_NE(line.find("a diagnosis measures and takes out at most 0.1 s"), line.npos) << line;
+  EXPECT_EQ(told(0.06), "");
+  EXPECT_EQ(told(0), "");
+}
+
 }  // namespace
 }  // namespace halyard
