@@ -262,12 +262,12 @@ void check_end_of_counter(LogUnderCheck& c, const PositionColumn& column) {
   const std::vector<Run> runs = runs_of(s.x);
   const double held = std::max(10.0, 5 * usual_length(runs));
   const auto [low, high] = std::ranges::minmax(s.x);
-  // A joint that is held steps to and fro between a few counts, and ends at one of them.
+  // A joint that is held steps to and fro between a few counts, or drifts a little, and ends at one of them.
   constexpr double kFewCounts = 20;
   double count = high - low;
   for (std::size_t i = 1; i < s.size(); ++i)
     if (s.x[i] != s.x[i - 1]) count = std::min(count, std::abs(s.x[i] - s.x[i - 1]));
-  if (high - low < kFewCounts * count) return;
+  if (high - low < std::max(kFewCounts * count, column.significant)) return;
   for (const double end : {low, high}) {
     std::size_t abrupt = 0, all = 0;
     double time = 0;

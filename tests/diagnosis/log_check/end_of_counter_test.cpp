@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "tests/support/checked_logs.h"
@@ -37,6 +38,18 @@ TEST(LogCheck, SuspectsNoMotorThatIsHeldAndStepsBetweenAFewCounts) {
   for (std::size_t i = 0; i < log.size(); ++i)
     log.motor_position[0][i] =
         kCount * (i % 500 < 60 ? 2.0 : static_cast<double>(i / 2 % 2));  // rests at its last count
+  EXPECT_EQ(lines_of(check_log(log, raven())).find("stops abruptly"), std::string::npos);
+}
+
+TEST(LogCheck, SuspectsNoJointThatIsHeldAndDrifts) {
+  Log log = right_log();
+  const double count = raven().nominal.joint[2].joint_encoder_resolution;
+  // It drifts by half a millimetre, and several times stands at its lowest reading.
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    const double t = log.time[i], way = std::max(0.0, std::sin(8 * t)) * 0.5e-3;
+    log.joint_position[2][i] = 0.4 + count * std::floor(way / count);
+    log.motor_position[2][i] = log.motor_position[2][0];
+  }
   EXPECT_EQ(lines_of(check_log(log, raven())).find("stops abruptly"), std::string::npos);
 }
 
