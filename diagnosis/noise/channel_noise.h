@@ -5,11 +5,14 @@
 /// spectrum of measured minus predicted tells how large that noise is:
 ///
 ///   S(f)     = median over segments of 2 Δ |Σ w e exp(-2πi f t)|² / Σ w² / ln 2     spectral density, unit² / Hz
-///   S_white  = least mean of S over the bands 10 to 20, 20 to 40, 40 to 80 Hz
+///   S_white  = least mean of S over the bands 10 to 20, 20 to 40, 40 to 80 Hz that begin below 0.7 f_N; of a sensor
+///              with f_N <= 15 Hz the mean over 2/3 f_N to f_N
+///   white²   = S_white f_N
 ///   in_band² = S_white / (4 √π σ_t),   at most white²
 ///
 ///   e        residual of the model as given, before the comparing filter
 ///   Δ        mean sample interval of the sensor, s
+///   f_N      Nyquist frequency 1 / (2 Δ), Hz; of a torque at most the cut-off of the record's filter of the motion
 ///   w        Hann window over a segment of one second; segments overlap by half
 ///   ln 2     median over mean of an exponential distribution, which the spectral density of noise has
 ///   σ_t      standard deviation of both filters of a record together (record.h), s
@@ -36,7 +39,8 @@ struct NoiseLine {
 };
 
 struct ChannelNoise {
-  double white = 0;    ///< standard deviation of a single sample
+  /// Standard deviation of a single sample; of a torque: of what lies below f_N, at most 60 Hz with kFitBand.
+  double white = 0;
   double in_band = 0;  ///< standard deviation of a compared sample, after the record's filters
   std::vector<NoiseLine> lines;
 };

@@ -27,7 +27,7 @@ Hypothesis without_effect(Hypothesis h, std::size_t place);
 /// Channel k < n: torque residual of motor k, ε / κ, N m. The division by κ converts it to the unit of the measured
 /// torque; κ is the ratio of the standard deviation of the acting torque to that of the commanded torque. Channel n +
 /// k: measured minus predicted reading of joint k, rad | m. Its mean is subtracted if the zero of one of the joint's
-/// encoders is unknown. NaN where the record has no such signal or the sample cannot be compared.
+/// encoders is unknown. NaN where the sample cannot be compared; empty if the record has no such signal.
 struct Residuals {
   std::vector<std::vector<double>> channel;
   bool finite = true;  ///< false: the motion of this hypothesis cannot be integrated

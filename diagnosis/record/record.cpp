@@ -120,7 +120,6 @@ class Stretch {
                        &r.external, &r.joint_measured, &r.torque_measured, &r.joint_valid, &r.torque_valid})
       s->resize(r.n);
     for (int k = 0; k < r.n; ++k) {
-      r.joint_interval.push_back(joint_[k].interval());
       r.joint_samples.push_back(joint_[k].samples());
       add_joint(k, r);
     }

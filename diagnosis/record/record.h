@@ -40,12 +40,11 @@ struct Record {
   std::size_t size = 0;
   /// Readings, including encoder offsets. For a joint without a motor: the joint's own motion, rad | m.
   Signals motor_angle, motor_rate, motor_acceleration;
-  Signals torque;                           ///< commanded, N m; without the hold's delay of half a sample
-  Signals joint;                            ///< joint reading through K_m; empty: no sensor
-  Signals joint_raw;                        ///< the reading itself, interpolated between its samples
-  Signals external;                         ///< measured load on the joint; empty: none
-  Signals joint_measured, torque_measured;  ///< 1 at the grid points nearest to the signal's own samples
-  std::vector<double> joint_interval;       ///< [n_joints] from a sample of the sensor to its next, s; 0: no sensor
+  Signals torque;                                        ///< commanded, N m; without the hold's delay of half a sample
+  Signals joint;                                         ///< joint reading through K_m; empty: no sensor
+  Signals joint_raw;                                     ///< the reading itself, interpolated between its samples
+  Signals external;                                      ///< measured load on the joint; empty: none
+  Signals joint_measured, torque_measured;               ///< 1 at the grid points nearest to the signal's own samples
   std::vector<std::vector<SensorSample>> joint_samples;  ///< [n_joints] the readings as they were taken
   Signals joint_valid, torque_valid;                     ///< 0 where a sample cannot be compared
   double motion_sigma = 0;                               ///< σ_t of K_m, s
