@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/clock_check.h"
@@ -51,11 +52,20 @@ bool check_unit(LogUnderCheck& c, double step) {
   return false;
 }
 
-/// Rows that are missing in interval i. Beside a row that was written late or early the interval is shorter.
+/// Rows that are missing in interval i. A row that is written late or early makes an interval long, too, but the
+/// intervals beside it as much shorter.
 double missing_rows(const std::vector<double>& steps, std::size_t i, double step) {
-  double missing = std::round(steps[i] / step) - 1;
-  if (i > 0) missing = std::min(missing, std::round((steps[i - 1] + steps[i]) / step) - 2);
-  if (i + 1 < steps.size()) missing = std::min(missing, std::round((steps[i] + steps[i + 1]) / step) - 2);
+  constexpr std::size_t kBeside = 3;
+  const auto rows_in = [&](double seconds) { return std::round(seconds / step); };
+  double missing = rows_in(steps[i]) - 1;
+  if (missing <= 0) return 0;
+  for (std::size_t first = i - std::min(i, kBeside); first <= i; ++first) {
+    double together = std::accumulate(&steps[first], &steps[i], 0.0);
+    for (std::size_t last = i; last < std::min(i + kBeside + 1, steps.size()); ++last) {
+      together += steps[last];
+      missing = std::min(missing, rows_in(together) - static_cast<double>(last - first + 1));
+    }
+  }
   return std::max(0.0, missing);
 }
 

@@ -102,12 +102,14 @@ Excursion excursion_along(const std::vector<Reading>& s, std::size_t i, std::siz
   return e;
 }
 
-/// Along the times, or along the numbers of the readings if these fit the four neighbours better: rows may be lost, and
-/// even readings may have uneven times.
+/// Along the times and along the numbers of the readings: rows may be lost, and even readings may have uneven times. A
+/// reading near one of the two lines is none.
 Excursion excursion_of(const std::vector<Reading>& s, std::size_t i, std::size_t m) {
   const Excursion even = excursion_along(s, i, m, [](std::size_t j) { return static_cast<double>(j); });
   const Excursion timed = excursion_along(s, i, m, [&](std::size_t j) { return s[j].time - s[i].time; });
-  return timed.neighbour < even.neighbour ? timed : even;
+  Excursion e = timed.neighbour < even.neighbour ? timed : even;
+  e.least = std::min(timed.least, even.least);
+  return e;
 }
 
 }  // namespace

@@ -3,12 +3,13 @@
 /// out, because one of them acts on a filtered residual like a push.
 ///
 /// A line is fitted to the two readings before and the two after one to three readings: along their times, because rows
-/// may be lost, or along their numbers if that fits better, because a logger may write even readings at uneven times.
-/// Those between are outliers if
+/// may be lost, and another one along their numbers, because a logger may write even readings at uneven times. Those
+/// between are outliers if
 ///
 ///   min |d| >= factor · u      and      max |r| <= min |d| / 5
 ///
-///   d   distances of the readings between from the line       r   distances of the four readings from it
+///   d   distances of the readings between from the nearer line
+///   r   distances of the four readings from the line that fits them better
 ///   u   usual distance of a reading from its neighbours: a robust standard deviation of the column
 ///
 /// The second condition keeps steps, reversals and vibrations: after them the column does not go on as before. Two or

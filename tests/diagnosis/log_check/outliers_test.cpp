@@ -120,6 +120,15 @@ TEST(Outliers, AreNotReadingsOfASensorWhoseRowsComeLate) {
   EXPECT_EQ(c.outliers().rows, Rows{});
 }
 
+TEST(Outliers, AreNotReadingsWhoseTimesJitter) {
+  Column c(20);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> late(0, 0.8 * kStep);
+  for (std::size_t i = 0; i < c.x.size(); ++i) c.x[i] = 20 * std::sin(2 * c.time[i]);
+  for (double& t : c.time) t += late(random);
+  EXPECT_EQ(c.outliers().rows, Rows{});
+}
+
 TEST(Outliers, LeaveEmptyCellsAndNothingElse) {
   Log log(1);
   const Column c;
