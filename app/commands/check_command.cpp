@@ -17,7 +17,6 @@
 #include "model/xml/xml_reader.h"
 #include "plant/scenario.h"
 #include "plugins/host/effect_module.h"
-#include "plugins/host/loader.h"
 #include "transmission/effect.h"
 
 namespace halyard {
@@ -68,7 +67,7 @@ void print_arm(const ArmModel& model, const std::vector<std::string>& unchecked)
 std::vector<std::string> check_estimator_options(const ArmModel& model) {
   std::vector<std::string> unchecked;
   if (model.estimators.empty()) return unchecked;
-  const std::vector<PluginInfo> installed = find_plugins();
+  const std::vector<PluginInfo> installed = contained_plugins();
   for (const auto& [name, options] : model.estimators) {
     if (std::ranges::find(installed, name, &PluginInfo::name) != installed.end()) check_estimator(name, model);
     else unchecked.push_back(name);

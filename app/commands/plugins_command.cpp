@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "plugins/host/loader.h"
+#include "evaluation/run/contained_run.h"
 
 namespace halyard {
 
 void run_plugins() {
   std::vector<std::string> refused;
-  const std::vector<PluginInfo> plugins = find_plugins(&refused);
+  const std::vector<PluginInfo> plugins = contained_plugins(&refused);
   std::size_t width = 0;
   for (const PluginInfo& plugin : plugins) width = std::max(width, plugin.name.size());
   for (const PluginInfo& plugin : plugins) {

@@ -11,7 +11,6 @@
 #include "model/input_error.h"
 #include "plugins/host/conformance.h"
 #include "plugins/host/effect_module.h"
-#include "plugins/host/loader.h"
 #include "transmission/effects/library.h"
 
 namespace halyard {
@@ -68,6 +67,26 @@ EstimatorRun run_contained(const std::string& name, const ArmModel& model, const
     return fmt::format("estimator {} on {} at {:.12g} s", name, log.source, log.time[row]);
   };
   return estimator_run_of(result_of_worker(task, watch), name, log);
+}
+
+std::vector<PluginInfo> contained_plugins(std::vector<std::string>* refused, const ContainmentOptions& containment) {
+  if (containment.in_process) return find_plugins(refused);
+  worker_program();  // without one, no module is to blame
+  return find_plugins(refused, [&](const std::filesystem::path& path) {
+    WorkerTask task;
+    task.job = WorkerJob::describe;
+    task.estimator = path.string();
+    WorkerWatch watch;
+    watch.step_limit_s = containment.step_limit_s;
+    watch.place = [&](long, const std::string&) { return "plugin " + path.string() + ": as it is opened"; };
+    try {
+      const std::string answer = result_of_worker(task, watch);
+      const std::vector<std::string> texts = ByteReader(answer).texts();
+      return PluginInfo{texts.at(0), texts.at(1), path};
+    } catch (const WorkerEnded& end) {
+      throw InputError(end.what());
+    }
+  });
 }
 
 void check_estimator(const std::string& name, const ArmModel& model, const ContainmentOptions& containment) {

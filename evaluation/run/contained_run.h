@@ -5,6 +5,7 @@
 
 #include "evaluation/run/estimate.h"
 #include "model/arm_model.h"
+#include "plugins/host/loader.h"
 
 namespace halyard {
 
@@ -27,6 +28,11 @@ struct ContainmentOptions {
 /// run fails, crashes, or exceeds the time limit.
 EstimatorRun run_contained(const std::string& name, const ArmModel& model, const Log& log,
                            const EstimateOptions& options = {}, const ContainmentOptions& containment = {});
+
+/// find_plugins() with a worker for each module: one that crashes or hangs as it is opened is refused as others are.
+/// Throws InputError if there is no halyard_worker.
+std::vector<PluginInfo> contained_plugins(std::vector<std::string>* refused = nullptr,
+                                          const ContainmentOptions& containment = {});
 
 /// Checks that a worker can make the estimator; throws as run_contained does if not.
 void check_estimator(const std::string& name, const ArmModel& model, const ContainmentOptions& containment = {});

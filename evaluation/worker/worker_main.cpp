@@ -50,8 +50,16 @@ std::string examine(const WorkerTask& task, WorkerPage& page) {
   return w.take();
 }
 
+std::string describe(const WorkerTask& task) {
+  const PluginInfo plugin = describe_module(task.estimator);
+  ByteWriter w;
+  w.texts({plugin.name, plugin.description});
+  return w.take();
+}
+
 std::string result_of(const WorkerTask& task, WorkerPage& page) {
   switch (task.job) {
+    case WorkerJob::describe: return describe(task);
     case WorkerJob::make: return make_estimator(task.estimator, task.model), std::string();
     case WorkerJob::run: return run(task, page);
     case WorkerJob::examine: return examine(task, page);

@@ -16,9 +16,10 @@
 namespace halyard {
 
 enum class WorkerJob : std::size_t {
-  make,    ///< make and destroy the estimator; the result is empty
-  run,     ///< run it over the log; the result is estimator_run_bytes()
-  examine  ///< run the tests of plugins/host/conformance.h on it; the result is a list of texts
+  describe,  ///< say what the module is; the result is a list of two texts, name and description
+  make,      ///< make and destroy the estimator; the result is empty
+  run,       ///< run it over the log; the result is estimator_run_bytes()
+  examine    ///< run the tests of plugins/host/conformance.h on it; the result is a list of texts
 };
 
 struct WorkerTask {

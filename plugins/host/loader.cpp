@@ -57,28 +57,26 @@ std::vector<fs::path> modules_in(const fs::path& folder) {
   return modules;
 }
 
-/// Opens the modules of all folders one after the other; visit(module) returns true to end the search.
+/// Calls visit(path) for the modules of all folders one after the other, until it returns true. One that it refuses
+/// with an InputError is passed over.
 template <class Visit>
 void search(std::vector<std::string>* refused, const Visit& visit) {
-  for (const fs::path& folder : folders_to_search(refused)) {
+  for (const fs::path& folder : folders_to_search(refused))
     for (const fs::path& path : modules_in(folder)) {
-      std::shared_ptr<const EstimatorModule> module;
       try {
-        module = std::make_shared<const EstimatorModule>(path);
+        if (visit(path)) return;
       } catch (const InputError& error) {
         if (refused) refused->push_back(error.what());
-        continue;
       }
-      if (visit(module)) return;
     }
-  }
 }
 
 std::shared_ptr<const EstimatorModule> named_module(const std::string& name) {
   std::shared_ptr<const EstimatorModule> found;
   std::vector<std::string> refused;
   std::set<std::string> others;
-  search(&refused, [&](const std::shared_ptr<const EstimatorModule>& module) {
+  search(&refused, [&](const fs::path& path) {
+    auto module = std::make_shared<const EstimatorModule>(path);
     others.insert(module->table().name);
     if (name == module->table().name) found = module;
     return found != nullptr;
@@ -108,10 +106,13 @@ std::vector<fs::path> plugin_folders() { return folders_to_search(nullptr); }
 
 void search_plugins_only_in(std::vector<fs::path> folders) { only_folders() = std::move(folders); }
 
-std::vector<PluginInfo> find_plugins(std::vector<std::string>* refused) {
+PluginInfo describe_module(const fs::path& path) { return info(EstimatorModule(path)); }
+
+std::vector<PluginInfo> find_plugins(std::vector<std::string>* refused,
+                                     const std::function<PluginInfo(const fs::path&)>& describe) {
   std::vector<PluginInfo> found;
-  search(refused, [&](const std::shared_ptr<const EstimatorModule>& module) {
-    PluginInfo plugin = info(*module);
+  search(refused, [&](const fs::path& path) {
+    PluginInfo plugin = describe(path);
     const auto first = std::find_if(found.begin(), found.end(), [&](const auto& p) { return p.name == plugin.name; });
     if (first == found.end()) {
       found.push_back(std::move(plugin));

@@ -2,6 +2,7 @@
 /// Finds, checks and opens estimator plug-ins.
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,9 +27,15 @@ std::vector<std::filesystem::path> plugin_folders();
 /// find the same plug-ins. No other thread may look for plug-ins meanwhile.
 void search_plugins_only_in(std::vector<std::filesystem::path> folders);
 
+/// What a module says of itself. Throws InputError for a file that is no estimator.
+PluginInfo describe_module(const std::filesystem::path& path);
+
 /// All loadable estimators in the plug-in folders. If two have the same name, the first one counts. Modules that are
-/// refused are not listed; their one-line reasons are appended to `refused` if given.
-std::vector<PluginInfo> find_plugins(std::vector<std::string>* refused = nullptr);
+/// refused are not listed; their one-line reasons are appended to `refused` if given. Modules run as they are described:
+/// contained_plugins() in evaluation/run/contained_run.h lets them do so in another process.
+std::vector<PluginInfo> find_plugins(
+    std::vector<std::string>* refused = nullptr,
+    const std::function<PluginInfo(const std::filesystem::path&)>& describe = describe_module);
 
 /// The plug-in that make_estimator() uses for a name or path. Throws InputError as make_estimator() does.
 PluginInfo find_plugin(const std::string& name_or_path);

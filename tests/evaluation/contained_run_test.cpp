@@ -25,6 +25,7 @@
 #include "tests/plugins/broken/effects/spring_effect.h"
 #include "tests/support/environment.h"
 #include "tests/support/message_of.h"
+#include "tests/support/plugin_fixtures.h"
 
 namespace halyard {
 namespace {
@@ -279,6 +280,25 @@ TEST(Worker, ManyAreStartedFromThreadsThatAllocateMemory) {
     const EstimatorRun run = run_contained("kinematics", model, log);
     EXPECT_TRUE(same(run.estimates.joint_position, here.estimates.joint_position));
   });
+}
+
+TEST(ContainedPlugins, OneThatCrashesAsItIsOpenedIsRefusedAsOthersAre) {
+  const std::vector<PluginInfo> installed = find_plugins();
+  const plugin_fixtures::TemporaryFolder folder;
+  for (const char* name : {"crashes_in_table", "well_formed"})
+    std::filesystem::copy_file(fixture(name), folder / (std::string(name) + ".so"));
+  const Environment path("HALYARD_PLUGIN_PATH", (folder / "").string().c_str());
+  std::vector<std::string> refused;
+  const std::vector<PluginInfo> found = contained_plugins(&refused);
+  ASSERT_EQ(found.size(), installed.size() + 1);
+  for (std::size_t i = 0; i < installed.size(); ++i) {
+    EXPECT_EQ(found[i].name, installed[i].name);
+    EXPECT_EQ(found[i].description, installed[i].description);
+    EXPECT_EQ(found[i].path, installed[i].path);
+  }
+  EXPECT_EQ(found.back().name, "fixture");
+  const std::string crashed = std::filesystem::canonical(folder / "crashes_in_table.so").string();
+  EXPECT_EQ(refused, std::vector{"plugin " + crashed + ": as it is opened: crashed: Segmentation fault"});
 }
 
 }  // namespace
