@@ -31,8 +31,8 @@ void search_plugins_only_in(std::vector<std::filesystem::path> folders);
 PluginInfo describe_module(const std::filesystem::path& path);
 
 /// All loadable estimators in the plug-in folders. If two have the same name, the first one counts. Modules that are
-/// refused are not listed; their one-line reasons are appended to `refused` if given. Modules run as they are described:
-/// contained_plugins() in evaluation/run/contained_run.h lets them do so in another process.
+/// refused are not listed; their one-line reasons are appended to `refused` if given. A module's own code runs as it is
+/// described: contained_plugins() in evaluation/run/contained_run.h lets it do so in another process.
 std::vector<PluginInfo> find_plugins(
     std::vector<std::string>* refused = nullptr,
     const std::function<PluginInfo(const std::filesystem::path&)>& describe = describe_module);
