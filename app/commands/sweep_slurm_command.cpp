@@ -8,11 +8,12 @@
 #include "app/commands/sweep_command.h"
 #include "app/output_check.h"
 #include "app/slurm/slurm_array.h"
-#include "evaluation/shell_quotes.h"
+#include "evaluation/shell_words.h"
 #include "evaluation/sweep/sweep_file.h"
 #include "evaluation/sweep/sweep_run.h"
 #include "evaluation/sweep/sweep_store.h"
 #include "model/input_error.h"
+#include "plugins/host/effect_module.h"
 
 namespace halyard {
 namespace {
@@ -44,10 +45,10 @@ std::vector<std::size_t> open_parts(const std::vector<PartState>& states) {
   return parts;
 }
 
-/// "sweep S.xml --out DIR", and what else this sweep needs to be understood.
+/// "halyard sweep S.xml --out DIR", and what else this sweep needs to be understood.
 std::string sweep_command(const fs::path& sweep, const fs::path& out) {
   return fmt::format("halyard sweep {} --out {}{}", in_shell_quotes(sweep.string()), in_shell_quotes(out.string()),
-                     effects_options());
+                     effects_options(loaded_effect_modules()));
 }
 
 std::string merge_command(const fs::path& out) { return "halyard merge " + in_shell_quotes(out.string()); }

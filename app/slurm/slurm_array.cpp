@@ -13,7 +13,7 @@
 #include <stdexcept>
 
 #include "evaluation/json.h"
-#include "evaluation/shell_quotes.h"
+#include "evaluation/shell_words.h"
 #include "model/input_error.h"
 #include "model/output/output_files.h"
 #include "plugins/host/effect_module.h"
@@ -67,12 +67,6 @@ std::string in_ranges(const std::vector<std::size_t>& tasks) {
 
 }  // namespace
 
-std::string effects_options() {
-  std::string options;
-  for (const fs::path& module : loaded_effect_modules()) options += " --effects " + in_shell_quotes(module.string());
-  return options;
-}
-
 std::string slurm_script(const SlurmArray& array) {
   std::string text = fmt::format(
       "#!/bin/bash\n# Before sbatch: mkdir -p {}  (for what the tasks print; without it Slurm starts none)\n#SBATCH "
@@ -84,7 +78,7 @@ std::string slurm_script(const SlurmArray& array) {
                       in_shell_quotes(fs::current_path().string()),
                       in_shell_quotes(fs::read_symlink("/proc/self/exe").string()),
                       in_shell_quotes(array.sweep.string()), in_shell_quotes(array.out.string()), array.parts);
-  return text + fmt::format(" {} --jobs \"${{SLURM_CPUS_ON_NODE:-1}}\"\n", effects_options());
+  return text + fmt::format(" {} --jobs \"${{SLURM_CPUS_ON_NODE:-1}}\"\n", effects_options(loaded_effect_modules()));
 }
 
 std::string submit(const SlurmArray& array) {

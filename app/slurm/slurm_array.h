@@ -20,9 +20,6 @@ struct SlurmArray {
   std::vector<std::string> options;  ///< more options for sbatch, such as "--time=1:00:00"
 };
 
-/// " --effects m.so ..." for the modules that this program has loaded; empty without any.
-std::string effects_options();
-
 /// Text of the script. It starts this program in the current folder, and can run again after its node was lost.
 std::string slurm_script(const SlurmArray& array);
 

@@ -58,8 +58,6 @@ std::optional<LineStart> parse_start(std::string_view line) {
   return line.starts_with(",") && line.ends_with("}") ? std::optional(start) : std::nullopt;
 }
 
-std::string message_of(int error) { return std::generic_category().message(error); }
-
 /// Calls `line(text, offset)` for each complete line of a file; a last line without line break does not count. Returns
 /// the length of the complete lines. Throws std::runtime_error if the file cannot be read to its end.
 template <class Line>
@@ -70,7 +68,7 @@ std::uint64_t for_each_line(int file, const fs::path& path, const Line& line) {
   for (std::uint64_t at = 0;;) {
     const ssize_t n = ::pread(file, block.data(), block.size(), static_cast<off_t>(at));
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw std::runtime_error(path.string() + ": cannot be read: " + message_of(errno));
+    if (n < 0) throw std::runtime_error(path.string() + ": cannot be read: " + reason(errno));
     if (n == 0) return offset;
     at += static_cast<std::uint64_t>(n);
     rest.append(block.data(), static_cast<std::size_t>(n));
@@ -107,6 +105,10 @@ std::vector<fs::path> journals_in(const fs::path& folder) {
 }
 
 std::string journal_header(const SweepGrid& grid) { return one_line({{"sweep", grid.id}, {"points", grid.size()}}); }
+
+bool is_header_of_other(std::string_view line, std::string_view header) {
+  return line.starts_with("{\"sweep\":") && line != header.substr(0, header.size() - 1);
+}
 
 std::string journal_line(const SweepCell& cell) {
   ordered_json results = ordered_json::array();
@@ -183,7 +185,7 @@ void CellJournal::bring_to_disk(std::uint64_t written) {
 }
 
 void CellJournal::fail() {
-  failure_ = path_.string() + ": not written: " + message_of(errno) +
+  failure_ = path_.string() + ": not written: " + reason(errno) +
              "; the points before are kept: make room and run again with --resume";
   if (file_) [[maybe_unused]]
     const int ignored = ::ftruncate(*file_, static_cast<off_t>(written_));
@@ -200,7 +202,7 @@ StoredCells::StoredCells(const std::vector<fs::path>& folders, const SweepGrid& 
   for (const fs::path& folder : folders) {
     for (const fs::path& path : journals_in(folder)) {
       Descriptor file(path, O_RDONLY);
-      if (!file) throw InputError(path.string() + ": cannot be read: " + message_of(errno));
+      if (!file) throw InputError(path.string() + ": cannot be read: " + reason(errno));
       journals_.push_back({path, std::move(file)});
       scan(journals_.size() - 1, header);
     }
@@ -211,10 +213,11 @@ void StoredCells::scan(std::size_t journal, const std::string& header) {
   const fs::path& path = journals_[journal].path;
   for_each_line(*journals_[journal].file, path, [&](std::string_view line, std::uint64_t offset) {
     if (offset == 0) {
-      if (line == std::string_view(header).substr(0, header.size() - 1)) return;
-      if (!line.starts_with("{\"sweep\":")) damaged(path, 0);
-      throw InputError(path.string() +
-                       ": belongs to another sweep; remove it, or give a folder of its own to each sweep");
+      if (is_header_of_other(line, header))
+        throw InputError(path.string() +
+                         ": belongs to another sweep; remove it, or give a folder of its own to each sweep");
+      if (line != std::string_view(header).substr(0, header.size() - 1)) damaged(path, 0);
+      return;
     }
     const std::optional<LineStart> start = parse_start(line);
     if (!start || start->point >= places_.size()) damaged(path, offset);

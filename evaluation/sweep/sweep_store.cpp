@@ -103,7 +103,7 @@ void remove_journals_of_others(const fs::path& folder, const SweepGrid& grid) {
   for (const fs::path& journal : journals_in(folder)) {
     std::string first;
     std::ifstream file(journal, std::ios::binary);
-    if (std::getline(file, first) && first + "\n" != header && first.starts_with("{\"sweep\":")) fs::remove(journal);
+    if (std::getline(file, first) && is_header_of_other(first, header)) fs::remove(journal);
   }
 }
 

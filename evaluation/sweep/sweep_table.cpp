@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "evaluation/csv.h"
-#include "evaluation/shell_quotes.h"
+#include "evaluation/shell_words.h"
 #include "plugins/host/effect_module.h"
 
 namespace halyard {
@@ -73,10 +73,9 @@ void add_rows(CsvTable& table, const SweepGrid& grid, const SweepCell& cell) {
 }  // namespace
 
 std::string command_of_point(const SweepGrid& grid, std::size_t point) {
-  std::string modules;
-  for (const std::filesystem::path& module : loaded_effect_modules())
-    modules += " --effects " + in_shell_quotes(module.filename().string());
-  return fmt::format("halyard sweep {} --point {}{}", in_shell_quotes(grid.file), point, modules);
+  std::vector<std::filesystem::path> modules = loaded_effect_modules();
+  for (std::filesystem::path& module : modules) module = module.filename();
+  return fmt::format("halyard sweep {} --point {}{}", in_shell_quotes(grid.file), point, effects_options(modules));
 }
 
 SweepSummary write_sweep_table(OutputFiles& files, const std::filesystem::path& path, const SweepGrid& grid,

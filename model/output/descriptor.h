@@ -4,9 +4,14 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <string>
+#include <system_error>
 #include <utility>
 
 namespace halyard {
+
+/// The operating system's words for an error number (errno).
+inline std::string reason(int error_number) { return std::generic_category().message(error_number); }
 
 /// An open file of the operating system, closed at the end of the object's life.
 class Descriptor {

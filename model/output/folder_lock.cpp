@@ -49,8 +49,8 @@ bool is_computed_twice(const std::filesystem::path& folder, const std::string& p
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& folder, int error) {
-  throw InputError("--out " + in_quotes(folder.string()) +
-                   ": cannot be written: " + std::generic_category().message(error) + "; give another folder");
+  throw InputError("--out " + in_quotes(folder.string()) + ": cannot be written: " + reason(error) +
+                   "; give another folder");
 }
 
 }  // namespace

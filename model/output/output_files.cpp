@@ -27,8 +27,6 @@ namespace fs = std::filesystem;
   throw std::runtime_error(path.string() + ": " + what);
 }
 
-std::string reason(int error_number) { return std::generic_category().message(error_number); }
-
 /// The file that a rename may replace: a rename would otherwise put a plain file in place of a link or a device.
 fs::path replaceable(const fs::path& path) {
   std::error_code error;

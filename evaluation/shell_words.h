@@ -1,9 +1,12 @@
 #pragma once
+/// Words of shell commands that are printed or run.
 
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace halyard {
 
@@ -16,6 +19,13 @@ inline std::string in_shell_quotes(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
+}
+
+/// " --effects m.so ..." for these modules; empty without any.
+inline std::string effects_options(const std::vector<std::filesystem::path>& modules) {
+  std::string options;
+  for (const std::filesystem::path& module : modules) options += " --effects " + in_shell_quotes(module.string());
+  return options;
 }
 
 }  // namespace halyard
