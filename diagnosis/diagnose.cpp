@@ -144,19 +144,20 @@ class Diagnoser {
   void tell_names(const Evidence& evidence) {
     const Fit& f = attribution().final_fit;
     const std::vector<Naming>& namings = attribution().namings;
-    doubts_ = doubts(evidence, tolerated_, attribution(), options_.significance);
+    none_for_ = probabilities_of_none(evidence, attribution(), given_);
+    doubts_ = doubts(evidence, tolerated_, attribution(), none_for_, options_.significance);
     for (std::size_t e = given_; e < f.hypothesis.effects.size(); ++e) {
-      const double none = probability_of_none_for(evidence, attribution(), given_, e);
-      none_for_.push_back(none);
-      result_.probability_none = std::max(result_.probability_none, none);
+      const double none = none_for_[e - given_];
+      none_ = std::max(none_, none);
       if (doubts_[e - given_] != Doubt::none) continue;
-      NamedEffect named{on_its_clock(evidence, f.hypothesis.effects[e]), namings[e - given_].weight,
-                        told_parameters(evidence, e), namings[e - given_].alternatives};
+      const Naming& naming = namings[e - given_];
+      NamedEffect named{on_its_clock(evidence, f.hypothesis.effects[e]), told_probability(naming.weight, none),
+                        told_parameters(evidence, e), naming.alternatives};
       named.index = e;
       const Record* const happens_in = record_of(f.hypothesis.effects[e], model_.nominal, evidence.records());
       if (happens_in && n_logs_ > 1) named.log = happens_in->source;
-      std::vector<double> all = {named.probability *= 1 - none};
-      for (Alternative& a : named.alternatives) all.push_back(a.probability *= 1 - none);
+      std::vector<double> all = {named.probability};
+      for (Alternative& a : named.alternatives) all.push_back(a.probability = told_probability(a.probability, none));
       const std::vector<bool> in = credible_set(all, kRule.set_share);
       for (std::size_t a = 0; a < named.alternatives.size(); ++a) named.alternatives[a].in_set = in[a + 1];
       result_.effects.push_back(std::move(named));
@@ -217,19 +218,13 @@ class Diagnoser {
   }
 
   void tell_probabilities(const Evidence& evidence) {
-    // One half where a rest begins to be told.
-    const Score& score = attribution().final_score;
-    const std::vector<double> misfit = misfit_of_names(evidence);
-    for (int c = 0; c < evidence.channels(); ++c) {
-      if (!evidence.has_channel(c)) continue;
-      const double none = probability_of_none(score.mean_square[c], misfit[c] / (kRule.rest_ratio * kRule.rest_ratio),
-                                              evidence.floor()[c]);
-      result_.probability_none = std::max(result_.probability_none, none);
-    }
+    for (const double none : probabilities_of_a_rest(evidence, attribution().final_score, misfit_of_names(evidence)))
+      none_ = std::max(none_, none);
+    result_.probability_none = kRule.outside_if_certain * none_;
     // Something acts also where the effect gets no name, or predicts the hold-out badly.
     std::vector<double> present;
     for (const Naming& naming : attribution().namings) present.push_back(probability_of_any_name(naming, 0));
-    result_.probability_clean = probability_of_clean(result_.probability_none, attribution().no_effect, present);
+    result_.probability_clean = probability_of_clean(none_, attribution().no_effect, present);
   }
 
   void tell_stuck_sensors(const std::vector<Log>& training) {
@@ -305,7 +300,8 @@ class Diagnoser {
   ArmModel tolerated_;                ///< Diagnosis::given with the tolerances of the search
   std::vector<std::size_t> changed_;  ///< see changed_numbers()
   std::vector<Doubt> doubts_;         ///< of each added effect
-  std::vector<double> none_for_;      ///< of each, probability_of_none_for()
+  std::vector<double> none_for_;      ///< of each, probabilities_of_none()
+  double none_ = 0;                   ///< the largest P(none) of a name or of a channel
   std::shared_ptr<DiagnosisDetails> details_ = std::make_shared<DiagnosisDetails>();
   Diagnosis result_;
 };

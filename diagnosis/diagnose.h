@@ -27,6 +27,7 @@ struct Estimated {
   double value = 0, lower = 0, upper = 0;
   double nominal = 0;
   bool is_whole = false;  ///< a whole number: it has no interval, and both ends are its value
+  bool is_reset = false;  ///< it has its neutral value, from which the data do not tell it
 };
 
 /// An effect that may be the true one instead of the effect that was named.

@@ -53,6 +53,8 @@ struct ParameterSearch {
   /// more friction, and a loop that yields at once is a softer cable. The effect is named only if it does not explain
   /// as much with this value, or with the bound that is nearest to it.
   std::optional<double> another_at = {};
+  /// Of an essential shape: the name of that other effect. If that is named, this one is an alternative.
+  std::string another = {};
 };
 
 /// The motion of a record has to contain at least kFewestPeriods periods of an effect that is periodic in a position:

@@ -56,7 +56,8 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   fmt::print("{}\n", verdict_line(d));
   for (const NamedEffect& e : d.effects)
     for (const Estimated& p : e.parameters)
-      fmt::print("  {} {}: {}{}\n", label_of(e), p.name, with_unit(p.value, 4, p.unit), interval_in_brackets(p));
+      if (!p.is_reset)
+        fmt::print("  {} {}: {}{}\n", label_of(e), p.name, with_unit(p.value, 4, p.unit), interval_in_brackets(p));
   for (const NamedEffect& e : d.effects)
     for (const Alternative& a : e.alternatives)
       if (a.probability >= kWorthALine)

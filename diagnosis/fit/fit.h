@@ -22,6 +22,12 @@ struct FitOptions {
   std::vector<double> correlated_rows = {};
 };
 
+/// A parameter of an effect that a final fit has reset to neutral, as it was with all parameters (final_fit.h).
+struct ResetParameter {
+  FitParameter parameter;
+  double value, half_width;  ///< half of its 95 % interval
+};
+
 struct Fit {
   Hypothesis hypothesis;
   std::vector<FitParameter> parameters;
@@ -30,10 +36,11 @@ struct Fit {
   /// for the correlation of residuals. The other comes from the curvature, which accounts for errors of the model that
   /// all blocks share.
   std::vector<double> std_deviation;
-  int blocks = 0;                    ///< number of blocks in that scatter: its degrees of freedom plus one
-  Eigen::MatrixXd covariance;        ///< from the curvature at the end, if m_c is right, [parameters]²
-  Eigen::MatrixXd block_covariance;  ///< from the scatter of blocks, [parameters]²
-  bool usable = false;               ///< false: the start could not be integrated
+  int blocks = 0;                          ///< number of blocks in that scatter: its degrees of freedom plus one
+  Eigen::MatrixXd covariance;              ///< from the curvature at the end, if m_c is right, [parameters]²
+  Eigen::MatrixXd block_covariance;        ///< from the scatter of blocks, [parameters]²
+  bool usable = false;                     ///< false: the start could not be integrated
+  std::vector<ResetParameter> reset = {};  ///< of effects that keep a size
 };
 
 /// Channel scales from residuals: sqrt(max(mean square, floor²)). [2n]

@@ -31,13 +31,18 @@ struct FitParameter {
   std::optional<double> another_at = {};  ///< see ParameterSearch
 };
 
+/// True if both are the same number.
+inline bool is_same_number(const FitParameter& a, const FitParameter& b) {
+  return a.effect == b.effect && a.is_past == b.is_past && a.index == b.index;
+}
+
 /// Index of the parameter that is the same number, if there is one.
 inline std::optional<std::size_t> find_parameter(const std::vector<FitParameter>& parameters, const FitParameter& p) {
   for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (parameters[i].effect == p.effect && parameters[i].is_past == p.is_past && parameters[i].index == p.index)
-      return i;
+    if (is_same_number(parameters[i], p)) return i;
   return {};
 }
+
 /// The list without the parameters of the effect with index `gone`, as without_effect() leaves the hypothesis.
 std::vector<FitParameter> without_parameters_of(std::vector<FitParameter> parameters, std::size_t gone);
 double parameter_value(const Hypothesis& h, const FitParameter& p);

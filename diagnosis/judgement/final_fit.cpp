@@ -158,18 +158,28 @@ Fit keep_certain_sizes(const Evidence& whole, const Fit& f, std::size_t given) {
   return again.usable ? keep_certain_sizes(whole, again, given) : f;
 }
 
+/// What was reset of added effects that keep a size. `all` is the fit before the first reset.
+std::vector<ResetParameter> resets(const Fit& all, std::size_t given, const Fit& f) {
+  std::vector<ResetParameter> reset;
+  for (std::size_t i = 0; i < all.parameters.size(); ++i) {
+    const FitParameter& p = all.parameters[i];
+    const auto stays = [&](const FitParameter& kept) { return kept.effect == p.effect && !kept.shape; };
+    if (p.effect >= given && (!p.shape || has_usual_value(p)) && !find_parameter(f.parameters, p) &&
+        std::ranges::any_of(f.parameters, stays))
+      reset.push_back({p, all.value[i], half_interval(all, i)});
+  }
+  return reset;
+}
+
 /// Standard deviations of effects that keep some of their parameters, as if they had kept all of them: what was reset
-/// may be wrong. `all` is the fit before the first reset. A mean square: the variance there and the shift by the
-/// resets.
-void count_resets(const Fit& all, std::size_t given, Fit& f) {
+/// may be wrong. A mean square: the variance in the fit before the first reset and the shift by the resets.
+void count_resets(const Fit& all, Fit& f) {
   const auto has_lost_one = [&](std::size_t effect) {
-    return std::ranges::any_of(all.parameters, [&](const FitParameter& p) {
-      return p.effect == effect && (!p.shape || has_usual_value(p)) && !find_parameter(f.parameters, p);
-    });
+    return std::ranges::any_of(f.reset, [&](const ResetParameter& r) { return r.parameter.effect == effect; });
   };
   for (std::size_t i = 0; i < f.parameters.size(); ++i) {
     const FitParameter& p = f.parameters[i];
-    if (p.effect < given || !has_lost_one(*p.effect)) continue;
+    if (!p.effect || !has_lost_one(*p.effect)) continue;
     const std::optional<std::size_t> before = find_parameter(all.parameters, p);
     if (!before) continue;
     const double with_all = std::hypot(all.std_deviation[*before], f.value[i] - all.value[*before]);
@@ -204,7 +214,8 @@ Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, s
   const Fit& all = tried.usable ? tried : chosen;
   if (!all.usable) return {};
   Fit certain = keep_certain_sizes(whole, all, given);
-  count_resets(all, given, certain);
+  certain.reset = resets(all, given, certain);
+  count_resets(all, certain);
   return certain;
 }
 
@@ -262,6 +273,16 @@ std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given) {
 
 bool may_be_neutral(const Fit& fit, std::size_t i) {
   return std::abs(fit.value[i] - fit.parameters[i].nominal) <= interval_factor(fit) * fit.std_deviation[i];
+}
+
+double half_interval(const Fit& fit, std::size_t i) {
+  constexpr double kMore = 4.0 / 3 - 1;
+  double shift = 0;
+  for (std::size_t j = 0; j < fit.parameters.size(); ++j)
+    if (!fit.parameters[j].effect)
+      shift += std::pow(
+          fit.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) / fit.parameters[j].scale, 2);
+  return interval_factor(fit) * std::sqrt(std::pow(fit.std_deviation[i], 2) + kMore * shift);
 }
 
 double interval_factor(const Fit& fit) {

@@ -12,7 +12,7 @@ namespace halyard {
 /// would be taken for exact, and what it is off would go into the effects' parameters. Sizes of effects that did not
 /// change significantly are reset to neutral, one at a time, the least certain first, and the others are fitted again.
 /// An effect all of whose sizes are reset has no parameter in the result. The standard deviations of an effect that
-/// keeps some of its sizes count what the others may be.
+/// keeps some of its sizes count what the others may be, and Fit::reset tells what they may be.
 /// given: number of effects that the model came with; they stay.
 /// If the refit cannot be integrated, the result is that of `chosen`. If `chosen` is only a start, or cannot be
 /// integrated either, the result is not usable.
@@ -23,6 +23,12 @@ std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given);
 
 /// Half of the 95 % interval over the standard deviation: Student's quantile for the fit's blocks.
 double interval_factor(const Fit& fit);
+
+/// Half of the 95 % interval of parameter i, if numbers of the model lie anywhere within their tolerances. A fit takes
+/// half a tolerance as one deviation; that of a uniform distribution is larger by 2/√3 (JCGM 100:2008, Guide to the
+/// expression of uncertainty in measurement, 4.3.7). The estimate shifts by -H⁻¹ P times what a number is off. So its
+/// variance grows by (4/3 - 1) Σ_j (C_ij / σ_j)² over the numbers j; C = H⁻¹, P_jj = 1 / σ_j².
+double half_interval(const Fit& fit, std::size_t i);
 
 /// True if the 95 % interval of a parameter of the fit contains its neutral value.
 bool may_be_neutral(const Fit& fit, std::size_t i);

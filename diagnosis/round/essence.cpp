@@ -1,6 +1,15 @@
 #include "diagnosis/round/essence.h"
 
+#include <algorithm>
+
 namespace halyard {
+
+bool becomes(const PlacedEffect& effect, const PlacedEffect& other, const ArmParameters<double>& arm) {
+  const SearchSpace space = search_space(*effect.effect, arm, effect.joint);
+  return effect.joint == other.joint && std::ranges::any_of(space.parameters, [&](const ParameterSearch& p) {
+           return p.another_at && p.another == other.effect->name();
+         });
+}
 
 bool is_another_effect(const Evidence& evidence, const Refitter& refitter, const Judge& judge, const Refit& with,
                        std::size_t place) {

@@ -4,6 +4,7 @@
 
 #include "diagnosis/judgement/false_discovery.h"
 #include "diagnosis/judgement/name_probability.h"
+#include "diagnosis/round/essence.h"
 
 namespace halyard {
 
@@ -12,6 +13,8 @@ double probability_of_any_name(const Naming& naming, double none) {
   for (const Alternative& a : naming.alternatives) sum += a.probability;
   return (1 - none) * sum;
 }
+
+double told_probability(double weight, double none) { return kRule.right_if_certain * weight * (1 - none); }
 
 double prior_cost_of(const PlacedEffect& effect, const ArmParameters<double>& arm) {
   const std::size_t numbers =
@@ -59,7 +62,8 @@ Naming Competition::naming(const Choice& choice) const {
   std::vector<std::size_t> rivals = {choice.named};
   for (std::size_t i = 0; i < trials_.size(); ++i) {
     const Trial& t = trials_[i];
-    if (i == choice.named || !t.is_judged() || t.is_refit || t.is_another || t.gain <= 0) continue;
+    if (i == choice.named || !t.is_judged() || t.is_refit || t.gain <= 0) continue;
+    if (t.is_another && !becomes(t.effect, trials_[choice.named].effect, model_.nominal)) continue;
     if (shared_gain(trials_[choice.named].log_likelihood, t.log_likelihood, ln_without_) >= kRule.shared_gain)
       rivals.push_back(i);
   }
@@ -68,10 +72,10 @@ Naming Competition::naming(const Choice& choice) const {
   naming.weight = weight[0];
   double surest = naming.weight;
   for (std::size_t r = 1; r < rivals.size(); ++r) {
-    if (!trials_[rivals[r]].can_be_named() && weight[r] > surest)
-      surest = weight[r], naming.surer = trials_[rivals[r]].effect;
+    const Trial& t = trials_[rivals[r]];
+    if (!t.can_be_named() && !t.is_another && weight[r] > surest) surest = weight[r], naming.surer = t.effect;
     if (weight[r] > kWorthTelling || std::ranges::count(choice.alike, rivals[r]) > 0)
-      naming.alternatives.push_back({trials_[rivals[r]].effect, weight[r], false});
+      naming.alternatives.push_back({t.effect, weight[r], false});
   }
   std::ranges::stable_sort(naming.alternatives, std::ranges::greater{}, &Alternative::probability);
   return naming;
@@ -88,10 +92,12 @@ double Competition::weight_of_no_effect() const {
 std::vector<double> Competition::weights(const std::vector<std::size_t>& rivals) const {
   std::vector<Competitor> all;
   for (const std::size_t i : rivals) {
-    // At its bound an effect is less plausible, but may still be the right one.
-    const double implausible = trials_[i].at_bound ? kRule.at_bound : 0;
-    all.push_back({&trials_[i].log_likelihood,
-                   prior_cost_of(trials_[i].effect, model_.nominal) + trials_[i].prior_cost + implausible});
+    // At its bound an effect is less plausible, but may still be the right one. One that becomes the name, the first of
+    // the rivals, at an end of its shapes predicts the same there.
+    const Trial& as = trials_[trials_[i].is_another ? rivals.front() : i];
+    const double implausible =
+        (trials_[i].at_bound ? kRule.at_bound : 0) + (trials_[i].is_another ? kRule.cost_of_a_limit : 0);
+    all.push_back({&as.log_likelihood, prior_cost_of(trials_[i].effect, model_.nominal) + as.prior_cost + implausible});
   }
   return name_weights(evidence_, all, {&ln_without_, judge_.prior_cost(without_.hypothesis)});
 }

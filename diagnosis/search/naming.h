@@ -28,6 +28,9 @@ struct Naming {
 /// That the name or one of its alternatives is right. none: probability that no name is (name_probability.h).
 double probability_of_any_name(const Naming& naming, double none);
 
+/// The probability that is told of a name or an alternative of this weight, see right_if_certain of decision_rule.h.
+double told_probability(double weight, double none);
+
 /// For each trial: it can be named, and its gain is significant at this false discovery rate. A candidate that cannot
 /// be named counts among the tests but not among the discoveries.
 std::vector<bool> convincing(const std::vector<Trial>& trials, double significance);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "diagnosis/fit/complementary.h"
@@ -31,10 +32,18 @@ class Revision {
  private:
   const std::vector<PlacedEffect>& effects() const { return found_.final_fit.hypothesis.effects; }
 
-  /// False if the start cannot be integrated: then all stays as it is.
-  bool fit_finally(const Fit& start) {
-    const Fit fit = final_fit(whole_, model_, start, given_);
+  /// False if the start cannot be integrated: then all stays as it is. gone: the effect that the start lacks. What was
+  /// reset before is not in the start; it stays reset.
+  bool fit_finally(const Fit& start, std::optional<std::size_t> gone = {}) {
+    Fit fit = final_fit(whole_, model_, start, given_);
     if (!fit.usable) return false;
+    for (ResetParameter r : found_.final_fit.reset) {
+      if (gone && r.parameter.effect == gone) continue;
+      if (gone && r.parameter.effect > gone) --*r.parameter.effect;
+      const auto has_a_size = [&](const FitParameter& p) { return p.effect == r.parameter.effect && !p.shape; };
+      if (!find_parameter(fit.parameters, r.parameter) && std::ranges::any_of(fit.parameters, has_a_size))
+        fit.reset.push_back(r);
+    }
     take(fit);
     return true;
   }
@@ -50,7 +59,7 @@ class Revision {
 
   bool drop_one() {
     const std::optional<std::size_t> gone = effect_to_drop();
-    if (!gone || !fit_finally(start_without(*gone))) return false;
+    if (!gone || !fit_finally(start_without(*gone), gone)) return false;
     found_.namings.erase(found_.namings.begin() + static_cast<std::ptrdiff_t>(*gone - given_));
     return true;
   }
@@ -58,7 +67,9 @@ class Revision {
   std::optional<std::size_t> effect_to_drop() const {
     if (const auto idle = idle_effects(found_.final_fit, given_); !idle.empty()) return idle.back();
     for (std::size_t e = given_; e < effects().size(); ++e)
-      if (has_instants(effects()[e], model_.nominal) && is_doubtful(evidence_, found_, given_, e)) return e;
+      if (has_instants(effects()[e], model_.nominal) &&
+          is_doubtful(found_.namings[e - given_], probability_of_none_for(evidence_, found_, given_, e)))
+        return e;
     return {};
   }
 
@@ -87,7 +98,7 @@ class Revision {
     Fit start;
     start.hypothesis = joined->hypothesis;
     start.parameters = joined->parameters;
-    if (!fit_finally(start)) return false;
+    if (!fit_finally(start, joined->gone)) return false;
     const auto gone = found_.namings.begin() + static_cast<std::ptrdiff_t>(joined->gone - given_);
     Naming& kept = found_.namings[joined->kept - given_];
     if (gone->weight > kept.weight) kept = std::move(*gone);
@@ -140,6 +151,36 @@ double probability_of_none_for(const Evidence& evidence, const Attribution& foun
                   probability_of_none_by_rest(evidence, found, given, effect));
 }
 
+std::vector<double> probabilities_of_a_rest(const Evidence& evidence, const Score& score,
+                                            const std::vector<double>& misfit) {
+  std::vector<double> none(static_cast<std::size_t>(evidence.channels()), 0);
+  for (std::size_t c = 0; c < none.size(); ++c)
+    if (const int channel = static_cast<int>(c); evidence.has_channel(channel))
+      none[c] = probability_of_none(score.mean_square[c], misfit[c] / (kRule.rest_ratio * kRule.rest_ratio),
+                                    evidence.floor()[c]);
+  return none;
+}
+
+std::vector<double> probabilities_of_none(const Evidence& evidence, const Attribution& found, std::size_t given) {
+  const Hypothesis& h = found.final_fit.hypothesis;
+  std::vector<std::size_t> added(h.effects.size() - given);
+  std::iota(added.begin(), added.end(), given);
+  const std::vector<double> rest =
+      probabilities_of_a_rest(evidence, found.final_score, mean_square_misfit(evidence, {h, found.final_score}, added));
+  std::vector<double> none;
+  for (const std::size_t e : added) {
+    none.push_back(probability_of_none_for(evidence, found, given, e));
+    if (const EffectPlace joint = h.effects[e].joint)
+      for (const int channel : {*joint, h.nominal.n + *joint})
+        none.back() = std::max(none.back(), kRule.wrong_beside_a_rest * rest[static_cast<std::size_t>(channel)]);
+  }
+  return none;
+}
+
+bool is_doubtful(const Naming& naming, double none) {
+  return probability_of_any_name(naming, none) < kRule.worth_a_name;
+}
+
 namespace {
 
 /// False if it may only make up for something else: then others may be needed only beside it.
@@ -152,24 +193,19 @@ bool has_certain_size(const Fit& fit, std::size_t effect) {
   return false;
 }
 
-Doubt own_doubt(const Evidence& evidence, const Attribution& found, std::size_t given, std::size_t effect) {
-  if (is_doubtful(evidence, found, given, effect)) return Doubt::another_cause;
-  const Naming& naming = found.namings[effect - given];
+Doubt own_doubt(const Naming& naming, const Fit& fit, std::size_t effect, double none) {
+  if (is_doubtful(naming, none)) return Doubt::another_cause;
   if (naming.surer) return Doubt::surer_rival;
-  if (!has_certain_size(found.final_fit, effect)) return Doubt::no_certain_size;
+  if (!has_certain_size(fit, effect)) return Doubt::no_certain_size;
   return naming.weight < kRule.sure_name ? Doubt::guess : Doubt::none;
 }
 
 /// The most probable name of a single effect is told with its alternatives if it is more probable than not, or if it is
 /// either this one or one other: the two form the set that is reported. Otherwise it is a guess, whatever its weight.
-void tell_single_name(const Evidence& evidence, const Attribution& found, std::size_t given,
-                      std::vector<Doubt>& doubt) {
-  const auto only = static_cast<std::size_t>(std::ranges::find_if(doubt, is_there) - doubt.begin());
-  const double none = probability_of_none_for(evidence, found, given, given + only);
-  const Naming& naming = found.namings[only];
+Doubt doubt_of_single_name(const Naming& naming, double none) {
   const double either = naming.weight + (naming.alternatives.empty() ? 0 : naming.alternatives[0].probability);
   const bool is_told = naming.weight * (1 - none) > kRule.worth_a_name || either * (1 - none) > kRule.set_share;
-  doubt[only] = is_told ? Doubt::none : Doubt::guess;
+  return is_told ? Doubt::none : Doubt::guess;
 }
 
 /// "backlash of joint 3 (27 %) or hysteresis of joint 3 (9 %)": alternatives of some weight.
@@ -177,7 +213,7 @@ std::string others(const Naming& naming, double none) {
   constexpr double kWorthMentioning = 0.05;
   std::string text;
   for (const Alternative& a : naming.alternatives)
-    if (const double p = a.probability * (1 - none); p > kWorthMentioning)
+    if (const double p = told_probability(a.probability, none); p > kWorthMentioning)
       text += fmt::format("{}{} ({:.0f} %)", text.empty() ? "" : " or ", effect_label(a.effect), 100 * p);
   return text;
 }
@@ -185,16 +221,19 @@ std::string others(const Naming& naming, double none) {
 }  // namespace
 
 std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const Attribution& found,
-                          double significance) {
+                          const std::vector<double>& none, double significance) {
   const std::size_t first = given.effects.size();
   const Hypothesis& all = found.final_fit.hypothesis;
   std::vector<Doubt> doubt(all.effects.size() - first, Doubt::none);
   Hypothesis sure = all;
   for (std::size_t e = all.effects.size(); e-- > first;) {
-    doubt[e - first] = own_doubt(evidence, found, first, e);
+    doubt[e - first] = own_doubt(found.namings[e - first], found.final_fit, e, none[e - first]);
     if (!is_there(doubt[e - first])) sure = without_effect(sure, e);
   }
-  if (std::ranges::count_if(doubt, is_there) == 1) tell_single_name(evidence, found, first, doubt);
+  if (std::ranges::count_if(doubt, is_there) == 1) {
+    const auto only = static_cast<std::size_t>(std::ranges::find_if(doubt, is_there) - doubt.begin());
+    doubt[only] = doubt_of_single_name(found.namings[only], none[only]);
+  }
   if (sure.effects.size() == all.effects.size()) return doubt;
   const Refitter refitter(evidence, given, first);
   if (!refitter.is_usable()) return doubt;
@@ -223,7 +262,7 @@ std::string reason_of(Doubt doubt, const Naming& naming, double none, const std:
     }
     case Doubt::guess: {
       const std::string other = others(naming, none);
-      return fmt::format("its name is a guess ({:.0f} %): {}", 100 * naming.weight * (1 - none),
+      return fmt::format("its name is a guess ({:.0f} %): {}", 100 * told_probability(naming.weight, none),
                          other.empty() ? "another cause may as well be right" : "it may be " + other);
     }
     case Doubt::no_certain_size: return "its size may as well be zero";
@@ -238,11 +277,6 @@ std::string reason_of_refusal(const std::vector<PlacedEffect>& added) {
   for (const PlacedEffect& e : added) what += (what.empty() ? "" : ", ") + effect_label(e);
   return fmt::format("{} would explain the training data, but predict this joint worse on the hold-out",
                      what.empty() ? "refitted parameters" : what);
-}
-
-bool is_doubtful(const Evidence& evidence, const Attribution& found, std::size_t given, std::size_t effect) {
-  const double none = probability_of_none_for(evidence, found, given, effect);
-  return probability_of_any_name(found.namings[effect - given], none) < kRule.worth_a_name;
 }
 
 }  // namespace halyard

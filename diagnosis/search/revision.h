@@ -27,14 +27,23 @@ std::vector<std::size_t> revise(const Evidence& evidence, const Evidence& whole,
 double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t given,
                                std::size_t effect);
 
-/// True if it is more probable that the name of the effect and all its alternatives are wrong than that one of them is
-/// right. given: number of effects that the model came with.
-bool is_doubtful(const Evidence& evidence, const Attribution& found, std::size_t given, std::size_t effect);
+/// P(none) of each channel by the residual that all named effects leave in it; 0 without a sensor. One half where a
+/// residual begins to be told. misfit: mean_square_misfit() of the names.
+std::vector<double> probabilities_of_a_rest(const Evidence& evidence, const Score& score,
+                                            const std::vector<double>& misfit);
+
+/// For each added effect: probability_of_none_for(), but at least wrong_beside_a_rest (decision_rule.h) of what the
+/// residual at its joint says.
+std::vector<double> probabilities_of_none(const Evidence& evidence, const Attribution& found, std::size_t given);
+
+/// True if it is more probable that the name of an effect and all its alternatives are wrong than that one of them is
+/// right. none: probability that no name is.
+bool is_doubtful(const Naming& naming, double none);
 
 /// Why an effect gets no name.
 enum class Doubt {
   none,
-  another_cause,    ///< is_doubtful()
+  another_cause,    ///< is_doubtful(), with probabilities_of_none()
   surer_rival,      ///< Naming::surer
   guess,            ///< its name is not sure enough beside others, see kRule.sure_name and kRule.worth_a_name
   no_certain_size,  ///< the intervals of all its sizes contain their neutral values
@@ -49,8 +58,8 @@ std::string reason_of(Doubt doubt, const Naming& naming, double none, const std:
 /// alone.
 std::string reason_of_refusal(const std::vector<PlacedEffect>& added);
 
-/// For each added effect of the final fit. significance: as of the search.
+/// For each added effect of the final fit. none: probabilities_of_none(). significance: as of the search.
 std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const Attribution& found,
-                          double significance);
+                          const std::vector<double>& none, double significance);
 
 }  // namespace halyard

@@ -37,6 +37,7 @@ void hysteresis(SearchSpace& space, const Arm& arm, int joint) {
   yield.starts = {0.003 * stretch, 0.01 * stretch, 0.03 * stretch, 0.1 * stretch, 0.3 * stretch};
   yield.natural_bounds = true;
   yield.another_at = 0;
+  yield.another = "stiffness";
 }
 
 void pulley_friction(SearchSpace& space, const Arm&, int) { space["motor_share"].natural_bounds = true; }

@@ -63,9 +63,10 @@ std::string why_named(const NamedEffect& named, const EffectEvidence& evidence, 
     if (v.abscissa == Abscissa::constant && evidence.views.size() > 1 && evidence.views[1].residual == v.residual)
       text += "; beyond that it " + view_phrase(evidence.views[1], arm, evidence.joint);
     text += "; with the effect";
-    for (std::size_t p = 0; p < named.parameters.size(); ++p)
-      text +=
-          (p == 0 ? " (" : ", ") + shown_parameter(named.parameters[p]) + (p + 1 == named.parameters.size() ? ")" : "");
+    std::string numbers;
+    for (const Estimated& p : named.parameters)
+      if (!p.is_reset) numbers += (numbers.empty() ? "" : ", ") + shown_parameter(p);
+    if (!numbers.empty()) text += " (" + numbers + ")";
     text += fmt::format(" {} of the mean square is left.", shown_share(v.left));
   }
   return text + alternatives_sentence(named);

@@ -23,25 +23,35 @@ TEST(IntervalsOfTrials, CountOverTheParametersOfRightNames) {
   const Parameter found{"stiffness_ratio", 0.8, 0.7, 0.9};
   const Result inside = stiffness({{"stiffness_ratio", 0.75, true}}, {found}),
                outside = stiffness({{"stiffness_ratio", 0.95, true}}, {found});
-  expect_share(parameter_counts({&inside, &outside}).intervals, 1, 2);
+  expect_share(parameter_counts({&inside, &outside}).intervals(), 1, 2);
   Result elsewhere = inside, other_form = inside, idle = inside;
   elsewhere.named[0].place.joint = 2;
   other_form.truth[0].form = "soft_cable";
   idle.truth[0].parameters[0].acts = false;
-  expect_share(parameter_counts({&elsewhere, &other_form, &idle}).intervals_and_resets(), 0, 0);
+  expect_share(parameter_counts({&elsewhere, &other_form, &idle}).intervals(), 0, 0);
 }
 
-TEST(IntervalsOfTrials, MissAParameterThatWasResetAndIsNotNeutral) {
-  // Neutral are a ratio of 1 and a stiffening of 0: here the ratio of the damping is off, and was reset.
+TEST(IntervalsOfTrials, AreAlsoThoseOfParametersThatWereReset) {
+  const Result r =
+      stiffness({{"stiffness_ratio", 0.75, true}, {"damping_ratio", 1.2, true}, {"stiffening", 5, true}},
+                {{"stiffness_ratio", 0.8, 0.7, 0.9}, {"damping_ratio", 1, 0.7, 1.3}, {"stiffening", 0, 0, 4}});
+  const ParameterCounts counts = parameter_counts({&r});
+  expect_share(counts.kept, 1, 1);
+  expect_share(counts.reset, 1, 2);
+  expect_share(counts.intervals(), 2, 3);
+}
+
+TEST(IntervalsOfTrials, MissAParameterThatWasLeftOutAndIsNotNeutral) {
+  // Neutral are a ratio of 1 and a stiffening of 0: here the ratio of the damping is off.
   const Result r = stiffness({{"stiffness_ratio", 0.75, true}, {"damping_ratio", 1.2, true}, {"stiffening", 0, true}},
                              {{"stiffness_ratio", 0.8, 0.7, 0.9}});
   const ParameterCounts counts = parameter_counts({&r});
-  expect_share(counts.intervals, 1, 1);
+  expect_share(counts.kept, 1, 1);
   expect_share(counts.off_neutral, 1, 2);
-  expect_share(counts.intervals_and_resets(), 1, 2);
+  expect_share(counts.intervals(), 1, 2);
   const std::string table = acceptance_table({&r});
-  EXPECT_NE(table.find("without these parameters | 92 to 98 % | 1/2 |"), std::string::npos) << table;
-  EXPECT_NE(table.find("| parameters that were reset to neutral, but are not |  | 1/2 |"), std::string::npos) << table;
+  EXPECT_NE(table.find("were not reset to neutral | 92 to 98 % | 1/2 |"), std::string::npos) << table;
+  EXPECT_NE(table.find("| parameters that were left out, but are not neutral |  | 1/2 |"), std::string::npos) << table;
 }
 
 TEST(IntervalsOfTrials, LeaveOutWholeNumbers) {
@@ -51,12 +61,12 @@ TEST(IntervalsOfTrials, LeaveOutWholeNumbers) {
             {named("torque_ripple", 1, 0.99, {},
                    {{"cosine", 0.002, 0.001, 0.003}, {"sine", 0.002, 0.001, 0.003}, {"order", 12, 12, 12}})});
   const ParameterCounts counts = parameter_counts({&r});
-  expect_share(counts.intervals, 2, 2);
+  expect_share(counts.kept, 2, 2);
   expect_share(counts.whole, 1, 1);
   Result next = r;
   next.named[0].parameters[2] = {"order", 13, 13, 13};
   expect_share(parameter_counts({&next}).whole, 0, 1);
-  expect_share(parameter_counts({&next}).intervals, 2, 2);
+  expect_share(parameter_counts({&next}).kept, 2, 2);
 }
 
 TEST(IntervalsOfTrials, KnowTheParametersOfTheLibrary) {

@@ -184,18 +184,17 @@ void add_calibration_lines(std::vector<Line>& lines, const Results& ran) {
                      {},
                      {}});
   const ParameterCounts parameters = parameter_counts(ran);
-  if (parameters.intervals_and_resets().of > 0)
+  if (parameters.intervals().of > 0)
     lines.push_back({"5",
-                     "intervals of 95 % that contain the truth, with parameters that were reset to neutral, but are "
-                     "not, as misses; without these parameters",
+                     "intervals of 95 % that contain the truth; those of parameters that were not reset to neutral",
                      "92 to 98 %",
-                     parameters.intervals_and_resets(),
-                     parameters.intervals,
+                     parameters.intervals(),
+                     parameters.kept,
                      {},
                      {}});
   if (parameters.off_neutral.of > 0)
     lines.push_back(
-        {"5", "parameters that were reset to neutral, but are not", "", parameters.off_neutral, {}, {}, {}});
+        {"5", "parameters that were left out, but are not neutral", "", parameters.off_neutral, {}, {}, {}});
   if (parameters.whole.of > 0) lines.push_back({"5", "whole numbers that are right", "", parameters.whole, {}, {}, {}});
 }
 

@@ -13,7 +13,8 @@ void count_parameter(const std::string& effect, const TrueParameter& truth, cons
   const auto p = std::ranges::find(found, truth.name, &Parameter::name);
   if (p == found.end()) counts.off_neutral.count(truth.value != listed.neutral);
   else if (listed.is_whole) counts.whole.count(p->value == truth.value);
-  else counts.intervals.count(p->lower <= truth.value && truth.value <= p->upper);
+  else
+    (p->value == listed.neutral ? counts.reset : counts.kept).count(p->lower <= truth.value && truth.value <= p->upper);
 }
 
 }  // namespace

@@ -9,15 +9,15 @@ namespace halyard::blind {
 Proportion set_coverage(const Results& ran);
 /// Mean of the probabilities that these sets claim. A set ends with the name that brings it to 90 %, so it claims more.
 double probability_of_sets(const Results& ran);
-/// The true parameters of the effects that were named rightly. A diagnosis gives no interval to whole numbers, and none
-/// to a parameter that it reset to neutral: then it says that the parameter is absent.
+/// The true parameters of the effects that were named rightly. A diagnosis gives no interval to whole numbers. It may
+/// leave out a shape of which it says that it has its usual value.
 struct ParameterCounts {
-  Proportion intervals;    ///< of 95 % that contain the truth
+  Proportion kept;         ///< intervals of 95 % that contain the truth, of parameters that are not neutral
+  Proportion reset;        ///< the same of those that the diagnosis has reset to neutral
   Proportion whole;        ///< whole numbers that are right
-  Proportion off_neutral;  ///< parameters without an interval whose truth is not neutral
-  /// A parameter that was reset, and is not neutral, is outside its interval. One that is neutral does not count: that
-  /// it is absent was claimed, and not that it lies in an interval of 95 %.
-  Proportion intervals_and_resets() const { return {intervals.hits, intervals.of + off_neutral.hits}; }
+  Proportion off_neutral;  ///< parameters that were left out whose truth is not neutral
+  /// A parameter that was left out, and is not neutral, is a miss.
+  Proportion intervals() const { return {kept.hits + reset.hits, kept.of + reset.of + off_neutral.hits}; }
 };
 ParameterCounts parameter_counts(const Results& ran);
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "estimators/distributions.h"
 #include "tests/support/small_evidence.h"
@@ -77,7 +78,8 @@ TEST(Estimates, OfShapesGivenEffectsAndNumbersOfTheModelReachBeyondIt) {
 }
 
 /// What is told of an effect of one joint. The fit has determined all of its parameters but whole numbers.
-std::vector<Estimated> told_of(const PlacedEffect& effect, const PlacedEffect& told) {
+std::vector<Estimated> told_of(
+    const PlacedEffect& effect, const PlacedEffect& told, const std::function<void(Fit&)>& change = [](Fit&) {}) {
   static const Evidence evidence = brief_evidence();
   const ArmParameters<double> arm = first_joints(1).nominal;
   Fit fit;
@@ -88,6 +90,7 @@ std::vector<Estimated> told_of(const PlacedEffect& effect, const PlacedEffect& t
   fit.std_deviation.assign(fit.parameters.size(), 1e-6);
   fit.blocks = 9;
   fit.covariance = Eigen::MatrixXd::Zero(std::ssize(fit.parameters), std::ssize(fit.parameters));
+  change(fit);
   return estimated_parameters(evidence, arm, fit, 0, 0, told);
 }
 
@@ -113,6 +116,23 @@ TEST(Estimates, OfAWholeNumberHaveNoInterval) {
   EXPECT_EQ(told[2].lower, 6);
   EXPECT_EQ(told[2].upper, 6);
   EXPECT_LT(told[0].lower, told[0].upper);
+}
+
+TEST(Estimates, OfAParameterThatWasResetAreNeutralWithTheIntervalBefore) {
+  const PlacedEffect friction = place_neutral_effect(*find_effect("motor_friction"), first_joints(1).nominal, 0);
+  const auto told = [&](double value) {
+    return told_of(friction, friction, [&](Fit& fit) {
+      fit.reset = {{fit.parameters[0], value, 3e-3}};
+      fit.parameters.erase(fit.parameters.begin());
+    })[0];
+  };
+  const Estimated around = told(1e-3), above = told(4e-3);
+  EXPECT_TRUE(around.is_reset);
+  EXPECT_EQ(around.value, 0);
+  EXPECT_DOUBLE_EQ(around.lower, -2e-3);
+  EXPECT_DOUBLE_EQ(around.upper, 4e-3);
+  EXPECT_EQ(above.lower, 0) << "it contains what is told";
+  EXPECT_DOUBLE_EQ(above.upper, 7e-3);
 }
 
 TEST(Estimates, OfAnInstantAreOnTheClockOnWhichItIsTold) {

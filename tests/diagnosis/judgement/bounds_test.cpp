@@ -148,5 +148,26 @@ TEST(Bounds, OfAPushAreNearIfItLastsNearlyAllTheTime) {
   EXPECT_TRUE(trial.at_bound);
 }
 
+TEST(Bounds, OfAShapeLeaveAnEffectAmongTheRivalsOfWhatItIsThere) {
+  const Found softer("stiffness", {0.5, 1});
+  const PlacedEffect loop = place_effect(*find_effect("hysteresis"), softer.model.nominal, 0);
+  std::vector<Trial> trials = {softer.trial(softer.effect), softer.trial(softer.effect)};
+  trials[1].effect = loop;
+  trials[1].is_another = true;
+  trials[1].prior_cost = 100;  // of its own fit, which is not at that end
+  const Hypothesis without{softer.model.nominal, {}};
+  const Scored scored{without, softer.evidence.score(without)};
+  const auto naming = [&] {
+    return Competition(softer.evidence, softer.model, softer.judge, scored, trials).naming({0, {0}});
+  };
+  ASSERT_EQ(naming().alternatives.size(), 1u);
+  const auto cost = [&](const PlacedEffect& e) { return prior_cost_of(e, softer.model.nominal); };
+  const double odds = std::exp(cost(softer.effect) - cost(loop) - kRule.cost_of_a_limit);
+  EXPECT_NEAR(naming().alternatives[0].probability / naming().weight, odds, 1e-6);
+  EXPECT_FALSE(naming().surer);
+  trials[1].effect = place_effect(*find_effect("friction_drift"), softer.model.nominal, 0);
+  EXPECT_TRUE(naming().alternatives.empty()) << "it is not this effect there";
+}
+
 }  // namespace
 }  // namespace halyard

@@ -90,9 +90,20 @@ TEST(FinalFit, KeepsNoSizeWhoseIntervalContainsItsNeutralValue) {
   ASSERT_TRUE(two.fit.usable);
   for (const double certainty : two.certainties()) EXPECT_GT(certainty, 1);
   ASSERT_EQ(idle_effects(two.fit, 0).size(), 1u) << "of two offsets the data determine the sum";
+  EXPECT_TRUE(two.fit.reset.empty()) << "the other effect goes";
   double sum = 0;
   for (const PlacedEffect& e : two.fit.hypothesis.effects) sum += e.p[0];
   EXPECT_NEAR(sum, kOffset, 0.02 * kOffset);
+}
+
+TEST(FinalFit, TellsWhatTheSizesMayBeThatItHasReset) {
+  PlacedEffect truth = place_neutral_effect(*find_effect("motor_friction"), first_joints(1).nominal, 0);
+  truth.p[0] = 4e-3;
+  const Fitted friction({truth}, truth);
+  ASSERT_TRUE(friction.fit.usable);
+  ASSERT_FALSE(friction.fit.reset.empty());
+  for (const ResetParameter& r : friction.fit.reset)
+    EXPECT_LT(std::abs(r.value - truth.p[r.parameter.index]), r.half_width) << r.parameter.name;
 }
 
 /// A pulley that rubs, on an arm whose mass, rotor, frictions and stiffness are off within their tolerances; and its

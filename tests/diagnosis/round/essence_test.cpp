@@ -43,5 +43,14 @@ TEST(Essence, OfAHysteresisIsItsLoop) {
   EXPECT_FALSE(is_another(effect_of_joint_1("hysteresis", 0.5, 0.05 * stretch), start));
 }
 
+TEST(Essence, OfAHysteresisIsNotThatOfAnotherEffectThanASofterCable) {
+  const ArmParameters<double> arm = first_joints(2).nominal;
+  const auto at = [&](const char* name, int joint) { return place_neutral_effect(*find_effect(name), arm, joint); };
+  EXPECT_TRUE(becomes(at("hysteresis", 0), at("stiffness", 0), arm));
+  EXPECT_FALSE(becomes(at("hysteresis", 0), at("stiffness", 1), arm));
+  EXPECT_FALSE(becomes(at("hysteresis", 0), at("slack", 0), arm));
+  EXPECT_FALSE(becomes(at("friction_drift", 0), at("motor_friction", 0), arm)) << "both names are true";
+}
+
 }  // namespace
 }  // namespace halyard
