@@ -151,8 +151,9 @@ std::string verdict_line(const Diagnosis& d) {
   std::string line = verdict_word(d.verdict);
   for (std::size_t i = 0; i < d.effects.size(); ++i)
     line += fmt::format("{}{} ({})", i == 0 ? ": " : ", ", label_of(d.effects[i]), percent(d.effects[i].probability));
-  if (d.verdict == Diagnosis::Verdict::effects && !d.unexplained.empty()) line += "; an unexplained residual remains";
-  return line;
+  if (d.verdict != Diagnosis::Verdict::effects) return line;
+  const std::string remainder = remainder_headline(d.unexplained);
+  return remainder.empty() ? line : line + "; " + remainder;
 }
 
 std::string tolerance_line(const Diagnosis& d) {

@@ -1,6 +1,7 @@
 #include "app/report/page.h"
 
 #include <algorithm>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -70,7 +71,13 @@ void Page::heading(const std::string& text) { body_ += element("h2", text); }
 void Page::paragraph(const std::string& text) { body_ += element("p", text); }
 
 void Page::verdict(VerdictKind kind, const std::string& text) {
-  body_ += std::string("<p class=\"verdict ") + class_of(kind) + "\">" + escaped(text) + "</p>\n";
+  std::istringstream lines(text);
+  std::string line, items;
+  std::getline(lines, line);
+  body_ += std::string("<div class=\"verdict ") + class_of(kind) + "\"><p>" + escaped(line) + "</p>";
+  while (std::getline(lines, line)) items += "<li>" + escaped(line) + "</li>";
+  if (!items.empty()) body_ += "<ul>" + items + "</ul>";
+  body_ += "</div>\n";
 }
 
 void Page::link(const std::string& text, const std::string& address) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The headline of a diagnosis that names nothing.
+/// What the headline of a diagnosis says of that which it cannot explain.
 
 #include <string>
 #include <vector>
@@ -11,5 +11,8 @@ namespace halyard {
 /// "a residual that matters is left without an explanation; a sensor stands still while its motor moves": one clause
 /// for each kind of what is unexplained.
 std::string unknown_headline(const std::vector<Unexplained>& unexplained);
+
+/// "an unexplained residual remains": what there is beside named effects, in a few words; "" if it is nothing.
+std::string remainder_headline(const std::vector<Unexplained>& unexplained);
 
 }  // namespace halyard

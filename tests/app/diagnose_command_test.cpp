@@ -34,7 +34,7 @@ TEST_F(DiagnoseCommand, SaysWhyAndByHowMuchEachEstimatorGains) {
   EXPECT_TRUE(why.starts_with("Without it the position residual of joint 2 ")) << why;
   EXPECT_TRUE(contains(why, "with the effect (half gap 0.2 mm")) << why;
   EXPECT_TRUE(contains(printed, why)) << printed;
-  EXPECT_TRUE(contains(printed, "effects: backlash of joint 2 (over 99 %)\n")) << printed;
+  EXPECT_TRUE(contains(printed, "effects: backlash of joint 2 (97 %)\n")) << printed;
 
   const auto joint_two = [&](const char* estimator, const char* error, const char* when) {
     return diagnosis.at("estimators").at(estimator).at(error).at(when).at(1).get<double>();

@@ -64,6 +64,12 @@ TEST(ReportPage, EscapesTextEverywhere) {
   EXPECT_EQ(count(html, safe), 11u);
 }
 
+TEST(ReportPage, FurtherLinesOfAVerdictAreItsItems) {
+  Page page("t", "");
+  page.verdict(report::VerdictKind::good, "The model lacks:\na & b\nc");
+  EXPECT_TRUE(contains(page.html(), "<p>The model lacks:</p><ul><li>a &amp; b</li><li>c</li></ul></div>"));
+}
+
 TEST(ReportPage, LinksLeadFromParagraphsAndCellsAndAreEscaped) {
   Page page("t", "");
   page.link("a & b", "x/\"y\".html");
