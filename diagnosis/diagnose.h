@@ -27,7 +27,7 @@ struct Estimated {
   double value = 0, lower = 0, upper = 0;
   double nominal = 0;
   bool is_whole = false;  ///< a whole number: it has no interval, and both ends are its value
-  bool is_reset = false;  ///< it has its neutral value, from which the data do not tell it
+  bool is_reset = false;  ///< it was set to its neutral value: not significant, or at the end of what is plausible
 };
 
 /// An effect that may be the true one instead of the effect that was named.
@@ -104,8 +104,8 @@ struct Diagnosis {
   std::vector<NotExcited> not_excited;
   std::vector<LogFinding> log_findings;  ///< of check_log() about all logs, and what was corrected
   double probability_clean = 0;          ///< that the arm has no effect which the model lacks
-  /// probability that none of the candidates is the right name for a remaining residual or for a named effect; the
-  /// largest of these probabilities
+  /// probability that none of the candidates is the right name for a remaining residual or for a named effect:
+  /// outside_if_certain (decision_rule.h) of the largest of these probabilities
   double probability_none = 0;
   ArmModel given;  ///< the model as given, with unknown torque scales calibrated
   ArmModel revised;

@@ -132,10 +132,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
 
 std::string label_of(const NamedEffect& e) { return effect_label(e.effect) + (e.log.empty() ? "" : " in " + e.log); }
 
-std::string percent(double probability) {
-  constexpr double kAlmostCertain = 0.995;
-  return probability < kAlmostCertain ? fmt::format("{:.0f} %", 100 * probability) : "over 99 %";
-}
+std::string percent(double probability) { return fmt::format("{:.0f} %", 100 * probability); }
 
 std::vector<std::string> absent_event_lines(const Diagnosis& d) {
   std::vector<std::string> lines;

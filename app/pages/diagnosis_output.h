@@ -21,10 +21,10 @@ std::string label_of(const NamedEffect& effect);
 /// A sentence about each event that did not happen in the hold-out.
 std::vector<std::string> absent_event_lines(const Diagnosis& diagnosis);
 
-/// "87 %"; "over 99 %" of what is almost certain.
+/// "87 %".
 std::string percent(double probability);
 
-/// The verdict, and the names with their probabilities: "effects: backlash of joint 2 (over 99 %)", "clean", "unknown".
+/// The verdict, and the names with their probabilities: "effects: backlash of joint 2 (97 %)", "clean", "unknown".
 std::string verdict_line(const Diagnosis& diagnosis);
 
 /// A sentence about a model that is off by more than its tolerances; empty if it is not.

@@ -22,9 +22,8 @@ void add_numbers(report::Page& page, const Diagnosis& d) {
   if (!d.effects.empty()) {
     report::Table table;
     table.caption =
-        "Parameters of the effects that were added. What cannot be told from its neutral value (0, or 1 of a ratio) "
-        "has "
-        "this value.";
+        "Parameters of the effects that were added. What is not significant, or ends at what is plausible, has its "
+        "neutral value: 0, or 1 of a ratio.";
     table.header = {"effect", "parameter", "value", "95 % interval", "unit"};
     table.align = {report::Align::left, report::Align::left, report::Align::right, report::Align::right,
                    report::Align::left};

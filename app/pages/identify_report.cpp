@@ -51,14 +51,14 @@ void add_sentences(report::Page& page, const IdentificationStudy& result) {
   const Identification& found = result.identification;
   const auto all_converged = std::ranges::all_of(
       found.numbers, [](const IdentifiedNumber& n) { return n.convergence == Convergence::converged; });
-  std::string text;
+  std::string text = "What became of each number:";
   for (const IdentifiedNumber& n : found.numbers)
-    text += fmt::format("{}{}: {}.", text.empty() ? "" : "\n", capitalised(n.name), in_words(n.convergence));
+    text += fmt::format("\n{}: {}.", capitalised(n.name), in_words(n.convergence));
   page.verdict(all_converged ? report::VerdictKind::good : report::VerdictKind::warning, text);
-  text.clear();
-  for (const std::string& doubt : doubts(result))
-    text += fmt::format("{}{}.", text.empty() ? "" : "\n", capitalised(doubt));
-  if (!text.empty()) page.verdict(adopted(result) ? report::VerdictKind::warning : report::VerdictKind::bad, text);
+  const std::vector<std::string> doubted = doubts(result);
+  text = "Doubts about the result:";
+  for (const std::string& doubt : doubted) text += fmt::format("\n{}.", capitalised(doubt));
+  if (!doubted.empty()) page.verdict(adopted(result) ? report::VerdictKind::warning : report::VerdictKind::bad, text);
 }
 
 void add_numbers(report::Page& page, const Identification& found) {

@@ -27,7 +27,7 @@ std::string remainder_headline(const std::vector<Unexplained>& unexplained) {
   using Kind = Unexplained::Kind;
   const auto has = [&](Kind kind) { return std::ranges::count(unexplained, kind, &Unexplained::kind) > 0; };
   if (has(Kind::rest) || has(Kind::refused) || has(Kind::motion)) return "an unexplained residual remains";
-  if (has(Kind::unnamed_effect)) return "another effect has no sure name";
+  if (has(Kind::unnamed_effect)) return "an effect without a sure name remains";
   if (has(Kind::line_above_band)) return "a sine above the compared frequencies remains";
   return has(Kind::stuck_sensor) ? "a sensor stands still" : "";
 }

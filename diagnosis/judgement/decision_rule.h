@@ -72,18 +72,20 @@ struct DecisionRule {
   /// probability of 0.5 to 0.9 came true in 55 % of 88 cases of the blind trials (docs/blind_trials.md).
   double cost_of_number = 0.5;
   /// Prior cost of an effect whose shape lies where it is another effect, which is named, nats. Reason: a loop that
-  /// yields at once, or not at all, is a softer cable, and about a third of the loops do so in a log.
+  /// yields at once is a softer cable, and about a third of the loops do so in a log. With the numbers that the two
+  /// have, a softer cable has at most 62 % of the weight, so that beside other names it is a guess (sure_name).
   double cost_of_a_limit = 1;
   /// s of P(none), see name_probability.h.
   double none_sharpness = 1.5;
   /// Where something acts for certain that is not in the library, a name of the same joint is wrong at least with this
-  /// probability: it may imitate a part of that. Reason: in blind trials (seed 20271211, docs/blind_trials.md), two of
-  /// five such names came true. So few make a name uncertain, but do not take it away.
+  /// probability: it may imitate a part of that. Reason: in blind trials (seed 20271211, docs/blind_trials_before.md),
+  /// two of five such names came true. With 0.6 none would keep its name, for which five are too few; with 0.4 those
+  /// keep it that have hardly any alternative.
   double wrong_beside_a_rest = 0.4;
   /// Of what the evidence makes certain, this share is told as the probability: of a name, and of a cause outside the
   /// library. The evidence does not know that the search may have missed the right candidate. Reason: in blind trials
-  /// (seed 20271211 and three draws before it, docs/blind_trials.md) 612 of 634 names came true for which the evidence
-  /// had more than 0.9, and 29 of 33 such causes.
+  /// (docs/blind_trials_before.md), names for which the evidence had more than 0.9 came true in 224 of 236 cases (seed
+  /// 20271211) and in 388 of 398 (20271208, 20271209); such causes in 29 of 33 (20271211).
   double right_if_certain = 0.97, outside_if_certain = 0.9;
   /// An effect is told if this is the least probability that its name or one of its alternatives is right, and that the
   /// name is, if it is the only effect with more than one alternative. Reason: below one half it is more probable that

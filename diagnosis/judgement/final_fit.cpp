@@ -158,15 +158,23 @@ Fit keep_certain_sizes(const Evidence& whole, const Fit& f, std::size_t given) {
   return again.usable ? keep_certain_sizes(whole, again, given) : f;
 }
 
-/// What was reset of added effects that keep a size. `all` is the fit before the first reset.
+/// What was reset of added effects that keep a size. A shape means nothing without a size of its own. `all` is the fit
+/// before the first reset.
 std::vector<ResetParameter> resets(const Fit& all, std::size_t given, const Fit& f) {
   std::vector<ResetParameter> reset;
-  for (std::size_t i = 0; i < all.parameters.size(); ++i) {
-    const FitParameter& p = all.parameters[i];
-    const auto stays = [&](const FitParameter& kept) { return kept.effect == p.effect && !kept.shape; };
-    if (p.effect >= given && (!p.shape || has_usual_value(p)) && !find_parameter(f.parameters, p) &&
-        std::ranges::any_of(f.parameters, stays))
-      reset.push_back({p, all.value[i], half_interval(all, i)});
+  const auto stays = [&](std::size_t i) { return find_parameter(f.parameters, all.parameters[i]).has_value(); };
+  const auto keeps_a_size = [&](const FitParameter& p) {
+    return std::ranges::any_of(f.parameters,
+                               [&](const FitParameter& kept) { return kept.effect == p.effect && !kept.shape; });
+  };
+  const auto tell = [&](std::size_t i) { reset.push_back({all.parameters[i], all.value[i], half_interval(all, i)}); };
+  for (const ParameterGroup& group : groups_of(all.parameters)) {
+    if (group.sizes.empty() || all.parameters[group.sizes[0]].effect < given) continue;
+    for (const std::size_t i : group.sizes)
+      if (!stays(i) && keeps_a_size(all.parameters[i])) tell(i);
+    if (std::ranges::any_of(group.sizes, stays))
+      for (const std::size_t i : group.shapes)
+        if (!stays(i) && has_usual_value(all.parameters[i])) tell(i);
   }
   return reset;
 }

@@ -7,9 +7,9 @@
 
 namespace halyard {
 
-/// True if `effect` is `other` at an end of an essential parameter that is a shape (ParameterSearch::another): a loop
-/// that yields at once is a softer cable. At such an end of a size both names are true, as friction that drifts
-/// unnoticed is friction; of a shape only one is.
+/// True if `effect` is `other` at an end of an essential shape (ParameterSearch::another): a loop that yields at once
+/// is a softer cable. Friction that drifts at no rate, in contrast, is friction whatever it is called: a rate is no
+/// shape.
 bool becomes(const PlacedEffect& effect, const PlacedEffect& other, const ArmParameters<double>& arm);
 
 /// True if the effect at `place` has essential parameters but explains as much without them. with: its hypothesis is

@@ -41,7 +41,9 @@ class Revision {
       if (gone && r.parameter.effect == gone) continue;
       if (gone && r.parameter.effect > gone) --*r.parameter.effect;
       const auto has_a_size = [&](const FitParameter& p) { return p.effect == r.parameter.effect && !p.shape; };
-      if (!find_parameter(fit.parameters, r.parameter) && std::ranges::any_of(fit.parameters, has_a_size))
+      const auto is_its = [&](const ResetParameter& later) { return is_same_number(later.parameter, r.parameter); };
+      if (!find_parameter(fit.parameters, r.parameter) && std::ranges::any_of(fit.parameters, has_a_size) &&
+          std::ranges::none_of(fit.reset, is_its))
         fit.reset.push_back(r);
     }
     take(fit);

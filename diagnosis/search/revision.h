@@ -27,13 +27,13 @@ std::vector<std::size_t> revise(const Evidence& evidence, const Evidence& whole,
 double probability_of_none_for(const Evidence& evidence, const Attribution& found, std::size_t given,
                                std::size_t effect);
 
-/// P(none) of each channel by the residual that all named effects leave in it; 0 without a sensor. One half where a
-/// residual begins to be told. misfit: mean_square_misfit() of the names.
+/// P(none) of each channel by the residual that is left in it; 0 without a sensor. One half where a residual begins to
+/// be told. misfit: mean_square_misfit() of effects that are there.
 std::vector<double> probabilities_of_a_rest(const Evidence& evidence, const Score& score,
                                             const std::vector<double>& misfit);
 
 /// For each added effect: probability_of_none_for(), but at least wrong_beside_a_rest (decision_rule.h) of what the
-/// residual at its joint says.
+/// residual at its joint says, beside the misfit of all added effects.
 std::vector<double> probabilities_of_none(const Evidence& evidence, const Attribution& found, std::size_t given);
 
 /// True if it is more probable that the name of an effect and all its alternatives are wrong than that one of them is

@@ -33,26 +33,42 @@ TABLE
   noise_row '`--noise 0.1`' "$a $options --noise 0.1 --runs 20 --out out/noise_01" 20
 }
 
-figure blind_trials hours bench
-figure_blind_trials() {
+# draw_trials SEED OFF FOLDER: runs the trials that stdin lists as "NUMBER KINDS SENSORS", and prints how they were counted.
+draw_trials() {
   local trials kinds sensors
   while read -r trials kinds sensors; do
     kinds="--kind ${kinds//,/ --kind }" sensors="--sensors ${sensors//,/ --sensors }"
-    ran "bench/halyard_blind_trials $kinds $sensors --off 1 --arms raven2 --trials $trials --seed 20271211 --resume \
---out out/trials"
-  done <<'DRAWS'
-100 clean good,poor,motors
-40 effect good,poor,motors
-20 two_at_joint,three good,poor
-20 form,outside good,poor
-DRAWS
-  ran "bench/halyard_blind_trials --summary out/trials"
-  cat <<'TABLE'
-From `halyard_blind_trials --seed 20271211 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N`; N is 100 for
-clean arms, 40 for one effect, 20 for the other kinds. There are motors only for clean arms and one effect:
+    ran "bench/halyard_blind_trials $kinds $sensors --off $2 --arms raven2 --trials $trials --seed $1 --resume --out $3"
+  done
+  ran "bench/halyard_blind_trials --summary $3"
+  echo
+  awk '/^## /{ inside = $2 == "Acceptance" } inside && /^[|]/' "$work/$3/summary.md"
+}
 
+figure blind_trials hours bench
+figure_blind_trials() {
+  cat <<'TABLE'
+From `halyard_blind_trials --seed 20271214 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N --out DIR`; N is
+40 for clean arms, 25 for one effect, 10 for the other kinds. There are motors only for clean arms and one effect:
 TABLE
-  awk '/^## /{ inside = $2 == "Acceptance" } inside && /^[|]/' "$work/out/trials/summary.md"
+  draw_trials 20271214 1 out/trials <<'DRAWS'
+40 clean good,poor,motors
+25 effect good,poor,motors
+10 two_at_joint,three good,poor
+10 form,outside good,poor
+DRAWS
+}
+
+figure blind_trials_off hours bench
+figure_blind_trials_off() {
+  cat <<'TABLE'
+From `halyard_blind_trials --seed 20271215 --arms raven2 --off 2 --kind KIND --sensors SENSORS --trials N --out DIR`; N is
+15 for one effect, 6 for the other kinds:
+TABLE
+  draw_trials 20271215 2 out/trials_off <<'DRAWS'
+15 effect good,poor,motors
+6 two_at_joint,three good,poor
+DRAWS
 }
 
 figure coverage hours bench

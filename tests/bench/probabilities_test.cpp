@@ -94,8 +94,8 @@ TEST(ProbabilitiesOfTrials, OfNamesAreSharesOfThoseThatAreRightOrFalse) {
   const RightNames right = right_names({&r});
   EXPECT_EQ(right.above_90.hits, 1);
   EXPECT_EQ(right.above_90.of, 2);
-  EXPECT_EQ(right.from_50.hits, 0);
-  EXPECT_EQ(right.from_50.of, 1);
+  EXPECT_EQ(right.others.hits, 0);
+  EXPECT_EQ(right.others.of, 2);
 }
 
 TEST(ProbabilitiesOfTrials, OfCleanAndOfNoneAreNotCountedWhereBothMayBeRight) {

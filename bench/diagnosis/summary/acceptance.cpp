@@ -165,12 +165,12 @@ void add_calibration_lines(std::vector<Line>& lines, const Results& ran) {
                        {},
                        {}});
   const RightNames names = right_names(ran);
-  if (names.above_90.of + names.from_50.of > 0)
+  if (names.above_90.of + names.others.of > 0)
     lines.push_back({"5",
-                     "names with a probability above 0.9 that are right; from 0.5 to 0.9",
+                     "names with a probability above 0.9 that are right; the other names",
                      "",
                      names.above_90,
-                     names.from_50,
+                     names.others,
                      {},
                      {}});
   const Proportion sets = set_coverage(ran);

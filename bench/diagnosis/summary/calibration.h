@@ -9,8 +9,8 @@ namespace halyard::blind {
 Proportion set_coverage(const Results& ran);
 /// Mean of the probabilities that these sets claim. A set ends with the name that brings it to 90 %, so it claims more.
 double probability_of_sets(const Results& ran);
-/// The true parameters of the effects that were named rightly. A diagnosis gives no interval to whole numbers. It may
-/// leave out a shape of which it says that it has its usual value.
+/// The true parameters of the effects that were named rightly. A diagnosis gives no interval to whole numbers, and
+/// leaves out shapes of sizes that it did not find, and sizes that ended at a bound.
 struct ParameterCounts {
   Proportion kept;         ///< intervals of 95 % that contain the truth, of parameters that are not neutral
   Proportion reset;        ///< the same of those that the diagnosis has reset to neutral

@@ -85,8 +85,8 @@ RightNames right_names(const Results& ran) {
     const std::vector<NameScore> scores = score_names(*r);
     for (std::size_t i = 0; i < scores.size(); ++i) {
       const double probability = r->named[i].probability;
-      if (scores[i] == NameScore::also_true || probability < 0.5) continue;
-      (probability > 0.9 ? right.above_90 : right.from_50).count(scores[i] == NameScore::right);
+      if (scores[i] == NameScore::also_true) continue;
+      (probability > 0.9 ? right.above_90 : right.others).count(scores[i] == NameScore::right);
     }
   }
   return right;

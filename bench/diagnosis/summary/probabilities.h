@@ -34,10 +34,10 @@ std::string words(ClaimKind kind);
 /// their tolerance: there both answers may be right.
 std::vector<Claim> claims_of(const Results& ran, ClaimKind kind);
 
-/// Names with a probability above 0.9, and those from 0.5 to 0.9, that are right; without those that are merely true
-/// beside the hidden effects.
+/// Names with a probability above 0.9, and the others, that are right; without those that are merely true beside the
+/// hidden effects.
 struct RightNames {
-  Proportion above_90, from_50;
+  Proportion above_90, others;
 };
 RightNames right_names(const Results& ran);
 

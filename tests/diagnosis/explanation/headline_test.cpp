@@ -25,7 +25,7 @@ TEST(UnknownHeadline, HasAClauseForEachKind) {
 TEST(RemainderHeadline, SaysTheGravestOfWhatRemains) {
   const Unexplained rest{0, "", Kind::rest}, unnamed{1, "", Kind::unnamed_effect}, stuck{2, "", Kind::stuck_sensor};
   EXPECT_EQ(remainder_headline({stuck, unnamed, rest}), "an unexplained residual remains");
-  EXPECT_EQ(remainder_headline({stuck, unnamed}), "another effect has no sure name");
+  EXPECT_EQ(remainder_headline({stuck, unnamed}), "an effect without a sure name remains");
   EXPECT_EQ(remainder_headline({stuck}), "a sensor stands still");
   EXPECT_EQ(remainder_headline({}), "");
 }
