@@ -163,15 +163,13 @@ Fit keep_certain_sizes(const Evidence& whole, const Fit& f, std::size_t given) {
 std::vector<ResetParameter> resets(const Fit& all, std::size_t given, const Fit& f) {
   std::vector<ResetParameter> reset;
   const auto stays = [&](std::size_t i) { return find_parameter(f.parameters, all.parameters[i]).has_value(); };
-  const auto keeps_a_size = [&](const FitParameter& p) {
-    return std::ranges::any_of(f.parameters,
-                               [&](const FitParameter& kept) { return kept.effect == p.effect && !kept.shape; });
-  };
   const auto tell = [&](std::size_t i) { reset.push_back({all.parameters[i], all.value[i], half_interval(all, i)}); };
   for (const ParameterGroup& group : groups_of(all.parameters)) {
-    if (group.sizes.empty() || all.parameters[group.sizes[0]].effect < given) continue;
+    if (group.sizes.empty()) continue;
+    const std::size_t effect = *all.parameters[group.sizes[0]].effect;
+    if (effect < given || !has_a_size(f, effect)) continue;
     for (const std::size_t i : group.sizes)
-      if (!stays(i) && keeps_a_size(all.parameters[i])) tell(i);
+      if (!stays(i)) tell(i);
     if (std::ranges::any_of(group.sizes, stays))
       for (const std::size_t i : group.shapes)
         if (!stays(i) && has_usual_value(all.parameters[i])) tell(i);
@@ -277,6 +275,10 @@ std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given) {
     if (!has_size || !is_whole) idle.push_back(e);
   }
   return idle;
+}
+
+bool has_a_size(const Fit& fit, std::size_t effect) {
+  return std::ranges::any_of(fit.parameters, [&](const FitParameter& p) { return p.effect == effect && !p.shape; });
 }
 
 bool may_be_neutral(const Fit& fit, std::size_t i) {

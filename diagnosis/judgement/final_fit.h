@@ -21,6 +21,9 @@ Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, s
 /// Effects, as indices in the hypothesis, of which no size is left in the fit, or not the essential parameters.
 std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given);
 
+/// True if the fit has a size of the effect with that index.
+bool has_a_size(const Fit& fit, std::size_t effect);
+
 /// Half of the 95 % interval over the standard deviation: Student's quantile for the fit's blocks.
 double interval_factor(const Fit& fit);
 

@@ -40,9 +40,8 @@ class Revision {
     for (ResetParameter r : found_.final_fit.reset) {
       if (gone && r.parameter.effect == gone) continue;
       if (gone && r.parameter.effect > gone) --*r.parameter.effect;
-      const auto has_a_size = [&](const FitParameter& p) { return p.effect == r.parameter.effect && !p.shape; };
       const auto is_its = [&](const ResetParameter& later) { return is_same_number(later.parameter, r.parameter); };
-      if (!find_parameter(fit.parameters, r.parameter) && std::ranges::any_of(fit.parameters, has_a_size) &&
+      if (!find_parameter(fit.parameters, r.parameter) && has_a_size(fit, *r.parameter.effect) &&
           std::ranges::none_of(fit.reset, is_its))
         fit.reset.push_back(r);
     }
