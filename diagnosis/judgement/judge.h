@@ -29,6 +29,12 @@
 
 namespace halyard {
 
+/// How an effect does without its essential parameters (ParameterSearch::another_at).
+struct WithoutEssence {
+  double prior_cost = 0;  ///< of the baseline's numbers
+  Likelihood log_likelihood;
+};
+
 /// A candidate and the results of its tests.
 struct Trial {
   PlacedEffect effect;
@@ -43,11 +49,12 @@ struct Trial {
   bool at_bound = false;
   bool is_refit = false;  ///< its sizes stay within the model's tolerance
   bool matters = false;
-  bool is_another = false;  ///< it explains as much without its essential parameters, see ParameterSearch
   Likelihood log_likelihood;
+  /// It explains as much without its essential parameters, and is another effect then.
+  std::optional<WithoutEssence> as_another = {};
 
   /// True if only the significance of its gain is left to be tested.
-  bool can_be_named() const { return is_judged() && gain > 0 && !at_bound && !is_refit && matters && !is_another; }
+  bool can_be_named() const { return is_judged() && gain > 0 && !at_bound && !is_refit && matters && !as_another; }
   bool passes(double significance) const { return can_be_named() && p_value <= significance; }
 };
 

@@ -2,6 +2,8 @@
 /// Some effects have parameters that make them this effect, as the rate makes a drift of friction (another_at,
 /// ../search_space.h). Without them they are another one: friction that is off, and stays so.
 
+#include <optional>
+
 #include "diagnosis/judgement/judge.h"
 #include "diagnosis/round/refit.h"
 
@@ -12,9 +14,9 @@ namespace halyard {
 /// shape.
 bool becomes(const PlacedEffect& effect, const PlacedEffect& other, const ArmParameters<double>& arm);
 
-/// True if the effect at `place` has essential parameters but explains as much without them. with: its hypothesis is
-/// Refit::at; what is held there stays held.
-bool is_another_effect(const Evidence& evidence, const Refitter& refitter, const Judge& judge, const Refit& with,
-                       std::size_t place);
+/// Nothing if the effect at `place` needs its essential parameters or has none. Otherwise it explains as much without
+/// them, and this is how. with: its hypothesis is Refit::at; what is held there stays held.
+std::optional<WithoutEssence> as_another_effect(const Evidence& evidence, const Refitter& refitter, const Judge& judge,
+                                                const Refit& with, std::size_t place);
 
 }  // namespace halyard

@@ -36,7 +36,7 @@ Trial trial_of(const Evidence& evidence, const Basis& basis, const Standing& nam
   const Hypothesis& h = name.found.fit.hypothesis;
   Trial t = basis.judge.trial(h, without, name.place);
   if (t.can_be_named())
-    t.is_another = is_another_effect(evidence, basis.refitter, basis.judge, {h, name.found.score}, name.place);
+    t.as_another = as_another_effect(evidence, basis.refitter, basis.judge, {h, name.found.score}, name.place);
   return t;
 }
 

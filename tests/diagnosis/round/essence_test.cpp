@@ -15,8 +15,8 @@ PlacedEffect effect_of_joint_1(const char* name, double first, double second) {
   return e;
 }
 
-/// Whether an effect that is fitted to the log of an arm with `truth` is another one. start: of its fit.
-bool is_another(const PlacedEffect& truth, const PlacedEffect& start) {
+/// How an effect that is fitted to the log of an arm with `truth` does as another one. start: of its fit.
+std::optional<WithoutEssence> as_another(const PlacedEffect& truth, const PlacedEffect& start) {
   const ArmModel model = first_joints(1);
   ArmModel robot = model;
   robot.effects = {truth};
@@ -25,22 +25,22 @@ bool is_another(const PlacedEffect& truth, const PlacedEffect& start) {
   const Judge judge(evidence, model, refitter.numbers());
   const Hypothesis from{model.nominal, {start}};
   const Hypothesis fitted = refitter.refit(from, evidence.score(from)).hypothesis;
-  return is_another_effect(evidence, refitter, judge, {fitted, evidence.score(fitted)}, 0);
+  return as_another_effect(evidence, refitter, judge, {fitted, evidence.score(fitted)}, 0);
 }
 
 /// Friction of motor and joint that rises to this factor at once, and then by this rate, 1/s.
 PlacedEffect drifting_friction(double rate, double factor) { return effect_of_joint_1("friction_drift", rate, factor); }
 
 TEST(Essence, OfADriftIsThatItDrifts) {
-  EXPECT_TRUE(is_another(drifting_friction(0, 1.6), drifting_friction(0.01, 1.5)));
-  EXPECT_FALSE(is_another(drifting_friction(0.08, 1.2), drifting_friction(0.01, 1.5)));
+  EXPECT_TRUE(as_another(drifting_friction(0, 1.6), drifting_friction(0.01, 1.5)));
+  EXPECT_FALSE(as_another(drifting_friction(0.08, 1.2), drifting_friction(0.01, 1.5)));
 }
 
 TEST(Essence, OfAHysteresisIsItsLoop) {
   const double stretch = typical_stretch(first_joints(1).nominal.joint[0]);
   const PlacedEffect start = effect_of_joint_1("hysteresis", 0.4, 0.01 * stretch);
-  EXPECT_TRUE(is_another(effect_of_joint_1("stiffness", 0.5, 1), start));
-  EXPECT_FALSE(is_another(effect_of_joint_1("hysteresis", 0.5, 0.05 * stretch), start));
+  EXPECT_TRUE(as_another(effect_of_joint_1("stiffness", 0.5, 1), start));
+  EXPECT_FALSE(as_another(effect_of_joint_1("hysteresis", 0.5, 0.05 * stretch), start));
 }
 
 TEST(Essence, OfAHysteresisIsNotThatOfAnotherEffectThanASofterCable) {
