@@ -177,22 +177,6 @@ std::vector<ResetParameter> resets(const Fit& all, std::size_t given, const Fit&
   return reset;
 }
 
-/// Standard deviations of effects that keep some of their parameters, as if they had kept all of them: what was reset
-/// may be wrong. A mean square: the variance in the fit before the first reset and the shift by the resets.
-void count_resets(const Fit& all, Fit& f) {
-  const auto has_lost_one = [&](std::size_t effect) {
-    return std::ranges::any_of(f.reset, [&](const ResetParameter& r) { return r.parameter.effect == effect; });
-  };
-  for (std::size_t i = 0; i < f.parameters.size(); ++i) {
-    const FitParameter& p = f.parameters[i];
-    if (!p.effect || !has_lost_one(*p.effect)) continue;
-    const std::optional<std::size_t> before = find_parameter(all.parameters, p);
-    if (!before) continue;
-    const double with_all = std::hypot(all.std_deviation[*before], f.value[i] - all.value[*before]);
-    f.std_deviation[i] = std::max(f.std_deviation[i], with_all);
-  }
-}
-
 /// The parameters of added effects in a place that is better on the whole data, if there is one. An instant may lie
 /// anywhere in a block that the fit before did not see.
 Hypothesis nudged_start(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given,
@@ -223,6 +207,20 @@ Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, s
   certain.reset = resets(all, given, certain);
   count_resets(all, certain);
   return certain;
+}
+
+void count_resets(const Fit& before, Fit& f) {
+  const auto has_lost_one = [&](std::size_t effect) {
+    return std::ranges::any_of(f.reset, [&](const ResetParameter& r) { return r.parameter.effect == effect; });
+  };
+  for (std::size_t i = 0; i < f.parameters.size(); ++i) {
+    const FitParameter& p = f.parameters[i];
+    if (!p.effect || !has_lost_one(*p.effect)) continue;
+    const std::optional<std::size_t> at = find_parameter(before.parameters, p);
+    if (!at) continue;
+    const double with_all = std::hypot(before.std_deviation[*at], f.value[i] - before.value[*at]);
+    f.std_deviation[i] = std::max(f.std_deviation[i], with_all);
+  }
 }
 
 std::vector<std::size_t> changed_numbers(const Evidence& whole, const ArmModel& model, const Fit& fit) {

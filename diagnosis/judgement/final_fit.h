@@ -18,6 +18,11 @@ namespace halyard {
 /// integrated either, the result is not usable.
 Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given);
 
+/// Makes the standard deviations of effects that have lost a parameter (Fit::reset) as large as if they had kept all of
+/// them: what was reset may be wrong. A mean square of the deviation in `before`, the fit that still had it, and the
+/// shift since then.
+void count_resets(const Fit& before, Fit& f);
+
 /// Effects, as indices in the hypothesis, of which no size is left in the fit, or not the essential parameters.
 std::vector<std::size_t> idle_effects(const Fit& fit, std::size_t given);
 

@@ -15,6 +15,21 @@
 namespace halyard {
 namespace {
 
+/// The values, deviations and resets of a fit, as they are numbered without an effect.
+Fit counted_without(const Fit& f, std::size_t gone) {
+  Fit left;
+  left.parameters = without_parameters_of(f.parameters, gone);
+  for (std::size_t i = 0; i < f.parameters.size(); ++i)
+    if (f.parameters[i].effect != gone)
+      left.value.push_back(f.value[i]), left.std_deviation.push_back(f.std_deviation[i]);
+  for (ResetParameter r : f.reset) {
+    if (r.parameter.effect == gone) continue;
+    if (r.parameter.effect > gone) --*r.parameter.effect;
+    left.reset.push_back(r);
+  }
+  return left;
+}
+
 class Revision {
  public:
   Revision(const Evidence& evidence, const Evidence& whole, const ArmModel& given, Attribution& found)
@@ -32,21 +47,24 @@ class Revision {
  private:
   const std::vector<PlacedEffect>& effects() const { return found_.final_fit.hypothesis.effects; }
 
-  /// False if the start cannot be integrated: then all stays as it is. gone: the effect that the start lacks. What was
-  /// reset before is not in the start; it stays reset.
+  /// False if the start cannot be integrated: then all stays as it is. gone: the effect that the start lacks.
   bool fit_finally(const Fit& start, std::optional<std::size_t> gone = {}) {
     Fit fit = final_fit(whole_, model_, start, given_);
     if (!fit.usable) return false;
-    for (ResetParameter r : found_.final_fit.reset) {
-      if (gone && r.parameter.effect == gone) continue;
-      if (gone && r.parameter.effect > gone) --*r.parameter.effect;
+    if (gone) keep_resets(counted_without(found_.final_fit, *gone), fit);
+    take(fit);
+    return true;
+  }
+
+  /// What was reset before is not in the start of a later fit; it stays reset.
+  static void keep_resets(const Fit& before, Fit& fit) {
+    for (const ResetParameter& r : before.reset) {
       const auto is_its = [&](const ResetParameter& later) { return is_same_number(later.parameter, r.parameter); };
       if (!find_parameter(fit.parameters, r.parameter) && has_a_size(fit, *r.parameter.effect) &&
           std::ranges::none_of(fit.reset, is_its))
         fit.reset.push_back(r);
     }
-    take(fit);
-    return true;
+    count_resets(before, fit);
   }
 
   void take(const Fit& fit) {
@@ -67,9 +85,9 @@ class Revision {
 
   std::optional<std::size_t> effect_to_drop() const {
     if (const auto idle = idle_effects(found_.final_fit, given_); !idle.empty()) return idle.back();
+    const std::vector<double> none = probabilities_of_none(evidence_, found_, given_);
     for (std::size_t e = given_; e < effects().size(); ++e)
-      if (has_instants(effects()[e], model_.nominal) &&
-          is_doubtful(found_.namings[e - given_], probability_of_none_for(evidence_, found_, given_, e)))
+      if (has_instants(effects()[e], model_.nominal) && is_doubtful(found_.namings[e - given_], none[e - given_]))
         return e;
     return {};
   }

@@ -206,6 +206,24 @@ TEST(FinalFit, IntervalsCountTheSizesOfTheSameEffectThatAreReset) {
   EXPECT_GT(deviation(arm.fit), 1.05 * deviation(one));
 }
 
+TEST(FinalFit, DeviationsCountWhatAFitBeforeHadReset) {
+  FitParameter kept, lost;
+  kept.effect = lost.effect = 0;
+  lost.index = 1;
+  Fit before, after;
+  before.parameters = {kept, lost};
+  before.value = {1, 0.1};
+  before.std_deviation = {0.3, 0.2};
+  after.parameters = {kept};
+  after.value = {1.4};
+  after.std_deviation = {0.1};
+  count_resets(before, after);
+  EXPECT_EQ(after.std_deviation[0], 0.1) << "nothing was reset";
+  after.reset = {{lost, 0.1, 0.4}};
+  count_resets(before, after);
+  EXPECT_NEAR(after.std_deviation[0], std::hypot(0.3, 0.4), 1e-15);
+}
+
 TEST(FinalFit, IsNotUsableIfItsStartCannotBeIntegrated) {
   const ArmModel model = first_joints(1);
   const Evidence whole(make_records(simulate(motion(model, 2)).measured, model, {}), model, Split::none);

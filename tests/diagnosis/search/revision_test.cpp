@@ -90,6 +90,19 @@ TEST(Revision, KeepsADoubtfulEffectButNotOneThatBelongsToTheLog) {
   EXPECT_EQ(s.effects()[0].effect->name(), "capstan_ratio");
 }
 
+TEST(Revision, DropsAPushThatIsDoubtfulBesideAResidualOfItsJoint) {
+  PlacedEffect push = on_the_only_joint("external_force", 0.5);
+  push.p[1] = 2, push.p[2] = 3;
+  const auto effects_left = [&](const std::vector<PlacedEffect>& truth) {
+    Searched s(truth, {push});
+    s.found.namings[0] = {0.8, {}};
+    s.revise();
+    return s.effects().size();
+  };
+  EXPECT_EQ(effects_left({push}), 1u);
+  EXPECT_EQ(effects_left({push, on_the_only_joint("encoder_offset", 0.1)}), 0u);
+}
+
 TEST(Revision, KeepsWhatWasResetOfAnEffectWhenAnotherOneGoes) {
   const PlacedEffect friction = on_the_only_joint("motor_friction", 4e-3);
   Searched s({friction}, {on_the_only_joint("encoder_offset", 1e-9), friction});
