@@ -167,23 +167,23 @@ void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluati
       page.verdict(report::VerdictKind::good, "Clean: the model explains the data to what its sensors resolve.");
       break;
     case Diagnosis::Verdict::unknown: {
-      std::string text = "Unknown: " + unknown_headline(d.unexplained) + ".";
-      for (const Unexplained& u : d.unexplained) text += fmt::format("\nJoint {}: {}.", u.joint + 1, u.signature);
-      page.verdict(report::VerdictKind::bad, text);
+      std::vector<std::string> lines;
+      for (const Unexplained& u : d.unexplained)
+        lines.push_back(fmt::format("Joint {}: {}.", u.joint + 1, u.signature));
+      page.verdict(report::VerdictKind::bad, "Unknown: " + unknown_headline(d.unexplained) + ".", lines);
       break;
     }
     case Diagnosis::Verdict::effects: {
-      std::string text = "The model lacks:";
+      std::vector<std::string> lines;
       for (std::size_t i = 0; i < d.effects.size(); ++i) {
         const NamedEffect& e = d.effects[i];
-        text +=
-            fmt::format("\n{}: {} (probability {}).", label_of(e), e.effect.effect->summary(), percent(e.probability));
-        if (i < evaluation.why.size()) text += " " + evaluation.why[i];
-        else text += alternatives_sentence(e);
+        lines.push_back(
+            fmt::format("{}: {} (probability {}).", label_of(e), e.effect.effect->summary(), percent(e.probability)) +
+            (i < evaluation.why.size() ? " " + evaluation.why[i] : alternatives_sentence(e)));
       }
       for (const Unexplained& u : d.unexplained)
-        text += fmt::format("\nLeft unexplained, joint {}: {}.", u.joint + 1, u.signature);
-      page.verdict(report::VerdictKind::warning, text);
+        lines.push_back(fmt::format("Left unexplained, joint {}: {}.", u.joint + 1, u.signature));
+      page.verdict(report::VerdictKind::warning, "The model lacks:", lines);
       break;
     }
   }
@@ -191,13 +191,13 @@ void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluati
 }
 
 void add_log_findings(report::Page& page, const Diagnosis& d) {
-  std::string suspicious;
+  std::vector<std::string> suspicious;
   for (const LogFinding& f : d.log_findings)
     if (f.severity == LogFinding::Severity::corrected)
       page.paragraph("Corrected before the diagnosis: " + finding_line(f) + ".");
-    else suspicious += "\n" + finding_line(f) + ".";
+    else suspicious.push_back(finding_line(f) + ".");
   if (!suspicious.empty())
-    page.verdict(report::VerdictKind::warning, "Check the log first. These columns look suspicious:" + suspicious);
+    page.verdict(report::VerdictKind::warning, "Check the log first. These columns look suspicious:", suspicious);
 }
 
 namespace {

@@ -51,14 +51,15 @@ void add_sentences(report::Page& page, const IdentificationStudy& result) {
   const Identification& found = result.identification;
   const auto all_converged = std::ranges::all_of(
       found.numbers, [](const IdentifiedNumber& n) { return n.convergence == Convergence::converged; });
-  std::string text = "What became of each number:";
+  std::vector<std::string> became, doubted;
   for (const IdentifiedNumber& n : found.numbers)
-    text += fmt::format("\n{}: {}.", capitalised(n.name), in_words(n.convergence));
-  page.verdict(all_converged ? report::VerdictKind::good : report::VerdictKind::warning, text);
-  const std::vector<std::string> doubted = doubts(result);
-  text = "Doubts about the result:";
-  for (const std::string& doubt : doubted) text += fmt::format("\n{}.", capitalised(doubt));
-  if (!doubted.empty()) page.verdict(adopted(result) ? report::VerdictKind::warning : report::VerdictKind::bad, text);
+    became.push_back(fmt::format("{}: {}.", capitalised(n.name), in_words(n.convergence)));
+  page.verdict(all_converged ? report::VerdictKind::good : report::VerdictKind::warning,
+               "What became of each number:", became);
+  for (const std::string& doubt : doubts(result)) doubted.push_back(capitalised(doubt) + ".");
+  if (!doubted.empty())
+    page.verdict(adopted(result) ? report::VerdictKind::warning : report::VerdictKind::bad,
+                 "Doubts about the result:", doubted);
 }
 
 void add_numbers(report::Page& page, const Identification& found) {

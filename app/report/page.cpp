@@ -1,7 +1,6 @@
 #include "app/report/page.h"
 
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -70,13 +69,11 @@ void Page::heading(const std::string& text) { body_ += element("h2", text); }
 
 void Page::paragraph(const std::string& text) { body_ += element("p", text); }
 
-void Page::verdict(VerdictKind kind, const std::string& text) {
-  std::istringstream lines(text);
-  std::string line, items;
-  std::getline(lines, line);
-  body_ += std::string("<div class=\"verdict ") + class_of(kind) + "\"><p>" + escaped(line) + "</p>";
-  while (std::getline(lines, line)) items += "<li>" + escaped(line) + "</li>";
-  if (!items.empty()) body_ += "<ul>" + items + "</ul>";
+void Page::verdict(VerdictKind kind, const std::string& headline, const std::vector<std::string>& items) {
+  std::string list;
+  for (const std::string& item : items) list += element("li", item);
+  body_ += std::string("<div class=\"verdict ") + class_of(kind) + "\">" + element("p", headline);
+  if (!items.empty()) body_ += "<ul>" + list + "</ul>";
   body_ += "</div>\n";
 }
 

@@ -46,8 +46,8 @@ class Page {
 
   void heading(const std::string& text);
   void paragraph(const std::string& text);
-  /// The first line is the headline, and each further line an item of a list.
-  void verdict(VerdictKind kind, const std::string& text);
+  /// items: a list below the headline.
+  void verdict(VerdictKind kind, const std::string& headline, const std::vector<std::string>& items = {});
   /// A paragraph with a link to another file; the address is relative to this page.
   void link(const std::string& text, const std::string& address);
 

@@ -64,10 +64,10 @@ TEST(ReportPage, EscapesTextEverywhere) {
   EXPECT_EQ(count(html, safe), 11u);
 }
 
-TEST(ReportPage, FurtherLinesOfAVerdictAreItsItems) {
+TEST(ReportPage, ItemsOfAVerdictAreAListBelowItsHeadline) {
   Page page("t", "");
-  page.verdict(report::VerdictKind::good, "The model lacks:\na & b\nc");
-  EXPECT_TRUE(contains(page.html(), "<p>The model lacks:</p><ul><li>a &amp; b</li><li>c</li></ul></div>"));
+  page.verdict(report::VerdictKind::good, "The model lacks:", {"a & b", "c"});
+  EXPECT_TRUE(contains(page.html(), "<p>The model lacks:</p>\n<ul><li>a &amp; b</li>\n<li>c</li>\n</ul></div>"));
 }
 
 TEST(ReportPage, LinksLeadFromParagraphsAndCellsAndAreEscaped) {
