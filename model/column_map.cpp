@@ -77,6 +77,12 @@ std::string standard_names() {
   return names;
 }
 
+/// Throws InputError for a name that is no standard column.
+Quantity standard_quantity(std::string_view name) {
+  if (const std::optional<Quantity> quantity = quantity_of(name)) return *quantity;
+  throw InputError(in_quotes(name) + " is no column of a log; expected one of " + standard_names());
+}
+
 double unit_factor(std::string_view unit, Quantity quantity) {
   if (unit.empty()) return 1;
   std::string fitting;
@@ -123,28 +129,42 @@ void add_parsed(ColumnMap& map, std::string_view entry) {
       throw InputError(in_quotes(key) + " is no setting of a column; expected unit=, sign=, scale=, offset= or wrap=");
     }
   }
+  if (column.empty() && parts.size() == 1) return map.leave_out(name);
   map.add(name, column, unit, numbers["sign"], numbers["scale"], numbers["offset"], numbers["wrap"]);
 }
 
 }  // namespace
 
+void ColumnMap::insert(std::string_view name, const ColumnSource& source) {
+  if (!sources_.emplace(name, source).second) throw InputError("is mapped twice; remove one of the two");
+}
+
+void ColumnMap::leave_out(std::string_view name) {
+  standard_quantity(name);
+  try {
+    if (name == "time" || name.starts_with("motor_position_"))
+      throw InputError("no column is named, but every log has it; name the column of the file that it comes from");
+    insert(name, {});
+  } catch (const InputError& error) {
+    throw InputError("column " + in_quotes(name) + ": " + error.what());
+  }
+}
+
 void ColumnMap::add(std::string_view name, std::string_view column, std::string_view unit, double sign, double scale,
                     double offset, double wrap) {
-  const std::optional<Quantity> quantity = quantity_of(name);
-  if (!quantity) throw InputError(in_quotes(name) + " is no column of a log; expected one of " + standard_names());
+  const Quantity quantity = standard_quantity(name);
   try {
     if (trim(column).empty()) throw InputError("no column is named; name the column of the file that it comes from");
     if (sign != 1 && sign != -1) throw InputError("expected sign 1 or -1; other factors belong in scale");
-    const double factor = sign * scale * unit_factor(trim(unit), *quantity);
+    const double factor = sign * scale * unit_factor(trim(unit), quantity);
     if (!std::isfinite(factor) || factor == 0) throw InputError("expected a finite scale other than 0");
     if (!std::isfinite(offset)) throw InputError("expected a finite offset, in SI units");
     if (!std::isfinite(wrap) || wrap < 0)
       throw InputError(
           "expected a wrap of at least 0: the period of the reading, in the units of the file; 0 means none");
-    if (wrap > 0 && (*quantity != Quantity::kPosition || is_marker(name)))
+    if (wrap > 0 && (quantity != Quantity::kPosition || is_marker(name)))
       throw InputError("only a motor's or a joint's position wraps around; leave wrap out here");
-    const bool is_new = sources_.emplace(name, ColumnSource{std::string(trim(column)), factor, offset, wrap}).second;
-    if (!is_new) throw InputError("is mapped twice; remove one of the two");
+    insert(name, {std::string(trim(column)), factor, offset, wrap});
   } catch (const InputError& error) {
     throw InputError("column " + in_quotes(name) + ": " + error.what());
   }

@@ -22,7 +22,7 @@ inline constexpr std::array<std::string_view, 3> kMarkerNames = {"marker_x", "ma
 /// A counter or an absolute encoder starts again after a period. From one sample that is not missing to the next,
 /// `laps` changes such that the value moves by at most half a period.
 struct ColumnSource {
-  std::string column;  ///< name in the header of the file
+  std::string column;  ///< name in the header of the file; empty: the log has no such column
   double scale = 1;    ///< SI unit per raw unit: unit, sign and scale in one factor, never zero
   double offset = 0;   ///< SI unit (s, rad or m, rad/s or m/s, N·m or N)
   double wrap = 0;     ///< period of a position, in raw units; 0: the column is continuous
@@ -49,10 +49,16 @@ class ColumnMap {
   void add(std::string_view name, std::string_view column, std::string_view unit = "", double sign = 1,
            double scale = 1, double offset = 0, double wrap = 0);
 
-  /// Adds one command-line entry; all but NAME=COLUMN is optional:
+  /// States that the log has no such column. Throws InputError as add() does, and for `time` and a motor's position,
+  /// which every log has.
+  void leave_out(std::string_view name);
+
+  /// Adds one command-line entry; all but NAME=COLUMN is optional. Without COLUMN it is left out:
   ///   motor_torque_1=capstan_torque_1_Nm,unit=N.m,sign=-1,scale=0.0816,offset=0.1
   ///   motor_position_1=angle_deg,unit=deg,wrap=360
-  /// Throws InputError where add() does, and if the text does not have this form. The message quotes the entry.
+  ///   joint_position_1=
+  /// Throws InputError where add() and leave_out() do, and if the text does not have this form. The message quotes the
+  /// entry.
   void add_entry(std::string_view entry);
 
   /// Adds all sources of `other`. If both maps name a standard column, the source in `other` replaces the source in
@@ -67,6 +73,8 @@ class ColumnMap {
   const std::map<std::string, ColumnSource, std::less<>>& sources() const { return sources_; }
 
  private:
+  void insert(std::string_view name, const ColumnSource& source);
+
   std::map<std::string, ColumnSource, std::less<>> sources_;
 };
 

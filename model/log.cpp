@@ -120,12 +120,13 @@ bool has_no_motor(const std::string& name, const ReadOptions& options) {
 void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, const ReadOptions& options,
                   const Lines& header) {
   std::vector<std::string> missing, present;
-  std::string example;
+  std::string example, optional;
   const auto bind_one = [&](const std::string& name, std::vector<double>& values) {
     if (has_no_motor(name, options)) return;
     const auto mapped = map.sources().find(name);
-    const bool is_mapped = mapped != map.sources().end();
-    const ColumnSource source = is_mapped ? mapped->second : ColumnSource{name};
+    const bool is_mapped = mapped != map.sources().end(), is_left_out = is_mapped && mapped->second.column.empty();
+    if (is_left_out && !is_required(name, options)) return;
+    const ColumnSource source = is_mapped && !is_left_out ? mapped->second : ColumnSource{name};
     const auto n_found = std::ranges::count(columns, source.column, &Column::name);
     if (n_found > 1) {
       header.fail("column " + in_quotes(source.column) + " stands twice in the header; rename one of the two");
@@ -140,6 +141,7 @@ void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, 
     } else if (is_mapped) {
       missing.push_back(in_quotes(source.column) + " (mapped to " + name + ")");
       if (example.empty()) example = name;
+      if (optional.empty() && name != "time" && !is_required(name, options)) optional = name;
     } else if (name == "time" || is_required(name, options)) {
       missing.push_back(in_quotes(name));
       if (example.empty()) example = name;
@@ -150,7 +152,8 @@ void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, 
   if (missing.empty()) return;
   for (const Column& column : columns) present.push_back(in_quotes(column.name));
   header.fail("no column " + listed(missing) + "; the file has " + listed(present) +
-              "; say which column of the file it is, in the model file or by --column " + example + "=NAME");
+              "; say which column of the file it is, in the model file or by --column " + example + "=NAME" +
+              (optional.empty() ? "" : ", or by --column " + optional + "= that the log lacks it"));
 }
 
 void read_cell(std::string_view cell, Column& column, const Lines& row) {

@@ -143,9 +143,11 @@ void write_effects(Writer& xml, const ArmModel& model) {
 }
 
 void write_columns(Writer& xml, const ColumnMap& columns) {
-  if (columns.sources().empty()) return;
+  const auto is_in_log = [](const auto& entry) { return !entry.second.column.empty(); };
+  if (std::ranges::none_of(columns.sources(), is_in_log)) return;
   xml.open("columns");
   for (const auto& [name, source] : columns.sources()) {
+    if (source.column.empty()) continue;
     xml.open("column");
     xml.attribute("name", name);
     xml.attribute("from", source.column);

@@ -219,7 +219,9 @@ TEST(ColumnMap, SaysWhatIsWrongWithAnEntry) {
   }
   EXPECT_HAS(message("motor_position_1"), "'motor_position_1' has no '='; expected NAME=COLUMN");
   EXPECT_HAS(message("time=t,"), "'' has no '='");
-  EXPECT_HAS(message("time="), "column 'time': no column is named");
+  for (const std::string name : {"time", "motor_position_1"})
+    EXPECT_HAS(message(name + "="), "column '" + name + "': no column is named, but every log has it");
+  EXPECT_HAS(message("joint_position_1=,unit=deg"), "column 'joint_position_1': no column is named; name the column");
   for (const std::string name : {"motor_torque_1", "marker_x", "time"})
     EXPECT_HAS(message(name + "=a,wrap=360"), "only a motor's or a joint's position wraps around; leave wrap out here");
   EXPECT_HAS(message("motor_position_1=q,wrap=-360"), "expected a wrap of at least 0: the period of the reading");
@@ -232,9 +234,20 @@ TEST(ColumnMap, SaysWhatIsWrongWithAnEntry) {
   EXPECT_HAS(message_of([] { map_of({"time=a", "time=b"}); }), "is mapped twice");
 }
 
+TEST(ColumnMap, AColumnThatIsLeftOutIsNotRead) {
+  ColumnMap map = map_of({"joint_position_1=q", "joint_torque_1=load"});
+  map.override_with(map_of({"joint_position_1=", "joint_torque_1="}));
+  const Log log = read_text("time,motor_torque_1,motor_position_1,joint_position_1\n0,1,2,3\n", map);
+  EXPECT_FALSE(log.has_joint_position(0));
+  EXPECT_TRUE(log.joint_torque[0].empty());
+  EXPECT_HAS(refusal_of("time,motor_position_1\n0,2\n", map_of({"motor_torque_1="})), "no column 'motor_torque_1'");
+}
+
 TEST(ColumnMap, MustFitFileAndArm) {
   EXPECT_HAS(refusal_of("t,motor_torque_1,motor_position_1\n0,1,2\n", map_of({"time=t", "joint_torque_1=load"})),
-             ":1: no column 'load' (mapped to joint_torque_1); the file has 't', ");
+             ":1: no column 'load' (mapped to joint_torque_1); the file has 't', 'motor_torque_1', 'motor_position_1'; "
+             "say which column of the file it is, in the model file or by --column joint_torque_1=NAME, or by --column "
+             "joint_torque_1= that the log lacks it");
   EXPECT_HAS(refusal_of(kHeader, map_of({"joint_position_2=q2"})),
              "column map: 'joint_position_2': the last joint of the arm is 1; ");
   EXPECT_HAS(refusal_of(kHeader + "0,1,1e300\n", map_of({"motor_position_1=motor_position_1,scale=1e300"})),
