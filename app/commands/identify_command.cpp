@@ -10,6 +10,7 @@
 #include "app/output_check.h"
 #include "app/pages/identify_output.h"
 #include "app/progress.h"
+#include "diagnosis/log_check/log_check.h"
 #include "evaluation/joint_unit.h"
 #include "model/arm_log.h"
 #include "model/input_error.h"
@@ -45,6 +46,7 @@ void run_identify(const IdentifyCommandOptions& options) {
   std::string notes;
   for (const auto& path : paths) {
     logs.push_back(read_timed_log(model, path, {}));
+    stop_at_gross_finding(check_log(logs.back(), model));
     if (const std::string note = ignored_columns_note(logs.back()); !note.empty()) notes += note + "\n";
   }
   std::optional<Log> holdout;
@@ -56,10 +58,8 @@ void run_identify(const IdentifyCommandOptions& options) {
   IdentificationStudy result;
   {
     StageProgress progress("identify");
-    result = blaming_wrong_logs(logs, model, {}, [&] {
-      return study_identification(model, logs, holdout, keys,
+    result = study_identification(model, logs, holdout, keys,
                                   [&](const std::string& what, double fraction) { progress.set(what, fraction); });
-    });
   }
   OutputFiles files;
   write_identification(files, options.out, result);

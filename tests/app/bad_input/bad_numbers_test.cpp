@@ -62,7 +62,10 @@ TEST_F(BadInput, AnEstimatorThatRefusesTheLogEndsItsOwnRowOfTheComparison) {
 TEST_F(BadInput, AWrongNumberOfTheLogIsBlamedForTheFailureOfAnEstimator) {
   write_moving_log("3");
   const std::string log = text_of(path("moving.csv"));
-  const auto expect_blamed = [&](const std::string& data, const std::vector<std::string>& parts) {
+  const auto expect_blamed = [&](const std::string& data, std::vector<std::string> parts) {
+    expect_refused({"identify", "--model", "raven2.xml", "--data", data, "--parameters", "coupling", "--out", "out"},
+                   parts);
+    parts.push_back("(estimator ekf on");
     expect_refused({"estimate", "--model", "raven2.xml", "--estimator", "ekf", "--data", data, "--out", "e.csv"},
                    parts);
     expect_refused({"compare", data, "--model", "raven2.xml", "--estimators", "ekf", "--out", "cmp"}, parts);
@@ -75,8 +78,8 @@ TEST_F(BadInput, AWrongNumberOfTheLogIsBlamedForTheFailureOfAnEstimator) {
   const std::vector<std::string> motors(kMotorColumns.begin() + 3, kMotorColumns.end());
   write_text(path("degrees.csv"), scaled(motors, 180 / std::numbers::pi)(log));
   write_text(path("spike.csv"), single("motor_torque_1", 60, 1e6)(log));
-  expect_blamed("degrees.csv", {"degrees.csv: motor_position_1:", "as if it were degrees", "(estimator ekf on"});
-  expect_blamed("spike.csv", {"spike.csv:62: motor_torque_1: 1e+06 N m at", "correct this cell", "(estimator ekf on"});
+  expect_blamed("degrees.csv", {"degrees.csv: motor_position_1:", "as if it were degrees"});
+  expect_blamed("spike.csv", {"spike.csv:62: motor_torque_1: 1e+06 N m at", "correct this cell"});
 }
 
 }  // namespace
