@@ -9,6 +9,7 @@
 
 #include "app/bundled_files.h"
 #include "diagnosis/log_check/log_check.h"
+#include "estimators/process/process_model.h"
 #include "evaluation/run/contained_run.h"
 #include "evaluation/sweep/sweep_run.h"
 #include "model/arm_log.h"
@@ -48,6 +49,16 @@ void print_range_notes(const ArmModel& model) {
   }
 }
 
+/// An arm whose states settle faster than the filters can follow at the usual rate of a log. The plant can simulate it.
+void print_note_of_filters(const ArmModel& model) {
+  constexpr double kUsualStep_s = 1e-3;
+  try {
+    ProcessModel(model).substeps(kUsualStep_s);
+  } catch (const std::runtime_error& error) {
+    fmt::print("note: the Kalman filters will refuse this arm: {}\n", error.what());
+  }
+}
+
 /// unchecked: estimators whose options could not be checked.
 void print_arm(const ArmModel& model, const std::vector<std::string>& unchecked) {
   fmt::print("  {} joint{}:", model.n(), model.n() == 1 ? "" : "s");
@@ -59,6 +70,7 @@ void print_arm(const ArmModel& model, const std::vector<std::string>& unchecked)
   }
   fmt::print("\n  effects: {}\n", effect_list(model));
   print_range_notes(model);
+  print_note_of_filters(model);
   if (!unchecked.empty())
     fmt::print("  not checked: options of estimators that are not installed: {}\n", fmt::join(unchecked, ", "));
 }

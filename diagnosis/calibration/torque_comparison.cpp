@@ -24,6 +24,7 @@ TorqueComparison compare_torques(const ArmModel& model, const std::vector<Record
   for (const Record& record : records) {
     c.step = kStride * record.dt;
     const std::vector<Residuals> e = predict(record, {once, twice}, kStride);
+    c.is_predicted = c.is_predicted && e[0].finite;
     for (int k = 0; k < n; ++k) {
       const std::size_t samples = (record.size + kStride - 1) / kStride;
       for (std::size_t i = 0; i < samples; ++i) {

@@ -11,6 +11,8 @@ struct TorqueComparison {
   Signals recorded;  ///< N m
   Signals needed;    ///< over the model's torque scale, N m
   double step = 0;   ///< s between samples
+  /// False: the arm cannot be integrated along the motion of a record, whose `needed` is NaN then.
+  bool is_predicted = true;
 };
 TorqueComparison compare_torques(const ArmModel& model, const std::vector<Record>& records);
 

@@ -9,6 +9,7 @@
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/robust.h"
 #include "diagnosis/log_check/saturating_torque.h"
+#include "diagnosis/prediction/room.h"
 #include "model/input_error.h"
 
 namespace halyard {
@@ -169,6 +170,11 @@ void check_torque_spikes(LogUnderCheck& c) {
 
 void check_torques(LogUnderCheck& c) {
   auto t = torques_of(c);
+  if (t && !t->is_predicted)
+    return c.suspect("motor_torque",
+                     "was not compared with what the motion requires, because the model cannot be integrated along it" +
+                         fastest_state(c.model),
+                     "take larger smoothing speeds, or less damping, in the model");
   for (int i = 0; t && i < c.n(); ++i)
     for (int j = i + 1; t && j < c.n(); ++j)
       if (check_torque_swap(c, *t, i, j)) t = torques_of(c);

@@ -60,6 +60,17 @@ TEST_F(App, CheckNotesARangeThatMayBeInDegrees) {
       contains(done({"check", "wide.xml"}), "note: the range of joint 1 is 14.3 turns wide; if it is in degrees"));
 }
 
+TEST_F(App, CheckNotesAnArmThatTheFiltersWillRefuse) {
+  const std::string model = text_of(example("raven2.xml"));
+  const std::size_t friction = model.find("<friction"), smoothing = model.find("smoothing=\"", friction);
+  ASSERT_NE(smoothing, model.npos);
+  const std::size_t number = smoothing + std::string("smoothing=\"").size();
+  write_text(path("sharp.xml"), model.substr(0, number) + "1e-9" + model.substr(model.find('"', number)));
+  EXPECT_TRUE(contains(done({"check", "sharp.xml"}),
+                       "note: the Kalman filters will refuse this arm: process model: a "
+                       "step of 0.001 s would need"));
+}
+
 TEST_F(App, CheckMakesTheEstimatorsThatAModelHasOptionsFor) {
   write_short_scenario("experiment_a.xml");
   const std::string model = text_of(path("raven2.xml"));

@@ -57,6 +57,16 @@ TEST(TimeCheck, TakesARowThatIsWrittenLateForNoMissingOne) {
   EXPECT_EQ(lines_of(check_times(log, first_joints(1), {})), "");
 }
 
+TEST(TorqueCheck, SaysThatItCannotCompareTorquesOfAnArmThatCannotBeIntegrated) {
+  ArmModel sharp = first_joints(1);
+  const Log log = simulate(motion(sharp, 5)).measured;
+  EXPECT_TRUE(found_by(check_torques, log, sharp).empty());
+  sharp.nominal.joint[0].joint_smoothing = 1e-12;
+  const std::vector<LogFinding> findings = found_by(check_torques, log, sharp);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].what.find("was not compared with what the motion requires"), 0u) << findings[0].what;
+}
+
 TEST(CounterCheck, TakesAStepOfALapBetweenReadingsOfMoreThanALapForNone) {
   const ArmModel model = first_joints(1);
   const double lap = std::exp2(13) * model.nominal.joint[0].joint_encoder_resolution;

@@ -33,9 +33,13 @@ TEST(Room, WhereThereIsNoneNothingIsPredictedAndTheNeighboursAre) {
 TEST(Room, ARefusalSaysWhetherStatesOrStiffnessAreTooMuch) {
   EXPECT_EQ(message_of([] { refuse_to_predict(arm_with_states(70), "motion"); }),
             "arm.xml: its effects have 70 internal states; expected at most 62: place fewer of them");
-  EXPECT_EQ(message_of([] { refuse_to_predict(arm_with_states(1), "motion"); }),
-            "arm.xml: cannot be integrated along the motion; expected frictions and cables that settle more slowly: "
-            "take larger smoothing speeds, or less damping");
+  const std::string too_stiff = message_of([] { refuse_to_predict(arm_with_states(1), "motion"); });
+  EXPECT_TRUE(too_stiff.starts_with("arm.xml: cannot be integrated along the motion: joint_rate_1 settles at "))
+      << too_stiff;
+  EXPECT_TRUE(
+      too_stiff.ends_with(" 1/s at standstill; expected frictions and cables that settle more slowly: take "
+                          "larger smoothing speeds, or less damping"))
+      << too_stiff;
 }
 
 }  // namespace
