@@ -42,4 +42,12 @@ TorqueComparison compare_torques(const ArmModel& model, const std::vector<Record
   return c;
 }
 
+void append(TorqueComparison& all, const TorqueComparison& more) {
+  for (std::size_t k = 0; k < all.recorded.size(); ++k) {
+    all.recorded[k].insert(all.recorded[k].end(), more.recorded[k].begin(), more.recorded[k].end());
+    all.needed[k].insert(all.needed[k].end(), more.needed[k].begin(), more.needed[k].end());
+  }
+  all.is_predicted = all.is_predicted && more.is_predicted;
+}
+
 }  // namespace halyard

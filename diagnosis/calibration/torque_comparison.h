@@ -14,6 +14,9 @@ struct TorqueComparison {
   /// False: the arm cannot be integrated along the motion of a record, whose `needed` is NaN then.
   bool is_predicted = true;
 };
+/// Adds the samples of `more`, with the step of `all`, behind its own.
+void append(TorqueComparison& all, const TorqueComparison& more);
+
 TorqueComparison compare_torques(const ArmModel& model, const std::vector<Record>& records);
 
 }  // namespace halyard

@@ -15,13 +15,28 @@
 namespace halyard {
 namespace {
 
-/// Nothing if no stretch of the log is long enough for a record; diagnose() says so itself.
-std::optional<TorqueComparison> torques_of(const LogUnderCheck& c) {
+/// Nothing if the part is too short for a record.
+std::optional<TorqueComparison> torques_of(const LogUnderCheck& c, const Log& part) {
   try {
-    return compare_torques(c.model, make_records(c.log, c.model, {}));
+    return compare_torques(c.model, make_records(part, c.model, {}));
   } catch (const InputError&) {
     return std::nullopt;
   }
+}
+
+/// Part by part: a comparison needs many times the memory of its part. Nothing if no part of the log is long enough;
+/// diagnose() says so itself.
+std::optional<TorqueComparison> torques_of(const LogUnderCheck& c) {
+  constexpr double kPart_s = 120;
+  std::optional<TorqueComparison> all;
+  const std::vector<double>& time = c.log.time;
+  for (std::size_t begin = 0, end = 0; begin < time.size(); begin = end) {
+    end = static_cast<std::size_t>(std::ranges::upper_bound(time, time[begin] + kPart_s) - time.begin());
+    const auto part = torques_of(c, slice(c.log, begin, end));
+    if (part && all) append(*all, *part);
+    else if (part) all = part;
+  }
+  return all;
 }
 
 /// The correlation if it is significant for its number of independent samples; 0 otherwise.

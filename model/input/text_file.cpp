@@ -11,7 +11,9 @@
 namespace halyard {
 namespace {
 
-constexpr double kBytesInMemory = 3;             // the text, its copy as it grows, and what is read from it
+/// The text, its copy as it grows, what is read from it, and what `compare` keeps of a run: measured on logs of 11 and
+/// 22 MB. Other commands need less.
+constexpr double kBytesInMemory = 11;
 constexpr std::uintmax_t kFirstBlock = 1 << 16;  // bytes
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {

@@ -1,5 +1,6 @@
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <span>
 #include <string>

@@ -33,7 +33,7 @@ TEST_F(BadInput, ALogThatDoesNotFitIntoMemory) {
   const RunResult run =
       this->run({"estimate", "--model", "raven2.xml", "--estimator", "ekf", "--data", "huge.csv", "--out", "e.csv"});
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_TRUE(contains(run.err, "huge.csv: needs about 2.64e+04 GB of memory")) << run.err;
+  EXPECT_TRUE(contains(run.err, "huge.csv: needs about 9.68e+04 GB of memory")) << run.err;
 }
 
 TEST_F(BadInput, AnEstimatorThatRefusesTheLogEndsItsOwnRowOfTheComparison) {

@@ -1,6 +1,7 @@
 #pragma once
 /// The table of bad input: files that are each wrong in one way, and the line with which every command answers.
 
+#include <cmath>
 #include <functional>
 #include <numbers>
 #include <ostream>

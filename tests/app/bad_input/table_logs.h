@@ -74,6 +74,15 @@ inline std::vector<BadInputRow> bad_logs() {
       {"MotorFreezes", Wrong::motion, frozen("motor_position_1", 1000),
        "bad.csv: motor_position_1: stands still for 2 s while the joint moves, longest from 1 to 3 s; expected "
        "the angle of the motor; give the column of this motor's encoder, or a record in which it works"},
+      {"MotorsSwapped", Wrong::motion, put("motor_position_2,motor_position_3", "motor_position_3,motor_position_2"),
+       "bad.csv: motor_position_2: seems to be exchanged with motor_position_3: joint 2's reading follows motor 3, and "
+       "the reverse; expected its own motor; exchange them with --column motor_position_2=motor_position_3 --column "
+       "motor_position_3=motor_position_2"},
+      {"MotorWraps", Wrong::motion,
+       changed({"motor_position_1"},
+               [](int, double x) { return x - 2 * std::numbers::pi * std::floor(x / (2 * std::numbers::pi)); }),
+       "bad.csv: motor_position_1: starts again after 1 turn; expected a continuous position; unwrap it with --column "
+       "motor_position_1=motor_position_1,wrap=6.28318530718"},
       {"TorqueOf1e6", Wrong::motion, single("motor_torque_1", 60, 1e6),
        "bad.csv:62: motor_torque_1: 1e+06 N m at 0.06 s; 95 % of the torques are below 0.0325 N m; correct this "
        "cell, or leave it empty"},
