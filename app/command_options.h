@@ -45,12 +45,22 @@ struct NumberRange {
   bool above_least = false;  ///< without `least` itself
 };
 
+/// CLI11 would convert the text by the C locale, which may have decimal commas.
+template <class Number>
+CLI::Option* add_real(CLI::App& command, const std::string& name, Number& value, const std::string& description) {
+  CLI::Option* option = command.add_option_function<std::string>(
+      name, [&value](const std::string& text) { value = parse_number(text).value(); }, description);
+  if constexpr (std::is_same_v<Number, double>)
+    option->default_function([&value] { return fmt::format("{:g}", value); });
+  return option;
+}
+
 /// For every option that is a number. CLI11's own checks let NaN pass.
 template <class Number>
 CLI::Option* add_number(CLI::App& command, const std::string& name, Number& value, const NumberRange& range,
                         const std::string& description) {
-  const bool whole = std::is_integral_v<Number>;
-  const auto fault = [range, whole](const std::string& text) -> std::string {
+  constexpr bool whole = std::is_integral_v<Number>;
+  const auto fault = [range](const std::string& text) -> std::string {
     const std::optional<double> number = parse_number(text);
     if (number && (*number > range.least || (*number == range.least && !range.above_least)) && *number <= range.most &&
         (!whole || text.find_first_not_of("0123456789") == text.npos))
@@ -59,7 +69,10 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, Number& valu
            (range.above_least ? "above " : "at least ") + fmt::format("{:g}", range.least) +
            (range.most < std::numeric_limits<double>::max() ? fmt::format(", at most {:g}", range.most) : "");
   };
-  return command.add_option(name, value, description)->check(fault)->type_name("N");
+  CLI::Option* option = nullptr;
+  if constexpr (whole) option = command.add_option(name, value, description);
+  else option = add_real(command, name, value, description);
+  return option->check(fault)->type_name("N");
 }
 
 }  // namespace halyard

@@ -1,8 +1,6 @@
 #include "model/log.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -14,6 +12,7 @@
 #include "model/input/text_file.h"
 #include "model/input_error.h"
 #include "model/name_list.h"
+#include "model/output/number_text.h"
 #include "model/output/output_files.h"
 
 namespace halyard {
@@ -179,13 +178,8 @@ void read_row(std::vector<Column>& columns, const Lines& row, std::vector<std::s
   }
 }
 
-std::string number_text(double value, std::chars_format format, int digits) {
-  std::array<char, 400> buffer;  // the largest double has 309 digits before the point
-  return {buffer.begin(), std::to_chars(buffer.begin(), buffer.end(), value, format, digits).ptr};
-}
-
 std::string time_text(double time) {
-  std::string text = number_text(time, std::chars_format::fixed, 6);
+  std::string text = with_decimals(time, 6);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();
   return text;
@@ -287,7 +281,7 @@ std::string log_csv(const Log& log, const std::string& comment) {
     text += time;
     for (const auto* values : columns) {
       text += ',';
-      if (!std::isnan((*values)[i])) text += number_text((*values)[i], std::chars_format::general, 9);
+      if (!std::isnan((*values)[i])) text += with_digits((*values)[i], 9);
     }
     text += "\n";
     previous = std::move(time);

@@ -4,19 +4,15 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 
 #include "model/input_error.h"
+#include "model/output/number_text.h"
 
 namespace halyard {
 namespace {
 
-std::string in_gigabytes(double bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g GB", bytes / 1e9);
-  return text;
-}
+std::string in_gigabytes(double bytes) { return with_digits(bytes / 1e9, 3) + " GB"; }
 
 }  // namespace
 

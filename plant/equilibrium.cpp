@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
 #include "model/input_error.h"
+#include "model/output/number_text.h"
 #include "transmission/coupling.h"
 
 namespace halyard {
@@ -67,12 +67,9 @@ Eigen::VectorXd resting_state(ArmPlant& plant, double time_s, const Eigen::Vecto
     };
     double reach = 1e-6;
     while (reach < kFarthest && !holds_within(missing, reach)) reach = std::min(2 * reach, kFarthest);
-    if (!holds_within(missing, reach)) {
-      char force[32];
-      std::snprintf(force, sizeof force, "%.6g", needed(k));
-      throw InputError("joint " + std::to_string(k + 1) + ": no stretch of its cable up to 1 m gives the " + force +
-                       " N that hold the arm; give it more stiffness or tension");
-    }
+    if (!holds_within(missing, reach))
+      throw InputError("joint " + std::to_string(k + 1) + ": no stretch of its cable up to 1 m gives the " +
+                       with_digits(needed(k), 6) + " N that hold the arm; give it more stiffness or tension");
     std::uintmax_t iterations = 200;
     const boost::math::tools::eps_tolerance<double> to_rounding;
     const auto bracket = boost::math::tools::toms748_solve(missing, -reach, reach, to_rounding, iterations);

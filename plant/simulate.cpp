@@ -9,6 +9,7 @@
 
 #include "model/input_error.h"
 #include "model/memory_limit.h"
+#include "model/output/number_text.h"
 #include "model/xml/arm_checks.h"
 #include "plant/controller.h"
 #include "plant/equilibrium.h"
@@ -196,7 +197,7 @@ void refuse_runaway(const Scenario& scenario, const Tick& tick, double time_s) {
   for (int k = 0; k < scenario.robot.n(); ++k)
     if (has_motor(scenario, k) && !(std::abs(tick.signals[k].motor_rate) < kFastestMotor))
       throw InputError(place(scenario) + "motor " + std::to_string(k + 1) + " turns faster than " +
-                       std::to_string(std::lround(kFastestMotor)) + " rad/s at " + std::to_string(time_s) +
+                       std::to_string(std::lround(kFastestMotor)) + " rad/s at " + with_decimals(time_s, 6) +
                        " s, so the controlled arm is unstable; lower kp and kd of the joint's "
                        "<controller>, or state its torque_limit");
 }
@@ -305,9 +306,9 @@ void check_scenario(const Scenario& scenario) {
       const double t = i * scenario.control_period_s;
       const double q = desired_position(scenario.trajectory[k], scenario.fade_in_s, t);
       if (!(q >= range.lower && q <= range.upper))
-        throw InputError(joint + "asks for " + std::to_string(q) + unit + " at " + std::to_string(t) +
-                         " s, outside the joint's range " + std::to_string(range.lower) + " to " +
-                         std::to_string(range.upper) + unit + "; make it smaller or move its center");
+        throw InputError(joint + "asks for " + with_decimals(q, 6) + unit + " at " + with_decimals(t, 6) +
+                         " s, outside the joint's range " + with_decimals(range.lower, 6) + " to " +
+                         with_decimals(range.upper, 6) + unit + "; make it smaller or move its center");
     }
   }
   check_changed_inertia(scenario);

@@ -12,6 +12,7 @@
 #include "evaluation/joint_unit.h"
 #include "evaluation/json.h"
 #include "model/model_file.h"
+#include "model/output/number_text.h"
 
 namespace halyard {
 namespace {
@@ -21,7 +22,7 @@ using Json = nlohmann::ordered_json;
 /// Nine digits are more than any estimate carries, and the same on every run.
 Json number(double value) {
   if (!std::isfinite(value)) return nullptr;
-  return std::stod(fmt::format("{:.9g}", value));
+  return rounded_to_digits(value, 9);
 }
 
 Json numbers(const std::vector<double>& values) {
@@ -31,7 +32,7 @@ Json numbers(const std::vector<double>& values) {
 }
 
 /// Three digits are more than a probability deserves.
-Json probability(double value) { return std::stod(fmt::format("{:.3f}", value)); }
+Json probability(double value) { return rounded_to_decimals(value, 3); }
 
 Json interval_of(const Estimated& e) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

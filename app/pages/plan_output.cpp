@@ -11,6 +11,7 @@
 #include "app/report/page.h"
 #include "evaluation/joint_unit.h"
 #include "evaluation/json.h"
+#include "model/output/number_text.h"
 
 namespace halyard {
 namespace {
@@ -22,9 +23,7 @@ constexpr const char* kNamesNothing =
     "moves.";
 
 /// Limits are known to a tenth.
-Json number(double value) {
-  return std::isfinite(value) ? Json(std::stod(fmt::format("{:.4g}", value))) : Json(nullptr);
-}
+Json number(double value) { return std::isfinite(value) ? Json(rounded_to_digits(value, 4)) : Json(nullptr); }
 
 std::string joint_text(EffectPlace joint) { return joint ? fmt::format("{}", *joint + 1) : "arm"; }
 

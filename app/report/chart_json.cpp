@@ -1,10 +1,9 @@
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "app/report/chart.h"
+#include "model/output/number_text.h"
 
 namespace halyard::report {
 namespace {
@@ -12,16 +11,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// To 12 significant digits: finer than any pixel, also where time counts from 1970.
-double rounded(double value) {
-  std::array<char, 32> text;
-  const auto [end, error] =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 12);
-  double result = value;
-  std::from_chars(text.data(), end, result);
-  return result;
-}
-
-Json number(double value) { return std::isfinite(value) ? Json(rounded(value)) : Json(nullptr); }
+Json number(double value) { return std::isfinite(value) ? Json(rounded_to_digits(value, 12)) : Json(nullptr); }
 
 Json numbers(const std::vector<double>& values) {
   Json array = Json::array();

@@ -13,6 +13,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "model/output/number_text.h"
 #include "model/xml/xml_reader.h"
 #include "plant/simulate.h"
 #include "plant/trajectory.h"
@@ -41,7 +42,7 @@ Range range_of(const Scenario& given, int k) {
 }
 
 /// Readable in a file, and there the same number.
-double rounded(double value) { return std::stod(fmt::format("{:.4g}", value)); }
+double rounded(double value) { return rounded_to_digits(value, 4); }
 
 class Draw {
  public:

@@ -1,23 +1,14 @@
 #include "model/xml/arm_checks.h"
 
 #include <cmath>
-#include <cstdio>
 #include <type_traits>
 
+#include "model/output/number_text.h"
 #include "model/rigid_chain.h"
 #include "transmission/arm_fields.h"
 #include "transmission/coupling.h"
 
 namespace halyard {
-namespace {
-
-std::string rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
-}  // namespace
 
 std::optional<int> joint_without_inertia(const ArmParameters<double>& arm, const Eigen::VectorXd& q) {
   constexpr double kRounding = 1e-12;  // of a pivot, which is what is left of its diagonal entry
@@ -41,7 +32,7 @@ std::string number_outside_bound(const ArmParameters<double>& before, const ArmP
         const bool positive = field.bound == Bound::positive;
         if (positive ? is > 0 : is >= -kRounding * std::abs(was)) return;
         fault = "the " + std::string(field.name) + " of <" + std::string(field.part_at(after.joint[k].drive)) +
-                "> of joint " + std::to_string(k + 1) + " becomes " + rounded(is) + ", expected " +
+                "> of joint " + std::to_string(k + 1) + " becomes " + with_digits(is, 6) + ", expected " +
                 (positive ? "a number greater than 0" : "at least 0");
       }
     };

@@ -1,8 +1,9 @@
 #include "plant/integrators/integrator.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
+
+#include "model/output/number_text.h"
 
 namespace halyard {
 namespace {
@@ -32,9 +33,8 @@ Eigen::VectorXd absolute_tolerances(const DriveTrain& drive, double tolerance) {
 
 void fail_between(double from_s, double until_s, std::string why) {
   std::replace(why.begin(), why.end(), '\n', ' ');  // Simbody's messages have several lines
-  char text[96];
-  std::snprintf(text, sizeof text, "integration failed between t = %.6f s and %.6f s: ", from_s, until_s);
-  throw std::runtime_error(text + why +
+  throw std::runtime_error("integration failed between t = " + with_decimals(from_s, 6) + " s and " +
+                           with_decimals(until_s, 6) + " s: " + why +
                            "; check stiffness, damping, friction and the controllers' gains, or set other tolerances");
 }
 

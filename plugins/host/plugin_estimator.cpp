@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "model/input_error.h"
 #include "model/model_file.h"
+#include "model/output/number_text.h"
 #include "plugins/host/plain_name.h"
 
 namespace halyard {
@@ -17,11 +17,7 @@ namespace {
 /// A number that the plug-in leaves out must not pass for one that it gave.
 constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
 
-std::string seconds(double time_s) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", time_s);
-  return text;
-}
+std::string seconds(double time_s) { return with_digits(time_s, 9); }
 
 /// What a call into the module came to. An exception that it lets out is against the contract, and is contained.
 struct Outcome {
