@@ -35,7 +35,6 @@ struct BadInputRow {
   std::string line;  ///< on stderr; kAny stands for any text
 };
 inline void PrintTo(const BadInputRow& row, std::ostream* out) { *out << row.name; }
-inline constexpr std::string_view kAny = "{any}";
 
 inline Change put(const std::string& from, const std::string& to) {
   return [=](const std::string& text) { return replaced(text, from, to); };

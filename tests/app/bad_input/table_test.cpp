@@ -21,14 +21,6 @@ std::vector<BadInputRow> all_rows() {
   return rows;
 }
 
-/// Whether the text is the pattern, in which kAny stands for any text.
-bool is_like(std::string_view text, std::string_view pattern) {
-  const std::size_t any = pattern.find(kAny);
-  if (any == pattern.npos) return text == pattern;
-  const std::string_view rest = pattern.substr(any + kAny.size());
-  return text.size() >= any + rest.size() && text.starts_with(pattern.substr(0, any)) && text.ends_with(rest);
-}
-
 class BadInputTable : public BadInput, public ::testing::WithParamInterface<BadInputRow> {
  protected:
   static bool is_log(Wrong wrong) { return wrong == Wrong::log || wrong == Wrong::clock || wrong == Wrong::motion; }

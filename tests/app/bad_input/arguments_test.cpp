@@ -1,0 +1,56 @@
+// Arguments that do not fit: one line that names them, exit code 2, and no output.
+#include <gtest/gtest.h>
+
+#include "tests/app/bad_input/bad_input.h"
+
+namespace halyard::testing_program {
+namespace {
+
+const std::string kCommands =
+    "expected one of simulate, estimate, compare, diagnose, identify, experiments, sweep, merge, plugins, check, tour; "
+    "see halyard --help";
+
+TEST_F(BadInput, ACommandThatIsMissingOrUnknown) {
+  expect_line({}, "halyard: a command is missing; " + kCommands);
+  expect_line({"estimte"}, "halyard: no command 'estimte'; " + kCommands);
+  expect_line({"--verbose"}, "halyard: The following argument was not expected: --verbose; see halyard --help");
+}
+
+TEST_F(BadInput, ArgumentsThatDoNotFit) {
+  const auto expect_usage = [&](const std::vector<std::string>& arguments, const std::string& fault) {
+    const std::string command = "halyard " + arguments.front();
+    expect_line(arguments, command + ": " + fault + "; see " + command + " --help or halyard --help");
+  };
+  expect_usage({"simulate"}, "SCENARIO.xml is required");
+  expect_usage({"simulate", "experiment_a.xml"}, "--out is required");
+  expect_usage({"simulate", "experiment_a.xml", "--out"}, "--out: 1 required LOG.csv missing");
+  expect_usage({"simulate", "experiment_a.xml", "more.xml", "--out", "new.csv"},
+               "The following argument was not expected: more.xml");
+  expect_usage({"simulate", "experiment_a.xml", "--out", "new.csv", "--fast"},
+               "The following argument was not expected: --fast");
+  expect_usage({"estimate", "--model", "raven2.xml", "--data", "log.csv", "--out", "e.csv"}, "--estimator is required");
+  const std::vector<std::string> compare = {"compare", "log.csv", "--model", "raven2.xml", "--out", "cmp"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), compare.begin(), compare.end());
+    return more;
+  };
+  expect_usage(with({"--estimators", "ekf", "--skip", "-1"}), "--skip: '-1': expected a finite number, at least 0");
+  expect_line(with({"--estimators", "ekf,ekf", "--skip", "0"}),
+              "estimators 'ekf,ekf': 'ekf' is listed twice; list it once");
+  expect_line(with({"--estimators", ""}), "estimators '': an empty name; expected names with one comma between them");
+  expect_line(with({"--estimators", "ekf", "--runs", "3"}),
+              "halyard compare: --robot, --runs and --noise are for scenarios, and 'log.csv' is a log; leave them out");
+  expect_line({"compare", "log.csv", "--estimators", "kinematics", "--out", "cmp"},
+              "halyard compare: --model is missing; a log needs the model file of its robot, --model M.xml");
+  for (const std::string jobs : {"0", "many"})
+    expect_usage({"sweep", "sweep.xml", "--out", "out", "--jobs", jobs},
+                 "--jobs: '" + jobs + "': expected a whole number, at least 1, at most 1024");
+}
+
+TEST_F(BadInput, ALineBreakInANameIsNoneInTheMessage) {
+  expect_line({"simulate", "experiment\na.xml", "--out", "new.csv"},
+              "experiment a.xml: no such file; give the path of an XML file");
+}
+
+}  // namespace
+}  // namespace halyard::testing_program
