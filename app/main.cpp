@@ -6,7 +6,6 @@
 #include <glog/logging.h>
 #include <malloc.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -17,16 +16,14 @@
 
 #include "app/command_line.h"
 #include "app/interruption.h"
+#include "app/terminal/terminal.h"
 #include "model/input_error.h"
 #include "transmission/lanes/instruction_set.h"
 
 namespace {
 
 int fail(const std::exception& error, int code) {
-  std::string line = error.what();
-  std::ranges::replace_if(
-      line, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  std::fprintf(stderr, "%s\n", line.c_str());
+  halyard::tell(error.what());
   return code;
 }
 

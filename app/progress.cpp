@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/terminal/terminal.h"
+
 namespace halyard {
 namespace {
 
@@ -20,12 +22,13 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-}  // namespace
-
-void tell(const std::string& text) {
-  std::fputs(text.c_str(), stderr);
+/// Puts a line of progress in the place of the last one.
+void draw_over(const std::string& line) {
+  std::fprintf(stderr, "%s%s", kWipeLine, one_message(line).c_str());
   std::fflush(stderr);
 }
+
+}  // namespace
 
 Progress::Progress(std::string label, double total, std::string unit)
     : label_(std::move(label)),
@@ -36,7 +39,7 @@ Progress::Progress(std::string label, double total, std::string unit)
       last_drawn_(start_) {}
 
 Progress::~Progress() {
-  if (drawn_) tell(kWipeLine);
+  if (drawn_) draw_over("");
 }
 
 void Progress::set(double done) {
@@ -60,8 +63,8 @@ void Progress::draw() {
   drawn_ = true;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const double rate = done_ / elapsed;
-  tell(fmt::format("{}{}: {:3.0f} %   {:.3g} {}/s   {} left", kWipeLine, label_, 100 * std::min(1.0, done_ / total_),
-                   rate, unit_, duration_text(std::max(0.0, total_ - done_) / rate)));
+  draw_over(fmt::format("{}: {:3.0f} %   {:.3g} {}/s   {} left", label_, 100 * std::min(1.0, done_ / total_), rate,
+                        unit_, duration_text(std::max(0.0, total_ - done_) / rate)));
 }
 
 StageProgress::StageProgress(std::string label, std::vector<UsualStage> run, PipedProgress piped)
@@ -73,7 +76,7 @@ StageProgress::StageProgress(std::string label, std::vector<UsualStage> run, Pip
       last_line_(start_) {}
 
 StageProgress::~StageProgress() {
-  if (drawn_) tell(kWipeLine);
+  if (drawn_) draw_over("");
 }
 
 void StageProgress::set(const std::string& stage, double fraction) {
@@ -82,9 +85,10 @@ void StageProgress::set(const std::string& stage, double fraction) {
   const Clock::time_point now = Clock::now();
   const double left = estimate_.left(stage, fraction, std::chrono::duration<double>(now - start_).count());
   if (in_lines_ && now - last_line_ < kLineEvery) return;
-  tell(fmt::format("{}{}: {}: {:3.0f} %{}{}", on_terminal_ ? kWipeLine : "", label_, stage,
-                   100 * std::min(1.0, fraction),
-                   left > 0 ? fmt::format("   at least {} left", duration_text(left)) : "", in_lines_ ? "\n" : ""));
+  const std::string line = fmt::format("{}: {}: {:3.0f} %{}", label_, stage, 100 * std::min(1.0, fraction),
+                                       left > 0 ? fmt::format("   at least {} left", duration_text(left)) : "");
+  if (in_lines_) tell(line);
+  else draw_over(line);
   last_line_ = now;
   drawn_ = on_terminal_;
 }

@@ -9,9 +9,6 @@
 
 namespace halyard {
 
-/// Writes to stderr as far as that is possible: a terminal that is gone ends no work.
-void tell(const std::string& text);
-
 /// A progress line on a terminal, updated in place during long work and removed at its end:
 ///
 ///   simulate:  42 %   8.3 s/s   1.4 s left

@@ -98,7 +98,8 @@ compile_together(halyard_app commands
   command_line.cpp commands/check_command.cpp commands/compare_command.cpp commands/diagnose_command.cpp
   commands/estimate_command.cpp commands/identify_command.cpp commands/plan_command.cpp commands/plugins_command.cpp
   commands/simulate_command.cpp commands/sweep_command.cpp commands/sweep_slurm_command.cpp interruption.cpp log_input.cpp main.cpp output_check.cpp
-  progress.cpp run_estimate.cpp slurm/slurm_array.cpp sweep_options.cpp tour/experiments_command.cpp tour/tour_command.cpp)
+  progress.cpp run_estimate.cpp slurm/slurm_array.cpp sweep_options.cpp terminal/terminal.cpp
+  tour/experiments_command.cpp tour/tour_command.cpp)
 compile_together(halyard_app pages
   pages/comparison_figures.cpp pages/comparison_output.cpp pages/diagnosis_report.cpp pages/estimator_table.cpp
   pages/identify_output.cpp pages/identify_report.cpp pages/judgement_tables.cpp

@@ -13,6 +13,7 @@
 #include "app/pages/comparison_output.h"
 #include "app/pages/judgement_tables.h"
 #include "app/progress.h"
+#include "app/terminal/terminal.h"
 #include "model/arm_log.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
@@ -108,7 +109,7 @@ void print_errors(const Comparison& comparison) {
     const EstimatorRun& run = comparison.runs[i];
     if (!run.failure.empty()) {
       fmt::print("{}: {}\n", run.name, run.refused ? "refused the data" : "failed");
-      tell(run.failure + "\n");
+      tell(run.failure);
       continue;
     }
     fmt::print("{} ({:.3g} us a step)\n", run.name, run.microseconds_per_step);

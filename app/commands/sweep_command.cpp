@@ -12,6 +12,7 @@
 #include "app/pages/comparison_figures.h"
 #include "app/pages/sweep/sweep_report.h"
 #include "app/progress.h"
+#include "app/terminal/terminal.h"
 #include "evaluation/sweep/sweep_file.h"
 #include "evaluation/sweep/sweep_merge.h"
 #include "model/input_error.h"
@@ -76,12 +77,12 @@ void run_sweep_command(const SweepCommandOptions& options) {
       else line->add(1);
     };
     run.discarding = [](std::size_t points) {
-      tell(fmt::format("note: {} finished point{} of this sweep will be computed again; --resume keeps them\n", points,
+      tell(fmt::format("note: {} finished point{} of this sweep will be computed again; --resume keeps them", points,
                        points == 1 ? "" : "s"));
     };
     run.discarding_other = [&options] {
       tell(fmt::format(
-          "note: {} holds results of another sweep, or of this one before its files were changed; they are removed\n",
+          "note: {} holds results of another sweep, or of this one before its files were changed; they are removed",
           options.out.string()));
     };
     const KeptOnInterruption kept("finished points are kept: go on with the same command and --resume");

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "model/input_error.h"
+#include "model/name_list.h"
 #include "plugins/host/estimator_module.h"
 #include "plugins/host/plugin_estimator.h"
 #include "plugins/host/program_location.h"
@@ -88,7 +89,7 @@ std::shared_ptr<const EstimatorModule> named_module(const std::string& name) {
     if (reason.find("/" + name + ".so: ") != std::string::npos) message += " (" + reason + ")";
   message += others.empty() ? "; none was found" : "; found:";
   for (const std::string& other : others) message += " " + other;
-  throw InputError(message + "; give one of these, or the path of a module such as ./" + name + ".so");
+  throw InputError(message + "; give one of these, or the path of a module such as ./" + shortened(name) + ".so");
 }
 
 std::shared_ptr<const EstimatorModule> open_module(const std::string& name_or_path) {

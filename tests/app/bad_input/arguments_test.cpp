@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/app/bad_input/bad_input.h"
+#include "tests/support/environment.h"
 
 namespace halyard::testing_program {
 namespace {
@@ -45,6 +46,21 @@ TEST_F(BadInput, ArgumentsThatDoNotFit) {
   for (const std::string jobs : {"0", "many"})
     expect_usage({"sweep", "sweep.xml", "--out", "out", "--jobs", jobs},
                  "--jobs: '" + jobs + "': expected a whole number, at least 1, at most 1024");
+}
+
+// Each is longer than a screen, and expect_line() sees to it that no message is.
+TEST_F(BadInput, ATextAsLongAsAFileIsShortenedInTheMessage) {
+  const std::string text(100'000, 'x');
+  expect_line({"estimate", "--model", text, "--estimator", "ekf", "--data", "log.csv", "--out", "e.csv"},
+              "xxx{any}xxx: no such file; give the path of an XML file");
+  expect_line({"simulate", "experiment_a.xml", "--out", "new.csv", "--" + text},
+              "halyard simulate: The following argument was not expected: --xxx{any}xxx; see halyard simulate --help "
+              "or halyard --help");
+  const Environment unknown("HALYARD_INSTRUCTION_SET", text);
+  expect_line(
+      {"--version"},
+      "HALYARD_INSTRUCTION_SET is \"xxx{any}xxx\", expected generic, avx2 or avx512; unset it for the widest of "
+      "this processor");
 }
 
 TEST_F(BadInput, ALineBreakInANameIsNoneInTheMessage) {

@@ -19,6 +19,9 @@ inline bool is_like(std::string_view text, std::string_view pattern) {
   return text.size() >= any + rest.size() && text.starts_with(pattern.substr(0, any)) && text.ends_with(rest);
 }
 
+/// Bytes of a message that fits on a screen, with its line break, are fewer.
+inline constexpr std::size_t kScreen = 2000;
+
 class BadInput : public ProgramTest {
  protected:
   void SetUp() override {
@@ -32,13 +35,14 @@ class BadInput : public ProgramTest {
   std::string expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& parts,
                              int code = 2) const {
     std::string command = "halyard";
-    for (const std::string& argument : arguments) command += " " + argument;
+    for (const std::string& argument : arguments) command += " " + argument.substr(0, 80);
     SCOPED_TRACE(command);
     const auto before = files_in(folder_);
     const RunResult result = run(arguments);
     EXPECT_EQ(result.exit_code, code);
     EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
     EXPECT_TRUE(result.err.ends_with('\n') && result.err.size() > 1);
+    EXPECT_LT(result.err.size(), kScreen);
     for (const std::string& part : parts) EXPECT_TRUE(contains(result.err, part)) << result.err << "lacks: " << part;
     EXPECT_EQ(result.out, "");
     EXPECT_TRUE(files_in(folder_) == before) << "files were left or changed";

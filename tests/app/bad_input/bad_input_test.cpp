@@ -133,6 +133,10 @@ TEST_F(BadInput, AnEstimatorThatCannotBeLoaded) {
   expect_estimator_refused("kalman",
                            "no estimator is named 'kalman'; found: camera_sr_ukf disturbance_sr_ukf ekf kinematics "
                            "smoother sr_ukf; give one of these, or the path of a module such as ./kalman.so");
+  expect_estimator_refused(std::string(100'000, 'k'),
+                           "no estimator is named 'kkk{any}kkk...'; found: camera_sr_ukf disturbance_sr_ukf ekf "
+                           "kinematics smoother sr_ukf; give one of these, or the path of a module such as ./" +
+                               std::string(80, 'k') + "....so");
   expect_estimator_refused("./text.so",
                            "plugin ./text.so: not a shared module (ELF); give the path of a compiled plug-in (.so)");
   expect_estimator_refused("./none.so", "plugin ./none.so: no such file; check the path");

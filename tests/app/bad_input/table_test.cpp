@@ -100,6 +100,7 @@ TEST_P(BadInputTable, IsRefusedByEveryCommandThatReadsIt) {
     const auto before = files_in(folder_);
     const RunResult result = run(command);
     EXPECT_EQ(result.exit_code, 2);
+    EXPECT_LT(result.err.size(), kScreen);
     EXPECT_TRUE(is_like(result.err, row.line + "\n")) << result.err << "expected:\n" << row.line;
     EXPECT_TRUE(result.out.empty() || command.front() == "check") << result.out;  // check tells suspicions, too
     EXPECT_TRUE(files_in(folder_) == before) << "files were left or changed";
