@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "app/bundled_files.h"
+#include "app/terminal/terminal.h"
 #include "diagnosis/log_check/log_check.h"
 #include "estimators/process/process_model.h"
 #include "evaluation/run/contained_run.h"
@@ -43,9 +44,8 @@ void print_range_notes(const ArmModel& model) {
     const JointDescription& joint = model.joints[k];
     const double turns = (joint.upper - joint.lower) / (2 * std::numbers::pi);
     if (model.nominal.joint[k].type == JointType::revolute && turns > kManyTurns)
-      fmt::print(
-          "note: the range of joint {} is {:.3g} turns wide; if it is in degrees, write deg behind its numbers\n",
-          k + 1, turns);
+      print_out("note: the range of joint {} is {:.3g} turns wide; if it is in degrees, write deg behind its numbers\n",
+                k + 1, turns);
   }
 }
 
@@ -61,18 +61,18 @@ void print_note_of_filters(const ArmModel& model) {
 
 /// unchecked: estimators whose options could not be checked.
 void print_arm(const ArmModel& model, const std::vector<std::string>& unchecked) {
-  fmt::print("  {} joint{}:", model.n(), model.n() == 1 ? "" : "s");
+  print_out("  {} joint{}:", model.n(), model.n() == 1 ? "" : "s");
   for (int k = 0; k < model.n(); ++k) {
     const JointParameters<double>& joint = model.nominal.joint[k];
     const char* drive = joint.drive == Drive::cable ? "cable" : joint.drive == Drive::rigid ? "rigid" : "no drive";
-    fmt::print("{} {} ({}, {})", k == 0 ? "" : ",", model.joints[k].name,
-               joint.type == JointType::revolute ? "revolute" : "prismatic", drive);
+    print_out("{} {} ({}, {})", k == 0 ? "" : ",", model.joints[k].name,
+              joint.type == JointType::revolute ? "revolute" : "prismatic", drive);
   }
-  fmt::print("\n  effects: {}\n", effect_list(model));
+  print_out("\n  effects: {}\n", effect_list(model));
   print_range_notes(model);
   print_note_of_filters(model);
   if (!unchecked.empty())
-    fmt::print("  not checked: options of estimators that are not installed: {}\n", fmt::join(unchecked, ", "));
+    print_out("  not checked: options of estimators that are not installed: {}\n", fmt::join(unchecked, ", "));
 }
 
 /// Makes each estimator that the model has options for. Returns the names of those that are not installed.
@@ -90,26 +90,26 @@ std::vector<std::string> check_estimator_options(const ArmModel& model) {
 void check_model(const std::filesystem::path& file) {
   const ArmModel model = read_model(file);
   const std::vector<std::string> unchecked = check_estimator_options(model);
-  fmt::print("{}: valid model \"{}\"\n", file.string(), model.name);
+  print_out("{}: valid model \"{}\"\n", file.string(), model.name);
   print_arm(model, unchecked);
 }
 
 void check_scenario(const std::filesystem::path& file) {
   const Scenario scenario = read_scenario(file);
   const std::vector<std::string> unchecked = check_estimator_options(scenario.robot);
-  fmt::print("{}: valid scenario \"{}\", {:g} s, of the model {}\n", file.string(), scenario.name, scenario.duration_s,
-             scenario.model.string());
+  print_out("{}: valid scenario \"{}\", {:g} s, of the model {}\n", file.string(), scenario.name, scenario.duration_s,
+            scenario.model.string());
   print_arm(scenario.robot, unchecked);
 }
 
 void check_sweep(const std::filesystem::path& file) {
   const Sweep sweep = read_sweep(file);
   check_estimators(sweep);
-  fmt::print("{}: valid sweep \"{}\", {} points, {} {}\n", file.string(), sweep.grid.name, sweep.grid.size(),
-             sweep.grid.measures_limits() ? "limits of" : "estimators", fmt::join(sweep.grid.subjects(), ", "));
+  print_out("{}: valid sweep \"{}\", {} points, {} {}\n", file.string(), sweep.grid.name, sweep.grid.size(),
+            sweep.grid.measures_limits() ? "limits of" : "estimators", fmt::join(sweep.grid.subjects(), ", "));
   for (const SweepAxis& axis : sweep.grid.axes) {
     const auto [least, greatest] = std::ranges::minmax(axis.values);
-    fmt::print("  {}: {} values from {:g} to {:g}\n", axis.label(), axis.values.size(), least, greatest);
+    print_out("  {}: {} values from {:g} to {:g}\n", axis.label(), axis.values.size(), least, greatest);
   }
 }
 
@@ -122,8 +122,8 @@ void check_estimator_module(const CheckOptions& options) {
   if (!faults.empty())
     throw InputError(fmt::format("{}: breaks {} of the promises of an estimator (plugins/host/conformance.h): {}",
                                  module, faults.size(), fmt::join(faults, "; ")));
-  fmt::print("{}: keeps what every estimator promises{}, tried with {}\n", module,
-             options.kalman ? ", and is the Kalman filter on a linear arm" : "", model.source);
+  print_out("{}: keeps what every estimator promises{}, tried with {}\n", module,
+            options.kalman ? ", and is the Kalman filter on a linear arm" : "", model.source);
 }
 
 /// Whether the module is one of effects. Its exported name stands in the file as text: nothing of the module is run.
@@ -143,8 +143,8 @@ void check_effect_module(const CheckOptions& options) {
   std::vector<std::string> effects;
   for (std::size_t i = before; i < effect_library().size(); ++i)
     effects.push_back(fmt::format("{}, {}", effect_library()[i]->name(), effect_library()[i]->summary()));
-  fmt::print("{}: valid module of {} effect{}: {}\n", options.file.string(), effects.size(),
-             effects.size() == 1 ? "" : "s", fmt::join(effects, "; "));
+  print_out("{}: valid module of {} effect{}: {}\n", options.file.string(), effects.size(),
+            effects.size() == 1 ? "" : "s", fmt::join(effects, "; "));
 }
 
 /// "nothing suspicious", "2 suspicious, 1 corrected by a diagnosis".
@@ -163,12 +163,12 @@ void check_log_file(const CheckOptions& options) {
   const ArmModel model = read_model(options.model);
   const Log log = read_log_of(model, options.file, options.columns, /*torque_required=*/false);
   for (const std::string& note : {ignored_columns_note(log), missing_torques_note(log, model)})
-    if (!note.empty()) fmt::print("{}\n", note);
+    if (!note.empty()) print_out("{}\n", note);
   const std::vector<LogFinding> findings = check_log(log, model, columns_of(model, options.columns));
-  for (const LogFinding& f : findings) fmt::print("{}: {}\n", severity_word(f.severity), finding_line(f));
+  for (const LogFinding& f : findings) print_out("{}: {}\n", severity_word(f.severity), finding_line(f));
   stop_at_gross_finding(findings);
-  fmt::print("{}: {} samples over {:.4g} s of \"{}\", {}\n", options.file.string(), log.size(), log.duration(),
-             model.name, summary_of(findings));
+  print_out("{}: {} samples over {:.4g} s of \"{}\", {}\n", options.file.string(), log.size(), log.duration(),
+            model.name, summary_of(findings));
 }
 
 }  // namespace

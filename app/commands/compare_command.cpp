@@ -1,7 +1,5 @@
 #include "app/commands/compare_command.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -98,45 +96,45 @@ void blame_wrong_log(Comparison& comparison, const Data& data, const std::vector
 }
 
 void print_notes(const Data& data, const std::vector<std::string>& columns) {
-  if (const std::string note = ignored_columns_note(data.measured); !note.empty()) fmt::print("{}\n", note);
+  if (const std::string note = ignored_columns_note(data.measured); !note.empty()) print_out("{}\n", note);
   if (data.truth_from.empty())
-    fmt::print("note: {}: has no joint sensors, so no error can be computed\n", data.measured.source);
-  fmt::print("{}", gross_error_warnings(data.measured, data.model, columns));
+    print_out("note: {}: has no joint sensors, so no error can be computed\n", data.measured.source);
+  print_out("{}", gross_error_warnings(data.measured, data.model, columns));
 }
 
 void print_errors(const Comparison& comparison) {
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
     const EstimatorRun& run = comparison.runs[i];
     if (!run.failure.empty()) {
-      fmt::print("{}: {}\n", run.name, run.refused ? "refused the data" : "failed");
+      print_out("{}: {}\n", run.name, run.refused ? "refused the data" : "failed");
       tell(run.failure);
       continue;
     }
-    fmt::print("{} ({:.3g} us a step)\n", run.name, run.microseconds_per_step);
+    print_out("{} ({:.3g} us a step)\n", run.name, run.microseconds_per_step);
     for (int k = 0; k < comparison.n_joints(); ++k) {
       if (!comparison.has_truth(k)) continue;
       const ErrorStatistics& error = comparison.errors[i][k];
       const JointUnit& unit = comparison.units[k];
-      fmt::print("  joint {}: mean absolute error {} {}, RMS {} {}, peak {} {}", k + 1,
-                 shown_number(error.mean_absolute, unit), unit.shown, shown_number(error.rms, unit), unit.shown,
-                 shown_number(error.peak, unit), unit.shown);
+      print_out("  joint {}: mean absolute error {} {}, RMS {} {}, peak {} {}", k + 1,
+                shown_number(error.mean_absolute, unit), unit.shown, shown_number(error.rms, unit), unit.shown,
+                shown_number(error.peak, unit), unit.shown);
       if (const auto baseline = comparison.baseline(); baseline && i != *baseline) {
-        fmt::print(", {} better than kinematics", shown_percent(comparison.improvement_of(i, k)));
-        fmt::print(", RMS ratio to kinematics {}", in_words(comparison.paired[i][*baseline][k]));
+        print_out(", {} better than kinematics", shown_percent(comparison.improvement_of(i, k)));
+        print_out(", RMS ratio to kinematics {}", in_words(comparison.paired[i][*baseline][k]));
       }
-      fmt::print("\n");
+      print_out("\n");
     }
   }
 }
 
 void print_runs(const MonteCarlo& runs, const std::vector<JointUnit>& units) {
-  fmt::print("{} runs\n", runs.runs);
+  print_out("{} runs\n", runs.runs);
   for (const RunsOfEstimator& e : runs.estimators) {
-    fmt::print("{}: {} failed\n", e.name, e.failures);
+    print_out("{}: {} failed\n", e.name, e.failures);
     for (std::size_t k = 0; k < units.size(); ++k)
-      fmt::print("  joint {}: RMS {} {}, NEES {:.4g}, {} of the instants in its band, {}\n", k + 1,
-                 shown_number(e.errors[k].rms, units[k]), units[k].shown, e.nees[k].mean, shown_percent(e.in_band[k]),
-                 in_words(e.nees[k]));
+      print_out("  joint {}: RMS {} {}, NEES {:.4g}, {} of the instants in its band, {}\n", k + 1,
+                shown_number(e.errors[k].rms, units[k]), units[k].shown, e.nees[k].mean, shown_percent(e.in_band[k]),
+                in_words(e.nees[k]));
   }
 }
 
@@ -183,7 +181,7 @@ void run_compare(const CompareCommandOptions& options) {
   if (!data.scenario) print_notes(data, options.columns);
   print_errors(comparison);
   if (runs) print_runs(*runs, comparison.units);
-  fmt::print("report: {}\n", (options.out / "report.html").string());
+  print_out("report: {}\n", (options.out / "report.html").string());
 }
 
 }  // namespace halyard

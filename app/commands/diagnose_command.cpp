@@ -8,6 +8,7 @@
 #include "app/output_check.h"
 #include "app/pages/diagnosis_output.h"
 #include "app/progress.h"
+#include "app/terminal/terminal.h"
 #include "diagnosis/diagnose.h"
 #include "diagnosis/explanation/view_sentence.h"
 #include "evaluation/joint_unit.h"
@@ -20,7 +21,7 @@ namespace {
 Log read(const ArmModel& model, const std::filesystem::path& path) {
   Log log = read_log_of(model, path, {}, /*torque_required=*/false);
   for (const std::string& note : {ignored_columns_note(log), missing_torques_note(log, model)})
-    if (!note.empty()) fmt::print("{}\n", note);
+    if (!note.empty()) print_out("{}\n", note);
   return log;
 }
 
@@ -53,33 +54,33 @@ std::string interval_in_brackets(const Estimated& p) {
 constexpr double kWorthALine = 0.01;
 
 void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
-  fmt::print("{}\n", verdict_line(d));
+  print_out("{}\n", verdict_line(d));
   for (const NamedEffect& e : d.effects)
     for (const Estimated& p : e.parameters)
       if (!p.is_reset)
-        fmt::print("  {} {}: {}{}\n", label_of(e), p.name, with_unit(p.value, 4, p.unit), interval_in_brackets(p));
+        print_out("  {} {}: {}{}\n", label_of(e), p.name, with_unit(p.value, 4, p.unit), interval_in_brackets(p));
   for (const NamedEffect& e : d.effects)
     for (const Alternative& a : e.alternatives)
       if (a.probability >= kWorthALine)
-        fmt::print("  {}: or {} ({})\n", effect_label(e.effect), effect_label(a.effect), percent(a.probability));
+        print_out("  {}: or {} ({})\n", effect_label(e.effect), effect_label(a.effect), percent(a.probability));
   for (std::size_t i = 0; i < d.effects.size(); ++i)
-    fmt::print("  {}: {}\n", effect_label(d.effects[i].effect), evaluation.why[i]);
+    print_out("  {}: {}\n", effect_label(d.effects[i].effect), evaluation.why[i]);
   for (const Estimated& p : d.refitted)
-    fmt::print("  refitted {}: {:.5g} -> {}\n", p.name, p.nominal, with_unit(p.value, 5, p.unit));
-  if (const std::string line = tolerance_line(d); !line.empty()) fmt::print("  {}\n", line);
-  for (const LogFinding& f : d.log_findings) fmt::print("  {}: {}\n", severity_word(f.severity), finding_line(f));
-  for (const Unexplained& u : d.unexplained) fmt::print("  unexplained, joint {}: {}\n", u.joint + 1, u.signature);
+    print_out("  refitted {}: {:.5g} -> {}\n", p.name, p.nominal, with_unit(p.value, 5, p.unit));
+  if (const std::string line = tolerance_line(d); !line.empty()) print_out("  {}\n", line);
+  for (const LogFinding& f : d.log_findings) print_out("  {}: {}\n", severity_word(f.severity), finding_line(f));
+  for (const Unexplained& u : d.unexplained) print_out("  unexplained, joint {}: {}\n", u.joint + 1, u.signature);
 }
 
 /// Of the given and of the revised model on the hold-out, joint by joint.
 void print_errors(const ArmModel& model, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
-  for (const std::string& line : absent_event_lines(d)) fmt::print("  {}\n", line);
+  for (const std::string& line : absent_event_lines(d)) print_out("  {}\n", line);
   const std::vector<JointUnit> units = joint_units(model);
   for (int k = 0; k < model.n(); ++k) {
     const auto print = [k](const std::string& what, double before, double after, const ShownUnit& unit) {
       if (std::isfinite(before))
-        fmt::print("  joint {} {} RMS on the hold-out: {:.4g} -> {:.4g} {}\n", k + 1, what, unit.per_si * before,
-                   unit.per_si * after, unit.name);
+        print_out("  joint {} {} RMS on the hold-out: {:.4g} -> {:.4g} {}\n", k + 1, what, unit.per_si * before,
+                  unit.per_si * after, unit.name);
     };
     const ShownUnit position{units[k].shown, units[k].shown_per_si};
     print("position", d.before.joint_rms[k], d.after.joint_rms[k], position);
@@ -90,8 +91,8 @@ void print_errors(const ArmModel& model, const Diagnosis& d, const DiagnosisEval
         print(e.name + " position", e.before.rms[k], e.after.rms[k], position);
   }
   for (const EstimatorComparison& e : evaluation.estimators) {
-    if (!e.before.failure.empty()) fmt::print("  {} failed with the given model: {}\n", e.name, e.before.failure);
-    if (!e.after.failure.empty()) fmt::print("  {} failed with the revised model: {}\n", e.name, e.after.failure);
+    if (!e.before.failure.empty()) print_out("  {} failed with the given model: {}\n", e.name, e.before.failure);
+    if (!e.after.failure.empty()) print_out("  {} failed with the revised model: {}\n", e.name, e.after.failure);
   }
 }
 
@@ -124,8 +125,8 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
   files.commit();
   print_findings(d, evaluation);
   print_errors(model, d, evaluation);
-  fmt::print("model: {}\n", (options.out / "model.xml").string());
-  fmt::print("report: {}\n", (options.out / "report.html").string());
+  print_out("model: {}\n", (options.out / "model.xml").string());
+  print_out("report: {}\n", (options.out / "report.html").string());
 }
 
 }  // namespace halyard

@@ -7,6 +7,7 @@
 #include "app/log_input.h"
 #include "app/output_check.h"
 #include "app/progress.h"
+#include "app/terminal/terminal.h"
 #include "evaluation/comparison/compare.h"
 #include "evaluation/run/estimate.h"
 #include "model/arm_log.h"
@@ -21,7 +22,7 @@ void print_run_errors(const Comparison& comparison) {
     const ErrorStatistics& error = comparison.errors[0][k];
     const JointUnit& unit = comparison.units[k];
     const auto shown = [&](double value) { return unit.shown_per_si * value; };
-    fmt::print(
+    print_out(
         "joint {} position error after {:g} s: RMS {:.6g} {} ({:.6g} {}), mean absolute {:.4g} {}, peak {:.4g} {}\n",
         k + 1, comparison.skip_s, error.rms, unit.si, shown(error.rms), unit.shown, shown(error.mean_absolute),
         unit.shown, shown(error.peak), unit.shown);
@@ -52,17 +53,17 @@ void run_estimate(const EstimateCommandOptions& options) {
   write_estimates(options.out, run,
                   fmt::format("halyard estimate, estimator {}, model {}", options.estimator, options.model.string()));
 
-  if (const std::string note = ignored_columns_note(log); !note.empty()) fmt::print("{}\n", note);
+  if (const std::string note = ignored_columns_note(log); !note.empty()) print_out("{}\n", note);
   if (std::ranges::all_of(log.joint_position, [](const auto& column) { return column.empty(); }))
-    fmt::print("note: {}: has no joint sensors, so no error can be computed\n", options.data.string());
-  fmt::print("{}", gross_error_warnings(log, model, options.columns));
-  fmt::print("{}: {} samples, {:g} s, {:.3g} us a step\n", options.estimator, log.size(), log.duration(),
-             run.microseconds_per_step);
+    print_out("note: {}: has no joint sensors, so no error can be computed\n", options.data.string());
+  print_out("{}", gross_error_warnings(log, model, options.columns));
+  print_out("{}: {} samples, {:g} s, {:.3g} us a step\n", options.estimator, log.size(), log.duration(),
+            run.microseconds_per_step);
   if (run.report.gated > 0 || run.report.repaired_factors > 0) {
-    fmt::print("{} measurements not accepted, {} factors repaired\n", run.report.gated, run.report.repaired_factors);
+    print_out("{} measurements not accepted, {} factors repaired\n", run.report.gated, run.report.repaired_factors);
   }
   print_run_errors(comparison);
-  fmt::print("estimates: {}\n", options.out.string());
+  print_out("estimates: {}\n", options.out.string());
 }
 
 }  // namespace halyard

@@ -1,7 +1,5 @@
 #include "app/commands/identify_command.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -10,6 +8,7 @@
 #include "app/output_check.h"
 #include "app/pages/identify_output.h"
 #include "app/progress.h"
+#include "app/terminal/terminal.h"
 #include "diagnosis/log_check/log_check.h"
 #include "evaluation/joint_unit.h"
 #include "model/arm_log.h"
@@ -21,15 +20,15 @@ namespace {
 
 void print(const IdentificationStudy& result) {
   for (const IdentifiedNumber& number : result.identification.numbers)
-    fmt::print("{}: {:.5g} -> {:.7g}{} (95 %: {:.7g} to {:.7g}), {}\n", number.name, number.nominal, number.value,
-               unit_suffix(number.unit), number.lower, number.upper, in_words(number.convergence));
-  for (const std::string& doubt : doubts(result)) fmt::print("note: {}\n", doubt);
+    print_out("{}: {:.5g} -> {:.7g}{} (95 %: {:.7g} to {:.7g}), {}\n", number.name, number.nominal, number.value,
+              unit_suffix(number.unit), number.lower, number.upper, in_words(number.convergence));
+  for (const std::string& doubt : doubts(result)) print_out("note: {}\n", doubt);
   const std::vector<JointUnit> units = joint_units(result.given);
   for (const EstimatorComparison& e : result.estimators)
     for (int k = 0; k < result.given.n(); ++k)
       if (!e.before.rms.empty() && !e.after.rms.empty() && std::isfinite(e.before.rms[k]))
-        fmt::print("  joint {} {} position RMS on the hold-out: {:.4g} -> {:.4g} {}\n", k + 1, e.name,
-                   units[k].shown_per_si * e.before.rms[k], units[k].shown_per_si * e.after.rms[k], units[k].shown);
+        print_out("  joint {} {} position RMS on the hold-out: {:.4g} -> {:.4g} {}\n", k + 1, e.name,
+                  units[k].shown_per_si * e.before.rms[k], units[k].shown_per_si * e.after.rms[k], units[k].shown);
 }
 
 }  // namespace
@@ -64,11 +63,11 @@ void run_identify(const IdentifyCommandOptions& options) {
   OutputFiles files;
   write_identification(files, options.out, result);
   files.commit();
-  fmt::print("{}", notes);
+  print_out("{}", notes);
   print(result);
-  fmt::print("model: {}{}\n", (options.out / "model.xml").string(),
-             adopted(result) ? "" : ", with the given numbers: the identified ones predict the hold-out worse");
-  fmt::print("report: {}\n", (options.out / "report.html").string());
+  print_out("model: {}{}\n", (options.out / "model.xml").string(),
+            adopted(result) ? "" : ", with the given numbers: the identified ones predict the hold-out worse");
+  print_out("report: {}\n", (options.out / "report.html").string());
 }
 
 }  // namespace halyard

@@ -10,6 +10,7 @@
 #include "app/pages/diagnosis_output.h"
 #include "app/pages/plan_output.h"
 #include "app/progress.h"
+#include "app/terminal/terminal.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
 
@@ -86,7 +87,7 @@ void run_plan(const PlanCommandOptions& options) {
                                  options.scenario.string(), scenario.duration_s, kShortest));
   std::optional<std::pair<PlacedEffect, PlacedEffect>> pair;
   if (!options.separate.empty()) pair = parse_pair(options.separate, plan.model);
-  if (const std::string note = left_out(scenario, plan.model); !note.empty()) fmt::print("note: {}\n", note);
+  if (const std::string note = left_out(scenario, plan.model); !note.empty()) print_out("note: {}\n", note);
   scenario = planned_scenario(std::move(scenario), plan.model);
   scenario.model = options.model;
   {
@@ -106,11 +107,11 @@ void run_plan(const PlanCommandOptions& options) {
     write_plan(files, options.out, plan);
     files.commit();
   }
-  fmt::print("{}", plan_text(plan));
+  print_out("{}", plan_text(plan));
   if (options.out.empty()) return;
   if (plan.separating && plan.separating->scenario)
-    fmt::print("scenario: {}\n", (options.out / "scenario.xml").string());
-  fmt::print("report: {}\n", (options.out / "plan.html").string());
+    print_out("scenario: {}\n", (options.out / "scenario.xml").string());
+  print_out("report: {}\n", (options.out / "plan.html").string());
 }
 
 }  // namespace halyard

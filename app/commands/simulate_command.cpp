@@ -7,6 +7,7 @@
 
 #include "app/output_check.h"
 #include "app/progress.h"
+#include "app/terminal/terminal.h"
 #include "evaluation/joint_unit.h"
 #include "model/log.h"
 #include "model/output/output_files.h"
@@ -24,11 +25,11 @@ double greatest_magnitude(const std::vector<double>& values) {
 
 void print_joint(const SimulationResult& result, const JointUnit& unit, int k) {
   const auto [lowest, highest] = std::ranges::minmax(result.truth.joint_position[k]);
-  fmt::print("  joint {}: {:.4g} .. {:.4g} {}", k + 1, unit.shown_per_si * lowest, unit.shown_per_si * highest,
-             unit.shown);
+  print_out("  joint {}: {:.4g} .. {:.4g} {}", k + 1, unit.shown_per_si * lowest, unit.shown_per_si * highest,
+            unit.shown);
   if (result.measured.has_motor_torque(k))
-    fmt::print(", motor torque up to {:.4g} N m", greatest_magnitude(result.measured.motor_torque[k]));
-  fmt::print("\n");
+    print_out(", motor torque up to {:.4g} N m", greatest_magnitude(result.measured.motor_torque[k]));
+  print_out("\n");
 }
 
 }  // namespace
@@ -56,14 +57,14 @@ void run_simulate(const SimulateOptions& options) {
   files.add(options.out, log_csv(result.measured, about));
   files.commit();
 
-  fmt::print("scenario \"{}\": {} samples, {:g} s, {} joint{}\n", scenario.name, result.measured.size(),
-             result.measured.duration(), result.measured.n_joints, result.measured.n_joints == 1 ? "" : "s");
+  print_out("scenario \"{}\": {} samples, {:g} s, {} joint{}\n", scenario.name, result.measured.size(),
+            result.measured.duration(), result.measured.n_joints, result.measured.n_joints == 1 ? "" : "s");
   const std::vector<JointUnit> units = joint_units(scenario.robot);
   for (int k = 0; k < result.truth.n_joints; ++k) print_joint(result, units[k], k);
   const EnergyBalance& energy = result.energy;
-  fmt::print("  energy: {:.6g} J put in, {:.6g} J dissipated, {:.6g} J stored, {:.2g} J unaccounted for\n",
-             energy.input, energy.dissipated, energy.stored, energy.input - energy.dissipated - energy.stored);
-  fmt::print("measured log: {}\nground truth: {}\n", options.out.string(), truth.string());
+  print_out("  energy: {:.6g} J put in, {:.6g} J dissipated, {:.6g} J stored, {:.2g} J unaccounted for\n", energy.input,
+            energy.dissipated, energy.stored, energy.input - energy.dissipated - energy.stored);
+  print_out("measured log: {}\nground truth: {}\n", options.out.string(), truth.string());
 }
 
 }  // namespace halyard

@@ -30,12 +30,12 @@ std::optional<std::size_t> whole_number(std::string_view text) {
 }
 
 void print_result(const fs::path& folder, const SweepGrid& grid, const SweepSummary& summary) {
-  fmt::print("sweep \"{}\": {} points, {} {}\n", grid.name, grid.size(), grid.n_subjects(),
-             grid.measures_limits() ? "effects" : "estimators");
+  print_out("sweep \"{}\": {} points, {} {}\n", grid.name, grid.size(), grid.n_subjects(),
+            grid.measures_limits() ? "effects" : "estimators");
   if (summary.failures > 0)
-    fmt::print("{} of {} {} failed; the column failure of sweep.csv says why\n", summary.failures,
-               grid.size() * grid.n_subjects(), grid.measures_limits() ? "limits" : "runs of estimators");
-  fmt::print("table: {}\nreport: {}\n", (folder / "sweep.csv").string(), (folder / "report.html").string());
+    print_out("{} of {} {} failed; the column failure of sweep.csv says why\n", summary.failures,
+              grid.size() * grid.n_subjects(), grid.measures_limits() ? "limits" : "runs of estimators");
+  print_out("table: {}\nreport: {}\n", (folder / "sweep.csv").string(), (folder / "report.html").string());
 }
 
 /// What was measured of the i-th estimator or effect.
@@ -44,10 +44,10 @@ void print_measured(const SweepGrid& grid, const SweepCell& cell, std::size_t i)
   for (std::size_t m = 0; m < grid.measures.size(); ++m)
     for (std::size_t k = 0; k < (grid.measures[m]->is_of_joint ? grid.units.size() : 1); ++k) {
       const JointUnit unit = grid.shown_unit(m, i, k);
-      fmt::print("{}: {}: {} {}{}\n", name,
-                 grid.measures[m]->is_of_joint ? fmt::format("joint {}", k + 1) : "all joints",
-                 grid.measures[m]->shown_as, shown_number(cell.shown(grid, m, i, k), unit),
-                 unit.shown.empty() ? "" : " " + unit.shown);
+      print_out("{}: {}: {} {}{}\n", name,
+                grid.measures[m]->is_of_joint ? fmt::format("joint {}", k + 1) : "all joints",
+                grid.measures[m]->shown_as, shown_number(cell.shown(grid, m, i, k), unit),
+                unit.shown.empty() ? "" : " " + unit.shown);
     }
 }
 
@@ -89,8 +89,8 @@ void run_sweep_command(const SweepCommandOptions& options) {
     run_sweep(sweep, options.out, run);
   }
   if (!shard.is_whole()) {
-    fmt::print("sweep \"{}\": part {} of {} is done; put the parts together with: halyard merge DIR... --out DIR\n",
-               sweep.grid.name, shard.index, shard.count);
+    print_out("sweep \"{}\": part {} of {} is done; put the parts together with: halyard merge DIR... --out DIR\n",
+              sweep.grid.name, shard.index, shard.count);
     return;
   }
   const StoredCells cells = collect_cells({options.out}, sweep.grid);
@@ -107,11 +107,11 @@ void run_sweep_point(const SweepCommandOptions& options, std::size_t point) {
   if (point >= grid.size())
     throw InputError(
         fmt::format("halyard sweep: --point {}: expected a point of the sweep, 0 to {}", point, grid.size() - 1));
-  fmt::print("point {}: {}\n", point, grid.description(point));
+  print_out("point {}: {}\n", point, grid.description(point));
   const SweepCell cell = run_point(sweep, point, options.run.containment);
   for (std::size_t i = 0; i < cell.results.size(); ++i) {
     const SweepCell::Result& result = cell.results[i];
-    if (!result.failure.empty()) fmt::print("{}: failed: {}\n", grid.subjects()[i], result.failure);
+    if (!result.failure.empty()) print_out("{}: failed: {}\n", grid.subjects()[i], result.failure);
     else print_measured(grid, cell, i);
   }
   if (cell.failures() > 0)

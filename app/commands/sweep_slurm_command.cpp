@@ -1,5 +1,6 @@
 /// halyard sweep on a cluster: --slurm and --status.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <numeric>
@@ -8,6 +9,7 @@
 #include "app/commands/sweep_command.h"
 #include "app/output_check.h"
 #include "app/slurm/slurm_array.h"
+#include "app/terminal/terminal.h"
 #include "evaluation/shell_words.h"
 #include "evaluation/sweep/sweep_file.h"
 #include "evaluation/sweep/sweep_run.h"
@@ -67,13 +69,13 @@ bool print_parts(const StoredCells& cells, const SubmittedArray& array) {
     unknown = error.what();
   }
   const std::vector<PartState> states = part_states(cells, array.parts);
-  fmt::print("Slurm job {}:{}\n", array.job, unknown.empty() ? "" : " " + unknown);
+  print_out("Slurm job {}:{}\n", array.job, unknown.empty() ? "" : " " + unknown);
   for (std::size_t i = 0; i < states.size(); ++i) {
     const auto task = std::ranges::find(active, i + 1, &ActiveTask::task);
     const std::string state = task != active.end()                      ? ", " + task->state
                               : states[i].is_done() || !unknown.empty() ? ""
                                                                         : ", not running";
-    fmt::print("  part {} of {}: {} of {} done{}\n", i + 1, states.size(), states[i].done, states[i].points, state);
+    print_out("  part {} of {}: {} of {} done{}\n", i + 1, states.size(), states[i].done, states[i].points, state);
   }
   return !active.empty() || !unknown.empty();
 }
@@ -86,7 +88,9 @@ void run_sweep_slurm(const SweepSlurmOptions& options) {
   if (options.print_script) {
     array.tasks.resize(array.parts);
     std::iota(array.tasks.begin(), array.tasks.end(), 1);
-    fmt::print("{}", slurm_script(array));
+    // A file gets the script to the last byte; a terminal must not obey what is in its paths.
+    const std::string script = slurm_script(array);
+    fmt::print("{}", ::isatty(STDOUT_FILENO) ? without_controls(script) : script);
     return;
   }
   check_estimators(sweep);  // a wrong one is found now, not by each part
@@ -100,15 +104,14 @@ void run_sweep_slurm(const SweepSlurmOptions& options) {
   store_grid(options.out, sweep.grid);
   array.tasks = open_parts(part_states(StoredCells({options.out}, sweep.grid), array.parts));
   if (array.tasks.empty()) {
-    fmt::print("sweep \"{}\": all {} points are done\nnext: {}\n", sweep.grid.name, sweep.grid.size(),
-               merge_command(options.out));
+    print_out("sweep \"{}\": all {} points are done\nnext: {}\n", sweep.grid.name, sweep.grid.size(),
+              merge_command(options.out));
     return;
   }
   const std::string job = submit(array);
-  fmt::print("sweep \"{}\": {} points, {} of {} parts submitted as Slurm job {}\n", sweep.grid.name, sweep.grid.size(),
-             array.tasks.size(), array.parts, job);
-  fmt::print("progress: {} --status\nnext: {}\n", sweep_command(options.sweep, options.out),
-             merge_command(options.out));
+  print_out("sweep \"{}\": {} points, {} of {} parts submitted as Slurm job {}\n", sweep.grid.name, sweep.grid.size(),
+            array.tasks.size(), array.parts, job);
+  print_out("progress: {} --status\nnext: {}\n", sweep_command(options.sweep, options.out), merge_command(options.out));
 }
 
 void run_sweep_status(const fs::path& sweep, const fs::path& out) {
@@ -117,21 +120,21 @@ void run_sweep_status(const fs::path& sweep, const fs::path& out) {
   refuse_other(out, grid);
   const StoredCells cells({out}, grid);
   const std::size_t done = cells.count(), failed = cells.count_failed();
-  fmt::print("sweep \"{}\": {} of {} points are done ({:.1f} %)", grid.name, done, grid.size(),
-             100.0 * double(done) / double(grid.size()));
-  fmt::print("{}\n", failed > 0 ? fmt::format(", {} of them with a failure", failed) : "");
+  print_out("sweep \"{}\": {} of {} points are done ({:.1f} %)", grid.name, done, grid.size(),
+            100.0 * double(done) / double(grid.size()));
+  print_out("{}\n", failed > 0 ? fmt::format(", {} of them with a failure", failed) : "");
   const auto array = submitted_array(out);
   const bool is_active = array && print_parts(cells, *array);
   if (done == grid.size()) {
-    if (fs::exists(out / "sweep.csv")) fmt::print("table: {}\n", (out / "sweep.csv").string());
-    else fmt::print("next: {}\n", merge_command(out));
+    if (fs::exists(out / "sweep.csv")) print_out("table: {}\n", (out / "sweep.csv").string());
+    else print_out("next: {}\n", merge_command(out));
   } else if (!is_active) {
     std::string rest = "--resume";
     if (array) {
       rest = fmt::format("--slurm --nodes {}", array->parts);
       for (const std::string& option : array->options) rest += " --sbatch " + in_shell_quotes(option);
     }
-    fmt::print("to continue: {} {}\n", sweep_command(sweep, out), rest);
+    print_out("to continue: {} {}\n", sweep_command(sweep, out), rest);
   }
 }
 

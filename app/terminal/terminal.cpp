@@ -65,4 +65,9 @@ void tell(std::string_view text) {
   std::fflush(stderr);
 }
 
+void write_out(std::string_view text) {
+  const std::string shown = without_controls(text);
+  std::fwrite(shown.data(), 1, shown.size(), stdout);
+}
+
 }  // namespace halyard

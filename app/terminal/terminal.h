@@ -2,8 +2,11 @@
 /// Text that may reach a terminal. Names and paths in it are the user's or come from files of others: they may hold
 /// escape sequences, which a terminal obeys, and may be as long as a file.
 
+#include <fmt/format.h>
+
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace halyard {
 
@@ -18,5 +21,13 @@ inline constexpr std::size_t kMostOfMessage = 1900;
 
 /// Writes one_message() and a line break to stderr as far as that is possible: a terminal that is gone ends no work.
 void tell(std::string_view text);
+
+/// Writes without_controls() to stdout.
+void write_out(std::string_view text);
+
+template <class... Arguments>
+void print_out(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  write_out(fmt::format(format, std::forward<Arguments>(arguments)...));
+}
 
 }  // namespace halyard

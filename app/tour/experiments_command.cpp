@@ -1,11 +1,10 @@
 #include "app/tour/experiments_command.h"
 
-#include <fmt/core.h>
-
 #include "app/bundled_files.h"
 #include "app/output_check.h"
 #include "app/pages/comparison_figures.h"
 #include "app/progress.h"
+#include "app/terminal/terminal.h"
 #include "app/tour/experiments_report.h"
 
 namespace halyard {
@@ -13,30 +12,30 @@ namespace {
 
 void print_summary(const std::vector<Experiment>& experiments) {
   const Comparison& first = experiments.front().comparison;
-  fmt::print(
+  print_out(
       "mean absolute error (the paper's Eq. 18), mean of experiments A, B, C, and improvement over kinematics:\n");
   for (std::size_t i = 0; i < first.runs.size(); ++i) {
     double microseconds = 0;
     for (const Experiment& e : experiments) microseconds += e.comparison.runs[i].microseconds_per_step;
-    fmt::print("  {:<22}", first.runs[i].name);
+    print_out("  {:<22}", first.runs[i].name);
     for (int k = 0; k < first.n_joints(); ++k) {
-      fmt::print("  {:>9} {}", shown_number(mean_error(experiments, i, k), first.units[k]), first.units[k].shown);
-      fmt::print(" {:>7}", i == first.baseline() ? "" : shown_percent(mean_gain(experiments, i, k)));
+      print_out("  {:>9} {}", shown_number(mean_error(experiments, i, k), first.units[k]), first.units[k].shown);
+      print_out(" {:>7}", i == first.baseline() ? "" : shown_percent(mean_gain(experiments, i, k)));
     }
-    fmt::print("  {:.3g} us a step\n", microseconds / double(experiments.size()));
+    print_out("  {:.3g} us a step\n", microseconds / double(experiments.size()));
   }
-  fmt::print("{}\n{}\n", order_of_gains(experiments), peaks_of_joint_one(experiments));
+  print_out("{}\n{}\n", order_of_gains(experiments), peaks_of_joint_one(experiments));
 }
 
 void print_study(const EffectStudy& study, const std::vector<JointUnit>& units) {
-  fmt::print("mean absolute error with the robot's effects switched on and off (joints 1, 2, 3):\n  {:<28}", "");
-  for (const std::string& name : study.estimators) fmt::print("  {:<30}", name);
-  fmt::print("\n");
+  print_out("mean absolute error with the robot's effects switched on and off (joints 1, 2, 3):\n  {:<28}", "");
+  for (const std::string& name : study.estimators) print_out("  {:<30}", name);
+  print_out("\n");
   for (const StudiedRobot& robot : study.robots) {
-    fmt::print("  {:<28}", robot.name());
+    print_out("  {:<28}", robot.name());
     for (const auto& errors : robot.error)
-      for (std::size_t k = 0; k < units.size(); ++k) fmt::print("  {:>9}", shown_number(errors[k], units[k]));
-    fmt::print("\n");
+      for (std::size_t k = 0; k < units.size(); ++k) print_out("  {:>9}", shown_number(errors[k], units[k]));
+    print_out("\n");
   }
 }
 
@@ -61,7 +60,7 @@ void run_experiments(const ExperimentsOptions& options) {
   files.commit();
   print_summary(experiments);
   if (study) print_study(*study, experiments.front().comparison.units);
-  fmt::print("report: {}\n", (options.out / "report.html").string());
+  print_out("report: {}\n", (options.out / "report.html").string());
 }
 
 }  // namespace halyard

@@ -9,6 +9,7 @@
 #include "app/pages/comparison_figures.h"
 #include "app/pages/diagnosis_output.h"
 #include "app/progress.h"
+#include "app/terminal/terminal.h"
 #include "app/tour/tour.h"
 #include "diagnosis/explanation/view_sentence.h"
 #include "model/input_error.h"
@@ -28,11 +29,11 @@ fs::path recordings_folder(const fs::path& given) {
 
 void print_experiments(const std::vector<Experiment>& experiments) {
   const Comparison& first = experiments.front().comparison;
-  fmt::print("Mean absolute error of the joint position, mean of the paper's experiments A, B, C:\n");
+  print_out("Mean absolute error of the joint position, mean of the paper's experiments A, B, C:\n");
   const auto print_row = [](const char* where, const std::string& what, const auto& error_of) {
-    fmt::print("  {:<9}  {:<27}", where, what);
-    for (int k = 0; k < 3; ++k) fmt::print("  {:>9}", error_of(k));
-    fmt::print("\n");
+    print_out("  {:<9}  {:<27}", where, what);
+    for (int k = 0; k < 3; ++k) print_out("  {:>9}", error_of(k));
+    print_out("\n");
   };
   print_row("", "", [&](int k) { return fmt::format("q{} [{}]", k + 1, first.units[k].shown); });
   for (std::size_t i = 0; i < first.runs.size(); ++i) {
@@ -49,45 +50,45 @@ void print_errors(const DiagnosedModel& diagnosed) {
   const std::vector<JointUnit> units = joint_units(diagnosed.model);
   const Diagnosis& d = diagnosed.diagnosis;
   for (int k = 0; k < diagnosed.model.n(); ++k) {
-    fmt::print("    joint {}:", k + 1);
+    print_out("    joint {}:", k + 1);
     if (std::isfinite(d.before.joint_rms[k])) {
-      fmt::print(" position RMS {} -> {} {}", shown_number(d.before.joint_rms[k], units[k]),
-                 shown_number(d.after.joint_rms[k], units[k]), units[k].shown);
+      print_out(" position RMS {} -> {} {}", shown_number(d.before.joint_rms[k], units[k]),
+                shown_number(d.after.joint_rms[k], units[k]), units[k].shown);
     }
     if (std::isfinite(d.before.torque_rms[k])) {
       const ShownUnit unit = residual_unit(diagnosed.model.nominal, k, ResidualKind::motor_torque);
-      fmt::print("{} {} RMS {:.4g} -> {:.4g} {}", std::isfinite(d.before.joint_rms[k]) ? "," : "",
-                 residual_name(diagnosed.model.nominal, k, ResidualKind::motor_torque),
-                 unit.per_si * d.before.torque_rms[k], unit.per_si * d.after.torque_rms[k], unit.name);
+      print_out("{} {} RMS {:.4g} -> {:.4g} {}", std::isfinite(d.before.joint_rms[k]) ? "," : "",
+                residual_name(diagnosed.model.nominal, k, ResidualKind::motor_torque),
+                unit.per_si * d.before.torque_rms[k], unit.per_si * d.after.torque_rms[k], unit.name);
     }
-    fmt::print("\n");
+    print_out("\n");
   }
 }
 
 void print_bundled(const Tour& tour) {
-  fmt::print("\nDiagnosis of the bundled log undeclared_effect.csv: {}\n", verdict_line(tour.bundled.diagnosis));
+  print_out("\nDiagnosis of the bundled log undeclared_effect.csv: {}\n", verdict_line(tour.bundled.diagnosis));
   for (const FoundParameter& p : found_parameters(tour)) {
-    fmt::print("    {} {}: {:.4g} {} in the log's robot, ", p.effect, p.name, p.value, p.unit);
+    print_out("    {} {}: {:.4g} {} in the log's robot, ", p.effect, p.name, p.value, p.unit);
     if (p.found == nullptr) {
-      fmt::print("not found\n");
+      print_out("not found\n");
     } else {
-      fmt::print("found {:.4g} (95 %: {:.4g} to {:.4g})\n", p.found->value, p.found->lower, p.found->upper);
+      print_out("found {:.4g} (95 %: {:.4g} to {:.4g})\n", p.found->value, p.found->lower, p.found->upper);
     }
   }
   print_errors(tour.bundled);
 }
 
 void print_rigs(const Tour& tour) {
-  fmt::print(
+  print_out(
       "\nRecordings of real rigs, at most one effect each (halyard diagnose looks for more), errors on the "
       "hold-out:\n");
   for (const RigResult& result : tour.rigs) {
     if (result.diagnosed) {
-      fmt::print("  {}: {}\n", result.rig.title, verdict_line(result.diagnosed->diagnosis));
+      print_out("  {}: {}\n", result.rig.title, verdict_line(result.diagnosed->diagnosis));
       print_errors(*result.diagnosed);
     } else {
-      fmt::print("  {}: not at hand; examples/measured/{}/README.md says where to get it\n", result.rig.title,
-                 result.rig.folder);
+      print_out("  {}: not at hand; examples/measured/{}/README.md says where to get it\n", result.rig.title,
+                result.rig.folder);
     }
   }
 }
@@ -110,7 +111,7 @@ void run_tour(const TourOptions& options) {
   print_experiments(tour.experiments);
   print_bundled(tour);
   print_rigs(tour);
-  fmt::print("\nreport: {}\n", (options.out / "report.html").string());
+  print_out("\nreport: {}\n", (options.out / "report.html").string());
 }
 
 }  // namespace halyard

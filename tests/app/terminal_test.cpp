@@ -51,5 +51,49 @@ TEST(Terminal, NoCharacterIsCutInTwo) {
   }
 }
 
+class TerminalText : public App {
+ protected:
+  /// Runs, and expects a text on stdout or stderr, without control characters.
+  void expect_shown(const std::vector<std::string>& arguments, const std::string& text) const {
+    const RunResult result = run(arguments);
+    const std::string shown = result.out + result.err;
+    EXPECT_TRUE(contains(shown, text)) << shown;
+    EXPECT_EQ(without_controls(shown), shown);
+  }
+};
+
+TEST_F(TerminalText, ANameOfAScenarioHasNoControlCharacters) {
+  write_short_scenario("experiment_a.xml", "0.1");
+  const std::string name = "name=\"A: high tension\"";
+  write_text(path("a.xml"), replaced(text_of(path("experiment_a.xml")), name, "name=\"A" + kCsi + "\""));
+  expect_shown({"check", "a.xml"}, "valid scenario \"A?31m\"");
+  expect_shown({"simulate", "a.xml", "--out", "log.csv"}, "scenario \"A?31m\"");
+  write_text(path("b.xml"), replaced(text_of(path("a.xml")), "duration=\"0.1\"", "duration=\"1e-6\""));
+  expect_shown({"check", "b.xml"}, "scenario 'A?31m': the duration must be");
+}
+
+TEST_F(TerminalText, AHeaderOfALogHasNoControlCharacters) {
+  simulate_log();
+  const std::string log = text_of(path("log.csv"));
+  write_text(path("more.csv"), replaced(log, "joint_position_3", "a" + kCsi));
+  expect_shown(
+      {"estimate", "--model", "raven2.xml", "--estimator", "kinematics", "--data", "more.csv", "--out", "e.csv"},
+      "columns that are not used: a?31m\n");
+  write_text(path("less.csv"), replaced(log, "motor_torque_1", "a" + kCsi));
+  expect_shown(
+      {"estimate", "--model", "raven2.xml", "--estimator", "kinematics", "--data", "less.csv", "--out", "e.csv"},
+      "the file has 'time', 'a?31m', ");
+}
+
+TEST_F(TerminalText, APathHasNoControlCharacters) {
+  write_short_scenario("experiment_a.xml", "0.1");
+  for (const std::string& red : {kEscape, kCsi}) {
+    const std::string shown = without_controls(red);
+    expect_shown({"simulate", "experiment_a.xml", "--out", "a" + red + ".csv"}, "measured log: a" + shown + ".csv\n");
+    EXPECT_TRUE(fs::exists(path("a" + red + ".csv"))) << "the file's own name is as given";
+    expect_shown({"check", red + ".xml"}, shown + ".xml: no such file");
+  }
+}
+
 }  // namespace
 }  // namespace halyard::testing_program
