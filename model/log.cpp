@@ -56,19 +56,22 @@ class Lines {
   std::size_t number_ = 0;
 };
 
+/// In SI units. Squares of readings and squares of those, as statistics of errors take them, are finite.
+constexpr double kLargestReading = 1e50;
+
 /// A column of a log, and where its values come from.
 class Target {
  public:
   Target(std::vector<double>& values, const ColumnSource& source) : values_(&values), source_(source) {}
 
-  /// Appends the value of a raw reading, NaN if it is missing. False if the value is infinite.
+  /// Appends the value of a raw reading, NaN if it is missing. False if the value is beyond kLargestReading.
   bool append(double raw) {
     if (source_.wrap > 0 && !std::isnan(raw)) {
       if (!std::isnan(last_)) laps_ -= std::round((raw - last_) / source_.wrap);
       last_ = raw;
     }
     values_->push_back(source_.scale * (raw + laps_ * source_.wrap) + source_.offset);
-    return !std::isinf(values_->back());
+    return !(std::abs(values_->back()) > kLargestReading);
   }
 
  private:
@@ -158,13 +161,14 @@ void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, 
 void read_cell(std::string_view cell, Column& column, const Lines& row) {
   const auto fail = [&](const char* what) {
     row.fail("column " + in_quotes(column.name) + ": " + in_quotes(cell) + what +
-             "; write a finite decimal number, or leave the cell empty for a missing sample");
+             ", or leave the cell empty for a missing sample");
   };
   const std::optional<double> number = parse_number(cell);
-  if (!number && !cell.empty()) fail(" is not a number");
+  if (!number && !cell.empty()) fail(" is not a number; write a finite decimal number");
   const double raw = number.value_or(std::numeric_limits<double>::quiet_NaN());
   for (Target& target : column.targets)
-    if (!target.append(raw)) fail(" is too large once scaled");
+    if (!target.append(raw))
+      fail(" is too large once scaled; expected a magnitude of at most 1e50 in SI units; correct it");
 }
 
 void read_row(std::vector<Column>& columns, const Lines& row, std::vector<std::string_view>& cells) {

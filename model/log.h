@@ -83,7 +83,7 @@ struct ReadOptions {
 /// Throws InputError `file:line: what; remedy` for a file that is missing, unreadable, empty, without samples or not
 /// text; a required or mapped column, or one axis of the marker, that is absent; a column that appears twice; a
 /// required column without any sample; a mapped joint beyond n_joints; a row with more or fewer cells than the header;
-/// a cell that is not a finite number; a time that is missing or does not increase.
+/// a cell that is not a finite number, or beyond 1e50 in SI units; a time that is missing or does not increase.
 /// Throws std::invalid_argument if n_joints < 1.
 Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& map = {},
              const ReadOptions& options = {});

@@ -114,6 +114,10 @@ void print_errors(const Comparison& comparison) {
     for (int k = 0; k < comparison.n_joints(); ++k) {
       if (!comparison.has_truth(k)) continue;
       const ErrorStatistics& error = comparison.errors[i][k];
+      if (error.samples == 0) {
+        print_out("  joint {}: no samples after {:g} s\n", k + 1, comparison.skip_s);
+        continue;
+      }
       const JointUnit& unit = comparison.units[k];
       print_out("  joint {}: mean absolute error {} {}, RMS {} {}, peak {} {}", k + 1,
                 shown_number(error.mean_absolute, unit), unit.shown, shown_number(error.rms, unit), unit.shown,

@@ -20,6 +20,10 @@ void print_run_errors(const Comparison& comparison) {
   for (int k = 0; k < comparison.n_joints(); ++k) {
     if (!comparison.has_truth(k)) continue;
     const ErrorStatistics& error = comparison.errors[0][k];
+    if (error.samples == 0) {
+      print_out("joint {} position error after {:g} s: no samples\n", k + 1, comparison.skip_s);
+      continue;
+    }
     const JointUnit& unit = comparison.units[k];
     const auto shown = [&](double value) { return unit.shown_per_si * value; };
     print_out(

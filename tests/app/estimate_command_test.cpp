@@ -104,6 +104,23 @@ TEST_F(App, EstimateAndCompareWarnOfALogWhoseErrorsWouldBeThoseOfItsColumns) {
   EXPECT_FALSE(contains(estimate("kinematics", "log.csv", "est.csv"), "warning"));
 }
 
+TEST_F(App, AJointWithoutASampleThatCountsHasNoError) {
+  simulate_log();
+  double time_s = 0;
+  rewrite("log.csv", "stops.csv", kLogColumns, kLogColumns, [&](const std::string& name, const std::string& cell) {
+    if (name == "time") time_s = std::stod(cell);
+    return name == "joint_position_2" && time_s > 0.4 ? "" : cell;
+  });
+  const std::string printed = estimate("kinematics", "stops.csv", "est.csv");
+  EXPECT_TRUE(contains(printed, "joint 1 position error after 0.5 s: RMS ")) << printed;
+  EXPECT_TRUE(contains(printed, "joint 2 position error after 0.5 s: no samples\n")) << printed;
+  const std::string compared =
+      done({"compare", "stops.csv", "--model", "raven2.xml", "--estimators", "kinematics,ekf", "--out", "cmp"});
+  EXPECT_TRUE(contains(compared, "  joint 1: mean absolute error ")) << compared;
+  EXPECT_TRUE(contains(compared, "  joint 2: no samples after 0.5 s\n")) << compared;
+  EXPECT_FALSE(contains(printed + compared, "nan")) << printed << compared;
+}
+
 TEST_F(App, EstimatesComeFromMotorSignalsAlone) {
   simulate_log();
   rewrite("log.csv", "motors.csv", {kLogColumns.begin(), kLogColumns.begin() + 7},

@@ -35,6 +35,15 @@ inline std::vector<BadInputRow> bad_logs() {
       {"BeyondDouble", Wrong::log, put(R"(107)", R"(1e999)"),
        "bad.csv:2: column 'motor_position_1': '1e999' is not a number; write a finite decimal number, or leave "
        "the cell empty for a missing sample"},
+      {"BeyondAnyReading", Wrong::log, put(R"(107)", R"(1e300)"),
+       "bad.csv:2: column 'motor_position_1': '1e300' is too large once scaled; expected a magnitude of at most 1e50 "
+       "in SI units; correct it, or leave the cell empty for a missing sample"},
+      {"JointBeyondAnyReading", Wrong::log,
+       whole(replaced(kHeader, "\n", ",joint_position_2\n") + R"(0,0,0,0,107,204,904,1.6
+0.001,0,0,0,107,204,904,-1e300
+)"),
+       "bad.csv:3: column 'joint_position_2': '-1e300' is too large once scaled; expected a magnitude of at most 1e50 "
+       "in SI units; correct it, or leave the cell empty for a missing sample"},
       {"RowCutShort", Wrong::log,
        put(R"(204,904
 )",
