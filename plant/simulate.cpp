@@ -268,6 +268,11 @@ Scenario faster(Scenario scenario) {
   return scenario;
 }
 
+void check_memory_of_run(const Scenario& scenario) {
+  check_memory(scenario.duration_s / scenario.control_period_s * bytes_of_a_tick(scenario), place(scenario) + "the run",
+               "take a shorter duration or a longer control period");
+}
+
 void check_scenario(const Scenario& scenario) {
   const std::string where = place(scenario);
   const int n = scenario.robot.n();
@@ -277,8 +282,7 @@ void check_scenario(const Scenario& scenario) {
   constexpr double kShortestPeriod = 1e-6;
   if (scenario.control_period_s < kShortestPeriod)
     throw InputError(where + "the control period must be at least 1e-6 s: logs give times to a microsecond");
-  check_memory(scenario.duration_s / scenario.control_period_s * bytes_of_a_tick(scenario), where + "the run",
-               "take a shorter duration or a longer control period");
+  check_memory_of_run(scenario);
   check_integrator(scenario);
   check_noise(scenario);
   if (static_cast<int>(scenario.trajectory.size()) != n || static_cast<int>(scenario.robot.joints.size()) != n)

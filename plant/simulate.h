@@ -21,6 +21,9 @@ struct SimulationResult {
   long derivative_evaluations = 0;
 };
 
+/// Throws InputError if a run of the scenario does not fit into this machine's memory. check_scenario() checks it, too.
+void check_memory_of_run(const Scenario& scenario);
+
 /// Runs a scenario. progress(fraction done), if given, is called about ten times per simulated second.
 /// Throws InputError if the scenario cannot be run, std::runtime_error if the integration fails (time in the message).
 SimulationResult simulate(const Scenario& scenario, const std::function<void(double)>& progress = {});

@@ -19,6 +19,7 @@
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "model/xml/xml_reader.h"
+#include "plant/simulate.h"
 #include "plugins/host/effect_module.h"
 
 namespace halyard {
@@ -252,7 +253,14 @@ Sweep read_sweep_definition(const fs::path& path) {
   sweep.scenario = read_scenario(scenario_file);
   sweep.scenario.seed = static_cast<std::uint64_t>(element.integer_or(
       "seed", static_cast<std::int64_t>(sweep.scenario.seed), 0, std::numeric_limits<std::int64_t>::max()));
-  sweep.scenario.duration_s = element.number_or("duration", sweep.scenario.duration_s, "s", Sign::positive);
+  if (element.has("duration")) {
+    sweep.scenario.duration_s = element.number("duration", "s", Sign::positive);
+    try {
+      check_memory_of_run(sweep.scenario);
+    } catch (const InputError& error) {
+      element.fail("duration", error.what());
+    }
+  }
   const fs::path model_file = element.has("model") ? element.path("model") : sweep.scenario.model;
   sweep.model = read_model(model_file);
   if (!joints_alike(sweep.model.nominal, sweep.scenario.robot.nominal))

@@ -38,6 +38,9 @@ inline std::vector<BadInputRow> bad_sweeps() {
        "bad.xml:1: <sweep skip=\"1\">: expected less than the duration, 1 s; of the first 1 s no error is counted"},
       {"ShorterThanWhatIsSkipped", Wrong::sweep, put(R"(skip="0")", R"(duration="0.4")"),
        "bad.xml:1: <sweep>: skip: expected less than the duration, 0.4 s; of the first 0.5 s no error is counted"},
+      {"DurationBeyondMemory", Wrong::sweep, put(R"(skip="0")", R"(duration="1e12" skip="0")"),
+       "bad.xml:1: <sweep duration=\"1e12\">: scenario 'A: high tension': the run: needs about 5.52e+08 GB of memory, "
+       "and {any} GB are there; take a shorter duration or a longer control period"},
       {"NoRepeats", Wrong::sweep, put(R"(name="s")", R"(name="s" repeats="0")"),
        "bad.xml:1: <sweep repeats=\"0\">: expected a whole number from 1 to 100000"},
       {"FactorOfAnAbsentNoise", Wrong::sweep,
