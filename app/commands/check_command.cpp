@@ -55,7 +55,7 @@ void print_note_of_filters(const ArmModel& model) {
   try {
     ProcessModel(model).substeps(kUsualStep_s);
   } catch (const std::runtime_error& error) {
-    fmt::print("note: the Kalman filters will refuse this arm: {}\n", error.what());
+    print_out("note: the Kalman filters will refuse this arm: {}\n", error.what());
   }
 }
 
