@@ -43,7 +43,7 @@ std::unique_ptr<FolderLock> lock_output_folder(const fs::path& path, const std::
   return lock;
 }
 
-void check_output_file(const fs::path& path) {
+std::unique_ptr<FileLock> lock_output_file(const fs::path& path) {
   if (path.empty()) fail(path, "is empty; give a file name");
   std::error_code error;
   if (fs::is_directory(path, error) || !path.has_filename()) fail(path, "is a folder; give a file name");
@@ -51,7 +51,9 @@ void check_output_file(const fs::path& path) {
     fail(path, "is no plain file; give another file name");
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   check_output_folder(folder);
+  auto lock = std::make_unique<FileLock>(path);
   remove_leftovers(folder);
+  return lock;
 }
 
 void check_not_input(const fs::path& out) {

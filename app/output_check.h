@@ -5,13 +5,15 @@
 #include <memory>
 #include <string>
 
+#include "model/output/file_lock.h"
 #include "model/output/folder_lock.h"
 
 namespace halyard {
 
-/// Throws InputError for an empty path, a folder, a parent that is a file, or one without permission to write. Removes
-/// what a killed run left beside the file.
-void check_output_file(const std::filesystem::path& path);
+/// Locks a file for the output of a command, and makes its folder if it is missing. Removes what a killed run left
+/// beside the file. Throws InputError if another run writes it, and for an empty path, a folder, a parent that is a
+/// file, or one without permission to write.
+[[nodiscard]] std::unique_ptr<FileLock> lock_output_file(const std::filesystem::path& path);
 
 /// Throws InputError if `out` is a file that the command has read, because writing would replace it.
 void check_not_input(const std::filesystem::path& out);

@@ -29,7 +29,8 @@ endforeach()
 compile_together(halyard_model model
   arm_log.cpp arm_model.cpp column_map.cpp homing.cpp input/text_file.cpp log.cpp memory_limit.cpp
   model_file.cpp
-  output/folder_lock.cpp output/number_text.cpp output/output_files.cpp output/read_files.cpp output/unfinished.cpp
+  output/file_lock.cpp output/folder_lock.cpp output/locked_file.cpp output/number_text.cpp output/output_files.cpp
+  output/read_files.cpp output/unfinished.cpp
   xml/arm_checks.cpp xml/field_reader.cpp xml/model_writer.cpp)
 
 compile_together(halyard_simbody simbody integrators/simbody_integrator.cpp simbody_arm.cpp)

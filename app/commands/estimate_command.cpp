@@ -36,7 +36,7 @@ void print_run_errors(const Comparison& comparison) {
 }  // namespace
 
 void run_estimate(const EstimateCommandOptions& options) {
-  check_output_file(options.out);
+  const auto lock = lock_output_file(options.out);
   const ArmModel model = read_model(options.model);
   const Log log = read_timed_log(model, options.data, options.columns);
   check_not_input(options.out);

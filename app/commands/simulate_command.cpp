@@ -43,7 +43,7 @@ std::filesystem::path truth_path(const std::filesystem::path& log) {
 
 void run_simulate(const SimulateOptions& options) {
   const std::filesystem::path truth = truth_path(options.out);
-  for (const auto& path : {options.out, truth}) check_output_file(path);
+  const auto lock = lock_output_file(options.out), lock_of_truth = lock_output_file(truth);
   const Scenario scenario = read_scenario(options.scenario, options.robot);
   for (const auto& path : {options.out, truth}) check_not_input(path);
   SimulationResult result;

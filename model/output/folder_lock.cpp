@@ -2,23 +2,15 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <system_error>
 
 #include "model/input_error.h"
+#include "model/output/locked_file.h"
 
 namespace halyard {
 namespace {
-
-/// Whether the path still names the open file: the run that held the lock before removes its file.
-bool is_named(int file, const std::filesystem::path& path) {
-  struct stat opened, named;
-  return ::fstat(file, &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
-         opened.st_dev == named.st_dev;
-}
 
 std::filesystem::path lock_path(const std::filesystem::path& folder, const std::string& part) {
   return folder / (".halyard" + (part.empty() ? "" : "-" + part) + ".lock");
@@ -62,12 +54,9 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& p
     refuse(folder, error.code().value());
   }
   const std::filesystem::path path = lock_path(folder, part);
-  for (;;) {  // until the file is not one that another run removed meanwhile
-    file_ = Descriptor(path, O_RDWR | O_CREAT);
-    if (!file_) refuse(folder, errno);
-    if (::flock(*file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) refuse_shared(folder);
-    if (is_named(*file_, path)) break;
-  }
+  file_ = locked_file(path);
+  if (!file_ && errno == EWOULDBLOCK) refuse_shared(folder);
+  if (!file_) refuse(folder, errno);
   made_.add(path);
   // Both look after they hold their own: at most one goes on.
   if (is_computed_twice(folder, part)) refuse_shared(folder);

@@ -341,20 +341,27 @@ TEST_F(Faults, ATerminalThatGoesEndsNoRun) {
   EXPECT_TRUE(fs::exists(path("out/sweep.csv")));
 }
 
-TEST_F(Faults, ASecondRunIntoAFolderIsRefused) {
-  BackgroundRun first(program_, folder_, long_runs()[1], err_path());
+TEST_F(Faults, ASecondRunIntoAnOutputIsRefused) {
+  // One run into a folder and one into files in it: they do not disturb each other.
+  BackgroundRun into_folder(program_, folder_, long_runs()[1], err_path());
+  BackgroundRun into_files(program_, folder_, long_runs()[0], err_path());
   ASSERT_TRUE(comes_true([&] { return fs::exists(path("out/.halyard.lock")); }));
-  for (const Arguments& command : commands()) {
-    if (command.back() != "out") continue;  // files have no lock
+  ASSERT_TRUE(comes_true([&] { return fs::exists(path("out/.halyard.log.truth.csv.lock")); }));
+  for (Arguments command : commands()) {
+    const bool writes_file = command.back() != "out";
+    if (command[0] == "estimate") command.back() = "out/log.truth.csv";  // which `simulate` writes, too
     SCOPED_TRACE(line_of(command));
     const RunResult second = run(command);
     EXPECT_EQ(second.exit_code, 2);
-    expect_line(second.err, "another run writes into this folder");
+    expect_line(second.err, writes_file ? "another run writes this file" : "another run writes into this folder");
   }
-  first.send(SIGKILL);
-  EXPECT_EQ(first.wait(), 128 + SIGKILL);
-  done(quick_commands()[2]);
-  EXPECT_EQ(files_in(path("out")).size(), 3u);
+  done(quick_commands()[1]);
+  for (BackgroundRun* first : {&into_folder, &into_files}) {
+    first->send(SIGKILL);
+    EXPECT_EQ(first->wait(), 128 + SIGKILL);
+  }
+  for (const std::size_t i : {0, 2}) done(quick_commands()[i]);
+  EXPECT_EQ(files_in(path("out")).size(), 6u);  // log, truth and estimates; table, numbers and report
   fs::remove(err_path());
 }
 

@@ -1,4 +1,4 @@
-/// Files that appear together or not at all, and the lock of their folder.
+/// Files that appear together or not at all, and the locks of a file and of a folder.
 
 #include "model/output/output_files.h"
 
@@ -13,6 +13,7 @@
 #include <iterator>
 #include <string>
 
+#include "model/output/file_lock.h"
 #include "model/output/folder_lock.h"
 #include "tests/support/background_run.h"
 #include "tests/support/message_of.h"
@@ -219,22 +220,47 @@ TEST_F(OutputFolder, PartsShareItWithEachOtherAndNotWithARunOfAll) {
   EXPECT_FALSE(is_refused(""));
 }
 
-TEST_F(OutputFolder, ALockOfAKilledRunIsTakenOver) {
+TEST_F(OutputFolder, LocksOfAKilledRunAreTakenOver) {
   int ready[2];
   ASSERT_EQ(::pipe(ready), 0);
   const pid_t child = ::fork();
   if (child == 0) {
     const FolderLock lock(folder_);
+    const FileLock lock_of_file(folder_ / "log.csv");
     [[maybe_unused]] const ssize_t written = ::write(ready[1], "x", 1);
     for (;;) ::pause();
   }
   char byte;
   ASSERT_EQ(::read(ready[0], &byte, 1), 1);
   EXPECT_NE(message_of([&] { FolderLock second(folder_); }), "no InputError");
+  EXPECT_NE(message_of([&] { FileLock second(folder_ / "log.csv"); }), "no InputError");
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
   EXPECT_NO_THROW(FolderLock second(folder_));
+  EXPECT_NO_THROW(FileLock second(folder_ / "log.csv"));
   EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(OutputFolder, AFileInItIsLockedForOneRunAtATime) {
+  const fs::path log = folder_ / "new" / "log.csv";
+  {
+    const FileLock lock(log), other(folder_ / "new" / "other.csv");
+    EXPECT_EQ(
+        message_of([&] { FileLock second(log); }),
+        "--out '" + log.string() + "': another run writes this file; wait for its end, or give another file name");
+    EXPECT_NE(message_of([&] { FileLock second(folder_ / "new" / "." / "log.csv"); }), "no InputError");
+  }
+  EXPECT_EQ(files(), 0u) << "nothing was written into the folder that the lock made";
+  EXPECT_NO_THROW(FileLock again(log));
+  EXPECT_EQ(message_of([&] { FileLock lock("/proc/self/log.csv"); }),
+            "--out '/proc/self/log.csv': cannot be written: No such file or directory; give another file name");
+}
+
+TEST_F(OutputFolder, AFileIsLockedUnderTheNameOfALinkToo) {
+  write_file_whole(folder_ / "log.csv", "old");
+  fs::create_symlink("log.csv", folder_ / "link.csv");
+  const FileLock lock(folder_ / "link.csv");
+  EXPECT_NE(message_of([&] { FileLock second(folder_ / "log.csv"); }), "no InputError");
 }
 
 TEST_F(OutputFolder, AnEndingProcessLeavesNothingUnfinished) {
