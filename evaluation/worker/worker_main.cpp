@@ -2,7 +2,6 @@
 // halyard's library, with the numbers of two open files: the shared memory with the task, and the pipe for the answer.
 
 #include <fcntl.h>
-#include <poll.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,14 +9,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <iterator>
 #include <optional>
-#include <thread>
 
 #include "evaluation/worker/bytes.h"
+#include "evaluation/worker/supervisor.h"
 #include "evaluation/worker/worker_task.h"
 #include "model/input_error.h"
 #include "plugins/host/conformance.h"
@@ -67,9 +65,10 @@ std::string result_of(const WorkerTask& task, WorkerPage& page) {
   throw std::runtime_error("halyard_worker: unknown task");
 }
 
-std::string answer_to(WorkerPage& page) {
+std::string answer_to(WorkerPage& page, int answer) {
   const auto said = [](Answer kind, const std::string& text) { return static_cast<char>(kind) + text; };
   try {
+    continue_in_supervised_child(answer);  // what follows runs in the child
     const std::string_view bytes(reinterpret_cast<const char*>(&page + 1), page.task_size);
     return said(Answer::result, result_of(receive_worker_task(bytes), page));
   } catch (const EstimatorRefusal& error) {
@@ -98,14 +97,6 @@ std::optional<int> open_file(const char* argument) {
   return file;
 }
 
-/// A worker whose answer nobody reads any more, because the parent was killed, works for nobody. Ends all that the
-/// estimator started too: the worker leads a process group.
-void end_without_reader(int answer) {
-  pollfd reader{answer, 0, 0};
-  while (poll(&reader, 1, -1) <= 0) {}
-  kill(0, SIGKILL);
-}
-
 WorkerPage* shared_page(int file) {
   struct stat status;
   if (fstat(file, &status) != 0 || status.st_size < static_cast<off_t>(sizeof(WorkerPage))) return nullptr;
@@ -126,7 +117,6 @@ int main(int argc, char** argv) {
     return 2;
   }
   page->has_started = true;
-  std::thread(end_without_reader, *answer).detach();
-  write_all(*answer, answer_to(*page));
+  write_all(*answer, answer_to(*page, *answer));
   _exit(0);  // without the destructors of an estimator that is not trusted
 }

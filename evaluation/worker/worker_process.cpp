@@ -84,7 +84,7 @@ class WorkerAttributes {
     sigset_t signals;
     sigemptyset(&signals);
     posix_spawnattr_setsigmask(&attributes_, &signals);
-    for (const int signal : {SIGPIPE, SIGXFSZ}) sigaddset(&signals, signal);
+    for (const int signal : {SIGPIPE, SIGXFSZ, SIGCHLD}) sigaddset(&signals, signal);
     posix_spawnattr_setsigdefault(&attributes_, &signals);
     posix_spawnattr_setpgroup(&attributes_, 0);
   }
@@ -100,12 +100,12 @@ class WorkerAttributes {
 /// A started worker; at the end of the scope it and all that its estimator started are killed.
 class Worker {
  public:
-  Worker(const fs::path& program, int page, int answer) {
+  Worker(const fs::path& program, const SharedPage& page, int answer) : page_(page) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     // Onto themselves: they stay open in the worker, and in no other program that is started meanwhile.
-    for (const int file : {page, answer}) posix_spawn_file_actions_adddup2(&actions, file, file);
-    std::string arguments[] = {program.string(), std::to_string(page), std::to_string(answer)};
+    for (const int file : {page.file(), answer}) posix_spawn_file_actions_adddup2(&actions, file, file);
+    std::string arguments[] = {program.string(), std::to_string(page.file()), std::to_string(answer)};
     char* argv[] = {arguments[0].data(), arguments[1].data(), arguments[2].data(), nullptr};
     const int error = posix_spawn(&id_, program.c_str(), &actions, WorkerAttributes().get(), argv, environ);
     posix_spawn_file_actions_destroy(&actions);
@@ -121,9 +121,9 @@ class Worker {
     siginfo_t info{};
     return waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == id_;
   }
-  /// Kills what still runs of its group, and returns how the worker ended, as waitpid() says it.
+  /// Has its supervisor kill what still runs, and returns how the worker ended, as waitpid() says it.
   int end() {
-    ::kill(-id_, SIGKILL);
+    ::kill(-id_, page_->has_started ? SIGTERM : SIGKILL);  // what has not started may be any program
     int status = 0;
     while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {}
     id_ = -1;
@@ -131,6 +131,7 @@ class Worker {
   }
 
  private:
+  const SharedPage& page_;
   pid_t id_ = -1;
 };
 
@@ -201,7 +202,7 @@ std::string result_of_worker(const WorkerTask& task, const WorkerWatch& watch) {
   if (pipe2(ends, O_CLOEXEC) != 0) fail(errno, "pipe2");
   const OwnedFile answer_end(ends[0], "pipe2");
   OwnedFile worker_end(ends[1], "pipe2");
-  Worker worker(program, page.file(), worker_end.get());
+  Worker worker(program, page, worker_end.get());
   worker_end.close();
 
   std::string answer;

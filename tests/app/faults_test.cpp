@@ -4,6 +4,7 @@
 
 #include <random>
 #include <regex>
+#include <set>
 
 #include "model/output/folder_lock.h"
 #include "tests/support/app_runs.h"
@@ -52,33 +53,48 @@ class Faults : public App {
     return all;
   }
 
+  static Arguments compare_with(const std::string& module, const std::string& step_limit_s) {
+    return {"compare",      "log.csv",    "--model", "raven2.xml", "--estimators", "kinematics," + fixture(module),
+            "--step-limit", step_limit_s, "--out",   "out"};
+  }
+
   /// Runs that would go on for long, with their outputs in out/.
   std::vector<Arguments> long_runs() const {
     write_text(path("long.xml"), replaced(text_of(path("experiment_a.xml")), "duration=\"1\"", "duration=\"3600\""));
     write_text(path("hanging.xml"),
                replaced(text_of(path("sweep.xml")), "\"kinematics\"", "\"" + fixture("starts_a_process") + "\""));
     return {{"simulate", "long.xml", "--out", "out/log.csv"},
-            {"compare", "log.csv", "--model", "raven2.xml", "--estimators", fixture("starts_a_process"), "--step-limit",
-             "3600", "--out", "out"},
+            compare_with("starts_a_session", "3600"),
             {"sweep", "hanging.xml", "--out", "out"},
             {"diagnose", "--model", "raven2.xml", "--data", example("undeclared_effect.csv"), "--out", "out"}};
   }
 
   /// Number of processes in these groups.
-  static std::ptrdiff_t size_of(const std::vector<pid_t>& groups) {
-    return std::ranges::count_if(running_processes(),
-                                 [&](const Process& p) { return std::ranges::find(groups, p.group) != groups.end(); });
+  static std::ptrdiff_t size_of(const std::set<pid_t>& groups) {
+    return std::ranges::count_if(running_processes(), [&](const Process& p) { return groups.contains(p.group); });
   }
 
-  /// The process groups of a run's estimators, once at least one of them has started a process of its own.
-  static std::vector<pid_t> groups_with_help(const BackgroundRun& run) {
-    std::vector<pid_t> groups;
+  /// The process groups below a run, once at least one of its estimators has started a process of its own. A worker has
+  /// two processes, each in its own group.
+  static std::set<pid_t> groups_with_help(const BackgroundRun& run, bool in_own_session) {
+    std::set<pid_t> groups;
     EXPECT_TRUE(comes_true([&] {
       groups.clear();
-      for (const Process& worker : run.children()) groups.push_back(worker.id);
-      return size_of(groups) > std::ssize(groups);
+      const std::vector<Process> below = run.descendants();
+      for (const Process& p : below)
+        if (p.group != ::getpgrp()) groups.insert(p.group);  // in this group until it has its own
+      const std::size_t of_workers = 2 * run.children().size();
+      return of_workers > 0 && (in_own_session ? groups.size() : below.size()) > of_workers;
     }));
     return groups;
+  }
+
+  /// Each runs in the first process that its worker has started.
+  static void crash_estimators(const BackgroundRun& run) {
+    EXPECT_TRUE(comes_true([&] { return run.children().size() == 1; })) << "the other one has not ended";
+    const std::vector<Process> workers = run.children();
+    for (const Process& p : run.descendants())
+      if (std::ranges::find(workers, p.parent, &Process::id) != workers.end() && p.group == p.id) ::kill(p.id, SIGSEGV);
   }
 
   std::string err_path() const { return folder_.string() + ".err"; }
@@ -165,8 +181,8 @@ TEST_F(Faults, ASignalEndsARunAndAllThatItStartedAndLeavesNothing) {
       const auto before = files_in(folder_);
       const bool starts_workers = command[0] == "compare" || command[0] == "sweep";
       BackgroundRun run(program_, folder_, command, err_path());
-      std::vector<pid_t> groups;
-      if (starts_workers) groups = groups_with_help(run);
+      std::set<pid_t> groups;
+      if (starts_workers) groups = groups_with_help(run, command[0] == "compare");
       else std::this_thread::sleep_for(std::chrono::milliseconds(500));
       run.send(signal);
       EXPECT_EQ(run.wait(), 128 + signal);
@@ -183,17 +199,16 @@ TEST_F(Faults, ASignalEndsARunAndAllThatItStartedAndLeavesNothing) {
 }
 
 TEST_F(Faults, WhatAnEstimatorStartsEndsWithItsRun) {
-  // Stopped at the limit of a step, and left alone by a program that is killed.
-  for (const bool killed : {false, true}) {
-    Arguments command = long_runs()[1];
-    *std::ranges::find(command, "3600") = killed ? "3600" : "1";
-    *std::ranges::find(command, fixture("starts_a_process")) = "kinematics," + fixture("starts_a_process");
-    BackgroundRun run(program_, folder_, command, err_path());
-    const std::vector<pid_t> groups = groups_with_help(run);
-    if (killed) run.send(SIGKILL);
-    EXPECT_EQ(run.wait(), killed ? 128 + SIGKILL : 0);
-    EXPECT_TRUE(comes_true([&] { return size_of(groups) == 0; })) << "what an estimator started goes on";
-  }
+  for (const std::string module : {"starts_a_process", "starts_a_session"})
+    for (const std::string end : {"limit of a step", "killed program", "crash"}) {
+      SCOPED_TRACE(module + ", " + end);
+      BackgroundRun run(program_, folder_, compare_with(module, end == "limit of a step" ? "1" : "3600"), err_path());
+      const std::set<pid_t> groups = groups_with_help(run, module == "starts_a_session");
+      if (end == "killed program") run.send(SIGKILL);
+      if (end == "crash") crash_estimators(run);
+      EXPECT_EQ(run.wait(), end == "killed program" ? 128 + SIGKILL : 0);
+      EXPECT_TRUE(comes_true([&] { return size_of(groups) == 0; })) << "what an estimator started goes on";
+    }
   fs::remove(err_path());
 }
 

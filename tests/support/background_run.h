@@ -92,6 +92,16 @@ class BackgroundRun {
     id_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
+  /// Processes that it started, and those that they started.
+  std::vector<Process> descendants() const {
+    const std::vector<Process> all = running_processes();
+    std::vector<Process> found;
+    std::vector<pid_t> parents = {id_};
+    for (std::size_t i = 0; i < parents.size(); ++i)
+      for (const Process& p : all)
+        if (p.parent == parents[i]) found.push_back(p), parents.push_back(p.id);
+    return found;
+  }
   /// Processes that it started.
   std::vector<Process> children() const {
     std::vector<Process> all = running_processes();
