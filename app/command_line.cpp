@@ -230,7 +230,7 @@ void add_check_command(CLI::App& app) {
                    "of an estimator: it is a Kalman filter with halyard's noise; hold it "
                    "against the textbook's on a linear arm");
   add_number(command, "--time-limit", options->time_limit_s, {.above_least = true},
-             "of an estimator: a promise whose test takes longer is broken, in s")
+             "of a module: limit for loading its effects, or for testing one promise of its estimator, in s")
       ->type_name("S")
       ->capture_default_str();
   add_effects_option(command);

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "evaluation/run/tried_effects.h"
 #include "model/column_map.h"
 #include "model/input_error.h"
-#include "plugins/host/effect_module.h"
 
 namespace halyard {
 
@@ -31,7 +31,7 @@ inline void add_effects_option(CLI::App& command) {
       .add_option_function<std::vector<std::string>>(
           "--effects",
           [](const std::vector<std::string>& modules) {
-            for (const std::string& module : modules) load_effects(module);
+            for (const std::string& module : modules) load_tried_effects(module);
           },
           "module with your own effects; may be repeated")
       ->type_name("MODULE.so")

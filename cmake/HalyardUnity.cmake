@@ -88,7 +88,8 @@ compile_together(halyard_evaluation studies
   studies/holdout_errors.cpp studies/motion_proposal.cpp)
 compile_together(halyard_evaluation runs
   comparison/monte_carlo.cpp experiments/raven_experiments.cpp json.cpp run/contained_run.cpp
-  studies/identification_study.cpp sweep/measures/sweep_limits.cpp sweep/measures/sweep_measure.cpp sweep/parameters/axis_keys.cpp
+  run/tried_effects.cpp studies/identification_study.cpp sweep/measures/sweep_limits.cpp
+  sweep/measures/sweep_measure.cpp sweep/parameters/axis_keys.cpp
   sweep/parameters/estimator_option.cpp sweep/parameters/scenario_number.cpp sweep/sweep_cells.cpp sweep/sweep_design.cpp
   sweep/sweep_file.cpp sweep/sweep_grid.cpp sweep/sweep_merge.cpp sweep/sweep_parameter.cpp sweep/sweep_run.cpp sweep/sweep_store.cpp
   sweep/sweep_summary.cpp sweep/sweep_table.cpp)

@@ -12,13 +12,13 @@
 #include "diagnosis/log_check/log_check.h"
 #include "estimators/process/process_model.h"
 #include "evaluation/run/contained_run.h"
+#include "evaluation/run/tried_effects.h"
 #include "evaluation/sweep/sweep_run.h"
 #include "model/arm_log.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "model/xml/xml_reader.h"
 #include "plant/scenario.h"
-#include "plugins/host/effect_module.h"
 #include "transmission/effect.h"
 
 namespace halyard {
@@ -139,7 +139,7 @@ void check_effect_module(const CheckOptions& options) {
     throw InputError("halyard check: --model and --kalman are for an estimator's module, and " +
                      in_quotes(options.file.string()) + " has effects; leave them out");
   const std::size_t before = effect_library().size();
-  load_effects(options.file);
+  load_tried_effects(options.file, {.step_limit_s = options.time_limit_s});
   std::vector<std::string> effects;
   for (std::size_t i = before; i < effect_library().size(); ++i)
     effects.push_back(fmt::format("{}, {}", effect_library()[i]->name(), effect_library()[i]->summary()));

@@ -61,6 +61,7 @@ std::string result_of(const WorkerTask& task, WorkerPage& page) {
     case WorkerJob::make: return make_estimator(task.estimator, task.model), std::string();
     case WorkerJob::run: return run(task, page);
     case WorkerJob::examine: return examine(task, page);
+    case WorkerJob::load: return std::string();  // done as the task was received
   }
   throw std::runtime_error("halyard_worker: unknown task");
 }

@@ -14,7 +14,7 @@ namespace halyard {
 namespace {
 
 /// Counted up with every change of what is sent.
-constexpr std::size_t kWorkerInterface = 3;
+constexpr std::size_t kWorkerInterface = 4;
 
 /// All that a log measures. The columns that its file had besides are for messages of the caller.
 constexpr std::array kSignals = {&Log::motor_torque,   &Log::motor_position, &Log::joint_position,
@@ -84,7 +84,7 @@ WorkerTask receive_worker_task(std::string_view bytes) {
   for (const std::string& module : task.effect_modules) load_effects(module);
   task.plugin_folders = r.texts();
   search_plugins_only_in({task.plugin_folders.begin(), task.plugin_folders.end()});
-  if (task.job == WorkerJob::describe) return task;  // of no arm
+  if (task.job == WorkerJob::describe || task.job == WorkerJob::load) return task;  // of no arm
   task.model = read_model(r, task.estimator);
   task.kalman = r.flag();
   task.use_joint_torque = r.flag();

@@ -19,7 +19,8 @@ enum class WorkerJob : std::size_t {
   describe,  ///< say what the module is; the result is a list of two texts, name and description
   make,      ///< make and destroy the estimator; the result is empty
   run,       ///< run it over the log; the result is estimator_run_bytes()
-  examine    ///< run the tests of plugins/host/conformance.h on it; the result is a list of texts
+  examine,   ///< run the tests of plugins/host/conformance.h on it; the result is a list of texts
+  load       ///< load the modules of effects; the result is empty
 };
 
 struct WorkerTask {

@@ -191,6 +191,16 @@ TEST_F(BadInput, AModuleOfEffectsThatCannotBeLoaded) {
   expect_module_refused("./none.so", {"plugin ./none.so: no such file; check the path\n"});
   expect_module_refused(broken + "/well_formed.so", {"well_formed.so: ", "halyard_effects"});
   expect_module_refused(broken + "/effects_older_interface.so", {"effects_older_interface.so: ", "effect interface 2"});
+  for (const std::string name : {"effects_crashes_when_opened.so", "effects_crashes_in_table.so"})
+    expect_module_refused(broken + "/" + name, {name + ": as it is loaded: crashed: Segm", "; correct what runs then"});
+}
+
+TEST_F(BadInput, AModuleOfEffectsThatHangsAsItIsLoaded) {
+  const std::string hangs = HALYARD_BROKEN_PLUGINS "/effects_hangs_when_opened.so";
+  expect_refused({"check", hangs, "--time-limit", "0.3"},
+                 {"effects_hangs_when_opened.so: as it is loaded: took more than 0.3 s, and was ended; correct"});
+  expect_refused({"simulate", "experiment_a.xml", "--out", "new.csv", "--effects", hangs},
+                 {"effects_hangs_when_opened.so: as it is loaded: took more than 10 s, and was ended; correct"});
 }
 
 TEST_F(BadInput, ASweepThatCannotBeComputed) {
