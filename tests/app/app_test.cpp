@@ -98,6 +98,16 @@ TEST_F(App, PluginsListsTheBuiltInEstimators) {
     EXPECT_TRUE(contains("\n" + printed, std::string("\n") + name));
 }
 
+TEST_F(App, PluginsListsTheModulesThatItRefuses) {
+  fs::create_directory(path("own"));
+  fs::copy_file(HALYARD_BROKEN_PLUGINS "/crashes_in_table.so", path("own/crashes_in_table.so"));
+  const RunResult result =
+      run({"plugins"}, "HALYARD_PLUGIN_PATH='" + path("own").string() + "'; export HALYARD_PLUGIN_PATH;");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "\nekf ")) << result.out;
+  EXPECT_TRUE(contains(result.out, "crashes_in_table.so: as it is opened: crashed: Segm")) << result.out;
+}
+
 TEST_F(App, HelpAndVersionGoToStdout) {
   const std::string help = done({"--help"});
   for (const char* command : {"simulate", "estimate", "compare", "sweep", "merge", "plugins", "check"}) {

@@ -301,5 +301,16 @@ TEST(ContainedPlugins, OneThatCrashesAsItIsOpenedIsRefusedAsOthersAre) {
   EXPECT_EQ(refused, std::vector{"plugin " + crashed + ": as it is opened: crashed: Segmentation fault"});
 }
 
+TEST(ContainedPlugins, OneThatHangsAsItIsOpenedIsRefusedAfterTheLimit) {
+  const plugin_fixtures::TemporaryFolder folder;
+  std::filesystem::copy_file(fixture("hangs_when_opened"), folder / "hangs_when_opened.so");
+  const Environment path("HALYARD_PLUGIN_PATH", (folder / "").string().c_str());
+  std::vector<std::string> refused;
+  // Ample for the start of a worker on a machine with other work.
+  EXPECT_FALSE(contained_plugins(&refused, {.step_limit_s = 3}).empty());
+  const std::string hangs = std::filesystem::canonical(folder / "hangs_when_opened.so").string();
+  EXPECT_EQ(refused, std::vector{"plugin " + hangs + ": as it is opened: took more than 3 s, and was ended"});
+}
+
 }  // namespace
 }  // namespace halyard
