@@ -72,7 +72,7 @@ compile_together(halyard_diagnosis log_check
   log_check/torques.cpp log_check/zeros.cpp)
 compile_together(halyard_diagnosis fit
   calibration/lateness.cpp fit/baseline_reach.cpp fit/beyond_numbers.cpp fit/block_variance.cpp
-  fit/complementary.cpp fit/evidence.cpp fit/fit.cpp fit/fit_parameter.cpp fit/nudged.cpp
+  fit/bounded_least_squares.cpp fit/complementary.cpp fit/evidence.cpp fit/fit.cpp fit/fit_parameter.cpp fit/nudged.cpp
   noise/channel_noise.cpp noise/delay_free.cpp noise/ripple_free.cpp planning/change_detector.cpp planning/plan.cpp planning/planner.cpp)
 compile_together(halyard_diagnosis judgement
   diagnose.cpp holdout/adoption.cpp holdout/holdout.cpp holdout/prediction_interval.cpp

@@ -1,12 +1,13 @@
 #include "diagnosis/fit/fit.h"
 
-#include <ceres/ceres.h>
+#include <ceres/cost_function.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "diagnosis/fit/block_variance.h"
+#include "diagnosis/fit/bounded_least_squares.h"
 
 namespace halyard {
 namespace {
@@ -96,103 +97,16 @@ class Residual : public ceres::CostFunction {
   mutable std::vector<std::vector<double>> last_;
 };
 
-/// Residuals and sensitivities at a point; not finite if it cannot be integrated.
-struct LinearisedResidual {
-  LinearisedResidual(const Residual& residual, const std::vector<double>& u)
-      : r(residual.num_residuals()), J(residual.num_residuals(), u.size()) {
-    const double* at = u.data();
-    double* jacobian = J.data();
-    finite = residual.Evaluate(&at, r.data(), &jacobian);
-  }
-
-  std::vector<double> r;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
-  bool finite = false;
-};
-
-/// Parameters at a bound.
-std::vector<int> at_bounds(const ceres::Problem& problem, const std::vector<double>& u) {
-  std::vector<int> all;
-  for (int i = 0; i < static_cast<int>(u.size()); ++i)
-    if (u[i] <= problem.GetParameterLowerBound(u.data(), i) || u[i] >= problem.GetParameterUpperBound(u.data(), i))
-      all.push_back(i);
-  return all;
-}
-
-/// Parameters at a bound beyond which the cost would fall. Ceres clips a step at the bounds, and the step of the others
-/// is then the wrong one: it is rejected again and again, and the fit ends far from its minimum.
-std::vector<int> pressed(const ceres::Problem& problem, const LinearisedResidual& at, const std::vector<double>& u) {
-  const Eigen::VectorXd gradient =
-      at.J.transpose() * Eigen::Map<const Eigen::VectorXd>(at.r.data(), static_cast<Eigen::Index>(at.r.size()));
-  std::vector<int> all = at_bounds(problem, u);
-  std::erase_if(all, [&](int i) {
-    return u[i] <= problem.GetParameterLowerBound(u.data(), i) ? gradient(i) <= 0 : gradient(i) >= 0;
-  });
-  return all;
-}
-
-/// Stops the solver when a step has led to a bound at which nothing was when it started.
-class StopAtBound : public ceres::IterationCallback {
- public:
-  StopAtBound(const ceres::Problem& problem, const std::vector<double>& u) : problem_(problem), u_(u) {}
-  void start() { known_ = at_bounds(problem_, u_); }
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
-    if (!step.step_is_successful) return ceres::SOLVER_CONTINUE;
-    return std::ranges::includes(known_, at_bounds(problem_, u_)) ? ceres::SOLVER_CONTINUE
-                                                                  : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
-  }
-
- private:
-  const ceres::Problem& problem_;
-  const std::vector<double>& u_;
-  std::vector<int> known_;
-};
-
-/// Bounded least squares from u on; false if the start cannot be integrated. Parameters that are pressed against a
-/// bound are held there, and the others are fitted, until the same ones are pressed.
+/// Bounded least squares from u on; false if the start cannot be integrated.
 bool minimise(const Residual& residual, const std::vector<FitParameter>& parameters, const FitOptions& options,
               std::vector<double>& u) {
-  ceres::Problem::Options ownership;
-  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem problem(ownership);
-  problem.AddResidualBlock(const_cast<Residual*>(&residual), nullptr, u.data());
+  std::vector<double> lower, upper;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const FitParameter& p = parameters[i];
-    const double low = (p.lower - residual.origin(i)) / p.scale, high = (p.upper - residual.origin(i)) / p.scale;
-    problem.SetParameterLowerBound(u.data(), static_cast<int>(i), low);
-    problem.SetParameterUpperBound(u.data(), static_cast<int>(i), high);
-    u[i] = std::clamp(u[i], low, high);
+    lower.push_back((p.lower - residual.origin(i)) / p.scale);
+    upper.push_back((p.upper - residual.origin(i)) / p.scale);
   }
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  solver.max_num_iterations = options.iterations;
-  solver.function_tolerance = options.cost_tolerance;
-  solver.parameter_tolerance = 1e-6;
-  solver.logging_type = ceres::SILENT;  // a trial step that cannot be integrated is foreseen
-  solver.num_threads = 1;
-  // With bounds Ceres would add a line search to each step: two of three evaluations, and no better minimum.
-  solver.max_num_line_search_step_size_iterations = 0;
-  std::vector<int> held;
-  StopAtBound stop(problem, u);
-  solver.callbacks.push_back(&stop);
-  solver.update_state_every_iteration = true;
-  for (bool has_settled = false; solver.max_num_iterations > 0;) {
-    // Ceres would write to the log of the host program if the start cannot be integrated. The residual keeps what is
-    // computed here for Ceres' first step.
-    const LinearisedResidual at(residual, u);
-    if (!at.finite) return false;
-    std::vector<int> now = pressed(problem, at, u);
-    if (now.size() == u.size() || (has_settled && now == held)) break;
-    held = std::move(now);
-    problem.SetManifold(u.data(), held.empty() ? nullptr : new ceres::SubsetManifold(static_cast<int>(u.size()), held));
-    stop.start();
-    ceres::Solver::Summary summary;
-    ceres::Solve(solver, &problem, &summary);
-    if (summary.termination_type == ceres::FAILURE) return false;
-    has_settled = summary.termination_type == ceres::CONVERGENCE;
-    solver.max_num_iterations -= static_cast<int>(summary.iterations.size()) - 1;
-  }
-  return true;
+  return halyard::minimise(residual, lower, upper, {options.iterations, options.cost_tolerance}, u);
 }
 
 /// The longest correlation time of any channel, in blocks.
