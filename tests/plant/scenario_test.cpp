@@ -16,7 +16,7 @@
 namespace halyard {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kOneDegree = std::numbers::pi / 180;
 const std::string kExamples = HALYARD_SOURCE_DIR "/examples/raven2/";
 
 /// Writes files into a folder of its own and reads a scenario from there.
@@ -67,7 +67,7 @@ TEST(Experiments, AreThoseOfThePaper) {
   EXPECT_EQ(c.robot.effects[0].p[0], 0.1);
   for (const Scenario* s : {&a, &b, &c}) {
     EXPECT_EQ(s->trajectory[1].sines.at(0).frequency_hz, 0.3852);
-    EXPECT_DOUBLE_EQ(s->trajectory[1].center, 90 * kDegree);
+    EXPECT_DOUBLE_EQ(s->trajectory[1].center, 90 * kOneDegree);
     EXPECT_DOUBLE_EQ(s->trajectory[2].sines.at(0).amplitude, 0.040);
     EXPECT_EQ(s->control_period_s, 1e-3);
     EXPECT_EQ(s->integrator.kind, IntegratorKind::automatic);
@@ -104,8 +104,8 @@ TEST(Experiments, AreHomedWhereTheyStart) {
   };
   // What gravity stretches is left: 0.04 deg, 0.23 deg, 0.22 mm at most.
   const Eigen::VectorXd error = told(a) - a.robot.home();
-  EXPECT_LT(std::abs(error(0)), 0.05 * kDegree);
-  EXPECT_LT(std::abs(error(1)), 0.3 * kDegree);
+  EXPECT_LT(std::abs(error(0)), 0.05 * kOneDegree);
+  EXPECT_LT(std::abs(error(1)), 0.3 * kOneDegree);
   EXPECT_LT(std::abs(error(2)), 0.3e-3);
   // A ratio larger by 5.64 % over 45 deg.
   a.homed = false;
@@ -117,7 +117,7 @@ TEST_F(ScenarioFile, HasDefaultsAndKeepsUnnamedJointsAtHome) {
   EXPECT_EQ(s.seed, 1u);
   EXPECT_EQ(s.fade_in_s, 2);
   EXPECT_EQ(s.trajectory[0].kind, JointTrajectory::Kind::hold);
-  EXPECT_DOUBLE_EQ(s.trajectory[0].center, 45 * kDegree);
+  EXPECT_DOUBLE_EQ(s.trajectory[0].center, 45 * kOneDegree);
   EXPECT_TRUE(s.noise.motor_torque.empty());
 }
 
