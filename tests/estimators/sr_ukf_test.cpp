@@ -17,8 +17,8 @@ TEST(SrUkf, IsTheKalmanFilterOnALinearProblem) {
     for (const bool admits_linearity : {true, false}) {
       SquareRootUkf filter({.alpha = alpha});
       // A spread of α √n σ between numbers of up to 10 is good to 1e-15 / α, 1e-12 for the paper's α, and the
-      // covariance with it; a few such errors are not forgotten yet.
-      EXPECT_LT(largest_difference(filter, problem, admits_linearity), 1e-11) << alpha << admits_linearity;
+      // covariance with it; a few such errors are not forgotten yet. Observed: 7e-16 / α to 2e-15 / α.
+      EXPECT_LT(largest_difference(filter, problem, admits_linearity), 1e-14 / alpha) << alpha << admits_linearity;
       EXPECT_EQ(filter.repaired(), 0);
     }
   }

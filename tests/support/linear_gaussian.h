@@ -80,25 +80,40 @@ struct LinearGaussian {
   }
 };
 
-/// Prediction and update by covariances.
+/// Prediction and update by covariances, in long double: its own rounding, 2000 times finer, does not count.
 struct KalmanFilter {
-  Eigen::VectorXd x;
-  Eigen::MatrixXd P;
+  using Real = long double;
+  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+  Vector x;
+  Matrix P;
+
+  explicit KalmanFilter(const LinearGaussian& p) : x(p.x_0.cast<Real>()), P(squared(initial_root())) {}
 
   void step(const LinearGaussian& p, const Eigen::VectorXd& z) {
-    x = p.F * x;
-    P = p.F * P * p.F.transpose() + p.Q_root * p.Q_root.transpose();
-    const Eigen::MatrixXd S = p.H * P * p.H.transpose() + p.R_root * p.R_root.transpose();
-    const Eigen::MatrixXd K = S.llt().solve(p.H * P).transpose();
-    x += K * (z - p.H * x);
+    const Matrix F = p.F.cast<Real>(), H = p.H.cast<Real>();
+    x = F * x;
+    P = F * P * F.transpose() + squared(p.Q_root);
+    const Matrix S = H * P * H.transpose() + squared(p.R_root);
+    const Matrix K = S.llt().solve(H * P).transpose();
+    x += K * (z.cast<Real>() - H * x);
     P = (P - K * S * K.transpose()).eval();
-    P = (0.5 * (P + P.transpose())).eval();
+    P = (0.5L * (P + P.transpose())).eval();
+  }
+
+  /// A Aᵀ
+  static Matrix squared(const Eigen::MatrixXd& A) { return A.cast<Real>() * A.cast<Real>().transpose(); }
+
+  /// Largest difference of mean and covariance from N(x, S Sᵀ).
+  double difference(const Eigen::VectorXd& mean, const Eigen::MatrixXd& root) const {
+    return static_cast<double>(std::max((mean.cast<Real>() - x).cwiseAbs().maxCoeff(),  //
+                                        (squared(root) - P).cwiseAbs().maxCoeff()));
   }
 };
 
 /// Largest differences of mean and covariance between a filter and the Kalman filter, over all steps.
 inline double largest_difference(GaussianFilter& filter, const LinearGaussian& p, bool admits_it) {
-  KalmanFilter kalman{p.x_0, initial_root() * initial_root().transpose()};
+  KalmanFilter kalman(p);
   filter.reset(p.x_0, initial_root());
   const LinearProcess process(p.F);
   const LinearReadings readings(p.H, admits_it);
@@ -107,8 +122,7 @@ inline double largest_difference(GaussianFilter& filter, const LinearGaussian& p
     kalman.step(p, z);
     filter.predict(process, p.Q_root);
     filter.update(readings, z, p.R_root, std::numeric_limits<double>::infinity());
-    largest = std::max({largest, (filter.x() - kalman.x).cwiseAbs().maxCoeff(),
-                        (filter.S() * filter.S().transpose() - kalman.P).cwiseAbs().maxCoeff()});
+    largest = std::max(largest, kalman.difference(filter.x(), filter.S()));
   }
   return largest;
 }
