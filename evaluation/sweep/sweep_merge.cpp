@@ -30,7 +30,6 @@ StoredCells collect_cells(const std::vector<fs::path>& folders, const SweepGrid&
 void write_cells(OutputFiles& files, const fs::path& out, const SweepGrid& grid, const StoredCells& cells) {
   discard_other_sweep(files, out, grid);
   for (const fs::path& journal : journals_in(out)) files.remove(journal);
-  remove_leftovers(journal_path(out, {}).parent_path());  // of a run that was killed here
   files.add_in_parts(journal_path(out, {}), [&](const OutputFiles::Append& append) {
     append(journal_header(grid));
     for (std::size_t point = 0; point < cells.size(); ++point) append(cells.line(point));

@@ -82,6 +82,9 @@ bool write_all(int file, std::string_view content) {
   return true;
 }
 
+/// Where a file is; "." for a name alone.
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
 /// Onto the disk: a crash of the machine must not leave an empty file under the new name. Some file systems cannot.
 bool sync(int file) { return ::fsync(file) == 0 || errno == EINVAL || errno == EROFS; }
 
@@ -98,6 +101,7 @@ void OutputFiles::add_in_parts(const fs::path& path, const std::function<void(co
   } catch (const fs::filesystem_error& error) {
     fail(path, "cannot create its folder: " + error.code().message());
   }
+  if (files_.empty() || folder_of(files_.back().path) != folder_of(target)) remove_leftovers(folder_of(target));
   const fs::path temporary = sibling(target);
   unfinished_.add(temporary);
   Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL);
@@ -145,7 +149,7 @@ void OutputFiles::give_names() {
 void OutputFiles::commit() {
   unfinished_.finish([this] { give_names(); });
   std::set<fs::path> folders;
-  for (const File& f : files_) folders.insert(f.path.has_parent_path() ? f.path.parent_path() : fs::path("."));
+  for (const File& f : files_) folders.insert(folder_of(f.path));
   for (const fs::path& path : folders)
     if (const Descriptor folder(path, O_RDONLY | O_DIRECTORY); folder) sync(*folder);
 }

@@ -17,7 +17,7 @@ namespace halyard {
 /// names (Linux, RENAME_EXCHANGE) keeps those that replaced an older file.
 class OutputFiles {
  public:
-  /// Makes missing parent folders. A link to a file is followed.
+  /// Makes missing parent folders. A link to a file is followed. Removes what killed runs left in the file's folder.
   /// Throws std::runtime_error with path and reason: the path is a folder or a device, no permission, a full disk.
   void add(const std::filesystem::path& path, std::string_view content);
 

@@ -182,14 +182,25 @@ TEST_F(OutputFolder, LeftoversOfKilledProcessesGoAndThoseOfRunningOnesStay) {
   OutputFiles running;
   running.add(folder_ / "log.csv", "");
   const fs::path of_this = fs::directory_iterator(folder_)->path();
-  testing_program::kill_while_writing(folder_ / "truth.csv");
-  EXPECT_EQ(files(), 2u);
   // A name of no process, and one of a machine whose processes are not known here.
   for (const char* name : {"log.csv.part-of-a-name", "log.csv.part-elsewhere-4026531836-4194305-0"})
     write_file_whole(folder_ / name, "");
+  testing_program::kill_while_writing(folder_ / "truth.csv");
+  EXPECT_EQ(files(), 4u);
   remove_leftovers(folder_);
   EXPECT_EQ(files(), 3u);
   EXPECT_TRUE(fs::exists(of_this));
+}
+
+TEST_F(OutputFolder, LeftoversGoFromEachFolderThatIsWritten) {
+  testing_program::kill_while_writing(folder_ / "a" / "log.csv");
+  testing_program::kill_while_writing(folder_ / "b" / "log.csv");
+  OutputFiles out;
+  out.add(folder_ / "a" / "report.html", "");
+  out.add(folder_ / "b" / "report.html", "");
+  out.commit();
+  const auto left = std::distance(fs::recursive_directory_iterator(folder_), fs::recursive_directory_iterator());
+  EXPECT_EQ(left, 2 + 2) << "two folders with a file each";
 }
 
 TEST_F(OutputFolder, IsLockedForOneRunAtATime) {
