@@ -84,6 +84,7 @@ class BackgroundRun {
     if (id_ > 0) send(SIGKILL), wait();
   }
 
+  pid_t id() const { return id_; }
   void send(int signal) const { ::kill(id_, signal); }
   /// Exit code; 128 + signal if one ended it.
   int wait() {

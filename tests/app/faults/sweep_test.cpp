@@ -1,0 +1,51 @@
+// Faults of sweeps alone: a worker that goes, another sweep in the folder, a shard that runs beside a merge.
+#include <gtest/gtest.h>
+
+#include "model/output/folder_lock.h"
+#include "tests/app/faults/faults.h"
+
+namespace halyard::testing_program {
+namespace {
+
+class FaultsOfSweeps : public Faults {};
+
+TEST_F(FaultsOfSweeps, ASweepWithoutAWorkerIsToBeResumedToTheSameBytes) {
+  done({"sweep", "sweep.xml", "--out", "whole"});
+  // The worker goes while the sweep runs: it is there when the estimators are checked, and the first start removes it.
+  write_text(path("worker"), "#!/bin/sh\n[ -e started ] && rm -f worker\ntouch started\nexec " +
+                                 (program_.parent_path() / "libexec/halyard/halyard_worker").string() + " \"$@\"\n");
+  fs::permissions(path("worker"), fs::perms::owner_all);
+  const RunResult broken = run({"sweep", "sweep.xml", "--out", "out", "--jobs", "1"},
+                               "HALYARD_WORKER='" + path("worker").string() + "'; export HALYARD_WORKER;");
+  EXPECT_EQ(broken.exit_code, 2);
+  expect_line(broken.err, "HALYARD_WORKER");
+  EXPECT_FALSE(contains(text_of(path("out/cells/all.jsonl")), "is no file")) << "stored as a failure of the estimator";
+  done({"sweep", "sweep.xml", "--out", "out", "--resume"});
+  EXPECT_TRUE(files_in(path("out")) == files_in(path("whole")));
+}
+
+TEST_F(FaultsOfSweeps, AShardLeavesAnotherSweepAlone) {
+  done({"sweep", "sweep.xml", "--out", "out"});
+  const Files before = files_in(path("out"));
+  write_text(path("other.xml"), replaced(text_of(path("sweep.xml")), "steps=\"8\"", "steps=\"4\""));
+  const RunResult shard = run({"sweep", "other.xml", "--out", "out", "--shard", "1/2"});
+  EXPECT_EQ(shard.exit_code, 2);
+  expect_line(shard.err, "holds results of another sweep");
+  EXPECT_TRUE(files_in(path("out")) == before);
+  const RunResult whole = run({"sweep", "other.xml", "--out", "out"});
+  EXPECT_EQ(whole.exit_code, 0);
+  expect_line(whole.err, "they are removed");
+}
+
+TEST_F(FaultsOfSweeps, AMergeDoesNotTakeTheJournalOfAShardThatRuns) {
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "1/2"});
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "2/2"});
+  const FolderLock shard(path("out"), "1_of_2");
+  const RunResult merge = run({"merge", "out"});
+  EXPECT_EQ(merge.exit_code, 2);
+  expect_line(merge.err, "another run writes into this folder");
+  EXPECT_TRUE(fs::exists(path("out/cells/1_of_2.jsonl")));
+}
+
+}  // namespace
+}  // namespace halyard::testing_program
