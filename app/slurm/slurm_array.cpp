@@ -96,10 +96,17 @@ std::string submit(const SlurmArray& array) {
                                   : "; fewer --nodes may help: MaxArraySize in slurm.conf limits them"));
   // "17", or "17;cluster"
   const std::string job = result.printed.substr(result.printed.rfind('\n') + 1);
-  const nlohmann::ordered_json json = {
-      {"job", job.substr(0, job.find(';'))}, {"parts", array.parts}, {"options", array.options}};
-  write_file_whole(job_file(array.out), json_text(json));
-  return json.at("job");
+  const std::string number = job.substr(0, job.find(';'));
+  const nlohmann::ordered_json json = {{"job", number}, {"parts", array.parts}, {"options", array.options}};
+  try {
+    write_file_whole(job_file(array.out), json_text(json));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(
+        fmt::format("{}; Slurm job {} was submitted, but --status will not know of it: end it with scancel {}, make "
+                    "room, and submit again",
+                    error.what(), number, number));
+  }
+  return number;
 }
 
 std::optional<SubmittedArray> submitted_array(const fs::path& out) {

@@ -24,7 +24,8 @@ struct SlurmArray {
 std::string slurm_script(const SlurmArray& array);
 
 /// Stores the script and submits it; returns the number of the job.
-/// Throws InputError if sbatch is not installed, and std::runtime_error with its message if it refuses the script.
+/// Throws InputError if sbatch is not installed, and std::runtime_error if it refuses the script, with its message, or
+/// if a file cannot be written, with the job's number if there is one.
 std::string submit(const SlurmArray& array);
 
 struct SubmittedArray {

@@ -90,6 +90,15 @@ TEST_F(FaultsOfASmallDisk, EveryCommandThatRunsOutOfSpaceLeavesOldOutputsAsTheyW
   }
 }
 
+TEST_F(FaultsOfASmallDisk, AJobOfSlurmThatCannotBeNotedIsTold) {
+  const Arguments command = on_disk({"sweep", "sweep.xml", "--slurm", "--nodes", "2", "--out", "out"});
+  const SmallDisk disk(path("disk"), 2);  // sweep.json and the script
+  const RunResult result = run(command);
+  EXPECT_EQ(result.exit_code, 1);
+  expect_line(result.err, "No space left on device");
+  expect_line(result.err, "scancel 17");
+}
+
 /// At each number of pages: before the first point, within the journal, while the points are joined, and in the report.
 TEST_F(FaultsOfASmallDisk, ASweepWhoseDiskFillsUpIsResumedToTheSameBytes) {
   write_text(path("tiny.xml"),
