@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "app/pages/diagnosis_output.h"
+#include "evaluation/first_failure.h"
 #include "model/arm_log.h"
 #include "model/model_file.h"
 #include "plant/scenario.h"
@@ -52,17 +53,21 @@ class PartsProgress {
 
 void compute_all(const std::vector<Part>& parts, const StageCallback& tell) {
   PartsProgress progress(parts, tell);
+  FirstFailure failure;
   const oneapi::tbb::blocked_range<std::size_t> each(0, parts.size(), 1);
   const auto compute = [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       // A thread that waits within a part helps that part: starting another meanwhile would hold both up.
       oneapi::tbb::this_task_arena::isolate([&] {
-        parts[i].compute([&](const std::string& stage, double fraction) { progress.set(i, stage, fraction); });
+        failure.keep([&] {
+          parts[i].compute([&](const std::string& stage, double fraction) { progress.set(i, stage, fraction); });
+        });
       });
       progress.set_done(i);
     }
   };
   oneapi::tbb::parallel_for(each, compute, oneapi::tbb::simple_partitioner());
+  failure.rethrow();
 }
 
 DiagnosedModel diagnose_rig(const Rig& rig, const fs::path& examples, const fs::path& recordings,

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "evaluation/comparison/compare.h"
+#include "evaluation/first_failure.h"
 #include "evaluation/run/contained_run.h"
 #include "evaluation/sweep/measures/sweep_limits.h"
 #include "evaluation/sweep/parameters/estimator_option.h"
@@ -163,13 +164,17 @@ void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(jobs));
   std::atomic<std::size_t> done = 0;
   if (options.progress) options.progress(0, todo.size());
+  FirstFailure failure;
   tbb::task_arena arena(jobs);
   arena.execute([&] {
     tbb::parallel_for_each(todo, [&](std::size_t point) {
-      journal.add(run_point(sweep, point, options.containment));
-      if (const std::size_t now = ++done; options.progress) options.progress(now, todo.size());
+      failure.keep([&] {
+        journal.add(run_point(sweep, point, options.containment));
+        if (const std::size_t now = ++done; options.progress) options.progress(now, todo.size());
+      });
     });
   });
+  failure.rethrow();
 }
 
 }  // namespace halyard

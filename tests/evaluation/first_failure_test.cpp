@@ -1,0 +1,47 @@
+// The loops inside a body run to their end while another body throws.
+#include "evaluation/first_failure.h"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+namespace halyard {
+namespace {
+
+namespace tbb = oneapi::tbb;
+
+/// At most 10 s, if the machine never runs two bodies at once.
+void wait_for(const std::atomic<bool>& flag) {
+  for (int i = 0; i < 10000 && !flag; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+TEST(FirstFailure, LeavesTheLoopsOfOtherBodiesAlone) {
+  std::atomic<bool> has_begun = false, has_failed = false;
+  std::atomic<int> done = 0;
+  FirstFailure failure;
+  const auto body = [&](int i) {
+    if (i == 0) {
+      wait_for(has_begun);
+      has_failed = true;
+      throw std::runtime_error("of the first body");
+    }
+    has_begun = true;
+    wait_for(has_failed);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // longer than an exception takes to cancel loops
+    tbb::parallel_for(0, 100, [&](int) { ++done; });
+  };
+  const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
+  tbb::task_arena arena(2);
+  arena.execute([&] { tbb::parallel_for(0, 2, [&](int i) { failure.keep([&] { body(i); }); }); });
+  EXPECT_EQ(done, 100);
+  EXPECT_THROW(failure.rethrow(), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace halyard
