@@ -92,7 +92,8 @@ class Faults : public App {
                "<control period=\"0.001\" fade_in=\"0.5\"/></scenario>");
   }
 
-  /// examples/ for a tour of a second: short experiments, and a robot and a log that the model explains. none/ has no recordings.
+  /// examples/ for a tour of a second: short experiments, and a robot and a log that the model explains. none/ has no
+  /// recordings.
   void write_small_tour() const {
     if (fs::exists(path("examples"))) return;
     fs::create_directories(path("none"));

@@ -83,7 +83,8 @@ TEST_F(FaultsOfASmallDisk, EveryCommandThatRunsOutOfSpaceLeavesOldOutputsAsTheyW
       done(here);
       needed = pages_of(files_in(path("disk/out")));
     }
-    // In the last file, and for the quick ones also earlier. Of sweep --slurm the last is written when Slurm has the job.
+    // In the last file, and for the quick ones also earlier. Of sweep --slurm the last is written when Slurm has the
+    // job.
     const std::size_t last = is_slurm(command) ? 2 : 1;
     expect_no_space(here, needed - last);
     if (command[0] == "compare" || command[0] == "simulate" || command[0] == "merge") expect_no_space(here, needed / 3);

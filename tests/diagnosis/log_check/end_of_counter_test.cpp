@@ -6,7 +6,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "tests/support/checked_logs.h"
+#include "tests/diagnosis/log_check/checked_logs.h"
 
 namespace halyard {
 namespace {

@@ -16,7 +16,7 @@
 #include "diagnosis/diagnose.h"
 #include "model/arm_log.h"
 #include "plant/simulate.h"
-#include "tests/support/checked_logs.h"
+#include "tests/diagnosis/log_check/checked_logs.h"
 #include "tests/support/message_of.h"
 #include "tests/support/short_arm.h"
 #include "tests/support/small_arm.h"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "tests/support/checked_logs.h"
+#include "tests/diagnosis/log_check/checked_logs.h"
 #include "transmission/coupling.h"
 
 namespace halyard {

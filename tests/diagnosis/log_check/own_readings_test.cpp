@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/diagnosis/log_check/checked_logs.h"
 #include "tests/diagnosis/odd_logs.h"
-#include "tests/support/checked_logs.h"
 
 namespace halyard {
 namespace {

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "model/arm_log.h"
-#include "tests/support/checked_logs.h"
+#include "tests/diagnosis/log_check/checked_logs.h"
 #include "tests/support/limits.h"
 
 namespace halyard {

@@ -10,7 +10,7 @@
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/clock_check.h"
 #include "tests/diagnosis/fit/made_log.h"
-#include "tests/support/checked_logs.h"
+#include "tests/diagnosis/log_check/checked_logs.h"
 #include "tests/support/message_of.h"
 
 namespace halyard {

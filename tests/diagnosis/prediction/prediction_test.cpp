@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "plant/simulate.h"
-#include "tests/support/finite_numbers.h"
+#include "tests/diagnosis/prediction/finite_numbers.h"
 #include "tests/support/short_arm.h"
 #include "transmission/coupling.h"
 

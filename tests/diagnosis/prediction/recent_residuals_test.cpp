@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "plant/simulate.h"
-#include "tests/support/finite_numbers.h"
+#include "tests/diagnosis/prediction/finite_numbers.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {

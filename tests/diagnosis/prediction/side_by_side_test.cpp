@@ -9,7 +9,7 @@
 
 #include "diagnosis/prediction/shared_lanes.h"
 #include "plant/simulate.h"
-#include "tests/support/finite_numbers.h"
+#include "tests/diagnosis/prediction/finite_numbers.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
