@@ -9,6 +9,7 @@
 
 #include "diagnosis/round/refit.h"
 #include "plant/simulate.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
@@ -207,21 +208,30 @@ TEST(FinalFit, IntervalsCountTheSizesOfTheSameEffectThatAreReset) {
 }
 
 TEST(FinalFit, DeviationsCountWhatAFitBeforeHadReset) {
-  FitParameter kept, lost;
-  kept.effect = lost.effect = 0;
-  lost.index = 1;
-  Fit before, after;
-  before.parameters = {kept, lost};
-  before.value = {1, 0.1};
-  before.std_deviation = {0.3, 0.2};
-  after.parameters = {kept};
-  after.value = {1.4};
-  after.std_deviation = {0.1};
+  const auto of = [](std::optional<std::size_t> effect, std::size_t index) {
+    FitParameter p;
+    p.effect = effect, p.index = index;
+    return p;
+  };
+  const FitParameter kept = of(0, 0), reset = of(0, 1), other = of(1, 0), number = of({}, 5);
+  Fit before;
+  before.parameters = {kept, reset, other, number};
+  before.value = {1, 2, 3, 4};
+  before.std_deviation = {0.4, 0.4, 0.4, 0.4};
+  Fit after;
+  after.parameters = {kept, other, number};
+  after.value = {1.3, 3.3, 4.3};
+  after.std_deviation = {0.1, 0.1, 0.1};
   count_resets(before, after);
   EXPECT_EQ(after.std_deviation[0], 0.1) << "nothing was reset";
-  after.reset = {{lost, 0.1, 0.4}};
+  after.reset = {{reset, 2, 1}};
   count_resets(before, after);
-  EXPECT_NEAR(after.std_deviation[0], std::hypot(0.3, 0.4), 1e-15);
+  EXPECT_NEAR(after.std_deviation[0], 0.5, 1e-12) << "three beside four tenths";
+  EXPECT_EQ(after.std_deviation[1], 0.1) << "its effect has kept all";
+  EXPECT_EQ(after.std_deviation[2], 0.1) << "a number of the model";
+  after.std_deviation[0] = 2;
+  count_resets(before, after);
+  EXPECT_EQ(after.std_deviation[0], 2) << "it never shrinks";
 }
 
 TEST(FinalFit, IsNotUsableIfItsStartCannotBeIntegrated) {
@@ -307,6 +317,48 @@ TEST(FinalFit, AnEffectIsIdleWithoutASizeOrWithoutAnEssentialParameter) {
   loop.parameters[1].is_past = true;
   EXPECT_TRUE(is_idle(loop)) << "a state of its past is not its yield stretch";
   EXPECT_TRUE(idle_effects(fit_that_keeps("backlash", {}), 1).empty()) << "the model came with it";
+}
+
+/// changed_numbers() of a fit in which the friction of the motor (0) and the ratio of the drive (1) are so many
+/// deviations off. in_scales: how far both are off, in half tolerances.
+std::vector<std::size_t> changed_by(double friction, double ratio, double correlation, double in_scales = 10) {
+  const ArmModel model = first_joints(1);
+  static const Evidence whole = [&] {
+    Log log = log_along(4, 100, slow_swing);
+    for (const double t : log.time) log.motor_torque[0].push_back(0.05 * std::cos(1.7 * t));  // N m
+    return Evidence(make_records(log, model, {}), model, Split::none);
+  }();
+  Fit fit;
+  fit.hypothesis = {model.nominal, {}};
+  for (const FitParameter& p : baseline_parameters(model))
+    if (p.name == "joint 1 motor Coulomb friction" || p.name.ends_with("capstan radius")) fit.parameters.push_back(p);
+  EXPECT_EQ(fit.parameters.size(), 2u);
+  fit.covariance.resize(2, 2);
+  for (const std::size_t i : {0, 1}) {
+    const FitParameter& p = fit.parameters[i];
+    fit.value.push_back(p.nominal + in_scales * p.scale);
+    fit.std_deviation.push_back(in_scales * p.scale / (i == 0 ? friction : ratio));
+  }
+  for (const int i : {0, 1})
+    for (const int j : {0, 1})
+      fit.covariance(i, j) = fit.std_deviation[i] * fit.std_deviation[j] * (i == j ? 1 : correlation);
+  return changed_numbers(whole, model, fit);
+}
+
+TEST(FinalFit, ANumberHasChangedIfItIsFourDeviationsOffBesideTheOthersThatHave) {
+  using Changed = std::vector<std::size_t>;
+  EXPECT_EQ(changed_by(3.9, 3.9, 0), Changed{});
+  EXPECT_EQ(changed_by(3.9, 4.3, 0), Changed{1});
+  EXPECT_EQ(changed_by(4.1, 5, 0), (Changed{0, 1}));
+  // With the friction set back, 5 - 0.99 * 3.9 = 1.14 deviations of the ratio are left, of which one is 0.14 then.
+  EXPECT_EQ(changed_by(3.9, 5, 0.99), Changed{1});
+  EXPECT_EQ(changed_by(3.9, 4.3, 0.99), Changed{}) << "0.44 are left";
+}
+
+TEST(FinalFit, ANumberHasNotChangedIfNoSensorResolvesIt) {
+  // Half a tolerance of the ratio moves the joint by 6 mrad, 260 times what its sensor resolves.
+  EXPECT_EQ(changed_by(3.9, 100, 0, 0.1), std::vector<std::size_t>{1});
+  EXPECT_EQ(changed_by(3.9, 100, 0, 1e-3), std::vector<std::size_t>{});
 }
 
 }  // namespace

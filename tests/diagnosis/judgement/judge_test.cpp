@@ -267,5 +267,60 @@ TEST(Judge, TheMostExplainedChannelIsThatOfTheMostSquaredFloors) {
   EXPECT_FALSE(most({10, 10}, {11, 12}));
 }
 
+TEST(Judge, ATrialOfWhatCannotBeIntegratedIsUnusable) {
+  const ArmModel model = first_joints(1);
+  const Judge judge(made_evidence(), model, {});
+  const Scored without{{model.nominal, {}}, made_evidence().score({model.nominal, {}})};
+  Hypothesis with = without.hypothesis;
+  with.effects = {place_effect(*find_effect("encoder_offset"), model.nominal, 0)};
+  Hypothesis broken = with;
+  broken.nominal.joint[0].mass = std::nan("");
+  Scored lost = without;
+  lost.score.finite = false;
+  EXPECT_TRUE(judge.trial(with, without, 0).usable);
+  EXPECT_FALSE(judge.trial(broken, without, 0).usable);
+  EXPECT_FALSE(judge.trial(with, lost, 0).usable);
+}
+
+/// A trial of an effect of this size, without which the zero of the joint's sensor would be far off.
+Trial trial_of_size(const char* name, double size) {
+  const ArmModel model = first_joints(1);
+  const Hypothesis given{model.nominal, {}};
+  Hypothesis with = given, without = given;
+  with.effects = {place_neutral_effect(*find_effect(name), model.nominal, 0)};
+  with.effects[0].p[0] = size;
+  without.nominal.joint[0].joint_encoder_offset += 0.3;
+  return Judge(made_evidence(), model, {}).trial(with, {without, made_evidence().score(without)}, 0);
+}
+
+TEST(Judge, AnEffectWithinTheToleranceOfItsNumberIsARefit) {
+  const ArmModel model = first_joints(1);
+  const double tolerance = model.joints[0].tolerances.friction * model.nominal.joint[0].motor_coulomb;
+  // A gap has no number in the model: a hundredth of a typical one is none.
+  const double none = 0.01 * find_effect("backlash")->parameters(model.nominal, 0)[0].typical;
+  for (const auto& [name, allowed] : {std::pair("motor_friction", tolerance), std::pair("backlash", none)}) {
+    const Trial little = trial_of_size(name, 0.99 * allowed), more = trial_of_size(name, 1.01 * allowed);
+    ASSERT_TRUE(little.is_judged() && more.is_judged()) << name;
+    EXPECT_TRUE(little.is_refit) << name;
+    EXPECT_FALSE(more.is_refit) << name;
+  }
+  EXPECT_TRUE(trial_of_size("motor_friction", -0.99 * tolerance).is_refit);
+  EXPECT_FALSE(trial_of_size("motor_friction", -1.01 * tolerance).is_refit);
+}
+
+TEST(Judge, AGainIsLessByTheFurtherPriorCostOfTheNumbers) {
+  const ArmModel model = first_joints(1);
+  const std::vector<FitParameter> numbers = baseline_parameters(model);
+  const Judge judge(made_evidence(), model, numbers);
+  const Hypothesis given{model.nominal, {}};
+  Hypothesis moved = given;
+  set_parameter(moved, numbers[0], numbers[0].upper);  // two deviations
+  const Score score = made_evidence().score(given);
+  EXPECT_NEAR(judge.gain_over({moved, score}, {given, score}), -2, 1e-9);
+  EXPECT_NEAR(judge.gain_over({given, score}, {moved, score}), 2, 1e-9);
+  moved.effects = {place_effect(*find_effect("encoder_offset"), model.nominal, 0)};
+  EXPECT_NEAR(judge.trial(moved, {given, score}, 0).prior_cost, 2, 1e-9);
+}
+
 }  // namespace
 }  // namespace halyard

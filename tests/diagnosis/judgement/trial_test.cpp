@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/judgement/judge.h"
+#include "diagnosis/judgement/nested_gain.h"
 #include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/small_evidence.h"
 
@@ -94,6 +95,46 @@ TEST(Trial, ThatExplainsAWholeRestInFewBlocksHasTwiceItsLikelihoodRatio) {
   for (std::size_t r = 0; r < worse.deciding.size(); ++r) worse.deciding[r] = r % 3 == 0 ? 1.3 : 1.1;
   worse.block_sum = evidence.block_products(worse.deciding, worse.deciding);
   EXPECT_EQ(judge.p_of_gain(worse, before), 1) << "a probability";
+}
+
+/// The same for both channels: of the torque's rest and of the joint's.
+Score score_with_rests(const Evidence& evidence, const std::pair<double, double>& of_rest) {
+  Score s = score_with_rest(evidence, of_rest.second);
+  s.mean_square[0] = of_rest.first * std::pow(kRule.rest_ratio * evidence.floor()[0], 2);
+  return s;
+}
+
+TEST(Trial, IsTestedTwiceIfNothingIsLeftOfTheRestOfWhichItExplainsMost) {
+  const ArmModel model = first_joints(1);
+  const Judge judge(made_evidence(), model, {});
+  using Rests = std::pair<double, double>;
+  const auto p = [&](const Rests& before, const Rests& after) {
+    return judge.p_of_gain(score_with_rests(made_evidence(), after), score_with_rests(made_evidence(), before));
+  };
+  // No block changes: once the probability is a half, twice the smaller one is 1.
+  EXPECT_DOUBLE_EQ(p({2, 100}, {1.5, 0.9}), 1) << "the joint's is gone";
+  EXPECT_DOUBLE_EQ(p({100, 2}, {0.9, 1.5}), 1) << "the torque's is gone";
+  EXPECT_DOUBLE_EQ(p({100, 1.01}, {30, 0.99}), 0.5) << "it explains most of the torque's, of which some is left";
+  EXPECT_DOUBLE_EQ(p({100, 0.5}, {50, 1e-3}), 0.5) << "the joint had no rest";
+  EXPECT_DOUBLE_EQ(p({0.5, 100}, {1e-3, 50}), 0.5) << "nor had the torque";
+}
+
+TEST(Trial, HardlyCountsBlocksWithNextToNothingOfTheResidual) {
+  const ArmModel model = first_joints(1);
+  const Evidence& evidence = made_evidence();
+  const Judge judge(evidence, model, {});
+  Score before = score_with_rest(evidence, 1), after = before;
+  // Of the whole channels, which have much more than these blocks. A rest is left of both.
+  before.mean_square = {400, 900}, after.mean_square = {399, 899};
+  for (std::size_t r = 0; r < before.deciding.size(); ++r) {
+    before.deciding[r] = 1 + static_cast<double>(r % 7);
+    after.deciding[r] = (r % 3 == 0 ? 0.2 : 0.7) * before.deciding[r];
+  }
+  for (Score* s : {&before, &after}) s->block_sum = evidence.block_products(s->deciding, s->deciding);
+  std::vector<double> least = squared_floors(evidence);
+  least[0] += 4, least[1] += 9;  // a tenth of the root mean square
+  const double expected = p_value(paired(nested_gains(evidence, after, before, least)));
+  EXPECT_NEAR(judge.p_of_gain(after, before), expected, 1e-6 * expected);
 }
 
 }  // namespace

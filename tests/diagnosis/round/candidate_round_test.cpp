@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
+#include "diagnosis/round/refit.h"
+#include "tests/diagnosis/fit/made_log.h"
+
 namespace halyard {
 namespace {
 
@@ -61,6 +66,66 @@ TEST(Leaders, AreAtMostFourByGainAndTwoByRest) {
 TEST(Rivals, AreThoseAtTheEdgesToo) {
   EXPECT_TRUE(is_rival(judged(kRule.rivals * kStanding.gain, 150), kRule.shared_gain, kStanding, kWithout));
   EXPECT_TRUE(is_rival(judged(0, 110), 0, kStanding, kWithout)) << "it takes half as much away, and gains nothing";
+}
+
+constexpr double kZero = 0.1;  // rad
+
+/// A round about the log of an arm whose zero is off, and of which only the joint's sensor is compared.
+struct ZeroRound {
+  ArmModel model = first_joints(1);
+  Evidence evidence;
+  Refitter refitter{evidence, model, 0};
+  Judge judge{evidence, model, refitter.numbers()};
+  Hypothesis nominal{model.nominal, {}};
+  SearchProgress quiet = [](const std::string&, double) {};
+  CandidateRound round{evidence, model, refitter, judge, {nominal, evidence.score(nominal)}, nominal, "a round", quiet};
+  /// The friction of a motor moves no joint.
+  std::vector<Trial> trials = round.look({placed("motor_friction"), placed("encoder_offset")});
+
+  ZeroRound() : evidence(make_records(log(), model, {}), model) {}
+  PlacedEffect placed(const char* name) const { return place_effect(*find_effect(name), model.nominal, 0); }
+  static Log log() {
+    Log made = log_along(4, 100, slow_swing);
+    for (double& q : made.joint_position[0]) q -= kZero;
+    return made;
+  }
+};
+
+TEST(CandidateRound, TakesAQuickLookAtWhatPromisesSomethingAndTellsTheLargestGainFirst) {
+  const ZeroRound r;
+  ASSERT_EQ(r.trials.size(), 2u);
+  const Trial &zero = r.trials[0], &friction = r.trials[1];
+  EXPECT_EQ(zero.effect.effect->name(), "encoder_offset");
+  EXPECT_TRUE(zero.promising && zero.is_fitted && zero.usable);
+  EXPECT_GT(zero.gain, 10);
+  EXPECT_EQ(friction.effect.effect->name(), "motor_friction");
+  EXPECT_FALSE(friction.promising || friction.is_fitted || friction.usable);
+}
+
+TEST(CandidateRound, FitsItsLeaderFullyAndNobodyElse) {
+  ZeroRound r;
+  const std::vector<Fit> fits = r.round.fit_leaders(r.trials);
+  ASSERT_EQ(fits.size(), 2u);
+  ASSERT_TRUE(fits[0].usable);
+  EXPECT_NEAR(fits[0].hypothesis.effects.at(0).p[0], kZero, 2e-3) << "the cable's stretch is 2e-4";
+  EXPECT_TRUE(r.trials[0].can_be_named());
+  EXPECT_FALSE(fits[1].usable);
+}
+
+TEST(CandidateRound, FitsANameOnceMoreIfItsQuickFitGainsMoreThanItsPresentOne) {
+  ZeroRound r;
+  Hypothesis with = r.nominal;
+  with.effects = {r.placed("encoder_offset")};
+  with.effects[0].p[0] = kZero;
+  const auto is_fitted = [&](double less) {
+    Trial standing = r.trials[0];
+    standing.gain -= less;
+    r.round.keep_rivals_of(standing, with, r.trials);
+    std::vector<Trial> trials = r.trials;
+    return r.round.fit_leaders(trials)[0].usable;
+  };
+  EXPECT_FALSE(is_fitted(0));
+  EXPECT_TRUE(is_fitted(1));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "diagnosis/round/candidate_round.h"
 #include "diagnosis/search/attribution.h"
 #include "plant/simulate.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
@@ -64,6 +65,36 @@ TEST(JointProposal, OfAnArmWithoutEffectsProposesNothing) {
   ASSERT_EQ(round.linear().starts.size(), all_candidates(model.nominal).size());
   const JointSearch search(evidence, refitter, judge, 0);
   EXPECT_FALSE(search.propose(round.linear(), without, 0.01, 6).is_convincing);
+}
+
+/// The zero of the joint is off, and the round starts where the ratio of the drive is at the end of its tolerance.
+TEST(JointSelection, TakesBackWhatANumberIsOffBesideTheEffectThatItSelects) {
+  const ArmModel model = first_joints(1);
+  constexpr double kZero = 0.1;  // rad
+  Log log = log_along(4, 100, slow_swing);
+  for (double& q : log.joint_position[0]) q -= kZero;
+  const Evidence evidence(make_records(log, model, {}), model);
+  const Refitter refitter(evidence, model, 0);
+  const Judge judge(evidence, model, refitter.numbers());
+  LinearRound round;
+  round.from = {model.nominal, {}};
+  round.numbers = baseline_parameters(model);
+  std::erase_if(round.numbers, [](const FitParameter& p) { return !p.name.ends_with("capstan radius"); });
+  ASSERT_EQ(round.numbers.size(), 1u);
+  const FitParameter& radius = round.numbers[0];
+  set_parameter(round.from, radius, radius.upper);
+  round.columns = sensitivities(evidence, round.from, round.numbers);
+  const Screen screen(evidence, round.from, round.columns,
+                      channel_scale(evidence, evidence.score(round.from).fit_mean_square));
+  const PlacedEffect zero = place_effect(*find_effect("encoder_offset"), model.nominal, 0);
+  round.starts = {best_start(evidence, screen, {round.from.nominal, {zero}}, model.nominal)};
+  const JointSearch search(evidence, refitter, judge, 0);
+  const Hypothesis h = search.select(round, 6);
+  ASSERT_EQ(h.effects.size(), 1u);
+  EXPECT_EQ(h.effects[0].effect->name(), "encoder_offset");
+  EXPECT_NEAR(h.effects[0].p[0], kZero, 3e-3) << "the cable's stretch is 2e-4";
+  EXPECT_NEAR(parameter_value(h, radius), radius.nominal, 0.1 * (radius.upper - radius.nominal));
+  EXPECT_TRUE(search.select(round, 0).effects.empty()) << "none may be added";
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "diagnosis/round/refit.h"
 #include "plant/simulate.h"
 #include "tests/diagnosis/fit/made_log.h"
@@ -73,6 +75,97 @@ TEST(Screen, AsksForTheMultipleOfAChangeThatLeavesNothing) {
   beside[0] += residual[1], beside[1] -= residual[0];
   EXPECT_NEAR(screen.direction(beside).promise, 0, 1e-9) << "it has nothing in common with the residual";
   EXPECT_EQ(screen.direction({}).promise, 0);
+}
+
+/// Where the fit of a candidate begins on a log that is made by hand, of which only the joint's sensor is compared.
+struct MadeStart {
+  ArmModel model = first_joints(1);
+  PlacedEffect candidate;
+  Evidence evidence;
+  Hypothesis from;
+  Screen screen;
+  Start start;
+
+  /// reading(t): of the joint's sensor, while its motor follows the slow swing.
+  template <class Reading>
+  MadeStart(const char* name, const Reading& reading)
+      : candidate(place_effect(*find_effect(name), model.nominal, 0)),
+        evidence(make_records(log_with(reading), model, {}), model),
+        from{model.nominal, {}},
+        screen(evidence, from, {}, std::vector<double>(2, 1.0)),
+        start(best_start(evidence, screen, {model.nominal, {candidate}}, model.nominal)) {}
+
+  template <class Reading>
+  static Log log_with(const Reading& reading) {
+    Log log = log_along(4, 100, slow_swing);
+    for (std::size_t i = 0; i < log.size(); ++i) log.joint_position[0][i] = reading(log.time[i]);
+    return log;
+  }
+  double left_at(const Hypothesis& h) const { return screen.left(evidence.fit_rows({h})[0]); }
+};
+
+TEST(BestStart, HasTheSizeThatTheLinearFitAsksForAsFarAsItsBound) {
+  const MadeStart ratio("capstan_ratio", [](double t) { return 1.3 * slow_swing(t); });
+  ASSERT_EQ(ratio.start.hypotheses.size(), 1u) << "it has no shapes";
+  // What the cable stretches under the joint's weight is a ten-thousandth of a radian.
+  EXPECT_NEAR(ratio.start.hypotheses[0].effects.at(0).p[0], 1.3, 2e-3);
+  EXPECT_GT(ratio.start.promise, 0.999);
+  EXPECT_LT(ratio.start.left, 1e-4 * ratio.left_at(ratio.from));
+  const MadeStart zero("encoder_offset", [](double t) { return slow_swing(t) + 0.7; });
+  ASSERT_EQ(zero.start.hypotheses.size(), 1u);
+  EXPECT_EQ(zero.start.hypotheses[0].effects.at(0).p[0], -0.5) << "rad; the sensor is above the motor's encoder";
+}
+
+TEST(BestStart, TellsTheChangeByAUnitOfASize) {
+  const MadeStart ratio("capstan_ratio", [](double t) { return 1.3 * slow_swing(t); });
+  ASSERT_EQ(ratio.start.directions.size(), 1u);
+  const Directions& d = ratio.start.directions[0];
+  EXPECT_EQ(d.neutral.effects.at(0).p[0], 1);
+  EXPECT_EQ(d.numbers, 1u);
+  ASSERT_EQ(d.sizes.size(), 1u);
+  ASSERT_EQ(d.columns.size(), 1u);
+  const std::vector<double>& time = ratio.evidence.row_time();
+  ASSERT_EQ(d.columns[0].size(), time.size());
+  for (std::size_t r = 0; r < time.size(); ++r)
+    EXPECT_NEAR(d.columns[0][r], -d.sizes[0].scale * slow_swing(time[r]), 1e-3) << time[r];
+}
+
+TEST(BestStart, OfASlipIsWhereTheResidualLeaps) {
+  constexpr double kTime = 2.613, kStep = 0.01;  // s, amid a fitting block; rad
+  const MadeStart slip("cable_slip", [&](double t) { return slow_swing(t) + (t > kTime ? kStep : 0.0); });
+  ASSERT_EQ(slip.start.hypotheses.size(), 3u);
+  const double* p = slip.start.hypotheses[0].effects.at(0).p;
+  const double jump = -kStep * slip.model.nominal.joint[0].pulley_radius;
+  EXPECT_NEAR(p[0], jump, 0.05 * std::abs(jump)) << "the cable's stretch is a fiftieth of it";
+  EXPECT_NEAR(p[1], kTime, 0.015) << "a row is 0.02 s";
+  EXPECT_EQ(p[2], 0) << "at once";
+  for (std::size_t i = 1; i < 3; ++i) {
+    const Hypothesis &better = slip.start.hypotheses[i - 1], &worse = slip.start.hypotheses[i];
+    EXPECT_LE(slip.left_at(better), 1.02 * slip.left_at(worse)) << "that which leaves least comes first";
+    EXPECT_TRUE(better.effects[0].p[1] != worse.effects[0].p[1] || better.effects[0].p[2] != worse.effects[0].p[2]);
+  }
+  EXPECT_NEAR(slip.start.left, slip.left_at(slip.start.hypotheses[0]), 0.02 * slip.start.left);
+  ASSERT_EQ(slip.start.directions.size(), 3u);
+  for (const Directions& d : slip.start.directions) {
+    EXPECT_EQ(d.numbers, 3u) << "a size and two shapes";
+    EXPECT_EQ(d.sizes.size(), 1u);
+  }
+}
+
+TEST(BestStart, OfAPushEndsAfterItHasBegun) {
+  // While the joint rises: a contact would be there on its way back, too.
+  const MadeStart push("external_force", [](double t) { return slow_swing(t) + (t > 0.7 && t < 1.7 ? 1e-3 : 0.0); });
+  ASSERT_EQ(push.start.hypotheses.size(), 3u);
+  const double* p = push.start.hypotheses[0].effects.at(0).p;
+  EXPECT_GT(p[0], 0);
+  // Of ten instants in four seconds one is 0.1 s before the push, and one 0.1 s after it.
+  EXPECT_NEAR(p[1], 0.7, 0.35);
+  EXPECT_NEAR(p[2], 1.7, 0.35);
+  for (const Hypothesis& h : push.start.hypotheses) EXPECT_LT(h.effects.at(0).p[1], h.effects.at(0).p[2]);
+  ASSERT_FALSE(push.start.directions.empty());
+  EXPECT_EQ(push.start.directions[0].numbers, 4u) << "the force with its instants and rise, and no contact";
+  for (const Directions& d : push.start.directions)
+    EXPECT_LT(d.neutral.effects.at(0).p[1], d.neutral.effects.at(0).p[2]);
 }
 
 }  // namespace
