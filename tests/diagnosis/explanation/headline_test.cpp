@@ -30,5 +30,12 @@ TEST(RemainderHeadline, SaysTheGravestOfWhatRemains) {
   EXPECT_EQ(remainder_headline({}), "");
 }
 
+TEST(RemainderHeadline, OfWhatNoNameCanEndIsAnUnexplainedResidual) {
+  for (const Kind kind : {Kind::rest, Kind::refused, Kind::motion})
+    EXPECT_EQ(remainder_headline({{0, "", Kind::stuck_sensor}, {1, "", kind}}), "an unexplained residual remains");
+  EXPECT_EQ(remainder_headline({{0, "", Kind::stuck_sensor}, {1, "", Kind::line_above_band}}),
+            "a sine above the compared frequencies remains");
+}
+
 }  // namespace
 }  // namespace halyard

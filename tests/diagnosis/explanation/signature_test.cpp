@@ -76,5 +76,24 @@ TEST(LinesAboveBand, TellASineThatIsLargerThanWhatTheSensorResolves) {
   EXPECT_TRUE(told(1e-5).empty()) << "the sensor's rounding is 2.4e-5";
 }
 
+TEST(StandsStill, AMotorThatIsFasterThanTwiceItsSmoothingInLessThanATwentiethOfItsSamples) {
+  ArmParameters<double> arm;
+  arm.n = 1;
+  arm.joint[0].motor_smoothing = 0.5;  // rad/s
+  Record record;
+  record.n = 1;
+  record.size = 100;
+  const auto is_still = [&](std::size_t samples, double rate) {
+    record.motor_rate.assign(1, std::vector<double>(record.size, 0.0));
+    for (std::size_t i = 0; i < samples; ++i) record.motor_rate[0][i] = rate;
+    return stands_still(record, arm, 0);
+  };
+  EXPECT_TRUE(is_still(4, 10));
+  EXPECT_FALSE(is_still(5, 10));
+  EXPECT_FALSE(is_still(5, -10));
+  EXPECT_TRUE(is_still(100, -0.99));
+  EXPECT_FALSE(is_still(100, -1.01));
+}
+
 }  // namespace
 }  // namespace halyard

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 namespace halyard {
 namespace {
 
@@ -107,6 +109,36 @@ TEST(ViewSentence, RoundsSharesToWhatTheyAreWorth) {
   EXPECT_EQ(shown_share(0.094), "9.4 %");
   EXPECT_EQ(shown_share(0.81), "81 %");
   EXPECT_EQ(shown_share(0.996), "over 99 %");
+}
+
+TEST(ViewSentence, ShowsSoManyUnitsForOneOfSI) {
+  const ArmParameters<double> arm = three_kinds();
+  const auto shown_as = [&](int joint, Abscissa abscissa, ResidualKind residual = ResidualKind::joint_position) {
+    return abscissa_unit(arm, joint, residual, abscissa).per_si;
+  };
+  const double degrees = 180 / std::numbers::pi, turns = 1 / (2 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(shown_as(0, Abscissa::joint_position), degrees);
+  EXPECT_DOUBLE_EQ(shown_as(0, Abscissa::rate), degrees);
+  EXPECT_EQ(shown_as(1, Abscissa::joint_position), 1e3);
+  EXPECT_EQ(shown_as(1, Abscissa::rate), 1e3);
+  EXPECT_EQ(shown_as(1, Abscissa::rate, ResidualKind::motor_torque), 1);
+  EXPECT_DOUBLE_EQ(shown_as(0, Abscissa::motor_angle), turns);
+  EXPECT_DOUBLE_EQ(shown_as(0, Abscissa::capstan_angle), turns);
+  EXPECT_EQ(shown_as(0, Abscissa::stretch), 1e3);
+  EXPECT_EQ(shown_as(0, Abscissa::load), 1);
+  EXPECT_EQ(shown_as(0, Abscissa::time), 1);
+  EXPECT_EQ(shown_as(0, Abscissa::direction), 1);
+  EXPECT_EQ(shown_as(0, Abscissa::other_residual), 1e3) << "N m in mN m";
+  EXPECT_EQ(residual_unit(arm, 2, ResidualKind::motor_torque).per_si, 1) << "N";
+  EXPECT_EQ(residual_unit(arm, 0, ResidualKind::joint_torque).per_si, 1) << "N m";
+}
+
+TEST(ViewSentence, OfASlideWithAGearHasAMotorTorqueAndNoForce) {
+  // The cable pulls along the slide's axis: a pulley radius of 1.
+  ArmParameters<double> arm = three_kinds();
+  arm.joint[1].pulley_radius = 1;
+  EXPECT_EQ(residual_name(arm, 1, ResidualKind::motor_torque), "motor torque residual");
+  EXPECT_EQ(residual_unit(arm, 1, ResidualKind::motor_torque).name, "mN\u00a0m");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -207,6 +208,85 @@ TEST(Views, OrdersOverAnAngleAreThoseThatTheMotionAndTheBandShow) {
   // Forty turns: 20 Hz are the order 5.
   EXPECT_NEAR(fast.front(), 0.5, 1e-9);
   EXPECT_NEAR(fast.back(), 5, 0.25 / 40 + 1e-9);
+}
+
+/// A position residual alone, over time.
+ResidualSignals residual_alone(std::size_t n, const std::function<double(std::size_t)>& y) {
+  ResidualSignals s;
+  s.dt = 0.01;
+  for (std::size_t i = 0; i < n; ++i) {
+    s.time.push_back(s.dt * static_cast<double>(i));
+    s.residual[static_cast<std::size_t>(ResidualKind::joint_position)].push_back(y(i));
+  }
+  return s;
+}
+
+TEST(Views, AMeanHasAsManyIndependentSamplesAsItsCorrelationLeaves) {
+  const auto constant = [](std::size_t n, const std::function<double(std::size_t)>& y) {
+    const ResidualSignals s = residual_alone(n, y);
+    return all_views(s, s).at(0);
+  };
+  // By chance a mean is three of its own deviations: 9 / (9 + N) of the mean square.
+  const auto independent = [](const View& v) { return 9 / v.chance - 9; };
+  // Eight up and eight down: the correlations at 1, 2 and 3 are 3/4, 1/2 and 1/4, and N = n / (1 + 2 * 1.5).
+  const View square = constant(3200, [](std::size_t i) { return i % 16 < 8 ? 4.0 : 2.0; });
+  ASSERT_EQ(square.abscissa, Abscissa::constant);
+  EXPECT_NEAR(independent(square), 800, 8);
+  EXPECT_NEAR(square.explained_before, 0.9 - 0.1 / 799, 2e-6);
+  EXPECT_NEAR(square.swing, 3, 1e-12);
+  // Of 20000 every third is taken, that at most 8000 are left. No two neighbours are alike.
+  EXPECT_NEAR(independent(constant(20000, [](std::size_t i) { return i % 2 == 0 ? 4.0 : 2.0; })), 6667, 1);
+}
+
+TEST(Views, AnAngleIsAnAbscissaIfTheMotionIsMoreThanTwoTurns) {
+  const auto has_motor_angle = [](double turns) {
+    ResidualSignals s = joint_with(noise(1, 50));
+    const auto [low, high] = std::ranges::minmax(s.motor_angle);
+    const double factor = turns * 2 * kPi / (high - low);
+    for (double& angle : s.motor_angle) angle *= factor;
+    return std::ranges::count(all_views(s, s), Abscissa::motor_angle, &View::abscissa) > 0;
+  };
+  EXPECT_FALSE(has_motor_angle(1.99));
+  EXPECT_TRUE(has_motor_angle(2.01));
+}
+
+TEST(Views, TheTransmissionsResidualIsTheStretchAndHasNoViewOverIt) {
+  ResidualSignals s = joint_with(noise(1, 51));
+  s.stretch = s.load;
+  s.residual[static_cast<std::size_t>(ResidualKind::transmission)] = s.of(ResidualKind::joint_position);
+  const auto is_over_stretch = [&](ResidualKind kind) {
+    const std::vector<View> views = all_views(s, s);
+    return std::ranges::any_of(
+        views, [&](const View& v) { return v.residual == kind && v.abscissa == Abscissa::stretch && !v.loop; });
+  };
+  EXPECT_TRUE(is_over_stretch(ResidualKind::joint_position));
+  EXPECT_FALSE(is_over_stretch(ResidualKind::transmission));
+}
+
+TEST(Views, OfARestAreThoseOfThePositionAndOfTheMotorTorque) {
+  const auto has_view = [](ResidualKind kind) {
+    ResidualSignals s = joint_with([](std::size_t i, const ResidualSignals& seen) { return seen.joint_direction[i]; });
+    if (kind != ResidualKind::joint_position)
+      std::swap(s.residual[static_cast<std::size_t>(kind)],
+                s.residual[static_cast<std::size_t>(ResidualKind::joint_position)]);
+    return !telling_views(s).empty();
+  };
+  EXPECT_TRUE(has_view(ResidualKind::joint_position));
+  EXPECT_TRUE(has_view(ResidualKind::motor_torque));
+  EXPECT_FALSE(has_view(ResidualKind::transmission));
+  EXPECT_FALSE(has_view(ResidualKind::joint_torque));
+}
+
+TEST(Views, AConstantIsToldIfItIsMostOfTheMeanSquare) {
+  const auto is_told = [](double constant) {
+    auto rest = noise(1, 8);
+    const ResidualSignals before =
+        joint_with([&](std::size_t i, const ResidualSignals& s) { return constant + rest(i, s); });
+    const std::vector<View> views = telling_views(before, joint_with(noise(1e-3, 9)));
+    return !views.empty() && views[0].abscissa == Abscissa::constant;
+  };
+  EXPECT_FALSE(is_told(1.7)) << "74 %";
+  EXPECT_TRUE(is_told(2.5)) << "86 %";
 }
 
 }  // namespace

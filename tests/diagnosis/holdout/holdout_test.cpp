@@ -294,5 +294,21 @@ TEST(HoldOutData, ThatGapsLeaveTooShortToRefuseAModelAreAnError) {
   EXPECT_EQ(message(7.5, 9), "no InputError");
 }
 
+TEST(HoldOutFloors, OfSeveralTolerancesAreTheRootOfTheSumOfTheirSquares) {
+  WithoutLastSensor data(1, 2);
+  const auto floor_with = [&](double length, double friction) {
+    Tolerances t{0, 0, 0, 0, 0, 0, 0, 0, 0};
+    t.length = length, t.friction = friction;
+    data.model.joints[0].tolerances = t;
+    return holdout_floors(data.evidence, data.model, data.joints, data.torques)[1];
+  };
+  const double of_ratio = floor_with(1e-4, 0), of_friction = floor_with(0, 2), of_both = floor_with(1e-4, 2);
+  // Three lengths make the ratio of a drive. The joint is at 0.4 to 1.2 rad, mostly about its middle.
+  EXPECT_GT(of_ratio, 3e-4 * 0.5);
+  EXPECT_LT(of_ratio, 3e-4 * 1.2);
+  EXPECT_GT(of_friction, 0.1 * of_ratio) << "the test shows nothing";
+  EXPECT_NEAR(of_both, std::hypot(of_ratio, of_friction), 1e-3 * of_both);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "diagnosis/diagnose.h"
 #include "diagnosis/search/attribution.h"
 #include "plant/simulate.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
@@ -58,6 +61,49 @@ TEST(Basis, OneNumberThatIsOffIsAnEffect) {
   EXPECT_EQ(a.tolerance_factor, 1);
   ASSERT_EQ(a.final_fit.hypothesis.effects.size(), 1u);
   EXPECT_EQ(a.final_fit.hypothesis.effects[0].effect->name(), "motor_friction");
+}
+
+TEST(Basis, IsNarrowIfTwoNumbersArePressedAgainstTheirTolerancesOrReplaced) {
+  const ArmModel model = first_joints(1);
+  const Basis basis(made_evidence(), model, 1, 0);
+  const PlacedEffect ratio = place_effect(*find_effect("capstan_ratio"), model.nominal, 0);
+  const std::vector<FitParameter> others = basis.refitter.numbers_beside({model.nominal, {ratio}});
+  ASSERT_GE(others.size(), 2u);
+  ASSERT_LT(others.size(), basis.refitter.numbers().size()) << "it replaces one";
+  const auto is_narrow = [&](double first, double second, const std::vector<PlacedEffect>& effects = {}) {
+    Hypothesis h{model.nominal, effects};
+    for (const auto& [p, share] : {std::pair(others[0], first), std::pair(others[1], second)})
+      set_parameter(h, p, p.nominal + share * (share > 0 ? p.upper - p.nominal : p.nominal - p.lower));
+    return basis.is_narrow(h);
+  };
+  EXPECT_FALSE(is_narrow(0, 0));
+  EXPECT_TRUE(is_narrow(0.96, 0.96));
+  EXPECT_TRUE(is_narrow(-0.96, 0.96));
+  EXPECT_FALSE(is_narrow(0.96, 0.94));
+  EXPECT_FALSE(is_narrow(-0.94, 0.96));
+  EXPECT_FALSE(is_narrow(0, 0, {ratio}));
+  EXPECT_TRUE(is_narrow(0, -0.96, {ratio}));
+}
+
+TEST(Basis, WiderTolerancesAndAddedNamesHaveTheirCosts) {
+  ArmModel exact = first_joints(1);  // whose numbers cannot be off, so that they cost nothing
+  exact.joints[0].tolerances = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+  const PlacedEffect zero = place_effect(*find_effect("encoder_offset"), exact.nominal, 0);
+  const auto cost = [&](double factor, const std::vector<PlacedEffect>& given, const std::vector<PlacedEffect>& all) {
+    ArmModel model = exact;
+    model.effects = given;
+    Found found;
+    found.fit.hypothesis = {model.nominal, all};
+    found.score = made_evidence().score(found.fit.hypothesis);
+    return Basis(made_evidence(), model, factor, given.size()).prior_cost(found);
+  };
+  EXPECT_NEAR(cost(1, {}, {}), 0, 1e-12);
+  EXPECT_NEAR(cost(4, {}, {}), 2 * kRule.cost_of_wider_tolerances, 1e-12) << "for each doubling";
+  const double name = prior_cost_of(zero, exact.nominal),
+               choice = std::log(static_cast<double>(all_candidates(exact.nominal).size()));
+  EXPECT_NEAR(cost(1, {}, {zero}), name + choice, 1e-12);
+  EXPECT_NEAR(cost(2, {zero}, {zero, zero}), kRule.cost_of_wider_tolerances + name + choice, 1e-12)
+      << "the model came with the first";
 }
 
 }  // namespace

@@ -99,5 +99,17 @@ TEST(CandidatesBeside, AreNoneOfWhichTheMotionHasTooFewPeriods) {
   EXPECT_TRUE(has(evidence, "encoder_offset"));
 }
 
+TEST(CandidatesBeside, MayRepeatAPushASlipAndARippleAndNothingElse) {
+  const ArmModel model = first_joints(1);
+  Hypothesis found{model.nominal, {}};
+  for (const char* name : {"motor_friction", "hysteresis", "torque_ripple", "cable_slip", "external_force"})
+    found.effects.push_back(place_effect(*find_effect(name), model.nominal, 0));
+  std::vector<std::string> repeated;
+  for (const PlacedEffect& c : candidates_beside(made_evidence(), found, model.nominal))
+    if (std::ranges::any_of(found.effects, [&](const PlacedEffect& e) { return same_name(e, c); }))
+      repeated.push_back(c.effect->name());
+  EXPECT_EQ(repeated, (std::vector<std::string>{"torque_ripple", "cable_slip", "external_force"}));
+}
+
 }  // namespace
 }  // namespace halyard

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <utility>
+
 #include "plant/simulate.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
@@ -224,6 +228,53 @@ TEST_F(FrictionOfJoint, KeepsItsNameBesideTwoThatAreNotNeeded) {
   EXPECT_EQ(found.final_fit.hypothesis.effects[0].effect->name(), "joint_friction");
   EXPECT_GT(found.namings[0].weight, 0.9);
   EXPECT_EQ(found.namings[0].alternatives.size(), 2u) << "the rivals were not tried: the test shows nothing";
+}
+
+TEST(PairRivals, AreNoneIfTheRoundSaysNothingOfOneOfThem) {
+  const ArmModel model = first_joints(1);
+  const Refitter refitter(made_evidence(), model, 0);
+  const Judge judge(made_evidence(), model, refitter.numbers());
+  const PlacedEffect name = at_the_joint();
+  const auto name_is_unchallenged = [&](const std::function<void(Round&)>& spoil) {
+    Attribution found;
+    found.final_fit.hypothesis = {model.nominal, {name}};
+    found.final_score = made_evidence().score(found.final_fit.hypothesis);
+    found.namings = {{1, {}}};
+    found.rounds = {led_by(name, at_motor_and_pulleys(), 0.7)};
+    spoil(found.rounds[0]);
+    PairRivals(made_evidence(), model, refitter, judge, 0, {}).weigh(found);
+    return found.final_fit.hypothesis.effects.size() == 1 && found.namings[0].weight == 1 &&
+           found.namings[0].alternatives.empty();
+  };
+  EXPECT_FALSE(name_is_unchallenged([](Round&) {})) << "the test shows nothing";
+  EXPECT_TRUE(name_is_unchallenged([](Round& r) { r.at_once = true; }));
+  EXPECT_TRUE(name_is_unchallenged([](Round& r) { r.trials.clear(); }));
+  EXPECT_TRUE(name_is_unchallenged([](Round& r) { std::swap(r.trials[0], r.trials[1]); })) << "another one led it";
+  EXPECT_TRUE(name_is_unchallenged([](Round& r) { r.trials[0].gain = 0; })) << "the name has gained nothing";
+  EXPECT_TRUE(name_is_unchallenged([](Round& r) { r.trials[2].gain = 4.9; })) << "less than half";
+  EXPECT_TRUE(name_is_unchallenged([](Round& r) { r.trials[2].p_value = 0.06; })) << "not significant";
+  EXPECT_TRUE(name_is_unchallenged([](Round& r) { r.trials[2].is_refit = true; }));
+  EXPECT_TRUE(name_is_unchallenged([](Round& r) { r.trials[2].as_another.emplace(); }));
+  EXPECT_TRUE(name_is_unchallenged([](Round& r) { r.trials[2].effect.joint = 1; })) << "at another joint";
+  EXPECT_TRUE(name_is_unchallenged([&](Round& r) { r.trials[2].effect = name; })) << "it is found already";
+  EXPECT_TRUE(name_is_unchallenged([&](Round& r) {
+    r.revised = name, r.name_stays = true;
+    r.trials.erase(r.trials.begin());
+  })) << "a name that stays, and did not compete";
+}
+
+TEST_F(FrictionOfMotorAndPulleys, MakeANameDoubtfulIfTheyAreMoreProbableAndCannotBeNamed) {
+  Attribution found = named({at_the_joint()});
+  found.rounds = {led_by(found.final_fit.hypothesis.effects[0], at_motor_and_pulleys(), 0.7)};
+  PairRivals(*evidence_, model_, *refitter_, *judge_, 0, {.significance = 0}).weigh(found);
+  ASSERT_EQ(found.final_fit.hypothesis.effects.size(), 1u) << "nothing is significant at this level";
+  const Naming& naming = found.namings.at(0);
+  EXPECT_LT(naming.weight, 0.1);
+  ASSERT_EQ(naming.alternatives.size(), 2u);
+  EXPECT_NEAR(naming.alternatives[0].probability, naming.alternatives[1].probability, 1e-12) << "they share its weight";
+  EXPECT_NEAR(naming.weight + 2 * naming.alternatives[0].probability, 1, 1e-6);
+  ASSERT_TRUE(naming.surer);
+  EXPECT_EQ(naming.surer->effect->name(), "motor_friction");
 }
 
 }  // namespace

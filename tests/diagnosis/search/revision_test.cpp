@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "diagnosis/judgement/final_fit.h"
 #include "diagnosis/round/refit.h"
 #include "plant/simulate.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/short_arm.h"
 
 namespace halyard {
@@ -229,6 +231,24 @@ TEST(ReasonOfDoubt, ASurerRivalThatWasFoundBeforeIsAnotherOne) {
             "external_force of joint 1 is more probable, and cannot be named itself");
   EXPECT_EQ(reason_of(Doubt::surer_rival, naming, 0, {push, friction}),
             "another external_force of joint 1 is more probable, and cannot be named itself");
+}
+
+TEST(ProbabilityOfARest, IsAHalfAtThreeFloorsOrAtWhatTheEffectsMayMiss) {
+  // In squared floors of the joint; nothing of the torque.
+  const auto of = [](double rest, double misfit) {
+    const double square = std::pow(made_evidence().floor()[1], 2);
+    Score score;
+    score.mean_square = {0, rest * square};
+    return probabilities_of_a_rest(made_evidence(), score, {0, misfit * square});
+  };
+  EXPECT_EQ(of(9, 0)[0], 0);
+  EXPECT_NEAR(of(9, 0)[1], 0.5, 1e-12);
+  EXPECT_NEAR(of(36, 27)[1], 0.5, 1e-12) << "27 may be missed, and a floor of one: 36 make it even";
+  const ArmModel model = first_joints(1);
+  const Evidence without_torque(make_records(log_along(4, 100, slow_swing), model, {}), model);
+  Score score;
+  score.mean_square = {1, 0};
+  EXPECT_EQ(probabilities_of_a_rest(without_torque, score, {0, 0})[0], 0) << "no sensor";
 }
 
 }  // namespace
