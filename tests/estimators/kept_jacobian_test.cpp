@@ -251,5 +251,43 @@ TEST_F(KeptJacobianWithEffects, TheTransitionMovesARootAsTheStepDoes) {
     expect_transition(process_, torque_, moving(1), x);
 }
 
+TEST_F(KeptJacobian, IsRestoredAfterAStepOfAnotherLengthAtAnotherTime) {
+  ExponentialStep exponential(process_);
+  const Eigen::VectorXd x = step(exponential, moving(1), 0).x;  // with cables of other slopes
+  ExponentialStep::Kept kept;
+  exponential.save(kept);
+  const Belief before = step(exponential, x, kLength);
+  step(exponential, moving(1), 1, 0.7 * kLength);  // a second later: with a chain of its own
+  exponential.restore(kept);
+  const Belief again = step(exponential, x, kLength);
+  EXPECT_EQ(again.x, before.x);
+  EXPECT_EQ(Eigen::MatrixXd(again.FS.view()), Eigen::MatrixXd(before.FS.view()));
+}
+
+TEST_F(KeptJacobian, TheCurvatureOfTheChainIsRestoredWithIt) {
+  const LaneMatrix S = in_lanes(Eigen::MatrixXd::Identity(12, 12));
+  ExponentialStep exponential(process_);
+  const auto shift_at = [&](double speed, double time_s) {
+    Belief after{moving(speed), in_lanes(Eigen::MatrixXd::Zero(12, 12))};
+    Eigen::VectorXd shift;
+    exponential.linearise({time_s, kLength, torque_.data()}, after.x);
+    EXPECT_TRUE(exponential.start(S, Eigen::MatrixXd(12, 0)));
+    EXPECT_TRUE(exponential.advance_pairs(after.x, S, 1e-3, after.FS, shift));
+    return shift;
+  };
+  step(exponential, moving(1), 0);  // which needs no curvature
+  ExponentialStep::Kept without, with;
+  exponential.save(without);
+  const Eigen::VectorXd found = shift_at(1.0001, kLength);
+  exponential.save(with);
+  EXPECT_FALSE(without.has_curvature);
+  EXPECT_TRUE(with.has_curvature);
+  const Eigen::VectorXd kept = shift_at(1.0002, 2 * kLength);
+  exponential.restore(without);
+  EXPECT_EQ(shift_at(1.0001, kLength), found);
+  exponential.restore(with);
+  EXPECT_EQ(shift_at(1.0002, 2 * kLength), kept);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -355,5 +355,46 @@ TEST(ProcessModel, HasRoomForSoManyStates) {
   EXPECT_EQ(states(53), "arm with effects has 65 states, more than 64: place fewer effects with internal states");
 }
 
+TEST(ProcessModel, RungeKuttaIsOfFourthOrderAlsoUnderAForceThatChangesInTime) {
+  ArmModel model = pendulum();
+  add_effect(model, "external_force", 0, {2, 0, 3, 1, 0, 0});  // rises over three seconds, of which this sees a part
+  const ProcessModel process(model);
+  const auto after_half_a_second = [&](int steps) {
+    Eigen::Vector2d x(1, 0);
+    const double none[1] = {}, h = 0.5 / steps;
+    for (int i = 0; i < steps; ++i)
+      runge_kutta_4(process.transmission(), process.layout(), i * h, h, nullptr, none, none, x.data());
+    return x(0);
+  };
+  const double exact = after_half_a_second(640);
+  const double ratio = (after_half_a_second(10) - exact) / (after_half_a_second(20) - exact);
+  EXPECT_NEAR(ratio, 16, 2);  // 2⁴ and the next order; 2 if a stage has another time
+}
+
+TEST(ProcessModel, SubStepsGoThroughTheTimeOfTheirStepInEveryPath) {
+  constexpr double kStart = 2, kLength = 1e-3;  // s
+  ArmModel model = raven2();
+  add_effect(model, "cable_slip", 1, {1e-4, kStart + kLength / 2, 0});  // half of it has slipped then
+  const ProcessModel process(model);
+  const int parts = process.substeps(kLength);
+  ASSERT_GT(parts, 1);
+  const double h = kLength / parts;
+  const Step step{kStart, kLength, kTorque, kLoad, nullptr};
+  const Eigen::VectorXd x = some_states(process, model, 1).col(0);
+  Eigen::VectorXd exact = x, scalar = x, dual = x;
+  Eigen::MatrixXd lanes = x, F(12, 12);
+  for (int i = 0; i < parts; ++i)
+    runge_kutta_4(process.transmission(), process.layout(), kStart + i * h, h, nullptr, kTorque, kLoad, exact.data());
+  process.advance(step, scalar.data());
+  process.advance_many(step, lanes);
+  process.advance_with_jacobian(step, dual.data(), F);
+  for (int i = 0; i < 12; ++i) {
+    const double rounding = 1e-11 * std::max(1.0, std::abs(exact(i)));  // as of lanes and scalars
+    EXPECT_NEAR(scalar(i), exact(i), rounding) << process.state_name(i);
+    EXPECT_NEAR(lanes(i, 0), exact(i), rounding) << process.state_name(i);
+    EXPECT_NEAR(dual(i), exact(i), rounding) << process.state_name(i);
+  }
+}
+
 }  // namespace
 }  // namespace halyard

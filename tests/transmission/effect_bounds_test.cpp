@@ -129,5 +129,18 @@ TEST(EffectBounds, SizesOfAJointWithoutNumbersAreAboveZero) {
   EXPECT_EQ(typical_stretch(j), 1e-9);
 }
 
+TEST(EffectBounds, OfAPayloadAreThoseOfItsLinkOrOfAGram) {
+  ArmParameters<double> arm = random_arm(5, CableLaw::linear);
+  for (const double mass : {0.5, 0.0}) {
+    arm.joint[2].mass = mass;
+    const double whole = mass > 0 ? mass : 1e-3;
+    const EffectParameter payload = bounds_of("payload", "mass", arm);
+    EXPECT_EQ(payload.neutral, 0) << mass;
+    EXPECT_DOUBLE_EQ(payload.typical, 0.1 * whole) << mass;
+    EXPECT_DOUBLE_EQ(payload.lower, -0.9 * whole) << mass;
+    EXPECT_DOUBLE_EQ(payload.upper, 20 * whole) << mass;
+  }
+}
+
 }  // namespace
 }  // namespace halyard

@@ -7,6 +7,7 @@
 #include "estimators/filters/sr_ukf.h"
 #include "tests/estimators/process/held_force.h"
 #include "tests/support/arm_runs.h"
+#include "tests/support/limits.h"
 
 namespace halyard {
 namespace {
@@ -80,6 +81,61 @@ TEST_F(Restart, ASpeedThatCrossesTheRangeInLessThan50MsIsNotBelieved) {
       read(start + 2 * kStep, far + kStep * slow);
       EXPECT_LT((velocity() - slow).norm(), 1e-8) << k << ", " << share;
     }
+}
+
+TEST_F(Restart, UntilItsSpeedIsKnownAJointMayCrossItsRangeInASecondAndTakeItsMotorsAlong) {
+  const StateLayout& l = process_->layout();
+  const Eigen::MatrixXd S = filter_.filter().S();
+  for (int k = 0; k < 3; ++k) {
+    const double range = model_.joints[k].upper - model_.joints[k].lower;
+    EXPECT_DOUBLE_EQ(S(l.rate[k], *l.motor_rate[k]), range) << k;
+    for (int i = 0; i < 3; ++i) {
+      const JointParameters<double>& j = process_->arm().joint[i];
+      EXPECT_DOUBLE_EQ(S(*l.motor_rate[i], *l.motor_rate[k]), range * path_per_joint(j, k) / j.motor_travel())
+          << i << ", " << k;
+    }
+  }
+}
+
+TEST_F(Restart, MotorsThatWereReadEarlierMayHaveMovedSinceWithTheirJoints) {
+  const StateLayout& l = process_->layout();
+  for (int k = 0; k < 3; ++k) {  // after another gap, one after the other
+    Sample s = sample_at(kAgain + 10 + 1e-3 * k, model_.home());
+    for (int i = 0; i < 3; ++i)
+      if (i != k) s.motor_position(i) = kNan;
+    EXPECT_EQ(filter_.update(s).nu.size(), 0) << k;
+  }
+  const Eigen::MatrixXd S = filter_.filter().S();
+  for (int k = 0; k < 3; ++k) {
+    const double range = model_.joints[k].upper - model_.joints[k].lower;
+    const int source = *l.motor_angle[k];
+    const double moved = S(l.position[k], source);
+    EXPECT_NEAR(moved, 2e-3 * range, 1e-9 * range) << k;  // the oldest is 2 ms old
+    EXPECT_DOUBLE_EQ(S(l.rate[k], *l.motor_rate[k]), range) << k;
+    for (int i = 0; i < 3; ++i) {
+      const JointParameters<double>& j = process_->arm().joint[i];
+      EXPECT_DOUBLE_EQ(S(*l.motor_angle[i], source), moved * path_per_joint(j, k) / j.motor_travel()) << i << ", " << k;
+    }
+  }
+}
+
+class RestartWithoutRange : public Restart {
+ protected:
+  RestartWithoutRange() : Restart(without_range_of_joint_2()) {}
+
+ private:
+  static ArmModel without_range_of_joint_2() {
+    ArmModel model = raven2();
+    model.joints[1].upper = model.joints[1].lower;
+    return model;
+  }
+};
+
+TEST_F(RestartWithoutRange, AJointMayMoveByOneInASecondAndIsBelievedAnySpeed) {
+  EXPECT_DOUBLE_EQ(filter_.filter().S()(process_->layout().rate[1], *process_->layout().motor_rate[1]), 1);
+  const Eigen::Vector3d v(0.5, 40, 0.04);
+  read_moved(v, 2e-3);
+  EXPECT_LT((velocity() - v).norm(), 1e-9);  // differences of motor angles of some 100 rad over 2 ms
 }
 
 TEST(Start, MotorsAreWhereTheirEncodersReadLessTheirOffsets) {

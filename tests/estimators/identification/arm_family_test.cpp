@@ -85,6 +85,14 @@ TEST_F(ArmFamilyOfEleven, AResultThatIsNotFiniteIsToldWithStateAndTime) {
   }
 }
 
+TEST_F(ArmFamilyOfEleven, AStepWithoutTorquesAndForcesIsOneOfNone) {
+  constexpr double kNone[3] = {};
+  Eigen::MatrixXd given = X_, absent = X_;
+  family_.advance({0.25, 1e-3, kNone, kNone, nullptr}, 1, given);
+  family_.advance({0.25, 1e-3}, 1, absent);
+  EXPECT_EQ(absent, given);
+}
+
 TEST(ArmFamily, OneMemberTakesAnyNumberOfStates) {
   const ArmModel model = lively_arm();
   const ProcessModel process(model);

@@ -201,5 +201,55 @@ TEST(MatrixKernels, SquaresOfRowsAreSummed) {
   }
 }
 
+TEST(MatrixKernels, AProductLeavesTheColumnsBesideItsOwn) {
+  const Eigen::MatrixXd A = random_matrix(12, 12, 6), B = random_matrix(12, 9, 7), C = Eigen::MatrixXd::Ones(12, 9);
+  for (const MatrixKernels& kernels : matrix_kernels())
+    for (int m = 1; m < 9; ++m) {
+      LaneMatrix sum = in_lanes(C);
+      kernels.product(12, 12, m, in_lanes(A).lanes(), sum.blocks(), right(B), sum.lanes(), sum.blocks(), false);
+      EXPECT_EQ(sum.view().rightCols(9 - m), C.rightCols(9 - m)) << kernels.name << m;
+      EXPECT_LT((sum.view() - A * B).leftCols(m).cwiseAbs().maxCoeff(), 12 * 2 * kEps) << kernels.name << m;
+    }
+}
+
+TEST(MatrixKernels, ARootIsThatOfTheColumnsThatItIsToldOf) {
+  for (const MatrixKernels& kernels : matrix_kernels())
+    for (const int n : {1, 3, 8, 12, 17})
+      for (const int m : {n, n + 1, 2 * n + 1}) {
+        Eigen::MatrixXd A = random_matrix(n, m + 2, 4);
+        A.rightCols(2).setConstant(kNan);
+        LaneMatrix columns = in_lanes(A);
+        Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
+        kernels.lower_root(n, m, n, columns.blocks(), columns.lanes(), L.data(), n);
+        const Eigen::MatrixXd square = A.leftCols(m) * A.leftCols(m).transpose();
+        // n reflections of columns of norm √m.
+        EXPECT_LT((L * L.transpose() - square).norm(), 10 * n * n * m * kEps) << kernels.name << n << m;
+      }
+}
+
+TEST(MatrixKernels, ACorrectionTakesAndWritesNothingBesideItsOwn) {
+  for (const MatrixKernels& kernels : matrix_kernels())
+    for (const int n : {1, 4, 8, 12, 17})
+      for (const int m : {1, 3}) {
+        const Eigen::MatrixXd S = random_matrix(n, n, 12), P = S * S.transpose();
+        Eigen::MatrixXd H = random_matrix(m, n + 1, 13), wide(n, n + 1);
+        H.rightCols(1).setOnes();
+        wide << S, Eigen::VectorXd::Constant(n, kNan);
+        LaneMatrix root = in_lanes(wide), gain = in_lanes(Eigen::MatrixXd::Constant(n, m + 1, 7));
+        Eigen::MatrixXd L = Eigen::MatrixXd::Constant(m + 1, m + 1, 7);
+        kernels.correct(n, m, root.blocks(), H.data(), m, root.lanes(), gain.lanes(), L.data(), m + 1);
+        const Eigen::MatrixXd G = gain.view().leftCols(m), after = root.view().leftCols(n), own = L.topLeftCorner(m, m),
+                              of_states = H.leftCols(n),
+                              before = of_states * P * of_states.transpose() + Eigen::MatrixXd::Identity(m, m);
+        const double tolerance = 10 * m * n * n * kEps;  // as of a whole matrix
+        EXPECT_LT((own * own.transpose() - before).norm(), tolerance) << kernels.name << n << m;
+        EXPECT_LT((G * own.transpose() - P * of_states.transpose()).norm(), tolerance) << kernels.name << n << m;
+        EXPECT_LT((after * after.transpose() - P + G * G.transpose()).norm(), tolerance) << kernels.name << n << m;
+        EXPECT_EQ(L.rightCols(1), Eigen::MatrixXd::Constant(m + 1, 1, 7)) << kernels.name << n << m;
+        EXPECT_EQ(L.bottomRows(1), Eigen::MatrixXd::Constant(1, m + 1, 7)) << kernels.name << n << m;
+        EXPECT_EQ(gain.view().rightCols(1), Eigen::MatrixXd::Constant(n, 1, 7)) << kernels.name << n << m;
+      }
+}
+
 }  // namespace
 }  // namespace halyard

@@ -85,5 +85,18 @@ TEST(MeanShift, OfSeveralStatesIsThatOfEach) {
   for (int k = 0; k < 2; ++k) EXPECT_NEAR(shift.view()(2 + k, 0), shift_of(a(k), from(k), to(k)), 1e-12) << k;
 }
 
+TEST(MeanShift, OfAStateThatIsCertainGoesStraight) {
+  const PhiShape shape{1, 0, 1};
+  constexpr double kRate = -1.5;
+  PhiFunctions phi;
+  ASSERT_TRUE(phi.compute(1, Eigen::MatrixXd::Constant(1, 1, kRate), shape));
+  const Eigen::VectorXd certain = Eigen::VectorXd::Zero(1), from = Eigen::VectorXd::Constant(1, 3),
+                        to = Eigen::VectorXd::Constant(1, 1);
+  LaneMatrix shift;
+  MeanShift(shape).compute(phi, 0, in_lanes(Eigen::MatrixXd::Zero(1, 1)), certain, from, to, shift);
+  // As where deviations do not fall.
+  EXPECT_NEAR(shift.view()(0, 0), 3 * phi_1(kRate) + (1 - 3) * phi_2(kRate), 1e-6);
+}
+
 }  // namespace
 }  // namespace halyard

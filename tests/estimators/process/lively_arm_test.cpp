@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -264,6 +265,100 @@ TEST(LivelyArm, WithoutFiniteRatesAtStandstillItIsNoModel) {
   } catch (const std::runtime_error& e) {
     EXPECT_TRUE(std::string(e.what()).starts_with("process model: motor_rate_2 is not finite at 0 s; check"))
         << e.what();
+  }
+}
+
+/// Checks the rates and each slope of a linearisation at x.
+void expect_slopes_of_rates(const ProcessModel& process, const Step& step, const Eigen::VectorXd& x) {
+  Eigen::VectorXd f;
+  Eigen::MatrixXd A;
+  process.linearise(step, x, f, A);
+  EXPECT_LT(largest_entry(f - process.derivative(step, x)), 1e-10 * largest_entry(f));
+  constexpr double kChange = 1e-5;
+  for (int c = 0; c < process.n_states(); ++c) {
+    const Eigen::VectorXd change = kChange * Eigen::VectorXd::Unit(process.n_states(), c);
+    const Eigen::VectorXd slope =
+        (process.derivative(step, x + change) - process.derivative(step, x - change)) / (2 * kChange);
+    // Rates of up to 1e4 that are rounded; a slope that is left out is of the order of one.
+    EXPECT_LT(largest_entry(A.col(c) - slope), 1e-4 * (1 + largest_entry(slope))) << process.state_name(c);
+  }
+}
+
+/// With more positions and rates than a register holds.
+ArmModel lively_arm_of_seven() {
+  ArmModel model = lively_arm();
+  model.nominal.n = 7;
+  for (int k = 3; k < 7; ++k) {
+    JointParameters<double>& j = model.nominal.joint[k];
+    j = model.nominal.joint[k - 3];
+    std::fill(j.coupling, j.coupling + kMaxJoints, 0.0);
+    j.coupling[k] = 1;
+    j.coupling[k - 1] = 0.1;
+    model.joints.push_back(JointDescription(model.joints[k - 3]));
+  }
+  return model;
+}
+
+TEST(LivelyArm, EachSlopeOfSevenJointsIsThatOfTheRates) {
+  const ProcessModel process(lively_arm_of_seven());
+  ASSERT_TRUE(process.is_plain());
+  ASSERT_EQ(process.n_states(), 28);
+  const StateLayout& l = process.layout();
+  Eigen::VectorXd q(7);
+  q << 0.4, -0.3, 0.2, 0.5, -0.4, 0.1, 0.3;
+  Eigen::VectorXd x = process.state_at_rest(unstretched_motors(process.arm(), q), q);
+  for (int k = 0; k < 7; ++k) {
+    x(*l.motor_angle[k]) += (k % 2 == 0 ? 0.1 : -0.15) / process.arm().joint[k].motor_travel();
+    x(l.rate[k]) = 0.5 - 0.15 * k;
+    x(*l.motor_rate[k]) = 0.3 * k - 0.8;
+  }
+  constexpr double kTorques[7] = {0.3, -0.2, 0.1, 0.2, -0.1, 0.3, -0.3};
+  constexpr double kLoads[7] = {0.5, 0.4, -0.3, 0.2, 0.1, -0.2, 0.3};
+  expect_slopes_of_rates(process, {0.2, 1e-2, kTorques, kLoads, nullptr}, x);
+}
+
+/// With states of its own, so that it is not plain.
+ArmModel lively_arm_with_memory() {
+  ArmModel model = lively_arm();
+  add_effect(model, "hysteresis", 0, {0.4, 0.1});
+  add_effect(model, "creep", 1, {0.5, 0.3});
+  add_effect(model, "pulley_friction", 2, {0.1, 0.4});
+  add_effect(model, "motor_presliding", 2, {0.5, 0.4});
+  return model;
+}
+
+/// lively_state() with states of the effects that are not zero.
+Eigen::VectorXd lively_state_with_memory(const ProcessModel& process) {
+  Eigen::VectorXd x = lively_state(process);
+  x.tail(3) << -0.03, 0.05, -0.1;
+  return x;
+}
+
+constexpr double kMemoryTorque[3] = {0.3, -0.2, 0.1}, kMemoryLoad[3] = {0.5, 0.4, -0.3};
+const Step kMemoryStep{0.2, 1e-2, kMemoryTorque, kMemoryLoad, nullptr};
+
+TEST(LivelyArm, EachSlopeIsThatOfTheRatesAlsoWithMemory) {
+  const ProcessModel process(lively_arm_with_memory());
+  ASSERT_EQ(process.n_states(), 15);
+  ASSERT_FALSE(process.is_plain());
+  expect_slopes_of_rates(process, kMemoryStep, lively_state_with_memory(process));
+}
+
+TEST(LivelyArm, ChangesAreThoseOfTheRatesAlsoWithMemory) {
+  const ProcessModel process(lively_arm_with_memory());
+  const int n = process.n_states(), first = process.layout().positions;
+  const Eigen::VectorXd x = lively_state_with_memory(process);
+  Eigen::VectorXd f;
+  Eigen::MatrixXd A;
+  LinearisedPoint found;
+  process.linearise(kMemoryStep, x, nullptr, f, A, found);
+  const Eigen::MatrixXd d = uniform_matrix(kDeviations, n, 1e-4, 6);
+  LaneMatrix changes;
+  process.changes(kMemoryStep, found.chain, {x.data(), f.data(), found.force}, in_lanes(d), changes);
+  for (int i = 0; i < kDeviations; ++i) {
+    const Eigen::VectorXd exact = (process.derivative(kMemoryStep, x + d.row(i).transpose()) - f).tail(n - first);
+    EXPECT_LT(largest_entry(changes.view().row(i).transpose() - exact), 1e-6) << i;  // as without effects
+    EXPECT_GT(exact.tail(3).cwiseAbs().minCoeff(), 0) << i;
   }
 }
 

@@ -206,5 +206,33 @@ TEST(ProcessNoise, AdaptationGoesWithTheSquareOfWhatIsExpectedAndCountsAnOutlier
   }
 }
 
+TEST(ProcessNoise, IsSimpsonsMeanOfWhatImpulsesDoAtTheTimesOfTheStep) {
+  ArmModel model = raven2();
+  add_effect(model, "friction_drift", 0, {200, 0, 1, 1});  // by a fifth within a millisecond
+  const ProcessModel process(model);
+  ArmNoise noise(model, process, levels_of(model, process));
+  const Eigen::VectorXd x = at_speed(model, process, Eigen::Vector3d(2e-3, -2e-3, 2e-4));  // within the smoothing
+  const Step step{0, 1e-3};
+  Eigen::VectorXd f;
+  Eigen::MatrixXd A;
+  LinearisedPoint found;
+  process.linearise(step, x, nullptr, f, A, found);
+  const Eigen::MatrixXd G = noise.impulses(step, Eigen::Map<const Eigen::Matrix3d>(found.chain.mobility));
+  const Eigen::MatrixXd Q_root = noise.process_root(step, x);
+  for (int source = 0; source < 6; ++source) {
+    Eigen::VectorXd free = x, forced = x + G.col(source), exact = G.col(source) / 6;
+    Step half = step;
+    half.dt_s /= 2;
+    for (const double weight : {4.0 / 6, 1.0 / 6}) {
+      process.advance(half, free.data());
+      process.advance(half, forced.data());
+      half.time_s += half.dt_s;
+      exact += weight * (forced - free);
+    }
+    // Motor angles of some 100 rad that are rounded.
+    EXPECT_LT((Q_root.col(source) - exact).norm(), 1e-5 * exact.norm()) << source;
+  }
+}
+
 }  // namespace
 }  // namespace halyard
