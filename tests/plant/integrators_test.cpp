@@ -8,21 +8,13 @@
 
 #include "plant/equilibrium.h"
 #include "plant/simulate.h"
+#include "tests/plant/integrator_names.h"
 
 // The SUNDIALS inside halyard_plant and the one of 2006 in Simbody's libraries run side by side here. The same file is
 // linked a second time with Simbody's libraries before halyard's.
 
 namespace halyard {
 namespace {
-
-const std::map<IntegratorKind, std::string> kIntegrators = {{IntegratorKind::rosenbrock, "rosenbrock"},
-                                                            {IntegratorKind::dirk, "dirk"},
-                                                            {IntegratorKind::imex, "imex"},
-                                                            {IntegratorKind::imex_link1, "imex_link1"},
-                                                            {IntegratorKind::bdf, "bdf"},
-                                                            {IntegratorKind::explicit_rk, "explicit_rk"},
-                                                            {IntegratorKind::simbody_rkm, "simbody_rkm"},
-                                                            {IntegratorKind::simbody_cpodes, "simbody_cpodes"}};
 
 Engine engine_of(IntegratorKind kind) { return kind == IntegratorKind::rosenbrock ? Engine::halyard : Engine::simbody; }
 
@@ -46,7 +38,7 @@ double largest_difference(const Log& a, const Log& b, int joint) {
 
 TEST(Integrators, AllAgreeWithTheReferenceAndConvergeToIt) {
   const Log reference = simulate(smooth_scenario(IntegratorKind::bdf)).truth;
-  for (const auto& [kind, name] : kIntegrators) {
+  for (const auto& [kind, name] : integrator_names()) {
     if (kind == IntegratorKind::bdf) continue;
     Scenario scenario = smooth_scenario(kind);
     const Log at_default = simulate(scenario).truth;
@@ -117,7 +109,7 @@ TEST(Integrators, OfSundialsAndOfSimbodyTakeTurnsInOneProcess) {
   const std::vector<double> command = {0.02, 0.03, -0.01}, no_load = {0, 0, 0};
   std::vector<std::unique_ptr<ArmPlant>> plants;
   std::vector<std::unique_ptr<Integrator>> integrators;
-  for (const auto& [kind, name] : kIntegrators) {
+  for (const auto& [kind, name] : integrator_names()) {
     plants.push_back(std::make_unique<ArmPlant>(scenario.robot.nominal, scenario.robot.effects, engine_of(kind)));
     const Eigen::VectorXd start = resting_state(*plants.back(), 0, scenario.robot.home());
     IntegratorOptions options{kind, 1e-7, 1e-10};
@@ -127,7 +119,7 @@ TEST(Integrators, OfSundialsAndOfSimbodyTakeTurnsInOneProcess) {
   const Eigen::VectorXd start = integrators[0]->state();
   for (int tick = 1; tick <= 100; ++tick)
     for (const auto& integrator : integrators) integrator->advance(0.001 * tick);
-  const auto reference = std::distance(kIntegrators.begin(), kIntegrators.find(IntegratorKind::bdf));
+  const auto reference = std::distance(integrator_names().begin(), integrator_names().find(IntegratorKind::bdf));
   EXPECT_GT((integrators[reference]->state() - start).head(3).norm(), 1e-3);  // it moved
   // Empirical: CPodes is off by 1.3e-6 rad, the others by less than 1e-8.
   for (std::size_t i = 0; i < integrators.size(); ++i)
@@ -183,7 +175,7 @@ class LostForce : public EffectOf<LostForce> {
 
 TEST(Integrators, NameTheTimeAtWhichTheyFail) {
   const LostForce effect;
-  for (const auto& [kind, name] : kIntegrators) {
+  for (const auto& [kind, name] : integrator_names()) {
     Scenario scenario = smooth_scenario(kind);
     scenario.robot.effects.push_back({&effect, 0, {}});
     try {

@@ -1,25 +1,11 @@
 #pragma once
 /// A moving arm whose forces are smooth functions of its state, for tests of the integrators.
 
-#include <map>
-#include <string>
-
 #include "plant/integrators/integrator.h"
+#include "tests/plant/integrator_names.h"
 #include "tests/support/random_arm.h"
 
 namespace halyard {
-
-inline const std::map<IntegratorKind, std::string>& integrator_names() {
-  static const std::map<IntegratorKind, std::string> all = {{IntegratorKind::rosenbrock, "rosenbrock"},
-                                                            {IntegratorKind::dirk, "dirk"},
-                                                            {IntegratorKind::imex, "imex"},
-                                                            {IntegratorKind::imex_link1, "imex_link1"},
-                                                            {IntegratorKind::bdf, "bdf"},
-                                                            {IntegratorKind::explicit_rk, "explicit_rk"},
-                                                            {IntegratorKind::simbody_rkm, "simbody_rkm"},
-                                                            {IntegratorKind::simbody_cpodes, "simbody_cpodes"}};
-  return all;
-}
 
 /// All numbers of the order of one.
 inline ArmParameters<double> smooth_arm() {

@@ -193,7 +193,10 @@ void start_beside(ExponentialStep& exponential, const ByFormula& first, const By
   ASSERT_EQ(kept.A, first.A) << "it was not kept";
 }
 
-TEST(ExponentialFormulas, AStepIsThatOfTheHeader) {
+using Expect = void (*)(ExponentialStep&, const ByFormula&);
+
+/// Calls expect(step, formulas) for the first step of each slide.
+void expect_of_first_steps(Expect expect) {
   for (const ArmModel& model : formula_slides()) {
     SCOPED_TRACE(model.effects.size());
     const ProcessModel process(model);
@@ -201,11 +204,12 @@ TEST(ExponentialFormulas, AStepIsThatOfTheHeader) {
     ExponentialStep exponential(process);
     exponential.linearise(expected.step, expected.x);
     ASSERT_TRUE(exponential.start(in_lanes(deviation_root()), rate_impulses()));
-    expect_step(exponential, expected);
+    expect(exponential, expected);
   }
 }
 
-TEST(ExponentialFormulas, AStepThatKeepsAJacobianFollowsWhatTheSlopesAreMore) {
+/// The same for a step of each slide that keeps the Jacobian of the step before.
+void expect_of_kept_jacobians(Expect expect) {
   for (const ArmModel& model : formula_slides()) {
     SCOPED_TRACE(model.effects.size());
     const ProcessModel process(model);
@@ -213,9 +217,13 @@ TEST(ExponentialFormulas, AStepThatKeepsAJacobianFollowsWhatTheSlopesAreMore) {
     const ByFormula expected(process, kFormulaTime + 5e-3, state_where_off(process, 3e-3), &first.A);
     ExponentialStep exponential(process);
     start_beside(exponential, first, expected);
-    expect_step(exponential, expected);
+    expect(exponential, expected);
   }
 }
+
+TEST(ExponentialFormulas, AStepIsThatOfTheHeader) { expect_of_first_steps(expect_step); }
+
+TEST(ExponentialFormulas, AStepThatKeepsAJacobianFollowsWhatTheSlopesAreMore) { expect_of_kept_jacobians(expect_step); }
 
 /// Checks the pairs x ± gamma S_i of a step that has been started.
 void expect_pairs(ExponentialStep& exponential, const ByFormula& e) {
@@ -251,29 +259,9 @@ void expect_pairs(ExponentialStep& exponential, const ByFormula& e) {
         << i;
 }
 
-TEST(ExponentialFormulas, PairsAreThoseOfTheHeader) {
-  for (const ArmModel& model : formula_slides()) {
-    SCOPED_TRACE(model.effects.size());
-    const ProcessModel process(model);
-    const ByFormula expected(process, kFormulaTime, kFormulaState);
-    ExponentialStep exponential(process);
-    exponential.linearise(expected.step, expected.x);
-    ASSERT_TRUE(exponential.start(in_lanes(deviation_root()), rate_impulses()));
-    expect_pairs(exponential, expected);
-  }
-}
+TEST(ExponentialFormulas, PairsAreThoseOfTheHeader) { expect_of_first_steps(expect_pairs); }
 
-TEST(ExponentialFormulas, PairsFollowWhatTheSlopesAreMoreThanAKeptJacobian) {
-  for (const ArmModel& model : formula_slides()) {
-    SCOPED_TRACE(model.effects.size());
-    const ProcessModel process(model);
-    const ByFormula first(process, kFormulaTime, kFormulaState);
-    const ByFormula expected(process, kFormulaTime + 5e-3, state_where_off(process, 3e-3), &first.A);
-    ExponentialStep exponential(process);
-    start_beside(exponential, first, expected);
-    expect_pairs(exponential, expected);
-  }
-}
+TEST(ExponentialFormulas, PairsFollowWhatTheSlopesAreMoreThanAKeptJacobian) { expect_of_kept_jacobians(expect_pairs); }
 
 /// The least deviation of all states at which the guard is to accept a step.
 double least_deviation(const ByFormula& e) {
