@@ -122,6 +122,7 @@ class StartSearch {
     ParameterGroup group;
     Hypothesis shaped;  ///< with them and without any size
     std::size_t law;    ///< the same for combinations that differ only in the past, which says nothing about the arm
+    bool one_sided;     ///< the sign of a size says on which side of a position the effect acts
   };
   /// What the linear fits ask for at one combination of shapes.
   struct Asked {
@@ -150,7 +151,7 @@ class StartSearch {
       const Hypothesis at = shaped(group, values);
       for (const std::size_t size : group.sizes) add_sizes(at, size, one_sided, shapes.size() > 1);
       if (!last || !differ_only_in_the_past(group, *last, values)) ++n_laws_;
-      combinations_.push_back({group, at, n_laws_ - 1});
+      combinations_.push_back({group, at, n_laws_ - 1, one_sided});
       asked_.push_back({neutral_, asked_.size()});
       last = &values;
     }
@@ -201,8 +202,9 @@ class StartSearch {
     const FitParameter& p = parameters_[t.size];
     const double moved = parameter_value(t.hypothesis, p) - p.nominal;
     const double wanted = p.nominal + d.amount * moved;
-    // If the bounds leave nothing of the wanted change, this size explains nothing.
+    // If the bounds leave nothing of the wanted change, or if it would act elsewhere, this size explains nothing.
     if (std::clamp(wanted, p.lower, p.upper) == p.nominal || moved == 0) return 0;
+    if (combinations_[t.combination].one_sided && d.amount < 0) return 0;
     Asked& asked = asked_[t.combination];
     // Shapes come with the first hypothesis of their combination; of several sizes each asks for its own.
     if (asked.promise_of.empty()) {
@@ -262,6 +264,10 @@ class StartSearch {
     for (std::size_t r = 0; r < column.size(); ++r)
       column[r] = (column[r] - rows.back()[r]) * p.scale / moved(tried_[best]);
     d.sizes.push_back(p);
+    if (combinations_[combination].one_sided) {
+      if (moved(tried_[best]) > 0) d.sizes.back().lower = p.nominal;
+      else d.sizes.back().upper = p.nominal;
+    }
     d.columns.push_back(std::move(column));
   }
 

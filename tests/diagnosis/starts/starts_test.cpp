@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/round/refit.h"
@@ -88,16 +89,16 @@ struct MadeStart {
 
   /// reading(t): of the joint's sensor, while its motor follows the slow swing.
   template <class Reading>
-  MadeStart(const char* name, const Reading& reading)
+  MadeStart(const char* name, const Reading& reading, double duration = 4)
       : candidate(place_effect(*find_effect(name), model.nominal, 0)),
-        evidence(make_records(log_with(reading), model, {}), model),
+        evidence(make_records(log_with(reading, duration), model, {}), model),
         from{model.nominal, {}},
         screen(evidence, from, {}, std::vector<double>(2, 1.0)),
         start(best_start(evidence, screen, {model.nominal, {candidate}}, model.nominal)) {}
 
   template <class Reading>
-  static Log log_with(const Reading& reading) {
-    Log log = log_along(4, 100, slow_swing);
+  static Log log_with(const Reading& reading, double duration) {
+    Log log = log_along(duration, 100, slow_swing);
     for (std::size_t i = 0; i < log.size(); ++i) log.joint_position[0][i] = reading(log.time[i]);
     return log;
   }
@@ -166,6 +167,27 @@ TEST(BestStart, OfAPushEndsAfterItHasBegun) {
   EXPECT_EQ(push.start.directions[0].numbers, 4u) << "the force with its instants and rise, and no contact";
   for (const Directions& d : push.start.directions)
     EXPECT_LT(d.neutral.effects.at(0).p[1], d.neutral.effects.at(0).p[2]);
+}
+
+/// Where the joint would be drawn up, a wall below would push it up, but everywhere below.
+TEST(BestStart, DoesNotPromiseWhatAContactOnTheOtherSideWouldExplain) {
+  constexpr double kFrom = 1.0, kDuration = 15;  // rad; s, in which the joint is above that four times
+  const auto drawn_up = [](double t) { return slow_swing(t) + 3e-3 * std::max(0.0, slow_swing(t) - kFrom); };
+  const MadeStart start("external_force", drawn_up, kDuration);
+  const double left = start.start.left / start.left_at(start.from);
+  EXPECT_LE(start.start.promise, 1.1 - left);
+}
+
+TEST(BestStart, LeadsAContactOnlyToTheSideOnWhichItWasTried) {
+  const MadeStart push("external_force", [](double t) { return slow_swing(t) + (t > 1.5 && t < 2.5 ? -1e-3 : 0.0); });
+  int contacts = 0;
+  for (const Directions& d : push.start.directions) {
+    if (d.numbers != 2) continue;  // stiffness and position; a push has a force and three shapes
+    ++contacts;
+    const FitParameter& stiffness = d.sizes.at(0);
+    EXPECT_TRUE((stiffness.lower == 0) != (stiffness.upper == 0)) << stiffness.lower << " to " << stiffness.upper;
+  }
+  EXPECT_GT(contacts, 0);
 }
 
 }  // namespace
