@@ -10,6 +10,7 @@
 #include "diagnosis/calibration/lateness.h"
 #include "diagnosis/fit/fit.h"
 #include "diagnosis/judgement/paired_t.h"
+#include "diagnosis/log_check/robust.h"
 #include "diagnosis/record/common_clock.h"
 #include "diagnosis/record/resting.h"
 #include "model/input_error.h"
@@ -72,27 +73,37 @@ void add_block_means(const std::vector<double>& x, double block, std::vector<dou
   }
 }
 
+/// s between the samples of a record at these times, at which something is compared: those of the sensor, if it is
+/// slower than the grid.
+double interval_of(const Record& record, const std::vector<double>& times) {
+  return times.size() > 1 ? std::max(record.dt, mean_interval(times)) : record.dt;
+}
+
 /// True if the squares of `error` grow from `before` to `after`, beyond chance and beyond what matters; or if there is
 /// no prediction any more. Chance: a paired t test over blocks of a second, or shorter ones of a short hold-out.
 bool grows(const HoldOut& view, int k, double floor, const ErrorOfSample& error) {
   constexpr double kShare = 0.025, kSignificance = 0.01, kLongest = 1, kShortest = 0.25, kBlocks = 8;
   std::vector<std::vector<double>> growth(view.records.size());  // of the squares, [record][compared sample]
+  std::vector<double> interval;                                  // [record]
   double before = 0, after = 0, count = 0, seconds = 0;
   for (std::size_t r = 0; r < view.records.size(); ++r) {
     const Record& record = view.records[r];
+    std::vector<double> times;
     for (std::size_t i = 0; i < record.size; ++i) {
       const double e = error(record, view.before[r], k, i), f = error(record, view.after[r], k, i);
       if (std::isnan(e)) continue;
       if (std::isnan(f)) return true;
       growth[r].push_back(f * f - e * e);
+      times.push_back(record.time(i));
       before += e * e, after += f * f, count += 1;
     }
-    seconds += record.dt * static_cast<double>(growth[r].size());
+    interval.push_back(interval_of(record, times));
+    seconds += interval[r] * static_cast<double>(growth[r].size());
   }
   if (count == 0 || after - before < count * floor * floor || after - before < kShare * before) return false;
   const double block_s = std::clamp(seconds / kBlocks, kShortest, kLongest);
   std::vector<double> means;
-  for (std::size_t r = 0; r < growth.size(); ++r) add_block_means(growth[r], block_s / view.records[r].dt, means);
+  for (std::size_t r = 0; r < growth.size(); ++r) add_block_means(growth[r], block_s / interval[r], means);
   return p_value(paired(means)) < kSignificance;
 }
 
@@ -128,8 +139,12 @@ double compared_seconds(const std::vector<Record>& records) {
   for (const Signals Record::*valid : {&Record::joint_valid, &Record::torque_valid})
     for (int k = 0; !records.empty() && k < records.front().n; ++k) {
       double seconds = 0;
-      for (const Record& r : records)
-        seconds += r.dt * static_cast<double>(std::ranges::count_if((r.*valid)[k], [](double v) { return v > 0; }));
+      for (const Record& r : records) {
+        std::vector<double> times;
+        for (std::size_t i = 0; i < r.size; ++i)
+          if ((r.*valid)[k][i] > 0) times.push_back(r.time(i));
+        seconds += interval_of(r, times) * static_cast<double>(times.size());
+      }
       most = std::max(most, seconds);
     }
   return most;

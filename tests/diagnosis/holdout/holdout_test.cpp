@@ -204,6 +204,16 @@ TEST(WorseJoints, AreSeenInShortHoldOuts) {
     EXPECT_EQ(worse_after(1.9, 0.01, seconds).size(), 1u) << seconds;
 }
 
+TEST(WorseJoints, AreSeenBySlowSensors) {
+  // Ten readings in four seconds: eight blocks.
+  Record record = small_record();
+  for (std::size_t i = 0; i < kSamples; ++i) record.joint_valid[0][i] = i % 40 == 0;
+  HoldOut joints = holdout_with(record, [](std::size_t) { return 1.0; });
+  const auto larger = [](std::size_t i) { return 1.9 * (1 + 1e-3 * static_cast<double>(i % 7)); };
+  joints.after = holdout_with(record, larger).after;
+  EXPECT_EQ(worse_joints(first_joints(1), joints, {}, {0.01, 0.01}), std::vector<int>{0});
+}
+
 TEST(WorseJoints, AreThoseThatCannotBePredictedAnyMore) {
   const ArmModel model = first_joints(1);
   Record record = small_record();
