@@ -21,7 +21,7 @@ double left_by_unit(const FinitePairs& t, double least, double largest) {
   const double f = std::clamp(variance > 0 ? (xy - sx * sy / n) / variance : least, least, largest);
   const double c = (sy - f * sx) / n;
   double left = 0;
-  for (std::size_t i = 0; i < t.x.size(); ++i) left += std::pow(t.y[i] - f * t.x[i] - std::copysign(c, t.x[i]), 2);
+  for (std::size_t i = 0; i < t.x.size(); ++i) left += std::pow(t.y[i] - f * t.x[i] - c * std::copysign(1, t.x[i]), 2);
   return left;
 }
 

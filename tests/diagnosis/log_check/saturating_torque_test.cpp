@@ -45,7 +45,7 @@ TEST(SaturatingTorque, IsToldFromAWrongUnit) {
 TEST(SaturatingTorque, IsNotSeenInAWrongUnit) {
   for (const double unit : {1e-3, 1e-2, 1 / 12.25})
     for (const double friction : {-0.3, 0.0, 0.3}) {
-      const auto of = [&](double x) { return unit * (x + std::copysign(friction, x)); };
+      const auto of = [&](double x) { return unit * (x + friction * std::copysign(1, x)); };
       EXPECT_LT(evidence(torques(of), unit), 0) << unit << " " << friction;
     }
 }
