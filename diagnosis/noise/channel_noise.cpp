@@ -16,6 +16,7 @@ namespace {
 constexpr double kLowest = 10;  ///< Hz; below it the errors of a model are
 constexpr double kSegment = 1;  ///< s, and at least so many samples:
 constexpr int kFewestSamples = 64;
+constexpr int kShortestRun = 16;  ///< samples: of shorter runs nothing is told
 constexpr double kHighest = 80;  ///< Hz; an encoder's rounding is not white far above what is compared
 constexpr double kBand = 2;      ///< from the lower edge of a band to the upper
 constexpr double kMedianOverMean = std::numbers::ln2;
@@ -132,7 +133,11 @@ struct Filters {
 
 /// is_torque: the filter of the motion has attenuated it.
 ChannelNoise noise_of(const ChannelSamples& samples, const Filters& filters, bool is_torque) {
-  const int segment = std::max(kFewestSamples, static_cast<int>(std::lround(kSegment / samples.interval)));
+  int segment = std::max(kFewestSamples, static_cast<int>(std::lround(kSegment / samples.interval)));
+  // A short log of a slow sensor has fewer samples: then its longest run is the only segment.
+  int longest = 0;
+  for (const std::vector<double>& run : samples.runs) longest = std::max(longest, static_cast<int>(run.size()));
+  if (longest >= kShortestRun) segment = std::min(segment, longest - longest % 2);
   std::vector<double> density = median_density(samples.runs, samples.interval, segment);
   const double resolution = 1 / (samples.interval * segment);
   double highest = 0.5 / samples.interval;

@@ -84,9 +84,9 @@ TEST(ChannelNoise, OfASlowSensorIsThatOfItsSamples) {
   EXPECT_DOUBLE_EQ(noise.in_band, noise.white) << "the filter averages over less than one sample";
 }
 
-/// A log of 12 s with rows of 1 ms and white noise on one of its columns, which is read only `rate` times a second.
-halyard::Log noisy_log(double deviation, double rate, halyard::Signals halyard::Log::*column) {
-  halyard::Log log = simulate(halyard::motion(halyard::first_joints(1), 12)).measured;
+/// A log with rows of 1 ms and white noise on one of its columns, which is read only `rate` times a second.
+halyard::Log noisy_log(double deviation, double rate, halyard::Signals halyard::Log::*column, double duration = 12) {
+  halyard::Log log = simulate(halyard::motion(halyard::first_joints(1), duration)).measured;
   std::mt19937 random(4);
   std::normal_distribution<double> normal(0, deviation);
   for (std::size_t i = 0, reading = 0; i < log.size(); ++i) {
@@ -134,6 +134,15 @@ TEST(ChannelNoise, OfLogsWithDifferentRatesIsTheMeanOfTheirs) {
   ASSERT_GT(of_slow, 2 * of_fast);
   const double mean = std::sqrt((of_slow * of_slow + of_fast * of_fast) / 2);
   EXPECT_NEAR(noise_of_channel({slow, fast}, 1).in_band, mean, 0.01 * mean);
+}
+
+TEST(ChannelNoise, OfFewReadingsIsNotNothing) {
+  constexpr double kDeviation = 1e-3;  // rad
+  // 3.5 s at 10 Hz, less what is not compared: the upper third of the spectrum of 30 readings has five bins, each of
+  // which is exponentially distributed.
+  const double white = noise_of_channel({noisy_log(kDeviation, 10, &halyard::Log::joint_position, 3.5)}, 1).white;
+  EXPECT_GT(white, 0.3 * kDeviation);
+  EXPECT_LT(white, 3 * kDeviation);
 }
 
 TEST(MedianDensity, OfASineHasItsWindowsPeakInItsOwnBin) {
