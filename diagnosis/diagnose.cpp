@@ -199,12 +199,13 @@ class Diagnoser {
     }
   }
 
-  /// Mean square of each channel that the named effects may miss, because their equations may have another form.
+  /// Mean square of each channel that the named effects may miss, because their equations may have another form. The
+  /// hold-out may have changed the numbers since the last score.
   std::vector<double> misfit_of_names(const Evidence& evidence) {
     std::vector<std::size_t> named;
     for (std::size_t e = given_; e < final_hypothesis().effects.size(); ++e)
       if (const Doubt d = doubts_[e - given_]; d == Doubt::none || d == Doubt::guess) named.push_back(e);
-    return mean_square_misfit(evidence, {final_hypothesis(), attribution().final_score}, named);
+    return mean_square_misfit(evidence, {final_hypothesis(), evidence.score(final_hypothesis())}, named);
   }
 
   /// by: tells which residuals matter.
