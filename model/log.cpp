@@ -229,7 +229,8 @@ Log read_log(const std::filesystem::path& path, int n_joints, const ColumnMap& m
     check_last_time(log.time, lines);
   }
   if (log.time.empty()) throw InputError(log.source + ": has a header but no samples; give a log with samples");
-  constexpr double kFarFromZero = 1e6;  // s: what counts from zero and what does not, with years between them
+  // s: of a clock that began long before the log. Instants of effects, and what a drift was at 0, are sought near 0.
+  constexpr double kFarFromZero = 100;
   if (std::abs(log.time.front()) > kFarFromZero) {
     log.clock_start = log.time.front();
     for (double& t : log.time) t -= log.clock_start;

@@ -78,7 +78,7 @@ struct ReadOptions {
 /// Reads a CSV file: UTF-8, one header row, commas, `#` starts a comment line, an empty cell is a missing sample. A
 /// byte-order mark, carriage returns, blank lines and a missing last line break are accepted. Columns that are neither
 /// standard nor mapped are not parsed. An optional column without any sample counts as absent. If the first time is
-/// more than 1e6 s from zero, like a Unix time, times are counted from the first sample.
+/// more than 100 s from zero, like a Unix time, times are counted from the first sample.
 ///
 /// Throws InputError `file:line: what; remedy` for a file that is missing, unreadable, empty, without samples or not
 /// text; a required or mapped column, or one axis of the marker, that is absent; a column that appears twice; a

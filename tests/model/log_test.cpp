@@ -111,10 +111,11 @@ TEST(ReadLog, ColumnsOfAMotorThatTheArmDoesNotHaveAreNotRead) {
   EXPECT_EQ(log.ignored_columns, (std::vector<std::string>{"motor_torque_1", "motor_position_1"}));
 }
 
-TEST(ReadLog, ClockOfTheEpochCountsFromTheFirstSample) {
+TEST(ReadLog, ClockThatBeganLongBeforeCountsFromTheFirstSample) {
   const Log log = read_text(kHeader + "1763700000.25,1,2\n1763700000.5,1,2\n");
   EXPECT_EQ(log.clock_start, 1763700000.25);
   EXPECT_EQ(log.time, (std::vector<double>{0, 0.25}));
+  EXPECT_EQ(read_text(kHeader + "1000,1,2\n").clock_start, 1000);
   EXPECT_EQ(read_text(kHeader + "12.5,1,2\n").clock_start, 0);
   EXPECT_EQ(read_text(kHeader + "12.5,1,2\n").time[0], 12.5);
 }
