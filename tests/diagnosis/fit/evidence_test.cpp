@@ -134,5 +134,21 @@ TEST(EvidenceSpans, OfAJointWithoutSensorAreThoseOfItsMotorLessTheZeroErrorOfIts
   EXPECT_NEAR(span.last, 1.1, 1e-3);
 }
 
+TEST(EvidenceSpans, OfAJointThatIsCoupledToOneWithoutMotorFollowThatOnesSensor) {
+  ArmModel model = first_joints(2);
+  model.nominal.joint[0].drive = Drive::none;
+  model.nominal.joint[1].coupling[0] = 0.5;
+  Log log(2);
+  const Log of_one = log_along(4, 100, slow_swing);
+  log.time = of_one.time;
+  log.joint_position[0] = of_one.joint_position[0];
+  const JointParameters<double>& second = model.nominal.joint[1];
+  for (const double t : log.time)
+    log.motor_position[1].push_back(slow_swing(t) * second.pulley_radius / second.motor_travel());
+  log.motor_torque[1].assign(log.size(), 0.05);
+  const Span span = Evidence(make_records(log, model, {}), model).joint_span(1);
+  EXPECT_NEAR(span.last - span.first, (1 - 0.5) * (1.1 - 0.5), 1e-3) << "the motor's motion less half of joint 1's";
+}
+
 }  // namespace
 }  // namespace halyard
