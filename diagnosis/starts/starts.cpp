@@ -20,8 +20,28 @@ std::vector<double> even(const FitParameter& p, int n) {
   return all;
 }
 
+/// Evenly over the time that the records cover, on the common clock: none lies in a pause between two of them.
+std::vector<double> even_instants(const std::vector<Record>& records, int n) {
+  std::vector<Span> covered;
+  double total = 0;
+  for (const Record& r : records) {
+    covered.push_back({r.start + r.clock_shift, r.time(r.size - 1) + r.clock_shift});
+    total += covered.back().last - covered.back().first;
+  }
+  std::vector<double> all;
+  for (int i = 0; i < n; ++i) {
+    double after = (i + 0.5) / n * total;
+    std::size_t r = 0;
+    for (; r + 1 < covered.size() && after > covered[r].last - covered[r].first; ++r)
+      after -= covered[r].last - covered[r].first;
+    all.push_back(covered[r].first + after);
+  }
+  return all;
+}
+
 /// Every combination of the shapes' starts; instants of one group follow each other.
-std::vector<std::vector<double>> combinations(const Hypothesis& h, const std::vector<FitParameter>& parameters,
+std::vector<std::vector<double>> combinations(const Evidence& evidence, const Hypothesis& h,
+                                              const std::vector<FitParameter>& parameters,
                                               const std::vector<std::size_t>& shapes,
                                               const std::vector<double>& leaps) {
   const auto is_instant = [&](std::size_t s) { return parameters[s].range == SearchRange::record_time; };
@@ -30,7 +50,7 @@ std::vector<std::vector<double>> combinations(const Hypothesis& h, const std::ve
     switch (p.range) {
       case SearchRange::joint_position: return even(p, kPositions);
       case SearchRange::record_time: {
-        std::vector<double> instants = even(p, alone ? kTimesAlone : kTimes);
+        std::vector<double> instants = even_instants(evidence.records(), alone ? kTimesAlone : kTimes);
         if (alone) instants.insert(instants.end(), leaps.begin(), leaps.end());
         return instants;
       }
@@ -142,7 +162,7 @@ class StartSearch {
   };
 
   void add_group(const ParameterGroup& group) {
-    const auto shapes = combinations(with_, parameters_, group.shapes, screen_.instants());
+    const auto shapes = combinations(evidence_, with_, parameters_, group.shapes, screen_.instants());
     const bool one_sided = std::any_of(group.shapes.begin(), group.shapes.end(), [&](std::size_t s) {
       return parameters_[s].range == SearchRange::joint_position;
     });

@@ -169,6 +169,28 @@ TEST(BestStart, OfAPushEndsAfterItHasBegun) {
     EXPECT_LT(d.neutral.effects.at(0).p[1], d.neutral.effects.at(0).p[2]);
 }
 
+TEST(BestStart, OfAPushIsInTheLogAndNotInItsPause) {
+  // Two minutes without a row after the first 4 s. Before a log is split there, its clock goes on.
+  const ArmModel model = first_joints(1);
+  const PlacedEffect candidate = place_effect(*find_effect("external_force"), model.nominal, 0);
+  const Log before = MadeStart::log_with([](double t) { return slow_swing(t) + (t > 0.7 && t < 1.7 ? 1e-3 : 0.0); }, 4);
+  Log log = before;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const double t = 124 + before.time[i];
+    log.time.push_back(t);
+    log.motor_position[0].push_back(before.motor_position[0][i]);
+    log.joint_position[0].push_back(slow_swing(before.time[i]));
+  }
+  const Evidence evidence(make_records(log, model, {}), model);
+  ASSERT_EQ(evidence.records().size(), 2u);
+  const Screen screen(evidence, {model.nominal, {}}, {}, std::vector<double>(2, 1.0));
+  const Start start = best_start(evidence, screen, {model.nominal, {candidate}}, model.nominal);
+  ASSERT_FALSE(start.hypotheses.empty());
+  const double* p = start.hypotheses[0].effects.at(0).p;
+  EXPECT_NEAR(p[1], 0.7, 0.5);
+  EXPECT_NEAR(p[2], 1.7, 0.5);
+}
+
 /// Where the joint would be drawn up, a wall below would push it up, but everywhere below.
 TEST(BestStart, DoesNotPromiseWhatAContactOnTheOtherSideWouldExplain) {
   constexpr double kFrom = 1.0, kDuration = 15;  // rad; s, in which the joint is above that four times
