@@ -1,36 +1,38 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <exception>
+#include <limits>
 #include <mutex>
 
 namespace halyard {
 
 /// Exceptions of the bodies of a parallel loop with parallel loops inside. If a body threw, oneTBB would cancel the
 /// inner loops of the other bodies as well: these loops return early without an error, with results that are not there.
-/// Here the other bodies run to their end, and bodies that have not begun do nothing.
+/// Here the other bodies run to their end. A body that has not begun does nothing if one before it has thrown, in the
+/// order of their indices: what is thrown in the end does not depend on the threads.
 class FirstFailure {
  public:
-  /// Calls `body` unless one has thrown. May be called by several threads.
+  /// Calls `body` unless one of a smaller index has thrown. May be called by several threads.
   template <class Body>
-  void keep(const Body& body) {
-    if (has_failed_) return;
+  void keep(std::size_t index, const Body& body) {
+    if (first_ < index) return;
     try {
       body();
     } catch (...) {
       const std::lock_guard lock(failing_);
-      if (!failure_) failure_ = std::current_exception();
-      has_failed_ = true;
+      if (index < first_) first_ = index, failure_ = std::current_exception();
     }
   }
 
-  /// Call after the loop. Throws what the first body threw.
+  /// Call after the loop. Throws what the body of the smallest index threw.
   void rethrow() const {
     if (failure_) std::rethrow_exception(failure_);
   }
 
  private:
-  std::atomic<bool> has_failed_ = false;
+  std::atomic<std::size_t> first_ = std::numeric_limits<std::size_t>::max();  ///< index of failure_
   std::mutex failing_;
   std::exception_ptr failure_;
 };

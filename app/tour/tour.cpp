@@ -59,7 +59,7 @@ void compute_all(const std::vector<Part>& parts, const StageCallback& tell) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       // A thread that waits within a part helps that part: starting another meanwhile would hold both up.
       oneapi::tbb::this_task_arena::isolate([&] {
-        failure.keep([&] {
+        failure.keep(i, [&] {
           parts[i].compute([&](const std::string& stage, double fraction) { progress.set(i, stage, fraction); });
         });
       });

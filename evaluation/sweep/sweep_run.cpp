@@ -168,7 +168,7 @@ void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions
   tbb::task_arena arena(jobs);
   arena.execute([&] {
     tbb::parallel_for_each(todo, [&](std::size_t point) {
-      failure.keep([&] {
+      failure.keep(point, [&] {
         journal.add(run_point(sweep, point, options.containment));
         if (const std::size_t now = ++done; options.progress) options.progress(now, todo.size());
       });

@@ -38,9 +38,33 @@ TEST(FirstFailure, LeavesTheLoopsOfOtherBodiesAlone) {
   };
   const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
   tbb::task_arena arena(2);
-  arena.execute([&] { tbb::parallel_for(0, 2, [&](int i) { failure.keep([&] { body(i); }); }); });
+  arena.execute([&] { tbb::parallel_for(0, 2, [&](int i) { failure.keep(static_cast<std::size_t>(i), [&] { body(i); }); }); });
   EXPECT_EQ(done, 100);
   EXPECT_THROW(failure.rethrow(), std::runtime_error);
+}
+
+/// Two bodies at once: the second throws first.
+TEST(FirstFailure, IsThatOfTheSmallestIndexWhicheverThreadIsFaster) {
+  std::atomic<bool> has_failed = false;
+  FirstFailure failure;
+  std::thread other([&] {
+    failure.keep(3, [&] {
+      has_failed = true;
+      throw std::runtime_error("third");
+    });
+  });
+  failure.keep(2, [&] {
+    wait_for(has_failed);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    throw std::logic_error("second");
+  });
+  other.join();
+  bool has_run = false;
+  failure.keep(4, [&] { has_run = true; });
+  EXPECT_FALSE(has_run);
+  failure.keep(1, [&] { has_run = true; });
+  EXPECT_TRUE(has_run);
+  EXPECT_THROW(failure.rethrow(), std::logic_error);
 }
 
 }  // namespace
