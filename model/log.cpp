@@ -127,8 +127,11 @@ void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, 
     if (has_no_motor(name, options)) return;
     const auto mapped = map.sources().find(name);
     const bool is_mapped = mapped != map.sources().end(), is_left_out = is_mapped && mapped->second.column.empty();
-    if (is_left_out && !is_required(name, options)) return;
-    const ColumnSource source = is_mapped && !is_left_out ? mapped->second : ColumnSource{name};
+    if (is_left_out && is_required(name, options))
+      header.fail(in_quotes(name) + " is left out but needed here; say which column of the file it is by --column " +
+                  name + "=NAME, or do not leave it out");
+    if (is_left_out) return;
+    const ColumnSource source = is_mapped ? mapped->second : ColumnSource{name};
     const auto n_found = std::ranges::count(columns, source.column, &Column::name);
     if (n_found > 1) {
       header.fail("column " + in_quotes(source.column) + " stands twice in the header; rename one of the two");

@@ -241,7 +241,9 @@ TEST(ColumnMap, AColumnThatIsLeftOutIsNotRead) {
   const Log log = read_text("time,motor_torque_1,motor_position_1,joint_position_1\n0,1,2,3\n", map);
   EXPECT_FALSE(log.has_joint_position(0));
   EXPECT_TRUE(log.joint_torque[0].empty());
-  EXPECT_HAS(refusal_of("time,motor_position_1\n0,2\n", map_of({"motor_torque_1="})), "no column 'motor_torque_1'");
+  EXPECT_HAS(refusal_of(kHeader + "0,1,2\n", map_of({"motor_torque_1="})),
+             ":1: 'motor_torque_1' is left out but needed here; say which column of the file it is by --column "
+             "motor_torque_1=NAME, or do not leave it out");
 }
 
 TEST(ColumnMap, MustFitFileAndArm) {
