@@ -292,12 +292,16 @@ void check_changed_arm(const std::vector<XmlElement>& elements, const ArmModel& 
 void read_columns(const XmlElement& columns, ArmModel& model) {
   columns.only({}, {"column"});
   for (const XmlElement& column : columns.children()) {
-    column.only({"name", "from", "unit", "sign", "scale", "offset", "wrap"});
-    const std::string name = column.text("name"), from = column.text("from"), unit = column.text_or("unit", "");
+    const bool is_left_out = column.flag_or("left_out", false);
+    column.only(is_left_out ? XmlNames{"name", "left_out"}
+                            : XmlNames{"name", "from", "left_out", "unit", "sign", "scale", "offset", "wrap"});
+    const std::string name = column.text("name"), unit = column.text_or("unit", "");
+    const std::string from = is_left_out ? "" : column.text("from");
     const double sign = column.number_or("sign", 1, ""), scale = column.number_or("scale", 1, "");
     const double offset = column.number_or("offset", 0, ""), wrap = column.number_or("wrap", 0, "");
     try {
-      model.columns.add(name, from, unit, sign, scale, offset, wrap);
+      if (is_left_out) model.columns.leave_out(name);
+      else model.columns.add(name, from, unit, sign, scale, offset, wrap);
       model.columns.check_joints(model.n());
     } catch (const InputError& error) {
       column.fail(error.what());

@@ -143,18 +143,21 @@ void write_effects(Writer& xml, const ArmModel& model) {
   xml.close();
 }
 
+void write_source(Writer& xml, const ColumnSource& source) {
+  xml.attribute("from", source.column);
+  xml.attribute("scale", source.scale);
+  xml.attribute("offset", source.offset);
+  if (source.wrap > 0) xml.attribute("wrap", source.wrap);
+}
+
 void write_columns(Writer& xml, const ColumnMap& columns) {
-  const auto is_in_log = [](const auto& entry) { return !entry.second.column.empty(); };
-  if (std::ranges::none_of(columns.sources(), is_in_log)) return;
+  if (columns.sources().empty()) return;
   xml.open("columns");
   for (const auto& [name, source] : columns.sources()) {
-    if (source.column.empty()) continue;
     xml.open("column");
     xml.attribute("name", name);
-    xml.attribute("from", source.column);
-    xml.attribute("scale", source.scale);
-    xml.attribute("offset", source.offset);
-    if (source.wrap > 0) xml.attribute("wrap", source.wrap);
+    if (source.column.empty()) xml.attribute("left_out", std::string("true"));
+    else write_source(xml, source);
     xml.close();
   }
   xml.close();

@@ -300,5 +300,16 @@ TEST(ParameterInfo, ANumberIsFoundWithoutItsName) {
   EXPECT_THROW(named_number(model.nominal, all.size()), std::bad_optional_access);
 }
 
+TEST(ModelFile, KeepsWhichColumnsAreLeftOut) {
+  ArmModel model = read_model(kExamples / "raven2.xml");
+  model.columns.add_entry("joint_position_1=");
+  model.columns.add_entry("joint_position_2=elbow,unit=deg");
+  const std::string xml = model_to_xml(model);
+  EXPECT_NE(xml.find("<column name=\"joint_position_1\" left_out=\"true\"/>"), std::string::npos) << xml;
+  const ColumnMap again = parse_model(xml, "again.xml").columns;
+  EXPECT_EQ(again.sources().at("joint_position_1").column, "");
+  EXPECT_EQ(again.sources().at("joint_position_2").column, "elbow");
+}
+
 }  // namespace
 }  // namespace halyard
