@@ -291,6 +291,7 @@ Sweep read_sweep_definition(const fs::path& path) {
     element.fail("skip",
                  fmt::format("{}expected less than the duration, {:g} s; of the first {:g} s no error is counted",
                              element.has("skip") ? "" : "skip: ", sweep.scenario.duration_s, grid.skip_s));
+  for (const fs::path& module : loaded_effect_modules()) grid.effect_modules.push_back(module.filename().string());
   grid.id = definition_id(sweep, path, scenario_file);
   return sweep;
 }

@@ -51,6 +51,7 @@ struct SweepGrid {
   std::string id;               ///< equal for equal definitions: only results with equal ids can be merged
   std::string file;             ///< name of the sweep file, without its folder; empty: there is none
   std::string scenario, model;  ///< names of the files, without folders
+  std::vector<std::string> effect_modules;  ///< names of the files of --effects, without folders
   double skip_s = 0.5;
   std::vector<SweepAxis> axes;
   bool is_sampled = false;              ///< not all combinations: point p has the p-th value of every axis

@@ -123,6 +123,7 @@ void write_grid(OutputFiles& files, const fs::path& folder, const SweepGrid& gri
                              {"file", grid.file},
                              {"scenario", grid.scenario},
                              {"model", grid.model},
+                             {"effect_modules", grid.effect_modules},
                              {"errors_counted_after_s", grid.skip_s},
                              {"points", grid.size()},
                              {"sampled", grid.is_sampled},
@@ -146,6 +147,7 @@ SweepGrid read_grid(const fs::path& folder) {
     grid.file = json.at("file").get<std::string>();
     grid.scenario = json.at("scenario").get<std::string>();
     grid.model = json.at("model").get<std::string>();
+    grid.effect_modules = json.value("effect_modules", std::vector<std::string>{});  // earlier programs wrote none
     grid.skip_s = json.at("errors_counted_after_s").get<double>();
     for (const ordered_json& axis : json.at("axes")) grid.axes.push_back(axis_of(axis));
     grid.is_sampled = json.at("sampled").get<bool>();

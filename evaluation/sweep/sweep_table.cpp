@@ -73,8 +73,7 @@ void add_rows(CsvTable& table, const SweepGrid& grid, const SweepCell& cell) {
 }  // namespace
 
 std::string command_of_point(const SweepGrid& grid, std::size_t point) {
-  std::vector<std::filesystem::path> modules = loaded_effect_modules();
-  for (std::filesystem::path& module : modules) module = module.filename();
+  const std::vector<std::filesystem::path> modules(grid.effect_modules.begin(), grid.effect_modules.end());
   return fmt::format("halyard sweep {} --point {}{}", in_shell_quotes(grid.file), point, effects_options(modules));
 }
 

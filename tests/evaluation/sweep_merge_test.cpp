@@ -90,6 +90,7 @@ TEST_F(SweepMerge, RefusesPartsOfDifferentSweeps) {
 
 TEST_F(SweepMerge, WritesATableWithARowForEachPointEstimatorAndJoint) {
   failed_ = 1;
+  grid_.effect_modules = {"own.so"};
   const SweepResult whole = merge({part("a", {0, 1, 2})});
   OutputFiles files;
   EXPECT_EQ(write_sweep_table(files, folder_ / "sweep.csv", whole.grid, whole.cells).failures, 1u);
@@ -100,7 +101,7 @@ TEST_F(SweepMerge, WritesATableWithARowForEachPointEstimatorAndJoint) {
             "point,joint1.cable.stiffness,estimator,joint,unit,samples,mean_absolute_error,rms_error,peak_error,bias,"
             "within_two_std,failure,repeat_with\n"
             "0,1,kinematics,1,rad,0,,0,,,,,\n"
-            "1,2,kinematics,1,rad,0,,1,,,,crashed,halyard sweep study.xml --point 1\n"
+            "1,2,kinematics,1,rad,0,,1,,,,crashed,halyard sweep study.xml --point 1 --effects own.so\n"
             "2,3,kinematics,1,rad,0,,2,,,,,\n");
 }
 
