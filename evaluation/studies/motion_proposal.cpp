@@ -107,7 +107,11 @@ Scenario random_motion(const Scenario& given, int i) {
   s.name = fmt::format("motion {} of the search", i);
   s.integrator = {};
   Draw draw(i);
-  for (int k = 0; k < s.robot.n(); ++k) s.trajectory[k] = draw.trajectory(range_of(given, k));
+  for (int k = 0; k < s.robot.n(); ++k) {
+    const JointTrajectory drawn = draw.trajectory(range_of(given, k));
+    const ControllerParameters& controller = given.robot.joints[k].controller;
+    if (controller.kp > 0 || controller.kd > 0) s.trajectory[k] = drawn;
+  }
   return s;
 }
 
@@ -171,6 +175,9 @@ std::string proposal_xml(const Scenario& scenario, const std::string& model) {
         number("phase", sine.phase);
         xml.CloseElement();
       }
+    } else if (t.kind == JointTrajectory::Kind::hold) {
+      xml.PushAttribute("kind", "hold");
+      number("center", t.center);
     } else {
       xml.PushAttribute("kind", "point_to_point");
       numbers("points", t.points);
@@ -184,6 +191,7 @@ std::string proposal_xml(const Scenario& scenario, const std::string& model) {
   number("fade_in", scenario.fade_in_s);
   xml.CloseElement();
   xml.OpenElement("sensors");
+  xml.PushAttribute("homed", scenario.homed);
   numbers("torque_noise", scenario.noise.motor_torque);
   numbers("motor_position_noise", scenario.noise.motor_reading);
   numbers("joint_position_noise", scenario.noise.joint_reading);

@@ -51,6 +51,19 @@ TEST(RandomMotion, OfAJointWithoutARangeStaysWithinTheGivenMotion) {
   }
 }
 
+TEST(RandomMotion, OfAJointWithoutAControllerIsTheGivenOne) {
+  Scenario given = motion(first_joints(2), 2);
+  const JointTrajectory drawn = random_motion(given, 3).trajectory[0];
+  given.robot.joints[1].controller = {};
+  given.trajectory[1] = JointTrajectory();
+  given.trajectory[1].center = 1.5;
+  const Scenario with_one_held = random_motion(given, 3);
+  EXPECT_EQ(with_one_held.trajectory[1].kind, JointTrajectory::Kind::hold);
+  EXPECT_EQ(with_one_held.trajectory[1].center, 1.5);
+  EXPECT_EQ(with_one_held.trajectory[0].kind, drawn.kind) << "the other joints move as before";
+  EXPECT_EQ(with_one_held.trajectory[0].center, drawn.center);
+}
+
 TEST(Proposal, IsReadFromItsFileAsItWasDrawn) {
   const fs::path folder = fs::path(testing::TempDir()) / "motion_proposal";
   fs::create_directories(folder);
@@ -59,6 +72,10 @@ TEST(Proposal, IsReadFromItsFileAsItWasDrawn) {
   Scenario given = motion(first_joints(3), 3);
   given.noise.joint_reading = {1e-5, 0, 2e-5};
   given.seed = 7;
+  given.homed = true;
+  given.robot.joints[1].controller = {};
+  given.trajectory[1] = JointTrajectory();
+  given.trajectory[1].center = 1.5;
   for (int i = 0; i < 4; ++i) {
     const Scenario drawn = random_motion(given, i);
     std::ofstream(folder / "proposal.xml") << proposal_xml(drawn, "arm.xml");
@@ -66,6 +83,7 @@ TEST(Proposal, IsReadFromItsFileAsItWasDrawn) {
     EXPECT_EQ(read.name, drawn.name);
     EXPECT_EQ(read.duration_s, drawn.duration_s);
     EXPECT_EQ(read.seed, 7u);
+    EXPECT_TRUE(read.homed);
     EXPECT_EQ(read.fade_in_s, drawn.fade_in_s);
     EXPECT_EQ(read.control_period_s, drawn.control_period_s);
     EXPECT_EQ(read.noise.joint_reading, drawn.noise.joint_reading);
