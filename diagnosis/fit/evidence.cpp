@@ -45,7 +45,8 @@ Span joint_span_of(const std::vector<Record>& records, const ArmModel& model, in
     for (std::size_t i = 0; i < record.size; ++i) {
       for (int j = 0; j < arm.n; ++j) {
         q_m(j) = record.motor_angle[j][i] - arm.joint[j].motor_encoder_offset;
-        if (arm.joint[j].drive == Drive::none) undriven(j) = record.motor_angle[j][i] - arm.joint[j].joint_encoder_offset;
+        if (arm.joint[j].drive == Drive::none)
+          undriven(j) = record.motor_angle[j][i] - arm.joint[j].joint_encoder_offset;
       }
       unstretched.solve(q_m, undriven, q);
       see(q(k));
