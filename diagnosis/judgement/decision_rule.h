@@ -1,6 +1,6 @@
 #pragma once
-/// The thresholds that decide what a diagnosis names: what each means, its value, and why. Thresholds that only one
-/// step uses stand beside it.
+/// The thresholds that decide what a diagnosis names: what each means, its value, and why. Those without a reason were
+/// chosen by hand; only the blind trials test them, all together. Thresholds that only one step uses stand beside it.
 
 #include <cstddef>
 
@@ -25,7 +25,8 @@ struct DecisionRule {
   /// it: fall of their prior cost ½ Σ u². Reason: a number at the end of its tolerance costs 2, so without the effect
   /// five numbers would have to be there. A residual that numbers hide is no error of form of an effect found before.
   double relief = 10;
-  /// The change by an effect has to be this many times the floor of its channel, in at least one signal.
+  /// The change by an effect has to be this many times the floor of its channel, in at least one signal. Reason: a
+  /// change as large as the floor is as large as the noise.
   double above_floor = 1.5;
   /// Gain in log-likelihood that one more parameter gives by chance. Reason: two standard deviations of χ²(1) / 2.
   double by_chance = 2;
@@ -52,15 +53,17 @@ struct DecisionRule {
 
   /// A residual matters above this many times the floor of its channel: about one resolution of a joint's encoder.
   double rest_ratio = 3;
-  /// A residual whose root mean square falls to this share is next to nothing.
+  /// A residual whose root mean square falls to this share is next to nothing: it has a hundredth of its mean square.
   double next_to_none = 0.1;
 
-  /// The search ends if no channel has a residual above this many times its floor.
+  /// The search ends if no channel has a residual above this many times its floor. Reason: the noise, and with it the
+  /// floor, is estimated to some percent.
   double explained_ratio = 1.1;
 
   // Alternatives and probabilities.
 
-  /// Two candidates whose gains differ by less than this many standard errors cannot be told apart.
+  /// Two candidates whose gains differ by less than this many standard errors cannot be told apart. Reason: by chance
+  /// they differ by more in one case of twenty.
   double tell_apart = 2;
   /// Two candidates are alternatives if they share at least this fraction of the smaller gain (shared_gain()).
   double shared_gain = 0.5;
@@ -69,7 +72,8 @@ struct DecisionRule {
   double cost_of_effect = 1.5;
   /// Prior cost of each number of an effect, nats. Reason: numbers that the data do not need are already paid for,
   /// because the likelihood is that of blocks which no fit has used. With one nat for each number, names with a
-  /// probability of 0.5 to 0.9 came true in 55 % of 88 cases of the blind trials (docs/blind_trials.md).
+  /// probability of 0.5 to 0.9 came true in 55 % of 88 cases of blind trials before those in
+  /// docs/blind_trials_before.md.
   double cost_of_number = 0.5;
   /// Prior cost of an effect whose shape lies where it is another effect, which is named, nats. Reason: a loop that
   /// yields at once is a softer cable, and about a third of the loops do so in a log. With the numbers that the two
@@ -92,8 +96,8 @@ struct DecisionRule {
   /// they are wrong.
   double worth_a_name = 0.5;
   /// If several effects were found, one gets a name if its name has at least this weight among its alternatives
-  /// (Naming::weight). Reason: three to one. In blind trials (seeds 20271202 and 20271204, docs/blind_trials.md), names
-  /// of less weight came true in 10 of 18 cases beside other names. Of two or three hidden effects, names of more
+  /// (Naming::weight). Reason: three to one. In blind trials (seeds 20271202 and 20271204, docs/blind_trials_before.md),
+  /// names of less weight came true in 10 of 18 cases beside other names. Of two or three hidden effects, names of more
   /// weight came true in 245 of 250.
   double sure_name = 0.75;
   /// The set of names that is reported holds the truth with this probability, if one of the names is right.
@@ -113,7 +117,8 @@ struct DecisionRule {
   /// further passes win back up to 70 % (39 fits of two logs with three effects), and the prior gains less than ten by
   /// a name fewer.
   double certainly_needed = 100;
-  /// The tolerances of a model count up to this many times.
+  /// The tolerances of a model count up to this many times. Reason: a model that is off by more is to be corrected by its
+  /// user; the trials go up to two.
   double widest_tolerances = 4;
 
   // The effort of the search.

@@ -48,9 +48,9 @@ struct Shard {
 /// point of the grid. It contains everything that merging and reporting need, and is stored with the results.
 struct SweepGrid {
   std::string name;
-  std::string id;               ///< equal for equal definitions: only results with equal ids can be merged
-  std::string file;             ///< name of the sweep file, without its folder; empty: there is none
-  std::string scenario, model;  ///< names of the files, without folders
+  std::string id;                           ///< equal for equal definitions: only results with equal ids can be merged
+  std::string file;                         ///< name of the sweep file, without its folder; empty: there is none
+  std::string scenario, model;              ///< names of the files, without folders
   std::vector<std::string> effect_modules;  ///< names of the files of --effects, without folders
   double skip_s = 0.5;
   std::vector<SweepAxis> axes;

@@ -38,7 +38,8 @@ TEST(FirstFailure, LeavesTheLoopsOfOtherBodiesAlone) {
   };
   const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
   tbb::task_arena arena(2);
-  arena.execute([&] { tbb::parallel_for(0, 2, [&](int i) { failure.keep(static_cast<std::size_t>(i), [&] { body(i); }); }); });
+  arena.execute(
+      [&] { tbb::parallel_for(0, 2, [&](int i) { failure.keep(static_cast<std::size_t>(i), [&] { body(i); }); }); });
   EXPECT_EQ(done, 100);
   EXPECT_THROW(failure.rethrow(), std::runtime_error);
 }
