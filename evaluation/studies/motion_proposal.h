@@ -33,8 +33,8 @@ Scenario planned_scenario(Scenario scenario, const ArmModel& model);
 /// Simulates the scenario and returns its log, without joint positions if joint_sensor is false.
 Log planned_log(const Scenario& scenario, bool joint_sensor, const std::function<void(double)>& progress = {});
 
-/// The i-th random motion of the given scenario's robot, with the scenario's duration. A joint without a controller does
-/// what it does in the scenario.
+/// The i-th random motion of the given scenario's robot, with the scenario's duration. A joint without a controller
+/// does what it does in the scenario.
 Scenario random_motion(const Scenario& given, int i);
 
 /// Searches for a motion that tells the two effects apart. given_log: of the given scenario. progress(what, fraction)
