@@ -117,8 +117,8 @@ struct DecisionRule {
   /// further passes win back up to 70 % (39 fits of two logs with three effects), and the prior gains less than ten by
   /// a name fewer.
   double certainly_needed = 100;
-  /// The tolerances of a model count up to this many times. Reason: a model that is off by more is to be corrected by its
-  /// user; the trials go up to two.
+  /// The tolerances of a model count up to this many times. Reason: a model that is off by more is to be corrected by
+  /// its user; the trials go up to two.
   double widest_tolerances = 4;
 
   // The effort of the search.
