@@ -96,9 +96,9 @@ struct DecisionRule {
   /// they are wrong.
   double worth_a_name = 0.5;
   /// If several effects were found, one gets a name if its name has at least this weight among its alternatives
-  /// (Naming::weight). Reason: three to one. In blind trials (seeds 20271202 and 20271204, docs/blind_trials_before.md),
-  /// names of less weight came true in 10 of 18 cases beside other names. Of two or three hidden effects, names of more
-  /// weight came true in 245 of 250.
+  /// (Naming::weight). Reason: three to one. In blind trials (seeds 20271202 and 20271204,
+  /// docs/blind_trials_before.md), names of less weight came true in 10 of 18 cases beside other names. Of two or three
+  /// hidden effects, names of more weight came true in 245 of 250.
   double sure_name = 0.75;
   /// The set of names that is reported holds the truth with this probability, if one of the names is right.
   double set_share = 0.9;
