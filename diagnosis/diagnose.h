@@ -28,6 +28,11 @@ struct Estimated {
   double nominal = 0;
   bool is_whole = false;  ///< a whole number: it has no interval, and both ends are its value
   bool is_reset = false;  ///< it was set to its neutral value: not significant, or at the end of what is plausible
+  /// The fit has taken it to a bound of its range: of a number of the model to the end of its tolerance. Of a parameter
+  /// that was reset: to the end of what is plausible, before it was reset.
+  bool at_bound = false;
+  bool at_limit = false;       ///< that bound is a physical limit: the true value cannot lie beyond
+  double least = 0, most = 0;  ///< the range in which it was fitted
 };
 
 /// An effect that may be the true one instead of the effect that was named.

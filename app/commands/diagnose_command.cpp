@@ -10,6 +10,7 @@
 #include "app/progress.h"
 #include "app/terminal/terminal.h"
 #include "diagnosis/diagnose.h"
+#include "diagnosis/explanation/estimates.h"
 #include "diagnosis/explanation/view_sentence.h"
 #include "evaluation/joint_unit.h"
 #include "model/arm_log.h"
@@ -67,6 +68,7 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
     print_out("  {}: {}\n", effect_label(d.effects[i].effect), evaluation.why[i]);
   for (const Estimated& p : d.refitted)
     print_out("  refitted {}: {:.5g} -> {}\n", p.name, p.nominal, with_unit(p.value, 5, p.unit));
+  for (const std::string& line : bound_lines(d)) print_out("  {}\n", line);
   if (const std::string line = tolerance_line(d); !line.empty()) print_out("  {}\n", line);
   for (const LogFinding& f : d.log_findings) print_out("  {}: {}\n", severity_word(f.severity), finding_line(f));
   for (const Unexplained& u : d.unexplained) print_out("  unexplained, joint {}: {}\n", u.joint + 1, u.signature);

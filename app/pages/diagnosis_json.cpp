@@ -83,7 +83,8 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
                               {"probability", probability(a.probability)},
                               {"in_set", a.in_set}});
     for (const Estimated& p : e.parameters)
-      parameters[p.name] = {{"value", number(p.value)}, {"unit", p.unit}, {"ci95", interval_of(p)}};
+      parameters[p.name] = {
+          {"value", number(p.value)}, {"unit", p.unit}, {"ci95", interval_of(p)}, {"at_bound", p.at_bound}};
     effects.push_back({{"effect", e.effect.effect->name()},
                        {"joint", joint_of(e.effect.joint)},
                        {"probability", probability(e.probability)},
@@ -97,7 +98,8 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
                         {"from", number(p.nominal)},
                         {"to", number(p.value)},
                         {"unit", p.unit},
-                        {"ci95", interval_of(p)}});
+                        {"ci95", interval_of(p)},
+                        {"at_bound", p.at_bound}});
   for (const Unexplained& u : d.unexplained)
     unexplained.push_back({{"joint", u.joint + 1}, {"signature", u.signature}});
   for (const NotExcited& n : d.not_excited)

@@ -7,6 +7,7 @@
 #include "app/pages/diagnosis_output.h"
 #include "app/pages/view_charts.h"
 #include "diagnosis/diagnosis_details.h"
+#include "diagnosis/explanation/estimates.h"
 #include "diagnosis/explanation/view_sentence.h"
 #include "evaluation/joint_unit.h"
 #include "evaluation/studies/diagnosis_evidence.h"
@@ -45,6 +46,7 @@ void add_numbers(report::Page& page, const Diagnosis& d) {
           {p.name, fmt::format("{:.5g}", p.nominal), fmt::format("{:.5g}", p.value), interval(p), p.unit});
     page.table(table);
   }
+  for (const std::string& line : bound_lines(d)) page.paragraph(capitalised(line) + ".");
 }
 
 /// What a chart draws of one joint: a value of each sample, NaN where there is none, over another value.

@@ -1,6 +1,7 @@
 #pragma once
 /// The numbers of a final fit with their 95 % intervals, as a diagnosis tells them.
 
+#include <string>
 #include <vector>
 
 #include "diagnosis/diagnose.h"
@@ -19,5 +20,9 @@ Estimated estimate_of(const Fit& fit, std::size_t i, std::size_t given);
 std::vector<Estimated> estimated_parameters(const Evidence& evidence, const ArmParameters<double>& nominal,
                                             const Fit& fit, std::size_t effect, std::size_t given,
                                             const PlacedEffect& told);
+
+/// A sentence about each parameter of a named effect and each refitted number that has ended at a bound of its range:
+/// "joint 2 link mass: at the end of its tolerance (0.57 to 0.63 kg): the true value may lie beyond; check ...".
+std::vector<std::string> bound_lines(const Diagnosis& diagnosis);
 
 }  // namespace halyard

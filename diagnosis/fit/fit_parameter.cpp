@@ -184,10 +184,27 @@ std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameter
   return groups;
 }
 
-bool ends_at_bound(const FitParameter& p, double value) {
+bool is_at_bound(const FitParameter& p, double value) {
+  if (!p.effect) {
+    constexpr double kPressed = 0.95;  // of the tolerance
+    const double off = value - p.nominal;
+    return off > kPressed * (p.upper - p.nominal) || off < kPressed * (p.lower - p.nominal);
+  }
   const auto near = [&](double bound) { return 1e-3 * std::max(std::abs(bound), 1e-3 * p.scale); };
-  return p.effect && !p.natural_bounds && !p.is_whole && std::abs(value - p.nominal) > near(p.nominal) &&
+  return !p.is_whole && std::abs(value - p.nominal) > near(p.nominal) &&
          (value <= p.lower + near(p.lower) || value >= p.upper - near(p.upper));
+}
+
+bool is_at_limit(const FitParameter& p, double value) {
+  if (!is_at_bound(p, value)) return false;
+  if (p.effect) return p.natural_bounds;
+  constexpr double kRounding = 1e-9;  // of the tolerance
+  const double below = p.nominal - p.lower, above = p.upper - p.nominal;
+  return value < p.nominal && below < (1 - kRounding) * above;
+}
+
+bool ends_at_bound(const FitParameter& p, double value) {
+  return p.effect && !p.natural_bounds && is_at_bound(p, value);
 }
 
 bool effect_changes(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline) {

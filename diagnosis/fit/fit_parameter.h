@@ -68,8 +68,15 @@ struct ParameterGroup {
 };
 /// The groups of all effects in the list; baseline parameters are in none.
 std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameters);
-/// True if an effect's parameter is at its plausible bound. False at its neutral value, even if that is a bound, and
-/// for whole numbers: the lowest order that the motion shows is as plausible as the next.
+/// True if a fit has taken the parameter to a bound of its range. A number of the model: 95 % of the way to the end of
+/// its tolerance, because its prior holds it back. A parameter of an effect: at the bound itself. False at its neutral
+/// value, even if that is a bound, and for whole numbers: the lowest order that the motion shows is as plausible as the
+/// next.
+bool is_at_bound(const FitParameter& p, double value);
+/// True if that bound is a physical limit: the true value cannot lie beyond it. A number of the model that cannot be
+/// negative has one at 0, if its tolerance reaches so far.
+bool is_at_limit(const FitParameter& p, double value);
+/// True if an effect's parameter is at a bound that is the end of what is plausible, and no physical limit.
 bool ends_at_bound(const FitParameter& p, double value);
 /// True if a change of the effect's parameters also changes that baseline parameter.
 bool effect_changes(const PlacedEffect& effect, const ArmParameters<double>& nominal, const FitParameter& baseline);

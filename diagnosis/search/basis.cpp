@@ -61,13 +61,11 @@ std::vector<Found> Basis::without_each(const Found& found, double enough) const 
 }
 
 bool Basis::is_narrow(const Hypothesis& h) const {
-  constexpr double kPressed = 0.95;  // of the tolerance
   int n = 0;
   for (const FitParameter& p : refitter.numbers()) {
-    const double off = parameter_value(h, p) - p.nominal;
     const bool has_name = std::any_of(h.effects.begin() + static_cast<std::ptrdiff_t>(given_), h.effects.end(),
                                       [&](const PlacedEffect& e) { return effect_covers(e, model.nominal, p); });
-    n += has_name || off > kPressed * (p.upper - p.nominal) || off < kPressed * (p.lower - p.nominal);
+    n += has_name || is_at_bound(p, parameter_value(h, p));
   }
   return n > 1;
 }

@@ -43,7 +43,7 @@ class Basis {
   /// refitted() without each of the added effects, side by side. Where the loss after the first pass is at least
   /// `enough` nats, the fit ends there, and the score is not finite.
   std::vector<Found> without_each(const Found& found, double enough = std::numeric_limits<double>::infinity()) const;
-  /// True if at least two numbers are pressed against their tolerance or replaced by a name.
+  /// True if at least two numbers are at the end of their tolerance (is_at_bound()) or replaced by a name.
   bool is_narrow(const Hypothesis& h) const;
   /// What the prior takes from ln p, see above. Infinite if a sensitivity cannot be computed.
   double prior_cost(const Found& found) const;

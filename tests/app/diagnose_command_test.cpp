@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/app_runs.h"
@@ -75,6 +76,21 @@ TEST_F(DiagnoseCommand, SaysWhyAndByHowMuchEachEstimatorGains) {
   EXPECT_TRUE(contains(page, "ekf failed with the given model: estimator ekf on "));
   EXPECT_TRUE(contains(page, "crashed: Segm"));
   EXPECT_TRUE(contains(page, "joint behind its motors, over load"));
+}
+
+/// In the log motor 1 has 1.21 times the friction of this model, which states a tolerance of 0.2.
+TEST_F(DiagnoseCommand, TellsThatANumberHasUsedUpItsTolerance) {
+  write_text(path("less_friction.xml"), replaced(text_of(kModel), "coulomb=\"6.62e-3\"", "coulomb=\"5.471e-3\""));
+  const std::string printed = done({"diagnose", "--model", "less_friction.xml", "--data", kLog, "--out", "out"});
+  const std::string told = "oint 1 motor Coulomb friction: at the end of its tolerance (";
+  EXPECT_TRUE(contains(printed, "  j" + told)) << printed;
+  EXPECT_TRUE(contains(text_of(path("out/report.html")), "J" + told));
+  const json diagnosis = json::parse(text_of(path("out/diagnosis.json")));
+  std::map<std::string, bool> at_bound;
+  for (const json& number : diagnosis.at("refitted")) at_bound[number.at("parameter")] = number.at("at_bound");
+  EXPECT_TRUE(at_bound["joint 1 motor Coulomb friction"]) << diagnosis.at("refitted");
+  for (const auto& [name, parameter] : diagnosis.at("effects").at(0).at("parameters").items())
+    EXPECT_FALSE(parameter.at("at_bound")) << name;
 }
 
 /// The bundled log with one column times -1.

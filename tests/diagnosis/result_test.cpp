@@ -95,6 +95,25 @@ TEST(ResultOfADiagnosis, TellsWhichEffectOfTheRevisedModelHasTheName) {
   EXPECT_TRUE(same_name(d.revised.effects[d.effects[0].index], d.effects[0].effect));
 }
 
+TEST(ResultOfADiagnosis, TellsThatANumberHasUsedUpItsTolerance) {
+  const ArmModel model = first_joints(1);
+  const auto refitted = [&](double tolerances) {
+    ArmModel robot = model;
+    robot.nominal.joint[0].motor_coulomb *= 1 + tolerances * model.joints[0].tolerances.friction;
+    DiagnosisOptions options;
+    options.tell_not_excited = false;
+    const Diagnosis d = diagnose(model, {simulate(motion(robot, 8)).measured}, {}, options);
+    EXPECT_TRUE(d.effects.empty()) << "it is within the tolerance, or so little beyond it that it does not matter";
+    const auto number = std::ranges::find(d.refitted, "joint 1 motor Coulomb friction", &Estimated::name);
+    return number == d.refitted.end() ? std::nullopt : std::optional(*number);
+  };
+  const auto all = refitted(1.05), half = refitted(0.5);
+  ASSERT_TRUE(all && half);
+  EXPECT_TRUE(all->at_bound) << all->value / told().coulomb;
+  EXPECT_FALSE(half->at_bound) << half->value / told().coulomb;
+  EXPECT_NEAR(all->most, 1.2 * told().coulomb, 1e-9 * told().coulomb);
+}
+
 TEST(ResultOfADiagnosis, HasARevisedModelAlsoIfNoEffectHasAName) {
   Diagnosis d;
   d.given = d.revised = first_joints(1);

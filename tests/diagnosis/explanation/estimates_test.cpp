@@ -147,5 +147,72 @@ TEST(Estimates, OfAnInstantAreOnTheClockOnWhichItIsTold) {
   EXPECT_NEAR(told[1].upper, 0.25 + half, 1e-12);
 }
 
+TEST(Estimates, TellWhetherTheFitHasTakenANumberToABoundOfItsRange) {
+  const auto number = [](double value) { return OneNumber(value, 10, 8, 12, std::nullopt, false).told(0); };
+  EXPECT_TRUE(number(12).at_bound);
+  EXPECT_FALSE(number(12).at_limit);
+  EXPECT_FALSE(number(11).at_bound);
+  EXPECT_EQ(number(11).least, 8);
+  EXPECT_EQ(number(11).most, 12);
+  const auto size = [](double value, bool natural) {
+    OneNumber n(value, 0, 0, 2, 0, false);
+    n.fit.parameters[0].natural_bounds = natural;
+    return n.told(0);
+  };
+  EXPECT_TRUE(size(2, false).at_bound);
+  EXPECT_FALSE(size(2, false).at_limit);
+  EXPECT_TRUE(size(2, true).at_limit);
+  EXPECT_FALSE(size(0, true).at_bound) << "it does nothing";
+}
+
+TEST(Estimates, OfAParameterThatWasResetTellThatItEndedAtTheEndOfWhatIsPlausible) {
+  const PlacedEffect friction = place_neutral_effect(*find_effect("motor_friction"), first_joints(1).nominal, 0);
+  const auto told = [&](double share_of_most) {
+    return told_of(friction, friction, [&](Fit& fit) {
+      const FitParameter p = fit.parameters[0];
+      fit.reset = {{p, share_of_most * p.upper, 3e-3}};
+      fit.parameters.erase(fit.parameters.begin());
+    })[0];
+  };
+  EXPECT_TRUE(told(1).at_bound);
+  EXPECT_EQ(told(1).value, 0);
+  EXPECT_GT(told(1).most, 0);
+  EXPECT_FALSE(told(0.5).at_bound) << "it is not significant";
+}
+
+TEST(Estimates, AtTheirBoundsAreToldInASentenceEach) {
+  const auto at = [](const char* name, const char* unit, double least, double most, bool at_bound) {
+    Estimated e{name, unit, most, least, most, 0};
+    e.least = least, e.most = most, e.at_bound = at_bound;
+    return e;
+  };
+  Diagnosis d;
+  d.refitted = {at("joint 2 link mass", "kg", 0.57, 0.63, true), at("joint 1 viscous friction", "N m s", 0, 1, false)};
+  EXPECT_EQ(bound_lines(d), (std::vector<std::string>{
+                                "joint 2 link mass: at the end of its tolerance (0.57 to 0.63 kg): the true value may "
+                                "lie beyond; check the number, or widen its tolerance in the model file"}));
+  d.tolerance_factor = 2;
+  EXPECT_TRUE(bound_lines(d).at(0).starts_with("joint 2 link mass: at the end of 2 times its tolerance (")) << "both";
+  d.refitted[0].at_limit = true;
+  EXPECT_EQ(bound_lines(d).at(0),
+            "joint 2 link mass: at a physical limit (0.57 to 0.63 kg): the data ask for still less, so an effect may "
+            "be missing");
+  d.refitted.clear();
+  NamedEffect named{of_one_joint("capstan_ratio"), 0.9, {at("ratio", "1", 0.5, 2, true)}, {}};
+  d.effects = {named};
+  const std::string reset = ", and so reset to 1",
+                    plausible =
+                        "capstan_ratio of joint 1 ratio: at the end of what is "
+                        "plausible (0.5 to 2)",
+                    end = ": the true value may lie beyond, or be another effect's";
+  EXPECT_EQ(bound_lines(d).at(0), plausible + end);
+  d.effects[0].parameters[0].is_reset = true;
+  d.effects[0].parameters[0].value = 1;
+  EXPECT_EQ(bound_lines(d).at(0), plausible + reset + end);
+  d.effects[0].parameters[0].at_limit = true;
+  EXPECT_EQ(bound_lines(d).at(0),
+            "capstan_ratio of joint 1 ratio: at a physical limit (0.5 to 2), beyond which the true value cannot lie");
+}
+
 }  // namespace
 }  // namespace halyard

@@ -73,6 +73,38 @@ TEST(ParameterLists, AParameterEndsAtABoundThatIsNotItsNeutralValue) {
   EXPECT_FALSE(ends_at_bound(p, 2)) << "a number of the model";
 }
 
+/// The same rule decides whether the search tries wider tolerances, and what the report says of a number.
+TEST(ParameterLists, ANumberOfTheModelIsAtItsBoundFrom95PercentOfItsToleranceOn) {
+  FitParameter p = number_of({}, 0, false);
+  p.nominal = 10, p.lower = 8, p.upper = 12;
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_FALSE(is_at_bound(p, 10 + sign * 1.89));
+    EXPECT_TRUE(is_at_bound(p, 10 + sign * 1.91));
+    EXPECT_TRUE(is_at_bound(p, 10 + sign * 2));
+    EXPECT_FALSE(is_at_limit(p, 10 + sign * 2)) << "the model may be off by more than it states";
+  }
+  EXPECT_FALSE(is_at_bound(p, 10));
+  p.lower = 0.01, p.upper = 20;  // of a friction with a tolerance of 1: it cannot be negative
+  EXPECT_TRUE(is_at_limit(p, 0.01));
+  EXPECT_FALSE(is_at_limit(p, 0.6)) << "not at the bound";
+  EXPECT_TRUE(is_at_bound(p, 20));
+  EXPECT_FALSE(is_at_limit(p, 20));
+}
+
+TEST(ParameterLists, AParameterOfAnEffectIsAtAPhysicalLimitOnlyIfItsBoundsAreNatural) {
+  FitParameter p = number_of(0, 0, false);
+  p.nominal = 0, p.lower = 0, p.upper = 2, p.scale = 0.5;
+  EXPECT_TRUE(is_at_bound(p, 2));
+  EXPECT_FALSE(is_at_limit(p, 2));
+  p.natural_bounds = true;
+  EXPECT_TRUE(is_at_bound(p, 2));
+  EXPECT_TRUE(is_at_limit(p, 2));
+  EXPECT_FALSE(is_at_limit(p, 0)) << "it does nothing";
+  EXPECT_FALSE(is_at_limit(p, 1));
+  p.is_whole = true;
+  EXPECT_FALSE(is_at_bound(p, 2));
+}
+
 /// One number stands for all lengths of a drive's ratio. Each may be off, and so the ratio by their sum.
 TEST(ParameterLists, TheRatioOfADriveMayBeOffByTheTolerancesOfAllItsLengths) {
   ArmModel model = first_joints(3);
