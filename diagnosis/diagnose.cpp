@@ -134,6 +134,7 @@ class Diagnoser {
     result_.effects.clear();
     changed_.clear();
     doubts_.clear();
+    told_.clear();
     none_for_.clear();
     attribution().final_fit = attribution().baseline;
     attribution().final_fit.hypothesis = {result_.given.nominal, result_.given.effects,
@@ -142,26 +143,31 @@ class Diagnoser {
   }
 
   void tell_names(const Evidence& evidence) {
-    const Fit& f = attribution().final_fit;
-    const std::vector<Naming>& namings = attribution().namings;
     none_for_ = probabilities_of_none(evidence, attribution(), given_);
     doubts_ = doubts(evidence, tolerated_, attribution(), none_for_, options_.significance);
-    for (std::size_t e = given_; e < f.hypothesis.effects.size(); ++e) {
-      const double none = none_for_[e - given_];
-      none_ = std::max(none_, none);
-      if (doubts_[e - given_] != Doubt::none) continue;
-      const Naming& naming = namings[e - given_];
-      NamedEffect named{on_its_clock(evidence, f.hypothesis.effects[e]), told_probability(naming.weight, none),
-                        told_parameters(evidence, e), naming.alternatives};
-      named.index = e;
-      const Record* const happens_in = record_of(f.hypothesis.effects[e], model_.nominal, evidence.records());
-      if (happens_in && n_logs_ > 1) named.log = happens_in->source;
-      std::vector<double> all = {named.probability};
-      for (Alternative& a : named.alternatives) all.push_back(a.probability = told_probability(a.probability, none));
-      const std::vector<bool> in = credible_set(all, kRule.set_share);
-      for (std::size_t a = 0; a < named.alternatives.size(); ++a) named.alternatives[a].in_set = in[a + 1];
-      result_.effects.push_back(std::move(named));
+    for (std::size_t e = given_; e < final_hypothesis().effects.size(); ++e) {
+      none_ = std::max(none_, none_for_[e - given_]);
+      told_.push_back(told_effect(evidence, e));
+      if (doubts_[e - given_] == Doubt::none) result_.effects.push_back(told_.back());
     }
+  }
+
+  /// The added effect of that index, whether its name is sure enough or not.
+  NamedEffect told_effect(const Evidence& evidence, std::size_t e) {
+    const PlacedEffect& effect = final_hypothesis().effects[e];
+    const Naming& naming = attribution().namings[e - given_];
+    const double none = none_for_[e - given_];
+    NamedEffect told{on_its_clock(evidence, effect), told_probability(naming.weight, none),
+                     told_parameters(evidence, e), naming.alternatives};
+    told.index = e;
+    const Record* const happens_in = record_of(effect, model_.nominal, evidence.records());
+    if (happens_in && n_logs_ > 1) told.log = happens_in->source;
+    std::vector<double> all = {told.probability};
+    for (Alternative& a : told.alternatives) all.push_back(a.probability = told_probability(a.probability, none));
+    const std::vector<bool> in = credible_set(all, kRule.set_share);
+    told.in_set = in[0] || doubts_[e - given_] == Doubt::none;
+    for (std::size_t a = 0; a < told.alternatives.size(); ++a) told.alternatives[a].in_set = in[a + 1];
+    return told;
   }
 
   /// Effects without a name that stay in the revised model, because it predicts better with them.
@@ -179,7 +185,7 @@ class Diagnoser {
            fmt::format(
                "{} explains a part of it and is in the revised model, but {}", effect_label(effect),
                reason_of(doubt, attribution().namings[e - given_], none_for_[e - given_], final_hypothesis().effects)),
-           Unexplained::Kind::unnamed_effect});
+           Unexplained::Kind::unnamed_effect, told_[e - given_]});
     }
   }
 
@@ -302,6 +308,7 @@ class Diagnoser {
   std::vector<std::size_t> changed_;  ///< see changed_numbers()
   std::vector<Doubt> doubts_;         ///< of each added effect
   std::vector<double> none_for_;      ///< of each, probabilities_of_none()
+  std::vector<NamedEffect> told_;     ///< of each, what is told of it
   double none_ = 0;                   ///< the largest P(none) of a name or of a channel
   std::shared_ptr<DiagnosisDetails> details_ = std::make_shared<DiagnosisDetails>();
   Diagnosis result_;

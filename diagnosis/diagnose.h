@@ -52,6 +52,7 @@ struct NamedEffect {
   std::vector<Alternative> alternatives;  ///< the most probable first
   std::string log = {};   ///< the training log on whose clock its instants are; empty without instants or with one log
   std::size_t index = 0;  ///< in the effects of Diagnosis::revised, which also has effects without a name
+  bool in_set = true;     ///< as Alternative::in_set; a name that is sure enough to be told is always in the set
 };
 
 /// What the diagnosis cannot name.
@@ -67,6 +68,9 @@ struct Unexplained {
   int joint;              ///< 0-based
   std::string signature;  ///< description
   Kind kind = Kind::rest;
+  /// Of unnamed_effect: what is told of an effect with a name. Its joint need not be the one above, whose residual it
+  /// explains a part of.
+  std::optional<NamedEffect> effect = {};
 };
 
 /// An effect that these data could not have shown.

@@ -70,27 +70,33 @@ Json estimators_json(const DiagnosisEvaluation& evaluation) {
   return all;
 }
 
+/// What is told of an effect, with a sure name or without.
+Json effect_json(const NamedEffect& e) {
+  Json alternatives = Json::array(), parameters = Json::object();
+  for (const Alternative& a : e.alternatives)
+    alternatives.push_back({{"effect", a.effect.effect->name()},
+                            {"joint", joint_of(a.effect.joint)},
+                            {"probability", probability(a.probability)},
+                            {"in_set", a.in_set}});
+  for (const Estimated& p : e.parameters)
+    parameters[p.name] = {
+        {"value", number(p.value)}, {"unit", p.unit}, {"ci95", interval_of(p)}, {"at_bound", p.at_bound}};
+  Json effect = {{"effect", e.effect.effect->name()},
+                 {"joint", joint_of(e.effect.joint)},
+                 {"probability", probability(e.probability)},
+                 {"in_set", e.in_set},
+                 {"alternatives", alternatives},
+                 {"parameters", parameters}};
+  if (!e.log.empty()) effect["log"] = e.log;
+  return effect;
+}
+
 }  // namespace
 
 std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   Json effects = Json::array(), refitted = Json::array(), unexplained = Json::array(), not_excited = Json::array();
   for (std::size_t i = 0; i < d.effects.size(); ++i) {
-    const NamedEffect& e = d.effects[i];
-    Json alternatives = Json::array(), parameters = Json::object();
-    for (const Alternative& a : e.alternatives)
-      alternatives.push_back({{"effect", a.effect.effect->name()},
-                              {"joint", joint_of(a.effect.joint)},
-                              {"probability", probability(a.probability)},
-                              {"in_set", a.in_set}});
-    for (const Estimated& p : e.parameters)
-      parameters[p.name] = {
-          {"value", number(p.value)}, {"unit", p.unit}, {"ci95", interval_of(p)}, {"at_bound", p.at_bound}};
-    effects.push_back({{"effect", e.effect.effect->name()},
-                       {"joint", joint_of(e.effect.joint)},
-                       {"probability", probability(e.probability)},
-                       {"alternatives", alternatives},
-                       {"parameters", parameters}});
-    if (!e.log.empty()) effects.back()["log"] = e.log;
+    effects.push_back(effect_json(d.effects[i]));
     if (i < evaluation.why.size()) effects.back()["why"] = evaluation.why[i];
   }
   for (const Estimated& p : d.refitted)
@@ -100,8 +106,10 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
                         {"unit", p.unit},
                         {"ci95", interval_of(p)},
                         {"at_bound", p.at_bound}});
-  for (const Unexplained& u : d.unexplained)
+  for (const Unexplained& u : d.unexplained) {
     unexplained.push_back({{"joint", u.joint + 1}, {"signature", u.signature}});
+    if (u.effect) unexplained.back()["unnamed_effect"] = effect_json(*u.effect);
+  }
   for (const NotExcited& n : d.not_excited)
     not_excited.push_back({{"effect", n.effect}, {"joint", joint_of(n.joint)}, {"why", n.why}});
   Json log_check = Json::array();

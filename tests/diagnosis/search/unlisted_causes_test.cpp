@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "diagnosis/diagnose.h"
 #include "diagnosis/holdout/holdout.h"
 #include "diagnosis/round/refit.h"
 #include "plant/simulate.h"
@@ -124,6 +125,30 @@ TEST(UnlistedCauses, LeaveSlipsTheirNames) {
 TEST(UnlistedCauses, LeaveOtherNamesAlone) {
   const PlacedEffect ratio = of_only_joint(*find_effect("capstan_ratio"), {1.02});
   EXPECT_EQ(unlisted_weight(ratio, ratio), 0);
+}
+
+TEST(UnlistedCauses, LeaveWhatImitatesThemWithoutASureNameAndTellWhatItMayBe) {
+  const SteepFriction steep;
+  ArmModel robot = first_joints(1);
+  robot.effects = {of_only_joint(steep, {3})};
+  DiagnosisOptions options;
+  options.tell_not_excited = false;
+  options.most_effects = 1;
+  const Diagnosis d = diagnose(first_joints(1), {simulate(motion(robot, 8)).measured}, {}, options);
+  EXPECT_TRUE(d.effects.empty());
+  ASSERT_EQ(d.revised.effects.size(), 1u);
+  const auto unnamed = std::ranges::find(d.unexplained, Unexplained::Kind::unnamed_effect, &Unexplained::kind);
+  ASSERT_NE(unnamed, d.unexplained.end());
+  ASSERT_TRUE(unnamed->effect);
+  const NamedEffect& told = *unnamed->effect;
+  EXPECT_TRUE(same_name(told.effect, d.revised.effects[told.index]));
+  EXPECT_TRUE(unnamed->signature.starts_with(effect_label(told.effect) + " explains")) << unnamed->signature;
+  EXPECT_FALSE(told.parameters.empty());
+  double sum = told.probability;
+  for (const Alternative& a : told.alternatives) sum += a.probability;
+  EXPECT_LT(sum, 0.5) << "another cause is more probable";
+  for (const Unexplained& u : d.unexplained)
+    EXPECT_EQ(u.effect.has_value(), u.kind == Unexplained::Kind::unnamed_effect);
 }
 
 }  // namespace
