@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "bench/diagnosis/summary/acceptance.h"
 #include "bench/diagnosis/summary/calibration.h"
 #include "bench/diagnosis/summary/listed_parameter.h"
@@ -79,6 +81,32 @@ TEST(IntervalsOfTrials, KnowTheParametersOfTheLibrary) {
   // The RAVEN-II has no joint behind the third whose cable moves with joint 4.
   EXPECT_EQ(listed_parameter("coupling", "from_joint_4").neutral, 0);
   EXPECT_FALSE(listed_parameter("coupling", "from_joint_4").is_whole);
+}
+
+/// A clean trial in whose joints these shares of the hold-out lie in the intervals of the prediction.
+Result with_coverage(std::vector<double> of_joints) {
+  Result r = trial(Kind::clean, {}, {});
+  r.interval_coverage = std::move(of_joints);
+  return r;
+}
+
+TEST(IntervalsOfPredictions, AreCountedByTheMeanOverTheJointsOfATrial) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const Result old = trial(Kind::clean, {}, {}), none = with_coverage({kNone, kNone}),
+               all = with_coverage({0.75, 1, 0.5}), some = with_coverage({kNone, 0.5, 0.75});
+  EXPECT_EQ(interval_coverages({&old, &none, &all, &some}), (std::vector<double>{0.75, 0.625}));
+}
+
+TEST(IntervalsOfPredictions, HaveALineWithTheMedianAndTheLowestTenth) {
+  std::vector<Result> ran;
+  for (int i = 0; i <= 10; ++i) ran.push_back(with_coverage({0.5 + 0.05 * i}));
+  ran.push_back(trial(Kind::clean, {}, {}));
+  const std::string table = acceptance_table(pointers(ran));
+  EXPECT_NE(table.find("| 5 | prediction intervals of 95 %: share of the samples within, mean over joints: median "
+                       "0.750, 10 % below 0.550; 11 trials |"),
+            std::string::npos)
+      << table;
+  EXPECT_EQ(acceptance_table({&ran.back()}).find("prediction intervals"), std::string::npos);
 }
 
 }  // namespace

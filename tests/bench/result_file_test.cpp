@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -61,6 +63,30 @@ TEST(ResultOfATrial, TellsItsDroppedDrawsInTheHeadOfTheSummary) {
                       "trials do not tell how many of theirs could not be."),
             std::string::npos)
       << text_of(to / "summary.md");
+}
+
+TEST(ResultOfATrial, KeepsHowManySamplesTheIntervalsOfThePredictionContain) {
+  const fs::path to = folder();
+  Result r = trial(Kind::clean, {}, {});
+  r.interval_coverage = {0.97, std::numeric_limits<double>::quiet_NaN(), 1};
+  write_result(to, r);
+  const std::optional<std::vector<double>> read = read_result(result_path(to, r.situation, r.index)).interval_coverage;
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->size(), 3u);
+  EXPECT_EQ((*read)[0], 0.97);
+  EXPECT_TRUE(std::isnan((*read)[1])) << "a joint without readings";
+  EXPECT_EQ((*read)[2], 1);
+}
+
+TEST(ResultOfATrial, IsReadWithoutTheseIntervals) {
+  const fs::path to = folder();
+  const Result r = trial(Kind::clean, {}, {});
+  write_result(to, r);
+  const fs::path path = result_path(to, r.situation, r.index);
+  EXPECT_FALSE(nlohmann::json::parse(text_of(path)).contains("joint_position_interval95"));
+  EXPECT_FALSE(read_result(path).interval_coverage);
+  write_summary(to, {r});
+  EXPECT_EQ(text_of(to / "summary.md").find("prediction intervals"), std::string::npos);
 }
 
 TEST(DrawsOfATrial, AreRepeatedUntilOneIsPossible) {

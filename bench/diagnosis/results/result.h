@@ -88,7 +88,11 @@ struct Result {
   std::optional<double> probability_clean, probability_none;  ///< empty without a diagnosis
   HoldOutErrors holdout;                                      ///< against the joints themselves: sensors without noise
   HoldOutErrors sensed_holdout;  ///< against the same motion as the sensors of the training read it
-  double wall_s = 0;             ///< of diagnose(), beside the other trials that ran at that time
+  /// Share of the samples of `holdout` in the diagnosis' 95 % intervals of the joint position, of each joint
+  /// (Diagnosis::joint_interval). NaN for a joint that the training has not read, and thus has no interval; nothing in
+  /// files of before these were kept.
+  std::optional<std::vector<double>> interval_coverage;
+  double wall_s = 0;  ///< of diagnose(), beside the other trials that ran at that time
 };
 
 std::filesystem::path result_path(const std::filesystem::path& folder, const Situation& situation, int index);

@@ -130,6 +130,8 @@ Result result_from(const Json& all) {
   r.probability_none = maybe(all.at("probability_none"));
   r.holdout = holdout_from(all.at("joint_position_rms"));
   r.sensed_holdout = holdout_from(all.at("joint_position_rms_as_sensed"));
+  if (all.contains("joint_position_interval95"))
+    r.interval_coverage = numbers(all.at("joint_position_interval95").at("coverage"));
   r.wall_s = all.at("seconds").at("wall");
   return r;
 }
@@ -161,6 +163,7 @@ void write_result(const std::filesystem::path& folder, const Result& r) {
               {"joint_position_rms_as_sensed", to_json(r.sensed_holdout)},
               {"seconds", {{"wall", r.wall_s}}}};
   if (r.dropped) all["dropped_draws"] = *r.dropped;
+  if (r.interval_coverage) all["joint_position_interval95"] = {{"coverage", numbers(*r.interval_coverage)}};
   write_file_whole(result_path(folder, r.situation, r.index), all.dump(1) + "\n");
 }
 

@@ -198,6 +198,22 @@ void add_calibration_lines(std::vector<Line>& lines, const Results& ran) {
   if (parameters.whole.of > 0) lines.push_back({"5", "whole numbers that are right", "", parameters.whole, {}, {}, {}});
 }
 
+/// How much of the hold-out's true motion lies in the intervals of the prediction. It has no bar: the samples of a
+/// trial are not independent, and the intervals count the noise of sensors that this hold-out does not have.
+void add_prediction_line(std::vector<Line>& lines, const Results& ran) {
+  const std::vector<double> inside = interval_coverages(ran);
+  if (inside.empty()) return;
+  lines.push_back({"5",
+                   fmt::format("prediction intervals of 95 %: share of the samples within, mean over joints: median "
+                               "{:.3f}, 10 % below {:.3f}; {} trials",
+                               median(inside), quantile(inside, 0.1), inside.size()),
+                   "",
+                   {},
+                   {},
+                   {},
+                   {}});
+}
+
 std::string median_and_90(const std::vector<double>& x) {
   return fmt::format("median {:.3f}, 90 % below {:.3f}", median(x), quantile(x, 0.9));
 }
@@ -267,6 +283,7 @@ std::string acceptance_table(const Results& ran) {
   add_effect_lines(lines, {"4", "outside the library: `unknown`; or an unexplained residual", "85 %", {}, {}, {}, {}},
                    of(ran, Kind::outside, 1), is_visible_alone);
   add_calibration_lines(lines, ran);
+  add_prediction_line(lines, ran);
   add_effects_and_several(lines, ran, 2);
   add_holdout_lines(lines, ran);
   std::string text =

@@ -49,6 +49,18 @@ ParameterCounts parameter_counts(const Results& ran) {
   return counts;
 }
 
+std::vector<double> interval_coverages(const Results& ran) {
+  std::vector<double> means;
+  for (const Result* r : ran) {
+    if (!r->interval_coverage) continue;
+    double sum = 0, count = 0;
+    for (const double of_joint : *r->interval_coverage)
+      if (std::isfinite(of_joint)) sum += of_joint, count += 1;
+    if (count > 0) means.push_back(sum / count);
+  }
+  return means;
+}
+
 ErrorRatio error_ratio(const std::vector<double>& error, const std::vector<double>& other) {
   double worst = 0, sum = 0, count = 0;
   for (std::size_t k = 0; k < error.size(); ++k) {

@@ -21,6 +21,10 @@ struct ParameterCounts {
 };
 ParameterCounts parameter_counts(const Results& ran);
 
+/// Of each trial that tells it, the mean over its joints of the share of the hold-out's samples that lie in the
+/// diagnosis' 95 % intervals. Joints without an interval do not count, nor does a trial all of whose joints have none.
+std::vector<double> interval_coverages(const Results& ran);
+
 /// Hold-out error over another one: the worst joint, and the geometric mean of the joints that have both; NaN if none.
 struct ErrorRatio {
   double worst, mean;

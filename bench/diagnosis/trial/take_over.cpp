@@ -88,6 +88,7 @@ void take_over(const Diagnosis& d, const Recording& recording, Result& r) {
   r.holdout = hold_out_errors(d.details->joint_view.records, d, robot, informed);
   const DiagnosisData sensed = diagnosis_data(d.given, {recording.training}, recording.sensed_holdout, d.given);
   r.sensed_holdout = hold_out_errors(sensed.joint_view.records, d, robot, informed);
+  r.interval_coverage = d.joint_interval.coverage;
 }
 
 }  // namespace halyard::blind

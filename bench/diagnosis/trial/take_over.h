@@ -7,7 +7,7 @@
 
 namespace halyard::blind {
 
-/// Verdict, names, probabilities and hold-out errors.
+/// Verdict, names, probabilities, hold-out errors, and how many samples of the hold-out its intervals contain.
 void take_over(const Diagnosis& d, const Recording& recording, Result& r);
 
 }  // namespace halyard::blind
