@@ -67,9 +67,10 @@ compile_together(halyard_diagnosis prediction
   prediction/lane_residuals.cpp prediction/motion_key.cpp prediction/prediction.cpp prediction/shared_lanes.cpp
   prediction/side_by_side.cpp)
 compile_together(halyard_diagnosis log_check
-  log_check/clock.cpp log_check/columns.cpp log_check/log_check.cpp log_check/log_under_check.cpp
-  log_check/outliers.cpp log_check/own_readings.cpp log_check/positions.cpp log_check/robust.cpp log_check/saturating_torque.cpp
-  log_check/torques.cpp log_check/zeros.cpp)
+  log_check/clock.cpp log_check/columns/column_samples.cpp log_check/columns/columns.cpp log_check/columns/counters.cpp
+  log_check/log_check.cpp log_check/log_under_check.cpp log_check/outliers.cpp log_check/own_readings.cpp
+  log_check/positions.cpp log_check/robust.cpp log_check/torques/saturating_torque.cpp
+  log_check/torques/torque_columns.cpp log_check/torques/torques.cpp log_check/zeros.cpp)
 compile_together(halyard_diagnosis fit
   calibration/lateness.cpp fit/baseline_reach.cpp fit/beyond_numbers.cpp fit/block_variance.cpp
   fit/bounded_least_squares.cpp fit/complementary.cpp fit/evidence.cpp fit/fit.cpp fit/fit_parameter.cpp fit/nudged.cpp

@@ -1,7 +1,7 @@
 /// A motor that saturates far below its command is an effect and no wrong unit; a wrong unit stays one, whatever the
 /// model's friction is wrong by.
 
-#include "diagnosis/log_check/saturating_torque.h"
+#include "diagnosis/log_check/torques/saturating_torque.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "diagnosis/log_check/saturating_torque.h"
+#include "diagnosis/log_check/torques/saturating_torque.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "diagnosis/calibration/torque_comparison.h"
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/robust.h"
-#include "diagnosis/log_check/saturating_torque.h"
+#include "diagnosis/log_check/torques/saturating_torque.h"
 #include "diagnosis/prediction/room.h"
 #include "model/input_error.h"
 
@@ -160,27 +159,6 @@ std::vector<int> torque_senses(const LogUnderCheck& c) {
     senses[k] = r < c.rule.torque_opposes ? -1 : r > -c.rule.torque_opposes ? 1 : 0;
   }
   return senses;
-}
-
-void check_torque_spikes(LogUnderCheck& c) {
-  for (int k = 0; k < c.n(); ++k) {
-    std::vector<double>& torque = c.log.motor_torque[k];
-    std::vector<double> size;
-    for (const double x : torque)
-      if (std::abs(x) > 0) size.push_back(std::abs(x));
-    const double usual = quantile(size, 0.95), limit = c.rule.torque_spike * usual;
-    const auto is_spike = [limit](double x) { return std::abs(x) > limit; };
-    const auto first = std::ranges::find_if(torque, is_spike);
-    if (first == torque.end()) continue;
-    const auto row = static_cast<std::size_t>(first - torque.begin());
-    const auto others = std::count_if(first + 1, torque.end(), is_spike);
-    c.reject(column_name(&Log::motor_torque, k),
-             fmt::format("{:g} N m at {:.6g} s{}; 95 % of the torques are below {:.3g} N m", *first, c.log.time[row],
-                         others > 0 ? fmt::format(" (and {} more)", others) : "", usual),
-             "correct this cell, or leave it empty");
-    c.findings.back().line = line_of_sample(c.log, row);
-    std::ranges::replace_if(torque, is_spike, std::numeric_limits<double>::quiet_NaN());
-  }
 }
 
 void check_torques(LogUnderCheck& c) {

@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/log_check/checks.h"
+#include "diagnosis/log_check/columns/column_samples.h"
+#include "diagnosis/log_check/robust.h"
+#include "diagnosis/record/record.h"
+
+namespace halyard {
+namespace {
+
+constexpr double kShortestFreeze = 0.05;  ///< s; slow sensors hold a reading for 33 ms
+constexpr const char* kLeaveEmpty = "leave these cells empty, or leave the column out";
+
+void check_jumps(LogUnderCheck& c, const PositionColumn& column) {
+  const std::string name = column_name(column.signal, column.k);
+  // A sensor that froze jumps where it wakes up, and a corrected column is told already.
+  if (c.has_finding(name)) return;
+  if (const Jumps jumps = jumps_of(c, column); jumps.count > 0)
+    c.suspect(name, jumps.description() + "; a motor or joint cannot follow",
+              std::string("if the sensor froze or lost counts: ") + kLeaveEmpty);
+}
+
+void tell_outliers(LogUnderCheck& c, Signals Log::*signal, int k, const Outliers& found) {
+  if (found.readings == 0) return;
+  c.findings.push_back(
+      {c.log.source, column_name(signal, k),
+       fmt::format("{} reading{} far from the neighbours, at most by {:.4g} at {:.4g} s; usual is {:.2g}",
+                   found.readings, found.readings == 1 ? " lies" : "s lie", found.largest, found.when, found.usual),
+       "nothing to do: a diagnosis leaves these readings out; for other commands leave their cells empty",
+       LogFinding::Severity::corrected});
+}
+
+/// The longest time during which a sensor does not change although it should.
+void check_frozen(LogUnderCheck& c, const PositionColumn& column, const SampledMotion& m) {
+  const int k = column.k;
+  if (m.expected[k].empty() || m.joint[k].empty()) return;
+  const bool is_stuck = std::ranges::count(stuck_joint_sensors(c.log, c.model), k) > 0;
+  const Samples s(c.log, (c.log.*column.signal)[k]);
+  const bool is_motor = column.signal == &Log::motor_position;
+  const double least = c.rule.least_motion * c.range(k);
+  double frozen = 0, from = 0, to = 0;
+  const std::vector<Run> runs = runs_of(s.x);
+  if (runs.empty()) return;
+  const double held = usual_length(runs);
+  for (const Run& run : runs) {
+    std::vector<double> mismatch, other;
+    const double begin = s.time[run.begin], end = s.time[run.end - 1];
+    if (static_cast<double>(run.size()) < 5 * held || end - begin < kShortestFreeze) continue;
+    for (auto i = static_cast<std::size_t>(std::ceil((begin - m.time[0]) / m.step));
+         i < m.time.size() && m.time[i] <= end; ++i) {
+      mismatch.push_back(m.joint[k][i] - m.expected[k][i]);
+      other.push_back((is_motor ? m.joint : m.expected)[k][i]);
+    }
+    if (spread(mismatch) < least || spread(other) < least) continue;
+    frozen += end - begin;
+    if (end - begin > to - from) from = begin, to = end;
+  }
+  if (frozen == 0) return;
+  const bool all = is_motor ? frozen > 0.9 * c.log.duration() : is_stuck;
+  const std::string what =
+      all ? fmt::format("never changes, while the {} moves the joint by {:.3g}", is_motor ? "joint's sensor" : "motor",
+                        spread(is_motor ? m.joint[k] : m.expected[k]))
+          : fmt::format("stands still for {:.3g} s while the {} moves, longest from {:.4g} to {:.4g} s", frozen,
+                        is_motor ? "joint" : "motor", from, to);
+  // A motor's angle drives every prediction; a joint's sensor is only compared.
+  if (is_motor)
+    c.reject(column_name(column.signal, k), what + "; expected the angle of the motor",
+             "give the column of this motor's encoder, or a record in which it works");
+  else c.suspect(column_name(column.signal, k), what + "; the sensor is stuck or not connected", kLeaveEmpty);
+}
+
+/// A position that often stops abruptly at the same extreme value: the end of a counter.
+void check_end_of_counter(LogUnderCheck& c, const PositionColumn& column) {
+  const Samples s(c.log, (c.log.*column.signal)[column.k]);
+  // A frozen sensor is told already.
+  if (s.size() < 20 || c.has_finding(column_name(column.signal, column.k))) return;
+  std::vector<double> steps;
+  for (std::size_t i = 3; i < s.size(); ++i) steps.push_back(std::abs(s.x[i] - s.x[i - 3]));
+  const double usual = quantile(steps, 0.9);
+  const std::vector<Run> runs = runs_of(s.x);
+  const double held = std::max(10.0, 5 * usual_length(runs));
+  const auto [low, high] = std::ranges::minmax(s.x);
+  // A joint that is held steps to and fro between a few counts, or drifts a little, and ends at one of them.
+  constexpr double kFewCounts = 20;
+  double count = high - low;
+  for (std::size_t i = 1; i < s.size(); ++i)
+    if (s.x[i] != s.x[i - 1]) count = std::min(count, std::abs(s.x[i] - s.x[i - 1]));
+  if (high - low < std::max(kFewCounts * count, column.significant)) return;
+  for (const double end : {low, high}) {
+    std::size_t abrupt = 0, all = 0;
+    double time = 0;
+    for (const Run& run : runs) {
+      if (s.x[run.begin] != end || static_cast<double>(run.size()) < held || run.begin < 4 || run.end + 4 > s.size())
+        continue;
+      ++all;
+      time += s.time[run.end - 1] - s.time[run.begin];
+      const double before = std::abs(s.x[run.begin] - s.x[run.begin - 4]), after = std::abs(s.x[run.end + 3] - end);
+      if (std::min(before, after) > 0.5 * usual) ++abrupt;
+    }
+    if (abrupt >= 2 && 2 * abrupt > all)
+      c.suspect(column_name(column.signal, column.k),
+                fmt::format("stops abruptly at its extreme value {:.6g} {} times, for {:.3g} s together: a counter or "
+                            "converter at its end",
+                            end, all, time),
+                kLeaveEmpty);
+  }
+}
+
+}  // namespace
+
+void check_columns(LogUnderCheck& c) {
+  const SampledMotion m = sampled_motion(c.log, c.model);
+  for (const PositionColumn& column : position_columns(c)) {
+    const std::size_t before = c.findings.size();
+    check_frozen(c, column, m);
+    check_end_of_counter(c, column);
+    check_jumps(c, column);
+    // Where a sensor jumps or wakes up, a sample may lie between.
+    if (c.findings.size() == before)
+      tell_outliers(c, column.signal, column.k,
+                    find_outliers(c.log.time, (c.log.*column.signal)[column.k], c.rule.outlier.factor));
+  }
+  for (int k = 0; k < c.n(); ++k)
+    if (c.is_driven(k)) tell_outliers(c, &Log::motor_torque, k, find_torque_outliers(c.log, k, c.rule.outlier));
+}
+
+}  // namespace halyard
