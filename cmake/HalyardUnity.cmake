@@ -67,9 +67,12 @@ compile_together(halyard_diagnosis prediction
   prediction/lane_residuals.cpp prediction/motion_key.cpp prediction/prediction.cpp prediction/shared_lanes.cpp
   prediction/side_by_side.cpp)
 compile_together(halyard_diagnosis log_check
-  log_check/clock.cpp log_check/columns/column_samples.cpp log_check/columns/columns.cpp log_check/columns/counters.cpp
-  log_check/log_check.cpp log_check/log_under_check.cpp log_check/outliers.cpp log_check/own_readings.cpp
-  log_check/positions.cpp log_check/robust.cpp log_check/torques/saturating_torque.cpp
+  log_check/agreement.cpp log_check/clock.cpp log_check/columns/column_samples.cpp log_check/columns/columns.cpp
+  log_check/columns/counters.cpp log_check/exchanges/assignment.cpp
+  log_check/exchanges/joint_exchanges.cpp log_check/exchanges/motor_exchanges.cpp
+  log_check/exchanges/position_exchanges.cpp log_check/exchanges/torque_exchanges.cpp log_check/log_check.cpp
+  log_check/log_under_check.cpp log_check/outliers.cpp log_check/own_readings.cpp log_check/positions.cpp
+  log_check/robust.cpp log_check/torques/needed_torques.cpp log_check/torques/saturating_torque.cpp
   log_check/torques/torque_columns.cpp log_check/torques/torques.cpp log_check/zeros.cpp)
 compile_together(halyard_diagnosis fit
   calibration/lateness.cpp fit/baseline_reach.cpp fit/beyond_numbers.cpp fit/block_variance.cpp

@@ -14,8 +14,8 @@ void check_counters(LogUnderCheck& c);
 /// Frozen and saturated position sensors, jumps and outliers. Runs after check_positions(), on corrected units.
 void check_columns(LogUnderCheck& c);
 
-/// Joint readings against the motors' angles: swapped columns, ratios, units, signs. If a sign is wrong, the sense of
-/// the motor's torque decides whether it is the motor's or the joint sensor's.
+/// Joint readings against the motors' angles: ratios, units, signs. If a sign is wrong, the sense of the motor's torque
+/// decides whether it is the motor's or the joint sensor's. Runs after the checks of exchanged positions (exchanges.h).
 void check_positions(LogUnderCheck& c);
 
 /// Torques at the end of their range. Torques that stop at the model's torque_limit are not reported. Runs after
@@ -25,7 +25,7 @@ void check_clipped_torques(LogUnderCheck& c);
 /// Single torques of an impossible size.
 void check_torque_spikes(LogUnderCheck& c);
 
-/// Recorded torques against those that the motion requires: swapped columns, signs, units.
+/// Recorded torques against those that the motion requires: exchanged columns (exchanges.h), signs, units.
 void check_torques(LogUnderCheck& c);
 
 /// Positions outside their range, and columns that are late.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "diagnosis/log_check/checks.h"
+#include "diagnosis/log_check/exchanges/exchanges.h"
 #include "model/homing.h"
 #include "model/input_error.h"
 
@@ -19,6 +20,9 @@ std::vector<LogFinding> check_log(const Log& log, const ArmModel& model, const C
   check_torque_spikes(c);
   check_counters(c);
   if (c.has_gross()) return c.findings;
+  check_exchanges_at_joints(c);
+  check_position_exchanges(c);
+  check_motor_exchanges(c);
   check_positions(c);
   check_columns(c);
   check_torques(c);

@@ -53,6 +53,9 @@ struct LogCheckRule {
   double ratio = 1.5;
   /// Unknown ratios beyond this factor are gross: no transmission deviates that much from its model.
   double gross_ratio = 3;
+  /// No ratio of a drive is wrong by more than this factor: it is that between a unit and its thousandth, and gears
+  /// reach some 300. Beyond it the column is another one, and a scale would hide that.
+  double most_ratio = 1000;
   /// A wrong unit explains a slope that is within this factor of the slope which that unit would give. The margin is
   /// wider than the change by an effect, and far below the factor between two units.
   double unit = 1.25;

@@ -30,12 +30,6 @@ std::vector<double> at_instants(const Log& log, const std::vector<double>& colum
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// The columns of the file behind two standard columns; a period belongs to the file's column.
-void exchange(ColumnSource& a, ColumnSource& b) {
-  std::swap(a.column, b.column);
-  std::swap(a.wrap, b.wrap);
-}
-
 }  // namespace
 
 SampledMotion sampled_motion(const Log& log, const ArmModel& model) {
@@ -141,10 +135,22 @@ double LogUnderCheck::wrap_of(const std::string& column) const {
   return source.wrap * std::abs(source.scale);
 }
 
-std::string LogUnderCheck::swap_options(const std::string& a, const std::string& b) const {
-  ColumnSource of_a = source_of(a), of_b = source_of(b);
-  exchange(of_a, of_b);
-  return option(a, of_a) + " " + option(b, of_b);
+std::vector<ColumnSource> LogUnderCheck::exchanged(const ColumnCircle& circle) const {
+  std::vector<ColumnSource> sources;
+  for (std::size_t i = 0; i < circle.size(); ++i) {
+    const ColumnSource from = source_of(circle[(i + 1) % circle.size()].name());
+    ColumnSource to = source_of(circle[i].name());
+    to.column = from.column, to.wrap = from.wrap;
+    sources.push_back(to);
+  }
+  return sources;
+}
+
+std::string LogUnderCheck::exchange_options(const ColumnCircle& circle) const {
+  const std::vector<ColumnSource> sources = exchanged(circle);
+  std::string options;
+  for (std::size_t i = 0; i < circle.size(); ++i) options += (i > 0 ? " " : "") + option(circle[i].name(), sources[i]);
+  return options;
 }
 
 void LogUnderCheck::correct(Signals Log::*signal, int k, const Correction& c) {
@@ -154,15 +160,19 @@ void LogUnderCheck::correct(Signals Log::*signal, int k, const Correction& c) {
   sources_[column] = corrected(column, c);
 }
 
-void LogUnderCheck::swap(Signals Log::*signal, int i, int j) {
-  ColumnSource of_i = source_of(column_name(signal, i)), of_j = source_of(column_name(signal, j));
-  std::swap((log.*signal)[i], (log.*signal)[j]);
-  const auto rescale = [&](int k, const ColumnSource& from, const ColumnSource& to) {
-    for (double& x : (log.*signal)[k]) x = (x - from.offset) / from.scale * to.scale + to.offset;
-  };
-  rescale(i, of_j, of_i), rescale(j, of_i, of_j);
-  exchange(of_i, of_j);
-  sources_[column_name(signal, i)] = of_i, sources_[column_name(signal, j)] = of_j;
+void LogUnderCheck::exchange(const ColumnCircle& circle) {
+  const std::vector<ColumnSource> sources = exchanged(circle);
+  std::vector<std::vector<double>> values;
+  for (std::size_t i = 0; i < circle.size(); ++i) {
+    const ColumnPlace& behind = circle[(i + 1) % circle.size()];
+    const ColumnSource from = source_of(behind.name());
+    values.push_back((log.*behind.signal)[behind.k]);
+    for (double& x : values.back()) x = (x - from.offset) / from.scale * sources[i].scale + sources[i].offset;
+  }
+  for (std::size_t i = 0; i < circle.size(); ++i) {
+    (log.*circle[i].signal)[circle[i].k] = std::move(values[i]);
+    sources_[circle[i].name()] = sources[i];
+  }
 }
 
 std::string column_name(Signals Log::*signal, int k) {

@@ -34,6 +34,18 @@ struct UnitGuess {
   std::string what;   ///< "degrees"
 };
 
+/// "motor_position_2" of Log::motor_position and k = 1.
+std::string column_name(Signals Log::*signal, int k);
+
+/// A column of a log, by the signal and the joint that it stands for.
+struct ColumnPlace {
+  Signals Log::*signal;
+  int k;
+  std::string name() const { return column_name(signal, k); }
+};
+/// Columns that are exchanged: each takes the values behind the next one, and the last those behind the first.
+using ColumnCircle = std::vector<ColumnPlace>;
+
 class LogUnderCheck {
  public:
   LogUnderCheck(const Log& log, const ArmModel& model, const ColumnMap& columns, const LogCheckRule& rule)
@@ -71,24 +83,24 @@ class LogUnderCheck {
   double scale_of(const std::string& column) const { return std::abs(source_of(column).scale); }
   /// Period after which the column starts again according to its map, in its SI unit; 0: none.
   double wrap_of(const std::string& column) const;
-  /// Options that exchange the columns of the file behind two standard columns.
-  std::string swap_options(const std::string& a, const std::string& b) const;
+  /// Options that exchange the columns of the file behind the standard columns of a circle.
+  std::string exchange_options(const ColumnCircle& circle) const;
 
   void correct(Signals Log::*signal, int k, const Correction& correction);
-  /// Exchanges the raw values behind two columns of a signal. Each keeps its own scale and offset; a period belongs to
-  /// the values.
-  void swap(Signals Log::*signal, int i, int j);
+  /// Exchanges the raw values behind the columns of a circle. Each column keeps its own scale and offset; a period
+  /// belongs to the values.
+  void exchange(const ColumnCircle& circle);
 
  private:
   ColumnSource source_of(const std::string& column) const;
+  /// The sources of the columns of a circle after their exchange.
+  std::vector<ColumnSource> exchanged(const ColumnCircle& circle) const;
   ColumnSource corrected(const std::string& column, const Correction& correction) const;
   std::string option(const std::string& column, const ColumnSource& source) const;
 
   std::map<std::string, ColumnSource, std::less<>> sources_;  ///< with the corrections so far
 };
 
-/// "motor_position_2" of Log::motor_position and k = 1.
-std::string column_name(Signals Log::*signal, int k);
 /// Units of a joint's or a motor's position. Encoder counts are among them only if the model states the encoder's
 /// resolution.
 std::vector<UnitGuess> position_units(bool prismatic, double resolution);

@@ -3,115 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
+#include "diagnosis/log_check/agreement.h"
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/robust.h"
-#include "model/homing.h"
 
 namespace halyard {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kChange_s = 0.5;  ///< between two samples whose change is compared: longer than delays and vibrations
 
-/// Slope of joint k's reading over its expectation, or, if that explains more, of the reading plus coupling over what
-/// its own motor gives. The first suits a wrong reading; the second a wrong motor, whose coupling is right.
-Slope slope_at(const SampledMotion& m, int k) {
-  const double longest = 0.25 * m.step * static_cast<double>(m.time.size());
-  const auto change = static_cast<std::size_t>(std::max(1.0, std::min(kChange_s, longest) / m.step));
-  std::vector<double> of_cable = m.joint[k];
-  for (std::size_t i = 0; i < of_cable.size(); ++i) of_cable[i] += m.own[k][i] - m.expected[k][i];
-  const Slope joint = slope_of(m.joint[k], m.expected[k], change);
-  if (spread(m.own[k]) < 1e-6 * spread(of_cable)) return joint;  // the motor does not move
-  const Slope cable = slope_of(of_cable, m.own[k], change);
-  return cable.explained > joint.explained ? cable : joint;
-}
-
-bool is_near(double ratio, double expected, double within) {
-  return ratio * expected > 0 && std::abs(std::log(ratio / expected)) < std::log(within);
-}
-
-bool moves(const LogUnderCheck& c, int k, const std::vector<double>& position) {
-  return spread(position) > c.rule.least_motion * c.range(k);
-}
-
-/// An explanation of a slope: which of two columns is wrong, and by what factor.
-struct Explanation {
-  Signals Log::*signal;
-  UnitGuess unit;
-  double misfit;  ///< smaller is better
-};
-
-/// Explanations of |slope| by a unit of either column, by a scale of its map that it should not have, or by a motor's
-/// angle that is not one at its shaft.
-std::optional<Explanation> unit_that_explains(const LogUnderCheck& c, const SampledMotion& m, int k, double slope) {
-  constexpr double kCoincidence = 0.5;  // that a scale of the map is exactly what is too much
-  const JointParameters<double>& j = c.model.nominal.joint[k];
-  std::optional<Explanation> best;
-  const double joint_beyond = c.beyond_range(k, m.joint[k], j.joint_zero_known);
-  const double motor_beyond = c.beyond_range(k, m.expected[k], j.motor_zero_known);
-  const auto undone = [&](Signals Log::*signal) { return 1 / c.scale_of(column_name(signal, k)); };
-  const auto try_one = [&](Signals Log::*signal, const UnitGuess& unit) {
-    // The reading has 1 / factor of its size, or its expectation has.
-    const double expected = signal == &Log::joint_position ? 1 / unit.factor : unit.factor;
-    if (is_near(expected, 1, c.rule.ratio) || !is_near(std::abs(slope), expected, c.rule.unit)) return;
-    const double misfit = std::abs(std::log(std::abs(slope) / expected)) / std::log(c.rule.unit) +
-                          (signal == &Log::joint_position ? motor_beyond : joint_beyond) +
-                          (unit.factor == undone(signal) ? 0 : kCoincidence);
-    if (!best || misfit < best->misfit) best = {signal, unit, misfit};
-  };
-  for (const UnitGuess& unit : position_units(j.type == JointType::prismatic, j.joint_encoder_resolution))
-    try_one(&Log::joint_position, unit);
-  std::vector<UnitGuess> of_motor = position_units(false, j.motor_encoder_resolution);
-  of_motor.push_back({"", j.gear_ratio, "the angle behind the gear"});
-  of_motor.push_back({"", 1 / c.joint_per_motor(k), "the joint's own position"});
-  for (const UnitGuess& unit : of_motor) try_one(&Log::motor_position, unit);
-  for (const auto signal : {&Log::joint_position, &Log::motor_position})
-    try_one(signal, {"", undone(signal), "in SI units before its column map converts it"});
-  return best;
-}
-
-/// How badly joint k's reading agrees with its expectation; infinite if it does not at all.
-double disagreement(const LogUnderCheck& c, const SampledMotion& m, int k, double least_explained) {
-  const JointParameters<double>& j = c.model.nominal.joint[k];
-  const Slope s = slope_at(m, k);
-  if (s.explained < least_explained || !is_near(s.slope, 1, c.rule.ratio)) return kInfinity;
-  double sum = std::abs(std::log(s.slope)) + (1 - s.explained);
-  if (j.joint_zero_known && j.motor_zero_known && c.range(k) > 0)
-    sum += std::abs(median(m.joint[k]) - median(m.expected[k])) / c.range(k);
-  return sum;
-}
-
-/// Swaps motors or joints i and j if that makes both readings agree with the model.
-bool check_swap(LogUnderCheck& c, const SampledMotion& m, int i, int j) {
-  for (const int k : {i, j}) {
-    if (m.joint[k].empty() || m.expected[k].empty()) return false;
-    if (!moves(c, k, m.joint[k]) && !moves(c, k, m.expected[k])) return false;
-    if (disagreement(c, m, k, c.rule.explained) < kInfinity) return false;
-  }
-  double best = kInfinity;
-  Signals Log::*which = nullptr;
-  for (const auto signal : {&Log::motor_position, &Log::joint_position}) {
-    LogUnderCheck swapped = c;
-    swapped.swap(signal, i, j);
-    home_encoders(swapped.log, c.model);
-    const SampledMotion motion = sampled_motion(swapped.log, c.model);
-    const double left = disagreement(swapped, motion, i, c.rule.explained_by_swap) +
-                        disagreement(swapped, motion, j, c.rule.explained_by_swap);
-    if (left < best) best = left, which = signal;
-  }
-  if (!which) return false;
-  const std::string a = column_name(which, i), b = column_name(which, j);
-  c.reject(
-      a,
-      fmt::format("seems to be exchanged with {}: joint {}'s reading follows motor {}, and the reverse; expected its "
-                  "own motor",
-                  b, i + 1, j + 1),
-      "exchange them with " + c.swap_options(a, b));
-  c.swap(which, i, j);
-  home_encoders(c.log, c.model);
-  return true;
+/// A joint's reading that is no position of the joint in any unit: nothing more is concluded from it.
+void reject_reading(LogUnderCheck& c, int k, const std::string& seen) {
+  c.reject(column_name(&Log::joint_position, k), seen + ", which no unit explains",
+           fmt::format("say which columns of the file these are, with --column joint_position_{0}=NAME or --column "
+                       "motor_position_{0}=NAME; if one counts the steps of its encoder, state the encoder's "
+                       "resolution in <encoders> of joint {0}",
+                       k + 1));
+  c.log.joint_position[k].clear();
 }
 
 void check_ratio(LogUnderCheck& c, const SampledMotion& m, int k, const Slope& s) {
@@ -126,6 +35,7 @@ void check_ratio(LogUnderCheck& c, const SampledMotion& m, int k, const Slope& s
     c.correct(unit->signal, k, correction);
     return;
   }
+  if (!is_near(std::abs(s.slope), 1, c.rule.most_ratio)) return reject_reading(c, k, seen);
   const Correction correction{.unit_factor = 1 / std::abs(s.slope)};
   const std::string remedy =
       fmt::format("correct gear_ratio, capstan_radius or pulley_radius of joint {} in the model, or read it with {}",
@@ -186,11 +96,18 @@ void check_range_of_motion(LogUnderCheck& c, const SampledMotion& m, int k) {
         c.beyond_range(k, corrected, j.motor_zero_known && j.motor_encoder_offset == 0) - 0.1 * std::min(1.0, used);
     if (misfit < best) best = misfit, guess = "in " + unit.what, correction.unit_factor = unit.factor;
   }
+  // A factor that only fits would hide what is wrong.
+  const std::string remedy = best < kInfinity
+                                 ? "read it with " + c.option(name, correction)
+                                 : fmt::format(
+                                       "give the column its unit, or a scale that you know, by --column {0}=NAME, "
+                                       "or correct the range of joint {1} in the model",
+                                       name, k + 1);
   c.reject(name,
            fmt::format("moves joint {} by {:.3g}, {:.3g} times its range, as if the angle were {}; expected rad at the "
                        "motor shaft",
                        k + 1, spread(m.expected[k]), spread(m.expected[k]) / c.range(k), guess),
-           "read it with " + c.option(name, correction));
+           remedy);
   c.correct(&Log::motor_position, k, correction);
 }
 
@@ -207,9 +124,6 @@ void check_relation(LogUnderCheck& c, const SampledMotion& m, int k) {
 
 void check_positions(LogUnderCheck& c) {
   SampledMotion m = sampled_motion(c.log, c.model);
-  for (int i = 0; i < c.n(); ++i)
-    for (int j = i + 1; j < c.n(); ++j)
-      if (check_swap(c, m, i, j)) m = sampled_motion(c.log, c.model);
   std::vector<std::pair<int, Slope>> reversed_joints;
   // From the base outward: a joint's expected reading depends on the motors inboard.
   for (int k = 0; k < c.n(); ++k) {
@@ -219,7 +133,7 @@ void check_positions(LogUnderCheck& c) {
     if (has_sensor && (moves(c, k, m.joint[k]) || moves(c, k, m.expected[k]))) s = slope_at(m, k);
     if (s.explained >= c.rule.explained) {
       if (!is_near(std::abs(s.slope), 1, c.rule.ratio)) check_ratio(c, m, k, s);
-      if (s.slope < 0) reversed_joints.emplace_back(k, s);
+      if (s.slope < 0 && !c.log.joint_position[k].empty()) reversed_joints.emplace_back(k, s);
     } else {
       check_range_of_motion(c, m, k);
       if (has_sensor) check_relation(c, m, k);

@@ -2,51 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "diagnosis/calibration/torque_comparison.h"
 #include "diagnosis/log_check/checks.h"
+#include "diagnosis/log_check/exchanges/exchanges.h"
 #include "diagnosis/log_check/robust.h"
+#include "diagnosis/log_check/torques/needed_torques.h"
 #include "diagnosis/log_check/torques/saturating_torque.h"
 #include "diagnosis/prediction/room.h"
-#include "model/input_error.h"
 
 namespace halyard {
 namespace {
-
-/// Nothing if the part is too short for a record.
-std::optional<TorqueComparison> torques_of(const LogUnderCheck& c, const Log& part) {
-  try {
-    return compare_torques(c.model, make_records(part, c.model, {}));
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-}
-
-/// Part by part: a comparison needs many times the memory of its part. Nothing if no part of the log is long enough;
-/// diagnose() says so itself.
-std::optional<TorqueComparison> torques_of(const LogUnderCheck& c) {
-  constexpr double kPart_s = 120;
-  std::optional<TorqueComparison> all;
-  const std::vector<double>& time = c.log.time;
-  for (std::size_t begin = 0, end = 0; begin < time.size(); begin = end) {
-    end = static_cast<std::size_t>(std::ranges::upper_bound(time, time[begin] + kPart_s) - time.begin());
-    const auto part = torques_of(c, slice(c.log, begin, end));
-    if (part && all) append(*all, *part);
-    else if (part) all = part;
-  }
-  return all;
-}
-
-/// The correlation if it is significant for its number of independent samples; 0 otherwise.
-Correlation significant(const LogUnderCheck& c, const TorqueComparison& t, int recorded, int needed) {
-  Correlation r = correlation_of(t.recorded[recorded], t.needed[needed]);
-  const double independent = static_cast<double>(r.n) * t.step / c.rule.independent_s;
-  if (independent < 4 || std::abs(r.r) * std::sqrt(independent) < c.rule.significance) return {};
-  return r;
-}
-
-bool has_known_scale(const LogUnderCheck& c, int k) { return c.model.joints[k].tolerances.torque_scale < 1; }
 
 /// Without a sensor at the joint, the torque's or the motor angle's sign may be wrong: the joint's range tells which.
 void check_torque_sign(LogUnderCheck& c, const SampledMotion& m, int k, const Correlation& r) {
@@ -130,30 +95,11 @@ void check_torque_unit(LogUnderCheck& c, const TorqueComparison& t, int k, const
   c.correct(&Log::motor_torque, k, correction);
 }
 
-bool check_torque_swap(LogUnderCheck& c, const TorqueComparison& t, int i, int j) {
-  if (!has_known_scale(c, i) || !has_known_scale(c, j)) return false;
-  double straight = 0, crossed = 1;
-  for (const auto& [own, other] : {std::pair(i, j), std::pair(j, i)}) {
-    const double r_own = significant(c, t, own, own).r, r_other = significant(c, t, other, own).r;
-    const bool better = 1 - r_other * r_other < c.rule.swap_leaves * (1 - r_own * r_own);
-    if (r_own > c.rule.own_torque || r_other < c.rule.torque_goes_with || !better) return false;
-    straight = std::max(straight, r_own), crossed = std::min(crossed, r_other);
-  }
-  const std::string a = column_name(&Log::motor_torque, i), b = column_name(&Log::motor_torque, j);
-  c.reject(a,
-           fmt::format("seems to be exchanged with {}: each goes with the other motor's motion (correlation at least "
-                       "{:.2f}) and less with its own (at most {:.2f})",
-                       b, crossed, straight),
-           "exchange them with " + c.swap_options(a, b));
-  c.swap(&Log::motor_torque, i, j);
-  return true;
-}
-
 }  // namespace
 
 std::vector<int> torque_senses(const LogUnderCheck& c) {
   std::vector<int> senses(c.n(), 0);
-  const auto t = torques_of(c);
+  const auto t = needed_torques(c);
   for (int k = 0; t && k < c.n(); ++k) {
     const double r = significant(c, *t, k, k).r;
     senses[k] = r < c.rule.torque_opposes ? -1 : r > -c.rule.torque_opposes ? 1 : 0;
@@ -162,15 +108,13 @@ std::vector<int> torque_senses(const LogUnderCheck& c) {
 }
 
 void check_torques(LogUnderCheck& c) {
-  auto t = torques_of(c);
+  auto t = needed_torques(c);
   if (t && !t->is_predicted)
     return c.suspect("motor_torque",
                      "was not compared with what the motion requires, because the model cannot be integrated along it" +
                          fastest_state(c.model),
                      "take larger smoothing speeds, or less damping, in the model");
-  for (int i = 0; t && i < c.n(); ++i)
-    for (int j = i + 1; t && j < c.n(); ++j)
-      if (check_torque_swap(c, *t, i, j)) t = torques_of(c);
+  if (t && check_torque_exchanges(c, *t)) t = needed_torques(c);
   const SampledMotion m = sampled_motion(c.log, c.model);
   for (int k = 0; t && k < c.n(); ++k) {
     const Correlation r = significant(c, *t, k, k);

@@ -40,6 +40,11 @@ inline Change put(const std::string& from, const std::string& to) {
   return [=](const std::string& text) { return replaced(text, from, to); };
 }
 
+/// Exchanges two names.
+inline Change exchanged(const std::string& a, const std::string& b) {
+  return [=](const std::string& text) { return replaced(replaced(replaced(text, a, "?"), b, a), "?", b); };
+}
+
 inline Change whole(const std::string& text) {
   return [=](const std::string&) { return text; };
 }

@@ -87,6 +87,22 @@ inline std::vector<BadInputRow> bad_logs() {
        "bad.csv: motor_position_2: seems to be exchanged with motor_position_3: joint 2's reading follows motor 3, and "
        "the reverse; expected its own motor; exchange them with --column motor_position_2=motor_position_3 --column "
        "motor_position_3=motor_position_2"},
+      {"MotorsInACircle", Wrong::motion,
+       put("motor_position_1,motor_position_2,motor_position_3", "motor_position_2,motor_position_3,motor_position_1"),
+       "bad.csv: motor_position_1: seems to be exchanged in a circle with motor_position_2, motor_position_3: joint "
+       "1's "
+       "reading follows motor 2, joint 2's motor 3, joint 3's motor 1; expected its own motor; exchange them with "
+       "--column motor_position_1=motor_position_2 --column motor_position_2=motor_position_3 --column "
+       "motor_position_3=motor_position_1"},
+      {"MotorForItsJoint", Wrong::motion, exchanged("motor_position_1", "joint_position_1"),
+       "bad.csv: motor_position_1: seems to be exchanged with joint_position_1: once exchanged, joint 1's reading "
+       "follows its motor; as they are, it does not; exchange them with --column motor_position_1=joint_position_1 "
+       "--column joint_position_1=motor_position_1"},
+      {"TorqueForItsMotor", Wrong::motion, exchanged("motor_position_2", "motor_torque_2"),
+       "bad.csv: motor_position_2: seems to be exchanged with motor_torque_2: once exchanged, joint 2's reading "
+       "follows "
+       "its motor; as they are, it does not; exchange them with --column motor_position_2=motor_torque_2 --column "
+       "motor_torque_2=motor_position_2"},
       {"MotorWraps", Wrong::motion,
        changed({"motor_position_1"},
                [](int, double x) { return x - 2 * std::numbers::pi * std::floor(x / (2 * std::numbers::pi)); }),

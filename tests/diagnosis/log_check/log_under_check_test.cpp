@@ -75,11 +75,12 @@ TEST(LogUnderCheck, AnotherUnitOfTheFileLeavesTheOffsetOfItsMap) {
 
 TEST(LogUnderCheck, AnExchangeSwapsWhatTheFileHasAndKeepsScalesAndOffsets) {
   LogUnderCheck c = Mapped().check();
-  const std::string told = c.swap_options("motor_position_1", "motor_position_2");
+  const ColumnCircle pair = {{kMotors, 0}, {kMotors, 1}};
+  const std::string told = c.exchange_options(pair);
   EXPECT_EQ(told,
             "--column motor_position_1=two,scale=2,offset=0.5,wrap=100 "
             "--column motor_position_2=one,scale=4,sign=-1,offset=-3");
-  c.swap(kMotors, 0, 1);
+  c.exchange(pair);
   for (std::size_t i = 0; i < 3; ++i) {
     const double x = Mapped().log.motor_position[0][i];
     const double one = (x - 0.5) / 2, two = (x + 3) / -4;  // in the file
@@ -87,7 +88,7 @@ TEST(LogUnderCheck, AnExchangeSwapsWhatTheFileHasAndKeepsScalesAndOffsets) {
     EXPECT_DOUBLE_EQ(c.log.motor_position[1][i], -4 * one - 3);
   }
   EXPECT_EQ(c.option("motor_position_1", Correction{}) + " " + c.option("motor_position_2", Correction{}), told);
-  c.swap(kMotors, 0, 1);
+  c.exchange(pair);
   for (std::size_t i = 0; i < 3; ++i)
     for (int k = 0; k < 2; ++k) EXPECT_DOUBLE_EQ(c.log.motor_position[k][i], Mapped().log.motor_position[k][i]);
 }
