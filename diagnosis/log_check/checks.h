@@ -22,6 +22,9 @@ void check_positions(LogUnderCheck& c);
 /// check_torques(), because this comparison needs corrected units.
 void check_clipped_torques(LogUnderCheck& c);
 
+/// Torques that stay the same while their motor moves. Runs after check_positions(), on corrected units.
+void check_frozen_torques(LogUnderCheck& c);
+
 /// Single torques of an impossible size.
 void check_torque_spikes(LogUnderCheck& c);
 

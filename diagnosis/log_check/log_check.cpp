@@ -25,6 +25,7 @@ std::vector<LogFinding> check_log(const Log& log, const ArmModel& model, const C
   check_motor_exchanges(c);
   check_positions(c);
   check_columns(c);
+  check_frozen_torques(c);
   check_torques(c);
   check_clipped_torques(c);
   check_zeros(c);

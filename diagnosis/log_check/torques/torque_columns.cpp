@@ -32,6 +32,71 @@ void check_clipped_torque(LogUnderCheck& c, int k) {
   }
 }
 
+/// Whether a torque stays where a drive limits it, or where its range ends.
+bool is_at_end(const LogUnderCheck& c, int k, double torque, double low, double high) {
+  const double limit = c.model.joints[k].controller.torque_limit;
+  return torque == low || torque == high || (limit > 0 && std::abs(std::abs(torque) / limit - 1) < c.rule.at_limit);
+}
+
+/// Motion of a motor that counts as such, rad. Where controllers of right logs hold a torque for more than 0.05 s, the
+/// motor does not change by a single count.
+double least_motion(const LogUnderCheck& c, int k) {
+  const double range = c.range(k) / std::abs(c.joint_per_motor(k));
+  return 0.01 * (range > 0 ? range : spread(c.log.motor_position[k]));
+}
+
+/// The rows in which a torque stays the same although its motor moves.
+struct FrozenRows {
+  std::size_t begin, end;
+};
+
+std::vector<FrozenRows> frozen_rows(const LogUnderCheck& c, int k, const Samples& s) {
+  const std::vector<Run> runs = runs_of(s.x);
+  const auto [low, high] = std::ranges::minmax(s.x);
+  const double least = least_motion(c, k), shortest = low == high ? 0 : 5 * usual_length(runs);
+  std::vector<FrozenRows> frozen;
+  for (const Run& run : runs) {
+    const double torque = s.x[run.begin], begin = s.time[run.begin], end = s.time[run.end - 1];
+    // A torque of 0 was not recorded, or the drive was off.
+    if (torque == 0 || end - begin < c.rule.independent_s || static_cast<double>(run.size()) < shortest) continue;
+    if (low != high && is_at_end(c, k, torque, low, high)) continue;
+    const auto first = std::ranges::lower_bound(c.log.time, begin), last = std::ranges::upper_bound(c.log.time, end);
+    const FrozenRows rows = {static_cast<std::size_t>(first - c.log.time.begin()),
+                             static_cast<std::size_t>(last - c.log.time.begin())};
+    const std::vector<double>& motor = c.log.motor_position[k];
+    if (spread({motor.begin() + static_cast<std::ptrdiff_t>(rows.begin),
+                motor.begin() + static_cast<std::ptrdiff_t>(rows.end)}) > least)
+      frozen.push_back(rows);
+  }
+  return frozen;
+}
+
+void check_frozen_torque(LogUnderCheck& c, int k) {
+  std::vector<double>& torque = c.log.motor_torque[k];
+  const Samples s(c.log, torque);
+  if (s.size() < 20 || c.log.motor_position[k].empty()) return;
+  const std::vector<FrozenRows> frozen = frozen_rows(c, k, s);
+  if (frozen.empty()) return;
+  const auto [low, high] = std::ranges::minmax(s.x);
+  double all = 0, from = 0, to = 0;
+  for (const auto& [begin, end] : frozen) {
+    const double first = c.log.time[begin], last = c.log.time[end - 1];
+    all += last - first;
+    if (last - first > to - from) from = first, to = last;
+    std::fill(torque.begin() + static_cast<std::ptrdiff_t>(begin), torque.begin() + static_cast<std::ptrdiff_t>(end),
+              std::numeric_limits<double>::quiet_NaN());
+  }
+  const std::string name = column_name(&Log::motor_torque, k);
+  const std::string what =
+      low == high ? fmt::format("is exactly {:.6g} N m all the time, while its motor moves", low)
+                  : fmt::format("stays the same for {:.3g} s while its motor moves, longest from {:.4g} to {:.4g} s",
+                                all, from, to);
+  c.suspect(name, what + "; expected a torque that changes with the motion",
+            fmt::format("if this was not the command, {}read the log without this torque with --column {}=: check and "
+                        "diagnose do without it",
+                        low == high ? "" : "leave these cells empty, or ", name));
+}
+
 }  // namespace
 
 void check_torque_spikes(LogUnderCheck& c) {
@@ -53,6 +118,11 @@ void check_torque_spikes(LogUnderCheck& c) {
     c.findings.back().line = line_of_sample(c.log, row);
     std::ranges::replace_if(torque, is_spike, std::numeric_limits<double>::quiet_NaN());
   }
+}
+
+void check_frozen_torques(LogUnderCheck& c) {
+  for (int k = 0; k < c.n(); ++k)
+    if (c.is_driven(k)) check_frozen_torque(c, k);
 }
 
 void check_clipped_torques(LogUnderCheck& c) {
