@@ -81,6 +81,8 @@ class LogUnderCheck {
   std::string wrap_option(const std::string& column, double period) const;
   /// SI unit per raw unit according to the column's map, without the sign.
   double scale_of(const std::string& column) const { return std::abs(source_of(column).scale); }
+  /// What is added to the column according to its map and to the corrections so far, in its SI unit.
+  double offset_of(const std::string& column) const { return source_of(column).offset; }
   /// Period after which the column starts again according to its map, in its SI unit; 0: none.
   double wrap_of(const std::string& column) const;
   /// Options that exchange the columns of the file behind the standard columns of a circle.

@@ -23,6 +23,22 @@ double median_mismatch(const SampledMotion& m, int k) {
   return off.empty() ? std::numeric_limits<double>::quiet_NaN() : median(off);
 }
 
+/// The offset of a motor without a sensor at its joint: the numbers between which its motion fits into the joint's range.
+std::string offset_that_fits(const LogUnderCheck& c, const std::vector<double>& expected, int k) {
+  const std::string motor = column_name(&Log::motor_position, k);
+  const double per_motor = c.joint_per_motor(k), of_map = c.offset_of(motor);
+  const double up_to_lower = c.model.joints[k].lower - quantile(expected, 0);
+  const double up_to_upper = c.model.joints[k].upper - quantile(expected, 1);
+  const std::string middle = c.option(motor, Correction{.offset = 0.5 * (up_to_lower + up_to_upper) / per_motor});
+  if (up_to_lower > up_to_upper)
+    return "the motion is wider than the range; its middle is in that of the range with " + middle;
+  const auto [first, last] = std::minmax({up_to_lower / per_motor, up_to_upper / per_motor});
+  return fmt::format(
+      "the motion fits into the range with an offset of {:.4g} to {:.4g} rad: hold the joint at a known position to "
+      "measure it, or begin with the middle, {}",
+      of_map + first, of_map + last, middle);
+}
+
 void check_zero(LogUnderCheck& c, const SampledMotion& m, int k) {
   const JointParameters<double>& j = c.model.nominal.joint[k];
   if (!(c.range(k) > 0) || m.expected[k].empty()) return;
@@ -52,8 +68,8 @@ void check_zero(LogUnderCheck& c, const SampledMotion& m, int k) {
   if (beyond(c, k, expected) > c.rule.outside && j.motor_zero_known)
     c.suspect(motor,
               fmt::format("puts joint {} at {:.4g} in the median, outside its range, {}", k + 1, expected, range),
-              "check the sign and the zero of this column, or the range in the model; an offset goes into " +
-                  c.option(motor, Correction{.offset = 0}) + ",offset=...");
+              "check the sign and the zero of this column, or the range in the model; " +
+                  offset_that_fits(c, m.expected[k], k));
 }
 
 /// A counter that starts again does not say in which lap a log begins; the joint's own reading does. A mismatch within

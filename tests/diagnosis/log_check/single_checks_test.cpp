@@ -307,6 +307,28 @@ TEST(ZeroCheck, TellsAMotorThatPutsItsJointAQuarterOfARangeOutside) {
   EXPECT_EQ(zero_told(1.9, std::nullopt).what, "");
 }
 
+TEST(ZeroCheck, TellsBetweenWhichOffsetsTheMotionOfAMotorFitsIntoTheRange) {
+  // It may stand anywhere from 0 to 1.571 rad: 2.1 rad less by 0.529 to 2.1 rad. One rad of the motor is 7.343 mrad.
+  EXPECT_EQ(
+      zero_told(2.1, std::nullopt).remedy,
+      "check the sign and the zero of this column, or the range in the model; the motion fits into the range with "
+      "an offset of -286 to -72.08 rad: hold the joint at a known position to measure it, or begin with the "
+      "middle, " +
+          option("motor_position_1", "offset=-179.044"));
+}
+
+TEST(ZeroCheck, PutsTheMiddleOfAMotionThatIsWiderThanTheRangeIntoItsMiddle) {
+  // From 1.3 to 3.3 rad; the range is 0 to 1.571 rad.
+  Log log = log_along(4, 100, [](double t) { return 2.3 - std::cos(1.7 * t); });
+  log.joint_position[0].clear();
+  const std::vector<LogFinding> findings = found_by(check_zeros, log, first_joints(1));
+  ASSERT_EQ(findings.size(), 1u) << lines_of(findings);
+  EXPECT_NE(findings[0].remedy.find("the motion is wider than the range; its middle is in that of the range with " +
+                                    option("motor_position_1", "offset=-206.")),
+            std::string::npos)
+      << findings[0].remedy;
+}
+
 TEST(DelayCheck, TellsByHowMuchASensorIsLateOrAhead) {
   const ArmModel model = first_joints(1);
   const auto told = [&](double late) {
