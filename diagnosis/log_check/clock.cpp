@@ -7,6 +7,7 @@
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/clock_check.h"
 #include "diagnosis/log_check/robust.h"
+#include "diagnosis/record/record.h"
 
 namespace halyard {
 namespace {
@@ -30,6 +31,17 @@ bool check_order(LogUnderCheck& c, const std::vector<double>& steps) {
   return false;
 }
 
+struct TimeUnit {
+  double seconds;
+  const char* name;
+};
+constexpr TimeUnit kMinutes = {60, "minutes"};
+
+/// The option that reads the times in a unit.
+std::string option_of(const LogUnderCheck& c, const TimeUnit& unit) {
+  return c.option("time", Correction{.factor = unit.seconds});
+}
+
 /// False if the sample rate is implausible.
 bool check_unit(LogUnderCheck& c, double step) {
   const double slowest = 1 / c.rule.slowest_hz, fastest = 1 / c.rule.fastest_hz;
@@ -39,10 +51,11 @@ bool check_unit(LogUnderCheck& c, double step) {
     return step * factor > fastest && step * factor <= slowest && c.log.duration() * factor > kShortestLog;
   };
   std::string units, remedy = "give the times in s, or a record with at least 10 samples a second";
-  for (const auto& [factor, name] : {std::pair(1e-3, "milliseconds"), std::pair(1e-6, "microseconds")}) {
-    if (!is_plausible(factor)) continue;
-    if (units.empty()) remedy = "read it with " + c.option("time", Correction{.factor = factor});
-    units += (units.empty() ? "; it looks like a time in " : " or ") + std::string(name);
+  for (const TimeUnit& unit :
+       {TimeUnit{1e-3, "milliseconds"}, TimeUnit{1e-6, "microseconds"}, TimeUnit{1e-9, "nanoseconds"}, kMinutes}) {
+    if (!is_plausible(unit.seconds)) continue;
+    if (units.empty()) remedy = "read it with " + option_of(c, unit);
+    units += (units.empty() ? "; it looks like a time in " : " or ") + std::string(unit.name);
   }
   c.reject("time",
            fmt::format("a sample follows another after {:.4g} s; expected at least {:g} and at most {:g} samples a "
@@ -50,6 +63,27 @@ bool check_unit(LogUnderCheck& c, double step) {
                        step, c.rule.slowest_hz, c.rule.fastest_hz, units),
            remedy);
   return false;
+}
+
+/// A log that is shorter than any record, or has more samples a second than a controller takes: its time may be in
+/// minutes. Gross if it is both, and minutes explain both.
+void check_duration(LogUnderCheck& c, double step) {
+  const RecordOptions record;
+  const double shortest = 1 + record.settle_s, duration = c.log.duration();
+  const bool is_short = duration < shortest, is_fast = step < 1 / c.rule.controller_hz;
+  if (!is_short && !is_fast) return;
+  const bool in_minutes = duration * kMinutes.seconds >= shortest && step * kMinutes.seconds <= 1 / c.rule.slowest_hz;
+  const std::string expected =
+      is_short ? fmt::format("expected at least {:g} s, the shortest record from which a diagnosis learns", shortest)
+               : fmt::format("expected at most {:g} samples a second, as controllers take them", c.rule.controller_hz);
+  const std::string what =
+      fmt::format("{} samples in {:.4g} s, one after {:.4g} s; {}", c.log.size(), duration, step, expected);
+  const std::string in_other_unit = "read it with " + option_of(c, kMinutes);
+  if (is_short && is_fast && in_minutes)
+    return c.reject("time", what + "; it looks like a time in minutes", in_other_unit);
+  c.suspect("time", what,
+            (is_short ? "give a longer record" : "nothing to do if the samples were taken so fast") +
+                (in_minutes ? "; if the times are in minutes, " + in_other_unit : ""));
 }
 
 /// Rows that are missing in interval i. A row that is written late or early makes an interval long, too, but the
@@ -100,8 +134,11 @@ void check_clock(LogUnderCheck& c) {
     return c.reject("time", fmt::format("has {} samples; expected a motion", c.log.size()), "record at least 2 s");
   if (!check_order(c, steps)) return;
   const double step = median(steps);
-  if (!check_unit(c, step)) return;
-  check_regularity(c, steps, step);
+  if (check_unit(c, step)) check_regularity(c, steps, step);
+}
+
+void check_length(LogUnderCheck& c) {
+  if (const std::vector<double> steps = intervals(c.log.time); !steps.empty()) check_duration(c, median(steps));
 }
 
 std::vector<LogFinding> check_times(const Log& log, const ArmModel& model, const ColumnMap& columns) {

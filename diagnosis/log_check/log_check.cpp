@@ -15,6 +15,7 @@ std::vector<LogFinding> check_log(const Log& log, const ArmModel& model, const C
                                   const LogCheckRule& rule) {
   LogUnderCheck c(log, model, columns, rule);
   check_clock(c);
+  if (!c.has_gross()) check_length(c);
   if (c.has_gross()) return c.findings;
   home_encoders(c.log, model);
   check_torque_spikes(c);

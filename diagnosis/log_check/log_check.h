@@ -81,6 +81,8 @@ struct LogCheckRule {
   double outside = 0.25, zero = 0.5;
   /// Slowest and fastest plausible sample rate, Hz. Records need 10 Hz.
   double slowest_hz = 10, fastest_hz = 50e3;
+  /// Most samples a second that the controller of an arm takes; its current loops may be faster.
+  double controller_hz = 10e3;
   /// Width of the central 90 % of the sample intervals, relative to the median, that counts as jitter.
   double jitter = 0.3;
   /// An interval longer than this many median intervals is a gap and no jitter.

@@ -62,6 +62,13 @@ inline std::vector<BadInputRow> bad_logs() {
       {"TimeInMilliseconds", Wrong::clock, scaled({"time"}, 1e3),
        "bad.csv: time: a sample follows another after 1 s; expected at least 10 and at most 50000 samples a "
        "second; it looks like a time in milliseconds; read it with --column time=time,unit=ms"},
+      {"TimeInNanoseconds", Wrong::clock, scaled({"time"}, 1e9),
+       "bad.csv: time: a sample follows another after 1e+06 s; expected at least 10 and at most 50000 samples a "
+       "second; "
+       "it looks like a time in nanoseconds; read it with --column time=time,scale=1e-09"},
+      {"TimeInMinutes", Wrong::clock, scaled({"time"}, 1. / 60),
+       "bad.csv: time: a sample follows another after 1.7e-05 s; expected at least 10 and at most 50000 samples a "
+       "second; it looks like a time in minutes; read it with --column time=time,scale=60"},
       {"NineRowsASecond", Wrong::clock, scaled({"time"}, 110),
        "bad.csv: time: a sample follows another after 0.11 s; expected at least 10 and at most 50000 samples a "
        "second; give the times in s, or a record with at least 10 samples a second"},

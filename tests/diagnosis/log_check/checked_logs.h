@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/log_check.h"
 #include "plant/simulate.h"
 #include "tests/support/short_arm.h"
@@ -59,6 +60,14 @@ inline void expect_one(const Log& log, const std::string& column, Severity sever
   EXPECT_EQ(findings[0].severity, severity) << lines_of(findings);
   for (const std::string& part : parts)
     EXPECT_NE(finding_line(findings[0]).find(part), std::string::npos) << part << "\n" << lines_of(findings);
+}
+
+/// The findings of one check.
+inline std::vector<LogFinding> found_by(void (*check)(LogUnderCheck&), const Log& log, const ArmModel& model) {
+  const LogCheckRule rule;
+  LogUnderCheck c(log, model, {}, rule);
+  check(c);
+  return c.findings;
 }
 
 inline Log changed(Signals Log::*signal, int k, const std::function<double(double)>& change) {

@@ -5,57 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <random>
 
-#include "diagnosis/log_check/checks.h"
-#include "diagnosis/log_check/clock_check.h"
 #include "tests/diagnosis/fit/made_log.h"
 #include "tests/diagnosis/log_check/checked_logs.h"
 #include "tests/support/message_of.h"
 
 namespace halyard {
 namespace {
-
-/// The findings of one check.
-std::vector<LogFinding> found_by(void (*check)(LogUnderCheck&), const Log& log, const ArmModel& model) {
-  const LogCheckRule rule;
-  LogUnderCheck c(log, model, {}, rule);
-  check(c);
-  return c.findings;
-}
-
-TEST(TimeCheck, ProposesNoUnitInWhichTheLogWouldBeTooShort) {
-  Log log(1);
-  for (int i = 0; i < 600; ++i) log.time.push_back(0.2 * i);  // 0.12 s if these were milliseconds
-  const std::vector<LogFinding> findings = check_times(log, first_joints(1), {});
-  ASSERT_EQ(findings.size(), 1u);
-  EXPECT_EQ(findings[0].what.find("looks like"), std::string::npos) << findings[0].what;
-  EXPECT_EQ(findings[0].remedy, "give the times in s, or a record with at least 10 samples a second");
-}
-
-TEST(TimeCheck, CountsEachMissingRow) {
-  const auto told = [](double share) {
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> at_random(0, 1);
-    Log log(1);
-    int lost = 0, last = 0;
-    for (int i = 0; i < 6000; ++i) {
-      if (i > 0 && at_random(random) < share) continue;
-      lost += i - last - (i > 0), last = i;
-      log.time.push_back(0.002 * i);
-    }
-    const std::vector<LogFinding> findings = check_times(log, first_joints(1), {});
-    const std::string expected = std::to_string(lost) + " rows are missing in ";
-    return std::ranges::any_of(findings, [&](const LogFinding& f) { return f.what.starts_with(expected); });
-  };
-  for (const double share : {0.003, 0.03, 0.25}) EXPECT_TRUE(told(share)) << share;
-}
-
-TEST(TimeCheck, TakesARowThatIsWrittenLateForNoMissingOne) {
-  Log log(1);
-  for (int i = 0; i < 6000; ++i) log.time.push_back(0.002 * i + (i % 100 == 50 ? 0.0014 : 0));
-  EXPECT_EQ(lines_of(check_times(log, first_joints(1), {})), "");
-}
 
 TEST(TorqueCheck, SaysThatItCannotCompareTorquesOfAnArmThatCannotBeIntegrated) {
   ArmModel sharp = first_joints(1);
