@@ -68,7 +68,7 @@ compile_together(halyard_diagnosis prediction
   prediction/side_by_side.cpp)
 compile_together(halyard_diagnosis log_check
   log_check/agreement.cpp log_check/clock.cpp log_check/columns/column_samples.cpp log_check/columns/columns.cpp
-  log_check/columns/counters.cpp log_check/exchanges/assignment.cpp
+  log_check/columns/counters.cpp log_check/columns/end_of_counter.cpp log_check/exchanges/assignment.cpp
   log_check/exchanges/joint_exchanges.cpp log_check/exchanges/motor_exchanges.cpp
   log_check/exchanges/position_exchanges.cpp log_check/exchanges/torque_exchanges.cpp log_check/log_check.cpp
   log_check/log_under_check.cpp log_check/outliers.cpp log_check/own_readings.cpp log_check/positions.cpp

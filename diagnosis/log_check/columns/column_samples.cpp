@@ -44,6 +44,13 @@ std::vector<PositionColumn> position_columns(const LogUnderCheck& c) {
   return columns;
 }
 
+std::string leave_out(const PositionColumn& column) {
+  return column.signal == &Log::joint_position
+             ? fmt::format("leave these cells empty, or read the log without this sensor with --column {}=",
+                           column.name())
+             : "leave these cells empty";
+}
+
 std::string Jumps::description() const {
   return fmt::format("jumps by {:.5g} between two samples at {:.4g} s", step, when) +
          (count > 1 ? fmt::format(", the first of {} jumps", count) : "");

@@ -37,6 +37,9 @@ struct PositionColumn {
 /// Those that the log has, of driven motors and of all joints.
 std::vector<PositionColumn> position_columns(const LogUnderCheck& c);
 
+/// How to do without wrong samples of a position. A log needs the position of every motor.
+std::string leave_out(const PositionColumn& column);
+
 /// Steps between two samples that no motion explains and that stay.
 struct Jumps {
   std::size_t count = 0;

@@ -5,6 +5,7 @@
 
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/columns/column_samples.h"
+#include "diagnosis/log_check/columns/end_of_counter.h"
 #include "diagnosis/log_check/robust.h"
 #include "diagnosis/record/record.h"
 
@@ -12,7 +13,6 @@ namespace halyard {
 namespace {
 
 constexpr double kShortestFreeze = 0.05;  ///< s; slow sensors hold a reading for 33 ms
-constexpr const char* kLeaveEmpty = "leave these cells empty, or leave the column out";
 
 void check_jumps(LogUnderCheck& c, const PositionColumn& column) {
   const std::string name = column_name(column.signal, column.k);
@@ -20,7 +20,7 @@ void check_jumps(LogUnderCheck& c, const PositionColumn& column) {
   if (c.has_finding(name)) return;
   if (const Jumps jumps = jumps_of(c, column); jumps.count > 0)
     c.suspect(name, jumps.description() + "; a motor or joint cannot follow",
-              std::string("if the sensor froze or lost counts: ") + kLeaveEmpty);
+              "if the sensor froze or lost counts: " + leave_out(column));
 }
 
 void tell_outliers(LogUnderCheck& c, Signals Log::*signal, int k, const Outliers& found) {
@@ -69,44 +69,7 @@ void check_frozen(LogUnderCheck& c, const PositionColumn& column, const SampledM
   if (is_motor)
     c.reject(column_name(column.signal, k), what + "; expected the angle of the motor",
              "give the column of this motor's encoder, or a record in which it works");
-  else c.suspect(column_name(column.signal, k), what + "; the sensor is stuck or not connected", kLeaveEmpty);
-}
-
-/// A position that often stops abruptly at the same extreme value: the end of a counter.
-void check_end_of_counter(LogUnderCheck& c, const PositionColumn& column) {
-  const Samples s(c.log, (c.log.*column.signal)[column.k]);
-  // A frozen sensor is told already.
-  if (s.size() < 20 || c.has_finding(column_name(column.signal, column.k))) return;
-  std::vector<double> steps;
-  for (std::size_t i = 3; i < s.size(); ++i) steps.push_back(std::abs(s.x[i] - s.x[i - 3]));
-  const double usual = quantile(steps, 0.9);
-  const std::vector<Run> runs = runs_of(s.x);
-  const double held = std::max(10.0, 5 * usual_length(runs));
-  const auto [low, high] = std::ranges::minmax(s.x);
-  // A joint that is held steps to and fro between a few counts, or drifts a little, and ends at one of them.
-  constexpr double kFewCounts = 20;
-  double count = high - low;
-  for (std::size_t i = 1; i < s.size(); ++i)
-    if (s.x[i] != s.x[i - 1]) count = std::min(count, std::abs(s.x[i] - s.x[i - 1]));
-  if (high - low < std::max(kFewCounts * count, column.significant)) return;
-  for (const double end : {low, high}) {
-    std::size_t abrupt = 0, all = 0;
-    double time = 0;
-    for (const Run& run : runs) {
-      if (s.x[run.begin] != end || static_cast<double>(run.size()) < held || run.begin < 4 || run.end + 4 > s.size())
-        continue;
-      ++all;
-      time += s.time[run.end - 1] - s.time[run.begin];
-      const double before = std::abs(s.x[run.begin] - s.x[run.begin - 4]), after = std::abs(s.x[run.end + 3] - end);
-      if (std::min(before, after) > 0.5 * usual) ++abrupt;
-    }
-    if (abrupt >= 2 && 2 * abrupt > all)
-      c.suspect(column_name(column.signal, column.k),
-                fmt::format("stops abruptly at its extreme value {:.6g} {} times, for {:.3g} s together: a counter or "
-                            "converter at its end",
-                            end, all, time),
-                kLeaveEmpty);
-  }
+  else c.suspect(column_name(column.signal, k), what + "; the sensor is stuck or not connected", leave_out(column));
 }
 
 }  // namespace

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <numbers>
 #include <sstream>
 
+#include "model/arm_log.h"
 #include "tests/diagnosis/log_check/checked_logs.h"
 
 namespace halyard {
@@ -30,6 +33,67 @@ TEST(LogCheck, SuspectsAMotorThatStopsAtTheEndOfItsCounter) {
               std::string::npos)
         << told;
   }
+}
+
+TEST(LogCheck, SuspectsAMotorWhoseCounterEndsWhereItIsSlow) {
+  const std::filesystem::path folder = std::filesystem::path(HALYARD_SOURCE_DIR) / "examples/raven2";
+  const ArmModel model = read_model(folder / "raven2.xml");
+  const Log right = without_joint_sensors(read_log_of(model, folder / "undeclared_effect.csv"));
+  // Of the three stops at 108 to 140 rad one alone is as fast as half of the motor's usual speed.
+  for (const double end : {80, 108, 118, 140, 150}) {
+    Log log = right;
+    for (double& q : log.motor_position[0]) q = std::min(q, end);
+    const std::string told = lines_of(check_log(log, model));
+    EXPECT_NE(told.find("motor_position_1: stops abruptly at its extreme value " + in_six_digits(end) + " "),
+              std::string::npos)
+        << end << told;
+  }
+  expect_right(right, model);
+}
+
+/// A motor that goes to and fro by 40 rad, and comes to rest at both ends within `slowing` s for `rest` s.
+Log with_rests(double slowing, double rest) {
+  Log log(1);
+  const double speed = 50, cruise = 40 / speed - slowing, phase = cruise + 2 * slowing + rest;
+  for (int i = 0; i < 8000; ++i) {
+    const double t = 1e-3 * i, in = std::fmod(t, phase);
+    double q = 0;  // of 40
+    if (in < slowing) q = 0.5 * speed / slowing * in * in;
+    else if (in < slowing + cruise) q = 0.5 * speed * slowing + speed * (in - slowing);
+    else if (in < cruise + 2 * slowing) q = 40 - 0.5 * speed / slowing * std::pow(cruise + 2 * slowing - in, 2);
+    else q = 40;
+    const bool is_back = static_cast<int>(t / phase) % 2 == 1;
+    constexpr double kCount = 2 * std::numbers::pi / 4000;
+    log.time.push_back(t);
+    log.motor_position[0].push_back(kCount * std::floor((100 + (is_back ? 40 - q : q)) / kCount));
+  }
+  return log;
+}
+
+TEST(LogCheck, SuspectsNoMotorThatSlowsDownBeforeItRests) {
+  const auto told = [](double slowing) {
+    return lines_of(check_log(with_rests(slowing, 0.3), first_joints(1))).find("stops abruptly") != std::string::npos;
+  };
+  // Within 20 samples it is slower beside its rest; within one no controller stops a rotor.
+  EXPECT_FALSE(told(0.02));
+  EXPECT_FALSE(told(0.1));
+  EXPECT_TRUE(told(0.001));
+}
+
+TEST(LogCheck, SuspectsNoMotorThatCreepsToAShortRest) {
+  // 40 rad to and fro within 1 s. Beyond it creeps by 0.6 rad, and rests for 0.1 s. With a counter that ends there it
+  // would have turned round within 0.1 s after 0.08 rad, and usually it does so after 0.5 rad.
+  constexpr double kCount = 2 * std::numbers::pi / 4000, kCreeping = 0.2, kRest = 0.1,
+                   kPhase = 1 + 2 * kCreeping + kRest;
+  Log log(1);
+  for (int i = 0; i < 9000; ++i) {
+    const double t = 1e-3 * i, in = std::fmod(t, kPhase) - 1;
+    const double creeping = std::min({in, kCreeping, 2 * kCreeping + kRest - in});
+    const double q = in < 0 ? 20 * std::cos(2 * std::numbers::pi * in) : 20 + 3 * creeping;
+    log.time.push_back(t);
+    log.motor_position[0].push_back(kCount * std::floor((100 + q) / kCount));
+  }
+  EXPECT_EQ(lines_of(check_log(log, first_joints(1))).find("stops abruptly"), std::string::npos);
 }
 
 TEST(LogCheck, SuspectsNoMotorThatIsHeldAndStepsBetweenAFewCounts) {
