@@ -23,7 +23,7 @@ double median_mismatch(const SampledMotion& m, int k) {
   return off.empty() ? std::numeric_limits<double>::quiet_NaN() : median(off);
 }
 
-/// The offset of a motor without a sensor at its joint: the numbers between which its motion fits into the joint's range.
+/// The offset of a motor without a sensor at its joint: between which numbers its motion fits into the joint's range.
 std::string offset_that_fits(const LogUnderCheck& c, const std::vector<double>& expected, int k) {
   const std::string motor = column_name(&Log::motor_position, k);
   const double per_motor = c.joint_per_motor(k), of_map = c.offset_of(motor);

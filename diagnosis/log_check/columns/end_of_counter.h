@@ -17,8 +17,8 @@
 ///   D      usual |x(t + T/2) - 2 x(t) + x(t - T/2)| of the column: 2 e where it turns so    unit
 ///   c      step of the sensor                                                               unit
 ///
-/// The second rule is for motors. Friction stops a joint abruptly, but where the motor moves on, its reading is compared
-/// with the motor's.
+/// The second rule is for motors. Friction stops a joint abruptly, but where the motor moves on, its reading is
+/// compared with the motor's.
 
 #include "diagnosis/log_check/columns/column_samples.h"
 

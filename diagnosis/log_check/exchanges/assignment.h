@@ -3,8 +3,8 @@
 ///
 ///   min over all permutations p of Σ_k cost(p_0 ... p_k)
 ///
-/// Places are filled in their order. The cost of a place may depend on the columns of those before it. Branch and bound:
-/// costs are not negative, so what costs more than the best complete permutations so far is not continued.
+/// Places are filled in their order. The cost of a place may depend on the columns of those before it. Branch and
+/// bound: costs are not negative, so what costs more than the best complete permutations so far is not continued.
 
 #include <functional>
 #include <vector>
