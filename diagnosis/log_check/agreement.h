@@ -21,8 +21,8 @@ bool is_near(double ratio, double expected, double within);
 bool moves(const LogUnderCheck& c, int k, const std::vector<double>& position);
 
 /// How badly joint k's reading agrees with its expectation: by its slope, by what the slope leaves, and by its zero if
-/// that is known. kDisagrees if the slope explains less than least_explained, or is farther from 1 than any effect makes
-/// it.
+/// that is known. kDisagrees if the slope explains less than least_explained, or is farther from 1 than any effect
+/// makes it.
 inline constexpr double kDisagrees = std::numeric_limits<double>::infinity();
 double disagreement(const LogUnderCheck& c, const SampledMotion& m, int k, double least_explained);
 

@@ -8,8 +8,8 @@ namespace halyard {
 /// Times that do not increase, wrong units, gaps, missing rows and jitter.
 void check_clock(LogUnderCheck& c);
 
-/// Logs that are too short for a diagnosis, or have more samples a second than a controller takes, as in a wrong unit of
-/// time. Estimators run over them.
+/// Logs that are too short for a diagnosis, or have more samples a second than a controller takes, as in a wrong unit
+/// of time. Estimators run over them.
 void check_length(LogUnderCheck& c);
 
 /// Counters that wrap around, and an arm that stands still.
