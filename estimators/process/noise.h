@@ -49,7 +49,7 @@
 /// The start is at rest in static equilibrium. The stretch x of the cables is uncertain: their stiffness, 2 K of both
 /// ways, is uncertain, and friction may hold the joints away from equilibrium. With the encoder, σ of the path that the
 /// joints take up is t_s |x| + F_c,q / (√3 2 K r_l) + (r_m / N) σ_z, where t_s is the model's relative tolerance of
-/// stiffness and r_l the radius of the link's pulley.
+/// stiffness and r_l the radius of the link's pulley. For a joint without a motor, σ is a tenth of its range.
 
 #include <Eigen/Core>
 #include <vector>

@@ -37,6 +37,28 @@ void rest_forces(const ProcessModel& process, double time_s, const Eigen::Vector
   K = -K;
 }
 
+/// B q = b.
+struct HeldJoints {
+  Eigen::MatrixXd B;
+  Eigen::VectorXd b;
+};
+
+HeldJoints held_joints(const ArmParameters<double>& arm, const Eigen::VectorXd& q_m, const Eigen::VectorXd& start) {
+  const Eigen::MatrixXd R = path_matrix(arm);
+  HeldJoints held{Eigen::MatrixXd(arm.n, arm.n), Eigen::VectorXd(arm.n)};
+  int count = 0;
+  for (int k = 0; k < arm.n; ++k) {
+    if (arm.joint[k].drive == Drive::cable) continue;
+    const bool is_rigid = arm.joint[k].drive == Drive::rigid;
+    if (is_rigid) held.B.row(count) = R.row(k);
+    else held.B.row(count) = Eigen::RowVectorXd::Unit(arm.n, k);
+    held.b(count++) = is_rigid ? arm.joint[k].motor_travel() * q_m(k) : start(k);
+  }
+  held.B.conservativeResize(count, arm.n);
+  held.b.conservativeResize(count);
+  return held;
+}
+
 Eigen::MatrixXd mass_matrix_at(const ArmParameters<double>& arm, const Eigen::VectorXd& q) {
   double M[kMaxJoints][kMaxJoints];
   mass_matrix(arm, chain_pose(arm, q.data()), M);
@@ -59,14 +81,11 @@ Eigen::VectorXd static_equilibrium(const ProcessModel& process, double time_s, c
   const ArmParameters<double>& arm = process.arm();
   const int n = arm.n;
 
-  std::vector<int> rigid;
-  for (int k = 0; k < n; ++k)
-    if (arm.joint[k].drive == Drive::rigid) rigid.push_back(k);
-  const int n_r = static_cast<int>(rigid.size());
-  const Eigen::MatrixXd R = path_matrix(arm);
+  const auto [B, b] = held_joints(arm, motor_angle, start);
+  const auto n_h = b.size();
 
-  Eigen::VectorXd q = start, F(n), rest(n + n_r), held = Eigen::VectorXd::Zero(n);  // held: R_rᵀ λ
-  Eigen::MatrixXd K(n, n), A = Eigen::MatrixXd::Zero(n + n_r, n + n_r);
+  Eigen::VectorXd q = start, F(n), rest(n + n_h), held = Eigen::VectorXd::Zero(n);  // held: Bᵀ λ
+  Eigen::MatrixXd K(n, n), A = Eigen::MatrixXd::Zero(n + n_h, n + n_h);
   double first_acceleration = 0;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     rest_forces(process, time_s, motor_angle, external, z, q, F, K);
@@ -78,16 +97,16 @@ Eigen::VectorXd static_equilibrium(const ProcessModel& process, double time_s, c
     const double delta = acceleration > 0 ? kFirstStep * first_acceleration / acceleration : 1 / kConverged;
     A.topLeftCorner(n, n) = K + M / delta;
     rest.head(n) = F;
-    for (int r = 0; r < n_r; ++r) {
-      A.row(n + r).head(n) = R.row(rigid[r]);
-      A.col(n + r).head(n) = -R.row(rigid[r]).transpose();
-      rest(n + r) = arm.joint[rigid[r]].motor_travel() * motor_angle(rigid[r]) - R.row(rigid[r]).dot(q);
+    for (Eigen::Index r = 0; r < n_h; ++r) {
+      A.row(n + r).head(n) = B.row(r);
+      A.col(n + r).head(n) = -B.row(r).transpose();
+      rest(n + r) = b(r) - B.row(r).dot(q);
     }
     const Eigen::VectorXd change = A.fullPivLu().solve(rest);
     if (!change.allFinite()) break;
     q += change.head(n);
     held.setZero();
-    for (int r = 0; r < n_r; ++r) held += R.row(rigid[r]).transpose() * change(n + r);
+    for (Eigen::Index r = 0; r < n_h; ++r) held += B.row(r).transpose() * change(n + r);
     if (change.head(n).cwiseAbs().maxCoeff() < kConverged) return q;
   }
   int k = 0;

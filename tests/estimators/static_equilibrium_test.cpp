@@ -8,6 +8,7 @@
 
 #include "estimators/process/standstill.h"
 #include "tests/support/arm_runs.h"
+#include "tests/support/limits.h"
 #include "tests/support/pendulum.h"
 #include "transmission/coupling.h"
 
@@ -50,12 +51,35 @@ TEST(StaticEquilibrium, GravityTakesABacklashToOneSide) {
   EXPECT_NEAR(arm.joint[1].pulley_radius * force + pull_of_3, gravity_force(arm, q)(1), 1e-6);
 }
 
-TEST(StaticEquilibrium, AJointWithoutMotorHangsDown) {
+TEST(StaticEquilibrium, AJointWithoutMotorStaysWhereTheSearchBegins) {
   const ProcessModel process(pendulum());
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(1);
-  // Gravity is along -x: the centre of mass, 0.5 m along the link's x axis, hangs at π.
+  // Gravity pulls it to π.
   const Eigen::VectorXd q = static_equilibrium(process, 0, none, none, Eigen::VectorXd(), Eigen::VectorXd::Ones(1));
-  EXPECT_NEAR(std::cos(q(0)), -1, 1e-12);
+  EXPECT_EQ(q(0), 1);
+}
+
+TEST(StaticEquilibrium, CablesOfTheOtherJointsCarryGravityWhereverTheMotorIsMissing) {
+  for (int undriven = 0; undriven < 3; ++undriven) {
+    ArmModel model = raven2();
+    model.nominal.joint[undriven].drive = Drive::none;
+    const ProcessModel process(model);
+    const ArmParameters<double>& arm = process.arm();
+    const Eigen::Vector3d home = model.home(), load(0.3, -0.2, 1);
+    const Eigen::VectorXd q_m = unstretched_motors(arm, home);
+    const Eigen::VectorXd q = static_equilibrium(process, 0, q_m, load, Eigen::VectorXd(), home);
+    EXPECT_NEAR(q(undriven), home(undriven), 4 * kEps) << undriven;  // the roundings of a solution and of a sum
+    double path[3], g[3] = {}, reaction[3];
+    cable_path(arm, q.data(), path);
+    for (int k = 0; k < 3; ++k)
+      if (k != undriven) g[k] = cable_force(arm.joint[k], arm.joint[k].motor_travel() * q_m(k) - path[k], 0.0);
+    joint_reaction(arm, g, reaction);
+    const Eigen::VectorXd gravity = gravity_force(arm, q);
+    for (int k = 0; k < 3; ++k) {
+      if (k == undriven) EXPECT_GT(std::abs(reaction[k] + load(k) - gravity(k)), 0.01) << "nothing would hold it";
+      else EXPECT_NEAR(reaction[k] + load(k), gravity(k), 2e-8) << undriven << ", " << k;  // as above
+    }
+  }
 }
 
 TEST(StaticEquilibrium, ARigidJointStandsWhereItsMotorSays) {
@@ -83,17 +107,20 @@ TEST(StaticEquilibrium, ARigidJointStandsWhereItsMotorSays) {
 }
 
 TEST(StaticEquilibrium, NoneOfASlideThatFallsIsToldWithTheJointAndItsForce) {
-  // A rigid lift that carries a slide without a motor, both along gravity.
+  // A rigid lift along gravity that carries a slide on a cable without stiffness, 60° from it.
   ArmModel model = pendulum();
   model.nominal.n = 2;
   model.joints.resize(2, model.joints[0]);
   for (int k = 0; k < 2; ++k) {
     JointParameters<double>& j = model.nominal.joint[k];
     j.type = JointType::prismatic;
-    j.drive = k == 0 ? Drive::rigid : Drive::none;
+    j.drive = k == 0 ? Drive::rigid : Drive::cable;
     j.mass = k == 0 ? 5 : 2;
     j.coupling[k] = 1;
   }
+  model.nominal.joint[1].rotor_inertia = 1;
+  double(&R)[3][3] = model.nominal.joint[1].frame_R;
+  R[1][1] = R[2][2] = 0.5, R[2][1] = std::sqrt(0.75), R[1][2] = -R[2][1];
   model.nominal.gravity[0] = 0;
   model.nominal.gravity[2] = -10;
   const ProcessModel process(model);
@@ -103,7 +130,7 @@ TEST(StaticEquilibrium, NoneOfASlideThatFallsIsToldWithTheJointAndItsForce) {
     FAIL() << "found one";
   } catch (const std::runtime_error& e) {
     EXPECT_STREQ(e.what(),
-                 "static equilibrium: none found for the motor angles at 2.5 s: joint 2 is left with a force of -20; "
+                 "static equilibrium: none found for the motor angles at 2.5 s: joint 2 is left with a force of -10; "
                  "check its cable's stiffness and the motor encoder's offset");
   }
 }
