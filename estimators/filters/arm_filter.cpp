@@ -87,6 +87,13 @@ void ArmFilter::remember(const Sample& sample) {
   time_ = sample.time_s;
 }
 
+Eigen::VectorXd ArmFilter::undriven_positions() const {
+  Eigen::VectorXd q = model_.home();
+  for (int k = 0; k < q.size(); ++k)
+    if (begun_ && process_->arm().joint[k].drive == Drive::none) q(k) = filter_->x()(process_->layout().position[k]);
+  return q;
+}
+
 void ArmFilter::start(const Sample& sample) {
   const Eigen::VectorXd before = reading_;
   const double since = sample.time_s - start_time_;
@@ -98,22 +105,25 @@ void ArmFilter::start(const Sample& sample) {
   double age = 0;
   for (const int k : motors_) age = begun_ ? std::max(age, sample.time_s - read_at_(k)) : 0;
   if (age > options_.restart_gap) return;
-  const Eigen::VectorXd home = model_.home();
-  Eigen::VectorXd angle = unstretched_motors(process_->arm(), home);
+  const Eigen::VectorXd q_undriven = undriven_positions();
+  Eigen::VectorXd angle = Eigen::VectorXd::Zero(q_undriven.size());
   angle(motors_) = reading_(motors_);
   // The readings' error may depend on the angle, slowly: one correction is enough.
-  Eigen::VectorXd x = process_->state_at_rest(angle, unstretched_joints(process_->arm(), angle, home));
+  Eigen::VectorXd x = process_->state_at_rest(angle, unstretched_joints(process_->arm(), angle, q_undriven));
   angle(motors_) -= (process_->motor_readings(sample.time_s, x) - angle)(motors_);
   const Eigen::VectorXd z = Eigen::VectorXd::Zero(process_->layout().n_effect_states);
   const Eigen::VectorXd q = static_equilibrium(*process_, sample.time_s, angle, external_, z,
-                                               unstretched_joints(process_->arm(), angle, home));
+                                               unstretched_joints(process_->arm(), angle, q_undriven));
   x = process_->state_at_rest(angle, q);
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(angle.size());
+  moved(motors_) = (reading_ - before)(motors_);
   // After a gap the arm need not rest. A speed that no joint has says that one of the two readings is wrong.
-  const bool has_speed = speed_is_due_ && set_speed(angle, reading_ - before, since, x);
+  const bool has_speed = speed_is_due_ && set_speed(angle, moved, since, x);
   speed_is_due_ = begun_ && !has_speed && age == 0 && !motors_.empty();
   Eigen::MatrixXd S = start_root(x, angle, q, has_speed ? since : kInfinity);
   if (begun_ ? !has_speed || since > options_.max_step : options_.in_motion)
     widen(kUsualSpeed, process_->layout().positions, S);
+  else if (begun_) widen_undriven(kUsualSpeed, process_->layout().positions, S);
   if (age > 0) widen(kUsualSpeed * age, 0, S);
   filter_->reset(x, S);
   exponential_.forget();
@@ -130,7 +140,7 @@ bool ArmFilter::set_speed(const Eigen::VectorXd& angle, const Eigen::VectorXd& m
       unstretched_joints(process_->arm(), angle, home) - unstretched_joints(process_->arm(), angle - moved, home);
   for (int k = 0; k < l.n_joints; ++k) {
     const double range = model_.joints[k].upper - model_.joints[k].lower;
-    if (range > 0 && std::abs(path(k)) / dt_s > range / kFastest) return false;
+    if (!(std::abs(path(k)) / dt_s <= (range > 0 ? range / kFastest : kInfinity))) return false;  // NaN, too
   }
   for (int k = 0; k < l.n_joints; ++k) {
     x(l.rate[k]) = path(k) / dt_s;
@@ -142,6 +152,7 @@ bool ArmFilter::set_speed(const Eigen::VectorXd& angle, const Eigen::VectorXd& m
 void ArmFilter::widen(double share, int first, Eigen::MatrixXd& S) const {
   const StateLayout& l = process_->layout();
   for (int k = 0; k < l.n_joints; ++k) {
+    if (process_->arm().joint[k].drive == Drive::none) continue;
     const double range = model_.joints[k].upper - model_.joints[k].lower;
     const int column = first + l.motor_angle[k].value_or(l.position[k]);
     double& joint = S(first + l.position[k], column);
@@ -150,6 +161,20 @@ void ArmFilter::widen(double share, int first, Eigen::MatrixXd& S) const {
       const JointParameters<double>& j = process_->arm().joint[i];
       if (l.motor_angle[i]) S(first + *l.motor_angle[i], column) = joint * path_per_joint(j, k) / j.motor_travel();
     }
+  }
+  widen_undriven(share, first, S);
+}
+
+void ArmFilter::widen_undriven(double share, int first, Eigen::MatrixXd& S) const {
+  const StateLayout& l = process_->layout();
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(l.n_joints);
+  for (int k = 0; k < l.n_joints; ++k) {
+    if (process_->arm().joint[k].drive != Drive::none) continue;
+    const double range = model_.joints[k].upper - model_.joints[k].lower;
+    auto column = S.col(first + l.position[k]);
+    const double joint = std::max(column(first + l.position[k]), share * (range > 0 ? range : kUnknownRange));
+    const Eigen::VectorXd path = unstretched_joints(process_->arm(), none, Eigen::VectorXd::Unit(l.n_joints, k));
+    for (int i = 0; i < l.n_joints; ++i) column(first + l.position[i]) = joint * path(i);
   }
 }
 

@@ -3,7 +3,8 @@
 /// and missing samples of a log.
 ///
 ///   start      when every motor has been read once; earlier samples are skipped. Joint positions: kinematics gives a
-///              first value, from which the static equilibrium at the motors' readings is computed. Speed: zero
+///              first value, from which the static equilibrium at the motors' readings is computed. A joint without a
+///              motor is at home. Speed: zero
 ///   a step     the time between two samples, cut into equal pieces of at most `max_step`, and into halves and quarters
 ///              where the exponential step's guard refuses it
 ///   restart    after a gap longer than `restart_gap`, or if the gate has rejected all readings for that long, not
@@ -11,7 +12,8 @@
 ///              rest where they were, uncertain by their ranges. Speed: by the next sample that has all motors, if the
 ///              one of the start has them; readings of some motors within `max_step` wait for it. A speed is uncertain
 ///              by the joint's range per second until then, and after that if the two samples are farther apart than
-///              `max_step`. A reading that is older than the start is uncertain by this speed, too
+///              `max_step`. A reading that is older than the start is uncertain by this speed, too. The speed of
+///              a joint without a motor stays as uncertain; such a joint starts again where it was
 ///   NaN        torque: the last one is held; position of a motor: no correction from it
 ///   gate       an innovation that is less probable than 1 - `gate` is not accepted; 1 accepts all
 
@@ -79,6 +81,8 @@ class ArmFilter final : public Estimator {
   void repeat(const Sample& sample, const Predictions& predictions, std::size_t first, std::size_t count);
 
  private:
+  /// Where joints without a motor start, [n]: at home, or where they were before a restart. Others: home.
+  Eigen::VectorXd undriven_positions() const;
   /// Starts if all motors have been read, not long ago.
   void start(const Sample& sample);
   /// Sets the rates in x from what the motors moved within dt_s; false: a joint would be too fast.
@@ -89,6 +93,8 @@ class ArmFilter final : public Estimator {
   /// Joints may be wrong by this share of their ranges, and motors with them: positions, whose index is the first, or
   /// rates.
   void widen(double share, int first, Eigen::MatrixXd& S) const;
+  /// The same for joints without a motor alone. No motor moves with them; joints further out do, on their cables.
+  void widen_undriven(double share, int first, Eigen::MatrixXd& S) const;
   bool has_all_motors(const Sample& sample) const;
   /// Whether the gate has refused for too long what this sample has again.
   bool is_locked_out(const Sample& sample) const;

@@ -1,5 +1,6 @@
 #include "plugins/host/conformance.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -57,6 +58,27 @@ Record swings(const ArmModel& model) {
   Record record;
   for (std::size_t i = 0; i < kSamples; ++i) record.push_back(swing(model, i));
   return record;
+}
+
+/// All joints rest at home. A joint without a motor must not swing as it likes: its swing would contradict the others'.
+Record rests(const ArmModel& model) {
+  Record record(kSamples, swing(model, 0));
+  for (std::size_t i = 0; i < kSamples; ++i) record[i].time_s = kPeriod * static_cast<double>(i);
+  return record;
+}
+
+/// With a gap in the middle.
+Record torn(Record record) {
+  for (std::size_t i = record.size() / 2; i < record.size(); ++i) record[i].time_s += 5;
+  return record;
+}
+
+/// The arm without the motor of joint k, and without the effects that it can then not have.
+ArmModel without_motor(ArmModel model, int k) {
+  model.nominal.joint[k].drive = Drive::none;
+  std::erase_if(model.effects,
+                [&](const PlacedEffect& e) { return e.joint == k && !e.effect->applies(model.nominal, k); });
+  return model;
 }
 
 bool same(const Estimate& a, const Estimate& b) {
@@ -132,6 +154,9 @@ class Examination {
       for (std::size_t i = 0; i < seen.size(); i += 30) seen[i].marker = marker_of(model_, swing_position(model_, i));
       run(*make(), seen);
     });
+    for (int k = 0; k < model_.n(); ++k)
+      if (motors() > 1 && model_.nominal.joint[k].drive != Drive::none)
+        check("undriven joint " + std::to_string(k + 1), [this, k] { undriven_joint(k); });
     check("unknown option", [this] { unknown_option(); });
     return faults_;
   }
@@ -186,10 +211,22 @@ class Examination {
     run(*make(), late);
   }
 
-  void gap() {
-    Record torn = record_;
-    for (std::size_t i = torn.size() / 2; i < torn.size(); ++i) torn[i].time_s += 5;
-    run(*make(), torn);
+  void gap() { run(*make(), torn(record_)); }
+
+  void undriven_joint(int k) {
+    const ArmModel model = without_motor(model_, k);
+    std::unique_ptr<Estimator> estimator;
+    try {
+      estimator = make_estimator(name_, model);
+    } catch (const InputError&) {
+      return;
+    }
+    run(*estimator, torn(rests(model)));
+  }
+
+  long motors() const {
+    const JointParameters<double>* const first = model_.nominal.joint;
+    return std::count_if(first, first + model_.n(), [](const auto& j) { return j.drive != Drive::none; });
   }
 
   void unknown_option() {

@@ -23,6 +23,8 @@ namespace halyard {
 ///   - reset() restarts the estimator; nothing remains of the run before
 ///   - missing samples (also at the start) and gaps do not stop it; a motor without a sample has no innovation
 ///   - it works with and without an external load, with and without a marker
+///   - it works, over a gap too, with the arm at rest without any one of its motors, unless it has only one; or it
+///     refuses that arm (InputError) when it is made
 ///   - report() counts the samples
 ///   - an unknown option is refused
 ///   - standard deviations of estimates are finite and not negative, those of innovations finite and above 0

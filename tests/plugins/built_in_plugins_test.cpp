@@ -1,6 +1,7 @@
 // The estimators that come along: promises kept, and the same numbers as without the boundary.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -55,6 +56,30 @@ TEST(Conformance, KnowsOffsetsAndEffectsOfTheModel) {
   model.effects = {halyard::place_effect(*halyard::find_effect("capstan_ratio"), model.nominal, 1)};
   EXPECT_EQ(halyard::conformance_faults(fixture("starts_at_home"), model),
             std::vector<std::string>{"unknown option: is not refused"});
+}
+
+TEST(Conformance, TriesTheArmWithoutOneOfItsMotors) {
+  ArmModel model = raven2();
+  // An effect of a drive goes with it.
+  model.effects = {halyard::place_effect(*halyard::find_effect("backlash"), model.nominal, 1)};
+  std::vector<std::string> wanted, names;
+  for (const std::string k : {"1", "2", "3"})
+    wanted.push_back("undriven joint " + k + ": plugin needs_motors: at 0 s: joint_velocity " + k + " is not finite");
+  wanted.push_back("unknown option: is not refused");
+  EXPECT_EQ(halyard::conformance_faults(fixture("needs_motors"), model), wanted);
+  // Who cannot do without a motor may say so before it starts.
+  model.estimators["needs_motors"]["refuses"] = "1";
+  EXPECT_EQ(halyard::conformance_faults(fixture("needs_motors"), model,
+                                        [&](const std::string& promise) { names.push_back(promise); }),
+            std::vector<std::string>{wanted.back()});
+  EXPECT_EQ(std::ranges::count(names, "undriven joint 2"), 1);
+
+  // An arm without any motor is not asked for.
+  model = raven2();
+  model.nominal.joint[0].drive = model.nominal.joint[2].drive = halyard::Drive::none;
+  names.clear();
+  halyard::conformance_faults("kinematics", model, [&](const std::string& promise) { names.push_back(promise); });
+  EXPECT_TRUE(std::ranges::none_of(names, [](const std::string& name) { return name.starts_with("undriven"); }));
 }
 
 namespace {

@@ -119,6 +119,58 @@ TEST_F(Restart, MotorsThatWereReadEarlierMayHaveMovedSinceWithTheirJoints) {
   }
 }
 
+ArmModel without_motor(int joint) {
+  ArmModel model = raven2();
+  model.nominal.joint[joint].drive = Drive::none;
+  return model;
+}
+
+class RestartOfAnUndrivenJoint : public Restart, public testing::WithParamInterface<int> {
+ protected:
+  RestartOfAnUndrivenJoint() : Restart(without_motor(GetParam())) {}
+};
+
+INSTANTIATE_TEST_SUITE_P(All, RestartOfAnUndrivenJoint, testing::Range(0, 3));
+
+TEST_P(RestartOfAnUndrivenJoint, TwoReadingsGiveTheSpeedOfTheOthers) {
+  Eigen::Vector3d v(0.5, -0.2, 0.04);
+  v(GetParam()) = 0;
+  read_moved(v, 2e-3);
+  EXPECT_LT((velocity() - v).norm(), 1e-10);  // as above
+}
+
+TEST_P(RestartOfAnUndrivenJoint, ItIsWhereItWasButMayMove) {
+  const int k = GetParam();
+  const double range = model_.joints[k].upper - model_.joints[k].lower;
+  const StateLayout& l = process_->layout();
+  filter_.reset(sample_at(0, model_.home()));
+  EXPECT_NEAR(filter_.estimate().joint_position(k), model_.home()(k), 4 * kEps);
+  for (int i = 1; i <= 100; ++i) read(1e-3 * i, model_.home());
+  const double there = filter_.estimate().joint_position(k);
+  EXPECT_GT(std::abs(there - model_.home()(k)), 1e-6) << "it falls";
+  for (const double after : {0.0, 2e-3}) {
+    read_moved(Eigen::Vector3d::Zero(), after);
+    EXPECT_NEAR(filter_.estimate().joint_position(k), there, 4 * kEps) << after;
+    EXPECT_EQ(velocity()(k), 0) << after;
+    const Eigen::MatrixXd S = filter_.filter().S();
+    // As at the start of a record, and of a joint whose speed no reading tells.
+    EXPECT_NEAR(S.row(l.position[k]).norm(), 0.1 * range, 1e-9 * range) << after;
+    EXPECT_NEAR(S.row(l.rate[k]).norm(), range, 1e-9 * range) << after;
+    // No motor moves with it: joints further out make up for it.
+    const Eigen::VectorXd S_q = S.col(l.position[k]), S_v = S.col(l.rate[k]);
+    Eigen::Vector3d moved, rate;
+    for (int i = 0; i < 3; ++i) moved(i) = S_q(l.position[i]), rate(i) = S_v(l.rate[i]);
+    for (int i = 0; i < 3; ++i) {
+      if (i == k) continue;
+      EXPECT_EQ(S_q(*l.motor_angle[i]), 0) << i;
+      EXPECT_EQ(S_v(*l.motor_rate[i]), 0) << i;
+    }
+    // Angles of some 100 rad.
+    EXPECT_LT(unstretched_motors(process_->arm(), moved).norm(), 1e-12);
+    EXPECT_LT(unstretched_motors(process_->arm(), rate).norm(), 1e-12);
+  }
+}
+
 class RestartWithoutRange : public Restart {
  protected:
   RestartWithoutRange() : Restart(without_range_of_joint_2()) {}
@@ -153,20 +205,35 @@ TEST(Start, MotorsAreWhereTheirEncodersReadLessTheirOffsets) {
 }
 
 TEST(Start, AfterTheGateHasRefusedForLongItFiltersAgain) {
-  const ArmModel model = raven2();
-  const auto filter = make_sr_ukf(model, {{"gate", "0.9999"}, {"restart_gap", "0.05"}});
-  Sample s{0, Eigen::VectorXd::Zero(3), unstretched_motors(model.nominal, model.home()), {}};
-  filter->reset(s);
-  s.motor_position(0) += 1;
-  long refused = 0;
-  for (int i = 1; i <= 70; ++i) {
-    s.time_s = 1e-3 * i;
-    const Innovation innovation = filter->update(s);
-    refused += !innovation.accepted;
-    // It starts anew at the first sample that is more than 50 ms after the first refusal; the next one tells the speed.
-    EXPECT_EQ(innovation.nu.size(), i == 52 || i == 53 ? 0 : 3) << i;
+  for (const bool is_driven : {true, false}) {
+    const ArmModel model = is_driven ? raven2() : without_motor(1);
+    const auto filter = make_sr_ukf(model, {{"gate", "0.9999"}, {"restart_gap", "0.05"}});
+    Sample s{0, Eigen::VectorXd::Zero(3), unstretched_motors(model.nominal, model.home()), {}};
+    filter->reset(s);
+    s.motor_position(0) += 1;
+    long refused = 0;
+    for (int i = 1; i <= 70; ++i) {
+      s.time_s = 1e-3 * i;
+      const Innovation innovation = filter->update(s);
+      refused += !innovation.accepted;
+      // It starts anew at the first sample that is more than 50 ms after the first refusal; the next one tells the
+      // speed.
+      EXPECT_EQ(innovation.nu.size(), i == 52 || i == 53 ? 0 : is_driven ? 3 : 2) << i;
+    }
+    EXPECT_EQ(refused, 51);
+    EXPECT_TRUE(filter->estimate().joint_velocity.allFinite());
   }
-  EXPECT_EQ(refused, 51);
+}
+
+TEST(Start, AJointWithoutAMotorIsAtHomeWhateverPullsIt) {
+  for (int k = 0; k < 3; ++k) {
+    const ArmModel model = without_motor(k);
+    const auto filter = make_sr_ukf(model, {});
+    filter->reset(
+        {0, Eigen::VectorXd::Zero(3), unstretched_motors(model.nominal, model.home()), Eigen::Vector3d(1, -1, 2)});
+    EXPECT_NEAR(filter->estimate().joint_position(k), model.home()(k), 4 * kEps) << k;
+    EXPECT_EQ(filter->estimate().joint_velocity, Eigen::Vector3d::Zero()) << k;
+  }
 }
 
 TEST(DelayedCommands, ReachTheFilterFromThePast) {
