@@ -10,8 +10,12 @@
 ///   F_e    external load on a joint                                                     N m | N
 ///   z      [q_m, ω of each cable drive; internal states of the effects; E_in, E_lost]    [n_z]
 ///
+/// Stored in a stretched cable is the energy of its elastic stretch x_e (cable_energy()). Its power is g(x_e, 0) x_e',
+/// where x_e' contains what the effects' states change, such as that of creep.
+///
 /// The work of an effect that acts at the joint, such as the effect external_force, counts in E_lost and not in E_in.
-/// It is positive if the effect takes energy from the arm, and negative if it adds energy.
+/// It is positive if the effect takes energy from the arm, and negative if it adds energy. What an effect itself
+/// stores, in bristles or in the slow part of creep, counts in E_lost until it comes back.
 
 #include <Eigen/Core>
 #include <vector>

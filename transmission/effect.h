@@ -7,7 +7,7 @@
 ///
 ///   parameters    change()             once, before a run: parameters of chain, motors, cables, sensors
 ///   command       on_command()         s.motor_torque, from s.command and past commands
-///   stretch       on_stretch()         s.stretch, s.stretch_rate
+///   stretch       on_stretch()         s.stretch, and s.stretch_rate: its rate while the effect's states stand still
 ///   cable force   on_cable_force()     s.cable_force_motor, s.cable_force_joint
 ///   motor         on_motor()           s.motor_torque, after the motor's own friction
 ///   joint         on_joint()           s.joint_force, after the joint's own friction

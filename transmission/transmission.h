@@ -47,6 +47,8 @@ class Transmission {
       parts_.push_back({e.effect->stages(), n_states_, e.effect->n_states()});
       n_states_ += e.effect->n_states();
       stages_ |= e.effect->stages();
+      states_stretch_ =
+          states_stretch_ || (e.effect->n_states() > 0 && acts_at(e.effect->stages(), EffectStage::stretch));
       states_need_motors_ =
           states_need_motors_ || (e.effect->n_states() > 0 && (e.effect->stages() & kMotorStages) != 0);
     }
@@ -77,6 +79,12 @@ class Transmission {
     apply(EffectStage::sensors, time, nullptr, z, s);
   }
 
+  /// The rates of s.stretch, m/s: s.stretch_rate, and what the states of effects at the stretch stage change. s and
+  /// z_dot are those of evaluate(). rate: [n].
+  template <int known = 0>
+  HALYARD_INLINE void total_stretch_rates(double time, const CommandHistory* history, const T* z, const T* z_dot,
+                                          const JointSignals<T>* s, T* rate) const;
+
   /// Runs only the command stage: sets s.motor_torque from s.command, without friction.
   template <int known = 0>
   HALYARD_INLINE void commanded_torque(double time, const CommandHistory* history, const T* z,
@@ -89,6 +97,8 @@ class Transmission {
  private:
   static constexpr unsigned kMotorStages =
       static_cast<unsigned>(EffectStage::command) | static_cast<unsigned>(EffectStage::motor);
+
+  static bool acts_at(unsigned stages, EffectStage stage) { return (stages & static_cast<unsigned>(stage)) != 0; }
 
   template <int known>
   HALYARD_INLINE void stretch_cables(JointSignals<T>* s) const;
@@ -116,6 +126,7 @@ class Transmission {
   T travel_[kMaxJoints];     ///< r_m / N
   int n_states_ = 0;
   unsigned stages_ = 0;
+  bool states_stretch_ = false;      ///< an effect with states acts at the stretch stage
   bool states_need_motors_ = false;  ///< an effect with states acts at the command or motor stage
 };
 
@@ -188,6 +199,37 @@ HALYARD_INLINE void Transmission<T>::evaluate(double time, const CommandHistory*
     const int first = part[i].first_state;
     e[i].effect->rates(EffectContext<T>{arm_, e[i].joint, e[i].p, z + first, time, history}, s, z_dot + first);
   }
+}
+
+template <class T>
+template <int known>
+HALYARD_INLINE void Transmission<T>::total_stretch_rates(double time, const CommandHistory* history, const T* z,
+                                                         const T* z_dot, const JointSignals<T>* s, T* rate) const {
+  constexpr double kBetween = 1e-4;  // s: rounding is 1e-12 of a stretch per second
+  const int n = joint_count<known>(arm_);
+  for (int i = 0; i < n; ++i) rate[i] = s[i].stretch_rate;
+  if (!states_stretch_) return;
+  // The effects once more, one after another: those that follow change the rate that one adds, too.
+  ArmSignals<T> signals[3] = {ArmSignals<T>(n), ArmSignals<T>(n), ArmSignals<T>(n)};
+  JointSignals<T>* const now = signals[1].joint();
+  for (int i = 0; i < n; ++i) now[i] = s[i];
+  stretch_cables<known>(now);
+  for (std::size_t k = 0; k < owned_.size(); ++k) {
+    const EffectInstance<T>& e = owned_[k];
+    const Part& part = parts_[k];
+    if (!acts_at(part.stages, EffectStage::stretch)) continue;
+    for (const int side : {-1, 1, 0}) {
+      T moved[kMaxEffectStates];
+      for (int i = 0; i < part.n_states; ++i)
+        moved[i] = z[part.first_state + i] + T(side * kBetween) * z_dot[part.first_state + i];
+      JointSignals<T>* const at = signals[1 + side].joint();
+      for (int i = 0; i < n; ++i) at[i] = now[i];
+      e.effect->act(EffectStage::stretch, EffectContext<T>{arm_, e.joint, e.p, moved, time, history}, at);
+    }
+    for (int i = 0; i < n; ++i)
+      now[i].stretch_rate += (signals[2].joint()[i].stretch - signals[0].joint()[i].stretch) / T(2 * kBetween);
+  }
+  for (int i = 0; i < n; ++i) rate[i] = now[i].stretch_rate;
 }
 
 /// The arm with its effects over another scalar type, all lanes equal, all derivatives zero.

@@ -40,10 +40,10 @@ HALYARD_INLINE void evaluate_drive(const DriveModel& drive, const DriveState<T>&
   transmission.template evaluate<known>(at.time, &drive.history, effect_states, s, effect_rate);
 }
 
-/// The rates of the two meters.
+/// The rates of the two meters. stretch_rate: of the elastic stretch, with the states of the effects in motion.
 template <int known, class T>
-HALYARD_INLINE void meter(const ArmParameters<T>& arm, const T* v, JointSignals<T>* s, const T* shaft_torque, T& input,
-                          T& lost) {
+HALYARD_INLINE void meter(const ArmParameters<T>& arm, const T* v, JointSignals<T>* s, const T* shaft_torque,
+                          const T* stretch_rate, T& input, T& lost) {
   const int n = joint_count<known>(arm);
   T g[kMaxJoints], reaction[kMaxJoints], path_rate[kMaxJoints];
   for (int k = 0; k < n; ++k) g[k] = s[k].cable_force_joint;
@@ -57,7 +57,7 @@ HALYARD_INLINE void meter(const ArmParameters<T>& arm, const T* v, JointSignals<
     lost += (reaction[k] + s[k].external_force - s[k].joint_force) * s[k].joint_rate;
     if (j.drive != Drive::cable) continue;
     lost += s[k].cable_force_motor * j.motor_travel() * s[k].motor_rate - g[k] * path_rate[k];
-    lost -= cable_force(j, s[k].stretch, T(0.0)) * s[k].stretch_rate;
+    lost -= cable_force(j, s[k].stretch, T(0.0)) * stretch_rate[k];
   }
 }
 
@@ -103,7 +103,11 @@ HALYARD_INLINE void term_rates(const DriveModel& drive, DriveTerms terms, const 
   if (terms == DriveTerms::first_cable)
     for (int i = 0; i < l.n_effect_states; ++i) z_dot[l.effect_states + i] = T(0.0);
   z_dot[l.input_energy] = z_dot[l.lost_energy] = T(0.0);
-  if (terms == DriveTerms::all) meter<known>(arm, at.v, s, shaft_torque, z_dot[l.input_energy], z_dot[l.lost_energy]);
+  if (terms != DriveTerms::all) return;
+  T stretch_rate[kMaxJoints];
+  transmission_of<T>(drive).template total_stretch_rates<known>(at.time, &drive.history, at.z + l.effect_states,
+                                                                z_dot + l.effect_states, s, stretch_rate);
+  meter<known>(arm, at.v, s, shaft_torque, stretch_rate, z_dot[l.input_energy], z_dot[l.lost_energy]);
 }
 
 /// term_rates() with its slopes, by dual numbers in all directions of the state.

@@ -51,28 +51,35 @@ TEST(ArmPlant, SplitsOffTheFirstCable) {
 
 TEST(DriveTrain, SlopesAreTheDerivativesOfItsRates) {
   const ArmParameters<double> arm = nominal_raven2().nominal;
-  ArmPlant plant(arm, {placed("hysteresis", arm, 1), placed("pulley_friction", arm, 2)});
-  const DriveTrain& drive = plant.drive();
-  const int n = 3, rows = n + drive.layout().n_z;
-  std::mt19937_64 random(5);
-  Eigen::VectorXd y = random_state(plant, random);
-  y.segment(n, n) *= 1e-2;  // into the reach of the friction's slope
-  for (const DriveTerms terms : {DriveTerms::all, DriveTerms::cables_and_friction, DriveTerms::first_cable}) {
-    Eigen::MatrixXd slopes;
-    drive.slopes(terms, 0, y.data(), y.data() + n, y.data() + 2 * n, slopes);
-    for (int c = 0; c < y.size(); ++c) {
-      const double step = 1e-7;
-      Eigen::VectorXd rates[2];
-      for (int side = 0; side < 2; ++side) {
-        Eigen::VectorXd at = y;
-        at(c) += (side ? step : -step);
-        rates[side].resize(rows);
-        drive.rates(terms, 0, at.data(), at.data() + n, at.data() + 2 * n, rates[side].data(), rates[side].data() + n);
+  // Creep after an eccentric capstan and before a backlash: the account of energy has second derivatives of both.
+  const std::vector<PlacedEffect> in_force = {placed("hysteresis", arm, 1), placed("pulley_friction", arm, 2)},
+                                  in_stretch = {placed("capstan_eccentricity", arm, 2), placed("creep", arm, 2),
+                                                placed("backlash", arm, 2), placed("creep", arm, 0)};
+  for (const std::vector<PlacedEffect>& effects : {in_force, in_stretch}) {
+    ArmPlant plant(arm, effects);
+    const DriveTrain& drive = plant.drive();
+    const int n = 3, rows = n + drive.layout().n_z;
+    std::mt19937_64 random(5);
+    Eigen::VectorXd y = random_state(plant, random);
+    y.segment(n, n) *= 1e-2;  // into the reach of the friction's slope
+    for (const DriveTerms terms : {DriveTerms::all, DriveTerms::cables_and_friction, DriveTerms::first_cable}) {
+      Eigen::MatrixXd slopes;
+      drive.slopes(terms, 0, y.data(), y.data() + n, y.data() + 2 * n, slopes);
+      for (int c = 0; c < y.size(); ++c) {
+        const double step = 1e-7;
+        Eigen::VectorXd rates[2];
+        for (int side = 0; side < 2; ++side) {
+          Eigen::VectorXd at = y;
+          at(c) += (side ? step : -step);
+          rates[side].resize(rows);
+          drive.rates(terms, 0, at.data(), at.data() + n, at.data() + 2 * n, rates[side].data(),
+                      rates[side].data() + n);
+        }
+        const Eigen::VectorXd difference = (rates[1] - rates[0]) / (2 * step);
+        // Central differences: rounding eps·|rate| / step ~ 1e-4, curvature of tanh step²·slope / v_s² ~ 1e-9 relative.
+        for (int r = 0; r < rows; ++r)
+          EXPECT_NEAR(slopes(r, c), difference(r), 1e-3 + 1e-5 * std::abs(slopes(r, c))) << r << ", " << c;
       }
-      const Eigen::VectorXd difference = (rates[1] - rates[0]) / (2 * step);
-      // Central differences: rounding eps·|rate| / step ~ 1e-4, curvature of tanh step²·slope / v_s² ~ 1e-9 relative.
-      for (int r = 0; r < rows; ++r)
-        EXPECT_NEAR(slopes(r, c), difference(r), 1e-3 + 1e-5 * std::abs(slopes(r, c))) << r << ", " << c;
     }
   }
 }

@@ -71,13 +71,18 @@ Scenario sines(double duration) {
 }
 
 TEST(Simulation, ClosesTheEnergyBalance) {
-  Scenario scenario = sines(10);
-  scenario.integrator.relative_tolerance = 1e-8;
-  scenario.integrator.absolute_tolerance = 1e-11;
-  const EnergyBalance e = simulate(scenario).energy;
-  EXPECT_GT(e.input, 10);  // J; there is something to balance
-  EXPECT_GT(e.dissipated, 10);
-  EXPECT_NEAR(e.input - e.stored, e.dissipated, 1e-6 * e.input);
+  for (const bool creeps : {false, true}) {
+    Scenario scenario = sines(10);
+    scenario.integrator.relative_tolerance = 1e-8;
+    scenario.integrator.absolute_tolerance = 1e-11;
+    if (creeps)
+      for (const int k : {1, 2})
+        scenario.robot.effects.push_back(place_effect(*find_effect("creep"), scenario.robot.nominal, k));
+    const EnergyBalance e = simulate(scenario).energy;
+    EXPECT_GT(e.input, 10);  // J; there is something to balance
+    EXPECT_GT(e.dissipated, 10);
+    EXPECT_NEAR(e.input - e.stored, e.dissipated, 1e-6 * e.input) << creeps;
+  }
 }
 
 }  // namespace
