@@ -37,9 +37,9 @@ std::vector<PositionColumn> position_columns(const LogUnderCheck& c) {
     const double least = c.rule.least_motion * c.range(k);
     if (c.is_driven(k) && !c.log.motor_position[k].empty())
       columns.push_back(
-          {&Log::motor_position, k, j.motor_encoder_resolution, least / std::abs(c.joint_per_motor(k)), true});
+          {{&Log::motor_position, k}, j.motor_encoder_resolution, least / std::abs(c.joint_per_motor(k)), true});
     if (!c.log.joint_position[k].empty())
-      columns.push_back({&Log::joint_position, k, j.joint_encoder_resolution, least, j.type == JointType::revolute});
+      columns.push_back({{&Log::joint_position, k}, j.joint_encoder_resolution, least, j.type == JointType::revolute});
   }
   return columns;
 }

@@ -26,13 +26,10 @@ std::vector<Run> runs_of(const std::vector<double>& x);
 double usual_length(const std::vector<Run>& runs);
 
 /// A motor's or a joint's position.
-struct PositionColumn {
-  Signals Log::*signal;
-  int k;
+struct PositionColumn : ColumnPlace {
   double resolution;
   double significant;  ///< motion that counts as such, unit of the column
   bool turns;          ///< an angle
-  std::string name() const { return column_name(signal, k); }
 };
 /// Those that the log has, of driven motors and of all joints.
 std::vector<PositionColumn> position_columns(const LogUnderCheck& c);

@@ -15,7 +15,7 @@ namespace {
 constexpr double kShortestFreeze = 0.05;  ///< s; slow sensors hold a reading for 33 ms
 
 void check_jumps(LogUnderCheck& c, const PositionColumn& column) {
-  const std::string name = column_name(column.signal, column.k);
+  const std::string name = column.name();
   // A sensor that froze jumps where it wakes up, and a corrected column is told already.
   if (c.has_finding(name)) return;
   if (const Jumps jumps = jumps_of(c, column); jumps.count > 0)
@@ -67,9 +67,9 @@ void check_frozen(LogUnderCheck& c, const PositionColumn& column, const SampledM
                         is_motor ? "joint" : "motor", from, to);
   // A motor's angle drives every prediction; a joint's sensor is only compared.
   if (is_motor)
-    c.reject(column_name(column.signal, k), what + "; expected the angle of the motor",
+    c.reject(column.name(), what + "; expected the angle of the motor",
              "give the column of this motor's encoder, or a record in which it works");
-  else c.suspect(column_name(column.signal, k), what + "; the sensor is stuck or not connected", leave_out(column));
+  else c.suspect(column.name(), what + "; the sensor is stuck or not connected", leave_out(column));
 }
 
 }  // namespace

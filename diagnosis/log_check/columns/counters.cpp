@@ -89,7 +89,7 @@ Period period_of(const Samples& s, const PositionColumn& column, double longest)
 }
 
 void check_wraps(LogUnderCheck& c, const PositionColumn& column) {
-  const std::string name = column_name(column.signal, column.k);
+  const std::string name = column.name();
   const auto reject = [&](const std::string& what, const Period& period) {
     c.reject(name, what + "; expected a continuous position", "unwrap it with " + c.wrap_option(name, period.size));
   };

@@ -32,7 +32,9 @@ std::vector<ColumnCircle> circles_of(Signals Log::*signal, const std::vector<int
 /// The log after such exchanges, with the zeros that are unknown found anew.
 LogUnderCheck after_exchange(LogUnderCheck c, const std::vector<ColumnCircle>& circles);
 
-/// "exchanged with motor_position_2", "exchanged in a circle with motor_position_2, motor_position_3"
-std::string described(const ColumnCircle& circle);
+/// Tells that the columns of a circle are exchanged, and exchanges them. seen: what shows it. or_else: follows the
+/// remedy, such as ", or ...".
+void reject_exchange(LogUnderCheck& c, const ColumnCircle& circle, const std::string& seen,
+                     const std::string& or_else = "");
 
 }  // namespace halyard

@@ -6,7 +6,6 @@
 #include "diagnosis/log_check/agreement.h"
 #include "diagnosis/log_check/exchanges/exchanges.h"
 #include "diagnosis/log_check/torques/needed_torques.h"
-#include "model/homing.h"
 
 namespace halyard {
 namespace {
@@ -20,13 +19,6 @@ bool is_possible(const LogUnderCheck& c, const ColumnCircle& pair) {
   for (const ColumnPlace& place : pair)
     if ((c.log.*place.signal)[place.k].empty() || (has_torque(pair) && c.wrap_of(place.name()) > 0)) return false;
   return true;
-}
-
-void reject_pair(LogUnderCheck& c, const ColumnCircle& pair, const std::string& seen) {
-  c.reject(pair[0].name(), "seems to be " + described(pair) + ": " + seen,
-           "exchange them with " + c.exchange_options(pair));
-  c.exchange(pair);
-  home_encoders(c.log, c.model);
 }
 
 /// A pair of columns, and how badly it explains the log; smaller is better.
@@ -65,8 +57,8 @@ void check_by_reading(LogUnderCheck& c, const SampledMotion& m, int k) {
   const Slope s = slope_at(m, k);
   if (s.explained >= c.rule.explained)
     if (const auto unit = unit_that_explains(c, m, k, s.slope); unit && unit->misfit <= best->misfit) return;
-  reject_pair(c, best->pair,
-              fmt::format("once exchanged, joint {}'s reading follows its motor; as they are, it does not", k + 1));
+  reject_exchange(c, best->pair,
+                  fmt::format("once exchanged, joint {}'s reading follows its motor; as they are, it does not", k + 1));
 }
 
 /// Without one: the motor's position hardly moves the joint, its torque would within the joint's range, and once they
@@ -83,10 +75,11 @@ void check_by_torque(LogUnderCheck& c, const SampledMotion& of_log, int k) {
   if (!t) return;
   const Correlation r = significant(c, *t, k, k);
   if (r.r < c.rule.torque_goes_with || std::abs(std::log(r.size)) > std::log(c.rule.torque_ratio)) return;
-  reject_pair(c, pair,
-              fmt::format("once exchanged, the torque goes with the motor's motion (correlation {:.2f}) and the joint "
-                          "moves within its range; as they are, motor {} hardly moves",
-                          r.r, k + 1));
+  reject_exchange(
+      c, pair,
+      fmt::format("once exchanged, the torque goes with the motor's motion (correlation {:.2f}) and the joint "
+                  "moves within its range; as they are, motor {} hardly moves",
+                  r.r, k + 1));
 }
 
 }  // namespace

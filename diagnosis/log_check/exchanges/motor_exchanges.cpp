@@ -6,7 +6,6 @@
 #include "diagnosis/log_check/exchanges/assignment.h"
 #include "diagnosis/log_check/exchanges/exchanges.h"
 #include "diagnosis/log_check/torques/needed_torques.h"
-#include "model/homing.h"
 
 namespace halyard {
 namespace {
@@ -72,15 +71,11 @@ void check_motor_exchanges(LogUnderCheck& c) {
       best = circles, fit = after;
   }
   if (fit.least < c.rule.torque_goes_with || fit.left > c.rule.swap_leaves * fit_of(c, best).left) return;
-  for (const ColumnCircle& circle : best) {
-    c.reject(circle[0].name(),
-             fmt::format("seems to be {}: once exchanged, the joints move within their ranges and the torques go with "
-                         "the motions (correlation at least {:.2f}); as they are, a joint leaves its range",
-                         described(circle), fit.least),
-             "exchange them with " + c.exchange_options(circle));
-    c.exchange(circle);
-    home_encoders(c.log, c.model);
-  }
+  for (const ColumnCircle& circle : best)
+    reject_exchange(c, circle,
+                    fmt::format("once exchanged, the joints move within their ranges and the torques go with the "
+                                "motions (correlation at least {:.2f}); as they are, a joint leaves its range",
+                                fit.least));
 }
 
 }  // namespace halyard

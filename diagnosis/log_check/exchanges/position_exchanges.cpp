@@ -7,8 +7,6 @@
 #include "diagnosis/log_check/agreement.h"
 #include "diagnosis/log_check/exchanges/assignment.h"
 #include "diagnosis/log_check/exchanges/exchanges.h"
-#include "model/homing.h"
-#include "model/name_list.h"
 
 namespace halyard {
 namespace {
@@ -72,40 +70,15 @@ std::string followed_motors(const ColumnCircle& circle) {
   return text;
 }
 
-void reject_exchange(LogUnderCheck& c, const ColumnCircle& circle) {
-  const std::string seen = circle.size() == 2 ? fmt::format("joint {}'s reading follows motor {}, and the reverse",
-                                                            circle[0].k + 1, circle[1].k + 1)
-                                              : followed_motors(circle);
-  c.reject(circle[0].name(), "seems to be " + described(circle) + ": " + seen + "; expected its own motor",
-           "exchange them with " + c.exchange_options(circle));
-  c.exchange(circle);
-  home_encoders(c.log, c.model);
+/// What shows that the columns of a circle are exchanged.
+std::string seen_in(const ColumnCircle& circle) {
+  return (circle.size() == 2
+              ? fmt::format("joint {}'s reading follows motor {}, and the reverse", circle[0].k + 1, circle[1].k + 1)
+              : followed_motors(circle)) +
+         "; expected its own motor";
 }
 
 }  // namespace
-
-std::vector<ColumnCircle> circles_of(Signals Log::*signal, const std::vector<int>& joints, const std::vector<int>& p) {
-  std::vector<ColumnCircle> circles;
-  std::vector<bool> seen(p.size(), false);
-  for (std::size_t first = 0; first < p.size(); ++first) {
-    ColumnCircle circle;
-    for (std::size_t i = first; !seen[i]; i = p[i]) seen[i] = true, circle.push_back({signal, joints[i]});
-    if (circle.size() > 1) circles.push_back(circle);
-  }
-  return circles;
-}
-
-LogUnderCheck after_exchange(LogUnderCheck c, const std::vector<ColumnCircle>& circles) {
-  for (const ColumnCircle& circle : circles) c.exchange(circle);
-  home_encoders(c.log, c.model);
-  return c;
-}
-
-std::string described(const ColumnCircle& circle) {
-  std::vector<std::string> others;
-  for (std::size_t i = 1; i < circle.size(); ++i) others.push_back(circle[i].name());
-  return (circle.size() > 2 ? "exchanged in a circle with " : "exchanged with ") + listed(others);
-}
 
 void check_position_exchanges(LogUnderCheck& c) {
   for (std::vector<int> joints = disagreeing_joints(c); joints.size() > 1;) {
@@ -123,7 +96,7 @@ void check_position_exchanges(LogUnderCheck& c) {
       right.push_back(candidate.circle);
     }
     std::ranges::sort(right, {}, [](const ColumnCircle& circle) { return circle[0].k; });
-    for (const ColumnCircle& circle : right) reject_exchange(c, circle);
+    for (const ColumnCircle& circle : right) reject_exchange(c, circle, seen_in(circle));
     std::vector<int> left = disagreeing_joints(c);
     if (left.size() >= joints.size()) return;
     joints = std::move(left);

@@ -6,7 +6,6 @@
 #include "diagnosis/log_check/exchanges/assignment.h"
 #include "diagnosis/log_check/exchanges/exchanges.h"
 #include "diagnosis/log_check/torques/needed_torques.h"
-#include "model/homing.h"
 
 namespace halyard {
 namespace {
@@ -85,17 +84,14 @@ void reject_circle(LogUnderCheck& c, const TorqueComparison& t, const ColumnCirc
   const bool are_motors = of_motors < of_torques;
   const ColumnCircle &wrong = are_motors ? positions : torques, &other = are_motors ? torques : positions;
   const bool told = std::min(of_motors, of_torques) < c.rule.swap_leaves * std::max(of_motors, of_torques);
-  c.reject(wrong[0].name(),
-           fmt::format("seems to be {}: {} goes with {} motor's motion (correlation at least {:.2f}) and less with its "
-                       "own (at most {:.2f})",
-                       described(wrong), are_motors ? "the torque of each" : "each",
-                       wrong.size() == 2 ? "the other" : "another", crossed, straight),
-           "exchange them with " + c.exchange_options(wrong) +
-               (told ? ""
-                     : fmt::format(", or the motors' {} with {}", are_motors ? "torques" : "positions",
-                                   c.exchange_options(other))));
-  c.exchange(wrong);
-  home_encoders(c.log, c.model);
+  reject_exchange(c, wrong,
+                  fmt::format("{} goes with {} motor's motion (correlation at least {:.2f}) and less with its own (at "
+                              "most {:.2f})",
+                              are_motors ? "the torque of each" : "each", wrong.size() == 2 ? "the other" : "another",
+                              crossed, straight),
+                  told ? ""
+                       : fmt::format(", or the motors' {} with {}", are_motors ? "torques" : "positions",
+                                     c.exchange_options(other)));
 }
 
 }  // namespace
