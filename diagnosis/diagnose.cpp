@@ -205,18 +205,19 @@ class Diagnoser {
     }
   }
 
-  /// Mean square of each channel that the named effects may miss, because their equations may have another form. The
-  /// hold-out may have changed the numbers since the last score.
-  std::vector<double> misfit_of_names(const Evidence& evidence) {
+  /// Mean square of each channel that the named effects may miss, because their equations may have another form. score:
+  /// of the final hypothesis.
+  std::vector<double> misfit_of_names(const Evidence& evidence, const Score& score) {
     std::vector<std::size_t> named;
     for (std::size_t e = given_; e < final_hypothesis().effects.size(); ++e)
       if (const Doubt d = doubts_[e - given_]; d == Doubt::none || d == Doubt::guess) named.push_back(e);
-    return mean_square_misfit(evidence, {final_hypothesis(), evidence.score(final_hypothesis())}, named);
+    return mean_square_misfit(evidence, {final_hypothesis(), score}, named);
   }
 
   /// by: tells which residuals matter.
   void tell_rests(const Evidence& evidence, const Score& by) {
-    const std::vector<bool> rest_of = significant_rest(evidence, by, misfit_of_names(evidence));
+    const std::vector<bool> rest_of =
+        significant_rest(evidence, by, misfit_of_names(evidence, attribution().final_score));
     const int n = model_.n();
     for (int k = 0; k < n; ++k)
       if (rest_of[k] || rest_of[n + k]) result_.unexplained.push_back({k, signature(evidence, final_hypothesis(), k)});
@@ -225,7 +226,9 @@ class Diagnoser {
   }
 
   void tell_probabilities(const Evidence& evidence) {
-    for (const double none : probabilities_of_a_rest(evidence, attribution().final_score, misfit_of_names(evidence)))
+    // The hold-out may have changed the numbers since final_score.
+    const std::vector<double> misfit = misfit_of_names(evidence, evidence.score(final_hypothesis()));
+    for (const double none : probabilities_of_a_rest(evidence, attribution().final_score, misfit))
       none_ = std::max(none_, none);
     result_.probability_none = kRule.outside_if_certain * none_;
     // Something acts also where the effect gets no name, or predicts the hold-out badly.
