@@ -50,11 +50,20 @@ struct ParameterSearch {
   double per_motor_speed = 0;
   TolerancedNumber changes = {};  ///< the model parameter that it changes, if any
   /// For an essential parameter: the value at which the effect is another one. Friction that drifts at no rate is only
-  /// more friction, and a loop that yields at once is a softer cable. The effect is named only if it does not explain
-  /// as much with this value, or with the bound that is nearest to it.
+  /// more friction, and a loop that yields at once is a softer cable. The effect is named only if it explains more than
+  /// that other one: SearchSpace::another, or if there is none, itself with this value.
   std::optional<double> another_at = {};
-  /// Of an essential shape: the name of that other effect. If that is named, this one is an alternative.
-  std::string another = {};
+};
+
+/// An effect of the library that another effect is at an end of its essential shapes.
+struct AnotherEffect {
+  std::string name;
+  /// The parameters of the one where it comes closest to the other.
+  std::vector<double> (*parameters_as)(const double* other) = nullptr;
+  /// The other's parameters that come closest to the one, which has `fitted` numbers of the joint beside it, and the
+  /// other has `nominal` ones.
+  std::vector<double> (*parameters)(const double* of, const JointParameters<double>& fitted,
+                                    const JointParameters<double>& nominal) = nullptr;
 };
 
 /// The motion of a record has to contain at least kFewestPeriods periods of an effect that is periodic in a position:
@@ -70,6 +79,8 @@ struct SearchSpace {
   /// For an effect that limits the speed of the motor: index of the parameter that is this speed, rad/s. A motor hardly
   /// exceeds it, so the search also starts a little above the fastest motion of the records.
   std::optional<std::size_t> greatest_motor_speed = {};
+  /// If that is named, this effect is an alternative.
+  std::optional<AnotherEffect> another = {};
   /// True if the model's numbers that the effect changes are fitted beside it: it changes them in one proportion, and
   /// so cannot take their places.
   bool numbers_stay = false;

@@ -157,7 +157,7 @@ std::string fate_of(const Trial& t, const Round& round, bool is_taken) {
   if (t.gain <= 0) return "does not help on data that the fit did not see";
   if (!t.is_judged()) return "not significant";
   if (t.at_bound) return "ends at the end of what is plausible";
-  if (t.as_another) return "is needed only for what another effect explains, too";
+  if (t.is_another) return "is needed only for what another effect explains, too";
   if (t.is_refit) return "within the tolerance of the model's numbers";
   if (!t.matters) return "too small to matter";
   if (round.accepted) return "helps less than the first";

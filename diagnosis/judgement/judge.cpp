@@ -69,11 +69,14 @@ double misfit_of(const PlacedEffect& effect) {
   return effect.effect->stages() == 0 ? kRule.number_misfit : kRule.form_misfit;
 }
 
-bool mends_the_form_of(const PlacedEffect& candidate, const PlacedEffect& found, const ArmParameters<double>& arm) {
+bool yields_in_the_cable(const PlacedEffect& effect, const ArmParameters<double>& arm) {
   constexpr unsigned kCable =
       static_cast<unsigned>(EffectStage::stretch) | static_cast<unsigned>(EffectStage::cable_force);
-  const auto yields = [&](const PlacedEffect& e) { return (e.effect->stages() & kCable) && !has_instants(e, arm); };
-  return candidate.joint == found.joint && yields(candidate) && yields(found);
+  return (effect.effect->stages() & kCable) && !has_instants(effect, arm);
+}
+
+bool mends_the_form_of(const PlacedEffect& candidate, const PlacedEffect& found, const ArmParameters<double>& arm) {
+  return candidate.joint == found.joint && yields_in_the_cable(candidate, arm) && yields_in_the_cable(found, arm);
 }
 
 std::vector<std::vector<double>> misfits(const Evidence& evidence, const Scored& found,

@@ -29,12 +29,6 @@
 
 namespace halyard {
 
-/// How an effect does without its essential parameters (ParameterSearch::another_at).
-struct WithoutEssence {
-  double prior_cost = 0;  ///< of the baseline's numbers
-  Likelihood log_likelihood;
-};
-
 /// A candidate and the results of its tests.
 struct Trial {
   PlacedEffect effect;
@@ -49,12 +43,11 @@ struct Trial {
   bool at_bound = false;
   bool is_refit = false;  ///< its sizes stay within the model's tolerance
   bool matters = false;
+  bool is_another = false;  ///< another effect explains as much, see is_another_effect()
   Likelihood log_likelihood;
-  /// It explains as much without its essential parameters, and is another effect then.
-  std::optional<WithoutEssence> as_another = {};
 
   /// True if only the significance of its gain is left to be tested.
-  bool can_be_named() const { return is_judged() && gain > 0 && !at_bound && !is_refit && matters && !as_another; }
+  bool can_be_named() const { return is_judged() && gain > 0 && !at_bound && !is_refit && matters && !is_another; }
   bool passes(double significance) const { return can_be_named() && p_value <= significance; }
 };
 
@@ -83,6 +76,9 @@ std::optional<int> most_explained_channel(const Evidence& evidence, const Score&
 /// number_misfit if it has no equation of its own.
 double misfit_of(const PlacedEffect& effect);
 
+/// True for an effect that changes how a cable stretches or pulls, and is not an event.
+bool yields_in_the_cable(const PlacedEffect& effect, const ArmParameters<double>& arm);
+
 /// True for two effects in one cable, none of them an event: both change how far it yields under its load, so that the
 /// second can mend the form of the first.
 bool mends_the_form_of(const PlacedEffect& candidate, const PlacedEffect& found, const ArmParameters<double>& arm);
@@ -102,7 +98,7 @@ std::vector<double> difference(std::vector<double> a, const std::vector<double>&
 
 class Judge {
  public:
-  /// numbers: baseline parameters that the data are sensitive to.
+  /// numbers: baseline parameters that a fit may have changed.
   Judge(const Evidence& evidence, const ArmModel& model, std::vector<FitParameter> numbers);
 
   /// Tests the effect with index `place` in `with` against the hypothesis without it.

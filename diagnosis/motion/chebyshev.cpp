@@ -53,6 +53,11 @@ int stages_for(const std::vector<Eigenvalues>& spectra, double h) {
   return stages > Chebyshev::kMostStages ? 0 : static_cast<int>(stages);
 }
 
+double fastest_stable(double h) {
+  constexpr int kStages = Chebyshev::kMostStages - 1;
+  return (kStages * kStages - 1) / (1.5 * kReserve * h);
+}
+
 Chebyshev scheme_for(const std::vector<std::vector<Eigenvalues>>& systems, double sample_s) {
   constexpr int kMostSteps = 8;
   Chebyshev c;

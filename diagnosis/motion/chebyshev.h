@@ -31,6 +31,9 @@ using Eigenvalues = std::vector<std::complex<double>>;
 /// kMostStages are needed.
 int stages_for(const std::vector<Eigenvalues>& spectra, double h);
 
+/// The fastest eigenvalue for which stages_for() has an answer, 1/s.
+double fastest_stable(double h);
+
 /// The method that suits several systems at once with the fewest steps for each sample, and then with the fewest stages
 /// for each step. Each system is given by the spectra at some of its states.
 Chebyshev scheme_for(const std::vector<std::vector<Eigenvalues>>& systems, double sample_s);

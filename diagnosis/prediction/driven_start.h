@@ -11,7 +11,7 @@ namespace halyard {
 DrivenState<double> unstretched_state(const Hypothesis& h, const Record& record, const DrivenInput& u);
 
 /// Eigenvalues of the driven arm with the motors held: at rest at x, and in motion under the largest load of the
-/// record. Empty if they cannot be computed.
+/// record, without and with effects whose states have yielded. Empty if they cannot be computed.
 std::vector<Eigenvalues> eigenvalues_of(const Hypothesis& h, const Record& record, const DrivenInput& held,
                                         const DrivenState<double>& x);
 

@@ -226,8 +226,8 @@ std::vector<Fit> CandidateRound::fit_leaders(std::vector<Trial>& trials) const {
     if (trials[i].at_bound) give_up_bounds(refits[i], trials[i]);
     if (!trials[i].can_be_named()) return;
     const Hypothesis& named = refits[i].best.hypothesis;
-    trials[i].as_another =
-        as_another_effect(evidence_, refitter_, judge_, restarted(refits[i], named), named.effects.size() - 1);
+    trials[i].is_another =
+        is_another_effect(evidence_, refitter_, judge_, restarted(refits[i], named), named.effects.size() - 1);
   };
   const auto go_on_with = [&](const std::string& what, const std::vector<std::size_t>& going, int passes) {
     each(what, going.size(), [&](std::size_t g) {

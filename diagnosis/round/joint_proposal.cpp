@@ -125,7 +125,7 @@ std::vector<Trial> JointSearch::trials(const JointProposal& p, std::size_t first
     const Hypothesis left = refit.best.usable ? refit.best.hypothesis : refit.at;
     all[i] = judge_.trial(p.fit.hypothesis, {left, evidence_.score(left)}, place);
     if (all[i].can_be_named())
-      all[i].as_another = as_another_effect(evidence_, refitter_, judge_, {p.fit.hypothesis, p.score}, place);
+      all[i].is_another = is_another_effect(evidence_, refitter_, judge_, {p.fit.hypothesis, p.score}, place);
   });
   return all;
 }

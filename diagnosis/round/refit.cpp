@@ -32,22 +32,34 @@ Refitter::Refitter(const Evidence& evidence, const ArmModel& model, std::size_t 
   const std::vector<FitParameter> all = baseline_parameters(model_);
   const auto columns = sensitivities(evidence_, {model_.nominal, model_.effects}, all);
   if (columns.size() < all.size()) return;
+  ArmParameters<double> arm = model_.nominal;
+  const std::vector<ParameterInfo> named = named_parameters(arm);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     std::vector<double> change = columns[i];
     for (double& x : change) x = x * (all[i].upper - all[i].nominal) / all[i].scale;
+    const ParameterInfo& its = named[all[i].index];
     if (evidence_.exceeds_floor(change, kSensitive)) numbers_.push_back(all[i]);
+    else if (its.tolerance == &Tolerances::stiffness) hidden_.push_back({all[i], its.joint});
   }
   usable_ = true;
 }
 
+/// Once it is off, it can also return.
+bool Refitter::may_show(const OfCable& hidden, const Hypothesis& h) const {
+  if (parameter_value(h, hidden.number) != hidden.number.nominal) return true;
+  return std::any_of(
+      h.effects.begin() + static_cast<std::ptrdiff_t>(given_), h.effects.end(),
+      [&](const PlacedEffect& e) { return e.joint == hidden.joint && yields_in_the_cable(e, model_.nominal); });
+}
+
 std::vector<FitParameter> Refitter::numbers_beside(const Hypothesis& h) const {
-  std::vector<FitParameter> all;
-  for (const FitParameter& b : numbers_) {
-    bool covered = false;
-    for (std::size_t e = given_; e < h.effects.size(); ++e)
-      covered = covered || effect_covers(h.effects[e], model_.nominal, b);
-    if (!covered) all.push_back(b);
-  }
+  std::vector<FitParameter> all = numbers_;
+  for (const OfCable& c : hidden_)
+    if (may_show(c, h)) all.push_back(c.number);
+  std::erase_if(all, [&](const FitParameter& b) {
+    return std::any_of(h.effects.begin() + static_cast<std::ptrdiff_t>(given_), h.effects.end(),
+                       [&](const PlacedEffect& e) { return effect_covers(e, model_.nominal, b); });
+  });
   return all;
 }
 

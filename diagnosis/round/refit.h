@@ -34,10 +34,13 @@ class Refitter {
 
   /// False if the model cannot be integrated along the record.
   bool is_usable() const { return usable_; }
+  const ArmParameters<double>& nominal() const { return model_.nominal; }
   /// The parameters of the model that the data are sensitive to.
   const std::vector<FitParameter>& numbers() const { return numbers_; }
 
-  /// Parameters of the model that no effect of the hypothesis changes.
+  /// Parameters of the model that no effect of the hypothesis changes. Beside an added effect by which a cable yields
+  /// (yields_in_the_cable()), its stiffness and damping are among them, whether or not the data are sensitive to them
+  /// without it: the damping of a stiff cable does not show, that of a soft one does.
   std::vector<FitParameter> numbers_beside(const Hypothesis& h) const;
   /// These, then the past of its effects and the parameters of the added effects.
   std::vector<FitParameter> parameters(const Hypothesis& h) const;
@@ -52,10 +55,18 @@ class Refitter {
   std::optional<Scored> refitted(const Hypothesis& h, const Score& before) const;
 
  private:
+  /// A number of a cable to which the data are not sensitive.
+  struct OfCable {
+    FitParameter number;
+    int joint;
+  };
+  bool may_show(const OfCable& hidden, const Hypothesis& h) const;
+
   const Evidence& evidence_;
   const ArmModel& model_;
   std::size_t given_;
   std::vector<FitParameter> numbers_;
+  std::vector<OfCable> hidden_;
   bool usable_ = false;
 };
 

@@ -36,7 +36,7 @@ Basis::Basis(const Evidence& evidence, const ArmModel& stated, double times, std
     : factor(times),
       model(with_tolerances_times(times, stated)),
       refitter(evidence, model, given),
-      judge(evidence, model, refitter.numbers()),
+      judge(evidence, model, baseline_parameters(model)),
       evidence_(evidence),
       given_(given) {}
 

@@ -36,8 +36,47 @@ Trial trial_of(const Evidence& evidence, const Basis& basis, const Standing& nam
   const Hypothesis& h = name.found.fit.hypothesis;
   Trial t = basis.judge.trial(h, without, name.place);
   if (t.can_be_named())
-    t.as_another = as_another_effect(evidence, basis.refitter, basis.judge, {h, name.found.score}, name.place);
+    t.is_another = is_another_effect(evidence, basis.refitter, basis.judge, {h, name.found.score}, name.place);
   return t;
+}
+
+/// What each candidate has found, in the order of the trials.
+struct Field {
+  const Evidence& evidence;
+  const Basis& basis;
+  const Scored& without;
+  std::vector<Trial>& trials;
+  std::vector<Fit>& fits;
+};
+
+/// Fits `rival` once more, from where it is what `better` is and from the numbers which that has found. The better fit
+/// stays.
+void fit_at_its_end(std::size_t rival, std::size_t better, const Field& field) {
+  const auto& [evidence, basis, without, trials, fits] = field;
+  const Hypothesis& from = fits[better].hypothesis;
+  const auto its = std::ranges::find_if(
+      from.effects, [&, &name = trials[better].effect](const PlacedEffect& e) { return same_name(e, name); });
+  const auto place = static_cast<std::size_t>(its - from.effects.begin());
+  const PlacedEffect end = at_the_end_that_is(*its, trials[rival].effect, basis.model.nominal);
+  const Found found =
+      basis.refitted(basis.refitter.with_effect(without_effect(from, place), end), evidence.score(from));
+  if (!found.fit.usable || !found.score.finite) return;
+  if (fits[rival].usable) {
+    const Scored present{fits[rival].hypothesis, evidence.score(fits[rival].hypothesis)};
+    if (basis.judge.cost(found.scored()) + kRule.worth_a_change > basis.judge.cost(present)) return;
+  }
+  trials[rival] = trial_of(evidence, basis, {found, found.fit.hypothesis.effects.size() - 1}, without);
+  fits[rival] = found.fit;
+}
+
+/// A candidate that is another one at an end of its shapes explains there what that other one explains. If it gains
+/// less, its own fit has ended in a worse minimum.
+void fit_rivals_at_their_ends(const Field& field) {
+  for (std::size_t i = 0; i < field.trials.size(); ++i)
+    for (std::size_t j = 0; j < field.trials.size(); ++j)
+      if (field.fits[j].usable && field.trials[j].can_be_named() && field.trials[j].gain > field.trials[i].gain &&
+          becomes(field.trials[i].effect, field.trials[j].effect, field.basis.model.nominal))
+        fit_at_its_end(i, j, field);
 }
 
 }  // namespace
@@ -67,6 +106,7 @@ RoundOutcome compete(const Evidence& evidence, const Basis& basis, double signif
   std::vector<Fit> fits = round.fit_leaders(trials);
   std::optional<std::size_t> kept;
   if (its) kept = keep_standing(evidence, basis.judge, standing->found, *its, trials, fits);
+  fit_rivals_at_their_ends({evidence, basis, without, trials, fits});
   const std::vector<bool> is_convincing = convincing(trials, significance);
   std::vector<std::size_t> able;
   for (std::size_t i = 0; i < fits.size(); ++i)

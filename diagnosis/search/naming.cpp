@@ -63,7 +63,7 @@ Naming Competition::naming(const Choice& choice) const {
   for (std::size_t i = 0; i < trials_.size(); ++i) {
     const Trial& t = trials_[i];
     if (i == choice.named || !t.is_judged() || t.is_refit || t.gain <= 0) continue;
-    if (t.as_another && !becomes(t.effect, trials_[choice.named].effect, model_.nominal)) continue;
+    if (t.is_another && !becomes(t.effect, trials_[choice.named].effect, model_.nominal)) continue;
     if (shared_gain(trials_[choice.named].log_likelihood, t.log_likelihood, ln_without_) >= kRule.shared_gain)
       rivals.push_back(i);
   }
@@ -73,7 +73,7 @@ Naming Competition::naming(const Choice& choice) const {
   double surest = naming.weight;
   for (std::size_t r = 1; r < rivals.size(); ++r) {
     const Trial& t = trials_[rivals[r]];
-    if (!t.can_be_named() && !t.as_another && weight[r] > surest) surest = weight[r], naming.surer = t.effect;
+    if (!t.can_be_named() && !t.is_another && weight[r] > surest) surest = weight[r], naming.surer = t.effect;
     if (weight[r] > kWorthTelling || std::ranges::count(choice.alike, rivals[r]) > 0)
       naming.alternatives.push_back({t.effect, weight[r], false});
   }
@@ -94,10 +94,8 @@ std::vector<double> Competition::weights(const std::vector<std::size_t>& rivals)
   for (const std::size_t i : rivals) {
     const Trial& t = trials_[i];
     // At its bound an effect is less plausible, but may still be the right one.
-    const double implausible = (t.at_bound ? kRule.at_bound : 0) + (t.as_another ? kRule.cost_of_a_limit : 0);
-    const double prior_cost = t.as_another ? t.as_another->prior_cost : t.prior_cost;
-    all.push_back({t.as_another ? &t.as_another->log_likelihood : &t.log_likelihood,
-                   prior_cost_of(t.effect, model_.nominal) + prior_cost + implausible});
+    const double implausible = (t.at_bound ? kRule.at_bound : 0) + (t.is_another ? kRule.cost_of_a_limit : 0);
+    all.push_back({&t.log_likelihood, prior_cost_of(t.effect, model_.nominal) + t.prior_cost + implausible});
   }
   return name_weights(evidence_, all, {&ln_without_, judge_.prior_cost(without_.hypothesis)});
 }

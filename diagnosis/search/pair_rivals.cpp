@@ -35,7 +35,7 @@ std::vector<PlacedEffect> rivals_of(const PlacedEffect& effect, const Hypothesis
     const Trial* const leader = leader_of(round);
     if (!leader || !same_name(leader->effect, effect) || leader->gain <= 0) continue;
     for (const Trial& t : round.trials) {
-      if (!t.is_judged() || t.is_refit || t.as_another || t.effect.joint != effect.joint) continue;
+      if (!t.is_judged() || t.is_refit || t.is_another || t.effect.joint != effect.joint) continue;
       const bool is_found = std::ranges::any_of(found.effects, [&](const auto& e) { return same_name(e, t.effect); });
       const double share = t.gain / leader->gain;
       if (!is_found && share >= kRule.shared_gain) all.emplace_back(share, t.effect);
@@ -107,7 +107,7 @@ bool PairRivals::can_be_named(const Pair& pair) const {
     const Fit left = refitter_.refit(without_effect(h, place), pair.score);
     if (!left.usable) return false;
     if (!judge_.trial(h, {left.hypothesis, evidence_.score(left.hypothesis)}, place).passes(options_.significance) ||
-        as_another_effect(evidence_, refitter_, judge_, {h, pair.score}, place))
+        is_another_effect(evidence_, refitter_, judge_, {h, pair.score}, place))
       return false;
   }
   return true;

@@ -256,7 +256,7 @@ std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const
   if (sure.effects.size() == all.effects.size()) return doubt;
   const Refitter refitter(evidence, given, first);
   if (!refitter.is_usable()) return doubt;
-  const Judge judge(evidence, given, refitter.numbers());
+  const Judge judge(evidence, given, baseline_parameters(given));
   const auto with = refitter.refitted(sure, found.final_score);
   for (std::size_t e = 0, place = first; e < doubt.size(); ++e) {
     if (!is_there(doubt[e])) continue;

@@ -113,7 +113,7 @@ void weigh_unlisted_causes(const Evidence& evidence, const ArmModel& model, Attr
   std::vector<std::optional<Scored>> fitted(rivals.size());
   run_side_by_side(rivals.size(), [&](std::size_t i) { fitted[i] = refitter.refitted(rivals[i], found.final_score); });
   if (!fitted[0]) return;
-  const Judge judge(evidence, model, refitter.numbers());
+  const Judge judge(evidence, model, baseline_parameters(model));
   for (std::size_t i = 0; i < asked.size(); ++i) {
     if (!fitted[i + 1]) continue;
     const double gain = judge.gain_over(*fitted[i + 1], *fitted[0]) + prior_gain[i];

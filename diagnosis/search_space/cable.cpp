@@ -8,6 +8,7 @@ namespace halyard {
 namespace {
 
 using Arm = ArmParameters<double>;
+using Joint = JointParameters<double>;
 
 void backlash(SearchSpace& space, const Arm& arm, int joint) {
   space["rounding"].starts = {0, 0.1 * typical_half_gap(arm.joint[joint])};
@@ -31,13 +32,20 @@ void coupling(SearchSpace& space, const Arm& arm, int joint) {
 
 void creep(SearchSpace& space, const Arm&, int) { space["time_constant"].starts = {0.3, 1, 3, 10, 30}; }
 
+/// A share ρ that yields at once leaves 1 - ρ of the stiffness.
+std::vector<double> loop_of_a_softer_cable(const double* cable) { return {1 - cable[0], 0}; }
+std::vector<double> softer_cable_of_a_loop(const double* loop, const Joint& fitted, const Joint& nominal) {
+  const auto ratio = [](double a, double b) { return b > 0 ? a / b : 1; };
+  return {(1 - loop[0]) * ratio(fitted.stiffness, nominal.stiffness), ratio(fitted.damping, nominal.damping), 0};
+}
+
 void hysteresis(SearchSpace& space, const Arm& arm, int joint) {
   const double stretch = typical_stretch(arm.joint[joint]);
   ParameterSearch& yield = space["yield_stretch"];
   yield.starts = {0.003 * stretch, 0.01 * stretch, 0.03 * stretch, 0.1 * stretch, 0.3 * stretch};
   yield.natural_bounds = true;
   yield.another_at = 0;
-  yield.another = "stiffness";
+  space.another = {"stiffness", loop_of_a_softer_cable, softer_cable_of_a_loop};
 }
 
 void pulley_friction(SearchSpace& space, const Arm&, int) { space["motor_share"].natural_bounds = true; }

@@ -153,8 +153,7 @@ TEST(Bounds, OfAShapeLeaveAnEffectAmongTheRivalsOfWhatItIsThere) {
   const PlacedEffect loop = place_effect(*find_effect("hysteresis"), softer.model.nominal, 0);
   std::vector<Trial> trials = {softer.trial(softer.effect), softer.trial(softer.effect)};
   trials[1].effect = loop;
-  trials[1].as_another = {trials[1].prior_cost, trials[1].log_likelihood};
-  trials[1].prior_cost = 100;  // of its own fit, which is not at that end
+  trials[1].is_another = true;
   const Hypothesis without{softer.model.nominal, {}};
   const Scored scored{without, softer.evidence.score(without)};
   const auto naming = [&] {
@@ -165,7 +164,7 @@ TEST(Bounds, OfAShapeLeaveAnEffectAmongTheRivalsOfWhatItIsThere) {
   const double odds = std::exp(cost(softer.effect) - cost(loop) - kRule.cost_of_a_limit);
   EXPECT_NEAR(naming().alternatives[0].probability / naming().weight, odds, 1e-6);
   EXPECT_FALSE(naming().surer);
-  trials[1].as_another->prior_cost += 2;  // at that end it explains less than the name
+  trials[1].prior_cost += 2;  // the damping of the cable is another effect's number
   EXPECT_NEAR(naming().alternatives[0].probability / naming().weight, odds * std::exp(-2), 1e-6);
   trials[1].effect = place_effect(*find_effect("friction_drift"), softer.model.nominal, 0);
   EXPECT_TRUE(naming().alternatives.empty()) << "it is not this effect there";

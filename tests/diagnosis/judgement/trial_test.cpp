@@ -30,7 +30,7 @@ TEST(Trial, CanBeNamedIfNothingSpeaksAgainstIt) {
   EXPECT_FALSE(good_trial_but([](Trial& t) { t.at_bound = true; }).can_be_named());
   EXPECT_FALSE(good_trial_but([](Trial& t) { t.is_refit = true; }).can_be_named());
   EXPECT_FALSE(good_trial_but([](Trial& t) { t.matters = false; }).can_be_named());
-  EXPECT_FALSE(good_trial_but([](Trial& t) { t.as_another.emplace(); }).can_be_named());
+  EXPECT_FALSE(good_trial_but([](Trial& t) { t.is_another = true; }).can_be_named());
 }
 
 TEST(Trial, PassesATestOfItsOwnSignificanceAndNoStricterOne) {

@@ -204,6 +204,33 @@ TEST(Prediction, OfAnArmThatRingsIsStable) {
   EXPECT_LT(most, stretch);
 }
 
+TEST(Prediction, OfALoopThatYieldsAtOnceIsThatOfASofterCable) {
+  const ArmModel model = first_joints(2);
+  Scenario fast = motion(model, 3);
+  for (JointTrajectory& t : fast.trajectory)
+    for (Sine& s : t.sines) s.frequency_hz *= 3;  // the loop follows as fast as its cable stretches
+  const Record record = make_records(simulate(fast).measured, model, {})[0];
+  constexpr double kShare = 0.73;
+  Hypothesis softer{model.nominal, {}};
+  softer.nominal.joint[0].stiffness *= 1 - kShare;
+  const Residuals of_softer = predict(record, {softer}, 1)[0], of_model = predict(record, {{model.nominal, {}}}, 1)[0];
+  PlacedEffect loop = place_effect(*find_effect("hysteresis"), model.nominal, 0);
+  loop.p[0] = kShare;
+  const double earliest = loop.effect->parameters(model.nominal, 0)[1].lower;
+  for (const double times : {1, 2, 3, 4, 6}) {
+    loop.p[1] = times * earliest;
+    const Residuals e = predict(record, {{model.nominal, {loop}}}, 1)[0];
+    ASSERT_TRUE(e.finite) << times;
+    double off = 0, softens = 0;
+    for (std::size_t i = record.size / 4; i < record.size; ++i) {
+      if (!std::isfinite(e.channel[2][i])) continue;
+      off = std::max(off, std::abs(e.channel[2][i] - of_softer.channel[2][i]));
+      softens = std::max(softens, std::abs(of_model.channel[2][i] - of_softer.channel[2][i]));
+    }
+    EXPECT_LT(off, 0.05 * softens) << times;
+  }
+}
+
 TEST(Prediction, OfEverySampleIsTheReadingLessItsResidual) {
   const ArmModel model = first_joints(2);
   const Record record = make_records(unquantised_log(model, 2), model, {})[0];

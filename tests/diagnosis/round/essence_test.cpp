@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "plant/simulate.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/short_arm.h"
 #include "transmission/effects/typical_size.h"
 
@@ -15,8 +16,8 @@ PlacedEffect effect_of_joint_1(const char* name, double first, double second) {
   return e;
 }
 
-/// How an effect that is fitted to the log of an arm with `truth` does as another one. start: of its fit.
-std::optional<WithoutEssence> as_another(const PlacedEffect& truth, const PlacedEffect& start) {
+/// Whether an effect that is fitted to the log of an arm with `truth` is another one. start: of its fit.
+bool is_another(const PlacedEffect& truth, const PlacedEffect& start) {
   const ArmModel model = first_joints(1);
   ArmModel robot = model;
   robot.effects = {truth};
@@ -25,22 +26,43 @@ std::optional<WithoutEssence> as_another(const PlacedEffect& truth, const Placed
   const Judge judge(evidence, model, refitter.numbers());
   const Hypothesis from{model.nominal, {start}};
   const Hypothesis fitted = refitter.refit(from, evidence.score(from)).hypothesis;
-  return as_another_effect(evidence, refitter, judge, {fitted, evidence.score(fitted)}, 0);
+  return is_another_effect(evidence, refitter, judge, {fitted, evidence.score(fitted)}, 0);
 }
 
 /// Friction of motor and joint that rises to this factor at once, and then by this rate, 1/s.
 PlacedEffect drifting_friction(double rate, double factor) { return effect_of_joint_1("friction_drift", rate, factor); }
 
 TEST(Essence, OfADriftIsThatItDrifts) {
-  EXPECT_TRUE(as_another(drifting_friction(0, 1.6), drifting_friction(0.01, 1.5)));
-  EXPECT_FALSE(as_another(drifting_friction(0.08, 1.2), drifting_friction(0.01, 1.5)));
+  EXPECT_TRUE(is_another(drifting_friction(0, 1.6), drifting_friction(0.01, 1.5)));
+  EXPECT_FALSE(is_another(drifting_friction(0.08, 1.2), drifting_friction(0.01, 1.5)));
 }
 
 TEST(Essence, OfAHysteresisIsItsLoop) {
   const double stretch = typical_stretch(first_joints(1).nominal.joint[0]);
   const PlacedEffect start = effect_of_joint_1("hysteresis", 0.4, 0.01 * stretch);
-  EXPECT_TRUE(as_another(effect_of_joint_1("stiffness", 0.5, 1), start));
-  EXPECT_FALSE(as_another(effect_of_joint_1("hysteresis", 0.5, 0.05 * stretch), start));
+  EXPECT_TRUE(is_another(effect_of_joint_1("stiffness", 0.5, 1), start));
+  // It yields early, but a softer cable takes no energy from the motion.
+  const PlacedEffect early = effect_of_joint_1("hysteresis", 0.8, 0.02 * stretch);
+  EXPECT_FALSE(is_another(early, early));
+}
+
+TEST(Essence, OfAHysteresisBesideASofterCableHasConvincedAlready) {
+  const ArmModel model = first_joints(1);
+  const Refitter refitter(made_evidence(), model, 0);
+  const Judge judge(made_evidence(), model, {});
+  const double stretch = typical_stretch(model.nominal.joint[0]);
+  const Hypothesis both{model.nominal,
+                        {effect_of_joint_1("stiffness", 0.5, 1), effect_of_joint_1("hysteresis", 0.4, 0.1 * stretch)}};
+  EXPECT_FALSE(is_another_effect(made_evidence(), refitter, judge, {both, made_evidence().score(both)}, 1));
+}
+
+TEST(Essence, AHysteresisThatIsASofterCableYieldsAsEarlyAsItCan) {
+  const ArmParameters<double> arm = first_joints(1).nominal;
+  const PlacedEffect loop = place_effect(*find_effect("hysteresis"), arm, 0);
+  const PlacedEffect softer = at_the_end_that_is(effect_of_joint_1("stiffness", 0.3, 1), loop, arm);
+  EXPECT_NEAR(softer.p[0], 0.7, 1e-12);
+  EXPECT_EQ(softer.p[1], loop.effect->parameters(arm, 0)[1].lower);
+  EXPECT_EQ(at_the_end_that_is(effect_of_joint_1("stiffness", 2, 1), loop, arm).p[0], 0) << "no loop is stiffer";
 }
 
 TEST(Essence, OfAHysteresisIsNotThatOfAnotherEffectThanASofterCable) {

@@ -31,6 +31,22 @@ TEST(Refitter, FitsTheNumbersThatNoAddedEffectReplaces) {
   EXPECT_EQ(given.numbers_beside(h).size(), given.numbers().size()) << "the model came with it";
 }
 
+TEST(Refitter, FitsTheDampingOfACableBesideAnEffectThatLetsItYield) {
+  const ArmModel model = first_joints(1);
+  const Refitter refitter(made_evidence(), model, 0);
+  const auto fits_damping = [&](const Hypothesis& h) {
+    return std::ranges::any_of(refitter.numbers_beside(h),
+                               [](const FitParameter& p) { return p.name == "joint 1 cable damping"; });
+  };
+  Hypothesis h{model.nominal, {}};
+  EXPECT_FALSE(fits_damping(h)) << "the log is not sensitive to it";
+  EXPECT_FALSE(fits_damping({model.nominal, {at_the_joint("motor_friction")}}));
+  EXPECT_FALSE(fits_damping({model.nominal, {at_the_joint("stiffness")}})) << "this effect replaces it";
+  EXPECT_TRUE(fits_damping({model.nominal, {at_the_joint("hysteresis")}}));
+  h.nominal.joint[0].damping *= 1.01;
+  EXPECT_TRUE(fits_damping(h)) << "what is off can return";
+}
+
 TEST(Refitter, FitsOfAGivenEffectItsPastAlone) {
   const ArmModel model = first_joints(1);
   ArmModel with_loop = model;

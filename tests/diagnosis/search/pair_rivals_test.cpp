@@ -254,7 +254,7 @@ TEST(PairRivals, AreNoneIfTheRoundSaysNothingOfOneOfThem) {
   EXPECT_TRUE(name_is_unchallenged([](Round& r) { r.trials[2].gain = 4.9; })) << "less than half";
   EXPECT_TRUE(name_is_unchallenged([](Round& r) { r.trials[2].p_value = 0.06; })) << "not significant";
   EXPECT_TRUE(name_is_unchallenged([](Round& r) { r.trials[2].is_refit = true; }));
-  EXPECT_TRUE(name_is_unchallenged([](Round& r) { r.trials[2].as_another.emplace(); }));
+  EXPECT_TRUE(name_is_unchallenged([](Round& r) { r.trials[2].is_another = true; }));
   EXPECT_TRUE(name_is_unchallenged([](Round& r) { r.trials[2].effect.joint = 1; })) << "at another joint";
   EXPECT_TRUE(name_is_unchallenged([&](Round& r) { r.trials[2].effect = name; })) << "it is found already";
   EXPECT_TRUE(name_is_unchallenged([&](Round& r) {
