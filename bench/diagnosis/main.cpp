@@ -19,6 +19,7 @@
 #include "bench/diagnosis/summary/summary.h"
 #include "bench/diagnosis/trial/trial.h"
 #include "bench/program.h"
+#include "diagnosis/judgement/decision_rule.h"
 #include "model/model_file.h"
 #include "model/output/folder_lock.h"
 
@@ -33,6 +34,7 @@ struct Options {
   int off = 1;
   std::string arms = "mixed";
   int trials = 20;
+  std::vector<std::string> rules;
   TrialOptions trial;
   fs::path out;
   std::string shard = "1/1";
@@ -83,11 +85,27 @@ std::vector<Job> jobs_left(const Options& options) {
       continue;
     }
     const Result r = read_result(path);
-    if (r.seed != options.trial.seed || r.outliers != options.trial.outliers)
-      throw InputError(path.string() +
-                       ": is of another --seed or --outliers; give those, leave out --resume, or take another folder");
+    if (r.seed != options.trial.seed || r.outliers != options.trial.outliers || r.rule != options.trial.rule)
+      throw InputError(
+          path.string() +
+          ": is of another --seed, --outliers or --rule; give those, leave out --resume, or take another folder");
   }
   return left;
+}
+
+/// Varies the thresholds, each given as NAME=VALUE.
+void vary_rules(const std::vector<std::string>& rules) {
+  for (const std::string& rule : rules) {
+    const std::size_t equals = rule.find('=');
+    double value = 0;
+    if (equals == std::string::npos || !CLI::detail::lexical_cast(rule.substr(equals + 1), value))
+      throw InputError("--rule: " + in_quotes(rule) + ": expected NAME=VALUE, such as sure_name=0.5");
+    try {
+      vary_rule(rule.substr(0, equals), value);
+    } catch (const std::invalid_argument& error) {
+      throw InputError("--rule: " + std::string(error.what()));
+    }
+  }
 }
 
 std::string line(const Result& r) {
@@ -166,6 +184,10 @@ int run_command_line(int argc, char** argv) {
   app.add_option("--outliers", options.trial.outliers, "share of the joint readings that are wrong")
       ->check(CLI::Range(0.0, 0.5) & CLI::Validator(not_nan, "", "a number"))
       ->capture_default_str();
+  app.add_option("--rule", options.rules, "another value of a threshold in decision_rule.h; may be repeated")
+      ->type_name("NAME=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
   app.add_option("--out", options.out, "folder of the results");
   app.add_option("--logs", options.trial.logs,
                  "keep models, truths and logs in this folder, to diagnose one of them by hand");
@@ -181,6 +203,8 @@ int run_command_line(int argc, char** argv) {
     } else if (options.out.empty()) {
       throw InputError("--out: is missing; give the folder of the results");
     } else {
+      vary_rules(options.rules);
+      options.trial.rule = fmt::format("{}", fmt::join(options.rules, " "));
       run(options);
     }
     return 0;

@@ -1,8 +1,10 @@
 #pragma once
 /// The thresholds that decide what a diagnosis names: what each means, its value, and why. Those without a reason were
-/// chosen by hand; only the blind trials test them, all together. Thresholds that only one step uses stand beside it.
+/// chosen by hand; only the blind trials test them, all together or one by one (`halyard_blind_trials --rule`).
+/// Thresholds that only one step uses stand beside it.
 
 #include <cstddef>
+#include <string>
 
 namespace halyard {
 
@@ -155,6 +157,11 @@ struct DecisionRule {
   double still_leads = 0.5;
 };
 
-inline constexpr DecisionRule kRule = {};
+/// The rule of every diagnosis. Only vary_rule() changes it.
+extern const DecisionRule& kRule;
+
+/// Gives a threshold another value, to measure what it does: `halyard_blind_trials --rule`. Not while a diagnosis runs.
+/// Throws std::invalid_argument for a name that is none, and for a value below 0 or of a count that is not whole.
+void vary_rule(const std::string& name, double value);
 
 }  // namespace halyard

@@ -20,11 +20,13 @@ fs::path folder(const std::string& name) {
   return path;
 }
 
-void write_trial(const fs::path& to, int index, std::uint64_t seed = 7, double outliers = 0) {
+void write_trial(const fs::path& to, int index, std::uint64_t seed = 7, double outliers = 0,
+                 const std::string& rule = "") {
   Result r = trial(Kind::clean, {}, {});
   r.index = index;
   r.seed = seed;
   r.outliers = outliers;
+  r.rule = rule;
   write_result(to, r);
 }
 
@@ -57,10 +59,13 @@ TEST(TrialsOfFolders, AreNotCountedTwice) {
 }
 
 TEST(TrialsOfFolders, OfDifferentDrawsAreRefused) {
-  const fs::path a = folder("a"), seed = folder("seed"), outliers = folder("outliers");
+  const fs::path a = folder("a"), seed = folder("seed"), outliers = folder("outliers"), rule = folder("rule");
   write_trial(a, 0);
   write_trial(seed, 1, 8);
   write_trial(outliers, 2, 7, 0.01);
+  write_trial(rule, 3, 7, 0, "sure_name=0.5");
+  EXPECT_NE(refusal_of({a, rule}).find("--rule sure_name=0.5, but "), std::string::npos) << refusal_of({a, rule});
+  EXPECT_NE(refusal_of({a, rule}).find("has no --rule; "), std::string::npos) << refusal_of({a, rule});
   EXPECT_NE(refusal_of({a, seed}).find("seed 8, but " + a.string()), std::string::npos) << refusal_of({a, seed});
   EXPECT_NE(refusal_of({a, outliers}).find("outliers 0.01, but "), std::string::npos) << refusal_of({a, outliers});
 }

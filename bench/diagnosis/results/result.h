@@ -78,6 +78,7 @@ struct Result {
   int joints = 0;
   double latency_s = 0, joint_rate_hz = 0;  ///< of the joint sensors; a rate of 0: none
   double outliers = 0;                      ///< TrialOptions::outliers
+  std::string rule;                         ///< TrialOptions::rule
   std::vector<TrueEffect> truth;
   /// Names that are true beside the truth: of parameters that are off by more than their tolerance, of a part of an
   /// effect (names_beside()), and `delay` where the joint sensors are late.

@@ -121,6 +121,7 @@ Result result_from(const Json& all) {
   r.latency_s = all.at("sensors").at("latency_s");
   r.joint_rate_hz = all.at("sensors").at("joint_rate_hz");
   r.outliers = all.at("sensors").at("outliers");
+  r.rule = all.value("rule", "");
   for (const Json& t : all.at("truth")) r.truth.push_back(truth_from(t));
   for (const Json& p : all.at("also_true")) r.also_true.push_back(place_from(p));
   r.verdict = all.at("verdict");
@@ -162,6 +163,7 @@ void write_result(const std::filesystem::path& folder, const Result& r) {
               {"joint_position_rms", to_json(r.holdout)},
               {"joint_position_rms_as_sensed", to_json(r.sensed_holdout)},
               {"seconds", {{"wall", r.wall_s}}}};
+  if (!r.rule.empty()) all["rule"] = r.rule;
   if (r.dropped) all["dropped_draws"] = *r.dropped;
   if (r.interval_coverage) all["joint_position_interval95"] = {{"coverage", numbers(*r.interval_coverage)}};
   write_file_whole(result_path(folder, r.situation, r.index), all.dump(1) + "\n");

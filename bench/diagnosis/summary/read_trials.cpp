@@ -31,6 +31,10 @@ void check_that_one_draw(const Result& first, const fs::path& path_of_first, con
   if (r.outliers != first.outliers)
     throw InputError(fmt::format("{}: outliers {}, but {} has outliers {}; summarise one draw at a time", path.string(),
                                  r.outliers, path_of_first.string(), first.outliers));
+  const auto rule = [](const Result& of) { return of.rule.empty() ? "no --rule" : "--rule " + of.rule; };
+  if (r.rule != first.rule)
+    throw InputError(fmt::format("{}: {}, but {} has {}; summarise one draw at a time", path.string(), rule(r),
+                                 path_of_first.string(), rule(first)));
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 namespace halyard::blind {
 
 /// In the order of their file names. Throws InputError for a folder without trials, for a trial that is there twice (a
-/// shard and its repetition), and for trials of different seeds or shares of outliers: these are different draws, and
-/// a share over them is of neither.
+/// shard and its repetition), and for trials of different seeds, shares of outliers or thresholds (--rule): these are
+/// different draws, and a share over them is of neither.
 std::vector<Result> read_trials(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace halyard::blind

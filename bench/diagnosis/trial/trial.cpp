@@ -59,6 +59,7 @@ Result run_trial(const ArmModel& raven2, const Situation& situation, int index, 
   r.index = index;
   r.seed = options.seed;
   r.outliers = options.outliers;
+  r.rule = options.rule;
   r.dropped.emplace();
   const std::optional<Recording> recording =
       first_possible([&] { return draw_recording(raven2, situation, index, options, random); }, *r.dropped);

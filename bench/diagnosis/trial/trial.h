@@ -28,6 +28,7 @@ namespace halyard::blind {
 
 struct TrialOptions {
   std::uint64_t seed = 1;
+  std::string rule;            ///< thresholds that were varied, "NAME=VALUE NAME=VALUE"; empty: none
   double outliers = 0;         ///< share of joint readings of the training that are wrong by 50 to 500 counts
   std::filesystem::path logs;  ///< folder for the logs and models that were diagnosed; empty: they are not kept
 };
