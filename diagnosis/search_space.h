@@ -55,15 +55,16 @@ struct ParameterSearch {
   std::optional<double> another_at = {};
 };
 
-/// An effect of the library that another effect is at an end of its essential shapes.
+/// The effect that an effect of a joint is at an end of its essential shapes, as a loop is a softer cable if it yields
+/// at once. Only effects of the library have one.
 struct AnotherEffect {
-  std::string name;
-  /// The parameters of the one where it comes closest to the other.
-  std::vector<double> (*parameters_as)(const double* other) = nullptr;
-  /// The other's parameters that come closest to the one, which has `fitted` numbers of the joint beside it, and the
-  /// other has `nominal` ones.
-  std::vector<double> (*parameters)(const double* of, const JointParameters<double>& fitted,
-                                    const JointParameters<double>& nominal) = nullptr;
+  std::string name;  ///< of the library
+  /// Parameters of the effect itself with which it is nearly this other one.
+  std::vector<double> (*own_from_other)(const double* other) = nullptr;
+  /// Parameters of the other one that is nearly the effect itself. `fitted` are the numbers of the joint beside the
+  /// effect; beside the other one they are `nominal`.
+  std::vector<double> (*other_from_own)(const double* own, const JointParameters<double>& fitted,
+                                        const JointParameters<double>& nominal) = nullptr;
 };
 
 /// The motion of a record has to contain at least kFewestPeriods periods of an effect that is periodic in a position:
@@ -79,7 +80,7 @@ struct SearchSpace {
   /// For an effect that limits the speed of the motor: index of the parameter that is this speed, rad/s. A motor hardly
   /// exceeds it, so the search also starts a little above the fastest motion of the records.
   std::optional<std::size_t> greatest_motor_speed = {};
-  /// If that is named, this effect is an alternative.
+  /// The effect is named only if it explains more than this one. If this one is named, the effect is an alternative.
   std::optional<AnotherEffect> another = {};
   /// True if the model's numbers that the effect changes are fitted beside it: it changes them in one proportion, and
   /// so cannot take their places.

@@ -70,7 +70,7 @@ constexpr std::size_t size_of_all() {
     sum += std::visit([](auto member) { return sizeof(DecisionRule{}.*member); }, t.member);
   return sum;
 }
-static_assert(size_of_all() == sizeof(DecisionRule), "a threshold has no name in the list");
+static_assert(size_of_all() == sizeof(DecisionRule), "the list lacks a threshold, or has one twice");
 
 }  // namespace
 
@@ -80,12 +80,13 @@ void vary_rule(const std::string& name, double value) {
   const auto its = std::ranges::find(kThresholds, name, &Threshold::name);
   if (its == std::end(kThresholds))
     throw std::invalid_argument(fmt::format("there is no threshold {}; see diagnosis/judgement/decision_rule.h", name));
-  if (!(value >= 0) || !std::isfinite(value))
-    throw std::invalid_argument(fmt::format("{} = {}: expected a number of at least 0", name, value));
+  constexpr double kMost = 1e6;
+  if (!(value >= 0 && value <= kMost))
+    throw std::invalid_argument(fmt::format("{} = {}: expected a number from 0 to {}", name, value, kMost));
   std::visit(
       [&]<class T>(T DecisionRule::*member) {
-        if (static_cast<double>(static_cast<T>(value)) != value)
-          throw std::invalid_argument(fmt::format("{} = {}: expected a whole number", name, value));
+        if (std::is_integral_v<T> && (value != std::floor(value) || value < 1))
+          throw std::invalid_argument(fmt::format("{} = {}: expected a whole number of at least 1", name, value));
         rule_in_force.*member = static_cast<T>(value);
       },
       its->member);

@@ -79,7 +79,8 @@ struct DecisionRule {
   double cost_of_number = 0.5;
   /// Prior cost of an effect whose shape lies where it is another effect, which is named, nats. Reason: a loop that
   /// yields at once is a softer cable, and about a third of the loops do so in a log. With the numbers that the two
-  /// have, a softer cable has at most 62 % of the weight, so that beside other names it is a guess (sure_name).
+  /// have, a softer cable has 62 % of the weight where both explain the same, so that beside other names it is a guess
+  /// (sure_name).
   double cost_of_a_limit = 1;
   /// s of P(none), see name_probability.h.
   double none_sharpness = 1.5;
@@ -161,7 +162,7 @@ struct DecisionRule {
 extern const DecisionRule& kRule;
 
 /// Gives a threshold another value, to measure what it does: `halyard_blind_trials --rule`. Not while a diagnosis runs.
-/// Throws std::invalid_argument for a name that is none, and for a value below 0 or of a count that is not whole.
+/// Throws std::invalid_argument for a name that is none, and for a value that no threshold can have.
 void vary_rule(const std::string& name, double value);
 
 }  // namespace halyard

@@ -103,12 +103,14 @@ std::vector<Eigenvalues> eigenvalues_of(const Hypothesis& h, const Record& recor
   std::vector<DrivenState<double>> states = {x, working_state(h, record, held, x)};
   if (transmission.n_states() > 0)
     for (const double direction : {-1, 1}) states.push_back(with_states(direction, h, states[1]));
-  for (const DrivenState<double>& at : states) {
-    const Eigen::MatrixXd J = driven_jacobian(transmission, record, held, at);
-    if (!J.allFinite()) return {};
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const bool has_to_be_known = i < kWithoutStates;
+    const Eigen::MatrixXd J = driven_jacobian(transmission, record, held, states[i]);
+    if (!J.allFinite() && has_to_be_known) return {};
+    if (!J.allFinite()) continue;
     const Eigen::VectorXcd lambda = eigenvalues(J);
     spectra.emplace_back(lambda.begin(), lambda.end());
-    if (spectra.size() > kWithoutStates) limit_to(fastest_stable(record.dt), spectra.back());
+    if (!has_to_be_known) limit_to(fastest_stable(record.dt), spectra.back());
   }
   return spectra;
 }

@@ -35,6 +35,8 @@ class Refitter {
   /// False if the model cannot be integrated along the record.
   bool is_usable() const { return usable_; }
   const ArmParameters<double>& nominal() const { return model_.nominal; }
+  /// Number of effects that the model came with.
+  std::size_t given() const { return given_; }
   /// The parameters of the model that the data are sensitive to.
   const std::vector<FitParameter>& numbers() const { return numbers_; }
 

@@ -49,34 +49,44 @@ struct Field {
   std::vector<Fit>& fits;
 };
 
-/// Fits `rival` once more, from where it is what `better` is and from the numbers which that has found. The better fit
-/// stays.
-void fit_at_its_end(std::size_t rival, std::size_t better, const Field& field) {
+/// Fits candidate i once more from `start`, with the weights of the score `before`. Returns true if that fit is better:
+/// then it stays.
+bool refit_from(const Hypothesis& start, const Score& before, std::size_t i, const Field& field) {
   const auto& [evidence, basis, without, trials, fits] = field;
-  const Hypothesis& from = fits[better].hypothesis;
-  const auto its = std::ranges::find_if(
-      from.effects, [&, &name = trials[better].effect](const PlacedEffect& e) { return same_name(e, name); });
-  const auto place = static_cast<std::size_t>(its - from.effects.begin());
-  const PlacedEffect end = at_the_end_that_is(*its, trials[rival].effect, basis.model.nominal);
-  const Found found =
-      basis.refitted(basis.refitter.with_effect(without_effect(from, place), end), evidence.score(from));
-  if (!found.fit.usable || !found.score.finite) return;
-  if (fits[rival].usable) {
-    const Scored present{fits[rival].hypothesis, evidence.score(fits[rival].hypothesis)};
-    if (basis.judge.cost(found.scored()) + kRule.worth_a_change > basis.judge.cost(present)) return;
+  const Found found = basis.refitted(start, before);
+  if (!found.fit.usable || !found.score.finite) return false;
+  if (fits[i].usable) {
+    const Scored present{fits[i].hypothesis, evidence.score(fits[i].hypothesis)};
+    if (basis.judge.cost(found.scored()) + kRule.worth_a_change > basis.judge.cost(present)) return false;
   }
-  trials[rival] = trial_of(evidence, basis, {found, found.fit.hypothesis.effects.size() - 1}, without);
-  fits[rival] = found.fit;
+  trials[i] = trial_of(evidence, basis, {found, found.fit.hypothesis.effects.size() - 1}, without);
+  fits[i] = found.fit;
+  return true;
 }
 
-/// A candidate that is another one at an end of its shapes explains there what that other one explains. If it gains
-/// less, its own fit has ended in a worse minimum.
-void fit_rivals_at_their_ends(const Field& field) {
-  for (std::size_t i = 0; i < field.trials.size(); ++i)
-    for (std::size_t j = 0; j < field.trials.size(); ++j)
-      if (field.fits[j].usable && field.trials[j].can_be_named() && field.trials[j].gain > field.trials[i].gain &&
-          becomes(field.trials[i].effect, field.trials[j].effect, field.basis.model.nominal))
-        fit_at_its_end(i, j, field);
+std::size_t place_of(const PlacedEffect& effect, const Hypothesis& h) {
+  const auto its = std::ranges::find_if(h.effects, [&](const PlacedEffect& e) { return same_name(e, effect); });
+  return static_cast<std::size_t>(its - h.effects.begin());
+}
+
+/// Candidate `one` is the candidate `other` at an end of its shapes: there both explain the same. If one of them gains
+/// less, its own fit may have ended in a worse minimum: it is fitted once more from where the fit of the better one has
+/// ended. Returns the index of that candidate if it has a better fit then.
+std::optional<std::size_t> fit_from_the_better(std::size_t one, std::size_t other, const Field& field) {
+  const auto& [evidence, basis, without, trials, fits] = field;
+  const Refitter& refitter = basis.refitter;
+  if (fits[other].usable && trials[other].can_be_named() && trials[other].gain > trials[one].gain) {
+    const Hypothesis& h = fits[other].hypothesis;
+    const std::size_t place = place_of(trials[other].effect, h);
+    const auto end = at_the_end_that_is(h.effects[place], trials[one].effect, refitter.nominal());
+    if (end && refit_from(refitter.with_effect(without_effect(h, place), *end), evidence.score(h), one, field))
+      return one;
+  } else if (fits[one].usable && trials[one].is_another && trials[one].gain > trials[other].gain) {
+    const Hypothesis& h = fits[one].hypothesis;
+    const std::size_t place = place_of(trials[one].effect, h);
+    if (refit_from(with_the_other_effect(refitter, h, place), evidence.score(h), other, field)) return other;
+  }
+  return {};
 }
 
 }  // namespace
@@ -106,7 +116,13 @@ RoundOutcome compete(const Evidence& evidence, const Basis& basis, double signif
   std::vector<Fit> fits = round.fit_leaders(trials);
   std::optional<std::size_t> kept;
   if (its) kept = keep_standing(evidence, basis.judge, standing->found, *its, trials, fits);
-  fit_rivals_at_their_ends({evidence, basis, without, trials, fits});
+  std::vector<bool> has_better_fit(trials.size(), false);
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    for (std::size_t j = 0; j < trials.size(); ++j) {
+      if (!becomes(trials[i].effect, trials[j].effect, basis.model.nominal)) continue;
+      const auto better = fit_from_the_better(i, j, {evidence, basis, without, trials, fits});
+      if (better) has_better_fit[*better] = true;
+    }
   const std::vector<bool> is_convincing = convincing(trials, significance);
   std::vector<std::size_t> able;
   for (std::size_t i = 0; i < fits.size(); ++i)
@@ -117,7 +133,8 @@ RoundOutcome compete(const Evidence& evidence, const Basis& basis, double signif
     return outcome;
   }
   const Competition::Choice choice = competition.choose(able);
-  outcome.won = {fits[choice.named], competition.naming(choice), trials[choice.named].effect, choice.named == kept};
+  outcome.won = {fits[choice.named], competition.naming(choice), trials[choice.named].effect,
+                 choice.named == kept && !has_better_fit[choice.named]};
   outcome.told.accepted = true;
   const auto named = trials.begin() + static_cast<std::ptrdiff_t>(choice.named);
   std::rotate(trials.begin(), named, named + 1);

@@ -93,9 +93,11 @@ std::vector<double> Competition::weights(const std::vector<std::size_t>& rivals)
   std::vector<Competitor> all;
   for (const std::size_t i : rivals) {
     const Trial& t = trials_[i];
-    // At its bound an effect is less plausible, but may still be the right one.
+    // At its bound an effect is less plausible, but may still be the right one. One that is the name, the first of the
+    // rivals, at an end of its shapes does not explain significantly more: what it gains above the name is chance.
+    const Trial& as = t.is_another && t.gain > trials_[rivals.front()].gain ? trials_[rivals.front()] : t;
     const double implausible = (t.at_bound ? kRule.at_bound : 0) + (t.is_another ? kRule.cost_of_a_limit : 0);
-    all.push_back({&t.log_likelihood, prior_cost_of(t.effect, model_.nominal) + t.prior_cost + implausible});
+    all.push_back({&as.log_likelihood, prior_cost_of(t.effect, model_.nominal) + as.prior_cost + implausible});
   }
   return name_weights(evidence_, all, {&ln_without_, judge_.prior_cost(without_.hypothesis)});
 }

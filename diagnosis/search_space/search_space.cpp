@@ -44,6 +44,7 @@ void check(const SearchSpace& space, const std::vector<EffectParameter>& paramet
       refuse(effect, "the number that " + in_quotes(p.name) +
                          " changes is negative or of no joint; give a joint of the arm, and a size of 0 or more");
   }
+  if (space.another) refuse(effect, "it gives another effect; only the library's own effects do; leave it out");
   for (const auto& order : {space.order_of_motor_torque, space.order_of_joint_position})
     if (order && *order >= parameters.size())
       refuse(effect, "the index of its order is no parameter of it; give the index of one");

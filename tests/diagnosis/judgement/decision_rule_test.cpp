@@ -33,6 +33,8 @@ TEST_F(DecisionRuleTest, CanBeVariedByTheNamesOfItsThresholds) {
 TEST_F(DecisionRuleTest, RefusesWhatIsNoThresholdOrNoValueOfIt) {
   EXPECT_THROW(vary_rule("sure_names", 0.5), std::invalid_argument);
   EXPECT_THROW(vary_rule("leaders", 2.5), std::invalid_argument);
+  EXPECT_THROW(vary_rule("leaders", 0), std::invalid_argument);
+  EXPECT_THROW(vary_rule("sure_name", 1e7), std::invalid_argument);
   EXPECT_THROW(vary_rule("sure_name", -0.1), std::invalid_argument);
   EXPECT_THROW(vary_rule("sure_name", std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
   EXPECT_EQ(kRule.leaders, DecisionRule().leaders);

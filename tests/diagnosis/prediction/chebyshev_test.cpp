@@ -115,6 +115,15 @@ TEST(Chebyshev, TakesStagesForTheFastestModeAndAFifthMore) {
   EXPECT_EQ(stages_for({{-1e6}}, 1), 0) << "more than the method has room for";
 }
 
+TEST(Chebyshev, HasStagesForTheFastestModeThatItCallsStable) {
+  for (const double h : {0.0005, 0.001, 0.002, 0.003, 0.004, 0.005, 0.01, 0.03}) {
+    const double fastest = fastest_stable(h);
+    for (const std::complex<double> direction : {std::polar(1.0, 2.3), std::polar(1.0, 3.0), {-1.0, 0.0}})
+      EXPECT_GT(stages_for({{fastest * direction}}, h), 0) << h << " " << direction;
+    EXPECT_EQ(stages_for({{-1.01 * fastest}}, h), 0) << h;
+  }
+}
+
 TEST(Chebyshev, TakesSeveralStepsForAModeThatRings) {
   EXPECT_EQ(scheme_for({{{{-50, 0}}}}, 1).steps, 1);
   const Chebyshev ringing = scheme_for({{{{-1, 20}, {-1, -20}}}}, 1);

@@ -101,6 +101,18 @@ TEST_F(CompeteOfASofterCable, IsNearlyLostToALoopThatYieldsAtOnce) {
   EXPECT_NEAR(o.won->naming.alternatives[0].probability, 0.35, 0.1);
 }
 
+TEST_F(CompeteOfASofterCable, GivesALoopWithABadFitABetterOne) {
+  Found found = fitted({of_size("hysteresis", 0.6)});
+  found.fit.hypothesis.effects[0].p[0] = 0.5;
+  found.score = evidence_->score(found.fit.hypothesis);
+  const RoundOutcome o = outcome(Standing{found, 0}, {"stiffness"});
+  ASSERT_TRUE(o.won);
+  EXPECT_FALSE(o.won->is_standing);
+  EXPECT_EQ(o.won->effect.effect->name(), "stiffness");
+  ASSERT_EQ(o.won->naming.alternatives.size(), 1u);
+  EXPECT_NEAR(o.won->naming.alternatives[0].effect.p[0], 0.7, 0.02);
+}
+
 TEST(CandidatesBeside, AreNoneOfWhichTheMotionHasTooFewPeriods) {
   const ArmModel model = first_joints(1);
   const Log log = log_along(4, 100, [](double t) { return 0.8 - 0.03 * std::cos(1.7 * t); });
