@@ -43,9 +43,9 @@ std::string head(const Results& all, const Results& ran) {
       "counts "
       "if `--plan` promises that a diagnosis detects it; smaller ones have lines of their own. Seconds are those of "
       "one "
-      "processor. {}\n\n",
+      "processor. {}{}\n\n",
       all.size(), all.size() - ran.size(), share(ran, [](const Result& r) { return !r.failure.empty(); }).hits,
-      dropped_draws(all));
+      dropped_draws(all), all.empty() || all[0]->rule.empty() ? "" : " Thresholds varied: " + all[0]->rule + ".");
 }
 
 /// Clean arms and those with one visible effect.

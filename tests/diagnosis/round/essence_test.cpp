@@ -56,6 +56,21 @@ TEST(Essence, OfAHysteresisBesideASofterCableHasConvincedAlready) {
   EXPECT_FALSE(is_another_effect(made_evidence(), refitter, judge, {both, made_evidence().score(both)}, 1));
 }
 
+TEST(Essence, OfAHysteresisBesideASofterCableOfTheModelIsItsLoop) {
+  ArmModel model = first_joints(1);
+  model.effects = {effect_of_joint_1("stiffness", 0.5, 1)};
+  ArmModel robot = model;
+  robot.effects[0].p[0] = 0.3;
+  const Evidence evidence(make_records(simulate(motion(robot, 6)).measured, model, {}), model);
+  const Refitter refitter(evidence, model, model.effects.size());
+  const Judge judge(evidence, model, refitter.numbers());
+  const double stretch = typical_stretch(model.nominal.joint[0]);
+  Hypothesis h{model.nominal, model.effects};
+  h.effects.push_back(effect_of_joint_1("hysteresis", 0.4, 0.003 * stretch));
+  h = refitter.refit(h, evidence.score(h)).hypothesis;
+  EXPECT_TRUE(is_another_effect(evidence, refitter, judge, {h, evidence.score(h)}, 1)) << "the cable is softer still";
+}
+
 TEST(Essence, AHysteresisThatIsASofterCableYieldsAsEarlyAsItCan) {
   const ArmParameters<double> arm = first_joints(1).nominal;
   const PlacedEffect loop = place_effect(*find_effect("hysteresis"), arm, 0);

@@ -151,6 +151,8 @@ TEST(SearchSpace, ARefinementThatIsWrongIsRefusedWithTheEffectsName) {
             "a size of 0 or more");
   EXPECT_EQ(refusal([](SearchSpace& s) { s.order_of_motor_torque = 2; }),
             "effect 'bump': the index of its order is no parameter of it; give the index of one");
+  EXPECT_EQ(refusal([](SearchSpace& s) { s.another = {"stiffness"}; }),
+            "effect 'bump': it gives another effect; only the library's own effects do; leave it out");
 }
 
 TEST(SearchSpace, WholeNumbersStartInsideTheirBounds) {
