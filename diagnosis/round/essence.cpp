@@ -28,8 +28,9 @@ std::optional<Refit> start_without_essence(const Refitter& refitter, const Refit
 }  // namespace
 
 bool becomes(const PlacedEffect& effect, const PlacedEffect& other, const ArmParameters<double>& arm) {
+  if (effect.joint != other.joint) return false;
   const std::optional<AnotherEffect> another = another_of(effect, arm);
-  return effect.joint == other.joint && another && another->name == other.effect->name();
+  return another && another->name == other.effect->name();
 }
 
 std::optional<PlacedEffect> at_the_end_that_is(const PlacedEffect& other, PlacedEffect effect,

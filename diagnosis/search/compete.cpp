@@ -11,6 +11,11 @@ bool may_repeat(const PlacedEffect& e, const ArmParameters<double>& arm) {
   return has_instants(e, arm) || search_space(*e.effect, arm, e.joint).order_of_motor_torque;
 }
 
+/// True if the fit `to` may replace the fit `from` of the same candidate: it costs less, by more than chance does.
+bool is_worth_a_change(const Judge& judge, const Scored& from, const Scored& to) {
+  return judge.cost(to) + kRule.worth_a_change <= judge.cost(from);
+}
+
 /// The trial of the standing name, if it competes with the fit that it has. its: its trial with this fit.
 std::optional<std::size_t> keep_standing(const Evidence& evidence, const Judge& judge, const Found& found,
                                          const Trial& its, std::vector<Trial>& trials, std::vector<Fit>& fits) {
@@ -23,8 +28,8 @@ std::optional<std::size_t> keep_standing(const Evidence& evidence, const Judge& 
   const auto place = static_cast<std::size_t>(same - trials.begin());
   Fit& fit = fits[place];
   if (fit.usable) {
-    const Found anew{fit, evidence.score(fit.hypothesis)};
-    if (judge.cost(anew.scored()) + kRule.worth_a_change <= judge.cost(found.scored())) return {};
+    const Scored anew{fit.hypothesis, evidence.score(fit.hypothesis)};
+    if (is_worth_a_change(judge, found.scored(), anew)) return {};
   }
   *same = its;
   fit = found.fit;
@@ -57,7 +62,7 @@ bool refit_from(const Hypothesis& start, const Score& before, std::size_t i, con
   if (!found.fit.usable || !found.score.finite) return false;
   if (fits[i].usable) {
     const Scored present{fits[i].hypothesis, evidence.score(fits[i].hypothesis)};
-    if (basis.judge.cost(found.scored()) + kRule.worth_a_change > basis.judge.cost(present)) return false;
+    if (!is_worth_a_change(basis.judge, present, found.scored())) return false;
   }
   trials[i] = trial_of(evidence, basis, {found, found.fit.hypothesis.effects.size() - 1}, without);
   fits[i] = found.fit;
@@ -119,7 +124,8 @@ RoundOutcome compete(const Evidence& evidence, const Basis& basis, double signif
   std::vector<bool> has_better_fit(trials.size(), false);
   for (std::size_t i = 0; i < trials.size(); ++i)
     for (std::size_t j = 0; j < trials.size(); ++j) {
-      if (!becomes(trials[i].effect, trials[j].effect, basis.model.nominal)) continue;
+      const bool is_fitted = fits[i].usable || fits[j].usable;
+      if (!is_fitted || !becomes(trials[i].effect, trials[j].effect, basis.model.nominal)) continue;
       const auto better = fit_from_the_better(i, j, {evidence, basis, without, trials, fits});
       if (better) has_better_fit[*better] = true;
     }
