@@ -130,6 +130,13 @@ void add_diagnose_command(CLI::App& app) {
   add_effects_option(command);
   command.add_flag("--progress", options->progress_in_pipe,
                    "tell the progress even if stderr is not a terminal: a line every ten seconds");
+  CLI::Option* rehearsals =
+      add_number(command, "--rehearse", options->rehearsals, {.least = 1, .most = 10000},
+                 "then diagnose so many logs of the same motion and noise, with known effects, and count how often the "
+                 "names are right; each takes about as long as the diagnosis");
+  add_number(command, "--seed", options->seed, {.most = 1e15}, "of the rehearsals")
+      ->capture_default_str()
+      ->needs(rehearsals);
   CLI::Option* planned = command
                              .add_option("--plan", *plan_files,
                                          "before there are data: which effects a diagnosis of this model in the "
@@ -138,7 +145,8 @@ void add_diagnose_command(CLI::App& app) {
                              ->expected(2)
                              ->excludes(model)
                              ->excludes(data)
-                             ->excludes(holdout);
+                             ->excludes(holdout)
+                             ->excludes(rehearsals);
   command.add_option("--separate", plan->separate, "with --plan: propose a motion that tells these two apart")
       ->type_name("EFFECT@JOINT,EFFECT@JOINT")
       ->needs(planned);

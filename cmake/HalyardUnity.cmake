@@ -77,7 +77,9 @@ compile_together(halyard_diagnosis log_check
 compile_together(halyard_diagnosis fit
   calibration/lateness.cpp fit/baseline_reach.cpp fit/beyond_numbers.cpp fit/block_variance.cpp
   fit/bounded_least_squares.cpp fit/complementary.cpp fit/evidence.cpp fit/fit.cpp fit/fit_parameter.cpp fit/nudged.cpp
-  noise/channel_noise.cpp noise/delay_free.cpp noise/ripple_free.cpp planning/change_detector.cpp planning/plan.cpp planning/planner.cpp)
+  noise/channel_noise.cpp noise/delay_free.cpp noise/ripple_free.cpp planning/change_detector.cpp planning/plan.cpp
+  planning/planner.cpp rehearsal/drawn_effect.cpp rehearsal/motion_range.cpp rehearsal/rehearsal.cpp
+  rehearsal/rehearse.cpp rehearsal/rehearsed_log.cpp)
 compile_together(halyard_diagnosis judgement
   diagnose.cpp holdout/adoption.cpp holdout/holdout.cpp holdout/prediction_interval.cpp
   judgement/false_discovery.cpp judgement/final_fit.cpp judgement/judge.cpp
@@ -107,12 +109,13 @@ compile_together(halyard_app commands
   progress.cpp run_estimate.cpp slurm/slurm_array.cpp sweep_options.cpp terminal/terminal.cpp
   tour/experiments_command.cpp tour/tour_command.cpp)
 compile_together(halyard_app pages
-  pages/comparison_figures.cpp pages/comparison_output.cpp pages/diagnosis_report.cpp pages/estimator_table.cpp
+  pages/comparison_figures.cpp pages/comparison_output.cpp pages/diagnosis/diagnosis_report.cpp
+  pages/diagnosis/view_charts.cpp pages/estimator_table.cpp
   pages/identify_output.cpp pages/identify_report.cpp pages/judgement_tables.cpp
   pages/sweep/sweep_charts.cpp pages/sweep/sweep_pictures.cpp pages/sweep/sweep_report.cpp
-  pages/plan_output.cpp pages/view_charts.cpp tour/experiments_report.cpp)
+  pages/plan_output.cpp tour/experiments_report.cpp)
 compile_together(halyard_app tour
-  pages/diagnosis_output.cpp tour/experiments_output.cpp tour/tour.cpp tour/tour_report.cpp
+  pages/diagnosis/diagnosis_output.cpp tour/experiments_output.cpp tour/tour.cpp tour/tour_report.cpp
   tour/tour_rigs.cpp)
 
 # The tests, which tests/CMakeLists.txt lists by their folders: those of a room in groups of so many files, 0 for all.

@@ -56,6 +56,7 @@ class Diagnoser {
     weigh_unlisted_causes(evidence, tolerated_, attribution());
     DiagnosisData& data = searched.data;
     for (const DiagnosisData::Late& late : data.late) result_.log_findings.push_back(finding_of(late));
+    details_->late = data.late;
     details_->training = evidence.records();
     details_->joint_view = std::move(data.joint_view);
     details_->torque_view = std::move(data.torque_view);

@@ -17,6 +17,7 @@ struct DiagnosisDetails {
   std::vector<Record> training;
   HoldOut joint_view;   ///< in kJointErrorBand
   HoldOut torque_view;  ///< in kFitBand
+  std::vector<DiagnosisData::Late> late;
 };
 
 }  // namespace halyard

@@ -6,7 +6,8 @@
 
 #include "app/log_input.h"
 #include "app/output_check.h"
-#include "app/pages/diagnosis_output.h"
+#include "app/pages/diagnosis/diagnosis_output.h"
+#include "app/pages/diagnosis/rehearsal_output.h"
 #include "app/progress.h"
 #include "app/terminal/terminal.h"
 #include "diagnosis/diagnose.h"
@@ -27,7 +28,8 @@ Log read(const ArmModel& model, const std::filesystem::path& path) {
 }
 
 /// With their usual times, s: measured on a 30 s log of three joints with one effect.
-std::vector<UsualStage> usual_stages() {
+std::vector<UsualStage> usual_stages(int rehearsals) {
+  constexpr double kRehearsal = 6;
   return {{"nominal model", 0.7},
           {"candidates", 2.2},
           {"fits", 0.3},
@@ -38,7 +40,8 @@ std::vector<UsualStage> usual_stages() {
           {"hold-out", 0.2},
           {"what these data could show", 0.4},
           {"residuals that point", 0.1},
-          {"estimators on the hold-out", 1.0}};
+          {"estimators on the hold-out", 1.0},
+          {"rehearsals", kRehearsal * rehearsals}};
 }
 
 /// "0.0002 m", and "0.85" of a number without a unit. digits: how many.
@@ -72,6 +75,13 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   if (const std::string line = tolerance_line(d); !line.empty()) print_out("  {}\n", line);
   for (const LogFinding& f : d.log_findings) print_out("  {}: {}\n", severity_word(f.severity), finding_line(f));
   for (const Unexplained& u : d.unexplained) print_out("  unexplained, joint {}: {}\n", u.joint + 1, u.signature);
+}
+
+void print_rehearsal(const Diagnosis& d, const Rehearsal& r) {
+  print_out("  rehearsed {} times (seed {}):\n", r.logs.size(), r.seed);
+  for (const std::string& line : rehearsal_lines(r)) print_out("    {}\n", line);
+  for (const NamedEffect& e : d.effects)
+    print_out("    {}: {} with these rehearsals\n", label_of(e), percent(r.calibrated(e.probability)));
 }
 
 /// Of the given and of the revised model on the hold-out, joint by joint.
@@ -116,17 +126,20 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
   Diagnosis d;
   DiagnosisEvaluation evaluation;
   {
-    StageProgress progress("diagnose", usual_stages(),
+    StageProgress progress("diagnose", usual_stages(options.rehearsals),
                            options.progress_in_pipe ? PipedProgress::lines : PipedProgress::nothing);
     const auto tell = [&](const std::string& what, double fraction) { progress.set(what, fraction); };
     d = diagnose(model, training, holdout, {}, tell);
     evaluation = evaluate_diagnosis(model, d, training, holdout, tell);
+    if (options.rehearsals > 0)
+      evaluation.rehearsal = rehearse(model, d, training, holdout, {options.rehearsals, options.seed}, {}, tell);
   }
   OutputFiles files;
   write_diagnosis(files, options.out, model, d, evaluation);
   files.commit();
   print_findings(d, evaluation);
   print_errors(model, d, evaluation);
+  if (evaluation.rehearsal) print_rehearsal(d, *evaluation.rehearsal);
   print_out("model: {}\n", (options.out / "model.xml").string());
   print_out("report: {}\n", (options.out / "report.html").string());
 }

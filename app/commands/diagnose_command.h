@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@ struct DiagnoseCommandOptions {
   std::filesystem::path holdout;            ///< empty: the last third of each training log
   std::filesystem::path out;                ///< folder
   std::vector<std::string> columns;         ///< entries of --column
+  int rehearsals = 0;                       ///< number of logs on which the diagnosis is rehearsed
+  std::uint64_t seed = 1;                   ///< of the rehearsals
   bool progress_in_pipe = false;            ///< lines of progress even if stderr is not a terminal
 };
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "app/output_check.h"
-#include "app/pages/diagnosis_output.h"
+#include "app/pages/diagnosis/diagnosis_output.h"
 #include "app/pages/plan_output.h"
 #include "app/progress.h"
 #include "app/terminal/terminal.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/pages/diagnosis/view_charts.h"
 #include "app/pages/estimator_table.h"
 #include "app/pages/identify_output.h"
-#include "app/pages/view_charts.h"
 
 namespace halyard {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/pages/diagnosis_output.h"
+#include "app/pages/diagnosis/diagnosis_output.h"
 #include "app/report/page.h"
 #include "evaluation/joint_unit.h"
 #include "evaluation/json.h"

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <mutex>
 
-#include "app/pages/diagnosis_output.h"
+#include "app/pages/diagnosis/diagnosis_output.h"
 #include "evaluation/first_failure.h"
 #include "model/arm_log.h"
 #include "model/model_file.h"

@@ -7,7 +7,7 @@
 #include "app/bundled_files.h"
 #include "app/output_check.h"
 #include "app/pages/comparison_figures.h"
-#include "app/pages/diagnosis_output.h"
+#include "app/pages/diagnosis/diagnosis_output.h"
 #include "app/progress.h"
 #include "app/terminal/terminal.h"
 #include "app/tour/tour.h"

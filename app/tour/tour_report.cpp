@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "app/pages/comparison_figures.h"
-#include "app/pages/diagnosis_output.h"
+#include "app/pages/diagnosis/diagnosis_output.h"
 #include "app/tour/experiments_report.h"
 #include "app/tour/tour.h"
 #include "diagnosis/explanation/view_sentence.h"

@@ -222,7 +222,7 @@ DiagnosisData diagnosis_data(const ArmModel& model, const std::vector<Log>& trai
   };
   std::vector<Log> parts, untouched;
   for (const Log& log : training) {
-    auto [first, last] = split_log(log, 2.0 / 3);
+    auto [first, last] = split_log(log, kTrainingShare);
     parts.push_back(holdout ? log : std::move(first));
     untouched.push_back(std::move(last));
   }

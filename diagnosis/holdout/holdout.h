@@ -15,6 +15,9 @@ inline constexpr RecordOptions kFitBand = {};
 /// Frequency band of reported joint errors. It includes the vibrations of the cables.
 inline constexpr RecordOptions kJointErrorBand = {.motion_hz = 100, .compare_hz = 0, .settle_s = 0.5, .step_s = 0.001};
 
+/// Share of a training log that is not held out, if there is no hold-out log.
+inline constexpr double kTrainingShare = 2.0 / 3;
+
 /// Records of the hold-out, and their predictions by the given (before) and the revised model (after).
 struct HoldOut {
   std::vector<Record> records;

@@ -28,6 +28,11 @@ figure_diagnose() {
   fenced transcript "$diagnose_backlash" '^effects|half_gap:|joint 2 (kinematics |sr_ukf )?position|model:|report:'
 }
 
+figure rehearse minutes
+figure_rehearse() {
+  fenced transcript "$diagnose_backlash --rehearse 20" '^effects|^  rehearsed|^    '
+}
+
 figure identify seconds
 figure_identify() {
   local simulate='./run simulate examples/raven2/identification_high_tension.xml --out out/high.csv'

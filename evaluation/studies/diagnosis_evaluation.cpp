@@ -136,7 +136,7 @@ DiagnosisEvaluation evaluate_diagnosis(const ArmModel& model, const Diagnosis& d
     for (const Log& log : training) logs.push_back(usable_readings(log, model));
   std::vector<HeldOutLog> held_out;
   for (const Log& log : logs)
-    held_out.push_back({&log, holdout ? log.time.front() : split_log(log, 2.0 / 3).second.time.front()});
+    held_out.push_back({&log, holdout ? log.time.front() : split_log(log, kTrainingShare).second.time.front()});
 
   DiagnosisEvaluation result;
   if (progress) progress("residuals that point", 0);

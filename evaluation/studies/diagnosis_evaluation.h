@@ -1,5 +1,5 @@
 #pragma once
-/// Evidence for a diagnosis: reasons for each named effect, and errors of estimators with the revised model.
+/// Evidence for a diagnosis: reasons for each named effect, errors of estimators with the revised model, a rehearsal.
 
 #include <functional>
 #include <memory>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/diagnose.h"
+#include "diagnosis/rehearse.h"
 #include "evaluation/studies/holdout_errors.h"
 
 namespace halyard {
@@ -22,6 +22,7 @@ struct DiagnosisEvaluation {
   std::vector<std::string> why;
   std::vector<EstimatorComparison> estimators;  ///< none if the hold-out has no joint sensor
   std::shared_ptr<const DiagnosisEvidence> evidence;
+  std::optional<Rehearsal> rehearsal;  ///< if one was asked for
 };
 
 /// training, holdout: the arguments of diagnose(). progress(text, fraction) may be called from several threads, but

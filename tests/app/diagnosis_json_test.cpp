@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/pages/diagnosis_output.h"
+#include "app/pages/diagnosis/diagnosis_output.h"
 #include "model/model_file.h"
 
 namespace halyard {

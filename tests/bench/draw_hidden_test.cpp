@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <set>
 
@@ -96,54 +95,6 @@ TEST(DrawnEffects, AreThoseOfTheirSeedAlone) {
   for (const Kind kind : {Kind::effect, Kind::three})
     for (std::size_t i = 0; i < hidden(kind, 4).size(); ++i)
       EXPECT_TRUE(same_name(hidden(kind, 4)[i].acts, hidden(kind, 4)[i].acts));
-}
-
-/// Calls visit(effect, parameters) of a hundred draws of the sizes and shapes of one effect of joint 1.
-void for_draws(const char* name,
-               const std::function<void(const PlacedEffect&, const std::vector<EffectParameter>&)>& visit) {
-  Random random(5, 6, 7);
-  const Ranges ranges{{1, 31}, std::vector<Range>(3, {-0.5, 0.5}), std::vector<double>(3, 1)};
-  for (int i = 0; i < 100; ++i) {
-    PlacedEffect e = place_neutral_effect(*find_effect(name), raven2().nominal, 0);
-    draw_parameters(e, raven2(), ranges, random);
-    visit(e, e.effect->parameters(raven2().nominal, e.joint));
-  }
-}
-
-TEST(DrawnSizes, AreHalfToThreeTimesTheTypicalOnesOfEitherSign) {
-  double least = 10, most = 0;
-  int negative = 0, absent = 0;
-  for_draws("torque_scale", [&](const PlacedEffect& e, const std::vector<EffectParameter>& p) {
-    const double size = relative_size(e, raven2());
-    least = std::min(least, size), most = std::max(most, size);
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      EXPECT_GE(e.p[i], p[i].lower);
-      EXPECT_LE(e.p[i], p[i].upper);
-      negative += (e.p[i] - p[i].neutral) * (p[i].typical - p[i].neutral) < 0;
-      absent += e.p[i] == p[i].neutral;
-    }
-  });
-  EXPECT_GE(least, 0.5) << "at least one size is there";
-  EXPECT_LE(most, 3 + 1e-12);
-  EXPECT_LT(least, 0.8);
-  EXPECT_GT(most, 2);
-  EXPECT_GT(negative, 20);
-  EXPECT_GT(absent, 20) << "each of several is there by chance";
-}
-
-TEST(DrawnSizes, OfADriftAlwaysHaveARate) {
-  for_draws("friction_drift", [](const PlacedEffect& e, const std::vector<EffectParameter>& p) {
-    const auto rate = std::ranges::find(p, "rate", &EffectParameter::name) - p.begin();
-    EXPECT_NE(e.p[rate], p[static_cast<std::size_t>(rate)].neutral) << "it would be motor_friction";
-  });
-}
-
-TEST(DrawnSizes, OfAnInstantLieInTheFirstPartOfTheRecord) {
-  for_draws("cable_slip", [](const PlacedEffect& e, const std::vector<EffectParameter>& p) {
-    const auto time = std::ranges::find(p, "time", &EffectParameter::name) - p.begin();
-    EXPECT_GE(e.p[time], 1 + 0.1 * 30);
-    EXPECT_LE(e.p[time], 1 + 0.7 * 30);
-  });
 }
 
 /// How far each number of the arm is off its model, in tolerances.

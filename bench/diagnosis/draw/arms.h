@@ -20,8 +20,8 @@
 ///   link against cable            7 to 20 Hz, damping 0.03 to 0.15      15 to 40 Hz
 ///   encoders                      motor 4000 counts per turn; joint 80000 per turn, 5 um
 
-#include "bench/diagnosis/draw/random.h"
 #include "bench/diagnosis/results/situation.h"
+#include "diagnosis/rehearsal/random.h"
 #include "model/arm_model.h"
 
 namespace halyard::blind {

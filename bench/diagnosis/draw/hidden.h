@@ -1,8 +1,8 @@
 #pragma once
-/// What is hidden: effects, their sizes, an arm off its model. The rules are told in trial/trial.h.
+/// What is hidden: effects, and an arm off its model. The rules are told in trial/trial.h.
 
-#include "bench/diagnosis/draw/random.h"
 #include "bench/diagnosis/results/result.h"
+#include "diagnosis/rehearsal/drawn_effect.h"
 #include "model/arm_model.h"
 
 namespace halyard::blind {
@@ -14,19 +14,8 @@ struct Hidden {
   std::string right_beside = {};  ///< OtherForm::beside
 };
 
-/// Names that are right beside it: of a part of it; of friction that drifts, other friction than the model's.
+/// Names that are right beside it: OtherForm::beside, and names_of_parts().
 std::vector<std::string> names_beside(const Hidden& hidden);
-
-/// What the motion of a trial limits: where instants and positions can lie, how fast is near standstill, and of which
-/// orders the motion has enough periods.
-struct Range {
-  double from = 0, to = 0;
-};
-struct Ranges {
-  Range record;                 ///< s, of the training log
-  std::vector<Range> joint;     ///< [n]
-  std::vector<double> fastest;  ///< [n] speed of the joint, rad/s | m/s
-};
 
 /// The place of an effect in an arm of so many joints. In an arm of one joint the arm and the joint are the same.
 Place place_of(const PlacedEffect& effect, int joints);
@@ -34,9 +23,6 @@ Place place_of(const PlacedEffect& effect, int joints);
 /// The effects of trial `index` of this kind, with their places but without sizes; none for the clean ones.
 /// Throws std::runtime_error if the arm cannot have as many.
 std::vector<Hidden> draw_effects(const ArmModel& model, Kind kind, int index, Random& random);
-/// An effect is drawn as the library means it, within what the diagnosis takes for it: Stribeck's speed lies near
-/// standstill, and the motion has at least kFewestPeriods periods of an order, if it has them of any.
-void draw_parameters(PlacedEffect& effect, const ArmModel& model, const Ranges& ranges, Random& random);
 
 /// The largest of the effect's sizes over the typical one.
 double relative_size(const PlacedEffect& effect, const ArmModel& model);

@@ -8,7 +8,7 @@
 /// are made smaller, and moves slower, until the acceleration stays below 6 rad/s² or 0.6 m/s²: the motors have no
 /// torque for more.
 
-#include "bench/diagnosis/draw/random.h"
+#include "diagnosis/rehearsal/random.h"
 #include "plant/scenario.h"
 
 namespace halyard::blind {

@@ -16,8 +16,8 @@
 /// deviations. q contains the errors of hidden effects, such as an eccentric encoder. The motors are read by every row,
 /// rounded, as the plant reads them.
 
-#include "bench/diagnosis/draw/random.h"
 #include "bench/diagnosis/results/situation.h"
+#include "diagnosis/rehearsal/random.h"
 #include "model/arm_model.h"
 #include "model/log.h"
 

@@ -71,15 +71,15 @@ std::vector<Log> record(Scenario scenario, const ArmModel& robot, const std::vec
   return logs;
 }
 
-Ranges ranges_of(const Scenario& training) {
+MotionRange range_of(const Scenario& training) {
   const double from = kFadeIn, to = training.duration_s;
-  Ranges ranges{{from, to}, {}, {}};
+  MotionRange range{{from, to}, {}, {}};
   for (const JointTrajectory& t : training.trajectory) {
     const Travel travel = travel_of(t, kFadeIn, from, to);
-    ranges.joint.push_back({travel.least, travel.most});
-    ranges.fastest.push_back(travel.fastest);
+    range.joint.push_back({travel.least, travel.most});
+    range.fastest.push_back(travel.fastest);
   }
-  return ranges;
+  return range;
 }
 
 std::vector<double> seen_from(const ArmModel& model, const Log& probe, const std::vector<Hidden>& hidden) {
@@ -107,9 +107,9 @@ Recording draw_recording(const ArmModel& raven2, const Situation& situation, int
 
   Scenario training = random_run(r.model, kTraining, random), holdout = random_run(r.model, kHoldOut, random);
   training.noise.motor_torque = holdout.noise.motor_torque = draw_disturbance(r.model, random);
-  const Ranges ranges = ranges_of(training);
-  for (Hidden& h : r.hidden) draw_parameters(h.acts, r.model, ranges, random);
-  r.sensors = draw_sensors(situation.sensors, r.model, ranges.record.from, ranges.record.to, random);
+  const MotionRange range = range_of(training);
+  for (Hidden& h : r.hidden) draw_parameters(h.acts, r.model, range, random);
+  r.sensors = draw_sensors(situation.sensors, r.model, range.record.from, range.record.to, random);
   r.sensors.outlier_share = options.outliers;
   // Sensors that are late by nature would hide one that is late by an effect.
   if (std::ranges::any_of(r.hidden, [](const Hidden& h) { return h.right_name == "delay"; })) r.sensors.latency_s = 0;

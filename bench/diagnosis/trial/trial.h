@@ -3,12 +3,8 @@
 ///
 /// The trial's situation says what is hidden (results/situation.h), its number which effect: `effect`, `form` and
 /// `outside` take every one in turn. Arms, sensors and motions are drawn as draw/arms.h, draw/sensors.h and
-/// draw/motion.h say. Then the place of the effect is drawn, and its sizes: each is present with probability 1/2,
-/// at least one is, and of friction_drift its rate, without which it is motor_friction: typical size times log-uniform
-/// 0.5 to 3, of random sign where the bounds allow both, at most 95 % of the way to a bound that is no limit of nature.
-/// Shapes are one of the effect's starts, or typical times log-uniform 0.5 to 2. An instant lies in the first 10 to
-/// 70 % of the training, a position in the middle 60 % of the joint's motion. Effects that are too small to be seen
-/// (recording.h) stay in, and are counted apart.
+/// draw/motion.h say. Then the place of the effect is drawn, and its parameters as diagnosis/rehearsal/drawn_effect.h
+/// says. Effects that are too small to be seen (recording.h) stay in, and are counted apart.
 ///
 /// Every parameter with a tolerance is off by up to Situation::off tolerances, uniformly, except those whose place a
 /// hidden effect takes: their change is the effect's.

@@ -43,6 +43,13 @@ TEST_F(BadInput, ArgumentsThatDoNotFit) {
               "halyard compare: --robot, --runs and --noise are for scenarios, and 'log.csv' is a log; leave them out");
   expect_line({"compare", "log.csv", "--estimators", "kinematics", "--out", "cmp"},
               "halyard compare: --model is missing; a log needs the model file of its robot, --model M.xml");
+  const std::vector<std::string> diagnose = {"diagnose", "--model", "raven2.xml", "--data", "log.csv", "--out", "out"};
+  const auto rehearsed = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), diagnose.begin(), diagnose.end());
+    return more;
+  };
+  expect_usage(rehearsed({"--rehearse", "0"}), "--rehearse: '0': expected a whole number, at least 1, at most 10000");
+  expect_usage(rehearsed({"--seed", "3"}), "--seed requires --rehearse");
   for (const std::string jobs : {"0", "many"})
     expect_usage({"sweep", "sweep.xml", "--out", "out", "--jobs", jobs},
                  "--jobs: '" + jobs + "': expected a whole number, at least 1, at most 1024");

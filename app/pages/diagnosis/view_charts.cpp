@@ -1,4 +1,4 @@
-#include "app/pages/view_charts.h"
+#include "app/pages/diagnosis/view_charts.h"
 
 #include <fmt/format.h>
 

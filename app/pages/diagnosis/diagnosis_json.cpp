@@ -2,7 +2,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "app/pages/diagnosis_output.h"
+#include "app/pages/diagnosis/diagnosis_output.h"
+#include "app/pages/diagnosis/rehearsal_output.h"
 #include "evaluation/json.h"
 #include "model/output/number_text.h"
 
@@ -119,17 +120,18 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
                          {"what", f.what},
                          {"remedy", f.remedy},
                          {"severity", severity_word(f.severity)}});
-  const Json all = {{"verdict", verdict_word(d.verdict)},
-                    {"effects", effects},
-                    {"refitted", refitted},
-                    {"tolerance_factor", number(d.tolerance_factor)},
-                    {"probability_clean", probability(d.probability_clean)},
-                    {"probability_none", probability(d.probability_none)},
-                    {"unexplained", unexplained},
-                    {"not_excited", not_excited},
-                    {"log_check", log_check},
-                    {"error", error_json(d)},
-                    {"estimators", estimators_json(evaluation)}};
+  Json all = {{"verdict", verdict_word(d.verdict)},
+              {"effects", effects},
+              {"refitted", refitted},
+              {"tolerance_factor", number(d.tolerance_factor)},
+              {"probability_clean", probability(d.probability_clean)},
+              {"probability_none", probability(d.probability_none)},
+              {"unexplained", unexplained},
+              {"not_excited", not_excited},
+              {"log_check", log_check},
+              {"error", error_json(d)},
+              {"estimators", estimators_json(evaluation)}};
+  if (evaluation.rehearsal) all["rehearsal"] = rehearsal_json(d, *evaluation.rehearsal);
   return json_text(all);
 }
 

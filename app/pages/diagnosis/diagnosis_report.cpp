@@ -4,8 +4,9 @@
 #include <cmath>
 #include <functional>
 
-#include "app/pages/diagnosis_output.h"
-#include "app/pages/view_charts.h"
+#include "app/pages/diagnosis/diagnosis_output.h"
+#include "app/pages/diagnosis/rehearsal_output.h"
+#include "app/pages/diagnosis/view_charts.h"
 #include "diagnosis/diagnosis_details.h"
 #include "diagnosis/explanation/estimates.h"
 #include "diagnosis/explanation/view_sentence.h"
@@ -266,6 +267,7 @@ report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d, const Dia
   add_estimator_errors(page, model, evaluation);
   add_evidence(page, d, evaluation);
   add_numbers(page, d);
+  if (evaluation.rehearsal) add_rehearsal(page, d, *evaluation.rehearsal);
   page.heading("Residuals on the hold-out");
   add_residuals(page, d);
   add_innovations(page, model, evaluation);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/pages/diagnosis/name_text.h"
 #include "app/report/page.h"
 #include "diagnosis/diagnose.h"
 #include "evaluation/studies/diagnosis_evaluation.h"
@@ -15,14 +16,8 @@ namespace halyard {
 /// The text of diagnosis.json.
 std::string diagnosis_json(const Diagnosis& diagnosis, const DiagnosisEvaluation& evaluation);
 
-/// "backlash of joint 2"; an event of one of several logs with that log: "cable_slip of joint 1 in LOG".
-std::string label_of(const NamedEffect& effect);
-
 /// A sentence about each event that did not happen in the hold-out.
 std::vector<std::string> absent_event_lines(const Diagnosis& diagnosis);
-
-/// "87 %".
-std::string percent(double probability);
 
 /// The verdict, and the names with their probabilities: "effects: backlash of joint 2 (97 %)", "clean", "unknown".
 std::string verdict_line(const Diagnosis& diagnosis);

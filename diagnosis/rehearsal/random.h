@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace halyard::blind {
+namespace halyard {
 
 class Random {
  public:
@@ -39,4 +39,4 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-}  // namespace halyard::blind
+}  // namespace halyard

@@ -1,4 +1,4 @@
-#include "app/pages/diagnosis_output.h"
+#include "app/pages/diagnosis/diagnosis_output.h"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,6 @@
 #include "model/model_file.h"
 
 namespace halyard {
-
-std::string label_of(const NamedEffect& e) { return effect_label(e.effect) + (e.log.empty() ? "" : " in " + e.log); }
-
-std::string percent(double probability) { return fmt::format("{:.0f} %", 100 * probability); }
 
 std::vector<std::string> absent_event_lines(const Diagnosis& d) {
   std::vector<std::string> lines;

@@ -1,0 +1,34 @@
+#include "diagnosis/rehearsal/motion_range.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "transmission/coupling.h"
+
+namespace halyard {
+
+MotionRange motion_range(const std::vector<Record>& records, const ArmParameters<double>& arm) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  MotionRange range{{records.front().start, records.back().time(records.back().size - 1)},
+                    std::vector<MotionRange::Range>(arm.n, {kInfinite, -kInfinite}),
+                    std::vector<double>(arm.n, 0)};
+  const UnstretchedJoints joints(arm);
+  Eigen::VectorXd of_motors(arm.n), q(arm.n);
+  const auto solve = [&](const Signals& signal, std::size_t i) {
+    for (int k = 0; k < arm.n; ++k) of_motors(k) = signal[k][i];
+    joints.solve(of_motors, of_motors, q);
+  };
+  for (const Record& r : records)
+    for (std::size_t i = 0; i < r.size; ++i) {
+      solve(r.motor_angle, i);
+      for (int k = 0; k < arm.n; ++k)
+        range.joint[k] = {std::min(range.joint[k].from, q(k)), std::max(range.joint[k].to, q(k))};
+      solve(r.motor_rate, i);
+      for (int k = 0; k < arm.n; ++k) range.fastest[k] = std::max(range.fastest[k], std::abs(q(k)));
+    }
+  return range;
+}
+
+}  // namespace halyard
