@@ -7,8 +7,8 @@
 ///   an instant   in the first 10 to 70 % of the record, and at least a tenth of it before the next one
 ///   a position   in the middle 60 % of the joint's motion
 ///
-/// Stribeck's speed lies near standstill, and the motion has at least kFewestPeriods periods of an order, if it has them
-/// of any.
+/// Stribeck's speed lies near standstill. The motion has at least kFewestPeriods periods of an order, if it has them of
+/// any.
 
 #include <optional>
 #include <string>
@@ -29,8 +29,8 @@ struct SearchedParameter {
 };
 std::vector<SearchedParameter> searched_parameters(const PlacedEffect& effect, const ArmModel& model);
 
-/// One of these effects, none of `others`, at one of its places, without sizes; at `joint`, if that is not null. Nothing
-/// if there is none.
+/// One of these effects at one of its places, without sizes: none of `others`, and at `joint` if that is not null.
+/// Nothing if there is none.
 std::optional<PlacedEffect> draw_effect(const std::vector<const Effect*>& from, const ArmModel& model,
                                         const std::vector<PlacedEffect>& others, const EffectPlace* joint,
                                         Random& random);
