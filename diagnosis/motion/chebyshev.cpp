@@ -45,16 +45,16 @@ bool is_stable(const std::vector<Eigenvalues>& spectra, const ChebyshevPolynomia
 
 }  // namespace
 
-int stages_for(const std::vector<Eigenvalues>& spectra, double h) {
-  double most = 0;
+int stages_for(const std::vector<Eigenvalues>& spectra, double h, int most) {
+  double fastest = 0;
   for (const Eigenvalues& spectrum : spectra)
-    for (const std::complex<double>& rate : spectrum) most = std::max(most, std::abs(rate));
-  const double stages = std::ceil(std::sqrt(1 + 1.5 * kReserve * most * h)) + 1;
-  return stages > Chebyshev::kMostStages ? 0 : static_cast<int>(stages);
+    for (const std::complex<double>& rate : spectrum) fastest = std::max(fastest, std::abs(rate));
+  const double stages = std::ceil(std::sqrt(1 + 1.5 * kReserve * fastest * h)) + 1;
+  return stages > most ? 0 : static_cast<int>(stages);
 }
 
 double fastest_stable(double h) {
-  constexpr int kStages = Chebyshev::kMostStages - 1;
+  constexpr int kStages = Chebyshev::kUsualStages - 1;
   constexpr double kRounding = 1e-9;
   return (1 - kRounding) * (kStages * kStages - 1) / (1.5 * kReserve * h);
 }
@@ -65,7 +65,7 @@ Chebyshev scheme_for(const std::vector<std::vector<Eigenvalues>>& systems, doubl
   for (c.steps = 1;; ++c.steps) {
     const double h = sample_s / c.steps;
     c.stages = 2;
-    for (const auto& spectra : systems) c.stages = std::max(c.stages, stages_for(spectra, h));
+    for (const auto& spectra : systems) c.stages = std::max(c.stages, stages_for(spectra, h, Chebyshev::kMostStages));
     const ChebyshevPolynomial method(c.stages);
     if (c.steps == kMostSteps || std::ranges::all_of(systems, [&](const auto& s) { return is_stable(s, method, h); }))
       break;

@@ -18,7 +18,7 @@ namespace halyard {
 
 /// Coefficients of the method, as in the source.
 struct Chebyshev {
-  static constexpr int kMostStages = 48;
+  static constexpr int kUsualStages = 48, kMostStages = 256;
   int stages, steps;  ///< stages for each step, steps for each sample
   double mu[kMostStages + 1], nu[kMostStages + 1], mu_h[kMostStages + 1], gamma_h[kMostStages + 1],
       node[kMostStages + 1];
@@ -27,11 +27,11 @@ struct Chebyshev {
 /// Eigenvalues of a system's Jacobian, 1/s.
 using Eigenvalues = std::vector<std::complex<double>>;
 
-/// Number of stages that keeps steps of h stable along the real axis, with a margin of a fifth; 0 if more than
-/// kMostStages are needed.
-int stages_for(const std::vector<Eigenvalues>& spectra, double h);
+/// Number of stages that keeps steps of h stable along the real axis, with a margin of a fifth; 0 if more than `most` are
+/// needed, which is at most kMostStages.
+int stages_for(const std::vector<Eigenvalues>& spectra, double h, int most);
 
-/// The fastest eigenvalue for which stages_for() has an answer, 1/s.
+/// The fastest eigenvalue for which kUsualStages are enough, 1/s.
 double fastest_stable(double h);
 
 /// The method that suits several systems at once with the fewest steps for each sample, and then with the fewest stages

@@ -157,7 +157,7 @@ class Prediction {
       if (job.mover != i || !has_room(job.hypothesis->effects, record_.n)) return;
       job.start = unstretched_state(*job.hypothesis, record_, inputs_[0]);
       job.spectrum = eigenvalues_of(*job.hypothesis, record_, standing(inputs_[0]), job.start);
-      job.is_able = !job.spectrum.empty() && stages_for(job.spectrum, record_.dt) > 0;
+      job.is_able = !job.spectrum.empty() && stages_for(job.spectrum, record_.dt, record_.most_stages) > 0;
     });
     std::vector<std::vector<std::vector<Eigenvalues>>> able(n_requests_);
     for (const Job& job : jobs_)

@@ -9,6 +9,7 @@
 
 #include "diagnosis/log_check/robust.h"
 #include "diagnosis/record/sampled_column.h"
+#include "estimators/process/process_model.h"
 #include "model/homing.h"
 #include "model/input_error.h"
 #include "transmission/coupling.h"
@@ -236,6 +237,23 @@ Log usable(Log log, const ArmModel& model) {
   return log;
 }
 
+/// 1/s; 0 if the model's rates are not finite, which its prediction tells.
+double fastest_rate(const ArmModel& model) {
+  try {
+    return ProcessModel(model).stiffest_rate();
+  } catch (const std::runtime_error&) {
+    return 0;
+  }
+}
+
+/// Of the integration by hypotheses about an arm of this fastest rate: their frictions may be some times the model's,
+/// and coarse records have twice the step.
+int most_stages_for(double fastest, double dt) {
+  constexpr double kSomeTimes = 3, kCoarse = 2;
+  const int stages = stages_for({{-kSomeTimes * fastest}}, kCoarse * dt, Chebyshev::kMostStages);
+  return stages == 0 ? Chebyshev::kMostStages : std::max(stages, Chebyshev::kUsualStages);
+}
+
 /// What a row is to the stretches of a log that have no long gap in what tells the motion.
 enum class Row { goes_on, begins, lost };
 
@@ -322,11 +340,13 @@ std::vector<Record> make_records(const Log& given, const ArmModel& model, const 
   const Log log = usable(given, model);
   const std::vector<Row> mark = mark_gaps(log, model, options.longest_gap_s);
 
+  const double fastest = fastest_rate(model);
   std::vector<Record> records;
   for (std::size_t begin = 0, end = 0; begin < log.size(); begin = end) {
     for (end = begin + 1; end < log.size() && mark[end] == Row::goes_on;) ++end;
     if (mark[begin] == Row::lost || log.time[end - 1] - log.time[begin] < 1 + options.settle_s) continue;
     records.push_back(Stretch(slice(log, begin, end), model, options).record());
+    records.back().most_stages = most_stages_for(fastest, records.back().dt);
   }
   if (records.empty())
     throw InputError(log.source +

@@ -21,6 +21,7 @@
 #include <optional>
 #include <vector>
 
+#include "diagnosis/motion/chebyshev.h"
 #include "model/arm_model.h"
 #include "model/log.h"
 
@@ -51,7 +52,8 @@ struct Record {
   double compare_sigma = 0;                              ///< σ_t of K_c, s; 0: residuals are not filtered
   std::vector<double> compare;                           ///< K_c on this grid, [2 reach + 1]
   std::string source;
-  std::optional<std::size_t> place;  ///< index among the records of an Evidence that it belongs to
+  int most_stages = Chebyshev::kUsualStages;  ///< of the integration by a hypothesis, see chebyshev.h
+  std::optional<std::size_t> place;           ///< index among the records of an Evidence that it belongs to
 
   /// Of both filters together: a compared reading has passed K_m and K_c.
   double filter_sigma() const { return std::hypot(motion_sigma, compare_sigma); }
@@ -76,6 +78,8 @@ struct RecordOptions {
 /// whose resolution the model does not state; a torque that is always 0.
 /// A command is assumed to be held until the next sample, but at most for kLongestHold. A longer interval is assumed to
 /// be the logger's, not the controller's.
+///
+/// Hypotheses may take more stages than usual if the model itself needs them, because a joint is light for its friction.
 ///
 /// Throws InputError if a motor's position is not in the log, if no stretch is at least a second longer than the
 /// settling time, or if there are fewer than ten samples a second; and as home_encoders() does.

@@ -245,5 +245,24 @@ TEST(Prediction, OfEverySampleIsTheReadingLessItsResidual) {
   }
 }
 
+TEST(Prediction, OfAWristThatIsLightForItsFrictionFollowsThePlant) {
+  ArmModel model = first_joints(2);
+  JointParameters<double>& wrist = model.nominal.joint[1];
+  wrist.mass = 0.02;
+  for (double& c : wrist.com) c = 0;
+  wrist.com[0] = 0.01;
+  const double inertia[] = {1e-6, 3e-6, 3e-6, 0, 0, 0};
+  std::copy(std::begin(inertia), std::end(inertia), wrist.inertia);
+  wrist.joint_coulomb = 0.02, wrist.joint_viscous = 2e-4;  // 8e5 1/s at standstill
+  wrist.pulley_radius = 6e-3, wrist.stiffness = 20e3, wrist.damping = 20;
+  const Log log = unquantised_log(model, 3);
+  for (const double step : {2e-3, 4e-3}) {  // of fine and of coarse records
+    RecordOptions options;
+    options.step_s = step;
+    const std::vector<Following> joints = follow(log, model, options, {model.nominal, {}});
+    EXPECT_LT(joints[1].rms, 0.02 * joints[1].stretch_rms) << step;
+  }
+}
+
 }  // namespace
 }  // namespace halyard
