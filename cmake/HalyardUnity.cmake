@@ -79,7 +79,7 @@ compile_together(halyard_diagnosis fit
   fit/bounded_least_squares.cpp fit/complementary.cpp fit/evidence.cpp fit/fit.cpp fit/fit_parameter.cpp fit/nudged.cpp
   noise/channel_noise.cpp noise/delay_free.cpp noise/ripple_free.cpp planning/change_detector.cpp planning/plan.cpp
   planning/planner.cpp rehearsal/drawn_effect.cpp rehearsal/motion_range.cpp rehearsal/rehearsal.cpp
-  rehearsal/rehearse.cpp rehearsal/rehearsed_log.cpp)
+  rehearsal/rehearse.cpp rehearsal/rehearsed_log.cpp rehearsal/true_names.cpp)
 compile_together(halyard_diagnosis judgement
   diagnose.cpp holdout/adoption.cpp holdout/holdout.cpp holdout/prediction_interval.cpp
   judgement/false_discovery.cpp judgement/final_fit.cpp judgement/judge.cpp

@@ -77,8 +77,8 @@ void print_findings(const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   for (const Unexplained& u : d.unexplained) print_out("  unexplained, joint {}: {}\n", u.joint + 1, u.signature);
 }
 
-void print_rehearsal(const Diagnosis& d, const Rehearsal& r) {
-  print_out("  rehearsed {} times (seed {}):\n", r.logs.size(), r.seed);
+void print_rehearsals(const Diagnosis& d, const Rehearsals& r) {
+  print_out("  rehearsed {} times (seed {}):\n", r.all.size(), r.seed);
   for (const std::string& line : rehearsal_lines(r)) print_out("    {}\n", line);
   for (const NamedEffect& e : d.effects)
     print_out("    {}: {} with these rehearsals\n", label_of(e), percent(r.calibrated(e.probability)));
@@ -125,21 +125,26 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
 
   Diagnosis d;
   DiagnosisEvaluation evaluation;
+  const auto write = [&] {
+    OutputFiles files;
+    write_diagnosis(files, options.out, model, d, evaluation);
+    files.commit();
+  };
   {
     StageProgress progress("diagnose", usual_stages(options.rehearsals),
                            options.progress_in_pipe ? PipedProgress::lines : PipedProgress::nothing);
     const auto tell = [&](const std::string& what, double fraction) { progress.set(what, fraction); };
     d = diagnose(model, training, holdout, {}, tell);
     evaluation = evaluate_diagnosis(model, d, training, holdout, tell);
-    if (options.rehearsals > 0)
-      evaluation.rehearsal = rehearse(model, d, training, holdout, {options.rehearsals, options.seed}, {}, tell);
+    write();
+    if (options.rehearsals > 0) {
+      evaluation.rehearsals = rehearse(model, d, training, holdout, {options.rehearsals, options.seed}, {}, tell);
+      write();
+    }
   }
-  OutputFiles files;
-  write_diagnosis(files, options.out, model, d, evaluation);
-  files.commit();
   print_findings(d, evaluation);
   print_errors(model, d, evaluation);
-  if (evaluation.rehearsal) print_rehearsal(d, *evaluation.rehearsal);
+  if (evaluation.rehearsals) print_rehearsals(d, *evaluation.rehearsals);
   print_out("model: {}\n", (options.out / "model.xml").string());
   print_out("report: {}\n", (options.out / "report.html").string());
 }

@@ -7,6 +7,7 @@
 
 #include "diagnosis/record/coarse_record.h"
 #include "diagnosis/record/resting.h"
+#include "diagnosis/record/sampled_column.h"
 #include "model/input_error.h"
 #include "transmission/coupling.h"
 
@@ -19,16 +20,6 @@ constexpr double kTorqueFloor = 0.01;      ///< of the torque's root mean square
 constexpr double kResolutionFloor = 0.3;   ///< of the joint encoder's resolution: its rounding's deviation
 
 constexpr double kCoarseStep = 4e-3;  ///< s; below a quarter of a period of what the motion's filter passes
-
-/// The step of a sensor that the model says nothing of: the smallest change that the record shows.
-double smallest_step(const std::vector<SensorSample>& samples) {
-  double step = 0;
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    const double d = std::abs(samples[i].value - samples[i - 1].value);
-    if (d > 1e-12 && (step == 0 || d < step)) step = d;
-  }
-  return step;
-}
 
 /// Of the positions of joint k.
 Span joint_span_of(const std::vector<Record>& records, const ArmModel& model, int k) {

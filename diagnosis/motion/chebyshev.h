@@ -27,8 +27,8 @@ struct Chebyshev {
 /// Eigenvalues of a system's Jacobian, 1/s.
 using Eigenvalues = std::vector<std::complex<double>>;
 
-/// Number of stages that keeps steps of h stable along the real axis, with a margin of a fifth; 0 if more than `most` are
-/// needed, which is at most kMostStages.
+/// Number of stages that keeps steps of h stable along the real axis, with a margin of a fifth; 0 if more than `most`
+/// are needed, which is at most kMostStages.
 int stages_for(const std::vector<Eigenvalues>& spectra, double h, int most);
 
 /// The fastest eigenvalue for which kUsualStages are enough, 1/s.

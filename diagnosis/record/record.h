@@ -79,7 +79,8 @@ struct RecordOptions {
 /// A command is assumed to be held until the next sample, but at most for kLongestHold. A longer interval is assumed to
 /// be the logger's, not the controller's.
 ///
-/// Hypotheses may take more stages than usual if the model itself needs them, because a joint is light for its friction.
+/// Hypotheses may take more stages than usual if the model itself needs them, as with a joint that is light for its
+/// friction.
 ///
 /// Throws InputError if a motor's position is not in the log, if no stretch is at least a second longer than the
 /// settling time, or if there are fewer than ten samples a second; and as home_encoders() does.

@@ -108,4 +108,14 @@ class SampledColumn {
   double interval_ = 0, usual_hole_ = 0;
 };
 
+/// The step of a sensor that the model says nothing of: the smallest change that the record shows.
+inline double smallest_step(const std::vector<SensorSample>& samples) {
+  double step = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double d = std::abs(samples[i].value - samples[i - 1].value);
+    if (d > 1e-12 && (step == 0 || d < step)) step = d;
+  }
+  return step;
+}
+
 }  // namespace halyard

@@ -89,11 +89,6 @@ std::optional<PlacedEffect> draw_effect(const std::vector<const Effect*>& from, 
   return random.one_of(all);
 }
 
-std::vector<std::string> names_of_parts(const std::string& effect) {
-  if (effect != "friction_drift") return {};
-  return {"motor_friction", "joint_friction"};
-}
-
 void draw_parameters(PlacedEffect& effect, const ArmModel& model, const MotionRange& motion, Random& random) {
   std::vector<SearchedParameter> all = searched_parameters(effect, model);
   limit_to_motion(all, effect, model, motion);

@@ -11,7 +11,6 @@
 /// any.
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "diagnosis/rehearsal/motion_range.h"
@@ -34,10 +33,6 @@ std::vector<SearchedParameter> searched_parameters(const PlacedEffect& effect, c
 std::optional<PlacedEffect> draw_effect(const std::vector<const Effect*>& from, const ArmModel& model,
                                         const std::vector<PlacedEffect>& others, const EffectPlace* joint,
                                         Random& random);
-
-/// Names that are right of a part of an effect, and neither right nor false beside it: of friction that drifts, other
-/// friction than the model's.
-std::vector<std::string> names_of_parts(const std::string& effect);
 
 /// Draws the parameters of a placed effect.
 void draw_parameters(PlacedEffect& effect, const ArmModel& model, const MotionRange& motion, Random& random);

@@ -15,17 +15,19 @@ MotionRange motion_range(const std::vector<Record>& records, const ArmParameters
                     std::vector<MotionRange::Range>(arm.n, {kInfinite, -kInfinite}),
                     std::vector<double>(arm.n, 0)};
   const UnstretchedJoints joints(arm);
-  Eigen::VectorXd of_motors(arm.n), q(arm.n);
-  const auto solve = [&](const Signals& signal, std::size_t i) {
-    for (int k = 0; k < arm.n; ++k) of_motors(k) = signal[k][i];
-    joints.solve(of_motors, of_motors, q);
-  };
+  Eigen::VectorXd offset(arm.n), of_motors(arm.n), q(arm.n);
+  for (int k = 0; k < arm.n; ++k) {
+    const JointParameters<double>& j = arm.joint[k];
+    offset(k) = j.drive == Drive::none ? j.joint_encoder_offset : j.motor_encoder_offset;
+  }
   for (const Record& r : records)
     for (std::size_t i = 0; i < r.size; ++i) {
-      solve(r.motor_angle, i);
+      for (int k = 0; k < arm.n; ++k) of_motors(k) = r.motor_angle[k][i] - offset(k);
+      joints.solve(of_motors, of_motors, q);
       for (int k = 0; k < arm.n; ++k)
         range.joint[k] = {std::min(range.joint[k].from, q(k)), std::max(range.joint[k].to, q(k))};
-      solve(r.motor_rate, i);
+      for (int k = 0; k < arm.n; ++k) of_motors(k) = r.motor_rate[k][i];
+      joints.solve(of_motors, of_motors, q);
       for (int k = 0; k < arm.n; ++k) range.fastest[k] = std::max(range.fastest[k], std::abs(q(k)));
     }
   return range;

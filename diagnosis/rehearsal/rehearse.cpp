@@ -1,6 +1,7 @@
 #include "diagnosis/rehearse.h"
 
 #include <algorithm>
+#include <new>
 
 #include "diagnosis/diagnosis_details.h"
 #include "diagnosis/holdout/holdout.h"
@@ -9,6 +10,7 @@
 #include "diagnosis/record/common_clock.h"
 #include "diagnosis/rehearsal/drawn_effect.h"
 #include "diagnosis/rehearsal/rehearsed_log.h"
+#include "diagnosis/rehearsal/true_names.h"
 #include "model/input_error.h"
 
 namespace halyard {
@@ -18,7 +20,7 @@ constexpr std::size_t kMostDrawn = 3;  // effects of one rehearsal
 constexpr int kMostDraws = 20;         // of effects with which the arm can be integrated
 
 /// Streams of random numbers that have nothing in common.
-enum Stream : std::uint32_t { kRehearsals, kWithoutEffect };
+enum Stream : std::uint32_t { kEffects, kNoise, kWithoutEffect };
 
 std::vector<const Effect*> effects_to_draw() {
   std::vector<const Effect*> effects = effect_library();
@@ -26,77 +28,79 @@ std::vector<const Effect*> effects_to_draw() {
   return effects;
 }
 
-/// In an arm of one joint, an effect of the arm and of the joint are the same.
-bool is_same_place(const PlacedEffect& a, const PlacedEffect& b, int joints) {
-  return joints == 1 || a.joint == b.joint;
-}
-
-/// The names that a rehearsal gave, each compared with the truth once: a second name for the same effect is false.
-void score(RehearsedLog& log, const Diagnosis& d, const std::vector<PlacedEffect>& neither) {
-  const int n = d.given.n();
-  for (const NamedEffect& name : d.effects) {
-    const auto is_name = [&](const PlacedEffect& e) {
-      return e.effect == name.effect.effect && is_same_place(e, name.effect, n);
-    };
-    const auto truth =
-        std::ranges::find_if(log.hidden, [&](const HiddenEffect& h) { return !h.is_named && is_name(h.effect); });
-    const bool is_right = truth != log.hidden.end();
-    if (is_right) truth->is_named = true;
-    else if (std::ranges::any_of(neither, is_name)) continue;
-    log.names.push_back({name.effect, name.probability, is_right});
-  }
-}
-
 /// The rehearsals of one diagnosis.
 class Rehearser {
  public:
   Rehearser(const ArmModel& model, const Diagnosis& d, const std::vector<Log>& training,
             const std::optional<Log>& holdout, const DiagnosisOptions& how)
-      : model_(model), d_(d), how_(how) {
+      : model_(model), d_(d), how_(how), arm_(d.given) {
     how_.tell_not_excited = false;
     const UsableLogs logs = usable_logs(model, training, holdout, how.columns.value_or(model.columns));
     const std::vector<double> shifts = clock_shifts(logs.training);
-    const Hypothesis& found = d.details->attribution.final_fit.hypothesis;
     for (std::size_t i = 0; i < logs.training.size(); ++i)
-      training_.push_back(motion_of(logs.training[i], found, shifts[i]));
+      training_.push_back(motion_of(logs.training[i], found(), shifts[i]));
     const ArmModel on_holdout = d.revised_on_holdout();
     if (logs.holdout) holdout_ = motion_of(*logs.holdout, {on_holdout.nominal, on_holdout.effects}, 0);
-    arm_ = d.given;
-    arm_.nominal = found.nominal;
+    arm_.nominal = found().nominal;
     const Log& first = logs.training.front();
     range_ = motion_range(training_.front().records(), arm_.nominal);
     if (!holdout) range_.record.to = first.time.front() + kTrainingShare * first.duration();
   }
 
-  RehearsedLog run(std::uint64_t seed, std::uint32_t index) const {
-    Random random(seed, kRehearsals, index);
-    RehearsedLog log;
-    log.truth = truth_of(index);
-    try {
-      const Made made = make(log.truth, random);
-      log.hidden = hidden_of(made, log.truth, seed);
-      const Diagnosis d = diagnose(model_, made.training, made.holdout, how_);
-      log.verdict = d.verdict;
-      score(log, d, neither_right_nor_false(log));
-    } catch (const InputError& error) {
-      log.failure = error.what();
+  /// The rehearsals of this seed, not diagnosed yet.
+  std::vector<Rehearsal> draw(int count, std::uint64_t seed) const {
+    std::vector<Rehearsal> all(count);
+    std::vector<PlacedEffect> drawn;
+    for (int i = 0; i < count; ++i) {
+      all[i].truth = truth_of(i);
+      if (all[i].truth == RehearsedTruth::found)  // of what was found, only names are to be found again
+        for (const NamedEffect& e : d_.effects) all[i].hidden.push_back({e.effect, true, false});
+      if (all[i].truth != RehearsedTruth::drawn) continue;
+      Random random(seed, kEffects, static_cast<std::uint32_t>(i));
+      for (const PlacedEffect& e : draw_effects(random)) {
+        all[i].hidden.push_back({e, false, false});
+        drawn.push_back(e);
+      }
     }
-    return log;
+    if (drawn.empty()) return all;
+    const std::vector<double> seen_from = detected_from(arm_, without_effect(seed), drawn);
+    std::size_t next = 0;
+    for (Rehearsal& r : all)
+      if (r.truth == RehearsedTruth::drawn)
+        for (HiddenEffect& h : r.hidden) h.is_visible = seen_from[next++] <= 1;
+    return all;
+  }
+
+  void run(Rehearsal& rehearsal, std::uint64_t seed, int index) const {
+    try {
+      Random random(seed, kNoise, static_cast<std::uint32_t>(index));
+      Hypothesis truth = {arm_.nominal, arm_.effects};
+      if (rehearsal.truth == RehearsedTruth::found) truth = found();
+      if (rehearsal.truth == RehearsedTruth::drawn)
+        for (const HiddenEffect& h : rehearsal.hidden) truth.effects.push_back(h.effect);
+      std::vector<Log> training;
+      for (const LoggedMotion& motion : training_) training.push_back(motion.as_of(truth, random));
+      std::optional<Log> holdout;
+      if (holdout_) holdout = holdout_->as_of(elsewhere(std::move(truth)), random);
+      const Diagnosis d = diagnose(model_, training, holdout, how_);
+      rehearsal.verdict = d.verdict;
+      rehearsal.unexplained = d.unexplained;
+      score_names(d.effects, neither_right_nor_false(rehearsal), model_.n(), rehearsal);
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {  // a log that is refused, or an effect of a user's own that throws
+      rehearsal.failure = error.what();
+    }
   }
 
  private:
-  struct Made {
-    std::vector<PlacedEffect> effects;  ///< beside those of the given model
-    std::vector<Log> training;
-    std::optional<Log> holdout;
-  };
-
   std::size_t n_given() const { return d_.given.effects.size(); }
-  std::size_t n_found() const { return d_.revised.effects.size() - n_given(); }
+  /// On the common clock of the training logs.
+  const Hypothesis& found() const { return d_.details->attribution.final_fit.hypothesis; }
 
-  RehearsedTruth truth_of(std::uint32_t index) const {
+  RehearsedTruth truth_of(int index) const {
     switch (index % 4) {
-      case 0: return n_found() > 0 ? RehearsedTruth::found : RehearsedTruth::nothing;
+      case 0: return d_.effects.empty() ? RehearsedTruth::nothing : RehearsedTruth::found;
       case 1: return RehearsedTruth::nothing;
       default: return RehearsedTruth::drawn;
     }
@@ -115,76 +119,53 @@ class Rehearser {
     return {log, std::move(records), late, model_, found};
   }
 
-  /// Draws again if the arm cannot be integrated.
-  Made make(RehearsedTruth truth, Random& random) const {
-    for (int draw = 1;; ++draw) try {
-        return make_once(truth, random);
-      } catch (const InputError&) {
-        if (draw == kMostDraws) throw;
-      }
-  }
-
-  Made make_once(RehearsedTruth truth, Random& random) const {
-    Hypothesis as = {arm_.nominal, arm_.effects};
-    Made made;
-    if (truth == RehearsedTruth::found) {
-      as = d_.details->attribution.final_fit.hypothesis;
-      made.effects.assign(as.effects.begin() + static_cast<std::ptrdiff_t>(n_given()), as.effects.end());
-    } else if (truth == RehearsedTruth::drawn) {
-      made.effects = draw_effects(random);
-      as.effects.insert(as.effects.end(), made.effects.begin(), made.effects.end());
-    }
-    for (const LoggedMotion& motion : training_) made.training.push_back(motion.as_of(as, random));
-    // What happens at an instant of the training happens in no other log.
-    as.past.clear();
-    std::erase_if(as.effects, [&](const PlacedEffect& e) { return has_instants(e, arm_.nominal); });
-    if (holdout_) made.holdout = holdout_->as_of(as, random);
-    return made;
-  }
-
+  /// As many as were found; other ones if the arm cannot be integrated with them.
   std::vector<PlacedEffect> draw_effects(Random& random) const {
-    std::vector<PlacedEffect> effects;
-    for (std::size_t i = 0; i < std::clamp<std::size_t>(n_found(), 1, kMostDrawn); ++i) {
-      std::vector<PlacedEffect> others = arm_.effects;
-      others.insert(others.end(), effects.begin(), effects.end());
-      std::optional<PlacedEffect> drawn = draw_effect(effects_to_draw(), arm_, others, nullptr, random);
-      if (!drawn) break;
-      draw_parameters(*drawn, arm_, range_, random);
-      effects.push_back(*drawn);
+    const std::size_t n_found = d_.revised.effects.size() - n_given();
+    for (int draw = 1;; ++draw) {
+      Hypothesis truth{arm_.nominal, arm_.effects};
+      for (std::size_t i = 0; i < std::clamp<std::size_t>(n_found, 1, kMostDrawn); ++i)
+        if (auto effect = draw_effect(effects_to_draw(), arm_, truth.effects, nullptr, random)) {
+          draw_parameters(*effect, arm_, range_, random);
+          truth.effects.push_back(*effect);
+        }
+      const Record& record = training_.front().records().front();
+      if (draw == kMostDraws || predict(record, {truth}, 1)[0].finite)
+        return {truth.effects.begin() + static_cast<std::ptrdiff_t>(n_given()), truth.effects.end()};
     }
-    return effects;
   }
 
-  /// Of what was found, only names are to be found again.
-  std::vector<HiddenEffect> hidden_of(const Made& made, RehearsedTruth truth, std::uint64_t seed) const {
-    std::vector<HiddenEffect> hidden;
-    if (truth == RehearsedTruth::found) {
-      for (const NamedEffect& e : d_.effects) hidden.push_back({e.effect, true, false});
-    } else if (truth == RehearsedTruth::drawn) {
-      const std::vector<double> from = detected_from(arm_, without_effect(seed), made.effects);
-      for (std::size_t i = 0; i < made.effects.size(); ++i) hidden.push_back({made.effects[i], from[i] <= 1, false});
-    }
-    return hidden;
+  /// In a log of its own: what happens at an instant of the training happens in no other log, and its effects start
+  /// without a past. Events of the given model stay, as they do in a diagnosis.
+  Hypothesis elsewhere(Hypothesis truth) const {
+    truth.past.clear();
+    const auto added = truth.effects.begin() + static_cast<std::ptrdiff_t>(n_given());
+    truth.effects.erase(std::remove_if(added, truth.effects.end(),
+                                       [&](const PlacedEffect& e) { return has_instants(e, arm_.nominal); }),
+                        truth.effects.end());
+    return truth;
   }
 
-  /// The training logs as the arm without an effect would have given them.
+  /// The training logs as the arm without an effect would have given them, for a plan, which takes no lateness out.
   std::vector<Log> without_effect(std::uint64_t seed) const {
     Random random(seed, kWithoutEffect, 0);
     std::vector<Log> logs;
     for (const LoggedMotion& motion : training_) {
-      Log log = motion.as_of({arm_.nominal, arm_.effects}, random);
+      Log log = motion.on_time_as_of({arm_.nominal, arm_.effects}, random);
       logs.push_back(holdout_ ? std::move(log) : split_log(log, kTrainingShare).first);
     }
     return logs;
   }
 
-  std::vector<PlacedEffect> neither_right_nor_false(const RehearsedLog& log) const {
-    std::vector<PlacedEffect> effects;
-    for (const HiddenEffect& h : log.hidden)
+  std::vector<PlacedEffect> neither_right_nor_false(const Rehearsal& rehearsal) const {
+    std::vector<PlacedEffect> effects = effects_beyond_tolerance(model_, arm_.nominal);
+    for (const HiddenEffect& h : rehearsal.hidden)
       for (const std::string& name : names_of_parts(h.effect.effect->name()))
         effects.push_back({find_effect(name), h.effect.joint});
-    if (log.truth == RehearsedTruth::found)  // effects without a name
-      for (std::size_t i = n_given(); i < d_.revised.effects.size(); ++i) effects.push_back(d_.revised.effects[i]);
+    if (rehearsal.truth != RehearsedTruth::found) return effects;
+    for (std::size_t i = n_given(); i < d_.revised.effects.size(); ++i)  // those that got no name
+      if (std::ranges::find(d_.effects, i, &NamedEffect::index) == d_.effects.end())
+        effects.push_back(d_.revised.effects[i]);
     return effects;
   }
 
@@ -199,16 +180,20 @@ class Rehearser {
 
 }  // namespace
 
-Rehearsal rehearse(const ArmModel& model, const Diagnosis& d, const std::vector<Log>& training,
-                   const std::optional<Log>& holdout, const RehearsalOptions& options, const DiagnosisOptions& how,
-                   const std::function<void(const std::string&, double)>& progress) {
+Rehearsals rehearse(const ArmModel& model, const Diagnosis& d, const std::vector<Log>& training,
+                    const std::optional<Log>& holdout, const RehearsalOptions& options, const DiagnosisOptions& how,
+                    const std::function<void(const std::string&, double)>& progress) {
+  const auto say = [&](double done) {
+    if (progress) progress("rehearsals", done / options.count);
+  };
+  say(0);
   const Rehearser rehearser(model, d, training, holdout, how);
-  Rehearsal rehearsal{options.seed, {}};
-  for (int i = 0; i < options.logs; ++i) {
-    if (progress) progress("rehearsals", static_cast<double>(i) / options.logs);
-    rehearsal.logs.push_back(rehearser.run(options.seed, static_cast<std::uint32_t>(i)));
+  Rehearsals rehearsals{options.seed, rehearser.draw(options.count, options.seed)};
+  for (int i = 0; i < options.count; ++i) {
+    say(i);
+    rehearser.run(rehearsals.all[i], options.seed, i);
   }
-  return rehearsal;
+  return rehearsals;
 }
 
 }  // namespace halyard

@@ -6,11 +6,12 @@
 ///   x   reading of a joint, or torque of a motor
 ///   r   what a hypothesis leaves of the log, in the band and on the grid of the fits, but not smoothed: the reading
 ///       minus the predicted one, or the torque residual (prediction.h)
-///   t'  t, moved by a random time that is the same for all signals of the log
+///   t'  another time: the rows of each signal are moved on, by a random share of the log that is the same for all
 ///
 /// So the noise of the rehearsed log is what the found model leaves of the real one, with its spectrum, at other times:
 /// it has nothing in common with the motion any more. A torque at rest keeps its own residual, because static friction
-/// can have any value there. Motor positions, loads, missing cells and a sensor's lateness are those of the log.
+/// can have any value there. Motor positions, loads, missing cells and a sensor's lateness are those of the log. Cells
+/// at the ends of a record, where the filter of the motion makes things up, are left out.
 
 #include "diagnosis/prediction/prediction.h"
 #include "diagnosis/rehearsal/random.h"
@@ -25,6 +26,8 @@ class LoggedMotion {
 
   /// Throws InputError if an arm with this truth cannot be integrated along the motion.
   Log as_of(const Hypothesis& truth, Random& random) const;
+  /// The same with slow sensors that are not late.
+  Log on_time_as_of(const Hypothesis& truth, Random& random) const;
 
   const std::vector<Record>& records() const { return records_; }
 
@@ -32,18 +35,22 @@ class LoggedMotion {
   /// A row of the log that has a reading, and where it lies in a record, in steps of its grid.
   struct Row {
     std::size_t row, record;
-    double place;
+    double steps;
     bool is_moved;  ///< it gets the residual of another row
   };
   /// A column of the log that is made anew.
   struct Column {
     Signals Log::*signal;
     int joint;
+    double late;        ///< s, against the record
+    double resolution;  ///< to which it is rounded; 0: it is not
     std::vector<Row> rows = {};
   };
 
-  Column column_of(Signals Log::*signal, int joint, double late, double motor_smoothing) const;
-  double residual(const Column& column, const Row& row, const std::vector<FullPrediction>& by) const;
+  void add(Column column, double motor_smoothing);
+  Log made(const Hypothesis& truth, Random& random, bool on_time) const;
+  /// later: seconds after the row's own time.
+  double residual(const Column& column, const Row& row, const std::vector<FullPrediction>& of, double later) const;
 
   Log log_;
   std::vector<Record> records_;
@@ -51,8 +58,8 @@ class LoggedMotion {
   std::vector<Column> columns_;
 };
 
-/// The records of a log as the fits see them, but not smoothed, and predicted everywhere from the first row on, also
-/// between the readings of a slow sensor.
+/// The records of a log as the fits see them, but predicted everywhere from the first row on, also between the readings
+/// of a slow sensor.
 std::vector<Record> rehearsal_records(const Log& log, const ArmModel& model);
 
 }  // namespace halyard

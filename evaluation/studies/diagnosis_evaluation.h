@@ -1,5 +1,5 @@
 #pragma once
-/// Evidence for a diagnosis: reasons for each named effect, errors of estimators with the revised model, a rehearsal.
+/// Evidence for a diagnosis: reasons for each named effect, errors of estimators with the revised model, rehearsals.
 
 #include <functional>
 #include <memory>
@@ -22,7 +22,7 @@ struct DiagnosisEvaluation {
   std::vector<std::string> why;
   std::vector<EstimatorComparison> estimators;  ///< none if the hold-out has no joint sensor
   std::shared_ptr<const DiagnosisEvidence> evidence;
-  std::optional<Rehearsal> rehearsal;  ///< if one was asked for
+  std::optional<Rehearsals> rehearsals;  ///< if they were asked for
 };
 
 /// training, holdout: the arguments of diagnose(). progress(text, fraction) may be called from several threads, but

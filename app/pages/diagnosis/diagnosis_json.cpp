@@ -131,7 +131,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
               {"log_check", log_check},
               {"error", error_json(d)},
               {"estimators", estimators_json(evaluation)}};
-  if (evaluation.rehearsal) all["rehearsal"] = rehearsal_json(d, *evaluation.rehearsal);
+  if (evaluation.rehearsals) all["rehearsals"] = rehearsals_json(d, *evaluation.rehearsals);
   return json_text(all);
 }
 

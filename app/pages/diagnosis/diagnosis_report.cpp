@@ -267,7 +267,7 @@ report::Page diagnosis_page(const ArmModel& model, const Diagnosis& d, const Dia
   add_estimator_errors(page, model, evaluation);
   add_evidence(page, d, evaluation);
   add_numbers(page, d);
-  if (evaluation.rehearsal) add_rehearsal(page, d, *evaluation.rehearsal);
+  if (evaluation.rehearsals) add_rehearsals(page, d, *evaluation.rehearsals);
   page.heading("Residuals on the hold-out");
   add_residuals(page, d);
   add_innovations(page, model, evaluation);

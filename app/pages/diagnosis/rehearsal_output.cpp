@@ -25,9 +25,9 @@ const char* word(RehearsedTruth truth) {
 std::string line_of(RehearsedTruth truth, const RehearsalCount& c) {
   switch (truth) {
     case RehearsedTruth::found:
-      return fmt::format("with what was found: {} of {} find the same names and no other", c.right, c.logs);
+      return fmt::format("with what was found: {} of {} find the same names and no other", c.right, c.rehearsals);
     case RehearsedTruth::nothing:
-      return fmt::format("without an effect: {} of {} are clean; {} false names", c.right, c.logs, c.false_names);
+      return fmt::format("without an effect: {} of {} are clean; {} false names", c.right, c.rehearsals, c.false_names);
     case RehearsedTruth::drawn: break;
   }
   return fmt::format(
@@ -38,61 +38,76 @@ std::string line_of(RehearsedTruth truth, const RehearsalCount& c) {
 constexpr std::array kTruths = {RehearsedTruth::found, RehearsedTruth::nothing, RehearsedTruth::drawn};
 
 Json count_json(const RehearsalCount& c) {
-  return {{"logs", c.logs},   {"right", c.right},         {"failed", c.failed}, {"visible_effects", c.visible},
-          {"named", c.named}, {"too_small", c.too_small}, {"names", c.names},   {"false_names", c.false_names}};
+  return {
+      {"rehearsals", c.rehearsals}, {"right", c.right},         {"failed", c.failed}, {"visible_effects", c.visible},
+      {"named", c.named},           {"too_small", c.too_small}, {"names", c.names},   {"false_names", c.false_names}};
 }
 
 Json place_json(const PlacedEffect& e) {
   return {{"effect", e.effect->name()}, {"joint", e.joint ? Json(*e.joint + 1) : Json(nullptr)}};
 }
 
-Json log_json(const RehearsedLog& log) {
+/// By name, with the values that were drawn.
+Json parameters_json(const PlacedEffect& e, const ArmParameters<double>& arm) {
+  Json all = Json::object();
+  const std::vector<EffectParameter> parameters = e.effect->parameters(arm, e.joint);
+  for (std::size_t i = 0; i < parameters.size(); ++i) all[parameters[i].name] = rounded_to_digits(e.p[i], 9);
+  return all;
+}
+
+Json rehearsal_json(const Rehearsal& r, const ArmParameters<double>& arm) {
   Json hidden = Json::array(), names = Json::array();
-  for (const HiddenEffect& h : log.hidden) {
+  for (const HiddenEffect& h : r.hidden) {
     hidden.push_back(place_json(h.effect));
+    hidden.back()["parameters"] = parameters_json(h.effect, arm);
     hidden.back().update({{"visible", h.is_visible}, {"named", h.is_named}});
   }
-  for (const RehearsedName& n : log.names) {
+  for (const RehearsedName& n : r.names) {
     names.push_back(place_json(n.effect));
     names.back().update({{"probability", rounded_to_decimals(n.probability, 3)}, {"right", n.is_right}});
   }
-  const bool failed = !log.failure.empty();
-  return {{"truth", word(log.truth)}, {"hidden", hidden},
-          {"names", names},           {"verdict", failed ? Json(nullptr) : Json(verdict_word(log.verdict))},
-          {"right", log.is_right()},  {"failure", failed ? Json(log.failure) : Json(nullptr)}};
+  Json unexplained = Json::array();
+  for (const Unexplained& u : r.unexplained)
+    unexplained.push_back({{"joint", u.joint + 1}, {"signature", u.signature}});
+  const bool failed = !r.failure.empty();
+  return {{"truth", word(r.truth)}, {"hidden", hidden},
+          {"names", names},         {"verdict", failed ? Json(nullptr) : Json(verdict_word(r.verdict))},
+          {"right", r.is_right()},  {"failure", failed ? Json(r.failure) : Json(nullptr)}};
 }
 
-std::string hidden_text(const RehearsedLog& log) {
+std::string hidden_text(const Rehearsal& r) {
   std::string text;
-  for (const HiddenEffect& h : log.hidden)
+  for (const HiddenEffect& h : r.hidden)
     text += (text.empty() ? "" : ", ") + effect_label(h.effect) + (h.is_visible ? "" : " (too small to be seen)");
   return text.empty() ? "nothing" : text;
 }
 
-std::string names_text(const RehearsedLog& log) {
-  if (!log.failure.empty()) return log.failure;
+std::string names_text(const Rehearsal& r) {
+  if (!r.failure.empty()) return r.failure;
   std::string text;
-  for (const RehearsedName& n : log.names)
+  for (const RehearsedName& n : r.names)
     text += fmt::format("{}{} ({}{})", text.empty() ? "" : ", ", effect_label(n.effect), percent(n.probability),
                         n.is_right ? "" : ", false");
-  return text.empty() ? verdict_word(log.verdict) : text;
+  if (text.empty()) text = verdict_word(r.verdict);
+  for (const Unexplained& u : r.unexplained) text += fmt::format("; joint {}: {}", u.joint + 1, u.signature);
+  return text;
 }
 
 }  // namespace
 
-std::vector<std::string> rehearsal_lines(const Rehearsal& r) {
+std::vector<std::string> rehearsal_lines(const Rehearsals& r) {
   std::vector<std::string> lines;
   int failed = 0;
   for (const RehearsedTruth truth : kTruths) {
     const RehearsalCount count = r.count(truth);
     failed += count.failed;
-    if (count.logs > 0) lines.push_back(line_of(truth, count));
+    if (count.rehearsals > 0) lines.push_back(line_of(truth, count));
   }
   if (failed > 0) lines.push_back(fmt::format("{} rehearsals failed; they count as not right", failed));
   return lines;
 }
 
-Json rehearsal_json(const Diagnosis& d, const Rehearsal& r) {
+Json rehearsals_json(const Diagnosis& d, const Rehearsals& r) {
   Json all = {{"seed", r.seed}, {"right_if_certain", rounded_to_decimals(r.right_if_certain(), 3)}};
   all["effects"] = Json::array();
   for (const NamedEffect& e : d.effects) {
@@ -100,12 +115,12 @@ Json rehearsal_json(const Diagnosis& d, const Rehearsal& r) {
     all["effects"].back()["probability"] = rounded_to_decimals(r.calibrated(e.probability), 3);
   }
   for (const RehearsedTruth truth : kTruths) all[word(truth)] = count_json(r.count(truth));
-  all["logs"] = Json::array();
-  for (const RehearsedLog& log : r.logs) all["logs"].push_back(log_json(log));
+  all["rehearsals"] = Json::array();
+  for (const Rehearsal& one : r.all) all["rehearsals"].push_back(rehearsal_json(one, d.given.nominal));
   return all;
 }
 
-void add_rehearsal(report::Page& page, const Diagnosis& d, const Rehearsal& r) {
+void add_rehearsals(report::Page& page, const Diagnosis& d, const Rehearsals& r) {
   page.heading("Rehearsals: how often is such a diagnosis right?");
   page.paragraph(
       "Logs with the motion, the sensors and the noise of the real ones, but with effects that are known, were "
@@ -119,9 +134,9 @@ void add_rehearsal(report::Page& page, const Diagnosis& d, const Rehearsal& r) {
   table.caption = "The rehearsals";
   table.header = {"", "what the arm had", "what the diagnosis named", "right"};
   table.align = {report::Align::right, report::Align::left, report::Align::left, report::Align::left};
-  for (std::size_t i = 0; i < r.logs.size(); ++i)
+  for (std::size_t i = 0; i < r.all.size(); ++i)
     table.rows.push_back(
-        {fmt::format("{}", i + 1), hidden_text(r.logs[i]), names_text(r.logs[i]), r.logs[i].is_right() ? "yes" : "no"});
+        {fmt::format("{}", i + 1), hidden_text(r.all[i]), names_text(r.all[i]), r.all[i].is_right() ? "yes" : "no"});
   page.table(table);
 }
 

@@ -10,13 +10,13 @@
 
 namespace halyard {
 
-/// One line for each kind of truth that was rehearsed, one about rehearsals that failed, and one about names.
-std::vector<std::string> rehearsal_lines(const Rehearsal& rehearsal);
+/// One line for each kind of truth that was rehearsed, and one about rehearsals that failed.
+std::vector<std::string> rehearsal_lines(const Rehearsals& rehearsals);
 
-/// The member "rehearsal" of diagnosis.json.
-nlohmann::ordered_json rehearsal_json(const Diagnosis& diagnosis, const Rehearsal& rehearsal);
+/// The member "rehearsals" of diagnosis.json.
+nlohmann::ordered_json rehearsals_json(const Diagnosis& diagnosis, const Rehearsals& rehearsals);
 
 /// The lines, the probabilities of the diagnosis' names, and a table of the rehearsals.
-void add_rehearsal(report::Page& page, const Diagnosis& diagnosis, const Rehearsal& rehearsal);
+void add_rehearsals(report::Page& page, const Diagnosis& diagnosis, const Rehearsals& rehearsals);
 
 }  // namespace halyard

@@ -7,6 +7,7 @@
 
 #include "bench/diagnosis/forms/unregistered.h"
 #include "diagnosis/fit/fit.h"
+#include "diagnosis/rehearsal/true_names.h"
 
 namespace halyard::blind {
 namespace {
@@ -105,19 +106,9 @@ void mistune(ArmModel& robot, int off, const std::vector<Hidden>& hidden, Random
 }
 
 std::vector<Place> names_beyond_tolerance(const ArmModel& model, const ArmModel& robot) {
-  std::vector<FitParameter> beyond;
-  const Hypothesis truth{robot.nominal, {}};
-  for (const FitParameter& p : baseline_parameters(model)) {
-    const double value = parameter_value(truth, p);
-    if (value < p.lower || value > p.upper) beyond.push_back(p);
-  }
   std::vector<Place> names;
-  for (const Effect* effect : effect_library())
-    for (const EffectPlace joint : effect_places(*effect, model.nominal)) {
-      const PlacedEffect placed = place_effect(*effect, model.nominal, joint);
-      if (std::ranges::any_of(beyond, [&](const FitParameter& p) { return effect_changes(placed, model.nominal, p); }))
-        names.push_back(place_of(placed, model.n()));
-    }
+  for (const PlacedEffect& effect : effects_beyond_tolerance(model, robot.nominal))
+    names.push_back(place_of(effect, model.n()));
   return names;
 }
 

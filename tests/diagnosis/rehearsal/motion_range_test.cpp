@@ -11,8 +11,12 @@ namespace halyard {
 namespace {
 
 TEST(MotionRange, OfASwingIsItsReachItsSpeedAndItsTime) {
-  const ArmModel model = first_joints(1);
-  const MotionRange range = motion_range(make_records(log_along(4, 100, slow_swing), model, kFitBand), model.nominal);
+  constexpr double kOffset = 2;  // rad, of the motor's encoder
+  ArmModel model = first_joints(1);
+  model.nominal.joint[0].motor_encoder_offset = kOffset;
+  Log log = log_along(4, 100, slow_swing);
+  for (double& reading : log.motor_position[0]) reading += kOffset;
+  const MotionRange range = motion_range(make_records(log, model, kFitBand), model.nominal);
   EXPECT_NEAR(range.record.from, 0, 1e-9);
   EXPECT_NEAR(range.record.to, 4, 0.011);
   // 0.8 - 0.3 cos(1.7 t): the low-pass filter of 60 Hz takes 1e-5 of its amplitude.

@@ -81,7 +81,7 @@ TEST(RehearsedLog, HasItsNoiseAtOtherTimes) {
   const Log log = rehearsed(nominal());
   double product = 0, square = 0;
   const FullPrediction p = predict_all(rehearsal_records(noisy_log(), shoulder()), nominal())[0];
-  for (std::size_t i = 1000; i + 2 < log.size(); i += 2) {
+  for (std::size_t i = 1000; i + 20 < log.size(); i += 2) {
     const double predicted = p.joint_reading[0][i / 2];  // on a grid of 2 ms
     const double before = noisy_log().joint_position[0][i] - predicted;
     product += before * (log.joint_position[0][i] - predicted);
@@ -100,22 +100,41 @@ TEST(RehearsedLog, KeepsMotorsAndMissingCells) {
   const Log made = motion_of(log).as_of(with("backlash"), random);
   EXPECT_EQ(made.motor_position, log.motor_position);
   EXPECT_EQ(made.time, log.time);
-  // The filter of the motion makes up what follows the last row.
-  for (std::size_t i = 0; i + 1 < log.size(); ++i)
+  // At the ends the filter of the motion makes things up.
+  for (std::size_t i = 20; i + 20 < log.size(); ++i)
     ASSERT_EQ(std::isnan(made.joint_position[0][i]), std::isnan(log.joint_position[0][i])) << i;
 }
 
 TEST(RehearsedLog, OfALateSensorIsLateAsWell) {
-  constexpr int kLate = 8;  // rows of a millisecond
+  constexpr int kLate = 8;             // rows of a millisecond, in which the joint moves by up to 5e-3 rad
+  constexpr double kTwoCounts = 2e-4;  // rad: the errors of two readings
   Log log = simulate(motion(shoulder(), 8)).measured;
-  const std::vector<double> on_time = log.joint_position[0];
+  const std::vector<double> true_position = log.joint_position[0];
   for (std::size_t i = 0; i < log.size(); ++i)
     log.joint_position[0][i] =
-        i % 10 == 0 && i >= kLate ? on_time[i - kLate] : std::numeric_limits<double>::quiet_NaN();
+        i % 10 == 0 && i >= kLate ? true_position[i - kLate] : std::numeric_limits<double>::quiet_NaN();
   Random random(1, 0, 0);
   const Log made = motion_of(log, nominal(), 1e-3 * kLate).as_of(nominal(), random);
-  for (std::size_t i = 1000; i < log.size(); i += 10)
-    ASSERT_NEAR(made.joint_position[0][i], log.joint_position[0][i], 1e-3) << "a swing of 0.4 rad at " << i;
+  const Log on_time = motion_of(log, nominal(), 1e-3 * kLate).on_time_as_of(nominal(), random);
+  for (std::size_t i = 1000; i + 20 < log.size(); i += 10) {
+    ASSERT_NEAR(made.joint_position[0][i], log.joint_position[0][i], kTwoCounts) << i;
+    ASSERT_NEAR(on_time.joint_position[0][i], true_position[i], kTwoCounts) << i;
+  }
+}
+
+TEST(RehearsedLog, IsRoundedAsASensorOfUnstatedResolution) {
+  constexpr double kStep = 2e-3;  // rad
+  ArmModel model = shoulder();
+  model.nominal.joint[0].joint_encoder_resolution = 0;
+  Log log = noisy_log();
+  for (double& q : log.joint_position[0]) q = kStep * std::round(q / kStep);
+  Random random(1, 0, 0);
+  const LoggedMotion motion{log, rehearsal_records(log, model), 0, model, nominal()};
+  const Log made = motion.as_of(with("backlash"), random);
+  for (const double q : made.joint_position[0])
+    if (std::isfinite(q)) {
+      ASSERT_NEAR(q / kStep, std::round(q / kStep), 1e-6);
+    }
 }
 
 TEST(RehearsedLog, DependsOnItsSeedAlone) {
