@@ -86,7 +86,8 @@ TEST(RehearsalOutput, OnThePageTellsEachRehearsal) {
   add_rehearsals(page, d, four_rehearsals());
   const std::string html = page.html();
   for (const char* text : {"With these rehearsals, backlash of joint 2 has a probability of 92 %.",
-                           "payload (too small to be seen)", "hysteresis of joint 1 (95 %, false)", "log.csv: no"})
+                           "Without an effect: 1 of 1 are clean; 0 false names.", "payload (too small to be seen)",
+                           "hysteresis of joint 1 (95 %, false)", "log.csv: no"})
     EXPECT_NE(html.find(text), html.npos) << text;
 }
 

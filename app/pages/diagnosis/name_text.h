@@ -1,8 +1,9 @@
 #pragma once
-/// Names of effects and their probabilities, as the terminal and the report tell them.
+/// Names of effects, their probabilities and sentences, as the terminal and the report tell them.
 
 #include <fmt/core.h>
 
+#include <cctype>
 #include <string>
 
 #include "diagnosis/diagnose.h"
@@ -16,5 +17,11 @@ inline std::string label_of(const NamedEffect& e) {
 
 /// "87 %".
 inline std::string percent(double probability) { return fmt::format("{:.0f} %", 100 * probability); }
+
+/// The text with a capital first letter. The text must not be empty.
+inline std::string capitalised(std::string text) {
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
 
 }  // namespace halyard

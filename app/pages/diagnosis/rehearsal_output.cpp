@@ -123,10 +123,9 @@ Json rehearsals_json(const Diagnosis& d, const Rehearsals& r) {
 void add_rehearsals(report::Page& page, const Diagnosis& d, const Rehearsals& r) {
   page.heading("Rehearsals: how often is such a diagnosis right?");
   page.paragraph(
-      "Logs with the motion, the sensors and the noise of the real ones, but with effects that are known, were "
-      "diagnosed "
-      "as the real ones were.");
-  for (const std::string& line : rehearsal_lines(r)) page.paragraph(line + ".");
+      "Logs with the motion, the sensors and the noise of the real ones, but with known effects, were diagnosed as the "
+      "real ones were.");
+  for (const std::string& line : rehearsal_lines(r)) page.paragraph(capitalised(line) + ".");
   for (const NamedEffect& e : d.effects)
     page.paragraph(fmt::format("With these rehearsals, {} has a probability of {}.", label_of(e),
                                percent(r.calibrated(e.probability))));

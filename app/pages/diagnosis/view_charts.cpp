@@ -127,11 +127,6 @@ std::vector<View> over_time_only(const EffectEvidence& e) {
 
 }  // namespace
 
-std::string capitalised(std::string text) {
-  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
-
 std::vector<report::Chart> view_charts(const EffectEvidence& e, const ArmParameters<double>& arm, bool is_rest) {
   std::vector<report::Chart> charts;
   for (const View& v : e.views.empty() && !is_rest ? over_time_only(e) : e.views) {

@@ -3,13 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "app/pages/diagnosis/name_text.h"
 #include "app/report/chart.h"
 #include "evaluation/studies/diagnosis_evidence.h"
 
 namespace halyard {
-
-/// The text with a capital first letter. The text must not be empty.
-std::string capitalised(std::string text);
 
 /// One chart for each view of a residual. It shows the residual without the effect, the residual with the effect, and
 /// the curve that is fitted to the residual without the effect. A view over an angle also has a spectrum. If there is
