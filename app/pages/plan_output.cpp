@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/pages/diagnosis/diagnosis_output.h"
+#include "app/pages/diagnosis/place_json.h"
 #include "app/report/page.h"
 #include "evaluation/joint_unit.h"
 #include "evaluation/json.h"
@@ -56,17 +57,13 @@ std::string separation_text(const Separation& s) {
 
 std::string pair_text(const SeparatingMotion& m) { return effect_label(m.first) + " and " + effect_label(m.second); }
 
-Json effect_json(const PlacedEffect& e) {
-  return {{"effect", e.effect->name()}, {"joint", e.joint ? Json(*e.joint + 1) : Json(nullptr)}};
-}
-
 Json limit_json(const DetectionLimit& d, const ArmModel& model) {
-  Json json = effect_json(d.effect), shapes = Json::object(), confused = Json::array();
+  Json json = place_json(d.effect), shapes = Json::object(), confused = Json::array();
   const auto parameters = d.effect.effect->parameters(model.nominal, d.effect.joint);
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (parameters[i].is_shape())
       shapes[parameters[i].name] = {{"value", number(d.effect.p[i])}, {"unit", parameters[i].unit}};
-  for (const PlacedEffect& e : d.confused_with) confused.push_back(effect_json(e));
+  for (const PlacedEffect& e : d.confused_with) confused.push_back(place_json(e));
   json["excited"] = d.excited;
   json["parameter"] = d.parameter;
   json[d.excited ? "limit" : "largest"] = {{"value", number(d.limit)}, {"unit", d.unit}};
@@ -190,7 +187,7 @@ std::string plan_json(const Plan& plan) {
               {"limits", limits}};
   if (plan.separating) {
     const SeparatingMotion& m = *plan.separating;
-    all["separation"] = {{"effects", Json::array({effect_json(m.first), effect_json(m.second)})},
+    all["separation"] = {{"effects", Json::array({place_json(m.first), place_json(m.second)})},
                          {"given", separation_json(m.given, plan.model)},
                          {"proposed", m.scenario ? separation_json(m.proposed, plan.model) : Json(nullptr)}};
   }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/pages/diagnosis/diagnosis_output.h"
+#include "app/pages/diagnosis/place_json.h"
 #include "app/pages/diagnosis/rehearsal_output.h"
 #include "evaluation/json.h"
 #include "model/output/number_text.h"
@@ -31,8 +32,6 @@ Json interval_of(const Estimated& e) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   return e.is_whole ? numbers({kNone, kNone}) : numbers({e.lower, e.upper});
 }
-
-Json joint_of(EffectPlace joint) { return joint ? Json(*joint + 1) : Json(nullptr); }
 
 Json before_after(const std::vector<double>& before, const std::vector<double>& after) {
   return {{"before", numbers(before)}, {"after", numbers(after)}};
@@ -76,14 +75,14 @@ Json effect_json(const NamedEffect& e) {
   Json alternatives = Json::array(), parameters = Json::object();
   for (const Alternative& a : e.alternatives)
     alternatives.push_back({{"effect", a.effect.effect->name()},
-                            {"joint", joint_of(a.effect.joint)},
+                            {"joint", joint_json(a.effect.joint)},
                             {"probability", probability(a.probability)},
                             {"in_set", a.in_set}});
   for (const Estimated& p : e.parameters)
     parameters[p.name] = {
         {"value", number(p.value)}, {"unit", p.unit}, {"ci95", interval_of(p)}, {"at_bound", p.at_bound}};
   Json effect = {{"effect", e.effect.effect->name()},
-                 {"joint", joint_of(e.effect.joint)},
+                 {"joint", joint_json(e.effect.joint)},
                  {"probability", probability(e.probability)},
                  {"in_set", e.in_set},
                  {"alternatives", alternatives},
@@ -112,7 +111,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosisEvaluation& evalua
     if (u.effect) unexplained.back()["unnamed_effect"] = effect_json(*u.effect);
   }
   for (const NotExcited& n : d.not_excited)
-    not_excited.push_back({{"effect", n.effect}, {"joint", joint_of(n.joint)}, {"why", n.why}});
+    not_excited.push_back({{"effect", n.effect}, {"joint", joint_json(n.joint)}, {"why", n.why}});
   Json log_check = Json::array();
   for (const LogFinding& f : d.log_findings)
     log_check.push_back({{"log", f.log},

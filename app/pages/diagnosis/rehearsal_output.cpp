@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/pages/diagnosis/name_text.h"
+#include "app/pages/diagnosis/place_json.h"
 #include "model/output/number_text.h"
 
 namespace halyard {
@@ -43,10 +44,6 @@ Json count_json(const RehearsalCount& c) {
       {"named", c.named},           {"too_small", c.too_small}, {"names", c.names},   {"false_names", c.false_names}};
 }
 
-Json place_json(const PlacedEffect& e) {
-  return {{"effect", e.effect->name()}, {"joint", e.joint ? Json(*e.joint + 1) : Json(nullptr)}};
-}
-
 /// By name, with the values that were drawn.
 Json parameters_json(const PlacedEffect& e, const ArmParameters<double>& arm) {
   Json all = Json::object();
@@ -70,9 +67,12 @@ Json rehearsal_json(const Rehearsal& r, const ArmParameters<double>& arm) {
   for (const Unexplained& u : r.unexplained)
     unexplained.push_back({{"joint", u.joint + 1}, {"signature", u.signature}});
   const bool failed = !r.failure.empty();
-  return {{"truth", word(r.truth)}, {"hidden", hidden},
-          {"names", names},         {"verdict", failed ? Json(nullptr) : Json(verdict_word(r.verdict))},
-          {"right", r.is_right()},  {"failure", failed ? Json(r.failure) : Json(nullptr)}};
+  return {{"truth", word(r.truth)},
+          {"hidden", hidden},
+          {"names", names},
+          {"verdict", failed ? Json(nullptr) : Json(verdict_word(r.verdict))},
+          {"right", r.is_right()},
+          {"failure", failed ? Json(r.failure) : Json(nullptr)}};
 }
 
 std::string hidden_text(const Rehearsal& r) {
