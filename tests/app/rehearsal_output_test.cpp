@@ -29,6 +29,7 @@ Rehearsals four_rehearsals() {
   drawn.hidden = {{rehearsed("stiffness", 0), true, false}, {payload, false, false}};
   drawn.names = {{rehearsed("hysteresis", 0), 0.95, false}};
   drawn.verdict = Diagnosis::Verdict::effects;
+  drawn.unexplained = {{2, "a residual"}};
   failed.failure = "log.csv: no";
   return {7, {found, nothing, drawn, failed}};
 }
@@ -75,6 +76,7 @@ TEST(RehearsalOutput, IsAMemberOfTheDiagnosisOnlyIfThereWereAny) {
                                               {"named", false}}));
   EXPECT_EQ(logs[2].at("names"),
             json::array({{{"effect", "hysteresis"}, {"joint", 1}, {"probability", 0.95}, {"right", false}}}));
+  EXPECT_EQ(logs[2].at("unexplained"), json::array({{{"joint", 3}, {"signature", "a residual"}}}));
   EXPECT_EQ(logs[3].at("verdict"), nullptr);
   EXPECT_EQ(logs[3].at("failure"), "log.csv: no");
 }

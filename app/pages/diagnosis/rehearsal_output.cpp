@@ -71,6 +71,7 @@ Json rehearsal_json(const Rehearsal& r, const ArmParameters<double>& arm) {
           {"hidden", hidden},
           {"names", names},
           {"verdict", failed ? Json(nullptr) : Json(verdict_word(r.verdict))},
+          {"unexplained", unexplained},
           {"right", r.is_right()},
           {"failure", failed ? Json(r.failure) : Json(nullptr)}};
 }
