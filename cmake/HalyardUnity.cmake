@@ -119,7 +119,7 @@ compile_together(halyard_app tour
   tour/tour_rigs.cpp)
 
 # The tests, which tests/CMakeLists.txt lists by their folders: those of a room in groups of so many files, 0 for all.
-foreach(group transmission:6 model:0 plant:2 estimators:8 plugins:0 diagnosis:14 evaluation:0 app:0)
+foreach(group transmission:6 model:0 plant:2 estimators:8 plugins:0 diagnosis:14 evaluation:0 app:0 bench:9)
   string(REPLACE ":" ";" group ${group})
   list(POP_FRONT group room files)
   if(HALYARD_UNITY_BUILD AND TARGET ${room}_tests)

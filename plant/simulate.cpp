@@ -127,7 +127,10 @@ class ControlLoop {
   explicit ControlLoop(const Scenario& scenario)
       : scenario_(scenario),
         controller_(controller_parameters(scenario.robot), scenario.control_period_s),
-        random_(scenario.seed) {}
+        random_(scenario.seed),
+        motor_reading_(noise_of_readings(scenario.noise.motor_reading, &JointParameters<double>::motor_encoder_noise)),
+        joint_reading_(noise_of_readings(scenario.noise.joint_reading, &JointParameters<double>::joint_encoder_noise)) {
+  }
 
   Tick tick(double time_s, const DriveTrain& drive, const Eigen::VectorXd& y) {
     const int n = scenario_.robot.n();
@@ -138,17 +141,16 @@ class ControlLoop {
       last_rate_[k] = rate;
     }
     drive.signals(time_s, y.data(), y.data() + n, y.data() + 2 * n, tick.signals);
-    const TickNoise& noise = scenario_.noise;
-    for (std::size_t k = 0; k < noise.motor_reading.size(); ++k)
-      tick.signals[k].motor_error += noise.motor_reading[k] * normal_(random_);
-    for (std::size_t k = 0; k < noise.joint_reading.size(); ++k)
-      tick.signals[k].joint_error += noise.joint_reading[k] * normal_(random_);
+    for (std::size_t k = 0; k < motor_reading_.size(); ++k)
+      tick.signals[k].motor_error += motor_reading_[k] * normal_(random_);
+    for (std::size_t k = 0; k < joint_reading_.size(); ++k)
+      tick.signals[k].joint_error += joint_reading_[k] * normal_(random_);
     tick.readings = read_encoders(drive.arm(), tick.signals, scenario_.quantise);
     tick.commanded_torque = controller_.torque(desired_readings(time_s), tick.readings.motor);
     tick.applied_torque = tick.commanded_torque;
-    add_noise(noise.motor_torque, tick.applied_torque);
+    add_noise(scenario_.noise.motor_torque, tick.applied_torque);
     tick.load = Eigen::VectorXd::Zero(n);
-    add_noise(noise.joint_force, tick.load);
+    add_noise(scenario_.noise.joint_force, tick.load);
     return tick;
   }
 
@@ -162,6 +164,17 @@ class ControlLoop {
     return readings;
   }
 
+  /// Of the scenario and of the robot's own encoders together; empty: none.
+  std::vector<double> noise_of_readings(std::vector<double> deviation, double JointParameters<double>::*own) const {
+    const ArmParameters<double>& arm = scenario_.robot.nominal;
+    for (int k = 0; k < arm.n; ++k) {
+      if (arm.joint[k].*own == 0) continue;
+      deviation.resize(arm.n);
+      deviation[k] = std::hypot(deviation[k], arm.joint[k].*own);
+    }
+    return deviation;
+  }
+
   void add_noise(const std::vector<double>& deviation, Eigen::VectorXd& to) {
     for (std::size_t k = 0; k < deviation.size(); ++k) to[k] += deviation[k] * normal_(random_);
   }
@@ -170,7 +183,8 @@ class ControlLoop {
   PdController controller_;
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_{0, 1};
-  double last_rate_[kMaxJoints] = {};  ///< of the joints, which start at rest
+  std::vector<double> motor_reading_, joint_reading_;  ///< standard deviations
+  double last_rate_[kMaxJoints] = {};                  ///< of the joints, which start at rest
 };
 
 /// Writes a tick into row i of both logs.

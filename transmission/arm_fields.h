@@ -31,7 +31,7 @@ enum class FieldKind {
   torque_scale,
   torque_bias,
   gravity,
-  sensor,  ///< offsets and resolutions of encoders
+  sensor,  ///< offsets, resolutions and noise of encoders
 };
 
 /// The values that a field may have.
@@ -84,6 +84,28 @@ struct ArmField {
   }
 };
 
+/// Those of the part "encoders", as in for_each_joint_field.
+template <class Visit, class... Joint>
+void for_each_encoder_field(Visit&& visit, Joint&... j) {
+  using enum FieldOf;
+  using enum Influence;
+  constexpr auto none = Bound::none, not_negative = Bound::not_negative;
+  const auto encoder = [&](std::string_view name, FieldUnit unit, Bound bound, FieldOf of, Influence influence,
+                           auto&... value) {
+    visit(ArmField{"encoders", name, "", unit, FieldKind::sensor, bound, true, of, influence}, value...);
+  };
+  const FieldUnit position{"rad", "m"};
+  encoder("motor_resolution", "rad", not_negative, driven_joint, sensor_reading, j.motor_encoder_resolution...);
+  encoder("motor_noise", "rad", not_negative, driven_joint, sensor_reading, j.motor_encoder_noise...);
+  encoder("motor_offset", "", none, driven_joint, sensor_reading, j.motor_zero_known...);
+  // The motor's motion is its encoder's reading minus this offset.
+  encoder("motor_offset", "rad", none, driven_joint, motion, j.motor_encoder_offset...);
+  encoder("joint_resolution", position, not_negative, every_joint, sensor_reading, j.joint_encoder_resolution...);
+  encoder("joint_noise", position, not_negative, every_joint, sensor_reading, j.joint_encoder_noise...);
+  encoder("joint_offset", "", none, every_joint, sensor_reading, j.joint_zero_known...);
+  encoder("joint_offset", position, none, every_joint, sensor_reading, j.joint_encoder_offset...);
+}
+
 /// Calls visit(field, j.member...) for each field of a joint. The joints may have different scalar types.
 template <class Visit, class... Joint>
 void for_each_joint_field(Visit&& visit, Joint&... j) {
@@ -134,18 +156,7 @@ void for_each_joint_field(Visit&& visit, Joint&... j) {
   visit(F{"friction", "smoothing", "smoothing speed", {"rad/s", "m/s"}, smoothing, positive, true},
         j.joint_smoothing...);
 
-  const auto encoder = [&](std::string_view name, FieldUnit unit, Bound bound, FieldOf of, Influence influence,
-                           auto&... value) {
-    visit(F{"encoders", name, "", unit, sensor, bound, true, of, influence}, value...);
-  };
-  const FieldUnit position{"rad", "m"};
-  encoder("motor_resolution", "rad", not_negative, driven_joint, sensor_reading, j.motor_encoder_resolution...);
-  encoder("motor_offset", "", none, driven_joint, sensor_reading, j.motor_zero_known...);
-  // The motor's motion is its encoder's reading minus this offset.
-  encoder("motor_offset", "rad", none, driven_joint, motion, j.motor_encoder_offset...);
-  encoder("joint_resolution", position, not_negative, every_joint, sensor_reading, j.joint_encoder_resolution...);
-  encoder("joint_offset", "", none, every_joint, sensor_reading, j.joint_zero_known...);
-  encoder("joint_offset", position, none, every_joint, sensor_reading, j.joint_encoder_offset...);
+  for_each_encoder_field(visit, j...);
 }
 
 /// Calls visit(field, a.member...) for each field of the arm itself, not of its joints.

@@ -64,11 +64,13 @@ struct JointParameters {
   T joint_viscous = 0.0;     ///< N m s/rad | N s/m
   T joint_smoothing = 5e-3;  ///< v_s, rad/s | m/s
 
-  // Sensors: reading = truth + offset, rounded to the resolution (0: not rounded).
+  // Sensors: reading = truth + offset + noise, rounded to the resolution (0: not rounded).
   T motor_encoder_offset = 0.0;         ///< rad
   T joint_encoder_offset = 0.0;         ///< rad | m
   double motor_encoder_resolution = 0;  ///< rad
   double joint_encoder_resolution = 0;  ///< rad | m
+  double motor_encoder_noise = 0;       ///< standard deviation of white noise, rad
+  double joint_encoder_noise = 0;       ///< rad | m
   /// False: the zero differs from log to log, as with an incremental encoder that counts from zero at power-on.
   bool motor_zero_known = true;
   bool joint_zero_known = true;

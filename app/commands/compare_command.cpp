@@ -52,6 +52,8 @@ Data simulated_data(const CompareCommandOptions& options) {
          {&scenario.noise.motor_torque, &scenario.noise.joint_force, &scenario.noise.motor_reading})
       for (double& x : *deviations) x *= *options.noise;
     scenario.quantise = false;
+    // The assumed noise of a motor's reading contains that of its encoder.
+    for (JointParameters<double>& j : scenario.robot.nominal.joint) j.motor_encoder_noise = 0;
   }
   Progress progress("simulate", scenario.duration_s, "s");
   SimulationResult result = simulate(scenario, [&](double f) { progress.set(f * scenario.duration_s); });

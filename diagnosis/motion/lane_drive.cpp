@@ -5,12 +5,12 @@
 namespace halyard {
 
 extern const LaneDrive kDrive_generic;
-#if defined(__x86_64__)
+#if defined(HALYARD_WIDE_LANES)
 extern const LaneDrive kDrive_avx2, kDrive_avx512;
 #endif
 
 const std::vector<LaneDrive>& lane_drives() {
-#if defined(__x86_64__)
+#if defined(HALYARD_WIDE_LANES)
   static const std::vector<LaneDrive> usable =
       usable_copies<LaneDrive>({&kDrive_generic, &kDrive_avx2, &kDrive_avx512});
 #else

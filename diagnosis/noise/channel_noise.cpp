@@ -58,6 +58,18 @@ std::vector<NoiseLine> lines_of(const std::vector<double>& density, double resol
   return lines;
 }
 
+/// Standard deviation of a compared sample in white noise of this spectral density.
+double in_band_of(double density, double nyquist, double filter_sigma) {
+  return std::sqrt(std::min(density * nyquist, density / (4 * std::sqrt(std::numbers::pi) * filter_sigma)));
+}
+
+/// The noise, at least what the model states for the sensor.
+ChannelNoise at_least(double stated, ChannelNoise noise, double nyquist, double filter_sigma) {
+  noise.white = std::max(noise.white, stated);
+  noise.in_band = std::max(noise.in_band, in_band_of(stated * stated / nyquist, nyquist, filter_sigma));
+  return noise;
+}
+
 /// What a channel measured without what the model predicted, on the samples that its sensor took.
 struct ChannelSamples {
   std::vector<std::vector<double>> runs;          ///< evenly spaced, one for each record
@@ -220,9 +232,8 @@ ChannelNoise noise_of_density(const std::vector<double>& density, double resolut
     for (double from = kLowest; from < std::min(0.7 * nyquist, kHighest); from *= kBand)
       white = std::min(white, mean_of_band(density, resolution, from, std::min(kBand * from, nyquist)));
   if (!std::isfinite(white)) return noise;
-  const double square = white * nyquist;
-  noise.white = std::sqrt(square);
-  noise.in_band = std::sqrt(std::min(square, white / (4 * std::sqrt(std::numbers::pi) * filter_sigma)));
+  noise.white = std::sqrt(white * nyquist);
+  noise.in_band = in_band_of(white, nyquist, filter_sigma);
   noise.lines = lines_of(density, resolution);
   return noise;
 }
@@ -244,8 +255,10 @@ std::vector<ChannelNoise> channel_noise(const std::vector<Record>& records, cons
   for (int k = 0; k < n; ++k) {
     noise[k] = over_rates(torque_samples(records, unfiltered, k),
                           [&](const ChannelSamples& samples) { return torque_noise(samples, filters); });
-    noise[n + k] = over_rates(joint_samples(records, unfiltered, k),
-                              [&](const ChannelSamples& samples) { return noise_of(samples, filters, false); });
+    const double stated = given.nominal.joint[k].joint_encoder_noise;
+    noise[n + k] = over_rates(joint_samples(records, unfiltered, k), [&](const ChannelSamples& samples) {
+      return at_least(stated, noise_of(samples, filters, false), 0.5 / samples.interval, filters.both_sigma);
+    });
   }
   return noise;
 }

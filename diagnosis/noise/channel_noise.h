@@ -17,7 +17,8 @@
 ///   ln 2     median over mean of an exponential distribution, which the spectral density of noise has
 ///   σ_t      standard deviation of both filters of a record together (record.h), s
 ///
-/// Logs of different sample rates are estimated each with its own Δ; the variance is their mean over time.
+/// A joint sensor has at least the noise that the model states. Logs of different sample rates are estimated each with
+/// its own Δ; the variance is their mean over time.
 /// The parts of a torque's residual that repeat with the motor's angle (ripple_free.h), or go with the rate of its
 /// command (delay_free.h), do not count.
 /// The median ignores segments with a jump or an impact. So it does those across samples that are left out, behind

@@ -40,8 +40,10 @@ Eigen::VectorXd encoder_deviation(const ArmNoise& noise, const ArmParameters<dou
   Eigen::VectorXd deviation(2 * arm.n);
   deviation.head(arm.n) = noise.encoder();
   for (int k = 0; k < arm.n; ++k) {
-    const double floor = arm.joint[k].type == JointType::revolute ? kJointFloor : kJointFloorLength;
-    deviation(arm.n + k) = std::max(arm.joint[k].joint_encoder_resolution / std::sqrt(12.0), floor);
+    const JointParameters<double>& j = arm.joint[k];
+    const double floor = j.type == JointType::revolute ? kJointFloor : kJointFloorLength;
+    deviation(arm.n + k) =
+        std::max(std::hypot(j.joint_encoder_resolution / std::sqrt(12.0), j.joint_encoder_noise), floor);
   }
   return deviation;
 }

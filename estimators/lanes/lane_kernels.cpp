@@ -5,12 +5,12 @@
 namespace halyard {
 
 extern const LaneKernels kLanes_generic;
-#if defined(__x86_64__)
+#if defined(HALYARD_WIDE_LANES)
 extern const LaneKernels kLanes_avx2, kLanes_avx512;
 #endif
 
 const std::vector<LaneKernels>& lane_kernels() {
-#if defined(__x86_64__)
+#if defined(HALYARD_WIDE_LANES)
   static const std::vector<LaneKernels> usable =
       usable_copies<LaneKernels>({&kLanes_generic, &kLanes_avx2, &kLanes_avx512});
 #else

@@ -5,12 +5,12 @@
 namespace halyard {
 
 extern const MatrixKernels kMatrix_generic;
-#if defined(__x86_64__)
+#if defined(HALYARD_WIDE_LANES)
 extern const MatrixKernels kMatrix_avx2, kMatrix_avx512;
 #endif
 
 const std::vector<MatrixKernels>& matrix_kernels() {
-#if defined(__x86_64__)
+#if defined(HALYARD_WIDE_LANES)
   static const std::vector<MatrixKernels> usable =
       usable_copies<MatrixKernels>({&kMatrix_generic, &kMatrix_avx2, &kMatrix_avx512});
 #else

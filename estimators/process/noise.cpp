@@ -51,7 +51,8 @@ NoiseLevels read_noise(OptionReader& options, const ArmModel& model, const Proce
   levels.joint_force.resize(arm.n);
   for (int k = 0; k < arm.n; ++k) {
     const JointParameters<double>& j = arm.joint[k];
-    levels.encoder(k) = std::max(j.motor_encoder_resolution / std::sqrt(12.0), kEncoderFloor);
+    levels.encoder(k) =
+        std::max(std::hypot(j.motor_encoder_resolution / std::sqrt(12.0), j.motor_encoder_noise), kEncoderFloor);
     const Tolerances& t = model.joints[k].tolerances;
     levels.torque(k) = t.friction * j.motor_coulomb;
     levels.joint_force(k) = t.friction * j.joint_coulomb + t.mass * gravity(k);

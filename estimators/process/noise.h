@@ -1,7 +1,7 @@
 #pragma once
 /// Noise of encoders and process model in the filters: one rule for every arm, from the data of its model.
 ///
-///   encoder        σ_z = max(resolution / √12, 1e-5 rad)                                  (rounding is uniform)
+///   encoder        σ_z = max(√(resolution² / 12 + noise²), 1e-5 rad)                      (rounding is uniform)
 ///   torque         σ_τ = t_f F_c,m                                     N m at the shaft
 ///   joint force    σ_F = t_f F_c,q + t_m max |gravity force|            N m | N
 ///   effect states  a random walk whose standard deviation reaches the typical size of the state after

@@ -115,15 +115,16 @@ void read_encoders(const XmlElement& encoders, Joint& joint) {
   });
   encoders.only(attributes);
 
-  bool zero_known = true;  // of the offset that follows
+  bool zero_known = true;  // of the offset that comes next
   each_field([&](const ArmField& field, auto& value) {
     if constexpr (std::is_same_v<decltype(value), bool&>) {
       value = zero_known = encoders.text_or(field.name, "0") != kUnknownZero;
     } else if constexpr (std::is_same_v<decltype(value), double&>) {
       const char* unit = field.unit.of(joint.type);
+      const bool is_unknown = field.name.ends_with("_offset") && !zero_known;
       value = is_resolution(field) ? read_resolution(encoders, side_of(field), unit)
-              : zero_known         ? encoders.number_or(field.name, 0, unit)
-                                   : 0;
+              : is_unknown         ? 0
+                                   : encoders.number_or(field.name, 0, unit, sign_of(field.bound));
     }
   });
   if (!joint.joint_zero_known && (joint.drive == Drive::none || !joint.motor_zero_known)) {

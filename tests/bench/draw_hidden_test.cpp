@@ -11,15 +11,10 @@
 
 #include "bench/diagnosis/forms/unregistered.h"
 #include "diagnosis/fit/fit_parameter.h"
-#include "model/model_file.h"
+#include "tests/bench/trials.h"
 
 namespace halyard::blind {
 namespace {
-
-const ArmModel& raven2() {
-  static const ArmModel model = read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml");
-  return model;
-}
 
 std::vector<Hidden> hidden(Kind kind, int index, std::uint64_t seed = 1) {
   Random random(seed, 0, static_cast<std::uint32_t>(index));

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/model_file.h"
+#include "tests/bench/trials.h"
 #include "transmission/effects/typical_size.h"
 
 namespace halyard::blind {
@@ -30,11 +30,6 @@ struct Range {
     EXPECT_GT(most, to - kOuter * (to - from)) << what;
   }
 };
-
-const ArmModel& raven2() {
-  static const ArmModel model = read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml");
-  return model;
-}
 
 constexpr double kFrom = 3, kTo = 33;  // s
 

@@ -8,7 +8,7 @@
 namespace halyard::blind {
 namespace {
 
-constexpr double kRounding = 1e-12;
+constexpr double kRoundingOfShare = 1e-12;
 
 /// So many claims of one probability, of which some came true.
 void add(std::vector<Claim>& claims, double probability, int came_true, int of) {
@@ -16,8 +16,8 @@ void add(std::vector<Claim>& claims, double probability, int came_true, int of) 
 }
 
 void expect_group(const ClaimGroup& group, double from, double to, int came_true, int of) {
-  EXPECT_NEAR(group.from, from, kRounding);
-  EXPECT_NEAR(group.to, to, kRounding);
+  EXPECT_NEAR(group.from, from, kRoundingOfShare);
+  EXPECT_NEAR(group.to, to, kRoundingOfShare);
   EXPECT_EQ(group.came_true.hits, came_true);
   EXPECT_EQ(group.came_true.of, of);
 }
@@ -30,8 +30,8 @@ TEST(ProbabilitiesOfTrials, OfFullBinsAreComparedBinByBin) {
   ASSERT_EQ(groups.size(), 2u);
   expect_group(groups[0], 0, 0.1, 1, 20);
   expect_group(groups[1], 0.9, 1, 18, 20);
-  EXPECT_NEAR(groups[1].distance(), 0.1, kRounding);
-  EXPECT_NEAR(farthest_group(claims)->distance(), 0.1, kRounding);
+  EXPECT_NEAR(groups[1].distance(), 0.1, kRoundingOfShare);
+  EXPECT_NEAR(farthest_group(claims)->distance(), 0.1, kRoundingOfShare);
 }
 
 TEST(ProbabilitiesOfTrials, OfSparseNeighboursAreComparedTogether) {
@@ -42,7 +42,7 @@ TEST(ProbabilitiesOfTrials, OfSparseNeighboursAreComparedTogether) {
   const std::vector<ClaimGroup> groups = groups_of(claims);
   ASSERT_EQ(groups.size(), 2u);
   expect_group(groups[0], 0.5, 0.8, 4, 20);
-  EXPECT_NEAR(groups[0].mean(), 0.65, kRounding);
+  EXPECT_NEAR(groups[0].mean(), 0.65, kRoundingOfShare);
   expect_group(*farthest_group(claims), 0.5, 0.8, 4, 20);
 }
 

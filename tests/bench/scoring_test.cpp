@@ -31,7 +31,6 @@ void expect_scores(Kind kind, const std::vector<TrueEffect>& truth, const std::v
   }
 }
 
-const TrueEffect kBacklash = true_effect("backlash", 1), kCreep = true_effect("creep", 1);
 const Named kRight = named("backlash", 1), kAlso = named("delay", 0), kFalse = named("slack", 1),
             kElsewhere = named("backlash", 2);
 

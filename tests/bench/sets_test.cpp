@@ -8,8 +8,6 @@ namespace {
 
 using Sets = std::vector<bool>;
 
-const TrueEffect kBacklash = true_effect("backlash", 1), kCreep = true_effect("creep", 1);
-
 TEST(SetsOfTrials, HoldIfTheNameIsRightOrAnAlternativeInTheSetIs) {
   const Alternative inside{{"backlash", 1}, 0.3, true}, beyond{{"backlash", 1}, 0.01, false};
   EXPECT_EQ(sets_with_truth(trial(Kind::effect, {kBacklash}, {named("backlash", 1)})), Sets{true});

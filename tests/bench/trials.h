@@ -1,13 +1,21 @@
 #pragma once
-/// Results of blind trials that were never run.
+/// Results of blind trials that were never run, and what the trials are about.
 
 #include "bench/diagnosis/summary/selection.h"
+#include "model/model_file.h"
 
 namespace halyard::blind {
 
 /// A trial with an effect at a joint that `--plan` promises to see.
 inline TrueEffect true_effect(const std::string& effect, int joint, std::vector<TrueParameter> parameters = {}) {
   return {.place = {effect, joint}, .form = "", .size = 1, .parameters = std::move(parameters)};
+}
+
+inline const TrueEffect kBacklash = true_effect("backlash", 1), kCreep = true_effect("creep", 1);
+
+inline const ArmModel& raven2() {
+  static const ArmModel model = read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml");
+  return model;
 }
 
 inline Named named(const std::string& effect, int joint, double probability = 0.99,

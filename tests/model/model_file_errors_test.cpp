@@ -58,6 +58,8 @@ TEST(ModelFile, BadInputSaysWhereWhatAndWhatWasExpected) {
        "arm.xml:11: <encoders motor_counts=\"4000\">: expected one of motor_counts and motor_resolution"},
       {"motor_counts=\"4000\"", "motor_counts=\"1e-308\"",
        "arm.xml:11: <encoders motor_counts=\"1e-308\">: expected at least 1 count per turn"},
+      {"motor_offset=\"0.1\"", "joint_noise=\"-0.1 deg\"",
+       "arm.xml:11: <encoders joint_noise=\"-0.1 deg\">: expected a number of at least 0"},
       {"motor_offset=\"0.1\" joint_offset=\"-1 deg\"", "motor_offset=\"unknown\" joint_offset=\"unknown\"",
        "arm.xml:11: <encoders joint_offset=\"unknown\">: there is no other sensor whose zero is known; give this "
        "one's"},

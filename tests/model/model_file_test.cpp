@@ -84,6 +84,16 @@ TEST(ModelFile, UnknownZeroOfAnEncoderLastsThroughWritingAndReading) {
   EXPECT_FALSE(find_effect("encoder_offset")->applies(model.nominal, 0)) << "means nothing there";
 }
 
+TEST(ModelFile, TheNoiseOfASensorIsReadBesideAnUnknownZeroOfTheOther) {
+  const ArmModel model = parse_model(
+      replaced("motor_offset=\"0.1\"", "motor_noise=\"1e-3\" joint_noise=\"0.01 deg\" motor_offset=\"unknown\""),
+      "arm.xml");
+  EXPECT_EQ(model.nominal.joint[0].motor_encoder_noise, 1e-3);
+  EXPECT_DOUBLE_EQ(model.nominal.joint[0].joint_encoder_noise, 0.01 * kDegree);
+  const ArmModel again = parse_model(model_to_xml(model), "again.xml");
+  EXPECT_EQ(again.nominal.joint[0].joint_encoder_noise, model.nominal.joint[0].joint_encoder_noise);
+}
+
 TEST(ModelFile, ATorqueIsCommandedUnlessItIsMeasured) {
   EXPECT_EQ(parse_model(kArm, "arm.xml").nominal.joint[0].torque_source, TorqueSource::commanded);
   const ArmModel model =
@@ -142,6 +152,8 @@ std::vector<double> numbers_of(const JointParameters<double>& j) {
                          j.joint_encoder_offset,
                          j.motor_encoder_resolution,
                          j.joint_encoder_resolution,
+                         j.motor_encoder_noise,
+                         j.joint_encoder_noise,
                          double(j.motor_zero_known),
                          double(j.joint_zero_known)}) {
     all.push_back(x);

@@ -24,7 +24,7 @@ TEST(ArmFields, ListEveryMemberOfAJointOnce) {
                motor_smoothing, gear_ratio, capstan_radius, torque_scale, torque_bias, torque_source, pulley_radius,
                coupling, stiffness, damping, tension, joint_coulomb, joint_viscous, joint_smoothing,
                motor_encoder_offset, joint_encoder_offset, motor_encoder_resolution, joint_encoder_resolution,
-               motor_zero_known, joint_zero_known] = joint;
+               motor_encoder_noise, joint_encoder_noise, motor_zero_known, joint_zero_known] = joint;
   const std::multiset<const void*> members = {&type,
                                               &drive,
                                               &law,
@@ -54,6 +54,8 @@ TEST(ArmFields, ListEveryMemberOfAJointOnce) {
                                               &joint_encoder_offset,
                                               &motor_encoder_resolution,
                                               &joint_encoder_resolution,
+                                              &motor_encoder_noise,
+                                              &joint_encoder_noise,
                                               &motor_zero_known,
                                               &joint_zero_known};
   const auto list = listed([&](const auto& visit) { for_each_joint_field(visit, joint); });

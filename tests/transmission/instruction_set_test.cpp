@@ -11,10 +11,10 @@
 namespace halyard {
 namespace {
 
-/// Of this processor, those that the user allows, the widest first.
+/// Of this processor, those of this build that the user allows, the widest first.
 std::vector<InstructionSet> sets_of_this_processor() {
   std::vector<InstructionSet> sets;
-#if defined(__x86_64__)
+#if defined(HALYARD_WIDE_LANES)
   const char* name = std::getenv("HALYARD_INSTRUCTION_SET");
   const std::string widest = name ? name : "avx512";
   const bool has_fma = __builtin_cpu_supports("fma");

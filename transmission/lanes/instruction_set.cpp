@@ -23,7 +23,7 @@ InstructionSet widest_allowed() {
 const std::vector<InstructionSet>& instruction_sets() {
   static const std::vector<InstructionSet> usable = [] {
     std::vector<InstructionSet> all;
-#if defined(__x86_64__)
+#if defined(HALYARD_WIDE_LANES)
     // Every flag of the set's files is asked for: a processor, or a virtual machine, may have one without the other.
     const bool has_fma = __builtin_cpu_supports("fma");
     const InstructionSet widest = widest_allowed();

@@ -11,8 +11,6 @@ namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-bool has_motor(const ArmModel& model, int k) { return model.nominal.joint[k].drive != Drive::none; }
-
 /// Linear between the rows.
 double value_at(const std::vector<double>& time, const std::vector<double>& x, double t) {
   if (t <= time.front()) return x.front();
@@ -57,7 +55,7 @@ SensorDraw draw_sensors(Sensors kind, const ArmModel& model, double from_s, doub
   for (int k = 0; k < model.n(); ++k) {
     const JointParameters<double>& j = model.nominal.joint[k];
     s.noise[k] = random.uniform(0, good ? 1 : 30) * j.joint_encoder_resolution;
-    if (has_motor(model, k)) s.torque_noise[k] = random.uniform(0, good ? 0.02 : 0.2) * typical_motor_friction(j);
+    if (j.drive != Drive::none) s.torque_noise[k] = random.uniform(0, good ? 0.02 : 0.2) * typical_motor_friction(j);
   }
   if (kind != Sensors::poor) return s;
   s.interval_s = 1 / random.log_uniform(30, 1000);

@@ -97,8 +97,9 @@ halyard::Log noisy_log(double deviation, double rate, halyard::Signals halyard::
   return log;
 }
 
-ChannelNoise noise_of_channel(const std::vector<halyard::Log>& logs, int channel) {
-  const halyard::ArmModel model = halyard::first_joints(1);
+ChannelNoise noise_of_channel(const std::vector<halyard::Log>& logs, int channel, double stated = 0) {
+  halyard::ArmModel model = halyard::first_joints(1);
+  model.nominal.joint[0].joint_encoder_noise = stated;
   std::vector<halyard::Record> records;
   for (const halyard::Log& log : logs)
     for (halyard::Record& record : halyard::make_records(log, model, {})) records.push_back(std::move(record));
@@ -126,6 +127,14 @@ TEST_P(NoiseAtRate, OfATorqueIsThatOfItsReadings) {
 
 // 342 and 700 Hz: between the rows of the log. 1000 Hz: between the points of the record's grid.
 INSTANTIATE_TEST_SUITE_P(Rates, NoiseAtRate, testing::Values(100, 250, 342, 700, 1000));
+
+TEST(ChannelNoise, OfAJointSensorIsAtLeastWhatTheModelStates) {
+  const halyard::Log log = noisy_log(1e-3, 250, &halyard::Log::joint_position);
+  const ChannelNoise found = noise_of_channel({log}, 1), stated = noise_of_channel({log}, 1, 3e-3);
+  EXPECT_EQ(stated.white, 3e-3);
+  EXPECT_NEAR(stated.in_band / found.in_band, 3e-3 / found.white, 1e-9);
+  EXPECT_EQ(noise_of_channel({log}, 1, 5e-4).in_band, found.in_band) << "it may have more";
+}
 
 TEST(ChannelNoise, OfLogsWithDifferentRatesIsTheMeanOfTheirs) {
   const halyard::Log slow = noisy_log(1e-3, 100, &halyard::Log::joint_position),

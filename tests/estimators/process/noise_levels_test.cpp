@@ -46,6 +46,14 @@ TEST(NoiseLevels, AreResolutionsAndTolerancesOfFrictionAndGravity) {
   EXPECT_DOUBLE_EQ(levels_of(model, process, {{"effect_noise_time", "100"}}).wander(0), scale / 10);
 }
 
+TEST(NoiseLevels, OfAnEncoderAreThoseOfItsRoundingAndItsNoise) {
+  ArmModel model = raven2();
+  model.nominal.joint[1].motor_encoder_noise = 3e-3;
+  const ProcessModel process(model);
+  const double rounding = model.nominal.joint[1].motor_encoder_resolution / std::sqrt(12.0);
+  EXPECT_DOUBLE_EQ(levels_of(model, process).encoder(1), std::hypot(rounding, 3e-3));
+}
+
 TEST(NoiseLevels, OptionsReplaceThem) {
   const ArmModel model = raven2();
   const ProcessModel process(model);
