@@ -280,7 +280,7 @@ bool has_a_size(const Fit& fit, std::size_t effect) {
 }
 
 bool may_be_neutral(const Fit& fit, std::size_t i) {
-  return std::abs(fit.value[i] - fit.parameters[i].nominal) <= interval_factor(fit) * fit.std_deviation[i];
+  return std::abs(fit.value[i] - fit.parameters[i].nominal) <= half_interval(fit, i);
 }
 
 double half_interval(const Fit& fit, std::size_t i) {

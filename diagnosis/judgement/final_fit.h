@@ -38,7 +38,7 @@ double interval_factor(const Fit& fit);
 /// variance grows by (4/3 - 1) Σ_j (C_ij / σ_j)² over the numbers j; C = H⁻¹, P_jj = 1 / σ_j².
 double half_interval(const Fit& fit, std::size_t i);
 
-/// True if the 95 % interval of a parameter of the fit contains its neutral value.
+/// True if the interval of half_interval(), which is the one that is told, contains the parameter's neutral value.
 bool may_be_neutral(const Fit& fit, std::size_t i);
 
 /// The numbers of the model that the data changed significantly, as indices of the fit's parameters, and torque scales

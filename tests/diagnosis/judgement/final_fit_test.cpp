@@ -282,6 +282,7 @@ TEST(FinalFit, AValueMayBeNeutralWithinStudentsIntervalOfItsBlocks) {
     fit.blocks = blocks;
     fit.parameters.resize(1);
     fit.parameters[0].nominal = kNeutral;
+    fit.parameters[0].effect = 0;
     fit.std_deviation = {kDeviation};
     for (const double sign : {-1, 1}) {
       fit.value = {kNeutral + sign * quantile * kDeviation * (1 - 1e-6)};
@@ -290,6 +291,24 @@ TEST(FinalFit, AValueMayBeNeutralWithinStudentsIntervalOfItsBlocks) {
       EXPECT_FALSE(may_be_neutral(fit, 0)) << blocks;
     }
   }
+}
+
+TEST(FinalFit, AValueMayBeNeutralIfANumberOfTheModelAnywhereWithinItsToleranceMakesItSo) {
+  constexpr double kDeviation = 0.5, kOfNumber = 2, kShared = 1.5;
+  Fit fit;
+  fit.blocks = 2;
+  fit.parameters.resize(2);
+  fit.parameters[0].effect = 0;
+  fit.parameters[1].scale = kOfNumber;
+  fit.std_deviation = {kDeviation, kOfNumber};
+  fit.covariance = (Eigen::Matrix2d() << kDeviation * kDeviation, kShared, kShared, kOfNumber * kOfNumber).finished();
+  // A uniform distribution over the tolerance adds a third of (covariance / deviation of the number)² to the variance.
+  const double deviation = std::sqrt(kDeviation * kDeviation + std::pow(kShared / kOfNumber, 2) / 3);
+  const double half = std::tan(0.475 * std::numbers::pi) * deviation;
+  fit.value = {half * (1 - 1e-6), 0};
+  EXPECT_TRUE(may_be_neutral(fit, 0));
+  fit.value = {half * (1 + 1e-6), 0};
+  EXPECT_FALSE(may_be_neutral(fit, 0));
 }
 
 /// A fit of one effect that has kept the parameters of these indices.

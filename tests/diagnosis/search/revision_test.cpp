@@ -52,6 +52,11 @@ struct Searched {
     return halyard::doubts(evidence, model, found, probabilities_of_none(evidence, found, 0), 0.01);
   }
   const std::vector<PlacedEffect>& effects() const { return found.final_fit.hypothesis.effects; }
+  /// The values of the fit, without any uncertainty.
+  void make_certain() {
+    std::ranges::fill(found.final_fit.std_deviation, 0);
+    found.final_fit.covariance.setZero();
+  }
 
  private:
   static ArmModel with(const std::vector<PlacedEffect>& effects) {
@@ -147,7 +152,7 @@ TEST(Doubts, AnEffectThatIsNeededOnlyBesideADoubtfulOneGetsNoName) {
   const auto of = [&](const std::vector<PlacedEffect>& truth) {
     Searched s(truth, {ratio, offset});
     s.found.namings[0] = {0, {}};  // it lost against others
-    std::ranges::fill(s.found.final_fit.std_deviation, 0);
+    s.make_certain();
     return s.doubts();
   };
   EXPECT_EQ(of({offset}), (std::vector{Doubt::another_cause, Doubt::none}));
@@ -160,7 +165,7 @@ TEST(Doubts, AnEffectGetsNoNameThatIsAGuessAndDoesNotCostOthersTheirs) {
   const auto with_weight = [&](double weight) {
     Searched s({ratio, offset}, {ratio, offset});
     s.found.namings[0] = {weight, {{on_the_only_joint("backlash", 1e-4), 1 - weight}}};
-    std::ranges::fill(s.found.final_fit.std_deviation, 0);
+    s.make_certain();
     return s.doubts();
   };
   EXPECT_EQ(with_weight(0.7), (std::vector{Doubt::guess, Doubt::none}));
