@@ -1,6 +1,5 @@
 #include "diagnosis/prediction/recent_residuals.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "diagnosis/prediction/shared_lanes.h"
@@ -31,7 +30,7 @@ std::optional<Residuals> RecentResiduals::find(const Key& key) {
   const std::lock_guard lock(mutex_);
   const auto known = kept_.find(key);
   if (known == kept_.end()) return {};
-  known->second.last_use = ++uses_;
+  by_use_.splice(by_use_.end(), by_use_, known->second.use);
   return known->second.residuals;
 }
 
@@ -44,12 +43,19 @@ std::size_t RecentResiduals::bytes_of(const Key& key, const Residuals& residuals
 void RecentResiduals::keep(Key key, Residuals residuals) {
   const std::lock_guard lock(mutex_);
   const auto [place, is_new] = kept_.try_emplace(std::move(key));
-  if (!is_new) bytes_ -= bytes_of(place->first, place->second.residuals);
-  bytes_ += bytes_of(place->first, residuals);
-  place->second = {std::move(residuals), ++uses_};
+  auto& [own_key, kept] = *place;
+  if (is_new) {
+    kept.use = by_use_.insert(by_use_.end(), &own_key);
+  } else {
+    bytes_ -= bytes_of(own_key, kept.residuals);
+    by_use_.splice(by_use_.end(), by_use_, kept.use);
+  }
+  bytes_ += bytes_of(own_key, residuals);
+  kept.residuals = std::move(residuals);
   while (bytes_ > most_bytes_ && kept_.size() > 1) {
-    const auto oldest = std::ranges::min_element(kept_, {}, [](const auto& entry) { return entry.second.last_use; });
+    const auto oldest = kept_.find(*by_use_.front());
     bytes_ -= bytes_of(oldest->first, oldest->second.residuals);
+    by_use_.pop_front();
     kept_.erase(oldest);
   }
 }

@@ -3,7 +3,7 @@
 /// hypotheses again: one in six.
 
 #include <compare>
-#include <cstdint>
+#include <list>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -38,14 +38,14 @@ class RecentResiduals {
  private:
   struct Kept {
     Residuals residuals;
-    std::uint64_t last_use;
+    std::list<const Key*>::iterator use;  ///< in by_use_
   };
   static std::size_t bytes_of(const Key& key, const Residuals& residuals);
 
   std::size_t most_bytes_, bytes_ = 0;
   std::mutex mutex_;
   std::map<Key, Kept> kept_;
-  std::uint64_t uses_ = 0;
+  std::list<const Key*> by_use_;  ///< keys of kept_, the one that was not asked for longest first
 };
 
 }  // namespace halyard
