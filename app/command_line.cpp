@@ -23,8 +23,8 @@
 namespace halyard {
 namespace {
 
-void add_columns_option(CLI::App& command, std::vector<std::string>& columns) {
-  command
+CLI::Option* add_columns_option(CLI::App& command, std::vector<std::string>& columns) {
+  return command
       .add_option("--column", columns,
                   "which column of the log is which signal; overrides the model's map; may be repeated")
       ->type_name("NAME=COLUMN[,unit=U][,sign=-1][,scale=S][,offset=O][,wrap=P]")
@@ -107,6 +107,27 @@ void add_compare_command(CLI::App& app) {
   });
 }
 
+/// --plan and the options that belong to it. without: options that mean nothing to a plan.
+CLI::Option* add_plan_options(CLI::App& command, const std::shared_ptr<PlanCommandOptions>& plan,
+                              std::vector<std::filesystem::path>& files, const std::vector<CLI::Option*>& without) {
+  CLI::Option* planned = command
+                             .add_option("--plan", files,
+                                         "before there are data: which effects a diagnosis of this model in the "
+                                         "scenario's motion would see, from what size on")
+                             ->type_name("MODEL.xml SCENARIO.xml")
+                             ->expected(2);
+  for (CLI::Option* option : without) planned->excludes(option);
+  command.add_option("--separate", plan->separate, "with --plan: propose a motion that tells these two apart")
+      ->type_name("EFFECT@JOINT,EFFECT@JOINT")
+      ->needs(planned);
+  command
+      .add_flag_callback(
+          "--no-joint-sensor", [plan] { plan->joint_sensor = false; },
+          "with --plan: the joints will have no sensor, only the motors")
+      ->needs(planned);
+  return planned;
+}
+
 void add_diagnose_command(CLI::App& app) {
   CLI::App& command =
       *app.add_subcommand("diagnose", "find the effects that a model lacks, from logs, and add them to it");
@@ -126,10 +147,11 @@ void add_diagnose_command(CLI::App& app) {
   CLI::Option* out =
       command.add_option("--out", options->out, "folder of model.xml, diagnosis.json and report.html, or of the plan")
           ->type_name("DIR");
-  add_columns_option(command, options->columns);
+  CLI::Option* columns = add_columns_option(command, options->columns);
   add_effects_option(command);
-  command.add_flag("--progress", options->progress_in_pipe,
-                   "tell the progress even if stderr is not a terminal: a line every ten seconds");
+  CLI::Option* progress =
+      command.add_flag("--progress", options->progress_in_pipe,
+                       "tell the progress even if stderr is not a terminal: a line every ten seconds");
   CLI::Option* rehearsals =
       add_number(command, "--rehearse", options->rehearsals, {.least = 1, .most = 10000},
                  "then diagnose so many logs of the same motion and noise, with known effects, and count how often the "
@@ -137,24 +159,8 @@ void add_diagnose_command(CLI::App& app) {
   add_number(command, "--seed", options->seed, {.most = 1e15}, "of the rehearsals")
       ->capture_default_str()
       ->needs(rehearsals);
-  CLI::Option* planned = command
-                             .add_option("--plan", *plan_files,
-                                         "before there are data: which effects a diagnosis of this model in the "
-                                         "scenario's motion would see, from what size on")
-                             ->type_name("MODEL.xml SCENARIO.xml")
-                             ->expected(2)
-                             ->excludes(model)
-                             ->excludes(data)
-                             ->excludes(holdout)
-                             ->excludes(rehearsals);
-  command.add_option("--separate", plan->separate, "with --plan: propose a motion that tells these two apart")
-      ->type_name("EFFECT@JOINT,EFFECT@JOINT")
-      ->needs(planned);
-  command
-      .add_flag_callback(
-          "--no-joint-sensor", [plan] { plan->joint_sensor = false; },
-          "with --plan: the joints will have no sensor, only the motors")
-      ->needs(planned);
+  CLI::Option* planned =
+      add_plan_options(command, plan, *plan_files, {model, data, holdout, columns, progress, rehearsals});
   finish(command, [=] {
     if (planned->count() > 0) {
       plan->model = plan_files->at(0);

@@ -5,10 +5,12 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -55,6 +57,20 @@ CLI::Option* add_real(CLI::App& command, const std::string& name, Number& value,
   return option;
 }
 
+/// CLI11 would read "010" as 8.
+template <class Number>
+CLI::Option* add_whole(CLI::App& command, const std::string& name, Number& value, const std::string& description) {
+  return command
+      .add_option_function<std::string>(
+          name,
+          [&value, name](const std::string& text) {
+            if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc{})
+              throw CLI::ConversionError(text, name);
+          },
+          description)
+      ->default_function([&value] { return fmt::format("{}", value); });
+}
+
 /// For every option that is a number. CLI11's own checks let NaN pass.
 template <class Number>
 CLI::Option* add_number(CLI::App& command, const std::string& name, Number& value, const NumberRange& range,
@@ -70,7 +86,7 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, Number& valu
            (range.most < std::numeric_limits<double>::max() ? fmt::format(", at most {:g}", range.most) : "");
   };
   CLI::Option* option = nullptr;
-  if constexpr (whole) option = command.add_option(name, value, description);
+  if constexpr (whole) option = add_whole(command, name, value, description);
   else option = add_real(command, name, value, description);
   return option->check(fault)->type_name("N");
 }

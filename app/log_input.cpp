@@ -1,5 +1,7 @@
 #include "app/log_input.h"
 
+#include <algorithm>
+
 #include "diagnosis/log_check/clock_check.h"
 #include "model/arm_log.h"
 
@@ -10,6 +12,13 @@ Log read_timed_log(const ArmModel& model, const std::filesystem::path& path,
   Log log = read_log_of(model, path, column_entries);
   stop_at_gross_finding(check_times(log, model, columns_of(model, column_entries)));
   return log;
+}
+
+void check_has_load(const Log& log) {
+  if (std::ranges::all_of(log.joint_torque, [](const auto& column) { return column.empty(); }))
+    throw InputError(log.source +
+                     ": has no column joint_torque_k for --use-joint-torque; leave the option out, or say "
+                     "which column of the file it is by --column joint_torque_1=NAME");
 }
 
 void check_given_once(const std::vector<std::filesystem::path>& logs) {

@@ -16,6 +16,9 @@ namespace halyard {
 Log read_timed_log(const ArmModel& model, const std::filesystem::path& path,
                    const std::vector<std::string>& column_entries);
 
+/// For --use-joint-torque: throws InputError if the log has no measured load.
+void check_has_load(const Log& log);
+
 /// Throws InputError if a log occurs twice in --data and --holdout, because it would then count as twice the evidence.
 void check_given_once(const std::vector<std::filesystem::path>& logs);
 

@@ -67,6 +67,7 @@ Record dwells(const std::string& name, const ArmModel& model, double duration_s,
               double period_s = 1e-3) {
   Scenario s;
   s.robot = model;
+  for (JointParameters<double>& j : s.robot.nominal.joint) j.motor_encoder_noise = 0;  // in the noise that is drawn
   s.name = name;
   s.duration_s = duration_s;
   for (int k = 0; k < model.n(); ++k)

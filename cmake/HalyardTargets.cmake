@@ -68,8 +68,8 @@ endfunction()
 # be left, compiled for its set, where the linker may give it to all. For the same reason GCC must not guess the targets
 # of virtual calls. The sign of a zero and floating-point exceptions mean nothing in these files; the compiler may then
 # choose between two results without a branch. Loops over a few numbers must not become calls of memset and memcpy. The
-# same templates are instantiated elsewhere over double, where the sanitizers check them. Builds for sanitizers and
-# counters have the generic files alone (HALYARD_WIDE_LANES): they are not about speed.
+# same templates are instantiated elsewhere over double, where the sanitizers check them. The presets for
+# sanitizers, coverage and fuzzing have the generic files alone (HALYARD_WIDE_LANES): they are not about speed.
 option(HALYARD_SANITIZE_LANES "In a build with sanitizers, check the lane files too: GCC takes minutes for each" OFF)
 set(halyard_lane_options -O3 -fno-signed-zeros -fno-trapping-math -fno-math-errno
   $<$<CXX_COMPILER_ID:GNU>:-fno-devirtualize-speculatively> $<$<CXX_COMPILER_ID:GNU>:-fno-tree-loop-distribute-patterns>)
@@ -84,7 +84,6 @@ option(HALYARD_WIDE_LANES "Compile lane files and effects for AVX2 and AVX-512 t
 set(halyard_wide_sets "")
 if(HALYARD_WIDE_LANES AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(halyard_wide_sets avx2 avx512)
-  add_compile_definitions(HALYARD_WIDE_LANES)
 endif()
 function(halyard_lane_files room stem)
   set_source_files_properties(${stem}_generic.cpp PROPERTIES COMPILE_OPTIONS "${halyard_lane_options};-O2")

@@ -80,6 +80,8 @@ struct SearchSpace {
   /// For an effect that limits the speed of the motor: index of the parameter that is this speed, rad/s. A motor hardly
   /// exceeds it, so the search also starts a little above the fastest motion of the records.
   std::optional<std::size_t> greatest_motor_speed = {};
+  /// For an effect that is periodic in the motor's angle with a period of its own: that period, rad.
+  std::optional<double> period_of_motor = {};
   /// The effect is named only if it explains more than this one. If this one is named, the effect is an alternative.
   std::optional<AnotherEffect> another = {};
   /// True if the model's numbers that the effect changes are fitted beside it: it changes them in one proportion, and
@@ -112,5 +114,9 @@ std::vector<std::size_t> instants_of(const PlacedEffect& effect, const ArmParame
 
 /// True for an effect that has such parameters.
 bool has_instants(const PlacedEffect& effect, const ArmParameters<double>& arm);
+
+/// True for an effect that happens at an instant, and so belongs to a log and not to the arm: a size to which an instant
+/// belongs is not neutral. A force that is only a contact has instants and is no event.
+bool is_event(const PlacedEffect& effect, const ArmParameters<double>& arm);
 
 }  // namespace halyard

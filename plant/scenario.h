@@ -67,9 +67,9 @@ struct Camera {
 
 struct Scenario {
   ArmModel robot;  ///< the true robot, with its effects and changed parameters
-  /// The arm by which the controller turns desired joint positions into readings of the motors; none: robot.nominal.
-  /// Its gains are those of the robot.
-  std::optional<ArmParameters<double>> assumed;
+  /// The model, with its effects, by which the controller turns desired joint positions into readings of the motors,
+  /// and by which they are homed; none: robot.nominal, without effects. The controller's gains are those of the robot.
+  std::optional<ArmModel> assumed;
   std::filesystem::path model;  ///< the file that the robot was read from
   std::string name;
   double duration_s = 20;

@@ -164,8 +164,8 @@ Scenario read_scenario(const std::filesystem::path& path, const std::filesystem:
   scenario.name = root.text("name");
   scenario.model = root.path("model");
   scenario.robot = read_model(scenario.model);
-  scenario.assumed = scenario.robot.nominal;
-  if (!robot.empty()) scenario.robot = read_robot(robot, *scenario.assumed, scenario.model);
+  scenario.assumed = scenario.robot;
+  if (!robot.empty()) scenario.robot = read_robot(robot, scenario.assumed->nominal, scenario.model);
   scenario.duration_s = root.number_or("duration", scenario.duration_s, "s", Sign::positive);
   scenario.seed = static_cast<std::uint64_t>(root.integer_or("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
   if (root.has("engine"))

@@ -62,8 +62,10 @@ double bytes_of_a_tick(const Scenario& scenario) {
 
 std::string place(const Scenario& scenario) { return "scenario " + in_quotes(scenario.name) + ": "; }
 
-const ArmParameters<double>& assumed_arm(const Scenario& scenario) {
-  return scenario.assumed ? *scenario.assumed : scenario.robot.nominal;
+/// With what the effects of the model change.
+ArmParameters<double> assumed_arm(const Scenario& scenario) {
+  if (!scenario.assumed) return scenario.robot.nominal;
+  return Transmission<double>(scenario.assumed->nominal, scenario.assumed->effects).arm();
 }
 
 /// The true arm, its motors' zeros as homing leaves them.
@@ -71,10 +73,11 @@ ArmParameters<double> homed_arm(const Scenario& scenario) {
   ArmParameters<double> arm = scenario.robot.nominal;
   if (!scenario.homed) return arm;
   const Eigen::VectorXd home = scenario.robot.home();
-  const Eigen::VectorXd expected = unstretched_motors(assumed_arm(scenario), home);
+  const ArmParameters<double> assumed = assumed_arm(scenario);
+  const Eigen::VectorXd expected = unstretched_motors(assumed, home);
   const Eigen::VectorXd there = unstretched_motors(Transmission<double>(arm, scenario.robot.effects).arm(), home);
   for (int k = 0; k < arm.n; ++k)
-    arm.joint[k].motor_encoder_offset = assumed_arm(scenario).joint[k].motor_encoder_offset + expected(k) - there(k);
+    arm.joint[k].motor_encoder_offset = assumed.joint[k].motor_encoder_offset + expected(k) - there(k);
   return arm;
 }
 
@@ -126,6 +129,7 @@ class ControlLoop {
  public:
   explicit ControlLoop(const Scenario& scenario)
       : scenario_(scenario),
+        assumed_(assumed_arm(scenario)),
         controller_(controller_parameters(scenario.robot), scenario.control_period_s),
         random_(scenario.seed),
         motor_reading_(noise_of_readings(scenario.noise.motor_reading, &JointParameters<double>::motor_encoder_noise)),
@@ -157,10 +161,9 @@ class ControlLoop {
  private:
   /// What the motors' encoders would read at the desired positions if the arm were as the controller assumes.
   Eigen::VectorXd desired_readings(double time_s) const {
-    const ArmParameters<double>& arm = assumed_arm(scenario_);
-    Eigen::VectorXd readings = unstretched_motors(arm, desired_joints(scenario_, time_s));
-    for (int k = 0; k < arm.n; ++k)
-      if (arm.joint[k].drive != Drive::none) readings(k) += arm.joint[k].motor_encoder_offset;
+    Eigen::VectorXd readings = unstretched_motors(assumed_, desired_joints(scenario_, time_s));
+    for (int k = 0; k < assumed_.n; ++k)
+      if (assumed_.joint[k].drive != Drive::none) readings(k) += assumed_.joint[k].motor_encoder_offset;
     return readings;
   }
 
@@ -180,6 +183,7 @@ class ControlLoop {
   }
 
   const Scenario& scenario_;
+  const ArmParameters<double> assumed_;
   PdController controller_;
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_{0, 1};
@@ -258,6 +262,9 @@ void check_noise(const Scenario& scenario) {
     for (const double deviation : *deviations)
       if (!(deviation >= 0 && deviation <= kMostNoise))
         throw InputError(place(scenario) + "the " + name + " must be from 0 to 1e6 in SI units");
+  for (const JointParameters<double>& j : scenario.robot.nominal.joint)
+    if (!(j.motor_encoder_noise <= kMostNoise && j.joint_encoder_noise <= kMostNoise))
+      throw InputError(place(scenario) + "the noise of the robot's encoders must be from 0 to 1e6 in SI units");
 }
 
 /// Effects that are each within their bounds may leave an inertia that no body has.

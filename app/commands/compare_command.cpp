@@ -13,6 +13,7 @@
 #include "app/progress.h"
 #include "app/terminal/terminal.h"
 #include "model/arm_log.h"
+#include "model/homing.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "plant/scenario.h"
@@ -36,6 +37,10 @@ Data simulated_data(const CompareCommandOptions& options) {
     throw InputError("halyard compare: --column is for logs, and " + in_quotes(options.data.string()) +
                      " is a scenario; leave it out");
   }
+  if (options.use_joint_torque) {
+    throw InputError("halyard compare: --use-joint-torque is for logs, and " + in_quotes(options.data.string()) +
+                     " is a scenario, which has no measured load; leave it out");
+  }
   Scenario scenario = read_scenario(options.data, options.robot);
   check_skip(options.skip_s, scenario.duration_s, options.data.string());
   Data data;
@@ -52,13 +57,14 @@ Data simulated_data(const CompareCommandOptions& options) {
          {&scenario.noise.motor_torque, &scenario.noise.joint_force, &scenario.noise.motor_reading})
       for (double& x : *deviations) x *= *options.noise;
     scenario.quantise = false;
-    // The assumed noise of a motor's reading contains that of its encoder.
-    for (JointParameters<double>& j : scenario.robot.nominal.joint) j.motor_encoder_noise = 0;
+    // The assumed noise of a motor's reading contains that of its encoder, and no estimator reads joint sensors.
+    for (JointParameters<double>& j : scenario.robot.nominal.joint) j.motor_encoder_noise = j.joint_encoder_noise = 0;
   }
   Progress progress("simulate", scenario.duration_s, "s");
   SimulationResult result = simulate(scenario, [&](double f) { progress.set(f * scenario.duration_s); });
   data.measured = std::move(result.measured);
   data.measured.source = options.data.string();
+  home_encoders(data.measured, data.model);
   data.truth = std::move(result.truth);
   data.truth_from = "truth of the simulation";
   data.scenario = std::move(scenario);
@@ -77,6 +83,7 @@ Data logged_data(const CompareCommandOptions& options) {
   data.model = read_model(options.model);
   data.model_path = options.model.string();
   data.measured = read_timed_log(data.model, options.data, options.columns);
+  if (options.use_joint_torque) check_has_load(data.measured);
   check_skip(options.skip_s, data.measured.duration(), options.data.string());
   data.truth = data.measured;
   data.truth_is_sensed = true;

@@ -40,6 +40,7 @@ void run_estimate(const EstimateCommandOptions& options) {
   const ArmModel model = read_model(options.model);
   const Log log = read_timed_log(model, options.data, options.columns);
   check_not_input(options.out);
+  if (options.use_joint_torque) check_has_load(log);
   // The estimates are worth having even of a log that is too short for errors.
   if (options.skip_s != CompareOptions{}.skip_s) check_skip(options.skip_s, log.duration(), options.data.string());
   Comparison comparison;

@@ -199,6 +199,8 @@ void write_plan(OutputFiles& files, const std::filesystem::path& folder, const P
   if (plan.separating && plan.separating->scenario) {
     const fs::path model = fs::proximate(fs::absolute(plan.model.source), fs::absolute(folder));
     files.add(folder / "scenario.xml", proposal_xml(*plan.separating->scenario, model.string()));
+  } else if (fs::exists(folder / "plan.json")) {
+    files.remove(folder / "scenario.xml");  // the proposal of an earlier plan
   }
   files.add(folder / "plan.json", plan_json(plan));
   files.add(folder / "plan.html", plan_page(plan).html());

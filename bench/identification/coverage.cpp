@@ -76,9 +76,10 @@ std::vector<Outcome> run_one(const ArmModel& model, const Options& options, int 
   Scenario s;
   s.name = fmt::format("run {}", index);
   s.robot = model;
+  for (JointParameters<double>& j : s.robot.nominal.joint) j.motor_encoder_noise = 0;  // in the noise that is drawn
   draw_truth(s.robot, keys, options.off, random);
   for (JointDescription& j : s.robot.joints) j.controller.kp *= 2.5, j.controller.kd *= 2;
-  s.assumed = model.nominal;
+  s.assumed = model;
   s.duration_s = options.seconds;
   s.trajectory = random_motion(model, random);
   s.noise = draw_noise(model, s.control_period_s, random);

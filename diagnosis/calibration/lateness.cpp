@@ -194,7 +194,7 @@ std::optional<ArmModel> model_for_lateness(const std::vector<Log>& logs, const A
   model.nominal = found.nominal;
   model.effects = found.effects;
   model.effects.erase(model.effects.begin() + (delay - first));
-  std::erase_if(model.effects, [&](const PlacedEffect& e) { return has_instants(e, given.nominal); });
+  std::erase_if(model.effects, [&](const PlacedEffect& e) { return is_event(e, given.nominal); });
   return model;
 }
 

@@ -161,7 +161,9 @@ bool has_enough_periods(const Evidence& evidence, const PlacedEffect& effect, co
     const double motion = motion_of_order(space, i, evidence, effect.joint.value_or(0));
     if (motion > 0 && least_order(motion) > parameters[i].upper) return false;
   }
-  return true;
+  if (!space.period_of_motor) return true;
+  const Span span = evidence.motor_span(effect.joint.value_or(0));
+  return span.last - span.first >= kFewestPeriods * *space.period_of_motor;
 }
 
 std::vector<FitParameter> without_parameters_of(std::vector<FitParameter> parameters, std::size_t gone) {

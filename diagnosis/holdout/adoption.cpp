@@ -20,7 +20,7 @@ class Trier {
     double least = error_of(on_holdout);
     bool is_predicted = true;
     for (std::size_t e = on_holdout.effects.size(); task_.has_own_log && e-- > given_;) {
-      if (!has_instants(on_holdout.effects[e], task_.given.nominal)) continue;
+      if (!is_event(on_holdout.effects[e], task_.given.nominal)) continue;
       const Hypothesis without = without_effect(on_holdout, e);
       const double error = error_of(without);
       is_predicted = error < least;

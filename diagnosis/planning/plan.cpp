@@ -71,7 +71,9 @@ std::vector<double> detected_from(const ArmModel& model, const std::vector<Log>&
                                   const std::vector<PlacedEffect>& effects) {
   const Planner planner(model, logs);
   std::vector<double> shares;
-  for (const PlacedEffect& effect : effects) shares.push_back(planner.detected_from(planner.scaled(effect)));
+  for (const PlacedEffect& effect : effects)
+    shares.push_back(planner.is_searched(effect) ? planner.detected_from(planner.scaled(effect))
+                                                 : std::numeric_limits<double>::infinity());
   return shares;
 }
 

@@ -126,6 +126,7 @@ class Prediction {
       Job& job = jobs_[i];
       if (!is_able(job)) continue;
       RecentResiduals::Key key(*job.hypothesis, record_, stride_, schemes_[job.request], job.mover != i);
+      if (!key.can_be_found()) continue;
       const auto [same, is_new] = first.try_emplace(key, i);
       if (!is_new) {
         job.twin = same->second;

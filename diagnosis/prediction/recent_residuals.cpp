@@ -1,5 +1,7 @@
 #include "diagnosis/prediction/recent_residuals.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "diagnosis/prediction/shared_lanes.h"
@@ -26,6 +28,10 @@ RecentResiduals::Key::Key(const Hypothesis& h, const Record& record, int stride,
   }
 }
 
+bool RecentResiduals::Key::can_be_found() const {
+  return std::ranges::none_of(numbers_, [](double number) { return std::isnan(number); });
+}
+
 std::optional<Residuals> RecentResiduals::find(const Key& key) {
   const std::lock_guard lock(mutex_);
   const auto known = kept_.find(key);
@@ -42,10 +48,13 @@ std::size_t RecentResiduals::bytes_of(const Key& key, const Residuals& residuals
 
 void RecentResiduals::keep(Key key, Residuals residuals) {
   const std::lock_guard lock(mutex_);
+  std::list<const Key*> use(1);  // before the entry, which has a place in the list from the beginning
   const auto [place, is_new] = kept_.try_emplace(std::move(key));
   auto& [own_key, kept] = *place;
   if (is_new) {
-    kept.use = by_use_.insert(by_use_.end(), &own_key);
+    use.front() = &own_key;
+    kept.use = use.begin();
+    by_use_.splice(by_use_.end(), use);
   } else {
     bytes_ -= bytes_of(own_key, kept.residuals);
     by_use_.splice(by_use_.end(), by_use_, kept.use);

@@ -21,6 +21,8 @@ class RecentResiduals {
     Key(const Hypothesis& h, const Record& record, int stride, const Chebyshev& scheme, bool is_replayed);
     std::partial_ordering operator<=>(const Key&) const = default;
     std::size_t bytes() const { return numbers_.size() * sizeof(double); }
+    /// False if one of its numbers is NaN: then it has no place in an order.
+    bool can_be_found() const;
 
    private:
     const Record* record_;
@@ -31,8 +33,9 @@ class RecentResiduals {
   };
 
   explicit RecentResiduals(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+  /// The key can_be_found().
   std::optional<Residuals> find(const Key& key);
-  /// Forgets what was not asked for longest, as long as all together exceed `most_bytes`.
+  /// Forgets the least recently used, as long as all together exceed `most_bytes`. The key can_be_found().
   void keep(Key key, Residuals residuals);
 
  private:
@@ -45,7 +48,7 @@ class RecentResiduals {
   std::size_t most_bytes_, bytes_ = 0;
   std::mutex mutex_;
   std::map<Key, Kept> kept_;
-  std::list<const Key*> by_use_;  ///< keys of kept_, the one that was not asked for longest first
+  std::list<const Key*> by_use_;  ///< keys of kept_, the least recently used first
 };
 
 }  // namespace halyard

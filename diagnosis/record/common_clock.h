@@ -16,8 +16,8 @@ std::vector<double> clock_shifts(const std::vector<Log>& logs);
 /// The hypothesis with the instants of its effects on the record's own clock.
 Hypothesis on_own_clock(const Record& record, Hypothesis h);
 
-/// The record in which an effect with instants happens: the one that it overlaps most, or the nearest. Null for an
-/// effect without instants.
+/// The record in which an event happens: the one that it overlaps most, or the nearest. Null for an effect that is no
+/// event.
 const Record* record_of(const PlacedEffect& effect, const ArmParameters<double>& arm,
                         const std::vector<Record>& records);
 

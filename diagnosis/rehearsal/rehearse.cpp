@@ -140,9 +140,9 @@ class Rehearser {
   Hypothesis elsewhere(Hypothesis truth) const {
     truth.past.clear();
     const auto added = truth.effects.begin() + static_cast<std::ptrdiff_t>(n_given());
-    truth.effects.erase(std::remove_if(added, truth.effects.end(),
-                                       [&](const PlacedEffect& e) { return has_instants(e, arm_.nominal); }),
-                        truth.effects.end());
+    truth.effects.erase(
+        std::remove_if(added, truth.effects.end(), [&](const PlacedEffect& e) { return is_event(e, arm_.nominal); }),
+        truth.effects.end());
     return truth;
   }
 

@@ -87,8 +87,7 @@ class Revision {
     if (const auto idle = idle_effects(found_.final_fit, given_); !idle.empty()) return idle.back();
     const std::vector<double> none = probabilities_of_none(evidence_, found_, given_);
     for (std::size_t e = given_; e < effects().size(); ++e)
-      if (has_instants(effects()[e], model_.nominal) && is_doubtful(found_.namings[e - given_], none[e - given_]))
-        return e;
+      if (is_event(effects()[e], model_.nominal) && is_doubtful(found_.namings[e - given_], none[e - given_])) return e;
     return {};
   }
 
@@ -205,7 +204,8 @@ namespace {
 /// False if it may only make up for something else: then others may be needed only beside it.
 bool is_there(Doubt doubt) { return doubt == Doubt::none || doubt == Doubt::guess; }
 
-/// The final fit asks whether a size is certain if its shapes were known, and not whether it is certain beside them.
+/// The final fit asks whether a size is certain if its shapes were known. This asks whether it is certain beside them,
+/// and beside numbers of the model anywhere within their tolerances.
 bool has_certain_size(const Fit& fit, std::size_t effect) {
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
     if (fit.parameters[i].effect == effect && !fit.parameters[i].shape && !may_be_neutral(fit, i)) return true;

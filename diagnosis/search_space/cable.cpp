@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 
 #include "diagnosis/search_space/built_in.h"
 #include "model/drive_ratio.h"
@@ -19,6 +20,10 @@ void cable_slip(SearchSpace& space, const Arm&, int) {
   space["time"].range = SearchRange::record_time;
   space["duration"].starts = {0, 0.4};
   space["duration"].natural_bounds = true;
+}
+
+void capstan_eccentricity(SearchSpace& space, const Arm& arm, int joint) {
+  space.period_of_motor = 2 * std::numbers::pi * arm.joint[joint].gear_ratio;
 }
 
 void capstan_ratio(SearchSpace& space, const Arm& arm, int joint) {
@@ -64,10 +69,16 @@ void stiffness(SearchSpace& space, const Arm&, int joint) {
 }  // namespace
 
 std::span<const BuiltInSpace> cable_spaces() {
-  static constexpr BuiltInSpace kSpaces[] = {
-      {"backlash", backlash},  {"cable_slip", cable_slip}, {"capstan_ratio", capstan_ratio},     {"coupling", coupling},
-      {"creep", creep},        {"hysteresis", hysteresis}, {"pulley_friction", pulley_friction}, {"slack", slack},
-      {"stiffness", stiffness}};
+  static constexpr BuiltInSpace kSpaces[] = {{"backlash", backlash},
+                                             {"cable_slip", cable_slip},
+                                             {"capstan_eccentricity", capstan_eccentricity},
+                                             {"capstan_ratio", capstan_ratio},
+                                             {"coupling", coupling},
+                                             {"creep", creep},
+                                             {"hysteresis", hysteresis},
+                                             {"pulley_friction", pulley_friction},
+                                             {"slack", slack},
+                                             {"stiffness", stiffness}};
   return kSpaces;
 }
 

@@ -82,4 +82,18 @@ bool has_instants(const PlacedEffect& effect, const ArmParameters<double>& arm) 
   return !instants_of(effect, arm).empty();
 }
 
+bool is_event(const PlacedEffect& effect, const ArmParameters<double>& arm) {
+  const std::vector<std::size_t> instants = instants_of(effect, arm);
+  const std::vector<EffectParameter> parameters = effect.effect->parameters(arm, effect.joint);
+  bool acts = false;  // a size of the shapes that follow is not neutral
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const bool is_shape = parameters[i].is_shape();
+    if (is_shape && acts && std::ranges::find(instants, i) != instants.end()) return true;
+    if (is_shape) continue;
+    const bool begins = i == 0 || parameters[i - 1].is_shape();
+    acts = (acts && !begins) || effect.p[i] != parameters[i].neutral;
+  }
+  return false;
+}
+
 }  // namespace halyard

@@ -26,25 +26,34 @@ class Counted {
   std::size_t first_;
 };
 
-std::vector<ErrorStatistics> joint_errors(const EstimatorRun& run, const Signals& compared, const Log& truth,
+/// Standard deviations [n][samples] of what is compared, 0 where the estimator has none: if a joint sensor counts as
+/// the truth, together with the noise that the model states for it.
+Signals deviations_of(const EstimatorRun& run, const ArmModel& model, bool truth_is_sensed) {
+  Signals deviations = run.joint_position_std;
+  if (!truth_is_sensed) return deviations;
+  for (int k = 0; k < model.n(); ++k)
+    for (double& deviation : deviations[k])
+      if (deviation > 0) deviation = std::hypot(deviation, model.nominal.joint[k].joint_encoder_noise);
+  return deviations;
+}
+
+std::vector<ErrorStatistics> joint_errors(const Signals& compared, const Signals& deviations, const Log& truth,
                                           const Counted& counted) {
   std::vector<ErrorStatistics> errors(truth.n_joints);
   for (int k = 0; k < truth.n_joints; ++k)
     if (truth.has_joint_position(k))
-      errors[k] =
-          error_statistics(counted(compared[k]), counted(truth.joint_position[k]), counted(run.joint_position_std[k]));
+      errors[k] = error_statistics(counted(compared[k]), counted(truth.joint_position[k]), counted(deviations[k]));
   return errors;
 }
 
-Judgement judge(const EstimatorRun& run, const Signals& compared, const Log& measured, const Log& truth,
-                const Counted& counted) {
+Judgement judge(const EstimatorRun& run, const Signals& compared, const Signals& deviations, const Log& measured,
+                const Log& truth, const Counted& counted) {
   Judgement judgement;
   judgement.nis = consistency(counted(run.nis));
   for (int k = 0; k < truth.n_joints; ++k) {
     std::vector<double> squares;
     if (truth.has_joint_position(k))
-      squares = normalised_squares(counted(compared[k]), counted(truth.joint_position[k]),
-                                   counted(run.joint_position_std[k]));
+      squares = normalised_squares(counted(compared[k]), counted(truth.joint_position[k]), counted(deviations[k]));
     judgement.nees.push_back(consistency(squares));
     judgement.whiteness.push_back(whiteness(counted(run.innovation[k]), counted(measured.motor_torque[k])));
   }
@@ -153,8 +162,9 @@ Comparison compare_estimators(const std::vector<Contestant>& contestants, const 
     const EstimatorRun& run = result.runs[i];
     result.compared.push_back(options.truth_is_sensed ? sensor_readings(*contestants[i].model, run)
                                                       : run.estimates.joint_position);
-    result.errors.push_back(joint_errors(run, result.compared[i], truth, counted));
-    result.judgements.push_back(judge(run, result.compared[i], measured, truth, counted));
+    const Signals deviations = deviations_of(run, *contestants[i].model, options.truth_is_sensed);
+    result.errors.push_back(joint_errors(result.compared[i], deviations, truth, counted));
+    result.judgements.push_back(judge(run, result.compared[i], deviations, measured, truth, counted));
   }
   compare_pairs(result, counted);
   return result;

@@ -45,9 +45,12 @@ class Samples {
     return sample_;
   }
 
-  /// As at(), with a missing torque taken as none: there is no earlier one.
+  /// As at(), with a motor's last reading where this row has none, and a missing torque taken as none.
   Sample first(std::size_t i) {
     Sample sample = at(i);
+    for (int k = 0; k < log_.n_joints; ++k)
+      for (std::size_t before = i; std::isnan(sample.motor_position[k]) && before > 0; --before)
+        sample.motor_position[k] = log_.motor_position[k][before - 1];
     sample.motor_torque = sample.motor_torque.unaryExpr([](double v) { return std::isnan(v) ? 0.0 : v; });
     return sample;
   }
@@ -57,14 +60,23 @@ class Samples {
   Sample sample_;
 };
 
-std::size_t first_complete_row(const Log& log) {
+/// The first row at which every motor has been read lately: motors may be read in different rows.
+std::size_t first_row_with_all_motors(const Log& log) {
+  constexpr double kOldest = 0.1;  // s
+  std::vector<double> read_at(log.motor_position.size(), -std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < log.size(); ++i) {
-    const auto misses = [i](const auto& column) { return !column.empty() && std::isnan(column[i]); };
-    if (std::ranges::none_of(log.motor_position, misses)) return i;
+    bool all = true;
+    for (std::size_t k = 0; k < read_at.size(); ++k) {
+      const std::vector<double>& column = log.motor_position[k];
+      if (column.empty()) continue;
+      if (!std::isnan(column[i])) read_at[k] = log.time[i];
+      all = all && log.time[i] - read_at[k] <= kOldest;
+    }
+    if (all) return i;
   }
   throw InputError(
-      log.source +
-      ": no row has the motor position of every joint; give a log with at least one such row to start from");
+      fmt::format("{}: at no time has every motor been read within {:g} s; give a log with such a time to start from",
+                  log.source, kOldest));
 }
 
 void record(EstimatorRun& run, const Estimate& estimate, std::size_t i) {
@@ -129,7 +141,7 @@ EstimatorRun no_run(const std::string& name, const Log& log) {
 
 EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const Log& log,
                            const EstimateOptions& options) {
-  const std::size_t start = first_complete_row(log);
+  const std::size_t start = first_row_with_all_motors(log);
   EstimatorRun run = no_run(name, log);
   run.extra_output_names = estimator.extra_output_names();
   run.extra_outputs.assign(run.extra_output_names.size(), Signals(log.n_joints, std::vector<double>(log.size(), kNan)));

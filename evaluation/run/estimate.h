@@ -48,10 +48,10 @@ struct EstimateOptions {
 EstimatorRun no_run(const std::string& name, const Log& log);
 
 /// Runs the estimator over all samples of the log. It gets motor torque and position, and external loads if the options
-/// ask for it. It starts at the first sample that has the position of every motor. A revised estimate replaces the
-/// earlier one of that sample.
+/// ask for it. It starts at the first sample at which every motor has been read within the last 0.1 s; the first sample
+/// has the last readings. A revised estimate replaces the earlier one of that sample.
 ///
-/// Throws InputError if no sample has the position of every motor, EstimatorRefusal, or std::runtime_error, naming
+/// Throws InputError if there is no such sample, EstimatorRefusal, or std::runtime_error, naming
 /// estimator and time, if the estimator fails, if an estimate is not finite, or if a revision's time is no sample's.
 EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const Log& log,
                            const EstimateOptions& options = {});

@@ -101,8 +101,8 @@ std::vector<std::string> doubts(const IdentificationStudy& result) {
   if (const double size = result.identification.innovation_size; size > kLarge)
     all.push_back(
         fmt::format("the filter's innovations are {:.2g} times what its noise explains, and the estimate is less "
-                    "certain by this factor: the model lacks an effect, which halyard diagnose can find, or its "
-                    "<estimator name=\"sr_ukf\"> states too little noise",
+                    "certain by this factor: the model lacks an effect, which halyard diagnose can find, or it "
+                    "states too little noise, in <encoders> or in <estimator name=\"sr_ukf\">",
                     size));
   if (!result.identification.converged)
     all.push_back("the estimate still moves after the last pass over the data, and is not where its interval says");

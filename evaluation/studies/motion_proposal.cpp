@@ -89,7 +89,7 @@ bool shows_as_well(const DetectionLimit& now, const DetectionLimit& given) {
 
 Scenario planned_scenario(Scenario scenario, const ArmModel& model) {
   scenario.robot = model;
-  scenario.assumed = model.nominal;
+  scenario.assumed = model;
   scenario.quantise = true;
   return scenario;
 }

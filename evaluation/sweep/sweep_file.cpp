@@ -145,9 +145,8 @@ std::string modules_text(const Sweep& sweep) {
   std::string text = HALYARD_VERSION;
   for (const std::string& name : sweep.grid.estimators)
     if (name.find('/') != name.npos) text += file_text(name);
-  const auto is_own = [](const PlacedEffect& placed) { return is_from_module(*placed.effect); };
-  if (std::ranges::any_of(sweep.model.effects, is_own) || std::ranges::any_of(sweep.scenario.robot.effects, is_own))
-    for (const fs::path& module : loaded_effect_modules()) text += file_text(module);
+  // An axis or a limit may name the only effect of a module.
+  for (const fs::path& module : loaded_effect_modules()) text += file_text(module);
   return text;
 }
 
@@ -256,7 +255,7 @@ Sweep read_sweep_definition(const fs::path& path) {
   if (element.has("duration")) {
     sweep.scenario.duration_s = element.number("duration", "s", Sign::positive);
     try {
-      check_memory_of_run(sweep.scenario);
+      check_scenario(sweep.scenario);
     } catch (const InputError& error) {
       element.fail("duration", error.what());
     }

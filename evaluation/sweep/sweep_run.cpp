@@ -18,6 +18,7 @@
 #include "evaluation/sweep/parameters/estimator_option.h"
 #include "evaluation/sweep/sweep_store.h"
 #include "evaluation/worker/worker_process.h"
+#include "model/homing.h"
 #include "model/input_error.h"
 #include "plant/simulate.h"
 
@@ -104,6 +105,7 @@ SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOpti
   const std::string no_data = failure_of([&] {
     check_point(sweep, point, "the sweep");
     data = simulate(faster(sweep.scenario_at(point)));
+    home_encoders(data.measured, sweep.model_at(point));
   });
   if (!no_data.empty()) {
     cell.results.assign(sweep.grid.estimators.size(), failure(sweep.grid, "simulation: " + no_data));

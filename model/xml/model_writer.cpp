@@ -57,6 +57,7 @@ class FieldWriter {
     if (field.part_at(drive_) != part_ || !field.exists_at(drive_)) return;
     const std::string name(field.name);
     if constexpr (std::is_same_v<Value, double>) {
+      if (value == 0 && name.ends_with("_noise")) return;  // not stated
       xml_.attribute(name.c_str(), zero_known_ ? exact_text(value) : kUnknownZero);
       zero_known_ = true;
     } else if constexpr (std::is_same_v<Value, bool>) {

@@ -184,6 +184,33 @@ TEST_F(App, MeasuredLoadsReachTheEstimatorsOnlyWhenAsked) {
   EXPECT_NE(text_of(path("asked.csv")), text_of(path("est.csv")));
 }
 
+TEST_F(App, MotorsThatAreReadInTurnAreEstimatedOnceAllHaveBeenRead) {
+  simulate_log();
+  const std::vector<std::string> names(kLogColumns.begin(), kLogColumns.begin() + 7);
+  int cells = 0;
+  rewrite("log.csv", "turns.csv", names, names, [&](const std::string& name, const std::string& cell) {
+    const bool is_motor = name.starts_with("motor_position");
+    return is_motor && cells++ % 4 != 0 ? std::string() : cell;  // motors 1, 2 and 3 in the first three of four rows
+  });
+  estimate("sr_ukf", "log.csv", "est.csv");
+  estimate("sr_ukf", "turns.csv", "turns_est.csv");
+  const CsvFile every(path("est.csv")), turns(path("turns_est.csv"));
+  ASSERT_EQ(turns.rows.size(), every.rows.size());
+  EXPECT_TRUE(contains(text_of(path("turns_est.csv")), "\n0.001,,"));
+  EXPECT_FALSE(contains(text_of(path("turns_est.csv")), "\n0.002,,"));
+  const std::size_t last = every.rows.size() - 1;
+  EXPECT_NEAR(turns.number(last, "joint_position_2"), every.number(last, "joint_position_2"), 1e-3);
+}
+
+TEST_F(App, AMeasuredLoadThatIsNotThereIsNoneToUse) {
+  simulate_log();
+  const std::vector<std::string> line = {"estimate", "--model", "raven2.xml", "--estimator", "ekf",
+                                         "--data",   "log.csv", "--out",      "e.csv",       "--use-joint-torque"};
+  const RunResult result = run(line);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.err, "log.csv: has no column joint_torque_k for --use-joint-torque")) << result.err;
+}
+
 TEST_F(App, ALogThatStartsWithoutAllMotorPositionsIsEstimatedFromTheFirstCompleteRow) {
   write_text(path("gap.csv"),
              "time,motor_torque_1,motor_torque_2,motor_torque_3,motor_position_1,motor_position_2,motor_position_3\n"

@@ -1,5 +1,5 @@
 #pragma once
-/// Results of blind trials that were never run, and what the trials are about.
+/// Results of blind trials that were never run, and the model and the effects that their tests share.
 
 #include "bench/diagnosis/summary/selection.h"
 #include "model/model_file.h"

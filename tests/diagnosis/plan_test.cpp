@@ -238,6 +238,15 @@ TEST_F(PlanCommand, TellsLimitsAndProposesAMotionThatSeparates) {
   EXPECT_NEAR(again.cosine, proposed.at("cosine").get<double>(), 1e-4);
 }
 
+TEST_F(PlanCommand, TakesTheProposalOfAnEarlierPlanAway) {
+  std::filesystem::create_directory(path("plan"));
+  for (const char* file : {"plan/plan.json", "plan/scenario.xml"}) testing_program::write_text(path(file), "earlier");
+  done({"diagnose", "--plan", "arm.xml", "motion.xml", "--out", "plan"});
+  const auto files = testing_program::files_in(path("plan"));
+  EXPECT_EQ(files.size(), 2u);
+  EXPECT_FALSE(files.contains("scenario.xml"));
+}
+
 TEST_F(PlanCommand, TakesTheScenariosEffectsOutAndSaysSo) {
   testing_program::write_text(path("worn.xml"), scenario("<effects><effect name=\"backlash\" joint=\"1\"/></effects>"));
   const std::string clean = done({"diagnose", "--plan", "arm.xml", "motion.xml"});

@@ -26,7 +26,7 @@ Eigen::Vector3d marker_at(const ArmModel& model, const Eigen::VectorXd& q) {
 Scenario scenario(double duration_s, const Camera& camera) {
   Scenario s;
   s.robot = raven2();
-  s.assumed = s.robot.nominal;
+  s.assumed = s.robot;
   s.duration_s = duration_s;
   s.fade_in_s = 0.5;
   for (int k = 0; k < 3; ++k) {

@@ -154,6 +154,19 @@ TEST(SweepKeys, ThatFitNothingAreRefusedWithWhatWouldFit) {
   expect(message_of([&] { unit_of("estimator.ekf.torque_noise", factor); }), {"nothing to multiply"});
 }
 
+TEST(SweepKeys, OfTheModelAreThoseOfTheControllerToo) {
+  const std::string key = "joint2.motor.capstan_radius";
+  const auto radius_with = [&](SweepAxis::Target target) {
+    Scenario scenario = camera_scenario();
+    put_values(grid_of(axis_of(key, 7e-3, target)), 0, scenario);
+    return scenario.assumed->nominal.joint[1].capstan_radius;
+  };
+  const double given = camera_scenario().assumed->nominal.joint[1].capstan_radius;
+  EXPECT_EQ(radius_with(SweepAxis::Target::both), 7e-3);
+  EXPECT_EQ(radius_with(SweepAxis::Target::model), 7e-3);
+  EXPECT_EQ(radius_with(SweepAxis::Target::robot), given);
+}
+
 TEST(SweepKeys, OfAScenarioAreCheckedAtEachPoint) {
   const SweepGrid grid = grid_of(axis_of("camera.dropout", 1.5));
   Scenario scenario = camera_scenario();

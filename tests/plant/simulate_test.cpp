@@ -106,7 +106,7 @@ double lost_motion(const Scenario& scenario, const Log& log, int k) {
   for (std::size_t i = 0; i < log.size(); ++i) {
     Eigen::VectorXd q_m(3);
     for (int j = 0; j < 3; ++j) q_m(j) = log.motor_position[j][i];
-    const double lost = log.joint_position[k][i] - unstretched_joints(*scenario.assumed, q_m, q_m)(k);
+    const double lost = log.joint_position[k][i] - unstretched_joints(scenario.assumed->nominal, q_m, q_m)(k);
     sum += lost;
     squares += lost * lost;
   }
@@ -158,7 +158,7 @@ TEST(Simulate, ControlsTheTrueArmByTheModelItAssumes) {
   scenario.homed = false;
   const Log log = simulate(scenario).measured;
   // At the start the true motor stands 5 % off the angle that the controller wants of it.
-  const double wanted = unstretched_motors(*scenario.assumed, scenario.robot.home())(0);
+  const double wanted = unstretched_motors(scenario.assumed->nominal, scenario.robot.home())(0);
   EXPECT_NEAR(log.motor_position[0][0], wanted / 1.05, 1e-3 * wanted);
 }
 
@@ -169,7 +169,7 @@ TEST(Simulate, HomingSetsTheZeroWhateverTheEncoderHadBefore) {
   const double reading = simulate(scenario).measured.motor_position[0][0];
   scenario.robot.nominal.joint[0].motor_encoder_offset = 0.5;
   EXPECT_NEAR(simulate(scenario).measured.motor_position[0][0], reading, 1e-12) << "of the robot alone";
-  scenario.assumed->joint[0].motor_encoder_offset = 10;
+  scenario.assumed->nominal.joint[0].motor_encoder_offset = 10;
   EXPECT_NEAR(simulate(scenario).measured.motor_position[0][0], reading + 10, 1e-12) << "as the controller assumes";
 }
 
@@ -181,9 +181,21 @@ TEST(Simulate, TheControllerKnowsTheOffsetOfAnEncoderThatTheModelStates) {
   scenario.robot.nominal.joint[0].motor_encoder_offset = 10;
   const std::vector<double> unknown = simulate(scenario).truth.joint_position[0];
   EXPECT_GT(std::abs(unknown.back() - right.back()), 0.01) << "an error that only the robot has";
-  scenario.assumed->joint[0].motor_encoder_offset = 10;
+  scenario.assumed->nominal.joint[0].motor_encoder_offset = 10;
   const std::vector<double> stated = simulate(scenario).truth.joint_position[0];
   for (std::size_t i = 0; i < right.size(); ++i) EXPECT_NEAR(stated[i], right[i], 1e-9) << i;
+}
+
+TEST(Simulate, TheControllerKnowsTheEffectsOfItsModel) {
+  Scenario scenario = experiment("a", 0.01);
+  scenario.quantise = false;
+  scenario.homed = true;
+  PlacedEffect ratio = place_neutral_effect(*find_effect("capstan_ratio"), scenario.robot.nominal, 1);
+  ratio.p[0] = 1.1;
+  scenario.robot.effects.push_back(ratio);
+  scenario.assumed->effects = scenario.robot.effects;
+  const SimulationResult r = simulate(scenario);
+  EXPECT_NEAR(r.measured.motor_position[1][0], r.truth.motor_position[1][0], 1e-12) << "homing finds no zero to move";
 }
 
 TEST(Simulate, AddsTheNoiseOfTheRobotsEncodersToThatOfTheScenario) {

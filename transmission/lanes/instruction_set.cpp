@@ -23,10 +23,10 @@ InstructionSet widest_allowed() {
 const std::vector<InstructionSet>& instruction_sets() {
   static const std::vector<InstructionSet> usable = [] {
     std::vector<InstructionSet> all;
+    [[maybe_unused]] const InstructionSet widest = widest_allowed();
 #if defined(HALYARD_WIDE_LANES)
     // Every flag of the set's files is asked for: a processor, or a virtual machine, may have one without the other.
     const bool has_fma = __builtin_cpu_supports("fma");
-    const InstructionSet widest = widest_allowed();
     if (widest == InstructionSet::avx512 && has_fma && __builtin_cpu_supports("avx512f") &&
         __builtin_cpu_supports("avx512dq"))
       all.push_back(InstructionSet::avx512);

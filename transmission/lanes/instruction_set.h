@@ -16,8 +16,8 @@ enum class InstructionSet {
 /// The sets that this processor supports and that halyard was compiled for, the widest first; the last is generic.
 const std::vector<InstructionSet>& instruction_sets();
 
-/// A table of functions that is compiled once for each set. A build with HALYARD_WIDE_LANES, which is that for x86-64
-/// unless its sanitizers or counters need none, has all copies; others have the generic one.
+/// A table of functions that is compiled once for each set. Builds for x86-64 have all copies, unless
+/// HALYARD_WIDE_LANES is off, as in the presets for sanitizers, coverage and fuzzing. Others have the generic one.
 template <class Kernels>
 struct KernelCopies {
   const Kernels* generic;

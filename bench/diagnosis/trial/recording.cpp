@@ -28,7 +28,7 @@ void scatter_gains(ArmModel& robot, Random& random) {
 /// A run of an arm as the model describes it; the robot is put in later.
 Scenario random_run(const ArmModel& model, double length_s, Random& random) {
   Scenario s;
-  s.assumed = model.nominal;
+  s.assumed = model;
   s.name = "blind trial";
   s.duration_s = kFadeIn + length_s;
   s.fade_in_s = kFadeIn;
@@ -59,7 +59,10 @@ std::vector<Log> record(Scenario scenario, const ArmModel& robot, const std::vec
                         Random& random) {
   scenario.robot = robot;
   // The sensors here add noise before they round.
-  for (int k = 0; k < robot.n(); ++k) scenario.robot.nominal.joint[k].joint_encoder_resolution = 0;
+  for (int k = 0; k < robot.n(); ++k) {
+    JointParameters<double>& j = scenario.robot.nominal.joint[k];
+    j.joint_encoder_resolution = j.joint_encoder_noise = 0;
+  }
   const SimulationResult run = simulate(faster(scenario));
   check_that_it_followed(robot, run.truth);
   const auto first = static_cast<std::size_t>(std::lround(kFadeIn / scenario.control_period_s));

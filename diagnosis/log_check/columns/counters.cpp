@@ -108,8 +108,9 @@ void check_idle(LogUnderCheck& c) {
   for (int k = 0; k < c.n(); ++k) {
     if (!c.is_driven(k)) continue;
     if (first.empty()) first = column_name(&Log::motor_position, k);
-    const double counts = 3 * c.model.nominal.joint[k].motor_encoder_resolution;
-    const double least = std::max(counts, 1e-4 * c.range(k) / std::abs(c.joint_per_motor(k)));
+    const JointParameters<double>& j = c.model.nominal.joint[k];
+    const double unmoved = std::max(3 * j.motor_encoder_resolution, 6 * j.motor_encoder_noise);
+    const double least = std::max(unmoved, 1e-4 * c.range(k) / std::abs(c.joint_per_motor(k)));
     moves = moves || spread(c.log.motor_position[k]) > least;
     torque = torque || std::ranges::any_of(c.log.motor_torque[k], [](double t) { return std::isfinite(t) && t != 0; });
   }

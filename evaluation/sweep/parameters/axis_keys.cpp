@@ -99,6 +99,8 @@ bool is_zero(const std::string& key, const SweepAxis& axis, Scenario scenario, A
 
 void put_values(const SweepGrid& grid, std::size_t point, Scenario& scenario) {
   put_arm_values(grid, point, Target::robot, scenario.robot);
+  // The controller has the scenario's model, which is varied with that of the estimators.
+  if (scenario.assumed) put_arm_values(grid, point, Target::model, *scenario.assumed);
   const std::vector<double> values = grid.values(point);
   for (std::size_t i = 0; i < grid.axes.size(); ++i)
     for (const std::string& key : grid.axes[i].parameters) {

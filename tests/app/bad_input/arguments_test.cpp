@@ -41,6 +41,11 @@ TEST_F(BadInput, ArgumentsThatDoNotFit) {
   expect_line(with({"--estimators", ""}), "estimators '': an empty name; expected names with one comma between them");
   expect_line(with({"--estimators", "ekf", "--runs", "3"}),
               "halyard compare: --robot, --runs and --noise are for scenarios, and 'log.csv' is a log; leave them out");
+  expect_line(with({"--estimators", "ekf", "--runs", "08"}),  // a decimal number
+              "halyard compare: --robot, --runs and --noise are for scenarios, and 'log.csv' is a log; leave them out");
+  expect_line({"compare", "experiment_a.xml", "--estimators", "ekf", "--out", "cmp", "--use-joint-torque"},
+              "halyard compare: --use-joint-torque is for logs, and 'experiment_a.xml' is a scenario, which has no "
+              "measured load; leave it out");
   expect_line({"compare", "log.csv", "--estimators", "kinematics", "--out", "cmp"},
               "halyard compare: --model is missing; a log needs the model file of its robot, --model M.xml");
   const std::vector<std::string> diagnose = {"diagnose", "--model", "raven2.xml", "--data", "log.csv", "--out", "out"};

@@ -8,11 +8,11 @@
 namespace halyard::testing_program {
 namespace {
 
-TEST_F(BadInput, ALogWithoutARowOfAllMotors) {
-  write_text(path("bad.csv"), kHeader + "0,0,0,0,,204,904\n0.001,0,0,0,107,,904\n");
+TEST_F(BadInput, ALogThatHasNeverAllMotorsTogether) {
+  write_text(path("bad.csv"), kHeader + "0,0,0,0,,204,904\n0.11,0,0,0,107,,904\n");
   expect_estimate_refused("bad.csv",
-                          "bad.csv: no row has the motor position of every joint; give a log with at least "
-                          "one such row to start from");
+                          "bad.csv: at no time has every motor been read within 0.1 s; give a log with such a time to "
+                          "start from");
 }
 
 TEST_F(BadInput, ALogThatIsNotThere) {
@@ -232,6 +232,8 @@ TEST_F(BadInput, ASweepThatCannotBeComputed) {
   expect_sweep_refused(good, {"samples", "missing"}, "estimators=\"ekf\" design=\"sobol\"");
   expect_sweep_refused(good, {"belongs to a grid"}, "estimators=\"ekf\" design=\"sobol\" samples=\"8\"");
   expect_sweep_refused(good, {"raven.xml"}, "estimators=\"ekf\" model=\"raven.xml\"");
+  expect_sweep_refused(good, {"duration=\"1e-4\"", "at least one control period"},
+                       "estimators=\"ekf\" duration=\"1e-4\"");
 
   const auto axis = [](const std::string& key, const std::string& rest) {
     return "<axis parameter=\"" + key + "\" " + rest + "/>";

@@ -144,6 +144,10 @@ TEST(FitParameter, OfAnOrderNeedsAMotionOfOneAndAHalfPeriodsOfTheHighest) {
   EXPECT_TRUE(has_enough("encoder_eccentricity", 0.16));
   EXPECT_FALSE(has_enough("encoder_eccentricity", 0.14));
   EXPECT_TRUE(has_enough("encoder_offset", 0.14)) << "has no periods";
+  const JointParameters<double>& j = model.nominal.joint[0];
+  const double of_capstan = 1.5 * 2 * std::numbers::pi * j.capstan_radius / j.pulley_radius;
+  EXPECT_TRUE(has_enough("capstan_eccentricity", 1.1 * of_capstan));
+  EXPECT_FALSE(has_enough("capstan_eccentricity", 0.95 * of_capstan));
 }
 
 }  // namespace

@@ -55,6 +55,9 @@ TEST(CommonClock, TheRecordOfAnEffectIsTheOneThatItOverlapsMostOrTheNearest) {
   EXPECT_EQ(place(1.6, 1.7), 1) << "between two";
   EXPECT_EQ(place(9, 9.5), 2);
   EXPECT_EQ(record_of(place_effect(*find_effect("backlash"), arm, 0), arm, records), nullptr);
+  PlacedEffect contact = place_neutral_effect(*find_effect("external_force"), arm, 0);
+  contact.p[4] = 100;  // contact_stiffness
+  EXPECT_EQ(record_of(contact, arm, records), nullptr) << "it is a part of the arm";
 }
 
 TEST(CommonClock, AnEffectIsToldOnTheClockOfItsLog) {

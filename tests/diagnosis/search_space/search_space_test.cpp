@@ -171,6 +171,18 @@ TEST(SearchSpace, WholeNumbersStartInsideTheirBounds) {
   EXPECT_GT(n, 0);
 }
 
+TEST(SearchSpace, APushIsAnEventAndAContactIsNone) {
+  const ArmParameters<double> arm = random_arm(1, CableLaw::linear);
+  PlacedEffect contact = place_neutral_effect(*find_effect("external_force"), arm, 0), push = contact;
+  contact.p[4] = 100;  // contact_stiffness
+  push.p[0] = 1;       // force
+  EXPECT_TRUE(is_event(push, arm));
+  EXPECT_FALSE(is_event(contact, arm));
+  EXPECT_TRUE(has_instants(contact, arm)) << "though it has none in use";
+  EXPECT_TRUE(is_event(place_effect(*find_effect("cable_slip"), arm, 0), arm));
+  EXPECT_FALSE(is_event(place_effect(*find_effect("backlash"), arm, 0), arm));
+}
+
 TEST(SearchSpace, AShareThatMayBeOneHasNaturalBounds) {
   const ArmParameters<double> arm = random_arm(1, CableLaw::linear);
   int n = 0;

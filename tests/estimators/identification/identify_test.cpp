@@ -24,7 +24,7 @@ ArmModel with(ArmModel model, const std::string& key, double factor) {
 /// A log of the robot that a controller moves which knows the model alone.
 Log log_of(const ArmModel& robot, const ArmModel& model, double seconds, int variant = 0) {
   Scenario s = motion(robot, seconds, variant);
-  s.assumed = model.nominal;
+  s.assumed = model;
   s.noise.motor_torque.assign(robot.n(), 1e-4);
   s.seed = 1 + variant;
   Log log = simulate(s).measured;
