@@ -63,7 +63,7 @@ std::vector<DetectionLimit> detection_limits(const ArmModel& model, const std::v
 
 /// The smallest share of an effect's given sizes at which the effect is detected. All sizes are scaled together, from
 /// their neutral values; at a share of 1 they are as given. Infinite if the effect is not detected even at the given
-/// sizes, or if no search tries it in these motions. Shapes stay as they are. One entry for each effect; each is looked at alone. Throws as detection_limits()
+/// sizes. Shapes stay as they are. One entry for each effect; each is looked at alone. Throws as detection_limits()
 /// does.
 std::vector<double> detected_from(const ArmModel& model, const std::vector<Log>& logs,
                                   const std::vector<PlacedEffect>& effects);

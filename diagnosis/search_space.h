@@ -115,8 +115,8 @@ std::vector<std::size_t> instants_of(const PlacedEffect& effect, const ArmParame
 /// True for an effect that has such parameters.
 bool has_instants(const PlacedEffect& effect, const ArmParameters<double>& arm);
 
-/// True for an effect that happens at an instant, and so belongs to a log and not to the arm: a size to which an instant
-/// belongs is not neutral. A force that is only a contact has instants and is no event.
+/// True for an effect that happens at an instant, and so belongs to a log and not to the arm: a size to which an
+/// instant belongs is not neutral. A force that is only a contact has instants and is no event.
 bool is_event(const PlacedEffect& effect, const ArmParameters<double>& arm);
 
 }  // namespace halyard

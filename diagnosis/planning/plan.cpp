@@ -71,9 +71,7 @@ std::vector<double> detected_from(const ArmModel& model, const std::vector<Log>&
                                   const std::vector<PlacedEffect>& effects) {
   const Planner planner(model, logs);
   std::vector<double> shares;
-  for (const PlacedEffect& effect : effects)
-    shares.push_back(planner.is_searched(effect) ? planner.detected_from(planner.scaled(effect))
-                                                 : std::numeric_limits<double>::infinity());
+  for (const PlacedEffect& effect : effects) shares.push_back(planner.detected_from(planner.scaled(effect)));
   return shares;
 }
 

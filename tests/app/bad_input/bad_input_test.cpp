@@ -9,7 +9,7 @@ namespace halyard::testing_program {
 namespace {
 
 TEST_F(BadInput, ALogThatHasNeverAllMotorsTogether) {
-  write_text(path("bad.csv"), kHeader + "0,0,0,0,,204,904\n0.11,0,0,0,107,,904\n");
+  write_text(path("bad.csv"), kHeader + "0,0,0,0,,204,904\n0.06,0,0,0,,,904\n0.12,0,0,0,107,,904\n");
   expect_estimate_refused("bad.csv",
                           "bad.csv: at no time has every motor been read within 0.1 s; give a log with such a time to "
                           "start from");

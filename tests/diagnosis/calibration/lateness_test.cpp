@@ -94,7 +94,9 @@ TEST(SlowSensors, ThatADelayShiftsFurtherAreMeasuredAgainWithTheOtherEffects) {
     for (const PlacedEffect& e : tells->effects) all += e.effect->name() + " ";
     return all;
   };
-  const PlacedEffect other = effect("hysteresis", 0), push = effect("external_force", 1);
+  const PlacedEffect other = effect("hysteresis", 0);
+  PlacedEffect push = effect("external_force", 1);
+  push.p[0] = 1;
   EXPECT_EQ(names(late_by(4, 4), {other, delay, push}), "hysteresis ");
   EXPECT_EQ(names(late_by(4, 4), {other}), "no other model");
   EXPECT_EQ(names(late_by(4, 4), {effect("delay", 0)}), "no other model") << "one sensor is late against the others";
