@@ -94,6 +94,7 @@ struct EffectContext {
 };
 
 enum class EffectStage : unsigned { command = 1, stretch = 2, cable_force = 4, motor = 8, joint = 16, sensors = 32 };
+inline constexpr int kEffectStages = 6;
 
 class Effect;
 
@@ -128,6 +129,9 @@ class Effect {
   }
   /// Bitwise OR of the stages at which the effect acts.
   virtual unsigned stages() const { return 0; }
+  /// Its place among the effects of this stage, where the physics gives one: the smaller rank acts first. Effects of
+  /// the same rank act in the order in which the arm lists them.
+  virtual int rank(EffectStage) const { return 0; }
 
   virtual void change_parameters(ArmParameters<double>&, EffectPlace joint, const double* p) const = 0;
   virtual void change_parameters(ArmParameters<Dual>&, EffectPlace joint, const Dual* p) const = 0;

@@ -8,7 +8,9 @@
 ///
 /// Effects act at each of these places (effect.h). The plant and the estimators both use this code.
 
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include "transmission/cable_law.h"
 #include "transmission/coupling.h"
@@ -36,6 +38,14 @@ class ArmSignals {
 /// does not depend on them.
 enum class MotorTorques { wanted, unwanted };
 
+/// Indices of effects, a part of a list.
+struct EffectIndices {
+  const int* first;
+  std::size_t size;
+  const int* begin() const { return first; }
+  const int* end() const { return first + size; }
+};
+
 /// The arm with effects, over scalar T.
 template <class T>
 class Transmission {
@@ -44,20 +54,25 @@ class Transmission {
       : arm_(nominal), owned_(std::move(effects)) {
     for (const EffectInstance<T>& e : owned_) {
       e.effect->change_parameters(arm_, e.joint, e.p);
-      parts_.push_back({e.effect->stages(), n_states_, e.effect->n_states()});
+      parts_.push_back({n_states_, e.effect->n_states()});
       n_states_ += e.effect->n_states();
-      stages_ |= e.effect->stages();
       states_stretch_ =
           states_stretch_ || (e.effect->n_states() > 0 && acts_at(e.effect->stages(), EffectStage::stretch));
       states_need_motors_ =
           states_need_motors_ || (e.effect->n_states() > 0 && (e.effect->stages() & kMotorStages) != 0);
     }
+    for (int stage = 0; stage < kEffectStages; ++stage) append_by_rank(static_cast<EffectStage>(1u << stage));
     for (int k = 0; k < arm_.n; ++k) travel_[k] = arm_.joint[k].motor_travel();
   }
 
   /// The parameters with the changes that the effects make to them.
   const ArmParameters<T>& arm() const { return arm_; }
   const std::vector<EffectInstance<T>>& effects() const { return owned_; }
+  /// Indices of the effects of this stage, in the order in which they act (Effect::rank()).
+  EffectIndices acting(EffectStage stage) const {
+    const int at = number_of(stage), first = first_acting_[at];
+    return {acting_.data() + first, static_cast<std::size_t>(first_acting_[at + 1] - first)};
+  }
   /// Internal states of all effects, in the order of the effects.
   int n_states() const { return n_states_; }
 
@@ -100,32 +115,46 @@ class Transmission {
 
   static bool acts_at(unsigned stages, EffectStage stage) { return (stages & static_cast<unsigned>(stage)) != 0; }
 
+  /// 0 for the first stage.
+  static int number_of(EffectStage stage) {
+    int number = 0;
+    for (auto bit = static_cast<unsigned>(stage); bit > 1; bit >>= 1) ++number;
+    return number;
+  }
+
   template <int known>
   HALYARD_INLINE void stretch_cables(JointSignals<T>* s) const;
   template <int known>
   HALYARD_INLINE void add_motor_friction(JointSignals<T>* s) const;
   HALYARD_INLINE void apply(EffectStage stage, double time, const CommandHistory* history, const T* z,
                             JointSignals<T>* s) const {
-    if (!(stages_ & static_cast<unsigned>(stage))) return;
-    const EffectInstance<T>* e = owned_.data();
-    const Part* part = parts_.data();
-    for (int i = 0, n = static_cast<int>(owned_.size()); i < n; ++i)
-      if (part[i].stages & static_cast<unsigned>(stage))
-        e[i].effect->act(stage, EffectContext<T>{arm_, e[i].joint, e[i].p, z + part[i].first_state, time, history}, s);
+    for (const int i : acting(stage)) {
+      const EffectInstance<T>& e = owned_[i];
+      e.effect->act(stage, EffectContext<T>{arm_, e.joint, e.p, z + parts_[i].first_state, time, history}, s);
+    }
+  }
+  /// The stages in their order.
+  void append_by_rank(EffectStage stage) {
+    const auto first = static_cast<std::ptrdiff_t>(acting_.size());
+    for (std::size_t i = 0; i < owned_.size(); ++i)
+      if (acts_at(owned_[i].effect->stages(), stage)) acting_.push_back(static_cast<int>(i));
+    std::stable_sort(acting_.begin() + first, acting_.end(),
+                     [&](int a, int b) { return owned_[a].effect->rank(stage) < owned_[b].effect->rank(stage); });
+    first_acting_[number_of(stage) + 1] = static_cast<int>(acting_.size());
   }
 
   /// What an effect says of itself.
   struct Part {
-    unsigned stages;
     int first_state, n_states;
   };
 
   ArmParameters<T> arm_;
   std::vector<EffectInstance<T>> owned_;
   std::vector<Part> parts_;  ///< of each
-  T travel_[kMaxJoints];     ///< r_m / N
+  std::vector<int> acting_;  ///< acting() of all stages, one after the other
+  int first_acting_[kEffectStages + 1] = {};
+  T travel_[kMaxJoints];  ///< r_m / N
   int n_states_ = 0;
-  unsigned stages_ = 0;
   bool states_stretch_ = false;      ///< an effect with states acts at the stretch stage
   bool states_need_motors_ = false;  ///< an effect with states acts at the command or motor stage
 };
@@ -214,10 +243,9 @@ HALYARD_INLINE void Transmission<T>::total_stretch_rates(double time, const Comm
   JointSignals<T>* const now = signals[1].joint();
   for (int i = 0; i < n; ++i) now[i] = s[i];
   stretch_cables<known>(now);
-  for (std::size_t k = 0; k < owned_.size(); ++k) {
+  for (const int k : acting(EffectStage::stretch)) {
     const EffectInstance<T>& e = owned_[k];
     const Part& part = parts_[k];
-    if (!acts_at(part.stages, EffectStage::stretch)) continue;
     for (const int side : {-1, 1, 0}) {
       T moved[kMaxEffectStates];
       for (int i = 0; i < part.n_states; ++i)

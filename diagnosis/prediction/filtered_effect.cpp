@@ -22,6 +22,7 @@ class FilteredEffect : public EffectOf<FilteredEffect> {
     return effect_.state_scale(arm, joint, p);
   }
   unsigned stages() const override { return effect_.stages(); }
+  int rank(EffectStage stage) const override { return effect_.rank(stage); }
 
   template <class T>
   void change(ArmParameters<T>& arm, EffectPlace joint, const T* p) const {

@@ -299,6 +299,22 @@ TEST(PlainTransmission, ACableWithAnUnknownOffsetHasNoEffect) {
   EXPECT_FALSE(ProcessModel(model).is_plain());
 }
 
+TEST(PlainTransmission, EffectsActByTheirRankWhereverTheyStand) {
+  Eigen::VectorXd f[2];
+  for (const bool turned : {false, true}) {
+    ArmModel model = raven2();
+    add_effect(model, "cable_slip", 1, {-2e-3, -1});
+    add_effect(model, "backlash", 1, {1e-3, 1e-4});
+    if (turned) std::swap(model.effects[0], model.effects[1]);
+    const Point p(model);
+    EXPECT_TRUE(p.process.is_plain());
+    f[turned] = p.f;
+    const Eigen::VectorXd exact = p.process.derivative(p.step, p.x);  // of the transmission with its effects
+    EXPECT_TRUE(p.f.isApprox(exact, 1e-12));
+  }
+  EXPECT_EQ(f[0], f[1]);
+}
+
 TEST(PlainTransmission, SeesAKinkBetweenTwoStatesAndBesideThem) {
   ArmModel model = raven2();
   const double half_gap = 1e-3;

@@ -35,7 +35,7 @@ TEST(EffectModule, AModuleThatBreaksTheContractIsRefusedWithOneLineAndLeavesNoth
   EXPECT_EQ(refusal("well_formed"),  // an estimator
             "exports no function halyard_effects; it holds no effects, or its function lacks extern \"C\"");
   EXPECT_EQ(refusal("effects_older_interface"),
-            "built for effect interface 2, this program speaks 3; rebuild it against the installed headers");
+            "built for effect interface 3, this program speaks 4; rebuild it against the installed headers");
   const std::string compiler = refusal("effects_other_compiler");
   EXPECT_TRUE(compiler.starts_with("compiled by 'Cfront 3', this program by '")) << compiler;
   EXPECT_TRUE(compiler.ends_with("; rebuild it with this program's compiler")) << compiler;

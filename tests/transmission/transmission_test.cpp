@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "tests/support/random_arm.h"
 #include "transmission/coupling.h"
@@ -316,6 +319,61 @@ TEST(Transmission, TorquesThatNothingNeedsAreNotComputedWhereTheyAreUnwanted) {
   double rate = 0;
   transmission.evaluate(0, nullptr, &z, s, &rate, MotorTorques::unwanted);
   for (int k = 0; k < 3; ++k) EXPECT_TRUE(std::isnan(s[k].motor_torque)) << k;
+}
+
+/// Two effects of the first joint, of which one ranks before the other.
+std::vector<std::pair<PlacedEffect, PlacedEffect>> effects_by_rank(const ArmParameters<double>& arm) {
+  const auto of = [&](const char* name, std::vector<double> p) {
+    PlacedEffect e = place_neutral_effect(*find_effect(name), arm, 0);
+    std::ranges::copy(p, e.p);
+    return e;
+  };
+  return {{of("delay", {0.01}), of("actuator_saturation", {1, 0.4, 1e4})},
+          {of("cable_slip", {0.03, 0.5}), of("backlash", {0.02})},
+          {of("creep", {0.5, 1}), of("backlash", {0.02})},
+          {of("capstan_eccentricity", {0.2, 0.1}), of("backlash", {0.02})},
+          {of("pulley_friction", {0.2}), of("capstan_eccentricity", {0.2, 0.1})},
+          {of("hysteresis", {0.4, 0.01}), of("capstan_eccentricity", {0.2, 0.1})}};
+}
+
+TEST(Transmission, EffectsActByTheirRankWhereverTheyStand) {
+  const ArmParameters<double> arm = random_arm(15, CableLaw::linear);
+  CommandHistory history(3, 1e-3);
+  for (int i = 0; i <= 100; ++i) {
+    const double command[3] = {i < 95 ? 0.1 : 3.0, 0, 0};
+    history.push(i * 1e-3, command);
+  }
+  for (const auto& [first, second] : effects_by_rank(arm)) {
+    SCOPED_TRACE(effect_label(first) + ", " + effect_label(second));
+    JointSignals<double> s[2][kMaxJoints];
+    const double z = 0.01;  // of the one that has a state
+    double z_dot[2] = {0, 0};
+    for (const bool turned : {false, true}) {
+      const Transmission<double> transmission(arm, turned ? std::vector{second, first} : std::vector{first, second});
+      JointSignals<double>* const of = s[turned];
+      of[0].command = 3, of[0].motor_angle = 0.9, of[0].motor_rate = 0.4, of[0].joint_rate = 0.1;
+      transmission.evaluate(0.1, &history, &z, of, &z_dot[turned]);
+    }
+    EXPECT_EQ(s[1][0].motor_torque, s[0][0].motor_torque);
+    EXPECT_EQ(s[1][0].stretch, s[0][0].stretch);
+    EXPECT_EQ(s[1][0].stretch_rate, s[0][0].stretch_rate);
+    EXPECT_EQ(s[1][0].cable_force_motor, s[0][0].cable_force_motor);
+    EXPECT_EQ(s[1][0].cable_force_joint, s[0][0].cable_force_joint);
+    EXPECT_EQ(z_dot[1], z_dot[0]);
+  }
+}
+
+TEST(Transmission, TheCableIsStretchedByWhatASlipLeavesBeyondTheGap) {
+  const ArmParameters<double> arm = random_arm(15, CableLaw::linear);
+  const auto effects = effects_by_rank(arm)[1];
+  const Transmission<double> transmission(arm, {effects.second, effects.first});
+  // The cable has slipped by 0.03 m, and the gap is 0.02 m to both sides.
+  for (const auto& [wound, stretch] : {std::pair(0.02, 0.0), {0.04, 0.0}, {0.06, 0.01}, {0.0, -0.01}}) {
+    JointSignals<double> s[kMaxJoints];
+    s[0].motor_angle = wound / arm.joint[0].motor_travel();
+    transmission.evaluate(1, nullptr, nullptr, s, nullptr);
+    EXPECT_NEAR(s[0].stretch, stretch, 1e-15) << wound;
+  }
 }
 
 TEST(ArmSignals, OfWhatMayBeLeftOutAreZero) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace halyard {
 namespace {
@@ -60,6 +61,10 @@ bool take_effects(const Transmission<double>& transmission, const StateLayout& l
     state += e.effect->n_states();
     ++index;
   }
+  const auto rank = [&](const EffectTerm& t) {
+    return std::pair(t.stage, transmission.effects()[t.effect].effect->rank(t.stage));
+  };
+  for (std::vector<EffectTerm>& terms : plain.of_cable) std::ranges::stable_sort(terms, {}, rank);
   // The stretch of such a cable would be a function of two signals.
   for (int k = 0; k < layout.n_joints; ++k)
     if (plain.stretch[k].state >= 0 && !plain.of_cable[k].empty()) return false;

@@ -21,6 +21,8 @@ class Backlash : public EffectOf<Backlash>, public OneSignalEffect {
   std::string name() const override { return "backlash"; }
   std::string summary() const override { return "a dead zone in the path from motor to joint"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::stretch); }
+  /// What the others add to the stretch moves the cable within the gap; nothing stretches it there.
+  int rank(EffectStage) const override { return 1; }
   bool has_kinks() const override { return true; }
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive == Drive::cable;

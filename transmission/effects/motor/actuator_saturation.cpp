@@ -20,6 +20,8 @@ class ActuatorSaturation : public EffectOf<ActuatorSaturation> {
   std::string name() const override { return "actuator_saturation"; }
   std::string summary() const override { return "torque or speed that saturates below the command"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::command); }
+  /// The amplifier limits what all others make of the command.
+  int rank(EffectStage) const override { return 1; }
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     const JointParameters<double>& j = arm.joint[joint];
     return j.drive != Drive::none && j.torque_source == TorqueSource::commanded;

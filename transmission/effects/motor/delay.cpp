@@ -9,7 +9,7 @@
 ///   d_s   `sensor_delay`; negative: the motor's lags        s
 ///
 /// The sensor's delay is a second-order approximation, good while d_s is short against the motion. Without a history of
-/// commands the torque acts at once. Place a delay before all other effects that change the commanded torque.
+/// commands the torque acts at once. It acts before all other effects that change the commanded torque.
 
 namespace halyard::effects {
 
@@ -21,6 +21,8 @@ class Delay : public EffectOf<Delay> {
   unsigned stages() const override {
     return static_cast<unsigned>(EffectStage::command) | static_cast<unsigned>(EffectStage::sensors);
   }
+  /// What is late is the command, and not what becomes of it.
+  int rank(EffectStage stage) const override { return stage == EffectStage::command ? -1 : 0; }
   std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
     return {{"command_delay", "s", 0, 0.005, 0, 0.05}, {"sensor_delay", "s", 0, 0.005, -0.05, 0.05}};
   }
