@@ -18,6 +18,9 @@ struct ControllerParameters {
   double kp = 0;            ///< N m/rad
   double kd = 0;            ///< N m s/rad
   double torque_limit = 0;  ///< N m; 0: none
+
+  /// False if the joint follows no trajectory.
+  bool acts() const { return kp > 0 || kd > 0; }
 };
 
 /// Description of a joint, apart from the parameters of its equations.

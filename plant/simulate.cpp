@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "model/homing.h"
 #include "model/input_error.h"
 #include "model/memory_limit.h"
 #include "model/output/number_text.h"
@@ -68,13 +69,13 @@ ArmParameters<double> assumed_arm(const Scenario& scenario) {
   return Transmission<double>(scenario.assumed->nominal, scenario.assumed->effects).arm();
 }
 
-/// The true arm, its motors' zeros as homing leaves them.
+/// The true arm, its motors' zeros as homing leaves them. An `encoder_offset` among the effects is an error of homing.
 ArmParameters<double> homed_arm(const Scenario& scenario) {
   ArmParameters<double> arm = scenario.robot.nominal;
   if (!scenario.homed) return arm;
   const Eigen::VectorXd home = scenario.robot.home();
-  const ArmParameters<double> assumed = assumed_arm(scenario);
-  const Eigen::VectorXd expected = unstretched_motors(assumed, home);
+  const ArmParameters<double>& assumed = scenario.assumed ? scenario.assumed->nominal : scenario.robot.nominal;
+  const Eigen::VectorXd expected = unstretched_motors(assumed_arm(scenario), home);
   const Eigen::VectorXd there = unstretched_motors(Transmission<double>(arm, scenario.robot.effects).arm(), home);
   for (int k = 0; k < arm.n; ++k)
     arm.joint[k].motor_encoder_offset = assumed.joint[k].motor_encoder_offset + expected(k) - there(k);
@@ -316,7 +317,7 @@ void check_scenario(const Scenario& scenario) {
       throw InputError(joint + error.what());
     }
     const ControllerParameters& controller = scenario.robot.joints[k].controller;
-    const bool is_driven = controller.kp > 0 || controller.kd > 0 || !has_motor(scenario, k);
+    const bool is_driven = controller.acts() || !has_motor(scenario, k);
     if (scenario.trajectory[k].kind != JointTrajectory::Kind::hold && !is_driven)
       throw InputError(joint +
                        "the joint has no controller that follows it; give the model's joint a <controller> with "
@@ -370,6 +371,13 @@ SimulationResult simulate(const Scenario& scenario, const std::function<void(dou
                result.measured);
   result.energy = energy_balance(*plant, start, integrator->state(), ticks * period);
   result.derivative_evaluations = plant->derivative_evaluations();
+  return result;
+}
+
+SimulationResult simulate_homed(const Scenario& scenario, const ArmModel& model,
+                                const std::function<void(double)>& progress) {
+  SimulationResult result = simulate(scenario, progress);
+  home_encoders(result.measured, model);
   return result;
 }
 

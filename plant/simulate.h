@@ -28,4 +28,8 @@ void check_memory_of_run(const Scenario& scenario);
 /// Throws InputError if the scenario cannot be run, std::runtime_error if the integration fails (time in the message).
 SimulationResult simulate(const Scenario& scenario, const std::function<void(double)>& progress = {});
 
+/// The same as a lab logs it that knows the arm by this model: encoders whose zero the model does not know are homed.
+SimulationResult simulate_homed(const Scenario& scenario, const ArmModel& model,
+                                const std::function<void(double)>& progress = {});
+
 }  // namespace halyard

@@ -13,7 +13,6 @@
 #include "app/progress.h"
 #include "app/terminal/terminal.h"
 #include "model/arm_log.h"
-#include "model/homing.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "plant/scenario.h"
@@ -61,10 +60,10 @@ Data simulated_data(const CompareCommandOptions& options) {
     for (JointParameters<double>& j : scenario.robot.nominal.joint) j.motor_encoder_noise = j.joint_encoder_noise = 0;
   }
   Progress progress("simulate", scenario.duration_s, "s");
-  SimulationResult result = simulate(scenario, [&](double f) { progress.set(f * scenario.duration_s); });
+  SimulationResult result =
+      simulate_homed(scenario, data.model, [&](double f) { progress.set(f * scenario.duration_s); });
   data.measured = std::move(result.measured);
   data.measured.source = options.data.string();
-  home_encoders(data.measured, data.model);
   data.truth = std::move(result.truth);
   data.truth_from = "truth of the simulation";
   data.scenario = std::move(scenario);

@@ -8,7 +8,6 @@
 
 #include "estimators/process/noise.h"
 #include "evaluation/comparison/compare.h"
-#include "model/homing.h"
 #include "model/input_error.h"
 #include "plant/simulate.h"
 
@@ -161,8 +160,7 @@ MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, cons
     tbb::parallel_for(first, end, [&](int r) {
       Scenario of_run = faster(scenario);
       of_run.seed = scenario.seed + static_cast<std::uint64_t>(r);
-      SimulationResult simulation = simulate(of_run);
-      home_encoders(simulation.measured, model);
+      const SimulationResult simulation = simulate_homed(of_run, model);
       for (std::size_t e = 0; e < estimators.size(); ++e)
         all[e][r] = run_one(model, estimators[e], simulation, options);
       if (options.run_done) options.run_done(1);

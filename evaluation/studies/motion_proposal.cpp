@@ -109,8 +109,7 @@ Scenario random_motion(const Scenario& given, int i) {
   Draw draw(i);
   for (int k = 0; k < s.robot.n(); ++k) {
     const JointTrajectory drawn = draw.trajectory(range_of(given, k));
-    const ControllerParameters& controller = given.robot.joints[k].controller;
-    if (controller.kp > 0 || controller.kd > 0) s.trajectory[k] = drawn;
+    if (given.robot.joints[k].controller.acts()) s.trajectory[k] = drawn;
   }
   return s;
 }

@@ -173,6 +173,45 @@ TEST(Simulate, HomingSetsTheZeroWhateverTheEncoderHadBefore) {
   EXPECT_NEAR(simulate(scenario).measured.motor_position[0][0], reading + 10, 1e-12) << "as the controller assumes";
 }
 
+TEST(Simulate, HomedFindsTheZerosThatTheModelDoesNotKnow) {
+  Scenario scenario = experiment("a", 0.5);
+  scenario.robot.nominal.joint[1].motor_encoder_offset = 0.3;
+  scenario.homed = false;
+  ArmModel model = scenario.robot;
+  const Log as_read = simulate(scenario).measured;
+  EXPECT_EQ(simulate_homed(scenario, model).measured.motor_position, as_read.motor_position);
+  model.nominal.joint[1].motor_zero_known = false;
+  const Log homed = simulate_homed(scenario, model).measured;
+  EXPECT_EQ(homed.motor_position[0], as_read.motor_position[0]);
+  // But for the stretch of the cable under the arm's weight, 0.3 mm: as much at the motor as the zero is wrong.
+  Scenario right = scenario;
+  right.robot.nominal.joint[1].motor_encoder_offset = 0;
+  EXPECT_NEAR(homed.motor_position[1][0], simulate_homed(right, model).measured.motor_position[1][0], 2e-3);
+}
+
+TEST(Simulate, HomingLeavesTheOffsetThatAnEffectAddsOnce) {
+  Scenario scenario = experiment("a", 0.1);
+  scenario.quantise = false;
+  const auto offset_of = [](const Scenario& s) {
+    const SimulationResult r = simulate(s);
+    return r.measured.motor_position[0].back() - r.truth.motor_position[0].back();
+  };
+  const double without = offset_of(scenario);
+  PlacedEffect e = place_neutral_effect(*find_effect("encoder_offset"), scenario.robot.nominal, 0);
+  e.p[0] = 0.1;
+  scenario.robot.effects = {e};
+  double last = 0;
+  for (const bool homed : {false, true})
+    for (const bool is_known : {false, true}) {
+      scenario.homed = homed;
+      scenario.assumed->effects = is_known ? std::vector{e} : std::vector<PlacedEffect>{};
+      const double added = offset_of(scenario) - without;
+      EXPECT_GT(std::abs(added), 0.1);
+      if (last != 0) EXPECT_NEAR(added, last, 1e-9) << homed << is_known;
+      last = added;
+    }
+}
+
 TEST(Simulate, TheControllerKnowsTheOffsetOfAnEncoderThatTheModelStates) {
   Scenario scenario = experiment("a", 0.3);
   scenario.quantise = false;
