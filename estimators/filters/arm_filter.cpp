@@ -66,6 +66,7 @@ void ArmFilter::reset(const Sample& first) {
   torque_ = external_ = Eigen::VectorXd::Zero(n);
   history_.clear();
   last_command_ = -kInfinity;
+  refused_since_ = kInfinity;
   report_ = {};
   repaired_before_ = filter_->repaired();
   noise_.reset(Eigen::VectorXd::Ones(n));

@@ -1,5 +1,6 @@
 #include "estimators/identification/dual_ukf.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -42,8 +43,7 @@ Eigen::VectorXd encoder_deviation(const ArmNoise& noise, const ArmParameters<dou
   for (int k = 0; k < arm.n; ++k) {
     const JointParameters<double>& j = arm.joint[k];
     const double floor = j.type == JointType::revolute ? kJointFloor : kJointFloorLength;
-    deviation(arm.n + k) =
-        std::max(std::hypot(j.joint_encoder_resolution / std::sqrt(12.0), j.joint_encoder_noise), floor);
+    deviation(arm.n + k) = std::max(reading_deviation(j.joint_encoder_resolution, j.joint_encoder_noise), floor);
   }
   return deviation;
 }
@@ -247,10 +247,9 @@ Eigen::MatrixXd DualUkf::predict(double time_s, const Eigen::MatrixXd& E) {
 
 Eigen::MatrixXd DualUkf::per_weight(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& E) const {
   const Eigen::Index p = E.rows();
-  const auto triangle = E.transpose().triangularView<Eigen::Upper>();
   const Eigen::MatrixXd moved = options_.learn ? Eigen::MatrixXd(0.5 * (columns.leftCols(p) - columns.rightCols(p)))
                                                : Eigen::MatrixXd(columns.leftCols(p).colwise() - columns.col(p));
-  return triangle.solve(moved.transpose()).transpose();
+  return E.transpose().partialPivLu().solve(moved.transpose()).transpose();
 }
 
 std::vector<int> DualUkf::measured(const EncoderSample& sample) const {

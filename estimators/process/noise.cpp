@@ -41,6 +41,8 @@ JointMatrix mobility_at(const ProcessModel& process, const Eigen::VectorXd& x) {
 
 }  // namespace
 
+double reading_deviation(double resolution, double noise) { return std::hypot(resolution / std::sqrt(12.0), noise); }
+
 NoiseLevels read_noise(OptionReader& options, const ArmModel& model, const ProcessModel& process) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const ArmParameters<double>& arm = process.arm();
@@ -51,8 +53,7 @@ NoiseLevels read_noise(OptionReader& options, const ArmModel& model, const Proce
   levels.joint_force.resize(arm.n);
   for (int k = 0; k < arm.n; ++k) {
     const JointParameters<double>& j = arm.joint[k];
-    levels.encoder(k) =
-        std::max(std::hypot(j.motor_encoder_resolution / std::sqrt(12.0), j.motor_encoder_noise), kEncoderFloor);
+    levels.encoder(k) = std::max(reading_deviation(j.motor_encoder_resolution, j.motor_encoder_noise), kEncoderFloor);
     const Tolerances& t = model.joints[k].tolerances;
     levels.torque(k) = t.friction * j.motor_coulomb;
     levels.joint_force(k) = t.friction * j.joint_coulomb + t.mass * gravity(k);

@@ -61,6 +61,9 @@
 
 namespace halyard {
 
+/// √(resolution² / 12 + noise²), unit of the reading.
+double reading_deviation(double resolution, double noise);
+
 struct NoiseLevels {
   Eigen::VectorXd encoder;      ///< [n] rad
   Eigen::VectorXd torque;       ///< [n] N m

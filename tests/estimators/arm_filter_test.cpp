@@ -107,6 +107,23 @@ TEST(SrUkfOnTheArm, WaitsForMotorsThatHaveNotBeenRead) {
   EXPECT_NE(ukf->estimate().joint_position, home);
 }
 
+TEST(SrUkfOnTheArm, WaitsAtAnyTimeAndAfterAnyRunBefore) {
+  const ArmModel model = raven2();
+  const ArmRun run = run_arm(model, 0.01);
+  const auto start = [&](auto& estimator, double time) {
+    Sample first = run.samples[0], second = run.samples[1];
+    first.time_s = time, second.time_s = time + 1e-3;
+    first.motor_position(0) = second.motor_position(1) = second.motor_position(2) = kNan;
+    estimator.reset(first);
+    estimator.update(second);
+    return Eigen::VectorXd(estimator.estimate().joint_position);
+  };
+  const auto early = make_sr_ukf(model, {}), late = make_sr_ukf(model, {});
+  const Eigen::VectorXd expected = start(*early, 0);
+  EXPECT_NE(expected, model.home());
+  EXPECT_EQ(start(*late, 1000), expected);
+}
+
 TEST(SrUkfOnTheArm, AGapThatIsTooLongStartsItAnew) {
   const ArmModel model = raven2();
   const ArmRun run = run_arm(model, 2.5);

@@ -132,6 +132,23 @@ TEST(DualUkfOnALinearArm, HeldWeightsGiveThePosteriorOfTheAugmentedKalmanFilter)
   }
 }
 
+/// On this arm, readings depend on both weights linearly, so that their derivatives do not depend on what is believed.
+TEST(DualUkfOnALinearArm, DerivativesByTwoWeightsAreThoseOfHeldOnesWhileItLearns) {
+  const ArmModel model = slide();
+  const std::vector<Weight> weights = {{.key = "joint1.motor.torque_bias", .nominal = 0, .scale = kBias},
+                                       {.key = "joint1.motor.zero", .nominal = 0, .scale = 0.3}};
+  DualUkf held(model, weights, {.learn = false, .settle = 0}), learns(model, weights, {});
+  double compared = 0;
+  for (const EncoderSample& sample : record_of(model, 0.7, 300, 1)) {
+    const DualStep a = held.update(sample), b = learns.update(sample);
+    if (a.nu.size() == 0 || b.nu.size() == 0) continue;
+    EXPECT_LT((a.Y - b.Y).cwiseAbs().maxCoeff(), 1e-5 * (1 + a.Y.cwiseAbs().maxCoeff())) << sample.time_s;
+    ++compared;
+  }
+  EXPECT_GT(compared, 250);
+  EXPECT_GT(std::abs(learns.S_w()(0, 1)) + std::abs(learns.S_w()(1, 0)), 0);
+}
+
 /// Errors of the held weights' posteriors over their deviations, of records with weights drawn from the prior.
 std::vector<double> normalised_errors(const ArmModel& robot, const ArmModel& believed, int records) {
   std::mt19937 random(9);
