@@ -73,23 +73,24 @@ report::Page comparison_page(const Comparison& comparison, const std::optional<M
         comparison.truth_from, comparison.skip_s));
     page.table(error_table(comparison));
     page.paragraph(
-        "Improvement is 1 - mean absolute error / that of the kinematics estimator. Within 2 sigma: the share of "
-        "errors of at most two of the estimator's own standard deviations. About 95 % is right; less says that the "
-        "estimator trusts its model too much, more that it is better than it says.");
+        "Improvement is 1 - mean absolute error / that of the kinematics estimator. Within 2 sigma is the share of the "
+        "errors that are at most two standard deviations, as the estimator states them. It should be about 95 %. If it "
+        "is smaller, the errors are larger than the estimator states; if it is larger, they are smaller.");
   }
   if (!comparison.truth_from.empty() && comparison.runs.size() > 1) {
     page.table(paired_table(comparison));
     page.paragraph(
-        "Errors that follow each other say partly the same. So blocks of the record are drawn with replacement, all "
-        "estimators' errors together, and the ratio is taken anew, 2000 times: the interval holds 95 % of them. Better "
-        "or worse is said where it leaves out 1.");
+        "Successive errors are correlated, so the record is divided into blocks that are each as long as six "
+        "independent errors. The interval comes from how much the ratio changes when one block after the other is left "
+        "out. An estimator is called better or worse if the 95 % interval does not contain 1.");
   }
   page.table(consistency_table(comparison));
   page.paragraph(
-      "An innovation is what a measurement said beyond the prediction, over its own standard deviation; an error is "
-      "that of the estimate over what the estimator says of it. Their mean squares ought to be 1. The band is where 95 "
-      "% of such means lie by chance, samples of a run that say the same counted once. White innovations hold nothing "
-      "that could have been predicted.");
+      "An innovation is a measurement minus its prediction, divided by the standard deviation that the filter states "
+      "for it. An error of a joint is divided by its stated standard deviation, too. The mean squares of both should "
+      "be "
+      "1. The band contains 95 % of such means if the stated deviations are right; correlated samples count as one. "
+      "White innovations contain nothing that could have been predicted.");
   if (runs) {
     page.table(runs_error_table(*runs, comparison.units));
     page.table(runs_consistency_table(*runs));

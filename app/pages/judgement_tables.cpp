@@ -28,6 +28,10 @@ const char* word(Confidence confidence) {
   return "none";
 }
 
+const char* verdict(const PairedRatio& r) {
+  return r.better() ? "better" : r.worse() ? "worse" : "no difference shown";
+}
+
 report::Table table_of(std::string caption, std::vector<std::string> header, std::size_t left) {
   report::Table table;
   table.caption = std::move(caption);
@@ -41,10 +45,7 @@ report::Table table_of(std::string caption, std::vector<std::string> header, std
 
 std::string in_words(const PairedRatio& r) {
   if (std::isnan(r.ratio)) return "-";
-  return fmt::format("{:.4g} (95 %: {:.4g} to {:.4g}): {}", r.ratio, r.lower, r.upper,
-                     r.better()  ? "better"
-                     : r.worse() ? "worse"
-                                 : "no difference shown");
+  return fmt::format("{:.4g} (95 %: {:.4g} to {:.4g}): {}", r.ratio, r.lower, r.upper, verdict(r));
 }
 
 report::Table consistency_table(const Comparison& comparison) {
@@ -122,9 +123,7 @@ ordered_json to_json(const PairedRatio& r) {
   return {{"rms_ratio", number_or_null(r.ratio)},
           {"ci95", {number_or_null(r.lower), number_or_null(r.upper)}},
           {"block_samples", r.block},
-          {"verdict", r.better()  ? "better"
-                      : r.worse() ? "worse"
-                                  : "no difference shown"}};
+          {"verdict", std::isnan(r.ratio) ? ordered_json(nullptr) : ordered_json(verdict(r))}};
 }
 
 ordered_json to_json(const MonteCarlo& runs) {

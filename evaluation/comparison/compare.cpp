@@ -46,10 +46,23 @@ std::vector<ErrorStatistics> joint_errors(const Signals& compared, const Signals
   return errors;
 }
 
+/// Harmonic mean of the numbers of motors that an update used, over the samples with a NIS.
+double readings_of_an_update(const EstimatorRun& run, const Counted& counted) {
+  const std::span<const double> nis = counted(run.nis);
+  double updates = 0, inverse = 0;
+  for (std::size_t i = 0; i < nis.size(); ++i) {
+    if (std::isnan(nis[i])) continue;
+    const auto used = std::ranges::count_if(
+        run.innovation, [&](const std::vector<double>& motor) { return !std::isnan(counted(motor)[i]); });
+    updates += 1, inverse += 1 / static_cast<double>(std::max<std::ptrdiff_t>(1, used));
+  }
+  return updates > 0 ? updates / inverse : 1;
+}
+
 Judgement judge(const EstimatorRun& run, const Signals& compared, const Signals& deviations, const Log& measured,
                 const Log& truth, const Counted& counted) {
   Judgement judgement;
-  judgement.nis = consistency(counted(run.nis));
+  judgement.nis = consistency(counted(run.nis), readings_of_an_update(run, counted));
   for (int k = 0; k < truth.n_joints; ++k) {
     std::vector<double> squares;
     if (truth.has_joint_position(k))

@@ -1,10 +1,11 @@
 #include "evaluation/judgement/serial_statistics.h"
 
 #include <algorithm>
-#include <boost/random/mersenne_twister.hpp>
-#include <boost/random/uniform_int_distribution.hpp>
+#include <bit>
 #include <cmath>
+#include <complex>
 #include <limits>
+#include <unsupported/Eigen/FFT>
 
 #include "estimators/distributions.h"
 
@@ -12,7 +13,6 @@ namespace halyard {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr int kDraws = 2000;
 
 std::vector<double> without_nan(std::span<const double> x) {
   std::vector<double> kept;
@@ -39,11 +39,30 @@ Centered centered(std::span<const double> samples) {
   return c;
 }
 
-/// Appends ρ of the lags from rho.size() up to at least `lags`. Lags are summed side by side, because each sum alone
-/// waits for its last addition.
+/// ρ of all lags.
+std::vector<double> all_correlations(const Centered& c) {
+  Eigen::FFT<double> fft;
+  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  std::vector<double> padded = c.x, rho;
+  padded.resize(std::bit_ceil(2 * c.x.size()));  // so that the ends of the series do not meet
+  std::vector<std::complex<double>> spectrum;
+  fft.fwd(spectrum, padded);
+  for (std::complex<double>& line : spectrum) line = std::norm(line);
+  fft.inv(rho, spectrum, static_cast<Eigen::Index>(padded.size()));
+  rho.resize(c.x.size());
+  for (double& r : rho) r /= c.squares;
+  return rho;
+}
+
+/// Appends ρ of the lags from rho.size() up to at least `lags`. A few are summed side by side, because each sum alone
+/// waits for its last addition; many are computed at once.
 void append_correlations(const Centered& c, std::size_t lags, std::vector<double>& rho) {
-  constexpr std::size_t kTogether = 8;
+  constexpr std::size_t kTogether = 8, kFew = 256;
   const std::size_t n = c.x.size();
+  if (lags > kFew && rho.size() <= lags && lags < n && c.squares > 0) {
+    rho = all_correlations(c);
+    return;
+  }
   while (rho.size() <= lags) {
     const std::size_t first = rho.size();
     double sum[kTogether] = {};
@@ -57,15 +76,23 @@ void append_correlations(const Centered& c, std::size_t lags, std::vector<double
   }
 }
 
-/// Percentiles of the ratios that draw(random) gives.
-template <class Draw>
-PairedRatio interval(double ratio, std::size_t block, std::uint64_t seed, const Draw& draw) {
-  boost::random::mt19937_64 random(seed);
-  std::vector<double> ratios;
-  for (int i = 0; i < kDraws; ++i) ratios.push_back(draw(random));
-  std::ranges::sort(ratios);
-  const auto at = [&](double share) { return ratios[static_cast<std::size_t>(share * (kDraws - 1) + 0.5)]; };
-  return {ratio, at(0.025), at(0.975), block};
+/// Of the ratio of the means of the pairs, as a root.
+PairedRatio jackknifed(std::span<const std::pair<double, double>> squares, std::size_t block) {
+  const auto n = static_cast<double>(squares.size());
+  double a = 0, b = 0;
+  for (const auto& [of_a, of_b] : squares) a += of_a, b += of_b;
+  double mean = 0, deviations = 0;
+  std::vector<double> without;
+  for (const auto& [of_a, of_b] : squares) {
+    without.push_back(std::log((a - of_a) / (b - of_b)));
+    mean += without.back() / n;
+  }
+  for (const double l : without) deviations += (l - mean) * (l - mean);
+  const double half_width = t_quantile(n - 1, 0.025) * std::sqrt((n - 1) / n * deviations);
+  PairedRatio r{std::sqrt(a / b), 0, std::numeric_limits<double>::infinity(), block};
+  if (std::isfinite(half_width))
+    r.lower = r.ratio * std::exp(-half_width / 2), r.upper = r.ratio * std::exp(half_width / 2);
+  return r;
 }
 
 }  // namespace
@@ -95,46 +122,31 @@ std::pair<double, double> chi_square_band(double dof) {
   return {chi_square_quantile(dof, 0.025) / dof, chi_square_quantile(dof, 0.975) / dof};
 }
 
-PairedRatio paired_ratio(std::span<const double> a, std::span<const double> b, std::uint64_t seed) {
-  std::vector<double> difference;
-  std::vector<std::pair<double, double>> before = {{0, 0}};  // sums of squares of all samples before
+PairedRatio paired_ratio(std::span<const double> a, std::span<const double> b) {
+  std::vector<std::pair<double, double>> squares;
+  double of_a = 0, of_b = 0;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
     if (std::isnan(a[i]) || std::isnan(b[i])) continue;
-    difference.push_back(a[i] * a[i] - b[i] * b[i]);
-    before.push_back({before.back().first + a[i] * a[i], before.back().second + b[i] * b[i]});
+    squares.push_back({a[i] * a[i], b[i] * b[i]});
+    of_a += squares.back().first, of_b += squares.back().second;
   }
-  const std::size_t n = difference.size();
+  const std::size_t n = squares.size();
   if (n < 2) return {kUnknown, kUnknown, kUnknown, 0};
-  const double alike = static_cast<double>(n) / effective_samples(difference);
-  const std::size_t block = std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(2 * alike)), 1, n);
-  const std::size_t blocks = (n + block - 1) / block;
-  const auto [all_a, all_b] = before.back();
-  boost::random::uniform_int_distribution<std::size_t> start(0, n - 1);
-  return interval(std::sqrt(all_a / all_b), block, seed, [&](auto& random) {
-    double sum_a = 0, sum_b = 0;
-    for (std::size_t i = 0; i < blocks; ++i) {
-      const std::size_t first = start(random), last = first + block;
-      const std::size_t wrapped = last > n ? last - n : 0;
-      sum_a += before[std::min(last, n)].first - before[first].first + before[wrapped].first;
-      sum_b += before[std::min(last, n)].second - before[first].second + before[wrapped].second;
-    }
-    return std::sqrt(sum_a / sum_b);
-  });
+  std::vector<double> linear;
+  for (const auto& [square_a, square_b] : squares) linear.push_back(square_a / of_a - square_b / of_b);
+  constexpr double kSamplesOfABlock = 6;
+  const auto blocks = std::max<std::size_t>(2, static_cast<std::size_t>(effective_samples(linear) / kSamplesOfABlock));
+  std::vector<std::pair<double, double>> sums(blocks);
+  for (std::size_t i = 0; i < n; ++i) {
+    auto& [sum_a, sum_b] = sums[i * blocks / n];
+    sum_a += squares[i].first, sum_b += squares[i].second;
+  }
+  return jackknifed(sums, n / blocks);
 }
 
-PairedRatio paired_ratio_of_runs(std::span<const std::pair<double, double>> squares, std::uint64_t seed) {
+PairedRatio paired_ratio_of_runs(std::span<const std::pair<double, double>> squares) {
   if (squares.size() < 2) return {kUnknown, kUnknown, kUnknown, 0};
-  double all_a = 0, all_b = 0;
-  for (const auto& [a, b] : squares) all_a += a, all_b += b;
-  boost::random::uniform_int_distribution<std::size_t> run(0, squares.size() - 1);
-  return interval(std::sqrt(all_a / all_b), 1, seed, [&](auto& random) {
-    double sum_a = 0, sum_b = 0;
-    for (std::size_t i = 0; i < squares.size(); ++i) {
-      const auto& [a, b] = squares[run(random)];
-      sum_a += a, sum_b += b;
-    }
-    return std::sqrt(sum_a / sum_b);
-  });
+  return jackknifed(squares, 1);
 }
 
 }  // namespace halyard

@@ -1,7 +1,7 @@
 #pragma once
 /// Statistics of autocorrelated samples.
 
-#include <cstdint>
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,8 +22,8 @@ std::pair<double, double> chi_square_band(double dof);
 
 /// Ratio of the root mean square of errors a to that of errors b at the same instants, and its 95 % interval.
 struct PairedRatio {
-  double ratio = 0, lower = 0, upper = 0;
-  std::size_t block = 0;  ///< block length of the bootstrap, samples
+  double ratio = 0, lower = 0, upper = 0;  ///< from 0 to infinity where one of the errors is 0 nearly always
+  std::size_t block = 0;                   ///< samples of a block; 1 if each sample is a run
 
   /// Significant at the 95 % level; both may be false.
   bool better() const { return upper < 1; }
@@ -32,15 +32,17 @@ struct PairedRatio {
   PairedRatio inverse() const { return {1 / ratio, 1 / upper, 1 / lower, block}; }
 };
 
-/// Circular block bootstrap: blocks are drawn with replacement, the same blocks for both errors. The ends of the
-/// interval are percentiles of 2000 ratios. A block has 2 N / n samples, where n = effective_samples() of a² - b². This
-/// is twice the number of samples that carry the information of one independent sample. Samples where either error is
-/// NaN do not count. NaN without samples.
-/// Source: Politis and Romano, "A circular block-resampling procedure for stationary data" (1992).
-PairedRatio paired_ratio(std::span<const double> a, std::span<const double> b, std::uint64_t seed = 1);
+/// The interval is that of the jackknife: the logarithm of the ratio of mean squares without each of K blocks has the
+/// variance (K - 1) / K Σ (l_k - mean)², and Student's distribution of K - 1 degrees of freedom. A block is as long as
+/// six independent samples: K = max(2, n / 6), n = effective_samples() of a² / mean(a²) - b² / mean(b²), the linear part
+/// of the logarithm. Samples where either error is NaN do not count. NaN with fewer than two samples.
+/// Of simulated records with 8 to 400 independent samples, two estimators with equally large errors are told apart in 5
+/// to 9 %, of two and more independent runs in 5 to 7 %.
+/// Source: Tukey (1958); blocks: Kuensch, "The jackknife and the bootstrap for general stationary observations", Ann.
+/// Statist. 17 (1989).
+PairedRatio paired_ratio(std::span<const double> a, std::span<const double> b);
 
-/// The same for independent runs, which are drawn with replacement. squares: one pair for each run, the sums of squares
-/// of a and of b.
-PairedRatio paired_ratio_of_runs(std::span<const std::pair<double, double>> squares, std::uint64_t seed = 1);
+/// The same for independent runs in place of blocks. squares: one pair for each run, the mean squares of a and of b.
+PairedRatio paired_ratio_of_runs(std::span<const std::pair<double, double>> squares);
 
 }  // namespace halyard

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <random>
+#include <tuple>
+#include <utility>
 
 #include "evaluation/judgement/consistency.h"
 #include "evaluation/judgement/error_statistics.h"
@@ -48,6 +50,17 @@ TEST(EffectiveSamples, OfAnAutoregressionAreThoseOfTheory) {
   EXPECT_EQ(effective_samples(std::vector<double>(50, 2.0)), 50);
 }
 
+TEST(Autocorrelation, OfManyLagsIsThatOfFew) {
+  std::vector<double> x = autoregressive(3000, 0.9, 8);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += 1e-3 * static_cast<double>(i);
+  const std::vector<double> few = autocorrelation(x, 200), many = autocorrelation(x, 2000);
+  ASSERT_EQ(many.size(), 2001u);
+  for (std::size_t lag = 0; lag < few.size(); ++lag) EXPECT_NEAR(many[lag], few[lag], 1e-12) << lag;
+  double sum = 0;  // of all lags on both sides: (Σ (x - mean))² = 0
+  for (const double rho : autocorrelation(x, x.size() - 1)) sum += 2 * rho;
+  EXPECT_NEAR(sum, 1, 1e-9);
+}
+
 TEST(Autocorrelation, LeavesGapsOut) {
   std::vector<double> x = autoregressive(20000, 0.8, 1);
   const double whole = autocorrelation(x, 1)[1];
@@ -66,14 +79,39 @@ TEST(PairedRatio, ContainsTheTruthAsOftenAsItSays) {
     std::vector<double> a, b;
     for (std::size_t i = 0; i < shared.size(); ++i)
       a.push_back(shared[i] + 0.5 * own_a[i]), b.push_back(shared[i] + 0.5 * own_b[i]);
-    const PairedRatio r = paired_ratio(a, b, t + 1);
+    const PairedRatio r = paired_ratio(a, b);
     contained += r.lower <= 1 && r.upper >= 1;
     for (double& v : a) v *= 0.8;
-    said_better += paired_ratio(a, b, t + 1).better();
+    said_better += paired_ratio(a, b).better();
   }
   EXPECT_GE(contained, 0.89 * kTrials);
   EXPECT_LE(contained, 0.99 * kTrials);
   EXPECT_GE(said_better, 0.95 * kTrials);
+}
+
+/// How often two equal estimators are told apart, of so many records.
+int verdicts(int records, std::size_t samples, double rho) {
+  int told = 0;
+  for (int t = 0; t < records; ++t) {
+    const PairedRatio r = paired_ratio(autoregressive(samples, rho, 2 * t), autoregressive(samples, rho, 2 * t + 1));
+    told += r.better() || r.worse();
+  }
+  return told;
+}
+
+TEST(PairedRatio, SeldomTellsEqualErrorsApart) {
+  constexpr int kRecords = 400;
+  // 300, 30 and 8 independent samples. A binomial of the share that the header states, four deviations.
+  for (const auto& [samples, rho, share] : {std::tuple(300, 0.0, 0.06), {570, 0.95, 0.08}, {800, 0.99, 0.09}})
+    EXPECT_LE(verdicts(kRecords, samples, rho), share * kRecords + 4 * std::sqrt(share * (1 - share) * kRecords))
+        << rho;
+}
+
+TEST(PairedRatio, HasNoIntervalIfOneErrorIsZeroInABlock) {
+  const PairedRatio r = paired_ratio(std::vector{1.0, 1.0}, std::vector{0.0, 3.0});
+  EXPECT_EQ(r.lower, 0);
+  EXPECT_TRUE(std::isinf(r.upper));
+  EXPECT_FALSE(r.better() || r.worse());
 }
 
 TEST(PairedRatio, IsTheSameAgainAndNeedsBothErrors) {
@@ -88,7 +126,23 @@ TEST(PairedRatio, IsTheSameAgainAndNeedsBothErrors) {
   EXPECT_TRUE(std::isnan(paired_ratio({}, {}).ratio));
 }
 
-TEST(PairedRatioOfRuns, DrawsRuns) {
+TEST(PairedRatioOfRuns, TellsEqualEstimatorsApartAsSeldomAsItSays) {  // within 0.6 %, of squares like these
+  constexpr int kStudies = 1000;
+  std::mt19937_64 random(4);
+  std::chi_squared_distribution<double> square(20);
+  for (const int runs : {2, 3, 5, 10}) {
+    int told = 0;
+    for (int s = 0; s < kStudies; ++s) {
+      std::vector<std::pair<double, double>> squares;
+      for (int i = 0; i < runs; ++i) squares.push_back({square(random), square(random)});
+      const PairedRatio r = paired_ratio_of_runs(squares);
+      told += r.better() || r.worse();
+    }
+    EXPECT_NEAR(told, 0.05 * kStudies, 4 * std::sqrt(0.05 * 0.95 * kStudies)) << runs;
+  }
+}
+
+TEST(PairedRatioOfRuns, IsThatOfTheirMeanSquares) {
   std::vector<std::pair<double, double>> squares;
   for (int i = 0; i < 50; ++i) squares.push_back({1 + 0.1 * (i % 5), 4});
   const PairedRatio r = paired_ratio_of_runs(squares);
@@ -108,6 +162,21 @@ TEST(Consistency, PassesAtTheRightNoiseAndFailsAtAWrongOne) {
   }
   EXPECT_GE(right, 0.9 * kTrials);
   EXPECT_EQ(consistency(std::vector<double>(9, kNan)).confidence(), Confidence::unstated);
+}
+
+TEST(Consistency, OfUpdatesByThreeMotorsHasABandForThree) {
+  int right = 0;
+  constexpr int kTrials = 400, kMotors = 3;
+  for (int t = 0; t < kTrials; ++t) {
+    const std::vector<double> x = autoregressive(kMotors * 1000, 0, t);
+    std::vector<double> nis(1000, 0);
+    for (std::size_t i = 0; i < x.size(); ++i) nis[i / kMotors] += x[i] * x[i] / kMotors;
+    const Consistency c = consistency(nis, kMotors);
+    EXPECT_NEAR((c.upper - c.lower) / 2, 1.96 * std::sqrt(2 / (kMotors * c.samples)), 1e-3);
+    right += c.confidence() == Confidence::consistent;
+    EXPECT_EQ(consistency_of_runs(std::vector{c}).upper, c.upper);
+  }
+  EXPECT_NEAR(right, 0.95 * kTrials, 4 * std::sqrt(0.95 * 0.05 * kTrials));
 }
 
 TEST(Consistency, OfRunsHasTheBandOfAllTheirSamples) {
@@ -138,6 +207,19 @@ TEST(Whiteness, SeesNeighboursAndTorques) {
   for (std::size_t i = 5; i < white.size(); ++i) follows[i] += 0.3 * torque[i - 5];
   EXPECT_NEAR(whiteness(follows, torque).with_torque, 0.3 / std::sqrt(1.09), 0.06);
   EXPECT_FALSE(whiteness(follows, torque).is_white());
+}
+
+TEST(Whiteness, OfAMotorThatIsReadInEverySecondSampleIsThatOfItsInnovations) {
+  const std::vector<double> own = autoregressive(3000, 0.5, 4), driving = autoregressive(3000, 0, 5);
+  std::vector<double> innovation, torque;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    innovation.insert(innovation.end(), {own[i], kNan});
+    torque.insert(torque.end(), {driving[i], 100.0});
+  }
+  const Whiteness sparse = whiteness(innovation, torque), dense = whiteness(own, driving);
+  EXPECT_EQ(sparse.correlation, dense.correlation);
+  EXPECT_EQ(sparse.with_torque, dense.with_torque);
+  EXPECT_EQ(sparse.chance, dense.chance);
 }
 
 TEST(Whiteness, SaysWhatItSees) {
