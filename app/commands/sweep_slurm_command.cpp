@@ -69,7 +69,7 @@ bool print_parts(const StoredCells& cells, const SubmittedArray& array) {
     unknown = error.what();
   }
   const std::vector<PartState> states = part_states(cells, array.parts);
-  print_out("Slurm job {}:{}\n", array.job, unknown.empty() ? "" : " " + unknown);
+  print_out("Slurm job {}:{}\n", array.job.label(), unknown.empty() ? "" : " " + unknown);
   for (std::size_t i = 0; i < states.size(); ++i) {
     const auto task = std::ranges::find(active, i + 1, &ActiveTask::task);
     const std::string state = task != active.end()                      ? ", " + task->state
@@ -84,7 +84,8 @@ bool print_parts(const StoredCells& cells, const SubmittedArray& array) {
 
 void run_sweep_slurm(const SweepSlurmOptions& options) {
   const Sweep sweep = read_sweep(options.sweep);
-  SlurmArray array{options.sweep, options.out, std::min(options.nodes, sweep.grid.size()), {}, options.sbatch_options};
+  SlurmArray array{sweep.grid.id,         options.sweep, options.out, std::min(options.nodes, sweep.grid.size()), {},
+                   options.sbatch_options};
   if (options.print_script) {
     array.tasks.resize(array.parts);
     std::iota(array.tasks.begin(), array.tasks.end(), 1);
@@ -96,11 +97,10 @@ void run_sweep_slurm(const SweepSlurmOptions& options) {
   check_estimators(sweep);  // a wrong one is found now, not by each part
   const auto lock = lock_output_folder(options.out);
   refuse_other(options.out, sweep.grid);
-  if (const auto before = submitted_array(options.out); before && !active_tasks(before->job).empty())
+  if (const auto before = submitted_array(options.out, sweep.grid.id); before && !active_tasks(before->job).empty())
     throw InputError(
-        fmt::format("--out {}: Slurm job {} still computes this sweep; wait for its end, or end it with: "
-                    "scancel {}",
-                    in_quotes(options.out.string()), before->job, before->job));
+        fmt::format("--out {}: Slurm job {} still computes this sweep; wait for its end, or end it with: {}",
+                    in_quotes(options.out.string()), before->job.label(), cancel_command(before->job)));
   store_grid(options.out, sweep.grid);
   array.tasks = open_parts(part_states(StoredCells({options.out}, sweep.grid), array.parts));
   if (array.tasks.empty()) {
@@ -108,9 +108,9 @@ void run_sweep_slurm(const SweepSlurmOptions& options) {
               merge_command(options.out));
     return;
   }
-  const std::string job = submit(array);
+  const SlurmJob job = submit(array);
   print_out("sweep \"{}\": {} points, {} of {} parts submitted as Slurm job {}\n", sweep.grid.name, sweep.grid.size(),
-            array.tasks.size(), array.parts, job);
+            array.tasks.size(), array.parts, job.label());
   print_out("progress: {} --status\nnext: {}\n", sweep_command(options.sweep, options.out), merge_command(options.out));
 }
 
@@ -123,7 +123,7 @@ void run_sweep_status(const fs::path& sweep, const fs::path& out) {
   print_out("sweep \"{}\": {} of {} points are done ({:.1f} %)", grid.name, done, grid.size(),
             100.0 * double(done) / double(grid.size()));
   print_out("{}\n", failed > 0 ? fmt::format(", {} of them with a failure", failed) : "");
-  const auto array = submitted_array(out);
+  const auto array = submitted_array(out, grid.id);
   const bool is_active = array && print_parts(cells, *array);
   if (done == grid.size()) {
     if (fs::exists(out / "sweep.csv")) print_out("table: {}\n", (out / "sweep.csv").string());

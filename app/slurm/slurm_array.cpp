@@ -65,6 +65,10 @@ std::string in_ranges(const std::vector<std::size_t>& tasks) {
   return fmt::format("{}", fmt::join(ranges, ","));
 }
 
+std::string cluster_option(const SlurmJob& job) {
+  return job.cluster.empty() ? "" : " --clusters=" + in_shell_quotes(job.cluster);
+}
+
 }  // namespace
 
 std::string slurm_script(const SlurmArray& array) {
@@ -81,7 +85,7 @@ std::string slurm_script(const SlurmArray& array) {
   return text + fmt::format(" {} --jobs \"${{SLURM_CPUS_ON_NODE:-1}}\"\n", effects_options(loaded_effect_modules()));
 }
 
-std::string submit(const SlurmArray& array) {
+SlurmJob submit(const SlurmArray& array) {
   if (run_in_shell("command -v sbatch").exit_code != 0)
     throw InputError(
         "halyard sweep: --slurm: sbatch is not installed; run on a machine of the cluster, or take the script of "
@@ -95,40 +99,52 @@ std::string submit(const SlurmArray& array) {
                                   ? ""
                                   : "; fewer --nodes may help: MaxArraySize in slurm.conf limits them"));
   // "17", or "17;cluster"
-  const std::string job = result.printed.substr(result.printed.rfind('\n') + 1);
-  const std::string number = job.substr(0, job.find(';'));
-  const nlohmann::ordered_json json = {{"job", number}, {"parts", array.parts}, {"options", array.options}};
+  const std::string printed = result.printed.substr(result.printed.rfind('\n') + 1);
+  const std::size_t end = std::min(printed.find(';'), printed.size());
+  const SlurmJob job{printed.substr(0, end), end < printed.size() ? printed.substr(end + 1) : ""};
+  const nlohmann::ordered_json json = {{"sweep", array.id},
+                                       {"job", job.number},
+                                       {"cluster", job.cluster},
+                                       {"parts", array.parts},
+                                       {"options", array.options}};
   try {
     write_file_whole(job_file(array.out), json_text(json));
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(
-        fmt::format("{}; Slurm job {} was submitted, but --status will not know of it: end it with scancel {}, make "
+        fmt::format("{}; Slurm job {} was submitted, but --status will not know of it: end it with {}, make "
                     "room, and submit again",
-                    error.what(), number, number));
+                    error.what(), job.label(), cancel_command(job)));
   }
-  return number;
+  return job;
 }
 
-std::optional<SubmittedArray> submitted_array(const fs::path& out) {
+std::optional<SubmittedArray> submitted_array(const fs::path& out, const std::string& id) {
   std::ifstream file(job_file(out), std::ios::binary);
   if (!file) return std::nullopt;
   try {
     const auto json = nlohmann::ordered_json::parse(file);
-    const SubmittedArray array{json.at("job").get<std::string>(), whole_number(json.at("parts")),
+    // Earlier programs wrote neither sweep nor cluster.
+    if (json.value("sweep", id) != id) return std::nullopt;
+    const SubmittedArray array{{json.at("job").get<std::string>(), json.value("cluster", std::string())},
+                               whole_number(json.at("parts")),
                                json.value("options", std::vector<std::string>{})};
+    const std::string& number = array.job.number;
     const bool is_number =
-        !array.job.empty() && std::ranges::all_of(array.job, [](unsigned char c) { return std::isdigit(c); });
+        !number.empty() && std::ranges::all_of(number, [](unsigned char c) { return std::isdigit(c); });
     if (is_number && array.parts > 0) return array;
   } catch (const nlohmann::json::exception&) {}
   throw InputError(job_file(out).string() + ": is damaged; remove it");
 }
 
-std::vector<ActiveTask> active_tasks(const std::string& job) {
-  const ShellResult result = run_in_shell("squeue --noheader --array --job=" + job + " --format='%K %T %N'");
+std::string cancel_command(const SlurmJob& job) { return "scancel" + cluster_option(job) + " " + job.number; }
+
+std::vector<ActiveTask> active_tasks(const SlurmJob& job) {
+  const ShellResult result =
+      run_in_shell("squeue --noheader --array" + cluster_option(job) + " --job=" + job.number + " --format='%K %T %N'");
   std::vector<ActiveTask> tasks;
   if (result.exit_code != 0) {
     if (result.printed.find("Invalid job id") != result.printed.npos) return tasks;
-    throw std::runtime_error("halyard sweep: squeue cannot say whether Slurm job " + job +
+    throw std::runtime_error("halyard sweep: squeue cannot say whether Slurm job " + job.label() +
                              " still runs: " + result.printed);
   }
   std::istringstream lines(result.printed);

@@ -49,6 +49,23 @@ std::vector<std::string> faults_in_process(const std::string& name, const ArmMod
   return faults;
 }
 
+/// By a worker that opens the module.
+PluginInfo described(const std::filesystem::path& path, const ContainmentOptions& containment) {
+  WorkerTask task;
+  task.job = WorkerJob::describe;
+  task.estimator = path.string();
+  WorkerWatch watch;
+  watch.step_limit_s = containment.step_limit_s;
+  watch.place = [&](long, const std::string&) { return "plugin " + path.string() + ": as it is opened"; };
+  try {
+    const std::string answer = result_of_worker(task, watch);
+    const std::vector<std::string> texts = ByteReader(answer).texts();
+    return {texts.at(0), texts.at(1), path};
+  } catch (const WorkerEnded& end) {
+    throw InputError(end.what());
+  }
+}
+
 }  // namespace
 
 EstimatorRun run_contained(const std::string& name, const ArmModel& model, const Log& log,
@@ -72,21 +89,12 @@ EstimatorRun run_contained(const std::string& name, const ArmModel& model, const
 std::vector<PluginInfo> contained_plugins(std::vector<std::string>* refused, const ContainmentOptions& containment) {
   if (containment.in_process) return find_plugins(refused);
   worker_program();  // without one, no module is to blame
-  return find_plugins(refused, [&](const std::filesystem::path& path) {
-    WorkerTask task;
-    task.job = WorkerJob::describe;
-    task.estimator = path.string();
-    WorkerWatch watch;
-    watch.step_limit_s = containment.step_limit_s;
-    watch.place = [&](long, const std::string&) { return "plugin " + path.string() + ": as it is opened"; };
-    try {
-      const std::string answer = result_of_worker(task, watch);
-      const std::vector<std::string> texts = ByteReader(answer).texts();
-      return PluginInfo{texts.at(0), texts.at(1), path};
-    } catch (const WorkerEnded& end) {
-      throw InputError(end.what());
-    }
-  });
+  return find_plugins(refused, [&](const std::filesystem::path& path) { return described(path, containment); });
+}
+
+std::string stated_name(const std::string& name, const ContainmentOptions& containment) {
+  if (!name.ends_with(".so")) return name;
+  return containment.in_process ? describe_module(name).name : described(name, containment).name;
 }
 
 void check_estimator(const std::string& name, const ArmModel& model, const ContainmentOptions& containment) {

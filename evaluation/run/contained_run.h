@@ -34,6 +34,10 @@ EstimatorRun run_contained(const std::string& name, const ArmModel& model, const
 std::vector<PluginInfo> contained_plugins(std::vector<std::string>* refused = nullptr,
                                           const ContainmentOptions& containment = {});
 
+/// The name that the module at this path states, as the <estimator> elements of models use it; the name of any other
+/// estimator is its own. Throws as contained_plugins() does, and InputError for a module that cannot be opened.
+std::string stated_name(const std::string& name, const ContainmentOptions& containment = {});
+
 /// Checks that a worker can make the estimator; throws as run_contained does if not.
 void check_estimator(const std::string& name, const ArmModel& model, const ContainmentOptions& containment = {});
 

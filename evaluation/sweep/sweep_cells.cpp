@@ -203,15 +203,16 @@ StoredCells::StoredCells(const std::vector<fs::path>& folders, const SweepGrid& 
     for (const fs::path& path : journals_in(folder)) {
       Descriptor file(path, O_RDONLY);
       if (!file) throw InputError(path.string() + ": cannot be read: " + reason(errno));
-      journals_.push_back({path, std::move(file)});
-      scan(journals_.size() - 1, header);
+      journals_.push_back({path, {}});
+      scan(journals_.size() - 1, *file, header);
+      if (journals_.size() <= kMostOpen) journals_.back().file = std::move(file);
     }
   }
 }
 
-void StoredCells::scan(std::size_t journal, const std::string& header) {
+void StoredCells::scan(std::size_t journal, int file, const std::string& header) {
   const fs::path& path = journals_[journal].path;
-  for_each_line(*journals_[journal].file, path, [&](std::string_view line, std::uint64_t offset) {
+  for_each_line(file, path, [&](std::string_view line, std::uint64_t offset) {
     if (offset == 0) {
       if (is_header_of_other(line, header))
         throw InputError(path.string() +
@@ -244,8 +245,10 @@ std::size_t StoredCells::count_failed() const { return static_cast<std::size_t>(
 std::string StoredCells::line(std::size_t point) const {
   const Place& place = places_.at(point);
   const Journal& journal = journals_.at(place.journal);
+  const Descriptor opened = journal.file ? Descriptor() : Descriptor(journal.path, O_RDONLY);
   std::string text(place.length, '\0');
-  const ssize_t n = ::pread(*journal.file, text.data(), text.size(), static_cast<off_t>(place.offset));
+  const ssize_t n =
+      ::pread(journal.file ? *journal.file : *opened, text.data(), text.size(), static_cast<off_t>(place.offset));
   if (n != static_cast<ssize_t>(text.size())) throw std::runtime_error(journal.path.string() + ": cannot be read");
   return text;
 }

@@ -103,9 +103,10 @@ class StoredCells {
   };
   struct Journal {
     std::filesystem::path path;
-    Descriptor file;
+    Descriptor file;  ///< of the first kMostOpen; others are opened when they are read
   };
-  void scan(std::size_t journal, const std::string& header);
+  static constexpr std::size_t kMostOpen = 256;  ///< a process may have 1024 open files
+  void scan(std::size_t journal, int file, const std::string& header);
   [[noreturn]] void damaged(const std::filesystem::path& path, std::uint64_t offset) const;
 
   std::size_t n_subjects_, n_joints_, n_columns_;

@@ -109,6 +109,11 @@ SweepAxis read_axis(const XmlElement& element, const Sweep& sweep, const UnitSam
   axis.values = samples.empty() ? read_values(element, axis.is_logarithmic)
                                 : read_sampled_values(element, axis.is_logarithmic, samples[sweep.grid.axes.size()]);
   for (const std::string& key : axis.parameters) {
+    for (const SweepEffect& limited : sweep.grid.effects)
+      if (key.find(".effect." + limited.name + ".") != key.npos)
+        element.fail("parameter", in_quotes(key) +
+                                      " puts an effect into the model whose limits are measured; vary "
+                                      "another number");
     if (std::ranges::count(axis.parameters, key) > 1 || is_taken(sweep.grid, axis, key)) {
       element.fail("parameter", in_quotes(key) + " is varied twice; vary each number once");
     }

@@ -18,8 +18,8 @@
 #include "evaluation/sweep/parameters/estimator_option.h"
 #include "evaluation/sweep/sweep_store.h"
 #include "evaluation/worker/worker_process.h"
-#include "model/homing.h"
 #include "model/input_error.h"
+#include "model/name_list.h"
 #include "plant/simulate.h"
 
 namespace halyard {
@@ -96,23 +96,52 @@ SweepCell limits_at(const Sweep& sweep, std::size_t point) {
   return cell;
 }
 
+/// One that fails as it is made fails point by point.
+void check_made(const std::vector<std::string>& estimators, const ArmModel& model,
+                const ContainmentOptions& containment) {
+  for (const std::string& estimator : estimators) {
+    try {
+      check_estimator(estimator, model, containment);
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::system_error&) {
+      throw;
+    } catch (const std::runtime_error&) {}
+  }
+}
+
+/// A module says its name only when it is opened, so that the definition could not check it.
+void check_names_of_options(const SweepGrid& grid, const ContainmentOptions& containment) {
+  std::vector<std::string> names;
+  for (const SweepAxis& axis : grid.axes)
+    for (const std::string& key : axis.parameters) {
+      const auto option = parse_option_key(key);
+      if (!option) continue;
+      if (names.empty())
+        for (const std::string& estimator : grid.estimators) names.push_back(stated_name(estimator, containment));
+      if (std::ranges::find(names, option->estimator) == names.end())
+        throw InputError(fmt::format("parameter {}: the sweep does not run this estimator; expected one of {}",
+                                     in_quotes(key), listed(names)));
+    }
+}
+
 }  // namespace
 
 SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOptions& containment) {
   if (sweep.grid.measures_limits()) return limits_at(sweep, point);
   SweepCell cell{point, {}};
+  ArmModel model;
   SimulationResult data;
   const std::string no_data = failure_of([&] {
     check_point(sweep, point, "the sweep");
-    data = simulate(faster(sweep.scenario_at(point)));
-    home_encoders(data.measured, sweep.model_at(point));
+    model = sweep.model_at(point);
+    data = simulate_homed(faster(sweep.scenario_at(point)), model);
   });
   if (!no_data.empty()) {
     cell.results.assign(sweep.grid.estimators.size(), failure(sweep.grid, "simulation: " + no_data));
     return cell;
   }
   data.measured.source = "the simulated log";
-  const ArmModel model = sweep.model_at(point);
   for (const std::string& estimator : sweep.grid.estimators) {
     const std::string reason = failure_of([&] {
       const Comparison comparison = compare_estimators(model, {estimator}, data.measured, data.truth,
@@ -128,7 +157,8 @@ void check_estimators(const Sweep& sweep, const ContainmentOptions& containment)
   const SweepGrid& grid = sweep.grid;
   const ArmModel first = sweep.model_at(0);
   try {
-    for (const std::string& estimator : grid.estimators) check_estimator(estimator, first, containment);
+    check_made(grid.estimators, first, containment);
+    check_names_of_options(grid, containment);
   } catch (const InputError& error) {
     throw InputError(grid.file.empty() ? error.what() : grid.file + ": " + error.what());
   }
@@ -141,7 +171,7 @@ void check_estimators(const Sweep& sweep, const ContainmentOptions& containment)
         ArmModel model = first;
         set_option(model, *option, axis.is_factor ? value * option_number(sweep.model, *option).value() : value);
         try {
-          for (const std::string& estimator : grid.estimators) check_estimator(estimator, model, containment);
+          check_made(grid.estimators, model, containment);
         } catch (const InputError& error) {
           throw InputError(fmt::format("{}, at {} = {:g}: {}", grid.file, axis.label(), value, error.what()));
         }

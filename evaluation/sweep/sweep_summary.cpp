@@ -9,7 +9,7 @@
 namespace halyard {
 namespace {
 
-constexpr std::size_t kMaxPlaces = 40, kBins = 20;
+constexpr std::size_t kMostOfSamples = 40, kBins = 20;
 
 }  // namespace
 
@@ -33,7 +33,9 @@ double MeanWithInterval::half_width() const {
 
 SweepSummary::SweepSummary(const SweepGrid& grid)
     : spans(grid.measures.size(), std::vector(grid.n_subjects(), std::vector<Span>(grid.units.size()))), grid_(grid) {
-  for (const SweepAxis& axis : grid.axes) places_.push_back(places_of(axis));
+  for (const SweepAxis& axis : grid.axes)
+    places_.push_back(places_of(axis, grid.is_sampled ? kMostOfSamples : kMostPlaces));
+  repeats_.resize(grid.measures.size() * grid.n_subjects() * grid.units.size());
   for (std::size_t m = 0; m < grid.measures.size(); ++m)
     for (const Places& places : places_) {
       const std::vector<double>& x = places.centres;
@@ -42,10 +44,10 @@ SweepSummary::SweepSummary(const SweepGrid& grid)
     }
 }
 
-SweepSummary::Places SweepSummary::places_of(const SweepAxis& axis) {
+SweepSummary::Places SweepSummary::places_of(const SweepAxis& axis, std::size_t most) {
   Places places;
   const std::set<double> distinct(axis.values.begin(), axis.values.end());
-  if (distinct.size() <= kMaxPlaces) {
+  if (distinct.size() <= most) {
     places.centres.assign(distinct.begin(), distinct.end());
     places.edges = places.centres;
     return places;
@@ -66,19 +68,28 @@ SweepSummary::Places SweepSummary::places_of(const SweepAxis& axis) {
 void SweepSummary::add(const SweepCell& cell) {
   failures += cell.failures();
   const std::vector<double> values = grid_.values(cell.point);
+  const std::size_t repeats = grid_.is_sampled ? grid_.n_seeds() : 1;
+  auto repeated = repeats_.begin();
   for (std::size_t m = 0; m < grid_.measures.size(); ++m)
     for (std::size_t i = 0; i < grid_.n_subjects(); ++i)
-      for (std::size_t k = 0; k < grid_.units.size(); ++k) {
+      for (std::size_t k = 0; k < grid_.units.size(); ++k, ++repeated) {
         const double shown = cell.shown(grid_, m, i, k);
-        if (std::isnan(shown)) continue;
-        spans[m][i][k].least = std::min(spans[m][i][k].least, shown);
-        spans[m][i][k].greatest = std::max(spans[m][i][k].greatest, shown);
-        for (std::size_t a = 0; a < values.size(); ++a) {
-          const std::vector<double>& edges = places_[a].edges;
-          const auto place = std::size_t(std::ranges::lower_bound(edges, values[a]) - edges.begin());
-          curves_[index(m, a, i, k)].means[std::min(place, edges.size() - 1)].add(shown);
+        if (!std::isnan(shown)) {
+          spans[m][i][k].least = std::min(spans[m][i][k].least, shown);
+          spans[m][i][k].greatest = std::max(spans[m][i][k].greatest, shown);
         }
+        repeated->add(shown);
+        if ((cell.point + 1) % repeats != 0) continue;
+        for (std::size_t a = 0; a < grid_.axes.size(); ++a) mean_at(m, a, i, k, values[a]).add(repeated->mean());
+        *repeated = {};
       }
+}
+
+MeanWithInterval& SweepSummary::mean_at(std::size_t measure, std::size_t axis, std::size_t subject, std::size_t joint,
+                                        double value) {
+  const std::vector<double>& edges = places_[axis].edges;
+  const auto place = std::size_t(std::ranges::lower_bound(edges, value) - edges.begin());
+  return curves_[index(measure, axis, subject, joint)].means[std::min(place, edges.size() - 1)];
 }
 
 std::size_t SweepSummary::index(std::size_t measure, std::size_t axis, std::size_t subject, std::size_t joint) const {

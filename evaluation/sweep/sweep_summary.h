@@ -34,6 +34,7 @@ class SweepSummary {
  public:
   explicit SweepSummary(const SweepGrid& grid);
 
+  /// The cells of all points, in their order.
   void add(const SweepCell& cell);
 
   std::size_t failures = 0;  ///< results with a failure
@@ -44,8 +45,12 @@ class SweepSummary {
   };
   std::vector<std::vector<std::vector<Span>>> spans;  ///< [n_measures][n_subjects][n_joints]
 
-  /// What a measure shows over one axis, averaged over everything else. An axis with at most 40 values has one place
-  /// for each, in increasing order; the range of other axes is divided into 20 equal bins.
+  /// The most values of a grid's axis that have a place each.
+  static constexpr std::size_t kMostPlaces = 1000;
+
+  /// What a measure shows over one axis, averaged over everything else. An axis with at most kMostPlaces values, or 40
+  /// of samples, has one place for each, in increasing order; the range of other axes is divided into 20 equal bins.
+  /// Repeats of a sample count as one number, their mean.
   struct Curve {
     std::vector<double> x;                ///< values, or centres of the bins
     std::vector<MeanWithInterval> means;  ///< [x.size()], in SI units
@@ -57,12 +62,15 @@ class SweepSummary {
   struct Places {
     std::vector<double> centres, edges;  ///< edges: upper ends
   };
-  static Places places_of(const SweepAxis& axis);
+  static Places places_of(const SweepAxis& axis, std::size_t most);
+  MeanWithInterval& mean_at(std::size_t measure, std::size_t axis, std::size_t subject, std::size_t joint,
+                            double value);
   std::size_t index(std::size_t measure, std::size_t axis, std::size_t subject, std::size_t joint) const;
 
   SweepGrid grid_;
-  std::vector<Places> places_;  ///< [n_axes]
-  std::vector<Curve> curves_;   ///< [n_measures * n_axes * n_subjects * n_joints]
+  std::vector<Places> places_;             ///< [n_axes]
+  std::vector<Curve> curves_;              ///< [n_measures * n_axes * n_subjects * n_joints]
+  std::vector<MeanWithInterval> repeats_;  ///< of the present sample, [n_measures * n_subjects * n_joints]
 };
 
 }  // namespace halyard

@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <csignal>
 #include <fstream>
-#include <system_error>
 
 namespace halyard {
 namespace {
@@ -62,19 +61,19 @@ int end_all(pid_t child) {
 
 }  // namespace
 
-void continue_in_supervised_child(int answer) {
+int continue_in_supervised_child(int answer) {
   sigset_t signals, before;
   sigemptyset(&signals);
   for (const int signal : {SIGCHLD, SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals, signal);
   sigprocmask(SIG_BLOCK, &signals, &before);
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   const pid_t child = fork();
-  if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  if (child < 0) return errno;
   if (child == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     setpgid(0, 0);
     sigprocmask(SIG_SETMASK, &before, nullptr);
-    return;
+    return 0;
   }
   setpgid(child, child);  // here too: it may be killed before it runs
   wait_until_needless(child, answer, signals);

@@ -5,11 +5,12 @@
 
 namespace halyard {
 
-/// Returns in a new child, which leads a process group. The calling process becomes its supervisor and does not return:
-/// when the child has ended, when nobody reads the pipe `answer` any more, or at SIGTERM, SIGINT or SIGHUP, it kills
-/// all processes below it, and then ends as the child did. Where the kernel does not list children
+/// Returns 0 in a new child, which leads a process group. The calling process becomes its supervisor and does not
+/// return: when the child has ended, when nobody reads the pipe `answer` any more, or at SIGTERM, SIGINT or SIGHUP, it
+/// kills all processes below it, and then ends as the child did. Where the kernel does not list children
 /// (/proc/thread-self/children), it kills the child's group only.
-/// Call before other threads start. Throws std::system_error if there can be no further process.
-void continue_in_supervised_child(int answer);
+/// Call before other threads start. Returns the number of the error, in the calling process, if there can be no further
+/// process.
+int continue_in_supervised_child(int answer);
 
 }  // namespace halyard

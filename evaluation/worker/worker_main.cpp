@@ -69,7 +69,8 @@ std::string result_of(const WorkerTask& task, WorkerPage& page) {
 std::string answer_to(WorkerPage& page, int answer) {
   const auto said = [](Answer kind, const std::string& text) { return static_cast<char>(kind) + text; };
   try {
-    continue_in_supervised_child(answer);  // what follows runs in the child
+    if (const int error = continue_in_supervised_child(answer)) return said(Answer::no_process, std::to_string(error));
+    // What follows runs in the child.
     const std::string_view bytes(reinterpret_cast<const char*>(&page + 1), page.task_size);
     return said(Answer::result, result_of(receive_worker_task(bytes), page));
   } catch (const EstimatorRefusal& error) {

@@ -173,6 +173,7 @@ std::string result_in(const std::string& answer) {
     case Answer::refusal: throw EstimatorRefusal(rest);
     case Answer::input_error: throw InputError(rest);
     case Answer::failure: throw std::runtime_error(rest);
+    case Answer::no_process: fail(std::stoi(rest), "the process of an estimator cannot be started");
   }
   throw std::runtime_error("its process gave an answer that cannot be read");
 }

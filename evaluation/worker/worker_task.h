@@ -45,7 +45,13 @@ std::string estimator_run_bytes(const EstimatorRun& run);
 EstimatorRun estimator_run_of(std::string_view bytes, const std::string& name, const Log& log);
 
 /// The first byte of an answer.
-enum class Answer : char { result = 'R', refusal = 'E', input_error = 'I', failure = 'F' };
+enum class Answer : char {
+  result = 'R',
+  refusal = 'E',
+  input_error = 'I',
+  failure = 'F',
+  no_process = 'P'  ///< the estimator's process could not be started; the error's number follows
+};
 
 /// Memory shared by both processes: the worker's progress.
 struct WorkerPage {

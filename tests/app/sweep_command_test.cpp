@@ -262,6 +262,56 @@ TEST_F(Sweep, IsNotSubmittedTwiceWhereSlurmCannotBeAsked) {
   EXPECT_EQ(text_of(path("submitted")), "once\n");
 }
 
+TEST_F(Sweep, AsksTheClusterThatItsJobIsOn) {
+  const auto write_program = [&](const std::string& name, const std::string& commands) {
+    write_text(path("bin/" + name), "#!/bin/sh\n" + commands + "\n");
+    fs::permissions(path("bin/" + name), fs::perms::owner_all);
+  };
+  write_program("sbatch", "echo '17;north'");
+  write_program("squeue", "case \"$*\" in *--clusters=*north*--job=17*) echo '1 RUNNING n1';; esac");
+  const std::string with_slurm = "PATH='" + path("bin").string() + "':$PATH; export PATH;";
+  const std::vector<std::string> command = {"sweep", "sweep.xml", "--out", "out", "--slurm", "--nodes", "2"};
+  EXPECT_TRUE(contains(run(command, with_slurm).out, "Slurm job 17 of cluster north"));
+  EXPECT_TRUE(contains(run({"sweep", "sweep.xml", "--out", "out", "--status"}, with_slurm).out, "running on n1"));
+  const RunResult again = run(command, with_slurm);
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_TRUE(contains(again.err, "scancel --clusters=north 17")) << again.err;
+}
+
+TEST_F(Sweep, KnowsNothingOfTheJobOfAnotherSweepInItsFolder) {
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "1/2"});
+  write_text(path("out/slurm/job.json"), "{\"sweep\": \"another\", \"job\": \"17\", \"parts\": 2}");
+  const std::string status = done({"sweep", "sweep.xml", "--out", "out", "--status"});
+  EXPECT_FALSE(contains(status, "Slurm job")) << status;
+  EXPECT_TRUE(contains(status, "to continue: halyard sweep sweep.xml --out out --resume")) << status;
+}
+
+TEST_F(Sweep, TellsThatAMergeRemovesAnotherSweep) {
+  done({"sweep", "sweep.xml", "--out", "part"});
+  write_text(path("other.xml"), replaced(text_of(path("sweep.xml")), "name=\"test\"", "name=\"other\""));
+  done({"sweep", "other.xml", "--out", "merged"});
+  const RunResult result = run({"merge", "part", "--out", "merged"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_TRUE(contains(result.err, "note: merged holds results of another sweep")) << result.err;
+}
+
+TEST_F(Sweep, RecordsAnEstimatorThatCrashesAsItIsMade) {
+  const std::string broken = std::string(HALYARD_BROKEN_PLUGINS) + "/crashes_in_create.so";
+  write_text(path("plugin.xml"), replaced(text_of(path("sweep.xml")), "kinematics,sr_ukf", "kinematics," + broken));
+  EXPECT_TRUE(contains(done({"sweep", "plugin.xml", "--out", "out"}), "6 of 12 runs of estimators failed"));
+}
+
+TEST_F(Sweep, RefusesAnOptionOfAnEstimatorThatNoModuleIs) {
+  const std::string module = std::string(HALYARD_BROKEN_PLUGINS) + "/throws_in_update.so";
+  write_text(path("option.xml"), "<sweep name=\"s\" scenario=\"experiment_a.xml\" estimators=\"ekf," + module +
+                                     "\" duration=\"0.6\"><axis parameter=\"estimator.efk.torque_noise\" "
+                                     "values=\"1e-4 0.1\"/></sweep>");
+  const RunResult result = run({"sweep", "option.xml", "--out", "out"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.err, "'estimator.efk.torque_noise': the sweep does not run this estimator"))
+      << result.err;
+}
+
 TEST_F(Sweep, IsNotSubmittedWithAnEstimatorThatDoesNotExist) {
   write_text(path("wrong.xml"), replaced(text_of(path("sweep.xml")), "kinematics,sr_ukf", "kinematics,ekff"));
   const RunResult result = run({"sweep", "wrong.xml", "--out", "out", "--slurm", "--nodes", "2"});

@@ -3,16 +3,19 @@
 #include "evaluation/run/contained_run.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <tbb/parallel_for.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <system_error>
 #include <thread>
 
 #include "evaluation/worker/worker_process.h"
@@ -231,6 +234,30 @@ TEST(Worker, RefusesToBeStartedByHand) {
   std::getline(std::ifstream(said), line);
   EXPECT_EQ(line, "halyard_worker: is started by halyard's library only; run halyard instead");
   std::remove(said.c_str());
+}
+
+TEST(Worker, WithoutAProcessForTheEstimatorIsAFaultOfTheMachine) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can become a user who may have two processes";
+  constexpr uid_t kNobody = 64'321;
+  const pid_t child = fork();  // single-threaded here
+  if (child == 0) {
+    const rlimit two{2, 2};  // this process and its worker
+    if (setrlimit(RLIMIT_NPROC, &two) != 0 || setgid(kNobody) != 0 || setuid(kNobody) != 0) _exit(9);
+    try {
+      check_estimator("ekf", raven2());
+    } catch (const std::system_error& error) {
+      _exit(error.code().value() == EAGAIN ? 0 : 1);
+    } catch (const NoWorker&) {
+      _exit(8);  // the build tree is closed to other users
+    } catch (const std::exception&) {
+      _exit(2);
+    }
+    _exit(3);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (WEXITSTATUS(status) >= 8) GTEST_SKIP() << "another user cannot start the worker";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 TEST(Worker, DoesNotOutliveTheProcessThatStartedIt) {

@@ -126,6 +126,22 @@ TEST_F(SweepCells, ALineThatWasCutOffDoesNotCountAndIsReplaced) {
   EXPECT_EQ(text_of(path), whole);
 }
 
+TEST_F(SweepCells, OfMoreJournalsThanAProcessMayOpenAreRead) {
+  const fs::path first = store({}, {0});
+  const std::string text = text_of(first);
+  for (int i = 1; i < 400; ++i) append(folder_ / "cells" / (std::to_string(i) + "_of_400.jsonl"), text);
+  append(folder_ / "cells" / "last.jsonl", text_of(store({1, 9999}, {3})));
+  fs::remove(journal_path(folder_, {1, 9999}));
+  rlimit limit;
+  ::getrlimit(RLIMIT_NOFILE, &limit);
+  const rlimit few{320, limit.rlim_max};
+  ::setrlimit(RLIMIT_NOFILE, &few);
+  const StoredCells cells = stored();
+  EXPECT_EQ(cells.count(), 2u);
+  EXPECT_EQ(cells.read(3).point, 3u);
+  ::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
 // A limit of the file size stands for a full disk.
 TEST_F(SweepCells, AFullDiskKeepsTheCellsBefore) {
   const fs::path path = store({}, {0, 1});

@@ -45,12 +45,41 @@ TEST(SweepSummary, ACurveAveragesOverTheOtherAxes) {
   EXPECT_EQ(summary.spans[0][0][0].greatest, 3);
 }
 
+TEST(SweepSummary, OfAGridHasAPlaceForEachValue) {
+  std::vector<double> values;
+  for (int i = 0; i < 100; ++i) values.push_back(i);
+  const SweepGrid grid = grid_over({axis_of(values)});
+  SweepSummary summary(grid);
+  for (std::size_t p = 0; p < grid.size(); ++p) summary.add(cell_of(grid, p, 2 * values[p]));
+  const SweepSummary::Curve& curve = summary.curve(0, 0, 0, 0);
+  ASSERT_EQ(curve.x, values);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    EXPECT_EQ(curve.means[i].mean(), 2 * values[i]);
+    EXPECT_TRUE(std::isnan(curve.means[i].half_width())) << "no interval of a single run";
+  }
+}
+
+TEST(SweepSummary, RepeatsOfASampleCountAsOneNumber) {
+  SweepGrid grid = grid_over({axis_of({5, 5, 5}), axis_of({1, 2, 3})});  // all samples at one place of the first axis
+  grid.is_sampled = true;
+  grid.seeds = {7, 8};
+  SweepSummary summary(grid);
+  for (std::size_t p = 0; p < grid.size(); ++p)
+    summary.add(cell_of(grid, p, 10 * static_cast<double>(p / 2) + static_cast<double>(p % 2)));
+  const MeanWithInterval& mean = summary.curve(0, 0, 0, 0).means[0];
+  EXPECT_EQ(mean.count(), 3u);
+  EXPECT_EQ(mean.mean(), 10.5);
+  EXPECT_EQ(mean.least(), 0.5);
+  EXPECT_EQ(summary.spans[0][0][0].least, 0);
+}
+
 TEST(SweepSummary, ManyValuesOfALogarithmicAxisShareBinsOfEqualRatio) {
   std::vector<double> values;
   for (int i = 0; i <= 100; ++i) values.push_back(std::pow(10, 0.04 * i));  // 1 to 1e4
   SweepAxis axis = axis_of(values);
   axis.is_logarithmic = true;
-  const SweepGrid grid = grid_over({axis});
+  SweepGrid grid = grid_over({axis});
+  grid.is_sampled = true;
   SweepSummary summary(grid);
   for (std::size_t p = 0; p < grid.size(); ++p) summary.add(cell_of(grid, p, std::log10(values[p])));
   const SweepSummary::Curve& curve = summary.curve(0, 0, 0, 0);

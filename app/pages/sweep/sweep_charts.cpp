@@ -82,7 +82,8 @@ report::Series series_of(const std::string& name, const SweepSummary::Curve& cur
 }
 
 BandKind band_of_means(const SweepGrid& grid) {
-  return grid.is_sampled || grid.axes.size() == 1 ? BandKind::interval : BandKind::range;
+  const bool has_one_place_a_value = grid.axes.size() == 1 && grid.axes[0].values.size() <= SweepSummary::kMostPlaces;
+  return grid.is_sampled || has_one_place_a_value ? BandKind::interval : BandKind::range;
 }
 
 std::vector<report::Chart> mean_charts(const SweepGrid& grid, const SweepSummary& summary, const ChartRow& row,
