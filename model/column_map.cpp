@@ -153,10 +153,11 @@ void ColumnMap::leave_out(std::string_view name) {
 void ColumnMap::add(std::string_view name, std::string_view column, std::string_view unit, double sign, double scale,
                     double offset, double wrap) {
   const Quantity quantity = standard_quantity(name);
+  unit = trim(unit);
   try {
     if (trim(column).empty()) throw InputError("no column is named; name the column of the file that it comes from");
     if (sign != 1 && sign != -1) throw InputError("expected sign 1 or -1; other factors belong in scale");
-    const double factor = sign * scale * unit_factor(trim(unit), quantity);
+    const double factor = sign * scale * unit_factor(unit, quantity);
     if (!std::isfinite(factor) || factor == 0) throw InputError("expected a finite scale other than 0");
     if (!std::isfinite(offset)) throw InputError("expected a finite offset, in SI units");
     if (!std::isfinite(wrap) || wrap < 0)
@@ -164,7 +165,8 @@ void ColumnMap::add(std::string_view name, std::string_view column, std::string_
           "expected a wrap of at least 0: the period of the reading, in the units of the file; 0 means none");
     if (wrap > 0 && (quantity != Quantity::kPosition || is_marker(name)))
       throw InputError("only a motor's or a joint's position wraps around; leave wrap out here");
-    insert(name, {std::string(trim(column)), factor, offset, wrap});
+    const bool is_electric = scale == 1 && (unit.ends_with('A') || unit.ends_with('V'));
+    insert(name, {std::string(trim(column)), factor, offset, wrap, is_electric});
   } catch (const InputError& error) {
     throw InputError("column " + in_quotes(name) + ": " + error.what());
   }

@@ -156,6 +156,14 @@ void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, 
   for_each_column(log, bind_one);
   if (missing.empty()) return;
   for (const Column& column : columns) present.push_back(in_quotes(column.name));
+  const auto has = [&](const std::string& name) { return std::ranges::count(columns, name, &Column::name) > 0; };
+  const bool is_mapped_in_vain =
+      map.sources().contains("time") && has("time") && has("motor_position_1") &&
+      std::ranges::none_of(map.sources(), [&](const auto& m) { return has(m.second.column); });
+  if (is_mapped_in_vain)
+    header.fail(
+        "has the column names of halyard's own logs, and none that the map of the model or --column names; read "
+        "it with a model without <columns>, and without --column");
   header.fail("no column " + listed(missing) + "; the file has " + listed(present) +
               "; say which column of the file it is, in the model file or by --column " + example + "=NAME" +
               (optional.empty() ? "" : ", or by --column " + optional + "= that the log lacks it"));

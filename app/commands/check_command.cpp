@@ -166,7 +166,7 @@ void check_log_file(const CheckOptions& options) {
     if (!note.empty()) print_out("{}\n", note);
   const std::vector<LogFinding> findings = check_log(log, model, columns_of(model, options.columns));
   for (const LogFinding& f : findings) print_out("{}: {}\n", severity_word(f.severity), finding_line(f));
-  stop_at_gross_finding(findings);
+  stop_at_gross_finding(findings, ", listed on stdout");
   print_out("{}: {} samples over {:.4g} s of \"{}\", {}\n", options.file.string(), log.size(), log.duration(),
             model.name, summary_of(findings));
 }

@@ -52,13 +52,12 @@ std::string finding_line(const LogFinding& f) {
   return fmt::format("{}{}: {}: {}; {}", f.log, line, f.column, f.what, f.remedy);
 }
 
-void stop_at_gross_finding(const std::vector<LogFinding>& findings) {
+void stop_at_gross_finding(const std::vector<LogFinding>& findings, const std::string& where_others) {
   const auto is_gross = [](const LogFinding& f) { return f.severity == LogFinding::Severity::gross; };
   const auto first = std::ranges::find_if(findings, is_gross);
   if (first == findings.end()) return;
   const auto others = std::ranges::count_if(findings, is_gross) - 1;
-  throw InputError(finding_line(*first) +
-                   (others > 0 ? fmt::format(" (and {} more: run halyard check on the log)", others) : ""));
+  throw InputError(finding_line(*first) + (others > 0 ? fmt::format(" (and {} more{})", others, where_others) : ""));
 }
 
 }  // namespace halyard

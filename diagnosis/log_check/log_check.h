@@ -79,6 +79,8 @@ struct LogCheckRule {
   double significance = 4;
   /// Share of the range by which a position may lie outside its range, and by which a zero may be off.
   double outside = 0.25, zero = 0.5;
+  /// A zero that is off by more than the effect encoder_offset reaches is told, however wide the range is. rad, m
+  double zero_angle = 0.5, zero_length = 0.05;
   /// Slowest and fastest plausible sample rate, Hz. Records need 10 Hz.
   double slowest_hz = 10, fastest_hz = 50e3;
   /// Most samples a second that the controller of an arm takes; its current loops may be faster.
@@ -127,7 +129,9 @@ const char* severity_word(LogFinding::Severity severity);
 /// "log.csv: motor_position_2: what; remedy", with the line after the path if there is one.
 std::string finding_line(const LogFinding& finding);
 
-/// Throws InputError with the first gross finding, if there is one; the message says how many others there are.
-void stop_at_gross_finding(const std::vector<LogFinding>& findings);
+/// Throws InputError with the first gross finding, if there is one; the message says how many others there are, and
+/// where they are told.
+void stop_at_gross_finding(const std::vector<LogFinding>& findings,
+                           const std::string& where_others = ": run halyard check on the log");
 
 }  // namespace halyard

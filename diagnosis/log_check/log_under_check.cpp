@@ -88,6 +88,17 @@ double LogUnderCheck::beyond_range(int k, const std::vector<double>& position, b
   return beyond;
 }
 
+std::string LogUnderCheck::position(int k, double value) const {
+  if (model.nominal.joint[k].type == JointType::prismatic) return fmt::format("{:.4g} m", value);
+  return fmt::format("{:.4g} rad ({:.4g} deg)", value, value / kDegree);
+}
+
+std::string LogUnderCheck::range_in_words(int k) const {
+  const double lower = model.joints[k].lower, upper = model.joints[k].upper;
+  if (model.nominal.joint[k].type == JointType::prismatic) return fmt::format("{:.4g} to {:.4g} m", lower, upper);
+  return fmt::format("{:.4g} to {:.4g} rad ({:.4g} to {:.4g} deg)", lower, upper, lower / kDegree, upper / kDegree);
+}
+
 ColumnSource LogUnderCheck::source_of(const std::string& column) const {
   const auto found = sources_.find(column);
   return found == sources_.end() ? ColumnSource{column} : found->second;

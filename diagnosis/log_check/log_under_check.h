@@ -85,6 +85,12 @@ class LogUnderCheck {
   double offset_of(const std::string& column) const { return source_of(column).offset; }
   /// Period after which the column starts again according to its map, in its SI unit; 0: none.
   double wrap_of(const std::string& column) const;
+  /// Whether the column's map has it in A or V, without a scale.
+  bool is_electric(const std::string& column) const { return source_of(column).is_electric; }
+  /// "0.7854 rad (45 deg)", "0.1 m" of a position of joint k.
+  std::string position(int k, double value) const;
+  /// "0 to 1.571 rad (0 to 90 deg)"
+  std::string range_in_words(int k) const;
   /// Options that exchange the columns of the file behind the standard columns of a circle.
   std::string exchange_options(const ColumnCircle& circle) const;
 

@@ -76,10 +76,14 @@ void check_sign(LogUnderCheck& c, int k, const Slope& s, int torque_sense) {
   c.correct(signal, k, correction);
 }
 
-/// A motor without a sensor at its joint: its motion must fit into the joint's range.
+bool is_too_wide(const LogUnderCheck& c, int k, const std::vector<double>& position) {
+  return c.range(k) > 0 && spread(position) >= c.rule.gross_ratio * c.range(k);
+}
+
+/// The motion of a motor must fit into the range of its joint.
 void check_range_of_motion(LogUnderCheck& c, const SampledMotion& m, int k) {
   const JointParameters<double>& j = c.model.nominal.joint[k];
-  if (spread(m.expected[k]) < c.rule.gross_ratio * c.range(k) || !(c.range(k) > 0)) return;
+  if (!is_too_wide(c, k, m.expected[k])) return;
   const std::string name = column_name(&Log::motor_position, k);
   std::vector<UnitGuess> units = position_units(false, j.motor_encoder_resolution);
   std::string guess = "in another unit";
@@ -104,9 +108,9 @@ void check_range_of_motion(LogUnderCheck& c, const SampledMotion& m, int k) {
                                        "or correct the range of joint {1} in the model",
                                        name, k + 1);
   c.reject(name,
-           fmt::format("moves joint {} by {:.3g}, {:.3g} times its range, as if the angle were {}; expected rad at the "
+           fmt::format("moves joint {} by {}, {:.3g} times its range, as if the angle were {}; expected rad at the "
                        "motor shaft",
-                       k + 1, spread(m.expected[k]), spread(m.expected[k]) / c.range(k), guess),
+                       k + 1, c.position(k, spread(m.expected[k])), spread(m.expected[k]) / c.range(k), guess),
            remedy);
   c.correct(&Log::motor_position, k, correction);
 }
@@ -129,6 +133,11 @@ void check_positions(LogUnderCheck& c) {
   for (int k = 0; k < c.n(); ++k) {
     if (m.expected[k].empty()) continue;
     const bool has_sensor = !m.joint[k].empty() && spread(m.joint[k]) > 0;
+    // Both in the same wrong unit agree with each other.
+    if (has_sensor && is_too_wide(c, k, m.joint[k]) && is_too_wide(c, k, m.expected[k])) {
+      check_range_of_motion(c, m, k);
+      m = sampled_motion(c.log, c.model);
+    }
     Slope s;
     if (has_sensor && (moves(c, k, m.joint[k]) || moves(c, k, m.expected[k]))) s = slope_at(m, k);
     if (s.explained >= c.rule.explained) {

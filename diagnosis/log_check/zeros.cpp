@@ -9,9 +9,12 @@
 #include "diagnosis/log_check/robust.h"
 #include "diagnosis/record/record.h"
 #include "diagnosis/record/sampled_column.h"
+#include "transmission/coupling.h"
 
 namespace halyard {
 namespace {
+
+constexpr double kLongestDelay = 0.05;  ///< s, upper bound of the effect delay
 
 double beyond(const LogUnderCheck& c, int k, double level) { return c.beyond_range(k, {level}, true); }
 
@@ -39,35 +42,61 @@ std::string offset_that_fits(const LogUnderCheck& c, const std::vector<double>& 
       of_map + first, of_map + last, middle);
 }
 
+/// What the reading of motor k lacks, in positions of joint k, by the sensors of all joints that stretch its cable: the
+/// zeros of the other motors may be wrong, too.
+double zero_of_motor(const LogUnderCheck& c, const SampledMotion& m, int k) {
+  const ArmParameters<double>& arm = c.model.nominal;
+  std::vector<double> off;
+  for (std::size_t i = 0; i < m.time.size(); ++i) {
+    double wound = 0;
+    for (int j = 0; j < c.n(); ++j) {
+      const double per_joint = path_per_joint(arm.joint[k], j) / arm.joint[k].pulley_radius;
+      const std::vector<double>& position = m.joint[j].empty() ? m.expected[j] : m.joint[j];
+      if (per_joint != 0)
+        wound +=
+            per_joint * (position.empty() ? c.model.joints[j].home : position[i] - arm.joint[j].joint_encoder_offset);
+    }
+    off.push_back(wound - m.own[k][i]);
+  }
+  return median(off);
+}
+
+/// How far a zero may be off without being told.
+double allowed_offset(const LogUnderCheck& c, int k) {
+  const bool turns = c.model.nominal.joint[k].type == JointType::revolute;
+  return std::min(c.rule.zero * c.range(k), turns ? c.rule.zero_angle : c.rule.zero_length);
+}
+
 void check_zero(LogUnderCheck& c, const SampledMotion& m, int k) {
   const JointParameters<double>& j = c.model.nominal.joint[k];
   if (!(c.range(k) > 0) || m.expected[k].empty()) return;
   const std::string motor = column_name(&Log::motor_position, k), joint = column_name(&Log::joint_position, k);
-  const std::string range = fmt::format("{:.4g} to {:.4g}", c.model.joints[k].lower, c.model.joints[k].upper);
-  const double expected = median(m.expected[k]), per_motor = c.joint_per_motor(k);
-  const double off = median_mismatch(m, k);
+  const double expected = median(m.expected[k]), off = median_mismatch(m, k);
+  const std::string to_motor = c.option(motor, Correction{.offset = zero_of_motor(c, m, k) / c.joint_per_motor(k)});
   if (std::isfinite(off) && j.joint_zero_known && j.motor_zero_known) {
     const double read = median(m.joint[k]);
     const bool reading_out = beyond(c, k, read) > c.rule.outside && beyond(c, k, expected) <= c.rule.outside;
     const bool motor_out = beyond(c, k, expected) > c.rule.outside && beyond(c, k, read) <= c.rule.outside;
-    if (!motor_out && (reading_out || std::abs(off) > c.rule.zero * c.range(k)))
+    if (motor_out)
+      return c.suspect(motor,
+                       fmt::format("puts joint {} at {} in the median; its sensor says {}, its range is {}", k + 1,
+                                   c.position(k, expected), c.position(k, read), c.range_in_words(k)),
+                       fmt::format("state motor_offset=\"unknown\" in <encoders> of joint {}, as of a counter that "
+                                   "starts where it is switched on, or correct its zero with {}",
+                                   k + 1, to_motor));
+    if (reading_out || std::abs(off) > allowed_offset(c, k))
       return c.suspect(
           joint,
-          fmt::format("is {:.4g} in the median where the motors say {:.4g}; the joint's range is {}", read, expected,
-                      range),
-          fmt::format("correct its zero with {}, or state joint_offset=\"unknown\" in <encoders> of joint {}",
-                      c.option(joint, Correction{.offset = -off}), k + 1));
-    if (motor_out)
-      return c.suspect(
-          motor,
-          fmt::format("puts joint {} at {:.4g} in the median; its sensor says {:.4g}, its range is {}", k + 1, expected,
-                      read, range),
-          fmt::format("correct its zero with {}, or state motor_offset=\"unknown\" in <encoders> of joint {}",
-                      c.option(motor, Correction{.offset = off / per_motor}), k + 1));
+          fmt::format("is {} in the median where the motors say {}; the joint's range is {}", c.position(k, read),
+                      c.position(k, expected), c.range_in_words(k)),
+          fmt::format("if its zero is wrong, state joint_offset=\"unknown\" in <encoders> of joint {}, or correct it "
+                      "with {}; if the motor's is, state motor_offset=\"unknown\" there, or correct it with {}",
+                      k + 1, c.option(joint, Correction{.offset = -off}), to_motor));
   }
   if (beyond(c, k, expected) > c.rule.outside && j.motor_zero_known)
     c.suspect(motor,
-              fmt::format("puts joint {} at {:.4g} in the median, outside its range, {}", k + 1, expected, range),
+              fmt::format("puts joint {} at {} in the median, outside its range, {}", k + 1, c.position(k, expected),
+                          c.range_in_words(k)),
               "check the sign and the zero of this column, or the range in the model; " +
                   offset_that_fits(c, m.expected[k], k));
 }
@@ -136,14 +165,19 @@ void check_delay(LogUnderCheck& c, const SampledMotion& m, int k) {
   best.try_from(-longest, longest, step, m, reading, k);
   if (slow) best.try_from(best.late - step, best.late + step, 1e-3, m, reading, k);
   if (std::abs(best.late) <= least || best.left > (1 - c.rule.late_explains) * at_zero) return;
-  c.suspect(column_name(&Log::joint_position, k),
-            fmt::format("is {:.3g} ms {} motor_position_{}; the shift removes {:.0f} % of the squared mismatch",
-                        1e3 * std::abs(best.late), best.late > 0 ? "late against" : "ahead of", k + 1,
-                        100 * (1 - best.left / at_zero)),
-            slow ? fmt::format("correct the times of this column: a diagnosis measures and takes out at most {:g} s",
-                               kLongestLateness)
-                 : "record both with one clock; the diagnosis takes a constant lag out if the sensor is slower than "
-                   "its motor's, and names it as the effect delay otherwise");
+  c.suspect(
+      column_name(&Log::joint_position, k),
+      fmt::format("is {:.3g} ms {} motor_position_{}; the shift removes {:.0f} % of the squared mismatch",
+                  1e3 * std::abs(best.late), best.late > 0 ? "late against" : "ahead of", k + 1,
+                  100 * (1 - best.left / at_zero)),
+      slow ? fmt::format("correct the times of this column: a diagnosis measures and takes out at most {:g} s",
+                         kLongestLateness)
+      : std::abs(best.late) > kLongestDelay
+          ? fmt::format("record both with one clock, or move the readings of this column by {:.4g} s in the file: "
+                        "the effect delay reaches {:g} s at most",
+                        -best.late, kLongestDelay)
+          : "record both with one clock; the diagnosis takes a constant lag out if the sensor is slower than "
+            "its motor's, and names it as the effect delay otherwise");
 }
 
 }  // namespace

@@ -246,6 +246,13 @@ TEST(ColumnMap, AColumnThatIsLeftOutIsNotRead) {
              "motor_torque_1=NAME, or do not leave it out");
 }
 
+TEST(ColumnMap, OfAnotherLoggerDoesNotReadALogOfHalyardsOwn) {
+  EXPECT_HAS(
+      refusal_of(kHeader + "0,1,2\n", map_of({"time=t_ms,unit=ms", "motor_position_1=enc"})),
+      ":1: has the column names of halyard's own logs, and none that the map of the model or --column names; read "
+      "it with a model without <columns>, and without --column");
+}
+
 TEST(ColumnMap, MustFitFileAndArm) {
   EXPECT_HAS(refusal_of("t,motor_torque_1,motor_position_1\n0,1,2\n", map_of({"time=t", "joint_torque_1=load"})),
              ":1: no column 'load' (mapped to joint_torque_1); the file has 't', 'motor_torque_1', 'motor_position_1'; "

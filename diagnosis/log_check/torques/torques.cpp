@@ -83,6 +83,12 @@ void check_torque_unit(LogUnderCheck& c, const TorqueComparison& t, int k, const
       "the motion requires {:.3g} times the recorded torque (expected 1 within a factor "
       "of {:g})",
       r.size, c.rule.torque_ratio);
+  if (c.is_electric(torque))
+    return c.reject(torque, seen + "; the column is in A or V, and no scale to N m is known",
+                    fmt::format("give the motor's torque constant (N m per A, or per V of the amplifier) as scale= of "
+                                "this column, or state torque_scale=\"1\" in <tolerances> of joint {} and have it "
+                                "estimated",
+                                k + 1));
   const std::string current =
       fmt::format("if it is a current or a voltage, state torque_scale=\"1\" in <tolerances> of joint {}", k + 1);
   if (misfit(best) > std::log(c.rule.torque_unit))

@@ -136,7 +136,7 @@ TEST(LogCheck, CorrectsAReversedMotorBeforeItChecksTheNextColumn) {
 
 TEST(LogCheck, SuspectsAZeroThatIsFarOff) {
   expect_one(changed(&Log::joint_position, 0, [](double q) { return q + 2; }), "joint_position_1", Severity::suspicious,
-             {"correct its zero", "offset=-2"});
+             {"if its zero is wrong", "offset=-2"});
   expect_one(changed(&Log::motor_position, 1, [](double q) { return q - 200; }), "motor_position_2",
              Severity::suspicious, {"motor_offset=\"unknown\""});
   expect_right(changed(&Log::joint_position, 0, [](double q) { return q + 0.1; }), raven(), "an effect");

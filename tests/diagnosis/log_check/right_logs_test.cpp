@@ -127,7 +127,8 @@ TEST(LogCheckOnRecordings, FindsThatThePitchOfAWristMovesTheZeroOfAJaw) {
   const fs::path run = fs::path(HALYARD_SHARED_DATA) / "davinci_tool/run_pitch0_003.csv";
   if (!fs::exists(run)) GTEST_SKIP() << "no recording at " << run;
   const ArmModel model = read_model(HALYARD_SOURCE_DIR "/examples/measured/davinci_tool/davinci_tool.xml");
-  expect_one(read_log_of(model, run, {}, false), "joint_position_1", Severity::suspicious, {"correct its zero"}, model);
+  expect_one(read_log_of(model, run, {}, false), "joint_position_1", Severity::suspicious, {"if its zero is wrong"},
+             model);
 }
 
 }  // namespace

@@ -74,6 +74,31 @@ TEST(PositionCheck, WithoutTorqueTheRangeTellsWhichSignIsReversed) {
   EXPECT_EQ(findings[0].remedy.find(", or reverse"), std::string::npos) << findings[0].remedy;
 }
 
+TEST(PositionCheck, TellsBothColumnsOfAJointInAWrongUnitAlthoughTheyAgree) {
+  const double degrees = 180 / M_PI;
+  Log log = scaled(&Log::motor_position, 1, degrees);
+  for (double& x : log.joint_position[1]) x *= degrees;
+  const std::vector<LogFinding> findings = check_log(log, raven());
+  ASSERT_EQ(findings.size(), 2u) << lines_of(findings);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string column = i == 0 ? "motor_position_2" : "joint_position_2";
+    EXPECT_EQ(findings[i].column, column);
+    EXPECT_EQ(findings[i].severity, Severity::gross);
+    EXPECT_NE(findings[i].remedy.find(option(column, "unit=deg")), std::string::npos) << lines_of(findings);
+  }
+}
+
+TEST(TorqueCheck, AsksForTheTorqueConstantOfACurrent) {
+  const Log log = scaled(&Log::motor_torque, 0, 1 / 0.03);  // A; the map divides no further
+  ColumnMap columns;
+  columns.add_entry("motor_torque_1=motor_torque_1,unit=A");
+  const std::vector<LogFinding> findings = check_log(log, raven(), columns);
+  ASSERT_EQ(findings.size(), 1u) << lines_of(findings);
+  EXPECT_EQ(findings[0].severity, Severity::gross);
+  EXPECT_NE(findings[0].what.find("the column is in A or V"), std::string::npos) << findings[0].what;
+  EXPECT_NE(findings[0].remedy.find("torque constant"), std::string::npos) << findings[0].remedy;
+}
+
 TEST(PositionCheck, CountsJointsFromOne) {
   const Log log = without_joint_sensors(scaled(&Log::motor_position, 1, 180 / 3.14159265358979));
   const std::vector<LogFinding> findings = found_by(check_positions, log, raven());
@@ -105,6 +130,10 @@ TEST(LogFindings, AGrossOneStopsADiagnosisAndCountsTheOthers) {
               stop_at_gross_finding({odd, wrong, more, odd, more});
             }),
             "some.csv: motor_torque_1: is wrong; mend it (and 2 more: run halyard check on the log)");
+  EXPECT_EQ(message_of([&] {
+              stop_at_gross_finding({wrong, more}, ", listed above");
+            }),
+            "some.csv: motor_torque_1: is wrong; mend it (and 1 more, listed above)");
 }
 
 TEST(LogFindings, TellTheLineIfTheErrorIsInOne) {
@@ -246,20 +275,47 @@ LogFinding zero_told(double by_motor, std::optional<double> by_joint) {
   return findings.empty() ? LogFinding{} : findings[0];
 }
 
-TEST(ZeroCheck, TellsAReadingThatIsHalfARangeFromWhatTheMotorSays) {
+TEST(ZeroCheck, TellsAReadingThatIsFartherFromWhatTheMotorSaysThanAnEffectReaches) {
   const LogFinding off = zero_told(0.6, 1.6);
   EXPECT_EQ(off.column, "joint_position_1");
-  EXPECT_EQ(off.what, "is 1.6 in the median where the motors say 0.6; the joint's range is 0 to 1.571");
+  EXPECT_EQ(off.what,
+            "is 1.6 rad (91.67 deg) in the median where the motors say 0.6 rad (34.38 deg); the joint's range is 0 to "
+            "1.571 rad (0 to 90 deg)");
   EXPECT_EQ(off.remedy,
-            "correct its zero with --column joint_position_1=joint_position_1,offset=-1, or state "
-            "joint_offset=\"unknown\" in <encoders> of joint 1");
-  EXPECT_EQ(zero_told(0.6, 1.3).what, "") << "by 0.7 of 1.571";
+            "if its zero is wrong, state joint_offset=\"unknown\" in <encoders> of joint 1, or correct it with " +
+                option("joint_position_1", "offset=-1") +
+                "; if the motor's is, state motor_offset=\"unknown\" there, or correct it with " +
+                option("motor_position_1", "offset=136.196"));
+  EXPECT_NE(zero_told(0.6, 1.11).what, "");
+  EXPECT_EQ(zero_told(0.6, 1.09).what, "") << "an encoder_offset reaches 0.5 rad";
+}
+
+// The motors that count from where they were switched on: each zero by the joints' sensors, not by the other motors.
+TEST(ZeroCheck, TellsTheZeroOfEachMotorAlthoughTheOthersAreWrongToo) {
+  Log log = right_log();
+  std::vector<double> first;
+  for (std::vector<double>& column : log.motor_position) {
+    first.push_back(column.front());
+    for (double& x : column) x -= first.back();
+  }
+  const std::vector<LogFinding> findings = check_log(log, raven());
+  ASSERT_EQ(findings.size(), 3u) << lines_of(findings);
+  for (int k = 0; k < 3; ++k) {
+    const std::string key = numbered("--column motor_position_", k) + numbered("=motor_position_", k) + ",offset=";
+    const std::size_t at = findings[k].remedy.find(key);
+    ASSERT_NE(at, std::string::npos) << lines_of(findings);
+    // But for the stretch of the cables, 2 rad at the motor.
+    EXPECT_NEAR(std::stod(findings[k].remedy.substr(at + key.size())), first[k], 2) << k;
+    EXPECT_NE(findings[k].remedy.find("motor_offset=\"unknown\""), std::string::npos);
+  }
 }
 
 TEST(ZeroCheck, TellsAMotorThatPutsItsJointAQuarterOfARangeOutside) {
   EXPECT_EQ(zero_told(2.1, 0.6).what,
-            "puts joint 1 at 2.1 in the median; its sensor says 0.6, its range is 0 to 1.571");
-  EXPECT_EQ(zero_told(2.1, std::nullopt).what, "puts joint 1 at 2.1 in the median, outside its range, 0 to 1.571");
+            "puts joint 1 at 2.1 rad (120.3 deg) in the median; its sensor says 0.6 rad (34.38 deg), its range is 0 to "
+            "1.571 rad (0 to 90 deg)");
+  EXPECT_EQ(zero_told(2.1, std::nullopt).what,
+            "puts joint 1 at 2.1 rad (120.3 deg) in the median, outside its range, 0 to 1.571 rad (0 to 90 deg)");
   EXPECT_EQ(zero_told(1.9, std::nullopt).what, "");
 }
 
