@@ -54,6 +54,7 @@ class Diagnoser {
       searched = search(training, holdout, *tells);
     const Evidence& evidence = *searched.evidence;
     weigh_unlisted_causes(evidence, tolerated_, attribution());
+    changed_ = drop_doubtful_events(evidence, *searched.whole, tolerated_, attribution(), std::move(changed_));
     DiagnosisData& data = searched.data;
     for (const DiagnosisData::Late& late : data.late) result_.log_findings.push_back(finding_of(late));
     details_->late = data.late;
@@ -62,7 +63,7 @@ class Diagnoser {
     details_->torque_view = std::move(data.torque_view);
     if (names_would_be_guesses(evidence)) refuse_names(evidence);
     else tell_names(evidence);
-    tell_rests(evidence, attribution().final_score);
+    tell_rests(evidence);
     adopt_on_holdout(evidence, *searched.whole, data.training_joints);
     tell_refits();
     if (!is_revised()) result_.tolerance_factor = 1;
@@ -141,6 +142,13 @@ class Diagnoser {
     attribution().final_fit.hypothesis = {result_.given.nominal, result_.given.effects,
                                           attribution().baseline.hypothesis.past};
     attribution().final_score = evidence.score(final_hypothesis());
+    gave_up_ = true;
+  }
+
+  /// Of the model that tells what is left. What numbers explain within their tolerances stays explained where the
+  /// revision is given up.
+  const Score& score_of_rest() const {
+    return gave_up_ ? details_->attribution.baseline_score : details_->attribution.final_score;
   }
 
   void tell_names(const Evidence& evidence) {
@@ -215,10 +223,9 @@ class Diagnoser {
     return mean_square_misfit(evidence, {final_hypothesis(), score}, named);
   }
 
-  /// by: tells which residuals matter.
-  void tell_rests(const Evidence& evidence, const Score& by) {
+  void tell_rests(const Evidence& evidence) {
     const std::vector<bool> rest_of =
-        significant_rest(evidence, by, misfit_of_names(evidence, attribution().final_score));
+        significant_rest(evidence, score_of_rest(), misfit_of_names(evidence, attribution().final_score));
     const int n = model_.n();
     for (int k = 0; k < n; ++k)
       if (rest_of[k] || rest_of[n + k]) result_.unexplained.push_back({k, signature(evidence, final_hypothesis(), k)});
@@ -229,8 +236,7 @@ class Diagnoser {
   void tell_probabilities(const Evidence& evidence) {
     // The hold-out may have changed the numbers since final_score.
     const std::vector<double> misfit = misfit_of_names(evidence, evidence.score(final_hypothesis()));
-    for (const double none : probabilities_of_a_rest(evidence, attribution().final_score, misfit))
-      none_ = std::max(none_, none);
+    for (const double none : probabilities_of_a_rest(evidence, score_of_rest(), misfit)) none_ = std::max(none_, none);
     result_.probability_none = kRule.outside_if_certain * none_;
     // Something acts also where the effect gets no name, or predicts the hold-out badly.
     std::vector<double> present;
@@ -290,7 +296,7 @@ class Diagnoser {
   bool is_revised() const { return final_hypothesis().effects.size() > given_ || !changed_.empty(); }
 
   /// What the hold-out refuses becomes unexplained, and what it had explained. Numbers that changed too little to be
-  /// told go back without a word, and what numbers explain within their tolerances stays explained.
+  /// told go back without a word.
   void refuse(const Evidence& evidence, const std::vector<int>& worse) {
     const bool is_told = is_revised();
     const std::vector<PlacedEffect>& all = final_hypothesis().effects;
@@ -299,7 +305,7 @@ class Diagnoser {
     if (!is_told) return;
     result_.unexplained.clear();  // what the refused model leaves
     for (const int k : worse) result_.unexplained.push_back({k, reason, Unexplained::Kind::refused});
-    tell_rests(evidence, attribution().baseline_score);
+    tell_rests(evidence);
   }
 
   const ArmModel& model_;
@@ -314,6 +320,7 @@ class Diagnoser {
   std::vector<double> none_for_;      ///< of each, probabilities_of_none()
   std::vector<NamedEffect> told_;     ///< of each, what is told of it
   double none_ = 0;                   ///< the largest P(none) of a name or of a channel
+  bool gave_up_ = false;              ///< see give_up_revision()
   std::shared_ptr<DiagnosisDetails> details_ = std::make_shared<DiagnosisDetails>();
   Diagnosis result_;
 };

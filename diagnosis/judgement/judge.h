@@ -115,6 +115,8 @@ class Judge {
   /// none does or no size would be left. These sizes and their shapes are `given_up`.
   std::optional<Hypothesis> without_sizes_at_bound(const Hypothesis& h, std::size_t place,
                                                    std::vector<FitParameter>& given_up) const;
+  /// True if the effect at `place` ends at its plausible bound with a size, or with a shape that acts.
+  bool at_bound(const Scored& with, std::size_t place) const { return !sizes_at_bound(with, place).empty(); }
   /// True if an added effect ends at its plausible bound, so that the final fit would take back what it explains.
   bool leans_on_a_bound(const Scored& found) const;
   /// Cost of a fit: -ln L on the fitting blocks plus the prior cost of the baseline parameters.
@@ -124,7 +126,6 @@ class Judge {
 
  private:
   bool explains_a_rest(const Score& before, const Score& after) const;
-  bool at_bound(const Scored& with, std::size_t place) const { return !sizes_at_bound(with, place).empty(); }
   std::vector<std::size_t> sizes_at_bound(const Scored& with, std::size_t place) const;
   bool acts(const Scored& with, const FitParameter& shape) const;
   bool lasts_as_long_as_the_motion(const Scored& with, const std::vector<FitParameter>& parameters,

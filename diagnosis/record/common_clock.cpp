@@ -34,8 +34,8 @@ Hypothesis on_own_clock(const Record& record, Hypothesis h) {
 
 const Record* record_of(const PlacedEffect& effect, const ArmParameters<double>& arm,
                         const std::vector<Record>& records) {
-  const std::vector<std::size_t> instants = instants_of(effect, arm);
   if (!is_event(effect, arm)) return nullptr;
+  const std::vector<std::size_t> instants = instants_of(effect, arm);
   const double first = effect.p[instants.front()], last = effect.p[instants.back()];
   const auto overlap = [&](const Record& r) {
     return std::min(last, r.time(r.size - 1) + r.clock_shift) - std::max(first, r.start + r.clock_shift);

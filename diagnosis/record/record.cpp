@@ -138,8 +138,7 @@ class Stretch {
     r.motor_acceleration[k] = filtered(angle, kernel_.curvature);
     if (external_[k].is_there()) r.external[k] = filtered(on_grid(external_[k], 0), kernel_.value);
     if (torque_[k].is_there() && driven) {
-      const double hold = std::min(torque_[k].interval(), kLongestHold);
-      r.torque[k] = filtered(on_grid(torque_[k], -0.5 * hold), kernel_.value);
+      r.torque[k] = filtered(on_grid(torque_[k], -0.5 * seconds_held(log_, model_, k)), kernel_.value);
     }
     if (joint_[k].is_there()) {
       const std::vector<double> reading = on_grid(joint_[k], 0);
@@ -280,6 +279,11 @@ std::vector<Row> mark_gaps(const Log& log, const ArmModel& model, double longest
 }
 
 }  // namespace
+
+double seconds_held(const Log& log, const ArmModel& model, int k) {
+  if (model.nominal.joint[k].torque_source == TorqueSource::measured) return 0;
+  return std::min(SampledColumn(log.time, log.motor_torque[k]).interval(), kLongestHold);
+}
 
 bool has_slow_joint_sensor(const Log& log, const ArmModel& model, int k) {
   constexpr double kSlower = 1.5;

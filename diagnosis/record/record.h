@@ -41,7 +41,7 @@ struct Record {
   std::size_t size = 0;
   /// Readings, including encoder offsets. For a joint without a motor: the joint's own motion, rad | m.
   Signals motor_angle, motor_rate, motor_acceleration;
-  Signals torque;                                        ///< commanded, N m; without the hold's delay of half a sample
+  Signals torque;                                        ///< of the motor, N m; a command without half of its hold
   Signals joint;                                         ///< joint reading through K_m; empty: no sensor
   Signals joint_raw;                                     ///< the reading itself, interpolated between its samples
   Signals external;                                      ///< measured load on the joint; empty: none
@@ -76,8 +76,7 @@ struct RecordOptions {
 ///
 /// These signals are left out: sensors that are stuck, see stuck_joint_sensors(); a joint sensor that never changes and
 /// whose resolution the model does not state; a torque that is always 0.
-/// A command is assumed to be held until the next sample, but at most for kLongestHold. A longer interval is assumed to
-/// be the logger's, not the controller's.
+/// A command is assumed to be held for seconds_held().
 ///
 /// Hypotheses may take more stages than usual if the model itself needs them, as with a joint that is light for its
 /// friction.
@@ -85,6 +84,10 @@ struct RecordOptions {
 /// Throws InputError if a motor's position is not in the log, if no stretch is at least a second longer than the
 /// settling time, or if there are fewer than ten samples a second; and as home_encoders() does.
 std::vector<Record> make_records(const Log& log, const ArmModel& model, const RecordOptions& options);
+
+/// For how long the torque of motor k is that of its sample, s: until the next sample, but at most for kLongestHold,
+/// since a longer interval is assumed to be the logger's and not the controller's. 0 for a torque that is measured.
+double seconds_held(const Log& log, const ArmModel& model, int k);
 inline constexpr double kLongestHold = 0.002;  ///< s
 
 /// True if the sensor of joint k is slower than its motor's encoder, and so has a clock of its own: one reading in

@@ -146,9 +146,13 @@ std::vector<double> PairRivals::weights(const Attribution& found, const Places& 
   for (const Pair& p : pairs) of_pairs.push_back(log_likelihood(evidence_, p.score, least));
   std::vector<Competitor> all = {{&of_names, judge_.prior_cost(h)}};
   for (const std::size_t place : places) all[0].prior_cost += cost(h.effects[place]);
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    all.push_back(
-        {&of_pairs[i], cost(pairs[i].first) + cost(pairs[i].second) + judge_.prior_cost(pairs[i].fit.hypothesis)});
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Scored fitted{pairs[i].fit.hypothesis, pairs[i].score};
+    double prior_cost = cost(pairs[i].first) + cost(pairs[i].second) + judge_.prior_cost(fitted.hypothesis);
+    for (const std::size_t place : {fitted.hypothesis.effects.size() - 2, fitted.hypothesis.effects.size() - 1})
+      if (judge_.at_bound(fitted, place)) prior_cost += kRule.at_bound;
+    all.push_back({&of_pairs[i], prior_cost});
+  }
   return name_weights(evidence_, all, {&of_none, judge_.prior_cost(none)});
 }
 

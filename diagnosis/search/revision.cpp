@@ -37,12 +37,17 @@ class Revision {
 
   std::vector<std::size_t> run() {
     fit_finally(found_.final_fit);
+    return run_from_here();
+  }
+  /// found: it has been revised before.
+  std::vector<std::size_t> run_from_here() {
     while (drop_one() || join_one()) {}
     const std::vector<std::size_t> changed = changed_numbers(whole_, model_, found_.final_fit);
     // A model that lacks nothing stays as it is.
     if (changed.empty() && effects().size() == given_) give_numbers_back();
     return changed;
   }
+  bool has_one_to_drop() const { return effect_to_drop().has_value(); }
 
  private:
   const std::vector<PlacedEffect>& effects() const { return found_.final_fit.hypothesis.effects; }
@@ -136,6 +141,12 @@ class Revision {
 std::vector<std::size_t> revise(const Evidence& evidence, const Evidence& whole, const ArmModel& given,
                                 Attribution& found) {
   return Revision(evidence, whole, given, found).run();
+}
+
+std::vector<std::size_t> drop_doubtful_events(const Evidence& evidence, const Evidence& whole, const ArmModel& given,
+                                              Attribution& found, std::vector<std::size_t> changed) {
+  Revision revision(evidence, whole, given, found);
+  return revision.has_one_to_drop() ? revision.run_from_here() : changed;
 }
 
 namespace {

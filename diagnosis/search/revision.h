@@ -20,6 +20,11 @@ namespace halyard {
 std::vector<std::size_t> revise(const Evidence& evidence, const Evidence& whole, const ArmModel& given,
                                 Attribution& found);
 
+/// After a cause that the library lacks has been weighed (unlisted_causes.h): drops the doubtful events as revise()
+/// does. changed: what revise() returned. Returns the numbers that changed by then.
+std::vector<std::size_t> drop_doubtful_events(const Evidence& evidence, const Evidence& whole, const ArmModel& given,
+                                              Attribution& found, std::vector<std::size_t> changed);
+
 /// P(none) of what the effect of that index explains in the final fit (name_probability.h). Effects at one joint may
 /// cancel each other for the most part, as a zero and a ratio that together imitate a bent characteristic. What such an
 /// effect may miss is measured by what all added effects at its joint do together, if that is less than what it does

@@ -191,6 +191,20 @@ TEST(Diagnose, NamesNothingFromOneSine) {
   EXPECT_TRUE(d.revised.effects.empty());
 }
 
+TEST(Diagnose, LeavesWhatNumbersExplainWithinTheirTolerancesWhereItNamesNothing) {
+  const ArmModel model = two_joints();
+  ArmModel truth = model;
+  truth.nominal.joint[0].motor_coulomb *= 1.2;
+  truth.effects.push_back(placed("backlash", model, 1, {3e-4}));
+  Scenario s = motion(truth, 8);
+  for (JointTrajectory& t : s.trajectory) t.sines.resize(1);
+  const Diagnosis d = diagnose(model, {simulate(s).measured}, {}, quick());
+  ASSERT_EQ(d.unexplained.size(), 3u);
+  for (const int k : {0, 1}) EXPECT_EQ(d.unexplained[k].kind, Unexplained::Kind::motion);
+  EXPECT_EQ(d.unexplained[2].kind, Unexplained::Kind::rest);
+  EXPECT_EQ(d.unexplained[2].joint, 1) << "not the other joint, whose friction is within its tolerance";
+}
+
 // The second, independent simulator; 15 s of its 30 s records, for the time that this takes.
 class Rig : public ::testing::Test {
  protected:

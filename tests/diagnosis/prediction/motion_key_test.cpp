@@ -74,5 +74,42 @@ TEST(MotionKey, LeavesOutOnlyWhatDoesNotMoveTheArm) {
   }
 }
 
+/// A brake at the joint that grips with a lag behind the torque of the motor.
+class Brake : public EffectOf<Brake> {
+ public:
+  std::string name() const override { return "brake"; }
+  std::string summary() const override { return "a brake that follows the torque of the motor"; }
+  unsigned stages() const override {
+    return static_cast<unsigned>(EffectStage::motor) | static_cast<unsigned>(EffectStage::joint);
+  }
+  int n_states() const override { return 1; }
+  std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace) const override {
+    return {{"gain", "1", 0, 1, 0, 100}};
+  }
+  template <class T>
+  void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
+    s[*c.joint].joint_force -= c.p[0] * c.z[0];
+  }
+  template <class T>
+  void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
+    z_dot[0] = T(20.0) * (s[*c.joint].motor_torque - c.z[0]);
+  }
+};
+
+TEST(MotionKey, HasTheTorquesThatAStateCarriesToTheJoint) {
+  const Brake brake;
+  const ArmModel model = first_joints(1);
+  const Record record = make_records(simulate(motion(model, 2)).measured, model, {})[0];
+  Hypothesis base{model.nominal, {place_effect(brake, model.nominal, 0)}};
+  base.effects[0].p[0] = 20;
+  Hypothesis other = base;
+  other.nominal.joint[0].motor_coulomb *= 1.2;
+  const auto together = predict(record, {base, other}, 10);
+  const Residuals alone = predict(record, {other}, 10)[0];
+  ASSERT_TRUE(alone.finite && together[1].finite);
+  EXPECT_LT(difference(alone, together[1]), 1e-9);
+  EXPECT_GT(difference(together[1], together[0]), 1e-6);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -117,6 +117,18 @@ TEST(Record, EverySignalPassesOneFilterWhateverTheSampleRate) {
   }
 }
 
+TEST(Record, AMeasuredTorqueIsThatOfItsSample) {
+  const auto ramp = [](double t) { return 3 * t; };
+  ArmModel model = raven2();
+  for (const TorqueSource source : {TorqueSource::commanded, TorqueSource::measured}) {
+    model.nominal.joint[0].torque_source = source;
+    const Record r = make_records(log_of(ramp, 3, 1000), model, kOneKernel)[0];
+    const double later = source == TorqueSource::measured ? 0 : 0.5e-3;
+    for (std::size_t i = 0; i < r.size; ++i)
+      if (inside(r, i)) EXPECT_NEAR(r.torque[0][i], ramp(r.time(i) - later), 1e-12);
+  }
+}
+
 TEST(Record, LongGapsSplitALogAndShortOnesDoNot) {
   for (const double gap : {0.03, 0.2}) {
     Log whole = log_of([](double t) { return t; }, 6, 1000), log(3);

@@ -97,6 +97,21 @@ TEST(Revision, KeepsADoubtfulEffectButNotOneThatBelongsToTheLog) {
   EXPECT_EQ(s.effects()[0].effect->name(), "capstan_ratio");
 }
 
+TEST(Revision, DropsASlipForWhichACauseOutsideTheLibraryIsMoreProbable) {
+  PlacedEffect slip = on_the_only_joint("cable_slip", 2e-4);
+  slip.p[1] = 2.5;
+  Searched s({slip}, {slip});
+  const std::vector<std::size_t> changed = s.revise();
+  const auto drop = [&] { return drop_doubtful_events(s.evidence, s.whole, s.model, s.found, changed); };
+  s.found.namings[0].unlisted = {0.1, "another cause"};
+  EXPECT_EQ(drop(), changed);
+  EXPECT_EQ(s.effects().size(), 1u);
+  s.found.namings[0].unlisted.weight = 0.9;
+  drop();
+  EXPECT_TRUE(s.effects().empty());
+  EXPECT_TRUE(s.found.namings.empty());
+}
+
 TEST(Revision, DropsAPushThatIsDoubtfulBesideAResidualOfItsJoint) {
   PlacedEffect push = on_the_only_joint("external_force", 0.5);
   push.p[1] = 2, push.p[2] = 3;
