@@ -8,8 +8,8 @@
 namespace halyard {
 
 Log read_timed_log(const ArmModel& model, const std::filesystem::path& path,
-                   const std::vector<std::string>& column_entries) {
-  Log log = read_log_of(model, path, column_entries);
+                   const std::vector<std::string>& column_entries, bool torque_required) {
+  Log log = read_log_of(model, path, column_entries, torque_required);
   stop_at_gross_finding(check_times(log, model, columns_of(model, column_entries)));
   return log;
 }

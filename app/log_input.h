@@ -14,7 +14,7 @@ namespace halyard {
 /// Reads a log that an estimator or an identification runs over. Throws InputError as read_log_of() does, and for times
 /// that are not in seconds.
 Log read_timed_log(const ArmModel& model, const std::filesystem::path& path,
-                   const std::vector<std::string>& column_entries);
+                   const std::vector<std::string>& column_entries, bool torque_required = true);
 
 /// For --use-joint-torque: throws InputError if the log has no measured load.
 void check_has_load(const Log& log);

@@ -126,13 +126,13 @@ report::Page plan_page(const Plan& plan) {
                     fmt::format("model {}, motion of {}{}", plan.model.source, plan.scenario,
                                 plan.joint_sensor ? "" : ", no sensor at the joints"));
   page.paragraph(
-      "The arm was simulated as the model has it. From the size in the table on, an effect changes a signal by more "
-      "than its "
-      "sensor resolves and more than the model's own numbers can take within their tolerances, significantly over the "
-      "length of "
-      "the motion. From the naming limit on, no other effect explains the same data about as well. The last column has "
-      "the "
-      "effects that do at twice the detection limit.");
+      "The arm was simulated without any effect, as the model describes it. A diagnosis of this motion would see an "
+      "effect whose size is farther from its value without the effect (0, or 1 for ratios and scales) than the "
+      "detection "
+      "limit: it then changes a signal by significantly more than its sensor resolves, and by more than the model's "
+      "numbers can absorb within their tolerances. Beyond the naming limit, no other effect explains the same data "
+      "about "
+      "as well. The last column lists the effects that do so at twice the detection limit.");
   if (plan.names_nothing) page.verdict(report::VerdictKind::warning, kNamesNothing);
   report::Table table;
   table.header = {"effect", "joint", "detection limit", "naming limit", "not distinguishable from"};
@@ -168,6 +168,9 @@ std::string plan_text(const Plan& plan) {
     line += row.back();
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
+  text +=
+      "A diagnosis would see an effect whose size is farther from its value without the effect (0, or 1 for ratios and "
+      "scales)\nthan the detection limit, and name it beyond the naming limit.\n";
   if (plan.names_nothing) text += fmt::format("{}\n", kNamesNothing);
   if (!plan.separating) return text;
   const SeparatingMotion& m = *plan.separating;

@@ -46,6 +46,19 @@ TEST_F(App, EstimateWritesWhatElseIsEstimatedAndWhatLaterSamplesSayOfEarlierOnes
   EXPECT_TRUE(contains(nowhere.err, "revises its estimate of 1000000 s, where no sample is")) << nowhere.err;
 }
 
+TEST_F(App, KinematicsNeedsNoTorque) {
+  simulate_log();
+  estimate("kinematics", "log.csv", "with.csv");
+  const auto estimate_without = [&](const std::string& estimator) {
+    return run({"estimate", "--model", "raven2.xml", "--estimator", estimator, "--data", "log.csv", "--column",
+                "motor_torque_1=", "--column", "motor_torque_2=", "--column", "motor_torque_3=", "--out",
+                "without.csv"});
+  };
+  EXPECT_EQ(estimate_without("kinematics").exit_code, 0);
+  EXPECT_EQ(text_of(path("without.csv")), text_of(path("with.csv")));
+  EXPECT_EQ(estimate_without("ekf").exit_code, 2);
+}
+
 TEST_F(App, EstimatesOfInstructionSetsDifferByRounding) {
   simulate_log();
   estimate("sr_ukf", "log.csv", "widest.csv");

@@ -118,10 +118,11 @@ void add_evidence(report::Page& page, const Diagnosis& d, const DiagnosisEvaluat
   if (!evaluation.evidence) return;
   const auto& [effects, unexplained] = *evaluation.evidence;
   if (effects.empty() && unexplained.empty()) return;
-  page.heading("Residuals that point");
+  page.heading("What the residuals show");
   page.paragraph(
-      "Measured less predicted on the training data, on which the verdict rests, over what the residual goes with "
-      "most: by the revised model without an effect, and with it. Shares are less what chance would give.");
+      "A residual is the measured value minus the predicted one, on the training data. Each chart shows a residual "
+      "against the signal that explains most of it: predicted by the revised model without one effect, and with it. "
+      "The shares that are stated are those above what chance would give.");
   const auto add = [&](const std::string& text, const EffectEvidence& evidence, bool is_rest) {
     page.paragraph(text);
     if (const auto charts = view_charts(evidence, d.revised.nominal, is_rest); !charts.empty()) page.figure_row(charts);

@@ -35,7 +35,8 @@ TEST_F(BadInput, AColumnEntryThatCannotBeMeant) {
                         "for the first joint), marker_x, marker_y, marker_z");
   expect_column_refused("motor_torque_1=none",
                         "log.csv:1: no column 'none' (mapped to motor_torque_1); the file has 'time', {any}; say which "
-                        "column of the file it is, in the model file or by --column motor_torque_1=NAME");
+                        "column of the file it is, in the model file or by --column motor_torque_1=NAME, or by "
+                        "--column motor_torque_1= that the log lacks it");
   expect_column_refused("motor_torque_1=motor_torque_1,unit=deg",
                         "column map 'motor_torque_1=motor_torque_1,unit=deg': column 'motor_torque_1': unit 'deg': "
                         "expected one of N.m, mN.m, N.mm, N, A, mA, V, mV; for any other unit leave it out and give a "
@@ -194,7 +195,7 @@ TEST_F(BadInput, AModuleOfEffectsThatCannotBeLoaded) {
                         {"plugin ./text.so: not a shared module (ELF); give the path of a compiled plug-in (.so)\n"});
   expect_module_refused("./none.so", {"plugin ./none.so: no such file; check the path\n"});
   expect_module_refused(broken + "/well_formed.so", {"well_formed.so: ", "halyard_effects"});
-  expect_module_refused(broken + "/effects_older_interface.so", {"effects_older_interface.so: ", "effect interface 2"});
+  expect_module_refused(broken + "/effects_older_interface.so", {"effects_older_interface.so: ", "effect interface 3"});
   for (const std::string name : {"effects_crashes_when_opened.so", "effects_crashes_in_table.so"})
     expect_module_refused(broken + "/" + name, {name + ": as it is loaded: crashed: Segm", "; correct what runs then"});
 }
@@ -226,6 +227,8 @@ TEST_F(BadInput, ASweepThatCannotBeComputed) {
                        {"a sweep of limits runs no estimator"}, "limits=\"backlash\"");
   expect_sweep_refused(good, {"estimators=\"ekf\"", "beside limits"}, "limits=\"backlash\" estimators=\"ekf\"");
   expect_sweep_refused(replaced(good, "/>", " applies_to=\"robot\"/>"), {"as the model says"}, "limits=\"backlash\"");
+  expect_sweep_refused("<axis parameter=\"joint2.effect.backlash.half_gap\" values=\"0 1e-4\"/>",
+                       {"puts an effect into the model whose limits are measured"}, "limits=\"backlash\"");
   expect_sweep_refused(good, {"measures=\"time\"", "add errors"}, "estimators=\"ekf\" measures=\"time\"");
   expect_sweep_refused(good, {"samples=\"8\"", "a grid has none"}, "estimators=\"ekf\" samples=\"8\"");
   expect_sweep_refused(good, {"design=\"sobel\"", "latin_hypercube"}, "estimators=\"ekf\" design=\"sobel\"");
