@@ -14,6 +14,10 @@ Log read_timed_log(const ArmModel& model, const std::filesystem::path& path,
   return log;
 }
 
+bool need_torque(const std::vector<std::string>& estimators) {
+  return std::ranges::any_of(estimators, [](const std::string& name) { return name != "kinematics"; });
+}
+
 void check_has_load(const Log& log) {
   if (std::ranges::all_of(log.joint_torque, [](const auto& column) { return column.empty(); }))
     throw InputError(log.source +

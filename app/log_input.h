@@ -16,6 +16,9 @@ namespace halyard {
 Log read_timed_log(const ArmModel& model, const std::filesystem::path& path,
                    const std::vector<std::string>& column_entries, bool torque_required = true);
 
+/// Whether one of the estimators uses the torques of the motors; `kinematics` does not.
+bool need_torque(const std::vector<std::string>& estimators);
+
 /// For --use-joint-torque: throws InputError if the log has no measured load.
 void check_has_load(const Log& log);
 

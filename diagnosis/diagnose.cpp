@@ -145,8 +145,11 @@ class Diagnoser {
     gave_up_ = true;
   }
 
-  /// Of the model that tells what is left. What numbers explain within their tolerances stays explained where the
-  /// revision is given up.
+  /// The model whose residuals are the unexplained rest. Where the revision is given up, it is the given model with its
+  /// numbers refitted: what these explain within their tolerances stays explained.
+  const Hypothesis& rest_is_of() const {
+    return gave_up_ ? details_->attribution.baseline.hypothesis : final_hypothesis();
+  }
   const Score& score_of_rest() const {
     return gave_up_ ? details_->attribution.baseline_score : details_->attribution.final_score;
   }
@@ -228,9 +231,8 @@ class Diagnoser {
         significant_rest(evidence, score_of_rest(), misfit_of_names(evidence, attribution().final_score));
     const int n = model_.n();
     for (int k = 0; k < n; ++k)
-      if (rest_of[k] || rest_of[n + k]) result_.unexplained.push_back({k, signature(evidence, final_hypothesis(), k)});
-    for (Unexplained& line : lines_above_band(evidence, final_hypothesis()))
-      result_.unexplained.push_back(std::move(line));
+      if (rest_of[k] || rest_of[n + k]) result_.unexplained.push_back({k, signature(evidence, rest_is_of(), k)});
+    for (Unexplained& line : lines_above_band(evidence, rest_is_of())) result_.unexplained.push_back(std::move(line));
   }
 
   void tell_probabilities(const Evidence& evidence) {

@@ -162,7 +162,7 @@ void bind_columns(std::vector<Column>& columns, Log& log, const ColumnMap& map, 
       std::ranges::none_of(map.sources(), [&](const auto& m) { return has(m.second.column); });
   if (is_mapped_in_vain)
     header.fail(
-        "has the column names of halyard's own logs, and none that the map of the model or --column names; read "
+        "has the column names of halyard's own logs, but none of the columns that <columns> or --column ask for; read "
         "it with a model without <columns>, and without --column");
   header.fail("no column " + listed(missing) + "; the file has " + listed(present) +
               "; say which column of the file it is, in the model file or by --column " + example + "=NAME" +

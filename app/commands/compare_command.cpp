@@ -81,7 +81,7 @@ Data logged_data(const CompareCommandOptions& options) {
   Data data;
   data.model = read_model(options.model);
   data.model_path = options.model.string();
-  data.measured = read_timed_log(data.model, options.data, options.columns);
+  data.measured = read_timed_log(data.model, options.data, options.columns, need_torque(options.estimators));
   if (options.use_joint_torque) check_has_load(data.measured);
   check_skip(options.skip_s, data.measured.duration(), options.data.string());
   data.truth = data.measured;

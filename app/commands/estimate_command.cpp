@@ -38,8 +38,7 @@ void print_run_errors(const Comparison& comparison) {
 void run_estimate(const EstimateCommandOptions& options) {
   const auto lock = lock_output_file(options.out);
   const ArmModel model = read_model(options.model);
-  const bool needs_torque = options.estimator != "kinematics";
-  const Log log = read_timed_log(model, options.data, options.columns, needs_torque);
+  const Log log = read_timed_log(model, options.data, options.columns, need_torque({options.estimator}));
   check_not_input(options.out);
   if (options.use_joint_torque) check_has_load(log);
   // The estimates are worth having even of a log that is too short for errors.

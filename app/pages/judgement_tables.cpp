@@ -116,6 +116,7 @@ ordered_json to_json(const Consistency& c) {
   return {{"mean", number_or_null(c.mean)},
           {"band95", {number_or_null(c.lower), number_or_null(c.upper)}},
           {"independent_samples", number_or_null(c.samples)},
+          {"readings", number_or_null(c.readings)},
           {"verdict", word(c.confidence())}};
 }
 

@@ -77,10 +77,9 @@ struct LogCheckRule {
   double independent_s = 0.25;
   /// A correlation is significant beyond this many standard deviations of chance.
   double significance = 4;
-  /// Share of the range by which a position may lie outside its range, and by which a zero may be off.
+  /// Share of the range by which a position may lie outside its range, and by which a zero may be off. A zero that is
+  /// off by more than the effect encoder_offset reaches is told, however wide the range is.
   double outside = 0.25, zero = 0.5;
-  /// A zero that is off by more than the effect encoder_offset reaches is told, however wide the range is. rad, m
-  double zero_angle = 0.5, zero_length = 0.05;
   /// Slowest and fastest plausible sample rate, Hz. Records need 10 Hz.
   double slowest_hz = 10, fastest_hz = 50e3;
   /// Most samples a second that the controller of an arm takes; its current loops may be faster.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "diagnosis/log_check/agreement.h"
 #include "diagnosis/log_check/checks.h"
@@ -80,17 +81,13 @@ bool is_too_wide(const LogUnderCheck& c, int k, const std::vector<double>& posit
   return c.range(k) > 0 && spread(position) >= c.rule.gross_ratio * c.range(k);
 }
 
-/// The motion of a motor must fit into the range of its joint.
-void check_range_of_motion(LogUnderCheck& c, const SampledMotion& m, int k) {
-  const JointParameters<double>& j = c.model.nominal.joint[k];
-  if (!is_too_wide(c, k, m.expected[k])) return;
-  const std::string name = column_name(&Log::motor_position, k);
-  std::vector<UnitGuess> units = position_units(false, j.motor_encoder_resolution);
-  std::string guess = "in another unit";
-  Correction correction{.unit_factor = c.range(k) / (2 * spread(m.expected[k]))};
+/// The unit in which the motion of motor k fits into the range of its joint.
+std::optional<UnitGuess> unit_that_fits(const LogUnderCheck& c, const SampledMotion& m, int k) {
   constexpr double kLeastUsed = 0.2;  // of the range: a unit that leaves less of the motion is not the reason
+  const JointParameters<double>& j = c.model.nominal.joint[k];
+  std::optional<UnitGuess> fits;
   double best = kInfinity;
-  for (const UnitGuess& unit : units) {
+  for (const UnitGuess& unit : position_units(false, j.motor_encoder_resolution)) {
     std::vector<double> corrected = m.expected[k];
     for (double& q : corrected) q *= unit.factor;
     const double used = spread(corrected) / c.range(k);
@@ -98,19 +95,32 @@ void check_range_of_motion(LogUnderCheck& c, const SampledMotion& m, int k) {
     // Of several units that fit into the range the one that moves most is the likeliest.
     const double misfit =
         c.beyond_range(k, corrected, j.motor_zero_known && j.motor_encoder_offset == 0) - 0.1 * std::min(1.0, used);
-    if (misfit < best) best = misfit, guess = "in " + unit.what, correction.unit_factor = unit.factor;
+    if (misfit < best) best = misfit, fits = unit;
   }
+  return fits;
+}
+
+/// The motion of a motor must fit into the range of its joint. If the joint has a sensor that agrees, the motor may be
+/// right, and the range wrong.
+void check_range_of_motion(LogUnderCheck& c, const SampledMotion& m, int k, bool sensor_agrees) {
+  if (!is_too_wide(c, k, m.expected[k])) return;
+  const std::string name = column_name(&Log::motor_position, k);
+  const std::optional<UnitGuess> unit = unit_that_fits(c, m, k);
+  const std::string seen = fmt::format("moves joint {} by {}, {:.3g} times its range", k + 1,
+                                       c.position(k, spread(m.expected[k])), spread(m.expected[k]) / c.range(k));
+  if (!unit && sensor_agrees)
+    return c.suspect(name, seen + ", and so does its sensor",
+                     fmt::format("correct the range of joint {} in the model, or give both columns their unit", k + 1));
   // A factor that only fits would hide what is wrong.
-  const std::string remedy = best < kInfinity
-                                 ? "read it with " + c.option(name, correction)
-                                 : fmt::format(
-                                       "give the column its unit, or a scale that you know, by --column {0}=NAME, "
-                                       "or correct the range of joint {1} in the model",
-                                       name, k + 1);
+  const Correction correction{.unit_factor = unit ? unit->factor : c.range(k) / (2 * spread(m.expected[k]))};
+  const std::string remedy = unit ? "read it with " + c.option(name, correction)
+                                  : fmt::format(
+                                        "give the column its unit, or a scale that you know, by --column {0}=NAME, "
+                                        "or correct the range of joint {1} in the model",
+                                        name, k + 1);
   c.reject(name,
-           fmt::format("moves joint {} by {}, {:.3g} times its range, as if the angle were {}; expected rad at the "
-                       "motor shaft",
-                       k + 1, c.position(k, spread(m.expected[k])), spread(m.expected[k]) / c.range(k), guess),
+           fmt::format("{}, as if the angle were {}; expected rad at the motor shaft", seen,
+                       unit ? "in " + unit->what : "in another unit"),
            remedy);
   c.correct(&Log::motor_position, k, correction);
 }
@@ -135,7 +145,7 @@ void check_positions(LogUnderCheck& c) {
     const bool has_sensor = !m.joint[k].empty() && spread(m.joint[k]) > 0;
     // Both in the same wrong unit agree with each other.
     if (has_sensor && is_too_wide(c, k, m.joint[k]) && is_too_wide(c, k, m.expected[k])) {
-      check_range_of_motion(c, m, k);
+      check_range_of_motion(c, m, k, true);
       m = sampled_motion(c.log, c.model);
     }
     Slope s;
@@ -144,7 +154,7 @@ void check_positions(LogUnderCheck& c) {
       if (!is_near(std::abs(s.slope), 1, c.rule.ratio)) check_ratio(c, m, k, s);
       if (s.slope < 0 && !c.log.joint_position[k].empty()) reversed_joints.emplace_back(k, s);
     } else {
-      check_range_of_motion(c, m, k);
+      check_range_of_motion(c, m, k, false);
       if (has_sensor) check_relation(c, m, k);
     }
     m = sampled_motion(c.log, c.model);

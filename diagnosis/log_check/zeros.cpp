@@ -3,18 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include "diagnosis/calibration/lateness.h"
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/robust.h"
 #include "diagnosis/record/record.h"
 #include "diagnosis/record/sampled_column.h"
-#include "transmission/coupling.h"
+#include "model/homing.h"
+#include "model/input_error.h"
+#include "transmission/effect.h"
 
 namespace halyard {
 namespace {
-
-constexpr double kLongestDelay = 0.05;  ///< s, upper bound of the effect delay
 
 double beyond(const LogUnderCheck& c, int k, double level) { return c.beyond_range(k, {level}, true); }
 
@@ -42,29 +44,30 @@ std::string offset_that_fits(const LogUnderCheck& c, const std::vector<double>& 
       of_map + first, of_map + last, middle);
 }
 
-/// What the reading of motor k lacks, in positions of joint k, by the sensors of all joints that stretch its cable: the
-/// zeros of the other motors may be wrong, too.
-double zero_of_motor(const LogUnderCheck& c, const SampledMotion& m, int k) {
-  const ArmParameters<double>& arm = c.model.nominal;
-  std::vector<double> off;
-  for (std::size_t i = 0; i < m.time.size(); ++i) {
-    double wound = 0;
-    for (int j = 0; j < c.n(); ++j) {
-      const double per_joint = path_per_joint(arm.joint[k], j) / arm.joint[k].pulley_radius;
-      const std::vector<double>& position = m.joint[j].empty() ? m.expected[j] : m.joint[j];
-      if (per_joint != 0)
-        wound +=
-            per_joint * (position.empty() ? c.model.joints[j].home : position[i] - arm.joint[j].joint_encoder_offset);
-    }
-    off.push_back(wound - m.own[k][i]);
+/// What the reading of motor k lacks by the sensors of the joints, as homing finds it; nothing if they do not tell.
+std::optional<double> zero_of_motor(const LogUnderCheck& c, int k) {
+  ArmModel unknown = c.model;
+  for (int j = 0; j < c.n(); ++j) unknown.nominal.joint[j].motor_zero_known = j != k;
+  Log homed = c.log;
+  try {
+    home_encoders(homed, unknown);
+  } catch (const InputError&) {
+    return std::nullopt;
   }
-  return median(off);
+  for (std::size_t i = 0; i < homed.size(); ++i)
+    if (const double x = homed.motor_position[k][i] - c.log.motor_position[k][i]; std::isfinite(x)) return x;
+  return std::nullopt;
 }
 
-/// How far a zero may be off without being told.
+/// Upper bound of a parameter of an effect.
+double reach_of(const LogUnderCheck& c, const char* effect, const std::string& parameter, int k) {
+  const auto parameters = find_effect(effect)->parameters(c.model.nominal, k);
+  return std::ranges::find(parameters, parameter, &EffectParameter::name)->upper;
+}
+
+/// How far a zero may be off without being told: an effect may explain it.
 double allowed_offset(const LogUnderCheck& c, int k) {
-  const bool turns = c.model.nominal.joint[k].type == JointType::revolute;
-  return std::min(c.rule.zero * c.range(k), turns ? c.rule.zero_angle : c.rule.zero_length);
+  return std::min(c.rule.zero * c.range(k), reach_of(c, "encoder_offset", "offset", k));
 }
 
 void check_zero(LogUnderCheck& c, const SampledMotion& m, int k) {
@@ -72,7 +75,10 @@ void check_zero(LogUnderCheck& c, const SampledMotion& m, int k) {
   if (!(c.range(k) > 0) || m.expected[k].empty()) return;
   const std::string motor = column_name(&Log::motor_position, k), joint = column_name(&Log::joint_position, k);
   const double expected = median(m.expected[k]), off = median_mismatch(m, k);
-  const std::string to_motor = c.option(motor, Correction{.offset = zero_of_motor(c, m, k) / c.joint_per_motor(k)});
+  const auto to_motor = [&] {
+    const std::optional<double> zero = zero_of_motor(c, k);
+    return zero ? ", or correct its zero with " + c.option(motor, Correction{.offset = *zero}) : "";
+  };
   if (std::isfinite(off) && j.joint_zero_known && j.motor_zero_known) {
     const double read = median(m.joint[k]);
     const bool reading_out = beyond(c, k, read) > c.rule.outside && beyond(c, k, expected) <= c.rule.outside;
@@ -82,16 +88,16 @@ void check_zero(LogUnderCheck& c, const SampledMotion& m, int k) {
                        fmt::format("puts joint {} at {} in the median; its sensor says {}, its range is {}", k + 1,
                                    c.position(k, expected), c.position(k, read), c.range_in_words(k)),
                        fmt::format("state motor_offset=\"unknown\" in <encoders> of joint {}, as of a counter that "
-                                   "starts where it is switched on, or correct its zero with {}",
-                                   k + 1, to_motor));
+                                   "starts where it is switched on{}",
+                                   k + 1, to_motor()));
     if (reading_out || std::abs(off) > allowed_offset(c, k))
       return c.suspect(
           joint,
           fmt::format("is {} in the median where the motors say {}; the joint's range is {}", c.position(k, read),
                       c.position(k, expected), c.range_in_words(k)),
           fmt::format("if its zero is wrong, state joint_offset=\"unknown\" in <encoders> of joint {}, or correct it "
-                      "with {}; if the motor's is, state motor_offset=\"unknown\" there, or correct it with {}",
-                      k + 1, c.option(joint, Correction{.offset = -off}), to_motor));
+                      "with {}; if the motor's is, state motor_offset=\"unknown\" there{}",
+                      k + 1, c.option(joint, Correction{.offset = -off}), to_motor()));
   }
   if (beyond(c, k, expected) > c.rule.outside && j.motor_zero_known)
     c.suspect(motor,
@@ -112,7 +118,7 @@ void check_lap(LogUnderCheck& c, int k) {
   const double laps = std::round((of_motor > 0 ? off / c.joint_per_motor(k) : -off) / period);
   if (!(std::abs(laps) >= 1)) return;
   const Correction correction{.offset = laps * period};
-  const bool is_motor = of_motor > 0, is_gross = std::abs(off) > c.rule.zero * c.range(k);
+  const bool is_motor = of_motor > 0, is_gross = std::abs(off) > allowed_offset(c, k);
   const std::string what =
       fmt::format("begins {:g} lap{} of its counter from where {} says{}", std::abs(laps),
                   std::abs(laps) > 1 ? "s" : "", is_motor ? joint : motor,
@@ -165,6 +171,7 @@ void check_delay(LogUnderCheck& c, const SampledMotion& m, int k) {
   best.try_from(-longest, longest, step, m, reading, k);
   if (slow) best.try_from(best.late - step, best.late + step, 1e-3, m, reading, k);
   if (std::abs(best.late) <= least || best.left > (1 - c.rule.late_explains) * at_zero) return;
+  const double longest_delay = reach_of(c, "delay", "sensor_delay", k);
   c.suspect(
       column_name(&Log::joint_position, k),
       fmt::format("is {:.3g} ms {} motor_position_{}; the shift removes {:.0f} % of the squared mismatch",
@@ -172,10 +179,10 @@ void check_delay(LogUnderCheck& c, const SampledMotion& m, int k) {
                   100 * (1 - best.left / at_zero)),
       slow ? fmt::format("correct the times of this column: a diagnosis measures and takes out at most {:g} s",
                          kLongestLateness)
-      : std::abs(best.late) > kLongestDelay
+      : std::abs(best.late) > longest_delay
           ? fmt::format("record both with one clock, or move the readings of this column by {:.4g} s in the file: "
                         "the effect delay reaches {:g} s at most",
-                        -best.late, kLongestDelay)
+                        -best.late, longest_delay)
           : "record both with one clock; the diagnosis takes a constant lag out if the sensor is slower than "
             "its motor's, and names it as the effect delay otherwise");
 }

@@ -41,10 +41,10 @@ struct Record {
   std::size_t size = 0;
   /// Readings, including encoder offsets. For a joint without a motor: the joint's own motion, rad | m.
   Signals motor_angle, motor_rate, motor_acceleration;
-  Signals torque;                                        ///< of the motor, N m; a command without half of its hold
-  Signals joint;                                         ///< joint reading through K_m; empty: no sensor
-  Signals joint_raw;                                     ///< the reading itself, interpolated between its samples
-  Signals external;                                      ///< measured load on the joint; empty: none
+  Signals torque;     ///< of the motor, N m; a command is shifted by half the time for which it is held
+  Signals joint;      ///< joint reading through K_m; empty: no sensor
+  Signals joint_raw;  ///< the reading itself, interpolated between its samples
+  Signals external;   ///< measured load on the joint; empty: none
   Signals joint_measured, torque_measured;               ///< 1 at the grid points nearest to the signal's own samples
   std::vector<std::vector<SensorSample>> joint_samples;  ///< [n_joints] the readings as they were taken
   Signals joint_valid, torque_valid;                     ///< 0 where a sample cannot be compared

@@ -87,7 +87,7 @@ EstimatorRun attempt(const std::string& name, const Log& measured, bool keep_goi
     return action();
   } catch (const std::exception& error) {
     const bool refused = dynamic_cast<const EstimatorRefusal*>(&error);
-    if (!keep_going || (dynamic_cast<const InputError*>(&error) && !refused)) throw;
+    if (!keep_going || is_fault_of_the_machine(error) || (dynamic_cast<const InputError*>(&error) && !refused)) throw;
     EstimatorRun none = no_run(name, measured);
     none.failure = error.what();
     none.refused = refused;

@@ -149,9 +149,9 @@ MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, cons
   for (const std::string& name : estimators) {
     try {
       check_estimator(name, model, options.containment);
-    } catch (const InputError&) {
-      throw;
-    } catch (const std::runtime_error&) {}
+    } catch (const std::runtime_error& error) {
+      if (dynamic_cast<const InputError*>(&error) || is_fault_of_the_machine(error)) throw;
+    }
   }
   std::vector<std::vector<OneRun>> all(estimators.size(), std::vector<OneRun>(options.runs));
   std::vector<Signals> sums_of_nees(estimators.size());

@@ -76,7 +76,7 @@ void append_correlations(const Centered& c, std::size_t lags, std::vector<double
   }
 }
 
-/// Of the ratio of the means of the pairs, as a root.
+/// The root of the ratio of the sum of the first numbers to that of the second, with its interval.
 PairedRatio jackknifed(std::span<const std::pair<double, double>> squares, std::size_t block) {
   const auto n = static_cast<double>(squares.size());
   double a = 0, b = 0;
@@ -135,7 +135,9 @@ PairedRatio paired_ratio(std::span<const double> a, std::span<const double> b) {
   std::vector<double> linear;
   for (const auto& [square_a, square_b] : squares) linear.push_back(square_a / of_a - square_b / of_b);
   constexpr double kSamplesOfABlock = 6;
-  const auto blocks = std::max<std::size_t>(2, static_cast<std::size_t>(effective_samples(linear) / kSamplesOfABlock));
+  constexpr std::size_t kFewestBlocks = 4;
+  const auto independent = static_cast<std::size_t>(effective_samples(linear) / kSamplesOfABlock);
+  const std::size_t blocks = std::min(n, std::max(kFewestBlocks, independent));
   std::vector<std::pair<double, double>> sums(blocks);
   for (std::size_t i = 0; i < n; ++i) {
     auto& [sum_a, sum_b] = sums[i * blocks / n];

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <new>
 #include <set>
+#include <system_error>
 
 #include "evaluation/worker/bytes.h"
 #include "evaluation/worker/worker_process.h"
@@ -95,6 +97,11 @@ std::vector<PluginInfo> contained_plugins(std::vector<std::string>* refused, con
 std::string stated_name(const std::string& name, const ContainmentOptions& containment) {
   if (!name.ends_with(".so")) return name;
   return containment.in_process ? describe_module(name).name : described(name, containment).name;
+}
+
+bool is_fault_of_the_machine(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const std::system_error*>(&error) ||
+         dynamic_cast<const NoWorker*>(&error);
 }
 
 void check_estimator(const std::string& name, const ArmModel& model, const ContainmentOptions& containment) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ std::vector<PluginInfo> contained_plugins(std::vector<std::string>* refused = nu
 /// The name that the module at this path states, as the <estimator> elements of models use it; the name of any other
 /// estimator is its own. Throws as contained_plugins() does, and InputError for a module that cannot be opened.
 std::string stated_name(const std::string& name, const ContainmentOptions& containment = {});
+
+/// True for what is no fault of an estimator: no memory, no process to be had, no worker.
+bool is_fault_of_the_machine(const std::exception& error);
 
 /// Checks that a worker can make the estimator; throws as run_contained does if not.
 void check_estimator(const std::string& name, const ArmModel& model, const ContainmentOptions& containment = {});

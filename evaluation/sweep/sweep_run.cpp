@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <new>
-#include <system_error>
+#include <stdexcept>
 
 #include "evaluation/comparison/compare.h"
 #include "evaluation/first_failure.h"
@@ -17,7 +16,6 @@
 #include "evaluation/sweep/measures/sweep_limits.h"
 #include "evaluation/sweep/parameters/estimator_option.h"
 #include "evaluation/sweep/sweep_store.h"
-#include "evaluation/worker/worker_process.h"
 #include "model/input_error.h"
 #include "model/name_list.h"
 #include "plant/simulate.h"
@@ -68,19 +66,14 @@ SweepCell::Result failure(const SweepGrid& grid, const std::string& reason) {
 }
 
 /// Does the work of a point. Returns why it failed, or an empty text. A fault of the machine is no result of the point
-/// and is thrown: no memory, no process to be had, no worker.
+/// and is thrown.
 template <class Work>
 std::string failure_of(const Work& work) {
   try {
     work();
     return "";
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::system_error&) {
-    throw;
-  } catch (const NoWorker&) {
-    throw;
   } catch (const std::exception& error) {
+    if (is_fault_of_the_machine(error)) throw;
     return error.what();
   }
 }
@@ -94,20 +87,6 @@ SweepCell limits_at(const Sweep& sweep, std::size_t point) {
   });
   if (!reason.empty()) cell.results.assign(sweep.grid.n_subjects(), failure(sweep.grid, reason));
   return cell;
-}
-
-/// One that fails as it is made fails point by point.
-void check_made(const std::vector<std::string>& estimators, const ArmModel& model,
-                const ContainmentOptions& containment) {
-  for (const std::string& estimator : estimators) {
-    try {
-      check_estimator(estimator, model, containment);
-    } catch (const InputError&) {
-      throw;
-    } catch (const std::system_error&) {
-      throw;
-    } catch (const std::runtime_error&) {}
-  }
 }
 
 /// A module says its name only when it is opened, so that the definition could not check it.
@@ -157,7 +136,7 @@ void check_estimators(const Sweep& sweep, const ContainmentOptions& containment)
   const SweepGrid& grid = sweep.grid;
   const ArmModel first = sweep.model_at(0);
   try {
-    check_made(grid.estimators, first, containment);
+    for (const std::string& estimator : grid.estimators) check_estimator(estimator, first, containment);
     check_names_of_options(grid, containment);
   } catch (const InputError& error) {
     throw InputError(grid.file.empty() ? error.what() : grid.file + ": " + error.what());
@@ -171,7 +150,7 @@ void check_estimators(const Sweep& sweep, const ContainmentOptions& containment)
         ArmModel model = first;
         set_option(model, *option, axis.is_factor ? value * option_number(sweep.model, *option).value() : value);
         try {
-          check_made(grid.estimators, model, containment);
+          for (const std::string& estimator : grid.estimators) check_estimator(estimator, model, containment);
         } catch (const InputError& error) {
           throw InputError(fmt::format("{}, at {} = {:g}: {}", grid.file, axis.label(), value, error.what()));
         }
@@ -180,7 +159,12 @@ void check_estimators(const Sweep& sweep, const ContainmentOptions& containment)
 }
 
 void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions& options) {
-  check_estimators(sweep, options.containment);  // a wrong one is found now, not in every cell
+  try {
+    check_estimators(sweep, options.containment);  // a wrong one is found now, not in every cell
+  } catch (const std::runtime_error& error) {
+    // One that crashes or takes too long as it is made fails point by point.
+    if (dynamic_cast<const InputError*>(&error) || is_fault_of_the_machine(error)) throw;
+  }
 
   if (holds_other_sweep(folder, sweep.grid)) {
     if (options.resume) refuse_other_sweep(folder, "leave out --resume to compute this one");

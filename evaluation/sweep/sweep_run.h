@@ -15,8 +15,9 @@ namespace halyard {
 /// cell, not thrown. A fault of the machine is thrown, not stored: std::bad_alloc, std::system_error, NoWorker.
 SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOptions& containment = {});
 
-/// Throws InputError if an estimator of the sweep cannot be made: with the model of the first point, and with the least
-/// and the greatest value of each option that an axis varies.
+/// Throws InputError if an estimator of the sweep cannot be made, and std::runtime_error if it crashes or takes too
+/// long as it is made: with the model of the first point, and with the least and the greatest value of each option that
+/// an axis varies.
 void check_estimators(const Sweep& sweep, const ContainmentOptions& containment = {});
 
 struct SweepRunOptions {
@@ -38,7 +39,7 @@ struct SweepRunOptions {
 /// of jobs. If the folder holds another sweep, its cells and tables are removed first; with `resume`, or for a shard,
 /// which may not be alone in the folder, an InputError is thrown instead.
 /// Throws InputError also if an estimator cannot be made, std::runtime_error if a cell cannot be written, and as
-/// run_point() does.
+/// run_point() does. An estimator that crashes as it is made fails point by point.
 void run_sweep(const Sweep& sweep, const std::filesystem::path& folder, const SweepRunOptions& options);
 
 }  // namespace halyard

@@ -46,7 +46,7 @@ class SweepSummary {
   std::vector<std::vector<std::vector<Span>>> spans;  ///< [n_measures][n_subjects][n_joints]
 
   /// The most values of a grid's axis that have a place each.
-  static constexpr std::size_t kMostPlaces = 1000;
+  static constexpr std::size_t kMostPlaces = 200;
 
   /// What a measure shows over one axis, averaged over everything else. An axis with at most kMostPlaces values, or 40
   /// of samples, has one place for each, in increasing order; the range of other axes is divided into 20 equal bins.

@@ -299,6 +299,7 @@ TEST_F(Sweep, RecordsAnEstimatorThatCrashesAsItIsMade) {
   const std::string broken = std::string(HALYARD_BROKEN_PLUGINS) + "/crashes_in_create.so";
   write_text(path("plugin.xml"), replaced(text_of(path("sweep.xml")), "kinematics,sr_ukf", "kinematics," + broken));
   EXPECT_TRUE(contains(done({"sweep", "plugin.xml", "--out", "out"}), "6 of 12 runs of estimators failed"));
+  EXPECT_EQ(run({"check", "plugin.xml"}).exit_code, 1) << "before nodes are taken for it";
 }
 
 TEST_F(Sweep, RefusesAnOptionOfAnEstimatorThatNoModuleIs) {

@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <limits>
 #include <memory>
 
 #include "diagnosis/diagnosis_details.h"
+#include "evaluation/comparison/compare.h"
 #include "evaluation/comparison/monte_carlo.h"
 #include "evaluation/joint_unit.h"
 #include "evaluation/studies/diagnosis_evaluation.h"
@@ -52,6 +54,19 @@ TEST_F(InProcess, AMonteCarloStudyNeedsNoWorker) {
   };
   EXPECT_EQ(study(true).estimators.at(0).failures, 0);
   EXPECT_EQ(message_of([&] { study(false); }), kNoWorker);
+}
+
+TEST_F(InProcess, AComparisonCountsTheMotorsOfEachUpdate) {
+  SimulationResult data = simulate(faster(scenario));
+  const auto nis = [&] {
+    return compare_estimators(scenario.robot, {"ekf"}, data.measured, data.truth, {.containment = {.in_process = true}})
+        .judgements[0]
+        .nis;
+  };
+  EXPECT_EQ(nis().readings, 2);
+  for (std::size_t i = 1; i < data.measured.size(); i += 2)
+    data.measured.motor_position[0][i] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NEAR(nis().readings, 2 / (1.0 / 2 + 1.0 / 1), 0.01);
 }
 
 TEST_F(InProcess, ASweepNeedsNoWorker) {

@@ -247,10 +247,10 @@ TEST(ColumnMap, AColumnThatIsLeftOutIsNotRead) {
 }
 
 TEST(ColumnMap, OfAnotherLoggerDoesNotReadALogOfHalyardsOwn) {
-  EXPECT_HAS(
-      refusal_of(kHeader + "0,1,2\n", map_of({"time=t_ms,unit=ms", "motor_position_1=enc"})),
-      ":1: has the column names of halyard's own logs, and none that the map of the model or --column names; read "
-      "it with a model without <columns>, and without --column");
+  EXPECT_HAS(refusal_of(kHeader + "0,1,2\n", map_of({"time=t_ms,unit=ms", "motor_position_1=enc"})),
+             ":1: has the column names of halyard's own logs, but none of the columns that <columns> or --column ask "
+             "for; read "
+             "it with a model without <columns>, and without --column");
 }
 
 TEST(ColumnMap, MustFitFileAndArm) {

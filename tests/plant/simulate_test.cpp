@@ -186,7 +186,7 @@ TEST(Simulate, HomedFindsTheZerosThatTheModelDoesNotKnow) {
   // But for the stretch of the cable under the arm's weight, 0.3 mm: as much at the motor as the zero is wrong.
   Scenario right = scenario;
   right.robot.nominal.joint[1].motor_encoder_offset = 0;
-  EXPECT_NEAR(homed.motor_position[1][0], simulate_homed(right, model).measured.motor_position[1][0], 2e-3);
+  EXPECT_NEAR(homed.motor_position[1][0], simulate_homed(right, model).measured.motor_position[1][0], 5e-3);
 }
 
 TEST(Simulate, HomingLeavesTheOffsetThatAnEffectAddsOnce) {

@@ -22,9 +22,8 @@ using report::Cell;
 using report::Chart;
 using report::Series;
 
-/// A page with more curves, longer ones, or more rows than this would not be read; sweep.csv has all.
+/// A page with more curves or rows than this would not be read; sweep.csv has all.
 constexpr std::size_t kMaxSlices = 12;
-constexpr std::size_t kMaxPlaces = 200;
 constexpr std::size_t kMaxRows = 300;
 
 /// What a row shows of a joint over the first axis; slice counts the points of the other axes.
@@ -136,7 +135,7 @@ report::Page sweep_page(const SweepGrid& grid, const StoredCells& cells, const S
   for (const SweepAxis& axis : grid.axes) page.paragraph("Varied: " + axis_sentence(grid, axis));
   if (!grid.seeds.empty())
     page.paragraph(fmt::format("Each combination of values is simulated with {} seeds.", grid.seeds.size()));
-  const bool is_aggregated = grid.is_sampled || grid.axes.front().values.size() > kMaxPlaces ||
+  const bool is_aggregated = grid.is_sampled || grid.axes.front().values.size() > SweepSummary::kMostPlaces ||
                              grid.combinations() / grid.axes.front().values.size() > kMaxSlices;
   if (is_aggregated && band_of_means(grid) == BandKind::range)
     page.paragraph("The bands reach from the least to the greatest value.");

@@ -83,6 +83,7 @@ class RoundBacklash : public EffectOf<RoundBacklash> {
   std::string name() const override { return "round_backlash"; }
   std::string summary() const override { return "a dead zone with round edges"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::stretch); }
+  int rank(EffectStage) const override { return 1; }  // as backlash
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_cable(arm, joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
     const double radius = arm.joint[*joint].capstan_radius;

@@ -16,6 +16,7 @@ class GradualSaturation : public EffectOf<GradualSaturation> {
   std::string name() const override { return "gradual_saturation"; }
   std::string summary() const override { return "a motor torque that saturates gradually"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::command); }
+  int rank(EffectStage) const override { return 1; }  // as actuator_saturation
   bool applies(const ArmParameters<double>& arm, int joint) const override { return has_motor(arm, joint); }
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace joint) const override {
     const double one_over = 1 / (6 * typical_motor_friction(arm.joint[*joint]));

@@ -83,7 +83,7 @@ void check_torque_unit(LogUnderCheck& c, const TorqueComparison& t, int k, const
       "the motion requires {:.3g} times the recorded torque (expected 1 within a factor "
       "of {:g})",
       r.size, c.rule.torque_ratio);
-  if (c.is_electric(torque))
+  if (c.is_electric(torque) && c.model.nominal.joint[k].torque_scale == 1)
     return c.reject(torque, seen + "; the column is in A or V, and no scale to N m is known",
                     fmt::format("give the motor's torque constant (N m per A, or per V of the amplifier) as scale= of "
                                 "this column, or state torque_scale=\"1\" in <tolerances> of joint {} and have it "

@@ -88,6 +88,16 @@ TEST(PositionCheck, TellsBothColumnsOfAJointInAWrongUnitAlthoughTheyAgree) {
   }
 }
 
+TEST(PositionCheck, DoesNotRefuseARightLogForARangeThatIsTooNarrow) {
+  ArmModel model = raven();
+  const double middle = 0.5 * (model.joints[1].lower + model.joints[1].upper);
+  model.joints[1].lower = middle - 0.08, model.joints[1].upper = middle + 0.08;
+  for (const LogFinding& f : check_log(right_log(), model)) {
+    EXPECT_EQ(f.severity, Severity::suspicious) << finding_line(f);
+    EXPECT_NE(f.remedy.find("correct the range of joint 2"), std::string::npos) << f.remedy;
+  }
+}
+
 TEST(TorqueCheck, AsksForTheTorqueConstantOfACurrent) {
   const Log log = scaled(&Log::motor_torque, 0, 1 / 0.03);  // A; the map divides no further
   ColumnMap columns;
@@ -97,6 +107,9 @@ TEST(TorqueCheck, AsksForTheTorqueConstantOfACurrent) {
   EXPECT_EQ(findings[0].severity, Severity::gross);
   EXPECT_NE(findings[0].what.find("the column is in A or V"), std::string::npos) << findings[0].what;
   EXPECT_NE(findings[0].remedy.find("torque constant"), std::string::npos) << findings[0].remedy;
+  ArmModel knows = raven();
+  knows.nominal.joint[0].torque_scale = 0.03;
+  EXPECT_EQ(lines_of(check_log(log, knows, columns)), "");
 }
 
 TEST(PositionCheck, CountsJointsFromOne) {
@@ -284,7 +297,7 @@ TEST(ZeroCheck, TellsAReadingThatIsFartherFromWhatTheMotorSaysThanAnEffectReache
   EXPECT_EQ(off.remedy,
             "if its zero is wrong, state joint_offset=\"unknown\" in <encoders> of joint 1, or correct it with " +
                 option("joint_position_1", "offset=-1") +
-                "; if the motor's is, state motor_offset=\"unknown\" there, or correct it with " +
+                "; if the motor's is, state motor_offset=\"unknown\" there, or correct its zero with " +
                 option("motor_position_1", "offset=136.196"));
   EXPECT_NE(zero_told(0.6, 1.11).what, "");
   EXPECT_EQ(zero_told(0.6, 1.09).what, "") << "an encoder_offset reaches 0.5 rad";

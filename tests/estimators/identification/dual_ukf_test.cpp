@@ -137,7 +137,7 @@ TEST(DualUkfOnALinearArm, DerivativesByTwoWeightsAreThoseOfHeldOnesWhileItLearns
   const ArmModel model = slide();
   const std::vector<Weight> weights = {{.key = "joint1.motor.torque_bias", .nominal = 0, .scale = kBias},
                                        {.key = "joint1.motor.zero", .nominal = 0, .scale = 0.3}};
-  DualUkf held(model, weights, {.learn = false, .settle = 0}), learns(model, weights, {});
+  DualUkf held(model, weights, {.learn = false, .settle = 0}), learns(model, weights, {.settle = 0});
   double compared = 0;
   for (const EncoderSample& sample : record_of(model, 0.7, 300, 1)) {
     const DualStep a = held.update(sample), b = learns.update(sample);
