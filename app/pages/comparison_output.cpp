@@ -80,17 +80,17 @@ report::Page comparison_page(const Comparison& comparison, const std::optional<M
   if (!comparison.truth_from.empty() && comparison.runs.size() > 1) {
     page.table(paired_table(comparison));
     page.paragraph(
-        "Successive errors are correlated, so the record is divided into blocks that are each as long as six "
-        "independent errors. The interval comes from how much the ratio changes when one block after the other is left "
-        "out. An estimator is called better or worse if the 95 % interval does not contain 1.");
+        "Successive errors are correlated, so the record is divided into four or more blocks, each as long as six "
+        "independent errors if the record has so many. The interval comes from how much the ratio changes when one "
+        "block after the other is left out. An estimator is called better or worse if the 95 % interval does not "
+        "contain 1.");
   }
   page.table(consistency_table(comparison));
   page.paragraph(
       "An innovation is a measurement minus its prediction, divided by the standard deviation that the filter states "
       "for it. An error of a joint is divided by its stated standard deviation, too. The mean squares of both should "
-      "be "
-      "1. The band contains 95 % of such means if the stated deviations are right; correlated samples count as one. "
-      "White innovations contain nothing that could have been predicted.");
+      "be 1. The band contains 95 % of such means if the stated deviations are right; correlated samples count as "
+      "one. White innovations contain nothing that could have been predicted.");
   if (runs) {
     page.table(runs_error_table(*runs, comparison.units));
     page.table(runs_consistency_table(*runs));

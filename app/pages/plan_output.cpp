@@ -128,11 +128,9 @@ report::Page plan_page(const Plan& plan) {
   page.paragraph(
       "The arm was simulated without any effect, as the model describes it. A diagnosis of this motion would see an "
       "effect whose size is farther from its value without the effect (0, or 1 for ratios and scales) than the "
-      "detection "
-      "limit: it then changes a signal by significantly more than its sensor resolves, and by more than the model's "
-      "numbers can absorb within their tolerances. Beyond the naming limit, no other effect explains the same data "
-      "about "
-      "as well. The last column lists the effects that do so at twice the detection limit.");
+      "detection limit: it then changes a signal by significantly more than its sensor resolves, and by more than "
+      "the model's numbers can absorb within their tolerances. Beyond the naming limit, no other effect explains the "
+      "same data about as well. The last column lists the effects that do so at twice the detection limit.");
   if (plan.names_nothing) page.verdict(report::VerdictKind::warning, kNamesNothing);
   report::Table table;
   table.header = {"effect", "joint", "detection limit", "naming limit", "not distinguishable from"};

@@ -23,6 +23,17 @@ class Sweep : public App {
         "applies_to=\"robot\"/>"
         "<axis parameter=\"joint2.effect.backlash.half_gap\" values=\"0 2e-4\" applies_to=\"robot\"/></sweep>");
   }
+
+  /// A program that stands for one of Slurm.
+  void write_program(const std::string& name, const std::string& commands) {
+    write_text(path("bin/" + name), "#!/bin/sh\n" + commands + "\n");
+    fs::permissions(path("bin/" + name), fs::perms::owner_all);
+  }
+  RunResult run_with_slurm(const std::vector<std::string>& command) const {
+    return run(command, "PATH='" + path("bin").string() + "':$PATH; export PATH;");
+  }
+
+  const std::vector<std::string> submit_ = {"sweep", "sweep.xml", "--out", "out", "--slurm", "--nodes", "2"};
 };
 
 TEST_F(Sweep, GivesTheSameBytesForAnyNumberOfJobsAndAnyShards) {
@@ -244,36 +255,24 @@ TEST_F(Sweep, TellsWhatABandIsOfOtherParameters) {
 }
 
 TEST_F(Sweep, IsNotSubmittedTwiceWhereSlurmCannotBeAsked) {
-  const auto write_program = [&](const std::string& name, const std::string& commands) {
-    write_text(path("bin/" + name), "#!/bin/sh\n" + commands + "\n");
-    fs::permissions(path("bin/" + name), fs::perms::owner_all);
-  };
   write_program("sbatch", "echo once >>submitted; echo 17");
   write_program("squeue", "echo 'slurm_load_jobs error: Unable to contact slurm controller' >&2; exit 1");
-  const std::string with_slurm = "PATH='" + path("bin").string() + "':$PATH; export PATH;";
-  const std::vector<std::string> command = {"sweep", "sweep.xml", "--out", "out", "--slurm", "--nodes", "2"};
-  EXPECT_EQ(run(command, with_slurm).exit_code, 0);
-  const RunResult again = run(command, with_slurm);
+  EXPECT_EQ(run_with_slurm(submit_).exit_code, 0);
+  const RunResult again = run_with_slurm(submit_);
   EXPECT_EQ(again.exit_code, 1);
   EXPECT_TRUE(contains(again.err, "Unable to contact slurm controller")) << again.err;
-  const RunResult status = run({"sweep", "sweep.xml", "--out", "out", "--status"}, with_slurm);
+  const RunResult status = run_with_slurm({"sweep", "sweep.xml", "--out", "out", "--status"});
   EXPECT_EQ(status.exit_code, 0) << status.err;
   EXPECT_FALSE(contains(status.out, "not running")) << status.out;
   EXPECT_EQ(text_of(path("submitted")), "once\n");
 }
 
 TEST_F(Sweep, AsksTheClusterThatItsJobIsOn) {
-  const auto write_program = [&](const std::string& name, const std::string& commands) {
-    write_text(path("bin/" + name), "#!/bin/sh\n" + commands + "\n");
-    fs::permissions(path("bin/" + name), fs::perms::owner_all);
-  };
   write_program("sbatch", "echo '17;north'");
   write_program("squeue", "case \"$*\" in *--clusters=*north*--job=17*) echo '1 RUNNING n1';; esac");
-  const std::string with_slurm = "PATH='" + path("bin").string() + "':$PATH; export PATH;";
-  const std::vector<std::string> command = {"sweep", "sweep.xml", "--out", "out", "--slurm", "--nodes", "2"};
-  EXPECT_TRUE(contains(run(command, with_slurm).out, "Slurm job 17 of cluster north"));
-  EXPECT_TRUE(contains(run({"sweep", "sweep.xml", "--out", "out", "--status"}, with_slurm).out, "running on n1"));
-  const RunResult again = run(command, with_slurm);
+  EXPECT_TRUE(contains(run_with_slurm(submit_).out, "Slurm job 17 of cluster north"));
+  EXPECT_TRUE(contains(run_with_slurm({"sweep", "sweep.xml", "--out", "out", "--status"}).out, "running on n1"));
+  const RunResult again = run_with_slurm(submit_);
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_TRUE(contains(again.err, "scancel --clusters=north 17")) << again.err;
 }
