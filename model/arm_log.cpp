@@ -29,8 +29,16 @@ Log read_log_of(const ArmModel& model, const std::filesystem::path& path,
 
 std::string ignored_columns_note(const Log& log) {
   std::vector<std::string> names;
-  for (const std::string& name : log.ignored_columns) names.push_back(shortened(name));
-  return names.empty() ? "" : "note: " + log.source + ": columns that are not used: " + listed(names);
+  bool has_further_motor = false;
+  for (const std::string& name : log.ignored_columns) {
+    names.push_back(shortened(name));
+    has_further_motor = has_further_motor || name == "motor_position_" + std::to_string(log.n_joints + 1);
+  }
+  if (names.empty()) return "";
+  return "note: " + log.source + ": columns that are not used: " + listed(names) +
+         (has_further_motor
+              ? "; the model has " + std::to_string(log.n_joints) + " joints: this may be the log of another arm"
+              : "");
 }
 
 std::string missing_torques_note(const Log& log, const ArmModel& model) {

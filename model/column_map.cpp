@@ -166,7 +166,7 @@ void ColumnMap::add(std::string_view name, std::string_view column, std::string_
     if (wrap > 0 && (quantity != Quantity::kPosition || is_marker(name)))
       throw InputError("only a motor's or a joint's position wraps around; leave wrap out here");
     const bool is_electric = scale == 1 && (unit.ends_with('A') || unit.ends_with('V'));
-    insert(name, {std::string(trim(column)), factor, offset, wrap, is_electric});
+    insert(name, {std::string(trim(column)), factor, offset, wrap, is_electric ? std::string(unit) : ""});
   } catch (const InputError& error) {
     throw InputError("column " + in_quotes(name) + ": " + error.what());
   }

@@ -22,11 +22,11 @@ inline constexpr std::array<std::string_view, 3> kMarkerNames = {"marker_x", "ma
 /// A counter or an absolute encoder starts again after a period. From one sample that is not missing to the next,
 /// `laps` changes such that the value moves by at most half a period.
 struct ColumnSource {
-  std::string column;        ///< name in the header of the file; empty: the log has no such column
-  double scale = 1;          ///< SI unit per raw unit: unit, sign and scale in one factor, never zero
-  double offset = 0;         ///< SI unit (s, rad or m, rad/s or m/s, N·m or N)
-  double wrap = 0;           ///< period of a position, in raw units; 0: the column is continuous
-  bool is_electric = false;  ///< in A or V, without a scale to N m
+  std::string column;              ///< name in the header of the file; empty: the log has no such column
+  double scale = 1;                ///< SI unit per raw unit: unit, sign and scale in one factor, never zero
+  double offset = 0;               ///< SI unit (s, rad or m, rad/s or m/s, N·m or N)
+  double wrap = 0;                 ///< period of a position, in raw units; 0: the column is continuous
+  std::string electric_unit = "";  ///< of a current or voltage without a scale to N m, such as "mA"
 };
 
 /// Maps columns of a foreign log, and their units, to the standard columns. Several standard columns may come from one
@@ -70,7 +70,7 @@ class ColumnMap {
   void check_joints(int n_joints) const;
 
   /// Sources by standard name. Adding each one with its `scale`, `offset` and `wrap` and an empty unit gives the same
-  /// map.
+  /// map; one with an electric unit is added with this unit and the sign of its scale instead.
   const std::map<std::string, ColumnSource, std::less<>>& sources() const { return sources_; }
 
  private:

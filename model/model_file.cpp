@@ -79,10 +79,10 @@ void check_inertia(const XmlElement& link, const Joint& joint, const std::string
   const Eigen::Vector3d moments = principal_moments(joint);
   const std::string principal = "joint " + in_quotes(name) + " has principal moments " + exact_text(moments(0)) + ", " +
                                 exact_text(moments(1)) + ", " + exact_text(moments(2)) + " kg m^2; expected ";
-  switch (judge_inertia(moments)) {
-    case Inertia::of_a_body: return;
-    case Inertia::negative: link.fail("inertia", principal + "none below 0; check the signs of xy, xz, yz");
-    case Inertia::too_long:
+  switch (find_inertia_fault(moments)) {
+    case InertiaFault::none: return;
+    case InertiaFault::negative_moment: link.fail("inertia", principal + "none below 0; check the signs of xy, xz, yz");
+    case InertiaFault::triangle_inequality:
       link.fail("inertia", principal +
                                "none above the sum of the other two (no body has that); check the entries, which "
                                "are xx yy zz xy xz yz about the centre of mass");
@@ -99,7 +99,10 @@ void read_couplings(const std::vector<XmlElement>& couplings, Joint& joint, int 
   for (const XmlElement& coupling : couplings) {
     coupling.only({"joint", "coefficient"});
     if (k == 0) coupling.fail("the first joint has no inboard joint that could move its cable; remove it");
-    const std::int64_t inboard = coupling.integer("joint", 1, k);
+    const std::int64_t inboard = coupling.integer("joint", 1, kMaxJoints);
+    if (inboard > k)
+      coupling.fail("joint", "expected the number of a joint nearer the base, 1 to " + std::to_string(k) +
+                                 ": only its motion moves this cable");
     if (!given.insert(inboard).second) coupling.fail("joint", "coupling with this joint is given twice; give it once");
     joint.coupling[inboard - 1] = coupling.number("coefficient", "");
   }
@@ -265,7 +268,28 @@ PlacedEffect read_effect(const XmlElement& element, const ArmParameters<double>&
     element.fail(p.name, "expected a number from " + exact_text(p.lower) + " to " + exact_text(p.upper) +
                              (unit.empty() ? "" : " " + unit));
   }
+  if (const std::string fault = effect->fault_of(placed.p); !fault.empty()) element.fail(fault);
   return placed;
+}
+
+/// Refuses effects of a kind at one joint, each within its bounds, whose shares are together more than one may have.
+void check_sums(const std::vector<XmlElement>& elements, const ArmModel& model,
+                const std::vector<PlacedEffect>& placed) {
+  for (std::size_t e = 0; e < placed.size(); ++e) {
+    const PlacedEffect& effect = placed[e];
+    const std::vector<EffectParameter> parameters = effect.effect->parameters(model.nominal, effect.joint);
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      const EffectParameter& p = parameters[i];
+      if (p.unit != "1" || p.neutral != 0 || p.is_shape()) continue;
+      double sum = 0;
+      for (const PlacedEffect& other : model.effects) sum += same_name(other, effect) ? other.p[i] : 0;
+      for (std::size_t before = 0; before <= e; ++before)
+        sum += same_name(placed[before], effect) ? placed[before].p[i] : 0;
+      if (sum >= p.lower && sum <= p.upper) continue;
+      elements[e].fail(p.name, "with the other effects of this kind at the joint it is " + with_digits(sum, 6) +
+                                   ", expected a sum from " + exact_text(p.lower) + " to " + exact_text(p.upper));
+    }
+  }
 }
 
 /// Refuses effects that are each within their bounds but together change the arm to one that cannot be.
@@ -342,6 +366,7 @@ std::vector<PlacedEffect> read_effects(const XmlElement& effects, const ArmModel
   effects.only({}, {"effect"});
   std::vector<PlacedEffect> placed;
   for (const XmlElement& effect : effects.children()) placed.push_back(read_effect(effect, model.nominal));
+  check_sums(effects.children(), model, placed);
   check_changed_arm(effects.children(), model, placed);
   return placed;
 }

@@ -23,7 +23,7 @@
 #include "transmission/effect.h"
 
 /// Increases when anything that crosses the boundary changes its meaning or place.
-#define HALYARD_EFFECT_INTERFACE 4
+#define HALYARD_EFFECT_INTERFACE 5
 
 /// The first two members may be read for any version; `compiler` and `layout` may be read only if the version matches.
 /// The host checks all four before it calls make.

@@ -75,6 +75,10 @@ struct JointParameters {
   bool motor_zero_known = true;
   bool joint_zero_known = true;
 
+  // Sums over the effects `delay`, s. A model without effects has none.
+  T command_delay = 0.0;
+  T sensor_delay = 0.0;
+
   /// Cable travel per motor angle, r_m / N, m/rad.
   HALYARD_INLINE T motor_travel() const { return capstan_radius / gear_ratio; }
 };
@@ -84,6 +88,8 @@ struct ArmParameters {
   int n = 0;                                  ///< joints, 1..kMaxJoints
   T gravity[3] = {T(-9.81), T(0.0), T(0.0)};  ///< in the base frame, m/s²
   double payload_point[3] = {0, 0, 0};        ///< in the last link's frame, m
+  /// The base axis along which the gravity of the model is strongest, which a tilt of the base keeps; -1: not tilted.
+  int vertical_axis = -1;
   JointParameters<T> joint[kMaxJoints];
 };
 

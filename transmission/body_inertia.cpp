@@ -11,10 +11,10 @@ Eigen::Vector3d principal_moments(const JointParameters<double>& joint) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-Inertia judge_inertia(const Eigen::Vector3d& moments) {
+InertiaFault find_inertia_fault(const Eigen::Vector3d& moments) {
   const double rounding = 1e-9 * moments.cwiseAbs().maxCoeff();
-  if (moments(0) < -rounding) return Inertia::negative;
-  return moments(2) > moments(0) + moments(1) + rounding ? Inertia::too_long : Inertia::of_a_body;
+  if (moments(0) < -rounding) return InertiaFault::negative_moment;
+  return moments(2) > moments(0) + moments(1) + rounding ? InertiaFault::triangle_inequality : InertiaFault::none;
 }
 
 }  // namespace halyard

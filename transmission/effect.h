@@ -65,21 +65,23 @@ inline constexpr std::nullopt_t kWholeArm = std::nullopt;
 /// Signals of one joint at one instant. Torques and positions are positive in the joint's positive direction.
 template <class T>
 struct JointSignals {
-  T command = 0.0;             ///< commanded motor torque, N m
-  T motor_angle = 0.0;         ///< q_m, rad
-  T motor_rate = 0.0;          ///< q_m', rad/s
-  T joint_position = 0.0;      ///< q, rad | m
-  T joint_rate = 0.0;          ///< q', rad/s | m/s
-  T external_force = 0.0;      ///< measured external load on the joint, N m | N
-  T motor_torque = 0.0;        ///< on the rotor, without the cable's pull, N m
-  T stretch = 0.0;             ///< x, m
-  T stretch_rate = 0.0;        ///< x', m/s
-  T cable_force_motor = 0.0;   ///< g at the capstan, N
-  T cable_force_joint = 0.0;   ///< g at the joint's pulley, N
-  T joint_force = 0.0;         ///< Γ + friction + external, N m | N
-  T motor_error = 0.0;         ///< motor encoder's reading minus truth, rad
-  T joint_error = 0.0;         ///< joint encoder's reading minus truth, rad | m
-  T joint_acceleration = 0.0;  ///< q'' for the sensors' errors; 0 where nobody tells it, rad/s² | m/s²
+  T command = 0.0;               ///< commanded motor torque, N m
+  T motor_angle = 0.0;           ///< q_m, rad
+  T motor_rate = 0.0;            ///< q_m', rad/s
+  T joint_position = 0.0;        ///< q, rad | m
+  T joint_rate = 0.0;            ///< q', rad/s | m/s
+  T external_force = 0.0;        ///< measured external load on the joint, N m | N
+  T motor_torque = 0.0;          ///< on the rotor, without the cable's pull, N m
+  T stretch = 0.0;               ///< x, m
+  T stretch_rate = 0.0;          ///< x', m/s
+  T cable_force_motor = 0.0;     ///< g at the capstan, N
+  T cable_force_joint = 0.0;     ///< g at the joint's pulley, N
+  T joint_force = 0.0;           ///< Γ + friction + external, N m | N
+  T motor_error = 0.0;           ///< motor encoder's reading minus truth, rad
+  T joint_error = 0.0;           ///< joint encoder's reading minus truth, rad | m
+  T joint_acceleration = 0.0;    ///< q'' for the sensors' errors; 0 where nobody tells it, rad/s² | m/s²
+  T motor_friction_drift = 0.0;  ///< relative change of the motor's friction in time, which friction_drift adds
+  T joint_friction_drift = 0.0;  ///< of the joint's
 };
 
 /// Inputs that an effect may read.
@@ -121,6 +123,8 @@ class Effect {
   /// False if the joint cannot have the effect (no cable, no inboard joint, ...).
   virtual bool applies(const ArmParameters<double>&, int /*joint*/) const { return true; }
   virtual std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace joint) const = 0;
+  /// Why these parameters, each within its bounds, are none together, and the remedy; empty: nothing.
+  virtual std::string fault_of(const double* /*p*/) const { return ""; }
   virtual int n_states() const { return 0; }
   /// Typical size of each internal state.
   virtual std::vector<double> state_scale(const ArmParameters<double>&, EffectPlace /*joint*/,

@@ -182,6 +182,7 @@ template <int known>
 HALYARD_INLINE void Transmission<T>::add_motor_friction(JointSignals<T>* s) const {
   for (int i = 0, n = joint_count<known>(arm_); i < n; ++i) {
     const JointParameters<T>& j = arm_.joint[i];
+    s[i].motor_friction_drift = T(0.0);
     if (j.drive == Drive::none) {
       s[i].motor_torque = T(0.0);
       continue;
@@ -215,6 +216,7 @@ HALYARD_INLINE void Transmission<T>::evaluate(double time, const CommandHistory*
   joint_reaction<known>(arm_, g, reaction);
   for (int i = 0; i < n; ++i) {
     const JointParameters<T>& j = arm_.joint[i];
+    s[i].joint_friction_drift = T(0.0);
     s[i].joint_force = reaction[i] - friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, s[i].joint_rate) +
                        s[i].external_force;
   }

@@ -114,6 +114,12 @@ void OutputFiles::add_in_parts(const fs::path& path, const std::function<void(co
   files_.push_back({target, temporary});
 }
 
+std::vector<fs::path> OutputFiles::paths() const {
+  std::vector<fs::path> paths;
+  for (const File& f : files_) paths.push_back(f.path);
+  return paths;
+}
+
 /// Returns 0, or the error number.
 int OutputFiles::give_name(File& f) {
   std::error_code ignored;

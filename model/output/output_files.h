@@ -28,6 +28,9 @@ class OutputFiles {
   /// Has commit() remove an older file that has no place beside the new ones, unless a new one has its name.
   void remove(const std::filesystem::path& path) { obsolete_.push_back(path); }
 
+  /// Of the files that were added, links followed.
+  std::vector<std::filesystem::path> paths() const;
+
   /// Call once, last. Throws std::runtime_error with path and reason.
   void commit();
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The models, scenarios and logs that this process has read. A command does not replace them by its outputs.
+/// The models, scenarios, logs and modules that this process has read. A command does not replace them by its outputs.
 
 #include <filesystem>
 

@@ -146,7 +146,12 @@ void write_effects(Writer& xml, const ArmModel& model) {
 
 void write_source(Writer& xml, const ColumnSource& source) {
   xml.attribute("from", source.column);
-  xml.attribute("scale", source.scale);
+  if (source.electric_unit.empty()) {
+    xml.attribute("scale", source.scale);
+  } else {
+    xml.attribute("unit", source.electric_unit);
+    xml.attribute("sign", source.scale < 0 ? -1 : 1);
+  }
   xml.attribute("offset", source.offset);
   if (source.wrap > 0) xml.attribute("wrap", source.wrap);
 }

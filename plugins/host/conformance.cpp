@@ -36,13 +36,15 @@ ArmParameters<double> changed_arm(const ArmModel& model) {
   return Transmission<double>(model.nominal, model.effects).arm();
 }
 
-/// As the encoders of an arm without elasticity read it.
+/// As the encoders of an arm without elasticity read it; a joint without a motor has no torque.
 Sample swing(const ArmModel& model, std::size_t i) {
   const ArmParameters<double> arm = changed_arm(model);
   Eigen::VectorXd readings = unstretched_motors(arm, swing_position(model, i));
+  Eigen::VectorXd torques = Eigen::VectorXd::Zero(arm.n);
   for (int k = 0; k < arm.n; ++k)
     if (arm.joint[k].drive != Drive::none) readings(k) += arm.joint[k].motor_encoder_offset;
-  return {kPeriod * static_cast<double>(i), Eigen::VectorXd::Zero(model.n()), readings, Eigen::VectorXd()};
+    else readings(k) = 0, torques(k) = kMissing;
+  return {kPeriod * static_cast<double>(i), torques, readings, Eigen::VectorXd()};
 }
 
 Eigen::Vector3d marker_of(const ArmModel& model, const Eigen::VectorXd& q) {
@@ -89,9 +91,7 @@ bool same(const Estimate& a, const Estimate& b) {
 }
 
 bool same(const std::vector<Estimate>& a, const std::vector<Estimate>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if (!same(a[i], b[i])) return false;
-  return true;
+  return std::ranges::equal(a, b, [](const Estimate& x, const Estimate& y) { return same(x, y); });
 }
 
 /// Puts what later samples say of the first `count` in place. Throws if it is said of what is no sample's time, or if
@@ -188,7 +188,7 @@ class Examination {
         take_revisions(*one, record_, i + 1, i + 1 == record_.size(), *estimates);
       }
     }
-    for (std::size_t i = 1; i < record_.size(); ++i)
+    for (std::size_t i = 0; i < record_.size(); ++i)
       require(same(of_first[i], expected_[i]) && same(of_second[i], expected_[i]),
               "one of two, fed in turn, differs from one alone at sample " + std::to_string(i));
   }

@@ -1,14 +1,20 @@
 #include "plugins/host/effect_module.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
 #include "model/input_error.h"
+#include "model/output/read_files.h"
 #include "plugins/effect_plugin.hpp"
 #include "plugins/host/plain_name.h"
 #include "plugins/host/shared_module.h"
+#include "transmission/arm_fields.h"
 
 namespace halyard {
 namespace {
@@ -75,6 +81,27 @@ bool has_scale_of_each_state(const Effect& effect, const ArmParameters<double>& 
          std::ranges::all_of(scales, [](double scale) { return std::isfinite(scale) && scale >= 0; });
 }
 
+/// False for an effect that acts at no stage and changes no number of an arm. No number of this arm is 0, which a
+/// factor would leave.
+bool does_something(const Effect& effect, ArmParameters<double> arm, EffectPlace place) {
+  if (effect.stages() != 0) return true;
+  const auto fill = [](const ArmField&, auto& value) {
+    if constexpr (std::is_same_v<decltype(value), double&>) value = value == 0 ? 0.1 : value;
+  };
+  for (int k = 0; k < arm.n; ++k) for_each_joint_field(fill, arm.joint[k]);
+  ArmParameters<double> changed = arm;
+  effect.change_parameters(changed, place, place_effect(effect, arm, place).p);
+  bool differs = !std::ranges::equal(changed.gravity, arm.gravity);
+  const auto compare = [&](const ArmField& field, const auto& was, const auto& is) {
+    if (field.kind == FieldKind::structure) return;
+    if constexpr (std::is_array_v<std::remove_cvref_t<decltype(was)>>)
+      differs = differs || !std::ranges::equal(was, is);
+    else differs = differs || was != is;
+  };
+  for (int k = 0; k < arm.n; ++k) for_each_joint_field(compare, arm.joint[k], changed.joint[k]);
+  return differs;
+}
+
 void check_effect(const Effect& effect) {
   const std::string name = effect.name();
   const auto refuse_effect = [&](const std::string& why) { throw Refusal{"effect " + in_quotes(name) + " " + why}; };
@@ -93,11 +120,21 @@ void check_effect(const Effect& effect) {
     }
     for (const EffectParameter& p : parameters) {
       if (!is_plain_name(p.name))
-        refuse_effect("has a parameter " + in_quotes(p.name) + "; use letters, digits and '_'");
-      const bool inside = p.lower < p.upper && p.lower <= p.neutral && p.neutral <= p.upper && p.lower <= p.typical &&
-                          p.typical <= p.upper;
-      if (!inside) refuse_effect("has " + in_quotes(p.name) + " neutral or typical outside its bounds; correct them");
+        refuse_effect("has a parameter " + in_quotes(p.name) + "; use letters, digits, '_' and '-', at most 64");
+      const std::string bounds = fmt::format("[{:g}, {:g}]", p.lower, p.upper);
+      if (!(p.lower < p.upper))
+        refuse_effect(fmt::format("has {} with the bounds {}; give it a lower bound below the upper one",
+                                  in_quotes(p.name), bounds));
+      for (const auto& [what, value] : {std::pair("neutral", p.neutral), std::pair("typical", p.typical)})
+        if (!(p.lower <= value && value <= p.upper))
+          refuse_effect(fmt::format("has {} with the {} value {:g} outside its bounds {}; correct one of them",
+                                    in_quotes(p.name), what, value, bounds));
     }
+    if (parameters.front().is_shape())
+      refuse_effect("lists the shape " + in_quotes(parameters.front().name) +
+                    " before any size; list the sizes that it belongs to first");
+    if (!does_something(effect, arm, place))
+      refuse_effect("acts at no stage and changes no number of an arm; define stages()");
     if (!has_scale_of_each_state(effect, arm, place))
       refuse_effect("must give its " + std::to_string(effect.n_states()) +
                     " states one scale each, finite and not negative; correct state_scale()");
@@ -142,6 +179,7 @@ std::vector<OpenModule>& open_modules() {
 
 void load_effects(const std::filesystem::path& path) {
   OpenModule opened{std::make_unique<SharedModule>(path), std::filesystem::absolute(path), {}};
+  note_read(path);
   for (auto& effect : checked_effects(*opened.module, checked_table(*opened.module))) {
     opened.effects.push_back(effect->name());
     register_effect(std::move(effect));

@@ -93,8 +93,8 @@ std::shared_ptr<const EstimatorModule> named_module(const std::string& name) {
 }
 
 std::shared_ptr<const EstimatorModule> open_module(const std::string& name_or_path) {
-  const bool is_path = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".so");
-  return is_path ? std::make_shared<const EstimatorModule>(name_or_path) : named_module(name_or_path);
+  return is_module_path(name_or_path) ? std::make_shared<const EstimatorModule>(name_or_path)
+                                      : named_module(name_or_path);
 }
 
 PluginInfo info(const EstimatorModule& module) {
@@ -102,6 +102,8 @@ PluginInfo info(const EstimatorModule& module) {
 }
 
 }  // namespace
+
+bool is_module_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".so"); }
 
 std::vector<fs::path> plugin_folders() { return folders_to_search(nullptr); }
 

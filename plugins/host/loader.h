@@ -40,6 +40,9 @@ std::vector<PluginInfo> find_plugins(
 /// The plug-in that make_estimator() uses for a name or path. Throws InputError as make_estimator() does.
 PluginInfo find_plugin(const std::string& name_or_path);
 
+/// True for the path of a module; false for the name of a plug-in.
+bool is_module_path(const std::string& name);
+
 /// Makes an estimator for the model. name_or_path is the name of a plug-in that find_plugins() lists, or the path of a
 /// module (any text that contains a '/' or ends in .so). The estimator gets the options that the model has under its
 /// name. The module stays open as long as the estimator lives. Throws InputError with one line for an unknown name (the

@@ -56,9 +56,6 @@ class FloatingPointMode {
 #if defined(__x86_64__)
   static unsigned current() { return _mm_getcsr() & ~static_cast<unsigned>(_MM_EXCEPT_MASK); }
   static void set(unsigned mode) { _mm_setcsr(mode); }
-#elif defined(__aarch64__)
-  static unsigned current() { return __builtin_aarch64_get_fpcr(); }
-  static void set(unsigned mode) { __builtin_aarch64_set_fpcr(mode); }
 #else
   static unsigned current() { return 0; }
   static void set(unsigned) {}

@@ -46,6 +46,14 @@ TEST_F(ArmLog, NamesColumnsThatAreNotUsed) {
   EXPECT_EQ(ignored_columns_note(Log(3)), "");
 }
 
+TEST_F(ArmLog, OfMoreMotorsMayBeThatOfAnotherArm) {
+  std::ofstream(path_) << "time,turns,motor_position_2,motor_position_3,motor_position_4\n0,1,2,3,4\n0.001,1,2,3,4\n";
+  EXPECT_EQ(ignored_columns_note(read_log_of(model_, path_, {}, /*torque_required=*/false)),
+            "note: " + path_.string() +
+                ": columns that are not used: motor_position_4; the model has 3 joints: this may be the log of another "
+                "arm");
+}
+
 TEST_F(ArmLog, NeedsAMotorTorqueOnlyIfAsked) {
   std::ofstream(path_) << "time,motor_position_1,motor_position_2,motor_position_3,turns\n0,1,2,3,0\n0.001,1,2,3,0\n";
   EXPECT_NE(message_of([&] { read_log_of(model_, path_); }).find("motor_torque_1"), std::string::npos);

@@ -80,7 +80,8 @@ TEST(ModelFile, BadInputSaysWhereWhatAndWhatWasExpected) {
        "<coupling joint=\"1\" coefficient=\"1\"/>",
        "arm.xml:14: <coupling>: the first joint has no inboard joint that could move its cable; remove it"},
       {"joint=\"1\" coefficient", "joint=\"2\" coefficient",
-       "arm.xml:21: <coupling joint=\"2\">: expected a whole number from 1 to 1"},
+       "arm.xml:21: <coupling joint=\"2\">: expected the number of a joint nearer the base, 1 to 1: only its motion "
+       "moves this cable"},
       {"<coupling joint=\"1\" coefficient=\"0.0078\"/>",
        "<coupling joint=\"1\" coefficient=\"0\"/><coupling joint=\"1\" coefficient=\"1\"/>",
        "arm.xml:21: <coupling joint=\"1\">: coupling with this joint is given twice; give it once"},
@@ -113,6 +114,14 @@ TEST(ModelFile, BadInputSaysWhereWhatAndWhatWasExpected) {
        "arm.xml:32: <effect joint=\"4\">: expected a whole number from 1 to 3"},
       {"joint=\"1\" half_gap=\"0.35 mm\"", "",
        "arm.xml:32: <effect>: attribute joint is missing; expected a whole number from 1 to 3"},
+      {"<effect name=\"payload\"/>",
+       "<effect name=\"external_force\" joint=\"1\" force=\"0.1\" start=\"6\" stop=\"2\"/>",
+       "arm.xml:33: <effect>: stop is before start; exchange them"},
+      {"<effect name=\"payload\"/>",
+       "<effect name=\"friction_drift\" joint=\"1\" start=\"-0.7\"/>"
+       "<effect name=\"friction_drift\" joint=\"1\" start=\"-0.7\"/>",
+       "arm.xml:33: <effect start=\"-0.7\">: with the other effects of this kind at the joint it is -1.4, expected a "
+       "sum from -1 to 5"},
       {"<effect name=\"payload\"/>", "<effect name=\"payload\" joint=\"1\"/>",
        "arm.xml:33: <effect joint=\"1\">: effect payload is of the whole arm; remove the joint"},
       {"motor_position_1", "motor_position_4",

@@ -323,5 +323,13 @@ TEST(ModelFile, KeepsWhichColumnsAreLeftOut) {
   EXPECT_EQ(again.sources().at("joint_position_2").column, "elbow");
 }
 
+TEST(ModelFile, KeepsThatAColumnIsACurrent) {
+  ArmModel model = read_model(kExamples / "raven2.xml");
+  model.columns.add_entry("motor_torque_1=current,unit=mA,sign=-1");
+  const ColumnSource again = parse_model(model_to_xml(model), "again.xml").columns.sources().at("motor_torque_1");
+  EXPECT_EQ(again.electric_unit, "mA");
+  EXPECT_EQ(again.scale, -1e-3);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -21,7 +21,7 @@ using namespace halyard::plugin_fixtures;
 TEST(Conformance, FindsWhatACarelessEstimatorBreaks) {
   EXPECT_EQ(halyard::conformance_faults(fixture("careless"), raven2()),
             (std::vector<std::string>{"report: counts 0 steps of 199", "reset: leaves something of the run before",
-                                      "two instances: one of two, fed in turn, differs from one alone at sample 1",
+                                      "two instances: one of two, fed in turn, differs from one alone at sample 0",
                                       "unknown option: is not refused"}));
   // The first is where this fixture passes on what is missing.
   EXPECT_EQ(halyard::conformance_faults(fixture("well_formed"), raven2()).front(),

@@ -35,7 +35,7 @@ TEST(EffectModule, AModuleThatBreaksTheContractIsRefusedWithOneLineAndLeavesNoth
   EXPECT_EQ(refusal("well_formed"),  // an estimator
             "exports no function halyard_effects; it holds no effects, or its function lacks extern \"C\"");
   EXPECT_EQ(refusal("effects_older_interface"),
-            "built for effect interface 3, this program speaks 4; rebuild it against the installed headers");
+            "built for effect interface 4, this program speaks 5; rebuild it against the installed headers");
   const std::string compiler = refusal("effects_other_compiler");
   EXPECT_TRUE(compiler.starts_with("compiled by 'Cfront 3', this program by '")) << compiler;
   EXPECT_TRUE(compiler.ends_with("; rebuild it with this program's compiler")) << compiler;
@@ -61,9 +61,18 @@ TEST(EffectModule, AModuleThatBreaksTheContractIsRefusedWithOneLineAndLeavesNoth
   EXPECT_EQ(refusal("effects_too_many_parameters"), "effect 'fixture_spring' has 9 parameters; give it 1 to 8");
   EXPECT_EQ(refusal("effects_too_many_states"), "effect 'fixture_spring' has 9 states; the most is 8");
   EXPECT_EQ(refusal("effects_spaced_parameter"),
-            "effect 'fixture_spring' has a parameter 'spring rate'; use letters, digits and '_'");
-  EXPECT_EQ(refusal("effects_outside_bounds"),
-            "effect 'fixture_spring' has 'stiffness' neutral or typical outside its bounds; correct them");
+            "effect 'fixture_spring' has a parameter 'spring rate'; use letters, digits, '_' and '-', at most 64");
+  EXPECT_EQ(
+      refusal("effects_outside_bounds"),
+      "effect 'fixture_spring' has 'stiffness' with the typical value 200 outside its bounds [0, 100]; correct one of "
+      "them");
+  EXPECT_EQ(refusal("effects_no_range"),
+            "effect 'fixture_spring' has 'stiffness' with the bounds [10, 10]; give it a lower bound below the upper "
+            "one");
+  EXPECT_EQ(refusal("effects_shape_first"),
+            "effect 'fixture_spring' lists the shape 'rest' before any size; list the sizes that it belongs to first");
+  EXPECT_EQ(refusal("effects_without_stage"),
+            "effect 'fixture_spring' acts at no stage and changes no number of an arm; define stages()");
   EXPECT_EQ(refusal("effects_twice"), "makes 'fixture_spring' twice; give each a name of its own");
 }
 

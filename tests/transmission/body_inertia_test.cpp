@@ -28,19 +28,19 @@ TEST(PrincipalMoments, DoNotDependOnTheAxes) {
 }
 
 TEST(Inertia, OfABodyFulfilsTheTriangleInequality) {
-  EXPECT_EQ(judge_inertia({1, 2, 3}), Inertia::of_a_body);  // a plate
-  EXPECT_EQ(judge_inertia({1, 2, 3.1}), Inertia::too_long);
-  EXPECT_EQ(judge_inertia({-0.1, 2, 2}), Inertia::negative);
-  EXPECT_EQ(judge_inertia({0, 0, 0}), Inertia::of_a_body);  // a point
+  EXPECT_EQ(find_inertia_fault({1, 2, 3}), InertiaFault::none);  // a plate
+  EXPECT_EQ(find_inertia_fault({1, 2, 3.1}), InertiaFault::triangle_inequality);
+  EXPECT_EQ(find_inertia_fault({-0.1, 2, 2}), InertiaFault::negative_moment);
+  EXPECT_EQ(find_inertia_fault({0, 0, 0}), InertiaFault::none);  // a point
 }
 
 TEST(Inertia, IsJudgedAlikeInEveryUnitAndForgivesRounding) {
   constexpr double kRounding = 1e-12;  // of moments of the order of 1
   for (const double unit : {1e-9, 1.0, 1e9}) {
-    EXPECT_EQ(judge_inertia(unit * Eigen::Vector3d(1, 2, 3 + kRounding)), Inertia::of_a_body) << unit;
-    EXPECT_EQ(judge_inertia(unit * Eigen::Vector3d(-kRounding, 2, 2)), Inertia::of_a_body) << unit;
-    EXPECT_EQ(judge_inertia(unit * Eigen::Vector3d(1, 2, 3.1)), Inertia::too_long) << unit;
-    EXPECT_EQ(judge_inertia(unit * Eigen::Vector3d(-0.1, 2, 2)), Inertia::negative) << unit;
+    EXPECT_EQ(find_inertia_fault(unit * Eigen::Vector3d(1, 2, 3 + kRounding)), InertiaFault::none) << unit;
+    EXPECT_EQ(find_inertia_fault(unit * Eigen::Vector3d(-kRounding, 2, 2)), InertiaFault::none) << unit;
+    EXPECT_EQ(find_inertia_fault(unit * Eigen::Vector3d(1, 2, 3.1)), InertiaFault::triangle_inequality) << unit;
+    EXPECT_EQ(find_inertia_fault(unit * Eigen::Vector3d(-0.1, 2, 2)), InertiaFault::negative_moment) << unit;
   }
 }
 

@@ -81,6 +81,31 @@ TEST(Hysteresis, TakesWorkOverEveryCycleAndNeverGivesMoreThanItStored) {
   }
 }
 
+TEST(Hysteresis, PullsHarderWithStretchWhereARunIsSlack) {
+  ArmParameters<double> arm = random_arm(7, CableLaw::linear);
+  arm.joint[0].damping = 0;
+  const double slack_from = arm.joint[0].tension / arm.joint[0].stiffness, unloaded = 0;
+  const Transmission<double> t(arm, {placed("hysteresis", arm, 0, {0.9, 0.1 * slack_from})});
+  const auto force = [&](double x) { return evaluate(t, stretched(arm, 0, x, 0), &unloaded).s[0].cable_force_joint; };
+  // A tenth of the stiffness of one run.
+  EXPECT_NEAR((force(3 * slack_from) - force(2 * slack_from)) / slack_from, 0.1 * arm.joint[0].stiffness,
+              1e-9 * arm.joint[0].stiffness);
+}
+
+TEST(Slack, LimitsWhatAHysteresisLeavesOfTheForce) {
+  ArmParameters<double> arm = random_arm(7, CableLaw::paper);
+  arm.joint[0].damping = 0;
+  const double unloaded = 0, x = 0.1;
+  const PlacedEffect loop = placed("hysteresis", arm, 0, {0.9, 0.01});
+  const double left =
+      evaluate(Transmission<double>(arm, {loop}), stretched(arm, 0, x, 0), &unloaded).s[0].cable_force_joint;
+  const double tension = left / 4;
+  const PlacedEffect slack = placed("slack", arm, 0, {1, tension});
+  for (const auto& effects : {std::vector{slack, loop}, std::vector{loop, slack}})
+    EXPECT_NEAR(evaluate(Transmission<double>(arm, effects), stretched(arm, 0, x, 0), &unloaded).s[0].cable_force_joint,
+                tension + left / 2, left * 4 * kEps);
+}
+
 TEST(Backlash, HasADeadZoneTwiceTheHalfGapWide) {
   const double half_gap = 0.02;
   for (const CableLaw law : kLaws) {
@@ -145,6 +170,16 @@ TEST(CouplingError, MovesTheCableOfItsJointWithTheInboardOneAndPullsBackOnIt) {
   EXPECT_NEAR(a.s[1].joint_force - b.s[1].joint_force,
               radius * ((coefficient + change) * a.s[2].cable_force_joint - coefficient * b.s[2].cable_force_joint),
               50 * 8 * kEps);
+}
+
+TEST(CouplingError, MayBeAsLargeAsTheCouplingItself) {
+  ArmParameters<double> arm = random_arm(7, CableLaw::paper);
+  arm.joint[0].type = JointType::prismatic, arm.joint[1].type = JointType::revolute;
+  arm.joint[1].pulley_radius = 0.03, arm.joint[1].coupling[0] = 0;
+  const auto most = [&] { return find_effect("coupling")->parameters(arm, 1)[0].upper; };
+  EXPECT_DOUBLE_EQ(most(), 1 / 0.03) << "a cable that the slide carries along";
+  arm.joint[1].coupling[0] = -50;
+  EXPECT_EQ(most(), 50);
 }
 
 TEST(CapstanRatio, ScalesJointTravelPerMotorAngle) {

@@ -279,5 +279,22 @@ TEST(FrictionDrift, TakesNoMoreThanAllFrictionAway) {
   EXPECT_NEAR(a.s[0].joint_force, b.s[0].joint_force, 100 * 4 * kEps);  // cables pull with up to 100 N
 }
 
+TEST(FrictionDrift, LeavesPreslidingFrictionPassive) {
+  ArmParameters<double> arm = random_arm(21, CableLaw::linear);
+  JointParameters<double>& j = arm.joint[0];
+  j.motor_viscous = j.joint_viscous = j.torque_bias = 0;
+  const PlacedEffect drift = placed("friction_drift", arm, 0, {0, -0.5, 0, 1});
+  const Transmission<double> motor(arm, {placed("motor_presliding", arm, 0, {0.8, 0.2}), drift});
+  const Transmission<double> joint(arm, {placed("joint_presliding", arm, 0, {0.8, 0.2}), drift}), none(arm, {});
+  const double at_reversal = 0;  // the contacts are not deflected; what is left is half of a fifth
+  Motion m;
+  m.motor_rate[0] = 40 * j.motor_smoothing;  // tanh(40) is 1
+  EXPECT_NEAR(-evaluate(motor, m, &at_reversal).s[0].motor_torque, 0.1 * j.motor_coulomb, 4 * kEps);
+  m = Motion{};
+  m.joint_rate[0] = 40 * j.joint_smoothing;
+  const double less = evaluate(joint, m, &at_reversal).s[0].joint_force - evaluate(none, m).s[0].joint_force;
+  EXPECT_NEAR(less, 0.9 * j.joint_coulomb, 100 * 4 * kEps);  // cables pull with up to 100 N
+}
+
 }  // namespace
 }  // namespace halyard

@@ -84,6 +84,28 @@ double added_force(const std::vector<double>& p, double position, double time) {
   return with.s[0].joint_force - evaluate(Transmission<double>(arm, {}), m, nullptr, time).s[0].joint_force;
 }
 
+TEST(GravityTilt, OfATiltedArmTurnsAboutTheSameAxes) {
+  ArmParameters<double> arm = random_arm(30, CableLaw::linear);
+  const double alpha = 0.05, gamma = 0.3, y = -6.94, z = -6.9;
+  arm.gravity[0] = 0, arm.gravity[1] = y, arm.gravity[2] = z;
+  const auto tilt = [&](double about_x, double about_z) {
+    return placed("gravity_tilt", arm, kWholeArm, {about_x, about_z});
+  };
+  // After the first, gravity is strongest along another axis.
+  const Transmission<double> both(arm, {tilt(alpha, 0), tilt(0, gamma)});
+  const double along_y = std::cos(alpha) * y - std::sin(alpha) * z, along_z = std::sin(alpha) * y + std::cos(alpha) * z;
+  ASSERT_GT(std::abs(along_z), std::abs(along_y));
+  EXPECT_NEAR(both.arm().gravity[0], -std::sin(gamma) * along_y, 10 * 4 * kEps);
+  EXPECT_NEAR(both.arm().gravity[1], std::cos(gamma) * along_y, 10 * 4 * kEps);
+  EXPECT_NEAR(both.arm().gravity[2], along_z, 10 * 4 * kEps);
+}
+
+TEST(Payload, MayBeAsHeavyAsTheArm) {
+  ArmParameters<double> arm = random_arm(30, CableLaw::linear);
+  arm.joint[2].mass = 0;
+  EXPECT_EQ(find_effect("payload")->parameters(arm, kWholeArm)[0].upper, arm.joint[0].mass + arm.joint[1].mass);
+}
+
 TEST(ExternalForce, ActsFromItsStartToItsStop) {
   const std::vector<double> p = {0.7, 2, 5, 0, 0, 0};
   for (const double time : {0.0, 1.99, 5.01, 100.0}) EXPECT_EQ(added_force(p, 0.1, time), 0) << time;

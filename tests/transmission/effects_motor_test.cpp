@@ -93,6 +93,29 @@ TEST(Delay, LetsTheTorqueActLateAtItsJointOrAtAll) {
   }
 }
 
+TEST(Delay, OfTheArmAndOfAJointAddUp) {
+  const ArmParameters<double> arm = random_arm(26, CableLaw::linear);
+  CommandHistory history(3, 1);
+  for (int i = 0; i <= 100; ++i) {
+    const double command[3] = {std::sin(0.5 * i), std::sin(0.5 * i), std::sin(0.5 * i)};
+    history.push(i * 1e-3, command);
+  }
+  const Transmission<double> two(
+      arm, {placed("delay", arm, kWholeArm, {6e-3, 2e-3}), placed("delay", arm, 1, {6e-3, 1e-3})}),
+      one(arm, {placed("delay", arm, 1, {12e-3, 3e-3})});
+  Motion m;
+  for (double& command : m.command) command = std::sin(50);
+  EXPECT_NEAR(evaluate(two, m, nullptr, 0.1, &history).s[1].motor_torque,
+              evaluate(one, m, nullptr, 0.1, &history).s[1].motor_torque, 4 * kEps);
+  const auto reading = [](const Transmission<double>& t) {
+    JointSignals<double> s[kMaxJoints];
+    s[1].joint_rate = 2, s[1].joint_acceleration = 30;
+    t.sensor_errors(0, nullptr, s);
+    return s[1].joint_error;
+  };
+  EXPECT_NEAR(reading(two), reading(one), 4 * kEps);
+}
+
 TEST(ActuatorSaturation, EndsAtALimitThatFallsWithSpeedWhereTorqueDrives) {
   ArmParameters<double> arm = random_arm(27, CableLaw::linear);
   JointParameters<double>& j = arm.joint[2];

@@ -200,10 +200,10 @@ TEST(Transmission, PackedArmsKeepTheirOwnNumbers) {
 TEST(JointSignals, OfWhichNothingIsKnownAreZero) {
   const auto& [command, motor_angle, motor_rate, joint_position, joint_rate, external_force, motor_torque, stretch,
                stretch_rate, cable_force_motor, cable_force_joint, joint_force, motor_error, joint_error,
-               joint_acceleration] = JointSignals<double>{};
-  for (const double signal :
-       {command, motor_angle, motor_rate, joint_position, joint_rate, external_force, motor_torque, stretch,
-        stretch_rate, cable_force_motor, cable_force_joint, joint_force, motor_error, joint_error, joint_acceleration})
+               joint_acceleration, motor_friction_drift, joint_friction_drift] = JointSignals<double>{};
+  for (const double signal : {command, motor_angle, motor_rate, joint_position, joint_rate, external_force,
+                              motor_torque, stretch, stretch_rate, cable_force_motor, cable_force_joint, joint_force,
+                              motor_error, joint_error, joint_acceleration, motor_friction_drift, joint_friction_drift})
     EXPECT_EQ(signal, 0);
 }
 

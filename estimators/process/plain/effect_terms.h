@@ -40,7 +40,7 @@ HALYARD_INLINE T force_of(const Transmission<T>& transmission, const ForceTerm& 
     case Signal::joint_position: own.joint_position = at; break;
     case Signal::joint_rate: own.joint_rate = at; break;
   }
-  own.motor_torque = own.joint_force = T(0.0);
+  own.motor_torque = own.joint_force = own.motor_friction_drift = own.joint_friction_drift = T(0.0);
   act(transmission, term, time, signals.joint());
   return term.stage == EffectStage::motor ? -own.motor_torque : -own.joint_force;
 }

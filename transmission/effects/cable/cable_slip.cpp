@@ -12,7 +12,7 @@
 ///   T     `duration`: 0 if it slips at once, as over a sudden load. A cable that slips under its working tension
 ///         creeps from the edge of its contact on (Johnson, Contact Mechanics, 1985, section 8.1)          s
 ///
-/// The length that slips does not return. The rate of the slip is part of the stretch rate x'.
+/// The length that slips does not return. The rate of the slip is part of the stretch rate ẋ.
 
 namespace halyard::effects {
 

@@ -20,7 +20,7 @@ class CapstanEccentricity : public EffectOf<CapstanEccentricity> {
     return static_cast<unsigned>(EffectStage::stretch) | static_cast<unsigned>(EffectStage::cable_force);
   }
   /// The lever of the capstan multiplies the force that all others leave.
-  int rank(EffectStage stage) const override { return stage == EffectStage::cable_force ? 1 : 0; }
+  int rank(EffectStage stage) const override { return stage == EffectStage::cable_force ? 3 : 0; }
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive == Drive::cable;
   }

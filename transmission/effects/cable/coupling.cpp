@@ -20,10 +20,9 @@ class CouplingError : public EffectOf<CouplingError> {
     const JointParameters<double>& j = arm.joint[*joint];
     std::vector<EffectParameter> all;
     for (int i = 0; i < *joint; ++i) {
-      const double reach =
-          j.type == JointType::prismatic ? 0.1 : 1.0;  // a pulley of 0.1 m, or as much as the joint itself
+      const double most = std::max(largest(j, arm.joint[i].type), std::abs(j.coupling[i]));
       all.push_back({"from_joint_" + std::to_string(i + 1), coupling_unit(j.type, arm.joint[i].type), 0,
-                     0.1 * std::max(std::abs(j.coupling[i]), 0.1 * reach), -reach, reach});
+                     0.1 * std::max(std::abs(j.coupling[i]), 0.1 * most), -most, most});
     }
     return all;
   }
@@ -31,6 +30,14 @@ class CouplingError : public EffectOf<CouplingError> {
   template <class T>
   void change(ArmParameters<T>& arm, EffectPlace joint, const T* p) const {
     for (int i = 0; i < *joint; ++i) arm.joint[*joint].coupling[i] += p[i];
+  }
+
+ private:
+  /// That of a cable on a pulley of the inboard joint that is as large as the own one, and of 0.1 m for a sliding
+  /// joint; an inboard joint that slides moves the whole cable.
+  static double largest(const JointParameters<double>& own, JointType inboard) {
+    if (own.type == inboard) return 1;
+    return own.type == JointType::prismatic ? 0.1 : 1 / own.pulley_radius;
   }
 };
 

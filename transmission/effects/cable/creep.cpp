@@ -4,7 +4,7 @@
 /// Stretch that grows slowly under load. The cable is a standard linear solid: an elastic part in series with a slow
 /// part that follows it with a lag,
 ///
-///   x_e = x - c z,   z' = (x_e - z) / τ,   g = law(x_e, x')
+///   x_e = x - c z,   ż = (x_e - z) / τ,   g = law(x_e, ẋ)
 ///
 ///   x_e   elastic stretch, which makes the force      m
 ///   z     x_e after the lag of the slow part           m

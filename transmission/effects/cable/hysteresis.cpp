@@ -1,16 +1,19 @@
+#include "transmission/cable_law.h"
 #include "transmission/effects/built_in.h"
 #include "transmission/effects/typical_size.h"
 
 /// Rate-independent hysteresis of the cable's force over its stretch, of Bouc-Wen type. The share ρ of the stiffness
 /// belongs to an element that yields:
 ///
-///   g' = g + 2 k_e ρ (z - x),   z' = x' - |x'| z / z_y  where x' z > 0,   z' = x'  elsewhere
+///   g' = g + ρ (2 k_e z - g(x, 0)),   ż = ẋ - |ẋ| z / z_y  where ẋ z > 0,   ż = ẋ  elsewhere
 ///
+///   g(x, 0)   the law without damping, in which a slack run does not pull; 2 k_e x under the paper's      N
 ///   z     elastic stretch of the element that yields       m
 ///   z_y   stretch at which it yields: |z| < z_y             m
 ///   ρ     its share of the stiffness                        -
 ///
 /// This is Bouc-Wen with n = 1, β = γ = 1 / (2 z_y). It is passive. A repeated cycle of stretch becomes a closed loop.
+/// The element is loaded by the motion of motor and joint, and by a slip, not by the slow stretch of `creep`.
 /// Source: Wen, J. Eng. Mech. 102 (1976); for robot cables Miyasaka et al., ICRA 2016.
 
 namespace halyard::effects {
@@ -36,9 +39,13 @@ class Hysteresis : public EffectOf<Hysteresis> {
 
   template <class T>
   void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
-    const T change = T(2.0) * c.arm.joint[*c.joint].stiffness * c.p[0] * (c.z[0] - s[*c.joint].stretch);
-    s[*c.joint].cable_force_motor += change;
-    s[*c.joint].cable_force_joint += change;
+    const JointParameters<T>& j = c.arm.joint[*c.joint];
+    JointSignals<T>& own = s[*c.joint];
+    const T change = j.law == CableLaw::paper
+                         ? T(T(2.0) * j.stiffness * c.p[0] * (c.z[0] - own.stretch))
+                         : T(c.p[0] * (T(2.0) * j.stiffness * c.z[0] - cable_force(j, own.stretch, T(0.0))));
+    own.cable_force_motor += change;
+    own.cable_force_joint += change;
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {

@@ -4,14 +4,15 @@
 
 /// A run of the cable can pull but not push. With rest tension T, the tension of each run does not fall below zero:
 ///
-///   g' = g + ρ (g_T - g),   g_T = max(0, T + p) - max(0, T - p),   p = half of the model's g
+///   g' = g + ρ (g_T - g),   g_T = max(0, T + g/2) - max(0, T - g/2)
 ///
+///   g   force of the cable with its other effects                                  N
 ///   T   tension of each run at rest                                                N
 ///   ρ   share of compression that a slack run cannot carry: 1 cable, 0 rod         -
 ///
 /// The paper's law does not clamp tension at zero; at ρ = 1 this effect does, with rest tension T. The linear and the
-/// exponential law already clamp, with the model's T_0; for them g_T is the law with T in place of T_0. ρ is the size
-/// of the effect, T its shape: at ρ = 0 the model's law is unchanged for every T.
+/// exponential law already clamp, with the model's T_0; for them g_T - g is the law with T in place of T_0 minus the
+/// law. ρ is the size of the effect, T its shape: at ρ = 0 the model's law is unchanged for every T.
 ///
 /// Source: the clamp of cable_law.h.
 
@@ -22,6 +23,8 @@ class Slack : public EffectOf<Slack> {
   std::string name() const override { return "slack"; }
   std::string summary() const override { return "a cable run that goes slack at low tension"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::cable_force); }
+  /// A run carries the sum of what all others but the capstan's radius make of the force.
+  int rank(EffectStage) const override { return 1; }
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive == Drive::cable;
   }
@@ -35,11 +38,23 @@ class Slack : public EffectOf<Slack> {
   void on_cable_force(const EffectContext<T>& c, JointSignals<T>* s) const {
     const JointParameters<T>& j = c.arm.joint[*c.joint];
     JointSignals<T>& own = s[*c.joint];
+    if (j.law == CableLaw::paper) {
+      own.cable_force_motor += c.p[0] * clamped_by(own.cable_force_motor, c.p[1]);
+      own.cable_force_joint += c.p[0] * clamped_by(own.cable_force_joint, c.p[1]);
+      return;
+    }
     const RunTensions<T> run = run_tensions(j, c.p[1], own.stretch, own.stretch_rate);
-    const T law = j.law == CableLaw::paper ? run.forward - run.backward : cable_force(j, own.stretch, own.stretch_rate);
-    const T change = c.p[0] * (max(T(0.0), run.forward) - max(T(0.0), run.backward) - law);
+    const T change = c.p[0] * (run.forward - run.backward - cable_force(j, own.stretch, own.stretch_rate));
     own.cable_force_motor += change;
     own.cable_force_joint += change;
+  }
+
+ private:
+  /// g_T - g.
+  template <class T>
+  static T clamped_by(const T& g, const T& tension) {
+    const T half = T(0.5) * g;
+    return max(T(0.0), T(tension + half)) - max(T(0.0), T(tension - half)) - g;
   }
 };
 

@@ -37,6 +37,10 @@ class ExternalForce : public EffectOf<ExternalForce> {
             {"contact_position", turns ? "rad" : "m", 0, 0, -far, far}};
   }
 
+  std::string fault_of(const double* p) const override {
+    return p[2] < p[1] ? "stop is before start; exchange them" : "";
+  }
+
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
     const T *p = c.p, beyond = s[*c.joint].joint_position - p[5];

@@ -3,7 +3,8 @@
 #include "transmission/friction.h"
 
 /// Friction that changes in time, as in a drive that warms up. The Coulomb level and viscous coefficient of the motor
-/// are multiplied by 1 + g, those of the joint by 1 + σ g:
+/// are multiplied by 1 + g, those of the joint by 1 + σ g. The part that is elastic before it slides (presliding.h)
+/// follows:
 ///
 ///   g = max(-1, α + ρ (1 - exp(-λ t)) / λ),   t >= 0
 ///
@@ -38,6 +39,8 @@ class FrictionDrift : public EffectOf<FrictionDrift>, public OneSignalEffect {
   unsigned stages() const override {
     return static_cast<unsigned>(EffectStage::motor) | static_cast<unsigned>(EffectStage::joint);
   }
+  /// Others follow what it tells.
+  int rank(EffectStage) const override { return -1; }
   Signal signal_at(EffectStage stage) const override {
     return stage == EffectStage::motor ? Signal::motor_rate : Signal::joint_rate;
   }
@@ -52,14 +55,18 @@ class FrictionDrift : public EffectOf<FrictionDrift>, public OneSignalEffect {
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
     const JointParameters<T>& j = c.arm.joint[*c.joint];
     if (j.drive == Drive::none) return;
-    s[*c.joint].motor_torque -=
-        growth(c) * friction(j.motor_coulomb, j.motor_viscous, j.motor_smoothing, s[*c.joint].motor_rate);
+    JointSignals<T>& own = s[*c.joint];
+    const T g = growth(c);
+    own.motor_torque -= g * friction(j.motor_coulomb, j.motor_viscous, j.motor_smoothing, own.motor_rate);
+    own.motor_friction_drift += g;
   }
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
     const JointParameters<T>& j = c.arm.joint[*c.joint];
-    s[*c.joint].joint_force -=
-        c.p[3] * growth(c) * friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, s[*c.joint].joint_rate);
+    JointSignals<T>& own = s[*c.joint];
+    const T g = c.p[3] * growth(c);
+    own.joint_force -= g * friction(j.joint_coulomb, j.joint_viscous, j.joint_smoothing, own.joint_rate);
+    own.joint_friction_drift += g;
   }
 };
 

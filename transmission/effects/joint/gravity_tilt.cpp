@@ -16,6 +16,7 @@ namespace {
 /// The base axis along which gravity is strongest, the first of equals: the one that is left out.
 template <class T>
 int vertical_axis(const ArmParameters<T>& arm) {
+  if (arm.vertical_axis >= 0) return arm.vertical_axis;
   int vertical = 0;
   for (int i = 1; i < 3; ++i)
     if (std::abs(value(arm.gravity[i])) > std::abs(value(arm.gravity[vertical]))) vertical = i;
@@ -46,7 +47,7 @@ class GravityTilt : public EffectOf<GravityTilt> {
 
   template <class T>
   void change(ArmParameters<T>& arm, EffectPlace, const T* p) const {
-    const int vertical = vertical_axis(arm);
+    const int vertical = arm.vertical_axis = vertical_axis(arm);
     turn(arm.gravity, vertical == 2 ? 1 : 2, p[1]);
     turn(arm.gravity, vertical == 0 ? 1 : 0, p[0]);
   }

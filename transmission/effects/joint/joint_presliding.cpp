@@ -24,8 +24,9 @@ class JointPresliding : public EffectOf<JointPresliding> {
   template <class T>
   void on_joint(const EffectContext<T>& c, JointSignals<T>* s) const {
     const JointParameters<T>& j = c.arm.joint[*c.joint];
-    s[*c.joint].joint_force -=
-        presliding_force(c.p, j.joint_coulomb, j.joint_smoothing, s[*c.joint].joint_rate, c.z[0]);
+    JointSignals<T>& own = s[*c.joint];
+    own.joint_force -=
+        presliding_force(c.p, j.joint_coulomb, j.joint_smoothing, own.joint_rate, c.z[0], own.joint_friction_drift);
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {

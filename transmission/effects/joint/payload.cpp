@@ -18,7 +18,9 @@ class Payload : public EffectOf<Payload> {
   std::vector<EffectParameter> parameters(const ArmParameters<double>& arm, EffectPlace) const override {
     const JointParameters<double>& last = arm.joint[arm.n - 1];
     const double whole = std::max(last.mass, 1e-3);
-    return {{"mass", "kg", 0, 0.1 * whole, -0.9 * whole, 20 * whole}};
+    double links = 0;
+    for (int k = 0; k < arm.n; ++k) links += arm.joint[k].mass;
+    return {{"mass", "kg", 0, 0.1 * whole, -0.9 * whole, std::max(20 * whole, links)}};
   }
 
   template <class T>

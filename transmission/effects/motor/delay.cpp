@@ -8,8 +8,9 @@
 ///   d_c   `command_delay`, at least 0                       s
 ///   d_s   `sensor_delay`; negative: the motor's lags        s
 ///
-/// The sensor's delay is a second-order approximation, good while d_s is short against the motion. Without a history of
-/// commands the torque acts at once. It acts before all other effects that change the commanded torque.
+/// Delays of the arm and of a joint add up. The sensor's delay is a second-order approximation, good while d_s is short
+/// against the motion. Without a history of commands the torque acts at once. It acts before all other effects that
+/// change the commanded torque.
 
 namespace halyard::effects {
 
@@ -28,30 +29,31 @@ class Delay : public EffectOf<Delay> {
   }
 
   template <class T>
+  void change(ArmParameters<T>& arm, EffectPlace joint, const T* p) const {
+    for (int k = first(joint); k < end(joint, arm.n); ++k)
+      arm.joint[k].command_delay += p[0], arm.joint[k].sensor_delay += p[1];
+  }
+  /// Of several delays, each adds its share of what their sum changes.
+  template <class T>
   void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
     if (!c.history) return;
-    const T then = T(c.time) - c.p[0];
-    for (int k = first(c); k < end(c); ++k) {
+    for (int k = first(c.joint); k < end(c.joint, c.arm.n); ++k) {
+      const T whole = c.arm.joint[k].command_delay, share = c.p[0] / whole;
       // Exactly none without a delay: the history is rounded.
-      const T late = select(c.p[0] > T(0.0), T(c.history->at(k, then) - s[k].command), T(0.0));
+      const T late =
+          select(c.p[0] > T(0.0), T(share * (c.history->at(k, T(T(c.time) - whole)) - s[k].command)), T(0.0));
       s[k].motor_torque += c.arm.joint[k].torque_scale * late;
     }
   }
   template <class T>
   void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
-    for (int k = first(c); k < end(c); ++k)
-      s[k].joint_error -= c.p[1] * (s[k].joint_rate - T(0.5) * c.p[1] * s[k].joint_acceleration);
+    for (int k = first(c.joint); k < end(c.joint, c.arm.n); ++k)
+      s[k].joint_error -= c.p[1] * (s[k].joint_rate - T(0.5) * c.arm.joint[k].sensor_delay * s[k].joint_acceleration);
   }
 
  private:
-  template <class T>
-  static int first(const EffectContext<T>& c) {
-    return c.joint.value_or(0);
-  }
-  template <class T>
-  static int end(const EffectContext<T>& c) {
-    return c.joint ? *c.joint + 1 : c.arm.n;
-  }
+  static int first(EffectPlace joint) { return joint.value_or(0); }
+  static int end(EffectPlace joint, int n) { return joint ? *joint + 1 : n; }
 };
 
 HALYARD_EFFECT(Delay)

@@ -11,7 +11,7 @@
 ///   α            asymmetry: the Coulomb level F_c' = F_c + ΔF_c is (1 + α) F_c' forward, (1 - α) F_c' backward
 ///   α_v          asymmetry of the viscous coefficient F_v' = F_v + ΔF_v in the same way, `viscous_asymmetry`
 ///
-/// Source: the paper's Eq. 5; asymmetry as in Armstrong-Helouvry et al., Automatica 30 (1994).
+/// Source: the paper's Eq. 5; asymmetry as in Armstrong-Hélouvry et al., Automatica 30 (1994).
 
 namespace halyard::effects {
 

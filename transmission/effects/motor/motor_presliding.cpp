@@ -24,8 +24,9 @@ class MotorPresliding : public EffectOf<MotorPresliding> {
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
     const JointParameters<T>& j = c.arm.joint[*c.joint];
-    s[*c.joint].motor_torque -=
-        presliding_force(c.p, j.motor_coulomb, j.motor_smoothing, s[*c.joint].motor_rate, c.z[0]);
+    JointSignals<T>& own = s[*c.joint];
+    own.motor_torque -=
+        presliding_force(c.p, j.motor_coulomb, j.motor_smoothing, own.motor_rate, c.z[0], own.motor_friction_drift);
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {

@@ -9,7 +9,7 @@
 ///
 /// Only cables of other joints that this joint's motion moves can tell the two apart. Where there are none, the joint's
 /// sensor is the reference, and σ is no parameter. The effect has no meaning where the model does not know one of the
-/// two zeros.
+/// two zeros. r_l, r_m and N are those of the model with the effects that are listed before this one.
 
 namespace halyard::effects {
 
