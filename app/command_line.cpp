@@ -243,10 +243,10 @@ void add_check_command(CLI::App& app) {
   command.add_flag("--kalman", options->kalman,
                    "of an estimator: it is a Kalman filter with halyard's noise; hold it "
                    "against the textbook's on a linear arm");
-  add_number(command, "--time-limit", options->time_limit_s, {.above_least = true},
-             "of a module: limit for loading its effects, or for testing one promise of its estimator, in s")
-      ->type_name("S")
-      ->capture_default_str();
+  add_number(
+      command, "--time-limit", options->time_limit_s, {.above_least = true},
+      "of a module: limit for loading its effects, or for testing one promise of its estimator, in s; default: 10")
+      ->type_name("S");
   add_effects_option(command);
   finish(command, [options] { run_check(*options); });
 }
@@ -284,10 +284,26 @@ void check_command_name(const CLI::App& app, int argc, char** argv) {
                    "; see halyard --help");
 }
 
+/// "; did you mean --column?" if an option of the command begins so, or the word begins as an option; else empty.
+std::string similar_option(const CLI::App& command, const std::string& word) {
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames())
+      if (const std::string full = "--" + name; word.size() > 4 && (full.starts_with(word) || word.starts_with(full)))
+        return "; did you mean " + full + "?";
+  return "";
+}
+
+/// A required option is often missing because the user has given another: that one is named first.
 [[noreturn]] void fail_usage(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<CLI::App*> parsed = app.get_subcommands();
   const std::string command = parsed.empty() ? "halyard" : "halyard " + parsed.front()->get_name();
-  throw InputError(command + ": " + error.what() + "; see " + command + " --help" +
+  const std::vector<std::string> before = app.remaining(), behind = app.remaining(/*recurse=*/true);
+  std::string fault = error.what();
+  if (!parsed.empty() && !before.empty())
+    fault = before.front() + " stands before the command; give it behind " + command;
+  else if (!parsed.empty() && !behind.empty())
+    fault = behind.front() + " was not expected" + similar_option(*parsed.front(), behind.front());
+  throw InputError(command + ": " + fault + "; see " + command + " --help" +
                    (parsed.empty() ? "" : " or halyard --help"));
 }
 

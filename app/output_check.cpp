@@ -6,7 +6,6 @@
 #include <system_error>
 
 #include "model/input_error.h"
-#include "model/output/output_files.h"
 #include "model/output/read_files.h"
 
 namespace halyard {
@@ -58,6 +57,11 @@ std::unique_ptr<FileLock> lock_output_file(const fs::path& path) {
 
 void check_not_input(const fs::path& out) {
   if (was_read(out)) fail(out, "would replace an input of this command; give another path");
+}
+
+void commit_outputs(OutputFiles& files) {
+  for (const fs::path& path : files.paths()) check_not_input(path);
+  files.commit();
 }
 
 }  // namespace halyard

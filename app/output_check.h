@@ -7,6 +7,7 @@
 
 #include "model/output/file_lock.h"
 #include "model/output/folder_lock.h"
+#include "model/output/output_files.h"
 
 namespace halyard {
 
@@ -17,6 +18,9 @@ namespace halyard {
 
 /// Throws InputError if `out` is a file that the command has read, because writing would replace it.
 void check_not_input(const std::filesystem::path& out);
+
+/// Gives the outputs their names (OutputFiles::commit). Throws InputError instead if one would replace an input.
+void commit_outputs(OutputFiles& files);
 
 /// Locks a folder for the outputs of a command, and makes it if it is missing. Throws InputError if another run writes
 /// into it, or unless files can be written into it. part: see FolderLock.

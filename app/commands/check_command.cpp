@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <numbers>
@@ -49,6 +50,21 @@ void print_range_notes(const ArmModel& model) {
   }
 }
 
+/// Radii and a gravity that are so large that they may be in millimetres.
+void print_size_notes(const ArmModel& model) {
+  constexpr double kLargeRadius_m = 1, kLargeGravity = 30;
+  for (int k = 0; k < model.n(); ++k) {
+    const JointParameters<double>& j = model.nominal.joint[k];
+    const bool turns = j.type == JointType::revolute;
+    for (const auto& [what, radius] : {std::pair("capstan", j.capstan_radius), std::pair("pulley", j.pulley_radius)})
+      if (j.drive == Drive::cable && radius > kLargeRadius_m && (turns || what == std::string("capstan")))
+        print_out("note: the {} of joint {} has a radius of {:g} m; if it is in millimetres, write mm behind it\n",
+                  what, k + 1, radius);
+  }
+  const double g = std::hypot(model.nominal.gravity[0], model.nominal.gravity[1], model.nominal.gravity[2]);
+  if (g > kLargeGravity) print_out("note: gravity is {:g} m/s^2; on earth it is 9.81\n", g);
+}
+
 /// An arm whose states settle faster than the filters can follow at the usual rate of a log. The plant can simulate it.
 void print_note_of_filters(const ArmModel& model) {
   constexpr double kUsualStep_s = 1e-3;
@@ -70,6 +86,7 @@ void print_arm(const ArmModel& model, const std::vector<std::string>& unchecked)
   }
   print_out("\n  effects: {}\n", effect_list(model));
   print_range_notes(model);
+  print_size_notes(model);
   print_note_of_filters(model);
   if (!unchecked.empty())
     print_out("  not checked: options of estimators that are not installed: {}\n", fmt::join(unchecked, ", "));
@@ -113,12 +130,17 @@ void check_sweep(const std::filesystem::path& file) {
   }
 }
 
+ContainmentOptions containment_of(const CheckOptions& options) {
+  ContainmentOptions containment;
+  containment.step_limit_s = options.time_limit_s.value_or(containment.step_limit_s);
+  return containment;
+}
+
 void check_estimator_module(const CheckOptions& options) {
   const std::string module = options.file.string();
   const ArmModel model =
       read_model(options.model.empty() ? examples_folder({}, "check") / "raven2" / "raven2.xml" : options.model);
-  const std::vector<std::string> faults =
-      contained_faults(module, model, options.kalman, {.step_limit_s = options.time_limit_s});
+  const std::vector<std::string> faults = contained_faults(module, model, options.kalman, containment_of(options));
   if (!faults.empty())
     throw InputError(fmt::format("{}: breaks {} of the promises of an estimator (plugins/host/conformance.h): {}",
                                  module, faults.size(), fmt::join(faults, "; ")));
@@ -139,7 +161,7 @@ void check_effect_module(const CheckOptions& options) {
     throw InputError("halyard check: --model and --kalman are for an estimator's module, and " +
                      in_quotes(options.file.string()) + " has effects; leave them out");
   const std::size_t before = effect_library().size();
-  load_tried_effects(options.file, {.step_limit_s = options.time_limit_s});
+  load_tried_effects(options.file, containment_of(options));
   std::vector<std::string> effects;
   for (std::size_t i = before; i < effect_library().size(); ++i)
     effects.push_back(fmt::format("{}, {}", effect_library()[i]->name(), effect_library()[i]->summary()));
@@ -175,8 +197,14 @@ void check_log_file(const CheckOptions& options) {
 
 void run_check(const CheckOptions& options) {
   const std::filesystem::path& file = options.file;
-  if (file.extension() == ".so")
-    return is_effect_module(file) ? check_effect_module(options) : check_estimator_module(options);
+  const bool is_module = file.extension() == ".so";
+  if (is_module && !options.columns.empty())
+    throw InputError("halyard check: --column is for a log (.csv), and " + in_quotes(file.string()) +
+                     " is a module; leave it out");
+  if (!is_module && options.time_limit_s)
+    throw InputError("halyard check: --time-limit is for a module (.so), and " + in_quotes(file.string()) +
+                     " is none; leave it out");
+  if (is_module) return is_effect_module(file) ? check_effect_module(options) : check_estimator_module(options);
   if (options.kalman)
     throw InputError("halyard check: --kalman is for an estimator's module (.so), and " + in_quotes(file.string()) +
                      " is none; leave it out");

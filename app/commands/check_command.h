@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,8 @@ struct CheckOptions {
   std::filesystem::path model;
   std::vector<std::string> columns;  ///< for a log: entries of --column
   bool kalman = false;               ///< for a module: also test it as a Kalman filter with halyard's noise
-  double time_limit_s = 10;          ///< for a module: longest time for the test of a promise
+  /// For a module: longest time for the test of a promise.
+  std::optional<double> time_limit_s = std::nullopt;
 };
 
 /// halyard check: validates a model, scenario or sweep file and prints a summary; or runs the conformance suite on an

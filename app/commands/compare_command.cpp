@@ -1,6 +1,7 @@
 #include "app/commands/compare_command.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -12,9 +13,11 @@
 #include "app/pages/judgement_tables.h"
 #include "app/progress.h"
 #include "app/terminal/terminal.h"
+#include "evaluation/comparison/assumed_noise.h"
 #include "model/arm_log.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
+#include "model/output/number_text.h"
 #include "plant/scenario.h"
 #include "plant/simulate.h"
 
@@ -144,8 +147,9 @@ void print_runs(const MonteCarlo& runs, const std::vector<JointUnit>& units) {
   for (const RunsOfEstimator& e : runs.estimators) {
     print_out("{}: {} failed\n", e.name, e.failures);
     for (std::size_t k = 0; k < units.size(); ++k)
-      print_out("  joint {}: RMS {} {}, NEES {:.4g}, {} of the instants in its band, {}\n", k + 1,
-                shown_number(e.errors[k].rms, units[k]), units[k].shown, e.nees[k].mean, shown_percent(e.in_band[k]),
+      print_out("  joint {}: RMS {} {}, NEES {}, {} of the instants in its band, {}\n", k + 1,
+                shown_number(e.errors[k].rms, units[k]), units[k].shown,
+                std::isnan(e.nees[k].mean) ? "-" : with_digits(e.nees[k].mean, 4), shown_percent(e.in_band[k]),
                 in_words(e.nees[k]));
   }
 }
@@ -189,7 +193,7 @@ void run_compare(const CompareCommandOptions& options) {
   }
   OutputFiles files;
   write_comparison(files, options.out, comparison, runs);
-  files.commit();
+  commit_outputs(files);
   if (!data.scenario) print_notes(data, options.columns);
   print_errors(comparison);
   if (runs) print_runs(*runs, comparison.units);

@@ -128,7 +128,7 @@ void run_diagnose(const DiagnoseCommandOptions& options) {
   const auto write = [&] {
     OutputFiles files;
     write_diagnosis(files, options.out, model, d, evaluation);
-    files.commit();
+    commit_outputs(files);
   };
   {
     StageProgress progress("diagnose", usual_stages(options.rehearsals),

@@ -62,7 +62,7 @@ void run_identify(const IdentifyCommandOptions& options) {
   }
   OutputFiles files;
   write_identification(files, options.out, result);
-  files.commit();
+  commit_outputs(files);
   print_out("{}", notes);
   print(result);
   print_out("model: {}{}\n", (options.out / "model.xml").string(),

@@ -105,7 +105,7 @@ void run_plan(const PlanCommandOptions& options) {
   if (!options.out.empty()) {
     OutputFiles files;
     write_plan(files, options.out, plan);
-    files.commit();
+    commit_outputs(files);
   }
   print_out("{}", plan_text(plan));
   if (options.out.empty()) return;

@@ -55,7 +55,7 @@ void run_simulate(const SimulateOptions& options) {
   OutputFiles files;
   files.add(truth, log_csv(result.truth, about + ", ground truth"));
   files.add(options.out, log_csv(result.measured, about));
-  files.commit();
+  commit_outputs(files);
 
   print_out("scenario \"{}\": {} samples, {:g} s, {} joint{}\n", scenario.name, result.measured.size(),
             result.measured.duration(), result.measured.n_joints, result.measured.n_joints == 1 ? "" : "s");

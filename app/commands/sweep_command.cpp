@@ -100,7 +100,7 @@ void run_sweep_command(const SweepCommandOptions& options) {
   OutputFiles files;
   write_cells(files, options.out, sweep.grid, cells);
   const SweepSummary summary = write_sweep_report(files, options.out, sweep.grid, cells);
-  files.commit();
+  commit_outputs(files);
   print_result(options.out, sweep.grid, summary);
 }
 
@@ -130,7 +130,7 @@ void run_merge_command(const MergeCommandOptions& options) {
   // The journals of the parts are removed at the end: none may still be written.
   const auto parts = lock_output_folder(options.out, FolderLock::kAllParts);
   const SweepSummary summary = write_sweep_report(files, options.out, whole.grid, whole.cells);
-  files.commit();
+  commit_outputs(files);
   print_result(options.out, whole.grid, summary);
 }
 

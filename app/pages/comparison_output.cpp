@@ -56,6 +56,11 @@ ordered_json paired_json(const Comparison& comparison) {
   return all;
 }
 
+std::string further_inputs(const Comparison& comparison) {
+  return std::string(comparison.with_joint_torque ? ", the measured loads on the joints" : "") +
+         (comparison.with_marker ? ", the positions of the camera's marker" : "");
+}
+
 report::Page comparison_page(const Comparison& comparison, const std::optional<MonteCarlo>& runs) {
   const std::size_t samples = comparison.truth.size();
   report::Page page("Estimators compared", fmt::format("{} with {}: {} samples, {:.6g} s", comparison.data,
@@ -67,10 +72,11 @@ report::Page comparison_page(const Comparison& comparison, const std::optional<M
                  "The record has no joint sensors: the estimates are shown, but there is nothing to judge them by.");
   } else {
     page.paragraph(fmt::format(
-        "Every estimator was given the same motor torques and motor positions and nothing else of the joints. Errors "
+        "Every estimator was given the same motor torques and motor positions{}, and nothing else of the joints. "
+        "Errors "
         "are estimate minus {}, from {:g} s after the first sample on. The mean absolute error is the paper's Eq. 18, "
         "which it calls RMS.",
-        comparison.truth_from, comparison.skip_s));
+        further_inputs(comparison), comparison.truth_from, comparison.skip_s));
     page.table(error_table(comparison));
     page.paragraph(
         "Improvement is 1 - mean absolute error / that of the kinematics estimator. Within 2 sigma is the share of the "
@@ -117,6 +123,8 @@ ordered_json to_json(const Comparison& comparison) {
           {"samples", comparison.truth.size()},
           {"duration_s", comparison.truth.duration()},
           {"errors_counted_after_s", comparison.skip_s},
+          {"with_joint_torque", comparison.with_joint_torque},
+          {"with_marker", comparison.with_marker},
           {"estimators", estimators},
           {"paired", paired_json(comparison)}};
 }

@@ -80,6 +80,7 @@ std::string identify_json(const IdentificationStudy& result) {
       {"doubts", doubts(result)},
       {"parameters", parameters},
       {"blocks", found.blocks},
+      {"process_noise", found.disturbances},
       {"strained", deviating},
       {"error", {{"holdout", result.holdout}, {"joint_position_rms", rms}, {"joint_position_peak", peak}}}};
   return json_text(all);

@@ -7,6 +7,7 @@
 #include "app/pages/comparison_figures.h"
 #include "app/pages/comparison_output.h"
 #include "evaluation/json.h"
+#include "model/output/number_text.h"
 
 namespace halyard {
 namespace {
@@ -45,7 +46,12 @@ report::Table table_of(std::string caption, std::vector<std::string> header, std
 
 std::string in_words(const PairedRatio& r) {
   if (std::isnan(r.ratio)) return "-";
-  return fmt::format("{:.4g} (95 %: {:.4g} to {:.4g}): {}", r.ratio, r.lower, r.upper, verdict(r));
+  // As many digits as it takes to see on which side of 1 the interval lies.
+  int digits = 4;
+  const auto hides = [&](double bound) { return bound != 1 && rounded_to_digits(bound, digits) == 1; };
+  while (digits < 10 && (hides(r.lower) || hides(r.upper))) ++digits;
+  return fmt::format("{:.{}g} (95 %: {:.{}g} to {:.{}g}): {}", r.ratio, digits, r.lower, digits, r.upper, digits,
+                     verdict(r));
 }
 
 report::Table consistency_table(const Comparison& comparison) {

@@ -66,6 +66,11 @@ const char* colour_of(const Series& series, std::size_t place) {
   return kPalette[series.colour.value_or(place) % kPalette.size()];
 }
 
+double lower_end(const Series& s, std::size_t j, bool is_logarithmic) {
+  const double lower = s.band->lower[j];
+  return is_logarithmic && s.y[j] > 0 && lower < s.y[j] / 10 ? s.y[j] / 10 : lower;
+}
+
 void check_lengths(const Chart& chart, const Series& series) {
   const bool bar = chart.kind == ChartKind::bar;
   const std::size_t expected = bar ? chart.categories.size() : series.x.size();

@@ -56,6 +56,10 @@ struct Chart {
 /// "#0072B2": the colour of a series at this place of a chart.
 const char* colour_of(const Series& series, std::size_t place);
 
+/// Where the band of a line ends below its point j: with a logarithmic axis at a tenth of the point at least, since it
+/// may reach 0.
+double lower_end(const Series& series, std::size_t j, bool is_logarithmic);
+
 /// Throws std::invalid_argument, naming chart and series, if the lengths of the series do not match.
 void check_lengths(const Chart& chart, const Series& series);
 

@@ -31,6 +31,12 @@ const char* name_of(ChartKind kind) {
   throw std::invalid_argument("unknown kind of chart");
 }
 
+std::vector<double> lower_ends(const Series& series, bool is_logarithmic) {
+  std::vector<double> ends;
+  for (std::size_t j = 0; j < series.y.size(); ++j) ends.push_back(lower_end(series, j, is_logarithmic));
+  return ends;
+}
+
 Json to_object(const Chart& chart, const Series& series, std::size_t place) {
   check_lengths(chart, series);
   Json object = {{"name", series.name}, {"colour", colour_of(series, place)}, {"dashed", series.dashed}};
@@ -38,7 +44,7 @@ Json to_object(const Chart& chart, const Series& series, std::size_t place) {
     case ChartKind::line:
       object.update(to_object(decimate(series.x, series.y)));
       if (!series.band) break;
-      object["lower"] = to_object(decimate(series.x, series.band->lower));
+      object["lower"] = to_object(decimate(series.x, lower_ends(series, chart.log_y)));
       object["upper"] = to_object(decimate(series.x, series.band->upper));
       break;
     case ChartKind::scatter: object.update(to_object(thin(series.x, series.y))); break;

@@ -22,12 +22,6 @@ std::string fitted(const std::string& name) {
   return length <= kSpace ? "" : fmt::format(" font-size=\"{:.1f}\"", 12 * kSpace / length);
 }
 
-/// Where a band ends below its curve: on a logarithmic axis at a tenth of the curve at most, since it may reach 0.
-double lower_end(const Series& s, std::size_t j, bool is_logarithmic) {
-  const double lower = s.band->lower[j];
-  return is_logarithmic && s.y[j] > 0 && lower < s.y[j] / 10 ? s.y[j] / 10 : lower;
-}
-
 /// A panel with its axes, and the places of its points.
 struct Panel {
   const Chart& chart;
@@ -42,22 +36,24 @@ struct Panel {
 
   std::string frame() const {
     std::string svg;
-    for (const double tick : x.ticks()) {
-      const double at = left + x.place(tick) * kWidth;
+    const std::vector<double> x_ticks = x.ticks(), y_ticks = y.ticks();
+    const std::vector<std::string> x_texts = svg_numbers(x_ticks), y_texts = svg_numbers(y_ticks);
+    for (std::size_t i = 0; i < x_ticks.size(); ++i) {
+      const double at = left + x.place(x_ticks[i]) * kWidth;
       svg += fmt::format("<path d=\"M {:.1f} {:.1f} v {}\" stroke=\"#e3e6eb\"/>\n", at, top, kHeight);
-      svg += svg_text(at, top + kHeight + 16, Anchor::middle, svg_number(tick));
+      svg += svg_text(at, top + kHeight + 16, Anchor::middle, x_texts[i]);
     }
-    for (const double tick : y.ticks()) {
-      const double at = top + (1 - y.place(tick)) * kHeight;
+    for (std::size_t i = 0; i < y_ticks.size(); ++i) {
+      const double at = top + (1 - y.place(y_ticks[i])) * kHeight;
       svg += fmt::format("<path d=\"M {:.1f} {:.1f} h {}\" stroke=\"#e3e6eb\"/>\n", left, at, kWidth);
-      svg += svg_text(left - 6, at + 4, Anchor::end, svg_number(tick));
+      svg += svg_text(left - 6, at + 4, Anchor::end, y_texts[i]);
     }
     svg +=
         fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#9aa3b0\"/>\n",
                     left, top, kWidth, kHeight);
     svg += svg_text(left, top - 8, Anchor::start, chart.title, " font-weight=\"bold\"");
     svg += svg_text(left + kWidth / 2, top + kHeight + 36, Anchor::middle, chart.x_label, fitted(chart.x_label));
-    return svg + svg_text(left - 52, top + kHeight / 2, Anchor::middle, chart.y_label, "", /*turned=*/true);
+    return svg + svg_text(left - 60, top + kHeight / 2, Anchor::middle, chart.y_label, "", /*turned=*/true);
   }
 
   std::string series(std::size_t i) const {

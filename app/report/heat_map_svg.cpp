@@ -40,9 +40,12 @@ std::string rectangle(double x, double y, double width, double height, const std
 /// Names of every so many cells along an axis, from its middle on.
 std::string names(const std::vector<double>& values, const auto& place) {
   const std::size_t stride = (values.size() + kMostNames - 1) / kMostNames;
+  std::vector<double> named;
+  for (std::size_t i = 0; i < values.size(); i += stride) named.push_back(values[i]);
+  const std::vector<std::string> texts = svg_numbers(named);
   std::string svg;
-  for (std::size_t i = 0; i < values.size(); i += stride)
-    svg += place((double(i) + 0.5) / double(values.size()), values[i]);
+  for (std::size_t i = 0; i < named.size(); ++i)
+    svg += place((double(i * stride) + 0.5) / double(values.size()), texts[i]);
   return svg;
 }
 
@@ -52,8 +55,10 @@ std::string scale_of_colours(const HeatMap& map, const SvgAxis& axis, double lef
   for (int i = 0; i < kScaleSteps; ++i)
     svg += rectangle(x, top + kSide * (1 - (i + 1.0) / kScaleSteps), kScaleWidth, kSide / kScaleSteps + 0.5,
                      colour_at((i + 0.5) / kScaleSteps));
-  for (const double tick : axis.ticks())
-    svg += svg_text(x + kScaleWidth + 4, top + kSide * (1 - axis.place(tick)) + 4, Anchor::start, svg_number(tick));
+  const std::vector<double> ticks = axis.ticks();
+  const std::vector<std::string> texts = svg_numbers(ticks);
+  for (std::size_t i = 0; i < ticks.size(); ++i)
+    svg += svg_text(x + kScaleWidth + 4, top + kSide * (1 - axis.place(ticks[i])) + 4, Anchor::start, texts[i]);
   return svg + svg_text(left + kSide + kRight - 8, top + kSide / 2, Anchor::middle, map.value_label, "", true);
 }
 
@@ -69,11 +74,11 @@ std::string heat_map(const HeatMap& map, double left, double top) {
     svg += rectangle(left + double(i % map.x.size()) * width, top + kSide - double(i / map.x.size() + 1) * height,
                      width + 0.3, height + 0.3, colour_at(place));
   }
-  svg += names(map.x, [&](double place, double value) {
-    return svg_text(left + place * kSide, top + kSide + 16, Anchor::middle, svg_number(value));
+  svg += names(map.x, [&](double place, const std::string& text) {
+    return svg_text(left + place * kSide, top + kSide + 16, Anchor::middle, text);
   });
-  svg += names(map.y, [&](double place, double value) {
-    return svg_text(left - 6, top + (1 - place) * kSide + 4, Anchor::end, svg_number(value));
+  svg += names(map.y, [&](double place, const std::string& text) {
+    return svg_text(left - 6, top + (1 - place) * kSide + 4, Anchor::end, text);
   });
   svg += svg_text(left, top - 10, Anchor::start, map.title, " font-weight=\"bold\"");
   svg += svg_text(left + kSide / 2, top + kSide + 36, Anchor::middle, map.x_label);

@@ -61,20 +61,30 @@ const makers = {line: line, scatter: scatter, bar: bars, histogram: histogram};
 
 const power = (value) => value < 1e-3 || value > 1e4 ? value.toExponential().replace("+", "") : short(value);
 
-// Powers of ten, and with few decades 2 and 5 of each.
+// Whether a tick of a logarithmic axis has a number: powers of ten, of many decades every few; with few decades 2 and 5
+// of each, too; and within less than a decade all.
+function hasNumber(value, decades) {
+  const exponent = Math.floor(Math.log10(value) + 1e-9), mantissa = Math.round(value / 10 ** exponent);
+  if (decades < 0.7) return true;
+  if (decades < 2.5) return mantissa === 1 || mantissa === 2 || mantissa === 5;
+  return mantissa === 1 && exponent % Math.ceil(decades / 8) === 0;
+}
+
 function logTick(value, index, ticks) {
-  const decades = Math.log10(ticks[ticks.length - 1].value / ticks[0].value);
-  const mantissa = Math.round(value / 10 ** Math.floor(Math.log10(value) + 1e-9));
-  return mantissa === 1 || (decades < 2.5 && (mantissa === 2 || mantissa === 5)) ? power(value) : "";
+  return hasNumber(value, Math.log10(ticks[ticks.length - 1].value / ticks[0].value)) ? power(value) : "";
+}
+
+// Chart.js gives an axis that ends at its data the tick before them, too.
+function dropTicksOutside(axis) {
+  axis.ticks = axis.ticks.filter(
+      (tick) => tick.value >= axis.min * (1 - 1e-9) && tick.value <= axis.max * (1 + 1e-9));
 }
 
 function axis(label, log) {
-  return {
-    type: log ? "logarithmic" : "linear",
-    title: {display: label !== "", text: label, color: text},
-    grid: {color: grid, borderColor: muted},
-    ticks: log ? {callback: logTick, maxRotation: 0} : {maxRotation: 0},
-  };
+  const common = {title: {display: label !== "", text: label, color: text}, grid: {color: grid, borderColor: muted}};
+  if (!log) return {...common, type: "linear", ticks: {maxRotation: 0}};
+  return {...common, type: "logarithmic", afterBuildTicks: dropTicksOutside,
+          ticks: {callback: logTick, maxRotation: 0, autoSkip: false}};
 }
 
 function axes(chart) {

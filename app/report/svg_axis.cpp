@@ -17,6 +17,14 @@ double even_step(double range) {
   return 10 * power;
 }
 
+std::vector<double> even_ticks(double from, double to) {
+  std::vector<double> ticks;
+  const double step = even_step(to - from);
+  for (double i = std::ceil(from / step - kRounding); i * step <= to + kRounding * step; ++i)
+    ticks.push_back(i * step + 0.0);  // 0 without a sign
+  return ticks;
+}
+
 }  // namespace
 
 SvgAxis::SvgAxis(std::span<const double> numbers, bool is_logarithmic, bool rounded) : is_logarithmic_(is_logarithmic) {
@@ -32,8 +40,8 @@ SvgAxis::SvgAxis(std::span<const double> numbers, bool is_logarithmic, bool roun
   // Numbers that differ by roundings alone have no room for ticks between them.
   constexpr double kLeastRange = 1e-9;
   if (to_ - from_ <= kLeastRange * std::max(std::abs(from_), std::abs(to_))) {
-    const double room = is_logarithmic_ || from_ == 0 ? 0.5 : std::abs(from_) / 2;
-    from_ -= room, to_ += room;
+    const double room = is_logarithmic_ ? 0.5 : std::abs(from_) / 2;
+    from_ -= room, to_ += from_ == 0 && !is_logarithmic_ ? 1 : room;
   }
   if (!rounded) return;
   const double step = is_logarithmic_ ? 0.25 : even_step(to_ - from_);
@@ -47,13 +55,8 @@ double SvgAxis::place(double number) const {
 }
 
 std::vector<double> SvgAxis::ticks() const {
+  if (!is_logarithmic_) return even_ticks(from_, to_);
   std::vector<double> ticks;
-  if (!is_logarithmic_) {
-    const double step = even_step(to_ - from_);
-    for (double i = std::ceil(from_ / step - kRounding); i * step <= to_ + kRounding * step; ++i)
-      ticks.push_back(i * step + 0.0);  // 0 without a sign
-    return ticks;
-  }
   const double range = to_ - from_;
   const std::vector<double> multiples = range <= 1.2   ? std::vector<double>{1, 2, 5}
                                         : range <= 2.2 ? std::vector<double>{1, 3}
@@ -65,7 +68,7 @@ std::vector<double> SvgAxis::ticks() const {
       const bool is_within = place >= from_ - kRounding && place <= to_ + kRounding;
       if (is_within && std::fmod(std::abs(power), stride) == 0) ticks.push_back(multiple * std::pow(10, power));
     }
-  return ticks;
+  return ticks.size() < 2 ? even_ticks(std::pow(10, from_), std::pow(10, to_)) : ticks;
 }
 
 }  // namespace halyard::report

@@ -15,7 +15,8 @@ class SvgAxis {
 
   /// NaN for a number that the axis cannot show.
   double place(double number) const;
-  /// Even steps of 1, 2 or 5; on a logarithmic axis powers of ten, and if these are few some of their multiples.
+  /// Even steps of 1, 2 or 5; on a logarithmic axis powers of ten, and if these are few some of their multiples, or
+  /// even steps, so that there are two at least.
   std::vector<double> ticks() const;
 
  private:

@@ -2,19 +2,24 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
+
+#include "app/report/escaped.h"
 
 namespace halyard::report {
 namespace {
 
-std::string escaped(std::string_view words) {
-  std::string text;
-  for (const char c : words) {
-    if (c == '&') text += "&amp;";
-    else if (c == '<') text += "&lt;";
-    else if (c == '>') text += "&gt;";
-    else text += c;
-  }
+/// To so many significant digits.
+std::string number_text(double value, int digits) {
+  if (value == 0) return "0";
+  const auto power = int(std::floor(std::log10(std::abs(value)) + 1e-9));
+  if (power < -3 || power >= 5) return fmt::format("{:.{}g}e{}", value / std::pow(10, power), digits, power);
+  std::string text = fmt::format("{:.{}f}", value, std::max(0, digits - 1 - power));
+  if (text.find('.') == text.npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
   return text;
 }
 
@@ -27,10 +32,17 @@ std::string svg_text(double x, double y, Anchor anchor, std::string_view words, 
   return fmt::format("<text {} text-anchor=\"{}\"{}>{}</text>\n", place, at, more, escaped(words));
 }
 
-std::string svg_number(double value) {
-  if (value == 0 || (std::abs(value) >= 1e-3 && std::abs(value) < 1e5)) return fmt::format("{:.3g}", value);
-  const auto power = int(std::floor(std::log10(std::abs(value)) + 1e-9));
-  return fmt::format("{:.3g}e{}", value / std::pow(10, power), power);
+std::vector<std::string> svg_numbers(std::span<const double> values) {
+  constexpr int kFewest = 3, kMost = 15;
+  std::vector<std::string> texts;
+  for (int digits = kFewest; digits <= kMost; ++digits) {
+    texts.clear();
+    for (const double value : values) texts.push_back(number_text(value, digits));
+    const bool all_differ =
+        std::set(texts.begin(), texts.end()).size() == std::set(values.begin(), values.end()).size();
+    if (all_differ) break;
+  }
+  return texts;
 }
 
 std::string svg_document(double width, double height, const std::string& content) {

@@ -1,11 +1,14 @@
 #include "app/tour/experiments_command.h"
 
+#include <fmt/core.h>
+
 #include "app/bundled_files.h"
 #include "app/output_check.h"
 #include "app/pages/comparison_figures.h"
 #include "app/progress.h"
 #include "app/terminal/terminal.h"
 #include "app/tour/experiments_report.h"
+#include "model/input_error.h"
 
 namespace halyard {
 namespace {
@@ -46,7 +49,11 @@ void run_experiments(const ExperimentsOptions& options) {
   const ExperimentsSetup setup{.raven2 = examples_folder(options.examples, "experiments") / "raven2",
                                .calibrated = options.calibrated,
                                .duration_s = options.duration_s};
-  if (setup.duration_s > 0) check_skip(CompareOptions{}.skip_s, setup.duration_s, "--duration");
+  if (const double skipped = CompareOptions{}.skip_s; setup.duration_s > 0 && setup.duration_s <= skipped)
+    throw InputError(
+        fmt::format("halyard experiments: --duration {:g}: expected more than {:g} s, in which no errors "
+                    "are counted; give a longer one",
+                    setup.duration_s, skipped));
   std::vector<Experiment> experiments;
   std::optional<EffectStudy> study;
   {
@@ -57,7 +64,7 @@ void run_experiments(const ExperimentsOptions& options) {
   }
   OutputFiles files;
   write_experiments(files, options.out, experiments, study);
-  files.commit();
+  commit_outputs(files);
   print_summary(experiments);
   if (study) print_study(*study, experiments.front().comparison.units);
   print_out("report: {}\n", (options.out / "report.html").string());

@@ -107,7 +107,7 @@ void run_tour(const TourOptions& options) {
   }
   OutputFiles files;
   write_tour(files, options.out, tour);
-  files.commit();
+  commit_outputs(files);
   print_experiments(tour.experiments);
   print_bundled(tour);
   print_rigs(tour);

@@ -11,6 +11,7 @@
 #include "evaluation/worker/bytes.h"
 #include "evaluation/worker/worker_process.h"
 #include "model/input_error.h"
+#include "model/output/read_files.h"
 #include "plugins/host/conformance.h"
 #include "plugins/host/effect_module.h"
 #include "transmission/effects/library.h"
@@ -36,6 +37,7 @@ void check_effects(const std::string& estimator, const ArmModel& model) {
 
 WorkerTask task_of(WorkerJob job, const std::string& estimator, const ArmModel& model) {
   check_effects(estimator, model);
+  if (is_module_path(estimator)) note_read(estimator);
   WorkerTask task;
   task.job = job;
   task.estimator = estimator;
@@ -90,8 +92,18 @@ EstimatorRun run_contained(const std::string& name, const ArmModel& model, const
 
 std::vector<PluginInfo> contained_plugins(std::vector<std::string>* refused, const ContainmentOptions& containment) {
   if (containment.in_process) return find_plugins(refused);
-  worker_program();  // without one, no module is to blame
-  return find_plugins(refused, [&](const std::filesystem::path& path) { return described(path, containment); });
+  worker_program();
+  std::exception_ptr no_worker;  // without one, no module is to blame
+  std::vector<PluginInfo> found = find_plugins(refused, [&](const std::filesystem::path& path) {
+    try {
+      return described(path, containment);
+    } catch (const NoWorker&) {
+      no_worker = std::current_exception();
+      throw;
+    }
+  });
+  if (no_worker) std::rethrow_exception(no_worker);
+  return found;
 }
 
 std::string stated_name(const std::string& name, const ContainmentOptions& containment) {
@@ -102,6 +114,19 @@ std::string stated_name(const std::string& name, const ContainmentOptions& conta
 bool is_fault_of_the_machine(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const std::system_error*>(&error) ||
          dynamic_cast<const NoWorker*>(&error);
+}
+
+bool is_failure_of_the_estimator(const std::exception& error) {
+  const bool is_wrong_input = dynamic_cast<const InputError*>(&error) && !dynamic_cast<const EstimatorRefusal*>(&error);
+  return !is_wrong_input && !is_fault_of_the_machine(error);
+}
+
+void leave_failures_to_the_runs(const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const std::exception& error) {
+    if (!is_failure_of_the_estimator(error)) throw;
+  }
 }
 
 void check_estimator(const std::string& name, const ArmModel& model, const ContainmentOptions& containment) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <exception>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,14 @@ std::string stated_name(const std::string& name, const ContainmentOptions& conta
 
 /// True for what is no fault of an estimator: no memory, no process to be had, no worker.
 bool is_fault_of_the_machine(const std::exception& error);
+
+/// True for what an estimator is to blame for: a crash, a time limit that it exceeds, a refusal of the log; not for
+/// other input that is wrong, nor for a fault of the machine.
+bool is_failure_of_the_estimator(const std::exception& error);
+
+/// Checks estimators before many runs: does what may throw. A failure of the estimator's own, such as a crash as it is
+/// made, is not thrown: it is left to the runs, which fail one by one.
+void leave_failures_to_the_runs(const std::function<void()>& check);
 
 /// Checks that a worker can make the estimator; throws as run_contained does if not.
 void check_estimator(const std::string& name, const ArmModel& model, const ContainmentOptions& containment = {});

@@ -9,6 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "estimators/log_sample.h"
 #include "evaluation/csv.h"
 #include "model/input_error.h"
 
@@ -17,41 +18,33 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// The log's rows as samples.
+/// The log's rows as samples, with the loads.
 class Samples {
  public:
   Samples(const Log& log, bool use_joint_torque) : log_(log) {
     const auto present = [](const std::vector<double>& column) { return !column.empty(); };
-    if (use_joint_torque && std::ranges::any_of(log.joint_torque, present)) {
+    if (use_joint_torque && std::ranges::any_of(log.joint_torque, present))
       sample_.joint_torque = Eigen::VectorXd::Zero(log.n_joints);
-    }
-    sample_.motor_torque = Eigen::VectorXd::Zero(log.n_joints);
-    sample_.motor_position = Eigen::VectorXd::Zero(log.n_joints);
   }
 
   /// Missing torques and positions stay NaN, a missing load keeps its last value.
   const Sample& at(std::size_t i) {
-    sample_.time_s = log_.time[i];
-    for (int k = 0; k < log_.n_joints; ++k) {
-      sample_.motor_torque[k] = log_.motor_torque[k].empty() ? kNan : log_.motor_torque[k][i];
-      sample_.motor_position[k] = log_.motor_position[k].empty() ? 0 : log_.motor_position[k][i];  // no motor
-      if (sample_.joint_torque.size() == 0 || log_.joint_torque[k].empty()) continue;
-      if (!std::isnan(log_.joint_torque[k][i])) sample_.joint_torque[k] = log_.joint_torque[k][i];
+    read_row(log_, i, sample_);
+    for (Eigen::Index k = 0; k < sample_.joint_torque.size(); ++k) {
+      const std::vector<double>& load = log_.joint_torque[static_cast<std::size_t>(k)];
+      if (!load.empty() && !std::isnan(load[i])) sample_.joint_torque[k] = load[i];
     }
-    sample_.marker.resize(0);
-    if (!log_.has_marker()) return sample_;
-    const Eigen::Vector3d marker(log_.marker[0][i], log_.marker[1][i], log_.marker[2][i]);
-    if (marker.allFinite()) sample_.marker = marker;
     return sample_;
   }
 
-  /// As at(), with a motor's last reading where this row has none, and a missing torque taken as none.
+  /// As at(), with a motor's last reading where this row has none, and a motor's missing torque taken as none.
   Sample first(std::size_t i) {
     Sample sample = at(i);
     for (int k = 0; k < log_.n_joints; ++k)
       for (std::size_t before = i; std::isnan(sample.motor_position[k]) && before > 0; --before)
         sample.motor_position[k] = log_.motor_position[k][before - 1];
-    sample.motor_torque = sample.motor_torque.unaryExpr([](double v) { return std::isnan(v) ? 0.0 : v; });
+    for (int k = 0; k < log_.n_joints; ++k)
+      if (std::isnan(sample.motor_torque[k]) && !log_.motor_position[k].empty()) sample.motor_torque[k] = 0;
     return sample;
   }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "diagnosis/holdout/holdout.h"
 #include "evaluation/joint_unit.h"
 
 namespace halyard {
@@ -59,7 +60,7 @@ IdentificationStudy study_identification(const ArmModel& model, const std::vecto
     study.data = names_of(training);
   } else {
     for (const Log& log : logs) {
-      auto [first, last] = split_log(log, 2.0 / 3);
+      auto [first, last] = split_log(log, kTrainingShare);
       if (last.size() > 0) held_out.push_back({&log, last.time.front()});
       training.push_back(std::move(first));
     }
@@ -94,8 +95,10 @@ std::vector<std::string> doubts(const IdentificationStudy& result) {
                                            deviating[i].nominal, unit_suffix(deviating[i].unit));
   if (deviating.size() > kNamed) names += fmt::format(" and {} more", deviating.size() - kNamed);
   if (!names.empty())
-    all.push_back("other parameters would move by more than twice their tolerance: " + names +
-                  "; this is a sign that the model lacks an effect, which halyard diagnose can find");
+    all.push_back(
+        "other parameters would move by more than twice their tolerance: " + names +
+        "; either the model lacks an effect, which halyard diagnose can find, or the filter's estimate is off "
+        "by more than its noise explains (docs/identification.md)");
   if (const std::string& failure = result.identification.filter_failure; !failure.empty())
     all.push_back(fmt::format("the dual filter ended early ({}); the estimate starts at the model's values", failure));
   if (const double size = result.identification.innovation_size; size > kLarge)
@@ -112,8 +115,8 @@ std::vector<std::string> doubts(const IdentificationStudy& result) {
   if (!adopted(result))
     all.push_back(
         fmt::format("{} with the identified numbers is worse on the hold-out ({}), so that model.xml keeps "
-                    "the given ones; they stand for something that the model lacks, and halyard diagnose "
-                    "tells what",
+                    "the given ones; they may stand for something that the model lacks, which halyard "
+                    "diagnose can find; if it finds nothing, these data do not determine them well enough",
                     judge.name, worse));
   else if (!worse.empty())
     all.push_back(fmt::format("{} with the identified numbers is not better at all joints of the hold-out ({})",

@@ -21,6 +21,7 @@
 #include "model/xml/xml_reader.h"
 #include "plant/simulate.h"
 #include "plugins/host/effect_module.h"
+#include "plugins/host/loader.h"
 
 namespace halyard {
 namespace {
@@ -169,23 +170,25 @@ std::string definition_id(const Sweep& sweep, const fs::path& sweep_file, const 
 }
 
 std::vector<std::string> read_estimators(const XmlElement& element, const fs::path& folder) {
+  const std::string listed = element.text("estimators");
   std::vector<std::string> names;
   try {
-    names = split_estimators(element.text("estimators"));
+    names = split_estimators(listed);
   } catch (const InputError& error) {
     element.fail("estimators", error.what());
   }
   for (std::string& name : names) {
-    const bool is_path = name.find('/') != name.npos || name.ends_with(".so");
     // "./" keeps a bare file name a path.
-    if (is_path && fs::path(name).is_relative()) name = ((folder.empty() ? fs::path(".") : folder) / name).string();
+    if (is_module_path(name) && fs::path(name).is_relative())
+      name = ((folder.empty() ? fs::path(".") : folder) / name).string();
   }
   return names;
 }
 
 std::vector<const SweepMeasure*> read_measures(const XmlElement& element) {
+  const std::string listed = element.text_or("measures", sweep_measures().front().name);
   try {
-    return parse_measures(element.text_or("measures", sweep_measures().front().name));
+    return parse_measures(listed);
   } catch (const InputError& error) {
     element.fail("measures", error.what());
   }
@@ -204,8 +207,9 @@ void read_subjects(const XmlElement& element, const fs::path& folder, const ArmM
     if (axis.text_or("applies_to", "") == "robot")
       axis.fail("applies_to", "detection limits are those of an arm as the model says; leave it out");
   grid.measures = {&limits_measure()};
+  const std::string limited = element.text("limits");
   try {
-    grid.effects = parse_limited_effects(element.text("limits"), model);
+    grid.effects = parse_limited_effects(limited, model);
   } catch (const InputError& error) {
     element.fail("limits", error.what());
   }

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <stdexcept>
+#include <functional>
 
 #include "evaluation/comparison/compare.h"
 #include "evaluation/first_failure.h"
@@ -132,12 +132,18 @@ SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOpti
   return cell;
 }
 
-void check_estimators(const Sweep& sweep, const ContainmentOptions& containment) {
+void check_estimators(const Sweep& sweep, const ContainmentOptions& containment, bool keep_going) {
   const SweepGrid& grid = sweep.grid;
+  const auto do_check = [&](const std::function<void()>& check) {
+    return keep_going ? leave_failures_to_the_runs(check) : check();
+  };
+  const auto check_all = [&](const ArmModel& model) {
+    for (const std::string& name : grid.estimators) do_check([&] { check_estimator(name, model, containment); });
+  };
   const ArmModel first = sweep.model_at(0);
   try {
-    for (const std::string& estimator : grid.estimators) check_estimator(estimator, first, containment);
-    check_names_of_options(grid, containment);
+    check_all(first);
+    do_check([&] { check_names_of_options(grid, containment); });
   } catch (const InputError& error) {
     throw InputError(grid.file.empty() ? error.what() : grid.file + ": " + error.what());
   }
@@ -150,7 +156,7 @@ void check_estimators(const Sweep& sweep, const ContainmentOptions& containment)
         ArmModel model = first;
         set_option(model, *option, axis.is_factor ? value * option_number(sweep.model, *option).value() : value);
         try {
-          for (const std::string& estimator : grid.estimators) check_estimator(estimator, model, containment);
+          check_all(model);
         } catch (const InputError& error) {
           throw InputError(fmt::format("{}, at {} = {:g}: {}", grid.file, axis.label(), value, error.what()));
         }
@@ -159,13 +165,7 @@ void check_estimators(const Sweep& sweep, const ContainmentOptions& containment)
 }
 
 void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions& options) {
-  try {
-    check_estimators(sweep, options.containment);  // a wrong one is found now, not in every cell
-  } catch (const std::runtime_error& error) {
-    // One that crashes or takes too long as it is made fails point by point.
-    if (dynamic_cast<const InputError*>(&error) || is_fault_of_the_machine(error)) throw;
-  }
-
+  check_estimators(sweep, options.containment, true);  // a wrong one is found now, not in every cell
   if (holds_other_sweep(folder, sweep.grid)) {
     if (options.resume) refuse_other_sweep(folder, "leave out --resume to compute this one");
     if (!options.shard.is_whole()) refuse_other_sweep(folder, "remove it");  // other shards may be writing

@@ -17,8 +17,8 @@ SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOpti
 
 /// Throws InputError if an estimator of the sweep cannot be made, and std::runtime_error if it crashes or takes too
 /// long as it is made: with the model of the first point, and with the least and the greatest value of each option that
-/// an axis varies.
-void check_estimators(const Sweep& sweep, const ContainmentOptions& containment = {});
+/// an axis varies. `keep_going`: one that crashes or takes too long is left to the points, which fail one by one.
+void check_estimators(const Sweep& sweep, const ContainmentOptions& containment = {}, bool keep_going = false);
 
 struct SweepRunOptions {
   int jobs = 0;  ///< threads; 0: one per core

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <new>
 #include <system_error>
+#include <thread>
 
 #include "plugins/host/program_location.h"
 
@@ -124,6 +125,11 @@ class Worker {
   /// Has its supervisor kill what still runs, and returns how the worker ended, as waitpid() says it.
   int end() {
     ::kill(-id_, page_->has_started ? SIGTERM : SIGKILL);  // what has not started may be any program
+    ::kill(-id_, SIGCONT);                                 // an estimator may have stopped its supervisor
+    for (auto waited = std::chrono::milliseconds(0); !has_ended(); ++waited) {
+      if (waited == kLongestEnd) ::kill(-id_, SIGKILL);  // with it ends its child
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     int status = 0;
     while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {}
     id_ = -1;
@@ -131,6 +137,8 @@ class Worker {
   }
 
  private:
+  static constexpr std::chrono::milliseconds kLongestEnd{5000};
+
   const SharedPage& page_;
   pid_t id_ = -1;
 };
@@ -183,8 +191,10 @@ std::string result_in(const std::string& answer) {
 fs::path worker_program() {
   std::error_code error;
   if (const char* given = std::getenv("HALYARD_WORKER")) {
-    if (fs::is_regular_file(given, error)) return given;
-    throw NoWorker("HALYARD_WORKER: " + in_quotes(given) + " is no file; give the path of halyard_worker");
+    const bool is_file = fs::is_regular_file(given, error);
+    if (is_file && ::access(given, X_OK) == 0) return given;
+    throw NoWorker("HALYARD_WORKER: " + in_quotes(given) + (is_file ? " cannot be run" : " is no file") +
+                   "; give the path of halyard_worker");
   }
   const fs::path library_folder = folder_of_code(&worker_program);
   for (const fs::path& path :

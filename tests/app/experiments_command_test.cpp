@@ -102,7 +102,7 @@ TEST_F(Experiments, ADurationWithoutACountedErrorIsRefused) {
   const RunResult result = run({"experiments", "--examples", ".", "--duration", "0.3", "--no-effect-study",
                                 "--calibrated", "raven2/raven2.xml", "--out", "out"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_TRUE(contains(result.err, "--duration: lasts 0.3 s, and the first 0.5 s are skipped")) << result.err;
+  EXPECT_TRUE(contains(result.err, "--duration 0.3: expected more than 0.5 s")) << result.err;
 }
 
 }  // namespace

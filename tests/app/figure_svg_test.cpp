@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "app/report/svg_axis.h"
+#include "app/report/svg_text.h"
 
 namespace halyard::report {
 namespace {
@@ -37,6 +38,18 @@ TEST(SvgAxis, GivesRoundTicks) {
   ASSERT_EQ(powers.size(), 6u);
   EXPECT_DOUBLE_EQ(powers.front(), 1e-3);
   EXPECT_DOUBLE_EQ(powers.back(), 1e2);
+}
+
+TEST(SvgAxis, HasTicksAlsoWithinLessThanADecade) {
+  const std::vector<double> narrow = {2.1, 4.5}, zero = {0, 0};
+  EXPECT_EQ(SvgAxis(narrow, true, false).ticks(), (std::vector<double>{2.5, 3, 3.5, 4, 4.5}));
+  EXPECT_EQ(SvgAxis(zero, false, false).ticks().front(), 0) << "a count is not negative";
+}
+
+TEST(SvgNumbers, DifferWhereTheNumbersDo) {
+  const std::vector<double> close = {1000, 1000.5, 1001}, plain = {0, 0.02, 30000, 2.5e6, 3.16e-4};
+  EXPECT_EQ(svg_numbers(close), (std::vector<std::string>{"1000", "1000.5", "1001"}));
+  EXPECT_EQ(svg_numbers(plain), (std::vector<std::string>{"0", "0.02", "30000", "2.5e6", "3.16e-4"}));
 }
 
 TEST(SvgAxis, TakesNumbersThatDifferByARoundingForOne) {

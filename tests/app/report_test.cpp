@@ -12,6 +12,7 @@
 #include <string>
 
 #include "app/report/chart.h"
+#include "app/report/escaped.h"
 #include "app/report/page.h"
 #include "tests/support/limits.h"
 
@@ -95,6 +96,10 @@ TEST(ReportPage, InvalidUtf8DoesNotThrow) {
   EXPECT_EQ(nlohmann::json::parse(to_json(chart))["series"][0]["name"], "log\uFFFD.csv");
 }
 
+TEST(ReportPage, TextThatIsNoUtf8IsMarked) {
+  EXPECT_EQ(report::escaped("caf\xe9 <\x1b[31m> \u00e9"), "caf\uFFFD &lt;\uFFFD[31m&gt; \u00e9");
+}
+
 TEST(ReportPage, SameCallsGiveSameBytes) {
   const auto make = [] {
     Page page("report", "twice");
@@ -144,6 +149,15 @@ TEST(ReportChart, GapsAreNullAndNumbersShort) {
   const auto series = nlohmann::json::parse(
       to_json(line_chart({0, 1, 2}, {kNan, std::numeric_limits<double>::infinity(), 1.0 / 3})))["series"][0];
   EXPECT_EQ(series["y"].dump(), "[null,null,0.333333333333]");
+}
+
+TEST(ReportChart, ABandThatReachesZeroIsDrawnOnALogarithmicAxis) {
+  Chart chart = line_chart({1, 2}, {1, 2});
+  chart.series[0].band = report::Band{{-1, 1.5}, {2, 3}};
+  const auto lower = [&] { return nlohmann::json::parse(to_json(chart))["series"][0]["lower"]["y"]; };
+  EXPECT_EQ(lower(), (std::vector<double>{-1, 1.5}));
+  chart.log_y = true;
+  EXPECT_EQ(lower(), (std::vector<double>{0.1, 1.5}));
 }
 
 TEST(ReportChart, LengthsThatDoNotMatchNameTheSeries) {

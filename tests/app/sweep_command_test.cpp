@@ -301,6 +301,14 @@ TEST_F(Sweep, RecordsAnEstimatorThatCrashesAsItIsMade) {
   EXPECT_EQ(run({"check", "plugin.xml"}).exit_code, 1) << "before nodes are taken for it";
 }
 
+TEST_F(Sweep, RefusesAWrongEstimatorBehindOneThatCrashesAsItIsMade) {
+  const std::string broken = std::string(HALYARD_BROKEN_PLUGINS) + "/crashes_in_create.so";
+  write_text(path("wrong.xml"), replaced(text_of(path("sweep.xml")), "kinematics,sr_ukf", broken + ",ekff"));
+  const RunResult result = run({"sweep", "wrong.xml", "--out", "out"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.err, "no estimator is named 'ekff'")) << result.err;
+}
+
 TEST_F(Sweep, RefusesAnOptionOfAnEstimatorThatNoModuleIs) {
   const std::string module = std::string(HALYARD_BROKEN_PLUGINS) + "/throws_in_update.so";
   write_text(path("option.xml"), "<sweep name=\"s\" scenario=\"experiment_a.xml\" estimators=\"ekf," + module +

@@ -128,6 +128,12 @@ TEST(ContainedRun, AHangIsEndedAfterTheLimitOfAStep) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
 }
 
+TEST(ContainedRun, AnEstimatorThatStopsItsSupervisorIsEndedAsWell) {
+  const std::string stops = fixture("stops_its_parent");
+  EXPECT_EQ(failure_of(stops, {.step_limit_s = 0.5}),
+            "estimator " + stops + " on some.csv at 0.004 s: took more than 0.5 s, and was ended");
+}
+
 TEST(ContainedRun, AnEstimatorThatEndsItsProcessIsAFailure) {
   const std::string ends = fixture("ends_process");
   EXPECT_EQ(failure_of(ends), "estimator " + ends + " on some.csv at 0.004 s: ended its process");
@@ -222,6 +228,15 @@ TEST(Worker, IsTheProgramThatTheEnvironmentNames) {
     const Environment at("HALYARD_WORKER", "/bin/false");
     EXPECT_EQ(message_of([] { check_estimator("ekf", raven2()); }),
               "/bin/false: cannot be started (exit code 1); install it again");
+    std::vector<std::string> refused;
+    EXPECT_EQ(message_of([&] { contained_plugins(&refused); }),
+              "/bin/false: cannot be started (exit code 1); install it again")
+        << "no module is to blame";
+  }
+  {
+    const Environment at("HALYARD_WORKER", "/etc/passwd");
+    EXPECT_EQ(message_of([] { check_estimator("ekf", raven2()); }),
+              "HALYARD_WORKER: '/etc/passwd' cannot be run; give the path of halyard_worker");
   }
   const Environment at("HALYARD_WORKER", worker);
   EXPECT_NO_THROW(check_estimator("ekf", raven2()));

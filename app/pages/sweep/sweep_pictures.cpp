@@ -1,6 +1,7 @@
 #include "app/pages/sweep/sweep_pictures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "app/pages/sweep/sweep_charts.h"
@@ -70,6 +71,12 @@ std::vector<std::vector<report::HeatMap>> heat_maps(const SweepGrid& grid, const
           ++maps_of_subject;
         }
     }
+  // An estimator may have no such measure.
+  for (auto& row : maps)
+    std::erase_if(row, [](const report::HeatMap& map) {
+      return std::ranges::none_of(map.value, [](double value) { return std::isfinite(value); });
+    });
+  std::erase_if(maps, [](const auto& row) { return row.empty(); });
   return maps;
 }
 
@@ -81,7 +88,9 @@ void add_sweep_pictures(OutputFiles& files, const std::filesystem::path& folder,
   for (const ChartRow& row : chart_rows(grid))
     for (std::size_t a = 0; a < grid.axes.size(); ++a) rows.push_back(mean_charts(grid, summary, row, a));
   files.add(folder / "curves.svg", report::figure_svg(rows));
-  if (has_map(grid)) files.add(folder / "heat_map.svg", report::heat_map_svg(heat_maps(grid, cells, summary)));
+  const auto maps = has_map(grid) ? heat_maps(grid, cells, summary) : std::vector<std::vector<report::HeatMap>>();
+  if (maps.empty()) files.remove(folder / "heat_map.svg");
+  else files.add(folder / "heat_map.svg", report::heat_map_svg(maps));
 }
 
 }  // namespace halyard

@@ -25,11 +25,14 @@ TEST_F(BadInput, ArgumentsThatDoNotFit) {
   expect_usage({"simulate"}, "SCENARIO.xml is required");
   expect_usage({"simulate", "experiment_a.xml"}, "--out is required");
   expect_usage({"simulate", "experiment_a.xml", "--out"}, "--out: 1 required LOG.csv missing");
-  expect_usage({"simulate", "experiment_a.xml", "more.xml", "--out", "new.csv"},
-               "The following argument was not expected: more.xml");
-  expect_usage({"simulate", "experiment_a.xml", "--out", "new.csv", "--fast"},
-               "The following argument was not expected: --fast");
+  expect_usage({"simulate", "experiment_a.xml", "more.xml", "--out", "new.csv"}, "more.xml was not expected");
+  expect_usage({"simulate", "experiment_a.xml", "--out", "new.csv", "--fast"}, "--fast was not expected");
   expect_usage({"estimate", "--model", "raven2.xml", "--data", "log.csv", "--out", "e.csv"}, "--estimator is required");
+  expect_usage({"estimate", "--model", "raven2.xml", "--data", "log.csv", "--estimators", "ekf", "--out", "e.csv"},
+               "--estimators was not expected; did you mean --estimator?");
+  expect_line({"--model", "raven2.xml", "estimate", "--data", "log.csv", "--estimator", "ekf", "--out", "e.csv"},
+              "halyard estimate: --model stands before the command; give it behind halyard estimate; see halyard "
+              "estimate --help or halyard --help");
   const std::vector<std::string> compare = {"compare", "log.csv", "--model", "raven2.xml", "--out", "cmp"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.begin(), compare.begin(), compare.end());
@@ -48,6 +51,10 @@ TEST_F(BadInput, ArgumentsThatDoNotFit) {
               "measured load; leave it out");
   expect_line({"compare", "log.csv", "--estimators", "kinematics", "--out", "cmp"},
               "halyard compare: --model is missing; a log needs the model file of its robot, --model M.xml");
+  expect_line({"check", "raven2.xml", "--time-limit", "3"},
+              "halyard check: --time-limit is for a module (.so), and 'raven2.xml' is none; leave it out");
+  expect_line({"check", "ekf.so", "--column", "motor_position_1=x"},
+              "halyard check: --column is for a log (.csv), and 'ekf.so' is a module; leave it out");
   const std::vector<std::string> diagnose = {"diagnose", "--model", "raven2.xml", "--data", "log.csv", "--out", "out"};
   const auto rehearsed = [&](std::vector<std::string> more) {
     more.insert(more.begin(), diagnose.begin(), diagnose.end());
@@ -66,8 +73,7 @@ TEST_F(BadInput, ATextAsLongAsAFileIsShortenedInTheMessage) {
   expect_line({"estimate", "--model", text, "--estimator", "ekf", "--data", "log.csv", "--out", "e.csv"},
               "xxx{any}xxx: no such file; give the path of an XML file");
   expect_line({"simulate", "experiment_a.xml", "--out", "new.csv", "--" + text},
-              "halyard simulate: The following argument was not expected: --xxx{any}xxx; see halyard simulate --help "
-              "or halyard --help");
+              "halyard simulate: --xxx{any}xxx was not expected; see halyard simulate --help or halyard --help");
   const Environment unknown("HALYARD_INSTRUCTION_SET", text);
   expect_line(
       {"--version"},

@@ -125,6 +125,13 @@ TEST_F(BadInput, AnIdentificationThatCannotBe) {
       {"moving.csv: ", "3 s"});
 }
 
+TEST_F(BadInput, AnOutputThatWouldReplaceALog) {
+  write_text(path("cmp/comparison.csv"), kHeader + kRows);
+  expect_refused({"compare", "cmp/comparison.csv", "--model", "raven2.xml", "--estimators", "kinematics", "--skip", "0",
+                  "--out", "cmp"},
+                 {"comparison.csv': would replace an input of this command; give another path"});
+}
+
 TEST_F(BadInput, AnEstimatorThatCannotBeLoaded) {
   const auto expect_estimator_refused = [&](const std::string& name, const std::string& line) {
     expect_line({"estimate", "--model", "raven2.xml", "--estimator", name, "--data", "log.csv", "--out", "e.csv"},
@@ -195,7 +202,7 @@ TEST_F(BadInput, AModuleOfEffectsThatCannotBeLoaded) {
                         {"plugin ./text.so: not a shared module (ELF); give the path of a compiled plug-in (.so)\n"});
   expect_module_refused("./none.so", {"plugin ./none.so: no such file; check the path\n"});
   expect_module_refused(broken + "/well_formed.so", {"well_formed.so: ", "halyard_effects"});
-  expect_module_refused(broken + "/effects_older_interface.so", {"effects_older_interface.so: ", "effect interface 3"});
+  expect_module_refused(broken + "/effects_older_interface.so", {"effects_older_interface.so: ", "effect interface 4"});
   for (const std::string name : {"effects_crashes_when_opened.so", "effects_crashes_in_table.so"})
     expect_module_refused(broken + "/" + name, {name + ": as it is loaded: crashed: Segm", "; correct what runs then"});
 }

@@ -7,8 +7,7 @@ namespace halyard::testing_program {
 inline std::vector<BadInputRow> bad_models() {
   return {
       {"NotXml", Wrong::model, whole(R"(stiffness: 3)"),
-       "bad.xml:1: is not well-formed XML (parsing text); correct the tags and attributes near this line: each "
-       "tag closed, each attribute once, in quotes"},
+       "bad.xml:1: is no XML: it does not begin with '<'; give the path of an XML file"},
       {"Empty", Wrong::model, whole(""), "bad.xml: is empty; give an XML file in UTF-8"},
       {"Binary", Wrong::model, put("<arm", std::string(1, '\0')), "bad.xml: is not text; give an XML file in UTF-8"},
       {"EndMissing", Wrong::model, put(R"(</arm>)", R"()"),
