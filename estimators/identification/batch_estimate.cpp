@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -30,7 +31,7 @@ struct Pass {
 };
 
 Pass run_pass(const ArmModel& model, const std::vector<Weight>& weights, const Eigen::VectorXd& u,
-              const std::vector<Log>& logs, const std::function<void(double)>& progress) {
+              const std::vector<Log>& logs, double disturbances, const std::function<void(double)>& progress) {
   const double whole = duration_of(logs);
   const int count = std::clamp(static_cast<int>(whole), kFewestBlocks, kBlocks);
   const auto p = u.size();
@@ -38,7 +39,7 @@ Pass run_pass(const ArmModel& model, const std::vector<Weight>& weights, const E
   pass.blocks.assign(count, {Eigen::MatrixXd::Zero(p, p), Eigen::VectorXd::Zero(p)});
   pass.prior = u.squaredNorm();
   Eigen::Index readings = 0;
-  DualUkf filter(model, weights, {.learn = false});
+  DualUkf filter(model, weights, {.learn = false, .disturbances = disturbances});
   filter.set_weights(u, Eigen::MatrixXd::Identity(p, p));
   run_filter(filter, logs, progress, [&](const DualStep& step, double time) {
     if (step.nu.size() == 0) return;
@@ -60,50 +61,90 @@ Pass run_pass(const ArmModel& model, const std::vector<Weight>& weights, const E
   return pass;
 }
 
+/// Steps at one process noise after another. The passes over the logs are counted through.
+class BlockSteps {
+ public:
+  BlockSteps(const ArmModel& model, const Unknowns& unknowns, const std::vector<Log>& logs,
+             const std::function<void(int, double)>& progress)
+      : model_(model), unknowns_(unknowns), logs_(logs), progress_(progress) {}
+
+  /// From u, or from the model's numbers if the arm cannot be integrated at u.
+  BatchEstimate from(Eigen::VectorXd u) {
+    const int last = count_ + kPasses;
+    std::optional<Pass> here = pass_if_integrable(u, disturbances_);
+    if (!here) here = pass_at(u.setZero(), disturbances_);
+    const Eigen::VectorXd bound = unknowns_.bound();
+    BatchEstimate result;
+    result.disturbances = disturbances_;
+    for (;;) {
+      result.estimate = jackknife_least_squares(here->blocks, u, bound);
+      cost_ = here->cost(1);
+      Eigen::VectorXd step = result.estimate.u - u;
+      const Eigen::ArrayXd deviation = result.estimate.deviation.head(unknowns_.asked);
+      result.innovation_size = std::sqrt(here->scale);
+      result.converged = (step.head(unknowns_.asked).array().abs() <= kConvergedStep * deviation).all();
+      if (result.converged) return result;
+      std::optional<Pass> there;
+      for (; count_ < last; step *= 0.5) {
+        there = pass_if_integrable(u + step, disturbances_);
+        if (there && there->cost(here->scale) <= here->cost(here->scale) + kWorse) break;
+        there.reset();
+      }
+      if (!there) {
+        result.estimate.u = u;
+        return result;
+      }
+      u += step;
+      here = std::move(there);
+    }
+  }
+
+  /// Takes a smaller process noise if it explains the innovations at u, where the last steps ended, better; else false.
+  bool choose_disturbances(const Eigen::VectorXd& u) {
+    const double before = disturbances_;
+    double least = cost_;
+    for (const double factor : {0.3, 0.1, 0.03}) {
+      if (factor >= before) continue;
+      const std::optional<Pass> pass = pass_if_integrable(u, factor);
+      if (!pass || pass->cost(1) > least - kWorse) break;
+      least = pass->cost(1);
+      disturbances_ = factor;
+    }
+    return disturbances_ != before;
+  }
+
+ private:
+  Pass pass_at(const Eigen::VectorXd& u, double disturbances) {
+    ++count_;
+    return run_pass(model_, unknowns_.weights, u, logs_, disturbances,
+                    [this](double fraction) { progress_(count_, fraction); });
+  }
+  std::optional<Pass> pass_if_integrable(const Eigen::VectorXd& u, double disturbances) {
+    try {
+      return pass_at(u, disturbances);
+    } catch (const std::runtime_error&) {
+      return std::nullopt;
+    }
+  }
+
+  const ArmModel& model_;
+  const Unknowns& unknowns_;
+  const std::vector<Log>& logs_;
+  const std::function<void(int, double)>& progress_;
+  int count_ = 0;
+  double disturbances_ = 1, cost_ = 0;
+};
+
 }  // namespace
 
 BatchEstimate estimate_from_blocks(const ArmModel& model, const Unknowns& unknowns, const std::vector<Log>& logs,
                                    const Eigen::VectorXd& learnt_u, const std::function<void(int, double)>& progress) {
-  int count = 0;
-  const auto pass_at = [&](const Eigen::VectorXd& u) {
-    ++count;
-    return run_pass(model, unknowns.weights, u, logs, [&](double fraction) { progress(count, fraction); });
-  };
-  const auto pass_if_integrable = [&](const Eigen::VectorXd& u) -> std::optional<Pass> {
-    try {
-      return pass_at(u);
-    } catch (const std::runtime_error&) {
-      return std::nullopt;
-    }
-  };
-
+  BlockSteps steps(model, unknowns, logs, progress);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(unknowns.count());
   u.head(unknowns.learnt) = learnt_u.cwiseMax(-kFurthestStart).cwiseMin(kFurthestStart);
-  std::optional<Pass> here = pass_if_integrable(u);
-  if (!here) here = pass_at(u.setZero());
-
-  const Eigen::VectorXd bound = unknowns.bound();
-  BatchEstimate result;
-  for (;;) {
-    result.estimate = jackknife_least_squares(here->blocks, u, bound);
-    Eigen::VectorXd step = result.estimate.u - u;
-    const Eigen::ArrayXd deviation = result.estimate.deviation.head(unknowns.asked);
-    result.innovation_size = std::sqrt(here->scale);
-    result.converged = (step.head(unknowns.asked).array().abs() <= kConvergedStep * deviation).all();
-    if (result.converged) return result;
-    std::optional<Pass> there;
-    for (; count < kPasses; step *= 0.5) {
-      there = pass_if_integrable(u + step);
-      if (there && there->cost(here->scale) <= here->cost(here->scale) + kWorse) break;
-      there.reset();
-    }
-    if (!there) {
-      result.estimate.u = u;
-      return result;
-    }
-    u += step;
-    here = std::move(there);
-  }
+  BatchEstimate result = steps.from(u);
+  while (steps.choose_disturbances(result.estimate.u)) result = steps.from(result.estimate.u);
+  return result;
 }
 
 }  // namespace halyard

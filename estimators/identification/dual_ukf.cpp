@@ -30,11 +30,14 @@ std::vector<std::string> keys_of(const std::vector<Weight>& weights) {
 /// Pairs of sigma points; or, around held weights, one a weight and the center.
 int count_points(std::size_t weights, bool learn) { return static_cast<int>(learn ? 2 * weights : weights + 1); }
 
-NoiseLevels noise_levels(const ArmModel& model, const ProcessModel& process) {
+NoiseLevels noise_levels(const ArmModel& model, const ProcessModel& process, double disturbances) {
   const auto found = model.estimators.find("sr_ukf");
   const EstimatorOptions none;
   OptionReader reader("sr_ukf", found == model.estimators.end() ? none : found->second);
-  return read_noise(reader, model, process);
+  NoiseLevels levels = read_noise(reader, model, process);
+  levels.torque *= disturbances;
+  levels.joint_force *= disturbances;
+  return levels;
 }
 
 Eigen::VectorXd encoder_deviation(const ArmNoise& noise, const ArmParameters<double>& arm) {
@@ -107,7 +110,7 @@ DualUkf::DualUkf(const ArmModel& model, std::vector<Weight> weights, const DualU
       weights_(std::move(weights)),
       options_(options),
       structure_(model_),
-      noise_(model_, structure_, noise_levels(model_, structure_)),
+      noise_(model_, structure_, noise_levels(model_, structure_, options_.disturbances)),
       deviation_(encoder_deviation(noise_, structure_.arm())),
       center_(model_, structure_, keys_of(weights_), 1),
       points_(model_, structure_, keys_of(weights_), count_points(weights_.size(), options.learn)),

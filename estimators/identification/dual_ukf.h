@@ -69,6 +69,7 @@ struct DualStep {
 
 struct DualUkfOptions {
   bool learn = true;         ///< false: the weights stay as they are
+  double disturbances = 1;   ///< factor of the process noise of torques and joint forces (noise.h)
   double memory = 2;         ///< T_0, s
   double memory_growth = 2;  ///< τ, s
   /// time after a start, s; during it the weights do not change and update() returns steps without ν

@@ -69,9 +69,9 @@ struct FilterTrace {
 };
 
 FilterTrace run_dual_filter(const ArmModel& model, const Unknowns& unknowns, const std::vector<Log>& logs,
-                            const std::function<void(double)>& progress) {
+                            double disturbances, const std::function<void(double)>& progress) {
   FilterTrace trace;
-  DualUkf filter(model, unknowns.learnt_weights());
+  DualUkf filter(model, unknowns.learnt_weights(), {.disturbances = disturbances});
   const double row_span = duration_of(logs) / kTraceRows;
   double next = 0;
   try {
@@ -143,10 +143,15 @@ Estimates estimate(const ArmModel& model, const Unknowns& unknowns, const std::v
     if (progress) progress(stage, fraction);
   };
   Estimates e;
-  e.trace = run_dual_filter(model, unknowns, logs, [&](double fraction) { tell("dual filter", fraction); });
+  e.trace = run_dual_filter(model, unknowns, logs, 1, [&](double fraction) { tell("dual filter", fraction); });
   e.batch = estimate_from_blocks(model, unknowns, logs, e.trace.last_u, [&](int pass, double fraction) {
     tell(fmt::format("estimate, pass {}", pass), fraction);
   });
+  if (e.batch.disturbances == 1 || !e.trace.failure.empty()) return e;
+  // What the filter makes of the log with the noise that the log asks for.
+  FilterTrace again = run_dual_filter(model, unknowns, logs, e.batch.disturbances,
+                                      [&](double fraction) { tell("dual filter, once more", fraction); });
+  if (again.failure.empty()) e.trace = std::move(again);
   return e;
 }
 
@@ -169,6 +174,7 @@ Identification identify(const ArmModel& model, const std::vector<Log>& logs, con
   result.blocks = found.batch.estimate.blocks;
   result.converged = found.batch.converged;
   result.innovation_size = found.batch.innovation_size;
+  result.disturbances = found.batch.disturbances;
   result.filter_failure = found.trace.failure;
   for (const ParameterInfo& info : named_parameters(result.model.nominal)) {
     if (std::ranges::find(keys, info.key) == keys.end()) continue;

@@ -13,7 +13,8 @@
 ///   s² = max(1, mean of νᵀ S⁻¹ ν per reading)
 ///
 /// With s², a filter that assumes too little noise does not take its innovations for knowledge of the parameters (the
-/// variance of unit weight of least squares). Steps are damped (batch_estimate.h).
+/// variance of unit weight of least squares). If it assumes too much, the process noise is made smaller, and the steps
+/// are damped (batch_estimate.h).
 ///
 /// Y must be the derivative of the predicted readings (dual_ukf.h). If Y is too large, A is too large as well. The
 /// iteration then stops before Σ g_b = u, and the intervals are too narrow.
@@ -83,6 +84,9 @@ struct Identification {
   bool converged = false;  ///< the last pass moved no parameter by more than a fifth of its standard deviation
   /// RMS of the innovations at the estimate, in standard deviations of the filter; at least 1.
   double innovation_size = 1;
+  /// Process noise of the estimate over what the filters assume by default: the least of 1, 0.3, 0.1, 0.03 that the log
+  /// asks for (batch_estimate.h).
+  double disturbances = 1;
   std::string filter_failure;  ///< why the dual filter ended before the logs did; empty: it did not
   ArmModel model;              ///< with the identified values
 };

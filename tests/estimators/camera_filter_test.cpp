@@ -8,6 +8,7 @@
 
 #include "estimators/built_in.h"
 #include "estimators/filters/sr_ukf.h"
+#include "estimators/log_sample.h"
 #include "model/input_error.h"
 #include "plant/arm_plant.h"
 #include "plant/simulate.h"
@@ -44,24 +45,13 @@ Eigen::Vector3d joints_at(const Log& log, std::size_t i) {
   return {log.joint_position[0][i], log.joint_position[1][i], log.joint_position[2][i]};
 }
 
-Sample sample_with_marker(const Log& log, std::size_t i) {
-  Sample s{log.time[i], Eigen::VectorXd(3), Eigen::VectorXd(3), Eigen::VectorXd()};
-  for (int k = 0; k < 3; ++k) {
-    s.motor_torque(k) = log.motor_torque[k][i];
-    s.motor_position(k) = log.motor_position[k][i];
-  }
-  const Eigen::Vector3d marker(log.marker[0][i], log.marker[1][i], log.marker[2][i]);
-  if (marker.allFinite()) s.marker = marker;
-  return s;
-}
-
 /// RMS errors of the joints from 1 s on.
 Eigen::Vector3d errors(Estimator& estimator, const SimulationResult& simulated, bool with_marker = true) {
   const Log& log = simulated.measured;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0;
   for (std::size_t i = 0; i < log.size(); ++i) {
-    Sample s = sample_with_marker(log, i);
+    Sample s = sample_of(log, i);
     if (!with_marker) s.marker.resize(0);
     if (i == 0) estimator.reset(s);
     else estimator.update(s);
@@ -154,9 +144,9 @@ TEST(CameraFilter, AFrameOfAGapDoesNotUndoTheNewStart) {
   const SimulationResult log = simulate(scenario(1.5, camera));
   const auto filter =
       make_camera_sr_ukf(raven2(), {{"camera_latency", "0.1"}, {"gate", "0.9999"}, {"restart_gap", "0.2"}});
-  filter->reset(sample_with_marker(log.measured, 0));
+  filter->reset(sample_of(log.measured, 0));
   for (std::size_t i = 1; i <= 1300; ++i)
-    if (i < 700 || i >= 1200) filter->update(sample_with_marker(log.measured, i));
+    if (i < 700 || i >= 1200) filter->update(sample_of(log.measured, i));
   const Eigen::Vector3d error = filter->estimate().joint_position - joints_at(log.truth, 1300);
   EXPECT_LT(error.norm(), 5e-3);
 }
@@ -183,10 +173,10 @@ TEST(CameraFilter, CountsARepairOnceHoweverOftenAStepIsTakenAnew) {
   of_filter.exponential = false;  // which cuts other steps too
   CameraFilter filter(model, process, of_filter, seen, std::make_unique<LosesRoots>());
   for (int again = 0; again < 2; ++again) {
-    filter.reset(sample_with_marker(log.measured, 0));
+    filter.reset(sample_of(log.measured, 0));
     long predictions = 0, frames = 0;
     for (std::size_t i = 1; i < log.measured.size(); ++i) {
-      const Sample s = sample_with_marker(log.measured, i);
+      const Sample s = sample_of(log.measured, i);
       filter.update(s);
       ++predictions;
       if (s.marker.size() > 0 && s.time_s > 0.0205) ++frames;

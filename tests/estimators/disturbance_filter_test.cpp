@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "estimators/built_in.h"
+#include "estimators/log_sample.h"
 #include "model/input_error.h"
 #include "plant/simulate.h"
 #include "tests/support/arm_runs.h"
@@ -33,15 +34,6 @@ Scenario scenario(bool moving) {
   return s;
 }
 
-Sample sample_of(const Log& log, std::size_t i) {
-  Sample s{log.time[i], Eigen::VectorXd(3), Eigen::VectorXd(3), Eigen::VectorXd()};
-  for (int k = 0; k < 3; ++k) {
-    s.motor_torque(k) = log.motor_torque[k][i];
-    s.motor_position(k) = log.motor_position[k][i];
-  }
-  return s;
-}
-
 /// Calls judge(i, estimate) for each sample of the log after half a second.
 void run(Estimator& estimator, const Log& log, const std::function<void(std::size_t, const Estimate&)>& judge) {
   estimator.reset(sample_of(log, 0));
@@ -51,7 +43,7 @@ void run(Estimator& estimator, const Log& log, const std::function<void(std::siz
   }
 }
 
-enum Further { force, force_std, cable_force };
+enum ExtraOutput { force, force_std, cable_force };
 
 class RootMeanSquare {
  public:
