@@ -1,7 +1,7 @@
 #pragma once
 /// The arm and the motion that all benchmarks use.
 
-#include "estimators/estimator.h"
+#include "estimators/log_sample.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
 
@@ -27,18 +27,7 @@ inline Scenario sines(const ArmModel& robot, double duration_s) {
 
 inline std::vector<Sample> samples_of(const Log& log) {
   std::vector<Sample> samples(log.size());
-  for (std::size_t i = 0; i < log.size(); ++i) {
-    samples[i].time_s = log.time[i];
-    samples[i].motor_torque.resize(log.n_joints);
-    samples[i].motor_position.resize(log.n_joints);
-    for (int k = 0; k < log.n_joints; ++k) {
-      samples[i].motor_torque(k) = log.motor_torque[k][i];
-      samples[i].motor_position(k) = log.motor_position[k][i];
-    }
-    if (!log.has_marker()) continue;
-    const Eigen::Vector3d marker(log.marker[0][i], log.marker[1][i], log.marker[2][i]);
-    if (marker.allFinite()) samples[i].marker = marker;
-  }
+  for (std::size_t i = 0; i < log.size(); ++i) samples[i] = sample_of(log, i);
   return samples;
 }
 

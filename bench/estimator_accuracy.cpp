@@ -12,13 +12,15 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 
 #include "bench/program.h"
+#include "bench/thread_time.h"
 #include "estimators/filters/arm_filter.h"
 #include "estimators/filters/ekf.h"
 #include "estimators/filters/sr_ukf.h"
+#include "estimators/log_sample.h"
+#include "evaluation/comparison/assumed_noise.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
 
@@ -45,20 +47,6 @@ ArmFilterOptions usual_options(const ArmModel& model, const ProcessModel& proces
   const EstimatorOptions none;
   OptionReader reader("accuracy", none);
   return read_arm_filter_options(reader, model, process);
-}
-
-/// Torques, forces and readings with the noise that the filters assume.
-TickNoise assumed_noise(const ArmModel& model, double period_s) {
-  const ProcessModel process(model);
-  const NoiseLevels levels = usual_options(model, process).noise;
-  const double held = std::sqrt(2 * levels.correlation_time / period_s);
-  TickNoise noise;
-  for (int k = 0; k < model.n(); ++k) {
-    noise.motor_torque.push_back(held * levels.torque(k));
-    noise.joint_force.push_back(held * levels.joint_force(k));
-    noise.motor_reading.push_back(levels.encoder(k));
-  }
-  return noise;
 }
 
 enum class Noise { assumed, rounding };
@@ -120,24 +108,6 @@ ArmModel smoother_by(ArmModel model, double factor) {
     model.nominal.joint[k].joint_smoothing *= factor;
   }
   return model;
-}
-
-Sample sample_of(const Log& log, std::size_t i) {
-  Sample s;
-  s.time_s = log.time[i];
-  s.motor_torque.resize(log.n_joints);
-  s.motor_position.resize(log.n_joints);
-  for (int k = 0; k < log.n_joints; ++k) {
-    s.motor_torque(k) = log.motor_torque[k][i];
-    s.motor_position(k) = log.motor_position[k][i];
-  }
-  return s;
-}
-
-double thread_time_s() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
 void run(const Record& record, const std::string& name, Estimator& estimator) {

@@ -1,4 +1,4 @@
-# What `cmake --install` adds to what the rooms install themselves: data, templates, and the package that
+# What `cmake --install` adds to what the components install themselves: data, templates, and the package that
 # find_package(halyard) reads. As a part of another project halyard has its data in the source tree.
 if(NOT PROJECT_IS_TOP_LEVEL)
   set(halyard_DATA_DIR ${PROJECT_SOURCE_DIR}/examples PARENT_SCOPE)

@@ -1,4 +1,4 @@
-# Targets of this project: halyard_<room>, seen by others as halyard::<room>.
+# Targets of this project: halyard_<component>, seen by others as halyard::<component>.
 
 # Warnings for this project's own code; not exported.
 add_library(halyard_warnings INTERFACE)
@@ -27,22 +27,23 @@ function(halyard_install)
   endif()
 endfunction()
 
-# halyard_library(ROOM source...): the library of a room, warnings on, headers found from the root. A room is a component
-# of the package.
-function(halyard_library room)
-  add_library(halyard_${room} ${ARGN})
-  add_library(halyard::${room} ALIAS halyard_${room})
-  set_target_properties(halyard_${room} PROPERTIES EXPORT_NAME ${room} VERSION ${PROJECT_VERSION} SOVERSION 0
+# halyard_library(COMPONENT source...): the library of a component of the package, warnings on, headers found from the
+# root.
+function(halyard_library component)
+  add_library(halyard_${component} ${ARGN})
+  add_library(halyard::${component} ALIAS halyard_${component})
+  set_target_properties(halyard_${component} PROPERTIES EXPORT_NAME ${component} VERSION ${PROJECT_VERSION} SOVERSION 0
     BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "\$ORIGIN")
-  target_include_directories(halyard_${room} PUBLIC
+  target_include_directories(halyard_${component} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/halyard>)
-  target_link_libraries(halyard_${room} PRIVATE $<BUILD_INTERFACE:halyard_warnings>)
-  # A library calls its own inline functions, not those of the same name of a program or room that is optimised less.
-  target_link_options(halyard_${room} PRIVATE LINKER:-Bsymbolic-functions)
-  target_compile_features(halyard_${room} PUBLIC cxx_std_20)
-  set_property(GLOBAL APPEND PROPERTY HALYARD_COMPONENTS ${room})
-  halyard_install(TARGETS halyard_${room} EXPORT halyard-${room}
+  target_link_libraries(halyard_${component} PRIVATE $<BUILD_INTERFACE:halyard_warnings>)
+  # A library calls its own inline functions, not those of the same name of a program or component that is optimised
+  # less.
+  target_link_options(halyard_${component} PRIVATE LINKER:-Bsymbolic-functions)
+  target_compile_features(halyard_${component} PUBLIC cxx_std_20)
+  set_property(GLOBAL APPEND PROPERTY HALYARD_COMPONENTS ${component})
+  halyard_install(TARGETS halyard_${component} EXPORT halyard-${component}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endfunction()
 
@@ -63,7 +64,7 @@ function(share_precompiled_header target first)
   endif()
 endfunction()
 
-# halyard_lane_files(ROOM STEM): STEM_generic.cpp, STEM_avx2.cpp and STEM_avx512.cpp, one file per instruction set, of
+# halyard_lane_files(COMPONENT STEM): STEM_generic.cpp, STEM_avx2.cpp, STEM_avx512.cpp, one file per instruction set, of
 # which one is chosen at run time. They are optimised in every configuration: a function that is not inlined there would
 # be left, compiled for its set, where the linker may give it to all. For the same reason GCC must not guess the targets
 # of virtual calls. The sign of a zero and floating-point exceptions mean nothing in these files; the compiler may then
@@ -85,13 +86,13 @@ set(halyard_wide_sets "")
 if(HALYARD_WIDE_LANES AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(halyard_wide_sets avx2 avx512)
 endif()
-function(halyard_lane_files room stem)
+function(halyard_lane_files component stem)
   set_source_files_properties(${stem}_generic.cpp PROPERTIES COMPILE_OPTIONS "${halyard_lane_options};-O2")
-  target_sources(halyard_${room} PRIVATE ${stem}_generic.cpp)
+  target_sources(halyard_${component} PRIVATE ${stem}_generic.cpp)
   foreach(set ${halyard_wide_sets})
     set_source_files_properties(${stem}_${set}.cpp PROPERTIES
       COMPILE_OPTIONS "${halyard_lane_options};${halyard_${set}_options}")
-    target_sources(halyard_${room} PRIVATE ${stem}_${set}.cpp)
+    target_sources(halyard_${component} PRIVATE ${stem}_${set}.cpp)
   endforeach()
 endfunction()
 
@@ -115,10 +116,10 @@ function(halyard_effect_copies)
   endforeach()
 endfunction()
 
-# halyard_headers(ROOM header...): headers of a room that are installed.
-function(halyard_headers room)
+# halyard_headers(COMPONENT header...): headers of a component that are installed.
+function(halyard_headers component)
   foreach(header ${ARGN})
     get_filename_component(folder ${header} DIRECTORY)
-    halyard_install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/halyard/${room}/${folder})
+    halyard_install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/halyard/${component}/${folder})
   endforeach()
 endfunction()

@@ -1,17 +1,22 @@
 # Groups of files that are compiled as one, so that their common headers are read, and their common templates
 # instantiated, once: a cold build takes less than half the time, and a changed file is compiled with up to a dozen
-# others. The names in the unnamed namespaces of a group have to differ, and those of a test from its room's headers in
-# support/: the compiler takes two functions of one name for overloads. A file that is not listed here is compiled alone.
+# others. The names in the unnamed namespaces of a group have to differ, and those of a test from the headers in its
+# folder's support/: the compiler takes two functions of one name for overloads. A file that is not listed here is
+# compiled alone.
 option(HALYARD_UNITY_BUILD "Compile groups of files as one: a cold build is shorter" ON)
-set(HALYARD_ROOMS_WITHOUT_GROUPS "" CACHE STRING "Rooms whose files are compiled alone in a unity build, too")
+set(HALYARD_COMPONENTS_WITHOUT_GROUPS "" CACHE STRING "Folders whose files are compiled alone in a unity build, too")
 
 # compile_together(TARGET GROUP file...)
 function(compile_together target group)
-  string(REPLACE halyard_ "" room ${target})
-  if(NOT HALYARD_UNITY_BUILD OR NOT TARGET ${target} OR room IN_LIST HALYARD_ROOMS_WITHOUT_GROUPS)
+  if(NOT HALYARD_UNITY_BUILD OR NOT TARGET ${target})
     return()
   endif()
   get_target_property(folder ${target} SOURCE_DIR)
+  file(RELATIVE_PATH component ${PROJECT_SOURCE_DIR} ${folder})
+  string(REGEX REPLACE "/.*" "" component ${component})
+  if(component IN_LIST HALYARD_COMPONENTS_WITHOUT_GROUPS)
+    return()
+  endif()
   list(TRANSFORM ARGN PREPEND ${folder}/ OUTPUT_VARIABLE files)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   set_source_files_properties(${files} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group})
@@ -30,7 +35,7 @@ compile_together(halyard_model model
   arm_log.cpp arm_model.cpp column_map.cpp homing.cpp input/text_file.cpp log.cpp memory_limit.cpp
   model_file.cpp
   output/file_lock.cpp output/folder_lock.cpp output/locked_file.cpp output/number_text.cpp output/output_files.cpp
-  output/read_files.cpp output/unfinished.cpp
+  output/read_files.cpp output/unfinished.cpp output/utf8.cpp
   xml/arm_checks.cpp xml/field_reader.cpp xml/model_writer.cpp)
 
 compile_together(halyard_simbody simbody integrators/simbody_integrator.cpp simbody_arm.cpp)
@@ -44,7 +49,7 @@ compile_together(halyard_estimators filters
   built_in.cpp distributions.cpp eigen_modes.cpp estimator.cpp estimator_options.cpp
   filters/arm_filter.cpp filters/camera_filter.cpp filters/disturbance_filter.cpp filters/ekf.cpp
   filters/fixed_lag_smoother.cpp filters/gaussian_filter.cpp filters/kinematics.cpp filters/sr_ukf.cpp
-  filters/unknown_constant.cpp)
+  filters/unknown_constant.cpp log_sample.cpp)
 compile_together(halyard_estimators process
   identification/arm_family.cpp identification/block_jackknife.cpp identification/dual_ukf.cpp
   identification/identified_keys.cpp identification/identify.cpp
@@ -93,7 +98,7 @@ compile_together(halyard_evaluation studies
   judgement/serial_statistics.cpp run/sensor_readings.cpp studies/diagnosis_evaluation.cpp studies/effect_study.cpp
   studies/holdout_errors.cpp studies/motion_proposal.cpp)
 compile_together(halyard_evaluation runs
-  comparison/monte_carlo.cpp experiments/raven_experiments.cpp json.cpp run/contained_run.cpp
+  comparison/assumed_noise.cpp comparison/monte_carlo.cpp experiments/raven_experiments.cpp json.cpp run/contained_run.cpp
   run/tried_effects.cpp studies/identification_study.cpp sweep/measures/sweep_limits.cpp
   sweep/measures/sweep_measure.cpp sweep/parameters/axis_keys.cpp
   sweep/parameters/estimator_option.cpp sweep/parameters/scenario_number.cpp sweep/sweep_cells.cpp sweep/sweep_design.cpp
@@ -118,11 +123,12 @@ compile_together(halyard_app tour
   pages/diagnosis/diagnosis_output.cpp tour/experiments_output.cpp tour/tour.cpp tour/tour_report.cpp
   tour/tour_rigs.cpp)
 
-# The tests, which tests/CMakeLists.txt lists by their folders: those of a room in groups of so many files, 0 for all.
+# The tests, which tests/CMakeLists.txt lists by their folders: those of a component in groups of so
+# many files, 0 for all.
 foreach(group transmission:6 model:0 plant:2 estimators:8 plugins:0 diagnosis:14 evaluation:0 app:0 bench:9)
   string(REPLACE ":" ";" group ${group})
-  list(POP_FRONT group room files)
-  if(HALYARD_UNITY_BUILD AND TARGET ${room}_tests)
-    set_target_properties(${room}_tests PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${files})
+  list(POP_FRONT group component files)
+  if(HALYARD_UNITY_BUILD AND TARGET ${component}_tests)
+    set_target_properties(${component}_tests PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${files})
   endif()
 endforeach()

@@ -104,7 +104,7 @@ class Diagnoser {
     result_.given = calibrated(model_, s.data.training);
     s.evidence = std::make_unique<Evidence>(s.data.training, result_.given);
     s.whole = std::make_unique<Evidence>(std::move(s.data.training), result_.given, Split::none);
-    attribution() = attribute(*s.evidence, result_.given, {options_.most_effects, options_.significance}, progress_);
+    attribution() = attribute(*s.evidence, result_.given, {.most_effects = options_.most_effects}, progress_);
     say("final fit", 0);
     result_.tolerance_factor = attribution().tolerance_factor;
     tolerated_ = with_tolerances_times(result_.tolerance_factor, result_.given);
@@ -156,7 +156,7 @@ class Diagnoser {
 
   void tell_names(const Evidence& evidence) {
     none_for_ = probabilities_of_none(evidence, attribution(), given_);
-    doubts_ = doubts(evidence, tolerated_, attribution(), none_for_, options_.significance);
+    doubts_ = doubts(evidence, tolerated_, attribution(), none_for_, AttributionOptions{}.significance);
     for (std::size_t e = given_; e < final_hypothesis().effects.size(); ++e) {
       none_ = std::max(none_, none_for_[e - given_]);
       told_.push_back(told_effect(evidence, e));

@@ -15,7 +15,6 @@ namespace halyard {
 
 struct DiagnosisOptions {
   int most_effects = 6;          ///< largest number of effects added to the model
-  double significance = 0.01;    ///< expected share of false effects among those that a search round adds
   bool tell_not_excited = true;  ///< fill Diagnosis::not_excited; costs one prediction for each candidate
   /// The map with which the logs were read, for the remedies in log_findings; none: the model's.
   std::optional<ColumnMap> columns = std::nullopt;

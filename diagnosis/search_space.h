@@ -15,8 +15,8 @@
 
 namespace halyard {
 
-inline constexpr double kFewestPeriods = 1.5;
-inline constexpr double kNearStandstill = 0.25;
+inline constexpr double kFewestPeriods = 1.5;    ///< of a periodic effect that the motion must cover
+inline constexpr double kNearStandstill = 0.25;  ///< share of the fastest motion below which friction may bend
 
 /// The range in which a parameter is fitted.
 enum class SearchRange {

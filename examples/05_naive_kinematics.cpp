@@ -18,9 +18,9 @@ int main() {
 
   Eigen::VectorXd peak = Eigen::VectorXd::Zero(3);
   double unexplained = 0;
-  kinematics.reset(sample(run.measured, 0));
+  kinematics.reset(sample_of(run.measured, 0));
   for (std::size_t i = 1; i < run.truth.size(); ++i) {
-    kinematics.update(sample(run.measured, i));
+    kinematics.update(sample_of(run.measured, i));
     Eigen::VectorXd q(3), x(3);
     for (int k = 0; k < 3; ++k) q(k) = run.truth.joint_position[k][i];
     const Eigen::VectorXd error = kinematics.estimate().joint_position - q;

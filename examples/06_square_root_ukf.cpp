@@ -19,11 +19,11 @@ int main() {
   const auto filter = make_sr_ukf(arm, {}), kinematics = make_kinematics(arm, {});
 
   fmt::print("joint 2, {:>5} {:>15} {:>15} {:>15} {:>14}\n", "t, s", "truth", "filter", "kinematics", "std");
-  filter->reset(sample(run.measured, 0));
-  kinematics->reset(sample(run.measured, 0));
+  filter->reset(sample_of(run.measured, 0));
+  kinematics->reset(sample_of(run.measured, 0));
   for (std::size_t i = 1; i < run.measured.size(); ++i) {
-    filter->update(sample(run.measured, i));
-    kinematics->update(sample(run.measured, i));
+    filter->update(sample_of(run.measured, i));
+    kinematics->update(sample_of(run.measured, i));
     if (i % 500) continue;
     fmt::print("         {:5.1f} {:>15} {:>15} {:>15} {:>14}\n", run.measured.time[i],
                in_units(arm, 1, run.truth.joint_position[1][i]), in_units(arm, 1, filter->estimate().joint_position(1)),

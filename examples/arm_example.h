@@ -1,5 +1,5 @@
 #pragma once
-/// Shared by the examples: the RAVEN-II arm following sines, and functions from logs to samples and errors.
+/// Shared by the examples: the RAVEN-II arm following sines, and the errors of an estimator.
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "estimators/estimator.h"
+#include "estimators/log_sample.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
 
@@ -35,26 +35,13 @@ inline Scenario on_sines(const ArmModel& robot, double duration_s) {
   return scenario;
 }
 
-/// Row i of a log as an estimator's input.
-inline Sample sample(const Log& log, std::size_t i) {
-  Sample s;
-  s.time_s = log.time[i];
-  s.motor_torque.resize(log.n_joints);
-  s.motor_position.resize(log.n_joints);
-  for (int k = 0; k < log.n_joints; ++k) {
-    s.motor_torque(k) = log.motor_torque[k][i];
-    s.motor_position(k) = log.motor_position[k][i];
-  }
-  return s;
-}
-
 /// RMS error of an estimator's joint positions over a run, [n], rad | m; the first half second is left out.
 inline Eigen::VectorXd rms_error(Estimator& estimator, const SimulationResult& run) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(run.truth.n_joints);
   long count = 0;
-  estimator.reset(sample(run.measured, 0));
+  estimator.reset(sample_of(run.measured, 0));
   for (std::size_t i = 1; i < run.measured.size(); ++i) {
-    estimator.update(sample(run.measured, i));
+    estimator.update(sample_of(run.measured, i));
     if (run.measured.time[i] < 0.5) continue;
     const Eigen::VectorXd q = estimator.estimate().joint_position;
     for (int k = 0; k < q.size(); ++k) sum(k) += std::pow(q(k) - run.truth.joint_position[k][i], 2);

@@ -63,10 +63,14 @@ double bytes_of_a_tick(const Scenario& scenario) {
 
 std::string place(const Scenario& scenario) { return "scenario " + in_quotes(scenario.name) + ": "; }
 
-/// With what the effects of the model change.
+/// The arm with what its effects change.
+ArmParameters<double> arm_with_effects(const ArmModel& model) {
+  return Transmission<double>(model.nominal, model.effects).arm();
+}
+
+/// What controller and homing know of the arm.
 ArmParameters<double> assumed_arm(const Scenario& scenario) {
-  if (!scenario.assumed) return scenario.robot.nominal;
-  return Transmission<double>(scenario.assumed->nominal, scenario.assumed->effects).arm();
+  return scenario.assumed ? arm_with_effects(*scenario.assumed) : scenario.robot.nominal;
 }
 
 /// The true arm, its motors' zeros as homing leaves them. An `encoder_offset` among the effects is an error of homing.
@@ -76,7 +80,7 @@ ArmParameters<double> homed_arm(const Scenario& scenario) {
   const Eigen::VectorXd home = scenario.robot.home();
   const ArmParameters<double>& assumed = scenario.assumed ? scenario.assumed->nominal : scenario.robot.nominal;
   const Eigen::VectorXd expected = unstretched_motors(assumed_arm(scenario), home);
-  const Eigen::VectorXd there = unstretched_motors(Transmission<double>(arm, scenario.robot.effects).arm(), home);
+  const Eigen::VectorXd there = unstretched_motors(arm_with_effects(scenario.robot), home);
   for (int k = 0; k < arm.n; ++k)
     arm.joint[k].motor_encoder_offset = assumed.joint[k].motor_encoder_offset + expected(k) - there(k);
   return arm;
@@ -272,8 +276,8 @@ void check_noise(const Scenario& scenario) {
 void check_changed_inertia(const Scenario& scenario) {
   const auto impossible_link = [](const ArmParameters<double>& before, const ArmParameters<double>& after) {
     for (int k = 0; k < after.n; ++k)
-      if (judge_inertia(principal_moments(after.joint[k])) != Inertia::of_a_body &&
-          judge_inertia(principal_moments(before.joint[k])) == Inertia::of_a_body)
+      if (find_inertia_fault(principal_moments(after.joint[k])) != InertiaFault::none &&
+          find_inertia_fault(principal_moments(before.joint[k])) == InertiaFault::none)
         return "link " + std::to_string(k + 1);
     return std::string();
   };

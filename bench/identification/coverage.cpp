@@ -13,6 +13,7 @@
 #include "bench/diagnosis/results/proportion.h"
 #include "bench/program.h"
 #include "estimators/identification/identify.h"
+#include "evaluation/comparison/assumed_noise.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
 
@@ -56,17 +57,10 @@ void draw_truth(ArmModel& robot, const std::vector<std::string>& keys, Off off, 
 
 /// Noise as the filters assume it, times a factor of the run.
 TickNoise draw_noise(const ArmModel& model, double tick_s, Random& random) {
-  const ProcessModel process(model);
-  const EstimatorOptions none;
-  OptionReader reader("the noise rule", none);
-  const NoiseLevels levels = read_noise(reader, model, process);
-  const double factor = random.uniform(0, 1), held = factor * std::sqrt(2 * levels.correlation_time / tick_s);
-  TickNoise noise;
-  for (int k = 0; k < model.n(); ++k) {
-    noise.motor_torque.push_back(held * levels.torque(k));
-    noise.joint_force.push_back(held * levels.joint_force(k));
-    noise.motor_reading.push_back(factor * levels.encoder(k));
-  }
+  TickNoise noise = assumed_noise(model, tick_s);
+  const double factor = random.uniform(0, 1);
+  for (std::vector<double>* deviations : {&noise.motor_torque, &noise.joint_force, &noise.motor_reading})
+    for (double& x : *deviations) x *= factor;
   return noise;
 }
 

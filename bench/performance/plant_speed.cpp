@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bench/performance/work_precision.h"
+#include "bench/thread_time.h"
 #include "plant/simulate.h"
 
 namespace halyard {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <stdexcept>
 
 #include "bench/bench_arm.h"
+#include "bench/thread_time.h"
 
 namespace halyard {
 namespace {
@@ -52,12 +52,6 @@ Scenario scenario_of(const StiffCase& which, double duration_s) {
     s.noise.motor_torque.push_back(kNoiseOfFriction * arm.nominal.joint[k].motor_coulomb);
   }
   return s;
-}
-
-double thread_time_s() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
 double largest_difference(const Log& a, const Log& b) {

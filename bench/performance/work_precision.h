@@ -41,8 +41,6 @@ Scenario scenario_of(const StiffCase& which, double duration_s);
 Log reference(Scenario scenario);
 /// Of a joint's position; never below what rounding leaves.
 double largest_difference(const Log& a, const Log& b);
-/// Processor time of this thread.
-double thread_time_s();
 
 /// duration_s: simulated time of each run.
 std::vector<WorkPrecision> measure(const StiffCase& which, double duration_s);

@@ -43,11 +43,8 @@ Eigen::VectorXd bounded_minimum(const Eigen::MatrixXd& A, const Eigen::VectorXd&
 
 BaselineReach::BaselineReach(const Evidence& evidence, const std::vector<std::vector<double>>& columns,
                              const std::vector<double>& scale) {
-  const auto n_rows = static_cast<Eigen::Index>(evidence.row_channel().size());
-  weight_.resize(n_rows);
-  for (Eigen::Index r = 0; r < n_rows; ++r)
-    weight_(r) = 1 / (scale[evidence.row_channel()[r]] * std::sqrt(evidence.correlated_rows()));
-  J_.resize(n_rows, static_cast<Eigen::Index>(columns.size()));
+  weight_ = row_scale(evidence, scale).cwiseInverse();
+  J_.resize(weight_.size(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) J_.col(static_cast<Eigen::Index>(i)) = weighted(columns[i]);
   A_ = J_.transpose() * J_;
   A_.diagonal().array() += 1;

@@ -39,14 +39,16 @@ class BaselineReach {
   BaselineReach(const Evidence& evidence, const std::vector<std::vector<double>>& columns,
                 const std::vector<double>& scale);
 
-  /// weighted() multiplies fitting rows by the weights of x; rows() divides by them.
+  /// Fitting rows as x, and back.
   Eigen::VectorXd weighted(const std::vector<double>& rows) const;
   std::vector<double> rows(const Eigen::VectorXd& weighted) const;
 
   /// ½ ln det(1 + Jᵀ J): how much narrower than their tolerances the data make the numbers, nats.
   double half_log_det() const;
 
+  /// E [rows x sizes] is weighted; the bounds are those of a, [sizes].
   Sizes sizes(Eigen::MatrixXd E, Eigen::VectorXd lower, Eigen::VectorXd upper) const;
+  /// The bounded minimum for x, without an effect and with one.
   Taken take(const Eigen::VectorXd& x) const;
   Taken take(const Eigen::VectorXd& x, const Sizes& sizes) const;
 

@@ -1,15 +1,14 @@
 #include "diagnosis/fit/beyond_numbers.h"
 
 #include <Eigen/QR>
-#include <cmath>
 #include <limits>
 
 namespace halyard {
 
 BeyondNumbers::BeyondNumbers(const Evidence& evidence, const std::vector<std::vector<double>>& columns,
                              const std::vector<double>& scale)
-    : evidence_(evidence), scale_(scale) {
-  const auto rows = static_cast<Eigen::Index>(evidence.row_channel().size());
+    : scale_(row_scale(evidence, scale)) {
+  const Eigen::Index rows = scale_.size();
   const auto numbers = static_cast<Eigen::Index>(columns.size());
   // The prior is a row more for each number: with it the projection is that of the penalised fit.
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows + numbers, numbers);
@@ -21,11 +20,7 @@ BeyondNumbers::BeyondNumbers(const Evidence& evidence, const std::vector<std::ve
 }
 
 Eigen::VectorXd BeyondNumbers::weighted(const std::vector<double>& rows) const {
-  Eigen::VectorXd r(static_cast<Eigen::Index>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    r(static_cast<Eigen::Index>(i)) =
-        rows[i] / (scale_[evidence_.row_channel()[i]] * std::sqrt(evidence_.correlated_rows()));
-  return r;
+  return Eigen::Map<const Eigen::VectorXd>(rows.data(), scale_.size()).cwiseQuotient(scale_);
 }
 
 Eigen::VectorXd BeyondNumbers::of(const Eigen::VectorXd& r) const {

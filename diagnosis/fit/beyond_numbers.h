@@ -7,6 +7,9 @@
 ///   r   rows of the fitting blocks, each channel over its scale and the root of its correlated rows    [rows]
 ///   J   sensitivities to the numbers, P their prior, centred where the columns were computed          [rows x numbers]
 ///
+/// The numbers may take any value, which makes r⊥ a projection, cheap for many candidates. Where their tolerances have
+/// to bound them, as in a plan of what a motion will reveal, see baseline_reach.h.
+///
 /// Source: variable projection, Golub and Pereyra, SIAM J. Numer. Anal. 10 (1973) 413-432.
 
 #include <Eigen/Core>
@@ -29,9 +32,8 @@ class BeyondNumbers {
   double left(const std::vector<double>& rows) const;
 
  private:
-  const Evidence& evidence_;
-  std::vector<double> scale_;
-  Eigen::MatrixXd Q_;  ///< an orthonormal basis of what the numbers explain, [rows + numbers x numbers]
+  Eigen::VectorXd scale_;  ///< row_scale(), [rows]
+  Eigen::MatrixXd Q_;      ///< an orthonormal basis of what the numbers explain, [rows + numbers x numbers]
 };
 
 }  // namespace halyard

@@ -163,6 +163,13 @@ std::vector<double> channel_scale(const Evidence& evidence, const std::vector<do
   return scale;
 }
 
+Eigen::VectorXd row_scale(const Evidence& evidence, const std::vector<double>& scale) {
+  Eigen::VectorXd rows(static_cast<Eigen::Index>(evidence.row_channel().size()));
+  for (Eigen::Index r = 0; r < rows.size(); ++r)
+    rows(r) = scale[evidence.row_channel()[r]] * std::sqrt(evidence.correlated_rows());
+  return rows;
+}
+
 std::vector<double> independent_rows(const Evidence& evidence, const std::vector<double>& scale) {
   std::vector<double> rows(evidence.channels(), 1.0);
   for (int c = 0; c < evidence.channels(); ++c) {

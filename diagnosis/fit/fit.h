@@ -46,6 +46,10 @@ struct Fit {
 /// Channel scales from residuals: sqrt(max(mean square, floor²)). [2n]
 std::vector<double> channel_scale(const Evidence& evidence, const std::vector<double>& mean_square);
 
+/// By what a fitting row is divided so that its square is a part of the cost: its channel's scale times √m, m the
+/// number of correlated rows. [rows]
+Eigen::VectorXd row_scale(const Evidence& evidence, const std::vector<double>& scale);
+
 /// Rows that equal one independent sample of each channel, if its residual is the sensor's noise and an error of the
 /// model: [2n]
 ///

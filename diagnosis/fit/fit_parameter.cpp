@@ -186,6 +186,13 @@ std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameter
   return groups;
 }
 
+std::vector<FitParameter> instants_of(const std::vector<FitParameter>& parameters, const ParameterGroup& group) {
+  std::vector<FitParameter> instants;
+  for (const std::size_t i : group.shapes)
+    if (parameters[i].range == SearchRange::record_time) instants.push_back(parameters[i]);
+  return instants;
+}
+
 bool is_at_bound(const FitParameter& p, double value) {
   if (!p.effect) {
     constexpr double kPressed = 0.95;  // of the tolerance

@@ -68,6 +68,8 @@ struct ParameterGroup {
 };
 /// The groups of all effects in the list; baseline parameters are in none.
 std::vector<ParameterGroup> groups_of(const std::vector<FitParameter>& parameters);
+/// The shapes of a group that are times in a record: for an effect between two instants, its start and its end.
+std::vector<FitParameter> instants_of(const std::vector<FitParameter>& parameters, const ParameterGroup& group);
 /// True if a fit has taken the parameter to a bound of its range. A number of the model: 95 % of the way to the end of
 /// its tolerance, because its prior holds it back. A parameter of an effect: at the bound itself. False at its neutral
 /// value, even if that is a bound, and for whole numbers: the lowest order that the motion shows is as plausible as the

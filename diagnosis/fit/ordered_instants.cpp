@@ -6,9 +6,7 @@ namespace halyard {
 
 Hypothesis with_ordered_instants(Hypothesis h, const std::vector<FitParameter>& parameters) {
   for (const ParameterGroup& group : groups_of(parameters)) {
-    std::vector<FitParameter> instants;
-    for (const std::size_t i : group.shapes)
-      if (parameters[i].range == SearchRange::record_time) instants.push_back(parameters[i]);
+    const std::vector<FitParameter> instants = instants_of(parameters, group);
     if (instants.size() != 2) continue;
     const double start = parameter_value(h, instants[0]), stop = parameter_value(h, instants[1]);
     if (start <= stop) continue;

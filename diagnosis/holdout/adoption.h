@@ -1,6 +1,7 @@
 #pragma once
 /// Whether a revised model is adopted: only if it predicts no joint of the hold-out worse than the given model does
-/// (worse_joints()). If it does, it is tried with the given numbers of the motion (with_given_motion()). If a joint is
+/// (worse_joints()). If it does, numbers are given back and the others fitted again: first those that move the worse
+/// joints and that the training hardly determines, then all numbers of the motion (with_given_motion()). If a joint is
 /// still worse, it is refused.
 
 #include <cstddef>

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "diagnosis/calibration/calibrate.h"
@@ -114,15 +115,29 @@ class UncertainParameters {
   std::vector<ParameterGroup> groups_;
 };
 
-/// Fits with weights that follow from the residual at the start. They balance the data against the tolerances: noise of
-/// a sensor counts by its samples, an error of the model by its correlation time.
-Fit weighed_fit(const Evidence& whole, const Hypothesis& start, const std::vector<FitParameter>& parameters) {
-  const Score score = whole.score(start);
-  if (!score.finite) return {};
-  const std::vector<double> scale = channel_scale(whole, score.fit_mean_square);
-  FitOptions options;
-  options.correlated_rows = independent_rows(whole, scale);
-  return fit(whole, start, parameters, scale, options);
+/// Fits with weights that follow from the residual. They balance the data against the tolerances: noise of a sensor
+/// counts by its samples, an error of the model by its correlation time. If the residual at the start was far larger
+/// than what the fit leaves, its weights were too small, and the fit is repeated with those of what it leaves.
+Fit weighed_fit(const Evidence& whole, Hypothesis start, const std::vector<FitParameter>& parameters) {
+  constexpr double kFarLarger = 1.2;
+  constexpr int kMostFits = 3;
+  std::vector<double> scale;
+  Fit last;
+  for (int i = 0; i < kMostFits; ++i) {
+    const Score score = whole.score(start);
+    if (!score.finite) break;
+    const std::vector<double> now = channel_scale(whole, score.fit_mean_square);
+    const auto is_far_larger = [](double was, double is) { return was > kFarLarger * is; };
+    if (i > 0 && std::ranges::mismatch(scale, now, std::not_fn(is_far_larger)).in1 == scale.end()) break;
+    scale = now;
+    FitOptions options;
+    options.correlated_rows = independent_rows(whole, scale);
+    Fit f = fit(whole, start, parameters, scale, options);
+    if (!f.usable) break;
+    start = f.hypothesis;
+    last = std::move(f);
+  }
+  return last;
 }
 
 /// Of each number of the model in the fit, see UncertainParameters; infinite for others and if it cannot be computed.
@@ -196,11 +211,28 @@ Hypothesis nudged_start(const Evidence& whole, const ArmModel& model, const Fit&
 
 }  // namespace
 
+/// The parameters with all numbers of the model that no added effect changes. Those to which the data were not
+/// sensitive without the effects may count beside them.
+std::vector<FitParameter> with_all_numbers_beside(const ArmModel& model, const Fit& chosen, std::size_t given) {
+  const std::vector<PlacedEffect>& effects = chosen.hypothesis.effects;
+  std::vector<FitParameter> all;
+  for (const FitParameter& number : baseline_parameters(model)) {
+    const bool is_covered = std::any_of(effects.begin() + static_cast<std::ptrdiff_t>(given), effects.end(),
+                                        [&](const PlacedEffect& e) { return effect_covers(e, model.nominal, number); });
+    if (!is_covered) all.push_back(number);
+  }
+  for (const FitParameter& p : chosen.parameters)
+    if (p.effect) all.push_back(p);
+  return all;
+}
+
 Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given) {
   const Score score = whole.score(chosen.hypothesis);
   if (!score.finite) return {};
+  const bool effects_are_added = chosen.hypothesis.effects.size() > given;
   const Hypothesis start = with_ordered_instants(nudged_start(whole, model, chosen, given, score), chosen.parameters);
-  const Fit tried = weighed_fit(whole, start, chosen.parameters);
+  Fit tried = effects_are_added ? weighed_fit(whole, start, with_all_numbers_beside(model, chosen, given)) : Fit{};
+  if (!tried.usable) tried = weighed_fit(whole, start, chosen.parameters);
   const Fit& all = tried.usable ? tried : chosen;
   if (!all.usable) return {};
   Fit certain = keep_certain_sizes(whole, all, given);
@@ -239,6 +271,17 @@ Fit with_given_numbers(const Evidence& whole, const ArmModel& model, const Fit& 
   h.nominal = model.nominal;
   std::vector<FitParameter> others = f.parameters;
   std::erase_if(others, [](const FitParameter& p) { return !p.effect; });
+  return weighed_fit(whole, h, others);
+}
+
+Fit with_numbers_given(const Evidence& whole, const Fit& f, const std::vector<std::size_t>& numbers) {
+  Hypothesis h = f.hypothesis;
+  std::vector<FitParameter> others;
+  for (std::size_t i = 0; i < f.parameters.size(); ++i) {
+    const FitParameter& p = f.parameters[i];
+    if (std::ranges::find(numbers, i) != numbers.end()) set_parameter(h, p, p.nominal);
+    else if (!p.effect) others.push_back(p);
+  }
   return weighed_fit(whole, h, others);
 }
 

@@ -49,6 +49,10 @@ std::vector<std::size_t> changed_numbers(const Evidence& whole, const ArmModel& 
 /// The fit with the numbers of the model as given; only its other parameters are fitted.
 Fit with_given_numbers(const Evidence& whole, const ArmModel& model, const Fit& fit);
 
+/// The fit with its effects as they are, and with some of its numbers, indices of its parameters, as given; the others
+/// are fitted again. Not usable if it cannot be integrated.
+Fit with_numbers_given(const Evidence& whole, const Fit& fit, const std::vector<std::size_t>& numbers);
+
 /// The fit with its effects as they are, and with the model's motion: the numbers on which the motion of the joints
 /// depends are as given, and the others (of the motors, of the torque) are fitted again. Not usable if it cannot be
 /// integrated.

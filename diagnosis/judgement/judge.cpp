@@ -186,7 +186,7 @@ std::vector<std::size_t> Judge::sizes_at_bound(const Scored& with, std::size_t p
   for (const ParameterGroup& group : groups) {
     const bool lasts = lasts_as_long_as_the_motion(with, parameters, group);
     bool is_whole_group = false;
-    if (lasts || std::ranges::any_of(group.shapes, shape_ends)) {
+    if (lasts || acts_in_the_whole_motion(with, parameters, group) || std::ranges::any_of(group.shapes, shape_ends)) {
       const double own = does(group.sizes);
       is_whole_group = own > kRule.by_chance && (lasts || own > kNextToNothing * does(all));
     }
@@ -226,14 +226,27 @@ bool Judge::acts(const Scored& with, const FitParameter& shape) const {
   });
 }
 
+/// True for an effect beyond a position, above it if its size is positive, that acts in nearly the whole motion: a wall
+/// that is always touched is a spring.
+bool Judge::acts_in_the_whole_motion(const Scored& with, const std::vector<FitParameter>& parameters,
+                                     const ParameterGroup& group) const {
+  constexpr double kNearly = 0.05;  // of the motion
+  return std::ranges::any_of(group.shapes, [&](std::size_t i) {
+    const FitParameter& position = parameters[i];
+    if (position.range != SearchRange::joint_position || group.sizes.empty()) return false;
+    const double size = parameter_value(with.hypothesis, parameters[group.sizes[0]]);
+    const double value = parameter_value(with.hypothesis, position);
+    const double outside = size > 0 ? value - position.lower : position.upper - value;
+    return size != 0 && outside < kNearly * (position.upper - position.lower);
+  });
+}
+
 /// True for an effect between two instants that acts all the time or all the time that the arm moves, nearly, or as
 /// well might: it is an offset or belongs to the motion, which other effects explain.
 bool Judge::lasts_as_long_as_the_motion(const Scored& with, const std::vector<FitParameter>& parameters,
                                         const ParameterGroup& group) const {
   constexpr double kNearly = 0.05;  // of the time
-  std::vector<FitParameter> instants;
-  for (const std::size_t i : group.shapes)
-    if (parameters[i].range == SearchRange::record_time) instants.push_back(parameters[i]);
+  const std::vector<FitParameter> instants = instants_of(parameters, group);
   if (instants.size() != 2) return false;
   const auto begins_and_ends_with = [&](const Span& span) {
     Scored there = with;

@@ -128,6 +128,8 @@ class Judge {
   bool explains_a_rest(const Score& before, const Score& after) const;
   std::vector<std::size_t> sizes_at_bound(const Scored& with, std::size_t place) const;
   bool acts(const Scored& with, const FitParameter& shape) const;
+  bool acts_in_the_whole_motion(const Scored& with, const std::vector<FitParameter>& parameters,
+                                const ParameterGroup& group) const;
   bool lasts_as_long_as_the_motion(const Scored& with, const std::vector<FitParameter>& parameters,
                                    const ParameterGroup& group) const;
   bool is_as_good_at_bound(const Scored& with, const FitParameter& p) const;

@@ -86,7 +86,7 @@ class LogUnderCheck {
   /// Period after which the column starts again according to its map, in its SI unit; 0: none.
   double wrap_of(const std::string& column) const;
   /// Whether the column's map has it in A or V, without a scale.
-  bool is_electric(const std::string& column) const { return source_of(column).is_electric; }
+  bool is_electric(const std::string& column) const { return !source_of(column).electric_unit.empty(); }
   /// "0.7854 rad (45 deg)", "0.1 m" of a position of joint k.
   std::string position(int k, double value) const;
   /// "0 to 1.571 rad (0 to 90 deg)"

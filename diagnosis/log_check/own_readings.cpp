@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "diagnosis/log_check/columns/column_samples.h"
 #include "diagnosis/log_check/outliers.h"
 #include "diagnosis/log_check/robust.h"
 
@@ -17,21 +18,18 @@ constexpr double kSteps = 3;  ///< of the sensor: what noise of one step and rou
 constexpr double kMost = 0.5;
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-/// Rows begin..end-1 with equal readings.
-struct EqualReadings {
-  std::size_t begin, end;
+/// Rows with equal readings.
+struct EqualReadings : Run {
   double change;  ///< to the next reading
-  std::size_t rows() const { return end - begin; }
 };
 
 std::vector<EqualReadings> equal_readings(const std::vector<double>& x) {
-  std::vector<EqualReadings> runs;
-  for (std::size_t begin = 0, end = 0; begin < x.size(); begin = end) {
-    for (end = begin + 1; end < x.size() && x[end] == x[begin];) ++end;
-    const double change = end < x.size() ? std::abs(x[end] - x[begin]) : 0;
-    if (std::isfinite(x[begin])) runs.push_back({begin, end, std::isfinite(change) ? change : 0});
+  std::vector<EqualReadings> readings;
+  for (const Run& run : runs_of(x)) {
+    const double change = run.end < x.size() ? std::abs(x[run.end] - x[run.begin]) : 0;
+    if (std::isfinite(x[run.begin])) readings.push_back({run, std::isfinite(change) ? change : 0});
   }
-  return runs;
+  return readings;
 }
 
 double smallest_change(const std::vector<EqualReadings>& runs) {
@@ -47,9 +45,9 @@ std::optional<std::size_t> rows_a_reading(const std::vector<EqualReadings>& runs
   std::vector<double> rows;
   for (const EqualReadings& run : runs) {
     way += run.change;
-    if (run.rows() < 2 || run.change <= kSteps * step) continue;
+    if (run.size() < 2 || run.change <= kSteps * step) continue;
     repeated_way += run.change;
-    rows.push_back(static_cast<double>(run.rows()));
+    rows.push_back(static_cast<double>(run.size()));
   }
   if (rows.empty() || repeated_way <= kMost * way) return {};
   return static_cast<std::size_t>(std::lround(median(rows)));
@@ -66,7 +64,7 @@ std::vector<std::size_t> repeats_in(const std::vector<double>& x, double resolut
   rows = *usual;
   for (const EqualReadings& run : runs) {
     // A sensor at rest reads the same again.
-    const std::size_t own = run.change > kSteps * step ? run.rows() : rows;
+    const std::size_t own = run.change > kSteps * step ? run.size() : rows;
     for (std::size_t i = run.begin; i < run.end; ++i)
       if ((i - run.begin) % own != 0 || (i > run.begin && i + own > run.end)) repeats.push_back(i);
   }

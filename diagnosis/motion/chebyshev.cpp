@@ -54,18 +54,19 @@ int stages_for(const std::vector<Eigenvalues>& spectra, double h, int most) {
 }
 
 double fastest_stable(double h) {
-  constexpr int kStages = Chebyshev::kUsualStages - 1;
+  constexpr int kStages = RungeKuttaChebyshev::kUsualStages - 1;
   constexpr double kRounding = 1e-9;
   return (1 - kRounding) * (kStages * kStages - 1) / (1.5 * kReserve * h);
 }
 
-Chebyshev scheme_for(const std::vector<std::vector<Eigenvalues>>& systems, double sample_s) {
+RungeKuttaChebyshev scheme_for(const std::vector<std::vector<Eigenvalues>>& systems, double sample_s) {
   constexpr int kMostSteps = 8;
-  Chebyshev c;
+  RungeKuttaChebyshev c;
   for (c.steps = 1;; ++c.steps) {
     const double h = sample_s / c.steps;
     c.stages = 2;
-    for (const auto& spectra : systems) c.stages = std::max(c.stages, stages_for(spectra, h, Chebyshev::kMostStages));
+    for (const auto& spectra : systems)
+      c.stages = std::max(c.stages, stages_for(spectra, h, RungeKuttaChebyshev::kMostStages));
     const ChebyshevPolynomial method(c.stages);
     if (c.steps == kMostSteps || std::ranges::all_of(systems, [&](const auto& s) { return is_stable(s, method, h); }))
       break;

@@ -17,7 +17,7 @@
 namespace halyard {
 
 /// Coefficients of the method, as in the source.
-struct Chebyshev {
+struct RungeKuttaChebyshev {
   static constexpr int kUsualStages = 48, kMostStages = 256;
   int stages, steps;  ///< stages for each step, steps for each sample
   double mu[kMostStages + 1], nu[kMostStages + 1], mu_h[kMostStages + 1], gamma_h[kMostStages + 1],
@@ -36,6 +36,6 @@ double fastest_stable(double h);
 
 /// The method that suits several systems at once with the fewest steps for each sample, and then with the fewest stages
 /// for each step. Each system is given by the spectra at some of its states.
-Chebyshev scheme_for(const std::vector<std::vector<Eigenvalues>>& systems, double sample_s);
+RungeKuttaChebyshev scheme_for(const std::vector<std::vector<Eigenvalues>>& systems, double sample_s);
 
 }  // namespace halyard

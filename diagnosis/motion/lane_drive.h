@@ -9,7 +9,8 @@ namespace halyard {
 
 struct LaneDrive {
   void (*drive)(const Transmission<Lanes>&, const DrivenInput*, std::size_t size, double start, double dt,
-                const Chebyshev& scheme, const CommandHistory*, DrivenState<Lanes>&, Lanes* out, Lanes* states);
+                const RungeKuttaChebyshev& scheme, const CommandHistory*, DrivenState<Lanes>&, Lanes* out,
+                Lanes* states);
   void (*replay)(const Transmission<Lanes>&, const DrivenInput*, std::size_t size, double start, double dt,
                  const CommandHistory*, const Lanes* states, Lanes* out);
 };

@@ -20,8 +20,8 @@ void with_known_joints(int n, const F& f) {
 }
 
 void drive_lanes(const Transmission<Lanes>& transmission, const DrivenInput* samples, std::size_t size, double start,
-                 double dt, const Chebyshev& scheme, const CommandHistory* history, DrivenState<Lanes>& x, Lanes* out,
-                 Lanes* states) {
+                 double dt, const RungeKuttaChebyshev& scheme, const CommandHistory* history, DrivenState<Lanes>& x,
+                 Lanes* out, Lanes* states) {
   with_known_joints(transmission.arm().n, [&]<int known>() {
     drive_record<known>(transmission, samples, size, start, dt, scheme, history, x, out, states);
   });

@@ -213,7 +213,7 @@ template <class T>
 struct StageRecursion {
   T stay, mu, nu, mu_h, gamma_h;
 
-  HALYARD_INLINE StageRecursion(const Chebyshev& c, int j, double h)
+  HALYARD_INLINE StageRecursion(const RungeKuttaChebyshev& c, int j, double h)
       : stay(1 - c.mu[j] - c.nu[j]), mu(c.mu[j]), nu(c.nu[j]), mu_h(c.mu_h[j] * h), gamma_h(c.gamma_h[j] * h) {}
   HALYARD_INLINE void advance(int n, const T* start, const T* last, const T* rate, const T* first_rate,
                               T* before) const {
@@ -232,7 +232,7 @@ HALYARD_INLINE void copy_state(int n, int m, const DrivenState<T>& from, DrivenS
 /// and joint reading [n] at the start of the step.
 template <int known = 0, class T, class Input>
 HALYARD_INLINE void driven_step(const Transmission<T>& transmission, const HeldChain<T>& chain, double time, double h,
-                                const Chebyshev& c, const CommandHistory* history, const Input& input,
+                                const RungeKuttaChebyshev& c, const CommandHistory* history, const Input& input,
                                 DrivenState<T>& x, T* row) {
   const int n = joint_count<known>(transmission.arm()), m = transmission.n_states();
   DrivenInput at;
@@ -261,8 +261,8 @@ HALYARD_INLINE void driven_step(const Transmission<T>& transmission, const HeldC
 /// null, receives x at every sample. known: see joint_count().
 template <int known = 0, class T>
 HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const DrivenInput* samples, std::size_t size,
-                                 double start, double dt, const Chebyshev& scheme, const CommandHistory* history,
-                                 DrivenState<T>& x, T* out, T* states) {
+                                 double start, double dt, const RungeKuttaChebyshev& scheme,
+                                 const CommandHistory* history, DrivenState<T>& x, T* out, T* states) {
   const ArmParameters<T>& arm = transmission.arm();
   const int n = joint_count<known>(arm), m = transmission.n_states();
   const std::size_t held = samples_of_chain(dt);

@@ -21,10 +21,9 @@
 /// its own Δ; the variance is their mean over time.
 /// The parts of a torque's residual that repeat with the motor's angle (ripple_free.h), or go with the rate of its
 /// command (delay_free.h), do not count.
-/// The median ignores segments with a jump or an impact. So it does those across samples that are left out, behind
-/// which the others close up. The least of the bands ignores resonances and hum, which
-/// lie in one of them. A record's filter, of standard deviation σ_m in time, attenuates the torque by exp(-(2π f
-/// σ_m)²); S is corrected for it.
+/// The median ignores segments with a jump or an impact, and those in which samples are left out and the rest joined.
+/// The least of the three bands ignores resonances and hum, because each lies in one band only. A record's filter, of
+/// standard deviation σ_m in time, attenuates the torque by exp(-(2π f σ_m)²); S is corrected for it.
 /// Source: Welch, IEEE Trans. Audio Electroacoust. 15 (1967), with the median in place of the mean.
 
 #include <vector>

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "diagnosis/search_space.h"
+
 namespace halyard {
 namespace {
 
@@ -28,11 +30,10 @@ class AngleHarmonics {
 };
 
 int lowest_order(const std::vector<std::vector<double>>& motor_angle) {
-  constexpr double kPeriods = 1.5;
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const std::vector<double>& run : motor_angle)
     for (const double angle : run) least = std::min(least, angle), most = std::max(most, angle);
-  const double order = kPeriods * 2 * std::numbers::pi / (most - least);
+  const double order = kFewestPeriods * 2 * std::numbers::pi / (most - least);
   return order < kHighestOrder ? std::max(1, static_cast<int>(std::ceil(order))) : kHighestOrder + 1;
 }
 

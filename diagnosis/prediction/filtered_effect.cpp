@@ -5,10 +5,22 @@
 namespace halyard {
 namespace {
 
+/// What the filter leaves of something periodic.
+struct Attenuation {
+  std::size_t order = 0;  ///< index of the parameter that gives the number of periods
+  double sigma_s = 0;     ///< 0: nothing is filtered
+
+  template <class T>
+  T of(const T* p, const T& rate) const {
+    const T turned = p[order] * rate * sigma_s;
+    return exp(T(-0.5 * turned * turned));
+  }
+};
+
 class FilteredEffect : public EffectOf<FilteredEffect> {
  public:
-  FilteredEffect(const Effect& effect, std::size_t order, double sigma_s)
-      : effect_(effect), order_(order), sigma_(sigma_s) {}
+  FilteredEffect(const Effect& effect, Attenuation torque, Attenuation reading)
+      : effect_(effect), torque_(torque), reading_(reading) {}
 
   std::string name() const override { return effect_.name(); }
   std::string summary() const override { return effect_.summary(); }
@@ -42,12 +54,12 @@ class FilteredEffect : public EffectOf<FilteredEffect> {
   }
   template <class T>
   void on_motor(const EffectContext<T>& c, JointSignals<T>* s) const {
+    if (torque_.sigma_s == 0) return effect_.act(EffectStage::motor, c, s);
     JointSignals<T>& own = s[*c.joint];
     const T others = own.motor_torque;
     own.motor_torque = T(0.0);
     effect_.act(EffectStage::motor, c, s);
-    const T turned = c.p[order_] * own.motor_rate * sigma_;
-    own.motor_torque *= exp(T(-0.5 * turned * turned));
+    own.motor_torque *= torque_.of(c.p, own.motor_rate);
     own.motor_torque += others;
   }
   template <class T>
@@ -56,7 +68,13 @@ class FilteredEffect : public EffectOf<FilteredEffect> {
   }
   template <class T>
   void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
+    if (reading_.sigma_s == 0) return effect_.act(EffectStage::sensors, c, s);
+    JointSignals<T>& own = s[*c.joint];
+    const T others = own.joint_error;
+    own.joint_error = T(0.0);
     effect_.act(EffectStage::sensors, c, s);
+    own.joint_error *= reading_.of(c.p, own.joint_rate);
+    own.joint_error += others;
   }
   template <class T>
   void state_rate(const EffectContext<T>& c, const JointSignals<T>* s, T* z_dot) const {
@@ -65,18 +83,22 @@ class FilteredEffect : public EffectOf<FilteredEffect> {
 
  private:
   const Effect& effect_;
-  std::size_t order_;
-  double sigma_;
+  Attenuation torque_, reading_;
 };
 
 }  // namespace
 
 FilteredEffects::FilteredEffects(const std::vector<PlacedEffect>& effects, const ArmParameters<double>& arm,
-                                 double sigma_s) {
+                                 double sigma_s, double joint_sigma_s) {
   for (const PlacedEffect& e : effects) {
-    const auto order = search_space(*e.effect, arm, e.joint).order_of_motor_torque;
-    const bool is_attenuated = sigma_s > 0 && order;
-    if (is_attenuated) owned_.push_back(std::make_unique<FilteredEffect>(*e.effect, *order, sigma_s));
+    const SearchSpace space = search_space(*e.effect, arm, e.joint);
+    const auto attenuation = [](const std::optional<std::size_t>& order, double sigma) {
+      return order ? Attenuation{*order, sigma} : Attenuation{};
+    };
+    const Attenuation torque = attenuation(space.order_of_motor_torque, sigma_s),
+                      reading = attenuation(space.order_of_joint_position, joint_sigma_s);
+    const bool is_attenuated = torque.sigma_s > 0 || reading.sigma_s > 0;
+    if (is_attenuated) owned_.push_back(std::make_unique<FilteredEffect>(*e.effect, torque, reading));
     seen_.push_back(is_attenuated ? owned_.back().get() : e.effect);
   }
 }

@@ -173,7 +173,7 @@ class Prediction {
     std::vector<const std::vector<PlacedEffect>*> lists;
     std::vector<std::tuple<int, int, std::size_t>> kind(jobs_.size());
     for (const std::size_t i : jobs) {
-      const Chebyshev& scheme = schemes_[jobs_[i].request];
+      const RungeKuttaChebyshev& scheme = schemes_[jobs_[i].request];
       kind[i] = {scheme.steps, scheme.stages, index_of_list(jobs_[i].hypothesis->effects, lists)};
     }
     std::ranges::stable_sort(jobs, {}, [&](std::size_t i) { return kind[i]; });
@@ -207,7 +207,7 @@ class Prediction {
 
   int n_states_with(const CommonEffects& common) const { return 2 * record_.n + common.n_states(); }
   bool has_same_scheme(std::size_t i, std::size_t j) const {
-    const Chebyshev &a = schemes_[jobs_[i].request], &b = schemes_[jobs_[j].request];
+    const RungeKuttaChebyshev &a = schemes_[jobs_[i].request], &b = schemes_[jobs_[j].request];
     return a.steps == b.steps && a.stages == b.stages;
   }
 
@@ -235,8 +235,8 @@ class Prediction {
   }
 
   /// Lowers the arm onto its cables with the motors held, adds the pasts, and drives it along the record.
-  void integrate(const SharedLanes& lanes, const Chebyshev& scheme, DrivenState<Lanes>& x, std::vector<Lanes>& out,
-                 std::vector<Lanes>& path) const {
+  void integrate(const SharedLanes& lanes, const RungeKuttaChebyshev& scheme, DrivenState<Lanes>& x,
+                 std::vector<Lanes>& out, std::vector<Lanes>& path) const {
     const std::vector<DrivenInput> held(static_cast<std::size_t>(kLetDown / record_.dt) + 1, standing(inputs_[0]));
     std::vector<Lanes> unused(held.size() * 2 * record_.n);
     const double before = record_.start - record_.dt * static_cast<double>(held.size());
@@ -294,7 +294,7 @@ class Prediction {
   std::deque<Hypothesis> on_own_clocks_;  ///< of the jobs, if the record's clock is not the common one
   std::vector<Job> jobs_;
   std::size_t n_requests_ = 0;
-  std::vector<Chebyshev> schemes_;  ///< [request]
+  std::vector<RungeKuttaChebyshev> schemes_;  ///< [request]
 };
 
 }  // namespace

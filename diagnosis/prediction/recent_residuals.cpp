@@ -9,7 +9,7 @@
 
 namespace halyard {
 
-RecentResiduals::Key::Key(const Hypothesis& h, const Record& record, int stride, const Chebyshev& scheme,
+RecentResiduals::Key::Key(const Hypothesis& h, const Record& record, int stride, const RungeKuttaChebyshev& scheme,
                           bool is_replayed)
     : record_(&record),
       stride_(stride),

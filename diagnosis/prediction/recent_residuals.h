@@ -18,7 +18,7 @@ class RecentResiduals {
  public:
   /// Everything that the residuals depend on, to the last bit: a replay is rounded in another way.
   struct Key {
-    Key(const Hypothesis& h, const Record& record, int stride, const Chebyshev& scheme, bool is_replayed);
+    Key(const Hypothesis& h, const Record& record, int stride, const RungeKuttaChebyshev& scheme, bool is_replayed);
     std::partial_ordering operator<=>(const Key&) const = default;
     std::size_t bytes() const { return numbers_.size() * sizeof(double); }
     /// False if one of its numbers is NaN: then it has no place in an order.

@@ -75,7 +75,8 @@ SharedLanes::SharedLanes(std::vector<const Hypothesis*> hypotheses, const Record
     : record_(record),
       hypotheses_(std::move(hypotheses)),
       effects_(common_effects(hypotheses_)),
-      seen_(effects_.all(), hypotheses_[0]->nominal, record.motion_sigma),
+      seen_(effects_.all(), hypotheses_[0]->nominal, record.motion_sigma,
+            record.compare_sigma > 0 ? record.motion_sigma : 0),  // else the readings themselves are compared
       transmission_(packed_arms(hypotheses_), packed_effects(effects_, seen_, hypotheses_)) {
   std::vector<int> first;  // state of each effect
   int n = 0;

@@ -138,7 +138,8 @@ class Stretch {
     r.motor_acceleration[k] = filtered(angle, kernel_.curvature);
     if (external_[k].is_there()) r.external[k] = filtered(on_grid(external_[k], 0), kernel_.value);
     if (torque_[k].is_there() && driven) {
-      r.torque[k] = filtered(on_grid(torque_[k], -0.5 * seconds_held(log_, model_, k)), kernel_.value);
+      r.torque[k] =
+          filtered(on_grid(torque_[k], -0.5 * seconds_held(torque_[k].interval(), j.torque_source)), kernel_.value);
     }
     if (joint_[k].is_there()) {
       const std::vector<double> reading = on_grid(joint_[k], 0);
@@ -249,8 +250,8 @@ double fastest_rate(const ArmModel& model) {
 /// and coarse records have twice the step.
 int most_stages_for(double fastest, double dt) {
   constexpr double kSomeTimes = 3, kCoarse = 2;
-  const int stages = stages_for({{-kSomeTimes * fastest}}, kCoarse * dt, Chebyshev::kMostStages);
-  return stages == 0 ? Chebyshev::kMostStages : std::max(stages, Chebyshev::kUsualStages);
+  const int stages = stages_for({{-kSomeTimes * fastest}}, kCoarse * dt, RungeKuttaChebyshev::kMostStages);
+  return stages == 0 ? RungeKuttaChebyshev::kMostStages : std::max(stages, RungeKuttaChebyshev::kUsualStages);
 }
 
 /// What a row is to the stretches of a log that have no long gap in what tells the motion.
@@ -280,9 +281,8 @@ std::vector<Row> mark_gaps(const Log& log, const ArmModel& model, double longest
 
 }  // namespace
 
-double seconds_held(const Log& log, const ArmModel& model, int k) {
-  if (model.nominal.joint[k].torque_source == TorqueSource::measured) return 0;
-  return std::min(SampledColumn(log.time, log.motor_torque[k]).interval(), kLongestHold);
+double seconds_held(double interval, TorqueSource source) {
+  return source == TorqueSource::measured ? 0 : std::min(interval, kLongestHold);
 }
 
 bool has_slow_joint_sensor(const Log& log, const ArmModel& model, int k) {

@@ -52,8 +52,8 @@ struct Record {
   double compare_sigma = 0;                              ///< σ_t of K_c, s; 0: residuals are not filtered
   std::vector<double> compare;                           ///< K_c on this grid, [2 reach + 1]
   std::string source;
-  int most_stages = Chebyshev::kUsualStages;  ///< of the integration by a hypothesis, see chebyshev.h
-  std::optional<std::size_t> place;           ///< index among the records of an Evidence that it belongs to
+  int most_stages = RungeKuttaChebyshev::kUsualStages;  ///< of the integration by a hypothesis, see chebyshev.h
+  std::optional<std::size_t> place;                     ///< index among the records of an Evidence that it belongs to
 
   /// Of both filters together: a compared reading has passed K_m and K_c.
   double filter_sigma() const { return std::hypot(motion_sigma, compare_sigma); }
@@ -85,9 +85,10 @@ struct RecordOptions {
 /// settling time, or if there are fewer than ten samples a second; and as home_encoders() does.
 std::vector<Record> make_records(const Log& log, const ArmModel& model, const RecordOptions& options);
 
-/// For how long the torque of motor k is that of its sample, s: until the next sample, but at most for kLongestHold,
-/// since a longer interval is assumed to be the logger's and not the controller's. 0 for a torque that is measured.
-double seconds_held(const Log& log, const ArmModel& model, int k);
+/// For how long a motor's torque is that of its sample, s: until the next sample, but at most for kLongestHold, since a
+/// longer interval is assumed to be the logger's and not the controller's. 0 for a torque that is measured.
+/// interval: the usual time from one of its samples to the next, s.
+double seconds_held(double interval, TorqueSource source);
 inline constexpr double kLongestHold = 0.002;  ///< s
 
 /// True if the sensor of joint k is slower than its motor's encoder, and so has a clock of its own: one reading in

@@ -50,7 +50,8 @@ LoggedMotion::LoggedMotion(Log log, std::vector<Record> records, double late, co
     if (records_.front().has_joint(k))
       add({&Log::joint_position, k, is_slow ? late : 0, unstated_resolution(log_, model, k)}, smoothing);
     // A record's torque is that of the middle of the time for which the command was held.
-    const double later = 0.5 * seconds_held(log_, model, k);
+    const double interval = SampledColumn(log_.time, log_.motor_torque[k]).interval();
+    const double later = 0.5 * seconds_held(interval, model.nominal.joint[k].torque_source);
     if (records_.front().has_torque(k)) add({&Log::motor_torque, k, -later, 0}, smoothing);
   }
   records_ = not_smoothed(std::move(records_));

@@ -86,11 +86,10 @@ EstimatorRun attempt(const std::string& name, const Log& measured, bool keep_goi
   try {
     return action();
   } catch (const std::exception& error) {
-    const bool refused = dynamic_cast<const EstimatorRefusal*>(&error);
-    if (!keep_going || is_fault_of_the_machine(error) || (dynamic_cast<const InputError*>(&error) && !refused)) throw;
+    if (!keep_going || !is_failure_of_the_estimator(error)) throw;
     EstimatorRun none = no_run(name, measured);
     none.failure = error.what();
-    none.refused = refused;
+    none.refused = dynamic_cast<const EstimatorRefusal*>(&error);
     return none;
   }
 }
@@ -168,6 +167,8 @@ Comparison compare_estimators(const std::vector<Contestant>& contestants, const 
   const Counted counted(truth, options.skip_s);
   Comparison result;
   result.skip_s = options.skip_s;
+  result.with_joint_torque = options.use_joint_torque;
+  result.with_marker = measured.has_marker();
   result.units = joint_units(*contestants.front().model);
   result.truth = truth;
   result.runs = run_all(contestants, measured, options);

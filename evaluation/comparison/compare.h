@@ -24,12 +24,14 @@ struct Judgement {
 
 /// Estimators compared on the same data.
 struct Comparison {
-  std::string data;              ///< scenario or log, as given
-  std::string model;             ///< the estimators' model, as given
-  std::string truth_from;        ///< source of the truth; empty: there is none, and no errors
-  double skip_s = 0;             ///< duration at the start that is not counted in the errors, s
-  std::vector<JointUnit> units;  ///< [n]
-  Log truth;                     ///< joint_position, where known
+  std::string data;                ///< scenario or log, as given
+  std::string model;               ///< the estimators' model, as given
+  std::string truth_from;          ///< source of the truth; empty: there is none, and no errors
+  double skip_s = 0;               ///< duration at the start that is not counted in the errors, s
+  bool with_joint_torque = false;  ///< the estimators were given the measured loads on the joints
+  bool with_marker = false;        ///< they were given what a camera saw
+  std::vector<JointUnit> units;    ///< [n]
+  Log truth;                       ///< joint_position, where known
   std::vector<EstimatorRun> runs;
   /// [run][joint] estimates that are compared with the truth: positions, or predicted sensor readings
   std::vector<Signals> compared;

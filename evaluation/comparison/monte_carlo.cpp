@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "estimators/process/noise.h"
 #include "evaluation/comparison/compare.h"
 #include "model/input_error.h"
 #include "plant/simulate.h"
@@ -128,31 +127,11 @@ PairedRatio paired(const std::vector<OneRun>& a, const std::vector<OneRun>& b, i
 
 }  // namespace
 
-TickNoise assumed_noise(const ArmModel& model, double tick_s) {
-  const ProcessModel process(model);
-  const EstimatorOptions none;
-  OptionReader options("the noise rule", none);
-  const NoiseLevels levels = read_noise(options, model, process);
-  const double held = std::sqrt(2 * levels.correlation_time / tick_s);
-  TickNoise noise;
-  for (int k = 0; k < model.n(); ++k) {
-    noise.motor_torque.push_back(held * levels.torque(k));
-    noise.joint_force.push_back(held * levels.joint_force(k));
-    noise.motor_reading.push_back(levels.encoder(k));
-  }
-  return noise;
-}
-
 MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, const std::vector<std::string>& estimators,
                            const MonteCarloOptions& options) {
-  // A wrong name must not cost the runs' time. One that crashes as it is made fails run by run.
-  for (const std::string& name : estimators) {
-    try {
-      check_estimator(name, model, options.containment);
-    } catch (const std::runtime_error& error) {
-      if (dynamic_cast<const InputError*>(&error) || is_fault_of_the_machine(error)) throw;
-    }
-  }
+  // A wrong name must not cost the runs' time.
+  for (const std::string& name : estimators)
+    leave_failures_to_the_runs([&] { check_estimator(name, model, options.containment); });
   std::vector<std::vector<OneRun>> all(estimators.size(), std::vector<OneRun>(options.runs));
   std::vector<Signals> sums_of_nees(estimators.size());
   for (int first = 0; first < options.runs; first += kBatch) {

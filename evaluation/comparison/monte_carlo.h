@@ -14,11 +14,6 @@
 
 namespace halyard {
 
-/// The noise that the filters assume by default (σ and τ: estimators/process/noise.h), in a form that a simulation can
-/// draw. Torques and joint forces have the spectral density 2 σ² τ and are held over a tick. Encoder noise with the
-/// assumed standard deviation replaces the rounding, and the noise that the model states: the robot must state none.
-TickNoise assumed_noise(const ArmModel& model, double tick_s);
-
 /// One estimator over all runs.
 struct RunsOfEstimator {
   std::string name;

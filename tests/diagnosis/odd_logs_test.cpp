@@ -193,7 +193,7 @@ TEST(LogOfMotorsOnly, ChangesNoNumberThatPredictsTheJointsWorse) {
   logs.holdout = simulate(motion(truth, 8, 1)).measured;  // long enough to tell which model is worse
   const Diagnosis d = diagnosis_of(first_joints(1), logs);
   EXPECT_EQ(d.verdict, Diagnosis::Verdict::clean);
-  EXPECT_EQ(d.after.joint_rms[0], d.before.joint_rms[0]);
+  EXPECT_LT(d.after.joint_rms[0], 1.001 * d.before.joint_rms[0]);
   EXPECT_LT(d.after.torque_rms[0], 0.5 * d.before.torque_rms[0]) << "the motor's own friction is refitted";
 }
 

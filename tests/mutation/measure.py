@@ -1,8 +1,8 @@
-"""Which share of a room's mutants do its tests notice? See tests/mutation/run, and CONTRIBUTING.md.
+"""Which share of a folder's mutants do its tests notice? See tests/mutation/run, and CONTRIBUTING.md.
 
-Each mutant is built into the room's test program, which runs until its first failure, and its file is restored. A
+Each mutant is built into the folder's test program, which runs until its first failure, and its file is restored. A
 mutant is killed if a test fails, crashes or takes more than three times as long as without a mutant. Each result is
-appended to build/mutation/ROOM-SEED.tsv; a further run goes on after them. equivalent.tsv lists mutants that no test
+appended to build/mutation/FOLDER-SEED.tsv; a further run goes on after them. equivalent.tsv lists mutants that no test
 can kill, with the reason.
 """
 
@@ -95,8 +95,8 @@ def results_so_far(file, sources):
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description="Measures which share of a room's mutants its tests kill.")
-    parser.add_argument("room", choices=["diagnosis", "estimators", "transmission"])
+    parser = argparse.ArgumentParser(description="Measures which share of a folder's mutants its tests kill.")
+    parser.add_argument("folder", choices=["diagnosis", "estimators", "transmission"])
     parser.add_argument("--mutants", type=int, default=40, help="how many that compile (40)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--build", type=Path, default=ROOT / "build/mutation", help="build folder (build/mutation)")
@@ -105,15 +105,15 @@ def arguments():
 
 def main():
     chosen = arguments()
-    listed = subprocess.check_output(["git", "ls-files", "*.cpp", "*.h"], cwd=ROOT / chosen.room, text=True).split()
-    if subprocess.check_output(["git", "status", "--porcelain", "--", chosen.room], cwd=ROOT):
-        sys.exit(f"tests/mutation: {chosen.room} has changes that are not committed; commit them, so that they cannot get lost")
-    sources = {f"{chosen.room}/{name}": (ROOT / chosen.room / name).read_text() for name in listed}
-    results = ROOT / "build/mutation" / f"{chosen.room}-{chosen.seed}.tsv"
+    listed = subprocess.check_output(["git", "ls-files", "*.cpp", "*.h"], cwd=ROOT / chosen.folder, text=True).split()
+    if subprocess.check_output(["git", "status", "--porcelain", "--", chosen.folder], cwd=ROOT):
+        sys.exit(f"tests/mutation: {chosen.folder} has changes that are not committed; commit them, so that they cannot get lost")
+    sources = {f"{chosen.folder}/{name}": (ROOT / chosen.folder / name).read_text() for name in listed}
+    results = ROOT / "build/mutation" / f"{chosen.folder}-{chosen.seed}.tsv"
     rows = results_so_far(results, sources)
-    tests = Tests(chosen.room, chosen.build, ROOT)
+    tests = Tests(chosen.folder, chosen.build, ROOT)
     if not tests.build():
-        sys.exit("tests/mutation: the room does not compile without a mutant")
+        sys.exit("tests/mutation: the folder does not compile without a mutant")
     tests.calibrate()
     for mutant in drawn(sources, chosen.seed)[len(rows) :]:
         if sum(row[0] != "does not compile" for row in rows) >= chosen.mutants:

@@ -1,4 +1,4 @@
-"""The test program of a room: builds it, and runs its fast tests until the first failure.
+"""The test program of a folder: builds it, and runs its fast tests until the first failure.
 
 The tests that are most likely to notice a mutant run first: those whose file includes the header of the changed file or
 has its name, then those of the folder of its name, then those that take less than 0.3 s, then the others.
@@ -50,12 +50,12 @@ def run(command, seconds, **options):
 
 
 class Tests:
-    """The test program of a room in a build folder."""
+    """The test program of a folder in a build folder."""
 
-    def __init__(self, room, build, root):
+    def __init__(self, folder, build, root):
         self.root = root
-        self.build_command = ["cmake", "--build", str(build), "--target", f"{room}_tests"]
-        self.program, self.slow = str(build / "tests" / f"{room}_tests"), SLOW[room]
+        self.build_command = ["cmake", "--build", str(build), "--target", f"{folder}_tests"]
+        self.program, self.slow = str(build / "tests" / f"{folder}_tests"), SLOW[folder]
         self.cpu_per_s = 1
         self.times, self.files = {}, {}  # of each test: s that it takes without a mutant, its file
 

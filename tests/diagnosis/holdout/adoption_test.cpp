@@ -32,8 +32,9 @@ class Revision {
     for (HoldOut* view : {&joints, &torques}) view->before = predict_all(view->records, {model_.nominal, {}});
   }
 
-  /// Offers the hypothesis, of which these numbers changed.
-  Adoption offer(const Hypothesis& h, const std::vector<FitParameter>& numbers = {}) {
+  /// Offers the hypothesis, of which these numbers changed. left: the share of their tolerance, as a variance, that the
+  /// training leaves.
+  Adoption offer(const Hypothesis& h, const std::vector<FitParameter>& numbers = {}, double left = 0) {
     Revised revised;
     revised.fit.hypothesis = h;
     revised.fit.parameters = numbers;
@@ -41,6 +42,10 @@ class Revision {
       revised.fit.value.push_back(parameter_value(h, numbers[i]));
       revised.changed.push_back(i);
     }
+    Eigen::VectorXd variance(static_cast<Eigen::Index>(numbers.size()));
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      variance(static_cast<Eigen::Index>(i)) = left * numbers[i].scale * numbers[i].scale;
+    revised.fit.covariance = variance.asDiagonal();
     return adopted_on_holdout({evidence_, whole_, model_, model_, true}, revised, joints, torques);
   }
 
@@ -91,6 +96,23 @@ TEST(Adoption, GivesTheNumbersOfTheMotionBackBeforeItRefuses) {
   EXPECT_TRUE(a.worse.empty());
   EXPECT_TRUE(a.revised.changed.empty());
   EXPECT_EQ(a.revised.fit.hypothesis.nominal.joint[0].capstan_radius, r.model().nominal.joint[0].capstan_radius);
+}
+
+TEST(Adoption, GivesAWeakNumberBackAndKeepsWhatTheOthersExplain) {
+  Revision r({}, {});
+  std::vector<FitParameter> numbers = baseline_parameters(r.model());
+  std::erase_if(numbers, [](const FitParameter& p) {
+    return !p.name.ends_with("capstan radius") && !p.name.ends_with("motor Coulomb friction");
+  });
+  ASSERT_EQ(numbers.size(), 2u);
+  Hypothesis wrong{r.model().nominal, {}};
+  wrong.nominal.joint[0].capstan_radius *= 1.05;
+  wrong.nominal.joint[0].motor_coulomb *= 1.05;
+  const Adoption a = r.offer(wrong, numbers, 0.5);
+  EXPECT_TRUE(a.worse.empty());
+  EXPECT_EQ(a.revised.fit.hypothesis.nominal.joint[0].capstan_radius, r.model().nominal.joint[0].capstan_radius);
+  ASSERT_EQ(a.revised.fit.parameters.size(), 1u) << "that of the motor is fitted again";
+  EXPECT_TRUE(a.revised.fit.parameters[0].name.ends_with("motor Coulomb friction"));
 }
 
 TEST(Adoption, LeavesAPushOutOfALogThatHasNone) {

@@ -49,6 +49,23 @@ TEST(Judge, AContactAtTheEndOfTheMotionDoesNotDiscardThePushBesideIt) {
   EXPECT_TRUE(contact.at_bound);
 }
 
+TEST(Judge, AWallThatIsTouchedInTheWholeMotionIsAtItsBound) {
+  const ArmModel model = first_joints(2);
+  const Span span = Tug(0, 0).evidence.joint_span(1);
+  PlacedEffect wall = place_neutral_effect(*find_effect("external_force"), model.nominal, 1);
+  wall.p[4] = 5;  // N m/rad, above the position
+  for (const double share : {0.03, 0.5}) {
+    wall.p[5] = span.first + share * (span.last - span.first);
+    ArmModel robot = model;
+    robot.effects = {wall};
+    const Evidence evidence(make_records(simulate(motion(robot, 6)).measured, model, {}), model);
+    const Hypothesis without{model.nominal, {}};
+    const Trial trial =
+        Judge(evidence, model, {}).trial({model.nominal, {wall}}, {without, evidence.score(without)}, 0);
+    EXPECT_EQ(trial.at_bound, share < 0.05) << share;
+  }
+}
+
 TEST(Judge, OfTwoCausesTheTruthFitsBetterAndTheOtherDoesNot) {
   const Tug tug(1, 0.03);
   PlacedEffect friction = place_neutral_effect(*find_effect("motor_friction"), tug.model.nominal, 1);

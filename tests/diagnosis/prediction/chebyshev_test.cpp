@@ -15,7 +15,7 @@ namespace halyard {
 namespace {
 
 /// The method for y' = -rate y over a sample of 1 s: one step, with stages enough for it.
-Chebyshev method_for_decay(double rate) { return scheme_for({{{-rate}}}, 1); }
+RungeKuttaChebyshev method_for_decay(double rate) { return scheme_for({{{-rate}}}, 1); }
 
 /// T_s and its first two derivatives beyond 1, with w = cosh θ.
 struct ChebyshevAbove {
@@ -47,7 +47,8 @@ struct StabilityPolynomial {
 };
 
 /// A step of y' = f(t, y) by the recurrence of the source, equation 2.3.
-double step(const Chebyshev& c, const std::function<double(double, double)>& f, double t, double y, double h) {
+double step(const RungeKuttaChebyshev& c, const std::function<double(double, double)>& f, double t, double y,
+            double h) {
   const double f0 = f(t, y);
   double before = y, now = y + c.mu_h[1] * h * f0;
   for (int j = 2; j <= c.stages; ++j) {
@@ -61,7 +62,7 @@ double step(const Chebyshev& c, const std::function<double(double, double)>& f, 
 
 TEST(Chebyshev, GrowsTheLinearTestEquationByItsPolynomial) {
   for (const double rate : {1.0, 10.0, 100.0, 1000.0}) {
-    const Chebyshev c = method_for_decay(rate);
+    const RungeKuttaChebyshev c = method_for_decay(rate);
     const StabilityPolynomial growth(c.stages);
     for (double z = 0; z >= -growth.end(); z -= growth.end() / 50) {
       const double y = step(
@@ -75,7 +76,7 @@ TEST(Chebyshev, GrowsTheLinearTestEquationByItsPolynomial) {
 
 TEST(Chebyshev, IsStableAsFarAsItsStagesReachAndNoFurther) {
   for (const double rate : {10.0, 30.0, 1000.0, 30000.0}) {  // 6, 9, 44, 234 stages
-    const Chebyshev c = method_for_decay(rate);
+    const RungeKuttaChebyshev c = method_for_decay(rate);
     const StabilityPolynomial growth(c.stages);
     const auto after = [&](double z) {
       return step(
@@ -89,7 +90,7 @@ TEST(Chebyshev, IsStableAsFarAsItsStagesReachAndNoFurther) {
 }
 
 TEST(Chebyshev, IsOfSecondOrder) {
-  const Chebyshev c = method_for_decay(20);
+  const RungeKuttaChebyshev c = method_for_decay(20);
   // y' = -20 (y² - cos² t) - sin t, solved by cos t: nonlinear, and the right side depends on time.
   const auto f = [](double t, double y) { return -20 * (y * y - std::cos(t) * std::cos(t)) - std::sin(t); };
   const auto error = [&](int steps) {
@@ -105,31 +106,31 @@ TEST(Chebyshev, IsOfSecondOrder) {
 
 TEST(Chebyshev, TakesStagesForTheFastestModeAndAFifthMore) {
   for (const double rate : {0.5, 5.0, 50.0, 500.0}) {
-    const int stages = stages_for({{-rate}, {-rate / 7}}, 1, Chebyshev::kMostStages);
+    const int stages = stages_for({{-rate}, {-rate / 7}}, 1, RungeKuttaChebyshev::kMostStages);
     EXPECT_GE(StabilityPolynomial(stages).end(), 1.2 * rate);
     // One stage is spare, and rounding up takes another.
     if (stages > 4) {
       EXPECT_LT(StabilityPolynomial(stages - 2).end(), 1.2 * rate);
     }
   }
-  EXPECT_EQ(stages_for({{-1e6}}, 1, Chebyshev::kMostStages), 0) << "more than the method has room for";
+  EXPECT_EQ(stages_for({{-1e6}}, 1, RungeKuttaChebyshev::kMostStages), 0) << "more than the method has room for";
 }
 
 TEST(Chebyshev, HasStagesForTheFastestModeThatItCallsStable) {
   for (const double h : {0.0005, 0.001, 0.002, 0.003, 0.004, 0.005, 0.01, 0.03}) {
     const double fastest = fastest_stable(h);
     for (const std::complex<double> direction : {std::polar(1.0, 2.3), std::polar(1.0, 3.0), {-1.0, 0.0}})
-      EXPECT_GT(stages_for({{fastest * direction}}, h, Chebyshev::kUsualStages), 0) << h << " " << direction;
-    EXPECT_EQ(stages_for({{-1.01 * fastest}}, h, Chebyshev::kUsualStages), 0) << h;
+      EXPECT_GT(stages_for({{fastest * direction}}, h, RungeKuttaChebyshev::kUsualStages), 0) << h << " " << direction;
+    EXPECT_EQ(stages_for({{-1.01 * fastest}}, h, RungeKuttaChebyshev::kUsualStages), 0) << h;
   }
 }
 
 TEST(Chebyshev, TakesSeveralStepsForAModeThatRings) {
   EXPECT_EQ(scheme_for({{{{-50, 0}}}}, 1).steps, 1);
-  const Chebyshev ringing = scheme_for({{{{-1, 20}, {-1, -20}}}}, 1);
+  const RungeKuttaChebyshev ringing = scheme_for({{{{-1, 20}, {-1, -20}}}}, 1);
   EXPECT_GT(ringing.steps, 1);
   // Several systems at once: enough for each.
-  const Chebyshev both = scheme_for({{{{-1, 20}, {-1, -20}}}, {{{-400, 0}}}}, 1);
+  const RungeKuttaChebyshev both = scheme_for({{{{-1, 20}, {-1, -20}}}, {{{-400, 0}}}}, 1);
   EXPECT_GE(both.steps, ringing.steps);
   EXPECT_GE(StabilityPolynomial(both.stages).end(), 400.0 / both.steps);
 }

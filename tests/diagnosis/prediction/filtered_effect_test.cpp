@@ -29,7 +29,7 @@ double torque_added(const Effect& effect, const ArmParameters<double>& arm, cons
 TEST(FilteredEffect, APeriodicTorqueIsWhatAGaussianFilterLeavesOfIt) {
   const ArmParameters<double> arm = random_arm(1, CableLaw::linear);
   const PlacedEffect e = ripple(arm);
-  const FilteredEffects seen({e}, arm, kSigma);
+  const FilteredEffects seen({e}, arm, kSigma, 0);
   for (const double rate : {0.0, 3.0, 20.0, 40.0})
     for (const double angle : {0.1, 2.0}) {
       // The convolution with the Gaussian, by the trapezoidal rule, which is exact to rounding over eight deviations.
@@ -45,10 +45,27 @@ TEST(FilteredEffect, APeriodicTorqueIsWhatAGaussianFilterLeavesOfIt) {
     }
 }
 
+TEST(FilteredEffect, APeriodicErrorOfAJointSensorIsAttenuatedWhereItsReadingsAre) {
+  const ArmParameters<double> arm = random_arm(1, CableLaw::linear);
+  PlacedEffect e = place_effect(*find_effect("encoder_eccentricity"), arm, 0);
+  const double k = e.p[2] = 8;
+  const auto error_added = [&](const Effect& effect, double rate) {
+    JointSignals<double> s[kMaxJoints];
+    s[0].joint_position = 0.4, s[0].joint_rate = rate, s[0].joint_error = 0.1;
+    effect.act(EffectStage::sensors, EffectContext<double>{arm, 0, e.p, nullptr, 0, nullptr}, s);
+    return s[0].joint_error - 0.1;
+  };
+  const FilteredEffects seen({e}, arm, 0, kSigma);
+  for (const double rate : {0.0, 2.0, 20.0})
+    EXPECT_NEAR(error_added(*seen[0], rate),
+                error_added(*e.effect, rate) * std::exp(-0.5 * std::pow(k * rate * kSigma, 2)), 1e-16);
+  EXPECT_EQ(FilteredEffects({e}, arm, kSigma, 0)[0], e.effect) << "compared with the readings themselves";
+}
+
 TEST(FilteredEffect, LeavesTheTorqueOfOthersAlone) {
   const ArmParameters<double> arm = random_arm(1, CableLaw::linear);
   const PlacedEffect e = ripple(arm);
-  const FilteredEffects seen({e}, arm, kSigma);
+  const FilteredEffects seen({e}, arm, kSigma, 0);
   // Two roundings of 5.5 N m.
   EXPECT_NEAR(torque_added(*seen[0], arm, e.p, 0.7, 20, 5), torque_added(*seen[0], arm, e.p, 0.7, 20), 2e-15);
 }
@@ -56,8 +73,8 @@ TEST(FilteredEffect, LeavesTheTorqueOfOthersAlone) {
 TEST(FilteredEffect, WhatIsNotPeriodicOrNotFilteredIsSeenAsItIs) {
   const ArmParameters<double> arm = random_arm(1, CableLaw::linear);
   const PlacedEffect e = ripple(arm), friction = place_effect(*find_effect("motor_friction"), arm, 1);
-  EXPECT_EQ(FilteredEffects({e}, arm, 0)[0], e.effect);
-  const FilteredEffects seen({friction, e}, arm, kSigma);
+  EXPECT_EQ(FilteredEffects({e}, arm, 0, 0)[0], e.effect);
+  const FilteredEffects seen({friction, e}, arm, kSigma, 0);
   EXPECT_EQ(seen[0], friction.effect);
   EXPECT_NE(seen[1], e.effect);
 }

@@ -48,7 +48,7 @@ DrivenState<T> at_rest() {
 }
 
 TEST(LaneDrive, EveryLaneMovesLikeASingleArmForAnyNumberOfJointsAndInstructionSet) {
-  Chebyshev scheme = scheme_for({{{{-100.0, 0.0}}}}, kDt);
+  RungeKuttaChebyshev scheme = scheme_for({{{{-100.0, 0.0}}}}, kDt);
   scheme.steps = 2;  // a replay has no steps of its own
   for (int n = 1; n <= kMaxJoints; ++n) {
     const ArmParameters<double> arm = arm_of(n);
@@ -103,7 +103,7 @@ DrivenState<double> moved_with_a_new_chain_each_step(const ArmParameters<double>
 }
 
 TEST(LaneDrive, AHeldChainMovesAnArmLikeOneThatIsAlwaysNew) {
-  Chebyshev scheme = scheme_for({{{{-100.0, 0.0}}}}, kDt);
+  RungeKuttaChebyshev scheme = scheme_for({{{{-100.0, 0.0}}}}, kDt);
   scheme.steps = 20;
   const ArmParameters<double> arm = arm_of(3);
   const std::vector<DrivenInput> motors = swinging_motors(3);

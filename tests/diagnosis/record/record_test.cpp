@@ -301,13 +301,13 @@ TEST(Record, OfALightJointIsIntegratedWithMoreStagesThanUsual) {
     return make_records(log_of([](double t) { return std::sin(t); }, 3, 100), model, {})[0].most_stages;
   };
   ArmModel wrist = raven2();
-  EXPECT_EQ(stages(wrist), Chebyshev::kUsualStages);
+  EXPECT_EQ(stages(wrist), RungeKuttaChebyshev::kUsualStages);
   JointParameters<double>& j = wrist.nominal.joint[2];
   j.mass = 1e-3, j.joint_coulomb = 5, j.joint_smoothing = 1e-3;  // 5e6 1/s
-  EXPECT_GT(stages(wrist), 2 * Chebyshev::kUsualStages);
-  EXPECT_LE(stages(wrist), Chebyshev::kMostStages);
+  EXPECT_GT(stages(wrist), 2 * RungeKuttaChebyshev::kUsualStages);
+  EXPECT_LE(stages(wrist), RungeKuttaChebyshev::kMostStages);
   j.mass = 1e-9;
-  EXPECT_EQ(stages(wrist), Chebyshev::kMostStages) << "and not enough: the prediction refuses it";
+  EXPECT_EQ(stages(wrist), RungeKuttaChebyshev::kMostStages) << "and not enough: the prediction refuses it";
 }
 
 }  // namespace
