@@ -285,7 +285,8 @@ void check_command_name(const CLI::App& app, int argc, char** argv) {
 }
 
 /// "; did you mean --column?" if an option of the command begins so, or the word begins as an option; else empty.
-std::string similar_option(const CLI::App& command, const std::string& word) {
+std::string similar_option(const CLI::App& command, std::string word) {
+  word = word.substr(0, word.find('='));
   for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames())
       if (const std::string full = "--" + name; word.size() > 4 && (full.starts_with(word) || word.starts_with(full)))
@@ -293,16 +294,18 @@ std::string similar_option(const CLI::App& command, const std::string& word) {
   return "";
 }
 
-/// A required option is often missing because the user has given another: that one is named first.
-[[noreturn]] void fail_usage(const CLI::App& app, const CLI::ParseError& error) {
+/// A required option is often missing because the user has given another: that one is named first. first: argument of
+/// the program.
+[[noreturn]] void fail_usage(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
   const std::vector<CLI::App*> parsed = app.get_subcommands();
   const std::string command = parsed.empty() ? "halyard" : "halyard " + parsed.front()->get_name();
-  const std::vector<std::string> before = app.remaining(), behind = app.remaining(/*recurse=*/true);
+  const std::vector<std::string> strays = app.remaining(/*recurse=*/true);
   std::string fault = error.what();
-  if (!parsed.empty() && !before.empty())
-    fault = before.front() + " stands before the command; give it behind " + command;
-  else if (!parsed.empty() && !behind.empty())
-    fault = behind.front() + " was not expected" + similar_option(*parsed.front(), behind.front());
+  if (!parsed.empty() && !strays.empty()) {
+    fault = strays.front() == first
+                ? first + " stands before the command; give it behind " + command
+                : strays.front() + " was not expected" + similar_option(*parsed.front(), strays.front());
+  }
   throw InputError(command + ": " + fault + "; see " + command + " --help" +
                    (parsed.empty() ? "" : " or halyard --help"));
 }
@@ -330,7 +333,7 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    fail_usage(app, error);
+    fail_usage(app, error, argc < 2 ? "" : argv[1]);
   }
   if (app.get_subcommands().empty()) {
     throw InputError("halyard: a command is missing; expected one of " + command_names(app) + "; see halyard --help");

@@ -286,7 +286,10 @@ class Diagnoser {
     HoldOut& joints = details_->joint_view;
     Fit uncertain = attribution().final_fit;
     if (final_hypothesis().effects.size() > given_) uncertain.parameters = fitted;
-    uncertain = with_all_numbers(task.whole, uncertain, attribution().baseline.parameters);
+    std::vector<FitParameter> numbers = attribution().baseline.parameters;
+    for (const FitParameter& p : fitted)
+      if (!p.effect && !find_parameter(numbers, p)) numbers.push_back(p);
+    uncertain = with_all_numbers(task.whole, uncertain, numbers);
     for (const std::size_t e : result_.absent_events)
       if (uncertain.usable) uncertain = without_event(std::move(uncertain), e);
     uncertain.hypothesis = on_holdout_clock(task, uncertain.hypothesis);

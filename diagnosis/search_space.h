@@ -45,6 +45,9 @@ struct ParameterSearch {
   bool natural_bounds = false;
   /// True if only whole numbers are plausible, such as the order of a ripple. The fit keeps the value of a start.
   bool is_whole = false;
+  /// Of a position: the effect acts beyond it all the way, above it if its size is positive, else below. It is a wall,
+  /// and one that is touched in nearly the whole motion is a spring.
+  bool is_wall = false;
   /// For a speed near standstill: its unit per rad/s of the motor, else 0. It is at most kNearStandstill of the fastest
   /// motion of the records; what changes over the whole range of speeds is another law.
   double per_motor_speed = 0;

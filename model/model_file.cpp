@@ -285,7 +285,8 @@ void check_sums(const std::vector<XmlElement>& elements, const ArmModel& model,
       for (const PlacedEffect& other : model.effects) sum += same_name(other, effect) ? other.p[i] : 0;
       for (std::size_t before = 0; before <= e; ++before)
         sum += same_name(placed[before], effect) ? placed[before].p[i] : 0;
-      if (sum >= p.lower && sum <= p.upper) continue;
+      const double rounding = 1e-9 * std::max(std::abs(p.lower), std::abs(p.upper));
+      if (sum >= p.lower - rounding && sum <= p.upper + rounding) continue;
       elements[e].fail(p.name, "with the other effects of this kind at the joint it is " + with_digits(sum, 6) +
                                    ", expected a sum from " + exact_text(p.lower) + " to " + exact_text(p.upper));
     }

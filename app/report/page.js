@@ -65,7 +65,8 @@ const power = (value) => value < 1e-3 || value > 1e4 ? value.toExponential().rep
 // of each, too; and within less than a decade all.
 function hasNumber(value, decades) {
   const exponent = Math.floor(Math.log10(value) + 1e-9), mantissa = Math.round(value / 10 ** exponent);
-  if (decades < 0.7) return true;
+  if (decades < 0.3) return true;
+  if (decades < 0.7) return mantissa !== 7 && mantissa !== 9;  // they would touch their neighbours
   if (decades < 2.5) return mantissa === 1 || mantissa === 2 || mantissa === 5;
   return mantissa === 1 && exponent % Math.ceil(decades / 8) === 0;
 }

@@ -13,14 +13,17 @@ namespace {
 
 /// To so many significant digits.
 std::string number_text(double value, int digits) {
+  if (!std::isfinite(value)) return "-";
   if (value == 0) return "0";
-  const auto power = int(std::floor(std::log10(std::abs(value)) + 1e-9));
-  if (power < -3 || power >= 5) return fmt::format("{:.{}g}e{}", value / std::pow(10, power), digits, power);
-  std::string text = fmt::format("{:.{}f}", value, std::max(0, digits - 1 - power));
-  if (text.find('.') == text.npos) return text;
-  text.erase(text.find_last_not_of('0') + 1);
+  const std::string scientific = fmt::format("{:.{}e}", value, digits - 1);  // "3.160e-04"
+  const std::size_t e = scientific.find('e');
+  const int power = std::stoi(scientific.substr(e + 1));
+  const bool is_short = power >= -3 && power < 5;
+  std::string text =
+      is_short ? fmt::format("{:.{}f}", value, std::max(0, digits - 1 - power)) : scientific.substr(0, e);
+  if (text.find('.') != text.npos) text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
-  return text;
+  return is_short ? text : fmt::format("{}e{}", text, power);
 }
 
 }  // namespace

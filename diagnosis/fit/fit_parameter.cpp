@@ -127,6 +127,7 @@ std::vector<FitParameter> effect_parameters(const Evidence& evidence, const Hypo
     if (f.shape && f.starts.size() > 1) f.scale = 0.1 * spacing_around(f.starts, e.p[i]);
     f.range = search.range;
     f.is_whole = search.is_whole;
+    f.is_wall = search.is_wall;
     if (search.another_at) f.another_at = std::clamp(*search.another_at, p.lower, p.upper);
     limit_period(f, space, i, evidence, e.joint.value_or(0));
     if (f.is_whole) f.lower = std::ceil(f.lower), f.upper = std::floor(f.upper);

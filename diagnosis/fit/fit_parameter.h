@@ -26,6 +26,7 @@ struct FitParameter {
   std::vector<double> starts = {};  ///< start values; for a past in units of its scale
   SearchRange range = SearchRange::own;
   bool is_whole = false;  ///< a whole number: tried at its starts and not fitted
+  bool is_wall = false;   ///< see ParameterSearch
   /// An effect's state at the start of a record, which belongs to the data and not to the arm.
   bool is_past = false;
   std::optional<double> another_at = {};  ///< see ParameterSearch

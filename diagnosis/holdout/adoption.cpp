@@ -119,7 +119,9 @@ class WeakNumbers {
 bool give_weak_numbers_back(const AdoptionTask& task, Trier& trier, const HoldOut& joints, const HoldOut& torques,
                             Adoption& a) {
   const Fit before = a.revised.fit;
-  const WeakNumbers weak(before, on_holdout_clock(task, before.hypothesis), joints, torques);
+  Hypothesis on_holdout = before.hypothesis;
+  for (const std::size_t e : a.absent_events) on_holdout = without_effect(on_holdout, e);
+  const WeakNumbers weak(before, on_holdout_clock(task, on_holdout), joints, torques);
   std::vector<int> worse = a.worse;
   for (std::vector<std::size_t> returned;;) {
     const std::vector<std::size_t> all = weak.of(worse, returned);

@@ -27,7 +27,7 @@ std::vector<double> residual_quantiles(const Evidence& evidence, const std::vect
 /// Covariances at the fit's hypothesis of its effects' parameters together with baseline parameters, also those that
 /// the final fit has reset: the data did not show that they differ from the model's values, but they may.
 ///   whole    all training data
-///   numbers  the baseline parameters that the data are sensitive to; other entries are ignored
+///   numbers  the baseline parameters that may be off: those that were fitted; other entries are ignored
 Fit with_all_numbers(const Evidence& whole, const Fit& fit, const std::vector<FitParameter>& numbers);
 
 /// The fit of a log in which this effect did not happen: without its parameters, the others as uncertain as they are.

@@ -3,7 +3,6 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "diagnosis/calibration/calibrate.h"
@@ -120,15 +119,16 @@ class UncertainParameters {
 /// than what the fit leaves, its weights were too small, and the fit is repeated with those of what it leaves.
 Fit weighed_fit(const Evidence& whole, Hypothesis start, const std::vector<FitParameter>& parameters) {
   constexpr double kFarLarger = 1.2;
-  constexpr int kMostFits = 3;
+  constexpr int kMostFits = 6;
   std::vector<double> scale;
   Fit last;
   for (int i = 0; i < kMostFits; ++i) {
     const Score score = whole.score(start);
     if (!score.finite) break;
     const std::vector<double> now = channel_scale(whole, score.fit_mean_square);
-    const auto is_far_larger = [](double was, double is) { return was > kFarLarger * is; };
-    if (i > 0 && std::ranges::mismatch(scale, now, std::not_fn(is_far_larger)).in1 == scale.end()) break;
+    bool was_far_larger = false;
+    for (std::size_t c = 0; c < scale.size(); ++c) was_far_larger = was_far_larger || scale[c] > kFarLarger * now[c];
+    if (i > 0 && !was_far_larger) break;
     scale = now;
     FitOptions options;
     options.correlated_rows = independent_rows(whole, scale);
@@ -209,8 +209,6 @@ Hypothesis nudged_start(const Evidence& whole, const ArmModel& model, const Fit&
   return nudge.at;
 }
 
-}  // namespace
-
 /// The parameters with all numbers of the model that no added effect changes. Those to which the data were not
 /// sensitive without the effects may count beside them.
 std::vector<FitParameter> with_all_numbers_beside(const ArmModel& model, const Fit& chosen, std::size_t given) {
@@ -225,6 +223,8 @@ std::vector<FitParameter> with_all_numbers_beside(const ArmModel& model, const F
     if (p.effect) all.push_back(p);
   return all;
 }
+
+}  // namespace
 
 Fit final_fit(const Evidence& whole, const ArmModel& model, const Fit& chosen, std::size_t given) {
   const Score score = whole.score(chosen.hypothesis);

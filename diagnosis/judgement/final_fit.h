@@ -5,8 +5,9 @@
 
 namespace halyard {
 
-/// Fits the parameters of `chosen` again on `whole`, an Evidence without deciding blocks. The channels have
-/// the weights of independent_rows().
+/// Fits the parameters of `chosen` again on `whole`, an Evidence without deciding blocks. The channels have the weights
+/// of independent_rows(), by what the fit leaves. Beside added effects, the numbers of the model to which the data were
+/// not sensitive without them are fitted, too.
 ///
 /// All numbers of the model stay in the fit, held by their tolerances: a number that was set back to the model's value
 /// would be taken for exact, and what it is off would go into the effects' parameters. Sizes of effects that did not

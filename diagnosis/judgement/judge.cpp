@@ -163,7 +163,8 @@ bool Judge::explains_a_rest(const Score& before, const Score& after) const {
 }
 
 /// Indices of the sizes that end at a bound or whose shape does, and that do more there than one number by chance; the
-/// sizes of a push whose instants are both ends of the record or of the motion are among them. A group of sizes whose
+/// sizes of a push whose instants are both ends of the record or of the motion are among them, and those of a wall that
+/// is touched in the whole motion. A group of sizes whose
 /// shape is at its bound does not count if it does next to nothing of what the whole effect does: for example a wall at
 /// the end of the motion that only improves the form of a tug.
 std::vector<std::size_t> Judge::sizes_at_bound(const Scored& with, std::size_t place) const {
@@ -226,14 +227,13 @@ bool Judge::acts(const Scored& with, const FitParameter& shape) const {
   });
 }
 
-/// True for an effect beyond a position, above it if its size is positive, that acts in nearly the whole motion: a wall
-/// that is always touched is a spring.
+/// True for a wall that is touched in nearly the whole motion.
 bool Judge::acts_in_the_whole_motion(const Scored& with, const std::vector<FitParameter>& parameters,
                                      const ParameterGroup& group) const {
   constexpr double kNearly = 0.05;  // of the motion
   return std::ranges::any_of(group.shapes, [&](std::size_t i) {
     const FitParameter& position = parameters[i];
-    if (position.range != SearchRange::joint_position || group.sizes.empty()) return false;
+    if (!position.is_wall || group.sizes.empty()) return false;
     const double size = parameter_value(with.hypothesis, parameters[group.sizes[0]]);
     const double value = parameter_value(with.hypothesis, position);
     const double outside = size > 0 ? value - position.lower : position.upper - value;

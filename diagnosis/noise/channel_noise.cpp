@@ -247,6 +247,7 @@ std::vector<ChannelNoise> channel_noise(const std::vector<Record>& records, cons
     filters.motion_sigma = std::max(filters.motion_sigma, record.motion_sigma);
     filters.both_sigma = std::max(filters.both_sigma, record.filter_sigma());
     record.compare = {1};
+    record.compare_sigma = 0;  // samples are compared as they are
     // A reading between grid points needs the prediction at both, also where nothing was measured.
     record.joint_measured = record.joint_valid;
     unfiltered.push_back(predict(record, {given}, 1)[0]);

@@ -14,6 +14,7 @@ void external_force(SearchSpace& space, const Arm&, int) {
   space["rise"].starts = {0, 0.5};
   space["rise"].natural_bounds = true;
   space["contact_position"].range = SearchRange::joint_position;
+  space["contact_position"].is_wall = true;
 }
 
 void friction_drift(SearchSpace& space, const Arm&, int) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -71,7 +70,7 @@ class BlockSteps {
   /// From u, or from the model's numbers if the arm cannot be integrated at u.
   BatchEstimate from(Eigen::VectorXd u) {
     const int last = count_ + kPasses;
-    std::optional<Pass> here = pass_if_integrable(u, disturbances_);
+    std::optional<Pass> here = chosen_ ? std::exchange(chosen_, std::nullopt) : pass_if_integrable(u, disturbances_);
     if (!here) here = pass_at(u.setZero(), disturbances_);
     const Eigen::VectorXd bound = unknowns_.bound();
     BatchEstimate result;
@@ -105,10 +104,11 @@ class BlockSteps {
     double least = cost_;
     for (const double factor : {0.3, 0.1, 0.03}) {
       if (factor >= before) continue;
-      const std::optional<Pass> pass = pass_if_integrable(u, factor);
+      std::optional<Pass> pass = pass_if_integrable(u, factor);
       if (!pass || pass->cost(1) > least - kWorse) break;
       least = pass->cost(1);
       disturbances_ = factor;
+      chosen_ = std::move(pass);
     }
     return disturbances_ != before;
   }
@@ -133,6 +133,7 @@ class BlockSteps {
   const std::function<void(int, double)>& progress_;
   int count_ = 0;
   double disturbances_ = 1, cost_ = 0;
+  std::optional<Pass> chosen_;  ///< where from() is to begin next
 };
 
 }  // namespace

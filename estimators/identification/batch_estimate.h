@@ -9,8 +9,9 @@
 ///
 /// A filter whose process noise is larger than the log's disturbances follows the noise of the encoders, and its
 /// prediction is then a regression on noisy numbers, which biases stiffness and damping. So the steps are repeated with
-/// a smaller process noise, if one explains the innovations better: of the factors 1, 0.3, 0.1, 0.03, that with the
-/// least cost at the estimate, with s = 1 (maximum likelihood; Ljung, "System identification", 2nd ed., chapter 7.4).
+/// a smaller process noise as long as one explains the innovations better where the last steps ended: with the factors
+/// 0.3, 0.1, 0.03, while each lowers the cost with s = 1, which is the likelihood (Ljung, "System identification", 2nd
+/// ed., chapter 7.4).
 
 #include <functional>
 #include <vector>

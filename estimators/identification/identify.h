@@ -84,8 +84,8 @@ struct Identification {
   bool converged = false;  ///< the last pass moved no parameter by more than a fifth of its standard deviation
   /// RMS of the innovations at the estimate, in standard deviations of the filter; at least 1.
   double innovation_size = 1;
-  /// Process noise of the estimate over what the filters assume by default: the least of 1, 0.3, 0.1, 0.03 that the log
-  /// asks for (batch_estimate.h).
+  /// Process noise of the estimate over what the filters assume: 1, 0.3, 0.1 or 0.03, as the log asks for it
+  /// (batch_estimate.h).
   double disturbances = 1;
   std::string filter_failure;  ///< why the dual filter ended before the logs did; empty: it did not
   ArmModel model;              ///< with the identified values

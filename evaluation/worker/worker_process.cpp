@@ -120,7 +120,8 @@ class Worker {
 
   bool has_ended() const {
     siginfo_t info{};
-    return waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == id_;
+    const int error = waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT);
+    return error != 0 ? errno == ECHILD : info.si_pid == id_;  // the calling program may have taken its end
   }
   /// Has its supervisor kill what still runs, and returns how the worker ended, as waitpid() says it.
   int end() {

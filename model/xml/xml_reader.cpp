@@ -101,7 +101,7 @@ XmlElement XmlElement::root_of(const std::string& xml, const std::string& source
   if (xml.find('\0') != xml.npos) throw InputError(source + ": is not text; give an XML file in UTF-8");
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   std::string_view start = trimmed(xml);
-  if (start.starts_with(kByteOrderMark)) start.remove_prefix(kByteOrderMark.size());
+  if (start.starts_with(kByteOrderMark)) start = trimmed(start.substr(kByteOrderMark.size()));
   if (!start.starts_with('<'))
     throw InputError(source + ":1: is no XML: it does not begin with '<'; give the path of an XML file");
   auto document = std::make_shared<Document>();

@@ -85,13 +85,18 @@ bool has_scale_of_each_state(const Effect& effect, const ArmParameters<double>& 
 /// factor would leave.
 bool does_something(const Effect& effect, ArmParameters<double> arm, EffectPlace place) {
   if (effect.stages() != 0) return true;
-  const auto fill = [](const ArmField&, auto& value) {
-    if constexpr (std::is_same_v<decltype(value), double&>) value = value == 0 ? 0.1 : value;
+  const auto fill = [](const ArmField& field, auto& value) {
+    const auto filled = [](double x) { return x == 0 ? 0.1 : x; };
+    if (field.kind == FieldKind::structure) return;
+    if constexpr (std::is_same_v<decltype(value), double&>) value = filled(value);
+    else if constexpr (std::rank_v<std::remove_reference_t<decltype(value)>> == 1)
+      std::ranges::transform(value, std::begin(value), filled);
   };
   for (int k = 0; k < arm.n; ++k) for_each_joint_field(fill, arm.joint[k]);
   ArmParameters<double> changed = arm;
   effect.change_parameters(changed, place, place_effect(effect, arm, place).p);
-  bool differs = !std::ranges::equal(changed.gravity, arm.gravity);
+  bool differs = !std::ranges::equal(changed.gravity, arm.gravity) ||
+                 !std::ranges::equal(changed.payload_point, arm.payload_point);
   const auto compare = [&](const ArmField& field, const auto& was, const auto& is) {
     if (field.kind == FieldKind::structure) return;
     if constexpr (std::is_array_v<std::remove_cvref_t<decltype(was)>>)

@@ -23,7 +23,7 @@ namespace halyard::effects {
 template <class T>
 HALYARD_INLINE T presliding_force(const T* p, const T& coulomb, const T& smoothing, const T& v, const T& z,
                                   const T& drift) {
-  return p[0] * (T(1.0) + drift) * coulomb * (z / p[1] - smooth_sign(v, smoothing));
+  return p[0] * max(T(0.0), T(T(1.0) + drift)) * coulomb * (z / p[1] - smooth_sign(v, smoothing));
 }
 
 template <class T>

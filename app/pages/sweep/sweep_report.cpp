@@ -107,8 +107,7 @@ std::string axis_sentence(const SweepGrid& grid, const SweepAxis& axis) {
                       : axis.applies_to == SweepAxis::Target::model ? ", in the estimators' model alone"
                                                                     : ", in the robot and in the estimators' model";
   return fmt::format("{}, {} values{}{}.", fmt::join(axis.parameters, ", "), axis.values.size(),
-                     axis.is_factor ? ", each a factor of the number in the file" : "",
-                     grid.measures_limits() ? "" : where);
+                     axis.is_factor ? ", each a factor of the number" : "", grid.measures_limits() ? "" : where);
 }
 
 /// What happens at a point, and what the curves show.

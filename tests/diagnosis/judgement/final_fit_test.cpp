@@ -56,6 +56,20 @@ TEST(FinalFit, KeepsASlipThatTheDataDetermine) {
   EXPECT_NEAR(one.fit.hypothesis.effects[0].p[0], kJump, 0.01 * kJump);
 }
 
+TEST(FinalFit, WeighsByWhatItLeavesWhereverItStarts) {
+  ArmModel model = first_joints(1), robot = model;
+  robot.effects = {slip(model, kJump, kTime)};
+  const Evidence whole(make_records(simulate(motion(robot, 5)).measured, model, {}), model, Split::none);
+  const auto deviation_from = [&](double jump) {
+    Fit start;
+    start.hypothesis = {model.nominal, {slip(model, jump, kTime)}};
+    start.parameters = {effect_parameters(whole, start.hypothesis, model.nominal, 0)[0]};
+    return with_given_numbers(whole, model, start).std_deviation.at(0);
+  };
+  EXPECT_NEAR(deviation_from(0.5 * kJump), deviation_from(kJump), 0.2 * deviation_from(kJump))
+      << "the next would differ less";
+}
+
 TEST(FinalFit, FindsAnInstantWithinABlockThatTheFitBeforeDidNotSee) {
   const ArmModel model = first_joints(1);
   ArmModel robot = model;

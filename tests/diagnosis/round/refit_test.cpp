@@ -8,7 +8,10 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/judgement/final_fit.h"
+#include "plant/simulate.h"
 #include "tests/diagnosis/fit/made_log.h"
+#include "tests/support/short_arm.h"
 
 namespace halyard {
 namespace {
@@ -105,6 +108,25 @@ TEST(Refit, FromAnotherStartKnowsNothingOfTheFirst) {
   EXPECT_FALSE(again.is_nudged);
   EXPECT_EQ(again.held.size(), 1u) << "what is held stays held";
   EXPECT_EQ(again.nudged_from, 2u);
+}
+
+TEST(FinalFit, HasEachNumberOfTheModelThatNoEffectCovers) {
+  const ArmModel model = first_joints(1);
+  PlacedEffect softer = place_neutral_effect(*find_effect("stiffness"), model.nominal, 0);
+  softer.p[0] = 0.8;
+  ArmModel robot = model;
+  robot.effects = {softer};
+  const std::vector<Record> records = make_records(simulate(motion(robot, 5)).measured, model, {});
+  const Evidence evidence(records, model), whole(records, model, Split::none);
+  const Hypothesis h{model.nominal, {softer}};
+  const Fit fit = final_fit(whole, model, Refitter(evidence, model, 0).refit(h, evidence.score(h)), 0);
+  int covered = 0;
+  for (const FitParameter& number : baseline_parameters(model)) {
+    const bool is_covered = effect_covers(softer, model.nominal, number);
+    EXPECT_EQ(find_parameter(fit.parameters, number).has_value(), !is_covered) << number.name;
+    covered += is_covered;
+  }
+  EXPECT_GT(covered, 0);
 }
 
 }  // namespace

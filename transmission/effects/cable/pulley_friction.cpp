@@ -22,7 +22,7 @@ class PulleyFriction : public EffectOf<PulleyFriction> {
   std::string name() const override { return "pulley_friction"; }
   std::string summary() const override { return "cable friction on the pulleys that grows with tension and load"; }
   unsigned stages() const override { return static_cast<unsigned>(EffectStage::cable_force); }
-  /// Of the tension that the runs have.
+  /// With the force that the others leave.
   int rank(EffectStage) const override { return 2; }
   bool applies(const ArmParameters<double>& arm, int joint) const override {
     return arm.joint[joint].drive == Drive::cable;

@@ -12,7 +12,8 @@
 ///
 /// The paper's law does not clamp tension at zero; at ρ = 1 this effect does, with rest tension T. The linear and the
 /// exponential law already clamp, with the model's T_0; for them g_T - g is the law with T in place of T_0 minus the
-/// law. ρ is the size of the effect, T its shape: at ρ = 0 the model's law is unchanged for every T.
+/// law, whatever the other effects are: beside a `hysteresis`, change T_0 instead. ρ is the size of the effect, T its
+/// shape: at ρ = 0 the model's law is unchanged for every T.
 ///
 /// Source: the clamp of cable_law.h.
 
