@@ -76,6 +76,13 @@ TEST(EffectModule, AModuleThatBreaksTheContractIsRefusedWithOneLineAndLeavesNoth
   EXPECT_EQ(refusal("effects_twice"), "makes 'fixture_spring' twice; give each a name of its own");
 }
 
+TEST(EffectModule, MayChangeNumbersOfTheArmAlone) {
+  load_effects(fixture("effects_numbers_only"));
+  const Effect* effect = find_effect("fixture_heavier");
+  ASSERT_NE(effect, nullptr);
+  EXPECT_EQ(effect->stages(), 0u);
+}
+
 TEST(EffectModule, AWellFormedOneJoinsTheLibraryOnceAndActs) {
   load_effects(fixture("effects_well_formed"));
   const Effect* effect = find_effect("fixture_spring");
