@@ -81,30 +81,32 @@ bool has_scale_of_each_state(const Effect& effect, const ArmParameters<double>& 
          std::ranges::all_of(scales, [](double scale) { return std::isfinite(scale) && scale >= 0; });
 }
 
-/// False for an effect that acts at no stage and changes no number of an arm. No number of this arm is 0, which a
-/// factor would leave.
+/// Calls visit(x) for each number of the arm, but for those that are no double.
+template <class Arm, class Visit>
+void for_each_number(Arm& arm, const Visit& visit) {
+  const auto visit_field = [&](const ArmField&, auto& value) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, double>) visit(value);
+    else if constexpr (std::rank_v<Value> == 1)
+      for (auto& x : value) visit(x);
+  };
+  for_each_arm_field(visit_field, arm);
+  for (int k = 0; k < arm.n; ++k) for_each_joint_field(visit_field, arm.joint[k]);
+}
+
+std::vector<double> numbers_of(const ArmParameters<double>& arm) {
+  std::vector<double> all;
+  for_each_number(arm, [&](double x) { all.push_back(x); });
+  return all;
+}
+
+/// False for an effect that acts at no stage and changes no number of an arm.
 bool does_something(const Effect& effect, ArmParameters<double> arm, EffectPlace place) {
   if (effect.stages() != 0) return true;
-  const auto fill = [](const ArmField& field, auto& value) {
-    const auto filled = [](double x) { return x == 0 ? 0.1 : x; };
-    if (field.kind == FieldKind::structure) return;
-    if constexpr (std::is_same_v<decltype(value), double&>) value = filled(value);
-    else if constexpr (std::rank_v<std::remove_reference_t<decltype(value)>> == 1)
-      std::ranges::transform(value, std::begin(value), filled);
-  };
-  for (int k = 0; k < arm.n; ++k) for_each_joint_field(fill, arm.joint[k]);
+  for_each_number(arm, [](double& x) { x += 0.1; });  // a factor would leave a 0
   ArmParameters<double> changed = arm;
   effect.change_parameters(changed, place, place_effect(effect, arm, place).p);
-  bool differs = !std::ranges::equal(changed.gravity, arm.gravity) ||
-                 !std::ranges::equal(changed.payload_point, arm.payload_point);
-  const auto compare = [&](const ArmField& field, const auto& was, const auto& is) {
-    if (field.kind == FieldKind::structure) return;
-    if constexpr (std::is_array_v<std::remove_cvref_t<decltype(was)>>)
-      differs = differs || !std::ranges::equal(was, is);
-    else differs = differs || was != is;
-  };
-  for (int k = 0; k < arm.n; ++k) for_each_joint_field(compare, arm.joint[k], changed.joint[k]);
-  return differs;
+  return numbers_of(changed) != numbers_of(arm);
 }
 
 void check_effect(const Effect& effect) {
