@@ -10,6 +10,7 @@
 
 #include "model/input_error.h"
 #include "model/name_list.h"
+#include "model/output/number_text.h"
 #include "model/xml/arm_checks.h"
 #include "model/xml/arm_words.h"
 #include "model/xml/field_reader.h"
