@@ -54,10 +54,7 @@ Data simulated_data(const CompareCommandOptions& options) {
                      ": its joints are not those of the scenario's robot; give a model with as many "
                      "joints, of the same types and driven alike");
   if (options.noise) {
-    scenario.noise = assumed_noise(data.model, scenario.control_period_s);
-    for (std::vector<double>* deviations :
-         {&scenario.noise.motor_torque, &scenario.noise.joint_force, &scenario.noise.motor_reading})
-      for (double& x : *deviations) x *= *options.noise;
+    scenario.noise = assumed_noise(data.model, scenario.control_period_s, *options.noise);
     scenario.quantise = false;
     // The assumed noise of a motor's reading contains that of its encoder, and no estimator reads joint sensors.
     for (JointParameters<double>& j : scenario.robot.nominal.joint) j.motor_encoder_noise = j.joint_encoder_noise = 0;

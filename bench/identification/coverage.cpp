@@ -55,15 +55,6 @@ void draw_truth(ArmModel& robot, const std::vector<std::string>& keys, Off off, 
   }
 }
 
-/// Noise as the filters assume it, times a factor of the run.
-TickNoise draw_noise(const ArmModel& model, double tick_s, Random& random) {
-  TickNoise noise = assumed_noise(model, tick_s);
-  const double factor = random.uniform(0, 1);
-  for (std::vector<double>* deviations : {&noise.motor_torque, &noise.joint_force, &noise.motor_reading})
-    for (double& x : *deviations) x *= factor;
-  return noise;
-}
-
 std::vector<Outcome> run_one(const ArmModel& model, const Options& options, int index) {
   Random random(options.seed, 0x1de7, static_cast<std::uint32_t>(index));
   const std::vector<std::string> keys = identified_keys(model, options.parameters);
@@ -76,7 +67,7 @@ std::vector<Outcome> run_one(const ArmModel& model, const Options& options, int 
   s.assumed = model;
   s.duration_s = options.seconds;
   s.trajectory = random_motion(model, random);
-  s.noise = draw_noise(model, s.control_period_s, random);
+  s.noise = assumed_noise(model, s.control_period_s, random.uniform(0, 1));
   s.seed = random.seed();
   const Identification found = identify(model, {simulate(s).measured}, keys);
   std::vector<Outcome> outcomes;

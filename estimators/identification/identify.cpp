@@ -19,7 +19,7 @@ constexpr double kShortest = 3;  // s of a log
 constexpr double kTraceRows = 1000;
 constexpr double kExcited = 0.5;  // of the prior's deviation: what was learnt is worth telling
 constexpr double kChance = 3;     // standard deviations
-constexpr double kDeviating = 2;  // tolerances: cables' damping in quiet logs comes out up to 1.6 too large
+constexpr double kDeviating = 2;  // tolerances: with too much process noise a cable's damping was up to 1.6 too large
 constexpr double kMatters = 0.1;  // of a tolerance: a drift by less is none
 
 void check_logs(const ArmModel& model, const std::vector<Log>& logs, const std::vector<std::string>& keys) {

@@ -6,7 +6,7 @@
 
 namespace halyard {
 
-TickNoise assumed_noise(const ArmModel& model, double tick_s) {
+TickNoise assumed_noise(const ArmModel& model, double tick_s, double factor) {
   const ProcessModel process(model);
   const EstimatorOptions none;
   OptionReader options("the noise rule", none);
@@ -14,9 +14,9 @@ TickNoise assumed_noise(const ArmModel& model, double tick_s) {
   const double held = std::sqrt(2 * levels.correlation_time / tick_s);
   TickNoise noise;
   for (int k = 0; k < model.n(); ++k) {
-    noise.motor_torque.push_back(held * levels.torque(k));
-    noise.joint_force.push_back(held * levels.joint_force(k));
-    noise.motor_reading.push_back(levels.encoder(k));
+    noise.motor_torque.push_back(held * levels.torque(k) * factor);
+    noise.joint_force.push_back(held * levels.joint_force(k) * factor);
+    noise.motor_reading.push_back(levels.encoder(k) * factor);
   }
   return noise;
 }

@@ -8,7 +8,7 @@ namespace halyard {
 
 /// σ and τ: estimators/process/noise.h. Torques and joint forces have the spectral density 2 σ² τ and are held over a
 /// tick. Encoder noise with the assumed standard deviation replaces the rounding, and the noise that the model states:
-/// the robot must state none.
-TickNoise assumed_noise(const ArmModel& model, double tick_s);
+/// the robot must state none. factor: of all standard deviations.
+TickNoise assumed_noise(const ArmModel& model, double tick_s, double factor = 1);
 
 }  // namespace halyard
