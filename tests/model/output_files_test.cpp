@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -133,8 +134,10 @@ TEST_F(OutputFolder, ALinkIsFollowedAndStaysALink) {
 TEST_F(OutputFolder, WhatCannotBeWrittenIsNamedWithTheReason) {
   EXPECT_EQ(failure_message([&] { write_file_whole(folder_, ""); }),
             folder_.string() + ": cannot be written: it is a folder; give a file name");
-  EXPECT_EQ(failure_message([] { write_file_whole("/dev/null", ""); }),
-            "/dev/null: cannot be written: it is not a plain file");
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(failure_message([&] { write_file_whole(pipe, ""); }),
+            pipe.string() + ": cannot be written: it is not a plain file");
 
   write_file_whole(folder_ / "file", "");
   const fs::path below = folder_ / "file" / "log.csv";
