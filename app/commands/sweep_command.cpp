@@ -52,12 +52,6 @@ void print_measured(const SweepGrid& grid, const SweepCell& cell, std::size_t i)
     }
 }
 
-void tell_of_other_sweep(const fs::path& out) {
-  tell(fmt::format(
-      "note: {} holds results of another sweep, or of this one before its files were changed; they are removed",
-      out.string()));
-}
-
 }  // namespace
 
 Shard parse_shard(std::string_view text) {
@@ -87,7 +81,6 @@ void run_sweep_command(const SweepCommandOptions& options) {
       tell(fmt::format("note: {} finished point{} of this sweep will be computed again; --resume keeps them", points,
                        points == 1 ? "" : "s"));
     };
-    run.discarding_other = [&options] { tell_of_other_sweep(options.out); };
     const KeptOnInterruption kept("finished points are kept: go on with the same command and --resume");
     run_sweep(sweep, options.out, run);
   }
@@ -126,7 +119,6 @@ void run_merge_command(const MergeCommandOptions& options) {
   const auto lock = lock_output_folder(options.out);
   OutputFiles files;
   const SweepResult whole = merge_sweep(files, options.parts, options.out);
-  if (holds_other_sweep(options.out, whole.grid)) tell_of_other_sweep(options.out);
   // The journals of the parts are removed at the end: none may still be written.
   const auto parts = lock_output_folder(options.out, FolderLock::kAllParts);
   const SweepSummary summary = write_sweep_report(files, options.out, whole.grid, whole.cells);

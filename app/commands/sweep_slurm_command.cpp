@@ -55,10 +55,6 @@ std::string sweep_command(const fs::path& sweep, const fs::path& out) {
 
 std::string merge_command(const fs::path& out) { return "halyard merge " + in_shell_quotes(out.string()); }
 
-void refuse_other(const fs::path& out, const SweepGrid& grid) {
-  if (holds_other_sweep(out, grid)) refuse_other_sweep(out, "remove it");
-}
-
 /// Prints a line for each part that Slurm got; returns whether any of them is still active, as far as is known.
 bool print_parts(const StoredCells& cells, const SubmittedArray& array) {
   std::vector<ActiveTask> active;
@@ -96,7 +92,7 @@ void run_sweep_slurm(const SweepSlurmOptions& options) {
   }
   check_estimators(sweep);  // a wrong one is found now, not by each part
   const auto lock = lock_output_folder(options.out);
-  refuse_other(options.out, sweep.grid);
+  refuse_other_sweep(options.out, sweep.grid);
   if (const auto before = submitted_array(options.out, sweep.grid.id); before && !active_tasks(before->job).empty())
     throw InputError(
         fmt::format("--out {}: Slurm job {} still computes this sweep; wait for its end, or end it with: {}",
@@ -117,7 +113,7 @@ void run_sweep_slurm(const SweepSlurmOptions& options) {
 void run_sweep_status(const fs::path& sweep, const fs::path& out) {
   const SweepGrid grid = read_sweep_definition(sweep).grid;
   read_grid(out);
-  refuse_other(out, grid);
+  refuse_other_sweep(out, grid);
   const StoredCells cells({out}, grid);
   const std::size_t done = cells.count(), failed = cells.count_failed();
   print_out("sweep \"{}\": {} of {} points are done ({:.1f} %)", grid.name, done, grid.size(),

@@ -106,10 +106,6 @@ std::vector<fs::path> journals_in(const fs::path& folder) {
 
 std::string journal_header(const SweepGrid& grid) { return one_line({{"sweep", grid.id}, {"points", grid.size()}}); }
 
-bool is_header_of_other(std::string_view line, std::string_view header) {
-  return line.starts_with("{\"sweep\":") && line != header.substr(0, header.size() - 1);
-}
-
 std::string journal_line(const SweepCell& cell) {
   ordered_json results = ordered_json::array();
   for (const SweepCell::Result& result : cell.results) {
@@ -214,11 +210,10 @@ void StoredCells::scan(std::size_t journal, int file, const std::string& header)
   const fs::path& path = journals_[journal].path;
   for_each_line(file, path, [&](std::string_view line, std::uint64_t offset) {
     if (offset == 0) {
-      if (is_header_of_other(line, header))
-        throw InputError(path.string() +
-                         ": belongs to another sweep; remove it, or give a folder of its own to each sweep");
-      if (line != std::string_view(header).substr(0, header.size() - 1)) damaged(path, 0);
-      return;
+      if (line == std::string_view(header).substr(0, header.size() - 1)) return;
+      if (!line.starts_with("{\"sweep\":")) damaged(path, 0);
+      throw InputError(path.string() +
+                       ": belongs to another sweep; remove it, or give a folder of its own to each sweep");
     }
     const std::optional<LineStart> start = parse_start(line);
     if (!start || start->point >= places_.size()) damaged(path, offset);

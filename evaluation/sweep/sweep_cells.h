@@ -47,8 +47,6 @@ std::vector<std::filesystem::path> journals_in(const std::filesystem::path& fold
 /// First line of a journal, and the line of a cell; both with their line break.
 std::string journal_header(const SweepGrid& grid);
 std::string journal_line(const SweepCell& cell);
-/// Whether the first line of a journal, without its line break, is of another sweep than journal_header().
-bool is_header_of_other(std::string_view line, std::string_view header);
 
 /// Appends cells to the journal of a shard.
 class CellJournal {

@@ -28,7 +28,6 @@ StoredCells collect_cells(const std::vector<fs::path>& folders, const SweepGrid&
 }
 
 void write_cells(OutputFiles& files, const fs::path& out, const SweepGrid& grid, const StoredCells& cells) {
-  discard_other_sweep(files, out, grid);
   for (const fs::path& journal : journals_in(out)) files.remove(journal);
   files.add_in_parts(journal_path(out, {}), [&](const OutputFiles::Append& append) {
     append(journal_header(grid));
@@ -39,6 +38,7 @@ void write_cells(OutputFiles& files, const fs::path& out, const SweepGrid& grid,
 SweepResult merge_sweep(OutputFiles& files, const std::vector<fs::path>& parts, const fs::path& out) {
   if (parts.empty()) throw std::invalid_argument("merge_sweep: no part");
   SweepGrid grid = read_grid(parts.front());
+  refuse_other_sweep(out, grid);
   for (const fs::path& part : parts) {
     if (read_grid(part).id != grid.id) {
       throw InputError(part.string() + ": holds another sweep than " + parts.front().string() +

@@ -15,7 +15,7 @@ namespace halyard {
 StoredCells collect_cells(const std::vector<std::filesystem::path>& folders, const SweepGrid& grid);
 
 /// Adds one journal with all cells in the order of the points to the folder `out`. files.commit() removes its other
-/// journals, and cells and tables of another sweep.
+/// journals.
 void write_cells(OutputFiles& files, const std::filesystem::path& out, const SweepGrid& grid, const StoredCells& cells);
 
 /// A whole sweep: its grid, and all its cells.
@@ -26,8 +26,8 @@ struct SweepResult {
 
 /// Collects the cells of all parts and adds grid and cells to the files of the folder `out`, which may be one of the
 /// parts.
-/// Throws std::invalid_argument without parts, InputError if the parts are of different sweeps, and as collect_cells()
-/// does.
+/// Throws std::invalid_argument without parts, InputError if the parts, or what `out` holds, are of different sweeps, and
+/// as collect_cells() does.
 SweepResult merge_sweep(OutputFiles& files, const std::vector<std::filesystem::path>& parts,
                         const std::filesystem::path& out);
 

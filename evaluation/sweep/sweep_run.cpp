@@ -27,8 +27,6 @@ namespace fs = std::filesystem;
 
 /// Points of the shard that are still to be computed; a journal that does not count is removed.
 std::vector<std::size_t> points_to_do(const SweepGrid& grid, const fs::path& folder, const SweepRunOptions& options) {
-  // Those of another sweep are here only if the run that was to remove them was killed first.
-  if (options.shard.is_whole()) remove_journals_of_others(folder, grid);
   const StoredCells stored({folder}, grid);
   std::vector<std::size_t> todo;
   std::size_t discarded = 0;
@@ -166,11 +164,6 @@ void check_estimators(const Sweep& sweep, const ContainmentOptions& containment,
 
 void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions& options) {
   check_estimators(sweep, options.containment, true);  // a wrong one is found now, not in every cell
-  if (holds_other_sweep(folder, sweep.grid)) {
-    if (options.resume) refuse_other_sweep(folder, "leave out --resume to compute this one");
-    if (!options.shard.is_whole()) refuse_other_sweep(folder, "remove it");  // other shards may be writing
-    if (options.discarding_other) options.discarding_other();
-  }
   store_grid(folder, sweep.grid);
   const std::vector<std::size_t> todo = points_to_do(sweep.grid, folder, options);
 

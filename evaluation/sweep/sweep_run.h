@@ -28,18 +28,14 @@ struct SweepRunOptions {
   ContainmentOptions containment = {};
   /// Called without `resume`, if the folder holds finished points of this sweep that will be computed again.
   std::function<void(std::size_t points)> discarding = {};
-  /// Called if the folder holds another sweep that will be removed.
-  std::function<void()> discarding_other = {};
   /// Called once with done = 0 and then after each point; from any thread.
   std::function<void(std::size_t done, std::size_t total)> progress = {};
 };
 
 /// Computes the shard's cells in parallel. Each is on the disk when its point is done, in the journal of the shard
 /// (sweep_cells.h); several shards may run into one folder at the same time. The result does not depend on the number
-/// of jobs. If the folder holds another sweep, its cells and tables are removed first; with `resume`, or for a shard,
-/// which may not be alone in the folder, an InputError is thrown instead.
-/// Throws InputError also if an estimator cannot be made, std::runtime_error if a cell cannot be written, and as
-/// run_point() does. An estimator that crashes as it is made fails point by point.
+/// of jobs. Throws InputError if the folder holds another sweep or an estimator cannot be made, std::runtime_error if a
+/// cell cannot be written, and as run_point() does. An estimator that crashes as it is made fails point by point.
 void run_sweep(const Sweep& sweep, const std::filesystem::path& folder, const SweepRunOptions& options);
 
 }  // namespace halyard

@@ -81,30 +81,11 @@ std::vector<const SweepMeasure*> measures_of(const ordered_json& json) {
 
 }  // namespace
 
-bool holds_other_sweep(const fs::path& folder, const SweepGrid& grid) {
-  return fs::exists(grid_path(folder)) && read_grid(folder).id != grid.id;
-}
-
-void discard_other_sweep(OutputFiles& files, const fs::path& folder, const SweepGrid& grid) {
-  if (!holds_other_sweep(folder, grid)) return;
-  for (const fs::path& journal : journals_in(folder)) files.remove(journal);
-  for (const char* name : {"sweep.csv", "time.csv", "report.html", "curves.svg", "heat_map.svg"})
-    files.remove(folder / name);
-}
-
-void refuse_other_sweep(const fs::path& folder, const std::string& remedy) {
-  throw InputError(folder.string() +
-                   ": holds results of another sweep, or of this one before its files were changed; " + remedy +
-                   ", or give another folder");
-}
-
-void remove_journals_of_others(const fs::path& folder, const SweepGrid& grid) {
-  const std::string header = journal_header(grid);
-  for (const fs::path& journal : journals_in(folder)) {
-    std::string first;
-    std::ifstream file(journal, std::ios::binary);
-    if (std::getline(file, first) && is_header_of_other(first, header)) fs::remove(journal);
-  }
+void refuse_other_sweep(const fs::path& folder, const SweepGrid& grid) {
+  if (fs::exists(grid_path(folder)) && read_grid(folder).id != grid.id)
+    throw InputError(folder.string() +
+                     ": holds results of another sweep, or of this one before its files were changed; remove it, or "
+                     "give another folder");
 }
 
 void write_grid(OutputFiles& files, const fs::path& folder, const SweepGrid& grid) {
@@ -179,10 +160,9 @@ SweepGrid read_grid(const fs::path& folder) {
 }
 
 void store_grid(const fs::path& folder, const SweepGrid& grid) {
-  // Shards start at the same time: what is there stays untouched.
-  if (fs::exists(grid_path(folder)) && !holds_other_sweep(folder, grid)) return;
+  refuse_other_sweep(folder, grid);
+  if (fs::exists(grid_path(folder))) return;  // shards start at the same time
   OutputFiles files;
-  discard_other_sweep(files, folder, grid);
   write_grid(files, folder, grid);
   files.commit();
 }

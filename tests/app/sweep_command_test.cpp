@@ -285,13 +285,15 @@ TEST_F(Sweep, KnowsNothingOfTheJobOfAnotherSweepInItsFolder) {
   EXPECT_TRUE(contains(status, "to continue: halyard sweep sweep.xml --out out --resume")) << status;
 }
 
-TEST_F(Sweep, TellsThatAMergeRemovesAnotherSweep) {
+TEST_F(Sweep, IsNotMergedIntoTheFolderOfAnother) {
   done({"sweep", "sweep.xml", "--out", "part"});
   write_text(path("other.xml"), replaced(text_of(path("sweep.xml")), "name=\"test\"", "name=\"other\""));
   done({"sweep", "other.xml", "--out", "merged"});
+  const std::string before = text_of(path("merged/sweep.csv"));
   const RunResult result = run({"merge", "part", "--out", "merged"});
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_TRUE(contains(result.err, "note: merged holds results of another sweep")) << result.err;
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.err, "merged: holds results of another sweep")) << result.err;
+  EXPECT_EQ(text_of(path("merged/sweep.csv")), before);
 }
 
 TEST_F(Sweep, RecordsAnEstimatorThatCrashesAsItIsMade) {

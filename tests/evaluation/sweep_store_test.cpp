@@ -190,31 +190,16 @@ TEST_F(SweepStore, RefusesMoreSamplesThanASweepCanHave) {
   EXPECT_TRUE(message_of([&] { read_grid(folder); }).ends_with("is damaged; remove it and run the sweep again"));
 }
 
-TEST_F(SweepStore, DiscardsCellsAndTablesOfAnotherSweepAndKeepsItsOwn) {
-  store([&](auto& files) { write_grid(files, folder, grid); });
-  write(journal_path(folder, {2, 3}), journal_header(grid));
-  for (const char* name : {"sweep.csv", "report.html", "notes.txt"}) write(folder / name, "text");
-  EXPECT_FALSE(holds_other_sweep(folder, grid));
-  store([&](auto& files) { discard_other_sweep(files, folder, grid); });
-  EXPECT_EQ(journals_in(folder).size(), 1u);
+TEST_F(SweepStore, RefusesAFolderWithAnotherSweepAndLeavesItAsItIs) {
+  store_grid(folder, grid);
+  EXPECT_NO_THROW(store_grid(folder, grid));
   SweepGrid other = grid;
   other.id = "34cd";
-  EXPECT_TRUE(holds_other_sweep(folder, other));
-  store([&](auto& files) { discard_other_sweep(files, folder, other); });
-  EXPECT_TRUE(fs::is_empty(folder / "cells"));
-  EXPECT_FALSE(fs::exists(folder / "sweep.csv"));
-  EXPECT_FALSE(fs::exists(folder / "report.html"));
-  EXPECT_TRUE(fs::exists(folder / "notes.txt")) << "a file of the user's";
-}
-
-TEST_F(SweepStore, JournalsThatAnotherSweepLeftBesideTheGridGo) {
-  SweepGrid other = grid;
-  other.id = "34cd";
-  write(journal_path(folder, {1, 3}), journal_header(other));
-  write(journal_path(folder, {2, 3}), journal_header(grid));
-  write(folder / "cells" / "notes.jsonl", "a file of the user's\n");
-  remove_journals_of_others(folder, grid);
-  EXPECT_EQ(journals_in(folder), (std::vector{journal_path(folder, {2, 3}), folder / "cells" / "notes.jsonl"}));
+  EXPECT_EQ(message_of([&] { store_grid(folder, other); }),
+            folder.string() +
+                ": holds results of another sweep, or of this one before its files were changed; remove it, or give "
+                "another folder");
+  EXPECT_EQ(read_grid(folder).id, grid.id);
 }
 
 }  // namespace

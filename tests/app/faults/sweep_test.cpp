@@ -24,17 +24,18 @@ TEST_F(FaultsOfSweeps, ASweepWithoutAWorkerIsToBeResumedToTheSameBytes) {
   EXPECT_TRUE(files_in(path("out")) == files_in(path("whole")));
 }
 
-TEST_F(FaultsOfSweeps, AShardLeavesAnotherSweepAlone) {
+TEST_F(FaultsOfSweeps, AnotherSweepInTheFolderIsLeftAlone) {
   done({"sweep", "sweep.xml", "--out", "out"});
   const Files before = files_in(path("out"));
   write_text(path("other.xml"), replaced(text_of(path("sweep.xml")), "steps=\"8\"", "steps=\"4\""));
-  const RunResult shard = run({"sweep", "other.xml", "--out", "out", "--shard", "1/2"});
-  EXPECT_EQ(shard.exit_code, 2);
-  expect_line(shard.err, "holds results of another sweep");
-  EXPECT_TRUE(files_in(path("out")) == before);
-  const RunResult whole = run({"sweep", "other.xml", "--out", "out"});
-  EXPECT_EQ(whole.exit_code, 0);
-  expect_line(whole.err, "they are removed");
+  for (const std::vector<std::string>& more : {{}, {"--resume"}, std::vector<std::string>{"--shard", "1/2"}}) {
+    std::vector<std::string> arguments = {"sweep", "other.xml", "--out", "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const RunResult other = run(arguments);
+    EXPECT_EQ(other.exit_code, 2);
+    expect_line(other.err, "holds results of another sweep");
+    EXPECT_TRUE(files_in(path("out")) == before);
+  }
 }
 
 TEST_F(FaultsOfSweeps, AMergeDoesNotTakeTheJournalOfAShardThatRuns) {
