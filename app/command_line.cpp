@@ -136,7 +136,7 @@ void add_diagnose_command(CLI::App& app) {
   const auto plan_files = std::make_shared<std::vector<std::filesystem::path>>();
   CLI::Option* model =
       command.add_option("--model", options->model, "model file; required without --plan")->type_name("M.xml");
-  CLI::Option* data = command.add_option("--data", options->data, "log to learn from, as --model; may be repeated")
+  CLI::Option* data = command.add_option("--data", options->data, "log to learn from; required without --plan; may be repeated")
                           ->type_name("LOG.csv")
                           ->take_all()
                           ->allow_extra_args(false);
