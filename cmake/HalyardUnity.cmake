@@ -53,7 +53,7 @@ compile_together(halyard_estimators filters
 compile_together(halyard_estimators process
   identification/arm_family.cpp identification/block_jackknife.cpp identification/dual_ukf.cpp
   identification/identified_keys.cpp identification/identify.cpp
-  matrix/matrix_kernels.cpp matrix/mean_shift.cpp matrix/phi_functions.cpp process/exponential_step.cpp process/noise.cpp
+  matrix/matrix_kernels.cpp matrix/mean_shift.cpp matrix/phi_functions.cpp process/exponential_step.cpp process/held_torques.cpp process/noise.cpp
   process/plain/plain_transmission.cpp process/process_model.cpp process/standstill.cpp process/static_equilibrium.cpp)
 
 compile_together(halyard_plugins estimators

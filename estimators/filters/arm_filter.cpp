@@ -63,6 +63,8 @@ void ArmFilter::reset(const Sample& first) {
   begun_ = started_ = speed_is_due_ = false;
   time_ = first.time_s;
   reading_ = read_at_ = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+  judged_at_ = Eigen::VectorXd::Constant(n, time_);
+  held_ = {};
   torque_ = external_ = Eigen::VectorXd::Zero(n);
   history_.clear();
   last_command_ = -kInfinity;
@@ -72,12 +74,15 @@ void ArmFilter::reset(const Sample& first) {
   noise_.reset(Eigen::VectorXd::Ones(n));
   const Eigen::VectorXd home = model_.home();
   const Eigen::VectorXd x = process_->state_at_rest(unstretched_motors(process_->arm(), home), home);
-  filter_->reset(x, noise_.initial_root(x, kInfinity));
+  Eigen::MatrixXd S = noise_.initial_root(x, kInfinity);
+  widen(1, 0, S);  // until all motors have been read
+  filter_->reset(x, S);
   start(first);
 }
 
 void ArmFilter::remember(const Sample& sample) {
   for (int k = 0; k < process_->n_joints(); ++k) {
+    held_.take(k, sample.time_s, sample.motor_torque(k));
     if (std::isfinite(sample.motor_torque(k))) torque_(k) = sample.motor_torque(k);
     if (sample.joint_torque.size() > 0 && std::isfinite(sample.joint_torque(k))) external_(k) = sample.joint_torque(k);
   }
@@ -95,11 +100,13 @@ Eigen::VectorXd ArmFilter::undriven_positions() const {
   return q;
 }
 
-void ArmFilter::start(const Sample& sample) {
-  const Eigen::VectorXd before = reading_;
-  const double since = sample.time_s - start_time_;
+void ArmFilter::note_readings(const Sample& sample) {
   for (const int k : motors_)
     if (std::isfinite(sample.motor_position(k))) reading_(k) = sample.motor_position(k), read_at_(k) = sample.time_s;
+}
+
+void ArmFilter::start(const Sample& sample) {
+  note_readings(sample);
   remember(sample);
   if (!reading_(motors_).allFinite()) return;
   // At the start of a record the arm rests, so that a reading does not age.
@@ -116,13 +123,14 @@ void ArmFilter::start(const Sample& sample) {
   const Eigen::VectorXd q = static_equilibrium(*process_, sample.time_s, angle, external_, z,
                                                unstretched_joints(process_->arm(), angle, q_undriven));
   x = process_->state_at_rest(angle, q);
-  Eigen::VectorXd moved = Eigen::VectorXd::Zero(angle.size());
-  moved(motors_) = (reading_ - before)(motors_);
   // After a gap the arm need not rest. A speed that no joint has says that one of the two readings is wrong.
-  const bool has_speed = speed_is_due_ && set_speed(angle, moved, since, x);
-  speed_is_due_ = begun_ && !has_speed && age == 0 && !motors_.empty();
-  Eigen::MatrixXd S = start_root(x, angle, q, has_speed ? since : kInfinity);
-  if (begun_ ? !has_speed || since > options_.max_step : options_.in_motion)
+  const bool has_speed = speed_is_due_ && set_speed(angle, x);
+  const auto since = [&](int k) { return read_at_(k) - started_at_(k); };
+  const double shortest = has_speed ? since(*std::ranges::min_element(motors_, {}, since)) : kInfinity,
+               longest = has_speed ? since(*std::ranges::max_element(motors_, {}, since)) : 0;
+  speed_is_due_ = begun_ && !has_speed && !motors_.empty();
+  Eigen::MatrixXd S = start_root(x, angle, q, shortest);
+  if (begun_ ? !has_speed || longest > options_.max_step : options_.in_motion)
     widen(kUsualSpeed, process_->layout().positions, S);
   else if (begun_) widen_undriven(kUsualSpeed, process_->layout().positions, S);
   if (age > 0) widen(kUsualSpeed * age, 0, S);
@@ -130,13 +138,19 @@ void ArmFilter::start(const Sample& sample) {
   exponential_.forget();
   begun_ = started_ = true;
   start_time_ = sample.time_s;
+  started_from_ = reading_;
+  started_at_ = read_at_;
+  judged_at_.setConstant(sample.time_s);
   refused_since_ = kInfinity;
 }
 
-bool ArmFilter::set_speed(const Eigen::VectorXd& angle, const Eigen::VectorXd& moved, double dt_s,
-                          Eigen::VectorXd& x) const {
+bool ArmFilter::set_speed(const Eigen::VectorXd& angle, Eigen::VectorXd& x) const {
   const StateLayout& l = process_->layout();
   const Eigen::VectorXd home = model_.home();
+  double dt_s = 0;  // of the paths, which are linear in the motors' rates
+  for (const int k : motors_) dt_s = std::max(dt_s, read_at_(k) - started_at_(k));
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(angle.size());
+  for (const int k : motors_) moved(k) = (reading_(k) - started_from_(k)) * (dt_s / (read_at_(k) - started_at_(k)));
   const Eigen::VectorXd path =
       unstretched_joints(process_->arm(), angle, home) - unstretched_joints(process_->arm(), angle - moved, home);
   for (int k = 0; k < l.n_joints; ++k) {
@@ -200,6 +214,7 @@ void ArmFilter::predict(double to_time_s) {
   step.motor_torque = torque_.data();
   step.external_force = external_.data();
   step.history = &history_;
+  step.held = &held_;
   // Parts of a refused step are no shorter than sub-steps, or half of one.
   const double parts = std::ceil(std::log2(process_->substeps_needed(step.dt_s)));
   const int halvings = static_cast<int>(std::min<double>(parts, kMostHalvings));
@@ -242,14 +257,17 @@ Innovation ArmFilter::correct(const Sample& sample) {
   const auto m = static_cast<Eigen::Index>(read_.size());
   ReadingVector z(m);
   ReadingMatrix R_root = ReadingMatrix::Zero(m, m);
+  ReadingVector since(m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const int k = read_[static_cast<std::size_t>(i)];
     z(i) = sample.motor_position(k);
+    since(i) = sample.time_s - judged_at_(k);
+    judged_at_(k) = sample.time_s;
     R_root(i, i) = noise_.encoder()(k);
   }
   Innovation innovation =
       filter_->update(MotorReadings(*process_, sample.time_s, read_), z, R_root, gate_threshold(static_cast<int>(m)));
-  noise_.adapt(read_, innovation, sample.time_s - time_);
+  noise_.adapt(read_, innovation, since);
   refused_since_ = innovation.accepted ? kInfinity : std::min(refused_since_, sample.time_s);
   return innovation;
 }
@@ -260,7 +278,7 @@ Innovation ArmFilter::update(const Sample& sample) {
   const bool loses_track = sample.time_s - time_ > options_.restart_gap || is_locked_out(sample);
   if (loses_track) lose_track();
   Innovation innovation;
-  if (!started_ || (speed_is_due_ && has_all_motors(sample))) {
+  if (!started_ || (speed_is_due_ && all_are_read_again(sample))) {
     start(sample);
   } else {
     predict(sample.time_s);
@@ -271,8 +289,9 @@ Innovation ArmFilter::update(const Sample& sample) {
   return innovation;
 }
 
-bool ArmFilter::has_all_motors(const Sample& sample) const {
-  return std::ranges::all_of(motors_, [&](int k) { return std::isfinite(sample.motor_position(k)); });
+bool ArmFilter::all_are_read_again(const Sample& sample) const {
+  return std::ranges::all_of(
+      motors_, [&](int k) { return std::isfinite(sample.motor_position(k)) || read_at_(k) > started_at_(k); });
 }
 
 bool ArmFilter::is_locked_out(const Sample& sample) const {
@@ -296,7 +315,8 @@ void ArmFilter::lose_track() {
 Innovation ArmFilter::take(const Sample& sample) {
   speed_is_due_ = speed_is_due_ && sample.time_s - start_time_ <= options_.max_step;
   Innovation innovation;
-  if (!speed_is_due_) innovation = correct(sample);
+  if (speed_is_due_) note_readings(sample);
+  else innovation = correct(sample);
   if (!innovation.accepted) ++report_.gated;
   remember(sample);
   return innovation;
@@ -318,6 +338,10 @@ void ArmFilter::save(Snapshot& snapshot) const {
   snapshot.x = filter_->x();
   snapshot.reading = reading_;
   snapshot.read_at = read_at_;
+  snapshot.started_from = started_from_;
+  snapshot.started_at = started_at_;
+  snapshot.judged_at = judged_at_;
+  snapshot.held = held_;
   snapshot.torque = torque_;
   snapshot.external = external_;
   snapshot.adapted = noise_.adapted();
@@ -335,6 +359,10 @@ void ArmFilter::restore(const Snapshot& snapshot) {
   refused_since_ = snapshot.refused_since;
   reading_ = snapshot.reading;
   read_at_ = snapshot.read_at;
+  started_from_ = snapshot.started_from;
+  started_at_ = snapshot.started_at;
+  judged_at_ = snapshot.judged_at;
+  held_ = snapshot.held;
   torque_ = snapshot.torque;
   external_ = snapshot.external;
   noise_.reset(snapshot.adapted);

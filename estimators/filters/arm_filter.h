@@ -9,12 +9,13 @@
 ///              where the exponential step's guard refuses it
 ///   restart    after a gap longer than `restart_gap`, or if the gate has rejected all readings for that long, not
 ///              counting samples without readings: when every motor has been read since then. Until then the joints
-///              rest where they were, uncertain by their ranges. Speed: by the next sample that has all motors, if the
-///              one of the start has them; readings of some motors within `max_step` wait for it. A speed is uncertain
-///              by the joint's range per second until then, and after that if the two samples are farther apart than
+///              rest where they were, uncertain by their ranges. Speed: by two readings of each motor, those of the start
+///              and the next ones; within `max_step` a reading waits until all motors have one. A speed is uncertain
+///              by the joint's range per second until then, and after that if the two readings are farther apart than
 ///              `max_step`. A reading that is older than the start is uncertain by this speed, too. The speed of
 ///              a joint without a motor stays as uncertain; such a joint starts again where it was
-///   NaN        torque: the last one is held; position of a motor: no correction from it
+///   NaN        torque: the last one is held, as it is in a gap, and becomes uncertain (held_torques.h); position of a
+///              motor: no correction from it
 ///   gate       an innovation that is less probable than 1 - `gate` is not accepted; 1 accepts all
 
 #include <memory>
@@ -61,7 +62,8 @@ class ArmFilter final : public Estimator {
   struct Snapshot {
     bool begun = false, started = false, speed_is_due = false;
     double time_s = 0, start_time = 0, refused_since = 0;
-    Eigen::VectorXd x, reading, read_at, torque, external, adapted;
+    Eigen::VectorXd x, reading, read_at, started_from, started_at, judged_at, torque, external, adapted;
+    HeldTorques held;
     Eigen::MatrixXd S;
     EstimatorReport report;
     ExponentialStep::Kept kept;
@@ -83,10 +85,11 @@ class ArmFilter final : public Estimator {
  private:
   /// Where joints without a motor start, [n]: at home, or where they were before a restart. Others: home.
   Eigen::VectorXd undriven_positions() const;
+  void note_readings(const Sample& sample);
   /// Starts if all motors have been read, not long ago.
   void start(const Sample& sample);
-  /// Sets the rates in x from what the motors moved within dt_s; false: a joint would be too fast.
-  bool set_speed(const Eigen::VectorXd& angle, const Eigen::VectorXd& moved, double dt_s, Eigen::VectorXd& x) const;
+  /// Sets the rates in x from what each motor moved since the start; false: a joint would be too fast.
+  bool set_speed(const Eigen::VectorXd& angle, Eigen::VectorXd& x) const;
   /// S of the first belief. Its mean is x, in which the joint positions are q.
   Eigen::MatrixXd start_root(const Eigen::VectorXd& x, const Eigen::VectorXd& angle, const Eigen::VectorXd& q,
                              double dt_s) const;
@@ -95,7 +98,8 @@ class ArmFilter final : public Estimator {
   void widen(double share, int first, Eigen::MatrixXd& S) const;
   /// The same for joints without a motor alone. No motor moves with them; joints further out do, on their cables.
   void widen_undriven(double share, int first, Eigen::MatrixXd& S) const;
-  bool has_all_motors(const Sample& sample) const;
+  /// Whether every motor has a reading after that of the start, with this sample.
+  bool all_are_read_again(const Sample& sample) const;
   /// Whether the gate has refused for too long what this sample has again.
   bool is_locked_out(const Sample& sample) const;
   /// A restart is due: sets what is known until then.
@@ -121,10 +125,13 @@ class ArmFilter final : public Estimator {
   double last_command_ = 0;            // time of the newest command in history_, s
   bool begun_ = false;                 // has started once since reset()
   bool started_ = false;               // and no restart is due
-  bool speed_is_due_ = false;          // a restart had one trusted reading only: the next sample gives the speed
+  bool speed_is_due_ = false;          // a restart had one reading of each motor: the next ones give the speed
   double time_ = 0, start_time_ = 0;   // of the last sample, of the last start; s
   double refused_since_ = 0;           // time from which the gate has rejected all readings, s; infinite: accepted
-  Eigen::VectorXd reading_, read_at_;  // of each motor at the start or before it; NaN: none; its time, s
+  Eigen::VectorXd reading_, read_at_;  // of each motor until the speed is known; NaN: none; its time, s
+  Eigen::VectorXd started_from_, started_at_;  // the same at the last start
+  Eigen::VectorXd judged_at_;                  // time of each motor's last innovation, or of the start, s
+  HeldTorques held_;
   Eigen::VectorXd torque_, external_;  // held
   EstimatorReport report_;             // without the factors repaired since reset(), which report() adds
   long repaired_before_ = 0;           // filter_->repaired() at that reset()

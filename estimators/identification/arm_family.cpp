@@ -58,26 +58,27 @@ void ArmFamily::advance(const Step& step, int substeps, Eigen::Ref<Eigen::Matrix
   }
 }
 
-Eigen::MatrixXd ArmFamily::readings(double time_s, const Eigen::MatrixXd& X) const {
+Eigen::MatrixXd ArmFamily::readings(double time_s, const Eigen::MatrixXd& X, const LaggedRates& lagged) const {
   const int n = structure_.n_joints(), count = static_cast<int>(X.cols());
   Eigen::MatrixXd all(2 * n, count);
   for (int first = 0; first < count; first += kLaneWidth) {
     Lanes x[kMaxStates], z[2 * kMaxJoints];
     load_lanes(X, first, x);
-    read_encoders(lanes_[members() == 1 ? 0 : first / kLaneWidth], structure_.layout(), time_s, x, z, z + n);
+    read_encoders(lanes_[members() == 1 ? 0 : first / kLaneWidth], structure_.layout(), time_s, x, z, z + n, lagged);
     for (int i = 0; i < 2 * n; ++i)
       for (int lane = 0; lane < kLaneWidth && first + lane < count; ++lane) all(i, first + lane) = z[i][lane];
   }
   return all;
 }
 
-Eigen::VectorXd ArmFamily::readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd& H) const {
+Eigen::VectorXd ArmFamily::readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd& H,
+                                    const LaggedRates& lagged) const {
   const int n = structure_.n_joints();
   const Transmission<Dual> transmission(lift<Dual>(arms_[0]), structure_.dual_transmission().effects());
   Eigen::VectorXd z(2 * n);
   H.resize(2 * n, structure_.n_states());
   const auto read = [&](const Dual* at, Dual* reading) {
-    read_encoders(transmission, structure_.layout(), time_s, at, reading, reading + n);
+    read_encoders(transmission, structure_.layout(), time_s, at, reading, reading + n, lagged);
   };
   jacobian(read, x, z, H);
   return z;

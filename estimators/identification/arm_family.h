@@ -29,10 +29,11 @@ class ArmFamily {
   /// X [n_states x members] becomes f(X). With one member, X may have any number of columns, all of that member.
   /// Throws std::runtime_error with time and state name if a result is not finite.
   void advance(const Step& step, int substeps, Eigen::Ref<Eigen::MatrixXd> X) const;
-  /// h(X) [2n x members].
-  Eigen::MatrixXd readings(double time_s, const Eigen::MatrixXd& X) const;
+  /// h(X) [2n x members]. lagged: for joint sensors that lag.
+  Eigen::MatrixXd readings(double time_s, const Eigen::MatrixXd& X, const LaggedRates& lagged = {}) const;
   /// h of member 0 at x [2n], and H = ∂h/∂x [2n x n_states].
-  Eigen::VectorXd readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd& H) const;
+  Eigen::VectorXd readings(double time_s, const Eigen::VectorXd& x, Eigen::MatrixXd& H,
+                           const LaggedRates& lagged = {}) const;
 
  private:
   const ProcessModel& structure_;

@@ -116,6 +116,9 @@ DualUkf::DualUkf(const ArmModel& model, std::vector<Weight> weights, const DualU
       points_(model_, structure_, keys_of(weights_), count_points(weights_.size(), options.learn)),
       state_filter_({.curvature_limit = 0.03}),
       history_(model_.n(), kHistorySpan) {
+  // At this slope the reading's slope by q' is half of what the delay alone gives, with its sign.
+  for (int k = 0; k < model_.n(); ++k)
+    if (const double delay = std::abs(structure_.arm().joint[k].sensor_delay); delay > 0) lagged_.slope[k] = 1 / delay;
   const auto p = static_cast<Eigen::Index>(weights_.size());
   set_weights(Eigen::VectorXd::Zero(p), Eigen::MatrixXd::Identity(p, p));
 }
@@ -136,6 +139,7 @@ Eigen::VectorXd DualUkf::numbers(const Eigen::VectorXd& w) const {
 void DualUkf::remember(const EncoderSample& sample) {
   const int n = model_.n();
   for (int k = 0; k < n; ++k) {
+    held_.take(k, sample.time_s, sample.motor_torque(k));
     if (std::isfinite(sample.motor_torque(k))) torque_(k) = sample.motor_torque(k);
     if (sample.joint_torque.size() > 0 && std::isfinite(sample.joint_torque(k))) external_(k) = sample.joint_torque(k);
     if (std::isfinite(sample.motor_position(k))) latest_(k) = sample.motor_position(k);
@@ -173,6 +177,7 @@ void DualUkf::start(double time_s) {
       S(*l.motor_rate[k], *l.motor_rate[k]) = rate * std::abs(arm.joint[k].pulley_radius / arm.joint[k].motor_travel());
   }
   state_filter_.reset(x, S);
+  for (double& slow : lagged_.slow) slow = 0;
   Psi_.setZero(structure_.n_states(), static_cast<Eigen::Index>(weights_.size()));
   started_ = true;
   start_time_ = time_s;
@@ -210,6 +215,7 @@ void DualUkf::learn(const Innovation& innovation, const Eigen::MatrixXd& Y) {
 void DualUkf::forget_past() {
   const int n = model_.n();
   torque_ = external_ = Eigen::VectorXd::Zero(n);
+  held_ = {};
   latest_ = Eigen::VectorXd::Constant(2 * n, std::numeric_limits<double>::quiet_NaN());
   history_ = CommandHistory(n, kHistorySpan);
 }
@@ -218,6 +224,13 @@ void DualUkf::widen_weights(double span_s) {
   const double forgetting = std::exp(-span_s / (options_.memory * std::exp(learnt_ / options_.memory_growth)));
   weights_filter_.reset(w(), S_w() / std::sqrt(forgetting));
   learnt_ += span_s;
+}
+
+void DualUkf::follow_rates(double span_s) {
+  for (int k = 0; k < model_.n(); ++k) {
+    const double rate = state_filter_.x()(structure_.layout().rate[k]);
+    lagged_.slow[k] = rate + (lagged_.slow[k] - rate) * std::exp(-span_s * lagged_.slope[k]);
+  }
 }
 
 Eigen::MatrixXd DualUkf::predict(double time_s, const Eigen::MatrixXd& E) {
@@ -238,6 +251,7 @@ Eigen::MatrixXd DualUkf::predict(double time_s, const Eigen::MatrixXd& E) {
   step.motor_torque = torque_.data();
   step.external_force = external_.data();
   step.history = &history_;
+  step.held = &held_;
   const int substeps = stepping_->substeps(step.dt_s);
   for (int i = 0; i < pieces; ++i) {
     step.time_s = time_ + i * step.dt_s;
@@ -245,6 +259,7 @@ Eigen::MatrixXd DualUkf::predict(double time_s, const Eigen::MatrixXd& E) {
     state_filter_.predict(ArmOfBelief(center_, structure_, step, substeps),
                           noise_.process_root(step, state_filter_.x()));
   }
+  follow_rates(span);
   return X;
 }
 
@@ -273,8 +288,8 @@ DualStep DualUkf::correct(const EncoderSample& sample, const Eigen::MatrixXd& X,
   z << sample.motor_position, sample.joint_position;
   Eigen::MatrixXd H;
   const Eigen::VectorXd x = state_filter_.x();
-  const Eigen::VectorXd predicted = center_.readings(sample.time_s, x, H);
-  const Eigen::MatrixXd Y = per_weight(points_.readings(sample.time_s, X), E)(rows, Eigen::all);
+  const Eigen::VectorXd predicted = center_.readings(sample.time_s, x, H, lagged_);
+  const Eigen::MatrixXd Y = per_weight(points_.readings(sample.time_s, X, lagged_), E)(rows, Eigen::all);
   H = H(rows, Eigen::all).eval();
   const Eigen::MatrixXd HS = H * state_filter_.S(), PH = state_filter_.S() * HS.transpose();
   const Innovation innovation = state_filter_.update(Linearised(x, predicted(rows), H), z(rows),

@@ -104,6 +104,8 @@ class DualUkf {
   void widen_weights(double span_s);
   /// E [p x p]: distances of the weights' points from w.
   Eigen::MatrixXd spread() const;
+  /// Lets the slow rates follow those of the belief over a span, s.
+  void follow_rates(double span_s);
   /// Predicts the belief and the weights' points to a time; returns the points' states X [n_states x points].
   Eigen::MatrixXd predict(double time_s, const Eigen::MatrixXd& E);
   /// Derivative by w [rows x p] of a quantity with one column for each of the weights' points.
@@ -124,8 +126,10 @@ class DualUkf {
   SquareRootUkf state_filter_, weights_filter_;
   Eigen::MatrixXd Psi_;
   CommandHistory history_;
+  HeldTorques held_;
   Eigen::VectorXd torque_, external_, latest_;  // held
-  std::unique_ptr<ProcessModel> stepping_;      // at the current weights; gives the number of sub-steps
+  LaggedRates lagged_;
+  std::unique_ptr<ProcessModel> stepping_;  // at the current weights; gives the number of sub-steps
   double stepping_time_ = 0;
   Eigen::VectorXd stepping_w_;
   bool points_are_set_ = false;  // the points of held weights need setting once only

@@ -95,8 +95,9 @@ const Eigen::MatrixXd& ArmNoise::impulses(const Step& step, const Eigen::Ref<con
   G_.setZero(l.size, 2 * n);
   for (int k = 0; k < n; ++k) {
     const JointParameters<double>& j = arm.joint[k];
-    const double force = adapted_(k) * levels_.joint_force(k) * impulse,
-                 torque = adapted_(k) * levels_.torque(k) * impulse;
+    const double force = adapted_(k) * levels_.joint_force(k) * impulse;
+    const double unknown = step.held ? step.held->impulse_variance(k, step.time_s, step.time_s + step.dt_s) : 0;
+    const double torque = std::hypot(adapted_(k) * levels_.torque(k) * impulse, std::sqrt(unknown));
     for (int i = 0; i < n; ++i) G_(l.rate[i], n + k) = mobility(i, k) * force;
     if (j.drive == Drive::cable) G_(*l.motor_rate[k], k) = torque / j.rotor_inertia;
     if (j.drive != Drive::rigid) continue;
@@ -128,14 +129,14 @@ const Eigen::MatrixXd& ArmNoise::process_root(const Step& step, const Eigen::Vec
   return Q_root_;
 }
 
-void ArmNoise::adapt(const std::vector<int>& motors, const Innovation& innovation, double dt_s) {
+void ArmNoise::adapt(const std::vector<int>& motors, const Innovation& innovation, const ReadingVector& dt_s) {
   constexpr double kMost = 9;  // of ν² / S: an outlier counts as three deviations
   constexpr double kRange = 30;
   if (!(levels_.adaptation_time > 0)) return;
   for (std::size_t i = 0; i < motors.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     const double square = std::pow(innovation.nu(row), 2) / innovation.S_root.row(row).squaredNorm();
-    const double change = 0.5 * dt_s / levels_.adaptation_time * (std::min(square, kMost) - 1);
+    const double change = 0.5 * dt_s(row) / levels_.adaptation_time * (std::min(square, kMost) - 1);
     double& c = adapted_(motors[i]);
     c = std::clamp(c * std::exp(change), 1 / kRange, kRange);
   }

@@ -34,6 +34,9 @@
 ///   1 ms      2.6           2.7                                   7 to 12
 ///   10 ms     2.4           2.4                                   2.7 to 3.3
 ///
+/// A torque that is held without a newer command is more uncertain: its impulse over the step, of held_torques.h, adds to
+/// G.
+///
 /// When τ increases from 0.1 to 10 ms, joint errors grow fourfold with the exact model and twofold with wrong
 /// frictions.
 ///
@@ -88,8 +91,8 @@ class ArmNoise {
   /// its impulses().
   const Eigen::MatrixXd& process_root(const Step& step, const Eigen::VectorXd& x,
                                       ExponentialStep* exponential = nullptr);
-  /// Adapts c to an innovation of these motors; dt_s: time since the innovation before, s.
-  void adapt(const std::vector<int>& motors, const Innovation& innovation, double dt_s);
+  /// Adapts c to an innovation of these motors; dt_s [m]: of each, the time since its innovation before, s.
+  void adapt(const std::vector<int>& motors, const Innovation& innovation, const ReadingVector& dt_s);
   /// The adapted factors c [n], initially 1.
   const Eigen::VectorXd& adapted() const { return adapted_; }
   void reset(const Eigen::VectorXd& adapted) { adapted_ = adapted; }

@@ -19,6 +19,7 @@
 #include "estimators/lanes/lane_kernels.h"
 #include "estimators/matrix/lane_matrix.h"
 #include "estimators/process/arm_dynamics.h"
+#include "estimators/process/held_torques.h"
 #include "model/arm_model.h"
 
 namespace halyard {
@@ -30,6 +31,7 @@ struct Step {
   const double* motor_torque = nullptr;     ///< [n] commanded, held over the step, N m
   const double* external_force = nullptr;   ///< [n] on the joints, N m | N; null: none
   const CommandHistory* history = nullptr;  ///< for effects with a delay; null: none
+  const HeldTorques* held = nullptr;        ///< how well the torques are known; null: exactly, but for their noise
 };
 
 /// How long filters remember commands, s: longer than any delay.
@@ -41,12 +43,22 @@ int steps_over(double span_s, double longest_s);
 /// Eight columns of X from `first` on; the last one fills unused lanes.
 void load_lanes(const Eigen::Ref<const Eigen::MatrixXd>& X, int first, Lanes* x);
 
+/// Accelerations of joints for sensors whose delay d is of second order: q'' = slope (q' - slow), where `slow` is q'
+/// behind a low-pass filter of first order with the time constant 1/slope. A state's own q'' would not do: friction near
+/// standstill makes it sensitive to q' by 1e5 1/s.
+struct LaggedRates {
+  double slow[kMaxJoints] = {};   ///< rad/s | m/s
+  double slope[kMaxJoints] = {};  ///< 1/s; 0: no acceleration
+};
+
 /// What the encoders read of a state: motors [n], 0 for a joint without one, and joints [n], if they are wanted.
 template <class T>
 HALYARD_INLINE void read_encoders(const Transmission<T>& transmission, const StateLayout& layout, double time_s,
-                                  const T* x, T* motors, T* joints = nullptr) {
+                                  const T* x, T* motors, T* joints = nullptr, const LaggedRates& lagged = {}) {
   JointSignals<T> s[kMaxJoints];
   unpack_state(transmission.arm(), layout, x, s);
+  for (int k = 0; k < layout.n_joints; ++k)
+    s[k].joint_acceleration = T(lagged.slope[k]) * (s[k].joint_rate - T(lagged.slow[k]));
   transmission.sensor_errors(time_s, x + layout.effect_states, s);
   for (int k = 0; k < layout.n_joints; ++k) {
     const bool driven = transmission.arm().joint[k].drive != Drive::none;

@@ -8,6 +8,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "estimators/process/noise.h"
 #include "evaluation/run/sensor_readings.h"
 #include "model/input_error.h"
 
@@ -27,13 +28,16 @@ class Counted {
 };
 
 /// Standard deviations [n][samples] of what is compared, 0 where the estimator has none: if a joint sensor counts as
-/// the truth, together with the noise that the model states for it.
+/// the truth, together with the rounding and the noise that the model states for it.
 Signals deviations_of(const EstimatorRun& run, const ArmModel& model, bool truth_is_sensed) {
   Signals deviations = run.joint_position_std;
   if (!truth_is_sensed) return deviations;
-  for (int k = 0; k < model.n(); ++k)
+  for (int k = 0; k < model.n(); ++k) {
+    const JointParameters<double>& joint = model.nominal.joint[k];
+    const double sensor = reading_deviation(joint.joint_encoder_resolution, joint.joint_encoder_noise);
     for (double& deviation : deviations[k])
-      if (deviation > 0) deviation = std::hypot(deviation, model.nominal.joint[k].joint_encoder_noise);
+      if (deviation > 0) deviation = std::hypot(deviation, sensor);
+  }
   return deviations;
 }
 

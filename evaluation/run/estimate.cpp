@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <stdexcept>
 
 #include "estimators/log_sample.h"
@@ -37,12 +38,20 @@ class Samples {
     return sample_;
   }
 
-  /// As at(), with a motor's last reading where this row has none, and a motor's missing torque taken as none.
+  /// As at(), with a motor's last reading and torque where this row has none. A torque that never came is none.
   Sample first(std::size_t i) {
-    Sample sample = at(i);
-    for (int k = 0; k < log_.n_joints; ++k)
-      for (std::size_t before = i; std::isnan(sample.motor_position[k]) && before > 0; --before)
-        sample.motor_position[k] = log_.motor_position[k][before - 1];
+    Sample sample;
+    for (std::size_t before = 0; before <= i; ++before) {
+      const Sample& row = at(before);
+      if (before == 0) sample = row;
+      for (int k = 0; k < log_.n_joints; ++k) {
+        if (!std::isnan(row.motor_position[k])) sample.motor_position[k] = row.motor_position[k];
+        if (!std::isnan(row.motor_torque[k])) sample.motor_torque[k] = row.motor_torque[k];
+      }
+    }
+    sample.time_s = log_.time[i];
+    sample.joint_torque = sample_.joint_torque;
+    sample.marker = sample_.marker;
     for (int k = 0; k < log_.n_joints; ++k)
       if (std::isnan(sample.motor_torque[k]) && !log_.motor_position[k].empty()) sample.motor_torque[k] = 0;
     return sample;
@@ -162,6 +171,8 @@ EstimatorRun run_estimator(Estimator& estimator, const std::string& name, const 
     record_revisions(run, estimator, start, log.size() - 1, true);
   } catch (const InputError& error) {
     throw EstimatorRefusal(place() + "refused: " + error.what());
+  } catch (const std::bad_alloc&) {
+    throw;  // a fault of the machine, not of the estimator
   } catch (const std::exception& error) {
     throw std::runtime_error(place() + error.what());
   }

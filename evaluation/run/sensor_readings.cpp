@@ -1,11 +1,25 @@
 #include "evaluation/run/sensor_readings.h"
 
-#include <limits>
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "estimators/process/process_model.h"
 
 namespace halyard {
+namespace {
+
+/// q'' at a sample: the slope of the velocity over 5 ms on either side, or what there is of them. A shorter span would
+/// show the noise of an estimate that differentiates encoders.
+double acceleration(const std::vector<double>& time, const std::vector<double>& velocity, std::size_t at) {
+  constexpr double kReach = 5e-3;
+  std::size_t a = at, b = at;
+  while (a > 0 && time[at] - time[a - 1] < 1.001 * kReach && !std::isnan(velocity[a - 1])) --a;
+  while (b + 1 < time.size() && time[b + 1] - time[at] < 1.001 * kReach && !std::isnan(velocity[b + 1])) ++b;
+  return b > a ? (velocity[b] - velocity[a]) / (time[b] - time[a]) : 0;
+}
+
+}  // namespace
 
 Signals sensor_readings(const ArmModel& model, const EstimatorRun& run) {
   const ProcessModel process(model);
@@ -16,6 +30,7 @@ Signals sensor_readings(const ArmModel& model, const EstimatorRun& run) {
     for (int k = 0; k < model.n(); ++k) {
       s[k].joint_position = run.estimates.joint_position[k][i];
       s[k].joint_rate = run.estimates.joint_velocity[k][i];
+      s[k].joint_acceleration = acceleration(run.estimates.time, run.estimates.joint_velocity[k], i);
     }
     process.transmission().sensor_errors(run.estimates.time[i], unused.data(), s);
     for (int k = 0; k < model.n(); ++k) readings[k][i] += s[k].joint_error;

@@ -222,5 +222,72 @@ TEST(ArmFilter, AStepThatIsRefusedIsHalvedUntilItIsAsShortAsSubStepsButFiveTimes
   }
 }
 
+TEST(SrUkfOnTheArm, AResetForgetsThatTheGateHasRefused) {
+  const ArmModel model = raven2();
+  const auto ukf = make_sr_ukf(model, {{"gate", "0.9999"}, {"restart_gap", "0.05"}});
+  ukf->reset(at_home(model, 0));
+  Sample wrong = at_home(model, 1e-3);
+  wrong.motor_position(0) += 1;
+  ASSERT_FALSE(ukf->update(wrong).accepted);
+  Sample blind = at_home(model, 1), rest = at_home(model, 1.001);
+  blind.motor_position(2) = kNan;
+  rest.motor_position(0) = rest.motor_position(1) = kNan;
+  ukf->reset(blind);
+  EXPECT_EQ(ukf->update(rest).nu.size(), 0) << "now all motors have been read";
+  EXPECT_EQ(ukf->update(at_home(model, 1.002)).nu.size(), 3);
+}
+
+TEST(ArmFilter, AtTheStartMotorAnglesAreAsUncertainAsTheirEncoders) {
+  const ArmModel model = raven2();
+  const ProcessModel process(model);
+  const auto filter = sub_step_filter(model, 0.01);
+  filter->reset(at_home(model, 0));
+  const Eigen::MatrixXd S = filter->filter().S();
+  const NoiseLevels levels = levels_of(model, process);
+  for (int k = 0; k < 3; ++k) {
+    const int angle = *process.layout().motor_angle[k];
+    EXPECT_DOUBLE_EQ(S(angle, angle), levels.encoder(k)) << k;
+  }
+}
+
+TEST(ArmFilter, ARestoredFilterPredictsUnderTheLoadThatItHad) {
+  const ArmModel model = raven2();
+  const auto filter = sub_step_filter(model, 0.01);
+  Sample loaded = at_home(model, 0);
+  loaded.joint_torque = Eigen::Vector3d(0.4, -0.3, 1);
+  filter->reset(loaded);
+  ArmFilter::Snapshot start;
+  filter->save(start);
+  Sample blind = at_home(model, 1e-3);
+  blind.motor_position.setConstant(kNan);
+  blind.joint_torque = Eigen::Vector3d::Zero();
+  filter->update(blind);
+  const Eigen::VectorXd once = filter->filter().x();
+  filter->restore(start);
+  filter->update(blind);
+  EXPECT_EQ(Eigen::VectorXd(filter->filter().x()), once);
+}
+
+TEST(ArmFilter, AdaptsOverTheTimeSinceEachMotorsInnovationBefore) {
+  const ArmModel model = raven2();
+  const ProcessModel process(model);
+  NoiseLevels levels = levels_of(model, process);
+  levels.adaptation_time = 0.5;
+  ArmFilter filter(model, std::make_shared<const ProcessModel>(model), {.noise = levels},
+                   std::make_unique<ExtendedKalmanFilter>());
+  filter.reset(at_home(model, 0));
+  Sample blind = at_home(model, 0);
+  blind.motor_position.setConstant(kNan);
+  for (int i = 1; i < 10; ++i) {
+    blind.time_s = 1e-3 * i;
+    filter.update(blind);
+  }
+  const Innovation innovation = filter.update(at_home(model, 0.01));
+  ArmFilter::Snapshot now;
+  filter.save(now);
+  const double square = std::pow(innovation.nu(0), 2) / innovation.S_root.row(0).squaredNorm();
+  EXPECT_NEAR(2 * std::log(now.adapted(0)), 0.01 / 0.5 * (std::min(square, 9.0) - 1), 1e-12);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -263,5 +263,97 @@ TEST(Start, AGapOfASecondIsLongUnlessToldOtherwise) {
   }
 }
 
+TEST(Start, AfterAGapMotorsThatAreReadByTurnsGiveTheSpeed) {
+  const ArmModel model = raven2();
+  const auto filter = make_sr_ukf(model, {});
+  const Eigen::Vector3d v(0.5, -0.2, 0.04);
+  const auto sample_at = [&](double since_s) {
+    const Eigen::VectorXd q = model.home() + since_s * v;
+    return Sample{3 + since_s, Eigen::VectorXd::Zero(3), unstretched_motors(model.nominal, q), {}};
+  };
+  Sample first = sample_at(0);
+  first.time_s = 0;
+  filter->reset(first);
+  for (int i = 0; i < 6; ++i) {
+    Sample one = sample_at(1e-3 * i);
+    for (int k = 0; k < 3; ++k)
+      if (k != i % 3) one.motor_position(k) = kNan;
+    EXPECT_EQ(filter->update(one).nu.size(), 0) << i;
+  }
+  // Differences of motor angles of some 100 rad over 3 ms.
+  EXPECT_LT((filter->estimate().joint_velocity - v).norm(), 1e-10);
+}
+
+TEST(Start, UntilAllMotorsHaveBeenReadJointsAreAsUncertainAsTheirRanges) {
+  const ArmModel model = raven2();
+  const auto filter = make_sr_ukf(model, {});
+  Sample blind{0, Eigen::VectorXd::Zero(3), unstretched_motors(model.nominal, model.home()), {}};
+  blind.motor_position(2) = kNan;
+  filter->reset(blind);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_GE(filter->estimate().joint_position_std(k), model.joints[k].upper - model.joints[k].lower) << k;
+}
+
+TEST(Start, AfterTheGateHasRefusedForLongItStartsFromMotorsThatAreReadByTurns) {
+  const ArmModel model = raven2();
+  const auto filter = make_sr_ukf(model, {{"gate", "0.9999"}, {"restart_gap", "0.05"}});
+  Sample s{0, Eigen::VectorXd::Zero(3), unstretched_motors(model.nominal, model.home()), {}};
+  filter->reset(s);
+  s.motor_position(0) += 1;
+  for (int i = 1; i <= 51; ++i) {
+    s.time_s = 1e-3 * i;
+    filter->update(s);
+  }
+  for (int k = 0; k < 3; ++k) {
+    Sample one = s;
+    one.time_s = 1e-3 * (52 + k);
+    for (int i = 0; i < 3; ++i)
+      if (i != k) one.motor_position(i) = kNan;
+    EXPECT_EQ(filter->update(one).nu.size(), 0) << k;
+  }
+  s.time_s = 0.055;
+  EXPECT_EQ(filter->update(s).nu.size(), 0) << "the second reading gives the speed";
+  s.time_s = 0.056;
+  EXPECT_EQ(filter->update(s).nu.size(), 3);
+}
+
+TEST(Start, TimeWithoutReadingsIsLeftOutOfTheTimeForWhichTheGateRefuses) {
+  ArmModel model = raven2();
+  model.nominal.gravity[0] = 0;
+  const auto filter = make_sr_ukf(model, {{"gate", "0.9999"}, {"restart_gap", "0.05"}});
+  Sample s{0, Eigen::VectorXd::Zero(3), unstretched_motors(model.nominal, model.home()), {}};
+  filter->reset(s);
+  s.motor_position(0) += 3;
+  Sample blind = s;
+  blind.motor_position.setConstant(kNan);
+  for (int i = 1; i <= 72; ++i) {
+    const bool is_blind = i > 30 && i <= 50;
+    Sample& now = is_blind ? blind : s;
+    now.time_s = 1e-3 * i;
+    const Eigen::Index readings = filter->update(now).nu.size();
+    // Refused since 1 ms, less 20 ms without readings: more than 50 ms at 72 ms. 71 ms is a matter of rounding.
+    if (i != 71) {
+      EXPECT_EQ(readings, is_blind || i == 72 ? 0 : 3) << i;
+    }
+  }
+}
+
+class RestartOfAnUndrivenJointWithoutRange : public Restart {
+ protected:
+  RestartOfAnUndrivenJointWithoutRange() : Restart(undriven_without_range()) {}
+
+ private:
+  static ArmModel undriven_without_range() {
+    ArmModel model = without_motor(1);
+    model.joints[1].upper = model.joints[1].lower;
+    return model;
+  }
+};
+
+TEST_F(RestartOfAnUndrivenJointWithoutRange, ItMayMoveByOneInASecond) {
+  const int rate = process_->layout().rate[1];
+  EXPECT_NEAR(filter_.filter().S()(rate, rate), 1, 1e-9);
+}
+
 }  // namespace
 }  // namespace halyard

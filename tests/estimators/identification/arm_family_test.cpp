@@ -138,5 +138,27 @@ TEST(ArmFamily, AnUnknownKeyIsRefused) {
   EXPECT_THROW(find_number(arm, "joint1.motor.zer"), std::invalid_argument);
 }
 
+TEST(ArmFamily, ASensorThatLagsIsReadToSecondOrder) {
+  ArmModel model = lively_arm();
+  PlacedEffect delay = place_neutral_effect(*find_effect("delay"), model.nominal, 1);
+  const double lag = 0.01, slow = 0.4, slope = 50;
+  delay.p[1] = lag;
+  model.effects = {delay};
+  const ProcessModel process(model);
+  ArmFamily one(model, process, {}, 1);
+  one.set(Eigen::MatrixXd(0, 1));
+  const Eigen::VectorXd x = lively_state(process);
+  LaggedRates lagged;
+  lagged.slow[1] = slow;
+  lagged.slope[1] = slope;
+  const double v = x(process.layout().rate[1]);
+  Eigen::MatrixXd H;
+  const double read = one.readings(0, x, H, lagged)(4), without = one.readings(0, x, H)(4);
+  EXPECT_NEAR(read - without, lag * lag / 2 * slope * (v - slow), 1e-14);
+  one.readings(0, x, H, lagged);
+  EXPECT_NEAR(H(4, process.layout().rate[1]), -lag + lag * lag / 2 * slope, 1e-14);
+  EXPECT_EQ(one.readings(0, Eigen::MatrixXd(x), lagged)(4, 0), read);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -201,7 +201,7 @@ TEST(ProcessNoise, AdaptationGoesWithTheSquareOfWhatIsExpectedAndCountsAnOutlier
   // d ln(c) / dt = (ν² / S - 1) / (2 T): nothing for one deviation, and for more than three no more than for three.
   for (const double deviations : {0.0, 1.0, 2.0, 3.0, 100.0}) {
     noise.reset(Eigen::Vector3d::Ones());
-    noise.adapt({2, 0}, innovation(deviations), kStep);
+    noise.adapt({2, 0}, innovation(deviations), ReadingVector::Constant(2, kStep));
     const double square = std::min(deviations * deviations, 9.0);
     EXPECT_NEAR(std::log(noise.adapted()(2)), (square - 1) * kStep / (2 * 0.5), 1e-12) << deviations;
     EXPECT_NEAR(noise.adapted()(0), 1, 1e-12) << deviations;
@@ -209,7 +209,7 @@ TEST(ProcessNoise, AdaptationGoesWithTheSquareOfWhatIsExpectedAndCountsAnOutlier
   }
   // Never by more than thirty times, either way.
   for (const double deviations : {0.0, 100.0}) {
-    for (int i = 0; i < 20000; ++i) noise.adapt({2, 0}, innovation(deviations), kStep);
+    for (int i = 0; i < 20000; ++i) noise.adapt({2, 0}, innovation(deviations), ReadingVector::Constant(2, kStep));
     EXPECT_DOUBLE_EQ(noise.adapted()(2), deviations > 0 ? 30 : 1.0 / 30);
   }
 }

@@ -42,7 +42,7 @@ static int update(void* instance, const halyard_sample* sample, halyard_innovati
   innovation->m = self->n;
   for (i = 0; i < self->n; ++i) {
     innovation->nu[i] = sample->motor_position[i] - self->position[i];
-    for (j = 0; j < self->n; ++j) innovation->S_root[i * self->n + j] = j <= i ? (double)(1 + i) : 0.0;
+    for (j = 0; j <= i; ++j) innovation->S_root[i * self->n + j] = (double)(1 + i); /* above, nothing is read */
     self->position[i] = sample->motor_position[i];
   }
   return HALYARD_OK;
