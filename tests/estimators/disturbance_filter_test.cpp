@@ -8,6 +8,7 @@
 
 #include "estimators/built_in.h"
 #include "estimators/log_sample.h"
+#include "estimators/process/standstill.h"
 #include "model/input_error.h"
 #include "plant/simulate.h"
 #include "tests/support/arm_runs.h"
@@ -170,6 +171,27 @@ TEST(DisturbanceFilter, WrongOptionsAreRefused) {
           .starts_with(
               "estimator disturbance_sr_ukf: unknown option 'force'; known are force_start, force_wander, alpha, "));
   EXPECT_EQ(refusal({{"force_wander", "1 2 3"}, {"force_start", "0"}, {"gate", "0.999"}}), "accepted");
+}
+
+TEST(DisturbanceFilter, TheCablesForceIsThatAtItsTime) {
+  ArmModel model = raven2();
+  add_effect(model, "cable_slip", 2, {1e-3, 1, 0});  // 1 mm at 1 s
+  const auto filter = make_disturbance_sr_ukf(model, {});
+  Sample s{3, Eigen::VectorXd::Zero(3), unstretched_motors(model.nominal, model.home()), {}};
+  // At rest the cable holds joint 3 against gravity.
+  const auto missing = [&] {
+    const Estimate e = filter->estimate();
+    return gravity_force(model.nominal, e.joint_position)(2) -
+           model.nominal.joint[2].pulley_radius * e.extra_outputs(2, cable_force);
+  };
+  filter->reset(s);
+  EXPECT_NEAR(missing(), 0, 1e-3) << "the first sample, after the slip";
+  s.time_s = 0;
+  filter->reset(s);
+  EXPECT_NEAR(missing(), 0, 1e-3) << "the first sample, before it";
+  s.time_s = 2.5;  // after a gap, it starts anew
+  filter->update(s);
+  EXPECT_NEAR(missing(), 0, 1e-3) << "a later one";
 }
 
 }  // namespace

@@ -226,5 +226,23 @@ TEST(FixedLagSmoother, ABetaOfAlphaSquaredIsEnough) {
   EXPECT_NE(answer("0.2499"), "no InputError");
 }
 
+TEST(FixedLagSmoother, ByDefaultTellsAfterTwiceAFifthOfASecond) {
+  ArmModel model = raven2();
+  model.nominal.gravity[0] = 0;  // it stays where it is
+  const auto smoother = make_smoother(model, {});
+  Sample s{0, Eigen::VectorXd::Zero(3), unstretched_motors(model.nominal, model.home()), {}};
+  smoother->reset(s);
+  for (int i = 1; i <= 41; ++i) {
+    s.time_s = 0.01 * i;
+    smoother->update(s);
+    if (i < 40) {
+      EXPECT_FALSE(smoother->revise(false)) << i;
+    }
+  }
+  const auto first = smoother->revise(false);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->time_s, 0);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -134,5 +134,28 @@ TEST(ExternalForce, AContactPushesBackFromItsSideAlone) {
   }
 }
 
+TEST(GravityTilt, OfAnArmThatHangsAlongXTurnsAboutTheSameAxesAgain) {
+  ArmParameters<double> arm = random_arm(30, CableLaw::linear);
+  const double alpha = 0.05, gamma = 0.3, x = -6.94, y = -6.9;
+  arm.gravity[0] = x, arm.gravity[1] = y, arm.gravity[2] = 0;
+  const auto tilt = [&](double about_y, double about_z) {
+    return placed("gravity_tilt", arm, kWholeArm, {about_y, about_z});
+  };
+  // After the first, gravity is strongest along another axis.
+  const Transmission<double> both(arm, {tilt(0, alpha), tilt(gamma, 0)});
+  const double along_x = std::cos(alpha) * x - std::sin(alpha) * y, along_y = std::sin(alpha) * x + std::cos(alpha) * y;
+  ASSERT_GT(std::abs(along_y), std::abs(along_x));
+  EXPECT_NEAR(both.arm().gravity[0], std::cos(gamma) * along_x, 10 * 4 * kEps);
+  EXPECT_NEAR(both.arm().gravity[1], along_y, 10 * 4 * kEps);
+  EXPECT_NEAR(both.arm().gravity[2], -std::sin(gamma) * along_x, 10 * 4 * kEps);
+}
+
+TEST(ExternalForce, MayStopWhenItStartsButNotBefore) {
+  const Effect& effect = *find_effect("external_force");
+  const double at_once[kMaxEffectParameters] = {1, 2, 2}, before[kMaxEffectParameters] = {1, 2.5, 2};
+  EXPECT_EQ(effect.fault_of(at_once), "");
+  EXPECT_EQ(effect.fault_of(before), "stop is before start; exchange them");
+}
+
 }  // namespace
 }  // namespace halyard

@@ -92,5 +92,27 @@ TEST(CurveFit, IsEmptyWithoutSamplesOrScatter) {
   EXPECT_EQ(fit_curve({}, {}, {}, 3, 0).swing(), 0);
 }
 
+TEST(CurveFit, ACurveOfADirectionReachesAsFarAsItsSamples) {
+  std::vector<double> x, y, direction;
+  for (int i = 0; i <= 20; ++i) {
+    x.push_back(0.1 * i), y.push_back(3 * x.back());
+    direction.push_back(i <= 10 ? 1 : -1);
+  }
+  // Knots are at both ends and in the middle, where the motion reverses.
+  const CurveFit fit = fit_curve(x, y, direction, 3, 0);
+  ASSERT_EQ(fit.curves.size(), 2u);
+  EXPECT_EQ(fit.curves[0].direction, -1);
+  EXPECT_EQ(fit.curves[0].x, (std::vector<double>{x[10], x[20]}));
+  EXPECT_EQ(fit.curves[1].x, (std::vector<double>{x[0], x[10]}));
+  EXPECT_EQ(fit.numbers, 4);
+}
+
+TEST(CurveFit, AMotionInOneDirectionHasOneCurve) {
+  const CurveFit fit = fit_curve({0, 1, 2, 3}, {0, 2, 4, 6}, {1, 1, 1, 1}, 2, 0);
+  ASSERT_EQ(fit.curves.size(), 1u);
+  EXPECT_EQ(fit.curves[0].direction, 1);
+  EXPECT_EQ(fit.numbers, 2);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -78,5 +78,11 @@ TEST(Spectrum, RefusesColumnsOfTwoLengthsAndAStepOfZero) {
   EXPECT_THROW(spectrum({1, 2}, {1, 2}, 0.1, 1, 0), std::invalid_argument);
 }
 
+TEST(Spectrum, EndsWithItsHighestFrequencyHoweverStepsRound) {
+  const Sines s({{1, 1, 0}});
+  ASSERT_LT((0.7 - 0.1) / 0.1, 6) << "the test shows nothing";
+  EXPECT_EQ(spectrum(s.x, s.y, 0.1, 0.7, 0.1).frequency.size(), 7u);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -141,5 +141,7 @@ TEST(ViewSentence, OfASlideWithAGearHasAMotorTorqueAndNoForce) {
   EXPECT_EQ(residual_unit(arm, 1, ResidualKind::motor_torque).name, "mN\u00a0m");
 }
 
+TEST(ViewSentence, SharesFromATenthOnAreWholePercents) { EXPECT_EQ(shown_share(0.097), "10 %"); }
+
 }  // namespace
 }  // namespace halyard

@@ -289,5 +289,17 @@ TEST(Views, AConstantIsToldIfItIsMostOfTheMeanSquare) {
   EXPECT_TRUE(is_told(2.5)) << "86 %";
 }
 
+TEST(Views, OfARestAreThoseThatExplainAFifthOfIt) {
+  const auto is_told = [](double share) {
+    auto rest = noise(1, 8);
+    const double step = std::sqrt(share / (1 - share));
+    const ResidualSignals s = joint_with(
+        [&](std::size_t i, const ResidualSignals& seen) { return step * seen.joint_direction[i] + rest(i, seen); });
+    return !telling_views(s).empty();
+  };
+  EXPECT_FALSE(is_told(0.15));
+  EXPECT_TRUE(is_told(0.25));
+}
+
 }  // namespace
 }  // namespace halyard

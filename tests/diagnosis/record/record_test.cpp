@@ -9,6 +9,7 @@
 
 #include "model/input_error.h"
 #include "model/model_file.h"
+#include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/limits.h"
 #include "tests/support/message_of.h"
 #include "tests/support/pendulum.h"
@@ -308,6 +309,18 @@ TEST(Record, OfALightJointIsIntegratedWithMoreStagesThanUsual) {
   EXPECT_LE(stages(wrist), RungeKuttaChebyshev::kMostStages);
   j.mass = 1e-9;
   EXPECT_EQ(stages(wrist), RungeKuttaChebyshev::kMostStages) << "and not enough: the prediction refuses it";
+}
+
+TEST(Record, NeedsTenSamplesASecond) {
+  const auto message = [](double rate_hz) {
+    Log log = log_along(4, rate_hz, slow_swing);
+    log.source = "slow.csv";
+    return message_of([&] { make_records(log, first_joints(1), {}); });
+  };
+  EXPECT_EQ(message(10).find("a sample follows another"), std::string::npos) << message(10);
+  EXPECT_EQ(message(5),
+            "slow.csv: a sample follows another after 0.2 s; expected at least 10 samples a second; if its time is not "
+            "in s, say so by a column map, such as time=NAME,unit=ms");
 }
 
 }  // namespace

@@ -87,5 +87,88 @@ TEST(DrawnEffect, IsNoneOfTheOthersAndAtTheJointThatIsAskedFor) {
   EXPECT_FALSE(draw_effect({backlash}, three_joints(), {other}, &first, random)) << "the only one is taken";
 }
 
+TEST(DrawnSizes, DoNotQuiteReachTheEndOfWhatIsPlausible) {
+  double most = 0;
+  for_draws("hysteresis", [&](const PlacedEffect& e, const std::vector<SearchedParameter>& all) {
+    most = std::max(most, e.p[index_of("share", all)]);
+  });
+  // Of 0.4 up to three times as much is drawn; 0.95 is the bound.
+  EXPECT_NEAR(most, 0.95 * 0.95, 1e-12);
+}
+
+TEST(DrawnSizes, OfOneSignAreThereInEveryDraw) {
+  for_draws("backlash", [](const PlacedEffect& e, const std::vector<SearchedParameter>& all) {
+    const std::size_t gap = index_of("half_gap", all);
+    const double relative = e.p[gap] / all[gap].p.typical;
+    EXPECT_GE(relative, 0.5 - 1e-12);
+    EXPECT_LE(relative, 3 + 1e-12);
+  });
+}
+
+TEST(DrawnSizes, AreOfEitherSignAndOftenSeveral) {
+  int positive = 0, negative = 0, several = 0;
+  for_draws("torque_scale", [&](const PlacedEffect& e, const std::vector<SearchedParameter>& all) {
+    int sizes = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const double change = e.p[i] - all[i].p.neutral;
+      positive += change > 0, negative += change < 0, sizes += change != 0;
+    }
+    several += sizes == 2;
+  });
+  // Expected are 75, 75 and 50.
+  EXPECT_GT(positive, 20);
+  EXPECT_GT(negative, 20);
+  EXPECT_GT(several, 20);
+}
+
+TEST(DrawnShapes, OrdersAreThoseOfWhichTheMotionHasEnoughPeriods) {
+  double least = 100;
+  for_draws("encoder_eccentricity", [&](const PlacedEffect& e, const std::vector<SearchedParameter>& all) {
+    least = std::min(least, e.p[index_of("order", all)]);
+  });
+  // 1.5 periods in a radian of 2 π: 9.4 at least.
+  EXPECT_GE(least, 10);
+  EXPECT_LE(least, 12);
+}
+
+TEST(DrawnShapes, OfFrictionNearStandstillAreAQuarterOfTheFastestMotionAtMost) {
+  constexpr double kFastest = 0.2;  // rad/s
+  Random random(5, 6, 7);
+  const MotionRange range{{1, 31}, std::vector<MotionRange::Range>(3, {-0.5, 0.5}), std::vector<double>(3, kFastest)};
+  const JointParameters<double>& j = three_joints().nominal.joint[0];
+  double joint = 0, motor = 0;
+  for (int i = 0; i < 100; ++i) {
+    PlacedEffect e = place_neutral_effect(*find_effect("stribeck"), three_joints().nominal, 0);
+    draw_parameters(e, three_joints(), range, random);
+    const std::vector<SearchedParameter> all = searched_parameters(e, three_joints());
+    joint = std::max(joint, e.p[index_of("joint_speed", all)]);
+    motor = std::max(motor, e.p[index_of("motor_speed", all)]);
+  }
+  // Starts are 15, 50 and 150 mrad/s, and 1.5, 5 and 15 rad/s; they are drawn up to twice as large.
+  const double at_motor = 0.25 * kFastest * j.pulley_radius / std::abs(j.motor_travel());  // 6.8 rad/s
+  EXPECT_LE(joint, 0.25 * kFastest + 1e-12);
+  EXPECT_GT(joint, 0.6 * 0.25 * kFastest);
+  EXPECT_LE(motor, at_motor + 1e-9);
+  EXPECT_GT(motor, 0.5 * at_motor);
+}
+
+TEST(DrawnSizes, APushStopsATenthOfTheRecordAfterItsStartAndAContactLiesAmidTheMotion) {
+  double lowest = 1, highest = -1;
+  for_draws("external_force", [&](const PlacedEffect& e, const std::vector<SearchedParameter>& all) {
+    const double start = e.p[index_of("start", all)], stop = e.p[index_of("stop", all)],
+                 contact = e.p[index_of("contact_position", all)];
+    // Of 30 s from 1 s on.
+    EXPECT_GE(start, 1 + 0.1 * 30 - 1e-9);
+    EXPECT_GE(stop - start, 0.1 * 30 - 1e-9);
+    EXPECT_LE(stop, 1 + 0.6 * 30 + 1e-9);
+    lowest = std::min(lowest, contact), highest = std::max(highest, contact);
+  });
+  // The joint is between ±0.5: from a fifth to four fifths of its way.
+  EXPECT_GE(lowest, -0.3 - 1e-12);
+  EXPECT_LE(highest, 0.3 + 1e-12);
+  EXPECT_LT(lowest, -0.1);
+  EXPECT_GT(highest, 0.1);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -210,5 +210,26 @@ TEST(SearchSpace, AnEccentricSensorMayHaveAnyOrderUpTo32) {
   }
 }
 
+TEST(SearchSpace, ARefinementMayGoToTheEndsOfWhatIsRightAndNotBeyond) {
+  const auto answer = [](void (*refine)(SearchSpace&)) {
+    return message_of([&] { search_space(RefinedBump(refine), random_arm(1, CableLaw::linear), 0); });
+  };
+  const std::string fine = "no InputError",
+                    no_number =
+                        "effect 'bump': the number that 'height' changes is negative or of no joint; give a "
+                        "joint of the arm, and a size of 0 or more";
+  EXPECT_EQ(answer([](SearchSpace& s) { s["width"].starts = {0.01, 1}; }), fine);
+  EXPECT_EQ(answer([](SearchSpace& s) { s["height"].changes = {&Tolerances::friction, 0, 0}; }), fine);
+  EXPECT_EQ(answer([](SearchSpace& s) { s["height"].changes = {&Tolerances::friction, 2, 1}; }), fine);
+  EXPECT_EQ(answer([](SearchSpace& s) { s["height"].changes = {&Tolerances::friction, 3, 1}; }), no_number);
+  EXPECT_EQ(answer([](SearchSpace& s) { s["height"].changes = {&Tolerances::friction, -1, 1}; }), no_number);
+  EXPECT_EQ(answer([](SearchSpace& s) { s["height"].changes = {&Tolerances::friction, 0, -1}; }), no_number);
+  EXPECT_EQ(answer([](SearchSpace& s) { s.greatest_motor_speed = 1; }), fine);
+  EXPECT_EQ(answer([](SearchSpace& s) { s.greatest_motor_speed = 2; }),
+            "effect 'bump': the index of its greatest motor speed is no parameter of it; give the index of one");
+  EXPECT_EQ(answer([](SearchSpace& s) { s.order_of_joint_position = 2; }),
+            "effect 'bump': the index of its order is no parameter of it; give the index of one");
+}
+
 }  // namespace
 }  // namespace halyard

@@ -187,5 +187,26 @@ TEST(CameraFilterStart, AJointThatIsSeenShortOfItsMotorHasAnOffsetThatTakesItUp)
   for (const int k : {0, 1}) EXPECT_EQ(told(k, 0), 0) << "it is known";
 }
 
+TEST(CameraFilterStart, AFrameExposedAtTheFirstSampleCountsHoweverTimesRound) {
+  CameraFilter filter = first_frame_filter(std::make_unique<ExtendedKalmanFilter>());
+  const ArmModel model = raven2();
+  const Eigen::VectorXd home = model.home();
+  ASSERT_LT(0.204 - 0.004 - 0.2, 0) << "the test shows nothing";
+  const auto after = [&](bool seen) {
+    Sample s{0.2, Eigen::VectorXd::Zero(3), unstretched_motors(model.nominal, home), {}};
+    filter.reset(s);
+    s.time_s = 0.204;
+    if (seen) {
+      Eigen::Vector3d marker;
+      position_of(model.nominal, chain_pose(model.nominal, home.data()), model.nominal.payload_point, marker.data());
+      s.marker = marker + Eigen::Vector3d(2e-5, -3e-5, 1e-5);
+    }
+    filter.update(s);
+    return Eigen::VectorXd(filter.estimate().joint_position);
+  };
+  const Eigen::VectorXd unseen = after(false);
+  EXPECT_GT((after(true) - unseen).norm(), 1e-6);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -103,5 +103,17 @@ TEST(BlockJackknife, HoldsTheTruthWhereResidualsAreAlikeWithinABlock) {
   EXPECT_NEAR(by_information, 0.487 * kTrials, 4 * std::sqrt(kTrials * 0.25));
 }
 
+TEST(BlockJackknife, TheRestOfANumberAtItsBoundScattersAsItsBlocksDo) {
+  std::vector<BlockSums> blocks(2);
+  blocks[0].A = (Eigen::Matrix2d() << 4, 2, 2, 3).finished(), blocks[0].g = Eigen::Vector2d(10, 8);
+  blocks[1].A = (Eigen::Matrix2d() << 4, -1, -1, 3).finished(), blocks[1].g = Eigen::Vector2d(10, -6);
+  const JackknifeEstimate e = jackknife_least_squares(blocks, Eigen::Vector2d::Zero(), Eigen::Vector2d(0.2, kInfinity));
+  EXPECT_DOUBLE_EQ(e.u(0), 0.2);
+  EXPECT_NEAR(e.u(1), (2 - 0.2) / 7, 1e-14);
+  // Without the first block (-6 + 0.2) / 4, without the second (8 - 0.4) / 4; and what the prior leaves.
+  EXPECT_NEAR(e.deviation(1), std::sqrt(0.5 * 2 * 1.675 * 1.675 + 1.0 / 49), 1e-13);
+  EXPECT_EQ(e.deviation(0), 0);
+}
+
 }  // namespace
 }  // namespace halyard

@@ -293,5 +293,31 @@ TEST(DualUkfRules, ByDefaultItSettlesForHalfASecondAndForgetsInTwo) {
   EXPECT_NEAR(2 * std::log(filter.S_w()(0, 0)), 1 - std::exp(-0.25), kSlideStep);
 }
 
+TEST(DualUkfRules, SmallerDisturbancesAreThoseOfTorquesAndOfForces) {
+  const ArmModel model = slide();
+  ArmModel halved = model;
+  halved.estimators.at("sr_ukf") = {{"torque_noise", "0.01"}, {"joint_force_noise", "2.5"}};
+  const std::vector<Weight> weights = {{.key = "joint1.motor.torque_bias", .nominal = 0, .scale = 0.01}};
+  DualUkf scaled(model, weights, {.learn = false, .disturbances = 0.5, .settle = 0}),
+      told(halved, weights, {.learn = false, .settle = 0});
+  for (const EncoderSample& sample : record_of_slide(model, 20, 1)) {
+    const DualStep a = scaled.update(sample), b = told.update(sample);
+    ASSERT_EQ(a.nu.size(), b.nu.size()) << sample.time_s;
+    EXPECT_EQ(a.S_root, b.S_root) << sample.time_s << ": halves are exact";
+  }
+}
+
+TEST(DualUkfRules, AStepIsOfTenMillisecondsAtMostUnlessToldOtherwise) {
+  DualUkf standard = filter_with(0.01, {.learn = false, .settle = 0}),
+          told = filter_with(0.01, {.learn = false, .settle = 0, .max_step = 0.01});
+  const std::vector<EncoderSample> record = record_of_slide(slide(), 201, 1);
+  for (std::size_t i = 0; i < record.size(); i += 20) {  // 40 ms
+    const DualStep a = standard.update(record[i]), b = told.update(record[i]);
+    ASSERT_EQ(a.nu.size(), b.nu.size()) << i;
+    EXPECT_EQ(a.nu, b.nu) << i;
+    EXPECT_EQ(a.S_root, b.S_root) << i;
+  }
+}
+
 }  // namespace
 }  // namespace halyard
