@@ -156,10 +156,11 @@ std::string modules_text(const Sweep& sweep) {
   return text;
 }
 
-/// Everything that results depend on; samples of trajectories too, which may stand in files of their own.
+/// Everything that results depend on: also the controller's model, which need be neither the robot's nor the
+/// estimators', and samples of trajectories, which may stand in files of their own.
 std::string definition_id(const Sweep& sweep, const fs::path& sweep_file, const fs::path& scenario_file) {
   std::string text = file_text(sweep_file) + file_text(scenario_file) + model_to_xml(sweep.scenario.robot) +
-                     model_to_xml(sweep.model) + modules_text(sweep);
+                     model_to_xml(sweep.scenario.assumed.value()) + model_to_xml(sweep.model) + modules_text(sweep);
   for (const JointTrajectory& trajectory : sweep.scenario.trajectory) {
     for (std::size_t i = 0; i < trajectory.sample_time.size(); ++i) {
       text += exact_text(trajectory.sample_time[i]) + " " + exact_text(trajectory.sample_position[i]) + "\n";

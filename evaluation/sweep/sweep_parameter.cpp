@@ -37,7 +37,9 @@ std::optional<EffectKey> parse_effect_key(std::string_view key) {
   int number = 0;
   const auto [rest, error] = std::from_chars(place.data() + 5, end, number);
   if (error != std::errc() || rest != end) return std::nullopt;
-  parsed.joint = number - 1;
+  // Each joint has one spelling: an axis of joint2 and one of joint02 would vary the same number.
+  const bool is_plain = place[5] >= '1' && place[5] <= '9';
+  parsed.joint = is_plain ? number - 1 : -1;
   return parsed;
 }
 

@@ -112,6 +112,9 @@ TEST(SweepKeys, OfAnEffectNameAPlaceThatItCanHave) {
   EXPECT_EQ(refused("joint4.effect.backlash.half_gap"),
             "parameter 'joint4.effect.backlash.half_gap': the effect is of a joint; write "
             "jointK.effect.backlash.half_gap with K from 1 to 3");
+  for (const std::string joint : {"joint02", "joint0", "joint-1", "joint-2147483648"})
+    EXPECT_TRUE(refused(joint + ".effect.backlash.half_gap").ends_with("with K from 1 to 3")) << joint;
+  EXPECT_NE(refused("joint+2.effect.backlash.half_gap"), "no InputError");
   EXPECT_TRUE(refused("joint1.effect.backlsh.half_gap")
                   .starts_with("parameter 'joint1.effect.backlsh.half_gap': unknown effect; expected one of "));
   model.nominal.joint[1].drive = Drive::rigid;
@@ -188,6 +191,27 @@ TEST(SweepFile, IsAnotherSweepWithAnotherBuildOfAModule) {
   const std::string id = id_with("one build");
   EXPECT_EQ(id_with("one build"), id);
   EXPECT_NE(id_with("other build"), id);
+  fs::remove_all(folder);
+}
+
+TEST(SweepFile, IsAnotherSweepWithAnotherModelOfTheController) {
+  const fs::path folder = fs::path(testing::TempDir()) / "sweep_of_a_controller";
+  fs::create_directories(folder);
+  std::ofstream(folder / "scenario.xml") << "<scenario name=\"s\" model=\"arm.xml\"><set "
+                                            "parameter=\"joint1.motor.capstan_radius\" value=\"6e-3\"/></scenario>";
+  std::ofstream(folder / "sweep.xml") << "<sweep name=\"s\" scenario=\"scenario.xml\" model=\"" << kRaven
+                                      << "raven2.xml\" estimators=\"ekf\"><axis "
+                                         "parameter=\"joint1.cable.stiffness\" values=\"1e5 2e5\"/></sweep>";
+  // Robot and estimators stay as they are: the scenario sets the robot's radius, the estimators have another model.
+  const auto id_with = [&](double capstan_radius) {
+    ArmModel arm = read_model(kRaven + "raven2.xml");
+    arm.nominal.joint[0].capstan_radius = capstan_radius;
+    std::ofstream(folder / "arm.xml") << model_to_xml(arm);
+    return read_sweep_definition(folder / "sweep.xml").grid.id;
+  };
+  const std::string id = id_with(5e-3);
+  EXPECT_EQ(id_with(5e-3), id);
+  EXPECT_NE(id_with(7e-3), id);
   fs::remove_all(folder);
 }
 
