@@ -188,7 +188,7 @@ void CellJournal::fail() {
   throw std::runtime_error(failure_);
 }
 
-StoredCells::StoredCells(const std::vector<fs::path>& folders, const SweepGrid& grid)
+StoredCells::StoredCells(const std::vector<fs::path>& folders, const SweepGrid& grid, const fs::path& left_out)
     : n_subjects_(grid.n_subjects()),
       n_joints_(grid.units.size()),
       n_columns_(grid.n_columns()),
@@ -197,6 +197,7 @@ StoredCells::StoredCells(const std::vector<fs::path>& folders, const SweepGrid& 
   const std::string header = journal_header(grid);
   for (const fs::path& folder : folders) {
     for (const fs::path& path : journals_in(folder)) {
+      if (path == left_out) continue;
       Descriptor file(path, O_RDONLY);
       if (!file) throw InputError(path.string() + ": cannot be read: " + reason(errno));
       journals_.push_back({path, {}});

@@ -79,8 +79,9 @@ class StoredCells {
  public:
   /// Of several results of a point the first without a failure counts, or else the last. Journals may grow meanwhile;
   /// what comes later does not count. Throws InputError for a journal that is damaged or of another sweep, and
-  /// std::runtime_error for one that cannot be read to its end.
-  StoredCells(const std::vector<std::filesystem::path>& folders, const SweepGrid& grid);
+  /// std::runtime_error for one that cannot be read to its end. left_out: a journal that is not read.
+  StoredCells(const std::vector<std::filesystem::path>& folders, const SweepGrid& grid,
+              const std::filesystem::path& left_out = {});
 
   std::size_t size() const { return places_.size(); }  ///< points of the grid
   bool has(std::size_t point) const { return places_.at(point).length > 0; }
@@ -88,6 +89,8 @@ class StoredCells {
   std::size_t count() const;         ///< points that are there
   std::size_t count_failed() const;  ///< of them with a failure
 
+  /// The journal of a point that is there.
+  const std::filesystem::path& journal(std::size_t point) const { return journals_.at(places_.at(point).journal).path; }
   /// The line of a point that is there, with its line break. Throws std::runtime_error if it cannot be read.
   std::string line(std::size_t point) const;
   /// The cell of that point. Throws InputError if the line is damaged.

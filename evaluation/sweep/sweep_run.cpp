@@ -25,8 +25,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What another journal holds of the shard's points could count instead of the new results.
+void refuse_other_journals(const SweepGrid& grid, const fs::path& folder, const Shard& shard) {
+  const StoredCells others({folder}, grid, journal_path(folder, shard));
+  for (std::size_t point = 0; point < grid.size(); ++point)
+    if (shard.holds(point) && others.has(point))
+      throw InputError(
+          fmt::format("{}: holds results of part {} of {}, such as of point {}, which would count instead of new ones; "
+                      "keep them with --resume, or remove the folder {}",
+                      others.journal(point).string(), shard.index, shard.count, point, folder.string()));
+}
+
 /// Points of the shard that are still to be computed; a journal that does not count is removed.
 std::vector<std::size_t> points_to_do(const SweepGrid& grid, const fs::path& folder, const SweepRunOptions& options) {
+  if (!options.resume && !options.shard.is_whole()) refuse_other_journals(grid, folder, options.shard);
   const StoredCells stored({folder}, grid);
   std::vector<std::size_t> todo;
   std::size_t discarded = 0;

@@ -23,7 +23,8 @@ void check_estimators(const Sweep& sweep, const ContainmentOptions& containment 
 struct SweepRunOptions {
   int jobs = 0;  ///< threads; 0: one per core
   Shard shard = {};
-  /// true: keep stored cells without a failure, of any shard; false: compute all cells of the shard again
+  /// true: keep stored cells without a failure, of any shard; false: compute all cells of the shard again, unless they
+  /// are in the journal of another shard or of the whole sweep
   bool resume = false;
   ContainmentOptions containment = {};
   /// Called without `resume`, if the folder holds finished points of this sweep that will be computed again.
@@ -34,8 +35,9 @@ struct SweepRunOptions {
 
 /// Computes the shard's cells in parallel. Each is on the disk when its point is done, in the journal of the shard
 /// (sweep_cells.h); several shards may run into one folder at the same time. The result does not depend on the number
-/// of jobs. Throws InputError if the folder holds another sweep or an estimator cannot be made, std::runtime_error if a
-/// cell cannot be written, and as run_point() does. An estimator that crashes as it is made fails point by point.
+/// of jobs. Throws InputError if the folder holds another sweep, if another journal holds cells of a shard that is not
+/// resumed, or if an estimator cannot be made; std::runtime_error if a cell cannot be written; and as run_point() does.
+/// An estimator that crashes as it is made fails point by point.
 void run_sweep(const Sweep& sweep, const std::filesystem::path& folder, const SweepRunOptions& options);
 
 }  // namespace halyard

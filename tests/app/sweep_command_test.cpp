@@ -152,6 +152,25 @@ TEST_F(Sweep, ResumesWithoutComputingFinishedCellsAgain) {
   EXPECT_TRUE(files_in(path("out")) == whole);
 }
 
+TEST_F(Sweep, OfAShardIsNotComputedBesideOlderResultsOfItsPointsInAnotherJournal) {
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "1/2"});
+  const auto before = files_in(path("out"));
+  const std::vector<std::string> quarter = {"sweep", "sweep.xml", "--out", "out", "--shard", "1/4"};
+  const RunResult refused = run(quarter);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(
+      refused.err,
+      "out/cells/1_of_2.jsonl: holds results of part 1 of 4, such as of point 0, which would count instead of new "
+      "ones; keep them with --resume, or remove the folder out\n");
+  EXPECT_TRUE(files_in(path("out")) == before);
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "2/2"});  // other points
+  const RunResult again = run({"sweep", "sweep.xml", "--out", "out", "--shard", "1/2"});
+  EXPECT_EQ(again.exit_code, 0) << "its own journal";
+  EXPECT_TRUE(contains(again.err, "3 finished points of this sweep will be computed again")) << again.err;
+  done({"merge", "out"});
+  EXPECT_TRUE(contains(run(quarter).err, "out/cells/all.jsonl: holds results of part 1 of 4"));
+}
+
 TEST_F(Sweep, VariesWhatTheEstimatorsBelieveApartFromTheRobot) {
   const auto errors = [&](const std::string& applies_to) {
     write_text(path("one.xml"),
