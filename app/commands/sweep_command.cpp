@@ -117,10 +117,10 @@ void run_sweep_point(const SweepCommandOptions& options, std::size_t point) {
 
 void run_merge_command(const MergeCommandOptions& options) {
   const auto lock = lock_output_folder(options.out);
+  // The journals of the folder are read once and removed at the end: none may be written meanwhile.
+  const auto parts = lock_output_folder(options.out, FolderLock::kAllParts);
   OutputFiles files;
   const SweepResult whole = merge_sweep(files, options.parts, options.out);
-  // The journals of the parts are removed at the end: none may still be written.
-  const auto parts = lock_output_folder(options.out, FolderLock::kAllParts);
   const SweepSummary summary = write_sweep_report(files, options.out, whole.grid, whole.cells);
   commit_outputs(files);
   print_result(options.out, whole.grid, summary);

@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "evaluation/sweep/sweep_store.h"
@@ -12,6 +14,16 @@ namespace halyard {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The parts; after them `out`, if it is another folder: its journals are removed, so what they hold must not be lost.
+std::vector<fs::path> with_out(std::vector<fs::path> parts, const fs::path& out) {
+  const auto is_out = [&](const fs::path& part) {
+    std::error_code none;
+    return fs::equivalent(part, out, none);
+  };
+  if (std::ranges::none_of(parts, is_out)) parts.push_back(out);
+  return parts;
+}
 
 }  // namespace
 
@@ -45,7 +57,7 @@ SweepResult merge_sweep(OutputFiles& files, const std::vector<fs::path>& parts, 
                        "; merge parts of the same sweep, computed from the same files");
     }
   }
-  StoredCells cells = collect_cells(parts, grid);
+  StoredCells cells = collect_cells(with_out(parts, out), grid);
   write_grid(files, out, grid);
   write_cells(files, out, grid, cells);
   return {std::move(grid), std::move(cells)};

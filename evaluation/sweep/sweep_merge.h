@@ -25,9 +25,9 @@ struct SweepResult {
 };
 
 /// Collects the cells of all parts and adds grid and cells to the files of the folder `out`, which may be one of the
-/// parts.
-/// Throws std::invalid_argument without parts, InputError if the parts, or what `out` holds, are of different sweeps, and
-/// as collect_cells() does.
+/// parts. If it is none of them, what its journals hold counts after the parts: they are replaced.
+/// Throws std::invalid_argument without parts, InputError if the parts, or what `out` holds, are of different sweeps,
+/// and as collect_cells() does.
 SweepResult merge_sweep(OutputFiles& files, const std::vector<std::filesystem::path>& parts,
                         const std::filesystem::path& out);
 

@@ -76,6 +76,20 @@ TEST_F(SweepMerge, IntoOneOfItsPartsLeavesOneJournal) {
   EXPECT_EQ(StoredCells({folder_ / "a"}, grid_).count(), 3u);
 }
 
+TEST_F(SweepMerge, KeepsWhatItsFolderHoldsOfTheSweep) {
+  part("whole", {0, 2});
+  EXPECT_EQ(merge({part("a", {1})}).cells.count(), 3u);
+  EXPECT_EQ(StoredCells({folder_ / "whole"}, grid_).count(), 3u);
+  EXPECT_EQ(merge({part("b", {2})}).cells.journal(2), journal_path(folder_ / "b", {})) << "a part counts first";
+}
+
+TEST_F(SweepMerge, DoesNotReplaceTheJournalOfAnotherSweep) {
+  const fs::path journal = journal_path(part("whole", {0}, "2"), {});
+  fs::remove(folder_ / "whole/sweep.json");
+  const std::string message = message_of([&] { merge({part("a", {0, 1, 2})}); });
+  EXPECT_TRUE(message.starts_with(journal.string() + ": belongs to another sweep")) << message;
+}
+
 TEST_F(SweepMerge, NamesThePointThatNoPartHas) {
   const std::string message = message_of([&] { merge({part("a", {0}), part("b", {2})}); });
   EXPECT_NE(message.find("1 of 3 points are in none of the folders, the first is point 1"), message.npos) << message;

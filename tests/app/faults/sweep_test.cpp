@@ -48,5 +48,13 @@ TEST_F(FaultsOfSweeps, AMergeDoesNotTakeTheJournalOfAShardThatRuns) {
   EXPECT_TRUE(fs::exists(path("out/cells/1_of_2.jsonl")));
 }
 
+TEST_F(FaultsOfSweeps, AMergeReadsNoPointBeforeTheShardsHaveEnded) {
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "1/2"});
+  const FolderLock shard(path("out"), "2_of_2");
+  const RunResult merge = run({"merge", "out"});
+  EXPECT_EQ(merge.exit_code, 2);
+  expect_line(merge.err, "another run writes into this folder");  // and not: points are in none of the folders
+}
+
 }  // namespace
 }  // namespace halyard::testing_program
