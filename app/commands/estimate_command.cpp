@@ -12,6 +12,8 @@
 #include "evaluation/run/estimate.h"
 #include "model/arm_log.h"
 #include "model/model_file.h"
+#include "model/output/read_files.h"
+#include "plugins/host/loader.h"
 
 namespace halyard {
 namespace {
@@ -39,6 +41,7 @@ void run_estimate(const EstimateCommandOptions& options) {
   const auto lock = lock_output_file(options.out);
   const ArmModel model = read_model(options.model);
   const Log log = read_timed_log(model, options.data, options.columns, need_torque({options.estimator}));
+  if (is_module_path(options.estimator)) note_read(options.estimator);  // it is opened later
   check_not_input(options.out);
   if (options.use_joint_torque) check_has_load(log);
   // The estimates are worth having even of a log that is too short for errors.

@@ -46,6 +46,17 @@ TEST_F(App, EstimateWritesWhatElseIsEstimatedAndWhatLaterSamplesSayOfEarlierOnes
   EXPECT_TRUE(contains(nowhere.err, "revises its estimate of 1000000 s, where no sample is")) << nowhere.err;
 }
 
+TEST_F(App, EstimateDoesNotReplaceTheModuleOfItsEstimator) {
+  simulate_log();
+  fs::copy(fs::path(HALYARD_PROGRAM).parent_path() / "plugins/kinematics.so", path("mine.so"));
+  const std::string module = text_of(path("mine.so"));
+  const RunResult result =
+      run({"estimate", "--model", "raven2.xml", "--estimator", "./mine.so", "--data", "log.csv", "--out", "mine.so"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.err, "--out 'mine.so': would replace an input of this command")) << result.err;
+  EXPECT_TRUE(text_of(path("mine.so")) == module);
+}
+
 TEST_F(App, KinematicsNeedsNoTorque) {
   simulate_log();
   estimate("kinematics", "log.csv", "with.csv");
