@@ -113,7 +113,7 @@ std::string stated_name(const std::string& name, const ContainmentOptions& conta
 
 bool is_fault_of_the_machine(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const std::system_error*>(&error) ||
-         dynamic_cast<const NoWorker*>(&error);
+         dynamic_cast<const NoWorker*>(&error) || dynamic_cast<const WorkerKilled*>(&error);
 }
 
 bool is_failure_of_the_estimator(const std::exception& error) {

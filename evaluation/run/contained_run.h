@@ -27,7 +27,7 @@ struct ContainmentOptions {
 /// Calls options.progress repeatedly, and never options.row_done.
 /// Throws InputError if the estimator cannot be made (name, module, options), if no sample of the log has the position
 /// of every motor, or if there is no halyard_worker. Throws std::runtime_error, naming estimator, log and time, if the
-/// run fails, crashes, or exceeds the time limit.
+/// run fails, crashes, is killed, or exceeds the time limit, and std::bad_alloc if memory runs out.
 EstimatorRun run_contained(const std::string& name, const ArmModel& model, const Log& log,
                            const EstimateOptions& options = {}, const ContainmentOptions& containment = {});
 
@@ -40,7 +40,7 @@ std::vector<PluginInfo> contained_plugins(std::vector<std::string>* refused = nu
 /// estimator is its own. Throws as contained_plugins() does, and InputError for a module that cannot be opened.
 std::string stated_name(const std::string& name, const ContainmentOptions& containment = {});
 
-/// True for what is no fault of an estimator: no memory, no process to be had, no worker.
+/// True for what is no fault of an estimator: no memory, no process to be had, one that is killed, no worker.
 bool is_fault_of_the_machine(const std::exception& error);
 
 /// True for what an estimator is to blame for: a crash, a time limit that it exceeds, a refusal of the log; not for

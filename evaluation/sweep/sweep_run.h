@@ -12,7 +12,7 @@
 namespace halyard {
 
 /// Simulates a point and runs the estimators over its log, or computes the detection limits. A failure is stored in the
-/// cell, not thrown. A fault of the machine is thrown, not stored: std::bad_alloc, std::system_error, NoWorker.
+/// cell, not thrown. A fault of the machine (is_fault_of_the_machine) is thrown, not stored.
 SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOptions& containment = {});
 
 /// Throws InputError if an estimator of the sweep cannot be made, and std::runtime_error if it crashes or takes too

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 #include <iterator>
+#include <new>
 #include <optional>
 
 #include "evaluation/worker/bytes.h"
@@ -77,6 +78,8 @@ std::string answer_to(WorkerPage& page, int answer) {
     return said(Answer::refusal, error.what());
   } catch (const InputError& error) {
     return said(Answer::input_error, error.what());
+  } catch (const std::bad_alloc&) {
+    return said(Answer::no_memory, "");
   } catch (const std::exception& error) {
     return said(Answer::failure, error.what());
   }

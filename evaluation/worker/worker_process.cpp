@@ -182,6 +182,7 @@ std::string result_in(const std::string& answer) {
     case Answer::refusal: throw EstimatorRefusal(rest);
     case Answer::input_error: throw InputError(rest);
     case Answer::failure: throw std::runtime_error(rest);
+    case Answer::no_memory: throw std::bad_alloc();
     case Answer::no_process: fail(std::stoi(rest), "the process of an estimator cannot be started");
   }
   throw std::runtime_error("its process gave an answer that cannot be read");
@@ -221,10 +222,13 @@ std::string result_of_worker(const WorkerTask& task, const WorkerWatch& watch) {
   const bool in_time = read_answer(answer_end.get(), worker, *page, watch, answer);
   const int status = worker.end();
   const std::string promise(page->promise, strnlen(page->promise, sizeof page->promise));
-  const auto ended = [&](const std::string& how) {
-    return WorkerEnded(watch.place(page->steps, promise) + ": " + how);
-  };
+  const std::string place = watch.place(page->steps, promise) + ": ";
+  const auto ended = [&](const std::string& how) { return WorkerEnded(place + how); };
   if (!in_time) throw ended(fmt::format("took more than {:g} s, and was ended", watch.step_limit_s));
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+    throw WorkerKilled(place +
+                       "its process was killed, probably because memory ran out; free memory, or start a sweep again "
+                       "with --resume and fewer --jobs");
   if (WIFSIGNALED(status)) throw ended(fmt::format("crashed: {}", strsignal(WTERMSIG(status))));
   if (!page->has_started)
     throw NoWorker(

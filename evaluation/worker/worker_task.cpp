@@ -14,7 +14,7 @@ namespace halyard {
 namespace {
 
 /// Counted up with every change of what is sent.
-constexpr std::size_t kWorkerInterface = 4;
+constexpr std::size_t kWorkerInterface = 5;
 
 /// All that a log measures. The columns that its file had besides are for messages of the caller.
 constexpr std::array kSignals = {&Log::motor_torque,   &Log::motor_position, &Log::joint_position,

@@ -50,6 +50,7 @@ enum class Answer : char {
   refusal = 'E',
   input_error = 'I',
   failure = 'F',
+  no_memory = 'M',
   no_process = 'P'  ///< the estimator's process could not be started; the error's number follows
 };
 

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <system_error>
 #include <thread>
 
@@ -276,6 +277,20 @@ TEST(Worker, WithoutAProcessForTheEstimatorIsAFaultOfTheMachine) {
   waitpid(child, &status, 0);
   if (WEXITSTATUS(status) >= 8) GTEST_SKIP() << "another user cannot start the worker";
   EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST(Worker, MemoryThatRunsOutIsNoFailureOfTheEstimator) {
+  EXPECT_THROW(check_estimator(fixture("finds_no_memory"), raven2()), std::bad_alloc);
+  EXPECT_TRUE(is_fault_of_the_machine(std::bad_alloc()));
+}
+
+TEST(Worker, ThatIsKilledIsAFaultOfTheMachine) {
+  const std::string kills = fixture("kills_its_process");
+  EXPECT_EQ(failure_of(kills), "estimator " + kills +
+                                   " on some.csv at 0.004 s: its process was killed, probably because memory ran out; "
+                                   "free memory, or start a sweep again with --resume and fewer --jobs");
+  EXPECT_TRUE(is_fault_of_the_machine(WorkerKilled("")));
+  EXPECT_FALSE(is_fault_of_the_machine(WorkerEnded("")));
 }
 
 TEST(Worker, DoesNotOutliveTheProcessThatStartedIt) {

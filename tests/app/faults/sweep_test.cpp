@@ -24,6 +24,18 @@ TEST_F(FaultsOfSweeps, ASweepWithoutAWorkerIsToBeResumedToTheSameBytes) {
   EXPECT_TRUE(files_in(path("out")) == files_in(path("whole")));
 }
 
+TEST_F(FaultsOfSweeps, AWorkerThatIsKilledEndsTheSweepAndIsNoResultOfIt) {
+  for (const auto& [module, told] : {std::pair{"kills_its_process", "its process was killed, probably because memory"},
+                                     std::pair{"finds_no_memory", "halyard: memory ran out"}}) {
+    write_text(path("fault.xml"),
+               replaced(text_of(path("sweep.xml")), "\"kinematics\"", "\"" + fixture(module) + "\""));
+    const RunResult ended = run({"sweep", "fault.xml", "--out", module});
+    EXPECT_EQ(ended.exit_code, 1);
+    expect_line(ended.err, told);
+    EXPECT_FALSE(fs::exists(path(module) / "cells"));
+  }
+}
+
 TEST_F(FaultsOfSweeps, AnotherSweepInTheFolderIsLeftAlone) {
   done({"sweep", "sweep.xml", "--out", "out"});
   const Files before = files_in(path("out"));
