@@ -22,9 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Points of a shard, and how many of them are there.
+/// Points of a shard, how many of them are there, and how many of these with a failure.
 struct PartState {
-  std::size_t points = 0, done = 0;
+  std::size_t points = 0, done = 0, failed = 0;
 
   bool is_done() const { return done == points; }
 };
@@ -35,15 +35,16 @@ std::vector<PartState> part_states(const StoredCells& cells, std::size_t parts) 
     PartState& part = states[point % parts];
     ++part.points;
     part.done += cells.has(point);
+    part.failed += cells.has_failed(point);
   }
   return states;
 }
 
-/// The shards, 1-based, that have points to do.
+/// The shards, 1-based, that have points to do; failed ones are tried again.
 std::vector<std::size_t> open_parts(const std::vector<PartState>& states) {
   std::vector<std::size_t> parts;
   for (std::size_t i = 0; i < states.size(); ++i)
-    if (!states[i].is_done()) parts.push_back(i + 1);
+    if (!states[i].is_done() || states[i].failed > 0) parts.push_back(i + 1);
   return parts;
 }
 
@@ -98,7 +99,8 @@ void run_sweep_slurm(const SweepSlurmOptions& options) {
         fmt::format("--out {}: Slurm job {} still computes this sweep; wait for its end, or end it with: {}",
                     in_quotes(options.out.string()), before->job.label(), cancel_command(before->job)));
   store_grid(options.out, sweep.grid);
-  array.tasks = open_parts(part_states(StoredCells({options.out}, sweep.grid), array.parts));
+  const StoredCells cells({options.out}, sweep.grid);
+  array.tasks = open_parts(part_states(cells, array.parts));
   if (array.tasks.empty()) {
     print_out("sweep \"{}\": all {} points are done\nnext: {}\n", sweep.grid.name, sweep.grid.size(),
               merge_command(options.out));
@@ -107,6 +109,8 @@ void run_sweep_slurm(const SweepSlurmOptions& options) {
   const SlurmJob job = submit(array);
   print_out("sweep \"{}\": {} points, {} of {} parts submitted as Slurm job {}\n", sweep.grid.name, sweep.grid.size(),
             array.tasks.size(), array.parts, job.label());
+  if (const std::size_t failed = cells.count_failed(); failed > 0)
+    print_out("{} failed point{} will be tried again\n", failed, failed == 1 ? "" : "s");
   print_out("progress: {} --status\nnext: {}\n", sweep_command(options.sweep, options.out), merge_command(options.out));
 }
 

@@ -286,6 +286,22 @@ TEST_F(Sweep, IsNotSubmittedTwiceWhereSlurmCannotBeAsked) {
   EXPECT_EQ(text_of(path("submitted")), "once\n");
 }
 
+TEST_F(Sweep, IsSubmittedAgainWithThePartsWhosePointsFailed) {
+  for (const char* shard : {"1/2", "2/2"}) done({"sweep", "sweep.xml", "--out", "out", "--shard", shard});
+  const fs::path journal = path("out/cells/2_of_2.jsonl");
+  const std::string good = "{\"point\":1,\"failed\":0,", failed = "{\"point\":1,\"failed\":1,";
+  write_text(journal, replaced(text_of(journal), good, failed));
+  write_program("sbatch", "echo 17");
+  write_program("squeue", "exit 0");
+  EXPECT_TRUE(contains(run_with_slurm(submit_).out,
+                       "1 of 2 parts submitted as Slurm job 17\n1 failed point will be tried again\n"));
+  EXPECT_TRUE(contains(text_of(path("out/slurm/job.sh")), "#SBATCH --array=2\n"));
+  EXPECT_TRUE(contains(run_with_slurm({"sweep", "sweep.xml", "--out", "out", "--status"}).out,
+                       "6 of 6 points are done (100.0 %), 1 of them with a failure\n"));
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "2/2", "--resume"});  // as the part does
+  EXPECT_TRUE(contains(run_with_slurm(submit_).out, "all 6 points are done\n"));
+}
+
 TEST_F(Sweep, AsksTheClusterThatItsJobIsOn) {
   write_program("sbatch", "echo '17;north'");
   write_program("squeue", "case \"$*\" in *--clusters=*north*--job=17*) echo '1 RUNNING n1';; esac");
