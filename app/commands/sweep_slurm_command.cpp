@@ -15,6 +15,7 @@
 #include "evaluation/sweep/sweep_run.h"
 #include "evaluation/sweep/sweep_store.h"
 #include "model/input_error.h"
+#include "model/output/folder_lock.h"
 #include "plugins/host/effect_module.h"
 
 namespace halyard {
@@ -125,8 +126,12 @@ void run_sweep_status(const fs::path& sweep, const fs::path& out) {
   print_out("{}\n", failed > 0 ? fmt::format(", {} of them with a failure", failed) : "");
   const auto array = submitted_array(out, grid.id);
   const bool is_active = array && print_parts(cells, *array);
-  if (done == grid.size()) {
-    if (fs::exists(out / "sweep.csv")) print_out("table: {}\n", (out / "sweep.csv").string());
+  if (!is_active && is_in_use(out)) {
+    print_out("running: a run writes into {}\n", out.string());
+  } else if (done == grid.size()) {
+    // A part that ran after the table was written left a journal of its own.
+    const bool is_merged = journals_in(out) == std::vector{journal_path(out, {})};
+    if (is_merged && fs::exists(out / "sweep.csv")) print_out("table: {}\n", (out / "sweep.csv").string());
     else print_out("next: {}\n", merge_command(out));
   } else if (!is_active) {
     std::string rest = "--resume";

@@ -21,18 +21,22 @@ bool is_held(const std::filesystem::path& path) {
   return file && ::flock(*file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
 }
 
+/// Whether a run holds the lock of a part, but for this one.
+bool any_part_is_held(const std::filesystem::path& folder, const std::filesystem::path& but = {}) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_of_part = name.starts_with(".halyard-") && name.ends_with(".lock") && name != but.filename();
+    if (is_of_part && is_held(entry.path())) return true;
+  }
+  return false;
+}
+
 /// Whether a run of all parts goes on beside one of a part.
 bool is_computed_twice(const std::filesystem::path& folder, const std::string& part) {
   const std::filesystem::path all = lock_path(folder, FolderLock::kAllParts);
   if (part.empty()) return false;
-  if (part != FolderLock::kAllParts) return is_held(all);
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    const bool is_of_part = name.starts_with(".halyard-") && name.ends_with(".lock") && name != all.filename();
-    if (is_of_part && is_held(entry.path())) return true;
-  }
-  return false;
+  return part == FolderLock::kAllParts ? any_part_is_held(folder, all) : is_held(all);
 }
 
 [[noreturn]] void refuse_shared(const std::filesystem::path& folder) {
@@ -60,6 +64,10 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& p
   made_.add(path);
   // Both look after they hold their own: at most one goes on.
   if (is_computed_twice(folder, part)) refuse_shared(folder);
+}
+
+bool is_in_use(const std::filesystem::path& folder) {
+  return is_held(lock_path(folder, "")) || any_part_is_held(folder);
 }
 
 }  // namespace halyard

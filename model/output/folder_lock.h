@@ -28,4 +28,7 @@ class FolderLock {
   Unfinished made_;  ///< after file_: the file is removed while it is locked
 };
 
+/// Whether a run holds the lock of this folder, or of a part of it.
+bool is_in_use(const std::filesystem::path& folder);
+
 }  // namespace halyard

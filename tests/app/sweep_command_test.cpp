@@ -217,6 +217,8 @@ TEST_F(Sweep, OfShardsInOneFolderIsMergedThere) {
   done({"merge", "out"});
   EXPECT_TRUE(files_in(path("out")) == files_in(path("local")));
   EXPECT_TRUE(contains(done({"sweep", "sweep.xml", "--out", "out", "--status"}), "table: out/sweep.csv\n"));
+  fs::copy(path("out/cells/all.jsonl"), path("out/cells/1_of_2.jsonl"));  // of a part that ran since
+  EXPECT_TRUE(contains(done({"sweep", "sweep.xml", "--out", "out", "--status"}), "next: halyard merge out\n"));
 }
 
 TEST_F(Sweep, OfSamplesAndRepeatsHasARowForEachSeed) {

@@ -234,6 +234,19 @@ TEST_F(OutputFolder, PartsShareItWithEachOtherAndNotWithARunOfAll) {
   EXPECT_FALSE(is_refused(""));
 }
 
+TEST_F(OutputFolder, IsInUseWhileARunOrOneOfItsPartsLocksIt) {
+  {
+    const FileLock file(folder_ / "log.csv");
+    EXPECT_FALSE(is_in_use(folder_)) << "of a file";
+  }
+  for (const std::string part : {"", "1_of_2", FolderLock::kAllParts}) {
+    const FolderLock lock(folder_, part);
+    EXPECT_TRUE(is_in_use(folder_)) << part;
+  }
+  EXPECT_FALSE(is_in_use(folder_));
+  EXPECT_FALSE(is_in_use(folder_ / "none"));
+}
+
 TEST_F(OutputFolder, LocksOfAKilledRunAreTakenOver) {
   int ready[2];
   ASSERT_EQ(::pipe(ready), 0);

@@ -60,6 +60,18 @@ TEST_F(FaultsOfSweeps, AMergeDoesNotTakeTheJournalOfAShardThatRuns) {
   EXPECT_TRUE(fs::exists(path("out/cells/1_of_2.jsonl")));
 }
 
+TEST_F(FaultsOfSweeps, TheStatusTellsThatARunGoesOn) {
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "1/2"});
+  const Arguments status = {"sweep", "sweep.xml", "--out", "out", "--status"};
+  {
+    const FolderLock shard(path("out"), "2_of_2");
+    const std::string told = done(status);
+    EXPECT_TRUE(contains(told, "4 of 8 points are done (50.0 %)\nrunning: a run writes into out\n")) << told;
+    EXPECT_FALSE(contains(told, "to continue")) << told;
+  }
+  EXPECT_TRUE(contains(done(status), "to continue: halyard sweep sweep.xml --out out --resume\n"));
+}
+
 TEST_F(FaultsOfSweeps, AMergeReadsNoPointBeforeTheShardsHaveEnded) {
   done({"sweep", "sweep.xml", "--out", "out", "--shard", "1/2"});
   const FolderLock shard(path("out"), "2_of_2");
