@@ -1,5 +1,7 @@
 #pragma once
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <atomic>
 #include <cstddef>
 #include <exception>
@@ -36,5 +38,13 @@ class FirstFailure {
   std::mutex failing_;
   std::exception_ptr failure_;
 };
+
+/// Calls body(0), ..., body(count - 1) in parallel. Throws what the body of the smallest index threw.
+template <class Body>
+void for_each_in_parallel(std::size_t count, const Body& body) {
+  FirstFailure failure;
+  oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { failure.keep(i, [&] { body(i); }); });
+  failure.rethrow();
+}
 
 }  // namespace halyard

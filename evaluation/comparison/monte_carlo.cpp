@@ -1,12 +1,14 @@
 #include "evaluation/comparison/monte_carlo.h"
 
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "evaluation/comparison/compare.h"
+#include "evaluation/first_failure.h"
 #include "model/input_error.h"
 #include "plant/simulate.h"
 
@@ -116,6 +118,19 @@ RunsOfEstimator summed_up(const std::string& name, const std::vector<OneRun>& al
   return sum;
 }
 
+/// Does the work of a run. What is wrong with the run is told with its seed.
+template <class Work>
+void naming_seed(std::uint64_t seed, const Work& work) {
+  try {
+    work();
+  } catch (const std::runtime_error& error) {
+    if (is_fault_of_the_machine(error)) throw;
+    const std::string message = fmt::format("seed {}: {}", seed, error.what());
+    if (dynamic_cast<const InputError*>(&error)) throw InputError(message);
+    throw std::runtime_error(message);
+  }
+}
+
 /// Runs that both ended count.
 PairedRatio paired(const std::vector<OneRun>& a, const std::vector<OneRun>& b, int k) {
   std::vector<std::pair<double, double>> squares;
@@ -136,12 +151,15 @@ MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, cons
   std::vector<Signals> sums_of_nees(estimators.size());
   for (int first = 0; first < options.runs; first += kBatch) {
     const int end = std::min(first + kBatch, options.runs);
-    tbb::parallel_for(first, end, [&](int r) {
+    for_each_in_parallel(static_cast<std::size_t>(end - first), [&](std::size_t i) {
+      const std::size_t r = static_cast<std::size_t>(first) + i;
       Scenario of_run = faster(scenario);
-      of_run.seed = scenario.seed + static_cast<std::uint64_t>(r);
-      const SimulationResult simulation = simulate_homed(of_run, model);
-      for (std::size_t e = 0; e < estimators.size(); ++e)
-        all[e][r] = run_one(model, estimators[e], simulation, options);
+      of_run.seed = scenario.seed + r;
+      naming_seed(of_run.seed, [&] {
+        const SimulationResult simulation = simulate_homed(of_run, model);
+        for (std::size_t e = 0; e < estimators.size(); ++e)
+          all[e][r] = run_one(model, estimators[e], simulation, options);
+      });
       if (options.run_done) options.run_done(1);
     });
     for (std::size_t e = 0; e < estimators.size(); ++e)

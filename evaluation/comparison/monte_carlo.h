@@ -47,7 +47,8 @@ struct MonteCarloOptions {
 
 /// Simulates the scenario with the seeds seed, seed + 1, ..., on all cores, and runs all estimators over each log. The
 /// result does not depend on the number of threads. A failure of an estimator is counted, and the run is left out of
-/// its statistics. Throws as simulate and make_estimator do.
+/// its statistics. Throws as simulate and make_estimator do; if runs throw, what the first of them throws, with its
+/// seed in the message.
 MonteCarlo run_monte_carlo(const Scenario& scenario, const ArmModel& model, const std::vector<std::string>& estimators,
                            const MonteCarloOptions& options);
 

@@ -1,12 +1,12 @@
 #include "evaluation/experiments/raven_experiments.h"
 
 #include <fmt/core.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 
 #include "estimators/identification/identify.h"
+#include "evaluation/first_failure.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
@@ -92,7 +92,7 @@ std::vector<Experiment> compute_experiments(const ExperimentsSetup& setup,
     for (std::size_t i = 0; i < scenarios.size(); ++i) sum += simulated[i] + estimated[i];
     if (progress) progress(sum / double(2 * scenarios.size()));
   };
-  oneapi::tbb::parallel_for(std::size_t{0}, scenarios.size() + 1, [&](std::size_t job) {
+  for_each_in_parallel(scenarios.size() + 1, [&](std::size_t job) {
     if (job == 0) {
       calibrated = setup.calibrated.empty() ? calibrate(setup) : read_calibrated(setup.calibrated, model);
       return;
@@ -108,7 +108,7 @@ std::vector<Experiment> compute_experiments(const ExperimentsSetup& setup,
                                                {"sr_ukf", &model, "sr_ukf"},
                                                {"sr_ukf", &calibrated, "sr_ukf, calibrated"}};
   std::vector<Experiment> experiments(scenarios.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, scenarios.size(), [&](std::size_t i) {
+  for_each_in_parallel(scenarios.size(), [&](std::size_t i) {
     CompareOptions options;
     options.progress = [&](double fraction) { tell(estimated[i], fraction); };
     experiments[i] = {scenarios[i].name,

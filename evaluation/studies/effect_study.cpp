@@ -1,12 +1,11 @@
 #include "evaluation/studies/effect_study.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <span>
 #include <stdexcept>
 
+#include "evaluation/first_failure.h"
 #include "evaluation/judgement/error_statistics.h"
 #include "evaluation/run/contained_run.h"
 #include "plant/simulate.h"
@@ -99,7 +98,7 @@ EffectStudy study_effects(const std::vector<Scenario>& scenarios, const ArmModel
   const std::size_t n_runs = study.robots.size() * scenarios.size();
   std::vector<std::vector<std::vector<double>>> errors(n_runs);
   std::atomic<std::size_t> done = 0;
-  oneapi::tbb::parallel_for(std::size_t{0}, n_runs, [&](std::size_t i) {
+  for_each_in_parallel(n_runs, [&](std::size_t i) {
     const StudiedRobot& robot = study.robots[i / scenarios.size()];
     const Scenario& scenario = scenarios[i % scenarios.size()];
     errors[i] = errors_of(with_effects(scenario, model, switched_on(robot, study.effects)), model, estimators, skip_s);

@@ -68,5 +68,17 @@ TEST(FirstFailure, IsThatOfTheSmallestIndexWhicheverThreadIsFaster) {
   EXPECT_THROW(failure.rethrow(), std::logic_error);
 }
 
+TEST(FirstFailure, OfALoopIsThatOfItsFirstBody) {
+  std::atomic<int> done = 0;
+  for_each_in_parallel(100, [&](std::size_t) { ++done; });
+  EXPECT_EQ(done, 100);
+  EXPECT_THROW(for_each_in_parallel(100,
+                                    [&](std::size_t i) {
+                                      if (i == 7) throw std::logic_error("of the seventh");
+                                      if (i > 7) throw std::runtime_error("of a later one");
+                                    }),
+               std::logic_error);
+}
+
 }  // namespace
 }  // namespace halyard

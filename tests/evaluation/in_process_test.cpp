@@ -56,6 +56,15 @@ TEST_F(InProcess, AMonteCarloStudyNeedsNoWorker) {
   EXPECT_EQ(message_of([&] { study(false); }), kNoWorker);
 }
 
+TEST_F(InProcess, AMonteCarloStudyTellsTheSeedOfTheFirstRunThatFails) {
+  scenario.seed = 46;
+  scenario.robot.nominal.joint[1].stiffness = 1e-3;
+  const std::string message = message_of([&] {
+    run_monte_carlo(scenario, first_joints(2), {"kinematics"}, {.runs = 20, .containment = {.in_process = true}});
+  });
+  EXPECT_TRUE(message.starts_with("seed 46: scenario 'test': joint 2: no stretch of its cable")) << message;
+}
+
 TEST_F(InProcess, AComparisonCountsTheMotorsOfEachUpdate) {
   SimulationResult data = simulate(faster(scenario));
   const auto nis = [&] {
