@@ -61,13 +61,9 @@ PluginInfo described(const std::filesystem::path& path, const ContainmentOptions
   WorkerWatch watch;
   watch.step_limit_s = containment.step_limit_s;
   watch.place = [&](long, const std::string&) { return "plugin " + path.string() + ": as it is opened"; };
-  try {
-    const std::string answer = result_of_worker(task, watch);
-    const std::vector<std::string> texts = ByteReader(answer).texts();
-    return {texts.at(0), texts.at(1), path};
-  } catch (const WorkerEnded& end) {
-    throw InputError(end.what());
-  }
+  const std::string answer = result_of_worker(task, watch);
+  const std::vector<std::string> texts = ByteReader(answer).texts();
+  return {texts.at(0), texts.at(1), path};
 }
 
 }  // namespace
@@ -97,6 +93,8 @@ std::vector<PluginInfo> contained_plugins(std::vector<std::string>* refused, con
   std::vector<PluginInfo> found = find_plugins(refused, [&](const std::filesystem::path& path) {
     try {
       return described(path, containment);
+    } catch (const WorkerEnded& end) {
+      throw InputError(end.what());
     } catch (const NoWorker&) {
       no_worker = std::current_exception();
       throw;

@@ -37,7 +37,8 @@ std::vector<PluginInfo> contained_plugins(std::vector<std::string>* refused = nu
                                           const ContainmentOptions& containment = {});
 
 /// The name that the module at this path states, as the <estimator> elements of models use it; the name of any other
-/// estimator is its own. Throws as contained_plugins() does, and InputError for a module that cannot be opened.
+/// estimator is its own. Throws as contained_plugins() does, InputError for a module that cannot be opened, and
+/// std::runtime_error for one that crashes or hangs as it is opened.
 std::string stated_name(const std::string& name, const ContainmentOptions& containment = {});
 
 /// True for what is no fault of an estimator: no memory, no process to be had, one that is killed, no worker.

@@ -359,6 +359,14 @@ TEST_F(Sweep, RefusesAnOptionOfAnEstimatorThatNoModuleIs) {
       << result.err;
 }
 
+TEST_F(Sweep, LeavesAModuleThatCrashesAsItIsOpenedToThePointsAlsoWithAnOptionOfAnotherEstimator) {
+  const std::string module = std::string(HALYARD_BROKEN_PLUGINS) + "/crashes_in_table.so";
+  write_text(path("option.xml"), "<sweep name=\"s\" scenario=\"experiment_a.xml\" estimators=\"ekf," + module +
+                                     "\" duration=\"0.6\"><axis parameter=\"estimator.ekf.torque_noise\" "
+                                     "values=\"1e-4 0.1\"/></sweep>");
+  EXPECT_TRUE(contains(done({"sweep", "option.xml", "--out", "out"}), "2 of 4 runs of estimators failed"));
+}
+
 TEST_F(Sweep, IsNotSubmittedWithAnEstimatorThatDoesNotExist) {
   write_text(path("wrong.xml"), replaced(text_of(path("sweep.xml")), "kinematics,sr_ukf", "kinematics,ekff"));
   const RunResult result = run({"sweep", "wrong.xml", "--out", "out", "--slurm", "--nodes", "2"});
