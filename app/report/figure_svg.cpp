@@ -60,11 +60,15 @@ struct Panel {
     const Series& s = chart.series[i];
     std::string lines, line, upper, lower;
     const auto end_line = [&] {
-      if (!line.empty())
+      if (line.empty()) return;
+      const std::size_t comma = line.find(','), end = line.find(' ');
+      if (end + 1 == line.size())  // a line of one point would not show
+        lines += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"1.8\" fill=\"{}\"/>\n", line.substr(0, comma),
+                             line.substr(comma + 1, end - comma - 1), colour_of(s, i));
+      else
         // Later curves are thinner, so that equal ones all show.
         lines += fmt::format("<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{:.1f}\"{} points=\"{}\"/>\n",
-                             colour_of(chart.series[i], i),
-                             1.4 + 0.7 * double(std::min<std::size_t>(chart.series.size() - 1 - i, 4)),
+                             colour_of(s, i), 1.4 + 0.7 * double(std::min<std::size_t>(chart.series.size() - 1 - i, 4)),
                              s.dashed ? " stroke-dasharray=\"6 4\"" : "", line);
       line.clear();
     };

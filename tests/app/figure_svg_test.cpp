@@ -77,6 +77,14 @@ TEST(FigureSvg, DrawsALineForEachPieceBetweenGaps) {
   EXPECT_EQ(count(broken, "nan"), 0u);
 }
 
+TEST(FigureSvg, ShowsAPointBetweenGaps) {
+  const std::string svg = figure_svg({{line_of({0, 1, 2, 3, 4}, {0, 1, kGap, 1, kGap})}});
+  EXPECT_EQ(count(svg, "<polyline"), 1u);
+  EXPECT_EQ(count(svg, "<circle"), 1u);
+  // Three quarters of the panel's width from its left side, at its top.
+  EXPECT_EQ(count(svg, "<circle cx=\"243.0\" cy=\"56.0\" r=\"1.8\" fill=\"#0072B2\"/>"), 1u) << svg;
+}
+
 TEST(FigureSvg, NamesUnitsAndEachSeriesOnceAndEscapesText) {
   const std::string svg = figure_svg({{line_of({0, 1}, {0, 1}), line_of({0, 1}, {1, 0})}});
   EXPECT_EQ(count(svg, ">curve</text>"), 1u);
