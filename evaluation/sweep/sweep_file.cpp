@@ -150,7 +150,7 @@ std::string file_text(const fs::path& path) {
 std::string modules_text(const Sweep& sweep) {
   std::string text = HALYARD_VERSION;
   for (const std::string& name : sweep.grid.estimators)
-    if (name.find('/') != name.npos) text += file_text(name);
+    if (is_module_path(name)) text += file_text(sweep.opened_by(name));
   // An axis or a limit may name the only effect of a module.
   for (const fs::path& module : loaded_effect_modules()) text += file_text(module);
   return text;
@@ -170,20 +170,13 @@ std::string definition_id(const Sweep& sweep, const fs::path& sweep_file, const 
   return boost::uuids::to_string(generate(text));
 }
 
-std::vector<std::string> read_estimators(const XmlElement& element, const fs::path& folder) {
+std::vector<std::string> read_estimators(const XmlElement& element) {
   const std::string listed = element.text("estimators");
-  std::vector<std::string> names;
   try {
-    names = split_estimators(listed);
+    return split_estimators(listed);
   } catch (const InputError& error) {
     element.fail("estimators", error.what());
   }
-  for (std::string& name : names) {
-    // "./" keeps a bare file name a path.
-    if (is_module_path(name) && fs::path(name).is_relative())
-      name = ((folder.empty() ? fs::path(".") : folder) / name).string();
-  }
-  return names;
 }
 
 std::vector<const SweepMeasure*> read_measures(const XmlElement& element) {
@@ -196,9 +189,9 @@ std::vector<const SweepMeasure*> read_measures(const XmlElement& element) {
 }
 
 /// The estimators with their measures, or the effects whose limits are measured.
-void read_subjects(const XmlElement& element, const fs::path& folder, const ArmModel& model, SweepGrid& grid) {
+void read_subjects(const XmlElement& element, const ArmModel& model, SweepGrid& grid) {
   if (!element.has("limits")) {
-    grid.estimators = read_estimators(element, folder);
+    grid.estimators = read_estimators(element);
     grid.measures = read_measures(element);
     return;
   }
@@ -217,6 +210,12 @@ void read_subjects(const XmlElement& element, const fs::path& folder, const ArmM
 }
 
 }  // namespace
+
+std::string Sweep::opened_by(const std::string& estimator) const {
+  if (!is_module_path(estimator) || fs::path(estimator).is_absolute()) return estimator;
+  // "./" keeps a bare file name a path.
+  return ((folder.empty() ? fs::path(".") : folder) / estimator).string();
+}
 
 Scenario Sweep::scenario_at(std::size_t point) const {
   Scenario changed = scenario;
@@ -256,9 +255,9 @@ Sweep read_sweep_definition(const fs::path& path) {
   element.only({"name", "scenario", "model", "estimators", "seed", "duration", "skip", "design", "samples", "repeats",
                 "measures", "limits"},
                {"axis"});
-  const fs::path folder = path.parent_path();
   const fs::path scenario_file = element.path("scenario");
   Sweep sweep;
+  sweep.folder = path.parent_path();
   sweep.scenario = read_scenario(scenario_file);
   sweep.scenario.seed = static_cast<std::uint64_t>(element.integer_or(
       "seed", static_cast<std::int64_t>(sweep.scenario.seed), 0, std::numeric_limits<std::int64_t>::max()));
@@ -284,7 +283,7 @@ Sweep read_sweep_definition(const fs::path& path) {
   grid.model = model_file.filename().string();
   grid.skip_s = element.number_or("skip", 0.5, "s", Sign::non_negative);
   grid.units = joint_units(sweep.model);
-  read_subjects(element, folder, sweep.model, grid);
+  read_subjects(element, sweep.model, grid);
   grid.seeds = read_seeds(element, sweep.scenario.seed);
   if (element.children("axis").empty()) element.fail("element <axis> is missing; give one or more");
   const UnitSamples samples = read_design(element, sweep.scenario.seed);

@@ -32,9 +32,12 @@ namespace halyard {
 ///   applies_to   robot, model or both                          default both
 struct Sweep {
   SweepGrid grid;
-  Scenario scenario;  ///< its robot is the truth
-  ArmModel model;     ///< the estimators' model
+  Scenario scenario;             ///< its robot is the truth
+  ArmModel model;                ///< the estimators' model
+  std::filesystem::path folder;  ///< of the sweep file; the paths of modules are relative to it
 
+  /// An estimator of the grid by what it is opened by: its name, or the path of its module from the current folder.
+  std::string opened_by(const std::string& estimator) const;
   /// The scenario and the model at a point of the grid.
   Scenario scenario_at(std::size_t point) const;
   ArmModel model_at(std::size_t point) const;

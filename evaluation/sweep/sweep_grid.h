@@ -56,7 +56,7 @@ struct SweepGrid {
   std::vector<SweepAxis> axes;
   bool is_sampled = false;              ///< not all combinations: point p has the p-th value of every axis
   std::vector<std::uint64_t> seeds;     ///< each combination of values is simulated with each; empty: the scenario's
-  std::vector<std::string> estimators;  ///< none in a sweep of detection limits
+  std::vector<std::string> estimators;  ///< as in the sweep file; none in a sweep of detection limits
   std::vector<SweepEffect> effects;     ///< only in a sweep of detection limits
   std::vector<const SweepMeasure*> measures = {&sweep_measures().front()};  ///< elements of sweep_measures()
   std::vector<JointUnit> units;                                             ///< [n_joints]

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <boost/algorithm/string/replace.hpp>
 #include <exception>
 #include <functional>
 
@@ -100,14 +101,15 @@ SweepCell limits_at(const Sweep& sweep, std::size_t point) {
 }
 
 /// A module says its name only when it is opened, so that the definition could not check it.
-void check_names_of_options(const SweepGrid& grid, const ContainmentOptions& containment) {
+void check_names_of_options(const Sweep& sweep, const ContainmentOptions& containment) {
   std::vector<std::string> names;
-  for (const SweepAxis& axis : grid.axes)
+  for (const SweepAxis& axis : sweep.grid.axes)
     for (const std::string& key : axis.parameters) {
       const auto option = parse_option_key(key);
       if (!option) continue;
       if (names.empty())
-        for (const std::string& estimator : grid.estimators) names.push_back(stated_name(estimator, containment));
+        for (const std::string& estimator : sweep.grid.estimators)
+          names.push_back(stated_name(sweep.opened_by(estimator), containment));
       if (std::ranges::find(names, option->estimator) == names.end())
         throw InputError(fmt::format("parameter {}: the sweep does not run this estimator; expected one of {}",
                                      in_quotes(key), listed(names)));
@@ -124,6 +126,7 @@ SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOpti
   const std::string no_data = failure_of([&] {
     check_point(sweep, point, "the sweep");
     model = sweep.model_at(point);
+    model.source = sweep.grid.model;  // results do not depend on the folder in which the sweep is started
     data = simulate_homed(faster(sweep.scenario_at(point)), model);
   });
   if (!no_data.empty()) {
@@ -132,12 +135,14 @@ SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOpti
   }
   data.measured.source = "the simulated log";
   for (const std::string& estimator : sweep.grid.estimators) {
+    const std::string opened_by = sweep.opened_by(estimator);
     const std::string reason = failure_of([&] {
-      const Comparison comparison = compare_estimators(model, {estimator}, data.measured, data.truth,
+      const Comparison comparison = compare_estimators(model, {opened_by}, data.measured, data.truth,
                                                        {.skip_s = sweep.grid.skip_s, .containment = containment});
       cell.results.push_back(result_of(sweep.grid, comparison));
     });
-    if (!reason.empty()) cell.results.push_back(failure(sweep.grid, reason));
+    if (!reason.empty())
+      cell.results.push_back(failure(sweep.grid, boost::replace_all_copy(reason, opened_by, estimator)));
   }
   return cell;
 }
@@ -148,12 +153,13 @@ void check_estimators(const Sweep& sweep, const ContainmentOptions& containment,
     return keep_going ? leave_failures_to_the_runs(check) : check();
   };
   const auto check_all = [&](const ArmModel& model) {
-    for (const std::string& name : grid.estimators) do_check([&] { check_estimator(name, model, containment); });
+    for (const std::string& name : grid.estimators)
+      do_check([&] { check_estimator(sweep.opened_by(name), model, containment); });
   };
   const ArmModel first = sweep.model_at(0);
   try {
     check_all(first);
-    do_check([&] { check_names_of_options(grid, containment); });
+    do_check([&] { check_names_of_options(sweep, containment); });
   } catch (const InputError& error) {
     throw InputError(grid.file.empty() ? error.what() : grid.file + ": " + error.what());
   }

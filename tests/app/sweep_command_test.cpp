@@ -340,6 +340,17 @@ TEST_F(Sweep, RecordsAnEstimatorThatCrashesAsItIsMade) {
   EXPECT_EQ(run({"check", "plugin.xml"}).exit_code, 1) << "before nodes are taken for it";
 }
 
+TEST_F(Sweep, GivesTheSameBytesFromAnyFolder) {
+  fs::create_directories(path("sub"));
+  fs::copy(fs::path(HALYARD_BROKEN_PLUGINS) / "crashes_in_update.so", path("sub/mine.so"));
+  write_text(path("sub/sweep.xml"), replaced(replaced(text_of(path("sweep.xml")), "kinematics,sr_ukf", "ekf,mine.so"),
+                                             "experiment_a", "../experiment_a"));
+  done({"sweep", "sub/sweep.xml", "--out", "one"});
+  EXPECT_EQ(run({"sweep", "sweep.xml", "--out", "../two"}, "cd sub;").exit_code, 0);
+  EXPECT_TRUE(files_in(path("one")) == files_in(path("two")));
+  EXPECT_TRUE(contains(text_of(path("one/sweep.csv")), ",estimator mine.so on the simulated log at "));
+}
+
 TEST_F(Sweep, RefusesAWrongEstimatorBehindOneThatCrashesAsItIsMade) {
   const std::string broken = std::string(HALYARD_BROKEN_PLUGINS) + "/crashes_in_create.so";
   write_text(path("wrong.xml"), replaced(text_of(path("sweep.xml")), "kinematics,sr_ukf", broken + ",ekff"));
