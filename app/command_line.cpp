@@ -136,10 +136,11 @@ void add_diagnose_command(CLI::App& app) {
   const auto plan_files = std::make_shared<std::vector<std::filesystem::path>>();
   CLI::Option* model =
       command.add_option("--model", options->model, "model file; required without --plan")->type_name("M.xml");
-  CLI::Option* data = command.add_option("--data", options->data, "log to learn from; required without --plan; may be repeated")
-                          ->type_name("LOG.csv")
-                          ->take_all()
-                          ->allow_extra_args(false);
+  CLI::Option* data =
+      command.add_option("--data", options->data, "log to learn from; required without --plan; may be repeated")
+          ->type_name("LOG.csv")
+          ->take_all()
+          ->allow_extra_args(false);
   CLI::Option* holdout = command
                              .add_option("--holdout", options->holdout,
                                          "log on which the errors are computed; default: the last third of each log")
