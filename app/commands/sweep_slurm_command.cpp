@@ -57,6 +57,15 @@ std::string sweep_command(const fs::path& sweep, const fs::path& out) {
 
 std::string merge_command(const fs::path& out) { return "halyard merge " + in_shell_quotes(out.string()); }
 
+/// Whether the table is of all points that are stored. A part that ran later left a journal of its own, and a run that
+/// was ended before it wrote the table left a newer one.
+bool has_current_table(const fs::path& out) {
+  const fs::path table = out / "sweep.csv", all = journal_path(out, {});
+  std::error_code none;
+  return journals_in(out) == std::vector{all} && fs::exists(table) &&
+         fs::last_write_time(table, none) >= fs::last_write_time(all, none);
+}
+
 /// Prints a line for each part that Slurm got; returns whether any of them is still active, as far as is known.
 bool print_parts(const StoredCells& cells, const SubmittedArray& array) {
   std::vector<ActiveTask> active;
@@ -129,9 +138,7 @@ void run_sweep_status(const fs::path& sweep, const fs::path& out) {
   if (!is_active && is_in_use(out)) {
     print_out("running: a run writes into {}\n", out.string());
   } else if (done == grid.size()) {
-    // A part that ran after the table was written left a journal of its own.
-    const bool is_merged = journals_in(out) == std::vector{journal_path(out, {})};
-    if (is_merged && fs::exists(out / "sweep.csv")) print_out("table: {}\n", (out / "sweep.csv").string());
+    if (has_current_table(out)) print_out("table: {}\n", (out / "sweep.csv").string());
     else print_out("next: {}\n", merge_command(out));
   } else if (!is_active) {
     std::string rest = "--resume";

@@ -4,13 +4,21 @@
 #include <cmath>
 
 namespace halyard {
+namespace {
+
+constexpr double kUsualPeriods = 1.5;
+constexpr double kLongPeriods = 10;  // of a change: beyond, the commands in between are missing,
+constexpr long kFew = 10;            // if so many changes have told what is usual
+
+}  // namespace
 
 void HeldTorques::take(int motor, double time_s, double torque) {
   Motor& m = motors_[static_cast<std::size_t>(motor)];
   if (!std::isfinite(torque) || (m.is_known && time_s <= m.time_s)) return;
-  if (m.is_known) {
+  const double dt = time_s - m.time_s;
+  if (m.is_known && (m.changes < kFew || dt <= kLongPeriods * m.span_s / static_cast<double>(m.changes))) {
     m.squares += std::pow(torque - m.torque, 2);
-    m.span_s += time_s - m.time_s;
+    m.span_s += dt;
     ++m.changes;
   }
   m.torque = torque;
@@ -19,7 +27,6 @@ void HeldTorques::take(int motor, double time_s, double torque) {
 }
 
 double HeldTorques::impulse_variance(int motor, double from_s, double to_s) const {
-  constexpr double kUsualPeriods = 1.5;
   const Motor& m = motors_[static_cast<std::size_t>(motor)];
   if (m.changes == 0) return 0;
   const double known_until = m.time_s + kUsualPeriods * m.span_s / static_cast<double>(m.changes);

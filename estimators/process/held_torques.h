@@ -6,6 +6,8 @@
 ///
 ///   s² = Σ Δτ² / Σ Δt        usual period = Σ Δt / (number of changes)
 ///
+/// A change over more than ten usual periods does not count: the commands in between are missing.
+///
 /// From a to b after that instant the walk gives the rotor an impulse whose variance is that of a white torque of the
 /// density s² t²:
 ///

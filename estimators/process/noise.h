@@ -34,7 +34,7 @@
 ///   1 ms      2.6           2.7                                   7 to 12
 ///   10 ms     2.4           2.4                                   2.7 to 3.3
 ///
-/// A torque that is held without a newer command is more uncertain: its impulse over the step, of held_torques.h, adds to
+/// A torque that is held without a newer command is more uncertain: its impulse over the step (held_torques.h) adds to
 /// G.
 ///
 /// When τ increases from 0.1 to 10 ms, joint errors grow fourfold with the exact model and twofold with wrong

@@ -44,8 +44,8 @@ int steps_over(double span_s, double longest_s);
 void load_lanes(const Eigen::Ref<const Eigen::MatrixXd>& X, int first, Lanes* x);
 
 /// Accelerations of joints for sensors whose delay d is of second order: q'' = slope (q' - slow), where `slow` is q'
-/// behind a low-pass filter of first order with the time constant 1/slope. A state's own q'' would not do: friction near
-/// standstill makes it sensitive to q' by 1e5 1/s.
+/// behind a low-pass filter of first order with the time constant 1/slope. A state's own q'' would not do: friction
+/// near standstill makes it sensitive to q' by 1e5 1/s.
 struct LaggedRates {
   double slow[kMaxJoints] = {};   ///< rad/s | m/s
   double slope[kMaxJoints] = {};  ///< 1/s; 0: no acceleration

@@ -150,6 +150,8 @@ std::vector<std::string> contained_faults(const std::string& name, const ArmMode
     return ByteReader(result_of_worker(task, watch)).texts();
   } catch (const WorkerEnded& end) {
     return {end.what() + std::string(", the rest was not tried")};
+  } catch (const WorkerKilled& end) {
+    throw WorkerKilled(name + ": " + end.what());
   }
 }
 

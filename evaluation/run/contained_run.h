@@ -27,7 +27,7 @@ struct ContainmentOptions {
 /// Calls options.progress repeatedly, and never options.row_done.
 /// Throws InputError if the estimator cannot be made (name, module, options), if no sample of the log has the position
 /// of every motor, or if there is no halyard_worker. Throws std::runtime_error, naming estimator, log and time, if the
-/// run fails, crashes, is killed, or exceeds the time limit, and std::bad_alloc if memory runs out.
+/// run fails, crashes, is killed, runs out of memory, or exceeds the time limit.
 EstimatorRun run_contained(const std::string& name, const ArmModel& model, const Log& log,
                            const EstimateOptions& options = {}, const ContainmentOptions& containment = {});
 

@@ -9,13 +9,16 @@
 namespace halyard {
 namespace {
 
-/// q'' at a sample: the slope of the velocity over 5 ms on either side, or what there is of them. A shorter span would
-/// show the noise of an estimate that differentiates encoders.
+/// q'' at a sample: the slope of the velocity over 5 ms on either side, or to the next samples if these are farther. A
+/// shorter span would show the noise of an estimate that differentiates encoders.
 double acceleration(const std::vector<double>& time, const std::vector<double>& velocity, std::size_t at) {
-  constexpr double kReach = 5e-3;
+  const auto reaches = [&](std::size_t i, bool is_next) {
+    const double reach = is_next ? 0.05 : 0.005005;  // s; a hair more than five periods of 1 ms
+    return std::abs(time[i] - time[at]) < reach && !std::isnan(velocity[i]);
+  };
   std::size_t a = at, b = at;
-  while (a > 0 && time[at] - time[a - 1] < 1.001 * kReach && !std::isnan(velocity[a - 1])) --a;
-  while (b + 1 < time.size() && time[b + 1] - time[at] < 1.001 * kReach && !std::isnan(velocity[b + 1])) ++b;
+  while (a > 0 && reaches(a - 1, a == at)) --a;
+  while (b + 1 < time.size() && reaches(b + 1, b == at)) ++b;
   return b > a ? (velocity[b] - velocity[a]) / (time[b] - time[a]) : 0;
 }
 

@@ -50,13 +50,13 @@ void write_cells(OutputFiles& files, const fs::path& out, const SweepGrid& grid,
 SweepResult merge_sweep(OutputFiles& files, const std::vector<fs::path>& parts, const fs::path& out) {
   if (parts.empty()) throw std::invalid_argument("merge_sweep: no part");
   SweepGrid grid = read_grid(parts.front());
-  refuse_other_sweep(out, grid);
   for (const fs::path& part : parts) {
     if (read_grid(part).id != grid.id) {
       throw InputError(part.string() + ": holds another sweep than " + parts.front().string() +
                        "; merge parts of the same sweep, computed from the same files");
     }
   }
+  refuse_other_sweep(out, grid);
   StoredCells cells = collect_cells(with_out(parts, out), grid);
   write_grid(files, out, grid);
   write_cells(files, out, grid, cells);

@@ -89,27 +89,38 @@ std::string failure_of(const Work& work) {
   }
 }
 
+/// Results do not depend on the folder in which the sweep is started.
+ArmModel model_of_point(const Sweep& sweep, std::size_t point) {
+  ArmModel model = sweep.model_at(point);
+  model.source = sweep.grid.model;
+  return model;
+}
+
 SweepCell limits_at(const Sweep& sweep, std::size_t point) {
   SweepCell cell{point, {}};
   const std::string reason = failure_of([&] {
     check_point(sweep, point, "the sweep");
-    for (auto& limits : limits_of(sweep.grid.effects, sweep.scenario_at(point), sweep.model_at(point)))
+    for (auto& limits : limits_of(sweep.grid.effects, sweep.scenario_at(point), model_of_point(sweep, point)))
       cell.results.push_back({"", std::move(limits)});
   });
   if (!reason.empty()) cell.results.assign(sweep.grid.n_subjects(), failure(sweep.grid, reason));
   return cell;
 }
 
-/// A module says its name only when it is opened, so that the definition could not check it.
-void check_names_of_options(const Sweep& sweep, const ContainmentOptions& containment) {
+/// A module says its name only when it is opened, so that the definition could not check it. One that cannot be opened
+/// in do_check has the name of its file.
+template <class DoCheck>
+void check_names_of_options(const Sweep& sweep, const ContainmentOptions& containment, const DoCheck& do_check) {
   std::vector<std::string> names;
   for (const SweepAxis& axis : sweep.grid.axes)
     for (const std::string& key : axis.parameters) {
       const auto option = parse_option_key(key);
       if (!option) continue;
       if (names.empty())
-        for (const std::string& estimator : sweep.grid.estimators)
-          names.push_back(stated_name(sweep.opened_by(estimator), containment));
+        for (const std::string& estimator : sweep.grid.estimators) {
+          names.push_back(fs::path(estimator).stem().string());
+          do_check([&] { names.back() = stated_name(sweep.opened_by(estimator), containment); });
+        }
       if (std::ranges::find(names, option->estimator) == names.end())
         throw InputError(fmt::format("parameter {}: the sweep does not run this estimator; expected one of {}",
                                      in_quotes(key), listed(names)));
@@ -125,8 +136,7 @@ SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOpti
   SimulationResult data;
   const std::string no_data = failure_of([&] {
     check_point(sweep, point, "the sweep");
-    model = sweep.model_at(point);
-    model.source = sweep.grid.model;  // results do not depend on the folder in which the sweep is started
+    model = model_of_point(sweep, point);
     data = simulate_homed(faster(sweep.scenario_at(point)), model);
   });
   if (!no_data.empty()) {
@@ -159,7 +169,7 @@ void check_estimators(const Sweep& sweep, const ContainmentOptions& containment,
   const ArmModel first = sweep.model_at(0);
   try {
     check_all(first);
-    do_check([&] { check_names_of_options(sweep, containment); });
+    check_names_of_options(sweep, containment, do_check);
   } catch (const InputError& error) {
     throw InputError(grid.file.empty() ? error.what() : grid.file + ": " + error.what());
   }

@@ -23,8 +23,8 @@ void check_estimators(const Sweep& sweep, const ContainmentOptions& containment 
 struct SweepRunOptions {
   int jobs = 0;  ///< threads; 0: one per core
   Shard shard = {};
-  /// true: keep stored cells without a failure, of any shard; false: compute all cells of the shard again, unless they
-  /// are in the journal of another shard or of the whole sweep
+  /// true: keep stored cells without a failure, of any shard; false: compute all cells of the shard again, which is
+  /// refused if another journal holds some of them
   bool resume = false;
   ContainmentOptions containment = {};
   /// Called without `resume`, if the folder holds finished points of this sweep that will be computed again.

@@ -13,7 +13,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 #include <system_error>
 #include <thread>
 
@@ -174,15 +173,17 @@ bool read_answer(int file, const Worker& worker, const WorkerPage& page, const W
   }
 }
 
+constexpr const char* kMemoryRemedy = "free memory, use fewer --jobs, or leave this estimator out";
+
 /// The result within an answer; throws what the worker caught.
-std::string result_in(const std::string& answer) {
+std::string result_in(const std::string& answer, const std::string& place) {
   const std::string rest = answer.substr(1);
   switch (static_cast<Answer>(answer[0])) {
     case Answer::result: return rest;
     case Answer::refusal: throw EstimatorRefusal(rest);
     case Answer::input_error: throw InputError(rest);
     case Answer::failure: throw std::runtime_error(rest);
-    case Answer::no_memory: throw std::bad_alloc();
+    case Answer::no_memory: throw WorkerKilled(place + "memory ran out; " + kMemoryRemedy);
     case Answer::no_process: fail(std::stoi(rest), "the process of an estimator cannot be started");
   }
   throw std::runtime_error("its process gave an answer that cannot be read");
@@ -226,15 +227,13 @@ std::string result_of_worker(const WorkerTask& task, const WorkerWatch& watch) {
   const auto ended = [&](const std::string& how) { return WorkerEnded(place + how); };
   if (!in_time) throw ended(fmt::format("took more than {:g} s, and was ended", watch.step_limit_s));
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
-    throw WorkerKilled(place +
-                       "its process was killed, probably because memory ran out; free memory, or start a sweep again "
-                       "with --resume and fewer --jobs");
+    throw WorkerKilled(place + "its process was killed, probably because memory ran out; " + kMemoryRemedy);
   if (WIFSIGNALED(status)) throw ended(fmt::format("crashed: {}", strsignal(WTERMSIG(status))));
   if (!page->has_started)
     throw NoWorker(
         fmt::format("{}: cannot be started (exit code {}); install it again", program.string(), WEXITSTATUS(status)));
   if (answer.empty()) throw ended("ended its process");
-  return result_in(answer);
+  return result_in(answer, place);
 }
 
 }  // namespace halyard

@@ -19,7 +19,7 @@ class WorkerEnded : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The worker was killed (SIGKILL) within its time, as the system does when memory runs out.
+/// The worker was killed (SIGKILL) within its time, as the system does when memory runs out, or found no memory.
 class WorkerKilled : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -44,9 +44,9 @@ struct WorkerWatch {
 
 /// Runs the task in a worker and returns the bytes of its result. The worker is killed if this process or the calling
 /// thread ends first.
-/// If the worker reports an InputError, throws an InputError with its message; std::bad_alloc if its memory ran out; if
-/// it reports another exception, a std::runtime_error with its message. Throws WorkerEnded or WorkerKilled (`PLACE:
-/// what`) if there is no answer, and NoWorker or std::system_error if the worker cannot be started.
+/// If the worker reports an InputError, throws an InputError with its message; if it reports another exception, a
+/// std::runtime_error with its message. Throws WorkerEnded or WorkerKilled (`PLACE: what`) if there is no answer, and
+/// NoWorker or std::system_error if the worker cannot be started.
 std::string result_of_worker(const WorkerTask& task, const WorkerWatch& watch);
 
 }  // namespace halyard

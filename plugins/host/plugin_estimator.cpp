@@ -141,18 +141,17 @@ Innovation PluginEstimator::update(const Sample& next) {
     fail("update: gives " + std::to_string(out.m) + " innovations of " + std::to_string(n_) + " motors");
   const auto m = static_cast<Eigen::Index>(out.m);
   check_finite("innovation", nu_.data(), m);
+  Innovation innovation;
+  // Above the diagonal nothing is written.
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const RowMajor S_root =
-      Eigen::Map<const RowMajor>(S_root_.data(), m, m).triangularView<Eigen::Lower>();  // above it nothing is written
-  check_finite("root of the innovation's covariance", S_root.data(), m * m);
+  innovation.S_root = Eigen::Map<const RowMajor>(S_root_.data(), m, m).triangularView<Eigen::Lower>();
+  check_finite("root of the innovation's covariance", innovation.S_root.data(), m * m);
   const Eigen::Index measured = (!next.motor_position.array().isNaN()).count();
   if (m > measured)
     fail("update: gives " + std::to_string(m) + " innovations where " + std::to_string(measured) +
          " motors have a position");
-  Innovation innovation;
   innovation.time_s = next.time_s;
   innovation.nu = Eigen::Map<const Eigen::VectorXd>(nu_.data(), m);
-  innovation.S_root = S_root;
   if (m > 0 && !(innovation.S_root.diagonal().minCoeff() > 0))
     fail("update: gives an innovation without a deviation: S_root has a diagonal that is not above 0");
   innovation.accepted = out.accepted != 0;

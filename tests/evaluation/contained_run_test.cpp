@@ -280,7 +280,15 @@ TEST(Worker, WithoutAProcessForTheEstimatorIsAFaultOfTheMachine) {
 }
 
 TEST(Worker, MemoryThatRunsOutIsNoFailureOfTheEstimator) {
-  EXPECT_THROW(check_estimator(fixture("finds_no_memory"), raven2()), std::bad_alloc);
+  const std::string hungry = fixture("finds_no_memory");
+  try {
+    check_estimator(hungry, raven2());
+    FAIL() << "no memory was there";
+  } catch (const WorkerKilled& end) {
+    EXPECT_EQ(end.what(),
+              "estimator " + hungry +
+                  ", being made: memory ran out; free memory, use fewer --jobs, or leave this estimator out");
+  }
   EXPECT_TRUE(is_fault_of_the_machine(std::bad_alloc()));
 }
 
@@ -288,7 +296,7 @@ TEST(Worker, ThatIsKilledIsAFaultOfTheMachine) {
   const std::string kills = fixture("kills_its_process");
   EXPECT_EQ(failure_of(kills), "estimator " + kills +
                                    " on some.csv at 0.004 s: its process was killed, probably because memory ran out; "
-                                   "free memory, or start a sweep again with --resume and fewer --jobs");
+                                   "free memory, use fewer --jobs, or leave this estimator out");
   EXPECT_TRUE(is_fault_of_the_machine(WorkerKilled("")));
   EXPECT_FALSE(is_fault_of_the_machine(WorkerEnded("")));
 }

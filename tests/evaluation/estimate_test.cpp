@@ -56,14 +56,16 @@ TEST(RunEstimator, MemoryThatRunsOutIsNoFailureOfTheEstimator) {
   EXPECT_THROW(run_estimator(hungry, "hungry", log), std::bad_alloc);
 }
 
-TEST(SensorReadings, LagTheEstimateToSecondOrder) {
+class SensorReadings : public testing::TestWithParam<double> {};
+
+TEST_P(SensorReadings, LagTheEstimateToSecondOrder) {
   ArmModel model = first_joints(1);
   PlacedEffect delay = place_neutral_effect(*find_effect("delay"), model.nominal, 0);
   const double lag = 0.02, acceleration = 3;
   delay.p[1] = lag;
   model.effects = {delay};
   Log log(1);
-  for (int i = 0; i < 100; ++i) log.time.push_back(1e-3 * i);
+  for (int i = 0; i < 100; ++i) log.time.push_back(GetParam() * i);
   EstimatorRun run = no_run("test", log);
   for (std::size_t i = 10; i < 100; ++i) {
     const double t = log.time[i];
@@ -75,6 +77,8 @@ TEST(SensorReadings, LagTheEstimateToSecondOrder) {
   for (std::size_t i = 10; i < 100; ++i)
     EXPECT_NEAR(readings[0][i], acceleration * std::pow(log.time[i] - lag, 2) / 2, 1e-12) << i;
 }
+
+INSTANTIATE_TEST_SUITE_P(Periods, SensorReadings, testing::Values(1e-3, 5e-3, 10e-3));
 
 TEST(CompareWithJointSensors, TheirResolutionIsNoErrorOfTheEstimate) {
   Scenario scenario = motion(first_joints(1), 2);

@@ -26,7 +26,7 @@ TEST_F(FaultsOfSweeps, ASweepWithoutAWorkerIsToBeResumedToTheSameBytes) {
 
 TEST_F(FaultsOfSweeps, AWorkerThatIsKilledEndsTheSweepAndIsNoResultOfIt) {
   for (const auto& [module, told] : {std::pair{"kills_its_process", "its process was killed, probably because memory"},
-                                     std::pair{"finds_no_memory", "halyard: memory ran out"}}) {
+                                     std::pair{"finds_no_memory", "being made: memory ran out"}}) {
     write_text(path("fault.xml"),
                replaced(text_of(path("sweep.xml")), "\"kinematics\"", "\"" + fixture(module) + "\""));
     const RunResult ended = run({"sweep", "fault.xml", "--out", module});

@@ -39,6 +39,12 @@ TEST(HeldTorques, OfAMissingCommandGoOnBeingHeld) {
   EXPECT_EQ(held.impulse_variance(1, 1.11, 1.115), 0) << "the command is known again";
 }
 
+TEST(HeldTorques, AfterALongGapAreWhatTheyWereBefore) {
+  HeldTorques held = zigzag(1);
+  held.take(1, 9, 0);
+  EXPECT_NEAR(held.impulse_variance(1, 9, 9.115), 4 * 1e-3 / 3, 1e-12);
+}
+
 TEST(HeldTorques, OfOneCommandAloneAreTakenForConstant) {
   HeldTorques held;
   held.take(0, 0, 0.5);
