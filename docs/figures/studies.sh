@@ -48,14 +48,14 @@ draw_trials() {
 figure blind_trials hours bench
 figure_blind_trials() {
   cat <<'TABLE'
-From `halyard_blind_trials --seed 20271214 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N --out DIR`; N is
-40 for clean arms, 25 for one effect, 10 for the other kinds. There are motors only for clean arms and one effect:
+From `halyard_blind_trials --seed 20271402 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N --out DIR`; N is
+20 for clean arms, 11 for one effect, 4 for the other kinds. There are motors only for clean arms and one effect:
 TABLE
-  draw_trials 20271214 1 out/trials <<'DRAWS'
-40 clean good,poor,motors
-25 effect good,poor,motors
-10 two_at_joint,three good,poor
-10 form,outside good,poor
+  draw_trials 20271402 1 out/trials <<'DRAWS'
+20 clean good,poor,motors
+11 effect good,poor,motors
+4 two_at_joint,three good,poor
+4 form,outside good,poor
 DRAWS
 }
 
