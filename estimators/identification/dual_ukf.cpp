@@ -116,7 +116,7 @@ DualUkf::DualUkf(const ArmModel& model, std::vector<Weight> weights, const DualU
       points_(model_, structure_, keys_of(weights_), count_points(weights_.size(), options.learn)),
       state_filter_({.curvature_limit = 0.03}),
       history_(model_.n(), kHistorySpan) {
-  // At this slope the reading's slope by q' is half of what a delay alone gives, one and a half of a negative one.
+  // The reading's slope by q' becomes -d / 2 for a delay d above 0, and 1.5 |d| for one below.
   for (int k = 0; k < model_.n(); ++k)
     if (const double delay = std::abs(structure_.arm().joint[k].sensor_delay); delay > 0) lagged_.slope[k] = 1 / delay;
   const auto p = static_cast<Eigen::Index>(weights_.size());

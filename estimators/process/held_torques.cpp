@@ -7,8 +7,8 @@ namespace halyard {
 namespace {
 
 constexpr double kUsualPeriods = 1.5;
-constexpr double kLongPeriods = 10;  // of a change: beyond, the commands in between are missing,
-constexpr long kFew = 10;            // if so many changes have told what is usual
+constexpr double kLongPeriods = 10;  // a change over more usual periods is left out: commands in between are missing
+constexpr long kFew = 10;            // so many changes count in any case, because nothing is usual yet
 
 }  // namespace
 

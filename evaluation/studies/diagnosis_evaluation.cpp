@@ -1,7 +1,6 @@
 #include "evaluation/studies/diagnosis_evaluation.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +14,7 @@
 #include "diagnosis/diagnosis_details.h"
 #include "diagnosis/explanation/view_sentence.h"
 #include "diagnosis/log_check/own_readings.h"
+#include "evaluation/first_failure.h"
 #include "evaluation/studies/diagnosis_evidence.h"
 
 namespace halyard {
@@ -103,7 +103,7 @@ std::vector<EstimatorComparison> compare_on(const std::vector<HeldOutLog>& held_
   std::vector<EstimatorComparison> all(kEstimators.size());
   std::mutex mutex;
   std::size_t done = 0;
-  oneapi::tbb::parallel_for(std::size_t{0}, 2 * kEstimators.size(), [&](std::size_t job) {
+  for_each_in_parallel(2 * kEstimators.size(), [&](std::size_t job) {
     EstimatorComparison& of = all[job / 2];
     const bool after = job % 2 == 1;
     EstimatorErrors errors =
