@@ -29,6 +29,19 @@ SLOW = {
 }
 
 
+def processes_of_session(leader):
+    """The processes that still run in a session. Ninja gives each compiler a process group of its own."""
+    found = []
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            state, _, _, session = stat.read_text().rpartition(")")[2].split()[:4]
+        except (FileNotFoundError, ProcessLookupError):
+            continue
+        if int(session) == leader and state not in "ZX":
+            found.append(int(stat.parent.name))
+    return found
+
+
 def run(command, seconds, **options):
     """The exit code and the output of the command; the code is None if it took longer.
 
@@ -43,10 +56,13 @@ def run(command, seconds, **options):
         except subprocess.TimeoutExpired:
             return None, ""
         finally:
-            try:
-                os.killpg(process.pid, signal.SIGKILL)
-            except ProcessLookupError:
-                pass
+            while left := processes_of_session(process.pid):
+                for pid in left:
+                    try:
+                        os.kill(pid, signal.SIGKILL)
+                    except ProcessLookupError:
+                        pass
+                time.sleep(0.01)
 
 
 class Tests:
