@@ -49,7 +49,7 @@ compile_together(halyard_estimators filters
   built_in.cpp distributions.cpp eigen_modes.cpp estimator.cpp estimator_options.cpp
   filters/arm_filter.cpp filters/camera_filter.cpp filters/disturbance_filter.cpp filters/ekf.cpp
   filters/fixed_lag_smoother.cpp filters/gaussian_filter.cpp filters/kinematics.cpp filters/sr_ukf.cpp
-  filters/unknown_constant.cpp log_sample.cpp)
+  filters/start_readings.cpp filters/unknown_constant.cpp log_sample.cpp)
 compile_together(halyard_estimators process
   identification/arm_family.cpp identification/block_jackknife.cpp identification/dual_ukf.cpp
   identification/identified_keys.cpp identification/identify.cpp
@@ -103,7 +103,7 @@ compile_together(halyard_evaluation runs
   sweep/measures/sweep_measure.cpp sweep/parameters/axis_keys.cpp
   sweep/parameters/estimator_option.cpp sweep/parameters/scenario_number.cpp sweep/sweep_cells.cpp sweep/sweep_design.cpp
   sweep/sweep_file.cpp sweep/sweep_grid.cpp sweep/sweep_merge.cpp sweep/sweep_parameter.cpp sweep/sweep_run.cpp sweep/sweep_store.cpp
-  sweep/sweep_summary.cpp sweep/sweep_table.cpp)
+  sweep/sweep_summary.cpp sweep/sweep_table.cpp this_program.cpp)
 compile_together(halyard_running run csv.cpp run/estimate.cpp worker/worker_task.cpp)
 
 compile_together(halyard_report report chart.cpp chart_json.cpp page.cpp)

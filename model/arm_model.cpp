@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "transmission/arm_fields.h"
+#include "transmission/transmission.h"
 
 namespace halyard {
 namespace {
@@ -121,6 +122,10 @@ bool joints_alike(const ArmParameters<double>& a, const ArmParameters<double>& b
     return j.type == other.type && (j.drive == Drive::none) == (other.drive == Drive::none);
   };
   return std::equal(a.joint, a.joint + a.n, b.joint, alike);
+}
+
+ArmParameters<double> arm_with_effects(const ArmModel& model) {
+  return Transmission<double>(model.nominal, model.effects).arm();
 }
 
 std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm) {

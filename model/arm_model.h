@@ -55,6 +55,9 @@ struct ArmModel {
 /// Whether two arms have the same number of joints, with the same types, and motors at the same joints.
 bool joints_alike(const ArmParameters<double>& a, const ArmParameters<double>& b);
 
+/// The parameters of a model's arm with the changes that its effects make to them.
+ArmParameters<double> arm_with_effects(const ArmModel& model);
+
 /// A number of a model that may be changed.
 class ArmNumber {
  public:

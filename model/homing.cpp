@@ -6,7 +6,6 @@
 
 #include "model/input_error.h"
 #include "transmission/coupling.h"
-#include "transmission/transmission.h"
 
 namespace halyard {
 namespace {
@@ -83,7 +82,7 @@ void home_one(Log& log, const KnownArm& known, int k, bool motor) {
 }  // namespace
 
 void home_encoders(Log& log, const ArmModel& model) {
-  const KnownArm known{Transmission<double>(model.nominal, model.effects).arm(), model.home()};
+  const KnownArm known{arm_with_effects(model), model.home()};
   for (int k = 0; k < model.n(); ++k) {
     const JointParameters<double>& j = model.nominal.joint[k];
     const std::string number = std::to_string(k + 1);

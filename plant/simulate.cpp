@@ -63,11 +63,6 @@ double bytes_of_a_tick(const Scenario& scenario) {
 
 std::string place(const Scenario& scenario) { return "scenario " + in_quotes(scenario.name) + ": "; }
 
-/// The arm with what its effects change.
-ArmParameters<double> arm_with_effects(const ArmModel& model) {
-  return Transmission<double>(model.nominal, model.effects).arm();
-}
-
 /// What controller and homing know of the arm.
 ArmParameters<double> assumed_arm(const Scenario& scenario) {
   return scenario.assumed ? arm_with_effects(*scenario.assumed) : scenario.robot.nominal;

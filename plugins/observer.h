@@ -16,7 +16,6 @@
 #include "estimators/estimator.h"
 #include "model/arm_model.h"
 #include "transmission/coupling.h"
-#include "transmission/transmission.h"
 
 namespace halyard {
 
@@ -46,7 +45,7 @@ class Observer : public Estimator {
 
  protected:
   explicit Observer(const ArmModel& model)
-      : arm_(Transmission<double>(model.nominal, model.effects).arm()), home_(unstretched_motors(arm_, model.home())) {
+      : arm_(arm_with_effects(model)), home_(unstretched_motors(arm_, model.home())) {
     for (int k = 0; k < arm_.n; ++k) home_(k) += arm_.joint[k].motor_encoder_offset;
   }
 

@@ -14,7 +14,6 @@ namespace halyard {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFastest = 0.05;    // s, for a joint to cross its range
 constexpr double kUsualSpeed = 1;    // ranges per second
 constexpr double kUnknownRange = 1;  // rad | m
 constexpr double kUsualRate = 1e3;   // Hz; at this rate and below, the history never asks for more memory
@@ -62,7 +61,7 @@ void ArmFilter::reset(const Sample& first) {
   const int n = process_->n_joints();
   begun_ = started_ = speed_is_due_ = false;
   time_ = first.time_s;
-  reading_ = read_at_ = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+  readings_ = {motors_, n};
   judged_at_ = Eigen::VectorXd::Constant(n, time_);
   held_ = {};
   torque_ = external_ = Eigen::VectorXd::Zero(n);
@@ -100,22 +99,15 @@ Eigen::VectorXd ArmFilter::undriven_positions() const {
   return q;
 }
 
-void ArmFilter::note_readings(const Sample& sample) {
-  for (const int k : motors_)
-    if (std::isfinite(sample.motor_position(k))) reading_(k) = sample.motor_position(k), read_at_(k) = sample.time_s;
-}
-
 void ArmFilter::start(const Sample& sample) {
-  note_readings(sample);
+  readings_.take(sample);
   remember(sample);
-  if (!reading_(motors_).allFinite()) return;
+  if (!readings_.are_complete()) return;
   // At the start of a record the arm rests, so that a reading does not age.
-  double age = 0;
-  for (const int k : motors_) age = begun_ ? std::max(age, sample.time_s - read_at_(k)) : 0;
+  const double age = begun_ ? readings_.age(sample.time_s) : 0;
   if (age > options_.restart_gap) return;
   const Eigen::VectorXd q_undriven = undriven_positions();
-  Eigen::VectorXd angle = Eigen::VectorXd::Zero(q_undriven.size());
-  angle(motors_) = reading_(motors_);
+  Eigen::VectorXd angle = readings_.angles();
   // The readings' error may depend on the angle, slowly: one correction is enough.
   Eigen::VectorXd x = process_->state_at_rest(angle, unstretched_joints(process_->arm(), angle, q_undriven));
   angle(motors_) -= (process_->motor_readings(sample.time_s, x) - angle)(motors_);
@@ -124,13 +116,11 @@ void ArmFilter::start(const Sample& sample) {
                                                unstretched_joints(process_->arm(), angle, q_undriven));
   x = process_->state_at_rest(angle, q);
   // After a gap the arm need not rest. A speed that no joint has says that one of the two readings is wrong.
-  const bool has_speed = speed_is_due_ && set_speed(angle, x);
-  const auto since = [&](int k) { return read_at_(k) - started_at_(k); };
-  const double shortest = has_speed ? since(*std::ranges::min_element(motors_, {}, since)) : kInfinity,
-               longest = has_speed ? since(*std::ranges::max_element(motors_, {}, since)) : 0;
-  speed_is_due_ = begun_ && !has_speed && !motors_.empty();
-  Eigen::MatrixXd S = start_root(x, angle, q, shortest);
-  if (begun_ ? !has_speed || longest > options_.max_step : options_.in_motion)
+  const auto rates = speed_is_due_ ? readings_.rates(process_->arm(), model_, angle) : std::optional<MeanRates>();
+  if (rates) set_rates(*rates, x);
+  speed_is_due_ = begun_ && !rates && !motors_.empty();
+  Eigen::MatrixXd S = start_root(x, angle, q, rates ? rates->shortest_s : kInfinity);
+  if (begun_ ? !rates || rates->longest_s > options_.max_step : options_.in_motion)
     widen(kUsualSpeed, process_->layout().positions, S);
   else if (begun_) widen_undriven(kUsualSpeed, process_->layout().positions, S);
   if (age > 0) widen(kUsualSpeed * age, 0, S);
@@ -138,30 +128,17 @@ void ArmFilter::start(const Sample& sample) {
   exponential_.forget();
   begun_ = started_ = true;
   start_time_ = sample.time_s;
-  started_from_ = reading_;
-  started_at_ = read_at_;
+  readings_.start();
   judged_at_.setConstant(sample.time_s);
   refused_since_ = kInfinity;
 }
 
-bool ArmFilter::set_speed(const Eigen::VectorXd& angle, Eigen::VectorXd& x) const {
+void ArmFilter::set_rates(const MeanRates& rates, Eigen::VectorXd& x) const {
   const StateLayout& l = process_->layout();
-  const Eigen::VectorXd home = model_.home();
-  double dt_s = 0;  // of the paths, which are linear in the motors' rates
-  for (const int k : motors_) dt_s = std::max(dt_s, read_at_(k) - started_at_(k));
-  Eigen::VectorXd moved = Eigen::VectorXd::Zero(angle.size());
-  for (const int k : motors_) moved(k) = (reading_(k) - started_from_(k)) * (dt_s / (read_at_(k) - started_at_(k)));
-  const Eigen::VectorXd path =
-      unstretched_joints(process_->arm(), angle, home) - unstretched_joints(process_->arm(), angle - moved, home);
   for (int k = 0; k < l.n_joints; ++k) {
-    const double range = model_.joints[k].upper - model_.joints[k].lower;
-    if (!(std::abs(path(k)) / dt_s <= (range > 0 ? range / kFastest : kInfinity))) return false;  // NaN, too
+    x(l.rate[k]) = rates.joint(k);
+    if (const auto motor_rate = l.motor_rate[k]) x(*motor_rate) = rates.motor(k);
   }
-  for (int k = 0; k < l.n_joints; ++k) {
-    x(l.rate[k]) = path(k) / dt_s;
-    if (const auto motor_rate = l.motor_rate[k]) x(*motor_rate) = moved(k) / dt_s;
-  }
-  return true;
 }
 
 void ArmFilter::widen(double share, int first, Eigen::MatrixXd& S) const {
@@ -278,7 +255,7 @@ Innovation ArmFilter::update(const Sample& sample) {
   const bool loses_track = sample.time_s - time_ > options_.restart_gap || is_locked_out(sample);
   if (loses_track) lose_track();
   Innovation innovation;
-  if (!started_ || (speed_is_due_ && all_are_read_again(sample))) {
+  if (!started_ || (speed_is_due_ && readings_.are_new(sample))) {
     start(sample);
   } else {
     predict(sample.time_s);
@@ -289,11 +266,6 @@ Innovation ArmFilter::update(const Sample& sample) {
   return innovation;
 }
 
-bool ArmFilter::all_are_read_again(const Sample& sample) const {
-  return std::ranges::all_of(
-      motors_, [&](int k) { return std::isfinite(sample.motor_position(k)) || read_at_(k) > started_at_(k); });
-}
-
 bool ArmFilter::is_locked_out(const Sample& sample) const {
   return sample.time_s - refused_since_ > options_.restart_gap &&
          std::ranges::any_of(motors_, [&](int k) { return std::isfinite(sample.motor_position(k)); });
@@ -301,7 +273,7 @@ bool ArmFilter::is_locked_out(const Sample& sample) const {
 
 void ArmFilter::lose_track() {
   started_ = speed_is_due_ = false;
-  reading_.setConstant(std::numeric_limits<double>::quiet_NaN());
+  readings_.forget();
   refused_since_ = kInfinity;
   if (!begun_) return;
   const StateLayout& l = process_->layout();
@@ -315,7 +287,7 @@ void ArmFilter::lose_track() {
 Innovation ArmFilter::take(const Sample& sample) {
   speed_is_due_ = speed_is_due_ && sample.time_s - start_time_ <= options_.max_step;
   Innovation innovation;
-  if (speed_is_due_) note_readings(sample);
+  if (speed_is_due_) readings_.take(sample);
   else innovation = correct(sample);
   if (!innovation.accepted) ++report_.gated;
   remember(sample);
@@ -336,10 +308,7 @@ void ArmFilter::save(Snapshot& snapshot) const {
   snapshot.start_time = start_time_;
   snapshot.refused_since = refused_since_;
   snapshot.x = filter_->x();
-  snapshot.reading = reading_;
-  snapshot.read_at = read_at_;
-  snapshot.started_from = started_from_;
-  snapshot.started_at = started_at_;
+  snapshot.readings = readings_;
   snapshot.judged_at = judged_at_;
   snapshot.held = held_;
   snapshot.torque = torque_;
@@ -357,10 +326,7 @@ void ArmFilter::restore(const Snapshot& snapshot) {
   time_ = snapshot.time_s;
   start_time_ = snapshot.start_time;
   refused_since_ = snapshot.refused_since;
-  reading_ = snapshot.reading;
-  read_at_ = snapshot.read_at;
-  started_from_ = snapshot.started_from;
-  started_at_ = snapshot.started_at;
+  readings_ = snapshot.readings;
   judged_at_ = snapshot.judged_at;
   held_ = snapshot.held;
   torque_ = snapshot.torque;

@@ -21,6 +21,7 @@
 #include <memory>
 
 #include "estimators/filters/gaussian_filter.h"
+#include "estimators/filters/start_readings.h"
 #include "estimators/process/noise.h"
 #include "estimators/recycling_queue.h"
 
@@ -62,7 +63,8 @@ class ArmFilter final : public Estimator {
   struct Snapshot {
     bool begun = false, started = false, speed_is_due = false;
     double time_s = 0, start_time = 0, refused_since = 0;
-    Eigen::VectorXd x, reading, read_at, started_from, started_at, judged_at, torque, external, adapted;
+    StartReadings readings;
+    Eigen::VectorXd x, judged_at, torque, external, adapted;
     HeldTorques held;
     Eigen::MatrixXd S;
     EstimatorReport report;
@@ -85,11 +87,9 @@ class ArmFilter final : public Estimator {
  private:
   /// Where joints without a motor start, [n]: at home, or where they were before a restart. Others: home.
   Eigen::VectorXd undriven_positions() const;
-  void note_readings(const Sample& sample);
   /// Starts if all motors have been read, not long ago.
   void start(const Sample& sample);
-  /// Sets the rates in x from what each motor moved since the start; false: a joint would be too fast.
-  bool set_speed(const Eigen::VectorXd& angle, Eigen::VectorXd& x) const;
+  void set_rates(const MeanRates& rates, Eigen::VectorXd& x) const;
   /// S of the first belief. Its mean is x, in which the joint positions are q.
   Eigen::MatrixXd start_root(const Eigen::VectorXd& x, const Eigen::VectorXd& angle, const Eigen::VectorXd& q,
                              double dt_s) const;
@@ -98,8 +98,6 @@ class ArmFilter final : public Estimator {
   void widen(double share, int first, Eigen::MatrixXd& S) const;
   /// The same for joints without a motor alone. No motor moves with them; joints further out do, on their cables.
   void widen_undriven(double share, int first, Eigen::MatrixXd& S) const;
-  /// Whether every motor has a reading after that of the start, with this sample.
-  bool all_are_read_again(const Sample& sample) const;
   /// Whether the gate has refused for too long what this sample has again.
   bool is_locked_out(const Sample& sample) const;
   /// A restart is due: sets what is known until then.
@@ -122,15 +120,14 @@ class ArmFilter final : public Estimator {
   std::vector<int> motors_;  // joints that have a motor
   std::vector<int> read_;    // those with a reading in this sample
   CommandHistory history_;
-  double last_command_ = 0;            // time of the newest command in history_, s
-  bool begun_ = false;                 // has started once since reset()
-  bool started_ = false;               // and no restart is due
-  bool speed_is_due_ = false;          // a restart had one reading of each motor: the next ones give the speed
-  double time_ = 0, start_time_ = 0;   // of the last sample, of the last start; s
-  double refused_since_ = 0;           // time from which the gate has rejected all readings, s; infinite: accepted
-  Eigen::VectorXd reading_, read_at_;  // of each motor until the speed is known; NaN: none; its time, s
-  Eigen::VectorXd started_from_, started_at_;  // the same at the last start
-  Eigen::VectorXd judged_at_;                  // time of each motor's last innovation, or of the start, s
+  double last_command_ = 0;           // time of the newest command in history_, s
+  bool begun_ = false;                // has started once since reset()
+  bool started_ = false;              // and no restart is due
+  bool speed_is_due_ = false;         // a restart had one reading of each motor: the next ones give the speed
+  double time_ = 0, start_time_ = 0;  // of the last sample, of the last start; s
+  double refused_since_ = 0;          // time from which the gate has rejected all readings, s; infinite: accepted
+  StartReadings readings_;
+  Eigen::VectorXd judged_at_;  // time of each motor's last innovation, or of the start, s
   HeldTorques held_;
   Eigen::VectorXd torque_, external_;  // held
   EstimatorReport report_;             // without the factors repaired since reset(), which report() adds

@@ -78,7 +78,7 @@ class MarkerPosition final : public MeasurementModel {
 CameraOptions read_camera_options(OptionReader& options, const ArmModel& model) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr double kShare = 0.01;  // of the cable's travel
-  const ArmParameters<double> arm = Transmission<double>(model.nominal, model.effects).arm();
+  const ArmParameters<double> arm = arm_with_effects(model);
   Eigen::VectorXd offset(arm.n);
   for (int k = 0; k < arm.n; ++k)
     offset(k) = kShare * std::abs(arm.joint[k].pulley_radius) * (model.joints[k].upper - model.joints[k].lower);

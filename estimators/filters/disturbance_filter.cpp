@@ -32,7 +32,7 @@ const UnknownForce& unknown_force() {
 }  // namespace
 
 UnknownLevels read_force_levels(OptionReader& options, const ArmModel& model) {
-  const ArmParameters<double> arm = Transmission<double>(model.nominal, model.effects).arm();
+  const ArmParameters<double> arm = arm_with_effects(model);
   const Eigen::VectorXd gravity = largest_gravity_force(arm, model);
   UnknownLevels usual{Eigen::VectorXd(arm.n), Eigen::VectorXd(arm.n)};
   for (int k = 0; k < arm.n; ++k) {

@@ -3,12 +3,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "transmission/transmission.h"
-
 namespace halyard {
 
 KinematicsEstimator::KinematicsEstimator(const ArmModel& model)
-    : arm_(Transmission<double>(model.nominal, model.effects).arm()), joints_(arm_), home_(model.home()) {}
+    : arm_(arm_with_effects(model)), joints_(arm_), home_(model.home()) {}
 
 void KinematicsEstimator::read(const Sample& sample) {
   for (int k = 0; k < arm_.n; ++k)

@@ -16,7 +16,7 @@ void HeldTorques::take(int motor, double time_s, double torque) {
   Motor& m = motors_[static_cast<std::size_t>(motor)];
   if (!std::isfinite(torque) || (m.is_known && time_s <= m.time_s)) return;
   const double dt = time_s - m.time_s;
-  if (m.is_known && (m.changes < kFew || dt <= kLongPeriods * m.span_s / static_cast<double>(m.changes))) {
+  if (m.is_known && (m.changes < kFew || dt <= kLongPeriods * m.usual_period_s())) {
     m.squares += std::pow(torque - m.torque, 2);
     m.span_s += dt;
     ++m.changes;
@@ -29,7 +29,7 @@ void HeldTorques::take(int motor, double time_s, double torque) {
 double HeldTorques::impulse_variance(int motor, double from_s, double to_s) const {
   const Motor& m = motors_[static_cast<std::size_t>(motor)];
   if (m.changes == 0) return 0;
-  const double known_until = m.time_s + kUsualPeriods * m.span_s / static_cast<double>(m.changes);
+  const double known_until = m.time_s + kUsualPeriods * m.usual_period_s();
   const double a = std::max(0.0, from_s - known_until), b = std::max(0.0, to_s - known_until);
   return m.squares / m.span_s * (b * b * b - a * a * a) / 3;
 }

@@ -34,6 +34,8 @@ class HeldTorques {
     double squares = 0, span_s = 0;
     long changes = 0;
     bool is_known = false;
+
+    double usual_period_s() const { return span_s / static_cast<double>(changes); }
   };
   std::array<Motor, kMaxJoints> motors_;
 };

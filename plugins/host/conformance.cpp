@@ -12,7 +12,6 @@
 #include "model/rigid_chain.h"
 #include "plugins/host/loader.h"
 #include "transmission/coupling.h"
-#include "transmission/transmission.h"
 
 namespace halyard {
 namespace {
@@ -31,14 +30,9 @@ Eigen::VectorXd swing_position(const ArmModel& model, std::size_t i) {
   return q;
 }
 
-/// The parameters with the changes that the model's effects make to them.
-ArmParameters<double> changed_arm(const ArmModel& model) {
-  return Transmission<double>(model.nominal, model.effects).arm();
-}
-
 /// As the encoders of an arm without elasticity read it; a joint without a motor has no torque.
 Sample swing(const ArmModel& model, std::size_t i) {
-  const ArmParameters<double> arm = changed_arm(model);
+  const ArmParameters<double> arm = arm_with_effects(model);
   Eigen::VectorXd readings = unstretched_motors(arm, swing_position(model, i));
   Eigen::VectorXd torques = Eigen::VectorXd::Zero(arm.n);
   for (int k = 0; k < arm.n; ++k)
@@ -49,7 +43,7 @@ Sample swing(const ArmModel& model, std::size_t i) {
 
 Eigen::Vector3d marker_of(const ArmModel& model, const Eigen::VectorXd& q) {
   Eigen::Vector3d marker;
-  const ArmParameters<double> arm = changed_arm(model);
+  const ArmParameters<double> arm = arm_with_effects(model);
   position_of(arm, chain_pose(arm, q.data()), arm.payload_point, marker.data());
   return marker;
 }

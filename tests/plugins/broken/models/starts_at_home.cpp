@@ -2,14 +2,12 @@
 #include <stdexcept>
 
 #include "behaving.h"
-#include "transmission/transmission.h"
+#include "transmission/coupling.h"
 
 class StartsAtHome : public Behaving {
  public:
   StartsAtHome(const halyard::ArmModel& model, const halyard::EstimatorOptions& options)
-      : Behaving(model, options),
-        arm_(halyard::Transmission<double>(model.nominal, model.effects).arm()),
-        home_(model.home()) {}
+      : Behaving(model, options), arm_(halyard::arm_with_effects(model)), home_(model.home()) {}
   void reset(const halyard::Sample& first) override {
     Eigen::VectorXd motors = first.motor_position;
     for (int k = 0; k < arm_.n; ++k) motors(k) -= arm_.joint[k].motor_encoder_offset;
