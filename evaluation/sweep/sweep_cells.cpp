@@ -19,6 +19,7 @@
 
 #include "evaluation/json.h"
 #include "model/input_error.h"
+#include "model/name_list.h"
 
 namespace halyard {
 namespace {
@@ -104,7 +105,9 @@ std::vector<fs::path> journals_in(const fs::path& folder) {
   return paths;
 }
 
-std::string journal_header(const SweepGrid& grid) { return one_line({{"sweep", grid.id}, {"points", grid.size()}}); }
+std::string journal_header(const SweepGrid& grid, const std::string& program) {
+  return one_line({{"sweep", grid.id}, {"points", grid.size()}, {"program", program}});
+}
 
 std::string journal_line(const SweepCell& cell) {
   ordered_json results = ordered_json::array();
@@ -119,8 +122,12 @@ std::string journal_line(const SweepCell& cell) {
   return one_line({{"point", cell.point}, {"failed", cell.failures()}, {"results", results}});
 }
 
-CellJournal::CellJournal(const fs::path& folder, const SweepGrid& grid, const Shard& shard)
-    : path_(journal_path(folder, shard)), header_(journal_header(grid)) {}
+std::string name_of_program(const std::string& program) {
+  return program.empty() ? "an earlier one, which did not write its build" : shortened(program);
+}
+
+CellJournal::CellJournal(const fs::path& folder, const SweepGrid& grid, const Shard& shard, const std::string& program)
+    : path_(journal_path(folder, shard)), header_(journal_header(grid, program)) {}
 
 void CellJournal::add(const SweepCell& cell) {
   const std::string line = journal_line(cell);
@@ -194,27 +201,37 @@ StoredCells::StoredCells(const std::vector<fs::path>& folders, const SweepGrid& 
       n_columns_(grid.n_columns()),
       places_(grid.size()),
       failed_(grid.size()) {
-  const std::string header = journal_header(grid);
   for (const fs::path& folder : folders) {
     for (const fs::path& path : journals_in(folder)) {
       if (path == left_out) continue;
       Descriptor file(path, O_RDONLY);
       if (!file) throw InputError(path.string() + ": cannot be read: " + reason(errno));
-      journals_.push_back({path, {}});
-      scan(journals_.size() - 1, *file, header);
+      journals_.push_back({path, {}, {}});
+      scan(journals_.size() - 1, *file, grid);
       if (journals_.size() <= kMostOpen) journals_.back().file = std::move(file);
     }
   }
 }
 
-void StoredCells::scan(std::size_t journal, int file, const std::string& header) {
+std::string StoredCells::program_in(std::string_view header, const fs::path& path, const SweepGrid& grid) const {
+  try {
+    const ordered_json json = ordered_json::parse(header);
+    if (json.at("sweep") == grid.id && whole_number(json.at("points")) == grid.size())
+      return json.value("program", "");  // earlier programs wrote none
+  } catch (const ordered_json::exception&) {
+    damaged(path, 0);
+  } catch (const std::invalid_argument&) {
+    damaged(path, 0);
+  }
+  throw InputError(path.string() + ": belongs to another sweep; remove it, or give a folder of its own to each sweep");
+}
+
+void StoredCells::scan(std::size_t journal, int file, const SweepGrid& grid) {
   const fs::path& path = journals_[journal].path;
   for_each_line(file, path, [&](std::string_view line, std::uint64_t offset) {
     if (offset == 0) {
-      if (line == std::string_view(header).substr(0, header.size() - 1)) return;
-      if (!line.starts_with("{\"sweep\":")) damaged(path, 0);
-      throw InputError(path.string() +
-                       ": belongs to another sweep; remove it, or give a folder of its own to each sweep");
+      journals_[journal].program = program_in(line, path, grid);
+      return;
     }
     const std::optional<LineStart> start = parse_start(line);
     if (!start || start->point >= places_.size()) damaged(path, offset);
@@ -237,6 +254,14 @@ std::size_t StoredCells::count() const {
 }
 
 std::size_t StoredCells::count_failed() const { return static_cast<std::size_t>(std::ranges::count(failed_, true)); }
+
+std::vector<std::string> StoredCells::programs() const {
+  std::vector<std::string> programs;
+  for (const Journal& journal : journals_)
+    if (journal.program && std::ranges::find(programs, *journal.program) == programs.end())
+      programs.push_back(*journal.program);
+  return programs;
+}
 
 std::string StoredCells::line(std::size_t point) const {
   const Place& place = places_.at(point);

@@ -1,9 +1,10 @@
 #pragma once
 /// The results of a sweep's points, in journals: DIR/cells/all.jsonl, or DIR/cells/2_of_5.jsonl of a shard.
 ///
-/// A journal is a text file. Its first line names the sweep, each further line is the result of one point:
+/// A journal is a text file. Its first line names the sweep and the program (this_program.h), each further line is the
+/// result of one point:
 ///
-///   {"sweep":"5f0c...","points":9}
+///   {"sweep":"5f0c...","points":9,"program":"halyard 0.1.0, build 1f2e3d4c, avx2"}
 ///   {"point":3,"failed":0,"results":[{"failure":"","joints":[[1001,3.2e-4,4.1e-4]]}]}
 ///
 /// results: one for each estimator or effect; joints: one list for each joint, with the columns of the measures
@@ -14,11 +15,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "evaluation/sweep/sweep_grid.h"
+#include "evaluation/this_program.h"
 #include "model/output/descriptor.h"
 
 namespace halyard {
@@ -45,14 +48,15 @@ std::filesystem::path journal_path(const std::filesystem::path& folder, const Sh
 std::vector<std::filesystem::path> journals_in(const std::filesystem::path& folder);
 
 /// First line of a journal, and the line of a cell; both with their line break.
-std::string journal_header(const SweepGrid& grid);
+std::string journal_header(const SweepGrid& grid, const std::string& program);
 std::string journal_line(const SweepCell& cell);
 
 /// Appends cells to the journal of a shard.
 class CellJournal {
  public:
   /// Writes nothing yet.
-  CellJournal(const std::filesystem::path& folder, const SweepGrid& grid, const Shard& shard);
+  CellJournal(const std::filesystem::path& folder, const SweepGrid& grid, const Shard& shard,
+              const std::string& program = this_program());
 
   /// The cell is on the disk when this returns; from any thread. What a killed run left of a line is cut off first.
   /// Throws std::runtime_error, such as for a full disk or a journal that somebody removed; from then on, every call
@@ -74,6 +78,9 @@ class CellJournal {
   std::string failure_;        ///< guarded by writing_
 };
 
+/// How messages name the program of a journal.
+std::string name_of_program(const std::string& program);
+
 /// The cells in the journals of some folders. Memory: 16 bytes for each point of the grid, for any size of the cells.
 class StoredCells {
  public:
@@ -88,6 +95,8 @@ class StoredCells {
   bool has_failed(std::size_t point) const { return failed_.at(point); }
   std::size_t count() const;         ///< points that are there
   std::size_t count_failed() const;  ///< of them with a failure
+  /// The programs that wrote the journals, each once, in the order of the journals. Empty: one that did not say so.
+  std::vector<std::string> programs() const;
 
   /// The journal of a point that is there.
   const std::filesystem::path& journal(std::size_t point) const { return journals_.at(places_.at(point).journal).path; }
@@ -104,10 +113,13 @@ class StoredCells {
   };
   struct Journal {
     std::filesystem::path path;
-    Descriptor file;  ///< of the first kMostOpen; others are opened when they are read
+    std::optional<std::string> program;  ///< nothing: its first line is not complete
+    Descriptor file;                     ///< of the first kMostOpen; others are opened when they are read
   };
   static constexpr std::size_t kMostOpen = 256;  ///< a process may have 1024 open files
-  void scan(std::size_t journal, int file, const std::string& header);
+  void scan(std::size_t journal, int file, const SweepGrid& grid);
+  /// The program that the first line of a journal names.
+  std::string program_in(std::string_view header, const std::filesystem::path& path, const SweepGrid& grid) const;
   [[noreturn]] void damaged(const std::filesystem::path& path, std::uint64_t offset) const;
 
   std::size_t n_subjects_, n_joints_, n_columns_;

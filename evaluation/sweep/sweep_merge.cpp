@@ -29,6 +29,11 @@ std::vector<fs::path> with_out(std::vector<fs::path> parts, const fs::path& out)
 
 StoredCells collect_cells(const std::vector<fs::path>& folders, const SweepGrid& grid) {
   StoredCells cells(folders, grid);
+  if (const std::vector<std::string> programs = cells.programs(); programs.size() > 1)
+    throw InputError(
+        fmt::format("halyard merge: the points are of different programs ({}; {}); compute all parts with "
+                    "one of them",
+                    name_of_program(programs[0]), name_of_program(programs[1])));
   const std::size_t missing = grid.size() - cells.count();
   if (missing == 0) return cells;
   std::size_t first = 0;
@@ -42,7 +47,7 @@ StoredCells collect_cells(const std::vector<fs::path>& folders, const SweepGrid&
 void write_cells(OutputFiles& files, const fs::path& out, const SweepGrid& grid, const StoredCells& cells) {
   for (const fs::path& journal : journals_in(out)) files.remove(journal);
   files.add_in_parts(journal_path(out, {}), [&](const OutputFiles::Append& append) {
-    append(journal_header(grid));
+    append(journal_header(grid, cells.programs().front()));
     for (std::size_t point = 0; point < cells.size(); ++point) append(cells.line(point));
   });
 }

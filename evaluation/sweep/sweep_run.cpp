@@ -26,9 +26,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Points of two programs may differ in more than the sweep's numbers.
+void refuse_other_programs(const StoredCells& stored, const fs::path& folder) {
+  for (const std::string& program : stored.programs())
+    if (program != this_program())
+      throw InputError(fmt::format(
+          "{}: holds points of another program ({}) than this one ({}); go on with that one, or run the whole sweep "
+          "again, in another folder or without --resume",
+          folder.string(), name_of_program(program), this_program()));
+}
+
 /// What another journal holds of the shard's points could count instead of the new results.
 void refuse_other_journals(const SweepGrid& grid, const fs::path& folder, const Shard& shard) {
   const StoredCells others({folder}, grid, journal_path(folder, shard));
+  refuse_other_programs(others, folder);
   for (std::size_t point = 0; point < grid.size(); ++point)
     if (shard.holds(point) && others.has(point))
       throw InputError(
@@ -41,6 +52,7 @@ void refuse_other_journals(const SweepGrid& grid, const fs::path& folder, const 
 std::vector<std::size_t> points_to_do(const SweepGrid& grid, const fs::path& folder, const SweepRunOptions& options) {
   if (!options.resume && !options.shard.is_whole()) refuse_other_journals(grid, folder, options.shard);
   const StoredCells stored({folder}, grid);
+  if (options.resume) refuse_other_programs(stored, folder);
   std::vector<std::size_t> todo;
   std::size_t discarded = 0;
   for (std::size_t point = 0; point < grid.size(); ++point) {

@@ -35,9 +35,10 @@ struct SweepRunOptions {
 
 /// Computes the shard's cells in parallel. Each is on the disk when its point is done, in the journal of the shard
 /// (sweep_cells.h); several shards may run into one folder at the same time. The result does not depend on the number
-/// of jobs. Throws InputError if the folder holds another sweep, if another journal holds cells of a shard that is not
-/// resumed, or if an estimator cannot be made; std::runtime_error if a cell cannot be written; and as run_point() does.
-/// An estimator that crashes as it is made fails point by point.
+/// of jobs. Throws InputError if the folder holds another sweep, if points that count are of another program
+/// (this_program.h), if another journal holds cells of a shard that is not resumed, or if an estimator cannot be made;
+/// std::runtime_error if a cell cannot be written; and as run_point() does. An estimator that crashes as it is made
+/// fails point by point.
 void run_sweep(const Sweep& sweep, const std::filesystem::path& folder, const SweepRunOptions& options);
 
 }  // namespace halyard

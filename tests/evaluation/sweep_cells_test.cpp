@@ -193,6 +193,28 @@ TEST_F(SweepCells, OfAnotherSweepAreRefused) {
             path.string() + ": belongs to another sweep; remove it, or give a folder of its own to each sweep");
 }
 
+TEST_F(SweepCells, SayWhichProgramsHaveWrittenThem) {
+  store({1, 3}, {0});
+  store({2, 3}, {1});
+  EXPECT_EQ(stored().programs(), std::vector{this_program()}) << "once";
+  CellJournal(folder_, grid_, {3, 3}, "another").add(cell_at(2));
+  EXPECT_EQ(stored().programs(), (std::vector<std::string>{this_program(), "another"}));
+}
+
+TEST_F(SweepCells, OfAnEarlierProgramAreRead) {
+  const fs::path path = store({}, {0, 3});
+  const std::string text = text_of(path);
+  std::ofstream(path, std::ios::binary) << "{\"sweep\":\"12ab\",\"points\":6}" << text.substr(text.find('\n'));
+  EXPECT_EQ(stored().count(), 2u);
+  EXPECT_EQ(stored().programs(), std::vector<std::string>{""}) << "it wrote no build";
+}
+
+TEST_F(SweepCells, OfAJournalWithoutACompleteLineHaveNoProgram) {
+  const fs::path path = store({}, {0});
+  fs::resize_file(path, 20);
+  EXPECT_TRUE(stored().programs().empty());
+}
+
 TEST_F(SweepCells, ALaterResultReplacesAFailureAndNothingElse) {
   SweepCell repeated = cell_at(4), other = cell_at(3);
   repeated.results[1].failure.clear();

@@ -102,6 +102,22 @@ TEST_F(SweepMerge, RefusesPartsOfDifferentSweeps) {
   EXPECT_THROW(merge({}), std::invalid_argument);
 }
 
+TEST_F(SweepMerge, OfPointsOfAnotherProgramNamesThatProgram) {
+  store_grid(folder_ / "a", grid_);
+  CellJournal journal(folder_ / "a", grid_, {}, "another");
+  for (const std::size_t p : {0, 1, 2}) journal.add({p, {{"crashed", {{}}}}});
+  merge({folder_ / "a"});
+  EXPECT_EQ(StoredCells({folder_ / "whole"}, grid_).programs(), std::vector<std::string>{"another"});
+}
+
+TEST_F(SweepMerge, RefusesPointsOfDifferentPrograms) {
+  part("a", {0, 1});
+  CellJournal(folder_ / "a", grid_, {2, 2}, "another").add({2, {{"crashed", {{}}}}});
+  EXPECT_EQ(message_of([&] { merge({folder_ / "a"}); }),
+            "halyard merge: the points are of different programs (another; " + this_program() +
+                "); compute all parts with one of them");
+}
+
 TEST_F(SweepMerge, WritesATableWithARowForEachPointEstimatorAndJoint) {
   failed_ = 1;
   grid_.effect_modules = {"own.so"};

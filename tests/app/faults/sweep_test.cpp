@@ -50,6 +50,38 @@ TEST_F(FaultsOfSweeps, AnotherSweepInTheFolderIsLeftAlone) {
   }
 }
 
+/// The journal of a run as if another build of the program had written it.
+void as_of_another_build(const std::string& journal) {
+  const std::string text = text_of(journal);
+  const std::size_t build = text.find(", build ") + 8;
+  write_text(journal, text.substr(0, build) + "otherone" + text.substr(build + 8));
+}
+
+TEST_F(FaultsOfSweeps, PointsOfAnotherBuildAreNotMixedWithNewOnes) {
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "1/2"});
+  as_of_another_build(path("out/cells/1_of_2.jsonl"));
+  const Files before = files_in(path("out"));
+  for (const Arguments& command : {Arguments{"sweep", "sweep.xml", "--out", "out", "--resume"},
+                                   Arguments{"sweep", "sweep.xml", "--out", "out", "--shard", "2/2"}}) {
+    const RunResult mixed = run(command);
+    EXPECT_EQ(mixed.exit_code, 2);
+    expect_line(mixed.err, "out: holds points of another program (halyard 0.1.0, build otherone, ");
+    EXPECT_TRUE(files_in(path("out")) == before);
+  }
+  done({"sweep", "sweep.xml", "--out", "new", "--shard", "2/2"});
+  const RunResult merge = run({"merge", "out", "new", "--out", "all"});
+  EXPECT_EQ(merge.exit_code, 2);
+  expect_line(merge.err, "halyard merge: the points are of different programs (halyard 0.1.0, build otherone, ");
+}
+
+TEST_F(FaultsOfSweeps, AWholeSweepReplacesPointsOfAnotherBuild) {
+  done({"sweep", "sweep.xml", "--out", "out"});
+  const Files whole = files_in(path("out"));
+  as_of_another_build(path("out/cells/all.jsonl"));
+  EXPECT_EQ(run({"sweep", "sweep.xml", "--out", "out"}).exit_code, 0);
+  EXPECT_TRUE(files_in(path("out")) == whole);
+}
+
 TEST_F(FaultsOfSweeps, AMergeDoesNotTakeTheJournalOfAShardThatRuns) {
   done({"sweep", "sweep.xml", "--out", "out", "--shard", "1/2"});
   done({"sweep", "sweep.xml", "--out", "out", "--shard", "2/2"});
