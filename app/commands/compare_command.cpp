@@ -131,7 +131,9 @@ void print_errors(const Comparison& comparison) {
                 shown_number(error.mean_absolute, unit), unit.shown, shown_number(error.rms, unit), unit.shown,
                 shown_number(error.peak, unit), unit.shown);
       if (const auto baseline = comparison.baseline(); baseline && i != *baseline) {
-        print_out(", {} better than kinematics", shown_percent(comparison.improvement_of(i, k)));
+        const double improvement = comparison.improvement_of(i, k);
+        print_out(", {} {} than kinematics", shown_percent(std::abs(improvement)),
+                  improvement < 0 ? "worse" : "better");
         print_out(", RMS ratio to kinematics {}", in_words(comparison.paired[i][*baseline][k]));
       }
       print_out("\n");

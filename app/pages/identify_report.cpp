@@ -84,7 +84,8 @@ void add_numbers(report::Page& page, const Identification& found) {
 void add_errors(report::Page& page, const IdentificationStudy& result) {
   add_estimator_table(page, result.given, result.estimators, "identified",
                       "Joint position from motor signals alone, on " + result.holdout);
-  page.paragraph("kinematics takes cables as rigid: a better coupling leaves it what they stretch.");
+  page.paragraph(
+      "kinematics takes cables as rigid: with the right coupling, the stretch of the cables is left as its error.");
 }
 
 }  // namespace
@@ -106,15 +107,17 @@ report::Page identify_page(const IdentificationStudy& result) {
   add_sentences(page, result);
   add_numbers(page, found);
   page.paragraph(fmt::format(
-      "Intervals come from {} blocks of the data, each left out once, so that errors which last for a while are not "
-      "counted as many; they include what the other numbers of the model may be off by within their tolerances.",
+      "Intervals come from {} blocks of the data, each left out once: an error that lasts for a while counts once, not "
+      "at each sample. They include what the other numbers of the model may be off by within their tolerances.",
       found.blocks));
   add_errors(page, result);
   page.heading("Convergence");
   page.paragraph(
       "The dual filter's estimate while it goes through the data, from the model's number on: on the left all of it, "
       "on the right its last third. Its band is widened to what the interval says, and cut where the chart ends. The "
-      "identified number is estimated around the filter's end, with the model's other numbers along.");
+      "identified number is then fitted to the data as a whole, from the filter's end on, and the model's other "
+      "numbers "
+      "with it, within their tolerances.");
   const std::size_t late = found.time.size() * 2 / 3;
   for (const IdentifiedNumber& number : found.numbers)
     page.figure_row({convergence_chart(found, number, 0, capitalised(number.name)),

@@ -130,7 +130,9 @@ report::Page plan_page(const Plan& plan) {
       "effect whose size is farther from its value without the effect (0, or 1 for ratios and scales) than the "
       "detection limit: it then changes a signal by significantly more than its sensor resolves, and by more than "
       "the model's numbers can absorb within their tolerances. Beyond the naming limit, no other effect explains the "
-      "same data about as well. The last column lists the effects that do so at twice the detection limit.");
+      "same data about as well. The last column lists the effects that do so at twice the detection limit. Of several "
+      "sizes of an effect, only the one that its limit names was varied: gravity that tilts about the other axis, for "
+      "example, may be seen earlier or later.");
   if (plan.names_nothing) page.verdict(report::VerdictKind::warning, kNamesNothing);
   report::Table table;
   table.header = {"effect", "joint", "detection limit", "naming limit", "not distinguishable from"};

@@ -27,7 +27,7 @@ std::string decimation_note(const Chart& chart) {
   for (const Series& series : chart.series) samples = std::max(samples, series.y.size());
   if (samples <= (line ? kDrawnPoints : 2 * kDrawnPoints)) return "";
   return "<p class=\"note\">Drawn from " + std::to_string(samples) +
-         " samples, thinned; peaks and outliers are kept.</p>\n";
+         " points, thinned; peaks and outliers are kept.</p>\n";
 }
 
 std::string figure(const Chart& chart) {
@@ -85,7 +85,7 @@ void Page::table(const Table& table) {
   };
 
   std::string html = "<div class=\"table\"><table>\n";
-  if (!table.caption.empty()) html += element("caption", table.caption);
+  if (!table.caption.empty()) html += "<caption><span>" + escaped(table.caption) + "</span></caption>\n";
   html += "<thead><tr>";
   for (std::size_t i = 0; i < columns; ++i) html += cell("th", i, table.header[i]);
   html += "</tr></thead>\n<tbody>\n";

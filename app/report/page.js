@@ -103,6 +103,7 @@ function axes(chart) {
     x.min = centres[0] - half;
     x.max = centres[centres.length - 1] + half;
     x.ticks.includeBounds = false;
+    x.grid = {...x.grid, offset: false};
   }
   return {x: x, y: y};
 }

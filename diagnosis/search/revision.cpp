@@ -287,7 +287,7 @@ std::string reason_of(Doubt doubt, const Naming& naming, double none, const std:
     case Doubt::surer_rival: {
       const bool repeats =
           std::ranges::any_of(found, [&](const PlacedEffect& e) { return same_name(e, *naming.surer); });
-      return fmt::format("{}{} is more probable, and cannot be named itself", repeats ? "another " : "",
+      return fmt::format("{}{} is more probable, though not sure enough for a name either", repeats ? "another " : "",
                          effect_label(*naming.surer));
     }
     case Doubt::guess: {

@@ -54,7 +54,10 @@ std::string shown_parameter(const Estimated& p) {
 std::string why_named(const NamedEffect& named, const EffectEvidence& evidence, const ArmParameters<double>& arm) {
   std::string text;
   if (evidence.views.empty()) {
-    text = "No single picture of the report shows it: it is preferred because the fit as a whole improves.";
+    text =
+        "No residual lies on a curve over direction, position, speed, load or time more clearly than chance could make "
+        "it, "
+        "so no single picture tells this effect: it is preferred because the fit as a whole improves.";
   } else {
     const View& v = evidence.views.front();
     text = fmt::format("Without it the {} of joint {} {}", residual_name(arm, evidence.joint, v.residual),

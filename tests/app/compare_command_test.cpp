@@ -99,6 +99,16 @@ TEST_F(App, CompareTakesALogAndAPluginByItsPath) {
   EXPECT_EQ(loaded.at("joints").at(1).at("rms_error"), named.at("joints").at(1).at("rms_error"));
 }
 
+TEST_F(App, CompareSaysByHowMuchAnEstimatorIsWorse) {
+  simulate_log();
+  // Takes a motor's angle for that of its joint.
+  fs::copy(fs::path(HALYARD_BROKEN_PLUGINS) / "well_formed.so", path("mine.so"));
+  const std::string printed =
+      done({"compare", "log.csv", "--model", "raven2.xml", "--estimators", "kinematics,./mine.so", "--out", "cmp"});
+  EXPECT_TRUE(contains(printed, " % worse than kinematics")) << printed;
+  EXPECT_FALSE(contains(printed, "better than kinematics")) << printed;
+}
+
 TEST_F(App, CompareGivesEachMotorItsInnovationsThoughAJointBeforeItHasNone) {
   write_short_scenario("experiment_a.xml", "1.5");
   const std::string arm = text_of(path("raven2.xml"));

@@ -26,7 +26,8 @@ std::string verdict_line(const Diagnosis& d) {
   std::string line = verdict_word(d.verdict);
   for (std::size_t i = 0; i < d.effects.size(); ++i)
     line += fmt::format("{}{} ({})", i == 0 ? ": " : ", ", label_of(d.effects[i]), percent(d.effects[i].probability));
-  if (d.verdict != Diagnosis::Verdict::effects) return line;
+  if (d.verdict == Diagnosis::Verdict::unknown) return line + ": " + unknown_headline(d.unexplained);
+  if (d.verdict == Diagnosis::Verdict::clean) return line;
   const std::string remainder = remainder_headline(d.unexplained);
   return remainder.empty() ? line : line + "; " + remainder;
 }
@@ -177,8 +178,10 @@ void add_estimator_errors(report::Page& page, const ArmModel& model, const Diagn
       innovations += fmt::format("{}{} {:.3g} with the given, {:.3g} with the revised model",
                                  innovations.empty() ? "" : "; ", e.name, e.before.mean_nis, e.after.mean_nis);
   if (!innovations.empty())
-    page.paragraph("Innovations, mean of their squares over their predicted variance (1 if the model is right): " +
-                   innovations + ".");
+    page.paragraph(
+        "Innovations, mean of their squares over their predicted variance (1 if model and noise are right, less if "
+        "there is less noise than the filter assumes, as in simulations): " +
+        innovations + ".");
 }
 
 void write_diagnosis(OutputFiles& files, const std::filesystem::path& folder, const ArmModel& model, const Diagnosis& d,

@@ -20,8 +20,17 @@ std::string interval(const Estimated& p) {
   return p.is_whole ? "-" : fmt::format("{:.4g} to {:.4g}", p.lower, p.upper);
 }
 
+/// Effects of the revised model with how the page calls them: those with a name, then those whose name is a guess.
+std::vector<std::pair<std::string, const NamedEffect*>> effects_with_labels(const Diagnosis& d) {
+  std::vector<std::pair<std::string, const NamedEffect*>> all;
+  for (const NamedEffect& e : d.effects) all.emplace_back(label_of(e), &e);
+  for (const Unexplained& u : d.unexplained)
+    if (u.effect) all.emplace_back(label_of(*u.effect) + " (its name is a guess)", &*u.effect);
+  return all;
+}
+
 void add_numbers(report::Page& page, const Diagnosis& d) {
-  if (!d.effects.empty()) {
+  if (const auto effects = effects_with_labels(d); !effects.empty()) {
     report::Table table;
     table.caption =
         "Parameters of the effects that were added. What is not significant, or ends at what is plausible, has its "
@@ -29,9 +38,9 @@ void add_numbers(report::Page& page, const Diagnosis& d) {
     table.header = {"effect", "parameter", "value", "95 % interval", "unit"};
     table.align = {report::Align::left, report::Align::left, report::Align::right, report::Align::right,
                    report::Align::left};
-    for (const NamedEffect& e : d.effects)
-      for (const Estimated& p : e.parameters)
-        table.rows.push_back({label_of(e), p.name, fmt::format("{:.4g}", p.value), interval(p), p.unit});
+    for (const auto& [label, effect] : effects)
+      for (const Estimated& p : effect->parameters)
+        table.rows.push_back({label, p.name, fmt::format("{:.4g}", p.value), interval(p), p.unit});
     page.table(table);
   }
   if (!d.refitted.empty()) {
@@ -158,12 +167,12 @@ std::string fate_of(const Trial& t, const Round& round, bool is_taken) {
   if (round.revised && same_name(t.effect, *round.revised)) return round.name_stays ? "stays" : "the name before";
   if (t.gain <= 0) return "does not help on data that the fit did not see";
   if (!t.is_judged()) return "not significant";
-  if (t.at_bound) return "ends at the end of what is plausible";
+  if (t.at_bound) return "fits best with a size that is not plausible";
   if (t.is_another) return "is needed only for what another effect explains, too";
   if (t.is_refit) return "within the tolerance of the model's numbers";
   if (!t.matters) return "too small to matter";
-  if (round.accepted) return "helps less than the first";
-  return round.name_stays ? "helps less than the name" : "not significant";
+  if (round.accepted) return "less probable than the first";
+  return round.name_stays ? "less probable than the name" : "not significant";
 }
 
 void add_candidates(report::Page& page, const Diagnosis& d) {
@@ -183,7 +192,7 @@ void add_candidates(report::Page& page, const Diagnosis& d) {
       const bool taken = round.accepted && (round.at_once || &t == &round.trials.front());
       table.rows.push_back({{effect_label(t.effect), taken},
                             t.usable ? fmt::format("{:.1f}", t.gain) : std::string("-"),
-                            t.usable ? fmt::format("{:.2g}", t.p_value) : std::string("-"),
+                            t.usable && t.gain > 0 ? fmt::format("{:.2g}", t.p_value) : std::string("-"),
                             fate_of(t, round, taken)});
     }
     page.table(table);

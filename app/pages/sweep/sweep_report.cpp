@@ -85,6 +85,8 @@ report::Table rows_of(const SweepGrid& grid, const StoredCells& cells, const Cha
     const std::string unit = grid.shown_unit(shown.measure, shown.subjects.front(), k).shown;
     table.header.push_back(lower_case(joint_title(grid, shown, k)) + (unit.empty() ? "" : " [" + unit + "]"));
   }
+  table.align.assign(table.header.size(), report::Align::right);
+  table.align[grid.axes.size() + (grid.seeds.empty() ? 0 : 1)] = report::Align::left;
   const std::vector<std::string> names = grid.subjects();
   for (std::size_t point = 0; point < cells.size() && table.rows.size() < kMaxRows; ++point) {
     const SweepCell cell = cells.read(point);

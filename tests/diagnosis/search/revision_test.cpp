@@ -248,9 +248,9 @@ TEST(ReasonOfDoubt, ASurerRivalThatWasFoundBeforeIsAnotherOne) {
   Naming naming;
   naming.surer = push;
   EXPECT_EQ(reason_of(Doubt::surer_rival, naming, 0, {friction}),
-            "external_force of joint 1 is more probable, and cannot be named itself");
+            "external_force of joint 1 is more probable, though not sure enough for a name either");
   EXPECT_EQ(reason_of(Doubt::surer_rival, naming, 0, {push, friction}),
-            "another external_force of joint 1 is more probable, and cannot be named itself");
+            "another external_force of joint 1 is more probable, though not sure enough for a name either");
 }
 
 TEST(ProbabilityOfARest, IsAHalfAtThreeFloorsOrAtWhatTheEffectsMayMiss) {
