@@ -1,21 +1,28 @@
 # The picture on the README's first screen, as SVG. Input: the log, then the estimates of kinematics, of sr_ukf with the
-# given model, and of sr_ukf with the revised model. Drawn: estimate minus joint sensor at joint 2, in deg, every 10 ms
-# of the last third of the log.
+# given model, and of sr_ukf with the revised model. Drawn: estimate minus joint sensor at joint 2, in deg, over the last
+# third of the log: the least and the largest of every 20 ms, so that no peak is left out.
 
 FNR == 1 { ++file }
 /^#/ { next }
 !($1 ~ /^[0-9.]/) { for (i = 1; i <= NF; ++i) if ($i == "joint_position_2") column[file] = i; next }
 file == 1 { sensor[$1] = $column[1]; end = $1; next }
 {
-  if ($1 >= 2 * end / 3 && int($1 * 1000 + 0.5) % 10 == 0) error[file, $1] = ($column[file] - sensor[$1]) * per_rad
-  if (!seen[$1]++) time[++n] = $1
+  if ($1 < 2 * end / 3) next
+  error = ($column[file] - sensor[$1]) * per_rad
+  bin = int($1 * 50 + 1e-6)
+  if (!((file, bin) in least) || error < least[file, bin]) { least[file, bin] = error; least_at[file, bin] = $1 }
+  if (!((file, bin) in largest) || error > largest[file, bin]) { largest[file, bin] = error; largest_at[file, bin] = $1 }
 }
 
 function x(t) { return sprintf("%.1f", 70 + (t - first) / (end - first) * 640) }
 function y(e) { return sprintf("%.1f", 175 - e / 0.45 * 120) }
-function line(name, which, colour, at,   i, path) {
-  for (i = 1; i <= n; ++i)
-    if ((which, time[i]) in error) path = path (path == "" ? "" : " ") x(time[i]) "," y(error[which, time[i]])
+function line(name, which, colour, at,   i, path, low, high) {
+  for (i = int(first * 50); i <= end * 50; ++i)
+    if ((which, i) in least) {
+      low = x(least_at[which, i]) "," y(least[which, i])
+      high = x(largest_at[which, i]) "," y(largest[which, i])
+      path = path (path == "" ? "" : " ") (least_at[which, i] < largest_at[which, i] ? low " " high : high " " low)
+    }
   printf "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\" points=\"%s\"/>\n", colour, path
   printf "<rect x=\"%d\" y=\"42\" width=\"22\" height=\"4\" fill=\"%s\"/>\n", at, colour
   printf "<text x=\"%d\" y=\"49\">%s</text>\n", at + 28, name
