@@ -16,12 +16,18 @@ inline int uncertain_lengths(const JointParameters<double>& joint) {
   return (joint.gear_ratio != 1) + (joint.capstan_radius != 1) + (joint.pulley_radius != 1);
 }
 
+/// True for each of the three lengths.
+inline bool is_of_ratio(const ParameterInfo& number) {
+  return number.key.ends_with(".gear_ratio") || number.key.ends_with(".capstan_radius") ||
+         number.key.ends_with(".pulley_radius");
+}
+
 /// ArmModel::reach(), but the capstan's radius stands for the ratio: it has the sum of the lengths' tolerances, and the
 /// gear ratio and the pulley's radius have 0.
 inline double reach_with_one_ratio(const ArmModel& model, const ParameterInfo& number) {
-  if (number.key.ends_with(".gear_ratio") || number.key.ends_with(".pulley_radius")) return 0;
-  const bool stands_for_ratio = number.key.ends_with(".capstan_radius");
-  return model.reach(number) * (stands_for_ratio ? uncertain_lengths(model.nominal.joint[number.joint]) : 1);
+  if (!is_of_ratio(number)) return model.reach(number);
+  if (!number.key.ends_with(".capstan_radius")) return 0;
+  return model.reach(number) * uncertain_lengths(model.nominal.joint[number.joint]);
 }
 
 }  // namespace halyard

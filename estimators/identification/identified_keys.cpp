@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "model/column_map.h"
+#include "model/drive_ratio.h"
 #include "model/input_error.h"
 
 namespace halyard {
@@ -87,8 +89,17 @@ std::vector<std::string> identified_keys(const ArmModel& model, const std::strin
     fail_unknown(model, word, all);
   }
   std::vector<std::string> keys;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (chosen[i]) keys.push_back(all[i].key);
+  std::vector<const ParameterInfo*> ratio(model.n(), nullptr);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!chosen[i]) continue;
+    keys.push_back(all[i].key);
+    if (!is_of_ratio(all[i])) continue;
+    if (const ParameterInfo* other = std::exchange(ratio[all[i].joint], &all[i]))
+      throw InputError(
+          fmt::format("parameters {} and {}: a log tells only the ratio of a drive, in which both are; ask "
+                      "for one of them",
+                      other->key, all[i].key));
+  }
   return keys;
 }
 

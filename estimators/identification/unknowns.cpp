@@ -41,13 +41,24 @@ std::vector<Weight> unknown_zeros(const ArmModel& model) {
   return zeros;
 }
 
+/// The joints of whose ratio one of the keys is a length.
+std::vector<bool> with_asked_ratio(const ArmModel& model, const std::vector<std::string>& keys) {
+  ArmParameters<double> arm = model.nominal;
+  std::vector<bool> asked(model.n(), false);
+  for (const ParameterInfo& info : named_parameters(arm))
+    if (is_of_ratio(info) && std::ranges::find(keys, info.key) != keys.end()) asked[info.joint] = true;
+  return asked;
+}
+
 /// Numbers that the model knows within a tolerance, but those that are asked for. The ratio of a drive is one number,
-/// the capstan's radius. A link is uncertain by its mass alone: with more numbers the sigma points lie farther apart,
+/// the capstan's radius, unless another of its lengths is asked for: beside that, no data tell it. A link is uncertain by its mass alone: with more numbers the sigma points lie farther apart,
 /// and some arms among them cannot be integrated.
 std::vector<Weight> other_numbers(const ArmModel& model, const std::vector<std::string>& keys) {
   ArmParameters<double> arm = model.nominal;
+  const std::vector<bool> has_asked_ratio = with_asked_ratio(model, keys);
   std::vector<Weight> others;
   for (const ParameterInfo& info : named_parameters(arm)) {
+    if (is_of_ratio(info) && has_asked_ratio[info.joint]) continue;
     if (info.tolerance == &Tolerances::com || info.tolerance == &Tolerances::inertia) continue;
     if (std::ranges::find(keys, info.key) != keys.end() || !is_in_equations(model, info)) continue;
     const double reach = reach_with_one_ratio(model, info);

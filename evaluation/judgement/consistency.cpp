@@ -86,7 +86,7 @@ std::vector<double> normalised_squares(std::span<const double> estimate, std::sp
 }
 
 std::string in_words(const Consistency& c) {
-  const std::string off = fmt::format("errors are {:.2g} times what it says", std::sqrt(c.mean));
+  const std::string off = fmt::format("errors are {:.3g} times what it says", std::sqrt(c.mean));
   switch (c.confidence()) {
     case Confidence::unstated: break;
     case Confidence::consistent: return "consistent";

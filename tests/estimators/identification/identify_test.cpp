@@ -209,6 +209,9 @@ TEST(IdentifiedKeys, ThatCannotBeIdentifiedAreRefusedWithTheReason) {
   EXPECT_EQ(refusal("joint1.cable.stiffness"),
             "parameter 'joint1.cable.stiffness': is 0 in arm.xml, which gives no scale to look for it; write a guess "
             "into the model");
+  EXPECT_EQ(refusal("joint2.cable.pulley_radius,joint1.motor.gear_ratio,joint1.cable.pulley_radius"),
+            "parameters joint1.motor.gear_ratio and joint1.cable.pulley_radius: a log tells only the ratio of a drive, "
+            "in which both are; ask for one of them");
   for (int k = 0; k < 3; ++k) model.nominal.joint[k].joint_coulomb = model.nominal.joint[k].joint_viscous = 0;
   EXPECT_EQ(refusal("joint_friction"),
             "parameter 'joint_friction': arm.xml has no such number, or only numbers of 0; ask for others, or name a "

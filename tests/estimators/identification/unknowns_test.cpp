@@ -107,6 +107,21 @@ TEST(Unknowns, OtherNumbersHaveHalfTheirToleranceAndMoveByTenOfThemOrThreeQuarte
   EXPECT_EQ(weight_named(all, "joint3.friction.coulomb"), nullptr);  // exact
 }
 
+TEST(Unknowns, OfADriveWhoseRatioIsAskedForNoOtherLengthIsUncertain) {
+  ArmModel model = raven2();
+  for (JointDescription& joint : model.joints) joint.tolerances.length = 0.01;
+  for (const char* key : {"joint1.motor.gear_ratio", "joint1.motor.capstan_radius", "joint1.cable.pulley_radius"}) {
+    const Unknowns all = list_unknowns(model, {key});
+    ASSERT_EQ(all.asked, 1);
+    EXPECT_EQ(all.weights[0].key, key);
+    const auto is_other = [&](const Weight& w) {
+      return w.key.starts_with("joint1.") && (w.key.ends_with("_radius") || w.key.ends_with("_ratio"));
+    };
+    EXPECT_EQ(std::ranges::count_if(all.weights, is_other), 1) << "the one asked for";
+    EXPECT_NE(weight_named(all, "joint2.motor.capstan_radius"), nullptr) << "of another drive";
+  }
+}
+
 TEST(Unknowns, OfADriveItIsTheCapstanAndOfALinkTheMassThatIsUncertain) {
   const Unknowns all = list_unknowns(raven2(), {"joint1.cable.stiffness"});
   for (const char* key : {"joint1.motor.capstan_radius", "joint2.link.mass"})
