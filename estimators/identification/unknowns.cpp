@@ -51,8 +51,8 @@ std::vector<bool> with_asked_ratio(const ArmModel& model, const std::vector<std:
 }
 
 /// Numbers that the model knows within a tolerance, but those that are asked for. The ratio of a drive is one number,
-/// the capstan's radius, unless another of its lengths is asked for: beside that, no data tell it. A link is uncertain by its mass alone: with more numbers the sigma points lie farther apart,
-/// and some arms among them cannot be integrated.
+/// the capstan's radius, unless a length of it is asked for: no data tell two apart. A link is uncertain by its mass
+/// alone: with more numbers the sigma points lie farther apart, and some arms among them cannot be integrated.
 std::vector<Weight> other_numbers(const ArmModel& model, const std::vector<std::string>& keys) {
   ArmParameters<double> arm = model.nominal;
   const std::vector<bool> has_asked_ratio = with_asked_ratio(model, keys);
