@@ -48,15 +48,13 @@ draw_trials() {
 figure blind_trials hours bench
 figure_blind_trials() {
   cat <<'TABLE'
-From `halyard_blind_trials --seed 20271402 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N --out DIR`; N is
-20 for clean arms, 13 for one effect, 5 for other equations, 4 for the other kinds. There are motors only for clean arms
-and one effect:
+From `halyard_blind_trials --seed 20271402 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N --out DIR`; N
+is 24 for clean arms, 13 for one effect, 5 for the other kinds. There are motors only for clean arms and one effect:
 TABLE
   draw_trials 20271402 1 out/trials <<'DRAWS'
-20 clean good,poor,motors
+24 clean good,poor,motors
 13 effect good,poor,motors
-4 two_at_joint,three,outside good,poor
-5 form good,poor
+5 two_at_joint,three,form,outside good,poor
 DRAWS
 }
 
