@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <boost/uuid/name_generator_sha1.hpp>
 #include <boost/uuid/uuid_io.hpp>
-#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <string_view>

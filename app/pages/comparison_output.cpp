@@ -33,7 +33,7 @@ ordered_json run_json(const Comparison& comparison, std::size_t i) {
                       {"nees", to_json(comparison.judgements[i].nees[k])}});
   }
   return {{"estimator", run.name},
-          {"failure", run.failure.empty() ? ordered_json(nullptr) : ordered_json(run.failure)},
+          {"failure", text_or_null(run.failure)},
           {"steps", run.report.steps},
           {"gated_measurements", run.report.gated},
           {"repaired_factors", run.report.repaired_factors},

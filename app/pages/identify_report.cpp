@@ -116,8 +116,7 @@ report::Page identify_page(const IdentificationStudy& result) {
       "The dual filter's estimate while it goes through the data, from the model's number on: on the left all of it, "
       "on the right its last third. Its band is widened to what the interval says, and cut where the chart ends. The "
       "identified number is then fitted to the data as a whole, from the filter's end on, and the model's other "
-      "numbers "
-      "with it, within their tolerances.");
+      "numbers with it, within their tolerances.");
   const std::size_t late = found.time.size() * 2 / 3;
   for (const IdentifiedNumber& number : found.numbers)
     page.figure_row({convergence_chart(found, number, 0, capitalised(number.name)),

@@ -147,12 +147,11 @@ ordered_json to_json(const MonteCarlo& runs) {
                         {"nees", to_json(e.nees[k])},
                         {"instants_in_band", number_or_null(e.in_band[k])},
                         {"against_kinematics", to_json(e.against_kinematics[k])}});
-    estimators.push_back(
-        {{"estimator", e.name},
-         {"failures", e.failures},
-         {"first_failure", e.first_failure.empty() ? ordered_json(nullptr) : ordered_json(e.first_failure)},
-         {"nis", to_json(e.nis)},
-         {"joints", joints}});
+    estimators.push_back({{"estimator", e.name},
+                          {"failures", e.failures},
+                          {"first_failure", text_or_null(e.first_failure)},
+                          {"nis", to_json(e.nis)},
+                          {"joints", joints}});
   }
   return {{"runs", runs.runs},
           {"noise", runs.noise ? ordered_json(*runs.noise) : ordered_json(nullptr)},

@@ -220,8 +220,6 @@ std::string StoredCells::program_in(std::string_view header, const fs::path& pat
       return json.value("program", "");  // earlier programs wrote none
   } catch (const ordered_json::exception&) {
     damaged(path, 0);
-  } catch (const std::invalid_argument&) {
-    damaged(path, 0);
   }
   throw InputError(path.string() + ": belongs to another sweep; remove it, or give a folder of its own to each sweep");
 }
