@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <mutex>
+#include <set>
 
 #include "app/interruption.h"
 #include "bench/diagnosis/results/scoring.h"
@@ -39,6 +40,7 @@ struct Options {
   fs::path out;
   std::string shard = "1/1";
   bool resume = false;
+  std::vector<fs::path> known;
   int threads = 0;
   std::vector<fs::path> summary;
 };
@@ -75,17 +77,34 @@ std::vector<Job> jobs_of(const Options& options) {
   return jobs;
 }
 
+bool is_of_other_options(const Result& r, const TrialOptions& trial) {
+  return r.seed != trial.seed || r.outliers != trial.outliers || r.rule != trial.rule;
+}
+
+/// The file names of the results that --known has. Throws InputError if they are of other options.
+std::set<fs::path> known_results(const Options& options) {
+  std::set<fs::path> known;
+  if (options.known.empty()) return known;
+  for (const Result& r : read_trials(options.known)) {
+    if (is_of_other_options(r, options.trial))
+      throw InputError(options.known[0].string() + ": is of another --seed, --outliers or --rule; give those");
+    known.insert(result_path(options.out, r.situation, r.index));
+  }
+  return known;
+}
+
 /// Jobs that have no result yet. Throws InputError if there is one of other options.
 std::vector<Job> jobs_left(const Options& options) {
+  const std::set<fs::path> known = known_results(options);
   std::vector<Job> left;
   for (const Job& job : jobs_of(options)) {
     const fs::path path = result_path(options.out, job.situation, job.index);
+    if (known.contains(path)) continue;
     if (!options.resume || !fs::exists(path)) {
       left.push_back(job);
       continue;
     }
-    const Result r = read_result(path);
-    if (r.seed != options.trial.seed || r.outliers != options.trial.outliers || r.rule != options.trial.rule)
+    if (is_of_other_options(read_result(path), options.trial))
       throw InputError(
           path.string() +
           ": is of another --seed, --outliers or --rule; give those, leave out --resume, or take another folder");
@@ -144,7 +163,8 @@ void run(const Options& options) {
 
 void summarise(const Options& options) {
   const std::vector<Result> results = read_trials(options.summary);
-  const fs::path out = options.out.empty() ? options.summary[0] : options.out;
+  const fs::path& first = options.summary[0];
+  const fs::path out = !options.out.empty() ? options.out : fs::is_directory(first) ? first : first.parent_path();
   fmt::print("{}{}\n", write_summary(out, results), (out / "summary.md").string());
 }
 
@@ -193,10 +213,12 @@ int run_command_line(int argc, char** argv) {
                  "keep models, truths and logs in this folder, to diagnose one of them by hand");
   app.add_option("--shard", options.shard, "run part i of n")->type_name("i/n");
   app.add_flag("--resume", options.resume, "keep what is there, run the rest");
+  app.add_option("--known", options.known, "trials that these folders or trials.jsonl have are not run again")
+      ->type_name("DIR|FILE...");
   app.add_option("--threads", options.threads, "trials at a time; default: one per core")->check(CLI::Range(1, 1024));
   app.add_option("--summary", options.summary,
-                 "no trials: summarise those of these folders, in --out or the first of them")
-      ->type_name("DIR...");
+                 "no trials: summarise those of these folders or trials.jsonl, in --out or the first of them")
+      ->type_name("DIR|FILE...");
   return run_program(app, argc, argv, [&] {
     if (!options.summary.empty()) {
       summarise(options);

@@ -33,14 +33,19 @@ TABLE
   noise_row '`--noise 0.1`' "$a $options --noise 0.1 --runs 20 --out out/noise_01" 20
 }
 
-# draw_trials SEED OFF FOLDER: runs the trials that stdin lists as "NUMBER KINDS SENSORS", and prints how they were counted.
+# draw_trials SEED OFF FOLDER: runs the trials that stdin lists as "NUMBER KINDS SENSORS", and prints how they were
+# counted. Trials in docs/figures/draws/SEED.jsonl are not run again; it has the new ones, too, after this.
 draw_trials() {
-  local trials kinds sensors
+  local trials kinds sensors kept=docs/figures/draws/$1.jsonl known= new=$3
+  [ ! -f "$work/$kept" ] || known=$kept
   while read -r trials kinds sensors; do
     kinds="--kind ${kinds//,/ --kind }" sensors="--sensors ${sensors//,/ --sensors }"
-    ran "bench/halyard_blind_trials $kinds $sensors --off $2 --arms raven2 --trials $trials --seed $1 --resume --out $3"
+    ran "bench/halyard_blind_trials $kinds $sensors --off $2 --arms raven2 --trials $trials --seed $1 ${known:+--known $known} \
+--resume --out $3"
   done
-  ran "bench/halyard_blind_trials --summary $3"
+  [ -d "$work/$3/trials" ] || new=
+  ran "bench/halyard_blind_trials --summary $known $new --out $3"
+  [ $mode = check ] || cp "$work/$3/trials.jsonl" "$root/$kept"
   echo
   awk '/^## /{ inside = $2 == "Acceptance" } inside && /^[|]/' "$work/$3/summary.md"
 }

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "bench/diagnosis/summary/summary.h"
 #include "tests/bench/trials.h"
 #include "tests/support/message_of.h"
 
@@ -68,6 +71,39 @@ TEST(TrialsOfFolders, OfDifferentDrawsAreRefused) {
   EXPECT_NE(refusal_of({a, rule}).find("has no --rule; "), std::string::npos) << refusal_of({a, rule});
   EXPECT_NE(refusal_of({a, seed}).find("seed 8, but " + a.string()), std::string::npos) << refusal_of({a, seed});
   EXPECT_NE(refusal_of({a, outliers}).find("outliers 0.01, but "), std::string::npos) << refusal_of({a, outliers});
+}
+
+fs::path write_lines(const fs::path& to, const std::string& text) {
+  std::ofstream(to / "trials.jsonl") << text;
+  return to / "trials.jsonl";
+}
+
+TEST(TrialsOfAFile, AreReadWithThoseOfFolders) {
+  const fs::path a = folder("a"), b = folder("b");
+  write_trial(a, 0);
+  write_trial(a, 2);
+  write_summary(b, read_trials({a}));
+  write_trial(b, 1);
+  const std::vector<Result> trials = read_trials({b / "trials.jsonl", b});
+  ASSERT_EQ(trials.size(), 3u);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(trials[i].index, i);
+}
+
+TEST(TrialsOfAFile, AreNotCountedTwice) {
+  const fs::path a = folder("a");
+  write_trial(a, 3);
+  write_summary(a, read_trials({a}));
+  EXPECT_EQ(refusal_of({a / "trials.jsonl", a}), (a / "trials" / "clean-good-off1-raven2-000003.json").string() +
+                                                     ": is the same trial as " + a.string() +
+                                                     "/trials.jsonl:1; remove one of them, or leave out its folder");
+}
+
+TEST(TrialsOfAFile, AreRefusedWithTheirLine) {
+  const fs::path a = folder("a");
+  const std::string good = result_line(trial(Kind::clean, {}, {}));
+  EXPECT_NE(refusal_of({write_lines(a, good + "\n{}\n")}).find("trials.jsonl:2: not a result of a blind trial ("),
+            std::string::npos)
+      << refusal_of({a / "trials.jsonl"});
 }
 
 TEST(TrialsOfFolders, HaveToBeThere) {

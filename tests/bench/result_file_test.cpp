@@ -41,6 +41,18 @@ TEST(ResultOfATrial, KeepsWhyEarlierDrawsWereDropped) {
   EXPECT_EQ(read_result(result_path(to, r.situation, r.index)).dropped, r.dropped);
 }
 
+TEST(ResultOfATrial, KeepsItsProgramWhichTheSummaryNames) {
+  const fs::path to = folder();
+  std::vector<Result> ran(3, trial(Kind::clean, {}, {}));
+  ran[0].program = ran[2].program = "halyard 0.1.0, build 1f2e3d4c, avx2";
+  write_result(to, ran[0]);
+  EXPECT_EQ(read_result(result_path(to, ran[0].situation, ran[0].index)).program, ran[0].program);
+  write_summary(to, ran);
+  EXPECT_NE(text_of(to / "summary.md").find(" Diagnosed by halyard 0.1.0, build 1f2e3d4c, avx2 (2 trials)."),
+            std::string::npos)
+      << text_of(to / "summary.md");
+}
+
 TEST(ResultOfATrial, IsReadWithoutTheDroppedDraws) {
   const fs::path to = folder();
   const Result r = trial(Kind::clean, {}, {});

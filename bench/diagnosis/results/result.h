@@ -1,5 +1,6 @@
 #pragma once
-/// What is kept of a trial: the truth and what the diagnosis said. One JSON file each, complete or absent.
+/// What is kept of a trial: the truth and what the diagnosis said. One JSON file each, complete or absent; a whole draw
+/// can be kept as one file with a line for each.
 
 #include <cstdint>
 #include <filesystem>
@@ -79,6 +80,7 @@ struct Result {
   double latency_s = 0, joint_rate_hz = 0;  ///< of the joint sensors; a rate of 0: none
   double outliers = 0;                      ///< TrialOptions::outliers
   std::string rule;                         ///< TrialOptions::rule
+  std::string program;                      ///< this_program() of the diagnosis; empty in files of before it was kept
   std::vector<TrueEffect> truth;
   /// Names that are true beside the truth: of parameters that are off by more than their tolerance, of a part of an
   /// effect (names_beside()), and `delay` where the joint sensors are late.
@@ -100,5 +102,9 @@ std::filesystem::path result_path(const std::filesystem::path& folder, const Sit
 void write_result(const std::filesystem::path& folder, const Result& r);
 /// Throws InputError for a file that is no result.
 Result read_result(const std::filesystem::path& path);
+/// The same JSON in one line, without a line break.
+std::string result_line(const Result& r);
+/// Of a file with such lines. Throws InputError if it cannot be read, and for a line that is no result.
+std::vector<Result> read_result_lines(const std::filesystem::path& path);
 
 }  // namespace halyard::blind

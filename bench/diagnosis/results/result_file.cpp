@@ -122,6 +122,7 @@ Result result_from(const Json& all) {
   r.joint_rate_hz = all.at("sensors").at("joint_rate_hz");
   r.outliers = all.at("sensors").at("outliers");
   r.rule = all.value("rule", "");
+  r.program = all.value("program", "");
   for (const Json& t : all.at("truth")) r.truth.push_back(truth_from(t));
   for (const Json& p : all.at("also_true")) r.also_true.push_back(place_from(p));
   r.verdict = all.at("verdict");
@@ -137,15 +138,7 @@ Result result_from(const Json& all) {
   return r;
 }
 
-}  // namespace
-
-std::string label(const Place& p) { return p.joint == 0 ? p.effect : fmt::format("{} of joint {}", p.effect, p.joint); }
-
-std::filesystem::path result_path(const std::filesystem::path& folder, const Situation& situation, int index) {
-  return folder / "trials" / fmt::format("{}-{:06}.json", label(situation), index);
-}
-
-void write_result(const std::filesystem::path& folder, const Result& r) {
+Json to_json(const Result& r) {
   Json all = {{"situation", to_json(r.situation)},
               {"index", r.index},
               {"seed", r.seed},
@@ -164,10 +157,25 @@ void write_result(const std::filesystem::path& folder, const Result& r) {
               {"joint_position_rms_as_sensed", to_json(r.sensed_holdout)},
               {"seconds", {{"wall", r.wall_s}}}};
   if (!r.rule.empty()) all["rule"] = r.rule;
+  if (!r.program.empty()) all["program"] = r.program;
   if (r.dropped) all["dropped_draws"] = *r.dropped;
   if (r.interval_coverage) all["joint_position_interval95"] = {{"coverage", numbers(*r.interval_coverage)}};
-  write_file_whole(result_path(folder, r.situation, r.index), all.dump(1) + "\n");
+  return all;
 }
+
+}  // namespace
+
+std::string label(const Place& p) { return p.joint == 0 ? p.effect : fmt::format("{} of joint {}", p.effect, p.joint); }
+
+std::filesystem::path result_path(const std::filesystem::path& folder, const Situation& situation, int index) {
+  return folder / "trials" / fmt::format("{}-{:06}.json", label(situation), index);
+}
+
+void write_result(const std::filesystem::path& folder, const Result& r) {
+  write_file_whole(result_path(folder, r.situation, r.index), to_json(r).dump(1) + "\n");
+}
+
+std::string result_line(const Result& r) { return to_json(r).dump(); }
 
 Result read_result(const std::filesystem::path& path) {
   try {
@@ -176,6 +184,21 @@ Result read_result(const std::filesystem::path& path) {
   } catch (const Json::exception& error) {
     throw InputError(path.string() + ": not a result of a blind trial (" + error.what() + "); remove the file");
   }
+}
+
+std::vector<Result> read_result_lines(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  if (!stream) throw InputError(path.string() + ": cannot be read; give a file with a line for each trial");
+  std::vector<Result> results;
+  for (std::string line; std::getline(stream, line);) {
+    try {
+      results.push_back(result_from(Json::parse(line)));
+    } catch (const Json::exception& error) {
+      throw InputError(fmt::format("{}:{}: not a result of a blind trial ({}); remove the line", path.string(),
+                                   results.size() + 1, error.what()));
+    }
+  }
+  return results;
 }
 
 }  // namespace halyard::blind

@@ -37,15 +37,24 @@ std::string dropped_draws(const Results& all) {
   return text + ".";
 }
 
+/// The programs that diagnosed the trials; nothing where the trials do not tell.
+std::string programs(const Results& all) {
+  std::map<std::string, int> trials;
+  for (const Result* r : all)
+    if (!r->program.empty()) ++trials[r->program];
+  std::vector<std::string> each;
+  for (const auto& [program, n] : trials) each.push_back(fmt::format("{} ({} trials)", program, n));
+  return each.empty() ? "" : fmt::format(" Diagnosed by {}.", fmt::join(each, "; "));
+}
+
 std::string head(const Results& all, const Results& ran) {
   return fmt::format(
       "# Blind trials of the diagnosis\n\n{} trials; {} could not be drawn, in {} the diagnosis failed. An effect "
-      "counts "
-      "if `--plan` promises that a diagnosis detects it; smaller ones have lines of their own. Seconds are those of "
-      "one "
-      "processor. {}{}\n\n",
+      "counts if `--plan` promises that a diagnosis detects it; smaller ones have lines of their own. Seconds are "
+      "those of one processor. {}{}{}\n\n",
       all.size(), all.size() - ran.size(), share(ran, [](const Result& r) { return !r.failure.empty(); }).hits,
-      dropped_draws(all), all.empty() || all[0]->rule.empty() ? "" : " Thresholds varied: " + all[0]->rule + ".");
+      dropped_draws(all), programs(all),
+      all.empty() || all[0]->rule.empty() ? "" : " Thresholds varied: " + all[0]->rule + ".");
 }
 
 /// Clean arms and those with one visible effect.
@@ -78,10 +87,12 @@ std::string write_summary(const std::filesystem::path& out, const std::vector<Re
       those(all, [](const Result& r) { return r.failure.empty() || r.failure.starts_with("diagnose"); });
   const std::string acceptance = acceptance_table(ran);
   const auto table = confusion(with_at_most_one(ran));
-  std::string csv;
+  std::string csv, result_lines;
+  for (const Result& r : results) result_lines += result_line(r) + "\n";
   for (const auto& row : table) csv += fmt::format("{}\n", fmt::join(row, ","));
   write_file_whole(out / "confusion.csv", csv);
   write_file_whole(out / "trials.csv", trials_csv(all));
+  write_file_whole(out / "trials.jsonl", result_lines);
   write_file_whole(out / "summary.md",
                    head(all, ran) + section("Acceptance", acceptance) +
                        section("Probabilities against observed frequencies", probability_table(ran)) +

@@ -8,6 +8,7 @@
 #include "bench/diagnosis/trial/recording.h"
 #include "bench/diagnosis/trial/redraw.h"
 #include "bench/diagnosis/trial/take_over.h"
+#include "evaluation/this_program.h"
 #include "model/model_file.h"
 #include "model/output/output_files.h"
 
@@ -60,6 +61,7 @@ Result run_trial(const ArmModel& raven2, const Situation& situation, int index, 
   r.seed = options.seed;
   r.outliers = options.outliers;
   r.rule = options.rule;
+  r.program = this_program();
   r.dropped.emplace();
   const std::optional<Recording> recording =
       first_possible([&] { return draw_recording(raven2, situation, index, options, random); }, *r.dropped);
