@@ -81,23 +81,26 @@ bool is_too_wide(const LogUnderCheck& c, int k, const std::vector<double>& posit
   return c.range(k) > 0 && spread(position) >= c.rule.gross_ratio * c.range(k);
 }
 
-/// The unit in which the motion of motor k fits into the range of its joint.
-std::optional<UnitGuess> unit_that_fits(const LogUnderCheck& c, const SampledMotion& m, int k) {
+/// The unit in which a motion fits into the range of joint k.
+std::optional<UnitGuess> unit_that_fits(const LogUnderCheck& c, int k, const std::vector<double>& position,
+                                        const std::vector<UnitGuess>& units, bool zero_known) {
   constexpr double kLeastUsed = 0.2;  // of the range: a unit that leaves less of the motion is not the reason
-  const JointParameters<double>& j = c.model.nominal.joint[k];
   std::optional<UnitGuess> fits;
   double best = kInfinity;
-  for (const UnitGuess& unit : position_units(false, j.motor_encoder_resolution)) {
-    std::vector<double> corrected = m.expected[k];
+  for (const UnitGuess& unit : units) {
+    std::vector<double> corrected = position;
     for (double& q : corrected) q *= unit.factor;
     const double used = spread(corrected) / c.range(k);
     if (used < kLeastUsed || used > c.rule.gross_ratio) continue;
     // Of several units that fit into the range the one that moves most is the likeliest.
-    const double misfit =
-        c.beyond_range(k, corrected, j.motor_zero_known && j.motor_encoder_offset == 0) - 0.1 * std::min(1.0, used);
+    const double misfit = c.beyond_range(k, corrected, zero_known) - 0.1 * std::min(1.0, used);
     if (misfit < best) best = misfit, fits = unit;
   }
   return fits;
+}
+
+std::string times_its_range(const LogUnderCheck& c, int k, const std::vector<double>& position) {
+  return fmt::format("{}, {:.3g} times its range", c.position(k, spread(position)), spread(position) / c.range(k));
 }
 
 /// The motion of a motor must fit into the range of its joint. If the joint has a sensor that agrees, the motor may be
@@ -105,9 +108,11 @@ std::optional<UnitGuess> unit_that_fits(const LogUnderCheck& c, const SampledMot
 void check_range_of_motion(LogUnderCheck& c, const SampledMotion& m, int k, bool sensor_agrees) {
   if (!is_too_wide(c, k, m.expected[k])) return;
   const std::string name = column_name(&Log::motor_position, k);
-  const std::optional<UnitGuess> unit = unit_that_fits(c, m, k);
-  const std::string seen = fmt::format("moves joint {} by {}, {:.3g} times its range", k + 1,
-                                       c.position(k, spread(m.expected[k])), spread(m.expected[k]) / c.range(k));
+  const JointParameters<double>& j = c.model.nominal.joint[k];
+  const std::optional<UnitGuess> unit =
+      unit_that_fits(c, k, m.expected[k], position_units(false, j.motor_encoder_resolution),
+                     j.motor_zero_known && j.motor_encoder_offset == 0);
+  const std::string seen = fmt::format("moves joint {} by {}", k + 1, times_its_range(c, k, m.expected[k]));
   if (!unit && sensor_agrees)
     return c.suspect(name, seen + ", and so does its sensor",
                      fmt::format("correct the range of joint {} in the model, or give both columns their unit", k + 1));
@@ -123,6 +128,33 @@ void check_range_of_motion(LogUnderCheck& c, const SampledMotion& m, int k, bool
                        unit ? "in " + unit->what : "in another unit"),
            remedy);
   c.correct(&Log::motor_position, k, correction);
+}
+
+/// The reading of a joint without a motor can be compared with the joint's range alone.
+void check_undriven(LogUnderCheck& c, const SampledMotion& m, int k) {
+  const JointParameters<double>& j = c.model.nominal.joint[k];
+  const std::string name = column_name(&Log::joint_position, k);
+  if (!(c.range(k) > 0) || m.joint[k].empty()) return;
+  if (is_too_wide(c, k, m.joint[k])) {
+    const std::string seen = "moves by " + times_its_range(c, k, m.joint[k]);
+    const std::optional<UnitGuess> unit =
+        unit_that_fits(c, k, m.joint[k], position_units(j.type == JointType::prismatic, j.joint_encoder_resolution),
+                       j.joint_zero_known);
+    if (!unit)
+      return c.suspect(name, seen,
+                       fmt::format("correct the range of joint {} in the model, or give the column its unit", k + 1));
+    const Correction correction{.unit_factor = unit->factor};
+    c.reject(name, seen + ", as if it were in " + unit->what, "read it with " + c.option(name, correction));
+    return c.correct(&Log::joint_position, k, correction);
+  }
+  const double level = median(m.joint[k]);
+  if (!j.joint_zero_known || c.beyond_range(k, {level}, true) <= c.rule.outside) return;
+  const bool is_mirrored = c.beyond_range(k, {-level}, true) <= c.rule.outside;
+  c.suspect(
+      name,
+      fmt::format("is {} in the median, outside the joint's range, {}", c.position(k, level), c.range_in_words(k)),
+      "check the sign and the zero of this column, or the range in the model" +
+          (is_mirrored ? "; within the range with " + c.option(name, Correction{.factor = -1}) : ""));
 }
 
 /// A joint that moves, and a motor that moves, without any relation.
@@ -141,6 +173,10 @@ void check_positions(LogUnderCheck& c) {
   std::vector<std::pair<int, Slope>> reversed_joints;
   // From the base outward: a joint's expected reading depends on the motors inboard.
   for (int k = 0; k < c.n(); ++k) {
+    if (!c.is_driven(k)) {
+      check_undriven(c, m, k);
+      m = sampled_motion(c.log, c.model);
+    }
     if (m.expected[k].empty()) continue;
     const bool has_sensor = !m.joint[k].empty() && spread(m.joint[k]) > 0;
     // Both in the same wrong unit agree with each other.
