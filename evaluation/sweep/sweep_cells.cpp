@@ -144,10 +144,19 @@ void CellJournal::add(const SweepCell& cell) {
 
 void CellJournal::open() {
   fs::create_directories(path_.parent_path());
-  file_ = Descriptor(path_, O_RDWR | O_CREAT);
-  if (!file_) fail();
-  written_ = for_each_line(*file_, path_, [](std::string_view, std::uint64_t) {});
-  if (::ftruncate(*file_, static_cast<off_t>(written_)) != 0) fail();
+  Descriptor file(path_, O_RDWR | O_CREAT);
+  if (!file) fail(0);
+  std::uint64_t length = 0;
+  try {
+    length = for_each_line(*file, path_, [](std::string_view, std::uint64_t) {});
+  } catch (const std::runtime_error& error) {
+    failure_ = error.what();
+    throw;
+  }
+  if (::ftruncate(*file, static_cast<off_t>(length)) != 0) fail(length);
+  // Only now: what is added goes behind the lines that are there. No other thread syncs before the first line is added.
+  file_ = std::move(file);
+  written_ = synced_ = length;
   if (written_ == 0) append(header_);
   // The names of the file and of its folder have to be on the disk too.
   for (const fs::path& folder : {path_.parent_path(), path_.parent_path().parent_path()})
@@ -158,7 +167,7 @@ void CellJournal::append(const std::string& text) {
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t n = ::pwrite(*file_, text.data() + done, text.size() - done, static_cast<off_t>(written_ + done));
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail();
+    if (n < 0) fail(written_);
     done += static_cast<std::size_t>(n);
   }
   written_ += text.size();
@@ -171,13 +180,14 @@ void CellJournal::bring_to_disk(std::uint64_t written) {
   std::uint64_t covered = 0;
   {
     const std::lock_guard reading(writing_);
+    if (written_ < written) throw std::runtime_error(failure_);  // another thread's sync failed, and took the line away
     covered = written_;
   }
   struct stat status;
   const bool is_written = ::fdatasync(*file_) == 0 || errno == EINVAL || errno == EROFS;
   if (!is_written || ::fstat(*file_, &status) != 0) {
     const std::lock_guard reading(writing_);
-    fail();
+    fail(synced_);
   }
   if (status.st_nlink == 0) {
     const std::lock_guard reading(writing_);
@@ -187,11 +197,12 @@ void CellJournal::bring_to_disk(std::uint64_t written) {
   synced_ = covered;
 }
 
-void CellJournal::fail() {
+void CellJournal::fail(std::uint64_t kept) {
   failure_ = path_.string() + ": not written: " + reason(errno) +
              "; the points before are kept: make room and run again with --resume";
+  written_ = kept;
   if (file_) [[maybe_unused]]
-    const int ignored = ::ftruncate(*file_, static_cast<off_t>(written_));
+    const int ignored = ::ftruncate(*file_, static_cast<off_t>(kept));
   throw std::runtime_error(failure_);
 }
 

@@ -67,7 +67,8 @@ class CellJournal {
   void open();
   void append(const std::string& text);
   void bring_to_disk(std::uint64_t written);
-  [[noreturn]] void fail();
+  /// Lines behind the first `kept` bytes are taken away: nobody knows whether they are on the disk.
+  [[noreturn]] void fail(std::uint64_t kept);
 
   const std::filesystem::path path_;
   const std::string header_;
