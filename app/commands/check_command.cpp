@@ -150,6 +150,7 @@ void check_estimator_module(const CheckOptions& options) {
 
 /// Whether the module is one of effects. Its exported name stands in the file as text: nothing of the module is run.
 bool is_effect_module(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) return false;
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   const auto exports = [&](const std::string& name) { return text.find('\0' + name + '\0') != text.npos; };

@@ -132,9 +132,9 @@ void print_errors(const Comparison& comparison) {
                 shown_number(error.peak, unit), unit.shown);
       if (const auto baseline = comparison.baseline(); baseline && i != *baseline) {
         const double improvement = comparison.improvement_of(i, k);
-        print_out(", {} {} than kinematics", shown_percent(std::abs(improvement)),
-                  improvement < 0 ? "worse" : "better");
-        print_out(", RMS ratio to kinematics {}", in_words(comparison.paired[i][*baseline][k]));
+        if (std::isfinite(improvement))  // else kinematics has failed
+          print_out(", {} {} than kinematics, RMS ratio to kinematics {}", shown_percent(std::abs(improvement)),
+                    improvement < 0 ? "worse" : "better", in_words(comparison.paired[i][*baseline][k]));
       }
       print_out("\n");
     }
@@ -185,7 +185,6 @@ void run_compare(const CompareCommandOptions& options) {
     runs = run_monte_carlo(*data.scenario, data.model, options.estimators,
                            {.runs = options.runs,
                             .skip_s = options.skip_s,
-                            .use_joint_torque = options.use_joint_torque,
                             .containment = {.step_limit_s = options.step_limit_s},
                             .run_done = [&](double amount) { progress.add(amount); }});
     runs->noise = options.noise;

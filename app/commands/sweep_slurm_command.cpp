@@ -1,5 +1,6 @@
 /// halyard sweep on a cluster: --slurm and --status.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -116,6 +117,7 @@ void run_sweep_slurm(const SweepSlurmOptions& options) {
               merge_command(options.out));
     return;
   }
+  refuse_other_programs(cells, options.out, true);  // each part would, when it has waited for its nodes
   const SlurmJob job = submit(array);
   print_out("sweep \"{}\": {} points, {} of {} parts submitted as Slurm job {}\n", sweep.grid.name, sweep.grid.size(),
             array.tasks.size(), array.parts, job.label());
@@ -133,6 +135,9 @@ void run_sweep_status(const fs::path& sweep, const fs::path& out) {
   print_out("sweep \"{}\": {} of {} points are done ({:.1f} %)", grid.name, done, grid.size(),
             100.0 * double(done) / double(grid.size()));
   print_out("{}\n", failed > 0 ? fmt::format(", {} of them with a failure", failed) : "");
+  if (const std::vector<std::string> programs = cells.programs(); programs.size() > 1)
+    print_out("the points are of {} programs, which halyard merge refuses: {}\n", programs.size(),
+              fmt::join(programs, "; "));
   const auto array = submitted_array(out, grid.id);
   const bool is_active = array && print_parts(cells, *array);
   if (!is_active && is_in_use(out)) {

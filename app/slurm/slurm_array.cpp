@@ -16,6 +16,7 @@
 #include "evaluation/shell_words.h"
 #include "model/input_error.h"
 #include "model/output/output_files.h"
+#include "model/output/unfinished.h"
 #include "plugins/host/effect_module.h"
 
 namespace halyard {
@@ -69,30 +70,9 @@ std::string cluster_option(const SlurmJob& job) {
   return job.cluster.empty() ? "" : " --clusters=" + in_shell_quotes(job.cluster);
 }
 
-}  // namespace
-
-std::string slurm_script(const SlurmArray& array) {
-  std::string text = fmt::format(
-      "#!/bin/bash\n# Before sbatch: mkdir -p {}  (for what the tasks print; without it Slurm starts none)\n#SBATCH "
-      "--job-name=halyard\n#SBATCH --array={}\n#SBATCH --nodes=1\n#SBATCH --exclusive\n"
-      "#SBATCH --requeue\n#SBATCH --open-mode=append\n#SBATCH --output={}\n",
-      in_shell_quotes(log_folder(array.out).string()), in_ranges(array.tasks), in_shell_quotes(log_pattern(array.out)));
-  for (const std::string& option : array.options) text += "#SBATCH " + option + "\n";
-  text += fmt::format("cd {} || exit 1\nexec {} sweep {} --out {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --resume \\\n",
-                      in_shell_quotes(fs::current_path().string()),
-                      in_shell_quotes(fs::read_symlink("/proc/self/exe").string()),
-                      in_shell_quotes(array.sweep.string()), in_shell_quotes(array.out.string()), array.parts);
-  return text + fmt::format(" {} --jobs \"${{SLURM_CPUS_ON_NODE:-1}}\"\n", effects_options(loaded_effect_modules()));
-}
-
-SlurmJob submit(const SlurmArray& array) {
-  if (run_in_shell("command -v sbatch").exit_code != 0)
-    throw InputError(
-        "halyard sweep: --slurm: sbatch is not installed; run on a machine of the cluster, or take the script of "
-        "--print-script there");
-  const fs::path script = script_file(array.out);
-  write_file_whole(script, slurm_script(array));
-  const ShellResult result = run_in_shell("sbatch --parsable " + in_shell_quotes(script.string()));
+/// Hands the script to Slurm, and keeps the number of the job.
+SlurmJob submit_and_note(const SlurmArray& array) {
+  const ShellResult result = run_in_shell("sbatch --parsable " + in_shell_quotes(script_file(array.out).string()));
   if (result.exit_code != 0)
     throw std::runtime_error("halyard sweep: sbatch refused the job: " + result.printed +
                              (result.printed.find("array") == result.printed.npos
@@ -115,6 +95,34 @@ SlurmJob submit(const SlurmArray& array) {
                     "room, and submit again",
                     error.what(), job.label(), cancel_command(job)));
   }
+  return job;
+}
+
+}  // namespace
+
+std::string slurm_script(const SlurmArray& array) {
+  std::string text = fmt::format(
+      "#!/bin/bash\n# Before sbatch: mkdir -p {}  (for what the tasks print; without it Slurm starts none)\n#SBATCH "
+      "--job-name=halyard\n#SBATCH --array={}\n#SBATCH --nodes=1\n#SBATCH --exclusive\n"
+      "#SBATCH --requeue\n#SBATCH --open-mode=append\n#SBATCH --output={}\n",
+      in_shell_quotes(log_folder(array.out).string()), in_ranges(array.tasks), in_shell_quotes(log_pattern(array.out)));
+  for (const std::string& option : array.options) text += "#SBATCH " + option + "\n";
+  text += fmt::format("cd {} || exit 1\nexec {} sweep {} --out {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --resume \\\n",
+                      in_shell_quotes(fs::current_path().string()),
+                      in_shell_quotes(fs::read_symlink("/proc/self/exe").string()),
+                      in_shell_quotes(array.sweep.string()), in_shell_quotes(array.out.string()), array.parts);
+  return text + fmt::format(" {} --jobs \"${{SLURM_CPUS_ON_NODE:-1}}\"\n", effects_options(loaded_effect_modules()));
+}
+
+SlurmJob submit(const SlurmArray& array) {
+  if (run_in_shell("command -v sbatch").exit_code != 0)
+    throw InputError(
+        "halyard sweep: --slurm: sbatch is not installed; run on a machine of the cluster, or take the script of "
+        "--print-script there");
+  write_file_whole(script_file(array.out), slurm_script(array));
+  SlurmJob job;
+  // A signal waits meanwhile: a job that nobody knows of would be submitted a second time.
+  Unfinished().finish([&] { job = submit_and_note(array); });
   return job;
 }
 

@@ -31,12 +31,9 @@ struct OneRun {
 
 OneRun run_one(const ArmModel& model, const std::string& name, const SimulationResult& simulation,
                const MonteCarloOptions& options) {
-  const Comparison c = compare_estimators(model, {name}, simulation.measured, simulation.truth,
-                                          {.skip_s = options.skip_s,
-                                           .use_joint_torque = options.use_joint_torque,
-                                           .keep_going = true,
-                                           .make_all_first = false,
-                                           .containment = options.containment});
+  const Comparison c = compare_estimators(
+      model, {name}, simulation.measured, simulation.truth,
+      {.skip_s = options.skip_s, .keep_going = true, .make_all_first = false, .containment = options.containment});
   OneRun one{c.runs[0].failure, c.errors[0], c.judgements[0], {}};
   if (!one.failure.empty()) return one;
   const std::size_t size = c.truth.size(), first = first_counted_sample(c.truth.time, options.skip_s);

@@ -40,7 +40,6 @@ struct MonteCarlo {
 struct MonteCarloOptions {
   int runs = 1;
   double skip_s = 0.5;
-  bool use_joint_torque = false;  ///< see CompareOptions
   ContainmentOptions containment = {};
   std::function<void(double)> run_done = {};  ///< called with 1 for each run, from any thread
 };

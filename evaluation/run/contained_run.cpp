@@ -80,6 +80,7 @@ EstimatorRun run_contained(const std::string& name, const ArmModel& model, const
     if (options.progress) options.progress(double(rows) / double(log.size()));
   };
   watch.place = [&](long rows, const std::string&) {
+    if (log.size() == 0) return fmt::format("estimator {} on {}", name, log.source);
     const std::size_t row = std::min(static_cast<std::size_t>(rows), log.size() - 1);
     return fmt::format("estimator {} on {} at {:.12g} s", name, log.source, log.time[row]);
   };
@@ -105,7 +106,7 @@ std::vector<PluginInfo> contained_plugins(std::vector<std::string>* refused, con
 }
 
 std::string stated_name(const std::string& name, const ContainmentOptions& containment) {
-  if (!name.ends_with(".so")) return name;
+  if (!is_module_path(name)) return name;
   return containment.in_process ? describe_module(name).name : described(name, containment).name;
 }
 

@@ -141,7 +141,9 @@ SweepAxis read_axis(const XmlElement& element, const Sweep& sweep, const UnitSam
   return axis;
 }
 
+/// Nothing for what is no file: whoever opens it says so.
 std::string file_text(const fs::path& path) {
+  if (!fs::is_regular_file(path)) return "";
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }

@@ -10,6 +10,7 @@
 #include <boost/algorithm/string/replace.hpp>
 #include <exception>
 #include <functional>
+#include <string_view>
 
 #include "evaluation/comparison/compare.h"
 #include "evaluation/first_failure.h"
@@ -26,15 +27,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Points of two programs may differ in more than the sweep's numbers.
-void refuse_other_programs(const StoredCells& stored, const fs::path& folder) {
-  for (const std::string& program : stored.programs())
-    if (program != this_program())
-      throw InputError(fmt::format(
-          "{}: holds points of another program ({}) than this one ({}); go on with that one, or run the whole sweep "
-          "again, in another folder or without --resume",
-          folder.string(), name_of_program(program), this_program()));
-}
+/// this_program() without its last word, the instruction set.
+std::string_view build_of(std::string_view program) { return program.substr(0, program.rfind(", ")); }
 
 /// What another journal holds of the shard's points could count instead of the new results.
 void refuse_other_journals(const SweepGrid& grid, const fs::path& folder, const Shard& shard) {
@@ -141,6 +135,15 @@ void check_names_of_options(const Sweep& sweep, const ContainmentOptions& contai
 
 }  // namespace
 
+void refuse_other_programs(const StoredCells& stored, const fs::path& folder, bool on_any_processor) {
+  for (const std::string& program : stored.programs())
+    if (on_any_processor ? build_of(program) != build_of(this_program()) : program != this_program())
+      throw InputError(fmt::format(
+          "{}: holds points of another program ({}) than this one ({}); go on with that one, or run the whole sweep "
+          "again, in another folder or without --resume",
+          folder.string(), name_of_program(program), this_program()));
+}
+
 SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOptions& containment) {
   if (sweep.grid.measures_limits()) return limits_at(sweep, point);
   SweepCell cell{point, {}};
@@ -159,8 +162,9 @@ SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOpti
   for (const std::string& estimator : sweep.grid.estimators) {
     const std::string opened_by = sweep.opened_by(estimator);
     const std::string reason = failure_of([&] {
-      const Comparison comparison = compare_estimators(model, {opened_by}, data.measured, data.truth,
-                                                       {.skip_s = sweep.grid.skip_s, .containment = containment});
+      const Comparison comparison =
+          compare_estimators(model, {opened_by}, data.measured, data.truth,
+                             {.skip_s = sweep.grid.skip_s, .make_all_first = false, .containment = containment});
       cell.results.push_back(result_of(sweep.grid, comparison));
     });
     if (!reason.empty())

@@ -20,6 +20,11 @@ SweepCell run_point(const Sweep& sweep, std::size_t point, const ContainmentOpti
 /// an axis varies. `keep_going`: one that crashes or takes too long is left to the points, which fail one by one.
 void check_estimators(const Sweep& sweep, const ContainmentOptions& containment = {}, bool keep_going = false);
 
+/// Throws InputError if stored points are of another program than this one, which may compute other numbers.
+/// on_any_processor: another instruction set does not count, as where nodes of a cluster go on with the points.
+void refuse_other_programs(const StoredCells& stored, const std::filesystem::path& folder,
+                           bool on_any_processor = false);
+
 struct SweepRunOptions {
   int jobs = 0;  ///< threads; 0: one per core
   Shard shard = {};

@@ -102,6 +102,13 @@ TEST(ContainedRun, GivesTheNumbersOfARunInThisProcessToTheLastBit) {
   }
 }
 
+TEST(ContainedRun, RefusesALogWithoutSamplesAsARunInThisProcessDoes) {
+  const Log none = slice(some_log(), 0, 0);
+  const std::string here = message_of([&] { run_here("ekf", raven2(), none); });
+  EXPECT_EQ(message_of([&] { run_contained("ekf", raven2(), none); }), here);
+  EXPECT_NE(here, "no InputError");
+}
+
 TEST(ContainedRun, HandsOnMeasuredLoadsIfAsked) {
   const ArmModel model = raven2();
   Log log = some_log();

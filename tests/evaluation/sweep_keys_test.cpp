@@ -48,6 +48,13 @@ std::string refusal(const std::string& key, SweepAxis::Target target = SweepAxis
   return message_of([&] { unit_of(key, axis_of(key, 1, target)); });
 }
 
+TEST(SweepKeys, NameAnOptionOfAModuleWhateverItsFileIsCalled) {
+  const Scenario scenario = camera_scenario();
+  const ArmModel model = read_model(kRaven + "raven2.xml");
+  const std::string key = "estimator.mine.alpha";
+  EXPECT_EQ(message_of([&] { unit_of_key(key, axis_of(key, 1), scenario, model, {"./mine.so.1"}); }), "no InputError");
+}
+
 TEST(SweepKeys, NameTheResolutionOfAnEncoder) {
   ArmModel model = read_model(kRaven + "raven2.xml");
   model_parameter(model, "joint3.encoders.joint_resolution").set(2e-5);

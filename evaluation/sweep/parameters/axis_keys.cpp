@@ -12,6 +12,7 @@
 #include "evaluation/sweep/sweep_parameter.h"
 #include "model/input_error.h"
 #include "model/name_list.h"
+#include "plugins/host/loader.h"
 
 namespace halyard {
 namespace {
@@ -52,7 +53,7 @@ void check_option(const std::string& key, const SweepAxis& axis, const ArmModel&
                   const std::vector<std::string>& estimators) {
   const EstimatorOptionKey option = *parse_option_key(key);
   const auto may_have_it = [&](const std::string& name) {
-    return name == option.estimator || name.ends_with(".so");  // a module says its name when it is loaded
+    return name == option.estimator || is_module_path(name);  // a module says its name when it is loaded
   };
   if (estimators.empty()) fail(key, "a sweep of limits runs no estimator; remove this axis");
   if (std::ranges::none_of(estimators, may_have_it))

@@ -312,6 +312,17 @@ TEST_F(BadInput, AnOutputThatCannotBeWritten) {
                  {"model.xml", "would replace an input"});
 }
 
+TEST_F(BadInput, AFolderInPlaceOfAModule) {
+  fs::create_directories(path("folder.so"));
+  expect_refused({"check", "folder.so"}, {"plugin folder.so: not a file; give the path of a module (.so)"});
+}
+
+TEST_F(BadInput, AScenarioOfAnotherKindOfArm) {
+  write_text(path("turned.xml"), replaced(text_of(path("raven2.xml")), "type=\"prismatic\"", "type=\"revolute\""));
+  expect_refused({"diagnose", "--plan", "turned.xml", "experiment_a.xml"},
+                 {"experiment_a.xml: its robot's joints are not of the types of those of turned.xml"});
+}
+
 TEST_F(BadInput, AFailureThatIsNotTheUsersIsExitCode1AndLeavesNothing) {
   std::string rows;
   for (const char* time : {"0", "0.001", "0.002", "0.003"}) rows += std::string(time) + ",0,0,0,107,204,904\n";

@@ -27,6 +27,8 @@ inline std::vector<BadInputRow> bad_sweeps() {
        "bad.xml: no estimator is named 'kkk{any}kkk...'; found: camera_sr_ukf disturbance_sr_ukf ekf kinematics "
        "smoother sr_ukf; give one of these, or the path of a module such as ./" +
            std::string(80, 'k') + "....so"},
+      {"EstimatorIsAFolder", Wrong::sweep, put(R"("kinematics")", R"("./.")"),
+       "bad.xml: plugin {any}: not a file; give the path of a module (.so)"},
       {"EstimatorTwice", Wrong::sweep, put(R"("kinematics")", R"("ekf,ekf")"),
        "bad.xml:1: <sweep estimators=\"ekf,ekf\">: estimators 'ekf,ekf': 'ekf' is listed twice; list it once"},
       {"TooManyPoints", Wrong::sweep, put(R"(values="1e5 2e5"/>)", R"(from="1e5" to="2e5" steps="2000"/>

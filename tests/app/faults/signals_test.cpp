@@ -100,5 +100,15 @@ TEST_F(FaultsOfASignal, AnIgnoredSignalStaysIgnored) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
+TEST_F(FaultsOfASignal, WaitsUntilTheJobThatSlurmTakesIsNoted) {
+  write_text(path("bin/sbatch"), "#!/bin/sh\nkill -INT $(cat process); sleep 0.5; echo 17\n");
+  fs::permissions(path("bin/sbatch"), fs::perms::owner_all);
+  // The process of the shell becomes that of the program.
+  const RunResult result = run({"sweep", "sweep.xml", "--out", "out", "--slurm", "--nodes", "2"},
+                               "echo $$ >process; PATH='" + path("bin").string() + "':$PATH; export PATH;");
+  EXPECT_EQ(result.exit_code, 130) << result.err;
+  EXPECT_TRUE(contains(text_of(path("out/slurm/job.json")), "\"job\": \"17\"")) << text_of(path("out/slurm/job.json"));
+}
+
 }  // namespace
 }  // namespace halyard::testing_program

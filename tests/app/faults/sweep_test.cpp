@@ -74,6 +74,30 @@ TEST_F(FaultsOfSweeps, PointsOfAnotherBuildAreNotMixedWithNewOnes) {
   expect_line(merge.err, "halyard merge: the points are of different programs (halyard 0.1.0, build otherone, ");
 }
 
+TEST_F(FaultsOfSweeps, PointsOfAnotherBuildAreNotSubmittedToSlurm) {
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "1/2"});
+  as_of_another_build(path("out/cells/1_of_2.jsonl"));
+  write_text(path("bin/sbatch"), "#!/bin/sh\ntouch submitted; echo 17\n");
+  fs::permissions(path("bin/sbatch"), fs::perms::owner_all);
+  const RunResult refused = run({"sweep", "sweep.xml", "--out", "out", "--slurm", "--nodes", "2"},
+                                "PATH='" + path("bin").string() + "':$PATH; export PATH;");
+  EXPECT_EQ(refused.exit_code, 2);
+  expect_line(refused.err, "out: holds points of another program (halyard 0.1.0, build otherone, ");
+  EXPECT_FALSE(fs::exists(path("submitted")));
+}
+
+TEST_F(FaultsOfSweeps, TheStatusTellsThatThePointsAreOfTwoPrograms) {
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "1/2"});
+  done({"sweep", "sweep.xml", "--out", "out", "--shard", "2/2"});
+  const Arguments status = {"sweep", "sweep.xml", "--out", "out", "--status"};
+  EXPECT_FALSE(contains(done(status), "programs"));
+  as_of_another_build(path("out/cells/1_of_2.jsonl"));
+  EXPECT_TRUE(contains(done(status),
+                       "the points are of 2 programs, which halyard merge refuses: halyard 0.1.0, build "
+                       "otherone, "))
+      << done(status);
+}
+
 TEST_F(FaultsOfSweeps, AWholeSweepReplacesPointsOfAnotherBuild) {
   done({"sweep", "sweep.xml", "--out", "out"});
   const Files whole = files_in(path("out"));
