@@ -70,7 +70,7 @@ endfunction()
 # of virtual calls. The sign of a zero and floating-point exceptions mean nothing in these files; the compiler may then
 # choose between two results without a branch. Loops over a few numbers must not become calls of memset and memcpy. The
 # same templates are instantiated elsewhere over double, where the sanitizers check them. The presets for
-# sanitizers, coverage and fuzzing have the generic files alone (HALYARD_WIDE_LANES): they are not about speed.
+# coverage, fuzzing, mutants and the fast tests with sanitizers have the generic files alone (HALYARD_WIDE_LANES).
 option(HALYARD_SANITIZE_LANES "In a build with sanitizers, check the lane files too: GCC takes minutes for each" OFF)
 set(halyard_lane_options -O3 -fno-signed-zeros -fno-trapping-math -fno-math-errno
   $<$<CXX_COMPILER_ID:GNU>:-fno-devirtualize-speculatively> $<$<CXX_COMPILER_ID:GNU>:-fno-tree-loop-distribute-patterns>)

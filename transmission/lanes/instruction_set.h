@@ -17,7 +17,7 @@ enum class InstructionSet {
 const std::vector<InstructionSet>& instruction_sets();
 
 /// A table of functions that is compiled once for each set. Builds for x86-64 have all copies, unless
-/// HALYARD_WIDE_LANES is off, as in the presets for sanitizers, coverage and fuzzing. Others have the generic one.
+/// HALYARD_WIDE_LANES is off, as in the presets for coverage and fuzzing. Others have the generic one.
 template <class Kernels>
 struct KernelCopies {
   const Kernels* generic;
