@@ -338,11 +338,10 @@ TEST_F(BadInput, AnEstimatorThatFailsEndsItsOwnRowOfTheComparison) {
   std::string rows, names = "kinematics";
   for (const char* time : {"0", "0.001", "0.002", "0.003"}) rows += std::string(time) + ",0,0,0,107,204,904\n";
   write_text(path("log.csv"), kHeader + rows);
-  const std::vector<std::pair<std::string, std::string>> broken = {
-      {"throws_in_update", "at 0.002 s"},
-      {"crashes_in_create", "being made: crashed: Segm"},
-      {"crashes_in_update", "at 0.002 s: crashed: Segm"},
-      {"never_returns", "at 0.002 s: took more than 2 s"}};
+  const std::vector<std::pair<std::string, std::string>> broken = {{"throws_in_update", "at 0.002 s"},
+                                                                   {"crashes_in_create", "being made: crashed: Segm"},
+                                                                   {"crashes_in_update", "at 0.002 s: crashed: Segm"},
+                                                                   {"never_returns", "at 0.002 s: took more than 2 s"}};
   for (const auto& [module, failure] : broken)
     names.append("," HALYARD_BROKEN_PLUGINS "/").append(module).append(".so");
   const RunResult run = this->run({"compare", "log.csv", "--model", "raven2.xml", "--estimators", names + ",ekf",
