@@ -84,8 +84,8 @@ void run_plan(const PlanCommandOptions& options) {
                                  plan.model.n()));
   if (!joints_alike(scenario.robot.nominal, plan.model.nominal))
     throw InputError(
-        fmt::format("{}: its robot's joints are not of the types of those of {}, or not all of the same "
-                    "ones have a motor; give a scenario of this arm",
+        fmt::format("{}: its robot's joints are not of the types of those of {}, or are driven otherwise; give a "
+                    "scenario of this arm",
                     options.scenario.string(), options.model.string()));
   if (constexpr double kShortest = 1.5; scenario.duration_s <= kShortest)
     throw InputError(fmt::format("{}: duration {:g} s: expected more than {:g} s, of which a plan can tell something",

@@ -1,6 +1,5 @@
 /// halyard sweep on a cluster: --slurm and --status.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -136,8 +135,8 @@ void run_sweep_status(const fs::path& sweep, const fs::path& out) {
             100.0 * double(done) / double(grid.size()));
   print_out("{}\n", failed > 0 ? fmt::format(", {} of them with a failure", failed) : "");
   if (const std::vector<std::string> programs = cells.programs(); programs.size() > 1)
-    print_out("the points are of {} programs, which halyard merge refuses: {}\n", programs.size(),
-              fmt::join(programs, "; "));
+    print_out("the points are of {} programs, which halyard merge refuses: {}; {}\n", programs.size(),
+              name_of_program(programs[0]), name_of_program(programs[1]));
   const auto array = submitted_array(out, grid.id);
   const bool is_active = array && print_parts(cells, *array);
   if (!is_active && is_in_use(out)) {

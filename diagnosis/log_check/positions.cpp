@@ -176,6 +176,7 @@ void check_positions(LogUnderCheck& c) {
     if (!c.is_driven(k)) {
       check_undriven(c, m, k);
       m = sampled_motion(c.log, c.model);
+      continue;
     }
     if (m.expected[k].empty()) continue;
     const bool has_sensor = !m.joint[k].empty() && spread(m.joint[k]) > 0;
