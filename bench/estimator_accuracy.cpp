@@ -158,9 +158,11 @@ int main(int argc, char** argv) {
   app.add_option("--duration", duration_s, "of A, B, C, dwells, s");
   app.add_option("--effect-duration", effect_duration_s, "of the record of each effect, s");
   app.add_option("--effect", only, "only this effect");
-  app.add_option("--group", group, "experiments, dwells, rig, backlash, effects, or all");
+  app.add_option("--group", group, "which records")
+      ->check(CLI::IsMember({"experiments", "dwells", "rig", "backlash", "effects", "all"}));
   app.add_flag("--sub-steps", sub_steps, "switch the exponential step off");
   return run_program(app, argc, argv, [&] {
+    if (!only.empty() && !find_effect(only)) throw InputError("--effect: the library has no effect " + in_quotes(only));
     const ArmModel raven = read_model(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml");
     std::vector<Record> records;
     const auto wanted = [&](const char* name) { return group == "all" || group == name; };

@@ -1,10 +1,10 @@
 #include "model/homing.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "model/input_error.h"
+#include "model/quantile.h"
 #include "transmission/coupling.h"
 
 namespace halyard {
@@ -75,8 +75,8 @@ void home_one(Log& log, const KnownArm& known, int k, bool motor) {
     throw InputError(
         log.source + ": the readings of motors and joint " + std::to_string(k + 1) +
         " that tell the zero of its encoder are missing; give a log with them, or the offset in the model");
-  std::nth_element(zero.begin(), zero.begin() + zero.size() / 2, zero.end());
-  for (double& reading : motor ? log.motor_position[k] : log.joint_position[k]) reading -= zero[zero.size() / 2];
+  const double usual = median(std::move(zero));
+  for (double& reading : motor ? log.motor_position[k] : log.joint_position[k]) reading -= usual;
 }
 
 }  // namespace

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "bench/performance/diagram.h"
 #include "bench/performance/filter_costs.h"
 #include "bench/performance/filter_steps.h"
 #include "bench/performance/page.h"
 #include "bench/program.h"
+#include "model/output/output_files.h"
 
 namespace halyard {
 namespace {
@@ -29,7 +28,7 @@ std::vector<Panel> measure_panels(bool resting, double duration_s) {
 
 void write(const std::filesystem::path& path, const std::string& text) {
   std::filesystem::create_directories(path.parent_path());
-  std::ofstream(path) << text;
+  write_file_whole(path, text);
 }
 
 }  // namespace

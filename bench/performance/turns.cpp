@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "bench/bench_arm.h"
+#include "model/quantile.h"
 
 namespace halyard {
 namespace {
@@ -18,14 +19,11 @@ double mean_of_blocks(const std::vector<double>& us) {
   std::vector<double> means;
   for (auto first = us.begin(); us.end() - first >= std::ptrdiff_t{kBlock}; first += kBlock)
     means.push_back(std::accumulate(first, first + kBlock, 0.0) / kBlock);
-  std::ranges::sort(means);
-  return means[means.size() / 2];
+  return median(std::move(means));
 }
 
-StepTime summary(const std::string& name, std::vector<double>& us) {
-  const double mean = mean_of_blocks(us);
-  std::ranges::sort(us);
-  return {name, mean, us[us.size() / 2], us[us.size() * 99 / 100]};
+StepTime summary(const std::string& name, const std::vector<double>& us) {
+  return {name, mean_of_blocks(us), median(us), quantile(us, 0.99)};
 }
 
 }  // namespace

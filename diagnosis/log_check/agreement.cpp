@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/quantile.h"
+
 namespace halyard {
 namespace {
 

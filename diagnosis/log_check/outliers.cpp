@@ -8,6 +8,7 @@
 
 #include "diagnosis/log_check/robust.h"
 #include "diagnosis/record/record.h"
+#include "model/quantile.h"
 
 namespace halyard {
 namespace {

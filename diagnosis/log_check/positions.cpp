@@ -8,6 +8,7 @@
 #include "diagnosis/log_check/agreement.h"
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/robust.h"
+#include "model/quantile.h"
 
 namespace halyard {
 namespace {

@@ -2,18 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
-namespace halyard {
+#include "model/quantile.h"
 
-double quantile(std::vector<double> x, double share) {
-  std::erase_if(x, [](double v) { return !std::isfinite(v); });
-  if (x.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto at = x.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(x.size() - 1) + 0.5);
-  std::nth_element(x.begin(), at, x.end());
-  return *at;
-}
+namespace halyard {
 
 double spread(const std::vector<double>& x) {
   const double width = quantile(x, 0.99) - quantile(x, 0.01);

@@ -5,9 +5,6 @@
 
 namespace halyard {
 
-/// Value below which a share of the samples lies; NaN without samples.
-double quantile(std::vector<double> x, double share);
-inline double median(std::vector<double> x) { return quantile(std::move(x), 0.5); }
 /// Width of the central 98 % of the samples; 0 without samples.
 double spread(const std::vector<double>& x);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnosis/record/record.h"
+#include "model/quantile.h"
 
 namespace halyard {
 
@@ -19,8 +20,7 @@ class SampledColumn {
     if (!is_there()) return;
     std::vector<double> steps(t_.size() - 1);
     for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = t_[i + 1] - t_[i];
-    std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
-    interval_ = steps[steps.size() / 2];
+    interval_ = median(steps);
     usual_hole_ = middle_of_time(std::move(steps), interval_);
     slope_ = slopes();
   }

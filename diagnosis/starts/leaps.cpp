@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/quantile.h"
+
 namespace halyard {
 namespace {
 
@@ -32,11 +34,9 @@ std::vector<Leap> leaps_of(const Evidence& evidence, int c, const std::vector<do
     size.push_back(all.back().strength);
   }
   if (all.empty()) return all;
-  const auto middle = static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::ranges::nth_element(gap, gap.begin() + middle);
-  std::ranges::nth_element(size, size.begin() + middle);
-  if (!(size[middle] > 0)) return {};
-  for (Leap& l : all) l.strength /= size[middle] * std::sqrt((l.to - l.from) / gap[middle]);
+  const double usual_gap = median(std::move(gap)), usual_size = median(std::move(size));
+  if (!(usual_size > 0)) return {};
+  for (Leap& l : all) l.strength /= usual_size * std::sqrt((l.to - l.from) / usual_gap);
   return all;
 }
 

@@ -10,6 +10,7 @@
 #include "evaluation/comparison/compare.h"
 #include "evaluation/first_failure.h"
 #include "model/input_error.h"
+#include "model/quantile.h"
 #include "plant/simulate.h"
 
 namespace halyard {
@@ -106,10 +107,8 @@ RunsOfEstimator summed_up(const std::string& name, const std::vector<OneRun>& al
     for (const OneRun* run : runs) nees.push_back(run->judgement.nees[k]), rms.push_back(run->errors[k].rms);
     sum.nees.push_back(consistency_of_runs(nees));
     sum.errors.push_back(together(runs, k));
-    std::ranges::sort(rms);
-    const auto at = [&](double share) { return rms.empty() ? kNan : rms[std::lround(share * double(rms.size() - 1))]; };
-    sum.rms_lower.push_back(at(0.025));
-    sum.rms_upper.push_back(at(0.975));
+    sum.rms_lower.push_back(quantile(rms, 0.025));
+    sum.rms_upper.push_back(quantile(rms, 0.975));
     sum.in_band.push_back(runs.empty() ? kNan : share_in_band(sum_of_nees[k], runs.size()));
   }
   return sum;

@@ -3,12 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
-#include <cmath>
-#include <limits>
 #include <string>
-#include <vector>
 
 namespace halyard::blind {
 
@@ -29,13 +25,5 @@ struct Proportion {
  private:
   using Binomial = boost::math::binomial_distribution<>;
 };
-
-/// NaN of nothing.
-inline double quantile(std::vector<double> x, double q) {
-  if (x.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::ranges::sort(x);
-  return x[static_cast<std::size_t>(std::lround(q * static_cast<double>(x.size() - 1)))];
-}
-inline double median(const std::vector<double>& x) { return quantile(x, 0.5); }
 
 }  // namespace halyard::blind

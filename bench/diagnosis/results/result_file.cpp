@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/diagnosis/results/result.h"
+#include "model/input/text_file.h"
 #include "model/input_error.h"
 #include "model/output/output_files.h"
 
@@ -178,9 +179,10 @@ void write_result(const std::filesystem::path& folder, const Result& r) {
 std::string result_line(const Result& r) { return to_json(r).dump(); }
 
 Result read_result(const std::filesystem::path& path) {
+  const std::string text =
+      read_text_file(path, {.name = "a result of a blind trial", .if_too_large = "remove the file"});
   try {
-    std::ifstream stream(path);
-    return result_from(Json::parse(stream));
+    return result_from(Json::parse(text));
   } catch (const Json::exception& error) {
     throw InputError(path.string() + ": not a result of a blind trial (" + error.what() + "); remove the file");
   }

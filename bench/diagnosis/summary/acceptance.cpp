@@ -4,6 +4,7 @@
 
 #include "bench/diagnosis/summary/calibration.h"
 #include "bench/diagnosis/summary/probabilities.h"
+#include "model/quantile.h"
 
 namespace halyard::blind {
 namespace {

@@ -1,6 +1,7 @@
 #include "bench/diagnosis/summary/calibration.h"
 
 #include <cmath>
+#include <limits>
 
 #include "bench/diagnosis/summary/listed_parameter.h"
 
@@ -62,11 +63,11 @@ std::vector<double> interval_coverages(const Results& ran) {
 }
 
 ErrorRatio error_ratio(const std::vector<double>& error, const std::vector<double>& other) {
-  double worst = 0, sum = 0, count = 0;
+  double worst = std::numeric_limits<double>::quiet_NaN(), sum = 0, count = 0;
   for (std::size_t k = 0; k < error.size(); ++k) {
     const double ratio = error[k] / other[k];
     if (!std::isfinite(ratio)) continue;  // a joint whose error cannot be told
-    worst = std::max(worst, ratio);
+    worst = std::fmax(worst, ratio);
     sum += std::log(ratio);
     count += 1;
   }

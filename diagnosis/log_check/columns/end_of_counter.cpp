@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/log_check/robust.h"
+#include "model/quantile.h"
 
 namespace halyard {
 namespace {

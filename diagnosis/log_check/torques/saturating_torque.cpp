@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "diagnosis/log_check/robust.h"
+#include "model/quantile.h"
 
 namespace halyard {
 namespace {
