@@ -10,9 +10,8 @@ namespace halyard {
 namespace {
 
 void check_finite(const double* x, int size) {
-  double sum = 0;
-  for (int i = 0; i < size; ++i) sum += 0 * x[i];  // NaN unless the number is finite
-  if (sum != 0) throw std::runtime_error("a rate of the arm's state is not finite");
+  if (!Eigen::Map<const Eigen::VectorXd>(x, size).allFinite())
+    throw std::runtime_error("a rate of the arm's state is not finite");
 }
 
 /// Whether the terms contain q' = v of joint k.

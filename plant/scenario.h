@@ -46,6 +46,8 @@ struct JointTrajectory {
   std::vector<double> points;  ///< visited in order, repeatedly, by minimum-jerk moves, rad | m
   double move_s = 1, dwell_s = 0.5;
   std::vector<double> sample_time, sample_position;  ///< s, rad | m; linear between, constant outside
+  std::filesystem::path file;                        ///< CSV file that the samples were read from, if any
+  std::string column;                                ///< and their column in it
 };
 
 /// Standard deviations of Gaussian noise, drawn independently at each tick, [n]; empty: no noise.
@@ -100,5 +102,11 @@ void check_scenario(const Scenario& scenario);
 /// same joints as the scenario's model; everything else may differ. The scenario's changes and effects are applied to
 /// it. If robot is empty, the robot is the scenario's model. Throws InputError.
 Scenario read_scenario(const std::filesystem::path& path, const std::filesystem::path& robot = {});
+
+/// The text of a scenario file for the folder `folder`, which read_scenario() reads as this scenario again. The robot
+/// must be that of the model file `model`: neither changes of its numbers nor effects are written. Throws
+/// std::invalid_argument for samples that were not read from a file.
+std::string scenario_xml(const Scenario& scenario, const std::filesystem::path& model,
+                         const std::filesystem::path& folder);
 
 }  // namespace halyard

@@ -9,7 +9,7 @@
 #include "model/model_file.h"
 #include "model/name_list.h"
 #include "model/xml/xml_reader.h"
-#include "plant/scenario.h"
+#include "plant/scenario_words.h"
 
 namespace halyard {
 namespace {
@@ -31,10 +31,17 @@ void read_change(const XmlElement& set, ArmModel& robot, std::set<std::string>& 
     set.fail("parameter", "the model has no such number; expected one of " + listed(known));
   }
   found->number.set(set.number("value", found->unit == "1" ? "" : found->unit));
-  try {  // what a model file may not say, a scenario may not either
+}
+
+/// Changes that a model file may not say, a scenario may not either. Only all of them together have to be right.
+void read_changes(const std::vector<XmlElement>& sets, ArmModel& robot) {
+  std::set<std::string> changed;
+  for (const XmlElement& set : sets) read_change(set, robot, changed);
+  if (sets.empty()) return;
+  try {
     parse_model(model_to_xml(robot), "the model so changed");
   } catch (const InputError& error) {
-    set.fail("value", error.what());
+    sets.back().fail("value", error.what());
   }
 }
 
@@ -61,12 +68,12 @@ void check_column(const XmlElement& element, const std::filesystem::path& file, 
 /// Read as a log of one joint, so that numbers, gaps and times are checked as everywhere.
 void read_samples(const XmlElement& element, int joint, JointTrajectory& t) {
   element.only({"joint", "kind", "file", "column"});
-  const std::filesystem::path file = element.path("file");
-  const std::string column = element.text_or("column", "joint_position_" + std::to_string(joint + 1));
-  check_column(element, file, column);
+  t.file = element.path("file");
+  t.column = element.text_or("column", "joint_position_" + std::to_string(joint + 1));
+  check_column(element, t.file, t.column);
   ColumnMap columns;
-  columns.add("motor_position_1", column);
-  const Log log = read_log(file, 1, columns, ReadOptions{.torque_required = false});
+  columns.add("motor_position_1", t.column);
+  const Log log = read_log(t.file, 1, columns, ReadOptions{.torque_required = false});
   for (std::size_t i = 0; i < log.size(); ++i) {
     if (std::isnan(log.motor_position[0][i])) continue;
     t.sample_time.push_back(log.time[i] - log.time[0]);
@@ -81,10 +88,7 @@ void read_trajectory(const XmlElement& element, Scenario& scenario, std::vector<
   given[joint] = true;
   const std::string unit = scenario.robot.nominal.joint[joint].type == JointType::revolute ? "rad" : "m";
   JointTrajectory t;
-  t.kind = element.choice<Kind>("kind", {{"hold", Kind::hold},
-                                         {"sines", Kind::sines},
-                                         {"point_to_point", Kind::point_to_point},
-                                         {"samples", Kind::samples}});
+  t.kind = element.choice("kind", words_of(t.kind));
   switch (t.kind) {
     case Kind::hold:
       element.only({"joint", "kind", "center"});
@@ -114,15 +118,7 @@ ArmModel read_robot(const std::filesystem::path& path, const ArmParameters<doubl
 
 void read_integrator(const XmlElement& element, IntegratorOptions& options) {
   element.only({"treatment", "relative_tolerance", "absolute_tolerance"});
-  options.kind = element.choice_or<IntegratorKind>("treatment", options.kind,
-                                                   {{"rosenbrock", IntegratorKind::rosenbrock},
-                                                    {"dirk", IntegratorKind::dirk},
-                                                    {"imex", IntegratorKind::imex},
-                                                    {"imex_link1", IntegratorKind::imex_link1},
-                                                    {"bdf", IntegratorKind::bdf},
-                                                    {"explicit_rk", IntegratorKind::explicit_rk},
-                                                    {"simbody_rkm", IntegratorKind::simbody_rkm},
-                                                    {"simbody_cpodes", IntegratorKind::simbody_cpodes}});
+  options.kind = element.choice_or("treatment", options.kind, words_of(options.kind));
   const bool is_simbodys =
       options.kind == IntegratorKind::simbody_rkm || options.kind == IntegratorKind::simbody_cpodes;
   if (is_simbodys && element.has("absolute_tolerance"))
@@ -168,10 +164,8 @@ Scenario read_scenario(const std::filesystem::path& path, const std::filesystem:
   if (!robot.empty()) scenario.robot = read_robot(robot, scenario.assumed->nominal, scenario.model);
   scenario.duration_s = root.number_or("duration", scenario.duration_s, "s", Sign::positive);
   scenario.seed = static_cast<std::uint64_t>(root.integer_or("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
-  if (root.has("engine"))
-    scenario.engine = root.choice<Engine>("engine", {{"simbody", Engine::simbody}, {"halyard", Engine::halyard}});
-  std::set<std::string> changed;
-  for (const XmlElement& set : root.children("set")) read_change(set, scenario.robot, changed);
+  if (root.has("engine")) scenario.engine = root.choice("engine", words_of(Engine()));
+  read_changes(root.children("set"), scenario.robot);
   if (const auto effects = root.optional_child("effects"))
     for (const PlacedEffect& e : read_effects(*effects, scenario.robot)) scenario.robot.effects.push_back(e);
 

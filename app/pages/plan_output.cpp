@@ -29,7 +29,7 @@ Json number(double value) { return std::isfinite(value) ? Json(rounded_to_digits
 std::string joint_text(EffectPlace joint) { return joint ? fmt::format("{}", *joint + 1) : "arm"; }
 
 std::string with_unit(double value, const std::string& unit) {
-  return fmt::format("{:.4g}{}", value, unit_suffix(unit));
+  return fmt::format("{:.2g}{}", value, unit_suffix(unit));
 }
 
 std::string limit_text(const DetectionLimit& d) {
@@ -200,8 +200,7 @@ std::string plan_json(const Plan& plan) {
 void write_plan(OutputFiles& files, const std::filesystem::path& folder, const Plan& plan) {
   namespace fs = std::filesystem;
   if (plan.separating && plan.separating->scenario) {
-    const fs::path model = fs::proximate(fs::absolute(plan.model.source), fs::absolute(folder));
-    files.add(folder / "scenario.xml", proposal_xml(*plan.separating->scenario, model.string()));
+    files.add(folder / "scenario.xml", scenario_xml(*plan.separating->scenario, plan.model.source, folder));
   } else if (fs::exists(folder / "plan.json")) {
     files.remove(folder / "scenario.xml");  // the proposal of an earlier plan
   }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <tinyxml2.h>
 
 #include <algorithm>
 #include <atomic>
@@ -14,7 +13,6 @@
 #include <stdexcept>
 
 #include "model/output/number_text.h"
-#include "model/xml/xml_reader.h"
 #include "plant/simulate.h"
 #include "plant/trajectory.h"
 
@@ -144,59 +142,6 @@ SeparatingMotion separating_motion(const Scenario& given, const Log& given_log, 
     best.log = std::move(tried[i].log);
   }
   return best;
-}
-
-std::string proposal_xml(const Scenario& scenario, const std::string& model) {
-  tinyxml2::XMLPrinter xml;
-  const auto number = [&](const char* name, double value) { xml.PushAttribute(name, exact_text(value).c_str()); };
-  const auto numbers = [&](const char* name, const std::vector<double>& values) {
-    std::string text;
-    for (const double value : values) text.append(text.empty() ? "" : " ").append(exact_text(value));
-    if (!text.empty()) xml.PushAttribute(name, text.c_str());
-  };
-  xml.PushHeader(false, true);
-  xml.OpenElement("scenario");
-  xml.PushAttribute("name", scenario.name.c_str());
-  xml.PushAttribute("model", model.c_str());
-  number("duration", scenario.duration_s);
-  xml.PushAttribute("seed", std::to_string(scenario.seed).c_str());
-  for (std::size_t k = 0; k < scenario.trajectory.size(); ++k) {
-    const JointTrajectory& t = scenario.trajectory[k];
-    xml.OpenElement("trajectory");
-    xml.PushAttribute("joint", std::to_string(k + 1).c_str());
-    if (t.kind == JointTrajectory::Kind::sines) {
-      xml.PushAttribute("kind", "sines");
-      number("center", t.center);
-      for (const Sine& sine : t.sines) {
-        xml.OpenElement("sine");
-        number("amplitude", sine.amplitude);
-        number("frequency", sine.frequency_hz);
-        number("phase", sine.phase);
-        xml.CloseElement();
-      }
-    } else if (t.kind == JointTrajectory::Kind::hold) {
-      xml.PushAttribute("kind", "hold");
-      number("center", t.center);
-    } else {
-      xml.PushAttribute("kind", "point_to_point");
-      numbers("points", t.points);
-      number("move", t.move_s);
-      number("dwell", t.dwell_s);
-    }
-    xml.CloseElement();
-  }
-  xml.OpenElement("control");
-  number("period", scenario.control_period_s);
-  number("fade_in", scenario.fade_in_s);
-  xml.CloseElement();
-  xml.OpenElement("sensors");
-  xml.PushAttribute("homed", scenario.homed);
-  numbers("torque_noise", scenario.noise.motor_torque);
-  numbers("motor_position_noise", scenario.noise.motor_reading);
-  numbers("joint_position_noise", scenario.noise.joint_reading);
-  xml.CloseElement();
-  xml.CloseElement();
-  return xml.CStr();
 }
 
 }  // namespace halyard

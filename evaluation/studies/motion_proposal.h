@@ -43,7 +43,4 @@ SeparatingMotion separating_motion(const Scenario& given, const Log& given_log, 
                                    const PlacedEffect& second, bool joint_sensor,
                                    const std::function<void(const std::string&, double)>& progress);
 
-/// The text of a scenario file; model: value of its model attribute.
-std::string proposal_xml(const Scenario& scenario, const std::string& model);
-
 }  // namespace halyard

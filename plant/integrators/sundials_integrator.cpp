@@ -58,6 +58,10 @@ class Sundials : public Integrator {
     if (flag < 0) throw std::runtime_error(std::string("SUNDIALS refuses ") + what);
   }
 
+  void forget_failures() {
+    message_.clear();
+    thrown_.clear();
+  }
   [[noreturn]] void fail(double until_s) const { fail_between(time_, until_s, thrown_.empty() ? message_ : thrown_); }
 
   /// Runs a callback; an exception must not cross SUNDIALS' C code, and asks for a smaller step instead.
@@ -68,8 +72,10 @@ class Sundials : public Integrator {
       return 0;
     } catch (const std::exception& error) {
       thrown_ = error.what();
-      return 1;
+    } catch (...) {
+      thrown_ = "an exception of unknown type";
     }
+    return 1;
   }
 
   static int derivative(realtype t, N_Vector y, N_Vector y_dot, void* self) {
@@ -137,7 +143,7 @@ class RungeKutta : public Sundials {
   void advance(double until_s) override {
     check(ARKStepReset(memory_, time_, vector_), "the state");
     check(ARKStepSetStopTime(memory_, until_s), "the stop time");
-    thrown_.clear();
+    forget_failures();
     if (ARKStepEvolve(memory_, until_s, vector_, &time_, ARK_NORMAL) < 0) fail(until_s);
     time_ = until_s;
   }
@@ -196,7 +202,7 @@ class Bdf : public Sundials {
   void advance(double until_s) override {
     check(CVodeReInit(memory_, time_, vector_), "the state");
     check(CVodeSetStopTime(memory_, until_s), "the stop time");
-    thrown_.clear();
+    forget_failures();
     if (CVode(memory_, until_s, vector_, &time_, CV_NORMAL) < 0) fail(until_s);
     time_ = until_s;
   }

@@ -30,6 +30,7 @@
 #include "tests/support/environment.h"
 #include "tests/support/message_of.h"
 #include "tests/support/plugin_fixtures.h"
+#include "tests/support/temporary_folder.h"
 
 namespace halyard {
 namespace {
@@ -251,12 +252,12 @@ TEST(Worker, IsTheProgramThatTheEnvironmentNames) {
 }
 
 TEST(Worker, RefusesToBeStartedByHand) {
-  const std::string said = ::testing::TempDir() + "worker_says";
+  const TemporaryFolder folder;
+  const std::string said = folder / "worker_says";
   EXPECT_EQ(WEXITSTATUS(std::system((worker_program().string() + " 77 78 2>" + said).c_str())), 2);
   std::string line;
   std::getline(std::ifstream(said), line);
   EXPECT_EQ(line, "halyard_worker: is started by halyard's library only; run halyard instead");
-  std::remove(said.c_str());
 }
 
 TEST(Worker, WithoutAProcessForTheEstimatorIsAFaultOfTheMachine) {
@@ -359,7 +360,7 @@ TEST(Worker, ManyAreStartedFromThreadsThatAllocateMemory) {
 
 TEST(ContainedPlugins, OneThatCrashesAsItIsOpenedIsRefusedAsOthersAre) {
   const std::vector<PluginInfo> installed = find_plugins();
-  const plugin_fixtures::TemporaryFolder folder;
+  const TemporaryFolder folder;
   for (const char* name : {"crashes_in_table", "well_formed"})
     std::filesystem::copy_file(fixture(name), folder / (std::string(name) + ".so"));
   const Environment path("HALYARD_PLUGIN_PATH", (folder / "").string().c_str());
@@ -377,7 +378,7 @@ TEST(ContainedPlugins, OneThatCrashesAsItIsOpenedIsRefusedAsOthersAre) {
 }
 
 TEST(ContainedPlugins, OneThatHangsAsItIsOpenedIsRefusedAfterTheLimit) {
-  const plugin_fixtures::TemporaryFolder folder;
+  const TemporaryFolder folder;
   std::filesystem::copy_file(fixture("hangs_when_opened"), folder / "hangs_when_opened.so");
   const Environment path("HALYARD_PLUGIN_PATH", (folder / "").string().c_str());
   std::vector<std::string> refused;

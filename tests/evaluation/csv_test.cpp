@@ -1,6 +1,7 @@
 /// Tables as they are written for other programs.
 
 #include "evaluation/csv.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -50,7 +51,8 @@ TEST(CsvTable, DoesNotGiveOutHalfARow) {
   CsvTable table({"a", "b"});
   table.add(1.0);
   EXPECT_THROW(table.text(), std::logic_error);
-  const auto path = std::filesystem::path(testing::TempDir()) / "half_a_row.csv";
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "half_a_row.csv";
   EXPECT_THROW(table.write(path), std::logic_error);
   EXPECT_FALSE(std::filesystem::exists(path));
   table.add(2.0);
@@ -58,7 +60,6 @@ TEST(CsvTable, DoesNotGiveOutHalfARow) {
   std::stringstream written;
   written << std::ifstream(path).rdbuf();
   EXPECT_EQ(written.str(), table.text());
-  std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "plant/trajectory.h"
@@ -12,8 +10,6 @@
 
 namespace halyard {
 namespace {
-
-namespace fs = std::filesystem;
 
 TEST(RandomMotion, StaysWithinTheRangesOfTheJoints) {
   const Scenario given = motion(first_joints(2), 2);
@@ -62,38 +58,6 @@ TEST(RandomMotion, OfAJointWithoutAControllerIsTheGivenOne) {
   EXPECT_EQ(with_one_held.trajectory[1].center, 1.5);
   EXPECT_EQ(with_one_held.trajectory[0].kind, drawn.kind) << "the other joints move as before";
   EXPECT_EQ(with_one_held.trajectory[0].center, drawn.center);
-}
-
-TEST(Proposal, IsReadFromItsFileAsItWasDrawn) {
-  const fs::path folder = fs::path(testing::TempDir()) / "motion_proposal";
-  fs::create_directories(folder);
-  fs::copy_file(HALYARD_SOURCE_DIR "/examples/raven2/raven2.xml", folder / "arm.xml",
-                fs::copy_options::overwrite_existing);
-  Scenario given = motion(first_joints(3), 3);
-  given.noise.joint_reading = {1e-5, 0, 2e-5};
-  given.seed = 7;
-  given.homed = true;
-  given.robot.joints[1].controller = {};
-  given.trajectory[1] = JointTrajectory();
-  given.trajectory[1].center = 1.5;
-  for (int i = 0; i < 4; ++i) {
-    const Scenario drawn = random_motion(given, i);
-    std::ofstream(folder / "proposal.xml") << proposal_xml(drawn, "arm.xml");
-    const Scenario read = read_scenario(folder / "proposal.xml");
-    EXPECT_EQ(read.name, drawn.name);
-    EXPECT_EQ(read.duration_s, drawn.duration_s);
-    EXPECT_EQ(read.seed, 7u);
-    EXPECT_TRUE(read.homed);
-    EXPECT_EQ(read.fade_in_s, drawn.fade_in_s);
-    EXPECT_EQ(read.control_period_s, drawn.control_period_s);
-    EXPECT_EQ(read.noise.joint_reading, drawn.noise.joint_reading);
-    for (int k = 0; k < 3; ++k)
-      for (double t = 0; t < 3; t += 0.1)
-        EXPECT_EQ(desired_position(read.trajectory[k], read.fade_in_s, t),
-                  desired_position(drawn.trajectory[k], drawn.fade_in_s, t))
-            << i << ' ' << k << ' ' << t;
-  }
-  fs::remove_all(folder);
 }
 
 TEST(PlannedLog, HasJointPositionsOnlyIfThereIsASensor) {

@@ -11,6 +11,7 @@
 #include "evaluation/sweep/sweep_parameter.h"
 #include "model/model_file.h"
 #include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace halyard {
 namespace {
@@ -186,8 +187,7 @@ TEST(SweepKeys, OfAScenarioAreCheckedAtEachPoint) {
 }
 
 TEST(SweepFile, IsAnotherSweepWithAnotherBuildOfAModule) {
-  const fs::path folder = fs::path(testing::TempDir()) / "sweep_of_a_module";
-  fs::create_directories(folder);
+  const TemporaryFolder folder;
   const auto id_with = [&](const std::string& module) {
     std::ofstream(folder / "mine.so") << module;
     std::ofstream(folder / "sweep.xml") << "<sweep name=\"s\" scenario=\"" << kRaven
@@ -198,12 +198,10 @@ TEST(SweepFile, IsAnotherSweepWithAnotherBuildOfAModule) {
   const std::string id = id_with("one build");
   EXPECT_EQ(id_with("one build"), id);
   EXPECT_NE(id_with("other build"), id);
-  fs::remove_all(folder);
 }
 
 TEST(SweepFile, IsAnotherSweepWithAnotherModelOfTheController) {
-  const fs::path folder = fs::path(testing::TempDir()) / "sweep_of_a_controller";
-  fs::create_directories(folder);
+  const TemporaryFolder folder;
   std::ofstream(folder / "scenario.xml") << "<scenario name=\"s\" model=\"arm.xml\"><set "
                                             "parameter=\"joint1.motor.capstan_radius\" value=\"6e-3\"/></scenario>";
   std::ofstream(folder / "sweep.xml") << "<sweep name=\"s\" scenario=\"scenario.xml\" model=\"" << kRaven
@@ -219,7 +217,6 @@ TEST(SweepFile, IsAnotherSweepWithAnotherModelOfTheController) {
   const std::string id = id_with(5e-3);
   EXPECT_EQ(id_with(5e-3), id);
   EXPECT_NE(id_with(7e-3), id);
-  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/support/small_arm.h"
+#include "tests/support/temporary_folder.h"
 
 namespace halyard {
 namespace {
@@ -37,11 +38,11 @@ TEST(XmlElement, AFileThatCannotBeReadOrHeldIsNoShorterFile) {
   // Linux answers a read of the memory at address 0 by EIO, as a bad disk does.
   EXPECT_EQ(message_of([] { XmlElement::read_file("/proc/self/mem"); }),
             "/proc/self/mem: cannot be read; check its permissions and its disk");
-  const std::filesystem::path huge = std::filesystem::path(testing::TempDir()) / "huge.xml";
+  const TemporaryFolder folder;
+  const std::filesystem::path huge = folder / "huge.xml";
   std::ofstream(huge) << "<arm>";
   std::filesystem::resize_file(huge, std::uintmax_t(1) << 43);  // 8 TB, none of them on the disk
   const std::string message = message_of([&] { XmlElement::read_file(huge); });
-  std::filesystem::remove(huge);
   EXPECT_TRUE(message.starts_with(huge.string() + ": needs about 9.68e+04 GB of memory")) << message;
 }
 

@@ -4,19 +4,16 @@
 #include <map>
 #include <string>
 
-#include "plant/scenario.h"
+#include "plant/scenario_words.h"
 
 namespace halyard {
 
 inline const std::map<IntegratorKind, std::string>& integrator_names() {
-  static const std::map<IntegratorKind, std::string> all = {{IntegratorKind::rosenbrock, "rosenbrock"},
-                                                            {IntegratorKind::dirk, "dirk"},
-                                                            {IntegratorKind::imex, "imex"},
-                                                            {IntegratorKind::imex_link1, "imex_link1"},
-                                                            {IntegratorKind::bdf, "bdf"},
-                                                            {IntegratorKind::explicit_rk, "explicit_rk"},
-                                                            {IntegratorKind::simbody_rkm, "simbody_rkm"},
-                                                            {IntegratorKind::simbody_cpodes, "simbody_cpodes"}};
+  static const std::map<IntegratorKind, std::string> all = [] {
+    std::map<IntegratorKind, std::string> names;
+    for (const auto& [name, kind] : words_of(IntegratorKind())) names[kind] = name;
+    return names;
+  }();
   return all;
 }
 

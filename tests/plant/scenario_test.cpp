@@ -157,6 +157,10 @@ TEST_F(ScenarioFile, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(message(R"(<set parameter="joint1.cable.stiffness" value="-3"/>)"),
             "s.xml:2: <set value=\"-3\">: the model so changed:8: <cable stiffness=\"-3\">: expected a number greater "
             "than 0");
+  const std::string massless = R"(<set parameter="joint1.link.mass" value="0"/>)",
+                    without_inertia = R"(<set parameter="joint1.link.inertia" value="0"/>)";
+  EXPECT_NE(message(massless), "no error") << "a link without mass that has an inertia";
+  EXPECT_EQ(message(massless + without_inertia), "no error") << "both changes together are right";
   EXPECT_EQ(
       message("<set parameter=\"joint1.link.mass\" value=\"3\"/>\n<set parameter=\"joint1.link.mass\" value=\"4\"/>"),
       "s.xml:3: <set parameter=\"joint1.link.mass\">: is set twice; remove one of the two");

@@ -11,10 +11,12 @@
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "plugins/host/loader.h"
+#include "tests/support/temporary_folder.h"
 
 namespace halyard::plugin_fixtures {
 
 namespace fs = std::filesystem;
+using halyard::TemporaryFolder;
 
 inline const fs::path kFixtures = HALYARD_BROKEN_PLUGINS;
 
@@ -57,20 +59,5 @@ std::string failure(const Call& call) {
     }
   });
 }
-
-/// A folder that goes away with the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "halyard_plugins_test_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~TemporaryFolder() { fs::remove_all(path_); }
-  operator const fs::path&() const { return path_; }
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 }  // namespace halyard::plugin_fixtures
