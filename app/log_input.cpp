@@ -44,12 +44,12 @@ std::optional<std::string> explained_by_log(const std::string& failure, const st
   return std::nullopt;
 }
 
-std::string gross_error_warnings(const Log& log, const ArmModel& model,
-                                 const std::vector<std::string>& column_entries) {
-  std::string lines;
+std::vector<std::string> gross_errors(const Log& log, const ArmModel& model,
+                                      const std::vector<std::string>& column_entries) {
+  std::vector<std::string> lines;
   for (const LogFinding& finding : check_log(log, model, columns_of(model, column_entries)))
     if (finding.severity == LogFinding::Severity::gross && !finding.stands_still)
-      lines += "warning: " + finding_line(finding) + "\n";
+      lines.push_back(finding_line(finding));
   return lines;
 }
 

@@ -30,9 +30,10 @@ void check_given_once(const std::vector<std::filesystem::path>& logs);
 std::optional<std::string> explained_by_log(const std::string& failure, const std::vector<Log>& logs,
                                             const ArmModel& model, const std::vector<std::string>& column_entries);
 
-/// "warning: LOG: joint_position_1: ...", a line for each gross error that the check of the log finds. An estimator
-/// runs over such a log all the same, and its result means nothing.
-std::string gross_error_warnings(const Log& log, const ArmModel& model, const std::vector<std::string>& column_entries);
+/// "LOG: joint_position_1: ...", a line for each gross error that the check of the log finds. An estimator runs over
+/// such a log all the same, and its result means nothing.
+std::vector<std::string> gross_errors(const Log& log, const ArmModel& model,
+                                      const std::vector<std::string>& column_entries);
 
 /// What `run` returns. If it fails and an error of the logs explains that, throws InputError with that error.
 template <class Run>

@@ -103,11 +103,11 @@ void blame_wrong_log(Comparison& comparison, const Data& data, const std::vector
   }
 }
 
-void print_notes(const Data& data, const std::vector<std::string>& columns) {
+void print_notes(const Data& data, const std::vector<std::string>& wrong_columns) {
   if (const std::string note = ignored_columns_note(data.measured); !note.empty()) print_out("{}\n", note);
   if (data.truth_from.empty())
     print_out("note: {}: has no joint sensors, so no error can be computed\n", data.measured.source);
-  print_out("{}", gross_error_warnings(data.measured, data.model, columns));
+  for (const std::string& error : wrong_columns) print_out("warning: {}\n", error);
 }
 
 void print_errors(const Comparison& comparison) {
@@ -179,6 +179,7 @@ void run_compare(const CompareCommandOptions& options) {
   comparison.data = options.data.string();
   comparison.model = data.model_path;
   comparison.truth_from = data.truth_from;
+  if (!data.scenario) comparison.wrong_columns = gross_errors(data.measured, data.model, options.columns);
   std::optional<MonteCarlo> runs;
   if (options.runs > 1) {
     Progress progress("runs", options.runs, "runs");
@@ -192,7 +193,7 @@ void run_compare(const CompareCommandOptions& options) {
   OutputFiles files;
   write_comparison(files, options.out, comparison, runs);
   commit_outputs(files);
-  if (!data.scenario) print_notes(data, options.columns);
+  if (!data.scenario) print_notes(data, comparison.wrong_columns);
   print_errors(comparison);
   if (runs) print_runs(*runs, comparison.units);
   print_out("report: {}\n", (options.out / "report.html").string());

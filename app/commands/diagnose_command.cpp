@@ -35,6 +35,7 @@ std::vector<UsualStage> usual_stages(int rehearsals) {
           {"fits", 0.3},
           {"best candidates", 0.9},
           {"finalists", 0.4},
+          {"several effects at once", 0.3},
           {"wider tolerances", 0.2},
           {"final fit", 0.6},
           {"hold-out", 0.2},

@@ -64,7 +64,7 @@ void run_estimate(const EstimateCommandOptions& options) {
   if (const std::string note = ignored_columns_note(log); !note.empty()) print_out("{}\n", note);
   if (std::ranges::all_of(log.joint_position, [](const auto& column) { return column.empty(); }))
     print_out("note: {}: has no joint sensors, so no error can be computed\n", options.data.string());
-  print_out("{}", gross_error_warnings(log, model, options.columns));
+  for (const std::string& error : gross_errors(log, model, options.columns)) print_out("warning: {}\n", error);
   print_out("{}: {} samples, {:g} s, {:.3g} us a step\n", options.estimator, log.size(), log.duration(),
             run.microseconds_per_step);
   if (run.report.gated > 0 || run.report.repaired_factors > 0) {

@@ -13,8 +13,8 @@ using report::Chart;
 using report::ChartKind;
 using report::Series;
 
-/// Of the palette of 8: the truth's own, so that an estimator has the same colour in every chart.
-constexpr std::size_t kTruthColour = 7;
+/// Of the palette: black is the truth's own, so that an estimator has the same colour in every chart.
+constexpr std::size_t kTruthColour = 6;
 
 std::string joint_title(int k, const char* what) { return fmt::format("Joint {}: {}", k + 1, what); }
 
@@ -138,11 +138,15 @@ report::Table error_table(const Comparison& comparison) {
   for (int k = 0; k < comparison.n_joints(); ++k) {
     const JointUnit& unit = comparison.units[k];
     const std::optional<std::size_t> best = best_run(comparison, k);
+    const auto reads_as = [&](std::size_t a, std::size_t b) {
+      return shown_number(comparison.errors[a][k].mean_absolute, unit) ==
+             shown_number(comparison.errors[b][k].mean_absolute, unit);
+    };
     for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
       const ErrorStatistics& error = comparison.errors[i][k];
       const bool is_baseline = i == comparison.baseline();
       table.rows.push_back({Cell(std::to_string(k + 1)), Cell(comparison.runs[i].name), Cell(unit.shown),
-                            Cell(shown_number(error.mean_absolute, unit), i == best),
+                            Cell(shown_number(error.mean_absolute, unit), best && reads_as(i, *best)),
                             Cell(shown_number(error.rms, unit)), Cell(shown_number(error.median_absolute, unit)),
                             Cell(shown_number(error.percentile_95, unit)), Cell(shown_number(error.peak, unit)),
                             Cell(shown_number(error.bias, unit)),

@@ -67,6 +67,9 @@ report::Page comparison_page(const Comparison& comparison, const std::optional<M
                                                        comparison.model, samples, comparison.truth.duration()));
   for (const EstimatorRun& run : comparison.runs)
     if (!run.failure.empty()) page.verdict(report::VerdictKind::warning, "Failed: " + run.failure);
+  if (!comparison.wrong_columns.empty())
+    page.verdict(report::VerdictKind::bad,
+                 "The log is wrong, so this comparison means nothing:", comparison.wrong_columns);
   if (comparison.truth_from.empty()) {
     page.verdict(report::VerdictKind::warning,
                  "The record has no joint sensors: the estimates are shown, but there is nothing to judge them by.");
@@ -102,8 +105,8 @@ report::Page comparison_page(const Comparison& comparison, const std::optional<M
     page.table(runs_consistency_table(*runs));
     page.paragraph(
         fmt::format("Instants in band: at how many of the record's instants the mean NEES over the runs lies in the "
-                    "band of {} independent squares; 95 % is right. The figures and tables above and below are those "
-                    "of the first seed.",
+                    "band of {} independent squares; 95 % is right. All other tables, and the figures below, are "
+                    "those of the first seed.",
                     runs->runs));
   }
   add_joint_figures(page, comparison);
@@ -120,6 +123,7 @@ ordered_json to_json(const Comparison& comparison) {
   return {{"data", comparison.data},
           {"model", comparison.model},
           {"truth", truth},
+          {"wrong_columns", comparison.wrong_columns},
           {"samples", comparison.truth.size()},
           {"duration_s", comparison.truth.duration()},
           {"errors_counted_after_s", comparison.skip_s},

@@ -28,12 +28,10 @@ void add_estimator_table(report::Page& page, const ArmModel& given, const std::v
       return fmt::format("{:.3g} {}", units[k].shown_per_si * v[k], units[k].shown);
     };
     for (const EstimatorComparison& e : estimators)
-      table.rows.push_back({fmt::format("{}", k + 1),
-                            e.name,
-                            cell(e.before.rms),
-                            {cell(e.after.rms), value(e.after.rms) < 0.9 * value(e.before.rms)},
+      table.rows.push_back({fmt::format("{}", k + 1), e.name, cell(e.before.rms),
+                            report::Cell::of_change(cell(e.after.rms), value(e.before.rms), value(e.after.rms)),
                             cell(e.before.peak),
-                            {cell(e.after.peak), value(e.after.peak) < 0.9 * value(e.before.peak)}});
+                            report::Cell::of_change(cell(e.after.peak), value(e.before.peak), value(e.after.peak))});
   }
   page.table(table);
   std::string failures;

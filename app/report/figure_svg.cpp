@@ -14,13 +14,7 @@ namespace {
 
 constexpr double kWidth = 220, kHeight = 165;                       // of a panel
 constexpr double kLeft = 78, kTop = 26, kRight = 18, kBottom = 52;  // around it
-constexpr double kLegendLine = 20, kLetter = 6.6;
-/// Letters so small that a long name does not run into the next panel.
-std::string fitted(const std::string& name) {
-  constexpr double kSpace = kLeft + kWidth + kRight - 12;
-  const double length = kLetter * double(name.size());
-  return length <= kSpace ? "" : fmt::format(" font-size=\"{:.1f}\"", 12 * kSpace / length);
-}
+constexpr double kLegendLine = 20;
 
 /// A panel with its axes, and the places of its points.
 struct Panel {
@@ -52,8 +46,10 @@ struct Panel {
         fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#9aa3b0\"/>\n",
                     left, top, kWidth, kHeight);
     svg += svg_text(left, top - 8, Anchor::start, chart.title, " font-weight=\"bold\"");
-    svg += svg_text(left + kWidth / 2, top + kHeight + 36, Anchor::middle, chart.x_label, fitted(chart.x_label));
-    return svg + svg_text(left - 60, top + kHeight / 2, Anchor::middle, chart.y_label, "", /*turned=*/true);
+    svg += svg_text(left + kWidth / 2, top + kHeight + 36, Anchor::middle, chart.x_label,
+                    fitted_size(chart.x_label, kWidth + 2 * kRight));
+    return svg + svg_text(left - 60, top + kHeight / 2, Anchor::middle, chart.y_label,
+                          fitted_size(chart.y_label, kHeight + kTop + kBottom), /*turned=*/true);
   }
 
   std::string series(std::size_t i) const {
@@ -112,7 +108,7 @@ double add_legend(std::string& svg, const std::vector<std::vector<Chart>>& rows,
         const std::string& name = chart.series[i].name;
         if (name.empty() || std::ranges::find(met, name) != met.end()) continue;
         met.push_back(name);
-        const double length = 48 + kLetter * double(name.size());
+        const double length = 48 + kSvgLetter * double(name.size());
         if (x > kLeft && x + length > width) x = kLeft, y += kLegendLine;
         svg += fmt::format("<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"22\" height=\"4\" fill=\"{}\"/>\n", x, y - 2,
                            colour_of(chart.series[i], i));

@@ -81,8 +81,10 @@ std::string heat_map(const HeatMap& map, double left, double top) {
     return svg_text(left - 6, top + (1 - place) * kSide + 4, Anchor::end, text);
   });
   svg += svg_text(left, top - 10, Anchor::start, map.title, " font-weight=\"bold\"");
-  svg += svg_text(left + kSide / 2, top + kSide + 36, Anchor::middle, map.x_label);
-  svg += svg_text(left - 70, top + kSide / 2, Anchor::middle, map.y_label, "", /*turned=*/true);
+  svg += svg_text(left + kSide / 2, top + kSide + 36, Anchor::middle, map.x_label,
+                  fitted_size(map.x_label, kSide + kRight));
+  svg += svg_text(left - 70, top + kSide / 2, Anchor::middle, map.y_label,
+                  fitted_size(map.y_label, kSide + kTop + kBottom), /*turned=*/true);
   return svg + scale_of_colours(map, axis, left, top);
 }
 

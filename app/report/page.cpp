@@ -80,6 +80,7 @@ void Page::table(const Table& table) {
     const bool right = table.align.empty() ? column > 0 : table.align[column] == Align::right;
     std::string classes = right ? "right" : "left";
     if (content.best) classes += " best";
+    if (content.worse) classes += " worse";
     return std::string("<") + tag + " class=\"" + classes + "\">" +
            (content.href.empty() ? escaped(content.text) : anchor(content.text, content.href)) + "</" + tag + ">";
   };

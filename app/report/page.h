@@ -22,9 +22,17 @@ struct Cell {
     return cell;
   }
 
+  /// An error before and after a change: highlighted if it has become less by a tenth, marked if it has become more.
+  static Cell of_change(std::string content, double before, double after) {
+    Cell cell(std::move(content), after < 0.9 * before);
+    cell.worse = after > 1.1 * before;
+    return cell;
+  }
+
   std::string text;
-  bool best;         ///< highlighted
-  std::string href;  ///< address of the link; empty: no link
+  bool best;           ///< highlighted
+  bool worse = false;  ///< marked as a change for the worse
+  std::string href;    ///< address of the link; empty: no link
 };
 
 enum class Align { left, right };

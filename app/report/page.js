@@ -10,6 +10,9 @@ Chart.defaults.color = muted;
 Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
 Chart.defaults.devicePixelRatio = Math.max(2, window.devicePixelRatio);
 
+// So few points of a line are marked: what lies between them was not measured.
+const fewPoints = 40;
+
 const joined = (points) => points.x.map((x, i) => ({x: x, y: points.y[i]}));
 
 // A sample between two gaps has no line to show it.
@@ -30,7 +33,7 @@ function line(series, place) {
     borderWidth: 1.6,
     borderDash: series.dashed ? [6, 4] : [],
     borderJoinStyle: "round",
-    pointRadius: lonely(series.y).map((alone) => alone ? 1.6 : 0),
+    pointRadius: series.x.length <= fewPoints ? 2.4 : lonely(series.y).map((alone) => alone ? 1.6 : 0),
     pointHoverRadius: 3.5,
   }];
 }
@@ -83,15 +86,28 @@ function dropTicksOutside(axis) {
 
 function axis(label, log) {
   const common = {title: {display: label !== "", text: label, color: text}, grid: {color: grid, borderColor: muted}};
-  if (!log) return {...common, type: "linear", ticks: {maxRotation: 0}};
+  if (!log) return {...common, type: "linear", ticks: {maxRotation: 0, callback: (value) => short(value, 10)}};
   return {...common, type: "logarithmic", afterBuildTicks: dropTicksOutside,
           ticks: {callback: logTick, maxRotation: 0, autoSkip: false}};
+}
+
+// Room around a line that does not move, in its own order of magnitude; nothing for others.
+function rangeOfConstant(series) {
+  const values = series.flatMap((one) => one.lower ? [one.y, one.lower.y, one.upper.y] : [one.y]).flat()
+      .filter((value) => value !== null);
+  const low = Math.min(...values), high = Math.max(...values), size = Math.max(Math.abs(low), Math.abs(high));
+  if (values.length === 0 || high - low > 1e-6 * size) return {};
+  return size === 0 ? {min: 0, max: 1} : {min: Math.min(0, 2 * low), max: Math.max(0, 2 * high)};
 }
 
 function axes(chart) {
   const x = axis(chart.x_label, chart.log_x);
   const y = axis(chart.y_label, chart.log_y);
-  if (chart.kind === "line") x.bounds = "data";
+  if (chart.kind === "line") {
+    x.bounds = "data";
+    x.ticks.includeBounds = false;
+    if (!chart.log_y) Object.assign(y, rangeOfConstant(chart.series));
+  }
   if (chart.kind === "bar") {
     x.type = "category";
     x.grid = {display: false, borderColor: muted};

@@ -28,6 +28,12 @@ std::string number_text(double value, int digits) {
 
 }  // namespace
 
+std::string fitted_size(std::string_view words, double space) {
+  constexpr double kUsualSize = 12;
+  const double length = kSvgLetter * double(words.size());
+  return length <= space ? "" : fmt::format(" font-size=\"{:.1f}\"", kUsualSize * space / length);
+}
+
 std::string svg_text(double x, double y, Anchor anchor, std::string_view words, std::string_view more, bool turned) {
   const char* at = anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
   const std::string place = turned ? fmt::format("transform=\"translate({:.1f},{:.1f}) rotate(-90)\"", x, y)

@@ -10,6 +10,11 @@ namespace halyard::report {
 
 enum class Anchor { start, middle, end };
 
+/// Width of a usual letter.
+inline constexpr double kSvgLetter = 6.6;
+
+/// An attribute for letters so small that a long line of text fits into the space; empty if it fits anyway.
+std::string fitted_size(std::string_view words, double space);
 /// A line of text, escaped. turned: it reads upwards.
 std::string svg_text(double x, double y, Anchor anchor, std::string_view words, std::string_view more = "",
                      bool turned = false);

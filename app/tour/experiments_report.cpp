@@ -150,15 +150,17 @@ std::string study_sentence(const EffectStudy& study, int k, const JointUnit& uni
   const auto most = std::ranges::max_element(study.effects, {}, [&](const auto& e) { return error(0, Has::one, e); });
   if (most == study.effects.end()) return "";
   const auto shown = [&](double value) { return shown_number(value, unit) + " " + unit.shown; };
+  const auto gain = [&](Has has, const std::string& effect) {
+    const double less = 1 - error(1, has, effect) / error(0, has, effect);
+    return shown_percent(std::abs(less)) + (less < 0 ? " more" : " less");
+  };
   return fmt::format(
       "Joint {}: kinematics errs {} with none of the effects and {} with all of them; {} makes the most, {} alone, and "
-      "without it {} are left. {} takes {} off kinematics' error where the robot has none of the effects, {} where it "
-      "has all, and {} where it has all but {}.",
+      "without it {} are left. {} errs {} than kinematics where the robot has none of the effects, {} where it has "
+      "all, and {} where it has all but {}.",
       k + 1, shown(error(0, Has::none)), shown(error(0, Has::all)), *most, shown(error(0, Has::one, *most)),
-      shown(error(0, Has::all_but_one, *most)), study.estimators[1],
-      shown_percent(1 - error(1, Has::none) / error(0, Has::none)),
-      shown_percent(1 - error(1, Has::all) / error(0, Has::all)),
-      shown_percent(1 - error(1, Has::all_but_one, *most) / error(0, Has::all_but_one, *most)), *most);
+      shown(error(0, Has::all_but_one, *most)), study.estimators[1], gain(Has::none, ""), gain(Has::all, ""),
+      gain(Has::all_but_one, *most), *most);
 }
 
 void add_study(report::Page& page, const EffectStudy& study, const std::vector<JointUnit>& units) {
@@ -278,7 +280,7 @@ std::string peaks_of_joint_one(const std::vector<Experiment>& experiments) {
                         shown_number(e.comparison.errors[baseline][0].peak, unit),
                         shown_number(e.comparison.errors[filter][0].peak, unit), unit.shown, letter(e));
   }
-  return "Joint 1's peak error, which the filter made worse on the robot, goes from " + text + ".";
+  return "The filter made joint 1's peak error worse on the robot; here it goes from " + text + ".";
 }
 
 std::string share_of_published(const std::vector<Experiment>& experiments) {

@@ -135,8 +135,9 @@ void add_rigs(Page& page, const Tour& tour) {
   if (!table.rows.empty()) {
     page.paragraph(
         "Their models are data sheets and published numbers at best. Position is predicted from motor signals alone, "
-        "torque from the motion. To be done within a minute, this page asks of each recording only which single effect "
-        "explains most; halyard diagnose asks on, and the README of each rig has its command line.");
+        "torque from the motion. To save time, this page asks of each recording only which single effect explains "
+        "most; "
+        "halyard diagnose asks on, and the README of each rig has its command line.");
     page.table(table);
   }
   if (!missing.empty()) {

@@ -45,7 +45,7 @@ std::string signature(const Evidence& evidence, const Hypothesis& hypothesis, in
                         residual_name(arm, joint, kind), shown(rms, residual_unit(arm, joint, kind)), rms / floor,
                         is_noise ? "its sensor's noise" : "what its sensor resolves");
     const auto view = std::find_if(views.begin(), views.end(), [&](const View& v) { return v.residual == kind; });
-    text += view == views.end() ? "goes with none of direction, position, rate, load, angle and time"
+    text += view == views.end() ? "no dependence of it on direction, position, rate, load, angle or time can be shown"
                                 : view_phrase(*view, arm, joint);
   }
   return text;

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "estimators/distributions.h"
+#include "model/quantile.h"
 
 namespace halyard {
 namespace {
@@ -209,7 +210,9 @@ std::vector<View> all_views(const ResidualSignals& before, const ResidualSignals
       View v{.residual = kind, .abscissa = abscissa, .loop = loop};
       const Explained b = explained(shared, v), a = explained(after, v);
       v.explained_before = b.share, v.explained_after = a.share;
-      v.chance = b.chance, v.swing = b.swing;
+      v.chance = b.chance;
+      v.swing =
+          abscissa == Abscissa::constant ? b.swing : curve_of(shared, v, most_knots(v)).swing();  // as it is drawn
       v.left = m_after.square / m_before.square;
       v.variance_left = abscissa == Abscissa::constant ? v.left : m_after.variance() / m_before.variance();
       return v;
@@ -251,8 +254,7 @@ Spectrum angle_spectrum(const ResidualSignals& s, ResidualKind residual, Absciss
   // A line whose frequency in time is beyond the residual's band at the usual rate cannot be seen.
   std::vector<double> rate;
   for (std::size_t i = 1; i < x.size(); ++i) rate.push_back(std::abs(x[i] - x[i - 1]) / s.dt);
-  std::nth_element(rate.begin(), rate.begin() + static_cast<std::ptrdiff_t>(rate.size() / 2), rate.end());
-  const double usual = rate[rate.size() / 2] / kTurn;
+  const double usual = median(std::move(rate)) / kTurn;
   const double highest = usual > 0 ? std::min(kHighestOrder, kBand / usual) : kHighestOrder;
   std::vector<double> in_turns = thinned(x);
   for (double& v : in_turns) v /= kTurn;

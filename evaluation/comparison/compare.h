@@ -24,9 +24,11 @@ struct Judgement {
 
 /// Estimators compared on the same data.
 struct Comparison {
-  std::string data;                ///< scenario or log, as given
-  std::string model;               ///< the estimators' model, as given
-  std::string truth_from;          ///< source of the truth; empty: there is none, and no errors
+  std::string data;        ///< scenario or log, as given
+  std::string model;       ///< the estimators' model, as given
+  std::string truth_from;  ///< source of the truth; empty: there is none, and no errors
+  /// Of a log: what the check of its columns finds so wrong that the comparison means nothing.
+  std::vector<std::string> wrong_columns;
   double skip_s = 0;               ///< duration at the start that is not counted in the errors, s
   bool with_joint_torque = false;  ///< the estimators were given the measured loads on the joints
   bool with_marker = false;        ///< they were given what a camera saw
@@ -73,8 +75,8 @@ struct Contestant {
 void check_skip(double skip_s, double duration_s, const std::string& of);
 
 /// Runs each estimator over `measured`, in a process of its own, and computes its errors against the joint positions of
-/// `truth`. Both logs must have the same times. The caller fills data, model and truth_from of the result.
-/// Throws as make_estimator and run_estimator do, and std::invalid_argument if the times differ.
+/// `truth`. Both logs must have the same times. The caller fills data, model, truth_from and wrong_columns of the
+/// result. Throws as make_estimator and run_estimator do, and std::invalid_argument if the times differ.
 Comparison compare_estimators(const std::vector<Contestant>& contestants, const Log& measured, const Log& truth,
                               const CompareOptions& options = {});
 /// The same with one model for all estimators; rows have the estimators' names.

@@ -99,6 +99,20 @@ TEST_F(App, CompareTakesALogAndAPluginByItsPath) {
   EXPECT_EQ(loaded.at("joints").at(1).at("rms_error"), named.at("joints").at(1).at("rms_error"));
 }
 
+TEST_F(App, ComparePutsWhatIsWrongWithALogOnItsPage) {
+  simulate_log();
+  const std::vector<std::string> reversed = {
+      "compare",    "log.csv", "--model", "raven2.xml", "--estimators",
+      "kinematics", "--out",   "cmp",     "--column",   "motor_position_2=motor_position_2,scale=-1"};
+  EXPECT_TRUE(contains(done(reversed), "warning: log.csv: motor_position_2: is reversed"));
+  const json wrong = json::parse(text_of(path("cmp/comparison.json"))).at("wrong_columns");
+  ASSERT_EQ(wrong.size(), 1u);
+  EXPECT_TRUE(contains(wrong.at(0).get<std::string>(), "motor_position_2: is reversed"));
+  EXPECT_TRUE(contains(text_of(path("cmp/report.html")), "motor_position_2: is reversed"));
+  done({"compare", "log.csv", "--model", "raven2.xml", "--estimators", "kinematics", "--out", "right"});
+  EXPECT_TRUE(json::parse(text_of(path("right/comparison.json"))).at("wrong_columns").empty());
+}
+
 TEST_F(App, CompareSaysByHowMuchAnEstimatorIsWorse) {
   simulate_log();
   // Takes a motor's angle for that of its joint.

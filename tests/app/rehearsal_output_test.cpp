@@ -37,10 +37,9 @@ Rehearsals four_rehearsals() {
 TEST(RehearsalOutput, HasALineForEachKindOfTruthAndOneForFailures) {
   EXPECT_EQ(rehearsal_lines(four_rehearsals()),
             (std::vector<std::string>{
-                "with what was found: 1 of 1 find the same names and no other",
-                "without an effect: 1 of 1 are clean; 0 false names",
-                "with effects at random: 0 of 1 effects named, 1 of 1 names false; 1 more effects were too small to be "
-                "seen",
+                "with what was found: the same names and no other in 1 of 1",
+                "without an effect: clean in 1 of 1; false names: 0",
+                "with effects at random: 0 of 1 effects named, 1 of 1 names false; too small to be seen: 1",
                 "1 rehearsals failed; they count as not right"}));
   EXPECT_EQ(rehearsal_lines({1, {Rehearsal{}}}).size(), 1u) << "of nothing but logs without an effect";
 }
@@ -88,7 +87,7 @@ TEST(RehearsalOutput, OnThePageTellsEachRehearsal) {
   add_rehearsals(page, d, four_rehearsals());
   const std::string html = page.html();
   for (const char* text : {"With these rehearsals, backlash of joint 2 has a probability of 92 %.",
-                           "Without an effect: 1 of 1 are clean; 0 false names.", "payload (too small to be seen)",
+                           "Without an effect: clean in 1 of 1; false names: 0.", "payload (too small to be seen)",
                            "hysteresis of joint 1 (95 %, false)", "log.csv: no"})
     EXPECT_NE(html.find(text), html.npos) << text;
 }

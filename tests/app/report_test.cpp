@@ -71,6 +71,19 @@ TEST(ReportPage, ItemsOfAVerdictAreAListBelowItsHeadline) {
   EXPECT_TRUE(contains(page.html(), "<p>The model lacks:</p>\n<ul><li>a &amp; b</li>\n<li>c</li>\n</ul></div>"));
 }
 
+TEST(ReportPage, AChangeByMoreThanATenthIsMarkedForBetterOrForWorse) {
+  const auto change = [](double after) { return report::Cell::of_change("x", 10, after); };
+  EXPECT_TRUE(change(8.9).best);
+  EXPECT_TRUE(change(11.1).worse);
+  for (const double same : {9.1, 10.9, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_FALSE(change(same).best) << same;
+    EXPECT_FALSE(change(same).worse) << same;
+  }
+  Page page("t", "");
+  page.table({.caption = "c", .header = {"h"}, .rows = {{change(11.1)}}});
+  EXPECT_TRUE(contains(page.html(), "<td class=\"left worse\">x</td>"));
+}
+
 TEST(ReportPage, LinksLeadFromParagraphsAndCellsAndAreEscaped) {
   Page page("t", "");
   page.link("a & b", "x/\"y\".html");

@@ -40,6 +40,9 @@ std::string tolerance_line(const Diagnosis& d) {
       d.tolerance_factor);
 }
 
+/// Names of at least this probability are stated as facts.
+constexpr double kSure = 0.9;
+
 void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluation& evaluation) {
   switch (d.verdict) {
     case Diagnosis::Verdict::clean:
@@ -62,7 +65,10 @@ void add_verdict(report::Page& page, const Diagnosis& d, const DiagnosisEvaluati
       }
       for (const Unexplained& u : d.unexplained)
         lines.push_back(fmt::format("Left unexplained, joint {}: {}.", u.joint + 1, u.signature));
-      page.verdict(report::VerdictKind::warning, "The model lacks:", lines);
+      const bool all_are_sure =
+          std::ranges::all_of(d.effects, [](const NamedEffect& e) { return e.probability >= kSure; });
+      page.verdict(report::VerdictKind::warning,
+                   all_are_sure ? "The model lacks:" : "The model probably lacks:", lines);
       break;
     }
   }
@@ -96,7 +102,7 @@ void add_error_table(report::Page& page, const Diagnosis& d) {
   const auto add = [](std::vector<report::Cell>& row, double before, double after, const ShownUnit& unit) {
     const auto cell = [&](double v) { return std::isfinite(v) ? shown(v, unit) : std::string("no sensor"); };
     row.emplace_back(cell(before));
-    row.emplace_back(cell(after), after < 0.9 * before);
+    row.push_back(report::Cell::of_change(cell(after), before, after));
   };
   for (int k = 0; k < d.revised.n(); ++k) {
     const ShownUnit position = position_unit(d, k);
@@ -126,7 +132,7 @@ void add_error_parts(report::Page& page, const Diagnosis& d) {
       const double b = (before.*part)[k], a = (after.*part)[k];
       const auto cell = [&](double v) { return std::isfinite(v) ? shown(v, unit) : std::string("-"); };
       given.emplace_back(cell(b));
-      revised.emplace_back(cell(a), std::abs(a) < 0.9 * std::abs(b));
+      revised.push_back(report::Cell::of_change(cell(a), std::abs(b), std::abs(a)));
     }
     table.rows.push_back(std::move(given));
     table.rows.push_back(std::move(revised));
@@ -175,13 +181,14 @@ void add_estimator_errors(report::Page& page, const ArmModel& model, const Diagn
   std::string innovations;
   for (const EstimatorComparison& e : evaluation.estimators)
     if (e.before.mean_nis > 0 && e.after.mean_nis > 0)
-      innovations += fmt::format("{}{} {:.3g} with the given, {:.3g} with the revised model",
+      innovations += fmt::format("{}{} {:.2f} with the given, {:.2f} with the revised model",
                                  innovations.empty() ? "" : "; ", e.name, e.before.mean_nis, e.after.mean_nis);
   if (!innovations.empty())
     page.paragraph(
-        "Innovations, mean of their squares over their predicted variance (1 if model and noise are right, less if "
-        "there is less noise than the filter assumes, as in simulations): " +
-        innovations + ".");
+        "Innovations, mean of their squares over their predicted variance: " + innovations +
+        ". It is 1 if model and noise are right, and less if there is less noise than the filter assumes, as in "
+        "simulations. A 1 does not show that a model is right: the innovations are those of the motors, and a filter "
+        "takes what it lacks for noise.");
 }
 
 void write_diagnosis(OutputFiles& files, const std::filesystem::path& folder, const ArmModel& model, const Diagnosis& d,

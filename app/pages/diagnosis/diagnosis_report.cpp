@@ -12,13 +12,23 @@
 #include "diagnosis/explanation/view_sentence.h"
 #include "evaluation/joint_unit.h"
 #include "evaluation/studies/diagnosis_evidence.h"
+#include "model/output/number_text.h"
 
 namespace halyard {
 namespace {
 
-std::string interval(const Estimated& p) {
-  return p.is_whole ? "-" : fmt::format("{:.4g} to {:.4g}", p.lower, p.upper);
+/// Digits of a number and the ends of its interval: as many as it takes to tell the ends apart, and at least four.
+int digits_of(const Estimated& p) {
+  int digits = 4;
+  while (digits < 9 && p.lower < p.upper &&
+         rounded_to_digits(p.upper, digits) - rounded_to_digits(p.lower, digits) < 0.9 * (p.upper - p.lower))
+    ++digits;
+  return digits;
 }
+
+std::string number(double value, const Estimated& p) { return fmt::format("{:.{}g}", value, digits_of(p)); }
+
+std::string interval(const Estimated& p) { return p.is_whole ? "-" : number(p.lower, p) + " to " + number(p.upper, p); }
 
 /// Effects of the revised model with how the page calls them: those with a name, then those whose name is a guess.
 std::vector<std::pair<std::string, const NamedEffect*>> effects_with_labels(const Diagnosis& d) {
@@ -33,14 +43,14 @@ void add_numbers(report::Page& page, const Diagnosis& d) {
   if (const auto effects = effects_with_labels(d); !effects.empty()) {
     report::Table table;
     table.caption =
-        "Parameters of the effects that were added. What is not significant, or ends at what is plausible, has its "
-        "neutral value: 0, or 1 of a ratio.";
+        "Parameters of the effects that were added. A size that is not significant, or ends at what is plausible, has "
+        "its neutral value: 0, or 1 of a ratio.";
     table.header = {"effect", "parameter", "value", "95 % interval", "unit"};
     table.align = {report::Align::left, report::Align::left, report::Align::right, report::Align::right,
                    report::Align::left};
     for (const auto& [label, effect] : effects)
       for (const Estimated& p : effect->parameters)
-        table.rows.push_back({label, p.name, fmt::format("{:.4g}", p.value), interval(p), p.unit});
+        table.rows.push_back({label, p.name, number(p.value, p), interval(p), p.unit});
     page.table(table);
   }
   if (!d.refitted.empty()) {
@@ -52,8 +62,7 @@ void add_numbers(report::Page& page, const Diagnosis& d) {
     table.align = {report::Align::left, report::Align::right, report::Align::right, report::Align::right,
                    report::Align::left};
     for (const Estimated& p : d.refitted)
-      table.rows.push_back(
-          {p.name, fmt::format("{:.5g}", p.nominal), fmt::format("{:.5g}", p.value), interval(p), p.unit});
+      table.rows.push_back({p.name, number(p.nominal, p), number(p.value, p), interval(p), p.unit});
     page.table(table);
   }
   for (const std::string& line : bound_lines(d)) page.paragraph(capitalised(line) + ".");
@@ -186,9 +195,11 @@ void add_candidates(report::Page& page, const Diagnosis& d) {
     }
     table.header = {"candidate", "gain [nats]", "p", "verdict"};
     table.align = {report::Align::left, report::Align::right, report::Align::right, report::Align::left};
-    std::size_t shown = 0;
-    for (const Trial& t : round.trials) {
-      if (++shown > 8) break;
+    constexpr std::size_t kShown = 8;
+    if (round.trials.size() > kShown)
+      table.caption += fmt::format(". The first {} of {} candidates", kShown, round.trials.size());
+    for (std::size_t i = 0; i < std::min(kShown, round.trials.size()); ++i) {
+      const Trial& t = round.trials[i];
       const bool taken = round.accepted && (round.at_once || &t == &round.trials.front());
       table.rows.push_back({{effect_label(t.effect), taken},
                             t.usable ? fmt::format("{:.1f}", t.gain) : std::string("-"),

@@ -26,14 +26,13 @@ const char* word(RehearsedTruth truth) {
 std::string line_of(RehearsedTruth truth, const RehearsalCount& c) {
   switch (truth) {
     case RehearsedTruth::found:
-      return fmt::format("with what was found: {} of {} find the same names and no other", c.right, c.rehearsals);
+      return fmt::format("with what was found: the same names and no other in {} of {}", c.right, c.rehearsals);
     case RehearsedTruth::nothing:
-      return fmt::format("without an effect: {} of {} are clean; {} false names", c.right, c.rehearsals, c.false_names);
+      return fmt::format("without an effect: clean in {} of {}; false names: {}", c.right, c.rehearsals, c.false_names);
     case RehearsedTruth::drawn: break;
   }
-  return fmt::format(
-      "with effects at random: {} of {} effects named, {} of {} names false; {} more effects were too small to be seen",
-      c.named, c.visible, c.false_names, c.names, c.too_small);
+  return fmt::format("with effects at random: {} of {} effects named, {} of {} names false; too small to be seen: {}",
+                     c.named, c.visible, c.false_names, c.names, c.too_small);
 }
 
 constexpr std::array kTruths = {RehearsedTruth::found, RehearsedTruth::nothing, RehearsedTruth::drawn};

@@ -35,7 +35,7 @@ std::string joint_title(const SweepGrid& grid, const ChartRow& row, std::size_t 
 }
 
 std::string lower_case(std::string title) {
-  title[0] = static_cast<char>(std::tolower(title[0]));
+  title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
   return title;
 }
 
