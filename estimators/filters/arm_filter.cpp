@@ -59,16 +59,14 @@ ArmFilter::ArmFilter(const ArmModel& model, std::shared_ptr<const ProcessModel> 
 
 void ArmFilter::reset(const Sample& first) {
   const int n = process_->n_joints();
-  begun_ = started_ = speed_is_due_ = false;
-  time_ = first.time_s;
-  readings_ = {motors_, n};
-  judged_at_ = Eigen::VectorXd::Constant(n, time_);
-  held_ = {};
-  torque_ = external_ = Eigen::VectorXd::Zero(n);
+  track_ = {};
+  track_.time_s = first.time_s;
+  track_.readings = {motors_, n};
+  track_.judged_at = Eigen::VectorXd::Constant(n, first.time_s);
+  track_.torque = track_.external = Eigen::VectorXd::Zero(n);
+  track_.refused_since = kInfinity;
   history_.clear();
   last_command_ = -kInfinity;
-  refused_since_ = kInfinity;
-  report_ = {};
   repaired_before_ = filter_->repaired();
   noise_.reset(Eigen::VectorXd::Ones(n));
   const Eigen::VectorXd home = model_.home();
@@ -81,56 +79,59 @@ void ArmFilter::reset(const Sample& first) {
 
 void ArmFilter::remember(const Sample& sample) {
   for (int k = 0; k < process_->n_joints(); ++k) {
-    held_.take(k, sample.time_s, sample.motor_torque(k));
-    if (std::isfinite(sample.motor_torque(k))) torque_(k) = sample.motor_torque(k);
-    if (sample.joint_torque.size() > 0 && std::isfinite(sample.joint_torque(k))) external_(k) = sample.joint_torque(k);
+    track_.held.take(k, sample.time_s, sample.motor_torque(k));
+    if (std::isfinite(sample.motor_torque(k))) track_.torque(k) = sample.motor_torque(k);
+    if (sample.joint_torque.size() > 0 && std::isfinite(sample.joint_torque(k)))
+      track_.external(k) = sample.joint_torque(k);
   }
   if (sample.time_s > last_command_) {
-    history_.push(sample.time_s, torque_.data());
+    history_.push(sample.time_s, track_.torque.data());
     last_command_ = sample.time_s;
   }
-  time_ = sample.time_s;
+  track_.time_s = sample.time_s;
 }
 
 Eigen::VectorXd ArmFilter::undriven_positions() const {
   Eigen::VectorXd q = model_.home();
   for (int k = 0; k < q.size(); ++k)
-    if (begun_ && process_->arm().joint[k].drive == Drive::none) q(k) = filter_->x()(process_->layout().position[k]);
+    if (track_.begun && process_->arm().joint[k].drive == Drive::none)
+      q(k) = filter_->x()(process_->layout().position[k]);
   return q;
 }
 
 void ArmFilter::start(const Sample& sample) {
-  readings_.take(sample);
+  track_.readings.take(sample);
   remember(sample);
-  if (!readings_.are_complete()) return;
+  if (!track_.readings.are_complete()) return;
   // At the start of a record the arm rests, so that a reading does not age.
-  const double age = begun_ ? readings_.age(sample.time_s) : 0;
+  const double age = track_.begun ? track_.readings.age(sample.time_s) : 0;
   if (age > options_.restart_gap) return;
   const Eigen::VectorXd q_undriven = undriven_positions();
-  Eigen::VectorXd angle = readings_.angles();
+  Eigen::VectorXd angle = track_.readings.angles();
   // The readings' error may depend on the angle, slowly: one correction is enough.
   Eigen::VectorXd x = process_->state_at_rest(angle, unstretched_joints(process_->arm(), angle, q_undriven));
   angle(motors_) -= (process_->motor_readings(sample.time_s, x) - angle)(motors_);
   const Eigen::VectorXd z = Eigen::VectorXd::Zero(process_->layout().n_effect_states);
-  const Eigen::VectorXd q = static_equilibrium(*process_, sample.time_s, angle, external_, z,
+  const Eigen::VectorXd q = static_equilibrium(*process_, sample.time_s, angle, track_.external, z,
                                                unstretched_joints(process_->arm(), angle, q_undriven));
   x = process_->state_at_rest(angle, q);
   // After a gap the arm need not rest. A speed that no joint has says that one of the two readings is wrong.
-  const auto rates = speed_is_due_ ? readings_.rates(process_->arm(), model_, angle) : std::optional<MeanRates>();
+  const auto rates =
+      track_.speed_is_due ? track_.readings.rates(process_->arm(), model_, angle) : std::optional<MeanRates>();
   if (rates) set_rates(*rates, x);
-  speed_is_due_ = begun_ && !rates && !motors_.empty();
+  track_.speed_is_due = track_.begun && !rates && !motors_.empty();
   Eigen::MatrixXd S = start_root(x, angle, q, rates ? rates->shortest_s : kInfinity);
-  if (begun_ ? !rates || rates->longest_s > options_.max_step : options_.in_motion)
+  if (track_.begun ? !rates || rates->longest_s > options_.max_step : options_.in_motion)
     widen(kUsualSpeed, process_->layout().positions, S);
-  else if (begun_) widen_undriven(kUsualSpeed, process_->layout().positions, S);
+  else if (track_.begun) widen_undriven(kUsualSpeed, process_->layout().positions, S);
   if (age > 0) widen(kUsualSpeed * age, 0, S);
   filter_->reset(x, S);
   exponential_.forget();
-  begun_ = started_ = true;
-  start_time_ = sample.time_s;
-  readings_.start();
-  judged_at_.setConstant(sample.time_s);
-  refused_since_ = kInfinity;
+  track_.begun = track_.started = true;
+  track_.start_time = sample.time_s;
+  track_.readings.start();
+  track_.judged_at.setConstant(sample.time_s);
+  track_.refused_since = kInfinity;
 }
 
 void ArmFilter::set_rates(const MeanRates& rates, Eigen::VectorXd& x) const {
@@ -177,26 +178,26 @@ Eigen::MatrixXd ArmFilter::start_root(const Eigen::VectorXd& x, const Eigen::Vec
   for (const int i : options_.settled) {
     const int state = l.effect_states + i;
     const Eigen::VectorXd z = S(state, state) * Eigen::VectorXd::Unit(l.n_effect_states, i);
-    const Eigen::VectorXd moved = static_equilibrium(*process_, time_, angle, external_, z, q) - q;
+    const Eigen::VectorXd moved = static_equilibrium(*process_, track_.time_s, angle, track_.external, z, q) - q;
     for (int k = 0; k < l.n_joints; ++k) S(l.position[k], state) = moved(k);
   }
   return S;
 }
 
 void ArmFilter::predict(double to_time_s) {
-  const double span = to_time_s - time_;
+  const double span = to_time_s - track_.time_s;
   const int pieces = steps_over(span, options_.max_step);
   Step step;
   step.dt_s = span / pieces;
-  step.motor_torque = torque_.data();
-  step.external_force = external_.data();
+  step.motor_torque = track_.torque.data();
+  step.external_force = track_.external.data();
   step.history = &history_;
-  step.held = &held_;
+  step.held = &track_.held;
   // Parts of a refused step are no shorter than sub-steps, or half of one.
   const double parts = std::ceil(std::log2(process_->substeps_needed(step.dt_s)));
   const int halvings = static_cast<int>(std::min<double>(parts, kMostHalvings));
   for (int i = 0; i < pieces; ++i) {
-    step.time_s = time_ + i * step.dt_s;
+    step.time_s = track_.time_s + i * step.dt_s;
     predict_over(step, halvings);
   }
 }
@@ -228,7 +229,7 @@ Innovation ArmFilter::correct(const Sample& sample) {
   for (const int k : motors_)
     if (std::isfinite(sample.motor_position(k))) read_.push_back(k);
   if (read_.empty()) {
-    refused_since_ += sample.time_s - time_;
+    track_.refused_since += sample.time_s - track_.time_s;
     return {};
   }
   const auto m = static_cast<Eigen::Index>(read_.size());
@@ -238,44 +239,44 @@ Innovation ArmFilter::correct(const Sample& sample) {
   for (Eigen::Index i = 0; i < m; ++i) {
     const int k = read_[static_cast<std::size_t>(i)];
     z(i) = sample.motor_position(k);
-    since(i) = sample.time_s - judged_at_(k);
-    judged_at_(k) = sample.time_s;
+    since(i) = sample.time_s - track_.judged_at(k);
+    track_.judged_at(k) = sample.time_s;
     R_root(i, i) = noise_.encoder()(k);
   }
   Innovation innovation =
       filter_->update(MotorReadings(*process_, sample.time_s, read_), z, R_root, gate_threshold(static_cast<int>(m)));
   noise_.adapt(read_, innovation, since);
-  refused_since_ = innovation.accepted ? kInfinity : std::min(refused_since_, sample.time_s);
+  track_.refused_since = innovation.accepted ? kInfinity : std::min(track_.refused_since, sample.time_s);
   return innovation;
 }
 
 Innovation ArmFilter::update(const Sample& sample) {
-  if (!(sample.time_s > time_))
+  if (!(sample.time_s > track_.time_s))
     throw std::invalid_argument("filter: time does not increase at " + std::to_string(sample.time_s) + " s");
-  const bool loses_track = sample.time_s - time_ > options_.restart_gap || is_locked_out(sample);
+  const bool loses_track = sample.time_s - track_.time_s > options_.restart_gap || is_locked_out(sample);
   if (loses_track) lose_track();
   Innovation innovation;
-  if (!started_ || (speed_is_due_ && readings_.are_new(sample))) {
+  if (!track_.started || (track_.speed_is_due && track_.readings.are_new(sample))) {
     start(sample);
   } else {
     predict(sample.time_s);
     innovation = take(sample);
   }
   innovation.time_s = sample.time_s;
-  ++report_.steps;
+  ++track_.report.steps;
   return innovation;
 }
 
 bool ArmFilter::is_locked_out(const Sample& sample) const {
-  return sample.time_s - refused_since_ > options_.restart_gap &&
+  return sample.time_s - track_.refused_since > options_.restart_gap &&
          std::ranges::any_of(motors_, [&](int k) { return std::isfinite(sample.motor_position(k)); });
 }
 
 void ArmFilter::lose_track() {
-  started_ = speed_is_due_ = false;
-  readings_.forget();
-  refused_since_ = kInfinity;
-  if (!begun_) return;
+  track_.started = track_.speed_is_due = false;
+  track_.readings.forget();
+  track_.refused_since = kInfinity;
+  if (!track_.begun) return;
   const StateLayout& l = process_->layout();
   Eigen::VectorXd x = filter_->x();
   x.segment(l.positions, l.positions).setZero();
@@ -285,11 +286,11 @@ void ArmFilter::lose_track() {
 }
 
 Innovation ArmFilter::take(const Sample& sample) {
-  speed_is_due_ = speed_is_due_ && sample.time_s - start_time_ <= options_.max_step;
+  track_.speed_is_due = track_.speed_is_due && sample.time_s - track_.start_time <= options_.max_step;
   Innovation innovation;
-  if (speed_is_due_) readings_.take(sample);
+  if (track_.speed_is_due) track_.readings.take(sample);
   else innovation = correct(sample);
-  if (!innovation.accepted) ++report_.gated;
+  if (!innovation.accepted) ++track_.report.gated;
   remember(sample);
   return innovation;
 }
@@ -297,42 +298,20 @@ Innovation ArmFilter::take(const Sample& sample) {
 void ArmFilter::repeat(const Sample& sample, const Predictions& predictions, std::size_t first, std::size_t count) {
   for (std::size_t i = first; i < first + count; ++i) filter_->predict_again(predictions[i]);
   take(sample);
-  ++report_.steps;
+  ++track_.report.steps;
 }
 
 void ArmFilter::save(Snapshot& snapshot) const {
-  snapshot.begun = begun_;
-  snapshot.started = started_;
-  snapshot.speed_is_due = speed_is_due_;
-  snapshot.time_s = time_;
-  snapshot.start_time = start_time_;
-  snapshot.refused_since = refused_since_;
+  snapshot.track = track_;
   snapshot.x = filter_->x();
-  snapshot.readings = readings_;
-  snapshot.judged_at = judged_at_;
-  snapshot.held = held_;
-  snapshot.torque = torque_;
-  snapshot.external = external_;
   snapshot.adapted = noise_.adapted();
   snapshot.S = filter_->S();
-  snapshot.report = report_;
   exponential_.save(snapshot.kept);
 }
 
 void ArmFilter::restore(const Snapshot& snapshot) {
-  begun_ = snapshot.begun;
-  started_ = snapshot.started;
-  speed_is_due_ = snapshot.speed_is_due;
-  time_ = snapshot.time_s;
-  start_time_ = snapshot.start_time;
-  refused_since_ = snapshot.refused_since;
-  readings_ = snapshot.readings;
-  judged_at_ = snapshot.judged_at;
-  held_ = snapshot.held;
-  torque_ = snapshot.torque;
-  external_ = snapshot.external;
+  track_ = snapshot.track;
   noise_.reset(snapshot.adapted);
-  report_ = snapshot.report;
   exponential_.restore(snapshot.kept);
   filter_->reset(snapshot.x, snapshot.S);
 }
@@ -340,8 +319,8 @@ void ArmFilter::restore(const Snapshot& snapshot) {
 Innovation ArmFilter::correct_with(const MeasurementModel& measurement, const ReadingVector& z,
                                    const ReadingMatrix& R_root) {
   Innovation innovation = filter_->update(measurement, z, R_root, gate_threshold(static_cast<int>(z.size())));
-  innovation.time_s = time_;
-  if (!innovation.accepted) ++report_.gated;
+  innovation.time_s = track_.time_s;
+  if (!innovation.accepted) ++track_.report.gated;
   return innovation;
 }
 
@@ -352,7 +331,7 @@ Estimate ArmFilter::estimate() const {
 }
 
 EstimatorReport ArmFilter::report() const {
-  EstimatorReport r = report_;
+  EstimatorReport r = track_.report;
   r.repaired_factors += filter_->repaired() - repaired_before_;
   return r;
 }

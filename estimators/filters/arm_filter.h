@@ -59,15 +59,25 @@ class ArmFilter final : public Estimator {
   /// The filter that holds the belief x, S.
   const GaussianFilter& filter() const { return *filter_; }
 
+  /// What the filter keeps from sample to sample, beside its belief, the noise's adaptation and the command history.
+  struct Track {
+    bool begun = false;         ///< has started once since reset()
+    bool started = false;       ///< and no restart is due
+    bool speed_is_due = false;  ///< a restart had one reading of each motor: the next ones give the speed
+    double time_s = 0;          ///< of the last sample
+    double start_time = 0;      ///< of the last start, s
+    double refused_since = 0;   ///< time from which the gate has rejected all readings, s; infinite: accepted
+    StartReadings readings;
+    Eigen::VectorXd judged_at;         ///< time of each motor's last innovation, or of the start, s
+    Eigen::VectorXd torque, external;  ///< held
+    HeldTorques held;
+    EstimatorReport report;  ///< without the factors repaired since reset(), which report() adds
+  };
   /// The filter's whole state at an instant, except the command history: past commands do not change.
   struct Snapshot {
-    bool begun = false, started = false, speed_is_due = false;
-    double time_s = 0, start_time = 0, refused_since = 0;
-    StartReadings readings;
-    Eigen::VectorXd x, judged_at, torque, external, adapted;
-    HeldTorques held;
+    Track track;
+    Eigen::VectorXd x, adapted;
     Eigen::MatrixXd S;
-    EstimatorReport report;
     ExponentialStep::Kept kept;
   };
   void save(Snapshot& snapshot) const;
@@ -120,18 +130,9 @@ class ArmFilter final : public Estimator {
   std::vector<int> motors_;  // joints that have a motor
   std::vector<int> read_;    // those with a reading in this sample
   CommandHistory history_;
-  double last_command_ = 0;           // time of the newest command in history_, s
-  bool begun_ = false;                // has started once since reset()
-  bool started_ = false;              // and no restart is due
-  bool speed_is_due_ = false;         // a restart had one reading of each motor: the next ones give the speed
-  double time_ = 0, start_time_ = 0;  // of the last sample, of the last start; s
-  double refused_since_ = 0;          // time from which the gate has rejected all readings, s; infinite: accepted
-  StartReadings readings_;
-  Eigen::VectorXd judged_at_;  // time of each motor's last innovation, or of the start, s
-  HeldTorques held_;
-  Eigen::VectorXd torque_, external_;  // held
-  EstimatorReport report_;             // without the factors repaired since reset(), which report() adds
-  long repaired_before_ = 0;           // filter_->repaired() at that reset()
+  double last_command_ = 0;  // time of the newest command in history_, s
+  Track track_;
+  long repaired_before_ = 0;  // filter_->repaired() at the last reset()
   Predictions* predictions_ = nullptr;
   Eigen::VectorXd x_0_;  // before a prediction that is recorded
 };

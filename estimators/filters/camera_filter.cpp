@@ -139,7 +139,7 @@ void CameraFilter::remember(const Sample& sample, std::size_t predictions) {
 void CameraFilter::take_marker(const Sample& sample) {
   const double ahead = sample.time_s - camera_.latency_s - past_.front().sample.time_s;
   // Of a time that the filter does not remember, or when it had not yet started.
-  if (ahead < -kRounding || !past_.front().after.started) return;
+  if (ahead < -kRounding || !past_.front().after.track.started) return;
   filter_.restore(past_.front().after);
   filter_.correct_with(MarkerPosition(*process_, std::max(ahead, 0.0)), sample.marker,
                        camera_.noise_m * Eigen::Matrix3d::Identity());

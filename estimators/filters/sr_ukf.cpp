@@ -58,10 +58,9 @@ void SquareRootUkf::root_with_central(LaneMatrix& columns, const Eigen::Ref<cons
   ++repaired_;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(P_);
   const double floor = kEps * modes.eigenvalues().cwiseAbs().maxCoeff();
-  columns.view().leftCols(P_.cols()) =
-      modes.eigenvectors() * modes.eigenvalues().cwiseMax(floor).cwiseSqrt().asDiagonal();
-  columns.view().rightCols(columns.columns() - P_.cols()).setZero();
-  root_.compute(columns, L);
+  repaired_columns_.reshape(static_cast<int>(P_.rows()), static_cast<int>(P_.cols()));
+  repaired_columns_.view() = modes.eigenvectors() * modes.eigenvalues().cwiseMax(floor).cwiseSqrt().asDiagonal();
+  root_.compute(repaired_columns_, L);
 }
 
 int SquareRootUkf::move_sigma_points(const DiscreteProcess& process, int others) {

@@ -72,7 +72,7 @@ class SquareRootUkf : public GaussianFilter {
   Eigen::VectorXd size_, delta_, squares_;
   Eigen::MatrixXd X_, P_;
   Eigen::LLT<Eigen::MatrixXd> llt_;
-  LaneMatrix columns_, e_, K_;
+  LaneMatrix columns_, e_, K_, repaired_columns_;
 };
 
 }  // namespace halyard

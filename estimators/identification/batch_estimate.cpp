@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -20,7 +21,7 @@ constexpr double kWorse = 1;  // nats: a cost that rises by less is as good, as 
 
 /// What a pass over the logs with held weights tells. The blocks' sums are divided by `scale`.
 struct Pass {
-  std::vector<BlockSums> blocks;
+  std::vector<BlockSums> blocks;   ///< of equal times, without those that have no reading
   double misfit = 0, log_det = 0;  ///< Σ νᵀ S⁻¹ ν, Σ log |S_root|
   double prior = 0;                ///< |u|²
   double scale = 1;                ///< s²
@@ -37,12 +38,13 @@ Pass run_pass(const ArmModel& model, const std::vector<Weight>& weights, const E
   Pass pass;
   pass.blocks.assign(count, {Eigen::MatrixXd::Zero(p, p), Eigen::VectorXd::Zero(p)});
   pass.prior = u.squaredNorm();
-  Eigen::Index readings = 0;
+  std::vector<Eigen::Index> readings(pass.blocks.size(), 0);
   DualUkf filter(model, weights, {.learn = false, .disturbances = disturbances});
   filter.set_weights(u, Eigen::MatrixXd::Identity(p, p));
   run_filter(filter, logs, progress, [&](const DualStep& step, double time) {
     if (step.nu.size() == 0) return;
-    BlockSums& block = pass.blocks[std::min(static_cast<int>(time / whole * count), count - 1)];
+    const auto b = static_cast<std::size_t>(std::min(static_cast<int>(time / whole * count), count - 1));
+    BlockSums& block = pass.blocks[b];
     const auto S = step.S_root.triangularView<Eigen::Lower>();
     const Eigen::MatrixXd white = S.solve(step.Y);
     const Eigen::VectorXd white_nu = S.solve(step.nu);
@@ -50,9 +52,13 @@ Pass run_pass(const ArmModel& model, const std::vector<Weight>& weights, const E
     block.g += white.transpose() * white_nu;
     pass.misfit += white_nu.squaredNorm();
     pass.log_det += step.S_root.diagonal().array().abs().log().sum();
-    readings += white_nu.size();
+    readings[b] += white_nu.size();
   });
-  if (readings > 0) pass.scale = std::max(1.0, pass.misfit / static_cast<double>(readings));
+  const auto all = std::reduce(readings.begin(), readings.end());
+  if (all > 0) pass.scale = std::max(1.0, pass.misfit / static_cast<double>(all));
+  // A block within a pause, or within the settling time, tells nothing, and adds no degree of freedom.
+  for (std::size_t b = readings.size(); b-- > 0;)
+    if (readings[b] == 0) pass.blocks.erase(pass.blocks.begin() + static_cast<std::ptrdiff_t>(b));
   for (BlockSums& b : pass.blocks) {
     b.A = (b.A / pass.scale).selfadjointView<Eigen::Lower>();
     b.g /= pass.scale;

@@ -18,7 +18,7 @@ JackknifeEstimate jackknife_least_squares(const std::vector<BlockSums>& blocks, 
   Eigen::VectorXd step = Eigen::VectorXd::Zero(p);
   std::vector<int> free(static_cast<std::size_t>(p));
   std::iota(free.begin(), free.end(), 0);
-  for (;;) {
+  while (!free.empty()) {
     const Eigen::VectorXd rest = g - A * step;
     step(free) += A(free, free).ldlt().solve(rest(free));
     const auto furthest = std::ranges::max_element(free, {}, [&](int i) { return std::abs((u + step)(i)) / bound(i); });

@@ -7,7 +7,7 @@
 ///   u          parameters, in standard deviations of their prior           [p]
 ///   A_b, g_b   Σ Yᵀ S⁻¹ Y / s² and Σ Yᵀ S⁻¹ ν / s² over the samples of block b, evaluated at u; Y, S and ν as in
 ///              DualStep (dual_ukf.h), s² as in identify.h                  [p x p], [p]
-///   B          number of blocks; u_-b is the estimate without block b
+///   B          number of blocks, at least one; u_-b is the estimate without block b
 ///
 /// The reasons are in identify.h. Source: Künsch, Annals of Statistics 17 (1989).
 
@@ -25,7 +25,7 @@ struct BlockSums {
 struct JackknifeEstimate {
   Eigen::VectorXd u;
   Eigen::VectorXd deviation;  ///< standard deviation of u; 0 for a parameter at its bound
-  int blocks = 0;
+  int blocks = 0;             ///< B
 };
 
 /// Solves the least-squares problem, linearised at `u`, under |u| <= bound. Also computes the jackknife variance of the

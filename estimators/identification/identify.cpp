@@ -97,7 +97,7 @@ FilterTrace run_dual_filter(const ArmModel& model, const Unknowns& unknowns, con
 void tell_number(const Unknowns& unknowns, Eigen::Index i, const JackknifeEstimate& estimate, const FilterTrace& trace,
                  IdentifiedNumber& number) {
   const Weight& weight = unknowns.weights[i];
-  const double u = estimate.u(i), reach = t_quantile(estimate.blocks - 1, 0.025) * estimate.deviation(i);
+  const double u = estimate.u(i), reach = t_quantile(std::max(1, estimate.blocks - 1), 0.025) * estimate.deviation(i);
   number.value = weight.value(u);
   number.lower = weight.value(u - reach);
   number.upper = weight.value(u + reach);
