@@ -66,5 +66,7 @@ int main(int argc, char** argv) {
     return fail(std::runtime_error("halyard: memory ran out; use shorter logs or scenarios, or fewer --jobs"), 1);
   } catch (const std::exception& error) {
     return fail(error, 1);
+  } catch (...) {  // of an effect in a module
+    return fail(std::runtime_error("halyard: an exception of unknown type, perhaps from an effect of a module"), 1);
   }
 }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -14,6 +13,7 @@
 
 #include "evaluation/json.h"
 #include "evaluation/shell_words.h"
+#include "model/input/text_file.h"
 #include "model/input_error.h"
 #include "model/output/output_files.h"
 #include "model/output/unfinished.h"
@@ -70,6 +70,22 @@ std::string cluster_option(const SlurmJob& job) {
   return job.cluster.empty() ? "" : " --clusters=" + in_shell_quotes(job.cluster);
 }
 
+bool is_job_number(const std::string& text) {
+  return !text.empty() && std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c); });
+}
+
+/// Of "17", or "17;cluster", among lines of warnings.
+SlurmJob job_printed(const std::string& printed) {
+  std::istringstream lines(printed);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t end = std::min(line.find(';'), line.size());
+    const SlurmJob job{line.substr(0, end), end < line.size() ? line.substr(end + 1) : ""};
+    if (is_job_number(job.number)) return job;
+  }
+  throw std::runtime_error("halyard sweep: sbatch printed no number of a job, but may have taken it; see squeue: " +
+                           printed);
+}
+
 /// Hands the script to Slurm, and keeps the number of the job.
 SlurmJob submit_and_note(const SlurmArray& array) {
   const ShellResult result = run_in_shell("sbatch --parsable " + in_shell_quotes(script_file(array.out).string()));
@@ -78,10 +94,7 @@ SlurmJob submit_and_note(const SlurmArray& array) {
                              (result.printed.find("array") == result.printed.npos
                                   ? ""
                                   : "; fewer --nodes may help: MaxArraySize in slurm.conf limits them"));
-  // "17", or "17;cluster"
-  const std::string printed = result.printed.substr(result.printed.rfind('\n') + 1);
-  const std::size_t end = std::min(printed.find(';'), printed.size());
-  const SlurmJob job{printed.substr(0, end), end < printed.size() ? printed.substr(end + 1) : ""};
+  const SlurmJob job = job_printed(result.printed);
   const nlohmann::ordered_json json = {{"sweep", array.id},
                                        {"job", job.number},
                                        {"cluster", job.cluster},
@@ -127,19 +140,17 @@ SlurmJob submit(const SlurmArray& array) {
 }
 
 std::optional<SubmittedArray> submitted_array(const fs::path& out, const std::string& id) {
-  std::ifstream file(job_file(out), std::ios::binary);
-  if (!file) return std::nullopt;
+  if (!fs::exists(job_file(out))) return std::nullopt;
+  const std::string text =
+      read_text_file(job_file(out), {.name = "a job that sweep noted", .if_too_large = "remove it"});
   try {
-    const auto json = nlohmann::ordered_json::parse(file);
+    const auto json = nlohmann::ordered_json::parse(text);
     // Earlier programs wrote neither sweep nor cluster.
     if (json.value("sweep", id) != id) return std::nullopt;
     const SubmittedArray array{{json.at("job").get<std::string>(), json.value("cluster", std::string())},
                                whole_number(json.at("parts")),
                                json.value("options", std::vector<std::string>{})};
-    const std::string& number = array.job.number;
-    const bool is_number =
-        !number.empty() && std::ranges::all_of(number, [](unsigned char c) { return std::isdigit(c); });
-    if (is_number && array.parts > 0) return array;
+    if (is_job_number(array.job.number) && array.parts > 0) return array;
   } catch (const nlohmann::json::exception&) {}
   throw InputError(job_file(out).string() + ": is damaged; remove it");
 }

@@ -174,19 +174,26 @@ place_picture() {
 # Links to files and headings of this repository lead somewhere.
 check_links() {
   local file target path anchor found=0
+  local -A headings_of=()
   while IFS=$'\t' read -r file target; do
     path=${target%%#*} anchor=
     [[ $target != *#* ]] || anchor=${target#*#}
-    if [ -z "$path" ]; then path=$root/$file; else path=$root/$(dirname "$file")/$path; fi
+    if [ -z "$path" ]; then path=$root/$file; else path=$root/./$file; path=${path%/*}/${target%%#*}; fi
     [ ! -d "$path" ] || [ -z "$anchor" ] || path+=/README.md
-    if [ ! -e "$path" ] || { [ -n "$anchor" ] && ! headings "$path" | grep -qxF "$anchor"; }; then
+    if [ -n "$anchor" ] && [ -f "$path" ] && [ -z "${headings_of[$path]+there}" ]; then
+      headings_of[$path]=$'\n'$(headings "$path")$'\n'
+    fi
+    if [ ! -e "$path" ] || { [ -n "$anchor" ] && [[ ${headings_of[$path]} != *$'\n'"$anchor"$'\n'* ]]; }; then
       echo "$file: link to $target leads nowhere"
       found=1
     fi
-  done < <(markdown_files | while read -r file; do
-    sed 's/`[^`]*`//g' "$root/$file" | { grep -oE '\]\([^)]+\)' || true; } | sed -E 's/^\]\((.*)\)$/\1/' |
-      { grep -vE '^https?:' || true; } | sed "s|^|$file\t|"
-  done)
+  done < <(cd "$root" && markdown_files | xargs awk '{
+    gsub(/`[^`]*`/, "")
+    for (rest = $0; match(rest, /\]\([^)]+\)/); rest = substr(rest, RSTART + RLENGTH)) {
+      target = substr(rest, RSTART + 2, RLENGTH - 3)
+      if (target !~ /^https?:/) print FILENAME "\t" target
+    }
+  }')
   return $found
 }
 
@@ -198,13 +205,19 @@ headings() {
 # Every figure has one place; every block has a figure, an end, a command and content. Needs no program.
 check_form() {
   local name file text bad=0
+  local -A files_of=()  # the files that have a block of this name
+  while IFS=: read -r file name; do
+    files_of[$name]+="${files_of[$name]:+ }$file"
+    [ -n "${cost[$name]:-}" ] || { echo "$file: block $name has no figure_$name"; bad=1; }
+  done < <(cd "$root" && markdown_files | xargs grep -oE '^<!-- figure: [a-z0-9_]+ -->' |
+    sed 's/<!-- figure: //; s/ -->//')
   for name in "${figures[@]}"; do
     if [[ $name == *_svg ]]; then
       [ -s "$root/docs/images/${name%_svg}.svg" ] || { echo "$name: no picture docs/images/${name%_svg}.svg"; bad=1; }
       continue
     fi
-    file=$(markdown_files | (cd "$root" && xargs grep -lF "<!-- figure: $name -->") || true)
-    if [ "$(wc -w <<<"$file")" -ne 1 ]; then
+    file=${files_of[$name]:-}
+    if [ -z "$file" ] || [[ $file == *' '* ]]; then
       echo "$name: expected in one file, is in: ${file:-none}"
       bad=1
       continue
@@ -213,10 +226,6 @@ check_form() {
     grep -qE '(\./run|halyard|halyard_[a-z_]+) ' <<<"$text" || { echo "$file: figure $name names no command"; bad=1; }
     [ "$(wc -l <<<"$text")" -ge 3 ] || { echo "$file: figure $name has no content"; bad=1; }
   done
-  while IFS=: read -r file name; do
-    [ -n "${cost[$name]:-}" ] || { echo "$file: block $name has no figure_$name"; bad=1; }
-  done < <(cd "$root" && markdown_files | xargs grep -oE '^<!-- figure: [a-z0-9_]+ -->' |
-    sed 's/<!-- figure: //; s/ -->//')
   while read -r file; do
     awk -v file="$file" '
       /^<!-- figure: / { if (open) bad = 1; open = 1 }

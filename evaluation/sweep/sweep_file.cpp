@@ -6,8 +6,6 @@
 #include <boost/uuid/name_generator_sha1.hpp>
 #include <boost/uuid/uuid_io.hpp>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <numeric>
 #include <sstream>
@@ -16,6 +14,7 @@
 #include "evaluation/sweep/measures/sweep_limits.h"
 #include "evaluation/sweep/parameters/axis_keys.h"
 #include "evaluation/sweep/sweep_design.h"
+#include "model/input/text_file.h"
 #include "model/input_error.h"
 #include "model/model_file.h"
 #include "model/xml/xml_reader.h"
@@ -144,8 +143,7 @@ SweepAxis read_axis(const XmlElement& element, const Sweep& sweep, const UnitSam
 /// Nothing for what is no file: whoever opens it says so.
 std::string file_text(const fs::path& path) {
   if (!fs::is_regular_file(path)) return "";
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  return read_text_file(path, {.name = "a file that the sweep uses", .if_too_large = "use a smaller one"});
 }
 
 /// What modules of estimators and effects contain: another build of them gives other results.

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "evaluation/json.h"
 #include "evaluation/sweep/sweep_cells.h"
+#include "model/input/text_file.h"
 #include "model/input_error.h"
 
 namespace halyard {
@@ -28,9 +28,10 @@ auto read_json(const fs::path& path, Parse parse) {
     return InputError(path.string() +
                       ": is no result of halyard sweep or is damaged; remove it and run the sweep again");
   };
+  const std::string text =
+      read_text_file(path, {.name = "a result of halyard sweep", .if_too_large = "merge it where more memory is"});
   try {
-    std::ifstream file(path, std::ios::binary);
-    return parse(ordered_json::parse(file));
+    return parse(ordered_json::parse(text));
   } catch (const ordered_json::exception&) {
     throw damaged();
   } catch (const std::invalid_argument&) {

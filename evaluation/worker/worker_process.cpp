@@ -184,7 +184,7 @@ std::string result_in(const std::string& answer, const std::string& place) {
     case Answer::input_error: throw InputError(rest);
     case Answer::failure: throw std::runtime_error(rest);
     case Answer::no_memory: throw WorkerKilled(place + "memory ran out; " + kMemoryRemedy);
-    case Answer::no_process: fail(std::stoi(rest), "the process of an estimator cannot be started");
+    case Answer::no_process: fail(std::atoi(rest.c_str()), "the process of an estimator cannot be started");
   }
   throw std::runtime_error("its process gave an answer that cannot be read");
 }

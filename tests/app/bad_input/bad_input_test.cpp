@@ -175,8 +175,8 @@ TEST_F(BadInput, AnEstimatorThatBreaksItsPromises) {
                  {"crashes_in_create.so: breaks 1 of", "making: crashed: Segm"});
   expect_refused({"check", broken + "/crashes_in_update.so", "--model", "raven2.xml"},
                  {"crashes_in_update.so: breaks 1 of", "plain record: crashed: Segm", "the rest was not tried"});
-  expect_refused({"check", broken + "/never_returns.so", "--model", "raven2.xml", "--time-limit", "0.3"},
-                 {"never_returns.so: breaks 1 of", "plain record: took more than 0.3 s, and was ended"});
+  expect_refused({"check", broken + "/never_returns.so", "--model", "raven2.xml", "--time-limit", "1"},
+                 {"never_returns.so: breaks 1 of", "plain record: took more than 1 s, and was ended"});
   expect_refused({"check", "raven2.xml", "--kalman"}, {"--kalman", "'raven2.xml' is none"});
   EXPECT_TRUE(
       contains(done({"check", HALYARD_PLUGINS "/ekf.so", "--kalman"}), "and is the Kalman filter on a linear arm"));
@@ -209,10 +209,18 @@ TEST_F(BadInput, AModuleOfEffectsThatCannotBeLoaded) {
 
 TEST_F(BadInput, AModuleOfEffectsThatHangsAsItIsLoaded) {
   const std::string hangs = HALYARD_BROKEN_PLUGINS "/effects_hangs_when_opened.so";
-  expect_refused({"check", hangs, "--time-limit", "0.3"},
-                 {"effects_hangs_when_opened.so: as it is loaded: took more than 0.3 s, and was ended; correct"});
+  expect_refused({"check", hangs, "--time-limit", "1"},
+                 {"effects_hangs_when_opened.so: as it is loaded: took more than 1 s, and was ended; correct"});
   expect_refused({"simulate", "experiment_a.xml", "--out", "new.csv", "--effects", hangs},
                  {"effects_hangs_when_opened.so: as it is loaded: took more than 10 s, and was ended; correct"});
+}
+
+TEST_F(BadInput, AnEffectOfAModuleThatThrowsNoStandardException) {
+  const std::string effect = R"(<effects><effect name="fixture_torn_spring" joint="1" stiffness="60"/></effects>)";
+  write_text(path("torn.xml"), replaced(text_of(path("experiment_a.xml")), "</scenario>", effect + "</scenario>"));
+  expect_refused(
+      {"simulate", "torn.xml", "--out", "new.csv", "--effects", HALYARD_BROKEN_PLUGINS "/effects_throwing_force.so"},
+      {"halyard: an exception of unknown type, perhaps from an effect of a module\n"}, 1);
 }
 
 TEST_F(BadInput, ASweepThatCannotBeComputed) {
