@@ -6,8 +6,9 @@
 
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/clock_check.h"
-#include "diagnosis/log_check/robust.h"
 #include "diagnosis/record/record.h"
+#include "diagnosis/record/settling.h"
+#include "model/quantile.h"
 
 namespace halyard {
 namespace {
@@ -69,12 +70,12 @@ bool check_unit(LogUnderCheck& c, double step) {
 /// minutes. Gross if it is both, and minutes explain both.
 void check_duration(LogUnderCheck& c, double step) {
   const RecordOptions record;
-  const double shortest = 1 + record.settle_s, duration = c.log.duration();
+  const double shortest = 1 + settling_time(c.model, record.settle_s), duration = c.log.duration();
   const bool is_short = duration < shortest, is_fast = step < 1 / c.rule.controller_hz;
   if (!is_short && !is_fast) return;
   const bool in_minutes = duration * kMinutes.seconds >= shortest && step * kMinutes.seconds <= 1 / c.rule.slowest_hz;
   const std::string expected =
-      is_short ? fmt::format("expected at least {:g} s, the shortest record from which a diagnosis learns", shortest)
+      is_short ? fmt::format("expected at least {:.2g} s, the shortest record from which a diagnosis learns", shortest)
                : fmt::format("expected at most {:g} samples a second, as controllers take them", c.rule.controller_hz);
   const std::string what =
       fmt::format("{} samples in {:.4g} s, one after {:.4g} s; {}", c.log.size(), duration, step, expected);

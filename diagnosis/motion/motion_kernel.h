@@ -208,6 +208,15 @@ HALYARD_INLINE void interpolate(int n, const DrivenInput& a, const DrivenInput& 
   }
 }
 
+/// The input h after the last sample.
+HALYARD_INLINE DrivenInput moved_on(int n, DrivenInput last, double h) {
+  for (int k = 0; k < n; ++k) {
+    last.motor_angle[k] += h * (last.motor_rate[k] + 0.5 * h * last.motor_acceleration[k]);
+    last.motor_rate[k] += h * last.motor_acceleration[k];
+  }
+  return last;
+}
+
 /// The recursion of an inner stage: before, the stage before the last, becomes the new stage.
 template <class T>
 struct StageRecursion {
@@ -268,10 +277,11 @@ HALYARD_INLINE void drive_record(const Transmission<T>& transmission, const Driv
   const std::size_t held = samples_of_chain(dt);
   HeldChain<T> chain;
   T before[kMaxJoints];
+  DrivenInput beyond;
   for (std::size_t i = 0; i < size; ++i) {
     const double time = start + dt * static_cast<double>(i);
-    // After the last sample its input is held.
-    const DrivenInput &a = samples[i], &b = samples[std::min(i + 1, size - 1)];
+    const DrivenInput& a = samples[i];
+    const DrivenInput& b = i + 1 < size ? samples[i + 1] : beyond = moved_on(n, a, dt);
     prescribe<known>(arm, a, x);
     if (states) {
       T* row = states + i * (2 * n + m);

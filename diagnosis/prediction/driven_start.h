@@ -7,7 +7,7 @@
 
 namespace halyard {
 
-/// Joint positions at the record's first sample if no cable is stretched, at rest; effects are without a past.
+/// Joint positions with the motors at u if no cable is stretched, at rest; effects are without a past.
 DrivenState<double> unstretched_state(const Hypothesis& h, const Record& record, const DrivenInput& u);
 
 /// Eigenvalues of the driven arm with the motors held: at rest at x, and in motion under the largest load of the

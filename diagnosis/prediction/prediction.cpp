@@ -11,6 +11,7 @@
 #include "diagnosis/motion/lane_drive.h"
 #include "diagnosis/prediction/driven_start.h"
 #include "diagnosis/prediction/lane_residuals.h"
+#include "diagnosis/prediction/let_down.h"
 #include "diagnosis/prediction/motion_key.h"
 #include "diagnosis/prediction/recent_residuals.h"
 #include "diagnosis/prediction/room.h"
@@ -20,10 +21,6 @@
 
 namespace halyard {
 namespace {
-
-/// Before a record starts the arm is let down onto its cables with the motors held, for this long: what the cables
-/// remember of loading (hysteresis, slack, a dead zone) is then as after a real start. A past adds to that.
-constexpr double kLetDown = 0.8;
 
 /// For the widest instruction set of this processor.
 const LaneDrive& kernel() { return lane_drives().front(); }
@@ -39,12 +36,6 @@ std::vector<DrivenInput> driven_inputs(const Record& record) {
       inputs[i].external[k] = record.external[k].empty() ? 0.0 : record.external[k][i];
     }
   return inputs;
-}
-
-/// The input with the motors at rest.
-DrivenInput standing(DrivenInput u) {
-  for (int k = 0; k < kMaxJoints; ++k) u.motor_rate[k] = u.motor_acceleration[k] = 0;
-  return u;
 }
 
 CommandHistory whole_history(const Record& record, const std::vector<DrivenInput>& inputs) {
@@ -156,8 +147,9 @@ class Prediction {
     tbb::parallel_for(std::size_t{0}, jobs_.size(), [&](std::size_t i) {
       Job& job = jobs_[i];
       if (job.mover != i || !has_room(job.hypothesis->effects, record_.n)) return;
-      job.start = unstretched_state(*job.hypothesis, record_, inputs_[0]);
-      job.spectrum = eigenvalues_of(*job.hypothesis, record_, standing(inputs_[0]), job.start);
+      const DrivenInput held = held_before(record_, inputs_[0]);
+      job.start = unstretched_state(*job.hypothesis, record_, held);
+      job.spectrum = eigenvalues_of(*job.hypothesis, record_, held, job.start);
       job.is_able = !job.spectrum.empty() && stages_for(job.spectrum, record_.dt, record_.most_stages) > 0;
     });
     std::vector<std::vector<std::vector<Eigenvalues>>> able(n_requests_);
@@ -222,26 +214,29 @@ class Prediction {
     const bool keeps = std::ranges::any_of(batch, [&](std::size_t i) { return jobs_[i].is_replayed_later; });
     std::vector<Lanes> out(record_.size * 2 * record_.n);
     std::vector<Lanes> path(keeps ? record_.size * (2 * record_.n + lanes.n_states()) : 0);
-    DrivenState<Lanes> x;
-    for (int k = 0; k < record_.n; ++k) {
-      x.v[k] = 0.0;
-      for (int l = 0; l < kLaneWidth; ++l) x.q[k].set(l, jobs_[batch[l < std::ssize(batch) ? l : 0]].start.q[k]);
-    }
-    for (int k = 0; k < lanes.n_states(); ++k) x.z[k] = 0.0;
-    integrate(lanes, schemes_[jobs_[batch[0]].request], x, out, path);
+    integrate(lanes, batch, out, path);
     take(batch, out);
     for (std::size_t l = 0; l < batch.size(); ++l)
       if (jobs_[batch[l]].is_replayed_later) jobs_[batch[l]].states = states_of_lane(lanes, l, path);
   }
 
-  /// Lowers the arm onto its cables with the motors held, adds the pasts, and drives it along the record.
-  void integrate(const SharedLanes& lanes, const RungeKuttaChebyshev& scheme, DrivenState<Lanes>& x,
-                 std::vector<Lanes>& out, std::vector<Lanes>& path) const {
-    const std::vector<DrivenInput> held(static_cast<std::size_t>(kLetDown / record_.dt) + 1, standing(inputs_[0]));
-    std::vector<Lanes> unused(held.size() * 2 * record_.n);
-    const double before = record_.start - record_.dt * static_cast<double>(held.size());
-    kernel().drive(lanes.transmission(), held.data(), held.size(), before, record_.dt, scheme, &history_, x,
-                   unused.data(), nullptr);
+  /// Brings the arm to the start of the record, adds the pasts, and drives it along the record.
+  void integrate(const SharedLanes& lanes, const std::vector<std::size_t>& batch, std::vector<Lanes>& out,
+                 std::vector<Lanes>& path) const {
+    const RungeKuttaChebyshev& scheme = schemes_[jobs_[batch[0]].request];
+    DrivenState<Lanes> x = {};
+    Lanes rate[kMaxJoints], acceleration[kMaxJoints];
+    for (int l = 0; l < kLaneWidth; ++l) {
+      const Job& job = jobs_[batch[l < std::ssize(batch) ? l : 0]];
+      const UnstretchedMotion motion = unstretched_motion(*job.hypothesis, record_.first_motion);
+      for (int k = 0; k < record_.n; ++k) {
+        x.q[k].set(l, job.start.q[k]);
+        if (!record_.first_motion.is_there()) continue;
+        rate[k].set(l, motion.rate(k));
+        acceleration[k].set(l, motion.acceleration(k));
+      }
+    }
+    bring_to_start(lanes.transmission(), scheme, record_, inputs_[0], history_, rate, acceleration, x);
     lanes.add_past(x.z);
     kernel().drive(lanes.transmission(), inputs_.data(), record_.size, record_.start, record_.dt, scheme, &history_, x,
                    out.data(), path.empty() ? nullptr : path.data());

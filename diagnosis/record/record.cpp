@@ -9,6 +9,8 @@
 
 #include "diagnosis/log_check/robust.h"
 #include "diagnosis/record/sampled_column.h"
+#include "diagnosis/record/settling.h"
+#include "diagnosis/record/start_of_motion.h"
 #include "estimators/process/process_model.h"
 #include "model/homing.h"
 #include "model/input_error.h"
@@ -327,7 +329,7 @@ std::vector<int> stuck_joint_sensors(const Log& log, const ArmModel& model) {
   return stuck;
 }
 
-std::vector<Record> make_records(const Log& given, const ArmModel& model, const RecordOptions& options) {
+std::vector<Record> make_records(const Log& given, const ArmModel& model, const RecordOptions& wanted) {
   if (given.size() < 2)
     throw InputError(given.source + ": has fewer than two samples; expected a record of at least a second");
   constexpr double kSlowest = 0.1;  // s a sample
@@ -341,6 +343,8 @@ std::vector<Record> make_records(const Log& given, const ArmModel& model, const 
     if (model.nominal.joint[k].drive != Drive::none && given.motor_position[k].empty())
       throw InputError(fmt::format("{}: has no motor_position_{}; expected the angle of every motor of the model",
                                    given.source, k + 1));
+  RecordOptions options = wanted;
+  if (wanted.settle_s > 0) options.settle_s = settling_time(model, wanted.settle_s);
   const Log log = usable(given, model);
   const std::vector<Row> mark = mark_gaps(log, model, options.longest_gap_s);
 
@@ -351,11 +355,14 @@ std::vector<Record> make_records(const Log& given, const ArmModel& model, const 
     if (mark[begin] == Row::lost || log.time[end - 1] - log.time[begin] < 1 + options.settle_s) continue;
     records.push_back(Stretch(slice(log, begin, end), model, options).record());
     records.back().most_stages = most_stages_for(fastest, records.back().dt);
+    records.back().first_motion = start_of_motion(records.back(), model);
   }
   if (records.empty())
-    throw InputError(log.source +
-                     ": no stretch to learn from or to hold out is longer than 1.5 s without gaps; expected a "
-                     "longer record, or a hold-out log of its own");
+    throw InputError(
+        fmt::format("{}: no stretch to learn from or to hold out is longer than {:.2g} s without gaps; expected a "
+                    "longer record, or "
+                    "a hold-out log of its own",
+                    log.source, 1 + options.settle_s));
   return records;
 }
 

@@ -32,6 +32,12 @@ struct SensorSample {
   double time = 0, value = 0;
 };
 
+/// How the motors move at the first sample of a record that starts in motion; empty: it starts at rest.
+struct StartOfMotion {
+  std::vector<double> angle, rate, acceleration;  ///< [n_joints], of the motors
+  bool is_there() const { return !angle.empty(); }
+};
+
 /// [n_joints][n_samples] everywhere; weights are 0 or 1.
 struct Record {
   int n = 0;
@@ -53,6 +59,7 @@ struct Record {
   std::vector<double> compare;                           ///< K_c on this grid, [2 reach + 1]
   std::string source;
   int most_stages = RungeKuttaChebyshev::kUsualStages;  ///< of the integration by a hypothesis, see chebyshev.h
+  StartOfMotion first_motion;                           ///< see start_of_motion.h
   std::optional<std::size_t> place;                     ///< index among the records of an Evidence that it belongs to
 
   /// Of both filters together: a compared reading has passed K_m and K_c.
@@ -65,7 +72,9 @@ struct Record {
 struct RecordOptions {
   double motion_hz = 60;   ///< of K_m
   double compare_hz = 20;  ///< of K_c; 0: residuals are not filtered
-  double settle_s = 0.5;   ///< start of a record that is not compared, because its past is unknown
+  /// Start of a record that is not compared, because its past is unknown; longer for an arm that swings longer, see
+  /// settling.h. 0: all is compared.
+  double settle_s = 0.5;
   /// largest grid step; the grid step is the fastest sensor's interval, multiplied or divided by a whole number
   double step_s = 0.002;
   double slow_sensors_late_s = 0;  ///< readings of joint sensors slower than their motor's are moved earlier by this
@@ -90,6 +99,8 @@ std::vector<Record> make_records(const Log& log, const ArmModel& model, const Re
 /// interval: the usual time from one of its samples to the next, s.
 double seconds_held(double interval, TorqueSource source);
 inline constexpr double kLongestHold = 0.002;  ///< s
+/// Before a record that starts in motion the arm is taken to have moved with the same acceleration for so long, s.
+inline constexpr double kRunIn = 0.12;
 
 /// True if the sensor of joint k is slower than its motor's encoder, and so has a clock of its own: one reading in
 /// fifty or more comes after a reading of the encoder that the sensor lacks.
