@@ -48,7 +48,7 @@ class Diagnoser {
     result_.log_findings = findings;
     has_own_holdout_ = holdout.has_value();
     n_logs_ = training.size();
-    result_.holdout = holdout ? holdout->source : "last third of the training data";
+    result_.holdout = holdout ? holdout->source : "last third of each log";
     Searched searched = search(training, holdout, model_);
     if (const auto tells = model_for_lateness(training, model_, final_hypothesis()))
       searched = search(training, holdout, *tells);

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "diagnosis/fit/fit.h"
-#include "diagnosis/log_check/robust.h"
 #include "diagnosis/search_space.h"
+#include "model/quantile.h"
 
 namespace halyard {
 namespace {
@@ -63,7 +63,7 @@ std::optional<JointLateness> joint_lateness(const std::vector<Record>& records,
       const double e = record.joint_raw[k][i] - p[i], rate = (p[i + 1] - p[i - 1]) / (2 * record.dt);
       if (!std::isfinite(e) || !std::isfinite(rate)) continue;
       all.add(e, p[i], rate);
-      blocks[{r, static_cast<int>(record.time(i) / kBlock)}].add(e, p[i], rate);
+      blocks[{r, static_cast<int>(std::floor(record.time(i) / kBlock))}].add(e, p[i], rate);
     }
   }
   if (blocks.size() < kFewestBlocks || !(all.left_without_delay() > 0)) return std::nullopt;

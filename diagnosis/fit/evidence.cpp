@@ -55,7 +55,6 @@ Evidence::Evidence(std::vector<Record> data, const ArmModel& model, Split split)
   double total = 0, dt = records().front().dt;
   for (const Record& r : records()) total += r.dt * static_cast<double>(r.size), dt = std::min(dt, r.dt);
   grid_->stride = std::max(1, static_cast<int>(std::lround(1 / (kRowRate * dt))));
-  correlated_rows_ = std::max(1.0, kCorrelationTime / (grid_->stride * dt));
   // The autocorrelation of white noise behind a Gaussian filter is exp(-t² / (4 σ²)).
   const double noise_s = 2 * std::sqrt(std::numbers::pi) * records().front().filter_sigma();
   noise_rows_ = std::max(1.0, noise_s / (grid_->stride * dt));
@@ -72,6 +71,7 @@ Evidence::Evidence(std::vector<Record> data, const ArmModel& model, Split split)
   if (row_channel_.empty())
     throw InputError(records().front().source +
                      ": nothing to compare: no joint sensor, and no motor that moves with a known torque");
+  find_correlated_rows();
   block_count_.assign(blocks / 2 + 1, std::vector<int>(channels(), 0));
   for (const Place& p : places_)
     if (!p.fit) ++block_count_[p.block][p.channel];
@@ -116,6 +116,24 @@ void Evidence::add_row(const Place& place, double time) {
   row_record_.push_back(place.record);
   row_time_.push_back(time);
   ++fit_count_[place.channel];
+}
+
+void Evidence::find_correlated_rows() {
+  // Time that the rows of a channel cover. Within a sensor's holes it goes on, but for long ones; while a motor rests,
+  // whose torque is not compared, it does not.
+  std::vector<double> seconds(channels(), 0);
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const Place& place = places_[i];
+    const double a_row = grid_->stride * records()[place.record].dt;
+    double until_next = a_row;
+    if (i + 1 < places_.size() && places_[i + 1].record == place.record && places_[i + 1].channel == place.channel)
+      until_next = (places_[i + 1].index - place.index) * a_row;
+    const bool goes_on = place.channel >= n_ && until_next <= kCorrelationTime;
+    seconds[place.channel] += goes_on ? until_next : a_row;
+  }
+  correlated_rows_.assign(channels(), 1);
+  for (int c = 0; c < channels(); ++c)
+    if (has_channel(c)) correlated_rows_[c] = std::max(1.0, kCorrelationTime * channel_rows_[c] / seconds[c]);
 }
 
 void Evidence::find_floors(const ArmModel& model) {

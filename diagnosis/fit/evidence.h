@@ -78,8 +78,9 @@ class Evidence {
   /// channels.
   double over_floor(const std::vector<double>& change) const;
   bool exceeds_floor(const std::vector<double>& change, double times) const { return over_floor(change) > times; }
-  /// Number of rows that equal one independent sample, because residuals are correlated.
-  double correlated_rows() const { return correlated_rows_; }
+  /// Number of a channel's rows that equal one independent sample, because residuals are correlated: those of 0.25 s. A
+  /// slow sensor has fewer rows in this time than a fast one.
+  double correlated_rows(int c) const { return correlated_rows_[c]; }
   /// The same for a sensor's white noise, which only the filters of a record correlate.
   double noise_rows() const { return noise_rows_; }
   /// From the first to the last sample of all records, s.
@@ -129,12 +130,15 @@ class Evidence {
   /// The block of sample i of record r, over all records.
   int block_of(int r, std::size_t i) const;
   void add_row(const Place& place, double time);
+  /// Sets m of each channel, once all rows are there.
+  void find_correlated_rows();
   void find_floors(const ArmModel& model);
   void find_spans(const ArmModel& model);
   void find_moving_span(const ArmModel& model);
 
   int n_;
-  double correlated_rows_ = 1, noise_rows_ = 1;
+  std::vector<double> correlated_rows_;
+  double noise_rows_ = 1;
   double block_s_ = 1;
   std::shared_ptr<Grid> grid_;    ///< of the predictions
   std::shared_ptr<Grid> coarse_;  ///< of coarse_around(); null: there is none

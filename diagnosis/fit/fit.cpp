@@ -109,18 +109,17 @@ bool minimise(const Residual& residual, const std::vector<FitParameter>& paramet
   return halyard::minimise(residual, lower, upper, {options.iterations, options.cost_tolerance}, u);
 }
 
-/// The longest correlation time of any channel, in blocks.
+/// The longest correlation time of any channel in any record, in blocks.
 double correlated_blocks(const Evidence& evidence, const Eigen::VectorXd& r) {
-  double rows = 1;
-  const std::vector<int>& channel = evidence.row_channel();
+  double longest = 0;
+  const std::vector<int>&channel = evidence.row_channel(), &record = evidence.row_record(),
+        &block = evidence.row_block();
   for (std::size_t first = 0, last = 0; first < channel.size(); first = last) {
-    while (last < channel.size() && channel[last] == channel[first]) ++last;
-    rows = std::max(rows, correlation_rows({r.data() + first, last - first}));
+    while (last < channel.size() && channel[last] == channel[first] && record[last] == record[first]) ++last;
+    const double rows = static_cast<double>(last - first), blocks = block[last - 1] - block[first] + 1;
+    longest = std::max(longest, correlation_rows({r.data() + first, last - first}) / rows * blocks);
   }
-  const auto [low, high] = std::ranges::minmax(evidence.row_block());
-  double most = 1;
-  for (int c = 0; c < evidence.channels(); ++c) most = std::max(most, static_cast<double>(evidence.fit_count(c)));
-  return rows / most * (high - low + 1);
+  return longest;
 }
 
 /// Standard deviations and covariance at the minimum u.
@@ -166,7 +165,7 @@ std::vector<double> channel_scale(const Evidence& evidence, const std::vector<do
 Eigen::VectorXd row_scale(const Evidence& evidence, const std::vector<double>& scale) {
   Eigen::VectorXd rows(static_cast<Eigen::Index>(evidence.row_channel().size()));
   for (Eigen::Index r = 0; r < rows.size(); ++r)
-    rows(r) = scale[evidence.row_channel()[r]] * std::sqrt(evidence.correlated_rows());
+    rows(r) = scale[evidence.row_channel()[r]] * std::sqrt(evidence.correlated_rows(evidence.row_channel()[r]));
   return rows;
 }
 
@@ -176,7 +175,7 @@ std::vector<double> independent_rows(const Evidence& evidence, const std::vector
     if (!evidence.has_channel(c)) continue;
     const double square = scale[c] * scale[c], noise = std::pow(evidence.noise()[c].in_band, 2);
     const double of_model = std::max(square - noise, std::pow(evidence.resolved()[c], 2));
-    rows[c] = (noise * evidence.noise_rows() + of_model * evidence.correlated_rows()) / square;
+    rows[c] = (noise * evidence.noise_rows() + of_model * evidence.correlated_rows(c)) / square;
   }
   return rows;
 }
@@ -210,7 +209,8 @@ Fit fit(const Evidence& evidence, const Hypothesis& start, const std::vector<Fit
     return result;
   }
   std::vector<double> correlated_rows = options.correlated_rows;
-  if (correlated_rows.empty()) correlated_rows.assign(evidence.channels(), evidence.correlated_rows());
+  if (correlated_rows.empty())
+    for (int c = 0; c < evidence.channels(); ++c) correlated_rows.push_back(evidence.correlated_rows(c));
   Residual residual(evidence, start, parameters, scale, correlated_rows, linear);
   std::vector<double> u;
   for (std::size_t i = 0; i < parameters.size(); ++i)

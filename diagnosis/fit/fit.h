@@ -18,7 +18,7 @@ namespace halyard {
 struct FitOptions {
   int iterations = 10;
   double cost_tolerance = 1e-5;  ///< stops after a step that lowers the cost by a smaller share
-  /// m_c of each channel; empty: Evidence::correlated_rows(), as if all residuals were errors of the model.
+  /// m_c of each channel; empty: Evidence::correlated_rows(c), as if all residuals were errors of the model.
   std::vector<double> correlated_rows = {};
 };
 
@@ -56,7 +56,7 @@ Eigen::VectorXd row_scale(const Evidence& evidence, const std::vector<double>& s
 ///   m_c = (ν² m_noise + max(s² - ν², ρ²) m_model) / s²
 ///
 ///   s   scale of the channel    ν   its noise in the compared band    ρ   the smallest error that it resolves
-///   m_noise, m_model            Evidence::noise_rows(), Evidence::correlated_rows()
+///   m_noise, m_model            Evidence::noise_rows(), Evidence::correlated_rows(c)
 std::vector<double> independent_rows(const Evidence& evidence, const std::vector<double>& scale);
 
 /// Sensitivities of the fitting rows to parameters, by one-sided differences; empty if one could not be integrated.

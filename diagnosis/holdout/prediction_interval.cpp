@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "diagnosis/judgement/final_fit.h"
-#include "diagnosis/log_check/robust.h"
+#include "model/quantile.h"
 
 namespace halyard {
 namespace {
@@ -45,7 +45,8 @@ std::vector<double> deviations(const Fit& fit, const Eigen::MatrixXd& g) {
   for (const Eigen::MatrixXd* covariance : {&fit.covariance, &fit.block_covariance}) {
     const Eigen::VectorXd square = (g * *covariance).cwiseProduct(g).rowwise().sum();
     for (std::size_t i = 0; i < s.size(); ++i)
-      s[i] = std::max(s[i], std::sqrt(std::max(0.0, square(static_cast<Eigen::Index>(i)))));
+      if (const double of_fit = square(static_cast<Eigen::Index>(i)); std::isnan(of_fit)) s[i] = of_fit;
+      else s[i] = std::max(s[i], std::sqrt(std::max(0.0, of_fit)));
   }
   return s;
 }
@@ -75,7 +76,8 @@ Fit with_all_numbers(const Evidence& whole, const Fit& fit, const std::vector<Fi
   std::ranges::copy_if(fit.parameters, std::back_inserter(all),
                        [](const FitParameter& p) { return p.effect.has_value(); });
   const std::vector<double> scale = channel_scale(whole, whole.score(fit.hypothesis).fit_mean_square);
-  return halyard::fit(whole, fit.hypothesis, all, scale, {.iterations = 0});
+  return halyard::fit(whole, fit.hypothesis, all, scale,
+                      {.iterations = 0, .correlated_rows = independent_rows(whole, scale)});
 }
 
 Fit without_event(Fit fit, std::size_t effect) {

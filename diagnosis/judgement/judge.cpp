@@ -356,7 +356,7 @@ double Judge::cost(const Scored& scored) const {
   double sum = prior_cost(scored.hypothesis);
   for (int c = 0; c < evidence_.channels(); ++c)
     if (evidence_.has_channel(c))
-      sum -= block_log_likelihood(evidence_, evidence_.fit_count(c), scored.score.fit_mean_square[c],
+      sum -= block_log_likelihood(evidence_, c, evidence_.fit_count(c), scored.score.fit_mean_square[c],
                                   std::pow(evidence_.floor()[c], 2));
   return sum;
 }

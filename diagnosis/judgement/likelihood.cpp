@@ -6,8 +6,8 @@
 
 namespace halyard {
 
-double block_log_likelihood(const Evidence& evidence, double rows, double mean_square, double least_square) {
-  return -0.5 * rows / evidence.correlated_rows() * std::log(mean_square + least_square);
+double block_log_likelihood(const Evidence& evidence, int c, double rows, double mean_square, double least_square) {
+  return -0.5 * rows / evidence.correlated_rows(c) * std::log(mean_square + least_square);
 }
 
 Likelihood log_likelihood(const Evidence& evidence, const Score& score, const std::vector<double>& least_square) {
@@ -16,7 +16,7 @@ Likelihood log_likelihood(const Evidence& evidence, const Score& score, const st
   for (std::size_t b = 0; b < count.size(); ++b)
     for (int c = 0; c < evidence.channels(); ++c)
       if (count[b][c] > 0)
-        ln[b][c] = block_log_likelihood(evidence, count[b][c], score.block_sum[b][c] / count[b][c], least_square[c]);
+        ln[b][c] = block_log_likelihood(evidence, c, count[b][c], score.block_sum[b][c] / count[b][c], least_square[c]);
   return ln;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 /// The log-likelihood of a hypothesis on the deciding blocks, and the gain that two hypotheses share.
 ///
-///   ln L_b = -1/2 Σ_c n_bc/m ln(MSE_bc + least_c²)
+///   ln L_b = -1/2 Σ_c n_bc/m_c ln(MSE_bc + least_c²)
 ///
 ///   n_bc, MSE_bc   rows of channel c in block b, their mean square
-///   m              rows that equal one independent sample
+///   m_c            rows of the channel that equal one independent sample
 ///   least_c        residuals below it are treated as equal: at least the channel's floor
 ///
 /// Each block has its own variance, so that no single block can dominate the result.
@@ -17,8 +17,8 @@ namespace halyard {
 /// ln L, [deciding block][channel].
 using Likelihood = std::vector<std::vector<double>>;
 
-/// One term of ln L_b. least_square: least_c².
-double block_log_likelihood(const Evidence& evidence, double rows, double mean_square, double least_square);
+/// One term of ln L_b, of channel c. least_square: least_c².
+double block_log_likelihood(const Evidence& evidence, int c, double rows, double mean_square, double least_square);
 
 /// least_square: [2n].
 Likelihood log_likelihood(const Evidence& evidence, const Score& score, const std::vector<double>& least_square);

@@ -17,7 +17,7 @@ std::vector<double> nested_gains(const Evidence& evidence, const Score& with, co
     double gain = 0;
     for (int c = 0; c < evidence.channels(); ++c)
       if (count[b][c] > 0)
-        gain += count[b][c] / evidence.correlated_rows() * 2 * common[b][c] /
+        gain += count[b][c] / evidence.correlated_rows(c) * 2 * common[b][c] /
                 (without.block_sum[b][c] + own[b][c] + count[b][c] * least_square[c]);
     gains.push_back(gain);
   }

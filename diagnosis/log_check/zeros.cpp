@@ -13,6 +13,7 @@
 #include "diagnosis/record/sampled_column.h"
 #include "model/homing.h"
 #include "model/input_error.h"
+#include "model/quantile.h"
 #include "transmission/effect.h"
 
 namespace halyard {
@@ -132,7 +133,8 @@ void check_lap(LogUnderCheck& c, int k) {
   c.correct(is_motor ? &Log::motor_position : &Log::joint_position, k, correction);
 }
 
-/// Mismatch of a joint's reading with its expectation a time earlier, less a slope and a mean: Σ e² / samples.
+/// Mismatch of a joint's reading with its expectation a time earlier, less a slope and a mean: Σ e² / samples. Infinite
+/// with fewer than ten samples, or if nothing moves.
 double mismatch(const SampledMotion& m, const SampledColumn& reading, int k, double late) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
   for (std::size_t i = 0; i < m.time.size(); ++i) {
@@ -141,7 +143,7 @@ double mismatch(const SampledMotion& m, const SampledColumn& reading, int k, dou
     const double q = reading.at(t);
     n += 1, x += p, y += q, xx += p * p, xy += p * q, yy += q * q;
   }
-  if (n < 10 || n * xx <= x * x) return 0;
+  if (n < 10 || n * xx <= x * x) return std::numeric_limits<double>::infinity();
   const double cxx = xx - x * x / n, cxy = xy - x * y / n, cyy = yy - y * y / n;
   return std::max(0.0, cyy - cxy * cxy / cxx) / n;
 }
@@ -165,6 +167,7 @@ void check_delay(LogUnderCheck& c, const SampledMotion& m, int k) {
   // A diagnosis measures the lag of slow sensors better, and takes it out, up to a limit.
   const double least = std::max(slow ? kLongestLateness : c.rule.late_s, c.rule.late_samples * interval);
   const double at_zero = mismatch(m, reading, k, 0);
+  if (!std::isfinite(at_zero)) return;
   Shift best{.left = at_zero};
   const double longest = std::min(0.5, 0.1 * c.log.duration());
   const double step = std::max(1e-3, least / 6);

@@ -9,6 +9,7 @@
 #include "diagnosis/log_check/robust.h"
 #include "diagnosis/noise/delay_free.h"
 #include "diagnosis/noise/ripple_free.h"
+#include "model/quantile.h"
 
 namespace halyard {
 namespace {
@@ -16,14 +17,22 @@ namespace {
 constexpr double kLowest = 10;  ///< Hz; below it the errors of a model are
 constexpr double kSegment = 1;  ///< s, and at least so many samples:
 constexpr int kFewestSamples = 64;
-constexpr int kShortestRun = 16;  ///< samples: of shorter runs nothing is told
-constexpr double kHighest = 80;   ///< Hz; an encoder's rounding is not white far above what is compared
-constexpr double kBand = 2;       ///< from the lower edge of a band to the upper
-constexpr double kMedianOverMean = std::numbers::ln2;
+constexpr int kShortestRun = 16;     ///< samples: of shorter runs nothing is told
+constexpr double kHighest = 80;      ///< Hz; an encoder's rounding is not white far above what is compared
+constexpr double kBand = 2;          ///< from the lower edge of a band to the upper
 constexpr double kLineFrom = 22;     ///< Hz: above what is compared
 constexpr double kLineTo = 150;      ///< Hz: above, the filter of the record leaves nothing to see
 constexpr double kLineOver = 30;     ///< times its surroundings: by chance once in e^20 bins
 constexpr double kSurroundings = 8;  ///< Hz on either side
+
+constexpr double kMedianOverMean = std::numbers::ln2;  ///< of the power of noise in very many segments
+
+/// The same of n segments, by the median as median() takes it: 1 of one.
+double median_over_mean(std::size_t n) {
+  double sum = 0;
+  for (std::size_t i = n - n / 2; i <= n; ++i) sum += 1 / static_cast<double>(i);
+  return sum;
+}
 
 /// Mean of the bins of [from, to); infinite if there is none.
 double mean_of_band(const std::vector<double>& density, double resolution, double from, double to) {
@@ -36,11 +45,11 @@ double mean_of_band(const std::vector<double>& density, double resolution, doubl
 /// The bins that stand out of their surroundings, each with its neighbours as one line.
 std::vector<NoiseLine> lines_of(const std::vector<double>& density, double resolution) {
   std::vector<NoiseLine> lines;
-  const auto first = static_cast<std::size_t>(std::ceil(kLineFrom / resolution));
-  const auto last = std::min(density.size(), static_cast<std::size_t>(kLineTo / resolution));
-  const auto reach = static_cast<std::size_t>(kSurroundings / resolution);
   // A Hann window spreads a sine over two bins on either side.
   constexpr std::size_t kSpread = 2;
+  const auto first = std::max(kSpread, static_cast<std::size_t>(std::ceil(kLineFrom / resolution)));
+  const auto last = std::min(density.size(), static_cast<std::size_t>(kLineTo / resolution));
+  const auto reach = static_cast<std::size_t>(kSurroundings / resolution);
   for (std::size_t b = first; b + kSpread < last; ++b) {
     const auto from = density.begin() + static_cast<std::ptrdiff_t>(b - kSpread);
     if (density[b] < *std::max_element(from, from + 2 * kSpread + 1)) continue;
@@ -150,15 +159,15 @@ ChannelNoise noise_of(const ChannelSamples& samples, const Filters& filters, boo
   int longest = 0;
   for (const std::vector<double>& run : samples.runs) longest = std::max(longest, static_cast<int>(run.size()));
   if (longest >= kShortestRun) segment = std::min(segment, longest - longest % 2);
-  std::vector<double> density = median_density(samples.runs, samples.interval, segment);
+  NoiseDensity density = median_density(samples.runs, samples.interval, segment);
   const double resolution = 1 / (samples.interval * segment);
   double highest = 0.5 / samples.interval;
   if (is_torque) {
     const double omega_sigma = 2 * std::numbers::pi * filters.motion_sigma;
     // Above its cut-off the record's filter leaves too little of the torque to divide by.
     highest = std::min(highest, 1 / omega_sigma);
-    for (std::size_t b = 0; b < density.size(); ++b)
-      density[b] *= std::exp(std::pow(omega_sigma * static_cast<double>(b) * resolution, 2));
+    for (std::size_t b = 0; b < density.of_bin.size(); ++b)
+      density.of_bin[b] *= std::exp(std::pow(omega_sigma * static_cast<double>(b) * resolution, 2));
   }
   return noise_of_density(density, resolution, highest, filters.both_sigma);
 }
@@ -194,7 +203,7 @@ ChannelNoise over_rates(const std::vector<ChannelSamples>& by_rate, const Estima
 
 }  // namespace
 
-std::vector<double> median_density(const std::vector<std::vector<double>>& samples, double interval, int segment) {
+NoiseDensity median_density(const std::vector<std::vector<double>>& samples, double interval, int segment) {
   Eigen::FFT<double> fft;
   std::vector<double> window(segment);
   double power = 0;
@@ -215,26 +224,28 @@ std::vector<double> median_density(const std::vector<std::vector<double>>& sampl
       fft.fwd(amplitude, part);
       for (int b = 0; b < bins; ++b) at[b].push_back(2 * interval * std::norm(amplitude[b]) / power);
     }
-  std::vector<double> density;
-  for (const std::vector<double>& of_bin : at)
-    if (!of_bin.empty()) density.push_back(median(of_bin) / kMedianOverMean);
+  NoiseDensity density;
+  if (at.empty() || at[0].empty()) return density;
+  density.too_large = median_over_mean(at[0].size()) / kMedianOverMean;
+  for (const std::vector<double>& of_bin : at) density.of_bin.push_back(median(of_bin) / kMedianOverMean);
   return density;
 }
 
-ChannelNoise noise_of_density(const std::vector<double>& density, double resolution, double nyquist,
-                              double filter_sigma) {
+ChannelNoise noise_of_density(const NoiseDensity& density, double resolution, double nyquist, double filter_sigma) {
   ChannelNoise noise;
-  if (density.empty()) return noise;
+  if (density.of_bin.empty()) return noise;
   double white = std::numeric_limits<double>::infinity();
-  // A slow sensor has the upper third of its spectrum alone.
-  if (nyquist <= 1.5 * kLowest) white = mean_of_band(density, resolution, nyquist * 2 / 3, nyquist);
+  // A slow sensor has the upper third of its spectrum alone. Of several bands the least is too small by chance, by as
+  // much as the median of few segments is too large.
+  if (nyquist <= 1.5 * kLowest)
+    white = mean_of_band(density.of_bin, resolution, nyquist * 2 / 3, nyquist) / density.too_large;
   else
     for (double from = kLowest; from < std::min(0.7 * nyquist, kHighest); from *= kBand)
-      white = std::min(white, mean_of_band(density, resolution, from, std::min(kBand * from, nyquist)));
+      white = std::min(white, mean_of_band(density.of_bin, resolution, from, std::min(kBand * from, nyquist)));
   if (!std::isfinite(white)) return noise;
   noise.white = std::sqrt(white * nyquist);
   noise.in_band = in_band_of(white, nyquist, filter_sigma);
-  noise.lines = lines_of(density, resolution);
+  noise.lines = lines_of(density.of_bin, resolution);
   return noise;
 }
 

@@ -45,17 +45,22 @@ struct ChannelNoise {
   std::vector<NoiseLine> lines;
 };
 
-/// Spectral density of a residual and the noise in it.
-///   density       [bins], bin b is the frequency b * resolution
+/// Spectral density of a residual over segments of its samples.
+struct NoiseDensity {
+  std::vector<double> of_bin;  ///< one-sided: the median over the segments, over ln 2 as of noise in very many
+  double too_large = 1;        ///< expected density of white noise in so many segments, over the true one
+};
+
+/// The noise in a density.
+///   density       bin b is the frequency b * resolution
 ///   nyquist       Hz
 ///   filter_sigma  σ_t of both filters of a record, s
-ChannelNoise noise_of_density(const std::vector<double>& density, double resolution, double nyquist,
-                              double filter_sigma);
+ChannelNoise noise_of_density(const NoiseDensity& density, double resolution, double nyquist, double filter_sigma);
 
 /// Median density over the segments of evenly spaced samples; segments with NaN do not count. Empty: no segment.
 ///   interval  s, from a sample to the next
 ///   segment   samples of a segment
-std::vector<double> median_density(const std::vector<std::vector<double>>& samples, double interval, int segment);
+NoiseDensity median_density(const std::vector<std::vector<double>>& samples, double interval, int segment);
 
 /// [2n] as the channels of Residuals; zero where a channel has no data or the hypothesis cannot be integrated.
 std::vector<ChannelNoise> channel_noise(const std::vector<Record>& records, const Hypothesis& given);

@@ -68,7 +68,7 @@ std::vector<double> ChangeDetector::log_likelihood(const Eigen::VectorXd& left) 
     double sum = 0, any = 0;
     for (std::size_t c = 0; c < channels; ++c) {
       const double n = count[block + c];
-      if (n > 0) sum += block_log_likelihood(evidence_, n, square[block + c] / n, std::pow(evidence_.floor()[c], 2));
+      if (n > 0) sum += block_log_likelihood(evidence_, c, n, square[block + c] / n, std::pow(evidence_.floor()[c], 2));
       any += n;
     }
     if (any > 0) ln.push_back(sum);

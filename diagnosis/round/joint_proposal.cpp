@@ -92,7 +92,7 @@ class LinearProblem {
     problem_.prior = column(prior_);
     problem_.channel = evidence.row_channel();
     problem_.least_square = squared_floors(evidence);
-    problem_.correlated_rows = evidence.correlated_rows();
+    for (int c = 0; c < evidence.channels(); ++c) problem_.correlated_rows.push_back(evidence.correlated_rows(c));
   }
 
   const Refitter& refitter_;

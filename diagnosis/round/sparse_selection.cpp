@@ -19,7 +19,8 @@ class Selector {
     find_products();
     std::set<int> owners;
     for (const ColumnGroup& g : p_.groups) owners.insert(g.owner);
-    const double samples = static_cast<double>(p_.x.size()) / p_.correlated_rows;
+    double samples = 0;
+    for (std::size_t c = 0; c < count_.size(); ++c) samples += count_[c] / correlated_rows_[c];
     for (const ColumnGroup& g : p_.groups)
       price_.push_back(0.5 * g.numbers * std::log(samples) + std::log(static_cast<double>(owners.size())));
   }
@@ -32,7 +33,7 @@ class Selector {
     all << -amount, 1;
     Eigen::VectorXd weight(std::ssize(products_));
     for (std::size_t c = 0; c < products_.size(); ++c)
-      weight(static_cast<Eigen::Index>(c)) = 1 / (p_.correlated_rows * variance(c, all.dot(products_[c] * all)));
+      weight(static_cast<Eigen::Index>(c)) = 1 / (correlated_rows_[c] * variance(c, all.dot(products_[c] * all)));
     return weight;
   }
   /// All sets with one group more than one of these, each once.
@@ -50,6 +51,7 @@ class Selector {
       Eigen::MatrixXd all(std::ssize(rows), n + 1);
       all << p_.columns(rows, Eigen::all), p_.x(rows);
       count_.push_back(static_cast<double>(rows.size()));
+      correlated_rows_.push_back(p_.correlated_rows[c]);
       least_square_.push_back(p_.least_square[c]);
       products_.push_back(Eigen::MatrixXd::Zero(n + 1, n + 1));
       products_.back().selfadjointView<Eigen::Lower>().rankUpdate(all.transpose());
@@ -63,6 +65,7 @@ class Selector {
   const SparseProblem& p_;
   std::vector<Eigen::MatrixXd> products_;  ///< [channels]
   std::vector<double> count_;              ///< n_c
+  std::vector<double> correlated_rows_;    ///< m_c
   std::vector<double> least_square_;       ///< least_c²
   std::vector<double> price_;              ///< of each group
 };
@@ -93,8 +96,8 @@ SelectedGroups Selector::solve(const Groups& groups, Eigen::VectorXd weight) con
     s.cost = 0.5 * a.head(n).cwiseAbs2().dot(prior);
     for (std::size_t c = 0; c < products.size(); ++c) {
       const double left = variance(c, a.dot(products[c] * a));
-      s.cost += 0.5 * count_[c] / p_.correlated_rows * std::log(left);
-      weight(static_cast<Eigen::Index>(c)) = 1 / (p_.correlated_rows * left);
+      s.cost += 0.5 * count_[c] / correlated_rows_[c] * std::log(left);
+      weight(static_cast<Eigen::Index>(c)) = 1 / (correlated_rows_[c] * left);
     }
   }
   for (Eigen::Index i = 0; i < n; ++i) s.amount(place[i]) = -a(i);

@@ -26,14 +26,14 @@ struct ColumnGroup {
 };
 
 struct SparseProblem {
-  Eigen::VectorXd x;                 ///< [rows]
-  Eigen::MatrixXd columns;           ///< [rows x columns]; those that every set may use come first
-  Eigen::Index free = 0;             ///< number of columns that every set may use
-  Eigen::VectorXd lower, upper;      ///< of the amounts, [columns]
-  Eigen::VectorXd prior;             ///< P, [columns]
-  std::vector<int> channel;          ///< of each row
-  std::vector<double> least_square;  ///< least_c², [channels]
-  double correlated_rows = 1;        ///< m
+  Eigen::VectorXd x;                    ///< [rows]
+  Eigen::MatrixXd columns;              ///< [rows x columns]; those that every set may use come first
+  Eigen::Index free = 0;                ///< number of columns that every set may use
+  Eigen::VectorXd lower, upper;         ///< of the amounts, [columns]
+  Eigen::VectorXd prior;                ///< P, [columns]
+  std::vector<int> channel;             ///< of each row
+  std::vector<double> least_square;     ///< least_c², [channels]
+  std::vector<double> correlated_rows;  ///< m_c, [channels]
   std::vector<ColumnGroup> groups;
 };
 

@@ -18,6 +18,7 @@
 #include "tests/diagnosis/odd_logs.h"
 #include "tests/support/limits.h"
 #include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace halyard {
 namespace {
@@ -293,7 +294,8 @@ TEST(ClockOffsetBetweenSensors, OfASlowSensorIsCorrectedAndSaid) {
 }
 
 TEST(Clock, OfTheUnixEpochAndInMillisecondsIsTheLogsOwn) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "halyard_odd_clock.csv";
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "odd_clock.csv";
   const Log& log = clean_logs().train;
   {
     std::ofstream file(path);

@@ -18,4 +18,12 @@ inline Evidence brief_evidence() {
   return Evidence(make_records(simulate(motion(model, 2)).measured, model, {}), model);
 }
 
+/// Of the deciding blocks and all channels.
+inline double independent_samples(const Evidence& evidence) {
+  double samples = 0;
+  for (const std::vector<int>& block : evidence.block_count())
+    for (int c = 0; c < evidence.channels(); ++c) samples += block[c] / evidence.correlated_rows(c);
+  return samples;
+}
+
 }  // namespace halyard

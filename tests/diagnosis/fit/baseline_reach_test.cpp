@@ -15,7 +15,7 @@ namespace {
 struct OneNumberReach {
   const Evidence& evidence;
   const Eigen::Index rows = std::ssize(evidence.row_channel());
-  const double scale = 3, weight = 1 / (scale * std::sqrt(evidence.correlated_rows()));
+  const double scale = 3, weight = 1 / (scale * std::sqrt(evidence.correlated_rows(evidence.row_channel().back())));
   BaselineReach reach{evidence, {moved()}, std::vector<double>(evidence.channels(), scale)};
 
   explicit OneNumberReach(const Evidence& of = once()) : evidence(of) {}

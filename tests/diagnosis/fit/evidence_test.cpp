@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tests/diagnosis/fit/made_log.h"
 #include "tests/support/small_evidence.h"
@@ -48,6 +49,25 @@ TEST(EvidenceRows, AreFiftyASecondFromTheStartOfTheRecordOn) {
   for (const double t : evidence.row_time()) EXPECT_NEAR(std::remainder(t, 0.02), 0, 1e-9);
   // Of 3.5 s one half decides.
   EXPECT_NEAR(evidence.fit_count(1), 3.5 * 50 / 2, 13);
+}
+
+TEST(EvidenceRows, OfAQuarterOfASecondAreOneSampleHoweverSlowTheSensorIs) {
+  EXPECT_NEAR(evidence_of_rigid_log(20).correlated_rows(1), 12.5, 1e-9) << "50 rows a second";
+  Log log = rigid_log(20, 0);
+  for (std::size_t i = 0; i < log.size(); ++i)
+    if (i % 10 != 0) log.joint_position[0][i] = std::numeric_limits<double>::quiet_NaN();  // 10 Hz
+  const ArmModel model = first_joints(1);
+  const Evidence slow(make_records(log, model, {}), model);
+  const double rows_per_s = slow.fit_count(1) / (0.5 * 20);
+  EXPECT_LT(rows_per_s, 25) << "around the readings alone";
+  EXPECT_NEAR(slow.correlated_rows(1), 0.25 * rows_per_s, 0.1 * 0.25 * rows_per_s);
+}
+
+TEST(EvidenceRows, NoSampleIsWonByAHole) {
+  Log log = rigid_log(20, 0);
+  for (std::size_t i = 500; i < 1500; ++i) log.joint_position[0][i] = std::numeric_limits<double>::quiet_NaN();
+  const ArmModel model = first_joints(1);
+  EXPECT_NEAR(Evidence(make_records(log, model, {}), model).correlated_rows(1), 12.5, 0.1);
 }
 
 TEST(EvidenceFloor, OfASensorOfUnknownResolutionFollowsFromItsSmallestStep) {

@@ -47,7 +47,7 @@ TEST(IndependentRows, ManyOfNoiseAndFewOfErrorsOfTheModel) {
   const Evidence evidence(make_records(log, model, {}), model);
   // Filters of 20 and 60 Hz, 50 times a second: 2 √π σ_t = 1 / (20 √π) s of the first alone.
   EXPECT_NEAR(evidence.noise_rows(), 50 / (20 * std::sqrt(std::numbers::pi)) * std::hypot(1, 20.0 / 60), 1e-9);
-  EXPECT_GT(evidence.correlated_rows(), 8 * evidence.noise_rows());
+  EXPECT_GT(evidence.correlated_rows(1), 8 * evidence.noise_rows());
 
   std::vector<double> scale = evidence.floor();
   // The sensor's resolution is a twentieth of its noise before the filter, and about a tenth behind it.
@@ -55,7 +55,7 @@ TEST(IndependentRows, ManyOfNoiseAndFewOfErrorsOfTheModel) {
   for (double& s : scale) s *= 100;
   // The noise is a ten-thousandth of such a mean square.
   for (const int c : {0, 1})
-    EXPECT_NEAR(independent_rows(evidence, scale)[c], evidence.correlated_rows(), 2e-4 * evidence.correlated_rows());
+    EXPECT_NEAR(independent_rows(evidence, scale)[c], evidence.correlated_rows(c), 2e-4 * evidence.correlated_rows(c));
 }
 
 TEST(Fit, FindsTheInstantOfASlipThatIsAPeriodOfTheCableOff) {

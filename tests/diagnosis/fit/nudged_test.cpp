@@ -22,7 +22,7 @@ TEST(BeyondNumbers, LeavesWhatThePenalisedFitLeaves) {
   std::vector<double> column = even_rows(evidence, 0), rest = column;
   column[0] = 3, rest[1] = 5;
   const BeyondNumbers beyond(evidence, {column}, scale);
-  const double m = evidence.correlated_rows();
+  const double m = evidence.correlated_rows(evidence.row_channel()[0]);
   // Of r = c J a fit with a prior of one unit leaves c² J² / (1 + J²), prior included.
   EXPECT_NEAR(beyond.left(column), (9 / m) / (1 + 9 / m), 1e-12);
   EXPECT_NEAR(beyond.left(rest), 25 / m, 1e-12) << "no number resembles it";

@@ -240,7 +240,7 @@ TEST(Judge, TheCostOfAFitIsThatOfItsResidualsAndOfItsNumbers) {
   double expected = 2;
   for (const int c : {0, 1}) {
     const double floor_square = std::pow(evidence.floor()[c], 2);
-    expected += evidence.fit_count(c) / (2 * evidence.correlated_rows()) *
+    expected += evidence.fit_count(c) / (2 * evidence.correlated_rows(c)) *
                 std::log((moved.score.fit_mean_square[c] + floor_square) / (1 + floor_square));
   }
   EXPECT_NEAR(judge.cost(moved) - judge.cost(given), expected, 1e-9);

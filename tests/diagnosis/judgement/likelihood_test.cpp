@@ -26,18 +26,11 @@ Score score_with(double mean_square) {
   return s;
 }
 
-double deciding_rows() {
-  double rows = 0;
-  for (const auto& block : two_joints().block_count())
-    for (const int n : block) rows += n;
-  return rows;
-}
-
 TEST(Likelihood, OfABlockIsMinusHalfTheLogarithmForEachIndependentSample) {
-  const double m = two_joints().correlated_rows();
-  EXPECT_NEAR(block_log_likelihood(two_joints(), 30 * m, std::exp(2.0), 0), -30, 1e-12);
-  EXPECT_NEAR(block_log_likelihood(two_joints(), 30 * m, 0, std::exp(-2.0)), 30, 1e-12);
-  EXPECT_NEAR(block_log_likelihood(two_joints(), 30 * m, 3, 1), -15 * std::log(4.0), 1e-12);
+  const double m = two_joints().correlated_rows(1);
+  EXPECT_NEAR(block_log_likelihood(two_joints(), 1, 30 * m, std::exp(2.0), 0), -30, 1e-12);
+  EXPECT_NEAR(block_log_likelihood(two_joints(), 1, 30 * m, 0, std::exp(-2.0)), 30, 1e-12);
+  EXPECT_NEAR(block_log_likelihood(two_joints(), 1, 30 * m, 3, 1), -15 * std::log(4.0), 1e-12);
 }
 
 TEST(Likelihood, IsOfTheBlocksThatHaveRowsOfAChannel) {
@@ -49,17 +42,17 @@ TEST(Likelihood, IsOfTheBlocksThatHaveRowsOfAChannel) {
   double sum = 0;
   for (std::size_t b = 0; b < ln.size(); ++b)
     for (std::size_t c = 0; c < 4; ++c) {
-      EXPECT_NEAR(ln[b][c], -count[b][c] / two_joints().correlated_rows(), 1e-9);
+      EXPECT_NEAR(ln[b][c], -count[b][c] / two_joints().correlated_rows(static_cast<int>(c)), 1e-9);
       sum += ln[b][c];
     }
-  EXPECT_NEAR(sum, -deciding_rows() / two_joints().correlated_rows(), 1e-9 * std::abs(sum));
+  EXPECT_NEAR(sum, -independent_samples(two_joints()), 1e-9 * std::abs(sum));
 }
 
 TEST(Likelihood, AResidualThatIsHalvedEverywhereGainsLn2OfEachIndependentSample) {
   constexpr double kFarAboveTheFloors = 1e6;
   const double gain =
       log_likelihood_gain(two_joints(), score_with(kFarAboveTheFloors), score_with(4 * kFarAboveTheFloors));
-  const double independent = deciding_rows() / two_joints().correlated_rows();
+  const double independent = independent_samples(two_joints());
   EXPECT_NEAR(gain, independent * std::log(2.0), 1e-6 * gain);
   EXPECT_NEAR(log_likelihood_gain(two_joints(), score_with(4 * kFarAboveTheFloors), score_with(kFarAboveTheFloors)),
               -gain, 1e-9 * gain);
@@ -69,8 +62,7 @@ TEST(Likelihood, BelowTheFloorsNothingIsGained) {
   const std::vector<double> floors = squared_floors(two_joints());
   ASSERT_EQ(floors.size(), 4u);
   for (std::size_t c = 0; c < 4; ++c) EXPECT_DOUBLE_EQ(floors[c], std::pow(two_joints().floor()[c], 2));
-  const double least = *std::ranges::min_element(floors),
-               independent = deciding_rows() / two_joints().correlated_rows();
+  const double least = *std::ranges::min_element(floors), independent = independent_samples(two_joints());
   EXPECT_LT(log_likelihood_gain(two_joints(), score_with(0), score_with(1e-4 * least)), 1e-4 * independent);
 }
 

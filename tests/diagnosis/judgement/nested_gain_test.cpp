@@ -39,7 +39,7 @@ TEST(NestedGain, OfAnEffectThatExplainsAllIsTheNumberOfIndependentSamples) {
       evidence, score_of(evidence, std::vector<double>(residual.size(), 0.0)), score_of(evidence, residual), none);
   double sum = 0;
   for (const double g : gains) sum += g;
-  EXPECT_NEAR(sum, static_cast<double>(residual.size()) / evidence.correlated_rows(), 1e-9 * sum);
+  EXPECT_NEAR(sum, independent_samples(evidence), 1e-9 * sum);
 }
 
 /// An effect of which a third of the fitted size is true makes the residual larger, and yet it is there.
@@ -81,7 +81,7 @@ TEST(NestedGain, IsTwoThirdsOfItWhereTheFloorIsAsLargeAsTheResidual) {
   const std::vector<double> residual(deciding_rows(evidence), 0.3), zero(residual.size(), 0.0), floor(2, 0.3 * 0.3);
   const std::vector<double> gains =
       nested_gains(evidence, score_of(evidence, zero), score_of(evidence, residual), floor);
-  const double independent = static_cast<double>(residual.size()) / evidence.correlated_rows();
+  const double independent = independent_samples(evidence);
   EXPECT_NEAR(std::reduce(gains.begin(), gains.end()), independent * 2 / 3, 1e-9 * independent);
 }
 

@@ -88,7 +88,7 @@ TEST(Trial, ThatExplainsAWholeRestInFewBlocksHasTwiceItsLikelihoodRatio) {
   double rows = 0;
   for (const auto& block : evidence.block_count()) rows += block[1];
   constexpr double kGain = 3;  // nats; what the blocks have in common says nothing
-  for (auto& block : after.block_sum) block[1] *= std::exp(-2 * kGain * evidence.correlated_rows() / rows);
+  for (auto& block : after.block_sum) block[1] *= std::exp(-2 * kGain * evidence.correlated_rows(1) / rows);
   // The floor of 2e-5 is added to a mean square of one.
   EXPECT_NEAR(judge.p_of_gain(after, before), 2 * std::exp(-kGain), 1e-6);
   Score worse = after;

@@ -39,6 +39,7 @@ SparseProblem problem_of(const std::vector<Eigen::VectorXd>& columns, const Eige
   p.prior = Eigen::VectorXd::Zero(std::ssize(columns));
   p.channel.assign(kRows, 0);
   p.least_square = {1e-6};
+  p.correlated_rows = {1};
   for (std::size_t i = 0; i < columns.size(); ++i)
     p.groups.push_back({static_cast<Eigen::Index>(i), 1, 1, static_cast<int>(i)});
   return p;
@@ -111,6 +112,7 @@ TEST(SparseSelection, WeighsEachChannelByWhatIsLeftInIt) {
   for (int i = 0; i < kRows; i += 2) p.channel[i] = 1, p.x(i) = 1e3 * std::cos(7.7 * i * i);
   p.columns(Eigen::seq(0, Eigen::last, 2), Eigen::all).setZero();
   p.least_square = {1e-6, 1e-6};
+  p.correlated_rows = {1, 1};
   EXPECT_EQ(select_groups(p, 6, 4).groups, Groups{3});
 }
 
@@ -129,7 +131,7 @@ TEST(SparseSelection, PaysForNumbersByIndependentSamplesAndForTheChoiceByOwners)
   const std::vector<Eigen::VectorXd> columns = cosines(3);
   SparseProblem p = problem_of(columns, 10 * columns[0]);
   p.least_square = {1};
-  p.correlated_rows = 4;
+  p.correlated_rows = {4};
   p.groups[0].numbers = 3;
   p.groups[1].owner = 0, p.groups[2].owner = 1;
   const SelectedGroups s = select_groups(p, 6, 4);
