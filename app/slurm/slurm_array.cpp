@@ -142,7 +142,7 @@ SlurmJob submit(const SlurmArray& array) {
 std::optional<SubmittedArray> submitted_array(const fs::path& out, const std::string& id) {
   if (!fs::exists(job_file(out))) return std::nullopt;
   const std::string text =
-      read_text_file(job_file(out), {.name = "a job that sweep noted", .if_too_large = "remove it"});
+      read_text_file(job_file(out), {.name = "a job that sweep noted", .if_too_large = "remove it", .is_input = false});
   try {
     const auto json = nlohmann::ordered_json::parse(text);
     // Earlier programs wrote neither sweep nor cluster.

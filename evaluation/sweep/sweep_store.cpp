@@ -28,8 +28,8 @@ auto read_json(const fs::path& path, Parse parse) {
     return InputError(path.string() +
                       ": is no result of halyard sweep or is damaged; remove it and run the sweep again");
   };
-  const std::string text =
-      read_text_file(path, {.name = "a result of halyard sweep", .if_too_large = "merge it where more memory is"});
+  const std::string text = read_text_file(
+      path, {.name = "a result of halyard sweep", .if_too_large = "merge it where more memory is", .is_input = false});
   try {
     return parse(ordered_json::parse(text));
   } catch (const ordered_json::exception&) {

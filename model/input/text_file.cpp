@@ -49,7 +49,7 @@ std::string read_text_file(const std::filesystem::path& path, const TextFileKind
   std::string text = read_to_end(file, size > 0 ? size + 1 : kFirstBlock, path, kind);  // 1 more: meets the end
   if (!file.is_open() || file.bad() || text.size() < size)
     refuse(path, "cannot be read; check its permissions and its disk");
-  note_read(path);
+  if (kind.is_input) note_read(path);
   return text;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Reads the files that users give.
+/// Reads the files that users give, and those that a command wrote before.
 
 #include <filesystem>
 #include <string>
@@ -10,6 +10,7 @@ namespace halyard {
 struct TextFileKind {
   const char* name;          ///< "a CSV log"
   const char* if_too_large;  ///< remedy: "cut the log into shorter ones"
+  bool is_input = true;      ///< a command does not replace it by its outputs; false: a command's own earlier output
 };
 
 /// The whole file, to its last byte. Throws InputError `PATH: what; remedy` for a file that is missing, a directory,

@@ -180,7 +180,7 @@ std::string result_line(const Result& r) { return to_json(r).dump(); }
 
 Result read_result(const std::filesystem::path& path) {
   const std::string text =
-      read_text_file(path, {.name = "a result of a blind trial", .if_too_large = "remove the file"});
+      read_text_file(path, {.name = "a result of a blind trial", .if_too_large = "remove the file", .is_input = false});
   try {
     return result_from(Json::parse(text));
   } catch (const Json::exception& error) {

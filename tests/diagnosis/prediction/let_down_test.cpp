@@ -42,7 +42,9 @@ TEST(LetDown, AnArmThatIsHeldDoesNotSwing) {
     for (int k = 0; k < 2; ++k) log.motor_position[k].push_back(100), log.joint_position[k].push_back(0.5);
   }
   const Record record = whole_record(log, model);
-  const std::vector<double> reading = predict_fully(record, {model.nominal, {}}).joint_reading[kElbow];
+  std::vector<double> reading = predict_fully(record, {model.nominal, {}}).joint_reading[kElbow];
+  std::erase_if(reading, [](double q) { return std::isnan(q); });  // the last one is not compared
+  ASSERT_GT(reading.size(), 500u);
   const auto [least, most] = std::ranges::minmax(reading);
   const double unstretched = unstretched_joints(model.nominal, Eigen::Vector2d(100, 100), model.home())(kElbow);
   const double sag = std::abs(reading.back() - unstretched);
