@@ -91,11 +91,15 @@ function axis(label, log) {
           ticks: {callback: logTick, maxRotation: 0, autoSkip: false}};
 }
 
+// Of more numbers than a call may have arguments.
+const extremes = (values) => values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)],
+                                           [Infinity, -Infinity]);
+
 // Room around a line that does not move, in its own order of magnitude; nothing for others.
 function rangeOfConstant(series) {
   const values = series.flatMap((one) => one.lower ? [one.y, one.lower.y, one.upper.y] : [one.y]).flat()
       .filter((value) => value !== null);
-  const low = Math.min(...values), high = Math.max(...values), size = Math.max(Math.abs(low), Math.abs(high));
+  const [low, high] = extremes(values), size = Math.max(Math.abs(low), Math.abs(high));
   if (values.length === 0 || high - low > 1e-6 * size) return {};
   return size === 0 ? {min: 0, max: 1} : {min: Math.min(0, 2 * low), max: Math.max(0, 2 * high)};
 }
@@ -104,7 +108,9 @@ function axes(chart) {
   const x = axis(chart.x_label, chart.log_x);
   const y = axis(chart.y_label, chart.log_y);
   if (chart.kind === "line") {
-    x.bounds = "data";
+    // The axis ends with the data, and its ticks are at round numbers all the same.
+    const [first, last] = extremes(chart.series.flatMap((series) => series.x));
+    if (first < last) Object.assign(x, {min: first, max: last});
     x.ticks.includeBounds = false;
     if (!chart.log_y) Object.assign(y, rangeOfConstant(chart.series));
   }
