@@ -41,7 +41,7 @@ compile_together(halyard_model model
 compile_together(halyard_simbody simbody integrators/simbody_integrator.cpp simbody_arm.cpp)
 compile_together(halyard_plant simulation
   arm_plant.cpp controller.cpp drive_train.cpp equilibrium.cpp integrators/integrator.cpp
-  integrators/sundials_integrator.cpp lanes/plant_kernels.cpp scenario_file.cpp scenario_writer.cpp
+  integrators/sundials_integrator.cpp lanes/plant_kernels.cpp xml/scenario_file.cpp xml/scenario_writer.cpp
   sensors/camera.cpp sensors/encoder.cpp simulate.cpp
   trajectory.cpp)
 compile_together(halyard_plant own_chain integrators/rosenbrock_integrator.cpp integrators/step_matrix.cpp newton_euler_arm.cpp)
@@ -66,12 +66,12 @@ compile_together(halyard_diagnosis records
   explanation/estimates.cpp explanation/headline.cpp explanation/lines_above_band.cpp explanation/residual_signals.cpp
   explanation/signature.cpp explanation/spectrum.cpp explanation/view_sentence.cpp explanation/views.cpp
   motion/chebyshev.cpp motion/lane_drive.cpp
-  prediction/driven_start.cpp prediction/filtered_effect.cpp prediction/measured_units.cpp record/record.cpp
+  prediction/start/driven_start.cpp prediction/filtered_effect.cpp prediction/measured_units.cpp record/record.cpp
   record/resting.cpp record/settling.cpp record/start_of_motion.cpp search_space/cable.cpp search_space/joint.cpp
   search_space/motor.cpp search_space/search_space.cpp
   search_space/sensor.cpp)
 compile_together(halyard_diagnosis prediction
-  prediction/lane_residuals.cpp prediction/let_down.cpp prediction/motion_key.cpp prediction/prediction.cpp
+  prediction/lane_residuals.cpp prediction/start/let_down.cpp prediction/motion_key.cpp prediction/prediction.cpp
   prediction/shared_lanes.cpp
   prediction/side_by_side.cpp)
 compile_together(halyard_diagnosis log_check

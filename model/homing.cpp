@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "model/input_error.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 #include "transmission/coupling.h"
 
 namespace halyard {

@@ -15,7 +15,7 @@
 #include "estimators/identification/identify.h"
 #include "evaluation/comparison/assumed_noise.h"
 #include "model/model_file.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 #include "plant/simulate.h"
 
 namespace halyard::blind {

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "bench/bench_arm.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "diagnosis/fit/fit.h"
 #include "diagnosis/search_space.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard {
 namespace {

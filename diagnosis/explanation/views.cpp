@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "estimators/distributions.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard {
 namespace {

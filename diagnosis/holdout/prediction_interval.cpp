@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "diagnosis/judgement/final_fit.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard {
 namespace {

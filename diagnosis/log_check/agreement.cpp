@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard {
 namespace {

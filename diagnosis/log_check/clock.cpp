@@ -8,7 +8,7 @@
 #include "diagnosis/log_check/clock_check.h"
 #include "diagnosis/record/record.h"
 #include "diagnosis/record/settling.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "diagnosis/log_check/robust.h"
 #include "diagnosis/record/sampled_column.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 #include "transmission/coupling.h"
 
 namespace halyard {

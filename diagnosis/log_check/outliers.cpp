@@ -8,7 +8,7 @@
 
 #include "diagnosis/log_check/robust.h"
 #include "diagnosis/record/record.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "diagnosis/log_check/columns/column_samples.h"
 #include "diagnosis/log_check/outliers.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard {
 namespace {

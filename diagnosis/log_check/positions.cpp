@@ -8,7 +8,7 @@
 #include "diagnosis/log_check/agreement.h"
 #include "diagnosis/log_check/checks.h"
 #include "diagnosis/log_check/robust.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard {
 

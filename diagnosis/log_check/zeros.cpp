@@ -13,7 +13,7 @@
 #include "diagnosis/record/sampled_column.h"
 #include "model/homing.h"
 #include "model/input_error.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 #include "transmission/effect.h"
 
 namespace halyard {

@@ -9,7 +9,7 @@
 #include "diagnosis/log_check/robust.h"
 #include "diagnosis/noise/delay_free.h"
 #include "diagnosis/noise/ripple_free.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard {
 namespace {

@@ -9,14 +9,14 @@
 #include <tuple>
 
 #include "diagnosis/motion/lane_drive.h"
-#include "diagnosis/prediction/driven_start.h"
 #include "diagnosis/prediction/lane_residuals.h"
-#include "diagnosis/prediction/let_down.h"
 #include "diagnosis/prediction/motion_key.h"
 #include "diagnosis/prediction/recent_residuals.h"
 #include "diagnosis/prediction/room.h"
 #include "diagnosis/prediction/shared_lanes.h"
 #include "diagnosis/prediction/side_by_side.h"
+#include "diagnosis/prediction/start/driven_start.h"
+#include "diagnosis/prediction/start/let_down.h"
 #include "diagnosis/record/common_clock.h"
 
 namespace halyard {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "diagnosis/record/record.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard {
 

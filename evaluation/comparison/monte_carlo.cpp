@@ -10,7 +10,7 @@
 #include "evaluation/comparison/compare.h"
 #include "evaluation/first_failure.h"
 #include "model/input_error.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 #include "plant/simulate.h"
 
 namespace halyard {

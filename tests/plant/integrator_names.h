@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "plant/scenario_words.h"
+#include "plant/xml/scenario_words.h"
 
 namespace halyard {
 

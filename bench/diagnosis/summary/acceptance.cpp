@@ -4,7 +4,7 @@
 
 #include "bench/diagnosis/summary/calibration.h"
 #include "bench/diagnosis/summary/probabilities.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard::blind {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard {
 

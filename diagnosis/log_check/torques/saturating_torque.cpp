@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "diagnosis/log_check/robust.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard {
 namespace {

@@ -9,7 +9,7 @@
 #include "diagnosis/log_check/torques/needed_torques.h"
 #include "diagnosis/log_check/torques/saturating_torque.h"
 #include "diagnosis/prediction/room.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 namespace halyard {
 namespace {

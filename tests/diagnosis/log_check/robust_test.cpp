@@ -1,7 +1,7 @@
 /// Quantiles, slopes and correlations in closed form, and what wrong samples do to them.
 
 #include "diagnosis/log_check/robust.h"
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 #include <gtest/gtest.h>
 

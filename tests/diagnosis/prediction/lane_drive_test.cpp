@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "diagnosis/prediction/driven_start.h"
+#include "diagnosis/prediction/start/driven_start.h"
 #include "tests/support/random_arm.h"
 
 namespace halyard {

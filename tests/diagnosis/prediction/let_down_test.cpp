@@ -1,5 +1,5 @@
 // Where a prediction starts: on its cables, and in motion if the motors move.
-#include "diagnosis/prediction/let_down.h"
+#include "diagnosis/prediction/start/let_down.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 ///              longer after the last stop, so that it comes to rest without a swing. What the cables remember of
 ///              loading (hysteresis, slack, a dead zone) is then as after a start without haste
 ///   run in     of a record that starts in motion (start_of_motion.h), as after a hole of a log: for kRunIn with the
-///              accelerations that the motors have at the first sample, the joints as fast as they. Stretches, frictions
-///              and loops are then those of this motion
+///              accelerations that the motors have at the first sample, the joints as fast as they. Stretches,
+///              frictions and loops are then those of this motion
 ///
 /// The pasts of a hypothesis' effects add to the states that this gives.
 

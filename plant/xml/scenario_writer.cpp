@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "model/output/number_text.h"
-#include "plant/scenario_words.h"
+#include "plant/xml/scenario_words.h"
 
 namespace halyard {
 namespace {

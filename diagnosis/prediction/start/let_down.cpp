@@ -1,4 +1,4 @@
-#include "diagnosis/prediction/let_down.h"
+#include "diagnosis/prediction/start/let_down.h"
 
 #include <algorithm>
 #include <cmath>

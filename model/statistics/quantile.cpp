@@ -1,4 +1,4 @@
-#include "model/quantile.h"
+#include "model/statistics/quantile.h"
 
 #include <algorithm>
 #include <cmath>

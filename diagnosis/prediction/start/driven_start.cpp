@@ -1,4 +1,4 @@
-#include "diagnosis/prediction/driven_start.h"
+#include "diagnosis/prediction/start/driven_start.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "model/model_file.h"
 #include "model/name_list.h"
 #include "model/xml/xml_reader.h"
-#include "plant/scenario_words.h"
+#include "plant/xml/scenario_words.h"
 
 namespace halyard {
 namespace {
