@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "model/output/number_text.h"
+#include "model/xml/xml_reader.h"
 #include "plant/xml/scenario_words.h"
 
 namespace halyard {
