@@ -43,8 +43,7 @@ struct FirstMotion {
 };
 
 FirstMotion first_motion(const std::vector<double>& angle, double dt) {
-  constexpr double kTime = 0.12;  // s
-  const auto rows = static_cast<Eigen::Index>(std::min<double>(kTime / dt + 1, static_cast<double>(angle.size())));
+  const auto rows = static_cast<Eigen::Index>(std::min<double>(kRunIn / dt + 1, static_cast<double>(angle.size())));
   Eigen::MatrixXd powers(rows, 4);
   for (Eigen::Index i = 0; i < rows; ++i)
     for (Eigen::Index p = 0; p < 4; ++p) powers(i, p) = std::pow(static_cast<double>(i) / static_cast<double>(rows), p);

@@ -5,7 +5,7 @@
 
 namespace halyard {
 
-/// Of the motors; rates and accelerations from the first 0.12 s of their angles. Nothing if they rest, or if the joints
+/// Of the motors; rates and accelerations from their angles in the first kRunIn. Nothing if they rest, or if the joints
 /// do not move with them. Where joints have sensors, they tell: a motor that falls into its slack cable as a controller
 /// is switched on moves fast, but its joint does not. Where they have none, the motors must have moved before, too, if
 /// their acceleration was the same.

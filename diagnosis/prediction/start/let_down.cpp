@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <vector>
 
 #include "diagnosis/motion/lane_drive.h"
@@ -59,7 +58,7 @@ void bring_to_start(const Transmission<Lanes>& transmission, const RungeKuttaChe
   left += of_run_in;
 
   std::vector<Lanes> unused;
-  const auto drive = [&](std::size_t count, const std::function<DrivenInput(double)>& input_before) {
+  const auto drive = [&](std::size_t count, const auto& input_before) {
     std::vector<DrivenInput> inputs;
     for (std::size_t i = 0; i < count; ++i) inputs.push_back(input_before(record.dt * static_cast<double>(left - i)));
     unused.resize(count * 2 * static_cast<std::size_t>(record.n));
