@@ -1,6 +1,7 @@
 #include "diagnosis/search/pair_rivals.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -85,6 +86,16 @@ Hypothesis without_effects(Hypothesis h, const std::vector<std::size_t>& places)
   return h;
 }
 
+/// Places of names after those at `gone` have been removed; without those that have lost one.
+std::vector<std::vector<std::size_t>> left_after(const std::vector<std::size_t>& gone,
+                                                 std::vector<std::vector<std::size_t>> all) {
+  std::erase_if(all, [&](const auto& places) { return std::ranges::find_first_of(places, gone) != places.end(); });
+  for (std::vector<std::size_t>& places : all)
+    for (std::size_t& place : places)
+      place -= static_cast<std::size_t>(std::ranges::count_if(gone, [&](std::size_t g) { return g < place; }));
+  return all;
+}
+
 }  // namespace
 
 /// Two effects, the last of the hypothesis of their fit.
@@ -94,26 +105,27 @@ struct PairRivals::Pair {
   Score score;
 };
 
-void PairRivals::fit(Pair& pair, const Hypothesis& without, const Score& before) const {
-  const Hypothesis start = refitter_.with_effect(refitter_.with_effect(without, pair.first), pair.second);
-  pair.fit = refitter_.refit(start, before);
-  if (pair.fit.usable) pair.score = evidence_.score(pair.fit.hypothesis);
-}
+/// One or two names against the pairs of their rivals.
+struct PairRivals::Contest {
+  Places places;
+  std::vector<Pair> pairs;
+  Fit none;  ///< without the names
+};
 
 /// Each beside the other.
 bool PairRivals::can_be_named(const Pair& pair) const {
   const Hypothesis& h = pair.fit.hypothesis;
-  for (const std::size_t place : {h.effects.size() - 2, h.effects.size() - 1}) {
-    const Fit left = refitter_.refit(without_effect(h, place), pair.score);
-    if (!left.usable) return false;
-    if (!judge_.trial(h, {left.hypothesis, evidence_.score(left.hypothesis)}, place).passes(options_.significance) ||
-        is_another_effect(evidence_, refitter_, judge_, {h, pair.score}, place))
-      return false;
-  }
-  return true;
+  const std::size_t places[] = {h.effects.size() - 2, h.effects.size() - 1};
+  bool can[] = {false, false};
+  run_side_by_side(std::size(places), [&](std::size_t i) {
+    const std::optional<Scored> left = refitter_.refitted(without_effect(h, places[i]), pair.score);
+    can[i] = left && judge_.trial(h, *left, places[i]).passes(options_.significance) &&
+             !is_another_effect(evidence_, refitter_, judge_, {h, pair.score}, places[i]);
+  });
+  return can[0] && can[1];
 }
 
-/// Pairs that can be integrated.
+/// Not fitted yet.
 std::vector<PairRivals::Pair> PairRivals::pairs(const Attribution& found, const Places& places) const {
   const Hypothesis& h = found.final_fit.hypothesis;
   const auto rivals = [&](std::size_t place, std::size_t most) {
@@ -129,8 +141,27 @@ std::vector<PairRivals::Pair> PairRivals::pairs(const Attribution& found, const 
       for (const PlacedEffect& second : rivals(places[1], kMostRivals))
         if (!same_name(first, second)) all.push_back({first, second, {}, {}});
   }
-  run_side_by_side(all.size(), [&](std::size_t i) { fit(all[i], without_effects(h, places), found.final_score); });
-  std::erase_if(all, [](const Pair& p) { return !p.fit.usable || !p.score.finite; });
+  return all;
+}
+
+/// All fits side by side. Pairs that cannot be integrated are left out.
+std::vector<PairRivals::Contest> PairRivals::contests(const Attribution& found,
+                                                      const std::vector<Places>& of_names) const {
+  std::vector<Contest> all;
+  for (const Places& places : of_names) all.push_back({places, pairs(found, places), {}});
+  const auto without = [&](const Contest& c) { return without_effects(found.final_fit.hypothesis, c.places); };
+  std::vector<std::function<void()>> fits;
+  for (Contest& c : all) {
+    for (Pair& pair : c.pairs)
+      fits.emplace_back([&] {
+        const Hypothesis start = refitter_.with_effect(refitter_.with_effect(without(c), pair.first), pair.second);
+        pair.fit = refitter_.refit(start, found.final_score);
+        if (pair.fit.usable) pair.score = evidence_.score(pair.fit.hypothesis);
+      });
+    if (!c.pairs.empty()) fits.emplace_back([&] { c.none = refitter_.refit(without(c), found.final_score); });
+  }
+  run_side_by_side(fits.size(), [&](std::size_t i) { fits[i](); });
+  for (Contest& c : all) std::erase_if(c.pairs, [](const Pair& p) { return !p.fit.usable || !p.score.finite; });
   return all;
 }
 
@@ -169,11 +200,9 @@ void PairRivals::doubt(Naming& naming, const Pair& pair) {
 }
 
 /// True if a pair has taken the place of the names.
-bool PairRivals::weigh(Attribution& found, const Places& places) const {
-  const std::vector<Pair> rivals = pairs(found, places);
-  if (rivals.empty()) return false;
-  const Fit none = refitter_.refit(without_effects(found.final_fit.hypothesis, places), found.final_score);
-  if (!none.usable) return false;
+bool PairRivals::weigh(Attribution& found, const Contest& contest) const {
+  const auto& [places, rivals, none] = contest;
+  if (rivals.empty() || !none.usable) return false;
   const std::vector<double> weight = weights(found, places, none.hypothesis, rivals);
   for (const std::size_t place : places) shrink(found.namings[place - given_], weight[0]);
   const auto best = static_cast<std::size_t>(std::max_element(weight.begin(), weight.end() - 1) - weight.begin());
@@ -245,28 +274,31 @@ void PairRivals::take_the_place(Attribution& found, const Places& places, const 
 }
 
 void PairRivals::weigh(Attribution& found) const {
-  const auto effects = [&]() -> const std::vector<PlacedEffect>& { return found.final_fit.hypothesis.effects; };
-  // Names that replace one go to the end; no round has rivals of them.
-  for (std::size_t left = effects().size() - given_, place = given_; left > 0; --left)
-    if (effects().size() >= given_ + static_cast<std::size_t>(options_.most_effects) || !weigh(found, {place})) ++place;
-  weigh_twos(found);
+  const auto n_effects = [&] { return found.final_fit.hypothesis.effects.size(); };
+  std::vector<Places> names;
+  for (std::size_t place = given_; place < n_effects(); ++place) names.push_back({place});
+  decide(found, std::move(names));
+  std::vector<Places> twos;
+  const std::vector<PlacedEffect>& effects = found.final_fit.hypothesis.effects;
+  for (std::size_t second = given_ + 1; second < n_effects(); ++second)
+    for (std::size_t first = given_; first < second; ++first)
+      if (effects[first].joint && effects[first].joint == effects[second].joint) twos.push_back({first, second});
+  decide(found, std::move(twos));
 }
 
-/// Each two names once. Names that replace two go to the end, the others move up; no round has rivals of the new ones.
-void PairRivals::weigh_twos(Attribution& found) const {
-  const std::vector<PlacedEffect> names = found.final_fit.hypothesis.effects;
-  std::vector<std::optional<std::size_t>> place(names.size());  // nothing: another name has replaced it
-  for (std::size_t i = 0; i < names.size(); ++i) place[i] = i;
-  for (std::size_t second = given_ + 1; second < names.size(); ++second)
-    for (std::size_t first = given_; first < second; ++first) {
-      const std::optional<std::size_t> a = place[first], b = place[second];
-      if (!a || !b || !names[first].joint || names[first].joint != names[second].joint) continue;
-      if (!weigh(found, {*a, *b})) continue;
-      place[first].reset();
-      place[second].reset();
-      for (std::optional<std::size_t>& p : place)
-        if (p) *p -= (*p > *a ? 1 : 0) + (*p > *b ? 1 : 0);
-    }
+/// One contest after the other. A pair that wins goes to the end of the effects, where nothing is asked about it, and
+/// changes what the others are fitted beside.
+void PairRivals::decide(Attribution& found, std::vector<Places> of_names) const {
+  const std::size_t most = given_ + static_cast<std::size_t>(options_.most_effects);
+  while (!of_names.empty()) {
+    std::erase_if(of_names, [&](const Places& places) {
+      return places.size() == 1 && found.final_fit.hypothesis.effects.size() >= most;
+    });
+    const std::vector<Contest> all = contests(found, of_names);
+    const auto won = std::ranges::find_if(all, [&](const Contest& c) { return weigh(found, c); });
+    if (won == all.end()) return;
+    of_names = left_after(won->places, {of_names.begin() + (won - all.begin()) + 1, of_names.end()});
+  }
 }
 
 }  // namespace halyard

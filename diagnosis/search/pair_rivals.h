@@ -31,14 +31,15 @@ class PairRivals {
   /// Indices of one or two effects, in ascending order.
   using Places = std::vector<std::size_t>;
   struct Pair;
-  void fit(Pair& pair, const Hypothesis& without, const Score& before) const;
+  struct Contest;
   bool can_be_named(const Pair& pair) const;
   std::vector<Pair> pairs(const Attribution& found, const Places& places) const;
+  std::vector<Contest> contests(const Attribution& found, const std::vector<Places>& of_names) const;
+  void decide(Attribution& found, std::vector<Places> of_names) const;
   std::vector<double> weights(const Attribution& found, const Places& places, const Hypothesis& none,
                               const std::vector<Pair>& pairs) const;
-  bool weigh(Attribution& found, const Places& places) const;
+  bool weigh(Attribution& found, const Contest& contest) const;
   static void doubt(Naming& naming, const Pair& pair);
-  void weigh_twos(Attribution& found) const;
   void add_alternatives(Attribution& found, const Places& places, const std::vector<Pair>& pairs,
                         const std::vector<double>& weight) const;
   static Naming naming_of(const PlacedEffect& effect, const PlacedEffect& other, const std::vector<Pair>& pairs,

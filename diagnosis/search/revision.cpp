@@ -10,6 +10,7 @@
 #include "diagnosis/fit/complementary.h"
 #include "diagnosis/judgement/final_fit.h"
 #include "diagnosis/judgement/name_probability.h"
+#include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/round/refit.h"
 
 namespace halyard {
@@ -268,12 +269,16 @@ std::vector<Doubt> doubts(const Evidence& evidence, const ArmModel& given, const
   const Refitter refitter(evidence, given, first);
   if (!refitter.is_usable()) return doubt;
   const Judge judge(evidence, given, baseline_parameters(given));
-  const auto with = refitter.refitted(sure, found.final_score);
-  for (std::size_t e = 0, place = first; e < doubt.size(); ++e) {
+  // With all that are sure at first, then without each of them.
+  std::vector<std::optional<Scored>> fitted(sure.effects.size() - first + 1);
+  run_side_by_side(fitted.size(), [&](std::size_t i) {
+    fitted[i] = refitter.refitted(i == 0 ? sure : without_effect(sure, first + i - 1), found.final_score);
+  });
+  for (std::size_t e = 0, i = 1; e < doubt.size(); ++e) {
     if (!is_there(doubt[e])) continue;
-    const auto without = refitter.refitted(without_effect(sure, place), found.final_score);
-    if (with && without && !judge.is_needed(*with, *without, place, significance)) doubt[e] = Doubt::only_beside_one;
-    ++place;
+    if (fitted[0] && fitted[i] && !judge.is_needed(*fitted[0], *fitted[i], first + i - 1, significance))
+      doubt[e] = Doubt::only_beside_one;
+    ++i;
   }
   return doubt;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "diagnosis/prediction/side_by_side.h"
 #include "diagnosis/round/refit.h"
@@ -56,7 +57,13 @@ class WanderingZero : public EffectOf<WanderingZero>, public RefinesSearch {
   template <class T>
   void on_sensors(const EffectContext<T>& c, JointSignals<T>* s) const {
     const T phase = T(std::numbers::pi / (records_.last - records_.first)) * (T(c.time) - c.p[kCosines]);
-    for (int i = 0; i < kCosines; ++i) s[*c.joint].joint_error += c.p[i] * cos(T(T(i) * phase));
+    // cos((i + 1) φ) = 2 cos φ cos(i φ) - cos((i - 1) φ)
+    T before = cos(phase), now(1.0);
+    const T twice = T(2) * before;
+    for (int i = 0; i < kCosines; ++i) {
+      s[*c.joint].joint_error += c.p[i] * now;
+      before = std::exchange(now, T(twice * now - before));
+    }
   }
 
  private:
